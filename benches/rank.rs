@@ -32,7 +32,7 @@ use ozols::model::mechanism::{Mechanism, StateId};
 use ozols::rank::exact::modular;
 use ozols::rank::numeric::{DEFAULT_TOLERANCE, Elimination};
 use ozols::rank::reduce::sufficient_rows::{LeastRows, Motions};
-use ozols::redundancy::analysis::{Method, analyse, exact_field};
+use ozols::redundancy::analysis::{Method, analyse_states, exact_field};
 use ozols_dense::{Format, Matrix};
 use std::hint::black_box;
 use std::time::{Duration, Instant};
@@ -80,14 +80,14 @@ impl Case {
         let exact = exact_field(m, 0).expect("exact");
         let closure = Closure::new(&exact, m, StateId::FREE).expect("exact");
         let real = Closure::new(&Reals, m, StateId::FREE).expect("real");
-        let columns = real.dense(&Reals);
+        let columns = real.dense_columns(&Reals);
         let matrix = Matrix::from_fn(real.rows(), columns.len(), |r, c| columns[c][r]);
         let whole = Closure::new(&Doubled, m, StateId::FREE)
             .expect("whole")
-            .dense(&Doubled);
+            .dense_columns(&Doubled);
         Case {
             name: format!("{name}, {} x {}", real.rows(), columns.len()),
-            dense: closure.dense(&exact),
+            dense: closure.dense_columns(&exact),
             exact,
             closure,
             real,
@@ -110,23 +110,23 @@ impl Case {
         let mut all: Vec<Timed<'_>> = vec![
             (
                 "modular, contour by contour",
-                Box::new(|| modular::rank(&self.exact, &self.closure)),
+                Box::new(|| modular::rank_modulo(&self.exact, &self.closure)),
             ),
             (
                 "modular, written out",
                 Box::new(move || {
-                    let columns = self.closure.dense(&self.exact);
-                    echelon::rank(field, columns.iter().map(Vec::as_slice))
+                    let columns = self.closure.dense_columns(&self.exact);
+                    echelon::rank_of(field, columns.iter().map(Vec::as_slice))
                 }),
             ),
             (
                 "modular, elimination alone",
-                Box::new(move || echelon::rank(field, self.dense.iter().map(Vec::as_slice))),
+                Box::new(move || echelon::rank_of(field, self.dense.iter().map(Vec::as_slice))),
             ),
             (
                 "f64 singular values, scaled",
                 Box::new(|| {
-                    let found = Elimination::Svd.rank(&self.real, DEFAULT_TOLERANCE);
+                    let found = Elimination::Svd.rank_of_closure(&self.real, DEFAULT_TOLERANCE);
                     found.map_or(0, |r| r.rank)
                 }),
             ),
@@ -140,7 +140,7 @@ impl Case {
             ),
             (
                 "f64 LU, full pivots",
-                Box::new(|| above(&Format::Double.pivots(&self.matrix), 1e-9)),
+                Box::new(|| above(&Format::Double.lu_pivots(&self.matrix), 1e-9)),
             ),
             (
                 "f32 singular values",
@@ -152,7 +152,7 @@ impl Case {
             ),
             (
                 "f32 LU, full pivots",
-                Box::new(|| above(&Format::Single.pivots(&self.matrix), 1e-4)),
+                Box::new(|| above(&Format::Single.lu_pivots(&self.matrix), 1e-4)),
             ),
         ];
         if self.whole.len() <= 200 {
@@ -164,8 +164,12 @@ impl Case {
 
 fn cases(sizes: &[usize]) -> impl Iterator<Item = Case> + '_ {
     let of = |k: usize| {
-        LatticeKind::ALL
-            .map(|kind| Case::new(format!("{kind:?} {k}"), &lattice::mechanism(kind, k)))
+        LatticeKind::ALL.map(|kind| {
+            Case::new(
+                format!("{kind:?} {k}"),
+                &lattice::lattice_mechanism(kind, k),
+            )
+        })
     };
     sizes.iter().flat_map(move |&k| of(k))
 }
@@ -248,10 +252,11 @@ fn ratios() {
     for kind in LatticeKind::ALL {
         print!("{kind:?}");
         for k in [10, 25, 50, 100, 200, 400] {
-            let m = lattice::mechanism(kind, k);
+            let m = lattice::lattice_mechanism(kind, k);
             let exact = exact_field(&m, 0).expect("exact");
             let closure = Closure::new(&exact, &m, StateId::FREE).expect("exact");
-            let mut only: Vec<Timed<'_>> = vec![("", Box::new(|| modular::rank(&exact, &closure)))];
+            let mut only: Vec<Timed<'_>> =
+                vec![("", Box::new(|| modular::rank_modulo(&exact, &closure)))];
             let t = best(&mut only, 30)[0].0;
             let k = closure.contours.len();
             print!("  k = {k}: {}", micro(t / k as f64));
@@ -284,7 +289,7 @@ fn least_rows() {
                 .any(|p| matches!(p.motions, Motions::InPlane(_)));
             let grouped = parts.any(|p| matches!(p.motions, Motions::Group(_)));
             let mut ways: [Timed<'_>; 2] = [
-                ("all", Box::new(|| modular::rank(&exact, &closure))),
+                ("all", Box::new(|| modular::rank_modulo(&exact, &closure))),
                 ("least", Box::new(|| find().rank())),
             ];
             let times = best(&mut ways, 20);
@@ -322,9 +327,9 @@ fn methods(c: &mut Criterion) {
 fn analysis(c: &mut Criterion) {
     let mut group = c.benchmark_group("whole analysis");
     for (kind, k) in LatticeKind::ALL.into_iter().cartesian_product([50, 200]) {
-        let m = lattice::mechanism(kind, k);
+        let m = lattice::lattice_mechanism(kind, k);
         group.bench_function(format!("{kind:?} {k}"), |b| {
-            b.iter(|| analyse(&m, &[StateId::FREE], Method::Modular))
+            b.iter(|| analyse_states(&m, &[StateId::FREE], Method::Modular))
         });
     }
     group.finish();

@@ -24,8 +24,8 @@ fn gripper() -> Mechanism {
 }
 
 fn pool(search: &Search, n: usize) -> Vec<Assignment> {
-    let diagrams = search.build(&|| false, &mut |_| {});
-    let out: Vec<_> = search.cheapest(&diagrams, n).collect();
+    let diagrams = search.build_diagrams(&|| false, &mut |_| {});
+    let out: Vec<_> = search.cheapest_variants(&diagrams, n).collect();
     out
 }
 
@@ -46,7 +46,9 @@ fn scoring(c: &mut Criterion) {
                 workers.install(|| {
                     variants
                         .par_iter()
-                        .map_init(Scratch::default, |s, v| evaluator.scores(v, s).is_ok())
+                        .map_init(Scratch::default, |s, v| {
+                            evaluator.score_variant(v, s).is_ok()
+                        })
                         .filter(|ok| *ok)
                         .count()
                 })
@@ -58,7 +60,7 @@ fn scoring(c: &mut Criterion) {
         b.iter(|| {
             variants[..100]
                 .iter()
-                .filter(|v| black_box(evaluator.slowly(v)).is_ok())
+                .filter(|v| black_box(evaluator.reference_scores(v)).is_ok())
                 .count()
         })
     });

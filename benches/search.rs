@@ -54,12 +54,12 @@ fn whole(m: &Mechanism, top: usize) -> (usize, usize) {
 
 /// The same of a search.
 fn counted(s: &Search, top: usize) -> (usize, usize) {
-    let d = s.build(&|| false, &mut |_| {});
+    let d = s.build_diagrams(&|| false, &mut |_| {});
     black_box((
-        s.counts(&d.determinate, false),
-        s.counts(&d.admissible, true),
+        s.count_variants(&d.determinate, false),
+        s.count_variants(&d.admissible, true),
     ));
-    s.cheapest(&d, top).for_each(|v| {
+    s.cheapest_variants(&d, top).for_each(|v| {
         black_box(v);
     });
     let largest = d.determinate.largest_layer.max(d.admissible.largest_layer);
@@ -73,10 +73,10 @@ fn rank(c: &mut Criterion) {
     let real = Closure::new(&Reals, &m, StateId::FREE).expect("real");
     let mut group = c.benchmark_group("rank of one candidate, 24 x 14");
     group.bench_function("modulo a prime", |b| {
-        b.iter(|| modular::rank(&exact, black_box(&closure)))
+        b.iter(|| modular::rank_modulo(&exact, black_box(&closure)))
     });
     group.bench_function("singular values", |b| {
-        b.iter(|| Elimination::Svd.rank(black_box(&real), DEFAULT_TOLERANCE))
+        b.iter(|| Elimination::Svd.rank_of_closure(black_box(&real), DEFAULT_TOLERANCE))
     });
     group.finish();
 }
@@ -146,7 +146,7 @@ fn spaces(c: &mut Criterion) {
         });
         // The diagrams alone.
         let s = search(m);
-        let orders = s.orders();
+        let orders = s.variable_orders();
         group.bench_function(BenchmarkId::new("diagrams", name), |b| {
             b.iter(|| s.build_in(&orders, &|| false, &mut |_| {}))
         });

@@ -17,14 +17,14 @@ use chacha20::ChaCha8Rng;
 use chacha20::rand_core::{Rng, SeedableRng};
 use ozols::catalog::general::{General, InputPair};
 use ozols::catalog::row::row_of_pair;
-use ozols::catalog::spec::{Spec, range};
+use ozols::catalog::spec::{Spec, parse_range};
 use ozols::chains::Symmetry;
 use ozols::chains::chain::Chain;
-use ozols::chains::enumerate::chains;
+use ozols::chains::enumerate::list_chains;
 use ozols::chains::roles::Subject;
 use ozols::chart::{Axis, Chart, Scale, Series, Style};
-use ozols::synthesis::figures::figures;
-use ozols::synthesis::layout::layout;
+use ozols::synthesis::figures::layout_figures;
+use ozols::synthesis::layout::lay_out;
 use ozols::synthesis::listed::hinged_structures;
 use ozols::synthesis::structure::Structure;
 use std::collections::BTreeSet;
@@ -57,7 +57,7 @@ impl Kind {
     }
 
     fn of_chain(&self, (chain, automorphisms): &Named) -> Vec<Structure> {
-        let forms = self.spec.forms();
+        let forms = self.spec.hinged_forms();
         let subject = Subject::new(chain, automorphisms);
         let mut all = hinged_structures(&subject, self.spec.jaws, &forms);
         // Nearly all generic ones move, of symmetric ones few.
@@ -118,10 +118,10 @@ fn places(ends: &[usize], sample: usize) -> Vec<usize> {
 
 fn measured(kind: &Kind, links: usize, sample: usize) -> Measured {
     let begun = now();
-    let all: Vec<Named> = chains(links, 1)
+    let all: Vec<Named> = list_chains(links, 1)
         .expect("listed")
         .iter()
-        .map(Chain::canonical)
+        .map(Chain::canonical_form)
         .collect();
     let (mut ends, mut pairs) = (Vec::with_capacity(all.len()), 0);
     for c in &all {
@@ -140,7 +140,7 @@ fn measured(kind: &Kind, links: usize, sample: usize) -> Measured {
         let before = if of == 0 { 0 } else { ends[of - 1] };
         let structure = kind.of_chain(&all[of]).swap_remove(place - before);
         let begun = now();
-        let general = General::of(&structure, &kind.spec).expect("a search");
+        let general = General::search_general(&structure, &kind.spec).expect("a search");
         if general.is_some() {
             of_pair.push(since(begun));
         }
@@ -166,12 +166,12 @@ fn measured(kind: &Kind, links: usize, sample: usize) -> Measured {
 /// What a structure takes, and where it has a layout, whether its counts are exact.
 fn one(structure: &Structure, spec: &Spec, general: Option<&General>) -> ([f64; 3], Option<bool>) {
     let begun = now();
-    let Ok(laid) = layout(structure, &spec.limits(), spec.seed) else {
+    let Ok(laid) = lay_out(structure, &spec.layout_limits(), spec.seed) else {
         return ([since(begun), 0.0, 0.0], None);
     };
     let to_lay = since(begun);
     let begun = now();
-    figures(structure, &laid).expect("a regular pose");
+    layout_figures(structure, &laid).expect("a regular pose");
     let to_follow = since(begun);
     let begun = now();
     let row = row_of_pair(structure, spec, general).expect("a row");
@@ -326,7 +326,7 @@ fn main() {
         };
         match word.as_str() {
             "--links" => {
-                links = range(&value())
+                links = parse_range(&value())
                     .map(|r| r.to_owned())
                     .expect("links, such as 4..12")
             }

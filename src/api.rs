@@ -7,7 +7,7 @@ use crate::file::problem::ImportError;
 use crate::file::text::{MAX_BYTES, mechanism_from_bytes, mechanism_from_str};
 use crate::model::mechanism::{Mechanism, StateId};
 use crate::redundancy::AnalysisError;
-use crate::redundancy::analysis::{Method, StateAnalysis, analyse};
+use crate::redundancy::analysis::{Method, StateAnalysis, analyse_states};
 use crate::robots::ExportError;
 use crate::robots::{self, Imported, Options, formats};
 use crate::score::outcome::Outcome;
@@ -123,7 +123,7 @@ pub fn from_json(text: &str) -> Result<Mechanism, Error> {
 
 /// Returns the bytes of a file, at most `limit` + 1. The reader refuses more than `limit`.
 pub(crate) fn bytes(path: &Path, limit: usize) -> Result<Vec<u8>, Error> {
-    disk::bytes(path, limit).map_err(|why| Error::Read {
+    disk::read_bytes(path, limit).map_err(|why| Error::Read {
         path: path.to_owned(),
         why,
     })
@@ -182,7 +182,7 @@ fn included(folder: &Path, models: &[PathBuf], name: &str) -> io::Result<Vec<u8>
             } else {
                 path
             };
-            disk::bytes(&path, MAX_DESCRIPTION_BYTES)
+            disk::read_bytes(&path, MAX_DESCRIPTION_BYTES)
         });
         match found {
             Ok(bytes) => return Ok(bytes),
@@ -215,7 +215,7 @@ fn included(folder: &Path, models: &[PathBuf], name: &str) -> io::Result<Vec<u8>
 pub fn analyze(mechanism: &Mechanism) -> Result<Vec<StateAnalysis>, Error> {
     let states: Vec<StateId> = mechanism.state_ids().collect();
     let method = Method::Auto;
-    Ok(analyse(mechanism, &states, method)?)
+    Ok(analyse_states(mechanism, &states, method)?)
 }
 
 /// Returns every redesign of a mechanism that meets a request: exact counts, and the best redesigns one by one.
@@ -284,7 +284,7 @@ pub enum Scheme {
 /// # Ok::<(), ozols::Error>(())
 /// ```
 pub fn draw(mechanism: &Mechanism, scheme: Scheme) -> Result<String, Error> {
-    let found = analyse(mechanism, &[StateId::FREE], Method::Auto)?;
+    let found = analyse_states(mechanism, &[StateId::FREE], Method::Auto)?;
     let subject = Subject {
         mechanism,
         state: StateId::FREE,

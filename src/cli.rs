@@ -52,48 +52,49 @@ pub fn run_with(words: impl IntoIterator<Item = OsString>) -> u8 {
     let (words, opened) = with_command(words);
     terminal::interrupt::outlive_file_limits();
     let parsed = Args::command().try_get_matches_from(&words);
-    let parsed = parsed.and_then(|m| Ok((Args::from_arg_matches(&m)?, outputs(&m))));
+    let parsed = parsed.and_then(|m| Ok((Args::from_arg_matches(&m)?, output_files(&m))));
     let (args, outputs) = match parsed {
         Ok(parsed) => parsed,
         Err(_) if words.len() == 1 => {
-            return finish(terminal::output::to(None, |out| {
+            return exit_code(terminal::output::write_with(None, |out| {
                 write!(out, "{}", examples::FIRST)?;
                 Ok(Done::Found)
             }));
         }
         Err(e) => return say_parsed(&e),
     };
-    terminal::output::kept::begin();
-    let ready = terminal::output::kept::distinct(&outputs).and_then(|()| prepare(&args.global));
+    terminal::output::kept::forget_files();
+    let ready = terminal::output::kept::ensure_distinct(&outputs)
+        .and_then(|()| apply_globals(&args.global));
     let result = ready.and_then(|()| match &args.command {
-        Command::Analyze(a) => command::analyze::run(&args.global, a),
-        Command::Search(a) => command::search::run(&args.global, a),
-        Command::Statics(a) => command::statics::run(&args.global, a),
-        Command::Grip(a) => command::grip::run(a),
-        Command::Drive(a) => command::drive::run(a),
-        Command::Verify(a) => command::verify::run(&args.global, a),
-        Command::Lint(a) => command::lint::run(a),
-        Command::Fix(a) => command::fix::run(a),
-        Command::Draw(a) => command::draw::run(&args.global, a),
-        Command::Report(a) => command::report::run(&args.global, a),
-        Command::Studio(a) => command::studio::run(&args.global, a),
-        Command::Export(a) => command::export::run(&args.global, a),
-        Command::Accuracy(a) => command::accuracy::run(&args.global, a),
+        Command::Analyze(a) => command::analyze::run_analyze(&args.global, a),
+        Command::Search(a) => command::search::run_search(&args.global, a),
+        Command::Statics(a) => command::statics::run_statics(&args.global, a),
+        Command::Grip(a) => command::grip::run_grip(a),
+        Command::Drive(a) => command::drive::run_drive(a),
+        Command::Verify(a) => command::verify::run_verify(&args.global, a),
+        Command::Lint(a) => command::lint::run_lint(a),
+        Command::Fix(a) => command::fix::run_fix(a),
+        Command::Draw(a) => command::draw::run_draw(&args.global, a),
+        Command::Report(a) => command::report::run_report(&args.global, a),
+        Command::Studio(a) => command::studio::run_studio(&args.global, a),
+        Command::Export(a) => command::export::run_export(&args.global, a),
+        Command::Accuracy(a) => command::accuracy::run_accuracy(&args.global, a),
         Command::Bench(a) => command::bench::run(&args.global, a),
-        Command::Catalog(a) => command::catalog::run(&args.global, a),
-        Command::Check(a) => command::check::run(&args.global, a),
-        Command::New(a) => command::new::run(&args.global, a),
-        Command::List(a) => command::list::run(a),
-        Command::Show(a) => command::check::show(a),
-        Command::Schema => command::check::schema(),
-        Command::Explain(a) => command::explain::run(a),
-        Command::Completions(a) => command::check::completions(a, Args::command()),
+        Command::Catalog(a) => command::catalog::run_catalog(&args.global, a),
+        Command::Check(a) => command::check::run_check(&args.global, a),
+        Command::New(a) => command::new::run_new(&args.global, a),
+        Command::List(a) => command::list::run_list(a),
+        Command::Show(a) => command::check::run_show(a),
+        Command::Schema => command::check::print_schema(),
+        Command::Explain(a) => command::explain::run_explain(a),
+        Command::Completions(a) => command::check::print_completions(a, Args::command()),
     });
     let told = |done| match &opened {
         Some(file) => command::check::tell_next(file).map(|_| done),
         None => Ok(done),
     };
-    finish(result.and_then(told))
+    exit_code(result.and_then(told))
 }
 
 /// Returns the arguments with the command that a file alone means: `studio` if there is a display and standard output is a terminal,
@@ -115,10 +116,10 @@ fn with_command(mut words: Vec<OsString>) -> (Vec<OsString>, Option<String>) {
 }
 
 /// Returns the files that options of a command name to be written, each with the name of its option.
-fn outputs(matches: &ArgMatches) -> Vec<(&'static str, PathBuf)> {
+fn output_files(matches: &ArgMatches) -> Vec<(&'static str, PathBuf)> {
     let mut all = matches
         .subcommand()
-        .map_or_else(Vec::new, |(_, m)| outputs(m));
+        .map_or_else(Vec::new, |(_, m)| output_files(m));
     for option in ["output", "certificate", "csv", "svg"] {
         // A command without the option has nothing there.
         if let Ok(Some(path)) = matches.try_get_one::<PathBuf>(option) {
@@ -134,15 +135,15 @@ fn say_parsed(e: &clap::Error) -> u8 {
     match e.print().and_then(|()| std::io::stdout().flush()) {
         _ if e.use_stderr() => 2,
         Err(why) if why.kind() != ErrorKind::BrokenPipe => {
-            finish(Err(why).context("cannot write standard output"))
+            exit_code(Err(why).context("cannot write standard output"))
         }
         _ => 0,
     }
 }
 
 /// Reports an error, if any, and returns the exit code.
-fn finish(result: anyhow::Result<Done>) -> u8 {
-    terminal::spinner::rest();
+fn exit_code(result: anyhow::Result<Done>) -> u8 {
+    terminal::spinner::hide_spinner();
     let interrupted = |code| terminal::interrupt::exit_code().unwrap_or(code);
     match result {
         Ok(Done::Found) => interrupted(0),
@@ -150,7 +151,7 @@ fn finish(result: anyhow::Result<Done>) -> u8 {
         Ok(Done::Partly) => interrupted(2),
         Err(e) if terminal::output::is_broken_pipe(&e) => interrupted(0),
         Err(e) => {
-            terminal::output::complain(&e);
+            terminal::output::print_error(&e);
             2
         }
     }
@@ -159,11 +160,11 @@ fn finish(result: anyhow::Result<Done>) -> u8 {
 /// Maximum number of threads: each takes some memory, and more threads than processors do not help.
 const THREADS: usize = 1024;
 
-fn prepare(args: &Global) -> anyhow::Result<()> {
-    terminal::interrupt::listen()?;
-    terminal::spinner::show(args.quiet);
+fn apply_globals(args: &Global) -> anyhow::Result<()> {
+    terminal::interrupt::listen_for_signals()?;
+    terminal::spinner::show_spinner(args.quiet);
     if args.quiet {
-        terminal::output::hush();
+        terminal::output::hush_notes();
     }
     if let Some(threads) = args.threads {
         anyhow::ensure!(

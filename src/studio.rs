@@ -66,7 +66,7 @@ impl Studio {
 
     /// The address of the page, with its token.
     #[must_use]
-    pub(crate) fn address(&self) -> String {
+    pub(crate) fn page_address(&self) -> String {
         self.door.address()
     }
 
@@ -75,7 +75,10 @@ impl Studio {
     ///
     /// # Errors
     /// Returns an error if threads cannot be started.
-    pub(crate) fn serve(self, say: impl Fn(&str)) -> io::Result<Option<std::path::PathBuf>> {
+    pub(crate) fn serve_windows(
+        self,
+        say: impl Fn(&str),
+    ) -> io::Result<Option<std::path::PathBuf>> {
         let Studio {
             listener,
             door,
@@ -83,9 +86,9 @@ impl Studio {
         } = self;
         let (at_work, at_door) = (room.clone(), room.clone());
         let worker = std::thread::Builder::new().name("studio-work".to_owned());
-        let worker = worker.spawn(move || work::work(&at_work))?;
+        let worker = worker.spawn(move || work::run_worker(&at_work))?;
         let accept = std::thread::Builder::new().name("studio-door".to_owned());
-        accept.spawn(move || listen(&listener, &door, &at_door))?;
+        accept.spawn(move || accept_requests(&listener, &door, &at_door))?;
         let (mut ticks, mut alone_since, mut said) = (0_u32, None, false);
         loop {
             std::thread::sleep(TICK);
@@ -93,7 +96,7 @@ impl Studio {
             if ticks.is_multiple_of(LOOK) {
                 room.look_at_disk();
             }
-            let left = room.windows.left();
+            let left = room.windows.have_left();
             alone_since = match (left, alone_since) {
                 (true, None) => Some(Instant::now()),
                 (true, since) => since,
@@ -101,7 +104,7 @@ impl Studio {
             };
             let is_over = alone_since.is_some_and(|s| s.elapsed() > GRACE);
             if is_over && ticks.is_multiple_of(SECOND) {
-                match room.unkept() {
+                match room.unkept_work() {
                     None => break,
                     // The program is the one place where the work is left.
                     Some(why) if !said => {
@@ -114,19 +117,19 @@ impl Studio {
                 }
             }
         }
-        room.end();
+        room.end_room();
         let _ = worker.join();
-        Ok(room.unsaved())
+        Ok(room.unsaved_path())
     }
 }
 
 /// Answers each connection on its own thread.
-fn listen(listener: &TcpListener, door: &Arc<Door>, room: &Arc<Room>) {
+fn accept_requests(listener: &TcpListener, door: &Arc<Door>, room: &Arc<Room>) {
     let busy = Arc::new(AtomicUsize::new(0));
     let waiting = Arc::new(Waiting::default());
     for stream in listener.incoming() {
         let Ok(mut stream) = stream else { continue };
-        let Some(place) = waiting.enter(&stream) else {
+        let Some(place) = waiting.enter_queue(&stream) else {
             continue;
         };
         let (door, room, busy) = (door.clone(), room.clone(), busy.clone());
@@ -134,11 +137,11 @@ fn listen(listener: &TcpListener, door: &Arc<Door>, room: &Arc<Room>) {
         // One that cannot be made is a request that is not answered.
         let _ = made.spawn(move || {
             let tried = catch_unwind(AssertUnwindSafe(|| {
-                answer(&mut stream, &door, &room, place, &busy)
+                answer_stream(&mut stream, &door, &room, place, &busy)
             }));
             if tried.is_err() {
                 let words = "the program failed at this; please report it with the file";
-                let _ = http::write(&mut stream, &http::Reply::refusal(500, words));
+                let _ = http::write_reply(&mut stream, &http::Reply::refusal_reply(500, words));
             }
         });
     }
@@ -162,7 +165,7 @@ impl Drop for Busy<'_> {
 }
 
 /// Answers a request. It waits at `place` until it has shown the token, and is one of the `busy` ones after that.
-fn answer(
+fn answer_stream(
     stream: &mut TcpStream,
     door: &Door,
     room: &Room,
@@ -171,25 +174,27 @@ fn answer(
 ) -> io::Result<()> {
     let mut asked = match http::read_head(stream)? {
         Ok(asked) => asked,
-        Err(refusal) => return http::write(stream, &refusal),
+        Err(refusal) => return http::write_reply(stream, &refusal),
     };
-    let path = match door.admit(&asked) {
+    let path = match door.admit_request(&asked) {
         Ok(path) => path.to_owned(),
-        Err(refusal) => return http::write(stream, &refusal),
+        Err(refusal) => return http::write_reply(stream, &refusal),
     };
     drop(place);
     let Some(_one) = Busy::new(busy) else {
-        return http::write(
+        return http::write_reply(
             stream,
-            &http::Reply::refusal(503, "too many requests at once"),
+            &http::Reply::refusal_reply(503, "too many requests at once"),
         );
     };
     if let Err(refusal) = http::read_body(stream, &mut asked)? {
-        return http::write(stream, &refusal);
+        return http::write_reply(stream, &refusal);
     }
     if path == "events" && asked.method == "GET" {
-        return room.windows.serve(stream, || room.now(), || room.ended());
+        return room
+            .windows
+            .serve_window(stream, || room.events_now(), || room.has_ended());
     }
-    let answer = routes::answer(&asked, &path, room).packed_for(&asked)?;
-    http::write(stream, &answer)
+    let answer = routes::answer_request(&asked, &path, room).packed_for(&asked)?;
+    http::write_reply(stream, &answer)
 }

@@ -98,11 +98,11 @@ fn built(m: &Mechanism) -> (usize, f64, bool) {
         };
         let start = Instant::now();
         let search = Search::new(exact_field(m, 0).expect("exact"), m, conditions).expect("valid");
-        let d = search.build(&|| false, &mut |_| {});
+        let d = search.build_diagrams(&|| false, &mut |_| {});
         let took = start.elapsed().as_secs_f64() * 1000.0;
         let nodes = d.determinate.nodes + d.admissible.nodes;
         if took > 300.0 || best < f64::INFINITY {
-            return (nodes, best.min(took), d.stop() == Stop::Exhausted);
+            return (nodes, best.min(took), d.stop_reason() == Stop::Exhausted);
         }
         best = took;
     }

@@ -108,13 +108,13 @@ pub(super) fn against_flint() {
         .map(|r| r.iter().map(to_field).collect())
         .collect();
     fn by_contour(of: &Case) -> Function<'_> {
-        Box::new(|| modular::rank(&of.exact, &of.closure))
+        Box::new(|| modular::rank_modulo(&of.exact, &of.closure))
     }
     // Each stands against FLINT's of the same place.
     let mut ours: Vec<(String, Function<'_>)> = vec![
         (
             "24 x 30 dense, 2^61 - 1: elimination".into(),
-            Box::new(|| echelon::rank(big, dense.iter().map(Vec::as_slice))),
+            Box::new(|| echelon::rank_of(big, dense.iter().map(Vec::as_slice))),
         ),
         (
             "gripper 24 x 14, same prime: contour by contour".into(),

@@ -16,7 +16,7 @@ pub mod spec;
 pub mod store;
 
 use crate::catalog::spec::{Spec, SpecError};
-use crate::file::read::build;
+use crate::file::read::build_mechanism;
 use crate::file::schema::MechanismFile;
 use crate::geom::exact::ExactError;
 use crate::model::mechanism::Mechanism;
@@ -58,7 +58,7 @@ pub enum RowError {
 /// The search that a catalogue makes of each mechanism. Variants of W = 1 move as the mechanism does, so that nothing more need
 /// be asked of their outputs.
 #[must_use]
-pub fn request(spec: &Spec) -> Request {
+pub fn search_request(spec: &Spec) -> Request {
     Request {
         max_mobility: Some(1),
         allow_output_change: true,
@@ -70,20 +70,24 @@ pub fn request(spec: &Spec) -> Request {
 }
 
 /// The mechanism of a file that the program made of a structure of this name.
-pub(crate) fn mechanism(name: &str, file: &MechanismFile) -> Result<Mechanism, RowError> {
-    build(file).map_err(|found| RowError::File {
+pub(crate) fn built_mechanism(name: &str, file: &MechanismFile) -> Result<Mechanism, RowError> {
+    build_mechanism(file).map_err(|found| RowError::File {
         structure: name.to_owned(),
         why: found.iter().map(|(_, kind)| kind.to_string()).join("; "),
     })
 }
 
 /// The search of a mechanism over the prime field of a number, ready to be made.
-pub(crate) fn search(mechanism: Mechanism, spec: &Spec, prime: usize) -> Result<Search, RowError> {
-    let request = request(spec);
+pub(crate) fn prepare_search(
+    mechanism: Mechanism,
+    spec: &Spec,
+    prime: usize,
+) -> Result<Search, RowError> {
+    let request = search_request(spec);
     let prepared = request.prepare(mechanism, &mut |_| {});
     let prepared = prepared.map_err(RunError::from)?;
     let (conditions, _) = request
-        .conditions(&prepared, &mut |_| {})
+        .search_conditions(&prepared, &mut |_| {})
         .map_err(RunError::from)?;
     let mechanism = Arc::new(prepared.mechanism);
     let field = exact_field(&mechanism, prime)?;

@@ -61,7 +61,7 @@ impl PairKind {
 
     /// Returns the letter of the kind in codes.
     #[must_use]
-    pub fn letter(self) -> char {
+    pub fn code_letter(self) -> char {
         PairKind::ALL[self as usize - 1].2
     }
 
@@ -124,7 +124,7 @@ impl Symmetry {
     /// Returns whether the symmetry can carry the input joint to itself. A mirror image needs a slide. Half a turn and a third of a
     /// turn need a hinge, since they carry no slide in the plane to itself.
     #[must_use]
-    pub fn suits(self, input: Input) -> bool {
+    pub fn suits_input(self, input: Input) -> bool {
         match self {
             Symmetry::Generic => true,
             Symmetry::Mirror => input == Input::Slide,
@@ -134,7 +134,7 @@ impl Symmetry {
 
     /// Returns the number of jaws that the symmetry carries to each other; `None` for the generic case.
     #[must_use]
-    pub fn jaws(self) -> Option<usize> {
+    pub fn jaw_count(self) -> Option<usize> {
         match self {
             Symmetry::Generic => None,
             Symmetry::Mirror | Symmetry::HalfTurn => Some(2),
@@ -165,7 +165,7 @@ impl Input {
 
     /// Returns the kind of the driven joint.
     #[must_use]
-    pub(crate) fn pair(self) -> PairKind {
+    pub(crate) fn driven_pair(self) -> PairKind {
         match self {
             Input::Slide => PairKind::Slide,
             Input::Turn => PairKind::Hinge,

@@ -38,7 +38,7 @@ use chacha20::rand_core::{Rng, SeedableRng};
 use sha2::{Digest, Sha256};
 
 /// Returns the random numbers of a start, the same for the same name and seed.
-pub(crate) fn random(name: &str, seed: u64, start: u32) -> ChaCha8Rng {
+pub(crate) fn random_for(name: &str, seed: u64, start: u32) -> ChaCha8Rng {
     random_of(&format!("{name} {seed} {start}"))
 }
 
@@ -49,12 +49,12 @@ pub(crate) fn random_of(text: &str) -> ChaCha8Rng {
 
 /// From 0 to 1.
 #[allow(clippy::cast_precision_loss, reason = "53 bits")]
-pub(crate) fn unit(random: &mut ChaCha8Rng) -> f64 {
+pub(crate) fn random_unit(random: &mut ChaCha8Rng) -> f64 {
     (random.next_u64() >> 11) as f64 / (1u64 << 53) as f64
 }
 
 /// Roughly normal, of variance 1: the sum of four even ones of 16 bits, each of variance 1/12.
-pub(crate) fn bell(random: &mut ChaCha8Rng) -> f64 {
+pub(crate) fn random_normal(random: &mut ChaCha8Rng) -> f64 {
     let bits = random.next_u64();
     let sum: u64 = [0, 16, 32, 48].map(|at| bits >> at & 0xffff).iter().sum();
     #[allow(clippy::cast_precision_loss, reason = "18 bits")]
@@ -64,6 +64,6 @@ pub(crate) fn bell(random: &mut ChaCha8Rng) -> f64 {
 
 /// A number below another.
 #[allow(clippy::cast_possible_truncation, reason = "the remainder is an index")]
-pub(crate) fn below(n: usize, random: &mut ChaCha8Rng) -> usize {
+pub(crate) fn random_below(n: usize, random: &mut ChaCha8Rng) -> usize {
     (random.next_u64() % n as u64) as usize
 }

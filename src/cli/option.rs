@@ -39,12 +39,12 @@ impl ToFile {
 
     /// Returns the width that a text may have there, or `None` for any.
     pub(crate) fn width(&self) -> Option<u16> {
-        output::width(self.path())
+        output::output_width(self.path())
     }
 
     /// Writes a text or other bytes.
-    pub(crate) fn put(&self, all: impl AsRef<[u8]>) -> anyhow::Result<Done> {
-        output::put(self.path(), all)
+    pub(crate) fn write_all_of(&self, all: impl AsRef<[u8]>) -> anyhow::Result<Done> {
+        output::write_bytes(self.path(), all)
     }
 }
 

@@ -2,12 +2,12 @@
 
 pub(crate) use crate::cli::option::named::{File, Loops, Named};
 pub(crate) use crate::cli::option::{Global, TextJsonOrCsv, TextOrJson, ToFile, load};
-pub(crate) use crate::cli::terminal::output::{Tone, toned};
-pub(crate) use crate::cli::terminal::progress::{Bar, note};
+pub(crate) use crate::cli::terminal::output::{Tone, colour_verdicts};
+pub(crate) use crate::cli::terminal::progress::{Bar, print_line};
 pub(crate) use crate::cli::terminal::{Done, interrupt, output};
-pub(crate) use crate::format::{plural, significant};
+pub(crate) use crate::format::{count_noun, four_digits};
 pub(crate) use crate::model::mechanism::{JointId, LinkId, Mechanism, StateId};
-pub(crate) use crate::view::terminal::layout::{cells, fit, table};
+pub(crate) use crate::view::terminal::layout::{fit_lines, row_cells, text_table};
 pub(crate) use crate::view::terminal::next_commands::{self, NextCommand};
 pub(crate) use anyhow::{Context, bail, ensure};
 pub(crate) use clap::{Args as ClapArgs, ValueEnum, ValueHint};

@@ -21,7 +21,7 @@ pub(crate) enum Done {
 
 impl Done {
     /// Returns `Found` or `Nothing`.
-    pub(crate) fn found(found: bool) -> Done {
+    pub(crate) fn found_or_nothing(found: bool) -> Done {
         if found { Done::Found } else { Done::Nothing }
     }
 }

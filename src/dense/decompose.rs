@@ -65,8 +65,8 @@ pub fn svd(a: &Matrix) -> Option<Svd> {
             v: Matrix::identity(a.ncols(), a.ncols()),
         });
     }
-    let found = a.view().svd().ok()?;
-    collected(&found)
+    let found = a.as_faer().svd().ok()?;
+    collect_factors(&found)
 }
 
 /// Works as [`svd`], with as many columns in U and V as there are values.
@@ -79,17 +79,17 @@ pub fn thin_svd(a: &Matrix) -> Option<Svd> {
             v: Matrix::zeros(a.ncols(), 0),
         });
     }
-    let found = a.view().thin_svd().ok()?;
-    collected(&found)
+    let found = a.as_faer().thin_svd().ok()?;
+    collect_factors(&found)
 }
 
-fn collected(found: &faer::linalg::solvers::Svd<f64>) -> Option<Svd> {
+fn collect_factors(found: &faer::linalg::solvers::Svd<f64>) -> Option<Svd> {
     let values: Vec<f64> = found.S().column_vector().iter().copied().collect();
     let finite = values.iter().all(|v| v.is_finite());
     finite.then(|| Svd {
         values,
-        u: Matrix::of(found.U()),
-        v: Matrix::of(found.V()),
+        u: Matrix::from_faer(found.U()),
+        v: Matrix::from_faer(found.V()),
     })
 }
 
@@ -100,7 +100,7 @@ pub fn singular_values(a: &Matrix) -> Option<Vec<f64>> {
     if a.is_empty() {
         return Some(Vec::new());
     }
-    let values = a.view().singular_values().ok()?;
+    let values = a.as_faer().singular_values().ok()?;
     values.iter().all(|v| v.is_finite()).then_some(values)
 }
 
@@ -108,25 +108,28 @@ pub fn singular_values(a: &Matrix) -> Option<Vec<f64>> {
 /// if the iteration does not converge.
 #[must_use]
 pub fn symmetric_eigen(a: &Matrix) -> Option<(Vec<f64>, Matrix)> {
-    let found = a.view().self_adjoint_eigen(Side::Lower).ok()?;
+    let found = a.as_faer().self_adjoint_eigen(Side::Lower).ok()?;
     let values = found.S().column_vector().iter().copied().collect();
-    Some((values, Matrix::of(found.U())))
+    Some((values, Matrix::from_faer(found.U())))
 }
 
 /// Returns the x that minimises the distance of A·x from the right side, by QR factors. A must have at least as many
 /// rows as columns, and full rank.
 #[must_use]
 pub fn least_squares(a: &Matrix, right: &[f64]) -> Vec<f64> {
-    let x = a.view().qr().solve_lstsq(Matrix::column(right).view());
-    first(&x, a.ncols())
+    let x = a
+        .as_faer()
+        .qr()
+        .solve_lstsq(Matrix::from_column(right).as_faer());
+    first_column(&x, a.ncols())
 }
 
 /// Works as [`least_squares`], with column pivoting for accuracy.
 #[must_use]
 pub fn least_squares_pivoted(a: &Matrix, right: &[f64]) -> Vec<f64> {
-    let factors = a.view().col_piv_qr();
-    first(
-        &factors.solve_lstsq(Matrix::column(right).view()),
+    let factors = a.as_faer().col_piv_qr();
+    first_column(
+        &factors.solve_lstsq(Matrix::from_column(right).as_faer()),
         a.ncols(),
     )
 }
@@ -134,22 +137,25 @@ pub fn least_squares_pivoted(a: &Matrix, right: &[f64]) -> Vec<f64> {
 /// Returns the solution of a square system, by LU factors with partial pivoting. It is not finite if there is none.
 #[must_use]
 pub fn solve(a: &Matrix, right: &[f64]) -> Vec<f64> {
-    let factors = a.view().partial_piv_lu();
-    first(&factors.solve(Matrix::column(right).view()), a.ncols())
+    let factors = a.as_faer().partial_piv_lu();
+    first_column(
+        &factors.solve(Matrix::from_column(right).as_faer()),
+        a.ncols(),
+    )
 }
 
 /// Returns the solution of a symmetric positive definite system, by Cholesky factors, or `None` if the matrix is not
 /// positive definite.
 #[must_use]
 pub fn solve_positive(a: &Matrix, right: &[f64]) -> Option<Vec<f64>> {
-    let factors = a.view().llt(Side::Lower).ok()?;
-    Some(first(
-        &factors.solve(Matrix::column(right).view()),
+    let factors = a.as_faer().llt(Side::Lower).ok()?;
+    Some(first_column(
+        &factors.solve(Matrix::from_column(right).as_faer()),
         a.ncols(),
     ))
 }
 
-fn first(x: &Mat<f64>, rows: usize) -> Vec<f64> {
+fn first_column(x: &Mat<f64>, rows: usize) -> Vec<f64> {
     (0..rows).map(|r| x[(r, 0)]).collect()
 }
 
@@ -159,6 +165,6 @@ pub fn determinant(a: &Matrix) -> f64 {
     if a.nrows() == 0 {
         1.0
     } else {
-        a.view().determinant()
+        a.as_faer().determinant()
     }
 }

@@ -17,11 +17,11 @@ pub enum Format {
 impl Format {
     /// Returns the absolute diagonal of U of LU factors with full pivoting.
     #[must_use]
-    pub fn pivots(self, a: &Matrix) -> Vec<f64> {
+    pub fn lu_pivots(self, a: &Matrix) -> Vec<f64> {
         match self {
             _ if a.is_empty() => Vec::new(),
-            Format::Single => diagonal(rounded(a).full_piv_lu().U()),
-            Format::Double => diagonal(a.view().full_piv_lu().U()),
+            Format::Single => absolute_diagonal(round_to_single(a).full_piv_lu().U()),
+            Format::Double => absolute_diagonal(a.as_faer().full_piv_lu().U()),
         }
     }
 
@@ -30,8 +30,8 @@ impl Format {
     pub fn qr_diagonal(self, a: &Matrix) -> Vec<f64> {
         match self {
             _ if a.is_empty() => Vec::new(),
-            Format::Single => diagonal(rounded(a).col_piv_qr().R()),
-            Format::Double => diagonal(a.view().col_piv_qr().R()),
+            Format::Single => absolute_diagonal(round_to_single(a).col_piv_qr().R()),
+            Format::Double => absolute_diagonal(a.as_faer().col_piv_qr().R()),
         }
     }
 
@@ -42,7 +42,7 @@ impl Format {
         if a.is_empty() || self == Format::Double {
             return singular_values(a);
         }
-        let values = rounded(a).singular_values().ok()?;
+        let values = round_to_single(a).singular_values().ok()?;
         let finite = values.iter().all(|v| v.is_finite());
         finite.then(|| values.into_iter().map(f64::from).collect())
     }
@@ -52,11 +52,11 @@ impl Format {
     clippy::cast_possible_truncation,
     reason = "single precision is the point"
 )]
-fn rounded(a: &Matrix) -> Mat<f32> {
+fn round_to_single(a: &Matrix) -> Mat<f32> {
     Mat::from_fn(a.nrows(), a.ncols(), |r, c| a[(r, c)] as f32)
 }
 
-fn diagonal<T: ComplexField<Real = T> + RealField + Copy + Into<f64>>(
+fn absolute_diagonal<T: ComplexField<Real = T> + RealField + Copy + Into<f64>>(
     factor: MatRef<'_, T>,
 ) -> Vec<f64> {
     (0..factor.nrows().min(factor.ncols()))

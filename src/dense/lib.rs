@@ -12,4 +12,4 @@ pub use decompose::{
     svd, symmetric_eigen, thin_svd,
 };
 pub use format::Format;
-pub use matrix::{Matrix, add_scaled, difference, dot, largest, norm};
+pub use matrix::{Matrix, add_scaled, difference, dot, largest_entry, norm};

@@ -44,7 +44,7 @@ impl Matrix {
 
     /// Creates a matrix with a single column.
     #[must_use]
-    pub fn column(entries: &[f64]) -> Self {
+    pub fn from_column(entries: &[f64]) -> Self {
         Matrix {
             rows: entries.len(),
             columns: 1,
@@ -106,7 +106,7 @@ impl Matrix {
     /// Panics if `other` does not have as many rows as this has columns.
     #[must_use]
     pub fn times(&self, other: &Matrix) -> Matrix {
-        Matrix::of((self.view() * other.view()).as_ref())
+        Matrix::from_faer((self.as_faer() * other.as_faer()).as_ref())
     }
 
     /// Returns the product of the transpose with another matrix.
@@ -115,7 +115,7 @@ impl Matrix {
     /// Panics if the two have different numbers of rows.
     #[must_use]
     pub fn transpose_times(&self, other: &Matrix) -> Matrix {
-        Matrix::of((self.view().transpose() * other.view()).as_ref())
+        Matrix::from_faer((self.as_faer().transpose() * other.as_faer()).as_ref())
     }
 
     /// Returns the sum of the columns times these weights.
@@ -123,7 +123,7 @@ impl Matrix {
     /// # Panics
     /// Panics if there are more weights than columns.
     #[must_use]
-    pub fn combined(&self, weights: &[f64]) -> Vec<f64> {
+    pub fn combine_columns(&self, weights: &[f64]) -> Vec<f64> {
         let entry = |r: usize| {
             weights
                 .iter()
@@ -169,11 +169,11 @@ impl Matrix {
         }
     }
 
-    pub(crate) fn view(&self) -> MatRef<'_, f64> {
+    pub(crate) fn as_faer(&self) -> MatRef<'_, f64> {
         MatRef::from_column_major_slice(&self.entries, self.rows, self.columns)
     }
 
-    pub(crate) fn of(matrix: MatRef<'_, f64>) -> Matrix {
+    pub(crate) fn from_faer(matrix: MatRef<'_, f64>) -> Matrix {
         Matrix::from_fn(matrix.nrows(), matrix.ncols(), |r, c| matrix[(r, c)])
     }
 }
@@ -192,7 +192,7 @@ pub fn norm(a: &[f64]) -> f64 {
 
 /// Returns the largest absolute entry, or 0 if there are none.
 #[must_use]
-pub fn largest(a: &[f64]) -> f64 {
+pub fn largest_entry(a: &[f64]) -> f64 {
     a.iter().fold(0.0, |m: f64, x| m.max(x.abs()))
 }
 

@@ -56,7 +56,7 @@ pub enum AnswerVerdict {
 
 impl AnswerVerdict {
     /// The verdict on an answer.
-    pub fn on(answer: &Result<Answer, NoAnswer>, truth: Truth) -> AnswerVerdict {
+    pub fn judge_answer(answer: &Result<Answer, NoAnswer>, truth: Truth) -> AnswerVerdict {
         match answer {
             Ok(a) if a.mobility == truth.finite => AnswerVerdict::Right,
             Ok(a) if a.quantity == Quantity::Instantaneous && a.mobility == truth.instantaneous => {

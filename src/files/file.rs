@@ -19,7 +19,7 @@ pub mod text;
 pub mod write;
 
 use crate::file::locate::DocumentPath;
-use crate::file::problem::{ProblemKind, suggestion};
+use crate::file::problem::{ProblemKind, suggest_word};
 use crate::geom::expr::{Expr, ExprError};
 use itertools::Itertools;
 use std::cell::{Cell, RefCell};
@@ -46,12 +46,16 @@ pub(crate) struct Findings {
 
 impl Findings {
     /// Sets the numbers that expressions know by name.
-    pub(crate) fn know(&mut self, names: BTreeMap<String, Expr>) {
+    pub(crate) fn set_parameters(&mut self, names: BTreeMap<String, Expr>) {
         self.names = names;
     }
 
     /// Returns the value of an expression. With `pi_is_a_number`, pi may be used outside of angles.
-    pub(crate) fn expression(&self, text: &str, pi_is_a_number: bool) -> Result<Expr, ExprError> {
+    pub(crate) fn parse_expression(
+        &self,
+        text: &str,
+        pi_is_a_number: bool,
+    ) -> Result<Expr, ExprError> {
         Expr::with_names(text, pi_is_a_number, &mut |word| {
             let found = self.names.get(word)?;
             self.used.borrow_mut().insert(word.to_owned());
@@ -60,33 +64,36 @@ impl Findings {
     }
 
     /// Returns the names of all parameters.
-    pub(crate) fn names(&self) -> impl Iterator<Item = &str> {
+    pub(crate) fn parameter_names(&self) -> impl Iterator<Item = &str> {
         self.names.keys().map(String::as_str)
     }
 
     /// Reports parameters that no expression uses.
     pub(crate) fn tell_unused(&self) {
-        for name in self.names().filter(|n| !self.used.borrow().contains(*n)) {
+        for name in self
+            .parameter_names()
+            .filter(|n| !self.used.borrow().contains(*n))
+        {
             let at = self.key("parameter").key(name);
-            at.add(format!(
+            at.add_problem(format!(
                 "parameter \"{name}\" is never used; use it in an expression in quotes, such as \"2*{name}\", or remove it"
             ));
         }
     }
 
     /// Returns the place of the whole file.
-    pub(crate) fn root(&self) -> Place<'_> {
+    pub(crate) fn root_place(&self) -> Place<'_> {
         let path = DocumentPath::default();
         Place { path, out: self }
     }
 
     /// Returns the place of a key of the file.
     pub(crate) fn key(&self, key: &str) -> Place<'_> {
-        self.root().key(key)
+        self.root_place().key(key)
     }
 
     /// Returns the number of problems.
-    pub(crate) fn count(&self) -> usize {
+    pub(crate) fn problem_count(&self) -> usize {
         self.told.borrow().len() + self.more.get()
     }
 
@@ -101,8 +108,8 @@ impl Findings {
     }
 
     /// Returns what was made of the file, or the problems if there are any.
-    pub(crate) fn unless<T>(self, made: T) -> Result<T, Vec<Finding>> {
-        if self.count() == 0 {
+    pub(crate) fn finish<T>(self, made: T) -> Result<T, Vec<Finding>> {
+        if self.problem_count() == 0 {
             Ok(made)
         } else {
             Err(self.into_findings())
@@ -125,41 +132,41 @@ impl<'f> Place<'f> {
     }
 
     /// Returns the place of a key itself, instead of its value.
-    pub(crate) fn name(&self, key: &str) -> Place<'f> {
+    pub(crate) fn key_name(&self, key: &str) -> Place<'f> {
         let path = self.path.name(key);
         Place { path, ..*self }
     }
 
     /// Returns the place of an entry of the list at this place.
-    pub(crate) fn index(&self, i: usize) -> Place<'f> {
-        let path = self.path.index(i);
+    pub(crate) fn entry_at(&self, i: usize) -> Place<'f> {
+        let path = self.path.entry_at(i);
         Place { path, ..*self }
     }
 
     /// Returns the entries of the list at this place, each with its own place.
-    pub(crate) fn entries<'e, T>(
+    pub(crate) fn each_entry<'e, T>(
         &self,
         list: &'e [T],
     ) -> impl Iterator<Item = (Place<'f>, &'e T)> + use<'f, 'e, T> {
         let (at, each) = (self.clone(), list.iter().enumerate());
-        each.map(move |(i, e)| (at.index(i), e))
+        each.map(move |(i, e)| (at.entry_at(i), e))
     }
 
     /// Returns the first `limit` entries of the list at this place, each with its own place. Reports a longer list.
-    pub(crate) fn most<'e, T>(
+    pub(crate) fn first_entries<'e, T>(
         &self,
         limit: usize,
         list: &'e [T],
         what: &'static str,
     ) -> impl Iterator<Item = (Place<'f>, &'e T)> + use<'f, 'e, T> {
         self.count_within(limit, list.len(), what);
-        self.entries(&list[..list.len().min(limit)])
+        self.each_entry(&list[..list.len().min(limit)])
     }
 
     /// Reports more items than a limit. Returns true if there are no more.
     pub(crate) fn count_within(&self, limit: usize, count: usize, what: &str) -> bool {
         if count > limit {
-            self.add(format!(
+            self.add_problem(format!(
                 "the file has {count} {what}, more than the {limit} allowed"
             ));
         }
@@ -167,7 +174,7 @@ impl<'f> Place<'f> {
     }
 
     /// Reports a problem at this place.
-    pub(crate) fn add(&self, kind: impl Into<ProblemKind>) {
+    pub(crate) fn add_problem(&self, kind: impl Into<ProblemKind>) {
         let mut told = self.out.told.borrow_mut();
         if told.len() < TOLD {
             told.push((self.path.clone(), kind.into()));
@@ -177,23 +184,28 @@ impl<'f> Place<'f> {
     }
 
     /// Reports an unknown word.
-    pub(crate) fn unknown(&self, what: &str, word: &str, known: impl IntoIterator<Item: Display>) {
-        self.add(unknown_word(what, word, known));
+    pub(crate) fn add_unknown_word(
+        &self,
+        what: &str,
+        word: &str,
+        known: impl IntoIterator<Item: Display>,
+    ) {
+        self.add_problem(unknown_word(what, word, known));
     }
 
     /// Reports a value that is not allowed.
-    pub(crate) fn bad(&self, what: &str, value: impl Display, allowed: &str) {
-        self.add(format!("{what} {value} is out of range; give {allowed}"));
+    pub(crate) fn add_bad_value(&self, what: &str, value: impl Display, allowed: &str) {
+        self.add_problem(format!("{what} {value} is out of range; give {allowed}"));
     }
 
     /// Reports a key that needs another key or condition.
-    pub(crate) fn needs(&self, key: &str, other: &str) {
-        self.key(key).add(format!("{key} needs {other}"));
+    pub(crate) fn add_missing_key(&self, key: &str, other: &str) {
+        self.key(key).add_problem(format!("{key} needs {other}"));
     }
 
     /// Reports a key that cannot be combined with another key.
-    pub(crate) fn excludes(&self, key: &str, other: &str) {
-        self.key(key).add(format!(
+    pub(crate) fn add_excluded_key(&self, key: &str, other: &str) {
+        self.key(key).add_problem(format!(
             "{key} and {other} exclude each other; keep one of them"
         ));
     }
@@ -206,6 +218,6 @@ pub(crate) fn unknown_word(
     known: impl IntoIterator<Item: Display>,
 ) -> ProblemKind {
     let known = known.into_iter().join(", ");
-    let near = suggestion(word, &known);
+    let near = suggest_word(word, &known);
     format!("unknown {what} \"{word}\"; {near}known: {known}").into()
 }

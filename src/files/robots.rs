@@ -16,7 +16,7 @@ mod urdf;
 mod warning;
 mod xml;
 
-pub use crate::robots::formats::refuse as refuse_foreign;
+pub use crate::robots::formats::refuse_foreign;
 pub use crate::robots::formats::{begins_description, is_description};
 pub use crate::robots::warning::ExportError;
 pub use crate::robots::warning::{CadCount, Kept, Note, Options, Reader, Report};
@@ -26,25 +26,25 @@ pub use import::{Imported, import};
 use crate::file::problem::ImportError;
 use crate::geom::vector::Vector;
 use crate::model::mechanism::{JointId, Mechanism};
-use crate::redundancy::release::{Release, added};
+use crate::redundancy::release::{Release, added_freedoms};
 use crate::robots::cad::retype;
 use crate::robots::description::Part;
 use crate::robots::edit::{Edits, Freeing, comment_out, free_sdf, free_urdf};
-use crate::robots::mechanism::series_of_single_joints::comment;
-use crate::robots::warning::unsupported;
+use crate::robots::mechanism::series_of_single_joints::escape_comment;
+use crate::robots::warning::unsupported_problem;
 use std::collections::BTreeMap;
 
 /// Returns the freedoms that a redesign adds to the joints of a mechanism.
 ///
 /// # Errors
 /// Returns the reason if these are not freedoms of existing joints, in words that follow the redesign's name.
-pub fn releases(before: &Mechanism, after: &Mechanism) -> Result<Vec<Release>, String> {
+pub fn find_releases(before: &Mechanism, after: &Mechanism) -> Result<Vec<Release>, String> {
     if after.joints.len() != before.joints.len() {
         return Err("inserts joints that are not of one joint's kind; choose another".to_owned());
     }
     let mut out = Vec::new();
     for (i, (old, new)) in before.joints.iter().zip(&after.joints).enumerate() {
-        let all = added((&old.frame, &old.joint_type), (&new.frame, &new.joint_type))
+        let all = added_freedoms((&old.frame, &old.joint_type), (&new.frame, &new.joint_type))
             .map_err(|e| e.to_string())?;
         if old.joint_type.freedoms().len() + all.len() != new.joint_type.freedoms().len() {
             return Err(format!(
@@ -67,9 +67,12 @@ pub fn releases(before: &Mechanism, after: &Mechanism) -> Result<Vec<Release>, S
 ///
 /// # Errors
 /// Returns an error if the format cannot represent a release at its place.
-pub fn fix(imported: &Imported, releases: &[(Release, String)]) -> Result<Vec<u8>, ImportError> {
+pub fn apply_releases(
+    imported: &Imported,
+    releases: &[(Release, String)],
+) -> Result<Vec<u8>, ImportError> {
     if imported.origin.is_assembly() {
-        return retype::retype(imported, releases);
+        return retype::retype_joints(imported, releases);
     }
     Ok(in_series(imported, releases)?.into_bytes())
 }
@@ -81,7 +84,7 @@ fn in_series(imported: &Imported, releases: &[(Release, String)]) -> Result<Stri
     let mut freed: BTreeMap<usize, Vec<(bool, Vector, String)>> = BTreeMap::new();
     let mut uncoupled = Vec::new();
     for (release, why) in releases {
-        let why = comment(&format!("ozols fix: {why}"));
+        let why = escape_comment(&format!("ozols fix: {why}"));
         match *release {
             Release::Coupling(q) => uncoupled.push((origin.couplings[q], why)),
             Release::Freedom {
@@ -96,17 +99,19 @@ fn in_series(imported: &Imported, releases: &[(Release, String)]) -> Result<Stri
         }
     }
     let (free, uncouple): (Free, Uncouple) = match imported.format.word {
-        "mjcf" => (mjcf::fix::free, mjcf::fix::uncouple),
+        "mjcf" => (mjcf::fix::free_joints, mjcf::fix::deactivate),
         "urdf" => (free_urdf, comment_out),
         _ => (free_sdf, comment_out),
     };
     let mut all: Vec<Freeing<'_>> = Vec::new();
     for (&part, list) in &freed {
         let part = &origin.robot.joints[part];
-        let e = part.element.ok_or_else(|| beside(origin, part))?;
+        let e = part
+            .element
+            .ok_or_else(|| separate_file_error(origin, part))?;
         let e = origin.element(e);
         if e.node().copy {
-            return Err(e.unsupported(
+            return Err(e.unsupported_error(
                 "it is a copy made by <replicate>",
                 "choose another joint, or write the copies out",
             ));
@@ -117,17 +122,17 @@ fn in_series(imported: &Imported, releases: &[(Release, String)]) -> Result<Stri
     for (element, why) in uncoupled {
         uncouple(origin, element, &why, &mut edits)?;
     }
-    edits.apply()
+    edits.apply_edits()
 }
 
 type Free = fn(&Origin, &[Freeing<'_>], &mut Edits<'_>) -> Result<(), ImportError>;
 type Uncouple = fn(&Origin, usize, &str, &mut Edits<'_>) -> Result<(), ImportError>;
 
 /// Returns the error for a joint that is defined in a separate file.
-fn beside(origin: &Origin, part: &Part) -> ImportError {
+fn separate_file_error(origin: &Origin, part: &Part) -> ImportError {
     let element = format!("loop \"{}\"", part.id);
     let why = "it is defined in the file of loop closures";
     let remedy = "choose a joint of the description";
     let root = origin.element(origin.root);
-    root.fail(None, unsupported(&element, why, remedy))
+    root.error_at(None, unsupported_problem(&element, why, remedy))
 }

@@ -14,14 +14,14 @@ pub mod lever_arm;
 pub mod motion;
 
 use crate::geom::exact::ExactError;
-use crate::grip::clamping::{DiameterRow, Study, study};
+use crate::grip::clamping::{DiameterRow, Study, study_diameters};
 use crate::grip::holding::Holding;
 use crate::grip::jaw_loads::{Gripping, JawError};
 use crate::grip::lever_arm::LeverError;
 use crate::model::grip::{GripSpec, LeverDrive, Transmission};
 use crate::model::mechanism::{Mechanism, StateId};
 use crate::motion::pose::Pose;
-use crate::statics::transmission::{Rates, TransmissionError, rates};
+use crate::statics::transmission::{Rates, TransmissionError, drive_rates};
 use thiserror::Error;
 
 /// Reason why a gripper cannot be studied.
@@ -54,7 +54,7 @@ pub struct Grip {
 /// Returns the force `[N]`, or the moment `[N·m]` of a rotary drive, required from one drive of both levers. Returns
 /// `None` if each lever has its own drive.
 #[must_use]
-pub fn effort(levers: LeverDrive, h: &Holding, drive: &Rates) -> Option<f64> {
+pub fn drive_effort(levers: LeverDrive, h: &Holding, drive: &Rates) -> Option<f64> {
     let each = h.moments.iter().zip(&drive.rates);
     let sum: f64 = each.map(|(moment, rate)| moment * rate).sum();
     (levers != LeverDrive::Independent).then_some(sum.max(0.0))
@@ -81,8 +81,8 @@ pub fn effort(levers: LeverDrive, h: &Holding, drive: &Rates) -> Option<f64> {
 /// assert!((hardest.diameter - 0.050).abs() < 1e-12);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-pub fn grip(spec: &GripSpec, mechanism: Option<&Mechanism>) -> Result<Grip, GripError> {
-    let study = study(spec)?;
+pub fn analyse_grip(spec: &GripSpec, mechanism: Option<&Mechanism>) -> Result<Grip, GripError> {
+    let study = study_diameters(spec)?;
     let transmission = match (spec.transmission, mechanism) {
         (Transmission::Arm(arm), _) => {
             let rates = Rates {
@@ -92,7 +92,7 @@ pub fn grip(spec: &GripSpec, mechanism: Option<&Mechanism>) -> Result<Grip, Grip
             vec![rates; study.rows.len()]
         }
         (Transmission::Joints(joints), Some(m)) => {
-            let at_home = rates(m, &Pose::of_file(m, StateId::FREE)?, &joints)?;
+            let at_home = drive_rates(m, &Pose::of_file(m, StateId::FREE)?, &joints)?;
             let states = spec.contacts.and_then(|c| m.joints[c[0]].states.as_ref());
             let state = states.and_then(|s| s.first());
             let gripping = match state.map(|&s| Gripping::of_study(m, s, study.clone())) {
@@ -101,7 +101,7 @@ pub fn grip(spec: &GripSpec, mechanism: Option<&Mechanism>) -> Result<Grip, Grip
                 Some(other) => other?,
             };
             let there = |row: &DiameterRow| match &gripping {
-                Some(g) if row.holds() => Ok(rates(m, &g.fit(row)?.pose, &joints)?),
+                Some(g) if row.is_held() => Ok(drive_rates(m, &g.fit_part(row)?.pose, &joints)?),
                 _ => Ok(at_home.clone()),
             };
             study

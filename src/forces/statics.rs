@@ -20,12 +20,12 @@ use ozols_dense::{Matrix, singular_values};
 
 /// Returns the size up to which figures of a solution are rounding errors. It is the residual of the equations, and at
 /// least the rounding of a sum of `terms` numbers as large as the largest of them.
-pub(crate) fn rounding(left_over: f64, greatest: f64, terms: usize) -> f64 {
+pub(crate) fn rounding_size(left_over: f64, greatest: f64, terms: usize) -> f64 {
     left_over.max(f64::EPSILON * terms as f64 * greatest)
 }
 
 /// Returns a figure, or 0 if it is a rounding error. If the rounding is not finite, no figure is.
-pub(crate) fn without(rounding: f64, figure: f64) -> f64 {
+pub(crate) fn drop_rounding(rounding: f64, figure: f64) -> f64 {
     if figure.abs() <= rounding && rounding.is_finite() {
         0.0
     } else {
@@ -34,7 +34,7 @@ pub(crate) fn without(rounding: f64, figure: f64) -> f64 {
 }
 
 /// Returns the largest absolute figure.
-pub(crate) fn greatest<'x>(figures: impl IntoIterator<Item = &'x f64>) -> f64 {
+pub(crate) fn greatest_abs<'x>(figures: impl IntoIterator<Item = &'x f64>) -> f64 {
     let sizes = figures.into_iter().map(|x| x.abs());
     sizes.fold(0.0, f64::max)
 }
@@ -45,7 +45,7 @@ pub(crate) fn over_load(left_over: f64, load: f64) -> f64 {
 }
 
 /// Returns the ratio of the largest to the smallest singular value; infinite for singular matrices.
-pub(crate) fn condition(matrix: &Matrix) -> f64 {
+pub(crate) fn condition_number(matrix: &Matrix) -> f64 {
     let Some(values) = singular_values(matrix) else {
         return f64::INFINITY;
     };

@@ -11,7 +11,7 @@ pub mod tree;
 pub mod twist;
 
 use crate::closure::contour::{Contour, contour_basis};
-use crate::closure::coupling::coefficient;
+use crate::closure::coupling::coupling_coefficient;
 use crate::closure::tree::{path_from_frame, path_in, spanning_tree};
 use crate::closure::twist::{MotionSpace, joint_twists};
 use crate::geom::Scalars;
@@ -132,7 +132,7 @@ impl<N: Clone + Default + PartialEq> Closure<N> {
     /// # Complexity
     /// One pass over J.
     #[must_use]
-    pub fn parts(&self, sets: &[Vec<JointId>]) -> Vec<Part<N>> {
+    pub fn split_parts(&self, sets: &[Vec<JointId>]) -> Vec<Part<N>> {
         let part = |joints: &Vec<JointId>| Part {
             joints: joints.clone(),
             closure: Closure {
@@ -199,7 +199,7 @@ impl<N: Clone + Default + PartialEq> Closure<N> {
         let column = &self.columns[c];
         let mut out = vec![N::default(); self.dim * contours.len()];
         for (row, &k) in contours.iter().enumerate() {
-            if let Some(forward) = self.contours[k].direction(column.joint) {
+            if let Some(forward) = self.contours[k].direction_of(column.joint) {
                 for (o, t) in out[row * self.dim..].iter_mut().zip(&column.twist) {
                     *o = if forward {
                         t.clone()
@@ -213,7 +213,7 @@ impl<N: Clone + Default + PartialEq> Closure<N> {
     }
 
     /// Returns the dense J, as a list of columns.
-    pub fn dense<S: Scalars<Number = N>>(&self, s: &S) -> Vec<Vec<N>> {
+    pub fn dense_columns<S: Scalars<Number = N>>(&self, s: &S) -> Vec<Vec<N>> {
         let all: Vec<usize> = (0..self.contours.len()).collect();
         let mut columns: Vec<Vec<N>> = (0..self.columns.len())
             .map(|c| self.dense_column(s, c, &all))
@@ -286,7 +286,7 @@ fn coupling_rows<N: Clone + Default + PartialEq, S: Scalars<Number = N>>(
         });
         // The importer ensures that coupled freedoms exist.
         if let [Some(a), Some(b)] = at {
-            let first = s.eval(&coefficient(mechanism, coupling))?;
+            let first = s.eval(&coupling_coefficient(mechanism, coupling))?;
             rows.push(CouplingRow {
                 entries: [(a, first), (b, s.eval(&Expr::from(1))?)],
             });

@@ -20,7 +20,7 @@ pub mod plain;
 use std::ops::Range;
 
 /// Formats a count with its noun: "1 redundant constraint", "2 redundant constraints".
-pub fn plural(n: usize, what: &str) -> String {
+pub fn count_noun(n: usize, what: &str) -> String {
     format!("{n} {what}{}", if n == 1 { "" } else { "s" })
 }
 
@@ -30,7 +30,7 @@ pub fn plural_of(n: &str, what: &str) -> String {
 }
 
 /// Formats a list of alternatives: "a, b or c".
-pub fn disjunction<'a>(of: impl IntoIterator<Item = &'a str>) -> String {
+pub fn join_or<'a>(of: impl IntoIterator<Item = &'a str>) -> String {
     let mut all: Vec<&str> = of.into_iter().collect();
     match (all.pop(), all.is_empty()) {
         (Some(last), false) => format!("{} or {last}", all.join(", ")),
@@ -39,7 +39,7 @@ pub fn disjunction<'a>(of: impl IntoIterator<Item = &'a str>) -> String {
 }
 
 /// Formats a list: "a", "a and b", "a, b and c".
-pub fn list<T: AsRef<str>>(of: &[T]) -> String {
+pub fn join_and<T: AsRef<str>>(of: &[T]) -> String {
     match of {
         [] => String::new(),
         [one] => one.as_ref().to_owned(),
@@ -52,7 +52,7 @@ pub fn list<T: AsRef<str>>(of: &[T]) -> String {
 
 /// Formats a number of any size with these significant digits. Those whose first digit has one of the `plain` powers of
 /// ten have no exponent. Trailing zeros are kept if the number is `padded`.
-fn styled(x: f64, digits: i32, plain: Range<i32>, padded: bool) -> String {
+fn format_styled(x: f64, digits: i32, plain: Range<i32>, padded: bool) -> String {
     if x == 0.0 {
         return "0".to_owned();
     }
@@ -60,7 +60,7 @@ fn styled(x: f64, digits: i32, plain: Range<i32>, padded: bool) -> String {
     let Some((mantissa, power)) = text.split_once('e') else {
         return text;
     };
-    let trim = |text| if padded { text } else { trimmed(text) };
+    let trim = |text| if padded { text } else { trim_zeros(text) };
     match power.parse() {
         Ok(power) if plain.contains(&power) => {
             let decimals = (digits - 1 - power).max(0) as usize;
@@ -71,7 +71,7 @@ fn styled(x: f64, digits: i32, plain: Range<i32>, padded: bool) -> String {
 }
 
 /// Removes the trailing zeros of a decimal.
-fn trimmed(text: &str) -> &str {
+fn trim_zeros(text: &str) -> &str {
     if text.contains('.') {
         text.trim_end_matches('0').trim_end_matches('.')
     } else {
@@ -80,49 +80,49 @@ fn trimmed(text: &str) -> &str {
 }
 
 /// Formats a measured number to four significant digits: 12.35, 0.001235, 1.235e-7. Rounding noise is written as 0.
-pub fn significant(x: f64) -> String {
-    styled(if x.abs() < 1e-9 { 0.0 } else { x }, 4, -4..7, false)
+pub fn four_digits(x: f64) -> String {
+    format_styled(if x.abs() < 1e-9 { 0.0 } else { x }, 4, -4..7, false)
 }
 
 /// Formats a value of a column with five significant figures, or a dash if there is none.
-pub fn figure(x: f64) -> String {
+pub fn five_digits(x: f64) -> String {
     if !x.is_finite() {
         return "-".to_owned();
     }
-    styled(x, 5, -4..7, true)
+    format_styled(x, 5, -4..7, true)
 }
 
 /// Formats a number mentioned briefly, with three figures.
-pub fn brief(x: f64) -> String {
-    styled(x, 3, -3..6, true)
+pub fn three_digits(x: f64) -> String {
+    format_styled(x, 3, -3..6, true)
 }
 
 /// Formats a power of ten or a short decimal, with a true minus: 1e−9, 3.2e−10, 1.
-pub fn scientific(x: f64) -> String {
-    minus(&styled(x, 2, -2..4, false))
+pub fn two_digits(x: f64) -> String {
+    with_minus_sign(&format_styled(x, 2, -2..4, false))
 }
 
 /// Formats a value to six digits, with a true minus.
-pub fn tooltip(x: f64) -> String {
-    minus(&styled(x, 6, -4..6, false))
+pub fn six_digits(x: f64) -> String {
+    with_minus_sign(&format_styled(x, 6, -4..6, false))
 }
 
 /// Rounds a figure to `digits` digits, for files whose bytes must not depend on the last bits.
-pub fn rounded(x: f64, digits: i32) -> f64 {
-    styled(x, digits, -4..6, false).parse().unwrap_or(x)
+pub fn round_digits(x: f64, digits: i32) -> f64 {
+    format_styled(x, digits, -4..6, false).parse().unwrap_or(x)
 }
 
 /// Formats a number with at most `most` decimals, without trailing zeros and without a negative zero.
 pub fn decimals(x: f64, most: usize) -> String {
     let text = format!("{x:.most$}");
-    match trimmed(&text) {
+    match trim_zeros(&text) {
         "-0" => "0".to_owned(),
         text => text.to_owned(),
     }
 }
 
 /// Formats a whole number in groups of three: 13,841,287,201.
-pub fn grouped(number: impl ToString) -> String {
+pub fn group_thousands(number: impl ToString) -> String {
     let number = number.to_string();
     let first = usize::from(number.starts_with('-'));
     let mut out = String::new();
@@ -136,14 +136,14 @@ pub fn grouped(number: impl ToString) -> String {
 }
 
 /// Formats a cost in thousandths as a decimal: 11.5.
-pub fn cost(milli: i64) -> String {
+pub fn format_cost(milli: i64) -> String {
     let (sign, size) = (if milli < 0 { "-" } else { "" }, milli.unsigned_abs());
     let text = format!("{sign}{}.{:03}", size / 1000, size % 1000);
-    trimmed(&text).to_owned()
+    trim_zeros(&text).to_owned()
 }
 
 /// Formats a time in a suitable unit: 4.2 µs, 30 h.
-pub fn duration(seconds: f64) -> String {
+pub fn format_duration(seconds: f64) -> String {
     const HOUR: f64 = 3600.0;
     let (value, unit) = match seconds {
         s if s < 1e-6 => (s * 1e9, "ns"),
@@ -160,12 +160,12 @@ pub fn duration(seconds: f64) -> String {
 }
 
 /// Formats a difference with its sign, using a true minus: −3, +1.
-pub fn signed(x: i64) -> String {
-    minus(&format!("{x:+}"))
+pub fn format_signed(x: i64) -> String {
+    with_minus_sign(&format!("{x:+}"))
 }
 
 /// Replaces the minus in a number's text by a true minus sign.
-pub fn minus(text: &str) -> String {
+pub fn with_minus_sign(text: &str) -> String {
     text.replace('-', "\u{2212}")
 }
 
@@ -175,14 +175,17 @@ mod tests {
 
     #[test]
     fn lists_end_with_and() {
-        assert_eq!(list(&["a", "b", "c"]), "a, b and c");
-        assert_eq!(list(&["a"]), "a");
-        assert_eq!(plural(1, "way") + ", " + &plural(2, "way"), "1 way, 2 ways");
+        assert_eq!(join_and(&["a", "b", "c"]), "a, b and c");
+        assert_eq!(join_and(&["a"]), "a");
+        assert_eq!(
+            count_noun(1, "way") + ", " + &count_noun(2, "way"),
+            "1 way, 2 ways"
+        );
     }
 
     #[test]
     fn long_times_are_told_as_people_do() {
-        let told = [4.2e-6, 0.5, 119.0, 7000.0, 90_000.0, 8.6e5, 8e7].map(duration);
+        let told = [4.2e-6, 0.5, 119.0, 7000.0, 90_000.0, 8.6e5, 8e7].map(format_duration);
         let said = [
             "4.2 µs",
             "500 ms",
@@ -199,14 +202,20 @@ mod tests {
     fn every_style_is_as_its_table_says() {
         type Style = fn(f64) -> String;
         let styles: [(Style, [&str; 6]); 5] = [
-            (significant, ["1235", "2", "1e-5", "1.235e7", "-0.25", "0"]),
+            (four_digits, ["1235", "2", "1e-5", "1.235e7", "-0.25", "0"]),
             (
-                figure,
+                five_digits,
                 ["1234.6", "2.0000", "1.0000e-5", "1.2346e7", "-0.25000", "0"],
             ),
-            (brief, ["1235", "2.00", "1.00e-5", "1.23e7", "-0.250", "0"]),
-            (scientific, ["1235", "2", "1e−5", "1.2e7", "−0.25", "0"]),
-            (tooltip, ["1234.57", "2", "1e−5", "1.23457e7", "−0.25", "0"]),
+            (
+                three_digits,
+                ["1235", "2.00", "1.00e-5", "1.23e7", "-0.250", "0"],
+            ),
+            (two_digits, ["1235", "2", "1e−5", "1.2e7", "−0.25", "0"]),
+            (
+                six_digits,
+                ["1234.57", "2", "1e−5", "1.23457e7", "−0.25", "0"],
+            ),
         ];
         for (style, expected) in styles {
             let values = [1234.5678, 2.0, 0.000_01, 12_345_678.0, -0.25, -0.0];
@@ -220,24 +229,27 @@ mod tests {
 
     #[test]
     fn digits_are_counted_after_rounding_and_nothing_is_no_number() {
-        assert_eq!(figure(9.999_99), "10.000");
-        assert_eq!(significant(1e-12), "0");
+        assert_eq!(five_digits(9.999_99), "10.000");
+        assert_eq!(four_digits(1e-12), "0");
         assert_eq!(
-            [f64::NAN, f64::INFINITY].map(figure),
+            [f64::NAN, f64::INFINITY].map(five_digits),
             ["-".to_owned(), "-".to_owned()]
         );
-        assert_eq!(tooltip(f64::NEG_INFINITY), "−inf");
+        assert_eq!(six_digits(f64::NEG_INFINITY), "−inf");
     }
 
     #[test]
     fn whole_numbers_costs_and_times_read_well() {
-        assert_eq!(grouped("13841287201"), "13,841,287,201");
+        assert_eq!(group_thousands("13841287201"), "13,841,287,201");
         assert_eq!(
-            ["-123", "-1234", "999"].map(grouped),
+            ["-123", "-1234", "999"].map(group_thousands),
             ["-123", "-1,234", "999"]
         );
-        assert_eq!([11_500, -2_000, 7].map(cost), ["11.5", "-2", "0.007"]);
-        assert_eq!([4.21e-6, 0.0123].map(duration), ["4.2 µs", "12 ms"]);
-        assert_eq!([-3, 1].map(signed), ["−3", "+1"]);
+        assert_eq!(
+            [11_500, -2_000, 7].map(format_cost),
+            ["11.5", "-2", "0.007"]
+        );
+        assert_eq!([4.21e-6, 0.0123].map(format_duration), ["4.2 µs", "12 ms"]);
+        assert_eq!([-3, 1].map(format_signed), ["−3", "+1"]);
     }
 }

@@ -102,7 +102,7 @@ impl Scalars for Reals {
             .iter()
             .map(|p| [p[0].to_f64(), p[1].to_f64(), p[2].to_f64()])
             .collect();
-        Some(Extent::of(&values))
+        Some(Extent::from_points(&values))
     }
 
     fn vanishes(&self, x: f64, square: f64) -> bool {

@@ -27,7 +27,7 @@ pub fn common_multiple(m: BigInt, n: &BigInt) -> BigInt {
 
 /// Returns a number times a denominator that its own denominator divides. O(length).
 #[must_use]
-pub fn whole(x: &BigRational, denominator: &BigInt) -> BigInt {
+pub fn whole_over(x: &BigRational, denominator: &BigInt) -> BigInt {
     if x.denom() == denominator {
         x.numer().clone()
     } else {

@@ -56,7 +56,7 @@ pub(crate) struct Images {
 }
 
 impl Images {
-    pub(crate) fn of(points: &[Rational3], normals: &[Rational3]) -> Images {
+    pub(crate) fn from_scene(points: &[Rational3], normals: &[Rational3]) -> Images {
         let field = Field::new((1 << 61) - 1);
         let image = |x: &BigRational| field.from_rational(x).unwrap_or(0);
         let all = |v: &[Rational3]| v.iter().map(|x| x.each_ref().map(image)).collect();
@@ -68,7 +68,7 @@ impl Images {
     }
 
     /// Returns true if a row holds. A row that does not may appear to hold once in 10^18.
-    pub(crate) fn holds(&self, row: &PointEquation) -> bool {
+    pub(crate) fn row_holds(&self, row: &PointEquation) -> bool {
         let n = &self.normals[row.normal];
         let along = |&(p, c): &(usize, i32)| {
             let times = self.field.from_i64(c.into());
@@ -93,7 +93,7 @@ mod tests {
             terms: vec![(0, 3), (1, -1)],
             normal: 0,
         };
-        let holds = |x| Images::of(&[x, at(1, 1)], &[at(1, 1)]).holds(&row);
+        let holds = |x| Images::from_scene(&[x, at(1, 1)], &[at(1, 1)]).row_holds(&row);
         assert!(holds(at(1, 3)) && !holds(at(333_333, 1_000_000)));
     }
 }

@@ -9,7 +9,7 @@ pub mod pose;
 pub mod working;
 
 use crate::geom::expr::Expr;
-use crate::geom::vector::{Vector, add, length, real, scale, sub};
+use crate::geom::vector::{Vector, add, length, scale, sub, to_vector};
 use crate::model::joint_type::Freedom;
 use crate::model::mechanism::{JointId, LinkId, Mechanism};
 use crate::motion::pose::Pose;
@@ -19,7 +19,7 @@ use crate::motion::pose::Pose;
 /// # Complexity
 /// One pass over the joints.
 #[must_use]
-pub fn moved(m: &Mechanism, pose: &Pose) -> Option<Mechanism> {
+pub fn move_mechanism(m: &Mechanism, pose: &Pose) -> Option<Mechanism> {
     let mut out = m.clone();
     let written = |v: Vector| -> Option<[Expr; 3]> {
         let [x, y, z] = v.map(|x| Expr::from_f64(x).ok());
@@ -32,12 +32,13 @@ pub fn moved(m: &Mechanism, pose: &Pose) -> Option<Mechanism> {
         let has = |f| freedoms.contains(&f);
         let slot = has(Freedom::Tx) && !has(Freedom::Ty);
         let carrier = joint.links[usize::from(!slot)];
-        let at = sub(real(&joint.frame.point), pose.middle);
-        let at = pose.links[carrier.index()].point(scale(at, 1.0 / pose.length));
+        let at = sub(to_vector(&joint.frame.point), pose.middle);
+        let at = pose.links[carrier.index()].map_point(scale(at, 1.0 / pose.length));
         let frame = &mut out.joints[j].frame;
         frame.point = written(add(scale(at, pose.length), pose.middle))?;
-        let of = |wanted: &[Freedom]| direction(pose, j, wanted);
-        let carried = |d: &[Expr; 3]| pose.links[joint.links[0].index()].direction(real(d));
+        let of = |wanted: &[Freedom]| column_direction(pose, j, wanted);
+        let carried =
+            |d: &[Expr; 3]| pose.links[joint.links[0].index()].map_direction(to_vector(d));
         let z = of(&[Freedom::Rz, Freedom::Tz, Freedom::Screw]);
         let x = of(&[Freedom::Rx, Freedom::Tx]);
         frame.axis = written(z.unwrap_or_else(|| carried(&joint.frame.axis)))?;
@@ -49,11 +50,11 @@ pub fn moved(m: &Mechanism, pose: &Pose) -> Option<Mechanism> {
 /// Returns a direction of a link in another pose, converted to the pose of the file.
 #[must_use]
 pub(crate) fn turned_back(pose: &Pose, link: LinkId, d: Vector) -> Vector {
-    pose.links[link.index()].inverse().direction(d)
+    pose.links[link.index()].inverse().map_direction(d)
 }
 
 /// Returns the line of the first of some freedoms that a joint has.
-fn direction(pose: &Pose, joint: JointId, wanted: &[Freedom]) -> Option<Vector> {
+fn column_direction(pose: &Pose, joint: JointId, wanted: &[Freedom]) -> Option<Vector> {
     let mut columns = pose.columns.iter();
     let found = columns.find(|c| c.joint == joint && wanted.contains(&c.freedom))?;
     let [a, b, c, d, e, f] = found.twist;

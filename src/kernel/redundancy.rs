@@ -89,9 +89,9 @@ pub struct StateFigures {
 ///
 /// # Errors
 /// Returns an error if the geometry has no exact image.
-pub fn figures(mechanism: &Mechanism, state: StateId) -> Result<StateFigures, ExactError> {
+pub fn state_figures(mechanism: &Mechanism, state: StateId) -> Result<StateFigures, ExactError> {
     let (exact, closure) = closure_of(mechanism, state, 0)?;
-    let rank = modular::rank(&exact, &closure);
+    let rank = modular::rank_modulo(&exact, &closure);
     let joints: Vec<JointId> = mechanism.joints_in(state).collect();
     Ok(StateFigures {
         links: present_links(mechanism, &joints).len(),

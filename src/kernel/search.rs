@@ -68,17 +68,17 @@ impl Search {
 
     /// Returns the variable orders of both diagrams. A reference search over another prime may use them.
     #[must_use]
-    pub fn orders(&self) -> Orders {
-        build::orders::orders(self)
+    pub fn variable_orders(&self) -> Orders {
+        build::orders::variable_orders(self)
     }
 
     /// Builds the diagrams of the determinate and of the admissible variants.
-    pub fn build(
+    pub fn build_diagrams(
         &self,
         cancelled: &(dyn Fn() -> bool + Sync),
         progress: &mut (dyn FnMut(Progress) + Send),
     ) -> Diagrams {
-        build::build(self, cancelled, progress)
+        build::build_diagrams(self, cancelled, progress)
     }
 
     /// Builds the diagrams in given orders.
@@ -99,26 +99,26 @@ impl Search {
 
     /// Returns the counts of the variants of a diagram; `filter` also applies the conditions on mobility and changes.
     #[must_use]
-    pub fn counts(&self, diagram: &Diagram, filter: bool) -> Counts {
-        counts::counts(self, diagram, filter)
+    pub fn count_variants(&self, diagram: &Diagram, filter: bool) -> Counts {
+        counts::count_by_kind(self, diagram, filter)
     }
 
     /// Returns at most `top` admissible variants, cheapest first.
-    pub fn cheapest<'a>(
+    pub fn cheapest_variants<'a>(
         &'a self,
         diagrams: &'a Diagrams,
         top: usize,
     ) -> impl Iterator<Item = Assignment> + 'a {
-        variants_in_order::cheapest(self, diagrams, top)
+        variants_in_order::cheapest_variants(self, diagrams, top)
     }
 
     /// Returns an endless sample of admissible variants, each with the same probability.
-    pub fn sample<'a>(
+    pub fn sample_variants<'a>(
         &'a self,
         diagrams: &'a Diagrams,
         seed: u64,
     ) -> impl Iterator<Item = Assignment> + 'a {
-        variants_in_order::sample(self, diagrams, seed)
+        variants_in_order::sample_variants(self, diagrams, seed)
     }
 
     /// Tests variants by singular values, if exact arithmetic does not have the intended mechanism: `list` of the
@@ -139,15 +139,15 @@ impl Search {
     /// Returns the number of minimal admissible variants: no other variant has only a part of their freedoms. Returns
     /// `None` if that is not counted.
     #[must_use]
-    pub fn minimal(&self, diagrams: &Diagrams) -> Option<BigUint> {
-        least_freedoms::count(self, diagrams)
+    pub fn count_minimal(&self, diagrams: &Diagrams) -> Option<BigUint> {
+        least_freedoms::count_minimal(self, diagrams)
     }
 
     /// Returns the diagram of the minimal variants. Returns `None` if not all admissible variants are known, or if it
     /// takes too many nodes.
     #[must_use]
     pub fn minimal_variants(&self, diagrams: &Diagrams) -> Option<Diagram> {
-        least_freedoms::diagram(self, diagrams, Less::Freedoms)
+        least_freedoms::minimal_diagram(self, diagrams, Less::Freedoms)
     }
 
     /// Returns the admissible variants that ideas consist of: those for which no other has only a part of their
@@ -159,15 +159,15 @@ impl Search {
 
     /// Returns at most `top` first ideas, each of all minimal variants that give the same freedoms to the same
     /// contours.
-    pub fn ideas(&self, diagrams: &Diagrams, top: usize) -> Vec<Idea> {
-        ideas::ideas(self, diagrams, top)
+    pub fn list_ideas(&self, diagrams: &Diagrams, top: usize) -> Vec<Idea> {
+        ideas::list_ideas(self, diagrams, top)
     }
 
     /// Returns the basis of the ideas in addition to variants and costs. Two searches with the same variants, costs and
     /// basis have the same ideas.
     #[must_use]
     pub fn idea_basis(&self) -> IdeaBasis {
-        IdeaBasis::of(self)
+        IdeaBasis::of_question(self)
     }
 
     /// Returns the ideas among the variants that [ideas consist of](Self::idea_variants), with this search's basis.

@@ -27,7 +27,7 @@ impl Shard {
     ///
     /// # Errors
     /// Returns an error if `index` is 0 or exceeds `of`.
-    pub fn nth(index: u64, of: u64) -> Result<Shard, NoShard> {
+    pub fn nth_of(index: u64, of: u64) -> Result<Shard, NoShard> {
         match index.checked_sub(1) {
             Some(index) if index < of => Ok(Shard { index, of }),
             _ => Err(NoShard),
@@ -36,7 +36,7 @@ impl Shard {
 
     /// Returns true if a piece with this name belongs to the shard. Every piece belongs to exactly one shard.
     #[must_use]
-    pub fn has(self, name: &str) -> bool {
+    pub fn has_piece(self, name: &str) -> bool {
         let digest = Sha256::digest(name);
         let mut first = [0; 8];
         first.copy_from_slice(&digest[8..16]);
@@ -50,7 +50,7 @@ impl FromStr for Shard {
     fn from_str(text: &str) -> Result<Shard, NoShard> {
         let (index, of) = text.split_once('/').ok_or(NoShard)?;
         let number = |t: &str| t.parse::<u64>().map_err(|_| NoShard);
-        Shard::nth(number(index)?, number(of)?)
+        Shard::nth_of(number(index)?, number(of)?)
     }
 }
 
@@ -69,7 +69,7 @@ mod tests {
         for of in 1..7 {
             let parts = |name: &str| {
                 (0..of)
-                    .filter(|&index| Shard { index, of }.has(name))
+                    .filter(|&index| Shard { index, of }.has_piece(name))
                     .count()
             };
             assert!((0..100).all(|i| parts(&i.to_string()) == 1));

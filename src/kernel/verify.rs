@@ -18,7 +18,7 @@ use num_bigint::BigInt;
 use num_traits::Zero;
 
 use crate::linalg::common_denominator;
-use crate::linalg::number_ring::{Element, combine};
+use crate::linalg::number_ring::{Element, combine_integers};
 use certificate::{Certificate, KernelVector};
 use matrix::MatrixOverRing;
 use modular::Homomorphism;
@@ -30,7 +30,10 @@ use modular::Homomorphism;
 ///
 /// # Complexity
 /// O(r³) operations modulo the prime and O(entries · (f - r)) products in the ring.
-pub fn check(matrix: &MatrixOverRing, certificate: &Certificate) -> Result<usize, Flaw> {
+pub fn check_certificate(
+    matrix: &MatrixOverRing,
+    certificate: &Certificate,
+) -> Result<usize, Flaw> {
     let (rows, columns, rank) = (certificate.rows, certificate.columns, certificate.rank);
     if (rows, columns) != (matrix.rows(), matrix.columns()) {
         return Err(Flaw::Shape {
@@ -41,14 +44,14 @@ pub fn check(matrix: &MatrixOverRing, certificate: &Certificate) -> Result<usize
     if rank > rows.min(columns) {
         return Err(Flaw::RankTooLarge { rank });
     }
-    field::check(matrix, &certificate.field)?;
+    field::check_field(matrix, &certificate.field)?;
     at_least(matrix, certificate)?;
     at_most(matrix, certificate)?;
     Ok(rank)
 }
 
 /// Returns true if every index is below a bound and none is repeated.
-fn distinct(indices: &[usize], bound: usize) -> bool {
+fn are_distinct(indices: &[usize], bound: usize) -> bool {
     let mut seen = vec![false; bound];
     indices
         .iter()
@@ -64,20 +67,21 @@ fn at_least(matrix: &MatrixOverRing, certificate: &Certificate) -> Result<(), Fl
             columns: minor.columns.len(),
         });
     }
-    if !distinct(&minor.rows, matrix.rows()) || !distinct(&minor.columns, matrix.columns()) {
+    if !are_distinct(&minor.rows, matrix.rows()) || !are_distinct(&minor.columns, matrix.columns())
+    {
         return Err(Flaw::PivotIndices);
     }
     let images = Homomorphism::new(minor.prime, &minor.images, matrix.ring())?;
-    images.respects(matrix.ring(), matrix.ring().generators())?;
+    images.satisfies_relation(matrix.ring(), matrix.ring().generators())?;
     let mut square = vec![vec![0; rank]; rank];
     for (i, &row) in minor.rows.iter().enumerate() {
         for (j, &column) in minor.columns.iter().enumerate() {
             if let Some(entry) = matrix.entry(row, column) {
-                square[i][j] = images.of(entry)?;
+                square[i][j] = images.image_of(entry)?;
             }
         }
     }
-    if modular::singular(square, minor.prime) {
+    if modular::is_singular(square, minor.prime) {
         return Err(Flaw::MinorVanishes { prime: minor.prime });
     }
     Ok(())
@@ -94,16 +98,16 @@ fn at_most(matrix: &MatrixOverRing, certificate: &Certificate) -> Result<(), Fla
     // Pivot columns and free columns together are all columns.
     let mut all: Vec<usize> = kernel.iter().map(|v| v.free).collect();
     all.extend(&certificate.minor.columns);
-    if !distinct(&all, matrix.columns()) {
+    if !are_distinct(&all, matrix.columns()) {
         return Err(Flaw::FreeColumns);
     }
     let mut free = vec![false; matrix.columns()];
     kernel.iter().for_each(|v| free[v.free] = true);
-    let (ring, one) = (matrix.ring(), Element::integer(1));
+    let (ring, one) = (matrix.ring(), Element::from_integer(1));
     let integral = matrix.integral_rows();
     for (i, vector) in kernel.iter().enumerate() {
         let support: Vec<usize> = vector.entries.iter().map(|(c, _)| *c).collect();
-        if !distinct(&support, matrix.columns()) {
+        if !are_distinct(&support, matrix.columns()) {
             return Err(Flaw::KernelIndices { vector: i });
         }
         if !vector.entries.iter().all(|(_, x)| ring.contains(x)) {
@@ -138,10 +142,10 @@ fn not_annihilated(
     let below = common_denominator(entries.flat_map(|(_, x)| x.coordinates()));
     let mut sums: Vec<Vec<BigInt>> = vec![Vec::new(); matrix.rows()];
     for (column, x) in &vector.entries {
-        let x = x.times(&below);
+        let x = x.integral_coordinates(&below);
         for ((row, _), entry) in matrix.column(*column).iter().zip(&integral[*column]) {
             let product = matrix.ring().integral_product(entry, &x);
-            combine(&mut sums[*row], product, |s, p| *s += p);
+            combine_integers(&mut sums[*row], product, |s, p| *s += p);
         }
     }
     sums.iter().position(|s| !s.iter().all(Zero::is_zero))

@@ -5,12 +5,12 @@ use crate::mechanism::Mechanism;
 use ozols::file::read::workload::motion;
 use ozols::model::mechanism::StateId;
 use ozols::rank::method::{RankOfJ, registry};
-use ozols::rank::rounded::verdict::verdict;
+use ozols::rank::rounded::verdict::rank_verdict;
 use ozols::rank::stroke::request::AskedStroke;
-use ozols::redundancy::analysis::{Method, analyse};
+use ozols::redundancy::analysis::{Method, analyse_states};
 use ozols::view::analysis::Analysis;
 use ozols::view::analysis::mobility::ByMethod;
-use ozols::view::analysis::suggestions::advise;
+use ozols::view::analysis::suggestions::advise_states;
 use ozols::view::stroke::StrokeData;
 use pyo3::prelude::*;
 
@@ -26,7 +26,7 @@ pub(crate) fn analyze(
     let m = &mechanism.get().0;
     py.detach(|| {
         let states: Vec<StateId> = match named {
-            "all" if m.state(named).is_none() => m.state_ids().collect(),
+            "all" if m.state_named(named).is_none() => m.state_ids().collect(),
             _ => vec![state(m, named)?],
         };
         let Some(by) = registry::by_name(method) else {
@@ -42,7 +42,7 @@ pub(crate) fn analyze(
                  file; omit it, or use svd"
             )));
         }
-        let Some(rank) = Method::of(by, tolerance) else {
+        let Some(rank) = Method::of_method(by, tolerance) else {
             let answer = |&s| Ok((s, by.answer(m, s).map_err(failed)?));
             let answers = states.iter().map(answer).collect::<PyResult<Vec<_>>>()?;
             let found = ByMethod {
@@ -52,8 +52,8 @@ pub(crate) fn analyze(
             };
             return Ok((json(&found.json())?, found.text(), None, None));
         };
-        let found = analyse(m, &states, rank).map_err(failed)?;
-        let advice = advise(m, &states, &found).map_err(failed)?;
+        let found = analyse_states(m, &states, rank).map_err(failed)?;
+        let advice = advise_states(m, &states, &found).map_err(failed)?;
         let view = Analysis::new(m, &found, &advice);
         Ok((json(&view.json())?, view.text(None, false), None, None))
     })
@@ -72,11 +72,11 @@ pub(crate) fn stroke(
     let m = &mechanism.get().0;
     py.detach(|| {
         let state = state(m, named)?;
-        let verdict = verdict(m, state).map_err(failed)?;
-        let read = motion::stroke(range).map_err(failed)?;
+        let verdict = rank_verdict(m, state).map_err(failed)?;
+        let read = motion::parse_stroke(range).map_err(failed)?;
         let asked =
             AskedStroke::new(m, state, range, read, drive, &verdict, tolerance).map_err(failed)?;
-        let view = StrokeData::of(&asked);
+        let view = StrokeData::follow_stroke(&asked);
         Ok((
             json(&view.json())?,
             view.text(None),

@@ -52,7 +52,7 @@ pub(crate) fn json(view: &impl Serialize) -> PyResult<String> {
 
 /// Returns a state by name.
 pub(crate) fn state(m: &Mechanism, name: &str) -> PyResult<StateId> {
-    m.state(name).ok_or_else(|| {
+    m.state_named(name).ok_or_else(|| {
         let known = m.states.join(", ");
         failed(format!("{} has no state {name}; it has: {known}", m.name))
     })

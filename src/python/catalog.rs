@@ -2,7 +2,7 @@
 
 use crate::answer::failed;
 use crate::waiting::with_progress;
-use ozols::catalog::build::{build, work};
+use ozols::catalog::build::{build_rows, plan_work};
 use ozols::catalog::spec::Spec;
 use ozols::catalog::store::Store;
 use ozols::shard::Shard;
@@ -13,7 +13,7 @@ use std::sync::atomic::Ordering;
 
 fn spec(json: &str) -> PyResult<Spec> {
     let spec: Spec = serde_json::from_str(json).map_err(failed)?;
-    spec.check().map_err(failed)?;
+    spec.check_all().map_err(failed)?;
     Ok(spec)
 }
 
@@ -21,10 +21,12 @@ fn spec(json: &str) -> PyResult<Spec> {
 #[pyfunction]
 pub(crate) fn catalog_plan(py: Python<'_>, json: &str) -> PyResult<(String, Vec<String>)> {
     let spec = spec(json)?;
-    let work = py.detach(|| work(&spec, Shard::WHOLE)).map_err(failed)?;
-    let mut ids: Vec<String> = work.ids().collect();
+    let work = py
+        .detach(|| plan_work(&spec, Shard::WHOLE))
+        .map_err(failed)?;
+    let mut ids: Vec<String> = work.structure_ids().collect();
     ids.sort_unstable();
-    Ok((spec.canonical(), ids))
+    Ok((spec.to_canonical(), ids))
 }
 
 /// Adds the structures that a database lacks of a part (counted from 1), and returns how many were added. `progress` is called with
@@ -39,16 +41,16 @@ pub(crate) fn catalog_build(
     progress: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<usize> {
     let spec = &spec(json)?;
-    let shard = Shard::nth(part.0, part.1).map_err(failed)?;
+    let shard = Shard::nth_of(part.0, part.1).map_err(failed)?;
     with_progress(py, threads, progress, |stop, tell| {
-        let mut store = Store::create(&path, spec).map_err(failed)?;
-        let there = store.ids().map_err(failed)?;
-        let work = work(spec, shard).map_err(failed)?;
-        let all = work.count();
+        let mut store = Store::open_or_create(&path, spec).map_err(failed)?;
+        let there = store.structure_ids().map_err(failed)?;
+        let work = plan_work(spec, shard).map_err(failed)?;
+        let all = work.structure_count();
         let mut added = 0;
         let stopped = || stop.load(Ordering::Relaxed);
         let made = store.add_while(|send| {
-            build(
+            build_rows(
                 spec,
                 &work,
                 |id| stopped() || there.contains(id),
@@ -77,7 +79,7 @@ pub(crate) fn catalog_build(
 pub(crate) fn catalog_merge(py: Python<'_>, path: PathBuf, parts: Vec<PathBuf>) -> PyResult<usize> {
     let mut refused = None;
     let merged =
-        py.detach(|| Store::merge(&path, &parts, |e| refused = refused.take().or(Some(e))));
+        py.detach(|| Store::merge_parts(&path, &parts, |e| refused = refused.take().or(Some(e))));
     match refused {
         Some(e) => Err(failed(e)),
         None => merged.map(|m| m.added).map_err(failed),

@@ -2,7 +2,7 @@
 
 use crate::answer::{failed, refused, state};
 use ozols::draw::{self, Marks, Subject};
-use ozols::redundancy::analysis::{Method, analyse};
+use ozols::redundancy::analysis::{Method, analyse_states};
 use ozols::robots::{self, Options};
 use pyo3::prelude::*;
 use std::path::PathBuf;
@@ -86,7 +86,7 @@ fn robot(py: Python<'_>, path: PathBuf, options: &Options) -> PyResult<(Mechanis
     let imported = py
         .detach(|| ozols::import(path, options))
         .map_err(refused)?;
-    Ok((Mechanism(imported.mechanism), imported.report.doubts()))
+    Ok((Mechanism(imported.mechanism), imported.report.list_doubts()))
 }
 
 /// Returns a drawing of a mechanism in a state, with the changes of a redesign marked.
@@ -106,7 +106,7 @@ pub(crate) fn drawn(
         }
     };
     let state = state(m, named)?;
-    let found = analyse(m, &[state], Method::Auto).map_err(failed)?;
+    let found = analyse_states(m, &[state], Method::Auto).map_err(failed)?;
     let subject = Subject {
         mechanism: m,
         state,

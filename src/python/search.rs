@@ -70,21 +70,21 @@ pub(crate) struct Outcome(Arc<ozols::Outcome>);
 impl Outcome {
     /// Returns everything except the variants as JSON.
     fn counts(&self, py: Python<'_>) -> PyResult<String> {
-        py.detach(|| json(&json::search(&self.0)))
+        py.detach(|| json(&json::search_json(&self.0)))
     }
 
     /// Returns the JSON that the command prints, without the seconds.
     fn data(&self, py: Python<'_>) -> PyResult<String> {
         let o = &*self.0;
         written(py, |out| {
-            let remarks = o.remarks(&|| false).map_err(failed)?;
-            json::write(out, o, o.variants(), &remarks, None).map_err(failed)
+            let remarks = o.make_remarks(&|| false).map_err(failed)?;
+            json::write_json(out, o, o.variants(), &remarks, None).map_err(failed)
         })
     }
 
     fn csv(&self, py: Python<'_>) -> PyResult<String> {
         written(py, |out| {
-            let written = csv::write(out, &self.0, self.0.variants());
+            let written = csv::write_csv(out, &self.0, self.0.variants());
             written.map(drop).map_err(failed)
         })
     }
@@ -92,9 +92,9 @@ impl Outcome {
     fn text(&self, py: Python<'_>) -> PyResult<String> {
         let o = &*self.0;
         written(py, |out| {
-            let remarks = o.remarks(&|| false).map_err(failed)?;
+            let remarks = o.make_remarks(&|| false).map_err(failed)?;
             let name = &o.search.mechanism.name;
-            text::write(out, o, o.variants(), &remarks, name, None, false).map_err(failed)
+            text::write_text(out, o, o.variants(), &remarks, name, None, false).map_err(failed)
         })
     }
 
@@ -138,7 +138,7 @@ impl Variants {
             let cancelled = || stopped.load(Ordering::Relaxed);
             let list = outcome.list_unless(list, seed, &cancelled);
             // Ends when the receiver is dropped.
-            let _ = json::each(&outcome, list, |v, data| {
+            let _ = json::for_each_variant(&outcome, list, |v, data| {
                 let variant = Variant {
                     outcome: outcome.clone(),
                     assignment: v.assignment().clone(),
@@ -202,7 +202,7 @@ pub(crate) struct Variant {
 impl Variant {
     fn mechanism(&self) -> Mechanism {
         let search = &self.outcome.search;
-        Mechanism(variant::mechanism(search, &self.assignment, &self.name))
+        Mechanism(variant::as_mechanism(search, &self.assignment, &self.name))
     }
 
     fn draw(&self, py: Python<'_>, kind: &str, state: &str) -> PyResult<String> {

@@ -3,12 +3,12 @@
 use crate::answer::{Answer, failed, json, state};
 use crate::mechanism::Mechanism;
 use ozols::file::read::workload::motion;
-use ozols::grip::clamped::clamped;
+use ozols::grip::clamped::clamped_reactions;
 use ozols::grip::jaw_loads::{Gripping, JawError};
 use ozols::model::mechanism::StateId;
 use ozols::statics::contour_group::solutions::GroupMethod;
 use ozols::statics::reactions::Unsolved;
-use ozols::statics::solve::{Model, StaticsError, solve};
+use ozols::statics::solve::{Model, StaticsError, solve_reactions};
 use ozols::view::grip::clamped::NotHeld;
 use ozols::view::statics::told::ToldStatics;
 use pyo3::prelude::*;
@@ -45,7 +45,7 @@ fn reactions_of(
     model: (bool, bool),
 ) -> PyResult<Answer> {
     let stroke = match range {
-        Some(text) => Some(motion::stroke(text).map_err(failed)?),
+        Some(text) => Some(motion::parse_stroke(text).map_err(failed)?),
         None => m.loads.stroke,
     };
     let model = match model {
@@ -53,7 +53,7 @@ fn reactions_of(
         (true, false) => Model::Spatial,
         (false, false) => Model::Either,
     };
-    match solve(m, state, stroke, model) {
+    match solve_reactions(m, state, stroke, model) {
         Err(StaticsError::Spatial(why @ Unsolved::Loose)) => {
             not_held(&NotHeld::because(m, state, &why.to_string()))
         }
@@ -67,10 +67,10 @@ fn reactions_of(
 
 /// Returns the reactions with the part that is hardest to hold.
 fn round_a_part(g: &Gripping, spatial: bool) -> PyResult<Answer> {
-    let Some(row) = g.study.hardest() else {
+    let Some(row) = g.study.hardest_row() else {
         return not_held(&NotHeld::new(g));
     };
-    match clamped(g, row, spatial).map_err(failed)? {
+    match clamped_reactions(g, row, spatial).map_err(failed)? {
         None => not_held(&NotHeld::new(g)),
         Some(found) => answer(&ToldStatics::round_a_part(g, row, &found)),
     }

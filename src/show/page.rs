@@ -24,7 +24,7 @@ mod variants;
 pub mod verdict;
 mod workload;
 
-use crate::format::plain::straight;
+use crate::format::plain::escape_direction;
 use crate::redundancy::AnalysisError;
 use crate::view::analysis::Analysis;
 use maud::{Markup, PreEscaped, html};
@@ -33,7 +33,7 @@ use serde_json::Value;
 
 pub use contents::{Commands, Page, Redesigns, SHOWN};
 pub use symbols::named_swaps;
-pub use symbols::swaps;
+pub use symbols::state_swaps;
 
 /// The scripts that the studio's page runs too, in their order.
 pub const SHARED: [&str; 6] = [
@@ -69,10 +69,10 @@ const SECTIONS: [(&str, &str); 5] = [
 ];
 
 /// Returns the search and its ideas as columns, if there are any.
-fn found(page: &Page<'_>) -> Result<[Option<Value>; 2], AnalysisError> {
+fn found_columns(page: &Page<'_>) -> Result<[Option<Value>; 2], AnalysisError> {
     let columns = |r: Option<&Redesigns<'_>>| {
         let some = r.filter(|r| !r.variants.is_empty());
-        some.map(|r| variants::columns(page, r)).transpose()
+        some.map(|r| variants::variant_columns(page, r)).transpose()
     };
     Ok([
         columns(page.redesigns.as_ref().ok())?,
@@ -80,7 +80,7 @@ fn found(page: &Page<'_>) -> Result<[Option<Value>; 2], AnalysisError> {
     ])
 }
 
-fn head(name: &str) -> Markup {
+fn head_html(name: &str) -> Markup {
     html! {
         head {
             meta charset="utf-8";
@@ -100,10 +100,10 @@ fn head(name: &str) -> Markup {
 ///
 /// # Complexity
 /// Two drawings a state; for each variant a rank in each further state, and a scoring where the file states loads.
-pub fn html(page: &Page<'_>) -> Result<String, AnalysisError> {
+pub fn report_html(page: &Page<'_>) -> Result<String, AnalysisError> {
     let m = page.mechanism;
     let analysis = Analysis::new(m, page.states, &[]);
-    let data = data::script(page, &analysis, found(page)?);
+    let data = data::script_data(page, &analysis, found_columns(page)?);
     let section = |n: usize, inside: Markup| {
         let (mark, head) = SECTIONS[n];
         html! {
@@ -116,13 +116,13 @@ pub fn html(page: &Page<'_>) -> Result<String, AnalysisError> {
     let markup = html! {
         (PreEscaped("<!doctype html>\n"))
         html lang="en" {
-            (head(&m.name))
+            (head_html(&m.name))
             body {
                 a.skip href="#redesigns" { "Skip to the redesigns" }
                 header {
                     h1 { (m.name) }
                     p.lead { (m.description) }
-                    p.meta { (states::facts(m, &analysis)) }
+                    p.meta { (states::size_facts(m, &analysis)) }
                 }
                 nav aria-label="Contents" {
                     ul {
@@ -133,13 +133,13 @@ pub fn html(page: &Page<'_>) -> Result<String, AnalysisError> {
                 }
                 main {
                     div.front {
-                        section id="verdict" aria-label="Verdict" { (verdict::html(page, &analysis)) }
-                        (explorer::stage(page, &analysis))
-                        (section(1, explorer::redesigns(page)))
+                        section id="verdict" aria-label="Verdict" { (verdict::verdict_html(page, &analysis)) }
+                        (explorer::stage_html(page, &analysis))
+                        (section(1, explorer::redesigns_html(page)))
                     }
-                    (section(2, states::html(page, &analysis)))
-                    (section(3, certainty::html(page, &analysis)))
-                    (section(4, page.commands.html()))
+                    (section(2, states::states_html(page, &analysis)))
+                    (section(3, certainty::certainty_html(page, &analysis)))
+                    (section(4, page.commands.commands_html()))
                     section id="sources" {
                         h2 { "Sources" }
                         ul { @for s in &m.sources { li { (s) } } }
@@ -151,5 +151,8 @@ pub fn html(page: &Page<'_>) -> Result<String, AnalysisError> {
         }
         "\n"
     };
-    Ok(policy::named(&straight(&markup.into_string()), POLICY))
+    Ok(policy::with_policy(
+        &escape_direction(&markup.into_string()),
+        POLICY,
+    ))
 }

@@ -59,17 +59,17 @@ impl Terms {
     /// ```
     #[must_use]
     pub fn find(&self, word: &str) -> Option<&GlossaryTerm> {
-        let word = fold(word);
-        let by_name = self.term.iter().find(|t| fold(&t.name) == word);
+        let word = fold_word(word);
+        let by_name = self.term.iter().find(|t| fold_word(&t.name) == word);
         by_name.or_else(|| {
             self.term
                 .iter()
-                .find(|t| t.also.iter().any(|a| fold(a) == word))
+                .find(|t| t.also.iter().any(|a| fold_word(a) == word))
         })
     }
 
     /// Every word and sign that [`Terms::find`] knows.
-    pub fn words(&self) -> impl Iterator<Item = &str> {
+    pub fn known_words(&self) -> impl Iterator<Item = &str> {
         self.term
             .iter()
             .flat_map(|t| std::iter::once(&t.name).chain(&t.also))
@@ -103,7 +103,7 @@ impl PairWords {
 }
 
 /// A word as it is compared.
-fn fold(word: &str) -> String {
+fn fold_word(word: &str) -> String {
     let plain: String = word
         .to_lowercase()
         .chars()
@@ -115,7 +115,7 @@ fn fold(word: &str) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::{Terms, fold};
+    use super::{Terms, fold_word};
     use std::collections::BTreeSet;
     use std::path::Path;
 
@@ -175,8 +175,8 @@ mod tests {
     fn a_word_stands_for_one_term() {
         let terms = Terms::builtin();
         let mut seen = BTreeSet::new();
-        for word in terms.words() {
-            assert!(seen.insert(fold(word)), "{word} stands twice");
+        for word in terms.known_words() {
+            assert!(seen.insert(fold_word(word)), "{word} stands twice");
         }
         for (word, name) in [
             ("σ", "sigma"),

@@ -15,7 +15,7 @@ pub mod statics;
 pub mod stroke;
 pub mod terminal;
 
-use crate::format::plural;
+use crate::format::count_noun;
 use crate::model::mechanism::Mechanism;
 use serde::Serialize;
 use serde_json::Value;
@@ -32,11 +32,11 @@ pub(crate) fn as_read(m: &Mechanism, sure: String) -> String {
 /// Returns "of the file as read, with 2 assumptions". Returns `None` if nothing was assumed.
 pub(crate) fn with_assumptions(m: &Mechanism) -> Option<String> {
     let n = m.assumed.len();
-    (n > 0).then(|| format!("of the file as read, with {}", plural(n, "assumption")))
+    (n > 0).then(|| format!("of the file as read, with {}", count_noun(n, "assumption")))
 }
 
 /// Returns the same in one word for programs: `as-read`, or the given word if nothing was assumed.
-pub(crate) fn kind(m: &Mechanism, sure: &'static str) -> &'static str {
+pub(crate) fn certainty_kind(m: &Mechanism, sure: &'static str) -> &'static str {
     if m.assumed.is_empty() { sure } else { AS_READ }
 }
 
@@ -61,7 +61,7 @@ pub const FORMAT: u32 = 1;
 /// let text = ozols::view::pretty(&Rank { rank: 12 }).unwrap();
 /// assert_eq!(text, "{\n  \"format\": 1,\n  \"rank\": 12\n}");
 /// ```
-pub fn pretty(value: &impl Serialize) -> serde_json::Result<String> {
+pub fn pretty_json(value: &impl Serialize) -> serde_json::Result<String> {
     let text = serde_json::to_string_pretty(value)?;
     Ok(match text.strip_prefix("{\n") {
         Some(rest) => format!("{{\n  \"format\": {FORMAT},\n{rest}"),
@@ -70,7 +70,7 @@ pub fn pretty(value: &impl Serialize) -> serde_json::Result<String> {
 }
 
 /// Returns "2", or "0 to 2".
-pub(crate) fn span<T: PartialEq + Display>(least: T, most: T) -> String {
+pub(crate) fn format_span<T: PartialEq + Display>(least: T, most: T) -> String {
     if least == most {
         least.to_string()
     } else {
@@ -79,7 +79,7 @@ pub(crate) fn span<T: PartialEq + Display>(least: T, most: T) -> String {
 }
 
 /// Returns one object with the entries of all.
-pub(crate) fn joined<const N: usize>(parts: [Value; N]) -> Value {
+pub(crate) fn join_objects<const N: usize>(parts: [Value; N]) -> Value {
     let entries = parts.into_iter().filter_map(|part| match part {
         Value::Object(entries) => Some(entries),
         _ => None,

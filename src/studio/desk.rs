@@ -2,7 +2,7 @@
 
 use super::disk::{self, Kind, OpenFile, Opening};
 use super::reading::DeskReading;
-use crate::file::edit::{Edit, EditError, Thing, edited};
+use crate::file::edit::{Edit, EditError, Thing, apply_edits};
 use crate::file::text::MAX_BYTES;
 use serde_json::{Value, json};
 use std::io;
@@ -50,7 +50,7 @@ pub(super) struct Desk {
 
 impl Desk {
     pub(super) fn new(opening: &Opening) -> io::Result<Desk> {
-        let (file, text) = disk::begin(opening)?;
+        let (file, text) = disk::begin_opening(opening)?;
         let bytes: Arc<[u8]> = match (text, &file.held) {
             (Some(text), _) => text.into_bytes().into(),
             (None, Some(held)) => held.clone(),
@@ -67,53 +67,53 @@ impl Desk {
             left,
             trouble: None,
         };
-        out.read();
+        out.read_text();
         Ok(out)
     }
 
-    fn file(&self) -> &OpenFile {
+    fn open_file(&self) -> &OpenFile {
         &self.files[self.steps[self.at].file]
     }
 
-    fn bytes(&self) -> &Arc<[u8]> {
+    fn current_bytes(&self) -> &Arc<[u8]> {
         &self.steps[self.at].bytes
     }
 
     fn is_saved(&self) -> bool {
-        self.file().held.as_ref() == Some(self.bytes())
+        self.open_file().held.as_ref() == Some(self.current_bytes())
     }
 
-    fn text(&self) -> Option<&str> {
-        std::str::from_utf8(self.bytes()).ok()
+    fn current_text(&self) -> Option<&str> {
+        std::str::from_utf8(self.current_bytes()).ok()
     }
 
     /// Where unsaved work is kept, if there is any.
-    pub(super) fn unsaved(&self) -> Option<PathBuf> {
-        self.file().kept()
+    pub(super) fn unsaved_path(&self) -> Option<PathBuf> {
+        self.open_file().kept_path()
     }
 
-    fn read(&mut self) {
-        let file = self.file();
-        self.reading = Arc::new(DeskReading::new(file, self.bytes()));
+    fn read_text(&mut self) {
+        let file = self.open_file();
+        self.reading = Arc::new(DeskReading::new(file, self.current_bytes()));
         self.revision += 1;
     }
 
     /// Reads a changed text, and stores it if it is not saved.
-    fn turn(&mut self) {
-        self.read();
-        self.keep();
+    fn text_changed(&mut self) {
+        self.read_text();
+        self.keep_unsaved();
     }
 
     /// Keeps the text if it is not saved.
-    fn keep(&mut self) {
-        let (saved, bytes) = (self.is_saved(), self.bytes().clone());
+    fn keep_unsaved(&mut self) {
+        let (saved, bytes) = (self.is_saved(), self.current_bytes().clone());
         let number = self.steps[self.at].file;
         let file = &mut self.files[number];
         let kept = if saved {
             file.drop_kept();
             Ok(())
         } else {
-            file.keep(&bytes)
+            file.keep_bytes(&bytes)
         };
         self.trouble = kept.err().map(|e| {
             format!("unsaved work cannot be stored next to the file ({e}); save it, or download it")
@@ -121,33 +121,33 @@ impl Desk {
     }
 
     /// Returns why unsaved work cannot be kept, or `None` if it is kept or saved.
-    fn trouble(&self) -> Option<&String> {
+    fn keep_trouble(&self) -> Option<&String> {
         self.trouble.as_ref().filter(|_| !self.is_saved())
     }
 
     /// Tries once more to keep what could not be kept, and returns why it cannot.
     pub(super) fn keep_again(&mut self) -> Option<String> {
-        if self.trouble().is_some() {
-            self.keep();
+        if self.keep_trouble().is_some() {
+            self.keep_unsaved();
         }
-        self.trouble().cloned()
+        self.keep_trouble().cloned()
     }
 
     /// Puts a text on top of those there were; what was undone before is gone.
-    fn push(&mut self, bytes: Arc<[u8]>, file: usize) {
-        if *self.bytes() == bytes && self.steps[self.at].file == file {
+    fn push_step(&mut self, bytes: Arc<[u8]>, file: usize) {
+        if *self.current_bytes() == bytes && self.steps[self.at].file == file {
             return;
         }
         self.steps.truncate(self.at + 1);
         self.steps.push(DeskStep { bytes, file });
         self.at += 1;
-        self.turn();
+        self.text_changed();
     }
 
     /// The text with changes, which are not made yet, and what is read of it.
-    pub(super) fn draft(&self, edits: &[Edit]) -> Result<(String, DeskReading), Refused> {
-        let file = self.file();
-        let text = match (file.kind, self.text()) {
+    pub(super) fn draft_edits(&self, edits: &[Edit]) -> Result<(String, DeskReading), Refused> {
+        let file = self.open_file();
+        let text = match (file.kind, self.current_text()) {
             (Kind::Description, _) | (_, None) => {
                 return Err(Refused::Words(
                     "robot descriptions and assemblies are read-only here; apply an idea, or \
@@ -162,7 +162,7 @@ impl Desk {
             }
             (_, Some(text)) => text,
         };
-        let mut text = edited(text, edits)?;
+        let mut text = apply_edits(text, edits)?;
         if text.len() > MAX_BYTES {
             let words = format!("the text is longer than the {MAX_BYTES} bytes allowed");
             return Err(Refused::Words(words));
@@ -174,47 +174,51 @@ impl Desk {
             .any(|e| matches!(e, Edit::Set { key, .. } if key == "type"));
         if drawn && !reading.outgrown.is_empty() {
             let fewer = without_outgrown(&reading);
-            text = edited(&text, &fewer)?;
+            text = apply_edits(&text, &fewer)?;
             reading = DeskReading::new(file, text.as_bytes());
         }
         Ok((text, reading))
     }
 
     /// Makes changes. A text as a whole must be made of the newest, which its revision says.
-    pub(super) fn edit(&mut self, edits: &[Edit], revision: Option<u64>) -> Result<(), Refused> {
+    pub(super) fn apply_edits(
+        &mut self,
+        edits: &[Edit],
+        revision: Option<u64>,
+    ) -> Result<(), Refused> {
         let whole = edits.iter().any(|e| matches!(e, Edit::Text { .. }));
         if whole && revision != Some(self.revision) {
             return Err(Refused::Conflict(
                 "the text was changed in another window; this is the current version".to_owned(),
             ));
         }
-        let (text, _) = self.draft(edits)?;
-        self.push(text.into_bytes().into(), self.steps[self.at].file);
+        let (text, _) = self.draft_edits(edits)?;
+        self.push_step(text.into_bytes().into(), self.steps[self.at].file);
         Ok(())
     }
 
     /// Puts another form of the same file there.
-    pub(super) fn replace(&mut self, bytes: Vec<u8>) {
-        self.push(bytes.into(), self.steps[self.at].file);
+    pub(super) fn replace_text(&mut self, bytes: Vec<u8>) {
+        self.push_step(bytes.into(), self.steps[self.at].file);
     }
 
     /// Begins another file, with the steps so far to go back to.
-    pub(super) fn begin(&mut self, opening: &Opening) -> Result<(), Refused> {
-        let (file, text) = disk::begin(opening)?;
+    pub(super) fn begin_file(&mut self, opening: &Opening) -> Result<(), Refused> {
+        let (file, text) = disk::begin_opening(opening)?;
         self.files.push(file);
         let text = text.unwrap_or_default();
         self.theirs = None;
-        self.push(text.into_bytes().into(), self.files.len() - 1);
+        self.push_step(text.into_bytes().into(), self.files.len() - 1);
         Ok(())
     }
 
     /// The folder of the file.
-    pub(super) fn folder(&self) -> PathBuf {
-        self.file().folder().to_path_buf()
+    pub(super) fn file_folder(&self) -> PathBuf {
+        self.open_file().parent_folder().to_path_buf()
     }
 
     /// Goes one step back or forward in the history, and returns true if there was one.
-    pub(super) fn step(&mut self, forward: bool) -> bool {
+    pub(super) fn step_history(&mut self, forward: bool) -> bool {
         let to = if forward {
             Some(self.at + 1).filter(|t| *t < self.steps.len())
         } else {
@@ -222,13 +226,13 @@ impl Desk {
         };
         let Some(to) = to else { return false };
         self.at = to;
-        self.turn();
+        self.text_changed();
         true
     }
 
     /// Saves, under another name in the same folder where one is given.
-    pub(super) fn save(&mut self, name: Option<&str>) -> Result<(), Refused> {
-        if let Some(name) = name.filter(|n| *n != self.file().name()) {
+    pub(super) fn save_file(&mut self, name: Option<&str>) -> Result<(), Refused> {
+        if let Some(name) = name.filter(|n| *n != self.open_file().name()) {
             let Some(plain) = disk::plain_name(name) else {
                 return Err(Refused::Words(
                     "use letters, digits, blanks, - and _ in a name that ends in .toml; the file \
@@ -236,19 +240,19 @@ impl Desk {
                         .to_owned(),
                 ));
             };
-            if self.file().kind != Kind::Toml {
+            if self.open_file().kind != Kind::Toml {
                 let words = "a description is saved under its own name";
                 return Err(Refused::Words(words.to_owned()));
             }
-            let path = self.folder().join(plain);
+            let path = self.file_folder().join(plain);
             if path.symlink_metadata().is_ok() {
                 return Err(Refused::Words(format!(
                     "{plain} already exists; choose another name"
                 )));
             }
-            let bytes = self.bytes().clone();
-            let mut file = OpenFile::open(&path)?;
-            file.save(&bytes)?;
+            let bytes = self.current_bytes().clone();
+            let mut file = OpenFile::open_file(&path)?;
+            file.save_bytes(&bytes)?;
             let before = self.steps[self.at].file;
             self.files[before].drop_kept();
             self.files.push(file);
@@ -262,29 +266,29 @@ impl Desk {
                 "the file was changed by another program; choose which version to keep".to_owned(),
             ));
         }
-        let (number, bytes) = (self.steps[self.at].file, self.bytes().clone());
-        self.files[number].save(&bytes)?;
+        let (number, bytes) = (self.steps[self.at].file, self.current_bytes().clone());
+        self.files[number].save_bytes(&bytes)?;
         Ok(())
     }
 
     /// Looks whether another program has written to the file; whether anything is new.
     pub(super) fn look_at_disk(&mut self) -> io::Result<bool> {
-        let now = self.file().now()?;
+        let now = self.open_file().bytes_now()?;
         let number = self.steps[self.at].file;
         // A file that is gone is waited for: many programs take it away before they write it anew.
-        let Some(now) = now.filter(|n| Some(n) != self.file().held.as_ref()) else {
+        let Some(now) = now.filter(|n| Some(n) != self.open_file().held.as_ref()) else {
             return Ok(false);
         };
         if self.theirs.as_ref() == Some(&now) {
             return Ok(false);
         }
-        if &now == self.bytes() {
+        if &now == self.current_bytes() {
             self.files[number].held = Some(now);
             self.files[number].drop_kept();
             self.theirs = None;
         } else if self.is_saved() {
             self.files[number].held = Some(now.clone());
-            self.push(now, number);
+            self.push_step(now, number);
         } else {
             self.theirs = Some(now);
         }
@@ -292,39 +296,39 @@ impl Desk {
     }
 
     /// Which of two forms of the file is to stay; the other is a step away.
-    pub(super) fn settle(&mut self, keep_mine: bool) {
+    pub(super) fn settle_conflict(&mut self, keep_mine: bool) {
         let Some(theirs) = self.theirs.take() else {
             return;
         };
-        let (number, mine) = (self.steps[self.at].file, self.bytes().clone());
+        let (number, mine) = (self.steps[self.at].file, self.current_bytes().clone());
         self.files[number].held = Some(theirs.clone());
-        self.push(theirs, number);
+        self.push_step(theirs, number);
         if keep_mine {
-            self.push(mine, number);
+            self.push_step(mine, number);
         }
     }
 
     /// Takes what was left behind, or leaves it and takes its file away.
-    pub(super) fn restore(&mut self, take: bool) {
+    pub(super) fn restore_left(&mut self, take: bool) {
         let Some((path, bytes)) = self.left.take() else {
             return;
         };
         if take {
-            self.push(bytes, self.steps[self.at].file);
+            self.push_step(bytes, self.steps[self.at].file);
         }
         // Now it is kept by this studio, or nobody wants it.
-        if self.unsaved().as_ref() != Some(&path) {
+        if self.unsaved_path().as_ref() != Some(&path) {
             let _ = std::fs::remove_file(path);
         }
     }
 
     /// How to show it: what changes with every text.
-    pub(super) fn json(&self) -> Value {
-        let mut out = self.reading.json();
+    pub(super) fn desk_json(&self) -> Value {
+        let mut out = self.reading.reading_json();
         let more = json!({
             "revision": self.revision,
-            "text": self.text(),
-            "desk": self.state(),
+            "text": self.current_text(),
+            "desk": self.file_state(),
         });
         if let (Value::Object(out), Value::Object(more)) = (&mut out, more) {
             out.extend(more);
@@ -333,22 +337,22 @@ impl Desk {
     }
 
     /// How things stand with the file.
-    pub(super) fn state(&self) -> Value {
-        let kind = match self.file().kind {
+    pub(super) fn file_state(&self) -> Value {
+        let kind = match self.open_file().kind {
             Kind::Toml => "toml",
             Kind::Json => "json",
             Kind::Description => "description",
         };
         json!({
-            "name": self.file().name(),
+            "name": self.open_file().name(),
             "kind": kind,
             "saved": self.is_saved(),
-            "there": self.file().held.is_some(),
+            "there": self.open_file().held.is_some(),
             "undo": self.at > 0,
             "redo": self.at + 1 < self.steps.len(),
             "conflict": self.theirs.is_some(),
             "left": self.left.as_ref().map(|(path, _)| path.file_name().unwrap_or_default().to_string_lossy()),
-            "trouble": self.trouble(),
+            "trouble": self.keep_trouble(),
         })
     }
 }

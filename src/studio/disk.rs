@@ -59,17 +59,17 @@ const KEEPERS: usize = 20;
 
 impl OpenFile {
     /// A file as it is now.
-    pub(super) fn open(path: &Path) -> io::Result<OpenFile> {
+    pub(super) fn open_file(path: &Path) -> io::Result<OpenFile> {
         // A link is followed, so that its target gets the data.
         let path = fs::canonicalize(path).unwrap_or_else(|_| path.to_path_buf());
         let mut out = OpenFile {
-            kind: kind(&path),
+            kind: kind_of(&path),
             options: robots::Options::default(),
             held: None,
             kept: AutosavedText::default(),
             path,
         };
-        out.held = out.now()?;
+        out.held = out.bytes_now()?;
         Ok(out)
     }
 
@@ -79,14 +79,14 @@ impl OpenFile {
         name.to_string_lossy().into_owned()
     }
 
-    pub(super) fn folder(&self) -> &Path {
+    pub(super) fn parent_folder(&self) -> &Path {
         let folder = self.path.parent().filter(|p| !p.as_os_str().is_empty());
         folder.unwrap_or(Path::new("."))
     }
 
     /// Returns its content, or `None` if it does not exist.
-    pub(super) fn now(&self) -> io::Result<Option<Arc<[u8]>>> {
-        match disk::bytes(&self.path, MAX_DESCRIPTION_BYTES) {
+    pub(super) fn bytes_now(&self) -> io::Result<Option<Arc<[u8]>>> {
+        match disk::read_bytes(&self.path, MAX_DESCRIPTION_BYTES) {
             Ok(bytes) => Ok(Some(bytes.into())),
             Err(e) if e.kind() == io::ErrorKind::NotFound => Ok(None),
             Err(e) => Err(e),
@@ -94,42 +94,42 @@ impl OpenFile {
     }
 
     /// Writes it, whole or not at all, and takes the unsaved work away.
-    pub(super) fn save(&mut self, bytes: &Arc<[u8]>) -> io::Result<()> {
+    pub(super) fn save_bytes(&mut self, bytes: &Arc<[u8]>) -> io::Result<()> {
         let permissions = fs::metadata(&self.path).ok().map(|m| m.permissions());
         let place = |beside: &mut File| {
             beside.write_all(bytes)?;
             permissions.map_or(Ok(()), |p| beside.set_permissions(p))?;
             beside.sync_all()
         };
-        written(&self.path, place)?;
+        write_whole(&self.path, place)?;
         self.held = Some(bytes.clone());
         self.drop_kept();
         Ok(())
     }
 
-    fn keeper(&self, n: usize) -> PathBuf {
+    fn keeper_path(&self, n: usize) -> PathBuf {
         let number = if n == 0 {
             String::new()
         } else {
             format!("-{}", n + 1)
         };
-        self.folder()
+        self.parent_folder()
             .join(format!("{}.autosave{number}", self.name()))
     }
 
     /// Keeps unsaved work; each time a whole file takes the place of the one before.
-    pub(super) fn keep(&mut self, bytes: &[u8]) -> io::Result<()> {
+    pub(super) fn keep_bytes(&mut self, bytes: &[u8]) -> io::Result<()> {
         let path = match &self.kept.path {
             Some(path) => path.clone(),
             None => {
-                let free = (0..KEEPERS).map(|n| self.keeper(n));
+                let free = (0..KEEPERS).map(|n| self.keeper_path(n));
                 let mut free = free.filter(|p| !p.exists());
                 free.next().ok_or_else(|| {
                     io::Error::other("too much unsaved work is stored next to the file")
                 })?
             }
         };
-        let file = written(&path, |beside| {
+        let file = write_whole(&path, |beside| {
             beside.write_all(bytes)?;
             // Not every file system has locks.
             let _ = beside.try_lock();
@@ -151,18 +151,18 @@ impl OpenFile {
     }
 
     /// Where unsaved work is, if any.
-    pub(super) fn kept(&self) -> Option<PathBuf> {
+    pub(super) fn kept_path(&self) -> Option<PathBuf> {
         self.kept.path.clone()
     }
 
     /// Returns unsaved work of a studio that has ended, and its path. Deletes the work if the file has the same
     /// content.
     pub(super) fn left_behind(&self) -> Option<(PathBuf, Arc<[u8]>)> {
-        let all = (0..KEEPERS).map(|n| self.keeper(n));
+        let all = (0..KEEPERS).map(|n| self.keeper_path(n));
         let found = all.filter(|p| p.is_file()).find_map(|path| {
             let file = File::open(&path).ok()?;
             file.try_lock().ok()?;
-            let bytes = disk::bytes(&path, MAX_DESCRIPTION_BYTES).ok()?;
+            let bytes = disk::read_bytes(&path, MAX_DESCRIPTION_BYTES).ok()?;
             Some((path, Arc::<[u8]>::from(bytes)))
         });
         let (path, bytes) = found?;
@@ -176,10 +176,10 @@ impl OpenFile {
 
 /// Writes a temporary file in the folder of a path and renames it to the path, so that no part of a file is ever there.
 /// An error names the path.
-fn written(path: &Path, write: impl FnOnce(&mut File) -> io::Result<()>) -> io::Result<File> {
+fn write_whole(path: &Path, write: impl FnOnce(&mut File) -> io::Result<()>) -> io::Result<File> {
     let folder = path.parent().filter(|p| !p.as_os_str().is_empty());
     let made = || {
-        let mut beside = beside(folder.unwrap_or(Path::new(".")))?;
+        let mut beside = temporary_beside(folder.unwrap_or(Path::new(".")))?;
         write(beside.as_file_mut())?;
         beside.persist(path).map_err(|e| e.error)
     };
@@ -191,7 +191,7 @@ fn written(path: &Path, write: impl FnOnce(&mut File) -> io::Result<()>) -> io::
 
 /// Creates a temporary file in a folder, with the usual permissions. By default, only the owner can read temporary
 /// files.
-fn beside(folder: &Path) -> io::Result<tempfile::NamedTempFile> {
+fn temporary_beside(folder: &Path) -> io::Result<tempfile::NamedTempFile> {
     let mut made = tempfile::Builder::new();
     made.prefix(".tmp-ozols-");
     #[cfg(unix)]
@@ -204,7 +204,7 @@ fn beside(folder: &Path) -> io::Result<tempfile::NamedTempFile> {
     made.tempfile_in(folder)
 }
 
-fn kind(path: &Path) -> Kind {
+fn kind_of(path: &Path) -> Kind {
     let name = path.to_string_lossy();
     let json = path
         .extension()
@@ -236,11 +236,11 @@ pub(super) fn plain_name(name: &str) -> Option<&str> {
 }
 
 /// The file and the first text of what is opened.
-pub(super) fn begin(opening: &Opening) -> io::Result<(OpenFile, Option<String>)> {
-    let fresh = |folder: &Path, stem: &str| OpenFile::open(&free_name(folder, stem));
+pub(super) fn begin_opening(opening: &Opening) -> io::Result<(OpenFile, Option<String>)> {
+    let fresh = |folder: &Path, stem: &str| OpenFile::open_file(&free_name(folder, stem));
     Ok(match opening {
         Opening::File(path, options) => {
-            let mut file = OpenFile::open(path)?;
+            let mut file = OpenFile::open_file(path)?;
             file.options = options.clone();
             (file, None)
         }
@@ -260,5 +260,5 @@ pub(super) fn begin(opening: &Opening) -> io::Result<(OpenFile, Option<String>)>
 pub(super) fn of_builtin(name: &str) -> io::Result<String> {
     let text = builtin::text(name)
         .ok_or_else(|| io::Error::other(format!("{name} is not a built-in mechanism")))?;
-    template::plain(text).map_err(io::Error::other)
+    template::without_claims(text).map_err(io::Error::other)
 }

@@ -38,36 +38,36 @@ impl Door {
     }
 
     /// Returns the path after the token, or a refusal if the request is not from our page.
-    pub(super) fn admit<'a>(&self, asked: &'a Asked) -> Result<&'a str, Reply> {
-        let refused = |why| Err(Reply::refusal(403, why));
-        if asked.header("host") != Some(self.host.as_str()) {
+    pub(super) fn admit_request<'a>(&self, asked: &'a Asked) -> Result<&'a str, Reply> {
+        let refused = |why| Err(Reply::refusal_reply(403, why));
+        if asked.header_once("host") != Some(self.host.as_str()) {
             return refused("this server answers only to 127.0.0.1 and its port");
         }
         let own = format!("http://{}", self.host);
-        let origin = asked.header("origin");
+        let origin = asked.header_once("origin");
         let writes = asked.method != "GET";
-        if (asked.has("origin") || writes) && origin != Some(own.as_str()) {
+        if (asked.has_header("origin") || writes) && origin != Some(own.as_str()) {
             return refused("requests from other pages are refused");
         }
         // "none" is an address that a person typed or clicked outside of any page.
-        let site = asked.header("sec-fetch-site");
-        if asked.has("sec-fetch-site") && !matches!(site, Some("same-origin" | "none")) {
+        let site = asked.header_once("sec-fetch-site");
+        if asked.has_header("sec-fetch-site") && !matches!(site, Some("same-origin" | "none")) {
             return refused("requests from other pages are refused");
         }
-        if writes && asked.header("content-type") != Some("application/json") {
-            return Err(Reply::refusal(415, "requests must be JSON"));
+        if writes && asked.header_once("content-type") != Some("application/json") {
+            return Err(Reply::refusal_reply(415, "requests must be JSON"));
         }
         let path = asked.path.split('?').next().unwrap_or_default();
         let inside = path.strip_prefix('/').and_then(|p| p.split_once('/'));
         match inside {
-            Some((token, rest)) if same(token, &self.token) => Ok(rest),
+            Some((token, rest)) if same_text(token, &self.token) => Ok(rest),
             _ => refused("the address lacks the token that `ozols studio` printed"),
         }
     }
 }
 
 /// Whether two texts are the same, in a time that does not tell how much of them is.
-fn same(a: &str, b: &str) -> bool {
+fn same_text(a: &str, b: &str) -> bool {
     let differ = a.bytes().zip(b.bytes()).fold(0, |d, (x, y)| d | (x ^ y));
     a.len() == b.len() && differ == 0
 }
@@ -83,14 +83,14 @@ pub(super) struct Waiting {
 }
 
 impl Waiting {
-    fn lock(&self) -> MutexGuard<'_, (u64, VecDeque<(u64, TcpStream)>)> {
+    fn lock_list(&self) -> MutexGuard<'_, (u64, VecDeque<(u64, TcpStream)>)> {
         self.list.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
     /// Lets a connection wait until the place that is returned is dropped. Returns `None` if the system has no more handles.
-    pub(super) fn enter(self: &Arc<Self>, stream: &TcpStream) -> Option<WaitingPlace> {
+    pub(super) fn enter_queue(self: &Arc<Self>, stream: &TcpStream) -> Option<WaitingPlace> {
         let handle = stream.try_clone().ok()?;
-        let mut list = self.lock();
+        let mut list = self.lock_list();
         list.0 += 1;
         let number = list.0;
         list.1.push_back((number, handle));
@@ -114,7 +114,7 @@ pub(super) struct WaitingPlace {
 
 impl Drop for WaitingPlace {
     fn drop(&mut self) {
-        let mut list = self.waiting.lock();
+        let mut list = self.waiting.lock_list();
         list.1.retain(|(number, _)| *number != self.number);
     }
 }

@@ -26,14 +26,14 @@ pub(super) struct Asked {
 
 impl Asked {
     /// Returns the value of a header, or `None` if the request has it never or several times, which no browser does.
-    pub(super) fn header(&self, name: &str) -> Option<&str> {
+    pub(super) fn header_once(&self, name: &str) -> Option<&str> {
         let mut all = self.headers.iter().filter(|(n, _)| n == name);
         let first = all.next().map(|(_, v)| v.as_str());
         first.filter(|_| all.next().is_none())
     }
 
     /// Returns true if the request has a header.
-    pub(super) fn has(&self, name: &str) -> bool {
+    pub(super) fn has_header(&self, name: &str) -> bool {
         self.headers.iter().any(|(n, _)| n == name)
     }
 }
@@ -66,7 +66,7 @@ impl Reply {
 
     /// The same, packed where who asks can unpack it and it is worth it.
     pub(super) fn packed_for(mut self, asked: &Asked) -> io::Result<Reply> {
-        let can = asked.header("accept-encoding");
+        let can = asked.header_once("accept-encoding");
         if self.body.len() > SHORT && can.is_some_and(|c| c.contains("gzip")) {
             let mut packer = GzEncoder::new(Vec::new(), Compression::fast());
             packer.write_all(&self.body)?;
@@ -75,21 +75,21 @@ impl Reply {
         Ok(self)
     }
 
-    pub(super) fn json(value: &serde_json::Value) -> Reply {
+    pub(super) fn json_reply(value: &serde_json::Value) -> Reply {
         Reply::new("application/json", value.to_string())
     }
 
     /// Why something is not done, for a person.
-    pub(super) fn refusal(status: u16, why: &str) -> Reply {
+    pub(super) fn refusal_reply(status: u16, why: &str) -> Reply {
         Reply {
             status,
-            ..Reply::json(&serde_json::json!({ "refused": why }))
+            ..Reply::json_reply(&serde_json::json!({ "refused": why }))
         }
     }
 }
 
-fn refused<T>(status: u16, why: &str) -> io::Result<Result<T, Reply>> {
-    Ok(Err(Reply::refusal(status, why)))
+fn refuse<T>(status: u16, why: &str) -> io::Result<Result<T, Reply>> {
+    Ok(Err(Reply::refusal_reply(status, why)))
 }
 
 /// Reads the head of a request; an answer instead where it is none that is served.
@@ -102,24 +102,24 @@ pub(super) fn read_head(stream: &mut TcpStream) -> io::Result<Result<Asked, Repl
             break at + 4;
         }
         if bytes.len() > HEAD {
-            return refused(431, "the head of the request is too large");
+            return refuse(431, "the head of the request is too large");
         }
-        if more(stream, &mut bytes, HEAD, until)? == 0 {
-            return refused(400, "the request is incomplete");
+        if read_more(stream, &mut bytes, HEAD, until)? == 0 {
+            return refuse(400, "the request is incomplete");
         }
     };
     let mut list = [httparse::EMPTY_HEADER; HEADERS];
     let mut parsed = httparse::Request::new(&mut list);
     let whole = parsed.parse(&bytes[..end]).is_ok_and(|s| s.is_complete());
     let (Some(method), Some(path), true) = (parsed.method, parsed.path, whole) else {
-        return refused(400, "not an HTTP/1.1 request");
+        return refuse(400, "not an HTTP/1.1 request");
     };
     let header = |h: &httparse::Header<'_>| {
         let value = std::str::from_utf8(h.value).ok()?.trim().to_owned();
         Some((h.name.to_ascii_lowercase(), value))
     };
     let Some(headers) = parsed.headers.iter().map(header).collect() else {
-        return refused(400, "a header is not text");
+        return refuse(400, "a header is not text");
     };
     Ok(Ok(Asked {
         method: method.to_owned(),
@@ -135,20 +135,23 @@ pub(super) fn read_body(
     asked: &mut Asked,
 ) -> io::Result<Result<(), Reply>> {
     let until = Instant::now() + PATIENCE;
-    if asked.has("transfer-encoding") {
-        return refused(501, "a body needs its length");
+    if asked.has_header("transfer-encoding") {
+        return refuse(501, "a body needs its length");
     }
-    let length = match (asked.has("content-length"), asked.header("content-length")) {
+    let length = match (
+        asked.has_header("content-length"),
+        asked.header_once("content-length"),
+    ) {
         (false, _) => Some(0),
         (true, said) => said.and_then(|l| l.parse::<usize>().ok()),
     };
     match length {
-        None => return refused(400, "the length of the body is not a number"),
-        Some(l) if l > BODY => return refused(413, "the body of the request is too large"),
+        None => return refuse(400, "the length of the body is not a number"),
+        Some(l) if l > BODY => return refuse(413, "the body of the request is too large"),
         Some(l) => {
             while asked.body.len() < l {
-                if more(stream, &mut asked.body, l, until)? == 0 {
-                    return refused(400, "the request is incomplete");
+                if read_more(stream, &mut asked.body, l, until)? == 0 {
+                    return refuse(400, "the request is incomplete");
                 }
             }
             asked.body.truncate(l);
@@ -159,7 +162,7 @@ pub(super) fn read_body(
 
 /// Reads some bytes more and returns how many. It waits for them until a given time, so that a sender of one byte now and then has no
 /// more time than a silent one.
-fn more(
+fn read_more(
     stream: &mut TcpStream,
     to: &mut Vec<u8>,
     most: usize,
@@ -189,7 +192,7 @@ X-Content-Type-Options: nosniff\r\nReferrer-Policy: no-referrer\r\nCache-Control
 Cross-Origin-Resource-Policy: same-origin\r\nConnection: close\r\n";
 
 /// Writes the head of an answer without end, such as events.
-pub(super) fn begin(stream: &mut TcpStream, kind: &str) -> io::Result<()> {
+pub(super) fn begin_stream(stream: &mut TcpStream, kind: &str) -> io::Result<()> {
     write!(
         stream,
         "HTTP/1.1 200 OK\r\nContent-Type: {kind}\r\n{RULES}\r\n"
@@ -198,7 +201,7 @@ pub(super) fn begin(stream: &mut TcpStream, kind: &str) -> io::Result<()> {
 }
 
 /// Writes an answer.
-pub(super) fn write(stream: &mut TcpStream, answer: &Reply) -> io::Result<()> {
+pub(super) fn write_reply(stream: &mut TcpStream, answer: &Reply) -> io::Result<()> {
     let rules = match answer.kind {
         "image/svg+xml" => PICTURE,
         _ => RULES,
@@ -214,7 +217,7 @@ pub(super) fn write(stream: &mut TcpStream, answer: &Reply) -> io::Result<()> {
     let head = format!(
         "HTTP/1.1 {} {}\r\nContent-Type: {}\r\nContent-Length: {}\r\n{packed}{saved}{rules}\r\n",
         answer.status,
-        reason(answer.status),
+        reason_phrase(answer.status),
         answer.kind,
         answer.body.len()
     );
@@ -223,7 +226,7 @@ pub(super) fn write(stream: &mut TcpStream, answer: &Reply) -> io::Result<()> {
     stream.flush()
 }
 
-fn reason(status: u16) -> &'static str {
+fn reason_phrase(status: u16) -> &'static str {
     match status {
         200 => "OK",
         400 => "Bad Request",

@@ -2,7 +2,7 @@
 
 use super::desk::Refused;
 use super::reading::DeskReading;
-use crate::file::edit::{Edit, differences};
+use crate::file::edit::{Edit, find_differences};
 use crate::file::write::mechanism_file;
 use crate::model::mechanism::Mechanism;
 use crate::page::named_swaps;
@@ -11,13 +11,13 @@ use crate::redundancy::analysis::StateAnalysis;
 use crate::redundancy::release::Release;
 use crate::robots;
 use crate::score::outcome::Outcome;
-use crate::view::lint::words;
+use crate::view::lint::describe_release;
 use serde_json::{Value, json};
 use std::collections::BTreeSet;
 
 /// By state, what the ideas of a list put at joints: joint and choice, as the changes of a variant name them, the symbols, and what
 /// each of these puts there.
-pub(super) fn marks(
+pub(super) fn idea_marks(
     m: &Mechanism,
     states: &[StateAnalysis],
     found: &Outcome,
@@ -51,20 +51,27 @@ pub(super) enum Taken {
 }
 
 /// Takes an idea, counted from 1.
-pub(super) fn take(reading: &DeskReading, found: &Outcome, k: usize) -> Result<Taken, Refused> {
+pub(super) fn take_idea(
+    reading: &DeskReading,
+    found: &Outcome,
+    k: usize,
+) -> Result<Taken, Refused> {
     let gone = || Refused::Words(format!("idea {k} is no longer in the list"));
     let variant = found.variants().nth(k.checked_sub(1).ok_or_else(gone)?);
     let variant = variant.ok_or_else(gone)?;
-    let (before, after) = (&found.search.mechanism, variant.mechanism());
+    let (before, after) = (&found.search.mechanism, variant.as_mechanism());
     if let Some(imported) = &reading.imported {
         let name = |why| Refused::Words(format!("idea {k} {why}"));
-        let all = robots::releases(before, &after).map_err(name)?;
-        let told: Vec<(Release, String)> =
-            all.into_iter().map(|r| (r, words(before, &r))).collect();
-        let fixed = robots::fix(imported, &told).map_err(|e| Refused::Words(e.to_string()))?;
+        let all = robots::find_releases(before, &after).map_err(name)?;
+        let told: Vec<(Release, String)> = all
+            .into_iter()
+            .map(|r| (r, describe_release(before, &r)))
+            .collect();
+        let fixed =
+            robots::apply_releases(imported, &told).map_err(|e| Refused::Words(e.to_string()))?;
         return Ok(Taken::Fixed(fixed));
     }
     let own = reading.file.as_ref().ok_or_else(gone)?;
-    let edits = differences(&mechanism_file(before), &mechanism_file(&after), own);
+    let edits = find_differences(&mechanism_file(before), &mechanism_file(&after), own);
     Ok(Taken::Edits(edits))
 }

@@ -30,16 +30,16 @@ const STYLES: [&str; 3] = [SHEET_STYLE, LOOK, include_str!("studio.css")];
 /// The picture of the window's tab.
 pub(super) const ICON: &str = include_str!("icon.svg");
 
-pub(super) fn script() -> String {
+pub(super) fn whole_script() -> String {
     [SHARED.concat(), SCRIPTS.concat()].concat()
 }
 
-pub(super) fn style() -> String {
+pub(super) fn whole_style() -> String {
     STYLES.concat()
 }
 
 /// The frame of the page, which the scripts fill.
-pub(super) fn html() -> String {
+pub(super) fn page_html() -> String {
     let markup = html! {
         (DOCTYPE)
         html lang="en" {
@@ -53,11 +53,11 @@ pub(super) fn html() -> String {
                 script src="studio.js" defer {}
             }
             body {
-                (bar())
+                (bar_html())
                 div id="notices" {}
                 main {
-                    (stage())
-                    (side())
+                    (stage_html())
+                    (side_html())
                 }
                 dialog id="shelf" aria-labelledby="shelf-head" {}
                 dialog id="help" aria-labelledby="help-head" {}
@@ -70,7 +70,7 @@ pub(super) fn html() -> String {
 }
 
 /// The head of the page: the file and what is done with it.
-fn bar() -> Markup {
+fn bar_html() -> Markup {
     let button = |id: &str, words: &str, tip: &str| html! { button type="button" id=(id) title=(tip) { (words) } };
     html! {
         header id="bar" {
@@ -88,7 +88,7 @@ fn bar() -> Markup {
     }
 }
 
-fn stage() -> Markup {
+fn stage_html() -> Markup {
     html! {
         section id="stage" aria-label="Drawing" {
             div id="tools" role="toolbar" aria-label="Tools" aria-orientation="vertical" {}
@@ -99,13 +99,13 @@ fn stage() -> Markup {
                 div id="hint" {}
                 ul id="beside" aria-label="Problems of the drawing" {}
             }
-            (player())
+            (player_html())
         }
     }
 }
 
 /// Returns the controls of the motion: the same parts as in the report.
-fn player() -> Markup {
+fn player_html() -> Markup {
     html! {
         div.player id="player" role="group" aria-label="Motion" {
             button type="button" data-part="play" { "Play" }
@@ -120,7 +120,7 @@ fn player() -> Markup {
     }
 }
 
-fn side() -> Markup {
+fn side_html() -> Markup {
     html! {
         div id="side" {
             section id="thing" aria-label="Selection" hidden {}

@@ -3,16 +3,16 @@
 use super::disk::{Kind, OpenFile};
 use crate::api;
 use crate::file::edit::Thing;
-use crate::file::lint::check;
+use crate::file::lint::check_file;
 use crate::file::locate::{Document, DocumentPath};
 use crate::file::loose;
 use crate::file::problem::WarningKind;
 use crate::file::problem::{ImportError, ProblemKind};
-use crate::file::read::build;
+use crate::file::read::build_mechanism;
 use crate::file::schema::MechanismFile;
-use crate::file::text::{read, text_of};
+use crate::file::text::{read_file, text_of};
 use crate::file::write::mechanism_file;
-use crate::geom::vector::real;
+use crate::geom::vector::to_vector;
 use crate::model::mechanism::Mechanism;
 use crate::robots::{Imported, Options};
 use serde_json::{Value, json};
@@ -54,86 +54,86 @@ impl DeskReading {
     /// Reads a text of a file.
     pub(super) fn new(file: &OpenFile, bytes: &[u8]) -> DeskReading {
         match file.kind {
-            Kind::Description => DeskReading::description(&file.path, bytes, &file.options),
-            kind => DeskReading::own(&file.path, kind, bytes),
+            Kind::Description => DeskReading::read_description(&file.path, bytes, &file.options),
+            kind => DeskReading::read_own(&file.path, kind, bytes),
         }
     }
 
     /// Reads a text of a mechanism file.
-    fn own(path: &Path, kind: Kind, bytes: &[u8]) -> DeskReading {
+    fn read_own(path: &Path, kind: Kind, bytes: &[u8]) -> DeskReading {
         let name = path.file_name().unwrap_or_default().to_string_lossy();
         let mut out = DeskReading::default();
         let text = match text_of(&name, bytes) {
             Ok(text) => text,
             Err(e) => {
-                out.wrong(&e, &Items::default());
+                out.add_problems(&e, &Items::default());
                 return out;
             }
         };
         let items = Items::new(text, kind == Kind::Json);
         let (mut file, mut part) = (None, None);
-        let made = read(&name, text, |f| {
+        let made = read_file(&name, text, |f| {
             file = Some(f.clone());
-            build(f)
+            build_mechanism(f)
         });
         match made {
             Ok(mechanism) => {
                 let joints = mechanism.joints.iter();
-                let joints = joints.map(|j| Some(real(&j.frame.point))).collect();
+                let joints = joints.map(|j| Some(to_vector(&j.frame.point))).collect();
                 let points = mechanism.points.iter();
-                out.places = [joints, points.map(|p| Some(real(&p.point))).collect()];
-                if let Ok(checked) = check(&name, bytes) {
+                out.places = [joints, points.map(|p| Some(to_vector(&p.point))).collect()];
+                if let Ok(checked) = check_file(&name, bytes) {
                     for w in &checked.warnings.warnings {
                         let weight = match w.kind {
                             WarningKind::NoContour | WarningKind::NoOutput => Weight::Unfinished,
                             _ => Weight::Doubtful,
                         };
-                        out.tell(text, w.span.clone(), &w.kind.to_string(), &items, weight);
+                        out.add_remark(text, w.span.clone(), &w.kind.to_string(), &items, weight);
                     }
                 }
                 out.mechanism = Some(Arc::new(mechanism));
             }
             Err(e) => {
-                out.wrong(&e, &items);
+                out.add_problems(&e, &items);
                 if let Some(f) = &file {
-                    out.places = loose::places(f);
-                    part = loose::connected(f).and_then(|f| build(&f).ok());
+                    out.places = loose::read_points(f);
+                    part = loose::connected_part(f).and_then(|f| build_mechanism(&f).ok());
                 }
             }
         }
         if let Some(mechanism) = part {
             (out.mechanism, out.partly) = (Some(Arc::new(mechanism)), true);
         }
-        out.items = items.told(text);
+        out.items = items.items_json(text);
         out.file = file;
         out
     }
 
-    fn description(path: &Path, bytes: &[u8], options: &Options) -> DeskReading {
+    fn read_description(path: &Path, bytes: &[u8], options: &Options) -> DeskReading {
         let mut out = DeskReading::default();
         match api::description_of(path, bytes, options) {
             Ok(imported) => {
                 let m = &imported.mechanism;
                 let joints = m.joints.iter();
                 out.places = [
-                    joints.map(|j| Some(real(&j.frame.point))).collect(),
-                    m.points.iter().map(|p| Some(real(&p.point))).collect(),
+                    joints.map(|j| Some(to_vector(&j.frame.point))).collect(),
+                    m.points.iter().map(|p| Some(to_vector(&p.point))).collect(),
                 ];
                 out.file = Some(mechanism_file(m));
-                let doubts = imported.report.doubts();
+                let doubts = imported.report.list_doubts();
                 for line in doubts.lines().filter(|l| !l.trim().is_empty()) {
-                    out.tell("", None, line.trim(), &Items::default(), Weight::Doubtful);
+                    out.add_remark("", None, line.trim(), &Items::default(), Weight::Doubtful);
                 }
                 out.mechanism = Some(Arc::new(m.clone()));
                 out.imported = Some(Box::new(imported));
             }
-            Err(api::Error::File(e)) => out.wrong(&e, &Items::default()),
-            Err(e) => out.tell("", None, &e.to_string(), &Items::default(), Weight::Wrong),
+            Err(api::Error::File(e)) => out.add_problems(&e, &Items::default()),
+            Err(e) => out.add_remark("", None, &e.to_string(), &Items::default(), Weight::Wrong),
         }
         out
     }
 
-    fn wrong(&mut self, e: &ImportError, items: &Items) {
+    fn add_problems(&mut self, e: &ImportError, items: &Items) {
         for p in &e.problems {
             if let ProblemKind::LosesMotion { joint, option, .. } = &p.kind {
                 self.outgrown.push((joint.clone(), option.clone()));
@@ -142,11 +142,11 @@ impl DeskReading {
                 ProblemKind::Unused { .. } | ProblemKind::Disconnected { .. } => Weight::Unfinished,
                 _ => Weight::Wrong,
             };
-            self.tell(&e.text, p.span.clone(), &p.kind.to_string(), items, weight);
+            self.add_remark(&e.text, p.span.clone(), &p.kind.to_string(), items, weight);
         }
     }
 
-    fn tell(
+    fn add_remark(
         &mut self,
         text: &str,
         span: Option<Range<usize>>,
@@ -160,7 +160,7 @@ impl DeskReading {
             None => (words, None),
         };
         let line = span.as_ref().map(|s| line_of(text, s.start));
-        let about = span.and_then(|s| items.at(s.start));
+        let about = span.and_then(|s| items.item_at(s.start));
         let about = about.map(|(what, n)| json!([what.word(), n]));
         self.told.push(json!({
             "words": words, "remedy": remedy, "line": line, "about": about,
@@ -169,7 +169,7 @@ impl DeskReading {
     }
 
     /// All of it for the page.
-    pub(super) fn json(&self) -> Value {
+    pub(super) fn reading_json(&self) -> Value {
         json!({
             "file": self.file.as_ref().map(MechanismFile::json),
             "places": { "joint": self.places[0], "point": self.places[1] },
@@ -198,14 +198,14 @@ impl Items {
         };
         let mut out = Vec::new();
         for what in [Thing::Link, Thing::Joint, Thing::Point] {
-            let list = DocumentPath::root(what.word());
+            let list = DocumentPath::root_key(what.word());
             for n in 0.. {
-                let path = list.index(n);
+                let path = list.entry_at(n);
                 // The span of a list stands for that of an item that is not there.
                 let Some(span) = document
-                    .span(&path)
+                    .find_span(&path)
                     .filter(|s| out.iter().all(|(_, _, r)| r != s))
-                    .filter(|s| document.span(&list).as_ref() != Some(s) || n == 0)
+                    .filter(|s| document.find_span(&list).as_ref() != Some(s) || n == 0)
                 else {
                     break;
                 };
@@ -225,12 +225,12 @@ impl Items {
     }
 
     /// The item that a byte is in.
-    fn at(&self, byte: usize) -> Option<(Thing, usize)> {
+    fn item_at(&self, byte: usize) -> Option<(Thing, usize)> {
         let found = self.0.iter().rfind(|(_, _, s)| s.contains(&byte));
         found.map(|&(what, n, _)| (what, n))
     }
 
-    fn told(&self, text: &str) -> Vec<Value> {
+    fn items_json(&self, text: &str) -> Vec<Value> {
         let line = |at| line_of(text, at);
         let one = |(what, n, s): &(Thing, usize, Range<usize>)| {
             json!([what.word(), n, line(s.start), line(s.end)])
@@ -247,19 +247,23 @@ mod tests {
     fn a_problem_stands_beside_its_item() {
         let text = "name = \"x\"\n[[link]]\nid = \"0\"\nrole = \"frame\"\n[[link]]\nid = \"1\"\n[[joint]]\nid = \"a\"\n\
                     links = [\"0\", \"1\"]\ntype = \"revolut\"\npoint = [0, 0, 0]\naxis = [0, 0, 1]\n";
-        let read = DeskReading::own(Path::new("x.toml"), Kind::Toml, text.as_bytes());
+        let read = DeskReading::read_own(Path::new("x.toml"), Kind::Toml, text.as_bytes());
         assert!(read.mechanism.is_none());
-        let told = &read.json()["told"][0];
+        let told = &read.reading_json()["told"][0];
         assert_eq!(told["about"], json!(["joint", 0]), "{told}");
         assert_eq!(told["line"], 10);
-        assert_eq!(read.json()["items"].as_array().map(Vec::len), Some(3));
+        assert_eq!(
+            read.reading_json()["items"].as_array().map(Vec::len),
+            Some(3)
+        );
     }
 
     #[test]
     fn a_first_bar_is_unfinished_not_wrong() {
         let text = "name = \"x\"\n[[link]]\nid = \"0\"\nrole = \"frame\"\n[[link]]\nid = \"1\"\n[[point]]\nid = \"end 1\"\nlink = \"1\"\n\
                     point = [0, 0, 0]\n";
-        let read = DeskReading::own(Path::new("x.toml"), Kind::Toml, text.as_bytes()).json();
+        let read =
+            DeskReading::read_own(Path::new("x.toml"), Kind::Toml, text.as_bytes()).reading_json();
         let told = read["told"].as_array().map_or(&[][..], Vec::as_slice);
         assert_eq!(told.len(), 2, "{told:?}");
         for t in told {
@@ -271,9 +275,9 @@ mod tests {
     fn what_hangs_on_the_frame_is_told_of() {
         let text = "name = \"x\"\n[[link]]\nid = \"0\"\nrole = \"frame\"\n[[link]]\nid = \"1\"\n[[link]]\nid = \"2\"\n[[joint]]\nid = \"a\"\n\
                     links = [\"0\", \"1\"]\ntype = \"revolute\"\npoint = [0, 0, 0]\naxis = [0, 0, 1]\n[[point]]\nid = \"p\"\nlink = \"2\"\npoint = [1, \"sqrt(2)\", 0]\n";
-        let read = DeskReading::own(Path::new("x.toml"), Kind::Toml, text.as_bytes());
+        let read = DeskReading::read_own(Path::new("x.toml"), Kind::Toml, text.as_bytes());
         assert!(read.partly && read.mechanism.is_some());
-        let y = &read.json()["places"]["point"][0][1];
+        let y = &read.reading_json()["places"]["point"][0][1];
         assert!(
             (y.as_f64().unwrap_or_default() - 2_f64.sqrt()).abs() < 1e-12,
             "{y}"

@@ -54,7 +54,7 @@ pub(super) struct Found {
     pub(super) wider: Vec<Request>,
 }
 
-fn locked<T>(m: &Mutex<T>) -> MutexGuard<'_, T> {
+fn lock_mutex<T>(m: &Mutex<T>) -> MutexGuard<'_, T> {
     m.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
@@ -78,7 +78,7 @@ impl Room {
 
     /// Looks at the desk.
     pub(super) fn desk(&self) -> MutexGuard<'_, Desk> {
-        locked(&self.desk)
+        lock_mutex(&self.desk)
     }
 
     /// Changes the desk and informs all windows.
@@ -103,22 +103,22 @@ impl Room {
 
     /// Tells all windows what is on the desk now. The desk is held meanwhile: whoever sees its text must find it the newest.
     fn tell_of(&self, desk: &Desk) -> Value {
-        let (revision, state) = (desk.revision, desk.state());
+        let (revision, state) = (desk.revision, desk.file_state());
         if self.newest.swap(revision, Ordering::SeqCst) == revision {
-            self.windows.tell(&event("desk", &state));
+            self.windows.tell_found(&format_event("desk", &state));
             return json!({ "desk": state, "revision": revision });
         }
-        let look = desk.json();
-        self.windows.tell(&event("look", &look));
+        let look = desk.desk_json();
+        self.windows.tell_found(&format_event("look", &look));
         self.news.notify_all();
         look
     }
 
     /// Waits for a text newer than a revision, and returns its revision; `None` if the room is closed.
-    pub(super) fn wait(&self, done: u64) -> Option<u64> {
+    pub(super) fn wait_for_news(&self, done: u64) -> Option<u64> {
         let mut desk = self.desk();
         loop {
-            if self.ended() {
+            if self.has_ended() {
                 return None;
             }
             if desk.revision != done {
@@ -130,11 +130,11 @@ impl Room {
 
     /// Whether a revision is of no use any more.
     pub(super) fn is_old(&self, revision: u64) -> bool {
-        self.ended() || self.newest.load(Ordering::SeqCst) != revision
+        self.has_ended() || self.newest.load(Ordering::SeqCst) != revision
     }
 
     /// Stops the search of a revision, which returns what it has found; 0 stops none.
-    pub(super) fn stop(&self, revision: u64) {
+    pub(super) fn stop_search(&self, revision: u64) {
         self.stopped.store(revision, Ordering::SeqCst);
     }
 
@@ -144,9 +144,9 @@ impl Room {
     }
 
     /// Tells all windows, those too that come later, what was found of a revision.
-    pub(super) fn tell(&self, revision: u64, name: &'static str, value: &Value) {
-        let made = event(name, value);
-        let mut told = locked(&self.told);
+    pub(super) fn tell_found(&self, revision: u64, name: &'static str, value: &Value) {
+        let made = format_event(name, value);
+        let mut told = lock_mutex(&self.told);
         if self.is_old(revision) {
             return;
         }
@@ -158,53 +158,53 @@ impl Room {
         }
         told.events.retain(|(n, _)| *n != name);
         told.events.push((name, made.clone()));
-        self.windows.tell(&made);
+        self.windows.tell_found(&made);
     }
 
     /// All that a window has to know when it opens.
-    pub(super) fn now(&self) -> Vec<Arc<str>> {
-        let look = self.desk().json();
-        let told = locked(&self.told);
+    pub(super) fn events_now(&self) -> Vec<Arc<str>> {
+        let look = self.desk().desk_json();
+        let told = lock_mutex(&self.told);
         let newest = look["revision"].as_u64() == Some(told.revision);
         let known = told.events.iter().filter(|_| newest);
-        std::iter::once(event("look", &look))
+        std::iter::once(format_event("look", &look))
             .chain(known.map(|(_, e)| e.clone()))
             .collect()
     }
 
     /// Keeps what a search found.
-    pub(super) fn keep(&self, found: Found) {
-        *locked(&self.found) = Some(Arc::new(found));
+    pub(super) fn keep_found(&self, found: Found) {
+        *lock_mutex(&self.found) = Some(Arc::new(found));
     }
 
     /// Returns what was found for a revision.
-    pub(super) fn found(&self, revision: u64) -> Option<Arc<Found>> {
-        let found = locked(&self.found).clone();
+    pub(super) fn found_for(&self, revision: u64) -> Option<Arc<Found>> {
+        let found = lock_mutex(&self.found).clone();
         found.filter(|f| f.revision == revision)
     }
 
     /// Returns the request of a search, and whether it is wider than the first one.
-    pub(super) fn request(&self) -> (Request, bool) {
-        let wider = locked(&self.wider).clone();
+    pub(super) fn current_request(&self) -> (Request, bool) {
+        let wider = lock_mutex(&self.wider).clone();
         let is_wider = wider.is_some();
         (wider.unwrap_or_else(|| self.request.clone()), is_wider)
     }
 
     /// Searches with a wider request from now on, or with the first one, and returns the state of the desk.
-    pub(super) fn ask(&self, wider: Option<Request>) -> Result<Value, Refused> {
-        *locked(&self.wider) = wider;
+    pub(super) fn ask_search(&self, wider: Option<Request>) -> Result<Value, Refused> {
+        *lock_mutex(&self.wider) = wider;
         self.at_desk(|desk| {
             desk.revision += 1;
             Ok(())
         })
     }
 
-    pub(super) fn ended(&self) -> bool {
+    pub(super) fn has_ended(&self) -> bool {
         self.ended.load(Ordering::SeqCst)
     }
 
     /// Closes it.
-    pub(super) fn end(&self) {
+    pub(super) fn end_room(&self) {
         self.ended.store(true, Ordering::SeqCst);
         // The worker may be about to wait.
         drop(self.desk());
@@ -212,22 +212,22 @@ impl Room {
     }
 
     /// Tries once more to keep unsaved work, and returns why it cannot be kept; `None` if it is kept or saved.
-    pub(super) fn unkept(&self) -> Option<String> {
+    pub(super) fn unkept_work(&self) -> Option<String> {
         self.desk().keep_again()
     }
 
     /// Where unsaved work is kept, if there is any.
-    pub(super) fn unsaved(&self) -> Option<PathBuf> {
-        self.desk().unsaved()
+    pub(super) fn unsaved_path(&self) -> Option<PathBuf> {
+        self.desk().unsaved_path()
     }
 
     /// Numbers for tests, and for who wonders.
-    pub(super) fn status(&self) -> Value {
+    pub(super) fn status_json(&self) -> Value {
         let [begun, ended] = self.searches.each_ref().map(|n| n.load(Ordering::SeqCst));
         json!({
-            "windows": self.windows.count(),
+            "windows": self.windows.window_count(),
             "revision": self.desk().revision,
-            "desk": self.desk().state(),
+            "desk": self.desk().file_state(),
             "searches": { "begun": begun, "ended": ended },
         })
     }
@@ -244,28 +244,28 @@ pub(super) struct Windows {
 }
 
 /// An event as a browser reads it.
-pub(super) fn event(name: &str, value: &serde_json::Value) -> Arc<str> {
+pub(super) fn format_event(name: &str, value: &serde_json::Value) -> Arc<str> {
     format!("event: {name}\ndata: {value}\n\n").into()
 }
 
 impl Windows {
     /// How many there are.
-    pub(super) fn count(&self) -> usize {
-        locked(&self.list).len()
+    pub(super) fn window_count(&self) -> usize {
+        lock_mutex(&self.list).len()
     }
 
     /// Whether there were any, and none is there now.
-    pub(super) fn left(&self) -> bool {
-        self.ever.load(Ordering::SeqCst) && locked(&self.list).is_empty()
+    pub(super) fn have_left(&self) -> bool {
+        self.ever.load(Ordering::SeqCst) && lock_mutex(&self.list).is_empty()
     }
 
     /// Tells all of them.
-    pub(super) fn tell(&self, event: &Arc<str>) {
-        locked(&self.list).retain(|(_, window)| window.send(event.clone()).is_ok());
+    pub(super) fn tell_found(&self, event: &Arc<str>) {
+        lock_mutex(&self.list).retain(|(_, window)| window.send(event.clone()).is_ok());
     }
 
     /// Sends what there is `now`, and then all that is new, to a window until it is closed or all has `ended`.
-    pub(super) fn serve(
+    pub(super) fn serve_window(
         &self,
         stream: &mut TcpStream,
         now: impl FnOnce() -> Vec<Arc<str>>,
@@ -273,26 +273,26 @@ impl Windows {
     ) -> io::Result<()> {
         let (tell, news) = channel();
         let number = {
-            let mut list = locked(&self.list);
+            let mut list = lock_mutex(&self.list);
             // Nothing that happens from here on is missed.
             let number = list.iter().map(|(n, _)| n + 1).max().unwrap_or(0);
             list.push((number, tell));
             number
         };
         self.ever.store(true, Ordering::SeqCst);
-        let served = send(stream, &news, now, ended);
-        locked(&self.list).retain(|(n, _)| *n != number);
+        let served = send_events(stream, &news, now, ended);
+        lock_mutex(&self.list).retain(|(n, _)| *n != number);
         served
     }
 }
 
-fn send(
+fn send_events(
     stream: &mut TcpStream,
     news: &Receiver<Arc<str>>,
     now: impl FnOnce() -> Vec<Arc<str>>,
     ended: impl Fn() -> bool,
 ) -> io::Result<()> {
-    http::begin(stream, "text/event-stream")?;
+    http::begin_stream(stream, "text/event-stream")?;
     for event in now() {
         stream.write_all(event.as_bytes())?;
     }

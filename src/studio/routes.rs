@@ -30,50 +30,50 @@ struct Sent {
 }
 
 /// Answers a request that was let in, by the rest of its path.
-pub(super) fn answer(asked: &Asked, path: &str, room: &Room) -> Reply {
+pub(super) fn answer_request(asked: &Asked, path: &str, room: &Room) -> Reply {
     match asked.method.as_str() {
-        "GET" => get(path, room),
-        "POST" => match post(asked, path, room) {
-            Ok(value) => Reply::json(&value),
-            Err(Refused::Conflict(why)) => Reply::refusal(409, &why),
-            Err(why) => Reply::refusal(422, &why.to_string()),
+        "GET" => answer_get(path, room),
+        "POST" => match answer_post(asked, path, room) {
+            Ok(value) => Reply::json_reply(&value),
+            Err(Refused::Conflict(why)) => Reply::refusal_reply(409, &why),
+            Err(why) => Reply::refusal_reply(422, &why.to_string()),
         },
-        _ => Reply::refusal(405, "only GET and POST are supported"),
+        _ => Reply::refusal_reply(405, "only GET and POST are supported"),
     }
 }
 
 fn nothing_here() -> Reply {
-    Reply::refusal(404, "nothing exists at this address")
+    Reply::refusal_reply(404, "nothing exists at this address")
 }
 
-fn get(path: &str, room: &Room) -> Reply {
+fn answer_get(path: &str, room: &Room) -> Reply {
     match path {
-        "" => Reply::new("text/html; charset=utf-8", paper::html()),
-        "studio.js" => Reply::new("text/javascript; charset=utf-8", paper::script()),
-        "studio.css" => Reply::new("text/css; charset=utf-8", paper::style()),
+        "" => Reply::new("text/html; charset=utf-8", paper::page_html()),
+        "studio.js" => Reply::new("text/javascript; charset=utf-8", paper::whole_script()),
+        "studio.css" => Reply::new("text/css; charset=utf-8", paper::whole_style()),
         "icon.svg" => Reply::new("image/svg+xml", paper::ICON),
-        "palette" => Reply::json(&shelf::joint_types()),
-        "shelf" => Reply::json(&shelf::list()),
-        "status" => Reply::json(&room.status()),
+        "palette" => Reply::json_reply(&shelf::joint_types()),
+        "shelf" => Reply::json_reply(&shelf::shelf_list()),
+        "status" => Reply::json_reply(&room.status_json()),
         _ => match path.split_once('/') {
             Some(("picture", name)) => {
-                let picture = name.strip_suffix(".svg").and_then(shelf::picture);
+                let picture = name.strip_suffix(".svg").and_then(shelf::picture_of);
                 picture.map_or_else(nothing_here, |svg| Reply::new("image/svg+xml", svg))
             }
-            Some(("export", format)) => exported(format, room),
+            Some(("export", format)) => export_reply(format, room),
             _ => nothing_here(),
         },
     }
 }
 
 /// The mechanism in another format, to be saved by the browser.
-fn exported(format: &str, room: &Room) -> Reply {
+fn export_reply(format: &str, room: &Room) -> Reply {
     let (reading, name) = {
         let desk = room.desk();
-        (desk.reading.clone(), desk.state()["name"].clone())
+        (desk.reading.clone(), desk.file_state()["name"].clone())
     };
     let Some(m) = reading.mechanism.clone().filter(|_| !reading.partly) else {
-        return Reply::refusal(
+        return Reply::refusal_reply(
             422,
             "the mechanism is incomplete and cannot be exported; see the problems",
         );
@@ -86,7 +86,7 @@ fn exported(format: &str, room: &Room) -> Reply {
     };
     let (ending, made) = match format {
         "kinematic.svg" => ("svg", Ok(kinematic(&subject()).svg)),
-        "scheme.svg" => match work::states(&m) {
+        "scheme.svg" => match work::all_states(&m) {
             Ok(found) => {
                 let analysed = Subject {
                     analysis: found.first(),
@@ -94,13 +94,13 @@ fn exported(format: &str, room: &Room) -> Reply {
                 };
                 ("svg", Ok(scheme(&analysed).svg))
             }
-            Err(why) => return Reply::refusal(422, &why),
+            Err(why) => return Reply::refusal_reply(422, &why),
         },
-        word if formats::written().any(|f| f.word == word) => (word, export(&m, word)),
+        word if formats::writable_formats().any(|f| f.word == word) => (word, export(&m, word)),
         _ => return nothing_here(),
     };
     match made {
-        Err(why) => Reply::refusal(422, &why.to_string()),
+        Err(why) => Reply::refusal_reply(422, &why.to_string()),
         Ok(text) => {
             let name = name.as_str().unwrap_or_default();
             let stem = name.split('.').next().unwrap_or_default();
@@ -114,53 +114,54 @@ fn exported(format: &str, room: &Room) -> Reply {
     }
 }
 
-fn post(asked: &Asked, path: &str, room: &Room) -> Result<Value, Refused> {
+fn answer_post(asked: &Asked, path: &str, room: &Room) -> Result<Value, Refused> {
     // As an object first: a list would be taken for the fields in their order.
     let sent = serde_json::from_slice::<Map<String, Value>>(&asked.body)
         .and_then(|all| serde_json::from_value::<Sent>(all.into()))
         .map_err(|e| Refused::Words(format!("invalid request: {e}")))?;
     match path {
         "edit" => {
-            let done = room.at_desk(|desk| desk.edit(&sent.edits, sent.revision));
+            let done = room.at_desk(|desk| desk.apply_edits(&sent.edits, sent.revision));
             if let Err(Refused::Conflict(_)) = &done {
                 // Whoever was too late gets what there is now.
-                room.windows.tell(&room::event("look", &room.desk().json()));
+                room.windows
+                    .tell_found(&room::format_event("look", &room.desk().desk_json()));
             }
             done
         }
         "draft" => {
-            let (_, reading) = room.desk().draft(&sent.edits)?;
-            let mut out = reading.json();
+            let (_, reading) = room.desk().draft_edits(&sent.edits)?;
+            let mut out = reading.reading_json();
             if let Some(m) = &reading.mechanism
-                && let Ok(found) = work::states(m)
+                && let Ok(found) = work::all_states(m)
             {
-                out["verdict"] = work::judged(m, &found, 0);
+                out["verdict"] = work::verdict_json(m, &found, 0);
             }
             Ok(out)
         }
         "undo" | "redo" => room.at_desk(|desk| {
-            desk.step(path == "redo");
+            desk.step_history(path == "redo");
             Ok(())
         }),
-        "save" => room.at_desk(|desk| desk.save(sent.name.as_deref())),
+        "save" => room.at_desk(|desk| desk.save_file(sent.name.as_deref())),
         "begin" => room.at_desk(|desk| {
             let name = sent.name.unwrap_or_default();
-            let opening = shelf::opening(&name, desk.folder());
+            let opening = shelf::opening_of(&name, desk.file_folder());
             let none = || Refused::Words(format!("there is no {name} to start from"));
-            desk.begin(&opening.ok_or_else(none)?)
+            desk.begin_file(&opening.ok_or_else(none)?)
         }),
-        "take" => take(&sent, room),
-        "ask" => ask(&sent, room),
+        "take" => take_sent(&sent, room),
+        "ask" => ask_sent(&sent, room),
         "stop" => {
-            room.stop(room.desk().revision);
+            room.stop_search(room.desk().revision);
             Ok(json!({}))
         }
         "settle" => room.at_desk(|desk| {
-            desk.settle(sent.yes);
+            desk.settle_conflict(sent.yes);
             Ok(())
         }),
         "restore" => room.at_desk(|desk| {
-            desk.restore(sent.yes);
+            desk.restore_left(sent.yes);
             Ok(())
         }),
         _ => Err(Refused::Words("nothing exists at this address".to_owned())),
@@ -168,37 +169,43 @@ fn post(asked: &Asked, path: &str, room: &Room) -> Result<Value, Refused> {
 }
 
 /// Returns the refusal of ideas of an older state of the mechanism.
-fn old() -> Refused {
+fn old_ideas() -> Refused {
     Refused::Conflict(
         "the mechanism was changed after these ideas; the search runs again".to_owned(),
     )
 }
 
 /// Returns what was found of the revision that a request is of.
-fn found(sent: &Sent, room: &Room) -> Result<Arc<Found>, Refused> {
-    let found = sent.revision.and_then(|r| room.found(r));
-    found.ok_or_else(old)
+fn found_sent(sent: &Sent, room: &Room) -> Result<Arc<Found>, Refused> {
+    let found = sent.revision.and_then(|r| room.found_for(r));
+    found.ok_or_else(old_ideas)
 }
 
-fn ask(sent: &Sent, room: &Room) -> Result<Value, Refused> {
-    let wider = |n| found(sent, room)?.wider.get(n).cloned().ok_or_else(old);
-    room.ask(sent.wider.map(wider).transpose()?)
+fn ask_sent(sent: &Sent, room: &Room) -> Result<Value, Refused> {
+    let wider = |n| {
+        found_sent(sent, room)?
+            .wider
+            .get(n)
+            .cloned()
+            .ok_or_else(old_ideas)
+    };
+    room.ask_search(sent.wider.map(wider).transpose()?)
 }
 
-fn take(sent: &Sent, room: &Room) -> Result<Value, Refused> {
-    let found = found(sent, room)?;
+fn take_sent(sent: &Sent, room: &Room) -> Result<Value, Refused> {
+    let found = found_sent(sent, room)?;
     let reading = {
         let desk = room.desk();
         if desk.revision != found.revision {
-            return Err(old());
+            return Err(old_ideas());
         }
         desk.reading.clone()
     };
-    let taken = idea::take(&reading, &found.outcome, sent.idea)?;
+    let taken = idea::take_idea(&reading, &found.outcome, sent.idea)?;
     let mut told = room.at_desk(|desk| match taken {
-        Taken::Edits(edits) => desk.edit(&edits, None),
+        Taken::Edits(edits) => desk.apply_edits(&edits, None),
         Taken::Fixed(bytes) => {
-            desk.replace(bytes);
+            desk.replace_text(bytes);
             Ok(())
         }
     })?;

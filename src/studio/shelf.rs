@@ -28,7 +28,7 @@ const OWN: [(&str, &str, &str); 3] = [
 ];
 
 /// All that there is to start from, by family.
-pub(super) fn list() -> Value {
+pub(super) fn shelf_list() -> Value {
     let own: Vec<Value> = OWN
         .iter()
         .map(|(name, what, _)| json!({ "name": name, "what": what }))
@@ -45,7 +45,7 @@ pub(super) fn list() -> Value {
 }
 
 /// Returns the opening of a name of the list.
-pub(super) fn opening(name: &str, folder: PathBuf) -> Option<Opening> {
+pub(super) fn opening_of(name: &str, folder: PathBuf) -> Option<Opening> {
     let own = OWN.iter().find(|(n, ..)| *n == name);
     if let Some((name, _, text)) = own {
         return Some(Opening::Text(
@@ -59,7 +59,7 @@ pub(super) fn opening(name: &str, folder: PathBuf) -> Option<Opening> {
 }
 
 /// The picture of one of the list.
-pub(super) fn picture(name: &str) -> Option<String> {
+pub(super) fn picture_of(name: &str) -> Option<String> {
     let own = OWN.iter().find(|(n, ..)| *n == name);
     let m = match own {
         Some((_, _, text)) => crate::from_toml(text),
@@ -73,9 +73,9 @@ pub(super) fn picture(name: &str) -> Option<String> {
 }
 
 /// A mechanism with a joint of each type, side by side.
-fn sampler() -> Option<Mechanism> {
+fn sampler_mechanism() -> Option<Mechanism> {
     let mut text = "name = \"palette\"\n[[link]]\nid = \"0\"\nrole = \"frame\"\n".to_owned();
-    for (n, word) in JointType::words().enumerate() {
+    for (n, word) in JointType::all_words().enumerate() {
         let more = match word {
             "helical" => "lead = 1\n",
             "custom" => "freedoms = [\"rz\", \"tx\", \"ty\", \"tz\"]\n",
@@ -94,7 +94,7 @@ fn sampler() -> Option<Mechanism> {
 /// Every type with its class, its freedoms, what it is, and the pieces of its symbol.
 pub(super) fn joint_types() -> Value {
     let words = PairWords::builtin();
-    let Some(m) = sampler() else {
+    let Some(m) = sampler_mechanism() else {
         return Value::Null;
     };
     let scene = still_scene(&m, (None, StateId::FREE), &[]);
@@ -112,7 +112,7 @@ pub(super) fn joint_types() -> Value {
         let free: Vec<_> = j.joint_type.freedoms().iter().map(|f| f.name()).collect();
         json!({
             "type": word,
-            "class": j.joint_type.class(),
+            "class": j.joint_type.class_numeral(),
             "free": free,
             "trade": j.joint_type.trade_names().collect::<Vec<_>>(),
             "about": words.get(word).map(|w| &w.about),
@@ -132,7 +132,7 @@ mod tests {
     fn every_type_is_there_with_words_and_a_symbol() {
         let palette = joint_types();
         let types = palette.as_array().map_or(0, Vec::len);
-        assert_eq!(types, JointType::words().count());
+        assert_eq!(types, JointType::all_words().count());
         for t in palette.as_array().into_iter().flatten() {
             assert!(t["about"].is_string(), "{t}");
             assert!(t["symbol"].as_array().is_some_and(|s| !s.is_empty()), "{t}");

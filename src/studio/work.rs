@@ -8,17 +8,17 @@ use crate::model::mechanism::{Mechanism, StateId};
 use crate::page::moving::Moving;
 use crate::page::scenes::{moving_scene, still_scene};
 use crate::page::verdict;
-use crate::redundancy::analysis::{Method, StateAnalysis, analyse};
+use crate::redundancy::analysis::{Method, StateAnalysis, analyse_states};
 use crate::score::outcome::Outcome;
 use crate::score::request::{List, Request};
 use crate::score::run::{Event, run};
-use crate::statics::solve::{Model, SolvedReactions, solve};
+use crate::statics::solve::{Model, SolvedReactions, solve_reactions};
 use crate::view::FORMAT;
 use crate::view::analysis::Analysis;
 use crate::view::reactions::stroke::ReactionsOverStroke as Reactions;
 use crate::view::search::json;
-use crate::view::search::nothing_found::{hopeless, wider};
-use crate::view::terminal::next_commands::flags;
+use crate::view::search::nothing_found::{hopeless_reasons, wider_requests};
+use crate::view::terminal::next_commands::request_flags;
 use serde_json::{Value, json};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
@@ -32,28 +32,32 @@ const IDEAS: usize = 10;
 type Judged = (u64, Arc<Mechanism>, Vec<StateAnalysis>);
 
 /// Works until the room is closed. A motion that takes long holds up neither verdicts nor ideas.
-pub(super) fn work(room: &Arc<Room>) {
+pub(super) fn run_worker(room: &Arc<Room>) {
     let (to_motion, next) = channel::<Judged>();
     let moving = room.clone();
     let made = std::thread::Builder::new().name("studio-motion".to_owned());
     let made = made.spawn(move || {
         while let Ok(first) = next.recv() {
             let (revision, m, states) = next.try_iter().last().unwrap_or(first);
-            or_trouble(&moving, revision, || motion(&moving, revision, &m, &states));
+            or_trouble(&moving, revision, || {
+                compute_motion(&moving, revision, &m, &states)
+            });
         }
     });
     if made.is_err() {
         return;
     }
     let mut done = 0;
-    while let Some(revision) = room.wait(done) {
+    while let Some(revision) = room.wait_for_news(done) {
         done = revision;
         let reading = room.desk().reading.clone();
         let Some(m) = reading.mechanism.clone() else {
-            room.tell(revision, "verdict", &nothing(revision));
+            room.tell_found(revision, "verdict", &nothing_to_judge(revision));
             continue;
         };
-        or_trouble(room, revision, || look(room, revision, &m, &to_motion));
+        or_trouble(room, revision, || {
+            judge_and_search(room, revision, &m, &to_motion)
+        });
     }
 }
 
@@ -61,7 +65,7 @@ pub(super) fn work(room: &Arc<Room>) {
 fn or_trouble(room: &Room, revision: u64, work: impl FnOnce()) {
     if catch_unwind(AssertUnwindSafe(work)).is_err() {
         let words = "the engine failed on this mechanism; report this with the file. The text is unchanged.";
-        room.tell(
+        room.tell_found(
             revision,
             "trouble",
             &json!({ "revision": revision, "words": words }),
@@ -70,26 +74,26 @@ fn or_trouble(room: &Room, revision: u64, work: impl FnOnce()) {
 }
 
 /// Returns the verdict without a mechanism.
-fn nothing(revision: u64) -> Value {
+fn nothing_to_judge(revision: u64) -> Value {
     json!({ "revision": revision, "analysis": null, "words": [], "scenes": [] })
 }
 
-fn look(room: &Room, revision: u64, m: &Arc<Mechanism>, to_motion: &Sender<Judged>) {
-    let states = match states(m) {
+fn judge_and_search(room: &Room, revision: u64, m: &Arc<Mechanism>, to_motion: &Sender<Judged>) {
+    let states = match all_states(m) {
         Ok(states) => states,
         Err(why) => {
-            let mut told = nothing(revision);
+            let mut told = nothing_to_judge(revision);
             told["why"] = why.into();
-            return room.tell(revision, "verdict", &told);
+            return room.tell_found(revision, "verdict", &told);
         }
     };
-    room.tell(revision, "verdict", &judged(m, &states, revision));
+    room.tell_found(revision, "verdict", &verdict_json(m, &states, revision));
     // The thread at the other end lives as long as this one.
     let _ = to_motion.send((revision, m.clone(), states.clone()));
-    search(room, revision, m, &states);
+    run_search(room, revision, m, &states);
 }
 
-fn motion(room: &Room, revision: u64, m: &Mechanism, states: &[StateAnalysis]) {
+fn compute_motion(room: &Room, revision: u64, m: &Mechanism, states: &[StateAnalysis]) {
     let mut moving = Vec::new();
     for (found, state) in states.iter().zip(m.state_ids()) {
         if room.is_old(revision) {
@@ -99,14 +103,14 @@ fn motion(room: &Room, revision: u64, m: &Mechanism, states: &[StateAnalysis]) {
         let made = moving_scene(of, (found, state), &[]);
         moving.push(made.map(|(_, scene)| scene));
     }
-    room.tell(
+    room.tell_found(
         revision,
         "motion",
         &json!({ "revision": revision, "scenes": moving }),
     );
     if !room.is_old(revision) {
         let charts = force_charts(m);
-        room.tell(
+        room.tell_found(
             revision,
             "force",
             &json!({ "revision": revision, "charts": charts }),
@@ -115,16 +119,16 @@ fn motion(room: &Room, revision: u64, m: &Mechanism, states: &[StateAnalysis]) {
 }
 
 /// Each state analysed; why not, in words, where it cannot be.
-pub(super) fn states(m: &Mechanism) -> Result<Vec<StateAnalysis>, String> {
+pub(super) fn all_states(m: &Mechanism) -> Result<Vec<StateAnalysis>, String> {
     let all: Vec<StateId> = m.state_ids().collect();
-    analyse(m, &all, Method::Auto).map_err(|e| e.to_string())
+    analyse_states(m, &all, Method::Auto).map_err(|e| e.to_string())
 }
 
 /// The verdict as the page shows it: the analysis that `ozols analyze --format json` gives, the words of the report, and the
 /// mechanism at rest.
-pub(super) fn judged(m: &Mechanism, states: &[StateAnalysis], revision: u64) -> Value {
+pub(super) fn verdict_json(m: &Mechanism, states: &[StateAnalysis], revision: u64) -> Value {
     let analysis = Analysis::new(m, states, &[]);
-    let words = |s| json!({ "head": verdict::head(s), "text": verdict::state(s).join(" ") });
+    let words = |s| json!({ "head": verdict::verdict_head(s), "text": verdict::state_sentences(s).join(" ") });
     let words: Vec<Value> = analysis.states.iter().map(words).collect();
     let scenes = states.iter().zip(m.state_ids()).map(|(found, state)| {
         let of = found.meant.as_deref().unwrap_or(m);
@@ -140,9 +144,9 @@ pub(super) fn judged(m: &Mechanism, states: &[StateAnalysis], revision: u64) -> 
     })
 }
 
-fn search(room: &Room, revision: u64, m: &Mechanism, states: &[StateAnalysis]) {
-    let (asked, is_wider) = room.request();
-    let flags = is_wider.then(|| flags(m, &asked));
+fn run_search(room: &Room, revision: u64, m: &Mechanism, states: &[StateAnalysis]) {
+    let (asked, is_wider) = room.current_request();
+    let flags = is_wider.then(|| request_flags(m, &asked));
     let request = Request {
         list: List::Top(IDEAS),
         // A ranking orders variants, not ideas.
@@ -157,16 +161,16 @@ fn search(room: &Room, revision: u64, m: &Mechanism, states: &[StateAnalysis]) {
         Event::Building(p) => {
             let told =
                 json!({ "revision": revision, "done": p.done, "of": p.of, "nodes": p.nodes });
-            room.tell(revision, "progress", &told);
+            room.tell_found(revision, "progress", &told);
         }
         Event::Built => {
             // What was found so far is still given.
-            room.stop(0);
-            room.tell(revision, "progress", &json!({ "revision": revision }));
+            room.stop_search(0);
+            room.tell_found(revision, "progress", &json!({ "revision": revision }));
         }
         Event::Proving { done, of } => {
             let told = json!({ "revision": revision, "done": done, "of": of });
-            room.tell(revision, "progress", &told);
+            room.tell_found(revision, "progress", &told);
         }
     };
     room.searches[0].fetch_add(1, Ordering::SeqCst);
@@ -174,7 +178,7 @@ fn search(room: &Room, revision: u64, m: &Mechanism, states: &[StateAnalysis]) {
     let told = match (found, room.is_old(revision)) {
         (_, true) => Ok(None),
         (Err(why), _) => Err(why.to_string()),
-        (Ok(outcome), _) => given(room, revision, m, states, outcome).map(Some),
+        (Ok(outcome), _) => ideas_json(room, revision, m, states, outcome).map(Some),
     };
     room.searches[1].fetch_add(1, Ordering::SeqCst);
     match told {
@@ -182,9 +186,9 @@ fn search(room: &Room, revision: u64, m: &Mechanism, states: &[StateAnalysis]) {
         Ok(Some(mut ideas)) => {
             ideas["notes"] = notes.into();
             ideas["asked"] = flags.into();
-            room.tell(revision, "ideas", &ideas);
+            room.tell_found(revision, "ideas", &ideas);
         }
-        Err(why) => room.tell(
+        Err(why) => room.tell_found(
             revision,
             "ideas",
             &json!({ "revision": revision, "why": why, "asked": flags }),
@@ -193,7 +197,7 @@ fn search(room: &Room, revision: u64, m: &Mechanism, states: &[StateAnalysis]) {
 }
 
 /// What `ozols search --format json` gives, and what each change looks like.
-fn given(
+fn ideas_json(
     room: &Room,
     revision: u64,
     m: &Mechanism,
@@ -202,13 +206,13 @@ fn given(
 ) -> Result<Value, String> {
     let words = |e: &dyn std::fmt::Display| e.to_string();
     let is_over = || room.is_over(revision);
-    let remarks = outcome.remarks(&is_over).map_err(|e| words(&e))?;
+    let remarks = outcome.make_remarks(&is_over).map_err(|e| words(&e))?;
     let mut text = Vec::new();
     let variants = outcome.variants_unless(&is_over);
-    json::write(&mut text, &outcome, variants, &remarks, None).map_err(|e| words(&e))?;
+    json::write_json(&mut text, &outcome, variants, &remarks, None).map_err(|e| words(&e))?;
     let found: Value = serde_json::from_slice(&text).map_err(|e| words(&e))?;
-    let marks = idea::marks(m, states, &outcome, &found["variants"]);
-    let wider = wider(&outcome, &remarks).into_iter();
+    let marks = idea::idea_marks(m, states, &outcome, &found["variants"]);
+    let wider = wider_requests(&outcome, &remarks).into_iter();
     // The pool is set here at each search.
     let own = |(request, gives)| {
         (
@@ -220,16 +224,16 @@ fn given(
         )
     };
     let wider: Vec<(Request, String)> = wider.map(own).collect();
-    let step = |(request, gives): &(Request, String)| json!({ "flags": flags(m, request), "gives": gives });
+    let step = |(request, gives): &(Request, String)| json!({ "flags": request_flags(m, request), "gives": gives });
     let told = json!({
         "revision": revision,
         "found": found,
         "marks": marks,
-        "hopeless": hopeless(m, &remarks.hopeless),
+        "hopeless": hopeless_reasons(m, &remarks.hopeless),
         // In the order in which they are asked for by number.
         "wider": wider.iter().map(step).collect::<Value>(),
     });
-    room.keep(Found {
+    room.keep_found(Found {
         revision,
         outcome,
         wider: wider.into_iter().map(|(request, _)| request).collect(),
@@ -242,15 +246,15 @@ const STEPS: usize = 24;
 
 /// By state a chart as SVG, or why there is none; null where nothing loads it.
 fn force_charts(m: &Mechanism) -> Vec<Value> {
-    m.state_ids().map(|s| chart(m, s)).collect()
+    m.state_ids().map(|s| force_chart(m, s)).collect()
 }
 
-fn chart(m: &Mechanism, state: StateId) -> Value {
+fn force_chart(m: &Mechanism, state: StateId) -> Value {
     if !m.loads.acts_from_outside(state) {
         return Value::Null;
     }
-    let stroke = m.loads.stroke.or_else(|| reach(m, state));
-    match solve(m, state, stroke, Model::Spatial) {
+    let stroke = m.loads.stroke.or_else(|| stroke_reach(m, state));
+    match solve_reactions(m, state, stroke, Model::Spatial) {
         Ok(SolvedReactions::Spatial(found)) => {
             let svg = Reactions::new(m, state, &found).chart().map(|c| c.svg());
             json!({ "svg": svg })
@@ -261,8 +265,8 @@ fn chart(m: &Mechanism, state: StateId) -> Value {
 }
 
 /// As far as the drive goes.
-fn reach(m: &Mechanism, state: StateId) -> Option<Stroke> {
-    let [from, to] = Moving::new(m, state, None, None).ok()?.reach()?;
+fn stroke_reach(m: &Mechanism, state: StateId) -> Option<Stroke> {
+    let [from, to] = Moving::new(m, state, None, None).ok()?.drive_reach()?;
     Some(Stroke {
         from,
         to,

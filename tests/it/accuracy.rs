@@ -2,9 +2,9 @@
 
 use crate::common::*;
 use ozols::accuracy::AnswerVerdict;
-use ozols::accuracy::lattice::toggles;
+use ozols::accuracy::lattice::toggle_row;
 use ozols::accuracy::special::SpecialKind;
-use ozols::accuracy::survey::{Reply, Survey, cases, generated};
+use ozols::accuracy::survey::{Reply, Survey, built_in_cases, generated_cases};
 use ozols::accuracy::timing::Stopwatch;
 use ozols::geom::Reals;
 use ozols::rank::method::{MobilityMethod, registry};
@@ -18,7 +18,11 @@ pub(crate) static SURVEY: LazyLock<Survey> = LazyLock::new(|| {
         clock: || Duration::ZERO,
         repeat: 1,
     };
-    Survey::new(cases(&builtin::all()).unwrap(), watch, &mut |_, _| {})
+    Survey::new(
+        built_in_cases(&builtin::all()).unwrap(),
+        watch,
+        &mut |_, _| {},
+    )
 });
 
 fn index(name: &str) -> usize {
@@ -32,7 +36,7 @@ fn reply(case: &str, method: &str) -> &'static Reply {
 
 #[test]
 fn finite_auto_and_modular_are_right_everywhere() {
-    assert!(cases(&builtin::all()).unwrap().len() >= 117);
+    assert!(built_in_cases(&builtin::all()).unwrap().len() >= 117);
     let mut wrong = Vec::new();
     for name in ["finite", "auto"] {
         for (case, r) in SURVEY.of_method(index(name)) {
@@ -71,7 +75,7 @@ fn each_naive_formula_fails_where_it_is_known_to() {
 fn right_at(method: Elimination, tolerance: f64) -> usize {
     let right = |case: &&ozols::accuracy::survey::Case| {
         let closure = Closure::new(&Reals, &case.mechanism, case.state).unwrap();
-        let rank = method.rank(&closure, tolerance).map(|r| r.rank);
+        let rank = method.rank_of_closure(&closure, tolerance).map(|r| r.rank);
         rank.is_ok_and(|r| {
             i64::try_from(closure.columns.len() - r).is_ok_and(|w| w == case.truth.instantaneous)
         })
@@ -208,7 +212,7 @@ fn errors_fall_with_the_prime(csv: &[Vec<String>]) {
 #[test]
 fn mechanisms_made_from_a_seed_are_what_they_are_said_to_be() {
     let seed = std::env::var("OZOLS_FUZZ_SEED").map_or(11, |s| s.parse().unwrap());
-    let made = generated(seed);
+    let made = generated_cases(seed);
     assert!(made.len() >= 30);
     let watch = Stopwatch {
         clock: || Duration::ZERO,
@@ -222,14 +226,14 @@ fn mechanisms_made_from_a_seed_are_what_they_are_said_to_be() {
         assert!(shaky || !wrong, "{}: {:?}", case.name(), reply.answer);
     }
     // With every digit at its word what is rounded is rigid.
-    let modular = survey.standing(index("modular"));
-    assert!(modular.right < survey.standing(index("auto")).right);
+    let modular = survey.record_of(index("modular"));
+    assert!(modular.right < survey.record_of(index("auto")).right);
 }
 
 #[test]
 fn rows_of_toggles_have_one_freedom_at_the_pose() {
     for levels in 1..=5 {
-        let text = toggles(levels, &mut Noise::new(5, levels));
+        let text = toggle_row(levels, &mut Noise::new(5, levels));
         let m = mechanism_from_str("toggles.toml", &text).unwrap();
         for name in ["rational", "svd"] {
             let found = registry::by_name(name)
@@ -257,7 +261,7 @@ fn a_quick_run_writes_a_chart_and_a_table_of_each_study() {
     assert!(
         said.contains(&format!(
             "right of {}",
-            cases(&builtin::all()).unwrap().len()
+            built_in_cases(&builtin::all()).unwrap().len()
         )) && said.contains("Size of the prime: ")
     );
     let mut svgs = 0;

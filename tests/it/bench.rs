@@ -2,9 +2,9 @@
 
 use crate::common::*;
 use ozols::Mechanism;
-use ozols::accuracy::lattice::lift;
+use ozols::accuracy::lattice::make_lift;
 use ozols::accuracy::searching::record::{self, Bracket, Record, Share, Trial, Way};
-use ozols::accuracy::searching::{MECHANISMS, TrialEffort, pictures, trial};
+use ozols::accuracy::searching::{MECHANISMS, TrialEffort, pictures, run_trial};
 use ozols::accuracy::study;
 use ozols::accuracy::timing::Stopwatch;
 use ozols::file::text::mechanism_from_str;
@@ -28,7 +28,7 @@ fn tried(mechanism: &Mechanism, request: &Request, effort: TrialEffort) -> Trial
         clock: || Duration::ZERO,
         repeat: 1,
     };
-    trial(mechanism, request, effort, watch, &mut |_, _, _| {}).unwrap()
+    run_trial(mechanism, request, effort, watch, &mut |_, _, _| {}).unwrap()
 }
 
 fn trial_of(name: &str) -> Trial {
@@ -46,7 +46,10 @@ fn is_right(share: Share) -> bool {
 
 /// The records of budgets that were too small.
 fn stopped(trial: &Trial) -> impl Iterator<Item = &Record> {
-    let wide = |r: &&Record| r.bracket.is_some_and(|b| Bracket::decades(b.certain) > 0.0);
+    let wide = |r: &&Record| {
+        r.bracket
+            .is_some_and(|b| Bracket::width_in_decades(b.certain) > 0.0)
+    };
     trial.records.iter().filter(wide)
 }
 
@@ -102,8 +105,8 @@ fn the_truth_is_what_is_known() {
     assert_eq!(found(&t), ["6340592477", "25761436"]);
     assert!(!t.all_looked_at && t.looked_at == 400 && t.ranked_by_pool.is_none());
     let t = trial_of("goldberg-5r");
-    let counts = json("search goldberg-5r --method brute --format json");
-    let known = ["determinate", "admissible"].map(|k| count(&counts[k]).to_string());
+    let counts = run_json("search goldberg-5r --method brute --format json");
+    let known = ["determinate", "admissible"].map(|k| parse_count(&counts[k]).to_string());
     assert_eq!((t.all_looked_at, found(&t)), (true, known));
 }
 
@@ -123,12 +126,13 @@ fn floating_point_looks_at_the_same_matrices() {
         let m = built_in(name);
         let outcome = ozols::search(&m, &request).unwrap();
         let search = &outcome.search;
-        let drawn = search.sample(outcome.diagrams.as_ref().unwrap(), 7);
+        let drawn = search.sample_variants(outcome.diagrams.as_ref().unwrap(), 7);
         let drawn: Vec<_> = drawn.take(40).collect();
         for e in [Elimination::Lu, Elimination::Qr, Elimination::Svd] {
             let all = Approximate::new(search, e, e.default_tolerance()).unwrap();
-            for c in singular_values::certify(search, drawn.clone(), true, None, &|| false) {
-                let seen = all.look(&c.variant.choices).unwrap();
+            for c in singular_values::certify_variants(search, drawn.clone(), true, None, &|| false)
+            {
+                let seen = all.look_at(&c.variant.choices).unwrap();
                 let opinion = c.second.opinion().unwrap();
                 let by_itself = (i64::from(seen.internal), seen.motion);
                 assert_eq!(by_itself, (opinion.redundant, opinion.output.unwrap()));
@@ -144,7 +148,11 @@ fn floating_point_looks_at_the_same_matrices() {
 #[test]
 fn floating_point_is_wrong_about_a_hair() {
     let hair = "point = [\"20 + 1e-20\", 40, -20]";
-    let text = changed(&out(&["show", "bennett"]), "point = [20, 40, -20]", hair);
+    let text = replace_once(
+        &run_quiet(&["show", "bennett"]),
+        "point = [20, 40, -20]",
+        hair,
+    );
     let off = mechanism_from_str("bennett.toml", &text).unwrap();
     let request = Request {
         as_written: true,
@@ -160,7 +168,7 @@ fn floating_point_is_wrong_about_a_hair() {
         assert!(!is_right(r.variants.unwrap()), "{e:?}");
         assert!(!is_right(r.counts.unwrap()), "{e:?}");
     }
-    let said = pictures::wrong(&t);
+    let said = pictures::describe_errors(&t);
     assert!(said.contains("brute force, svd on "), "{said}");
 }
 
@@ -173,7 +181,7 @@ fn the_best_are_judged_by_a_proven_pool_alone() {
         (Some(2_000), Some(false))
     );
     assert!(t.records.iter().all(|r| r.best.is_none()));
-    let said = pictures::ranking(&t).unwrap();
+    let said = pictures::describe_ranking(&t).unwrap();
     assert!(said.contains("are not judged"), "{said}");
     // Ranking takes time of its own, and counting none of it.
     let pool = of(&t, Way::Pool(Some(1000)));
@@ -205,7 +213,7 @@ fn what_prunes_loses_nothing() {
             .map(|v| v.choices.len())
             .collect();
         let few = radix.iter().product::<usize>() <= 5_000;
-        let mut order = search.orders().determinate;
+        let mut order = search.variable_orders().determinate;
         let first = Pruned::new(&search, &order);
         order.reverse();
         for pruned in [first, Pruned::new(&search, &order)] {
@@ -218,10 +226,10 @@ fn what_prunes_loses_nothing() {
             // Pruning asks about the drawn pose alone.
             let look = |choices: &[usize]| Seen {
                 lasts: None,
-                ..all.look(choices)
+                ..all.look_at(choices)
             };
             let mut found = Vec::new();
-            pruned.visit(&beginning, &mut |choices, seen| {
+            pruned.visit_determinate(&beginning, &mut |choices, seen| {
                 assert_eq!(seen, look(choices), "{name}: {choices:?}");
                 found.push(choices.to_vec());
             });
@@ -233,7 +241,10 @@ fn what_prunes_loses_nothing() {
                 .for_each(|&v| choices[v] = radix[v] - 1);
             loop {
                 let seen = look(&choices);
-                assert_eq!(pruned.look(&choices), (seen.internal == 0).then_some(seen));
+                assert_eq!(
+                    pruned.look_at(&choices),
+                    (seen.internal == 0).then_some(seen)
+                );
                 if seen.internal == 0 {
                     truth.push(choices.clone());
                 }
@@ -253,12 +264,12 @@ fn what_prunes_loses_nothing() {
 
 /// The studies of some trials, by name, with their tables and charts.
 fn studied(trials: &[Trial]) -> Vec<(String, String)> {
-    let studies = pictures::studies(trials, ["take it", "raise it", "leave it"]);
-    study::files(
+    let studies = pictures::make_studies(trials, ["take it", "raise it", "leave it"]);
+    study::page_files(
         "Searches",
         "by hand",
         &studies,
-        vec![("searches.csv".to_owned(), record::csv(trials))],
+        vec![("searches.csv".to_owned(), record::trials_csv(trials))],
     )
 }
 
@@ -317,7 +328,7 @@ fn large_mechanisms_are_counted_with_budgets_alone() {
         patience: -1.0,
         ..EFFORT
     };
-    let t = tried(&lift(12), &Request::default(), effort);
+    let t = tried(&make_lift(12), &Request::default(), effort);
     assert_eq!((t.looked_at, t.records.len()), (0, 1));
     assert!(t.records[0].variants.is_none() && stopped(&t).count() == 1);
     assert!(t.determinate.is_none() && t.space.len() > 20, "{}", t.space);
@@ -326,7 +337,7 @@ fn large_mechanisms_are_counted_with_budgets_alone() {
 #[test]
 fn the_command_says_the_same_in_every_format() {
     let args = ["bench", "four-bar", "--quick", "--top", "3"];
-    let v = json(&[&args[..], &["--format", "json"]].concat());
+    let v = run_json(&[&args[..], &["--format", "json"]].concat());
     let machine = &v["machine"];
     assert_eq!(machine["version"], env!("CARGO_PKG_VERSION"));
     assert!(machine["cores"].as_u64().unwrap() > 0);
@@ -334,10 +345,10 @@ fn the_command_says_the_same_in_every_format() {
     let four_bar = &v["mechanisms"][0];
     assert_eq!(four_bar["determinate"], "34");
     assert_eq!(four_bar["all_looked_at"], true);
-    let csv = out(&[&args[..], &["--format", "csv"]].concat());
+    let csv = run_quiet(&[&args[..], &["--format", "csv"]].concat());
     let ways = v["ways"].as_array().unwrap();
     assert_eq!(csv.lines().count(), 1 + ways.len());
-    let said = out(&args);
+    let said = run_quiet(&args);
     for way in ways {
         let name = way["way"].as_str().unwrap();
         assert!(csv.contains(name) && said.contains(name), "{name}");
@@ -347,7 +358,7 @@ fn the_command_says_the_same_in_every_format() {
 
     let folder = tempdir().unwrap();
     let at = folder.path().join("bench");
-    let said = out(&[&args[..], &["-o", at.to_str().unwrap()]].concat());
+    let said = run_quiet(&[&args[..], &["-o", at.to_str().unwrap()]].concat());
     assert!(said.trim_end().ends_with("open it in a browser."));
     let names = fs::read_dir(&at).unwrap();
     assert!(names.count() >= 3);
@@ -356,8 +367,9 @@ fn the_command_says_the_same_in_every_format() {
 #[test]
 fn conditions_are_those_of_a_search_and_bad_ones_are_refused() {
     let args = ["four-bar", "--max-mobility", "1", "--max-changes", "3"];
-    let search = json(&[&["search"], &args[..], &["--count", "--format", "json"]].concat());
-    let bench: Value = json(&[&["bench", "--quick"], &args[..], &["--format", "json"]].concat());
+    let search = run_json(&[&["search"], &args[..], &["--count", "--format", "json"]].concat());
+    let bench: Value =
+        run_json(&[&["bench", "--quick"], &args[..], &["--format", "json"]].concat());
     assert_eq!(bench["mechanisms"][0]["admissible"], search["admissible"]);
     for (bad, said) in [
         (&["nosuch"][..], "neither a file nor a built-in mechanism"),
@@ -379,7 +391,11 @@ fn conditions_are_those_of_a_search_and_bad_ones_are_refused() {
             .output()
             .unwrap();
         assert_eq!(o.status.code(), Some(2), "{bad:?}");
-        assert!(text(&o.stderr).contains(said), "{}", text(&o.stderr));
+        assert!(
+            utf8_text(&o.stderr).contains(said),
+            "{}",
+            utf8_text(&o.stderr)
+        );
     }
     let list = List::Top(3);
     let top = tried(

@@ -2,7 +2,7 @@
 
 use crate::common::*;
 use ozols::redundancy::analysis::Elimination;
-use ozols::redundancy::{StateFigures, figures};
+use ozols::redundancy::{StateFigures, state_figures};
 use serde_json::json as value;
 
 #[test]
@@ -31,8 +31,8 @@ fn every_built_in_mechanism_has_the_figures_it_states() {
         }
         for method in [Method::Modular, Method::Numeric(Elimination::Svd, 1e-9)] {
             let states: Vec<StateId> = m.state_ids().collect();
-            for s in analyse(&m, &states, method).unwrap() {
-                let state = m.state(&s.state).unwrap();
+            for s in analyse_states(&m, &states, method).unwrap() {
+                let state = m.state_named(&s.state).unwrap();
                 let of_analysis = StateFigures {
                     links: s.links,
                     joints: s.joints,
@@ -42,7 +42,7 @@ fn every_built_in_mechanism_has_the_figures_it_states() {
                     redundant: s.redundant,
                 };
                 assert_eq!(
-                    figures(&m, state).unwrap(),
+                    state_figures(&m, state).unwrap(),
                     of_analysis,
                     "{name} {}",
                     s.state
@@ -121,8 +121,8 @@ fn friction_shared_by_the_jaws_is_told_from_harm() {
         ("gripper-10-redesign-unloaded", 2, 0),
     ] {
         let m = built_in(name);
-        let clamped = m.state("clamped").unwrap();
-        let s = &analyse(&m, &[clamped], Method::Modular).unwrap()[0];
+        let clamped = m.state_named("clamped").unwrap();
+        let s = &analyse_states(&m, &[clamped], Method::Modular).unwrap()[0];
         let external: Vec<StressVerdict> = s
             .self_stresses
             .iter()
@@ -151,13 +151,13 @@ fn friction_shared_by_the_jaws_is_told_from_harm() {
 /// What is listed is `catalogs/list.csv`. If this fails, correct the lines of it that differ.
 #[test]
 fn the_list_has_the_figures_of_the_files() {
-    let listed = json(&["list", "--format", "json"]);
+    let listed = run_json(&["list", "--format", "json"]);
     let mut computed: Vec<Value> = Vec::new();
     for (family, names) in builtin::families() {
         for name in names {
             let m = built_in(name);
             for (state, word) in m.states_with_ids() {
-                let f = figures(&m, state).unwrap();
+                let f = state_figures(&m, state).unwrap();
                 computed.push(value!({
                     "name": name,
                     "family": family,

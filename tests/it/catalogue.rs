@@ -24,13 +24,13 @@ mod tasks;
 mod three_jaws;
 mod workload;
 
-use ozols::catalog::row::{Laid, StructureRow, row};
+use ozols::catalog::row::{Laid, StructureRow, structure_row};
 use ozols::catalog::spec::Spec;
-use ozols::chains::enumerate::chains;
+use ozols::chains::enumerate::list_chains;
 use ozols::chains::roles::Subject;
 use ozols::chains::{Input, Symmetry};
 use ozols::file::schema::{Coordinate, DriveWord};
-use ozols::synthesis::figures::figures;
+use ozols::synthesis::figures::layout_figures;
 use ozols::synthesis::layout::{Layout, NoLayout};
 use ozols::synthesis::listed::hinged_structures;
 use ozols::synthesis::mechanism::mechanism_file;
@@ -40,7 +40,7 @@ use ozols::synthesis::task::Limits;
 use ozols::synthesis::workload::Workload;
 use ozols::{Request, analyze};
 use std::ops::Deref;
-use stroke::filed;
+use stroke::read_layout;
 
 /// A layout with only hinges, as pins at exact places.
 struct Drawn {
@@ -56,7 +56,7 @@ impl Drawn {
         Drawn {
             pins: joints.map(|j| (j.links[0], j.links[1])).collect(),
             at: layout.places(),
-            tips: s.tips(&layout.limits.task),
+            tips: s.tip_places(&layout.limits.task),
             layout,
         }
     }
@@ -71,24 +71,28 @@ impl Deref for Drawn {
 }
 
 fn layout(s: &Structure, limits: &Limits, seed: u64) -> Result<Drawn, NoLayout> {
-    let found = ozols::synthesis::layout::layout(s, limits, seed);
+    let found = ozols::synthesis::layout::lay_out(s, limits, seed);
     found.map(|l| Drawn::new(s, l))
 }
 
 /// Calls with every structure of two jaws and some forms of all chains of so many links.
-fn each(links: usize, forms: &[(Input, Form)], with: impl FnMut(&Subject<'_>, Structure)) {
-    each_of(links, 2, forms, with);
+fn each_structure(
+    links: usize,
+    forms: &[(Input, Form)],
+    with: impl FnMut(&Subject<'_>, Structure),
+) {
+    each_structure_of(links, 2, forms, with);
 }
 
 /// Calls with every structure of so many jaws and some forms of all chains of so many links.
-fn each_of(
+fn each_structure_of(
     links: usize,
     jaws: usize,
     forms: &[(Input, Form)],
     mut with: impl FnMut(&Subject<'_>, Structure),
 ) {
-    for chain in chains(links, 1).unwrap() {
-        let (chain, automorphisms) = chain.canonical();
+    for chain in list_chains(links, 1).unwrap() {
+        let (chain, automorphisms) = chain.canonical_form();
         let subject = Subject::new(&chain, &automorphisms);
         for s in hinged_structures(&subject, jaws, forms) {
             with(&subject, s);
@@ -96,7 +100,7 @@ fn each_of(
     }
 }
 
-fn form(input: Input, symmetry: Symmetry, parallel: bool) -> (Input, Form) {
+fn form_of(input: Input, symmetry: Symmetry, parallel: bool) -> (Input, Form) {
     let of = Form::of_symmetry(symmetry);
     let form = Form {
         parallel,
@@ -106,7 +110,7 @@ fn form(input: Input, symmetry: Symmetry, parallel: bool) -> (Input, Form) {
     (input, form)
 }
 
-fn plain(ideas: usize) -> Spec {
+fn plain_spec(ideas: usize) -> Spec {
     Spec {
         ideas,
         ..Spec::default()
@@ -114,7 +118,7 @@ fn plain(ideas: usize) -> Spec {
 }
 
 /// A structure a test lays out: places by joint.
-fn places(l: &Drawn) -> BTreeMap<(usize, usize), [i32; 2]> {
+fn places_of_pins(l: &Drawn) -> BTreeMap<(usize, usize), [i32; 2]> {
     assert!(l.at.iter().all(|p| p.thirds == 0));
     let whole = l.at.iter().map(|p| p.whole);
     l.pins.iter().copied().zip(whole).collect()
@@ -122,8 +126,8 @@ fn places(l: &Drawn) -> BTreeMap<(usize, usize), [i32; 2]> {
 
 #[test]
 fn symmetric_layouts_are_as_many_as_can_be_and_exactly_symmetric() {
-    let mirror = form(Input::Slide, Symmetry::Mirror, false);
-    let half_turn = form(Input::Turn, Symmetry::HalfTurn, false);
+    let mirror = form_of(Input::Slide, Symmetry::Mirror, false);
+    let half_turn = form_of(Input::Turn, Symmetry::HalfTurn, false);
     // `topology.md`: mirror possible, half-turn possible.
     for (links, form, possible) in [
         (4, mirror, 0),
@@ -133,13 +137,13 @@ fn symmetric_layouts_are_as_many_as_can_be_and_exactly_symmetric() {
         (8, half_turn, 0),
     ] {
         let mut laid = 0;
-        each(links, &[form], |subject, s| {
+        each_structure(links, &[form], |subject, s| {
             let Ok(l) = layout(&s, &Limits::default(), 1) else {
                 return;
             };
             laid += 1;
             // Whichever way round: some automorphism that swaps the jaws carries every pin to its image.
-            let at = places(&l);
+            let at = places_of_pins(&l);
             let image = |[x, y]: [i32; 2]| match form.1.symmetry {
                 Symmetry::Mirror => [x, -y],
                 _ => [-x, -y],
@@ -151,7 +155,7 @@ fn symmetric_layouts_are_as_many_as_can_be_and_exactly_symmetric() {
                 })
             };
             assert!(
-                subject.swaps(&s.structure.roles).any(carries),
+                subject.iter_swaps(&s.structure.roles).any(carries),
                 "{}",
                 s.name()
             );
@@ -163,11 +167,11 @@ fn symmetric_layouts_are_as_many_as_can_be_and_exactly_symmetric() {
 #[test]
 fn parallelograms_are_exact_and_their_jaws_do_not_turn() {
     let mut seen = 0;
-    each(
+    each_structure(
         6,
         &Form::of_hinges().filter(|(_, f)| f.parallel).collect_vec(),
         |_, s| {
-            let Ok(row) = row(&s, &plain(0)) else {
+            let Ok(row) = structure_row(&s, &plain_spec(0)) else {
                 panic!("{}", s.name())
             };
             let Ok(Laid {
@@ -177,9 +181,9 @@ fn parallelograms_are_exact_and_their_jaws_do_not_turn() {
                 return;
             };
             seen += 1;
-            let at = places(&Drawn::new(&s, layout));
+            let at = places_of_pins(&Drawn::new(&s, layout));
             let pin = |u: usize, v: usize| at[&(u.min(v), u.max(v))];
-            for r in s.rings().unwrap() {
+            for r in s.parallelogram_rings().unwrap() {
                 let [a, b, c, d] = r.map(|[u, v]| pin(u, v));
                 let side = |a: [i32; 2], b: [i32; 2]| [b[0] - a[0], b[1] - a[1]];
                 assert_eq!(side(a, c), side(b, d), "{}", s.name());
@@ -194,17 +198,17 @@ fn parallelograms_are_exact_and_their_jaws_do_not_turn() {
 #[test]
 fn the_drive_closes_the_jaws_as_fast_as_the_layout_says() {
     let forms = [
-        form(Input::Slide, Symmetry::Generic, false),
-        form(Input::Turn, Symmetry::Generic, false),
+        form_of(Input::Slide, Symmetry::Generic, false),
+        form_of(Input::Turn, Symmetry::Generic, false),
     ];
     let (mut n, mut ways) = (0, Vec::new());
-    each(6, &forms, |_, s| {
+    each_structure(6, &forms, |_, s| {
         n += 1;
         if n % 8 != 0 {
             return;
         }
         let l = layout(&s, &Limits::default(), 1).unwrap();
-        let twin = filed(&s, &l);
+        let twin = read_layout(&s, &l);
         let pose = twin.seen(twin.drawn());
         let rate = 1.0 / pose.drive();
         let stated = l.looks.closing;
@@ -218,7 +222,7 @@ fn the_drive_closes_the_jaws_as_fast_as_the_layout_says() {
             panic!("two tips")
         };
         assert!(a[1] < 0.0 && b[1] > 0.0, "{:?}", l.looks);
-        let found = figures(&s, &l).unwrap();
+        let found = layout_figures(&s, &l).unwrap();
         ways.push(found.closes);
         assert_eq!(found.closes, -rate.signum(), "{}", s.name());
     });
@@ -226,7 +230,7 @@ fn the_drive_closes_the_jaws_as_fast_as_the_layout_says() {
 }
 
 /// Solves a square system given by columns.
-fn gauss(columns: &[Vec<f64>], right: &[f64]) -> Vec<f64> {
+fn solve_square(columns: &[Vec<f64>], right: &[f64]) -> Vec<f64> {
     let n = right.len();
     assert_eq!(columns.len(), n);
     let mut rows: Vec<Vec<f64>> = (0..n)
@@ -275,8 +279,13 @@ fn free_motions(mut rows: Vec<Vec<f64>>, n: usize) -> Vec<Vec<f64>> {
 
 /// The mechanism with its pins moved by less than half a millimetre, so that no two axes through them coincide: the
 /// published counts are those of generic places, and whole millimetres may be special.
-fn generic(s: &Structure, l: &Drawn, change_input: bool) -> Mechanism {
-    let mut file = mechanism_file(s, l, &Spec::default().menu().unwrap(), &Workload::default());
+fn generic_mechanism(s: &Structure, l: &Drawn, change_input: bool) -> Mechanism {
+    let mut file = mechanism_file(
+        s,
+        l,
+        &Spec::default().option_menu().unwrap(),
+        &Workload::default(),
+    );
     for (i, (joint, at)) in file.joint.iter_mut().zip(&l.at).enumerate() {
         // The golden ratio's multiples are spread evenly.
         let off = |k: usize| (((2 * i + k + 1) * 6_180_339) % 10_000_000) as i64;
@@ -292,12 +301,12 @@ fn generic(s: &Structure, l: &Drawn, change_input: bool) -> Mechanism {
 fn the_mechanism_of_a_row_has_the_figures_of_the_row_when_it_is_read_again() {
     let forms = Form::of_hinges().collect_vec();
     let mut n = 0;
-    each(6, &forms, |_, s| {
+    each_structure(6, &forms, |_, s| {
         n += 1;
         if n % 9 != 0 {
             return;
         }
-        let StructureRow { laid: Ok(laid), .. } = row(&s, &plain(3)).unwrap() else {
+        let StructureRow { laid: Ok(laid), .. } = structure_row(&s, &plain_spec(3)).unwrap() else {
             return;
         };
         let again = ozols::from_toml(&laid.file).unwrap();
@@ -311,7 +320,7 @@ fn the_mechanism_of_a_row_has_the_figures_of_the_row_when_it_is_read_again() {
         assert_eq!(outcome.determinate.by_mobility_and_changes, laid.counts);
         assert_eq!(
             outcome.admissible.total,
-            laid.determinate(Some(1)),
+            laid.variant_count(Some(1)),
             "{}",
             s.name()
         );
@@ -319,19 +328,19 @@ fn the_mechanism_of_a_row_has_the_figures_of_the_row_when_it_is_read_again() {
         assert_eq!(best.cost_milli(), laid.ideas[0].cost_milli);
         // Every joint is a hinge square to the plane but the input, and no place is off the thousandth of a millimetre.
         for j in &again.joints {
-            let slides = j.drive && s.input() == Input::Slide;
+            let slides = j.drive && s.drive_input() == Input::Slide;
             assert_eq!(j.joint_type == JointType::Prismatic, slides);
-            let thousandths = real(&j.frame.point).map(|x| (1000.0 * x).round() / 1000.0);
-            assert_eq!(thousandths, real(&j.frame.point));
+            let thousandths = to_vector(&j.frame.point).map(|x| (1000.0 * x).round() / 1000.0);
+            assert_eq!(thousandths, to_vector(&j.frame.point));
         }
     });
 }
 
 #[test]
 fn why_a_structure_has_no_layout_is_said() {
-    let mirror = form(Input::Slide, Symmetry::Mirror, false);
+    let mirror = form_of(Input::Slide, Symmetry::Mirror, false);
     let mut whys = BTreeMap::new();
-    each(8, &[mirror], |_, s| {
+    each_structure(8, &[mirror], |_, s| {
         if let Err(why) = layout(&s, &Limits::default(), 1) {
             *whys.entry(why.to_string()).or_insert(0) += 1;
         }
@@ -344,9 +353,9 @@ fn why_a_structure_has_no_layout_is_said() {
         crossings: 0,
         ..Limits::default()
     };
-    let turning = form(Input::Turn, Symmetry::Generic, false);
+    let turning = form_of(Input::Turn, Symmetry::Generic, false);
     let mut refused = 0;
-    each(6, &[turning], |_, s| {
+    each_structure(6, &[turning], |_, s| {
         let found = layout(&s, &strict, 1);
         refused += usize::from(found.is_err_and(|e| e.to_string().contains("links of 1 : ")));
     });

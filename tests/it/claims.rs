@@ -6,8 +6,8 @@ use serde_json::json as value;
 use std::f64::consts::FRAC_PI_4;
 
 fn claims(args: &[&str]) -> (Vec<Value>, String) {
-    let found = json(&[args, &["--format", "json"]].concat());
-    (found["claims"].list().clone(), out(args))
+    let found = run_json(&[args, &["--format", "json"]].concat());
+    (found["claims"].list().clone(), run_quiet(args))
 }
 
 /// The claim with these words in it.
@@ -20,7 +20,7 @@ fn claim<'c>(claims: &'c [Value], says: &str) -> &'c Value {
 
 /// A state of a mechanism as analysed.
 fn state(name: &str, at: usize) -> Value {
-    json(&["analyze", name, "--format", "json"])["states"][at].clone()
+    run_json(&["analyze", name, "--format", "json"])["states"][at].clone()
 }
 
 /// Each figure of `[Pogrebnyak 2018]` that the program confirms has a row, and a tally counts what has one.
@@ -85,8 +85,8 @@ fn each_confirmed_figure_of_the_gripper_has_a_row() {
 #[test]
 fn the_jaws_of_the_gripper_swing() {
     let text = ozols::builtin::text("gripper-10").unwrap();
-    let stroke = words("statics gripper-10-planar --stroke -0.5:0.5:20 --format json");
-    let found = json(&stroke);
+    let stroke = split_words("statics gripper-10-planar --stroke -0.5:0.5:20 --format json");
+    let found = run_json(&stroke);
     let ends = found["positions"].list().iter().map(|p| {
         let all = p["reactions"].list().iter();
         let end = all.clone().find(|r| r["joint"] == "2-4").unwrap();
@@ -114,7 +114,7 @@ fn slips_of_the_shears_are_told_with_what_is_right() {
     let (claims, text) = claims(&["statics", "parallel-shears"]);
     let tally = "10 claims, 5 confirmed, 4 refuted, 1 refuted if the scan of the text is right";
     assert!(text.contains(tally), "{text}");
-    let found = json(&["statics", "parallel-shears", "--format", "json"]);
+    let found = run_json(&["statics", "parallel-shears", "--format", "json"]);
     let positions = found["positions"].list();
     let size = |v: &Value| v[0].real().hypot(v[1].real());
     let at = |joint: &str, p: &Value| {
@@ -169,8 +169,8 @@ fn slips_of_the_shears_are_told_with_what_is_right() {
     assert_eq!(joint("4-7"), ["4", "7"]);
     // The weights of the rods alone have a moment about D.
     let bare = with_weights_of_rods_alone(ozols::builtin::text("parallel-shears").unwrap());
-    let (_folder, file) = written("rods.toml", bare);
-    let found = json(&["statics", file, "--format", "json"]);
+    let (_folder, file) = write_temporary("rods.toml", bare);
+    let found = run_json(&["statics", file, "--format", "json"]);
     let h = found["positions"][0]["contour_groups"][0]["methods"]["equilibrium"]["h"].real();
     let zero = claim(&claims, "so h = 0");
     assert!(
@@ -211,7 +211,7 @@ fn rods_and_rockers_are_told_apart() {
         let l = m.links.iter().position(|x| x.id == link).unwrap();
         let joined = |j: &&ozols::model::mechanism::Joint| {
             let at = j.links.map(ozols::model::LinkId::index);
-            at.contains(&l) && at.contains(&m.frame().index())
+            at.contains(&l) && at.contains(&m.frame_link().index())
         };
         assert_eq!(m.joints.iter().any(|j| joined(&j)), on_frame, "{link}");
     }
@@ -227,7 +227,7 @@ fn the_plane_of_the_constraints_left_is_that_of_their_forces() {
     assert!(plane["scan"].word().contains("one letter"));
     assert!(text.contains("right: in the plane z0x"), "{text}");
     assert!(text.contains("this rests on one letter"), "{text}");
-    let found = json("analyze gripper-10-unloaded --state clamped --format json");
+    let found = run_json("analyze gripper-10-unloaded --state clamped --format json");
     let stresses = found["states"][0]["self_stresses"].list();
     let mut left = BTreeSet::new();
     for stress in stresses.iter().filter(|s| s["external"] == true) {
@@ -252,7 +252,7 @@ fn misprints_of_the_drive_are_told() {
         claim(&claims, "the spring gives")["right"],
         "½ ((1 + ψ0)² - ψ0²) c S²"
     );
-    let found = json(&["drive", "torsion-module", "--format", "json"]);
+    let found = run_json(&["drive", "torsion-module", "--format", "json"]);
     let number = |key: &str| found["design"][key].real();
     let has = |says: &str, number: String| {
         let row = claim(&claims, says);
@@ -299,7 +299,7 @@ fn misprints_of_the_drive_are_told() {
         ("first-held", "latch-1", "1"),
         ("second-held", "latch-2", "2"),
     ] {
-        let state = m.state(held).unwrap();
+        let state = m.state_named(held).unwrap();
         let latched = m
             .joints_in(state)
             .find(|&j| m.joints[j].id == latch)
@@ -307,7 +307,7 @@ fn misprints_of_the_drive_are_told() {
         let links = m.joints[latched].links.map(|l| m.links[l].id.as_str());
         assert!(links.contains(&disc));
         assert_eq!(
-            json(&format!(
+            run_json(&format!(
                 "analyze torsion-module --state {held} --format json"
             ))["states"][0]["mobility"],
             1
@@ -335,7 +335,7 @@ fn misprints_of_the_drive_are_told() {
         stroke,
         mounting: psi,
     };
-    near(spring.energy(), work, 1e-9);
+    near(spring.stroke_energy(), work, 1e-9);
     let printed = 0.5 * ((1.0 + psi * psi) - psi * psi) * rate * stroke * stroke;
     assert!((printed - work).abs() > 0.1 * work);
 }
@@ -365,12 +365,12 @@ fn optional_keys_are_empty_and_not_absent() {
             .cloned()
             .collect::<BTreeSet<_>>()
     };
-    let state = |name| json(&["analyze", name, "--format", "json"])["states"][0].clone();
+    let state = |name| run_json(&["analyze", name, "--format", "json"])["states"][0].clone();
     let [plain, geared, turned] = ["four-bar", "planetary-gear", "bennett"].map(state);
     assert_eq!(keys(&plain), keys(&geared));
     assert_eq!(keys(&plain), keys(&turned));
     assert_eq!(plain["per_coupling"], value!([]));
-    let top = |name| json(&["analyze", name, "--format", "json"]);
+    let top = |name| run_json(&["analyze", name, "--format", "json"]);
     assert!(top("four-bar")["stroke"].is_null());
     let statics = |more: &[&str]| {
         let args = [
@@ -383,7 +383,7 @@ fn optional_keys_are_empty_and_not_absent() {
             ],
             more,
         ];
-        json(&args.concat())
+        run_json(&args.concat())
     };
     let [free, clamped] = ["free", "clamped"].map(|s| statics(&["--state", s]));
     assert_eq!(keys(&free), keys(&clamped));
@@ -394,8 +394,8 @@ fn optional_keys_are_empty_and_not_absent() {
             .iter()
             .all(|r| r["open"].is_array())
     );
-    let found = keys(&json("search four-bar --top 1 --format json"));
-    for key in words("ranking numeric second_opinion certainty left_out") {
+    let found = keys(&run_json("search four-bar --top 1 --format json"));
+    for key in split_words("ranking numeric second_opinion certainty left_out") {
         assert!(found.contains(key), "{key}: {found:?}");
     }
 }

@@ -15,17 +15,17 @@ mod small;
 mod too_many;
 
 /// A search of the gripper in a small space.
-fn small(more: &str) -> String {
+fn small_search(more: &str) -> String {
     format!("search gripper-10 --options revolute,spherical {more}")
 }
 
 fn small_out(more: &str) -> String {
-    out(&small(more))
+    run_quiet(&small_search(more))
 }
 
 /// Asserts that a run is refused with exit code 2, nothing on standard output, and these words.
-fn refused<L: Line + ?Sized>(args: &L, parts: &[&str]) -> String {
-    let (code, out, said) = ran(args);
+fn assert_refused<L: Line + ?Sized>(args: &L, parts: &[&str]) -> String {
+    let (code, out, said) = run_full(args);
     assert_eq!((code, &*out), (Some(2), ""), "{:?}: {said}", args.words());
     assert!(said.starts_with("error: "), "{said}");
     has_all(&said, parts);
@@ -33,7 +33,7 @@ fn refused<L: Line + ?Sized>(args: &L, parts: &[&str]) -> String {
 }
 
 /// Runs a shell command in a folder; `ozols` stands for the program.
-fn shell(folder: &Path, words: &str) -> Output {
+fn run_shell(folder: &Path, words: &str) -> Output {
     let words = words.replace("ozols", &format!("'{}'", env!("CARGO_BIN_EXE_ozols")));
     let mut sh = std::process::Command::new("sh");
     sh.args(["-c", &words]).current_dir(folder);
@@ -42,14 +42,14 @@ fn shell(folder: &Path, words: &str) -> Output {
 
 /// Asserts that a shell command ends with exit code 2 and an error that contains these words.
 fn shell_fails(folder: &Path, words: &str, says: &str) {
-    let o = shell(folder, words);
-    let said = text(&o.stderr);
+    let o = run_shell(folder, words);
+    let said = utf8_text(&o.stderr);
     assert_eq!(o.status.code(), Some(2), "{words}: {said}");
     assert!(said.contains(says), "{words}: {said}");
 }
 
 fn four_bar() -> String {
-    out(&["show", "four-bar"])
+    run_quiet(&["show", "four-bar"])
 }
 
 // Exit codes.
@@ -58,20 +58,23 @@ fn four_bar() -> String {
 fn exit_code_0_done() {
     let lines = "list/schema/show four-bar/check four-bar/analyze four-bar/search four-bar/--help/--version";
     for line in lines.split('/') {
-        assert!(!out(line).is_empty());
+        assert!(!run_quiet(line).is_empty());
     }
 }
 
 #[test]
 fn exit_code_1_nothing_found() {
     let o = run(&["search", "gripper-10", "--max-mobility", "0", "--quiet"]);
-    assert_eq!((o.status.code(), text(&o.stderr).as_str()), (Some(1), ""));
-    assert!(text(&o.stdout).contains("13,841,287,201 variants"));
+    assert_eq!(
+        (o.status.code(), utf8_text(&o.stderr).as_str()),
+        (Some(1), "")
+    );
+    assert!(utf8_text(&o.stdout).contains("13,841,287,201 variants"));
 }
 
 #[test]
 fn bad_arguments_end_with_exit_code_2() {
-    refuses(
+    assert_all_fail(
         "
         nonsense |
         search |
@@ -101,16 +104,16 @@ fn bad_arguments_end_with_exit_code_2() {
         ",
     );
     if cfg!(unix) {
-        refuses("check /dev/null | is not a regular file & standard input");
+        assert_all_fail("check /dev/null | is not a regular file & standard input");
     }
 }
 
 #[test]
 fn allow_forbid_hold_narrow_the_space() {
     let space = |more: &str| {
-        let (code, found, _) = ran(&format!("search gripper-10 --count --format json {more}"));
+        let (code, found, _) = run_full(&format!("search gripper-10 --count --format json {more}"));
         assert_ne!(code, Some(2));
-        count(&serde_json::from_str::<Value>(&found).unwrap()["space"])
+        parse_count(&serde_json::from_str::<Value>(&found).unwrap()["space"])
     };
     assert_eq!(space("--forbid 2-3"), 7u64.pow(11));
     assert_eq!(space("--forbid 2-3=spherical,universal"), 7u64.pow(11) * 5);
@@ -123,7 +126,7 @@ fn allow_forbid_hold_narrow_the_space() {
 #[test]
 fn samples_repeat_with_the_seed() {
     let sample = |seed| {
-        out(&format!(
+        run_quiet(&format!(
             "search gripper-10 --sample 20 --seed {seed} --format csv"
         ))
     };
@@ -136,5 +139,5 @@ fn samples_repeat_with_the_seed() {
 // Once wrong: every name contains the empty one, so all are "near".
 #[test]
 fn error_empty_name() {
-    assert!(!refused(&["check", ""], &["neither a file"]).contains("did you mean"));
+    assert!(!assert_refused(&["check", ""], &["neither a file"]).contains("did you mean"));
 }

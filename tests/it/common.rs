@@ -16,13 +16,13 @@ pub(crate) trait Line {
 
 impl Line for str {
     fn words(&self) -> Vec<&str> {
-        words(self)
+        split_words(self)
     }
 }
 
 impl Line for String {
     fn words(&self) -> Vec<&str> {
-        words(self)
+        split_words(self)
     }
 }
 
@@ -44,7 +44,7 @@ impl Line for Vec<&str> {
     }
 }
 
-pub(crate) fn words(line: &str) -> Vec<&str> {
+pub(crate) fn split_words(line: &str) -> Vec<&str> {
     line.split_whitespace().collect()
 }
 
@@ -74,7 +74,7 @@ pub(crate) fn has_all(text: &str, parts: &[&str]) {
 }
 
 /// A text without the time that a search took, the one thing in it that differs between runs.
-pub(crate) fn timeless(text: &str) -> String {
+pub(crate) fn without_time(text: &str) -> String {
     let said = text.lines().find(|l| l.starts_with("Searched in "));
     let text = said.map_or(text.to_owned(), |l| text.replace(&format!("{l}\n"), ""));
     match text.split_once(",\n  \"seconds\": ") {
@@ -84,9 +84,9 @@ pub(crate) fn timeless(text: &str) -> String {
 }
 
 /// Standard output of a run that succeeds and says nothing else but how long a search took and which usual options it had.
-pub(crate) fn out<L: Line + ?Sized>(args: &L) -> String {
+pub(crate) fn run_quiet<L: Line + ?Sized>(args: &L) -> String {
     let o = run(args);
-    let said = timeless(&text(&o.stderr));
+    let said = without_time(&utf8_text(&o.stderr));
     let usual = |l: &&str| !l.contains("offers no joint types, so the usual ones are tried");
     let said: String = said.split_inclusive('\n').filter(usual).collect();
     assert_eq!(
@@ -95,15 +95,15 @@ pub(crate) fn out<L: Line + ?Sized>(args: &L) -> String {
         "{:?}",
         args.words()
     );
-    timeless(&text(&o.stdout))
+    without_time(&utf8_text(&o.stdout))
 }
 
-pub(crate) fn json<L: Line + ?Sized>(args: &L) -> Value {
-    serde_json::from_str(&out(args)).unwrap()
+pub(crate) fn run_json<L: Line + ?Sized>(args: &L) -> Value {
+    serde_json::from_str(&run_quiet(args)).unwrap()
 }
 
 /// Returns the folder in which a test keeps its files: below the target folder, or below `OZOLS_TEST_FOLDER`.
-fn kept(name: &str) -> PathBuf {
+fn folder_of_test(name: &str) -> PathBuf {
     let of_this_run = std::env::var_os("OZOLS_TEST_FOLDER");
     of_this_run
         .map_or(env!("CARGO_TARGET_TMPDIR").into(), PathBuf::from)
@@ -114,17 +114,17 @@ fn kept(name: &str) -> PathBuf {
 pub(crate) fn quick_accuracy() -> (&'static str, &'static Path) {
     static RUN: OnceLock<(String, PathBuf)> = OnceLock::new();
     let (said, folder) = RUN.get_or_init(|| {
-        let folder = kept("quick-accuracy");
+        let folder = folder_of_test("quick-accuracy");
         let _ = fs::remove_dir_all(&folder);
         let done = run(&["accuracy", "--quick", "-o", folder.to_str().unwrap()]);
-        assert!(done.status.success(), "{}", text(&done.stderr));
-        (text(&done.stdout), folder)
+        assert!(done.status.success(), "{}", utf8_text(&done.stderr));
+        (utf8_text(&done.stdout), folder)
     });
     (said, folder)
 }
 
 /// Returns the bytes of a file of `tests/data`.
-pub(crate) fn data_bytes(name: &str) -> Vec<u8> {
+pub(crate) fn read_data_bytes(name: &str) -> Vec<u8> {
     let path = Path::new(env!("CARGO_MANIFEST_DIR"))
         .join("tests/data")
         .join(name);
@@ -132,19 +132,19 @@ pub(crate) fn data_bytes(name: &str) -> Vec<u8> {
 }
 
 /// Returns the text of a file of `tests/data`.
-pub(crate) fn data(name: &str) -> String {
-    text(&data_bytes(name))
+pub(crate) fn read_data(name: &str) -> String {
+    utf8_text(&read_data_bytes(name))
 }
 
 /// Returns the default value with one change.
-pub(crate) fn but<T: Default>(change: impl FnOnce(&mut T)) -> T {
+pub(crate) fn default_with<T: Default>(change: impl FnOnce(&mut T)) -> T {
     let mut out = T::default();
     change(&mut out);
     out
 }
 
 /// Returns a count that is written as a string.
-pub(crate) fn count(v: &Value) -> u64 {
+pub(crate) fn parse_count(v: &Value) -> u64 {
     v.as_str().unwrap().parse().unwrap()
 }
 
@@ -156,7 +156,7 @@ pub(crate) fn near(found: f64, stated: f64, tolerance: f64) {
 }
 
 /// Asserts that two numbers agree to nine digits, or to nine places if they are below one.
-pub(crate) fn to_nine_digits(found: f64, wanted: f64) {
+pub(crate) fn assert_nine_digits(found: f64, wanted: f64) {
     assert!(
         (found - wanted).abs() < 1e-9 * (1.0 + wanted.abs()),
         "{found} for {wanted}"
@@ -164,11 +164,11 @@ pub(crate) fn to_nine_digits(found: f64, wanted: f64) {
 }
 
 /// Asserts that all components agree to nine digits.
-pub(crate) fn all_to_nine_digits(found: [f64; 3], wanted: [f64; 3]) {
+pub(crate) fn assert_all_nine_digits(found: [f64; 3], wanted: [f64; 3]) {
     found
         .into_iter()
         .zip(wanted)
-        .for_each(|(f, w)| to_nine_digits(f, w));
+        .for_each(|(f, w)| assert_nine_digits(f, w));
 }
 
 /// Returns the place of the first line that contains this text, as errors name it: `FILE:LINE:`.
@@ -179,41 +179,44 @@ pub(crate) fn place_of(file: &str, content: &str, line_with: &str) -> String {
 }
 
 /// Returns a text with the first occurrence of a part replaced. The part must be there.
-pub(crate) fn changed(text: &str, from: &str, to: &str) -> String {
+pub(crate) fn replace_once(text: &str, from: &str, to: &str) -> String {
     assert!(text.contains(from), "{from}");
     text.replacen(from, to, 1)
 }
 
 /// Returns the exit code, standard output and standard error of a command.
-pub(crate) fn ran<L: Line + ?Sized>(args: &L) -> (Option<i32>, String, String) {
+pub(crate) fn run_full<L: Line + ?Sized>(args: &L) -> (Option<i32>, String, String) {
     let o = run(args);
-    (o.status.code(), text(&o.stdout), text(&o.stderr))
+    (o.status.code(), utf8_text(&o.stdout), utf8_text(&o.stderr))
 }
 
 /// Runs a command with this standard input and returns its exit code, standard output and standard error.
-pub(crate) fn fed<L: Line + ?Sized>(args: &L, input: &str) -> (Option<i32>, String, String) {
+pub(crate) fn run_with_input<L: Line + ?Sized>(
+    args: &L,
+    input: &str,
+) -> (Option<i32>, String, String) {
     let o = ozols(args).write_stdin(input).output().unwrap();
-    (o.status.code(), text(&o.stdout), text(&o.stderr))
+    (o.status.code(), utf8_text(&o.stdout), utf8_text(&o.stderr))
 }
 
 /// Returns standard output and standard error of a command that succeeds.
 #[track_caller]
-pub(crate) fn done<L: Line + ?Sized>(args: &L) -> (String, String) {
-    let (code, said, told) = ran(args);
+pub(crate) fn run_successful<L: Line + ?Sized>(args: &L) -> (String, String) {
+    let (code, said, told) = run_full(args);
     assert_eq!(code, Some(0), "{:?}: {told}", args.words());
     (said, told)
 }
 
 /// Returns the standard output of a command that succeeds.
 #[track_caller]
-pub(crate) fn ok<L: Line + ?Sized>(args: &L) -> String {
-    done(args).0
+pub(crate) fn stdout_of<L: Line + ?Sized>(args: &L) -> String {
+    run_successful(args).0
 }
 
 /// Asserts that a command ends with exit code 2 and an error that contains these words.
 #[track_caller]
-pub(crate) fn fails<L: Line + ?Sized>(args: &L, says: &str) {
-    let (code, _, told) = ran(args);
+pub(crate) fn assert_fails<L: Line + ?Sized>(args: &L, says: &str) {
+    let (code, _, told) = run_full(args);
     assert_eq!(
         (code, told.contains(says)),
         (Some(2), true),
@@ -229,13 +232,13 @@ pub(crate) fn run_on(
     content: &str,
     more: &[&str],
 ) -> (Option<i32>, String, String) {
-    let (_folder, path) = written(name, content);
+    let (_folder, path) = write_temporary(name, content);
     let args = [&[command, path], more].concat();
-    ran(&args)
+    run_full(&args)
 }
 
 /// Returns the rows of a table: one a line, bars between their cells, and `\n` for the end of a line within a cell.
-pub(crate) fn cases<const N: usize>(table: &str) -> Vec<[&'static str; N]> {
+pub(crate) fn read_cases<const N: usize>(table: &str) -> Vec<[&'static str; N]> {
     let row = |line: &str| {
         let cell = |c: &str| -> &str { c.trim().replace("\\n", "\n").leak() };
         let cells: Vec<&str> = line.split('|').map(cell).collect();
@@ -250,7 +253,7 @@ pub(crate) fn cases<const N: usize>(table: &str) -> Vec<[&'static str; N]> {
 
 /// Returns the file of a mechanism: what stands before its links; these, the first the frame, `*` behind outputs and `!` behind an
 /// object; and a joint a line: name, links, type, point, axis if it has one, and what else stands there.
-pub(crate) fn file_of(head: &str, links: &str, joints: &str) -> String {
+pub(crate) fn write_mechanism(head: &str, links: &str, joints: &str) -> String {
     let mut out = format!("{head}\n");
     for (i, link) in links.split_whitespace().enumerate() {
         let role = match (i, link.chars().last()) {
@@ -280,10 +283,10 @@ pub(crate) fn file_of(head: &str, links: &str, joints: &str) -> String {
 }
 
 /// Asserts that each command line of a table is refused with exit code 2 and these words, `&` between several of them.
-pub(crate) fn refuses(table: &str) {
-    for [line, said] in cases::<2>(table) {
+pub(crate) fn assert_all_fail(table: &str) {
+    for [line, said] in read_cases::<2>(table) {
         let o = run(line);
-        let told = text(&o.stderr);
+        let told = utf8_text(&o.stderr);
         assert_eq!(o.status.code(), Some(2), "{line}: {told}");
         for part in said.split(" & ") {
             assert!(told.contains(part), "{line}: no {part:?} in {told}");
@@ -292,7 +295,7 @@ pub(crate) fn refuses(table: &str) {
 }
 
 /// Returns a file with this text, by its path, and the folder that it is gone with.
-pub(crate) fn written(name: &str, content: impl AsRef<[u8]>) -> (TempDir, &'static str) {
+pub(crate) fn write_temporary(name: &str, content: impl AsRef<[u8]>) -> (TempDir, &'static str) {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join(name);
     fs::write(&path, content).unwrap();
@@ -301,12 +304,12 @@ pub(crate) fn written(name: &str, content: impl AsRef<[u8]>) -> (TempDir, &'stat
 }
 
 /// Returns a new seed for each run; a failure names it.
-pub(crate) fn fresh() -> u64 {
+pub(crate) fn fresh_seed() -> u64 {
     RandomState::new().build_hasher().finish() % 1_000_000
 }
 
 /// Returns the rank of J over the field by writing it out.
 pub(crate) fn rank_dense(exact: &ExactField, closure: &Closure<Residue>) -> usize {
-    let columns = closure.dense(exact);
-    echelon::rank(exact.field(), columns.iter().map(Vec::as_slice))
+    let columns = closure.dense_columns(exact);
+    echelon::rank_of(exact.field(), columns.iter().map(Vec::as_slice))
 }

@@ -4,7 +4,7 @@ use crate::common::*;
 mod shares;
 
 use ozols::closure::contour::{closed_walk, contour_basis};
-use ozols::redundancy::figures;
+use ozols::redundancy::state_figures;
 use petgraph::algo::dijkstra;
 use petgraph::graph::{NodeIndex, UnGraph};
 use petgraph::visit::EdgeRef;
@@ -201,8 +201,8 @@ fn figures_told_at_once_are_those_of_the_analysis() {
         if m.joints.len() > 30 {
             continue;
         }
-        let found = figures(&m, StateId::FREE).unwrap();
-        let whole = analyse(&m, &[StateId::FREE], Method::Modular).unwrap();
+        let found = state_figures(&m, StateId::FREE).unwrap();
+        let whole = analyse_states(&m, &[StateId::FREE], Method::Modular).unwrap();
         let whole = &whole[0];
         assert_eq!(
             [found.links, found.joints, found.contours, found.freedoms],
@@ -216,12 +216,12 @@ fn figures_told_at_once_are_those_of_the_analysis() {
         );
     }
     // A four-bar of hinges: one contour, four freedoms of rank three.
-    let bar = figures(&built_in("four-bar"), StateId::FREE).unwrap();
+    let bar = state_figures(&built_in("four-bar"), StateId::FREE).unwrap();
     assert_eq!((bar.contours, bar.freedoms), (1, 4));
     assert_eq!((bar.mobility, bar.redundant), (1, 3));
     // Malyshev's formula: six for each of three moving links, less five at each of four hinges.
     let bar = built_in("four-bar");
-    let found = analyse(&bar, &[StateId::FREE], Method::Modular).unwrap();
+    let found = analyse_states(&bar, &[StateId::FREE], Method::Modular).unwrap();
     assert_eq!(found[0].formula_mobility, 6 * 3 - 5 * 4);
 }
 

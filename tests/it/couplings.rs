@@ -10,7 +10,7 @@ use ozols::redundancy::analysis::StateAnalysis;
 
 /// Two joints on the frame, with couplings.
 fn pair(first: &str, second: &str, couplings: &str) -> String {
-    let frame = file_of("name = \"pair\"\nlength_unit = \"mm\"", "0 1 2*", "");
+    let frame = write_mechanism("name = \"pair\"\nlength_unit = \"mm\"", "0 1 2*", "");
     format!(
         "{frame}\n[[joint]]\nid = \"a\"\nlinks = [\"0\", \"1\"]\npoint = [0, 0, 0]\n{first}\n\
          [[joint]]\nid = \"b\"\nlinks = [\"0\", \"2\"]\npoint = [100, 0, 0]\n{second}\n{couplings}\n"
@@ -29,7 +29,7 @@ fn mechanism(text: &str) -> Mechanism {
 }
 
 fn exact(m: &Mechanism) -> StateAnalysis {
-    analyse(m, &[StateId::FREE], Method::Modular)
+    analyse_states(m, &[StateId::FREE], Method::Modular)
         .unwrap()
         .remove(0)
 }
@@ -56,7 +56,7 @@ fn what_a_file_may_not_say() {
         "clamped" => &clamped,
         _ => &own,
     };
-    for [joints, ends, ratio, wanted] in cases::<4>(
+    for [joints, ends, ratio, wanted] in read_cases::<4>(
         r#"
         turn turn | a c | 1 | unknown joint "c"
         turn turn | a b | 0 | ratio of a coupling is zero
@@ -81,7 +81,7 @@ fn what_a_file_may_not_say() {
     let twice = coupled("a", "b", "1") + &coupled("b", "a", "1");
     has(&problem(&pair(TURN, TURN, &twice)), "coupled twice");
     let planar = pair(tilted, TURN, &coupled("a", "b", "1"));
-    let planar = changed(&planar, "length_unit", "mode = \"planar\"\nlength_unit");
+    let planar = replace_once(&planar, "length_unit", "mode = \"planar\"\nlength_unit");
     has(&problem(&planar), "no freedom that can be coupled");
     let one = "[[coupling]]\njoints = [\"a\"]\nratio = 1";
     has(&problem(&pair(TURN, TURN, one)), "has 1 value");
@@ -102,10 +102,10 @@ fn options_that_cannot_be_coupled_are_not_offered() {
 /// Rates do not depend on the length of the axes in the file.
 #[test]
 fn axes_of_any_length_make_the_same_row() {
-    use ozols::closure::coupling::coefficient;
+    use ozols::closure::coupling::coupling_coefficient;
     let of = |first: &str, second: &str| {
         let m = mechanism(&pair(first, second, &coupled("a", "b", "\"-1/2\"")));
-        coefficient(&m, &m.couplings[0]).to_f64()
+        coupling_coefficient(&m, &m.couplings[0]).to_f64()
     };
     let long = "type = \"revolute\"\naxis = [0, 0, 3]";
     let skew = "type = \"revolute\"\naxis = [1, 1, 0]";
@@ -121,7 +121,7 @@ fn axes_of_any_length_make_the_same_row() {
     // x and y of a frame are made of axis and reference, and longer still.
     let slot = "type = \"slotted\"\naxis = [0, 0, 2]\nreference = [1, 1, 0]";
     let m = mechanism(&pair(slot, SLIDE, &coupled("a:tx", "b", "1")));
-    assert!((coefficient(&m, &m.couplings[0]).to_f64() + 4.0 * 2f64.sqrt()).abs() < 1e-14);
+    assert!((coupling_coefficient(&m, &m.couplings[0]).to_f64() + 4.0 * 2f64.sqrt()).abs() < 1e-14);
 }
 
 /// A rack moves by the pitch radius for each radian of its pinion, over the stroke too.
@@ -138,8 +138,8 @@ fn rack_and_pinion() {
     assert!(s.finite.is_proven());
     let pose = Pose::of_file(&m, StateId::FREE).unwrap();
     let mut follower = Follower::new(pose, 0, &[]);
-    follower.advance(7.0, |_| {}).unwrap();
-    let last = follower.pose();
+    follower.advance_to(7.0, |_| {}).unwrap();
+    let last = follower.current_pose();
     assert!((last.columns[0].moved - 7.0).abs() < 1e-12);
     assert!((last.columns[1].moved * last.length - 87.5).abs() < 1e-9);
 }
@@ -190,10 +190,10 @@ fn the_carrier_follows_the_sun() {
     let m = built_in("planetary-gear");
     let pose = Pose::of_file(&m, StateId::FREE).unwrap();
     let mut follower = Follower::new(pose, 0, &[]);
-    follower.advance(1.0, |_| {}).unwrap();
-    let last = follower.pose();
+    follower.advance_to(1.0, |_| {}).unwrap();
+    let last = follower.current_pose();
     let at = |id: &str| {
-        let j = m.joint(id).unwrap();
+        let j = m.joint_named(id).unwrap();
         last.columns.iter().find(|c| c.joint == j).unwrap().moved
     };
     let (carrier, sun) = (at("0-c"), at("0-c") + at("c-s"));
@@ -261,31 +261,35 @@ fn every_method_counts_the_rows() {
 /// A certificate proves the rank with the coupling of its file, and of no other.
 #[test]
 fn certificates_hold_the_coupling() {
-    use ozols::rank::exact::certificate::{certify, matrix, number_field};
+    use ozols::rank::exact::certificate::{certify_state, closure_matrix, number_field};
     let text = ozols::builtin::text("geared-five-bar").unwrap();
     let m = mechanism(text);
-    let certificate = certify(&m, StateId::FREE).unwrap();
+    let certificate = certify_state(&m, StateId::FREE).unwrap();
     assert_eq!(
         (certificate.rows, certificate.columns, certificate.rank),
         (7, 5, 4)
     );
-    let of =
-        |m: &Mechanism| matrix(&number_field(m, StateId::FREE).unwrap(), m, StateId::FREE).unwrap();
-    assert_eq!(ozols::verify::check(&of(&m), &certificate), Ok(4));
+    let of = |m: &Mechanism| {
+        closure_matrix(&number_field(m, StateId::FREE).unwrap(), m, StateId::FREE).unwrap()
+    };
+    assert_eq!(
+        ozols::verify::check_certificate(&of(&m), &certificate),
+        Ok(4)
+    );
     let other = mechanism(&text.replacen("ratio = \"-1/2\"", "ratio = \"-1/3\"", 1));
-    assert!(ozols::verify::check(&of(&other), &certificate).is_err());
+    assert!(ozols::verify::check_certificate(&of(&other), &certificate).is_err());
     let without = mechanism(&text.replacen(
         "[[coupling]]\njoints = [\"0-1\", \"0-4\"]\nratio = \"-1/2\"\ngear = true",
         "",
         1,
     ));
-    assert!(ozols::verify::check(&of(&without), &certificate).is_err());
+    assert!(ozols::verify::check_certificate(&of(&without), &certificate).is_err());
 }
 
 /// Gears between the fingers of a gripper stay in every redesign, and the counts know them.
 #[test]
 fn redesigns_of_a_geared_gripper() {
-    let run = |name: &str| json(&["search", name, "--top", "3", "--format", "json"]);
+    let run = |name: &str| run_json(&["search", name, "--top", "3", "--format", "json"]);
     let geared = run("geared-five-bar");
     let best = &geared["variants"][0];
     assert_eq!(
@@ -311,7 +315,7 @@ fn couplings_have_mirror_images() {
     let with = |ratio: &str| {
         mechanism(&text.replacen("[search]", &(coupled("a", "b", ratio) + "[search]"), 1))
     };
-    let request = || but(|c: &mut Conditions| c.symmetry = Symmetry::OnePerOrbit);
+    let request = || default_with(|c: &mut Conditions| c.symmetry = Symmetry::OnePerOrbit);
     let made = |m: &Mechanism| {
         Search::new(exact_field(m, 0).unwrap(), m, request())
             .map(|_| ())

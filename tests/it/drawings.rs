@@ -72,7 +72,7 @@ fn every_built_in_is_drawn_right() {
     for name in builtin::names() {
         let m = built_in(name);
         let states: Vec<StateId> = m.state_ids().collect();
-        let found = analyse(&m, &states, Method::Modular).unwrap();
+        let found = analyse_states(&m, &states, Method::Modular).unwrap();
         for (state, analysis) in m.state_ids().zip(&found) {
             let subject = Subject {
                 mechanism: &m,
@@ -87,7 +87,7 @@ fn every_built_in_is_drawn_right() {
                 drawn += 1;
                 let state = &m.states[state];
                 sheets.add(name, &format!("{name} {state} {kind}"), &d.svg);
-                let state = m.state(state).unwrap();
+                let state = m.state_named(state).unwrap();
                 let joints = m.joints_in(state).count();
                 assert!(
                     d.symbols.len() >= joints,
@@ -112,7 +112,7 @@ fn every_built_in_is_drawn_right() {
 #[test]
 fn the_scheme_says_what_the_field_says() {
     let m = built_in("gripper-10");
-    let found = analyse(&m, &[StateId::FREE, StateId::new(1)], Method::Modular).unwrap();
+    let found = analyse_states(&m, &[StateId::FREE, StateId::new(1)], Method::Modular).unwrap();
     let subject = |state: StateId| Subject {
         mechanism: &m,
         state,
@@ -158,8 +158,8 @@ fn variants_are_marked() {
         ..Conditions::default()
     };
     let search = Search::new(exact_field(&m, 0).unwrap(), &m, request).unwrap();
-    let diagrams = search.build(&|| false, &mut |_| {});
-    let first = search.cheapest(&diagrams, 1).next();
+    let diagrams = search.build_diagrams(&|| false, &mut |_| {});
+    let first = search.cheapest_variants(&diagrams, 1).next();
     let (realized, marks) = Marks::of_variant(&search, &first.unwrap(), "variant 1");
     assert_eq!(marks.links, 11);
     assert!(
@@ -204,7 +204,7 @@ fn tilted(across: [f64; 3], up: [f64; 3]) -> Mechanism {
     let joints = joints.map(line).join("\n");
     mechanism_from_str(
         "tilted.toml",
-        &file_of("name = \"tilted\"", "0 1 2 3*", &joints),
+        &write_mechanism("name = \"tilted\"", "0 1 2 3*", &joints),
     )
     .unwrap()
 }
@@ -265,14 +265,14 @@ fn the_same_bytes_each_time() {
 
 #[test]
 fn command_line() {
-    let svg = out(&["draw", "gripper-10"]);
+    let svg = run_quiet(&["draw", "gripper-10"]);
     assert!(svg.starts_with("<svg "), "{svg}");
     assert!(svg.contains("Structural scheme, state free"));
-    let svg = out("draw gripper-10 --kind kinematic --state clamped");
+    let svg = run_quiet("draw gripper-10 --kind kinematic --state clamped");
     assert!(svg.contains("Kinematic scheme seen along z, state clamped"));
     // the same variant as in the list of `ozols search`
-    let list = json(&["search", "gripper-10", "--top", "2", "--format", "json"]);
-    let svg = out(&["draw", "gripper-10", "--variant", "2"]);
+    let list = run_json(&["search", "gripper-10", "--top", "2", "--format", "json"]);
+    let svg = run_quiet(&["draw", "gripper-10", "--variant", "2"]);
     assert!(svg.contains("gripper-10, variant 2"));
     let changes = list["variants"][1]["changes"].list();
     assert!(!changes.is_empty());
@@ -290,8 +290,8 @@ fn command_line() {
         "gripper-10-loaded --pool 20",
         "gripper-10 --options revolute,spherical --max-redundant 2",
     ] {
-        let list = json(&format!("search {asked} --top 3 --format json"));
-        let svg = out(&format!("draw {asked} --variant 3"));
+        let list = run_json(&format!("search {asked} --top 3 --format json"));
+        let svg = run_quiet(&format!("draw {asked} --variant 3"));
         let changes = list["variants"][2]["changes"].list();
         let said = texts(&svg);
         assert_eq!(
@@ -310,7 +310,7 @@ fn command_line() {
             );
         }
     }
-    refuses(
+    assert_all_fail(
         "
         draw gripper-10 --state folded | it has: free, clamped
         draw gripper-10 --variant 0 | numbered from 1

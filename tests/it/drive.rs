@@ -8,7 +8,8 @@ mod swings;
 mod unequal;
 
 use ozols::drive::torsion::{
-    Bar, CamSpring, Wanted, decrement, diameter, frequency, friction_energy, stored_energy,
+    Bar, CamSpring, Wanted, bar_diameter, friction_energy, log_decrement, natural_frequency,
+    stored_energy,
 };
 
 // The formulas.
@@ -23,7 +24,7 @@ fn period_and_diameter_agree() {
     };
     let inertia = 0.05;
     let period = TAU * (inertia / bar.stiffness()).sqrt();
-    near(diameter(inertia, 0.8, period, 8e10), 0.012, 1e-16);
+    near(bar_diameter(inertia, 0.8, period, 8e10), 0.012, 1e-16);
     // By hand: k = π · 0.012⁴ · 8e10 / (32 · 0.8) = 203.575 N·m/rad, τ = 2π √(0.05/203.575) = 0.098470 s.
     near(bar.stiffness(), 203.575, 1e-3);
     near(period, 0.098470, 1e-6);
@@ -34,11 +35,11 @@ fn period_and_diameter_agree() {
 fn formulas_have_their_figures() {
     // (1): 200 · 0.7²/2; (4): √(200/0.05).
     near(stored_energy(200.0, 0.7), 49.0, 1e-12);
-    near(frequency(200.0, 0.05), 4000f64.sqrt(), 1e-12);
+    near(natural_frequency(200.0, 0.05), 4000f64.sqrt(), 1e-12);
     // (6): for small losses the decrement is the loss over the deflection.
     let (whole, lost) = (0.7, 0.7e-3);
-    near(decrement(whole, whole - lost), 1e-3, 1e-6);
-    assert!(decrement(whole, whole - lost) > 1e-3);
+    near(log_decrement(whole, whole - lost), 1e-3, 1e-6);
+    assert!(log_decrement(whole, whole - lost) > 1e-3);
     let bar = Bar {
         length: 0.8,
         diameter: 0.012,
@@ -60,7 +61,7 @@ fn formulas_have_their_figures() {
 fn cam_spring_gives_what_friction_takes() {
     let (e, eta, psi, s) = (1.7, 0.8, 0.4, 0.02);
     let spring = CamSpring::for_friction(e, eta, psi, s);
-    near(spring.energy() * eta, e, 1e-14);
+    near(spring.stroke_energy() * eta, e, 1e-14);
     let as_printed = 0.5 * ((1.0 + psi * psi) - psi * psi) * spring.rate * s * s;
     assert!(
         (as_printed * eta - e).abs() > 0.4,
@@ -98,9 +99,9 @@ fn wanted() -> Wanted {
 #[test]
 fn bars_are_sized_to_the_allowable_twist() {
     let w = wanted();
-    let sizing = w.size();
+    let sizing = w.size_bar();
     let bar = sizing.bar.unwrap();
-    assert!(bar.allowable_twist(6e8) > w.twist && bar.stress(w.twist) < 6e8);
+    assert!(bar.allowable_twist(6e8) > w.twist && bar.rim_stress(w.twist) < 6e8);
     near(TAU * (0.4 / bar.stiffness()).sqrt(), 0.8, 1e-12);
     assert!(
         bar.length >= w.least_length() && bar.length < w.least_length() + 2e-3,
@@ -112,7 +113,7 @@ fn bars_are_sized_to_the_allowable_twist() {
         length: Some(3.0),
         ..wanted()
     };
-    assert_eq!(long.size().bar.unwrap().length, 3.0);
+    assert_eq!(long.size_bar().bar.unwrap().length, 3.0);
 }
 
 #[test]
@@ -123,7 +124,7 @@ fn standard_diameters_are_taken_from_the_least() {
             .to_vec(),
         ..wanted()
     };
-    let sizing = w.size();
+    let sizing = w.size_bar();
     let bar = sizing.bar.unwrap();
     near(bar.stiffness(), w.stiffness(), 1e-10);
     assert!(bar.allowable_twist(6e8) > w.twist);
@@ -138,14 +139,14 @@ fn remedies_are_sharp() {
         max_length: Some(0.2),
         ..wanted()
     };
-    let sizing = tight().size();
+    let sizing = tight().size_bar();
     assert!(sizing.bar.is_none());
     let r = sizing.remedy.unwrap();
     let works = |change: &dyn Fn(&mut Wanted)| {
         let mut w = tight();
         change(&mut w);
         w.length = w.max_length;
-        w.size().bar.is_some()
+        w.size_bar().bar.is_some()
     };
     for (factor, should) in [(1.0001, true), (0.9999, false)] {
         assert_eq!(works(&|w| w.max_length = Some(r.length * factor)), should);

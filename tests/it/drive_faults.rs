@@ -29,7 +29,7 @@ fn ring(points: &[[i64; 2]], driven: &[usize], output: usize) -> String {
 
 fn faults(text: &str) -> Vec<DriveFault> {
     let m = mechanism_from_str("ring.toml", text).unwrap();
-    let mut all = analyse(&m, &[StateId::FREE], Method::Auto).unwrap();
+    let mut all = analyse_states(&m, &[StateId::FREE], Method::Auto).unwrap();
     all.remove(0).drives
 }
 
@@ -69,9 +69,9 @@ fn faults_of_drives_are_found() {
 #[test]
 fn faults_of_drives_are_in_the_report() {
     let in_line = ring(&[[0, 0], [1, 0], [3, 0], [3, 2]], &[0], 3);
-    let (_folder, file) = written("dead.toml", in_line);
+    let (_folder, file) = write_temporary("dead.toml", in_line);
     has(
-        &out(&["report", file]),
+        &run_quiet(&["report", file]),
         "Dead point: the outputs stand still",
     );
 }
@@ -79,11 +79,11 @@ fn faults_of_drives_are_in_the_report() {
 /// A drive of a clamped gripper is meant to be locked, and a dead point is no idle motion.
 #[test]
 fn what_is_meant_is_no_fault() {
-    let clamped = json(&["analyze", "gripper-10", "--format", "json"]);
+    let clamped = run_json(&["analyze", "gripper-10", "--format", "json"]);
     for state in clamped["states"].list() {
         assert_eq!(state["drives"].list().len(), 0, "{}", state["state"]);
     }
-    let (_folder, file) = written(
+    let (_folder, file) = write_temporary(
         "dead.toml",
         ring(&[[0, 0], [1, 0], [3, 0], [3, 2]], &[0], 3),
     );

@@ -25,7 +25,7 @@ use std::ops::Range;
 /// So many inputs as the variable `OZOLS_FUZZ` says; few where it says nothing.
 pub(crate) fn runs(few: u32) -> ProptestConfig {
     let cases = std::env::var("OZOLS_FUZZ").map_or(few, |n| n.parse().unwrap());
-    but(|p: &mut ProptestConfig| (p.cases, p.max_shrink_iters) = (cases, 200))
+    default_with(|p: &mut ProptestConfig| (p.cases, p.max_shrink_iters) = (cases, 200))
 }
 
 /// What a piece of a text is.

@@ -20,7 +20,7 @@ fn lever(length: f64, prism: f64, mounting: f64) -> Lever {
 /// [Pavlenko & Godunko 2010] equations (1) to (8), figures recomputed by hand: L = 100, D = 40, α = 120°, γ = 20°.
 #[test]
 fn arms_have_the_published_figures() {
-    let arms = lever(100.0, 120.0, 20.0).arms(40.0);
+    let arms = lever(100.0, 120.0, 20.0).force_arms(40.0);
     near(arms.l11, 76.604, 5e-4);
     near(arms.l12, 11.547, 5e-4);
     near(arms.l1, 88.151, 5e-4);
@@ -28,10 +28,10 @@ fn arms_have_the_published_figures() {
     near(arms.l22, 11.547, 5e-4);
     near(arms.l2, 82.422, 5e-4);
     // The same with α = 120°, γ = 30°: l11 and l21 coincide (line 5 of fig. 3).
-    let arms = lever(100.0, 120.0, 30.0).arms(40.0);
+    let arms = lever(100.0, 120.0, 30.0).force_arms(40.0);
     near(arms.l11, 86.603, 5e-4);
     near(arms.l21, 86.603, 5e-4);
-    let arms = lever(100.0, 90.0, 30.0).arms(40.0);
+    let arms = lever(100.0, 90.0, 30.0).force_arms(40.0);
     near(arms.l1, 70.000, 5e-4);
     near(arms.l2, 66.603, 5e-4);
 }
@@ -69,11 +69,11 @@ proptest! {
     fn arms_are_linear_in_length_and_diameter(
         length in 0.01..1.0f64, alpha in 30.0..170.0f64, gamma in 0.0..90.0f64, d in 0.001..0.5f64, s in 0.1..10.0f64,
     ) {
-        let (a, b) = (lever(length, alpha, gamma).arms(d), lever(s * length, alpha, gamma).arms(s * d));
+        let (a, b) = (lever(length, alpha, gamma).force_arms(d), lever(s * length, alpha, gamma).force_arms(s * d));
         let scale = length + d / (alpha / 2.0).to_radians().tan();
         prop_assert!((b.l1 - s * a.l1).abs() <= 1e-14 * s * scale);
         prop_assert!((b.l2 - s * a.l2).abs() <= 1e-14 * s * scale);
-        let more = lever(length, alpha, gamma).arms(2.0 * d);
+        let more = lever(length, alpha, gamma).force_arms(2.0 * d);
         prop_assert!(((more.l1 - a.l1) - (a.l2 - more.l2)).abs() <= 1e-14 * scale);
         prop_assert!(more.l1 > a.l1 && more.l2 < a.l2);
     }
@@ -86,7 +86,7 @@ proptest! {
         length in 0.01..1.0f64, alpha in 30.0..170.0f64, gamma in 0.0..90.0f64, d in 0.001..0.5f64,
     ) {
         let l = lever(length, alpha, gamma);
-        let (arms, a) = (l.arms(d), Gripper::nominal(l, d).pivot);
+        let (arms, a) = (l.force_arms(d), Gripper::with_nominal(l, d).pivot);
         let stated = 2.0 * f64::to_radians(alpha / 2.0).cos() * a;
         prop_assert!((arms.l1 - arms.l2 - stated).abs() <= 1e-13 * (length + d / (alpha / 2.0).to_radians().tan()));
     }
@@ -115,7 +115,7 @@ fn run_file(text: &str, more: &[&str]) -> (Option<i32>, String, String) {
 }
 
 fn small_with(from: &str, to: &str) -> String {
-    changed(SMALL, from, to)
+    replace_once(SMALL, from, to)
 }
 
 /// What is printed is possible: friction within its cone, a lower bound not above what it bounds, forces that *can* hold.
@@ -127,7 +127,7 @@ fn friction_and_bounds_keep_their_limits_in_print() {
         &["--acceleration", "5,0,-2"],
     ] {
         let arguments = [&["grip", "lever-gripper"], more].concat();
-        let text = out(&arguments);
+        let text = run_quiet(&arguments);
         assert!(text.starts_with("lever-gripper: can hold D"), "{text}");
         let table = text.split("The four contact forces").nth(1).unwrap();
         let rows = table
@@ -141,7 +141,7 @@ fn friction_and_bounds_keep_their_limits_in_print() {
                 "{table}"
             );
         }
-        let value = json(&[&arguments[..], &["--format", "json"]].concat());
+        let value = run_json(&[&arguments[..], &["--format", "json"]].concat());
         for row in value["diameters"].list() {
             let number = |v: &Value| v.real();
             let load = &row["load"];
@@ -159,13 +159,13 @@ fn friction_and_bounds_keep_their_limits_in_print() {
 
 #[test]
 fn built_in_gripper_holds() {
-    let text = out(&["grip", "lever-gripper"]);
+    let text = run_quiet(&["grip", "lever-gripper"]);
     assert!(
         text.starts_with("lever-gripper: can hold D = 30 to 50 mm; hardest at 50 mm"),
         "{text}"
     );
     assert!(text.contains("10 confirmed, 4 refuted"));
-    let value = json(&["grip", "lever-gripper", "--format", "json"]);
+    let value = run_json(&["grip", "lever-gripper", "--format", "json"]);
     assert_eq!(value["holds"], true);
     assert_eq!(value["diameters"].list().len(), 5);
     let number = |v: &Value| v.real();
@@ -242,7 +242,7 @@ fn what_cannot_be_held_is_said_with_the_reason() {
 
 #[test]
 fn bad_tables_are_refused_where_they_stand() {
-    for [from, to, line, part] in cases::<4>(
+    for [from, to, line, part] in read_cases::<4>(
         r#"
         mass = 2 | mass = -2 | mass = -2 | mass -2 is out of range; give a number above 0
         mass = 2 | mass = nan | mass = nan | finite
@@ -283,7 +283,7 @@ fn bad_tables_are_refused_where_they_stand() {
 
 #[test]
 fn charts_are_written_as_svg_and_csv() {
-    for [line, names, part] in cases::<3>(
+    for [line, names, part] in read_cases::<3>(
         "
         grip lever-gripper | arms drive-moment | series,x,y
         drive torsion-module | angles energy | disc
@@ -291,9 +291,9 @@ fn charts_are_written_as_svg_and_csv() {
     ) {
         let folder = tempdir().unwrap();
         let at = folder.path().join("charts");
-        out(&format!("{line} --svg {}", at.display()));
+        run_quiet(&format!("{line} --svg {}", at.display()));
         let read = |file: String| fs::read_to_string(at.join(file)).unwrap();
-        for name in words(names) {
+        for name in split_words(names) {
             assert!(read(format!("{name}.svg")).starts_with("<svg"));
             has(&read(format!("{name}.csv")), part);
         }

@@ -19,15 +19,15 @@ fn search(name: &str, request: &Request) -> Outcome {
 
 fn json(outcome: &Outcome) -> String {
     let mut out = Vec::new();
-    let none = outcome.remarks(&|| false).unwrap();
-    json::write(&mut out, outcome, outcome.variants(), &none, None).unwrap();
+    let none = outcome.make_remarks(&|| false).unwrap();
+    json::write_json(&mut out, outcome, outcome.variants(), &none, None).unwrap();
     String::from_utf8(out).unwrap()
 }
 
 fn printed(name: &str, flags: &str) -> String {
     let mut args = vec!["search", name, "--format", "json"];
     args.extend(flags.split_whitespace());
-    timeless(&text(&run(&args).stdout))
+    without_time(&utf8_text(&run(&args).stdout))
 }
 
 #[test]
@@ -128,7 +128,7 @@ fn a_cancelled_search_says_so() {
 
 #[test]
 fn cancelled_orbits_are_not_called_exact() {
-    let request = but(|r: &mut Request| r.symmetry = Symmetry::OnePerOrbit);
+    let request = default_with(|r: &mut Request| r.symmetry = Symmetry::OnePerOrbit);
     let built = AtomicBool::new(false);
     let outcome = run::run(
         built_in("gripper-10"),
@@ -147,7 +147,7 @@ fn giving_ends_when_it_is_cancelled() {
     let mut given = outcome.variants_unless(&cancelled);
     assert!(given.next().is_some());
     enough.store(true, Ordering::SeqCst);
-    assert!(given.next().is_none() && given.interrupted());
+    assert!(given.next().is_none() && given.is_interrupted());
     assert_eq!(given.summary().given, 1);
 }
 
@@ -176,20 +176,20 @@ fn scores_stay_with_their_variants() {
 fn a_variant_tells_of_itself() {
     let outcome = search("gripper-10", &Request::default());
     let best = outcome.variants().next().unwrap();
-    let alone = &ozols::analyze(&best.mechanism()).unwrap()[0];
+    let alone = &ozols::analyze(&best.as_mechanism()).unwrap()[0];
     assert_eq!(i64::try_from(alone.mobility).unwrap(), best.mobility());
     assert_eq!(alone.redundant, best.redundant() as usize);
     let contours = best.redundant_by_contour().unwrap();
     assert!(contours.is_empty(), "no contour has any");
-    let few = but(|r: &mut Request| (r.max_redundant, r.max_changes) = (3, Some(3)));
+    let few = default_with(|r: &mut Request| (r.max_redundant, r.max_changes) = (3, Some(3)));
     let outcome = search("gripper-10", &few);
     let best = outcome.variants().next().unwrap();
-    let alone = &ozols::analyze(&best.mechanism()).unwrap()[0];
+    let alone = &ozols::analyze(&best.as_mechanism()).unwrap()[0];
     let contours = best.redundant_by_contour().unwrap();
     assert_eq!(contours.len(), alone.contours);
     let sum: usize = contours.iter().map(|(_, c)| c.redundant).sum();
     assert_eq!(sum, alone.redundant);
-    assert_eq!(best.changes().len(), best.change_count() as usize);
+    assert_eq!(best.list_changes().len(), best.change_count() as usize);
     assert!(
         best.to_string()
             .starts_with(&format!("1. cost {}, W = ", best.cost())),
@@ -215,20 +215,20 @@ fn csv_and_text_are_those_of_the_command() {
     let mut outcome = search("four-bar", &Request::default());
     let printed = |format: &str| ozols(&["search", "four-bar", "--format", format]).output();
     let mut csv = Vec::new();
-    csv::write(&mut csv, &outcome, outcome.variants()).unwrap();
+    csv::write_csv(&mut csv, &outcome, outcome.variants()).unwrap();
     assert_eq!(csv, printed("csv").unwrap().stdout);
     let mut text = Vec::new();
     // People are given ideas.
     outcome.request.distinct = true;
     let variants = outcome.variants();
     let none = &Remarks::default();
-    text::write(&mut text, &outcome, variants, none, "four-bar", None, false).unwrap();
+    text::write_text(&mut text, &outcome, variants, none, "four-bar", None, false).unwrap();
     assert_eq!(text, printed("text").unwrap().stdout);
 }
 
 #[test]
 fn errors_read_as_those_of_the_command() {
-    let request = but(|r: &mut Request| r.hold = vec!["nosuch".to_owned()]);
+    let request = default_with(|r: &mut Request| r.hold = vec!["nosuch".to_owned()]);
     let m = built_in("four-bar");
     let why = ozols::search(&m, &request).unwrap_err();
     assert!(matches!(why, Error::Search(_)));

@@ -4,7 +4,7 @@ use crate::common::*;
 fn coloured<L: Line + ?Sized>(args: &L, variable: (&str, &str)) -> String {
     let mut command = ozols(args);
     command.env_remove("NO_COLOR").env_remove("CLICOLOR_FORCE");
-    text(&command.env(variable.0, variable.1).output().unwrap().stdout)
+    utf8_text(&command.env(variable.0, variable.1).output().unwrap().stdout)
 }
 
 #[test]
@@ -37,18 +37,18 @@ fn verdicts_have_colour_where_a_person_looks() {
 
 #[test]
 fn verdicts_come_first_and_primes_last() {
-    let said = out(&["analyze", "four-bar", "--verbose"]);
+    let said = run_quiet(&["analyze", "four-bar", "--verbose"]);
     let first = said.lines().next().unwrap();
     has(first, "3 redundant constraints");
-    let data = json(&["analyze", "four-bar", "--format", "json"]);
+    let data = run_json(&["analyze", "four-bar", "--format", "json"]);
     let prime = data["states"][0]["primes"][0].word();
     assert_eq!(prime.len(), 19);
     let digits: Vec<&str> = said.lines().filter(|l| l.contains(prime)).collect();
     assert_eq!(digits.len(), 1, "{digits:?}");
     let block = said.split("\n\n").nth(1).unwrap();
     assert_eq!(block.lines().last(), Some(digits[0]));
-    assert!(!out(&["search", "four-bar", "--options", "spherical"]).contains(prime));
-    let page = out(&["report", "four-bar"]);
+    assert!(!run_quiet(&["search", "four-bar", "--options", "spherical"]).contains(prime));
+    let page = run_quiet(&["report", "four-bar"]);
     let sure = page.split("How sure</h2>").nth(1).unwrap();
     let open = sure.split("<details>").next().unwrap();
     assert!(
@@ -63,7 +63,7 @@ fn slide(axis: &str) -> String {
     let joints = format!(
         "hinge | 0 1 | revolute | 0, 0, 0 | 0, 0, 1\nslide | 0 2 | prismatic | 1, 0, 0 | {axis}"
     );
-    file_of("name = \"slide\"\nlength_unit = \"mm\"", "0 1* 2", &joints)
+    write_mechanism("name = \"slide\"\nlength_unit = \"mm\"", "0 1* 2", &joints)
 }
 
 #[test]
@@ -85,12 +85,12 @@ fn idle_motions_name_their_direction() {
 
 #[test]
 fn a_mechanism_without_an_output_can_be_analysed() {
-    let own = changed(&out(&["show", "four-bar"]), "role = \"output\"", "");
+    let own = replace_once(&run_quiet(&["show", "four-bar"]), "role = \"output\"", "");
     let (code, said, _) = run_on("analyze", "own.toml", &own, &["--format", "json"]);
     assert_eq!(code, Some(0));
     let found: Value = serde_json::from_str(&said).unwrap();
-    let known = json(&["analyze", "four-bar", "--format", "json"]);
-    for key in words("mobility redundant working_mobility local_mobility") {
+    let known = run_json(&["analyze", "four-bar", "--format", "json"]);
+    for key in split_words("mobility redundant working_mobility local_mobility") {
         assert_eq!(found["states"][0][key], known["states"][0][key], "{key}");
     }
     let (code, _, err) = run_on("check", "own.toml", &own, &[]);
@@ -107,9 +107,9 @@ fn a_mechanism_without_an_output_can_be_analysed() {
 
 #[test]
 fn options_may_name_types_that_the_file_does_not_list() {
-    let own = out(&["show", "four-bar"]);
+    let own = run_quiet(&["show", "four-bar"]);
     assert!(!own.contains("sphere-in-cylinder"));
-    let search = |more: &str| ran(&format!("search four-bar --format json --top 3 {more}"));
+    let search = |more: &str| run_full(&format!("search four-bar --format json --top 3 {more}"));
     let (code, said, err) = search("--options sphere-in-cylinder");
     assert_eq!(code, Some(0), "{err}");
     assert!(said.contains("sphere-in-cylinder"));
@@ -127,14 +127,14 @@ fn options_may_name_types_that_the_file_does_not_list() {
 
 #[test]
 fn where_nothing_is_found_types_that_would_help_are_named_and_do() {
-    let (code, said, _) = ran("search four-bar --options cylindrical");
+    let (code, said, _) = run_full("search four-bar --options cylindrical");
     assert_eq!(code, Some(1));
     let command = said
         .lines()
         .map(str::trim)
         .find(|l| l.starts_with("ozols search") && l.contains("spherical"));
     let command = command.unwrap_or_else(|| panic!("{said}"));
-    done(command.strip_prefix("ozols ").unwrap());
+    run_successful(command.strip_prefix("ozols ").unwrap());
 }
 
 #[test]
@@ -147,16 +147,16 @@ fn exported_variants_can_be_searched_again() {
         "parallelogram-gripper",
         "gripper-10 --state clamped",
     ] {
-        let name = words(asked)[0];
-        done(&format!("export {asked} --variant 2 --to toml -o {path}"));
-        done(&["check", path]);
+        let name = split_words(asked)[0];
+        run_successful(&format!("export {asked} --variant 2 --to toml -o {path}"));
+        run_successful(&["check", path]);
         let said = fs::read_to_string(path).unwrap();
         assert!(
             said.contains(&format!("Variant 2 of {name}")) && said.contains("options = "),
             "{name}"
         );
         // what it has now needs no change, and more can be chosen
-        let again = json(&format!(
+        let again = run_json(&format!(
             "search {path} --top 1 --check none --no-count --format json"
         ));
         assert_eq!(again["variants"][0]["cost"], 0, "{name}");
@@ -168,7 +168,7 @@ fn exported_variants_can_be_searched_again() {
 #[test]
 fn a_catalogue_that_is_not_there_says_how_to_make_one() {
     for line in ["query none.db", "show none.db x", "export none.db x"] {
-        fails(
+        assert_fails(
             &format!("catalog {line}"),
             "`ozols catalog build -o none.db` makes a catalogue",
         );
@@ -178,8 +178,8 @@ fn a_catalogue_that_is_not_there_says_how_to_make_one() {
 
 #[test]
 fn directions_that_are_guessed_are_told() {
-    let own = out(&["show", "four-bar"]);
-    let pin = changed(
+    let own = run_quiet(&["show", "four-bar"]);
+    let pin = replace_once(
         &own,
         "[search]",
         "[[joint]]\nid = \"pin\"\nlinks = [\"0\", \"2\"]\ntype = \"slotted\"\npoint = [50, 50, 0]\naxis = [0, 0, 1]\nreference = [1, 0, 0]\n\
@@ -198,7 +198,7 @@ fn directions_that_are_guessed_are_told() {
 
 #[test]
 fn the_commands_of_a_page_ask_for_ideas() {
-    let page = out(&["report", "four-bar", "--options", "spherical,cylindrical"]);
+    let page = run_quiet(&["report", "four-bar", "--options", "spherical,cylindrical"]);
     assert!(page.contains("--idea {}") && page.contains("--variant {}"));
     assert!(!page.contains("--distinct --variant"));
 }
@@ -206,7 +206,7 @@ fn the_commands_of_a_page_ask_for_ideas() {
 /// Where another freedom moves, the one that is stopped is not "the one".
 #[test]
 fn freedoms_that_a_shaky_pose_stops_are_counted() {
-    let said = out(&["analyze", "lever-gripper", "--state", "clamped"]);
+    let said = run_quiet(&["analyze", "lever-gripper", "--state", "clamped"]);
     let words = "finite mobility 1: proven: 1 of 2 instantaneous freedoms is stopped by order 5";
     assert!(said.contains(words), "{said}");
 }
@@ -214,6 +214,6 @@ fn freedoms_that_a_shaky_pose_stops_are_counted() {
 /// The planar formula refuses a mechanism that is not planar, and names the mode that makes it planar.
 #[test]
 fn the_planar_formula_names_the_mode_that_it_needs() {
-    fails("analyze gripper-10 --method count-planar", "planar mode");
-    out("analyze gripper-10 --planar --method count-planar");
+    assert_fails("analyze gripper-10 --method count-planar", "planar mode");
+    run_quiet("analyze gripper-10 --planar --method count-planar");
 }

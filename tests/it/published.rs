@@ -3,7 +3,7 @@
 use crate::common::*;
 
 fn json<L: Line + ?Sized>(args: &L) -> Value {
-    let (code, said, told) = ran(&[&args.words()[..], &["--format", "json"]].concat());
+    let (code, said, told) = run_full(&[&args.words()[..], &["--format", "json"]].concat());
     // 1 says that there is nothing to be found, which some counts are about; no progress where standard error is no terminal.
     assert!(code.is_some_and(|c| c < 2) && told.is_empty(), "{told}");
     serde_json::from_str(&said).unwrap()
@@ -33,10 +33,10 @@ fn the_first_row_of_the_reference_table() {
     assert_eq!(row["by_mobility"].as_object().unwrap().len(), want.len());
     assert!(row["largest_layer"].whole() <= 80);
     let brute = "search gripper-10 --count --options revolute,spherical --method brute";
-    let brute = json(&words(brute));
-    for key in
-        words("determinate by_mobility_and_changes admissible admissible_by_mobility_and_changes")
-    {
+    let brute = json(&split_words(brute));
+    for key in split_words(
+        "determinate by_mobility_and_changes admissible admissible_by_mobility_and_changes",
+    ) {
         assert_eq!(row[key], brute[key], "{key}");
     }
 }
@@ -70,9 +70,9 @@ fn brute_force_agrees_on_the_second_row() {
             "search gripper-10 --count --options {names} --method brute"
         )),
     );
-    for key in
-        words("determinate by_mobility_and_changes admissible admissible_by_mobility_and_changes")
-    {
+    for key in split_words(
+        "determinate by_mobility_and_changes admissible admissible_by_mobility_and_changes",
+    ) {
         assert_eq!(row[key], brute[key], "{key}");
     }
 }
@@ -182,7 +182,7 @@ fn threads_do_not_matter() {
             "--format",
             format,
         ];
-        out(&args)
+        run_quiet(&args)
     };
     for format in ["text", "json", "csv", "jsonl"] {
         let one = run("1", format);

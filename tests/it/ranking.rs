@@ -12,7 +12,7 @@ use ozols::score::evaluation::elimination::Scratch;
 use ozols::score::evaluation::evaluate::Evaluator;
 use ozols::score::joint_types::JointTypes;
 use ozols::score::outcome::pareto::{dominates, fronts};
-use ozols::score::outcome::ranking::{RankedPool, Ranker, compare};
+use ozols::score::outcome::ranking::{RankedPool, Ranker, compare_ranked};
 use ozols::search::answer::k_best::Assignment;
 use proptest::prelude::*;
 
@@ -22,19 +22,19 @@ fn loaded() -> Mechanism {
 }
 
 fn search(m: &Mechanism, redundant: u32) -> Search {
-    let request = but(|c: &mut Conditions| c.max_redundant = redundant);
+    let request = default_with(|c: &mut Conditions| c.max_redundant = redundant);
     Search::new(exact_field(m, 0).unwrap(), m, request).unwrap()
 }
 
 fn cheapest(s: &Search, n: usize) -> Vec<Assignment> {
-    let d = s.build(&|| false, &mut |_| {});
-    let out: Vec<_> = s.cheapest(&d, n).collect();
+    let d = s.build_diagrams(&|| false, &mut |_| {});
+    let out: Vec<_> = s.cheapest_variants(&d, n).collect();
     out
 }
 
 fn sampled(s: &Search, n: usize) -> Vec<Assignment> {
-    let diagrams = s.build(&|| false, &mut |_| {});
-    s.sample(&diagrams, 7).take(n).collect()
+    let diagrams = s.build_diagrams(&|| false, &mut |_| {});
+    s.sample_variants(&diagrams, 7).take(n).collect()
 }
 
 fn near(a: f64, b: f64, tolerance: f64) -> bool {
@@ -49,14 +49,14 @@ fn both_ways(m: &Mechanism, redundant: u32, clearance: ClearanceSum, n: usize) -
     variants.extend(sampled(&s, n / 2));
     let (mut solved, mut refused) = (0, 0);
     for v in &variants {
-        match (e.scores(v, &mut scratch), e.slowly(v)) {
+        match (e.score_variant(v, &mut scratch), e.reference_scores(v)) {
             (Ok(fast), Ok(slow)) => {
                 solved += 1;
                 for t in Term::ALL {
                     // Small singular values are good to eight digits of the greatest.
                     let tolerance = 1e-8 / slow.conditioning.clamp(1e-7, 1.0);
                     assert!(
-                        near(fast.value(t), slow.value(t), tolerance),
+                        near(fast.term_value(t), slow.term_value(t), tolerance),
                         "{} {:?}: {fast:?} {slow:?}",
                         t.name(),
                         v.choices
@@ -101,16 +101,17 @@ fn over_a_stroke_the_scores_are_the_worst_of_its_poses() {
     let mut scratch = Scratch::default();
     let mut compared = 0;
     for v in cheapest(&s, 20) {
-        let (Ok(fast), Ok(slow)) = (e.scores(&v, &mut scratch), e.slowly(&v)) else {
+        let (Ok(fast), Ok(slow)) = (e.score_variant(&v, &mut scratch), e.reference_scores(&v))
+        else {
             continue;
         };
         compared += 1;
-        let one = at_rest.scores(&v, &mut scratch).unwrap();
+        let one = at_rest.score_variant(&v, &mut scratch).unwrap();
         assert!(fast.force.utilisation >= one.force.utilisation * (1.0 - 1e-9));
         assert!(fast.conditioning <= one.conditioning * (1.0 + 1e-9));
         for t in Term::ALL {
             assert!(
-                near(fast.value(t), slow.value(t), 1e-6),
+                near(fast.term_value(t), slow.term_value(t), 1e-6),
                 "{}: {fast:?} {slow:?}",
                 t.name()
             );
@@ -120,7 +121,7 @@ fn over_a_stroke_the_scores_are_the_worst_of_its_poses() {
 }
 
 fn ranking(order: Order, terms: &[(Term, f64)]) -> Ranking {
-    but(|r: &mut Ranking| (r.order, r.terms) = (order, terms.to_vec()))
+    default_with(|r: &mut Ranking| (r.order, r.terms) = (order, terms.to_vec()))
 }
 
 const TERMS: [(Term, f64); 3] = [
@@ -134,11 +135,11 @@ fn ranked(m: &Mechanism, r: &Ranking, n: usize, top: usize) -> RankedPool {
     let e = Evaluator::new(&s, ClearanceSum::Worst).unwrap();
     let mut ranker = Ranker::new(&e, r, n, top);
     for v in cheapest(&s, n) {
-        if ranker.take(v).is_break() {
+        if ranker.take_variant(v).is_break() {
             break;
         }
     }
-    ranker.finish(false)
+    ranker.finish_pool(false)
 }
 
 #[test]
@@ -151,13 +152,13 @@ fn orders_keep_their_laws() {
         assert!(pair[0].total <= pair[1].total);
         assert_eq!(
             pair[0].total.unwrap(),
-            pair[0].scores.weighted(&weight.ranking)
+            pair[0].scores.weighted_sum(&weight.ranking)
         );
-        assert!(compare(&weight.ranking, &pair[0], &pair[1]).is_lt());
+        assert!(compare_ranked(&weight.ranking, &pair[0], &pair[1]).is_lt());
     }
     let lexical = ranked(&m, &ranking(Order::Lexicographic, &TERMS), n, n);
     for pair in lexical.list.windows(2) {
-        let key = |i: usize| TERMS.map(|(t, _)| pair[i].scores.loss(t));
+        let key = |i: usize| TERMS.map(|(t, _)| pair[i].scores.term_loss(t));
         assert!(key(0) <= key(1));
     }
     // The same variants in all orders.
@@ -170,8 +171,9 @@ fn orders_keep_their_laws() {
     assert_eq!(set(&weight), set(&lexical));
     assert_eq!(set(&weight), set(&pareto));
     // Nobody of the first front is dominated by anybody.
-    let point =
-        |r: &ozols::score::outcome::ranking::Ranked| TERMS.map(|(t, _)| r.scores.loss(t)).to_vec();
+    let point = |r: &ozols::score::outcome::ranking::Ranked| {
+        TERMS.map(|(t, _)| r.scores.term_loss(t)).to_vec()
+    };
     for a in &pareto.list {
         let beaten = pareto.list.iter().any(|b| dominates(&point(b), &point(a)));
         assert_eq!(a.front == Some(1), !beaten);
@@ -180,7 +182,7 @@ fn orders_keep_their_laws() {
     let cost = ranked(&m, &ranking(Order::Weighted, &[(Term::Cost, 1.0)]), n, 5);
     let places: Vec<usize> = cost.list.iter().map(|r| r.by_cost).collect();
     assert!(places.is_sorted());
-    assert!((1..=5).all(|i| cost.reason(&m, i).is_none()));
+    assert!((1..=5).all(|i| cost.place_reason(&m, i).is_none()));
 }
 
 #[test]
@@ -224,11 +226,11 @@ fn the_floor_proves_what_cost_alone_does_not() {
     let variants = cheapest(&s, 40_000);
     let dearest = variants.last().unwrap();
     #[allow(clippy::cast_precision_loss, reason = "costs are small")]
-    let cost = s.steps.milli(dearest.key.cost()) as f64 / 1000.0;
+    let cost = s.steps.cost_in_milli(dearest.key.cost()) as f64 / 1000.0;
     assert!(cost < last, "cost alone would do: {cost} {last}");
     for v in &variants[small.scored..] {
-        if let Ok(scores) = e.scores(v, &mut scratch) {
-            assert!(scores.weighted(&r) >= last);
+        if let Ok(scores) = e.score_variant(v, &mut scratch) {
+            assert!(scores.weighted_sum(&r) >= last);
         }
     }
 }
@@ -244,14 +246,14 @@ fn no_variant_is_below_the_floor() {
     ] {
         let s = search(&m, redundant);
         let e = Evaluator::new(&s, clearance).unwrap();
-        let floor = e.floor();
+        let floor = e.least_terms();
         assert!(floor.force > 0.0 && floor.output_error > 0.0, "{floor:?}");
         let mut scratch = Scratch::default();
         let mut variants = cheapest(&s, 2000 / (1 + 9 * redundant as usize));
         variants.extend(sampled(&s, 2000 / (1 + 9 * redundant as usize)));
         let mut least = [f64::INFINITY; 3];
         for v in &variants {
-            let Ok(scores) = e.scores(v, &mut scratch) else {
+            let Ok(scores) = e.score_variant(v, &mut scratch) else {
                 continue;
             };
             let found = [
@@ -300,8 +302,8 @@ fn limits_filter() {
 
 #[test]
 fn the_order_does_not_depend_on_the_number_of_threads() {
-    let args = words("search gripper-10-loaded --pool 6000 --format json");
-    let with = |n: &str| out(&[&args[..], &["--threads", n]].concat());
+    let args = split_words("search gripper-10-loaded --pool 6000 --format json");
+    let with = |n: &str| run_quiet(&[&args[..], &["--threads", n]].concat());
     let one = with("1");
     assert_eq!(one, with("2"));
     assert_eq!(one, with("5"));
@@ -395,7 +397,7 @@ fn a_pool_says_how_far_it_is_from_proven() {
 #[test]
 fn that_scores_are_at_rest_is_said_where_there_is_a_speed() {
     let text = ozols::builtin::text("gripper-10-loaded").unwrap();
-    let (_folder, path) = written(
+    let (_folder, path) = write_temporary(
         "fast.toml",
         text.replacen("[workload]", "[workload]\ndrive_speed = 50", 1),
     );

@@ -14,7 +14,7 @@ mod unilateral;
 
 use ozols::model::loads::{ExternalForce, MassProperties};
 use ozols::motion::pose::Pose;
-use ozols::statics::reactions::drives::driven;
+use ozols::statics::reactions::drives::driven_freedoms;
 use ozols::statics::reactions::geometry::{Geometry, cross, dot};
 use ozols::statics::reactions::{JointReaction, Reactions, Solution, Uniqueness, Unsolved};
 use proptest::prelude::*;
@@ -35,7 +35,7 @@ fn with_masses(m: &mut Mechanism, seed: &[f64]) {
     m.loads.gravity = Some(vector([draw() * 9.0, -9.81 * draw(), 5.0 * draw() - 2.0]));
     for l in m.link_ids() {
         let at = m.joints.iter().find(|j| j.links.contains(&l)).unwrap();
-        let near = real(&at.frame.point).map(|x| x + draw() - 0.5);
+        let near = to_vector(&at.frame.point).map(|x| x + draw() - 0.5);
         if !matches!(m.links[l].role, Role::Frame | Role::Object) {
             m.links[l].mass = Some(MassProperties {
                 mass: 0.1 + 3.0 * draw(),
@@ -60,7 +60,7 @@ fn with_masses(m: &mut Mechanism, seed: &[f64]) {
 /// Greatest force, or moment about a far point, left over on a link, over the greatest load: summed up from the file.
 fn left_over(m: &Mechanism, list: &[JointReaction]) -> f64 {
     let metres = m.length_unit.metres;
-    let place = |p: &[Expr; 3]| real(p).map(|x| x * metres);
+    let place = |p: &[Expr; 3]| to_vector(p).map(|x| x * metres);
     let about = [0.3, -0.2, 0.5];
     let planar = matches!(m.mode, Mode::Planar { .. });
     let (mut worst, mut greatest) = (0.0f64, 1e-300f64);
@@ -76,14 +76,14 @@ fn left_over(m: &Mechanism, list: &[JointReaction]) -> f64 {
             }
         };
         if let (Some(g), Some(mass)) = (&m.loads.gravity, &m.links[l].mass) {
-            let weight = real(g).map(|x| x * mass.mass);
+            let weight = to_vector(g).map(|x| x * mass.mass);
             add(1.0, place(&mass.centre), weight, [0.0; 3]);
         }
         for f in m.loads.forces.iter().filter(|f| f.link == l) {
-            add(1.0, place(&f.point), real(&f.force), [0.0; 3]);
+            add(1.0, place(&f.point), to_vector(&f.force), [0.0; 3]);
         }
         for x in m.loads.moments.iter().filter(|x| x.link == l) {
-            add(1.0, [0.0; 3], [0.0; 3], real(&x.moment));
+            add(1.0, [0.0; 3], [0.0; 3], to_vector(&x.moment));
         }
         for r in list {
             let [a, b] = m.joints[r.joint].links;
@@ -111,7 +111,7 @@ pub(crate) fn greatest_force(list: &[JointReaction]) -> f64 {
 }
 
 fn solve(m: &Mechanism) -> Solution {
-    Reactions::solve(m, StateId::FREE, &m.loads).unwrap()
+    Reactions::solve_at_home(m, StateId::FREE, &m.loads).unwrap()
 }
 
 /// Mechanisms of one drive that holds them.
@@ -165,7 +165,7 @@ fn every_link_is_in_equilibrium_and_joints_do_no_work() {
 /// Takes a mechanism along its drive by ±h and gives the work of its loads for a unit of drive [J/rad] or [J/m].
 fn work_by_differences(m: &Mechanism, effort_of: JointId, h: f64) -> f64 {
     let pose = Pose::of_file(m, StateId::FREE).unwrap();
-    let drives = driven(m, &Geometry::new(m, StateId::FREE, &pose).unwrap()).unwrap();
+    let drives = driven_freedoms(m, &Geometry::new(m, StateId::FREE, &pose).unwrap()).unwrap();
     let (joint, freedom) = drives[0];
     assert_eq!(joint, effort_of);
     let column = pose
@@ -177,22 +177,22 @@ fn work_by_differences(m: &Mechanism, effort_of: JointId, h: f64) -> f64 {
     let energy = |step: f64| {
         let mut q = vec![0.0; pose.columns.len()];
         q[column] = step;
-        let q = pose.close(q, &[column]).unwrap();
-        let moved = pose.moved(&q);
+        let q = pose.close_loops(q, &[column]).unwrap();
+        let moved = pose.moved_to(&q);
         let shift = |link: LinkId, p: &[Expr; 3]| {
-            let from = real(p);
+            let from = to_vector(p);
             let at = [0, 1, 2].map(|i| (from[i] - pose.middle[i]) / pose.length);
-            let to = moved.links[link].point(at);
+            let to = moved.links[link].map_point(at);
             [0, 1, 2].map(|i| (to[i] - at[i]) * pose.length * metres)
         };
         let mut work = 0.0;
         for (l, link) in m.links_with_ids() {
             if let (Some(mass), Some(g)) = (&link.mass, &m.loads.gravity) {
-                work += mass.mass * dot(real(g), shift(l, &mass.centre));
+                work += mass.mass * dot(to_vector(g), shift(l, &mass.centre));
             }
         }
         for f in &m.loads.forces {
-            work += dot(real(&f.force), shift(f.link, &f.point));
+            work += dot(to_vector(&f.force), shift(f.link, &f.point));
         }
         work
     };
@@ -251,7 +251,7 @@ proptest! {
         let turn = [[2.0, -2.0, 1.0], [1.0, 2.0, 2.0], [-2.0, -1.0, 2.0]];
         let turn = turn.map(|r: [f64; 3]| r.map(|x| x / 3.0));
         let by = |v: &[Expr; 3], shift: [i64; 3]| -> [Expr; 3] {
-            let v = real(v);
+            let v = to_vector(v);
             let u = [0, 1, 2].map(|i| {
                 #[allow(clippy::cast_precision_loss, reason = "small")]
                 let s = shift[i] as f64;
@@ -291,7 +291,7 @@ fn loads_on_a_motion_that_nothing_holds_are_told_with_the_link() {
     // Ball joints at both ends of the rod 5 let it spin; a moment along it turns it.
     let mut m = built_in("gripper-10-redesign");
     with_masses(&mut m, &[0.3, 0.9, 0.1, 0.7, 0.45, 0.62, 0.21]);
-    match Reactions::solve(&m, StateId::FREE, &m.loads) {
+    match Reactions::solve_at_home(&m, StateId::FREE, &m.loads) {
         Err(Unsolved::Moves { link, mobility }) => {
             assert!(["5", "9"].contains(&link.as_str()), "{link}");
             assert_eq!(mobility, 2);
@@ -300,7 +300,7 @@ fn loads_on_a_motion_that_nothing_holds_are_told_with_the_link() {
     }
     // Without loads on the rods all is well, and the spin is told.
     for l in ["5", "9"] {
-        let l = m.link(l).unwrap();
+        let l = m.link_named(l).unwrap();
         m.links[l].mass = None;
     }
     let s = solve(&m);
@@ -318,9 +318,9 @@ fn the_drive_of_a_ball_holds_its_own_turn() {
             B | 0 a | spherical | 0, 0, 5 | 0, 0, 1 | reference = [1, 0, 0]\\ndrive = true
             S | 0 a | custom | 0, 0, 0 | 0, 0, 1 | freedoms = [\"rx\", \"rz\", \"tz\"]\\nreference = [1, 0, 0]";
         let load = format!("[[workload.moment]]\nlink = \"a\"\nmoment = {moment}\n");
-        let text = file_of("name = \"ball\"", "0 a*", joints) + &load;
+        let text = write_mechanism("name = \"ball\"", "0 a*", joints) + &load;
         let m = mechanism_from_str("ball.toml", &text).unwrap();
-        let found = ozols::statics::reactions::cycle(&m, StateId::FREE, None).unwrap();
+        let found = ozols::statics::reactions::solve_cycle(&m, StateId::FREE, None).unwrap();
         found.positions[0].1.clone().unwrap()
     };
     for (moment, torque) in [("[0, 0, 1]", -1.0), ("[0, 1, 0]", 0.0)] {
@@ -346,9 +346,9 @@ fn nearly_equal_axes_are_told() {
             "B | 0 a | revolute | 0, 0, 5 | 0, 0, 1
              S | 0 a | revolute | 0, 0, 0 | \"{tilt}\", 0, 1"
         );
-        let text = file_of("name = \"near\"", "0 a*", &joints);
-        let (_folder, path) = written("near.toml", text);
-        out(&["statics", path, "--spatial"])
+        let text = write_mechanism("name = \"near\"", "0 a*", &joints);
+        let (_folder, path) = write_temporary("near.toml", text);
+        run_quiet(&["statics", path, "--spatial"])
     };
     let said = with("1/10000000000");
     has(

@@ -25,22 +25,22 @@ pub(crate) fn folder() -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("tests/data/robots")
 }
 
-pub(crate) fn none(_: &str) -> std::io::Result<Vec<u8>> {
+pub(crate) fn no_files(_: &str) -> std::io::Result<Vec<u8>> {
     Err(std::io::Error::other("there is no such file"))
 }
 
-pub(crate) fn model(path: &str, options: &Options) -> Imported {
+pub(crate) fn read_model(path: &str, options: &Options) -> Imported {
     let bytes = fs::read(folder().join(path)).unwrap();
-    import(path, &bytes, &none, options).unwrap_or_else(|e| panic!("{e}"))
+    import(path, &bytes, &no_files, options).unwrap_or_else(|e| panic!("{e}"))
 }
 
 /// n, p, k, f, W, σ of the imported mechanism by singular values.
-pub(crate) fn figures(imported: &Imported, tolerance: f64) -> [i64; 6] {
+pub(crate) fn numeric_figures(imported: &Imported, tolerance: f64) -> [i64; 6] {
     let m = mechanism_from_str("imported.toml", &imported.toml().unwrap()).unwrap();
     // What is written is what was built.
     let entries = |m| mechanism_file(m).json();
     assert_eq!(entries(&m), entries(&imported.mechanism));
-    let s: &StateAnalysis = &analyse(
+    let s: &StateAnalysis = &analyse_states(
         &m,
         &[StateId::FREE],
         Method::Numeric(Elimination::Svd, tolerance),
@@ -58,14 +58,14 @@ pub(crate) fn figures(imported: &Imported, tolerance: f64) -> [i64; 6] {
 }
 
 /// What a text is read as.
-pub(crate) fn read(name: &str, text: &str) -> Imported {
-    import(name, text.as_bytes(), &none, &Options::default())
+pub(crate) fn read_robot(name: &str, text: &str) -> Imported {
+    import(name, text.as_bytes(), &no_files, &Options::default())
         .unwrap_or_else(|e| panic!("{e}\n{text}"))
 }
 
 /// The message of a text that is refused.
-pub(crate) fn refused(name: &str, text: &str) -> String {
-    let e = import(name, text.as_bytes(), &none, &Options::default()).unwrap_err();
+pub(crate) fn message_of(name: &str, text: &str) -> String {
+    let e = import(name, text.as_bytes(), &no_files, &Options::default()).unwrap_err();
     assert!(!e.render(false).is_empty());
     e.to_string()
 }
@@ -101,7 +101,7 @@ pub(crate) const ARM: &str = r#"<robot name="arm">
 
 #[test]
 fn poses_are_composed() {
-    let i = read("arm.urdf", ARM);
+    let i = read_robot("arm.urdf", ARM);
     for line in [
         "point = [-0.2, 0.1, 1]",
         "axis = [0, 1, 0]",
@@ -117,7 +117,7 @@ fn poses_are_composed() {
         pose: vec![("p".to_owned(), vec![std::f64::consts::FRAC_PI_2])],
         ..Options::default()
     };
-    let i = import("arm.urdf", ARM.as_bytes(), &none, &turned).unwrap();
+    let i = import("arm.urdf", ARM.as_bytes(), &no_files, &turned).unwrap();
     has(&i.toml().unwrap(), "point = [-0.1, -0.2, 1]");
 }
 
@@ -129,7 +129,7 @@ fn another_frame() {
         outputs: vec!["base".to_owned()],
         ..Options::default()
     };
-    let i = import("arm.urdf", ARM.as_bytes(), &none, &options).unwrap();
+    let i = import("arm.urdf", ARM.as_bytes(), &no_files, &options).unwrap();
     for part in [
         "point = [-0.1, -0.2, 0]\naxis = [0, 0, 1]",
         "point = [0, 0, 0]\naxis = [1, 0, 0]",
@@ -147,14 +147,14 @@ fn another_frame() {
 // A floating base is one joint of six freedoms.
 #[test]
 fn floating() {
-    let options = but(|o: &mut Options| o.floating = true);
-    let i = import("arm.urdf", ARM.as_bytes(), &none, &options).unwrap();
-    assert_eq!(figures(&i, 1e-9), [4, 3, 0, 8, 8, 0]);
+    let options = default_with(|o: &mut Options| o.floating = true);
+    let i = import("arm.urdf", ARM.as_bytes(), &no_files, &options).unwrap();
+    assert_eq!(numeric_figures(&i, 1e-9), [4, 3, 0, 8, 8, 0]);
 }
 
 #[test]
 fn errors_name_the_element_and_the_line() {
-    for [from, to, words] in cases::<3>(
+    for [from, to, words] in read_cases::<3>(
         r#"
         <child link="b"/> | <child link="c"/> | arm.urdf:5: & joint "q" & link "c" & base, a, b, tip
         prismatic | sliding | arm.urdf:5: & joint "q" & "sliding" & prismatic, fixed
@@ -175,7 +175,7 @@ fn errors_name_the_element_and_the_line() {
     ) {
         let text = ARM.replace(from, to);
         assert_ne!(text, ARM, "{from}");
-        let e = refused("arm.urdf", &text);
+        let e = message_of("arm.urdf", &text);
         has_all(&e, &words.split(" & ").collect_vec());
     }
 }
@@ -184,21 +184,21 @@ fn errors_name_the_element_and_the_line() {
 fn hostile_xml() {
     let bomb = r#"<?xml version="1.0"?><!DOCTYPE r [<!ENTITY a "aaaaaaaaaa"><!ENTITY b "&a;&a;&a;&a;">]><robot name="&b;"/>"#;
     for name in ["x.urdf", "x.xml", "x.sdf"] {
-        let e = refused(name, bomb);
+        let e = message_of(name, bomb);
         has(&e, "declares entities");
         has(&e, &format!("{name}:1:"));
     }
-    assert!(refused("x.urdf", "<robot name=\"&b;\"/>").contains("not well-formed"));
+    assert!(message_of("x.urdf", "<robot name=\"&b;\"/>").contains("not well-formed"));
     let deep = "<robot>".to_owned() + &"<a>".repeat(100_000);
-    assert!(refused("x.urdf", &deep).contains("4000 deep"));
+    assert!(message_of("x.urdf", &deep).contains("4000 deep"));
     let many = "<robot>".to_owned() + &"<a/>".repeat(600_000) + "</robot>";
-    assert!(refused("x.urdf", &many).contains("500000 elements"));
+    assert!(message_of("x.urdf", &many).contains("500000 elements"));
     let wide =
         "<robot ".to_owned() + &(0..300).map(|i| format!("a{i}='' ")).collect::<String>() + "/>";
-    assert!(refused("x.urdf", &wide).contains("256 attributes"));
-    assert!(refused("x.urdf", "").contains("there is no element"));
-    assert!(refused("x.urdf", "<robot a='1' a='2'/>").contains("twice"));
-    let e = import("x.urdf", b"\xff<robot/>", &none, &Options::default()).unwrap_err();
+    assert!(message_of("x.urdf", &wide).contains("256 attributes"));
+    assert!(message_of("x.urdf", "").contains("there is no element"));
+    assert!(message_of("x.urdf", "<robot a='1' a='2'/>").contains("twice"));
+    let e = import("x.urdf", b"\xff<robot/>", &no_files, &Options::default()).unwrap_err();
     assert!(e.to_string().contains("UTF-8"));
 }
 
@@ -220,10 +220,10 @@ fn too_many_links() {
         )
     };
     assert!(
-        refused("c.urdf", &chain(2100, "continuous")).contains("2100 links, more than the 2000")
+        message_of("c.urdf", &chain(2100, "continuous")).contains("2100 links, more than the 2000")
     );
-    assert!(refused("c.urdf", &chain(10_100, "fixed")).contains("more than 10000 links"));
-    let i = read("c.urdf", &chain(2100, "fixed"));
+    assert!(message_of("c.urdf", &chain(10_100, "fixed")).contains("more than 10000 links"));
+    let i = read_robot("c.urdf", &chain(2100, "fixed"));
     assert_eq!(i.report.size, (2, 1));
 }
 

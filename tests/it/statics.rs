@@ -23,7 +23,7 @@ pub(crate) struct J {
     pub(crate) at: [f64; 2],
 }
 
-pub(crate) fn r(a: &str, b: &str, x: f64, y: f64) -> J {
+pub(crate) fn turning_joint(a: &str, b: &str, x: f64, y: f64) -> J {
     J {
         links: (a.into(), b.into()),
         slide: None,
@@ -31,7 +31,7 @@ pub(crate) fn r(a: &str, b: &str, x: f64, y: f64) -> J {
     }
 }
 
-pub(crate) fn p(a: &str, b: &str, x: f64, y: f64, along: [f64; 2]) -> J {
+pub(crate) fn sliding_joint(a: &str, b: &str, x: f64, y: f64, along: [f64; 2]) -> J {
     J {
         links: (a.into(), b.into()),
         slide: Some(along),
@@ -40,15 +40,19 @@ pub(crate) fn p(a: &str, b: &str, x: f64, y: f64, along: [f64; 2]) -> J {
 }
 
 /// A file in planar mode; link 0 is the frame, the first joint is the drive; `more` goes to the end.
-pub(crate) fn file(joints: &[J], more: &str) -> String {
-    file_with(joints, &|_| None, more)
+pub(crate) fn planar_file(joints: &[J], more: &str) -> String {
+    planar_file_with(joints, &|_| None, more)
 }
 
 /// Mass, centre and inertia.
 pub(crate) type Mass = (f64, [f64; 2], f64);
 
 /// The same with masses by link.
-pub(crate) fn file_with(joints: &[J], mass: &dyn Fn(&str) -> Option<Mass>, more: &str) -> String {
+pub(crate) fn planar_file_with(
+    joints: &[J],
+    mass: &dyn Fn(&str) -> Option<Mass>,
+    more: &str,
+) -> String {
     let links: BTreeSet<&str> = joints
         .iter()
         .flat_map(|j| [&*j.links.0, &j.links.1])
@@ -65,40 +69,40 @@ pub(crate) fn file_with(joints: &[J], mass: &dyn Fn(&str) -> Option<Mass>, more:
     };
     let joints = joints.iter().enumerate().map(line).join("\n");
     let head = "name = \"t\"\nmode = \"planar\"";
-    let mut text = file_of(head, &(links.iter().join(" ") + "*"), &joints);
+    let mut text = write_mechanism(head, &(links.iter().join(" ") + "*"), &joints);
     for l in links {
         if let Some((m, [x, y], i)) = mass(l) {
             let link = format!("[[link]]\nid = \"{l}\"\n");
             let heavy = format!("mass = {m:?}\ncentre = [{x:?}, {y:?}, 0]\ninertia = {i:?}\n");
-            text = changed(&text, &link, &(link.clone() + &heavy));
+            text = replace_once(&text, &link, &(link.clone() + &heavy));
         }
     }
     text + more
 }
 
-pub(crate) fn mechanism(text: &str) -> Mechanism {
+pub(crate) fn read_planar(text: &str) -> Mechanism {
     mechanism_from_str("t.toml", text).unwrap_or_else(|e| panic!("{e}\n{text}"))
 }
 
-pub(crate) fn planar(joints: &[J]) -> PlanarMechanism {
-    PlanarMechanism::new(&mechanism(&file(joints, "")), StateId::FREE).unwrap()
+pub(crate) fn planar_mechanism(joints: &[J]) -> PlanarMechanism {
+    PlanarMechanism::new(&read_planar(&planar_file(joints, "")), StateId::FREE).unwrap()
 }
 
-pub(crate) fn pair(m: &PlanarMechanism, name: &str) -> PairId {
+pub(crate) fn pair_named(m: &PlanarMechanism, name: &str) -> PairId {
     m.pairs.iter().position(|p| p.name == name).unwrap()
 }
 
-pub(crate) fn shears() -> &'static str {
+pub(crate) fn shears_text() -> &'static str {
     ozols::builtin::text("parallel-shears").unwrap()
 }
 
 pub(crate) fn four_bar_file() -> String {
-    file(
+    planar_file(
         &[
-            r("0", "1", 0.0, 0.0),
-            r("1", "2", 0.0, 1.0),
-            r("2", "3", 3.0, 3.0),
-            r("3", "0", 4.0, 0.0),
+            turning_joint("0", "1", 0.0, 0.0),
+            turning_joint("1", "2", 0.0, 1.0),
+            turning_joint("2", "3", 3.0, 3.0),
+            turning_joint("3", "0", 4.0, 0.0),
         ],
         "",
     )

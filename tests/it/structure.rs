@@ -9,7 +9,7 @@ use ozols::closure::{Column, CouplingRow};
 use ozols::linalg::echelon;
 use ozols::linalg::modp::Residue;
 use ozols::rank::exact::modular;
-use ozols::redundancy::contour_shares::shares;
+use ozols::redundancy::contour_shares::contour_shares;
 use proptest::prelude::*;
 
 /// (σ in the order given, least, greatest) of each contour, by a rank for each.
@@ -18,7 +18,7 @@ fn shares_by_definition(exact: &ExactField, closure: &Closure<Residue>) -> Vec<[
         let columns: Vec<Vec<Residue>> = (0..closure.columns.len())
             .map(|c| closure.dense_column(exact, c, contours))
             .collect();
-        echelon::rank(exact.field(), columns.iter().map(Vec::as_slice))
+        echelon::rank_of(exact.field(), columns.iter().map(Vec::as_slice))
     };
     let all: Vec<usize> = (0..closure.contours.len()).collect();
     all.iter()
@@ -39,11 +39,11 @@ fn check(mechanism: &Mechanism) {
         let closure = Closure::new(&exact, mechanism, state).unwrap();
         let what = format!("{} {}", mechanism.name, mechanism.states[state]);
         assert_eq!(
-            modular::rank(&exact, &closure),
+            modular::rank_modulo(&exact, &closure),
             rank_dense(&exact, &closure),
             "{what}"
         );
-        let found: Vec<[usize; 3]> = shares(&exact, &closure)
+        let found: Vec<[usize; 3]> = contour_shares(&exact, &closure)
             .iter()
             .map(|s| [s.redundant, s.range.0, s.range.1])
             .collect();
@@ -62,15 +62,15 @@ fn built_in_mechanisms() {
 fn chains_and_grids() {
     for kind in LatticeKind::ALL {
         for k in [1, 2, 3, 9, 24] {
-            check(&lattice::mechanism(kind, k));
+            check(&lattice::lattice_mechanism(kind, k));
         }
     }
     for kind in [LatticeKind::FourBars, LatticeKind::Scissors] {
-        let m = lattice::mechanism(kind, 70);
+        let m = lattice::lattice_mechanism(kind, 70);
         let exact = exact_field(&m, 0).unwrap();
         let closure = Closure::new(&exact, &m, StateId::FREE).unwrap();
         assert_eq!(closure.contours.len(), 70);
-        assert_eq!(modular::rank(&exact, &closure), 3 * 70, "{kind:?}");
+        assert_eq!(modular::rank_modulo(&exact, &closure), 3 * 70, "{kind:?}");
     }
 }
 
@@ -131,9 +131,9 @@ proptest! {
             couplings: Vec::new(),
             left_out: Vec::new(),
         };
-        prop_assert_eq!(modular::rank(&exact, &closure), rank_dense(&exact, &closure));
+        prop_assert_eq!(modular::rank_modulo(&exact, &closure), rank_dense(&exact, &closure));
         let found: Vec<[usize; 3]> =
-            shares(&exact, &closure).iter().map(|s| [s.redundant, s.range.0, s.range.1]).collect();
+            contour_shares(&exact, &closure).iter().map(|s| [s.redundant, s.range.0, s.range.1]).collect();
         prop_assert_eq!(found, shares_by_definition(&exact, &closure));
         // Couplings of columns of different joints: fronts of their own, against J written out.
         let f = closure.columns.len().max(1);
@@ -145,7 +145,7 @@ proptest! {
                 closure.couplings.push(CouplingRow { entries });
             }
         }
-        prop_assert_eq!(modular::rank(&exact, &closure), rank_dense(&exact, &closure));
+        prop_assert_eq!(modular::rank_modulo(&exact, &closure), rank_dense(&exact, &closure));
     }
 }
 

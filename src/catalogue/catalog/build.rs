@@ -5,7 +5,7 @@ use crate::catalog::general::{General, InputPair};
 use crate::catalog::row::{StructureRow, row_of_pair};
 use crate::catalog::spec::{MOST_PAIRED, Spec, SpecError};
 use crate::chains::PairKind;
-use crate::chains::enumerate::{ChainsError, chains};
+use crate::chains::enumerate::{ChainsError, list_chains};
 use crate::chains::roles::Subject;
 use crate::chains::sharing::Menu;
 use crate::shard::Shard;
@@ -42,12 +42,12 @@ pub struct Work {
 impl Work {
     /// Returns the number of structures.
     #[must_use]
-    pub fn count(&self) -> usize {
+    pub fn structure_count(&self) -> usize {
         self.structures.iter().map(|(_, all)| all.len()).sum()
     }
 
     /// Returns the ids of the structures.
-    pub fn ids(&self) -> impl Iterator<Item = String> + '_ {
+    pub fn structure_ids(&self) -> impl Iterator<Item = String> + '_ {
         let all = self.structures.iter().flat_map(|(_, all)| all);
         all.map(Structure::id)
     }
@@ -57,16 +57,16 @@ impl Work {
 ///
 /// # Errors
 /// Returns an error if the specification is wrong.
-pub fn work(spec: &Spec, shard: Shard) -> Result<Work, BuildError> {
+pub fn plan_work(spec: &Spec, shard: Shard) -> Result<Work, BuildError> {
     let mut all = if spec.classics {
-        known(spec)
+        known_structures(spec)
     } else {
         let mut all = paired_work(spec)?;
         all.extend(threefold_work(spec)?);
         all.extend(hinged_work(spec)?);
         all
     };
-    all.retain(|s| shard.has(&s.name()));
+    all.retain(|s| shard.has_piece(&s.name()));
     let together = all.into_iter().into_group_map_by(InputPair::of_structure);
     Ok(Work {
         structures: together
@@ -77,11 +77,11 @@ pub fn work(spec: &Spec, shard: Shard) -> Result<Work, BuildError> {
 }
 
 /// Returns the well-known schemes, or for three jaws the grippers that are made of them.
-fn known(spec: &Spec) -> Vec<Structure> {
+fn known_structures(spec: &Spec) -> Vec<Structure> {
     let all = known_schemes().into_iter();
     match spec.jaws {
         2 => all.collect(),
-        _ => all.filter_map(Structure::thrice).collect(),
+        _ => all.filter_map(Structure::three_jawed).collect(),
     }
 }
 
@@ -90,14 +90,14 @@ fn paired_work(spec: &Spec) -> Result<Vec<Structure>, BuildError> {
     if forms.is_empty() {
         return Ok(Vec::new());
     }
-    let links = spec.links()?;
+    let links = spec.link_range()?;
     let of_pairs = Pairs::new(spec);
     let symmetric = (spec.jaws == 2).then(|| of_pairs.two_jawed(links.clone()));
-    let generic = (spec.generic_pairs).then(|| of_pairs.generic(links, spec.jaws));
+    let generic = (spec.generic_pairs).then(|| of_pairs.generic_structures(links, spec.jaws));
     let all = symmetric.into_iter().flatten();
     let all = all.chain(generic.into_iter().flatten());
     let all = all.flat_map(Structure::with_parallelograms);
-    let all = all.filter(|p| forms.contains(&(p.input(), p.form)));
+    let all = all.filter(|p| forms.contains(&(p.drive_input(), p.form)));
     // Structures that have only hinges except for the input are listed by `hinged_work`.
     Ok(all.filter(|p| !p.is_hinged()).collect())
 }
@@ -126,7 +126,7 @@ impl Pairs {
     }
 
     /// Returns the structures of the given numbers of links and jaws, laid out without a symmetry.
-    fn generic(
+    fn generic_structures(
         &self,
         links: RangeInclusive<usize>,
         jaws: usize,
@@ -149,24 +149,24 @@ fn threefold_work(spec: &Spec) -> Result<Vec<Structure>, BuildError> {
     if forms.is_empty() {
         return Ok(Vec::new());
     }
-    let links = spec.links()?;
+    let links = spec.link_range()?;
     let of_pairs = Pairs::new(spec);
     let two = of_pairs.two_jawed(3..=MOST_PAIRED.min(*links.end()));
     let two = two.flat_map(Structure::with_parallelograms);
-    let two = two.filter(|p| forms.contains(&(p.input(), p.form)));
-    let all = two.filter_map(Structure::thrice);
-    Ok(all.filter(|t| links.contains(&t.links())).collect())
+    let two = two.filter(|p| forms.contains(&(p.drive_input(), p.form)));
+    let all = two.filter_map(Structure::three_jawed);
+    Ok(all.filter(|t| links.contains(&t.link_count())).collect())
 }
 
 fn hinged_work(spec: &Spec) -> Result<Vec<Structure>, BuildError> {
-    let forms = spec.forms();
+    let forms = spec.hinged_forms();
     let mut out = Vec::new();
     if forms.is_empty() {
         return Ok(out);
     }
-    for n in spec.links()?.filter(|n| n % 2 == 0) {
-        out.par_extend(chains(n, 1)?.into_par_iter().flat_map_iter(|chain| {
-            let (chain, automorphisms) = chain.canonical();
+    for n in spec.link_range()?.filter(|n| n % 2 == 0) {
+        out.par_extend(list_chains(n, 1)?.into_par_iter().flat_map_iter(|chain| {
+            let (chain, automorphisms) = chain.canonical_form();
             hinged_structures(&Subject::new(&chain, &automorphisms), spec.jaws, &forms)
         }));
     }
@@ -178,7 +178,7 @@ fn hinged_work(spec: &Spec) -> Result<Vec<Structure>, BuildError> {
 ///
 /// # Errors
 /// Returns the first failure.
-pub fn build<B: Send>(
+pub fn build_rows<B: Send>(
     spec: &Spec,
     work: &Work,
     skip: impl Fn(&str) -> bool + Sync,
@@ -204,7 +204,7 @@ pub fn build<B: Send>(
         let Some(first) = together.iter().find(|s| !skip(&s.id())) else {
             return Ok(());
         };
-        let general = General::of(first, spec).map_err(failed)?;
+        let general = General::search_general(first, spec).map_err(failed)?;
         let each = together.par_iter();
         each.try_for_each(|s| one(s, general.as_ref()))
     });

@@ -6,7 +6,7 @@ use crate::closure::contour::contour_basis;
 use crate::model::joint_type::Freedom;
 use crate::model::mechanism::{Mechanism, Mode, StateId};
 use crate::rank::finite::{Finite, How};
-use crate::redundancy::analysis::{Method, analyse};
+use crate::redundancy::analysis::{Method, analyse_states};
 use crate::robots::formats;
 use crate::score::request::{Check, List, Request};
 use crate::score::run::run;
@@ -50,7 +50,7 @@ pub struct DrawnMechanism {
 }
 
 /// Returns the mobility with the weakest word that is true of it.
-pub(super) fn known(finite: &Finite) -> String {
+pub(super) fn mobility_words(finite: &Finite) -> String {
     let word = match finite.how {
         _ if finite.numeric => "numeric",
         _ if finite.is_proven() => "proven",
@@ -58,11 +58,11 @@ pub(super) fn known(finite: &Finite) -> String {
         How::Bound { .. } => "bound",
         _ => "undecided",
     };
-    format!("{}, {word}", finite.figure())
+    format!("{}, {word}", finite.format_figure())
 }
 
 /// Returns the id of a mechanism, and its file.
-fn named(mechanism: &Mechanism) -> Result<(String, String), RowError> {
+fn named_file(mechanism: &Mechanism) -> Result<(String, String), RowError> {
     let file = formats::write(mechanism, "toml").map_err(|e| RowError::File {
         structure: mechanism.name.clone(),
         why: e.to_string(),
@@ -77,17 +77,21 @@ fn named(mechanism: &Mechanism) -> Result<(String, String), RowError> {
 /// # Errors
 /// Returns an error if it cannot be written as a file.
 pub fn id(mechanism: &Mechanism) -> Result<String, RowError> {
-    Ok(named(mechanism)?.0)
+    Ok(named_file(mechanism)?.0)
 }
 
 /// Searches a drawn mechanism.
 ///
 /// # Errors
 /// Returns an error if it cannot be analysed, searched or written.
-pub fn drawn(mechanism: Mechanism, top: usize, nodes: usize) -> Result<DrawnMechanism, RowError> {
-    let (id, file) = named(&mechanism)?;
+pub fn search_drawn(
+    mechanism: Mechanism,
+    top: usize,
+    nodes: usize,
+) -> Result<DrawnMechanism, RowError> {
+    let (id, file) = named_file(&mechanism)?;
     let method = Method::Auto;
-    let as_built = analyse(&mechanism, &[StateId::FREE], method)?.swap_remove(0);
+    let as_built = analyse_states(&mechanism, &[StateId::FREE], method)?.swap_remove(0);
     let joints = mechanism.joints_in(StateId::FREE).count();
     let contours = contour_basis(&mechanism, StateId::FREE).len();
     let mut drives = mechanism.joints.iter().filter(|j| j.drive);
@@ -117,7 +121,8 @@ pub fn drawn(mechanism: Mechanism, top: usize, nodes: usize) -> Result<DrawnMech
         joints.any(|j| mechanism.joints[j].links.contains(l))
     });
     let size = [links.count(), joints, contours];
-    let symmetric = Symmetric::of(&mechanism, &request).unwrap_or_else(|_| Symmetric::none());
+    let symmetric = Symmetric::search_symmetric(&mechanism, &request)
+        .unwrap_or_else(|_| Symmetric::without_symmetry());
     let outcome = run(mechanism, &request, &|| false, &mut |_| {})?;
     Ok(DrawnMechanism {
         id,
@@ -128,7 +133,7 @@ pub fn drawn(mechanism: Mechanism, top: usize, nodes: usize) -> Result<DrawnMech
         mode,
         input,
         as_built: (as_built.mobility, as_built.redundant),
-        finite: known(&as_built.finite),
+        finite: mobility_words(&as_built.finite),
         counts: outcome.determinate.by_mobility_and_changes.clone(),
         admissible: outcome.admissible.total.clone(),
         exact: outcome.is_exact() && symmetric.exact,

@@ -1,7 +1,7 @@
 //! The structures of a catalogue that are a given one.
 
 use crate::catalog::store::{Store, StoreError};
-use crate::chains::chain::{Chain, ordered};
+use crate::chains::chain::{Chain, order_links};
 use crate::chains::classics::MadeAs;
 use crate::chains::roles::Roles;
 use crate::chains::structure::PairStructure;
@@ -31,21 +31,21 @@ pub struct Entry {
 ///
 /// # Complexity
 /// One canonical numbering for each structure of as many links.
-pub fn entries(
+pub fn find_entries(
     store: &Store,
     structure: &PairStructure,
     made_as: MadeAs,
 ) -> Result<Vec<Entry>, StoreError> {
-    let key = structure.key();
+    let key = structure.canonical_key();
     let links = structure.chain.links().to_string();
-    let (_, rows) = store.query(STRUCTURES, Some(&links))?;
-    let same = |row: &&Vec<Value>| read(row).is_some_and(|s| s.key() == key);
+    let (_, rows) = store.query_rows(STRUCTURES, Some(&links))?;
+    let same = |row: &&Vec<Value>| read_structure(row).is_some_and(|s| s.canonical_key() == key);
     let found = rows.iter().filter(same).map(|r| Entry::new(r));
     // A screw is not a pinion. Other forms of the same structure follow those made in the same way.
-    let alike = found.filter(|e| e.has("threaded") == made_as.threaded);
+    let alike = found.filter(|e| e.has_word("threaded") == made_as.threaded);
     let other = |e: &Entry| {
-        let pins = e.has("on one pin") != made_as.jaws_on_one_pin;
-        pins || e.has("flat") != made_as.flat
+        let pins = e.has_word("on one pin") != made_as.jaws_on_one_pin;
+        pins || e.has_word("flat") != made_as.flat
     };
     Ok(alike.sorted_by_key(other).collect())
 }
@@ -60,7 +60,7 @@ impl Entry {
         }
     }
 
-    fn has(&self, word: &str) -> bool {
+    fn has_word(&self, word: &str) -> bool {
         self.form.contains(word)
     }
 
@@ -70,12 +70,12 @@ impl Entry {
 }
 
 /// Returns the structure of a row that begins as those of [`STRUCTURES`].
-pub(super) fn read(row: &[Value]) -> Option<PairStructure> {
-    let chain = graph6::read(row.get(2)?.as_str()?).ok()?;
+pub(super) fn read_structure(row: &[Value]) -> Option<PairStructure> {
+    let chain = graph6::read_graph(row.get(2)?.as_str()?).ok()?;
     let slides = row.get(3)?.as_str()? == "slide";
     let link = |i: usize| usize::try_from(row.get(i)?.as_u64()?).ok();
     let (frame, driver) = (link(4)?, link(5)?);
-    let input = ordered([link(10).unwrap_or(frame), driver]);
+    let input = order_links([link(10).unwrap_or(frame), driver]);
     let jaws = [link(6)?, link(7)?].into_iter().chain(link(8));
     Some(PairStructure {
         chain: match row.get(9)?.as_str() {

@@ -7,7 +7,7 @@
 //! only one of its variants in an order of variables, so diagrams are compared edge by edge.
 
 use crate::catalog::spec::Spec;
-use crate::catalog::{RowError, mechanism, search};
+use crate::catalog::{RowError, built_mechanism, prepare_search};
 use crate::chains::chain::Chain;
 use crate::chains::roles::Roles;
 use crate::chains::structure::PairStructure;
@@ -67,7 +67,7 @@ impl InputPair {
     }
 
     /// Returns a structure that represents the pair, independent of the structures asked for.
-    fn structure(self, form: Form) -> Structure {
+    fn pair_structure(self, form: Form) -> Structure {
         let jaws = (0..self.chain.links()).filter(|l| !self.input.contains(l));
         let roles = Roles {
             frame: self.input[0],
@@ -83,7 +83,7 @@ impl InputPair {
 fn at_random(structure: &Structure, spec: &Spec, number: usize) -> Result<Mechanism, RowError> {
     let PairStructure { chain, roles } = &structure.structure;
     let [u, v] = roles.input;
-    let mut random = random_of(&format!("{} {u}-{v} {number}", graph6::write(chain)));
+    let mut random = random_of(&format!("{} {u}-{v} {number}", graph6::write_graph(chain)));
     // Halved, so that differences of places are as small.
     let mut coordinate = || f64::from(random.next_u32().cast_signed() / 2);
     let swap = (0..chain.links()).collect();
@@ -93,12 +93,12 @@ fn at_random(structure: &Structure, spec: &Spec, number: usize) -> Result<Mechan
     })?;
     let points = rules.joints.iter().map(|_| [coordinate(), coordinate()]);
     let at = Places::of_hinges(points.collect());
-    let file = bare_file(structure, &rules, &at, &spec.menu()?);
-    mechanism(&structure.name(), &file)
+    let file = bare_file(structure, &rules, &at, &spec.option_menu()?);
+    built_mechanism(&structure.name(), &file)
 }
 
 /// Returns true if two diagrams in the same order have the same variants.
-fn same(a: &Diagram, b: &Diagram) -> bool {
+fn same_diagrams(a: &Diagram, b: &Diagram) -> bool {
     let layers = a.layers.iter().zip(&b.layers);
     [a, b].iter().all(|d| d.stop == Stop::Exhausted)
         && a.terminals == b.terminals
@@ -121,27 +121,27 @@ impl General {
     ///
     /// # Complexity
     /// Two searches.
-    pub fn of(structure: &Structure, spec: &Spec) -> Result<Option<General>, RowError> {
+    pub fn search_general(structure: &Structure, spec: &Spec) -> Result<Option<General>, RowError> {
         let Some(pair) = InputPair::of_structure(structure) else {
             return Ok(None);
         };
-        let first = pair.structure(structure.form);
+        let first = pair.pair_structure(structure.form);
         for number in 0..PAIRS_OF_PLACES {
             let over = |prime: usize| {
                 let places = at_random(&first, spec, 2 * number + prime)?;
-                search(places, spec, prime)
+                prepare_search(places, spec, prime)
             };
             let (one, two) = (over(0)?, over(1)?);
-            let orders = one.orders();
+            let orders = one.variable_orders();
             let built = |s: &Search| s.build_in(&orders, &|| false, &mut |_| {});
             let (diagrams, twin) = rayon::join(|| built(&one), || built(&two).determinate);
             let diagram = &diagrams.determinate;
             if diagram.stop != Stop::Exhausted {
                 return Ok(None);
             }
-            if same(diagram, &twin) {
+            if same_diagrams(diagram, &twin) {
                 return Ok(Some(General {
-                    counts: one.counts(diagram, false).by_mobility_and_changes,
+                    counts: one.count_variants(diagram, false).by_mobility_and_changes,
                     minimal: one.minimal_variants(&diagrams),
                     idea_variants: one.idea_variants(&diagrams),
                     ideas: Mutex::default(),
@@ -161,12 +161,12 @@ impl General {
     ///
     /// # Complexity
     /// That of [`Search::has_all`] for the minimal variants. One diagram if the minimal variants are unknown.
-    pub(super) fn certify(
+    pub(super) fn certify_layout(
         &self,
         layout: Mechanism,
         spec: &Spec,
     ) -> Result<Option<Search>, RowError> {
-        let search = search(layout, spec, 0)?;
+        let search = prepare_search(layout, spec, 0)?;
         let has_all = search.has_all(self.minimal.as_ref().unwrap_or(&self.diagram));
         Ok(has_all.then_some(search))
     }
@@ -176,7 +176,7 @@ impl General {
     ///
     /// # Complexity
     /// That of looking for them, once for each way in which the links of the pair are frame, jaws and rods.
-    pub(super) fn ideas(&self, search: &Search, top: usize) -> Vec<Idea> {
+    pub(super) fn cached_ideas(&self, search: &Search, top: usize) -> Vec<Idea> {
         let basis = search.idea_basis();
         // An entry of a thread that panicked is complete.
         let known = || self.ideas.lock().unwrap_or_else(PoisonError::into_inner);

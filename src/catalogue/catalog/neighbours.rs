@@ -1,6 +1,6 @@
 //! The structures of a catalogue that are next to a given one, and the figures in which their layouts are better.
 
-use crate::catalog::find::{Entry, read};
+use crate::catalog::find::{Entry, read_structure};
 use crate::catalog::store::{Store, StoreError};
 use crate::chains::PairKind;
 use crate::chains::canonical::Weighted;
@@ -100,26 +100,30 @@ const FIRST_FIGURE: usize = 11;
 ///
 /// # Complexity
 /// A few canonical numberings for each layout of up to four links less or more; some fifty for symmetric ones of four more.
-pub fn neighbours(store: &Store, structure: &PairStructure) -> Result<Vec<Neighbour>, StoreError> {
+pub fn find_neighbours(
+    store: &Store,
+    structure: &PairStructure,
+) -> Result<Vec<Neighbour>, StoreError> {
     let (mut best, mut near) = (None, Vec::new());
     let links = structure.chain.links();
-    let (_, rows) = store.query(LAYOUTS, Some(&links.to_string()))?;
+    let (_, rows) = store.query_rows(LAYOUTS, Some(&links.to_string()))?;
     let own = Own::new(structure);
     for row in rows {
         let jaws = |s: &PairStructure| s.roles.jaws.len();
-        let Some(other) = read(&row).filter(|other| jaws(other) == jaws(structure)) else {
+        let Some(other) = read_structure(&row).filter(|other| jaws(other) == jaws(structure))
+        else {
             continue;
         };
         let mut figures: Figures = std::array::from_fn(|i| row[FIRST_FIGURE + i].as_f64());
-        if other.slides() != structure.slides() {
+        if other.input_slides() != structure.input_slides() {
             figures[LEAST_FORCE] = None;
         }
         let entry = Entry::new(&row);
-        let key = other.key();
+        let key = other.canonical_key();
         if key == own.key {
             let best = best.get_or_insert(figures);
-            *best = std::array::from_fn(|i| FIGURES[i].better(best[i], figures[i]));
-        } else if let Some(relation) = own.relation(&other, &key, entry.is_symmetric()) {
+            *best = std::array::from_fn(|i| FIGURES[i].better_of(best[i], figures[i]));
+        } else if let Some(relation) = own.relation_to(&other, &key, entry.is_symmetric()) {
             near.push((relation, entry, figures));
         }
     }
@@ -155,7 +159,7 @@ pub fn neighbours(store: &Store, structure: &PairStructure) -> Result<Vec<Neighb
 }
 
 impl Figure {
-    fn better(&self, a: Option<f64>, b: Option<f64>) -> Option<f64> {
+    fn better_of(&self, a: Option<f64>, b: Option<f64>) -> Option<f64> {
         let of_two = if self.is_more_better {
             f64::max
         } else {
@@ -186,14 +190,14 @@ impl Own {
     fn new(structure: &PairStructure) -> Own {
         Own {
             links: structure.chain.links(),
-            chain: hinged(structure),
-            key: structure.key(),
+            chain: hinged_chain(structure),
+            key: structure.canonical_key(),
             less: [2, 4].map(|by| keys_without(structure, by)),
         }
     }
 
     /// Returns how another structure, with its key, is next to it: the place of the relation in the list, and by how many links.
-    fn relation(
+    fn relation_to(
         &self,
         other: &PairStructure,
         key: &Weighted,
@@ -201,7 +205,7 @@ impl Own {
     ) -> Option<(usize, usize)> {
         let links = other.chain.links();
         match links.abs_diff(self.links) {
-            0 => (hinged(other) == self.chain).then_some((0, 0)),
+            0 => (hinged_chain(other) == self.chain).then_some((0, 0)),
             4 if !is_symmetric => None,
             by @ (2 | 4) if links < self.links => {
                 let is_left = self.less[by / 2 - 1].contains(key);
@@ -217,11 +221,11 @@ impl Own {
 }
 
 /// The chain in canonical numbering, its input a hinge: forms differ in how the input moves.
-fn hinged(structure: &PairStructure) -> Chain {
+fn hinged_chain(structure: &PairStructure) -> Chain {
     let chain = structure.chain.clone();
     chain
         .with_pair(structure.roles.input, PairKind::Hinge)
-        .canonical()
+        .canonical_form()
         .0
 }
 
@@ -231,5 +235,5 @@ fn keys_without(structure: &PairStructure, links: usize) -> HashSet<Weighted> {
     if links == 4 {
         left = (left.iter().flat_map(PairStructure::without_two_links)).collect();
     }
-    left.iter().map(PairStructure::key).collect()
+    left.iter().map(PairStructure::canonical_key).collect()
 }

@@ -2,7 +2,7 @@
 
 use crate::catalog::general::General;
 use crate::catalog::spec::Spec;
-use crate::catalog::{RowError, mechanism, request};
+use crate::catalog::{RowError, built_mechanism, search_request};
 use crate::chains::roles::Subject;
 use crate::chains::structure::PairStructure;
 use crate::file::schema::MechanismFile;
@@ -10,22 +10,22 @@ use crate::file::write;
 use crate::model::mechanism::{JointId, Mechanism, StateId};
 use crate::model::ranking::ClearanceSum;
 use crate::rank::finite::Finite;
-use crate::rank::method::auto::{Decision, decide};
+use crate::rank::method::auto::{Decision, decide_state};
 use crate::redundancy::AnalysisError;
 use crate::score::evaluation::elimination::Scratch;
 use crate::score::evaluation::evaluate::Evaluator;
 use crate::score::evaluation::terms::Scores;
 use crate::score::outcome::Outcome;
-use crate::score::outcome::variant::{changes, in_words};
+use crate::score::outcome::variant::{in_words, list_changes};
 use crate::score::request::{List, Request};
 use crate::score::run::{RunError, run};
 use crate::search::Search;
-use crate::search::answer::counts::orbits;
+use crate::search::answer::counts::count_orbits;
 use crate::search::answer::ideas::Idea;
 use crate::search::question::conditions::Symmetry;
-use crate::synthesis::beside::beside;
-use crate::synthesis::figures::{LayoutFigures, figures};
-use crate::synthesis::layout::{Layout, NoLayout, layout};
+use crate::synthesis::beside::nearby_layout;
+use crate::synthesis::figures::{LayoutFigures, layout_figures};
+use crate::synthesis::layout::{Layout, NoLayout, lay_out};
 use crate::synthesis::mechanism::mechanism_file;
 use crate::synthesis::structure::Structure;
 use itertools::Itertools;
@@ -84,7 +84,7 @@ pub struct Symmetric {
 impl Symmetric {
     /// Creates the result for a mechanism without a symmetry.
     #[must_use]
-    pub fn none() -> Symmetric {
+    pub fn without_symmetry() -> Symmetric {
         Symmetric {
             order: 1,
             exact: true,
@@ -96,10 +96,13 @@ impl Symmetric {
     ///
     /// # Errors
     /// Returns an error if the symmetry that the file names is invalid, or if the search fails.
-    pub fn of(mechanism: &Mechanism, request: &Request) -> Result<Symmetric, RunError> {
-        let order = mechanism.search.order();
+    pub fn search_symmetric(
+        mechanism: &Mechanism,
+        request: &Request,
+    ) -> Result<Symmetric, RunError> {
+        let order = mechanism.search.symmetry_order();
         if order == 1 {
-            return Ok(Symmetric::none());
+            return Ok(Symmetric::without_symmetry());
         }
         let request = Request {
             symmetry: Symmetry::SymmetricOnly,
@@ -116,12 +119,12 @@ impl Symmetric {
 
     /// Returns how many of `variants` variants of W and number of changes are their own image, and the number of orbits.
     #[must_use]
-    pub fn split(&self, key: &(i64, u32), variants: &BigUint) -> (BigUint, BigUint) {
+    pub fn split_orbits(&self, key: &(i64, u32), variants: &BigUint) -> (BigUint, BigUint) {
         if self.order <= 1 {
             return (variants.clone(), variants.clone());
         }
         let own = self.counts.get(key).cloned().unwrap_or_default();
-        let orbits = orbits(variants, &own, self.order);
+        let orbits = count_orbits(variants, &own, self.order);
         (own, orbits)
     }
 }
@@ -150,8 +153,8 @@ pub struct IdeaRow {
 ///
 /// # Complexity
 /// A search for places, one of the variants, and what [`General::of`] takes.
-pub fn row(structure: &Structure, spec: &Spec) -> Result<StructureRow, RowError> {
-    let general = General::of(structure, spec)?;
+pub fn structure_row(structure: &Structure, spec: &Spec) -> Result<StructureRow, RowError> {
+    let general = General::search_general(structure, spec)?;
     row_of_pair(structure, spec, general.as_ref())
 }
 
@@ -167,9 +170,11 @@ pub fn row_of_pair(
     spec: &Spec,
     general: Option<&General>,
 ) -> Result<StructureRow, RowError> {
-    let laid = regular(spec, |seed| match layout(structure, &spec.limits(), seed) {
-        Ok(layout) => lay(structure, layout, spec, general),
-        Err(why) => Ok(Err(why)),
+    let laid = lay_regular(spec, |seed| {
+        match lay_out(structure, &spec.layout_limits(), seed) {
+            Ok(layout) => lay_structure(structure, layout, spec, general),
+            Err(why) => Ok(Err(why)),
+        }
     })?;
     let PairStructure { chain, roles } = structure.whole_structure();
     let subject = Subject::new(&chain, []);
@@ -186,7 +191,7 @@ pub fn row_of_pair(
 const SEEDS: u64 = 6;
 
 /// Returns the first layout of some seeds whose pose is proven to be regular, or the reason why there is none.
-fn regular(
+fn lay_regular(
     spec: &Spec,
     lay: impl Fn(u64) -> Result<Result<Laid, NoLayout>, RowError>,
 ) -> Result<Result<Laid, NoLayout>, RowError> {
@@ -210,9 +215,9 @@ struct AsFile {
 
 impl AsFile {
     fn new(structure: &Structure, layout: Layout, spec: &Spec) -> Result<AsFile, RowError> {
-        let file = mechanism_file(structure, &layout, &spec.menu()?, &spec.workload);
+        let file = mechanism_file(structure, &layout, &spec.option_menu()?, &spec.workload);
         Ok(AsFile {
-            built: mechanism(&structure.name(), &file)?,
+            built: built_mechanism(&structure.name(), &file)?,
             layout,
             file,
         })
@@ -241,19 +246,19 @@ fn in_general_position(
     spec: &Spec,
     general: &General,
 ) -> Result<Option<(AsFile, Variants)>, RowError> {
-    let moved = (0..BESIDE).filter_map(|n| beside(structure, &found.layout, spec.seed, n));
-    let first = structure.links() <= ON_MILLIMETRES;
+    let moved = (0..BESIDE).filter_map(|n| nearby_layout(structure, &found.layout, spec.seed, n));
+    let first = structure.link_count() <= ON_MILLIMETRES;
     let own = |now: bool| now.then(|| found.layout.clone());
     for layout in own(first).into_iter().chain(moved).chain(own(!first)) {
         let as_file = AsFile::new(structure, layout, spec)?;
-        if let Some(search) = general.certify(as_file.built.clone(), spec)? {
+        if let Some(search) = general.certify_layout(as_file.built.clone(), spec)? {
             let variants = Variants {
                 counts: general.counts.clone(),
-                symmetric: Symmetric::none(),
+                symmetric: Symmetric::without_symmetry(),
                 exact: true,
-                ideas: rows(
+                ideas: idea_rows(
                     &search,
-                    general.ideas(&search, SEEN * spec.ideas),
+                    general.cached_ideas(&search, SEEN * spec.ideas),
                     spec.ideas,
                 ),
             };
@@ -265,8 +270,8 @@ fn in_general_position(
 
 /// Searches the variants of a layout in special places.
 fn of_its_own(built: &Mechanism, spec: &Spec) -> Result<Variants, RowError> {
-    let symmetric = Symmetric::of(built, &request(spec))?;
-    let outcome = run(built.clone(), &request(spec), &|| false, &mut |_| {})?;
+    let symmetric = Symmetric::search_symmetric(built, &search_request(spec))?;
+    let outcome = run(built.clone(), &search_request(spec), &|| false, &mut |_| {})?;
     Ok(Variants {
         counts: outcome.determinate.by_mobility_and_changes.clone(),
         exact: outcome.is_exact() && symmetric.exact,
@@ -275,7 +280,7 @@ fn of_its_own(built: &Mechanism, spec: &Spec) -> Result<Variants, RowError> {
     })
 }
 
-fn lay(
+fn lay_structure(
     structure: &Structure,
     layout: Layout,
     spec: &Spec,
@@ -289,13 +294,13 @@ fn lay(
         (as_file, variants) = (found.0, Some(found.1));
     }
     let built = &as_file.built;
-    let Some(figures) = figures(structure, &as_file.layout) else {
+    let Some(figures) = layout_figures(structure, &as_file.layout) else {
         return Ok(Err(NoLayout::NotRegular));
     };
     let Decision {
         verdict, finite, ..
-    } = decide(built, StateId::FREE).map_err(AnalysisError::from)?;
-    if !finite.is_proven() || finite.figure() != "1" {
+    } = decide_state(built, StateId::FREE).map_err(AnalysisError::from)?;
+    if !finite.is_proven() || finite.format_figure() != "1" {
         return Ok(Err(NoLayout::NotRegular));
     }
     let variants = variants.map_or_else(|| of_its_own(built, spec), Ok)?;
@@ -307,7 +312,7 @@ fn lay(
         layout: as_file.layout,
         figures,
         file: text,
-        as_built: verdict.figures(verdict.rank()),
+        as_built: verdict.figures_at(verdict.rank()),
         finite,
         counts: variants.counts,
         exact: variants.exact,
@@ -320,7 +325,9 @@ fn lay(
 pub(super) fn ideas_of(outcome: &Outcome, top: usize) -> Vec<IdeaRow> {
     let search = &outcome.search;
     let diagrams = outcome.diagrams.as_ref().filter(|_| top > 0);
-    diagrams.map_or_else(Vec::new, |d| rows(search, search.ideas(d, SEEN * top), top))
+    diagrams.map_or_else(Vec::new, |d| {
+        idea_rows(search, search.list_ideas(d, SEEN * top), top)
+    })
 }
 
 /// Number of ideas examined per idea kept: many differ only in directions, or are not symmetric.
@@ -330,7 +337,7 @@ const SEEN: usize = 5;
 type Types = Vec<(JointId, &'static str, Option<usize>)>;
 
 /// Returns what an idea changes, without the directions of joints.
-fn types(search: &Search, idea: &Idea) -> Types {
+fn changed_types(search: &Search, idea: &Idea) -> Types {
     let chosen = search.space.variables.iter().zip(&idea.first.choices);
     let types = chosen.filter(|(_, c)| **c != 0).flat_map(|(v, &c)| {
         let choice = &v.choices[c];
@@ -344,19 +351,20 @@ fn types(search: &Search, idea: &Idea) -> Types {
 
 /// Returns the first `top` ideas that differ in what is changed, an idea and its images by the symmetry of the layout being one: those
 /// that are their own images first, then the cheapest. The cheapest of all is always among them.
-fn different(search: &Search, ideas: Vec<Idea>, top: usize) -> Vec<Idea> {
+fn distinct_ideas(search: &Search, ideas: Vec<Idea>, top: usize) -> Vec<Idea> {
     let spec = &search.mechanism.search;
     let image = |of: &Types| -> Option<Types> {
         let all = of
             .iter()
-            .map(|&(j, name, more)| (spec.image(j), name, more));
+            .map(|&(j, name, more)| (spec.image_of_joint(j), name, more));
         Some(all.sorted().collect())
     };
     let mut seen = BTreeSet::new();
     let different = ideas.into_iter().filter_map(|idea| {
-        let images = std::iter::successors(Some(types(search, &idea)), image).take(spec.order());
+        let images = std::iter::successors(Some(changed_types(search, &idea)), image)
+            .take(spec.symmetry_order());
         let images: BTreeSet<Types> = images.collect();
-        let symmetric = spec.order() > 1 && images.len() == 1;
+        let symmetric = spec.symmetry_order() > 1 && images.len() == 1;
         let is_new = images
             .first()
             .is_some_and(|first| seen.insert(first.clone()));
@@ -370,36 +378,40 @@ fn different(search: &Search, ideas: Vec<Idea>, top: usize) -> Vec<Idea> {
 }
 
 /// Returns those of the ideas of a search that are kept, each with the scores of its first variant.
-fn rows(search: &Search, ideas: Vec<Idea>, top: usize) -> Vec<IdeaRow> {
+fn idea_rows(search: &Search, ideas: Vec<Idea>, top: usize) -> Vec<IdeaRow> {
     if ideas.is_empty() {
         return Vec::new();
     }
     let evaluator = Evaluator::in_states(search, ClearanceSum::Worst, &[]).ok();
     let mut scratch = Scratch::default();
     let row = |idea: Idea| IdeaRow {
-        changes: in_words(search, &changes(search, &idea.first)),
-        cost_milli: search.steps.milli(idea.first.key.cost()),
+        changes: in_words(search, &list_changes(search, &idea.first)),
+        cost_milli: search.steps.cost_in_milli(idea.first.key.cost()),
         change_count: idea.first.key.changes(),
         scores: evaluator
             .as_ref()
-            .and_then(|e| e.scores(&idea.first, &mut scratch).ok()),
+            .and_then(|e| e.score_variant(&idea.first, &mut scratch).ok()),
         variants: idea.variants,
         choices: idea.first.choices,
     };
-    different(search, ideas, top).into_iter().map(row).collect()
+    distinct_ideas(search, ideas, top)
+        .into_iter()
+        .map(row)
+        .collect()
 }
 
 impl Laid {
     /// Returns the number of orbits of determinate variants with W = 1.
     #[must_use]
-    pub fn orbits(&self) -> BigUint {
+    pub fn orbit_count(&self) -> BigUint {
         let some = self.counts.iter().filter(|((w, _), _)| *w == 1);
-        some.map(|(key, n)| self.symmetric.split(key, n).1).sum()
+        some.map(|(key, n)| self.symmetric.split_orbits(key, n).1)
+            .sum()
     }
 
     /// Returns the number of determinate variants of mobility `w`, or of any mobility.
     #[must_use]
-    pub fn determinate(&self, w: Option<i64>) -> BigUint {
+    pub fn variant_count(&self, w: Option<i64>) -> BigUint {
         let some = self
             .counts
             .iter()

@@ -87,7 +87,7 @@ pub enum SpecError {
 impl SpecError {
     /// Returns the key that is wrong, if it is one.
     #[must_use]
-    pub fn key(&self) -> Option<&'static str> {
+    pub fn wrong_key(&self) -> Option<&'static str> {
         match self {
             SpecError::Word { what, .. } | SpecError::Range { what, .. } => Some(what),
             SpecError::Links(_) | SpecError::PairedLinks => Some("links"),
@@ -162,7 +162,7 @@ impl Parallel {
         (Parallel::Only, "only"),
     ];
 
-    fn allows(self, form: Form) -> bool {
+    fn allows_form(self, form: Form) -> bool {
         match self {
             Parallel::With => true,
             Parallel::Without => !form.parallel,
@@ -213,7 +213,7 @@ const OPTIONS: [&str; 8] = [
 ///
 /// # Errors
 /// Returns the part that is not a number.
-pub fn range(text: &str) -> Result<RangeInclusive<usize>, &str> {
+pub fn parse_range(text: &str) -> Result<RangeInclusive<usize>, &str> {
     let number = |t: &'_ str| t.trim().parse::<usize>().ok();
     let (from, to) = text.split_once("..").unwrap_or((text, text));
     let to = to.strip_prefix('=').unwrap_or(to);
@@ -230,7 +230,7 @@ fn check_word(what: &'static str, word: &str, known: &[&str]) -> Result<(), Spec
     known.contains(&word).then_some(()).ok_or_else(wrong)
 }
 
-fn within(what: &'static str, x: f64, from: i64, to: i64) -> Result<(), SpecError> {
+fn check_range(what: &'static str, x: f64, from: i64, to: i64) -> Result<(), SpecError> {
     #[allow(clippy::cast_precision_loss, reason = "small")]
     let ok = x >= from as f64 && x <= to as f64;
     ok.then_some(()).ok_or(SpecError::Range { what, from, to })
@@ -241,9 +241,9 @@ impl Spec {
     ///
     /// # Errors
     /// Returns an error if they are not a range for which structures are known.
-    pub fn links(&self) -> Result<RangeInclusive<usize>, SpecError> {
+    pub fn link_range(&self) -> Result<RangeInclusive<usize>, SpecError> {
         let wrong = || SpecError::Links(self.links.clone());
-        let all = range(&self.links).map_err(|_| wrong())?;
+        let all = parse_range(&self.links).map_err(|_| wrong())?;
         let paired = !self.pairs.is_empty();
         let known = *all.start() >= if paired { 3 } else { 4 } && *all.end() <= MOST_LINKS;
         let some = known && all.clone().any(|n| n % 2 == 0 || paired);
@@ -255,11 +255,11 @@ impl Spec {
     }
 
     /// Returns those of some forms that are asked for.
-    fn asked(&self, forms: impl Iterator<Item = (Input, Form)>) -> Vec<(Input, Form)> {
+    fn asked_forms(&self, forms: impl Iterator<Item = (Input, Form)>) -> Vec<(Input, Form)> {
         let asked = |(input, form): &(Input, Form)| {
             self.inputs.contains(input)
                 && self.symmetries.contains(&form.symmetry)
-                && self.parallel.allows(*form)
+                && self.parallel.allows_form(*form)
         };
         forms.filter(asked).collect()
     }
@@ -275,9 +275,9 @@ impl Spec {
         let forms = symmetries.chain(generic).map(Form::of_symmetry);
         let forms = forms.cartesian_product([false, true]);
         let forms = forms.map(|(f, parallel)| Form { parallel, ..f });
-        let forms = forms.filter(|f| f.suits(self.jaws)).collect_vec();
+        let forms = forms.filter(|f| f.suits_jaws(self.jaws)).collect_vec();
         let inputs = Input::ALL.into_iter().map(|(input, _)| input);
-        self.asked(inputs.cartesian_product(forms))
+        self.asked_forms(inputs.cartesian_product(forms))
     }
 
     /// Returns the forms of two jaws whose sides are repeated three times in the structures of three jaws asked for. They turn
@@ -294,21 +294,21 @@ impl Spec {
             (Input::Slide, Form { parallel, ..form })
         });
         let all = turning.into_iter().chain(sliding);
-        all.filter(|(input, form)| self.inputs.contains(input) && self.parallel.allows(*form))
+        all.filter(|(input, form)| self.inputs.contains(input) && self.parallel.allows_form(*form))
             .collect()
     }
 
     /// Returns the forms in which structures that have only hinges are laid out, each with its input.
     #[must_use]
-    pub fn forms(&self) -> Vec<(Input, Form)> {
-        self.asked(Form::of_hinges().filter(|(_, f)| f.suits(self.jaws)))
+    pub fn hinged_forms(&self) -> Vec<(Input, Form)> {
+        self.asked_forms(Form::of_hinges().filter(|(_, f)| f.suits_jaws(self.jaws)))
     }
 
     /// Returns the joint types that may replace or extend a hinge.
     ///
     /// # Errors
     /// Returns an error if a name is unknown.
-    pub fn menu(&self) -> Result<Menu, SpecError> {
+    pub fn option_menu(&self) -> Result<Menu, SpecError> {
         // A slide along the hinge's axis does not double its turn.
         let in_series = [&OPTIONS[..], &["prismatic"]].concat();
         let entry = |name: &String| match &name[..] {
@@ -336,7 +336,7 @@ impl Spec {
 
     /// Returns the requirements on a layout.
     #[must_use]
-    pub fn limits(&self) -> Limits {
+    pub fn layout_limits(&self) -> Limits {
         Limits {
             ratio: self.ratio,
             crossings: self.crossings,
@@ -348,20 +348,20 @@ impl Spec {
     ///
     /// # Errors
     /// Returns the first fault.
-    pub fn check(&self) -> Result<(), SpecError> {
+    pub fn check_all(&self) -> Result<(), SpecError> {
         #[allow(clippy::cast_precision_loss, reason = "small")]
-        let whole = |what, n: usize, from, to| within(what, n as f64, from, to);
+        let whole = |what, n: usize, from, to| check_range(what, n as f64, from, to);
         whole("jaws", self.jaws, 2, 3)?;
         whole("ideas", self.ideas, 0, 1000)?;
         whole("nodes", self.nodes, 1, 100_000_000)?;
         whole("at_most", self.at_most, 1, 12)?;
-        within("ratio", self.ratio, 0, 1000)?;
+        check_range("ratio", self.ratio, 0, 1000)?;
         let w = &self.workload;
-        within("closing", w.closing, 0, 1_000_000)?;
-        within("part", w.part, 0, 1_000_000)?;
-        within("link_mass", w.link_mass, 0, 1_000_000)?;
+        check_range("closing", w.closing, 0, 1_000_000)?;
+        check_range("part", w.part, 0, 1_000_000)?;
+        check_range("link_mass", w.link_mass, 0, 1_000_000)?;
         for g in w.gravity {
-            within("gravity", g, -1000, 1000)?;
+            check_range("gravity", g, -1000, 1000)?;
         }
         let weighs = w.gravity != [0.0; 3] && w.part + w.link_mass > 0.0;
         if w.closing == 0.0 && !weighs {
@@ -375,55 +375,55 @@ impl Spec {
             let others = PairKind::ALL.map(|(_, word, _)| word);
             check_word("pairs", pair.name(), &others[1..])?;
         }
-        self.links()?;
+        self.link_range()?;
         let is_paired = !self.paired_forms().is_empty() || !self.threefold_forms().is_empty();
-        if !is_paired && self.forms().is_empty() {
+        if !is_paired && self.hinged_forms().is_empty() {
             return Err(SpecError::Nothing);
         }
         if !is_paired && !self.pairs.is_empty() {
             return Err(SpecError::PairedForms);
         }
-        self.menu().map(|_| ())
+        self.option_menu().map(|_| ())
     }
 
     fn check_task(&self) -> Result<(), SpecError> {
         let t = &self.task;
-        within("narrowest", t.narrowest, 0, WIDEST)?;
-        within("widest", t.widest, 1, WIDEST)?;
-        if t.span() < 1.0 {
+        check_range("narrowest", t.narrowest, 0, WIDEST)?;
+        check_range("widest", t.widest, 1, WIDEST)?;
+        if t.opening_span() < 1.0 {
             return Err(SpecError::Widths);
         }
-        within("least_force", t.least_force, 0, 1_000_000)?;
-        within("force_ratio", t.force_ratio, 1, 1_000_000)?;
-        within("transmission", t.transmission, 0, 90)?;
-        within("pin_force", t.pin_force, 0, 1_000_000)?;
-        within("efficiency", t.efficiency, 0, 1)?;
+        check_range("least_force", t.least_force, 0, 1_000_000)?;
+        check_range("force_ratio", t.force_ratio, 1, 1_000_000)?;
+        check_range("transmission", t.transmission, 0, 90)?;
+        check_range("pin_force", t.pin_force, 0, 1_000_000)?;
+        check_range("efficiency", t.efficiency, 0, 1)?;
         for side in t.room {
-            within("room", side, 0, 1_000_000)?;
+            check_range("room", side, 0, 1_000_000)?;
         }
-        within("pin_distance", t.pin_distance, 0, 1000)?;
-        within("reach", t.reach, 0, 1000)?;
+        check_range("pin_distance", t.pin_distance, 0, 1000)?;
+        check_range("reach", t.reach, 0, 1000)?;
         if t.pulled_out != 0.0 {
-            within("pulled_out", t.pulled_out, 1, 1000)?;
+            check_range("pulled_out", t.pulled_out, 1, 1000)?;
         }
-        within("coefficient", t.friction.coefficient, 0, 10)?;
-        within("pin_radius", t.friction.pin_radius, 0, 1000)?;
-        within("guide", t.friction.guide, 1, 10_000)
+        check_range("coefficient", t.friction.coefficient, 0, 10)?;
+        check_range("pin_radius", t.friction.pin_radius, 0, 1000)?;
+        check_range("guide", t.friction.guide, 1, 10_000)
     }
 
     /// Returns the specification as TOML: the same for the same catalogue, whatever the order of its words.
     #[must_use]
-    pub fn canonical(&self) -> String {
-        fn sort<T: Ord>(list: &mut Vec<T>) {
+    pub fn to_canonical(&self) -> String {
+        fn sort_list<T: Ord>(list: &mut Vec<T>) {
             list.sort();
             list.dedup();
         }
         let mut same = self.clone();
-        sort(&mut same.inputs);
-        sort(&mut same.symmetries);
-        sort(&mut same.pairs);
-        sort(&mut same.options);
-        sort(&mut same.unloading);
+        sort_list(&mut same.inputs);
+        sort_list(&mut same.symmetries);
+        sort_list(&mut same.pairs);
+        sort_list(&mut same.options);
+        sort_list(&mut same.unloading);
         toml::to_string(&same).unwrap_or_default()
     }
 }

@@ -91,7 +91,7 @@ pub struct Canonical {
 /// # Complexity
 /// One refinement for each leaf of the search; at least as many leaves as automorphisms.
 #[must_use]
-pub fn canonical(graph: &Weighted) -> Canonical {
+pub fn number_graph(graph: &Weighted) -> Canonical {
     let n = graph.vertices;
     let mut search = LabelSearch {
         graph,
@@ -101,8 +101,8 @@ pub fn canonical(graph: &Weighted) -> Canonical {
         order: (0..n).collect(),
     };
     let mut cells = vec![0; n];
-    search.refine(&mut cells);
-    search.descend(&cells);
+    search.refine_cells(&mut cells);
+    search.search_cells(&cells);
     let (matrix, order) = search.best.expect("the search has a leaf");
     let onto = |other: &Vec<usize>| {
         let mut image = vec![0; order.len()];
@@ -134,7 +134,7 @@ struct LabelSearch<'a> {
 impl LabelSearch<'_> {
     /// Distinguishes the vertices of each cell by the cells of their neighbours until nothing changes. A cell's number is the
     /// place of its first vertex.
-    fn refine(&mut self, cells: &mut [usize]) {
+    fn refine_cells(&mut self, cells: &mut [usize]) {
         let n = self.graph.vertices;
         let mut count = 0;
         loop {
@@ -170,11 +170,11 @@ impl LabelSearch<'_> {
         }
     }
 
-    fn descend(&mut self, cells: &[usize]) {
+    fn search_cells(&mut self, cells: &[usize]) {
         let n = cells.len();
         let size = |c: usize| cells.iter().filter(|x| **x == c).count();
         let Some(cell) = (0..n).find(|&c| size(c) > 1) else {
-            self.leaf(cells);
+            self.take_leaf(cells);
             return;
         };
         for v in (0..n).filter(|&v| cells[v] == cell) {
@@ -182,12 +182,12 @@ impl LabelSearch<'_> {
             for (u, c) in apart.iter_mut().enumerate() {
                 *c += usize::from(cells[u] == cell && u != v);
             }
-            self.refine(&mut apart);
-            self.descend(&apart);
+            self.refine_cells(&mut apart);
+            self.search_cells(&apart);
         }
     }
 
-    fn leaf(&mut self, cells: &[usize]) {
+    fn take_leaf(&mut self, cells: &[usize]) {
         let mut order = vec![0; cells.len()];
         for (v, &place) in cells.iter().enumerate() {
             order[place] = v;

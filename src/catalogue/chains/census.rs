@@ -29,10 +29,10 @@ impl Kinds {
     #[must_use]
     pub fn of_chain(chain: &Chain) -> Kinds {
         Kinds {
-            slides: chain.count(PairKind::Slide),
-            gears: chain.count(PairKind::Gear),
-            slots: chain.count(PairKind::Slot),
-            two_slots: chain.count(PairKind::TwoSlots),
+            slides: chain.count_pairs(PairKind::Slide),
+            gears: chain.count_pairs(PairKind::Gear),
+            slots: chain.count_pairs(PairKind::Slot),
+            two_slots: chain.count_pairs(PairKind::TwoSlots),
         }
     }
 
@@ -103,15 +103,15 @@ impl AddAssign for Grippers {
 }
 
 impl Grippers {
-    fn take(&mut self, of: Counted, holds: bool) {
+    fn count_if(&mut self, of: Counted, holds: bool) {
         self.0[of as usize] += u64::from(holds);
     }
 
     /// Adds a gripper to the counts of all and of essential ones. Returns whether it is essential: other counts are of essential ones.
     fn take_essential(&mut self, subject: &Subject<'_>, roles: &Roles) -> bool {
         let essential = subject.is_essential(roles);
-        self.take(Counted::All, true);
-        self.take(Counted::Essential, essential);
+        self.count_if(Counted::All, true);
+        self.count_if(Counted::Essential, essential);
         essential
     }
 
@@ -122,15 +122,15 @@ impl Grippers {
         }
         let at_frame = [Counted::Floating, Counted::OneAtFrame, Counted::BothAtFrame];
         if let Some(&at_frame) = at_frame.get(subject.jaws_at_frame(roles)) {
-            self.take(at_frame, true);
+            self.count_if(at_frame, true);
         }
-        self.take(Counted::Truss, subject.is_truss(roles));
+        self.count_if(Counted::Truss, subject.is_truss(roles));
         if subject.is_graph_symmetric(roles) {
-            self.take(Counted::GraphSymmetric, true);
+            self.count_if(Counted::GraphSymmetric, true);
             let works = |symmetry, input| working_swap(subject, roles, symmetry, input).is_ok();
-            self.take(Counted::Mirror, works(Symmetry::Mirror, Input::Slide));
-            self.take(Counted::HalfTurn, works(Symmetry::HalfTurn, Input::Turn));
-            self.take(Counted::Threefold, works(Symmetry::Threefold, Input::Turn));
+            self.count_if(Counted::Mirror, works(Symmetry::Mirror, Input::Slide));
+            self.count_if(Counted::HalfTurn, works(Symmetry::HalfTurn, Input::Turn));
+            self.count_if(Counted::Threefold, works(Symmetry::Threefold, Input::Turn));
         }
     }
 
@@ -139,13 +139,13 @@ impl Grippers {
         if !self.take_essential(subject, roles) {
             return;
         }
-        let s = subject.symmetries(roles);
-        self.take(Counted::Translating, subject.is_translating(roles));
-        self.take(Counted::GraphSymmetric, s.graph);
-        self.take(Counted::Mirror, s.mirror);
-        self.take(Counted::MirrorButInput, s.mirror_but_input);
-        self.take(Counted::HalfTurn, s.half_turn);
-        self.take(Counted::HalfTurnButInput, s.half_turn_but_input);
+        let s = subject.find_symmetries(roles);
+        self.count_if(Counted::Translating, subject.is_translating(roles));
+        self.count_if(Counted::GraphSymmetric, s.graph);
+        self.count_if(Counted::Mirror, s.mirror);
+        self.count_if(Counted::MirrorButInput, s.mirror_but_input);
+        self.count_if(Counted::HalfTurn, s.half_turn);
+        self.count_if(Counted::HalfTurnButInput, s.half_turn_but_input);
     }
 }
 
@@ -208,11 +208,11 @@ impl AddAssign for Census {
 impl Census {
     fn of_choices(subject: &Subject<'_>) -> Census {
         let (between, at_frame): (Vec<_>, Vec<_>) =
-            (subject.drives().into_iter()).partition(|(frame, input)| !input.is_at(*frame));
+            (subject.list_drives().into_iter()).partition(|(frame, input)| !input.is_at(*frame));
         Census {
             chains: 1,
-            frames: subject.frames() as u64,
-            inputs: subject.inputs().count() as u64,
+            frames: subject.count_frames() as u64,
+            inputs: subject.iter_inputs().count() as u64,
             inputs_at_frame: at_frame.len() as u64,
             inputs_between: between.len() as u64,
             grippers: BTreeMap::new(),
@@ -241,8 +241,8 @@ impl Census {
     #[must_use]
     pub fn of_pairs(subject: &Subject<'_>, grippers: bool) -> Census {
         let mut out = Census::of_choices(subject);
-        for (frame, input) in subject.drives().into_iter().filter(|_| grippers) {
-            for roles in subject.grippers(frame, &input, 2) {
+        for (frame, input) in subject.list_drives().into_iter().filter(|_| grippers) {
+            for roles in subject.list_grippers(frame, &input, 2) {
                 let drive = DriveKind {
                     jaws: 2,
                     between: !input.is_at(frame),
@@ -261,10 +261,10 @@ impl Census {
 ///
 /// # Errors
 /// Returns an error in the same cases as [`visit_chains`].
-pub fn census(links: usize, mobility: usize, grippers: bool) -> Result<Census, ChainsError> {
+pub fn count_hinged(links: usize, mobility: usize, grippers: bool) -> Result<Census, ChainsError> {
     let all = Mutex::new(Census::default());
     visit_chains(links, mobility, &|chain| {
-        let (chain, automorphisms) = chain.canonical();
+        let (chain, automorphisms) = chain.canonical_form();
         let subject = Subject::new(&chain, &automorphisms);
         let one = Census::of_hinges(&subject, grippers && mobility == 1);
         *all.lock().unwrap_or_else(PoisonError::into_inner) += one;

@@ -1,7 +1,7 @@
 //! A chain whose joints are of one kind or several.
 
 use crate::chains::PairKind;
-use crate::chains::canonical::{Canonical, Weighted, canonical};
+use crate::chains::canonical::{Canonical, Weighted, number_graph};
 use petgraph::unionfind::UnionFind;
 
 /// Maximum number of links of a chain of pairs. Every set of its links is examined, as the bits of a word.
@@ -15,14 +15,14 @@ pub struct Chain {
 
 /// Returns two links in ascending order.
 #[must_use]
-pub(crate) fn ordered([u, v]: [usize; 2]) -> [usize; 2] {
+pub(crate) fn order_links([u, v]: [usize; 2]) -> [usize; 2] {
     [u.min(v), u.max(v)]
 }
 
 /// Returns the images of two links under an automorphism, in ascending order.
 #[must_use]
-pub(crate) fn carried(links: [usize; 2], by: &[usize]) -> [usize; 2] {
-    ordered(links.map(|l| by[l]))
+pub(crate) fn carry_links(links: [usize; 2], by: &[usize]) -> [usize; 2] {
+    order_links(links.map(|l| by[l]))
 }
 
 /// A joint of a chain: its links, the lesser first, and its kind.
@@ -62,7 +62,7 @@ impl Chain {
 
     /// Returns the chain of N links with these hinges.
     #[must_use]
-    pub fn hinged(links: usize, joints: impl IntoIterator<Item = (usize, usize)>) -> Chain {
+    pub fn with_hinges(links: usize, joints: impl IntoIterator<Item = (usize, usize)>) -> Chain {
         let pair = PairKind::Hinge;
         let joints = joints.into_iter().map(|(u, v)| [u, v]);
         Chain::new(links, joints.map(|links| Joint { links, pair }))
@@ -81,7 +81,7 @@ impl Chain {
             }
             all.push((at, v));
         }
-        Chain::hinged(links + binary, all)
+        Chain::with_hinges(links + binary, all)
     }
 
     /// Returns the chain with another joint between two links that are joined.
@@ -99,7 +99,7 @@ impl Chain {
 
     /// Returns the pair that joins two links.
     #[must_use]
-    pub fn between(&self, u: usize, v: usize) -> Option<PairKind> {
+    pub fn pair_between(&self, u: usize, v: usize) -> Option<PairKind> {
         PairKind::of_weight(self.pairs.weight(u, v))
     }
 
@@ -107,7 +107,7 @@ impl Chain {
     #[must_use]
     pub fn joints(&self) -> Vec<Joint> {
         let pairs = (0..self.links()).flat_map(|v| (0..v).map(move |u| [u, v]));
-        let joint = |links: [usize; 2]| Some((links, self.between(links[0], links[1])?));
+        let joint = |links: [usize; 2]| Some((links, self.pair_between(links[0], links[1])?));
         let joints = pairs.filter_map(joint);
         joints.map(|(links, pair)| Joint { links, pair }).collect()
     }
@@ -127,7 +127,7 @@ impl Chain {
 
     /// Returns whether two links are joined.
     #[must_use]
-    pub fn joined(&self, u: usize, v: usize) -> bool {
+    pub fn is_joined(&self, u: usize, v: usize) -> bool {
         self.pairs.weight(u, v) > 0
     }
 
@@ -143,9 +143,9 @@ impl Chain {
 
     /// Returns a letter for the pair of each two links, (0, 1), (0, 2), (1, 2) and so on, or - if they are not joined.
     #[must_use]
-    pub fn code(&self) -> String {
+    pub fn pair_code(&self) -> String {
         let pairs = (0..self.links()).flat_map(|v| (0..v).map(move |u| (u, v)));
-        let letter = |(u, v)| self.between(u, v).map_or('-', PairKind::letter);
+        let letter = |(u, v)| self.pair_between(u, v).map_or('-', PairKind::code_letter);
         pairs.map(letter).collect()
     }
 
@@ -169,7 +169,7 @@ impl Chain {
 
     /// Returns the number of joints of a kind.
     #[must_use]
-    pub fn count(&self, pair: PairKind) -> usize {
+    pub fn count_pairs(&self, pair: PairKind) -> usize {
         self.joints().iter().filter(|j| j.pair == pair).count()
     }
 
@@ -196,13 +196,13 @@ impl Chain {
     /// # Complexity
     /// O(2ⁿ) for n links.
     #[must_use]
-    pub fn mobilities(&self) -> Vec<i16> {
+    pub fn part_mobilities(&self) -> Vec<i16> {
         let mut out = vec![-3i16; 1 << self.links()];
         for part in 1..out.len() {
             let last = part.ilog2() as usize;
             let rest = part & !(1 << last);
             let others = (0..last).filter(|u| rest >> u & 1 == 1);
-            let taken = others.map(|u| match self.between(u, last) {
+            let taken = others.map(|u| match self.pair_between(u, last) {
                 None => 0,
                 Some(pair) if pair.leaves_two() => 1,
                 Some(_) => 2,
@@ -216,7 +216,7 @@ impl Chain {
     #[must_use]
     pub fn has_carriers(&self) -> bool {
         let is_carrier = |link: usize, [u, v]: [usize; 2]| {
-            let both = [self.between(link, u), self.between(link, v)];
+            let both = [self.pair_between(link, u), self.pair_between(link, v)];
             let lower = both.iter().all(|p| p.is_some_and(PairKind::is_lower));
             lower && both.contains(&Some(PairKind::Hinge))
         };
@@ -232,7 +232,7 @@ impl Chain {
     /// As of [`canonical`].
     #[must_use]
     pub fn automorphisms(&self) -> Vec<Vec<usize>> {
-        canonical(&self.pairs).automorphisms
+        number_graph(&self.pairs).automorphisms
     }
 
     /// Returns the chain in its canonical numbering, with its automorphisms. Two chains are equal then exactly if they are isomorphic.
@@ -240,12 +240,12 @@ impl Chain {
     /// # Complexity
     /// As of [`canonical`].
     #[must_use]
-    pub fn canonical(&self) -> (Chain, Vec<Vec<usize>>) {
+    pub fn canonical_form(&self) -> (Chain, Vec<Vec<usize>>) {
         let Canonical {
             graph,
             order,
             automorphisms,
-        } = canonical(&self.pairs);
+        } = number_graph(&self.pairs);
         let mut place = vec![0; order.len()];
         order.iter().enumerate().for_each(|(at, &v)| place[v] = at);
         let renumbered = |a: &Vec<usize>| order.iter().map(|&v| place[a[v]]).collect();

@@ -2,7 +2,7 @@
 
 use crate::chains::PairKind;
 use crate::chains::canonical::Weighted;
-use crate::chains::chain::{Chain, Joint, ordered};
+use crate::chains::chain::{Chain, Joint, order_links};
 use crate::chains::roles::Roles;
 use crate::chains::structure::PairStructure;
 use itertools::Itertools;
@@ -55,12 +55,12 @@ struct Written {
 
 impl Written {
     /// Returns the structure, or `None` if the entry is invalid.
-    fn structure(&self) -> Option<PairStructure> {
+    fn read_structure(&self) -> Option<PairStructure> {
         let pairs = self.pairs.split(", ").map(|p| p.split(' ').collect_tuple());
         let pairs: Vec<(&str, &str, &str)> = pairs.collect::<Option<_>>()?;
         let names = pairs.iter().flat_map(|p| [p.0, p.1]).unique().collect_vec();
         let place = |name: &str| names.iter().position(|n| *n == name);
-        let two = |a: &str, b: &str| Some(ordered([place(a)?, place(b)?]));
+        let two = |a: &str, b: &str| Some(order_links([place(a)?, place(b)?]));
         let both = |words: &str| words.split_once(' ').and_then(|(a, b)| two(a, b));
         let joint = |&(a, b, kind): &(&str, &str, &str)| {
             let pair = PairKind::of_letter(kind.parse().ok()?)?;
@@ -83,7 +83,7 @@ impl Written {
 static ALL: LazyLock<(Vec<Classic>, Vec<Weighted>)> = LazyLock::new(|| {
     let all: BTreeMap<String, Written> = toml::from_str(TEXT).expect("a test reads it");
     let classic = |(id, entry): (String, Written)| Classic {
-        structure: entry.structure().expect("a test reads it"),
+        structure: entry.read_structure().expect("a test reads it"),
         about: entry.about,
         made_as: MadeAs {
             flat: entry.flat,
@@ -93,7 +93,7 @@ static ALL: LazyLock<(Vec<Classic>, Vec<Weighted>)> = LazyLock::new(|| {
         id,
     };
     let all: Vec<Classic> = all.into_iter().map(classic).collect();
-    let keys = all.iter().map(|c| c.structure.key()).collect();
+    let keys = all.iter().map(|c| c.structure.canonical_key()).collect();
     (all, keys)
 });
 
@@ -102,7 +102,7 @@ static ALL: LazyLock<(Vec<Classic>, Vec<Weighted>)> = LazyLock::new(|| {
 /// # Panics
 /// Never: the text is part of the program, and a test reads it.
 #[must_use]
-pub fn classics() -> &'static [Classic] {
+pub fn known_classics() -> &'static [Classic] {
     &ALL.0
 }
 

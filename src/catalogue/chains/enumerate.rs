@@ -73,13 +73,13 @@ pub fn visit_chains(
     };
     if loops == 1 {
         let ring = (0..links).map(|v| (v, (v + 1) % links));
-        visit(&Chain::hinged(links, ring));
+        visit(&Chain::with_hinges(links, ring));
         return Ok(());
     }
     let most = u8::try_from(mobility + 2).unwrap_or(u8::MAX);
     contracted_graphs(loops).par_iter().for_each(|graph| {
         let strings = Strings::new(graph);
-        strings.share(joints, most, &mut |shared| {
+        strings.share_joints(joints, most, &mut |shared| {
             visit(&Chain::of_strings(graph.vertices(), &strings.ends, shared));
         });
     });
@@ -90,16 +90,16 @@ pub fn visit_chains(
 ///
 /// # Errors
 /// Returns an error in the same cases as [`visit_chains`].
-pub fn chains(links: usize, mobility: usize) -> Result<Vec<Chain>, ChainsError> {
+pub fn list_chains(links: usize, mobility: usize) -> Result<Vec<Chain>, ChainsError> {
     let all = Mutex::new(Vec::new());
     visit_chains(links, mobility, &|chain| {
-        let chain = chain.canonical().0;
+        let chain = chain.canonical_form().0;
         all.lock()
             .unwrap_or_else(PoisonError::into_inner)
             .push(chain);
     })?;
     let mut all = all.into_inner().unwrap_or_else(PoisonError::into_inner);
-    all.par_sort_by_cached_key(graph6::write);
+    all.par_sort_by_cached_key(graph6::write_graph);
     Ok(all)
 }
 

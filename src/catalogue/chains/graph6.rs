@@ -36,10 +36,10 @@ pub enum Graph6Error {
 
 /// Returns the text of a chain in its current numbering.
 #[must_use]
-pub fn write(chain: &Chain) -> String {
+pub fn write_graph(chain: &Chain) -> String {
     let n = chain.links();
     let bits: Vec<bool> = (0..n)
-        .flat_map(|v| (0..v).map(move |u| chain.joined(u, v)))
+        .flat_map(|v| (0..v).map(move |u| chain.is_joined(u, v)))
         .collect();
     let six = |group: &[bool]| {
         let value = |at: usize| u8::from(group.get(at).copied().unwrap_or(false)) << (5 - at);
@@ -53,8 +53,8 @@ pub fn write(chain: &Chain) -> String {
 
 /// Returns the permanent name of a chain: the text of its canonical numbering.
 #[must_use]
-pub fn code(chain: &Chain) -> String {
-    write(&chain.canonical().0)
+pub fn canonical_code(chain: &Chain) -> String {
+    write_graph(&chain.canonical_form().0)
 }
 
 /// Returns the chain of hinges that a text represents.
@@ -70,7 +70,7 @@ pub fn code(chain: &Chain) -> String {
 /// let again = graph6::read(&graph6::write(watt)).unwrap();
 /// assert_eq!(graph6::write(&again), graph6::write(watt));
 /// ```
-pub fn read(text: &str) -> Result<Chain, Graph6Error> {
+pub fn read_graph(text: &str) -> Result<Chain, Graph6Error> {
     let wrong = text.chars().find(|c| !('?'..='~').contains(c));
     if let Some(c) = wrong {
         return Err(Graph6Error::Character(c));
@@ -92,5 +92,5 @@ pub fn read(text: &str) -> Result<Chain, Graph6Error> {
     }
     let bits = values.flat_map(|x| (0..6).map(move |at| x >> (5 - at) & 1 == 1));
     let joints = pairs.into_iter().zip(bits).filter(|(_, joined)| *joined);
-    Ok(Chain::hinged(n, joints.map(|(pair, _)| pair)))
+    Ok(Chain::with_hinges(n, joints.map(|(pair, _)| pair)))
 }

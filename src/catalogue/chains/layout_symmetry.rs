@@ -37,14 +37,17 @@ pub enum NoGripper {
 ///
 /// # Complexity
 /// An elimination of 3n columns.
-fn moves(
+fn check_motion(
     subject: &Subject<'_>,
     roles: &Roles,
     symmetry: Symmetry,
     input: Input,
     swap: &[usize],
 ) -> Result<(), NoGripper> {
-    let chain = subject.chain.clone().with_pair(roles.input, input.pair());
+    let chain = subject
+        .chain
+        .clone()
+        .with_pair(roles.input, input.driven_pair());
     let swap = Swap {
         links: swap,
         image: symmetry,
@@ -55,7 +58,7 @@ fn moves(
     };
     let rest = motion[roles.frame];
     let jaws = || roles.jaws.iter().map(|&l| motion[l]);
-    if motion[roles.drive()[1]] == rest {
+    if motion[roles.drive_links()[1]] == rest {
         Err(NoGripper::DeadDrive)
     } else if jaws().any(|j| j == rest) {
         Err(NoGripper::DeadJaw)
@@ -81,15 +84,15 @@ pub fn working_swap(
     input: Input,
 ) -> Result<Vec<usize>, NoGripper> {
     let identity: Vec<usize> = (0..subject.chain.links()).collect();
-    let Some(jaws) = symmetry.jaws() else {
-        return moves(subject, roles, symmetry, input, &identity).map(|()| identity);
+    let Some(jaws) = symmetry.jaw_count() else {
+        return check_motion(subject, roles, symmetry, input, &identity).map(|()| identity);
     };
     let mut why = NoGripper::Unsymmetric;
     if roles.jaws.len() != jaws {
         return Err(why);
     }
-    for swap in subject.swaps(roles) {
-        match moves(subject, roles, symmetry, input, swap) {
+    for swap in subject.iter_swaps(roles) {
+        match check_motion(subject, roles, symmetry, input, swap) {
             Ok(()) => return Ok(swap.clone()),
             Err(e) => why = e,
         }

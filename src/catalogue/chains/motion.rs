@@ -10,9 +10,9 @@
 //! across, and a line of action lies on it or goes across. Gears are swapped, and their pitch point lies on it. Two slots are
 //! never their own image.
 
-use crate::chains::chain::{Chain, Joint, carried};
+use crate::chains::chain::{Chain, Joint, carry_links};
 use crate::chains::{PairKind, Symmetry};
-use crate::linalg::echelon::relations;
+use crate::linalg::echelon::linear_relations;
 use crate::linalg::modp::{Field, Residue};
 use chacha20::ChaCha8Rng;
 use chacha20::rand_core::{Rng, SeedableRng};
@@ -47,17 +47,23 @@ impl Draw {
         }
     }
 
-    fn one(&mut self) -> Residue {
+    fn draw_residue(&mut self) -> Residue {
         self.field
             .from_i64((self.random.next_u64() >> 4).cast_signed())
     }
 
-    fn place(&mut self, pair: PairKind) -> PairRows {
+    fn draw_place(&mut self, pair: PairKind) -> PairRows {
         match pair {
             // Two lines of action meet in a point.
-            PairKind::Hinge | PairKind::TwoSlots => PairRows::Hinge([self.one(), self.one()]),
-            PairKind::Slide => PairRows::Slide([self.one(), self.one()]),
-            PairKind::Gear | PairKind::Slot => PairRows::Line([self.one(), self.one(), self.one()]),
+            PairKind::Hinge | PairKind::TwoSlots => {
+                PairRows::Hinge([self.draw_residue(), self.draw_residue()])
+            }
+            PairKind::Slide => PairRows::Slide([self.draw_residue(), self.draw_residue()]),
+            PairKind::Gear | PairKind::Slot => PairRows::Line([
+                self.draw_residue(),
+                self.draw_residue(),
+                self.draw_residue(),
+            ]),
         }
     }
 
@@ -67,14 +73,20 @@ impl Draw {
         let straight = [one, zero];
         let upright = [zero, one];
         Some(match (joint.pair, image) {
-            (PairKind::Hinge, Symmetry::Mirror) => PairRows::Hinge([self.one(), zero]),
+            (PairKind::Hinge, Symmetry::Mirror) => PairRows::Hinge([self.draw_residue(), zero]),
             (PairKind::Hinge, Symmetry::HalfTurn) => PairRows::Hinge([zero; 2]),
             (PairKind::Slide, Symmetry::Mirror) if across => PairRows::Slide(straight),
             (PairKind::Slide, Symmetry::Mirror) => PairRows::Slide(upright),
-            (PairKind::Slide, Symmetry::HalfTurn) => PairRows::Slide([self.one(), self.one()]),
-            (PairKind::Slot, Symmetry::Mirror) if across => PairRows::Line([self.one(), zero, one]),
+            (PairKind::Slide, Symmetry::HalfTurn) => {
+                PairRows::Slide([self.draw_residue(), self.draw_residue()])
+            }
+            (PairKind::Slot, Symmetry::Mirror) if across => {
+                PairRows::Line([self.draw_residue(), zero, one])
+            }
             (PairKind::Slot, Symmetry::Mirror) => PairRows::Line([zero, one, zero]),
-            (PairKind::Slot, Symmetry::HalfTurn) => PairRows::Line([zero, self.one(), self.one()]),
+            (PairKind::Slot, Symmetry::HalfTurn) => {
+                PairRows::Line([zero, self.draw_residue(), self.draw_residue()])
+            }
             (PairKind::Gear, Symmetry::Mirror) if joint.swapped => {
                 PairRows::Line([zero, one, zero])
             }
@@ -101,7 +113,7 @@ impl OwnImage {
 }
 
 /// Returns the image of a direction.
-fn turned(field: Field, [x, y]: [Residue; 2], image: Symmetry) -> [Residue; 2] {
+fn turn_direction(field: Field, [x, y]: [Residue; 2], image: Symmetry) -> [Residue; 2] {
     match image {
         Symmetry::Generic => [x, y],
         Symmetry::Mirror => [x, field.neg(y)],
@@ -112,19 +124,19 @@ fn turned(field: Field, [x, y]: [Residue; 2], image: Symmetry) -> [Residue; 2] {
 
 fn image_of(field: Field, place: PairRows, image: Symmetry) -> PairRows {
     match place {
-        PairRows::Hinge(at) => PairRows::Hinge(turned(field, at, image)),
-        PairRows::Slide(across) => PairRows::Slide(turned(field, across, image)),
+        PairRows::Hinge(at) => PairRows::Hinge(turn_direction(field, at, image)),
+        PairRows::Slide(across) => PairRows::Slide(turn_direction(field, across, image)),
         PairRows::Line([m, x, y]) => {
             let mirrored = image == Symmetry::Mirror;
             let moment = if mirrored { field.neg(m) } else { m };
-            let [x, y] = turned(field, [x, y], image);
+            let [x, y] = turn_direction(field, [x, y], image);
             PairRows::Line([moment, x, y])
         }
     }
 }
 
 /// Returns the motions with link 0 at rest and the joints in these places.
-fn motions(field: Field, chain: &Chain, places: &[(Joint, PairRows)]) -> Vec<Vec<Velocity>> {
+fn chain_motions(field: Field, chain: &Chain, places: &[(Joint, PairRows)]) -> Vec<Vec<Velocity>> {
     let (zero, one) = (field.zero(), field.one());
     let mut columns = vec![Vec::with_capacity(2 * places.len()); 3 * (chain.links() - 1)];
     let mut row = |[u, v]: [usize; 2], entries: [Residue; 3]| {
@@ -159,7 +171,10 @@ fn motions(field: Field, chain: &Chain, places: &[(Joint, PairRows)]) -> Vec<Vec
         let moving = m.chunks(3).map(|c| [c[0], c[1], c[2]]);
         rest.into_iter().chain(moving).collect()
     };
-    relations(field, &columns).into_iter().map(links).collect()
+    linear_relations(field, &columns)
+        .into_iter()
+        .map(links)
+        .collect()
 }
 
 /// Returns the motion of a chain in nearly all places, with link 0 at rest. `None` if there is no motion, or more than one.
@@ -167,11 +182,11 @@ fn motions(field: Field, chain: &Chain, places: &[(Joint, PairRows)]) -> Vec<Vec
 /// # Complexity
 /// An elimination of 3n columns for n links.
 #[must_use]
-pub fn motion(chain: &Chain) -> Option<Vec<Velocity>> {
+pub fn single_motion(chain: &Chain) -> Option<Vec<Velocity>> {
     let mut draw = Draw::new();
     let joints = chain.joints().into_iter();
-    let places = joints.map(|j| (j, draw.place(j.pair))).collect_vec();
-    let mut found = motions(draw.field, chain, &places);
+    let places = joints.map(|j| (j, draw.draw_place(j.pair))).collect_vec();
+    let mut found = chain_motions(draw.field, chain, &places);
     found.pop().filter(|_| found.is_empty())
 }
 
@@ -181,7 +196,7 @@ pub fn motion(chain: &Chain) -> Option<Vec<Velocity>> {
 /// As [`motion`].
 #[must_use]
 pub fn moves_throughout(chain: &Chain) -> bool {
-    motion(chain).is_some_and(|m| m.iter().all_unique())
+    single_motion(chain).is_some_and(|m| m.iter().all_unique())
 }
 
 /// Returns the joints with places that the symmetry carries to each other. `across` has a bit for each joint that is its own
@@ -199,21 +214,21 @@ fn symmetric_places(
         if places[i].is_some() {
             continue;
         }
-        let own = symmetry.joint(joint) == joint.links;
+        let own = symmetry.image_links(joint) == joint.links;
         let mut place = if own && symmetry.image != Symmetry::Generic {
             let own = symmetry.own_image(joint);
             let across = across >> ways & 1 == 1;
             ways += u32::from(own.has_two_ways(symmetry.image));
             draw.own_image(own, symmetry.image, across)?
         } else {
-            draw.place(joint.pair)
+            draw.draw_place(joint.pair)
         };
         // Rows are of the lesser link against the greater; the sign of a row does not matter.
         let mut at = i;
         while places[at].is_none() {
             places[at] = Some(place);
             place = image_of(draw.field, place, symmetry.image);
-            let image = symmetry.joint(&joints[at]);
+            let image = symmetry.image_links(&joints[at]);
             at = joints.iter().position(|j| j.links == image)?;
         }
     }
@@ -231,8 +246,8 @@ pub(crate) struct Swap<'a> {
 }
 
 impl Swap<'_> {
-    fn joint(&self, joint: &Joint) -> [usize; 2] {
-        carried(joint.links, self.links)
+    fn image_links(&self, joint: &Joint) -> [usize; 2] {
+        carry_links(joint.links, self.links)
     }
 
     fn own_image(&self, joint: &Joint) -> OwnImage {
@@ -243,7 +258,7 @@ impl Swap<'_> {
     }
 
     /// Returns the image of a motion of links.
-    fn carried(&self, field: Field, motion: &[Velocity]) -> Vec<Velocity> {
+    fn carry_motion(&self, field: Field, motion: &[Velocity]) -> Vec<Velocity> {
         let mut out = vec![[field.zero(); 3]; motion.len()];
         for (link, &[turn, x, y]) in motion.iter().enumerate() {
             // The work of a line of action on a velocity is the same for their images.
@@ -258,9 +273,9 @@ impl Swap<'_> {
     }
 
     /// Returns the number of ways in which joints that are their own images may lie.
-    fn ways(&self, chain: &Chain) -> u32 {
+    fn way_count(&self, chain: &Chain) -> u32 {
         let two = |j: &Joint| {
-            let own = self.joint(j) == j.links;
+            let own = self.image_links(j) == j.links;
             own && self.own_image(j).has_two_ways(self.image)
         };
         let joints = chain.joints();
@@ -292,7 +307,7 @@ pub(crate) fn motions_in_way(
             .map(|v| [0, 1, 2].map(|i| field.sub(v[i], rest[i])))
             .collect()
     };
-    let found = motions(field, chain, &places);
+    let found = chain_motions(field, chain, &places);
     found.into_iter().map(against).collect()
 }
 
@@ -314,13 +329,13 @@ pub struct SymmetricWay {
 #[must_use]
 pub(crate) fn symmetric_ways(chain: &Chain, symmetry: Swap<'_>, frame: usize) -> Vec<SymmetricWay> {
     let field = Field::new(PRIME);
-    let ways = 0..symmetry.ways(chain);
+    let ways = 0..symmetry.way_count(chain);
     let all = ways.map(|way| (way, motions_in_way(chain, symmetry, frame, way)));
     let one = all.filter_map(|(bits, mut found)| {
         let motion = found.pop().filter(|_| found.is_empty())?;
         Some(SymmetricWay { bits, motion })
     });
-    one.filter(|w| symmetry.carried(field, &w.motion) == w.motion)
+    one.filter(|w| symmetry.carry_motion(field, &w.motion) == w.motion)
         .collect()
 }
 

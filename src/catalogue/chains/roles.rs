@@ -1,7 +1,7 @@
 //! Frame, input joint and jaws of a gripper: every choice among the links of a chain, once up to the chain's automorphisms.
 
-use crate::chains::chain::{Chain, Joint, carried};
-use crate::chains::motion::{Swap, Velocity, motion, symmetric_motions};
+use crate::chains::chain::{Chain, Joint, carry_links};
+use crate::chains::motion::{Swap, Velocity, single_motion, symmetric_motions};
 use crate::chains::{PairKind, Symmetry};
 use itertools::Itertools;
 use std::cell::OnceCell;
@@ -32,10 +32,10 @@ pub(crate) fn carries_round(jaws: &[usize], by: &[usize]) -> bool {
 impl Roles {
     /// Returns the images of the roles under an automorphism.
     #[must_use]
-    pub fn image(&self, by: &[usize]) -> Roles {
+    pub fn image_under(&self, by: &[usize]) -> Roles {
         Roles {
             frame: by[self.frame],
-            input: carried(self.input, by),
+            input: carry_links(self.input, by),
             jaws: jaws_carried(&self.jaws, by),
         }
     }
@@ -48,7 +48,7 @@ impl Roles {
 
     /// Returns the link against which the driver moves, then the driver. If the frame is one of the two, it comes first.
     #[must_use]
-    pub fn drive(&self) -> [usize; 2] {
+    pub fn drive_links(&self) -> [usize; 2] {
         let [u, v] = self.input;
         if v == self.frame { [v, u] } else { [u, v] }
     }
@@ -67,7 +67,7 @@ impl Roles {
         apart.map(|&l| motion[l]).all_unique() && motion[u] != motion[v]
     }
 
-    fn links(&self) -> usize {
+    fn role_links(&self) -> usize {
         let all = self.input.iter().chain(&self.jaws).chain([&self.frame]);
         all.fold(0, |bits, &l| bits | 1 << l)
     }
@@ -130,7 +130,7 @@ impl<'a> Subject<'a> {
     /// chain are independent, and so are the rows of its parts.
     fn moving_parts(&self) -> &[usize] {
         self.moving_parts.get_or_init(|| {
-            let mobilities = self.chain.mobilities();
+            let mobilities = self.chain.part_mobilities();
             let part = |p: &(usize, &i16)| *p.1 == 1;
             let parts = mobilities.iter().enumerate().filter(part).map(|p| p.0);
             let all = mobilities.len() - 1;
@@ -145,25 +145,25 @@ impl<'a> Subject<'a> {
 
     /// Returns the number of choices of a frame.
     #[must_use]
-    pub fn frames(&self) -> usize {
+    pub fn count_frames(&self) -> usize {
         let all = 0..self.chain.links();
         all.filter(|l| self.is_first(l, |&l, a| a[l])).count()
     }
 
     /// Returns the joints that may be driven: hinges and slides.
-    pub fn inputs(&self) -> impl Iterator<Item = &Joint> {
+    pub fn iter_inputs(&self) -> impl Iterator<Item = &Joint> {
         let lower = self.joints.iter().filter(|j| j.pair.is_lower());
-        lower.filter(|j| self.is_first(&j.links, |&links, a| carried(links, a)))
+        lower.filter(|j| self.is_first(&j.links, |&links, a| carry_links(links, a)))
     }
 
     /// Returns the choices of a frame and an input joint, a hinge or a slide.
     #[must_use]
-    pub fn drives(&self) -> Vec<(usize, Joint)> {
+    pub fn list_drives(&self) -> Vec<(usize, Joint)> {
         let lower = self.joints.iter().filter(|j| j.pair.is_lower());
         let all = lower.cartesian_product(0..self.chain.links());
         let first = |&(j, frame): &(&Joint, usize)| {
             self.is_first(&(frame, j.links), |&(f, links), a| {
-                (a[f], carried(links, a))
+                (a[f], carry_links(links, a))
             })
         };
         all.filter(first).map(|(j, frame)| (frame, *j)).collect()
@@ -171,8 +171,9 @@ impl<'a> Subject<'a> {
 
     /// Returns every choice of N jaws for a frame and an input joint.
     #[must_use]
-    pub fn grippers(&self, frame: usize, input: &Joint, jaws: usize) -> Vec<Roles> {
-        let keeps = |a: &&&Vec<usize>| a[frame] == frame && carried(input.links, a) == input.links;
+    pub fn list_grippers(&self, frame: usize, input: &Joint, jaws: usize) -> Vec<Roles> {
+        let keeps =
+            |a: &&&Vec<usize>| a[frame] == frame && carry_links(input.links, a) == input.links;
         let keeping: Vec<_> = self.automorphisms.iter().filter(keeps).collect();
         let others = (0..self.chain.links()).filter(|&l| l != frame);
         let all = others.combinations(jaws).map(|jaws| Roles {
@@ -180,18 +181,18 @@ impl<'a> Subject<'a> {
             input: input.links,
             jaws,
         });
-        all.filter(|r| keeping.iter().all(|a| r.image(a) >= *r))
+        all.filter(|r| keeping.iter().all(|a| r.image_under(a) >= *r))
             .collect()
     }
 
     /// Returns the grippers that are driven from the frame, by a link other than a jaw.
     pub fn grippers_apart(&self, jaws: usize) -> impl Iterator<Item = Roles> {
         let drives = self
-            .drives()
+            .list_drives()
             .into_iter()
             .sorted_by_key(|(frame, input)| (*frame, input.links));
         let drives = drives.filter(|(frame, input)| input.is_at(*frame));
-        let all = drives.flat_map(move |(frame, input)| self.grippers(frame, &input, jaws));
+        let all = drives.flat_map(move |(frame, input)| self.list_grippers(frame, &input, jaws));
         all.filter(|r| !r.has_driven_jaw())
     }
 
@@ -199,7 +200,7 @@ impl<'a> Subject<'a> {
     #[must_use]
     pub(crate) fn symmetric_roles(&self, swap: &[usize]) -> Vec<Roles> {
         let n = swap.len();
-        let own = |j: &&Joint| j.pair.is_lower() && carried(j.links, swap) == j.links;
+        let own = |j: &&Joint| j.pair.is_lower() && carry_links(j.links, swap) == j.links;
         let inputs = self.joints.iter().filter(own);
         let frames = (0..n).filter(|&l| swap[l] == l);
         let jaws = (0..n).filter(|&l| l < swap[l]);
@@ -210,12 +211,14 @@ impl<'a> Subject<'a> {
             input: input.links,
             jaws,
         });
-        roles.filter(|r| self.is_first(r, Roles::image)).collect()
+        roles
+            .filter(|r| self.is_first(r, Roles::image_under))
+            .collect()
     }
 
     /// Returns the smaller moving parts that hold all roles, as bits.
     pub(super) fn moving_parts_with(&self, roles: &Roles) -> impl Iterator<Item = usize> {
-        let links = roles.links();
+        let links = roles.role_links();
         let parts = self.moving_parts().iter().copied();
         parts.filter(move |part| part & links == links)
     }
@@ -231,7 +234,7 @@ impl<'a> Subject<'a> {
     pub fn is_translating(&self, roles: &Roles) -> bool {
         let motion = self
             .motion
-            .get_or_init(|| motion(self.chain).expect("a chain has one motion"));
+            .get_or_init(|| single_motion(self.chain).expect("a chain has one motion"));
         let turning = |link: usize| motion[link][0];
         roles
             .jaws
@@ -243,15 +246,15 @@ impl<'a> Subject<'a> {
     /// [`Subject::swaps`].
     #[must_use]
     pub fn is_graph_symmetric(&self, roles: &Roles) -> bool {
-        self.swaps(roles).next().is_some()
+        self.iter_swaps(roles).next().is_some()
     }
 
     /// Returns the automorphisms that keep frame and input joint, carry each jaw to the next, and carry every link back after as many
     /// steps as there are jaws.
-    pub fn swaps<'b>(&'b self, roles: &'b Roles) -> impl Iterator<Item = &'b Vec<usize>> {
+    pub fn iter_swaps<'b>(&'b self, roles: &'b Roles) -> impl Iterator<Item = &'b Vec<usize>> {
         let all = self.automorphisms.iter().copied();
         all.filter(|s| {
-            let kept = s[roles.frame] == roles.frame && carried(roles.input, s) == roles.input;
+            let kept = s[roles.frame] == roles.frame && carry_links(roles.input, s) == roles.input;
             kept && carries_round(&roles.jaws, s)
         })
     }
@@ -259,7 +262,7 @@ impl<'a> Subject<'a> {
     /// Returns the number of jaws that are joined to the frame.
     #[must_use]
     pub fn jaws_at_frame(&self, roles: &Roles) -> usize {
-        let joined = |&&j: &&usize| self.chain.joined(roles.frame, j);
+        let joined = |&&j: &&usize| self.chain.is_joined(roles.frame, j);
         roles.jaws.iter().filter(joined).count()
     }
 
@@ -270,21 +273,21 @@ impl<'a> Subject<'a> {
             return false;
         };
         let both = |part: &usize| part >> a & part >> b & 1 == 1;
-        !self.chain.joined(a, b) && !self.moving_parts().iter().any(both)
+        !self.chain.is_joined(a, b) && !self.moving_parts().iter().any(both)
     }
 
     /// Returns the symmetries of a gripper of two jaws. A gripper of three jaws has none of these.
     #[must_use]
-    pub fn symmetries(&self, roles: &Roles) -> Symmetries {
+    pub fn find_symmetries(&self, roles: &Roles) -> Symmetries {
         let mut out = Symmetries::default();
         let &[a, b] = &roles.jaws[..] else {
             return out;
         };
-        for s in self.involutions() {
+        for s in self.find_involutions() {
             if s.links[roles.frame] != roles.frame || s.links[a] != b {
                 continue;
             }
-            let keeps_input = carried(roles.input, s.links) == roles.input;
+            let keeps_input = carry_links(roles.input, s.links) == roles.input;
             let works = |motions: &[Vec<Velocity>]| motions.iter().any(|m| roles.moves_in(m));
             let (mirror, half_turn) = (works(&s.mirror), works(&s.half_turn));
             out.graph |= keeps_input;
@@ -297,7 +300,7 @@ impl<'a> Subject<'a> {
     }
 
     /// Returns the automorphisms of order two that keep at least one link.
-    fn involutions(&self) -> &[Involution<'a>] {
+    fn find_involutions(&self) -> &[Involution<'a>] {
         self.involutions.get_or_init(|| {
             let twice = |s: &&&Vec<usize>| {
                 let back = (0..s.len()).all(|l| s[s[l]] == l);
@@ -327,7 +330,7 @@ impl<'a> Subject<'a> {
     #[must_use]
     pub(crate) fn other_pairs_up_to(&self, swap: &[usize]) -> usize {
         let others = self.joints.iter().filter(|j| j.pair != PairKind::Hinge);
-        let first = |j: &&Joint| carried(j.links, swap) >= j.links;
+        let first = |j: &&Joint| carry_links(j.links, swap) >= j.links;
         others.filter(first).count()
     }
 }

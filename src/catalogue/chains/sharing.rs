@@ -5,7 +5,7 @@
 
 use crate::chains::PairKind;
 use crate::chains::canonical::Weighted;
-use crate::chains::chain::{Chain, Joint, carried};
+use crate::chains::chain::{Chain, Joint, carry_links};
 use crate::chains::motion::moves_throughout;
 use itertools::Itertools;
 use std::cmp::Ordering;
@@ -68,7 +68,7 @@ impl<'a> Sharing<'a> {
         let joints = joints.collect_vec();
         let image = |a: &[usize]| {
             let place = |&links: &[usize; 2]| {
-                let links = carried(links, a);
+                let links = carry_links(links, a);
                 joints.iter().position(|&j| j == links).unwrap_or(0)
             };
             joints.iter().map(place).collect_vec()
@@ -80,19 +80,23 @@ impl<'a> Sharing<'a> {
             links: n,
             orbits: orbits.map(|(j, to)| Orbit(1 << j | 1 << to)).collect(),
             images: images.collect(),
-            tight: tight(n, &joints),
+            tight: tight_parts(n, &joints),
             joints,
         }
     }
 
     /// Returns the number of joints that leave two freedoms if the mobility is 1.
-    fn higher(&self) -> Option<usize> {
+    fn higher_count(&self) -> Option<usize> {
         (2 * self.joints.len()).checked_sub((3 * self.links).checked_sub(4)?)
     }
 
     /// Calls `visit` with each chain and its automorphisms.
-    pub(super) fn share(&self, menu: Menu<'_>, visit: &mut impl FnMut(Chain, Vec<&Vec<usize>>)) {
-        let Some(higher) = self.higher() else {
+    pub(super) fn share_kinds(
+        &self,
+        menu: Menu<'_>,
+        visit: &mut impl FnMut(Chain, Vec<&Vec<usize>>),
+    ) {
+        let Some(higher) = self.higher_count() else {
             return;
         };
         let (two, one): (Vec<PairKind>, Vec<PairKind>) =
@@ -120,7 +124,7 @@ impl<'a> Sharing<'a> {
                             let own = |j: &usize| self.orbits[orbit].0 >> j & 1 == 1;
                             (0..pairs.len()).filter(own).for_each(|j| pairs[j] = pair);
                         }
-                        self.judge(&pairs, visit);
+                        self.judge_kinds(&pairs, visit);
                     }
                 }
             }
@@ -128,7 +132,7 @@ impl<'a> Sharing<'a> {
     }
 
     /// Visits the chain of these kinds if it is valid and no symmetry gives a lesser list.
-    fn judge(&self, pairs: &[PairKind], visit: &mut impl FnMut(Chain, Vec<&Vec<usize>>)) {
+    fn judge_kinds(&self, pairs: &[PairKind], visit: &mut impl FnMut(Chain, Vec<&Vec<usize>>)) {
         let mut keeping = Vec::new();
         for (image, automorphism) in &self.images {
             match image.iter().map(|&j| pairs[j]).cmp(pairs.iter().copied()) {
@@ -149,7 +153,7 @@ impl<'a> Sharing<'a> {
 }
 
 /// Returns the parts that would have too many constraints with only hinges and slides.
-fn tight(links: usize, joints: &[[usize; 2]]) -> Vec<Tight> {
+fn tight_parts(links: usize, joints: &[[usize; 2]]) -> Vec<Tight> {
     let parts = 1u32..1 << links;
     let tight = parts.filter(|p| p.count_ones() > 1).filter_map(|part| {
         let inside = |[u, v]: &[usize; 2]| part >> u & part >> v & 1 == 1;

@@ -2,8 +2,8 @@
 //! of it without two of its links.
 
 use crate::chains::PairKind;
-use crate::chains::canonical::{Weighted, canonical};
-use crate::chains::chain::{Chain, Joint, ordered};
+use crate::chains::canonical::{Weighted, number_graph};
+use crate::chains::chain::{Chain, Joint, order_links};
 use crate::chains::motion::moves_throughout;
 use crate::chains::roles::{Roles, Subject};
 use itertools::Itertools;
@@ -27,8 +27,8 @@ impl PairStructure {
     /// # Complexity
     /// As of [`canonical`].
     #[must_use]
-    pub fn key(&self) -> Weighted {
-        canonical(&self.weighted()).graph
+    pub fn canonical_key(&self) -> Weighted {
+        number_graph(&self.weighted_graph()).graph
     }
 
     /// Returns the structure of a key, in canonical numbering.
@@ -55,12 +55,12 @@ impl PairStructure {
 
     /// Returns true if the input slides.
     #[must_use]
-    pub fn slides(&self) -> bool {
+    pub fn input_slides(&self) -> bool {
         let [u, v] = self.roles.input;
-        self.chain.between(u, v) == Some(PairKind::Slide)
+        self.chain.pair_between(u, v) == Some(PairKind::Slide)
     }
 
-    fn weighted(&self) -> Weighted {
+    fn weighted_graph(&self) -> Weighted {
         let mut out = Weighted::new(self.chain.links());
         for joint in self.chain.joints() {
             let [u, v] = joint.links;
@@ -76,9 +76,9 @@ impl PairStructure {
     /// numbering. Two structures have equal names exactly if they are the same.
     #[must_use]
     pub fn name(&self) -> String {
-        let PairStructure { chain, roles } = PairStructure::of_key(&self.key());
+        let PairStructure { chain, roles } = PairStructure::of_key(&self.canonical_key());
         let ([i, k], jaws) = (roles.input, roles.jaws.iter().join(","));
-        format!("{} f{} i{i}-{k} j{jaws}", chain.code(), roles.frame)
+        format!("{} f{} i{i}-{k} j{jaws}", chain.pair_code(), roles.frame)
     }
 
     /// Returns the links of the smallest moving part that contains all roles. These are all links if the structure is essential.
@@ -101,18 +101,18 @@ impl PairStructure {
 
     /// Returns the structure of only some of the links, with the joints between them.
     #[must_use]
-    pub fn part(&self, links: &[usize]) -> PairStructure {
+    pub fn part_of(&self, links: &[usize]) -> PairStructure {
         let place = |l: usize| links.iter().position(|&x| x == l);
         let joints = self.chain.joints().into_iter().filter_map(|mut j| {
             let [u, v] = j.links.map(place);
-            j.links = ordered([u?, v?]);
+            j.links = order_links([u?, v?]);
             Some(j)
         });
         let mut places = vec![0; self.chain.links()];
         links.iter().enumerate().for_each(|(at, &l)| places[l] = at);
         PairStructure {
             chain: Chain::new(links.len(), joints),
-            roles: self.roles.image(&places),
+            roles: self.roles.image_under(&places),
         }
     }
 
@@ -127,20 +127,20 @@ impl PairStructure {
         let joints = self.chain.joints();
         let rows = joints.iter().filter_map(|j| Row::new(&self.chain, j.links));
         let free = rows.filter(|r| !r.links.contains(&self.roles.frame));
-        free.flat_map(|row| self.without(row)).collect()
+        free.flat_map(|row| self.without_row(row)).collect()
     }
 
-    fn without(&self, row: Row) -> Vec<PairStructure> {
+    fn without_row(&self, row: Row) -> Vec<PairStructure> {
         let rest = (0..self.chain.links()).filter(|l| !row.links.contains(l));
         let rest = rest.collect_vec();
         let is_in = |l: &usize| row.links.contains(l);
         let roles = &self.roles;
         let input = if roles.input.iter().any(is_in) {
-            ordered(row.ends)
+            order_links(row.ends)
         } else {
             roles.input
         };
-        let driven = self.chain.between(input[0], input[1]);
+        let driven = self.chain.pair_between(input[0], input[1]);
         if !driven.is_some_and(PairKind::is_lower) {
             return Vec::new();
         }
@@ -162,7 +162,7 @@ impl PairStructure {
                 frame: roles.frame,
             },
         });
-        left.map(|s| s.part(&rest)).collect()
+        left.map(|s| s.part_of(&rest)).collect()
     }
 }
 
@@ -176,7 +176,7 @@ impl Row {
     fn new(chain: &Chain, links: [usize; 2]) -> Option<Row> {
         let [u, v] = links;
         let end = |of: usize, but: usize| {
-            let others = (0..chain.links()).filter(|&l| l != but && chain.joined(of, l));
+            let others = (0..chain.links()).filter(|&l| l != but && chain.is_joined(of, l));
             others.exactly_one().ok()
         };
         let ends = [end(u, v)?, end(v, u)?];

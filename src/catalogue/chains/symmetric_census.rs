@@ -6,8 +6,8 @@
 //! differs by more than numbering.
 
 use crate::chains::Symmetry;
-use crate::chains::canonical::{Weighted, canonical};
-use crate::chains::chain::{MOST_LINKS, ordered};
+use crate::chains::canonical::{Weighted, number_graph};
+use crate::chains::chain::{MOST_LINKS, order_links};
 use crate::chains::enumerate::contracted::is_biconnected;
 use crate::chains::motion::{Swap, Velocity, symmetric_motions};
 use crate::chains::roles::{Roles, Subject};
@@ -54,14 +54,14 @@ pub fn symmetric_grippers(links: usize, menu: Menu<'_>) -> Vec<SymmetricGripper>
         .par_iter()
         .for_each(|graph| {
             let sharing = Sharing::new(&graph.graph, &graph.automorphisms, &graph.swap);
-            sharing.share(menu, &mut |chain, automorphisms| {
+            sharing.share_kinds(menu, &mut |chain, automorphisms| {
                 let subject = Subject::new(&chain, automorphisms);
                 let orbits = subject.other_pairs_up_to(&graph.swap);
-                let found = grippers(&subject, graph).into_iter();
+                let found = symmetric_roles_of(&subject, graph).into_iter();
                 let found = found.map(|(half_turn, roles)| {
                     let driven_jaw = roles.has_driven_jaw();
                     let chain = chain.clone();
-                    let key = PairStructure { chain, roles }.key();
+                    let key = PairStructure { chain, roles }.canonical_key();
                     (half_turn, driven_jaw, key)
                 });
                 // Numbered before the lock is taken.
@@ -86,7 +86,7 @@ pub fn symmetric_grippers(links: usize, menu: Menu<'_>) -> Vec<SymmetricGripper>
 }
 
 /// Returns the grippers of a chain whose motion an involution carries to itself, each with true for half a turn.
-fn grippers(subject: &Subject<'_>, graph: &SymmetricGraph) -> Vec<(bool, Roles)> {
+fn symmetric_roles_of(subject: &Subject<'_>, graph: &SymmetricGraph) -> Vec<(bool, Roles)> {
     let swap = &graph.swap[..];
     let Some(fixed) = swap.iter().enumerate().position(|(l, &to)| l == to) else {
         return Vec::new();
@@ -119,7 +119,7 @@ struct SymmetricGraph {
     pub(super) automorphisms: Vec<Vec<usize>>,
 }
 
-fn swap(marked: &Weighted) -> Vec<usize> {
+fn marked_swap(marked: &Weighted) -> Vec<usize> {
     let n = marked.vertices();
     let image = |u: usize| (0..n).find(|&v| marked.weight(u, v) & SWAPPED > 0);
     (0..n).map(|u| image(u).unwrap_or(u)).collect()
@@ -131,8 +131,8 @@ fn is_joined(marked: &Weighted, u: usize, v: usize) -> bool {
 
 /// Returns the graphs with one more orbit of joints: between existing vertices, or from one of them to a new vertex or to two
 /// new ones that change places.
-fn grown(marked: &Weighted, most: usize, most_twos: usize) -> Vec<Weighted> {
-    let (n, swap) = (marked.vertices(), swap(marked));
+fn grow_orbit(marked: &Weighted, most: usize, most_twos: usize) -> Vec<Weighted> {
+    let (n, swap) = (marked.vertices(), marked_swap(marked));
     let with_orbit = |graph: &Weighted, joint: [usize; 2], image: [usize; 2]| {
         let mut out = graph.clone();
         for [u, v] in [joint, image] {
@@ -143,7 +143,7 @@ fn grown(marked: &Weighted, most: usize, most_twos: usize) -> Vec<Weighted> {
     let pairs = (0..n).flat_map(|v| (0..v).map(move |u| [u, v]));
     let within = pairs.filter_map(|joint @ [u, v]| {
         let image = joint.map(|l| swap[l]);
-        let first = ordered(image) >= joint;
+        let first = order_links(image) >= joint;
         (first && marked.weight(u, v) & !SWAPPED == 0).then(|| with_orbit(marked, joint, image))
     });
     let mut out: Vec<Weighted> = within.collect();
@@ -167,7 +167,7 @@ fn joint_count(marked: &Weighted) -> usize {
 }
 
 /// Returns a lower bound of the joints that are missing at vertices with fewer than two, and at future vertices.
-fn lacking(marked: &Weighted, vertices: usize) -> usize {
+fn lacking_joints(marked: &Weighted, vertices: usize) -> usize {
     let n = marked.vertices();
     let degree = |u: usize| (0..n).filter(|&v| is_joined(marked, u, v)).count();
     let ends: usize = (0..n).map(|u| 2usize.saturating_sub(degree(u))).sum();
@@ -185,13 +185,14 @@ fn symmetric_graphs(vertices: usize, most_edges: usize) -> Vec<SymmetricGraph> {
         let mut level = BTreeSet::from([Weighted::new(1)]);
         while !level.is_empty() {
             let whole = level.iter().filter(|m| m.vertices() == vertices);
-            let done = whole.filter(|m| is_biconnected(&unmarked(m)));
+            let done = whole.filter(|m| is_biconnected(&unmark_graph(m)));
             out.extend(done.map(graph_of));
             let list: Vec<&Weighted> = level.iter().collect();
             let next = list.into_par_iter().flat_map_iter(|marked| {
-                let all = grown(marked, vertices, twos).into_iter();
-                let fits = all.filter(|m| joint_count(m) + lacking(m, vertices) <= most_edges);
-                fits.map(|m| canonical(&m).graph)
+                let all = grow_orbit(marked, vertices, twos).into_iter();
+                let fits =
+                    all.filter(|m| joint_count(m) + lacking_joints(m, vertices) <= most_edges);
+                fits.map(|m| number_graph(&m).graph)
             });
             level = next.collect();
         }
@@ -199,7 +200,7 @@ fn symmetric_graphs(vertices: usize, most_edges: usize) -> Vec<SymmetricGraph> {
     out
 }
 
-fn unmarked(marked: &Weighted) -> Weighted {
+fn unmark_graph(marked: &Weighted) -> Weighted {
     let n = marked.vertices();
     let mut out = Weighted::new(n);
     for (u, v) in (0..n).tuple_combinations() {
@@ -210,8 +211,8 @@ fn unmarked(marked: &Weighted) -> Weighted {
 
 fn graph_of(marked: &Weighted) -> SymmetricGraph {
     SymmetricGraph {
-        swap: swap(marked),
-        graph: unmarked(marked),
-        automorphisms: canonical(marked).automorphisms,
+        swap: marked_swap(marked),
+        graph: unmark_graph(marked),
+        automorphisms: number_graph(marked).automorphisms,
     }
 }

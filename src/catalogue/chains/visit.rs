@@ -1,6 +1,6 @@
 //! Every chain of pairs, and the underlying graphs.
 
-use crate::chains::canonical::{Canonical, Weighted, canonical};
+use crate::chains::canonical::{Canonical, Weighted, number_graph};
 use crate::chains::chain::MOST_LINKS;
 use crate::chains::roles::Subject;
 use crate::chains::sharing::{Menu, Sharing};
@@ -19,7 +19,7 @@ fn with_ear(graph: &Weighted, ends: [usize; 2], new: usize) -> Weighted {
     out
 }
 
-fn ring(vertices: usize) -> Weighted {
+fn ring_graph(vertices: usize) -> Weighted {
     let mut out = Weighted::new(vertices);
     (0..vertices).for_each(|v| out.set(v, (v + 1) % vertices, 1));
     out
@@ -37,8 +37,8 @@ struct Level {
 }
 
 impl Level {
-    fn rings(most: usize) -> Level {
-        let one = |n| (n, BTreeSet::from([canonical(&ring(n)).graph]));
+    fn ring_level(most: usize) -> Level {
+        let one = |n| (n, BTreeSet::from([number_graph(&ring_graph(n)).graph]));
         Level {
             most,
             graphs: (3..=most).map(one).collect(),
@@ -46,7 +46,7 @@ impl Level {
     }
 
     /// Returns the graphs with one loop more.
-    fn grown(&self) -> Level {
+    fn grow_level(&self) -> Level {
         let grown = |n: usize| -> BTreeSet<Weighted> {
             let smaller = self.graphs.iter().filter(|(m, _)| **m <= n);
             let all = smaller.flat_map(|(m, graphs)| graphs.iter().map(move |g| (n - m, g)));
@@ -54,7 +54,7 @@ impl Level {
             let eared = all.into_par_iter().flat_map_iter(|(new, g)| {
                 let ends = (0..g.vertices()).tuple_combinations();
                 let free = ends.filter(move |&(u, v)| new > 0 || g.weight(u, v) == 0);
-                free.map(move |(u, v)| canonical(&with_ear(g, [u, v], new)).graph)
+                free.map(move |(u, v)| number_graph(&with_ear(g, [u, v], new)).graph)
             });
             eared.collect()
         };
@@ -73,13 +73,13 @@ impl Level {
 #[must_use]
 fn biconnected_graphs(vertices: usize, most_edges: usize) -> Vec<Canonical> {
     let mut out = Vec::new();
-    let mut level = Level::rings(vertices);
+    let mut level = Level::ring_level(vertices);
     for edges in vertices..=most_edges {
         if edges > vertices {
-            level = level.grown();
+            level = level.grow_level();
         }
         let own = level.graphs.get(&vertices).into_iter().flatten();
-        out.extend(own.map(canonical));
+        out.extend(own.map(number_graph));
     }
     out
 }
@@ -96,7 +96,7 @@ pub fn visit_pair_chains(links: usize, menu: Menu<'_>, visit: &(impl Fn(&Subject
     graphs.par_iter().for_each(|graph| {
         let own: Vec<usize> = (0..links).collect();
         let sharing = Sharing::new(&graph.graph, &graph.automorphisms, &own);
-        sharing.share(menu, &mut |chain, automorphisms| {
+        sharing.share_kinds(menu, &mut |chain, automorphisms| {
             visit(&Subject::new(&chain, automorphisms));
         });
     });

@@ -7,7 +7,7 @@ use crate::synthesis::sketch::Sketch;
 use crate::synthesis::stroke::judge::Judge;
 use crate::synthesis::stroke::planes::Stacking;
 use crate::synthesis::task::Aim;
-use crate::synthesis::{below, random, unit};
+use crate::synthesis::{random_below, random_for, random_unit};
 use chacha20::ChaCha8Rng;
 use std::cmp::Ordering;
 
@@ -35,7 +35,7 @@ impl FoundPlaces {
     }
 
     /// Limits first, then the task, then whether it can be built, then what all costs.
-    fn compare(&self, other: &FoundPlaces) -> Ordering {
+    fn compare_places(&self, other: &FoundPlaces) -> Ordering {
         let misses = |of: &FoundPlaces| (!of.within, !of.does, of.meets);
         let cost = || self.cost.total_cmp(&other.cost);
         misses(self).cmp(&misses(other)).then_with(cost)
@@ -43,13 +43,13 @@ impl FoundPlaces {
 
     /// Whether no better ones need be looked for.
     pub(super) fn are_good(&self, sketch: &Sketch<'_>) -> bool {
-        let enough = sketch.limits.task.aim == Aim::Balanced && self.cost < sketch.good();
+        let enough = sketch.limits.task.aim == Aim::Balanced && self.cost < sketch.good_cost();
         self.will_do() && enough
     }
 
     /// Whether they are better than others, where there are any.
     pub(super) fn is_better_than(&self, best: Option<&FoundPlaces>) -> bool {
-        best.is_none_or(|b| self.compare(b).is_lt())
+        best.is_none_or(|b| self.compare_places(b).is_lt())
     }
 }
 
@@ -71,7 +71,7 @@ pub(super) fn best_of_starts<'a>(
     first: u32,
 ) -> Option<FoundPlaces> {
     let mut search = |start, patience| {
-        let random = random(name, seed, start);
+        let random = random_for(name, seed, start);
         search_from(sketch, judge, random, start, patience)
     };
     let patience = match sketch.limits.task.aim {
@@ -85,7 +85,7 @@ pub(super) fn best_of_starts<'a>(
         }
         raced.push(found);
     }
-    raced.sort_by(FoundPlaces::compare);
+    raced.sort_by(FoundPlaces::compare_places);
     let mut best: Option<FoundPlaces> = None;
     for (n, found) in raced.into_iter().enumerate() {
         if n >= TO_THE_END && best.as_ref().is_some_and(|b| b.within) {
@@ -122,26 +122,29 @@ fn search_from<'a>(
     start: u32,
     patience: Patience,
 ) -> Option<FoundPlaces> {
-    let (at, given_up) = anneal(sketch, judge, random, start, patience);
-    let looks = sketch.looks(&at)?;
+    let (at, given_up) = anneal_start(sketch, judge, random, start, patience);
+    let looks = sketch.drawn_figures(&at)?;
     // Of what is given up some poses say enough, and whether it can be built is not asked.
     let stroke = if given_up {
-        judge.coarse(&at, f64::INFINITY)
+        judge.coarse_figures(&at, f64::INFINITY)
     } else {
-        judge.watch();
-        judge.fine(&at)
+        judge.watch_meetings();
+        judge.fine_figures(&at)
     };
-    let (stroke, stacking) = (stroke?, judge.stacking());
+    let (stroke, stacking) = (stroke?, judge.find_stacking());
     let limits = &sketch.limits;
     Some(FoundPlaces {
         cost: match limits.task.aim {
             Aim::Balanced => looks.penalty + limits.stroke_cost(&stroke),
             Aim::Force => {
-                sketch.breaks(&at, &mut SeenSides::default()) + limits.force_cost(&stroke, WITHIN)
+                sketch.broken_cost(&at, &mut SeenSides::default())
+                    + limits.force_cost(&stroke, WITHIN)
             }
         },
-        does: limits.shortfall(&stroke, sketch.bones.swings()).is_none(),
-        within: looks.keep(limits, stacking.is_known()),
+        does: limits
+            .find_shortfall(&stroke, sketch.bones.all_swing())
+            .is_none(),
+        within: looks.keep_limits(limits, stacking.is_known()),
         meets: stacking == Stacking::Meets,
         looks,
         at,
@@ -239,24 +242,24 @@ impl<'s, 'j, 'a> Annealing<'s, 'j, 'a> {
     }
 
     /// What the places cost; `None` where that is more than `most`, or the pose is singular.
-    fn cost(&mut self, look: Look, most: f64) -> Option<f64> {
+    fn place_cost(&mut self, look: Look, most: f64) -> Option<f64> {
         if let Look::Force(slack) = look {
-            let drawn = self.sketch.breaks(&self.at, &mut self.seen);
+            let drawn = self.sketch.broken_cost(&self.at, &mut self.seen);
             let limits = self.sketch.limits;
-            let stroke = self.judge.coarse(&self.at, f64::INFINITY)?;
+            let stroke = self.judge.coarse_figures(&self.at, f64::INFINITY)?;
             let mut all = drawn + limits.force_cost(&stroke, slack);
             // What seems good enough at some poses is looked at between them, too.
             if all <= most && slack <= WITHIN {
-                all = drawn + limits.force_cost(&self.judge.fine(&self.at)?, slack);
+                all = drawn + limits.force_cost(&self.judge.fine_figures(&self.at)?, slack);
             }
             return (all <= most).then_some(all);
         }
         let moving = look != Look::Places;
-        let drawn = (self.sketch).penalty(&self.at, moving, most, &mut self.seen)?;
+        let drawn = (self.sketch).place_penalty(&self.at, moving, most, &mut self.seen)?;
         if look != Look::Stroke {
             return Some(drawn);
         }
-        let stroke = self.judge.coarse(&self.at, most - drawn)?;
+        let stroke = self.judge.coarse_figures(&self.at, most - drawn)?;
         let all = drawn + self.sketch.limits.stroke_cost(&stroke);
         (all <= most).then_some(all)
     }
@@ -264,18 +267,18 @@ impl<'s, 'j, 'a> Annealing<'s, 'j, 'a> {
     /// Whether the places, the cheapest so far, cost so little by their stroke and do what the task asks at all its poses, so that the
     /// search may end.
     fn is_good(&mut self, look: Look) -> bool {
-        if look != Look::Stroke || self.now >= self.sketch.good() {
+        if look != Look::Stroke || self.now >= self.sketch.good_cost() {
             return false;
         }
-        let stroke = self.judge.fine(&self.at);
-        let swings = self.sketch.bones.swings();
-        stroke.is_some_and(|f| self.sketch.limits.shortfall(&f, swings).is_none())
+        let stroke = self.judge.fine_figures(&self.at);
+        let swings = self.sketch.bones.all_swing();
+        stroke.is_some_and(|f| self.sketch.limits.find_shortfall(&f, swings).is_none())
     }
 
     /// Whether so many moves that look at strokes have led to so little that the start is given up.
-    fn lags(&self, moves: usize) -> bool {
+    fn is_lagging(&self, moves: usize) -> bool {
         let bound = LAGGING.iter().find(|(after, _)| *after == moves);
-        bound.is_some_and(|(_, times)| self.best.0 > times * self.sketch.good())
+        bound.is_some_and(|(_, times)| self.best.0 > times * self.sketch.good_cost())
     }
 
     fn phase(&mut self, phase: &Phase, patience: Patience) {
@@ -284,7 +287,7 @@ impl<'s, 'j, 'a> Annealing<'s, 'j, 'a> {
             self.at.clone_from(&self.best.1);
         }
         self.now = self
-            .cost(phase.look, f64::INFINITY)
+            .place_cost(phase.look, f64::INFINITY)
             .unwrap_or(f64::INFINITY);
         self.best = (self.now, self.at.clone());
         if self.is_good(phase.look) {
@@ -293,14 +296,14 @@ impl<'s, 'j, 'a> Annealing<'s, 'j, 'a> {
         let [from, to] = phase.warmth;
         let races = patience == Patience::Racing && phase.look == Look::Stroke;
         for step in 0..phase.moves {
-            if races && self.lags(step) {
+            if races && self.is_lagging(step) {
                 self.given_up = true;
                 return;
             }
             #[allow(clippy::cast_precision_loss, reason = "a few thousand")]
             let done = step as f64 / phase.moves as f64;
             let before = self.best.0;
-            self.step(phase.look, from + (to - from) * done);
+            self.try_step(phase.look, from + (to - from) * done);
             if self.best.0 < before && self.is_good(phase.look) {
                 return;
             }
@@ -308,25 +311,27 @@ impl<'s, 'j, 'a> Annealing<'s, 'j, 'a> {
         // Of those that cost more as drawn than good places do with their stroke one in twenty becomes good.
         let drawn = matches!(phase.look, Look::Places | Look::Motion);
         let races = patience == Patience::Racing && drawn;
-        self.given_up = races && self.best.0 > self.sketch.good();
+        self.given_up = races && self.best.0 > self.sketch.good_cost();
     }
 
     /// Tries other places.
-    fn step(&mut self, look: Look, warmth: f64) {
+    fn try_step(&mut self, look: Look, warmth: f64) {
         let heat = 2.0 * warmth * warmth;
         self.before.clone_from(&self.at);
         if let Look::Force(_) = look {
             // Limits meet in corners: from one to another several joints go, near or far.
-            for _ in 0..=below(3, &mut self.random) {
-                let far = unit(&mut self.random).powi(2);
-                self.sketch.change(&mut self.at, far, &mut self.random);
+            for _ in 0..=random_below(3, &mut self.random) {
+                let far = random_unit(&mut self.random).powi(2);
+                self.sketch
+                    .change_places(&mut self.at, far, &mut self.random);
             }
         } else {
-            self.sketch.change(&mut self.at, warmth, &mut self.random);
+            self.sketch
+                .change_places(&mut self.at, warmth, &mut self.random);
         }
         // Taken where exp((now - then) / heat) is above a random number: what is too dear is not looked at to the end.
-        let most = self.now - heat * unit(&mut self.random).ln();
-        match self.cost(look, most) {
+        let most = self.now - heat * random_unit(&mut self.random).ln();
+        match self.place_cost(look, most) {
             Some(then) => {
                 self.now = then;
                 if then < self.best.0 {
@@ -340,7 +345,7 @@ impl<'s, 'j, 'a> Annealing<'s, 'j, 'a> {
 }
 
 /// The places at the end of one search.
-fn anneal<'a>(
+fn anneal_start<'a>(
     sketch: &Sketch<'a>,
     judge: &mut Judge<'a>,
     random: ChaCha8Rng,

@@ -1,7 +1,7 @@
 //! Places beside those of a layout: whole millimetres are few, so that pins are often in special places by chance.
 
 use crate::chains::Input;
-use crate::synthesis::figures::figures;
+use crate::synthesis::figures::layout_figures;
 use crate::synthesis::layout::Layout;
 use crate::synthesis::place::{FINE, Place};
 use crate::synthesis::random_of;
@@ -16,7 +16,7 @@ use chacha20::rand_core::Rng;
 /// # Complexity
 /// That of the figures of a stroke, twice at most.
 #[must_use]
-pub(crate) fn beside(
+pub(crate) fn nearby_layout(
     structure: &Structure,
     layout: &Layout,
     seed: u64,
@@ -26,27 +26,27 @@ pub(crate) fn beside(
     // From -499 to 499.
     let mut off = || (random.next_u32() % (FINE - 1).cast_unsigned()).cast_signed() + 1 - FINE / 2;
     let sketch = Sketch::new(structure, layout.rules.clone(), layout.limits);
-    let slides = structure.input() == Input::Slide;
+    let slides = structure.drive_input() == Input::Slide;
     let mut at = layout.at.clone();
     for pin in (0..sketch.rules.joints.len()).filter(|&pin| pin != sketch.input || !slides) {
-        let place = layout.rules.place(&layout.at.points, pin);
+        let place = layout.rules.exact_place(&layout.at.points, pin);
         let fine = [off(), off()];
         at.points[pin] = Place { fine, ..place }.real();
     }
-    let looks = sketch.looks(&at)?;
+    let looks = sketch.drawn_figures(&at)?;
     let moved = Layout {
         at,
         looks,
         ..layout.clone()
     };
-    let now = figures(structure, &moved)?;
+    let now = layout_figures(structure, &moved)?;
     let (does, passes) = (now.shortfall.is_none(), now.stacking.is_known());
     // What it does not it may not have done before.
     let no_less = || {
-        figures(structure, layout).is_some_and(|before| {
+        layout_figures(structure, layout).is_some_and(|before| {
             (does || before.shortfall.is_some()) && (passes || !before.stacking.is_known())
         })
     };
-    let kept = moved.looks.keep(&moved.limits, passes) && (does && passes || no_less());
+    let kept = moved.looks.keep_limits(&moved.limits, passes) && (does && passes || no_less());
     kept.then_some(moved)
 }

@@ -1,10 +1,10 @@
 //! What layouts of all kinds have in common: the points of each link, and what the links are for.
 
-use crate::chains::chain::ordered;
-use crate::closure::tree::forest;
+use crate::chains::chain::order_links;
+use crate::closure::tree::spanning_forest;
 use crate::geom::vector::{add_scaled, sub, unit};
-use crate::synthesis::bell;
-use crate::synthesis::place::{Point, middle};
+use crate::synthesis::place::{Point, middle_of};
+use crate::synthesis::random_normal;
 use chacha20::ChaCha8Rng;
 use itertools::Itertools;
 
@@ -80,7 +80,7 @@ fn joints_away(
     joints: impl IntoIterator<Item = [usize; 2]>,
     from: usize,
 ) -> Vec<f64> {
-    let (_, steps) = forest(links, joints, |_| false, [from]);
+    let (_, steps) = spanning_forest(links, joints, |_| false, [from]);
     let mut away = vec![f64::INFINITY; links];
     away[from] = 0.0;
     for s in steps {
@@ -90,7 +90,7 @@ fn joints_away(
 }
 
 /// The side of each joint's jaw: of the jaw that is nearer by way of links other than frame and driver.
-fn halves(links: usize, plan: &BonePlan<'_>) -> Vec<f64> {
+fn joint_halves(links: usize, plan: &BonePlan<'_>) -> Vec<f64> {
     let ([a, b], None) = (plan.jaws, plan.round) else {
         return vec![0.0; plan.joints.len()];
     };
@@ -135,7 +135,7 @@ impl Bones {
             let pulls = l != plan.frame && l != plan.driver && pinned(l);
             pulls.then_some((l, [a, b]))
         });
-        let centre = middle(&plan.tips);
+        let centre = middle_of(&plan.tips);
         let alone = |i: usize| {
             let of = plan.together.iter().find(|set| *set >> i & 1 == 1);
             of.copied().unwrap_or(1 << i)
@@ -149,15 +149,15 @@ impl Bones {
         let touching = joints.fold(0, |bits, (i, j)| bits | u32::from(j.is_none()) << i);
         let cylinder = plan.cylinder.and_then(|links| {
             let end = |link: usize| {
-                let ends = |i: usize| plan.joints.get(i).map(|ends| ends.map(ordered));
-                let other = |&&i: &&usize| ends(i).is_some_and(|e| e != Some(ordered(links)));
+                let ends = |i: usize| plan.joints.get(i).map(|ends| ends.map(order_links));
+                let other = |&&i: &&usize| ends(i).is_some_and(|e| e != Some(order_links(links)));
                 let one = of_link[link].iter().filter(other).exactly_one().ok();
                 one.map(|&joint| (link, joint))
             };
             Some([end(links[0])?, end(links[1])?])
         });
         Bones {
-            halves: halves(links, &plan),
+            halves: joint_halves(links, &plan),
             cylinder,
             rods: rods.collect(),
             hulled,
@@ -182,7 +182,7 @@ impl Bones {
 
     /// Away from the part at each jaw, over the number of pairs of jaws: by this the tips' ways add up to the opening.
     #[must_use]
-    pub(super) fn apart(&self) -> Vec<Point> {
+    pub(super) fn apart_vectors(&self) -> Vec<Point> {
         #[allow(clippy::cast_precision_loss, reason = "two or three")]
         let pairs = self.inward.len() as f64 / 2.0;
         let inward = self.inward.iter();
@@ -192,7 +192,7 @@ impl Bones {
     /// The force of each jaw where the drive goes so far for a millimetre of the opening, by work: N for 1 N of the drive, or for 1 Nm
     /// where it turns.
     #[must_use]
-    pub fn force(&self, rate: f64) -> f64 {
+    pub fn jaw_force(&self, rate: f64) -> f64 {
         #[allow(clippy::cast_precision_loss, reason = "two or three")]
         let pairs = self.sides as f64 / 2.0;
         // Lengths are in millimetres.
@@ -202,7 +202,7 @@ impl Bones {
 
     /// Whether every jaw turns about a hinge in the frame.
     #[must_use]
-    pub fn swings(&self) -> bool {
+    pub fn all_swing(&self) -> bool {
         self.hinged.iter().all(|h| *h)
     }
 
@@ -215,7 +215,7 @@ impl Bones {
         let far = |from: usize| joints_away(self.of_link.len(), joints.iter().copied(), from);
         let frame = far(self.frame);
         let jaws: Vec<Vec<f64>> = self.jaws.iter().map(|&j| far(j)).collect();
-        let ahead_most = middle(&self.tips);
+        let ahead_most = middle_of(&self.tips);
         let place = |l: usize| -> Point {
             let away = || jaws.iter().map(|j| j[l]);
             let near = away().fold(f64::INFINITY, f64::min);
@@ -232,8 +232,14 @@ impl Bones {
         };
         let mut at: Vec<Point> = Vec::with_capacity(joints.len() + self.tips.len());
         for &[u, v] in &joints {
-            let [x, y] = middle(&[place(u), place(v)]);
-            at.push([x + 12.0 * bell(random), y + 12.0 * bell(random)].map(f64::round));
+            let [x, y] = middle_of(&[place(u), place(v)]);
+            at.push(
+                [
+                    x + 12.0 * random_normal(random),
+                    y + 12.0 * random_normal(random),
+                ]
+                .map(f64::round),
+            );
         }
         at.extend(&self.tips);
         at

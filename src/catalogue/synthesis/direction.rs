@@ -57,7 +57,7 @@ impl WholeDirection {
 
     /// The next but so many, left round where positive.
     #[must_use]
-    pub fn turned(self, by: isize) -> WholeDirection {
+    pub fn turn_by(self, by: isize) -> WholeDirection {
         let all = ALL.cast_signed();
         let number = (self.number.cast_signed() + by).rem_euclid(all);
         WholeDirection::of(number.cast_unsigned(), self.thirds)
@@ -65,18 +65,18 @@ impl WholeDirection {
 
     /// Its image across the x axis.
     #[must_use]
-    pub fn mirrored(self) -> WholeDirection {
+    pub fn mirror_x(self) -> WholeDirection {
         WholeDirection::of((ALL - self.number) % ALL, (3 - self.thirds) % 3)
     }
 
     /// The opposite one.
     #[must_use]
-    pub fn reversed(self) -> WholeDirection {
+    pub fn reverse_direction(self) -> WholeDirection {
         WholeDirection::of((self.number + ALL / 2) % ALL, self.thirds)
     }
 
     /// Its coordinates before it is turned.
-    fn whole(self) -> [i32; 2] {
+    fn whole_coordinates(self) -> [i32; 2] {
         let [x, y, _] = QUARTER[self.number % QUARTER.len()];
         match self.number / QUARTER.len() {
             0 => [x, y],
@@ -88,9 +88,9 @@ impl WholeDirection {
 
     /// A place that is that way from the origin, exactly.
     #[must_use]
-    pub(crate) fn place(self) -> Place {
+    pub(crate) fn place_along(self) -> Place {
         Place {
-            whole: self.whole(),
+            whole: self.whole_coordinates(),
             thirds: self.thirds,
             ..Place::default()
         }
@@ -100,7 +100,9 @@ impl WholeDirection {
     #[must_use]
     pub fn real(self) -> Point {
         let length = QUARTER[self.number % QUARTER.len()][2];
-        let along = self.whole().map(|x| f64::from(x) / f64::from(length));
+        let along = self
+            .whole_coordinates()
+            .map(|x| f64::from(x) / f64::from(length));
         (0..self.thirds).fold(along, |p, _| third(p))
     }
 }
@@ -115,7 +117,7 @@ mod tests {
         let mut before = -1.0;
         for n in 0..ALL {
             let d = WholeDirection::number(n);
-            let [x, y] = d.whole();
+            let [x, y] = d.whole_coordinates();
             let length = f64::from(x).hypot(f64::from(y));
             assert_eq!(length, length.round());
             let [a, b] = d.real();
@@ -123,15 +125,15 @@ mod tests {
             let angle = b.atan2(a).rem_euclid(TAU);
             assert!(angle > before, "{n}");
             before = angle;
-            assert_eq!(d.mirrored().whole(), [x, -y]);
-            assert_eq!(d.reversed().whole(), [-x, -y]);
-            assert_eq!(d.turned(-7).turned(7), d);
+            assert_eq!(d.mirror_x().whole_coordinates(), [x, -y]);
+            assert_eq!(d.reverse_direction().whole_coordinates(), [-x, -y]);
+            assert_eq!(d.turn_by(-7).turn_by(7), d);
             let on = d.turned_by_thirds(2);
             assert_eq!(on.turned_by_thirds(1), d);
-            assert_eq!(on.mirrored(), d.mirrored().turned_by_thirds(1));
+            assert_eq!(on.mirror_x(), d.mirror_x().turned_by_thirds(1));
             let turn = (on.real()[1].atan2(on.real()[0]) - angle).rem_euclid(TAU);
             assert!((turn - 2.0 * TAU / 3.0).abs() < 1e-12);
-            assert_eq!(on.place().thirds, 2);
+            assert_eq!(on.place_along().thirds, 2);
         }
     }
 }

@@ -32,7 +32,7 @@ impl SmallSystem {
     }
 
     /// Adds to an entry; right sides are the columns after the unknown.
-    pub fn add(&mut self, row: usize, column: usize, value: f64) {
+    pub fn add_entry(&mut self, row: usize, column: usize, value: f64) {
         self.entries[row * self.width + column] += value;
     }
 
@@ -43,7 +43,7 @@ impl SmallSystem {
     }
 
     /// The largest entry, by its size.
-    fn largest(&self) -> f64 {
+    fn largest_entry(&self) -> f64 {
         let mut most = [0.0_f64; LANES];
         let (all, _) = self.entries.as_chunks::<LANES>();
         for four in all {
@@ -59,9 +59,9 @@ impl SmallSystem {
     ///
     /// # Complexity
     /// O(n³) for n unknown.
-    pub fn solve(&mut self) -> Option<f64> {
+    pub fn solve_all(&mut self) -> Option<f64> {
         let (n, w) = (self.size, self.width);
-        let least = 1e-12 * self.largest();
+        let least = 1e-12 * self.largest_entry();
         let mut sign = 1.0;
         for c in 0..n {
             // Sizes are in the order of their bits.
@@ -120,13 +120,13 @@ mod tests {
         let all = [[2.0, 1.0, 3.0, 5.0], [4.0, -1.0, 9.0, 1.0]];
         for (r, row) in all.iter().enumerate() {
             for (c, x) in row.iter().enumerate() {
-                rows.add(r, c, *x);
+                rows.add_entry(r, c, *x);
             }
         }
-        assert_eq!(rows.solve(), Some(-1.0));
+        assert_eq!(rows.solve_all(), Some(-1.0));
         let found = [0, 1].map(|side| [0, 1].map(|x| rows.get(x, side)));
         assert_eq!(found, [[2.0, -1.0], [1.0, 3.0]]);
         rows.clear();
-        assert_eq!(rows.solve(), None);
+        assert_eq!(rows.solve_all(), None);
     }
 }

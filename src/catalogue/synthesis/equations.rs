@@ -17,7 +17,7 @@ pub(super) fn place_of(link: usize, frame: usize) -> Option<usize> {
 
 /// Puts the terms of a row into a system; velocities of links are those of the points that `about` says, and a turning is one of
 /// the arm [`RADIAN`].
-pub(super) fn put(
+pub(super) fn put_row(
     system: &mut SmallSystem,
     row: usize,
     terms: &[Term],
@@ -28,8 +28,8 @@ pub(super) fn put(
         let Some(column) = place_of(term.link, frame) else {
             continue;
         };
-        for (k, x) in term.about(about(term.link)).into_iter().enumerate() {
-            system.add(row, column + k, x);
+        for (k, x) in term.force_about(about(term.link)).into_iter().enumerate() {
+            system.add_entry(row, column + k, x);
         }
     }
 }
@@ -38,7 +38,7 @@ pub(super) fn put(
 ///
 /// # Complexity
 /// O(n³) for n links.
-pub(super) fn velocities(sketch: &Sketch<'_>, at: &Places) -> Option<Vec<Velocity>> {
+pub(super) fn solve_velocities(sketch: &Sketch<'_>, at: &Places) -> Option<Vec<Velocity>> {
     let frame = sketch.bones.frame;
     let links = &sketch.at_rest[..];
     let rows = PoseRows {
@@ -49,14 +49,14 @@ pub(super) fn velocities(sketch: &Sketch<'_>, at: &Places) -> Option<Vec<Velocit
     let size = 3 * (links.len() - 1);
     let mut system = SmallSystem::new(size, 1);
     let mut row = 0;
-    rows.each(TeethSeen::Ratio, &mut |_, terms| {
-        put(&mut system, row, terms, frame, |_| [0.0; 2]);
+    rows.each_joint(TeethSeen::Ratio, &mut |_, terms| {
+        put_row(&mut system, row, terms, frame, |_| [0.0; 2]);
         row += 1;
     });
-    let (_, drive) = rows.drive(sketch.input, sketch.drive);
-    put(&mut system, row, &drive, frame, |_| [0.0; 2]);
-    system.add(row, size, 1.0);
-    system.solve()?;
+    let (_, drive) = rows.drive_row(sketch.input, sketch.drive);
+    put_row(&mut system, row, &drive, frame, |_| [0.0; 2]);
+    system.add_entry(row, size, 1.0);
+    system.solve_all()?;
     let velocity = |link: usize| match place_of(link, frame) {
         None => Velocity::default(),
         Some(k) => Velocity {
@@ -87,10 +87,10 @@ impl<'a> PoseEquations<'a> {
     }
 
     /// The poses that the unknown say.
-    pub(super) fn poses(&self, x: &[f64], links: &mut [LinkPose]) {
+    pub(super) fn unpack_poses(&self, x: &[f64], links: &mut [LinkPose]) {
         for (link, pose) in links.iter_mut().enumerate() {
             if let Some(k) = place_of(link, self.sketch.bones.frame) {
-                *pose = LinkPose::turned(x[k + 2] / RADIAN);
+                *pose = LinkPose::turn_by(x[k + 2] / RADIAN);
                 pose.shift = [x[k], x[k + 1]];
             }
         }
@@ -114,7 +114,7 @@ impl FitEquations for PoseEquations<'_> {
         let (sketch, size) = (self.sketch, self.size());
         let (bones, last) = (&sketch.bones, size - 1);
         let mut links = std::mem::take(&mut self.links);
-        self.poses(x, &mut links);
+        self.unpack_poses(x, &mut links);
         rows.clear();
         if let Some(at) = &self.at {
             let all = PoseRows {
@@ -124,22 +124,22 @@ impl FitEquations for PoseEquations<'_> {
             };
             let shift = |link: usize| links[link].shift;
             let mut row = 0;
-            all.each(TeethSeen::Ratio, &mut |off, terms| {
-                put(rows, row, terms, bones.frame, shift);
-                rows.add(row, size, off);
+            all.each_joint(TeethSeen::Ratio, &mut |off, terms| {
+                put_row(rows, row, terms, bones.frame, shift);
+                rows.add_entry(row, size, off);
                 row += 1;
             });
             // What the drive has gone is what its links have.
-            let (gone, terms) = all.drive(sketch.input, sketch.drive);
-            put(rows, row, &terms, bones.frame, shift);
-            rows.add(row, last, -1.0);
-            rows.add(row, size, gone - x[last]);
+            let (gone, terms) = all.drive_row(sketch.input, sketch.drive);
+            put_row(rows, row, &terms, bones.frame, shift);
+            rows.add_entry(row, last, -1.0);
+            rows.add_entry(row, size, gone - x[last]);
             row += 1;
             let mut open = -wider;
             for ((n, &jaw), outward) in bones.jaws.iter().enumerate().zip(&sketch.apart) {
-                let tip = links[jaw].point(bones.tips[n]);
+                let tip = links[jaw].moved_point(bones.tips[n]);
                 open += dot(sub(tip, bones.tips[n]), *outward);
-                put(
+                put_row(
                     rows,
                     row,
                     &[Term::force(jaw, *outward, tip)],
@@ -147,8 +147,8 @@ impl FitEquations for PoseEquations<'_> {
                     shift,
                 );
             }
-            rows.add(row, size, open);
-            rows.add(row, size + 1, 1.0);
+            rows.add_entry(row, size, open);
+            rows.add_entry(row, size + 1, 1.0);
         }
         self.links = links;
     }

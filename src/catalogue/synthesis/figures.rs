@@ -77,7 +77,7 @@ pub struct LayoutFigures {
 /// # Complexity
 /// Some dozen poses, each of O(n³) for n links.
 #[must_use]
-pub fn figures(structure: &Structure, layout: &Layout) -> Option<LayoutFigures> {
+pub fn layout_figures(structure: &Structure, layout: &Layout) -> Option<LayoutFigures> {
     let sketch = Sketch::new(structure, layout.rules.clone(), layout.limits);
     let two = of_stroke(&mut Judge::new(&sketch), &layout.at)?;
     Some(match structure.sides {
@@ -91,19 +91,19 @@ pub fn figures(structure: &Structure, layout: &Layout) -> Option<LayoutFigures> 
 }
 
 fn of_stroke(judge: &mut Judge<'_>, at: &Places) -> Option<LayoutFigures> {
-    judge.watch();
-    let stroke = judge.fine(at)?;
-    let stacking = judge.stacking();
+    judge.watch_meetings();
+    let stroke = judge.fine_figures(at)?;
+    let stacking = judge.find_stacking();
     let way = judge.drive_rate();
-    let turns: Vec<f64> = judge.turns().collect();
+    let turns: Vec<f64> = judge.jaw_turns().collect();
     let (limits, bones) = (judge.motion.sketch.limits, &judge.motion.sketch.bones);
     let jaws_hinged = bones.hinged.clone();
-    let [least, greatest] = stroke.rates.map(|rate| bones.force(rate));
-    let shortfall = limits.shortfall(&stroke, bones.swings());
+    let [least, greatest] = stroke.rates.map(|rate| bones.jaw_force(rate));
+    let shortfall = limits.find_shortfall(&stroke, bones.all_swing());
     let travel = (stroke.drive[1] - stroke.drive[0]).abs();
     let opened = stroke.reached[1] - stroke.reached[0];
-    let mean = bones.force(travel / opened);
-    let margin = judge.margin(at, BEYOND * limits.task.span());
+    let mean = bones.jaw_force(travel / opened);
+    let margin = judge.stroke_margin(at, BEYOND * limits.task.opening_span());
     let motion = |(&hinged, turn): (&bool, &f64)| match turn {
         t if *t < STILL => JawMotion::Parallel,
         _ if hinged => JawMotion::Swinging,

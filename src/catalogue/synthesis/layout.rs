@@ -2,7 +2,7 @@
 //! the places found are exact. Well-known schemes are laid out in their most symmetric forms.
 
 use crate::chains::Symmetry;
-use crate::chains::classics::{Classic, classics};
+use crate::chains::classics::{Classic, known_classics};
 use crate::chains::layout_symmetry::NoGripper;
 use crate::chains::structure::PairStructure;
 use crate::synthesis::annealing::{FoundPlaces, STARTS, best_of_starts};
@@ -21,8 +21,8 @@ use thiserror::Error;
 /// Returns the well-known schemes as structures. Schemes with the same structure that are made in the same way are listed once.
 #[must_use]
 pub(crate) fn known_schemes() -> Vec<Structure> {
-    let all = classics().iter();
-    let all = all.unique_by(|c| (c.structure.key(), c.made_as));
+    let all = known_classics().iter();
+    let all = all.unique_by(|c| (c.structure.canonical_key(), c.made_as));
     let made = |c: &Classic| {
         let plain = most_symmetric(&c.structure)?;
         let others = plain.with_flat_faces().into_iter();
@@ -45,12 +45,12 @@ pub fn most_symmetric(structure: &PairStructure) -> Option<Structure> {
         one_sided,
         ..Form::of_symmetry(symmetry)
     });
-    let structure = PairStructure::of_key(&structure.key());
+    let structure = PairStructure::of_key(&structure.canonical_key());
     let mut all = forms.chain([Form::of_symmetry(Symmetry::Generic)]);
     let found = all.find_map(|form| {
         let structure = structure.clone();
         let paired = Structure::new(structure, form);
-        let mut lays = paired.lays().into_iter();
+        let mut lays = paired.symmetry_lays().into_iter();
         lays.any(|lay| Rules::new(&paired, &lay).is_ok())
             .then_some(paired)
     });
@@ -78,7 +78,7 @@ impl Layout {
     pub fn places(&self) -> Vec<Place> {
         let joints = 0..self.rules.joints.len();
         joints
-            .map(|i| self.rules.place(&self.at.points, i))
+            .map(|i| self.rules.exact_place(&self.at.points, i))
             .collect()
     }
 }
@@ -128,7 +128,7 @@ impl NoLayout {
 ///
 /// # Complexity
 /// Some thousand looks at places for each way to lay it out. Some hundred of these look at a whole stroke.
-pub fn layout(structure: &Structure, limits: &Limits, seed: u64) -> Result<Layout, NoLayout> {
+pub fn lay_out(structure: &Structure, limits: &Limits, seed: u64) -> Result<Layout, NoLayout> {
     let mut best: Option<(FoundPlaces, Rules)> = None;
     let mut why = NoLayout::Pairs(NoRules::Still);
     let mut start = 0;
@@ -138,7 +138,7 @@ pub fn layout(structure: &Structure, limits: &Limits, seed: u64) -> Result<Layou
     let lays = match &structure.sides {
         Some(sides) => vec![sides.lay.clone()],
         None if structure.form.hinges => vec![structure.hinged_lay()?],
-        None => structure.lays(),
+        None => structure.symmetry_lays(),
     };
     for lay in lays {
         let rules = match Rules::new(structure, &lay) {

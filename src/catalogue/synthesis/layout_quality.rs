@@ -4,7 +4,7 @@ use crate::geom::vector::{cross_plane, dot, length, sub};
 use crate::synthesis::bones::Bones;
 use crate::synthesis::place::Point;
 use crate::synthesis::seen_sides::{LinkSide, SeenSides};
-use crate::synthesis::task::{Limits, beyond};
+use crate::synthesis::task::{Limits, beyond_limit};
 use crate::synthesis::velocities::Velocity;
 
 /// What a limit costs that is broken, where nothing but limits and one figure count.
@@ -29,7 +29,7 @@ pub struct Looks {
 
 impl Looks {
     /// Whether the drawing keeps the limits; with more crossings where the links pass each other in planes of their own.
-    pub(super) fn keep(&self, limits: &Limits, passes: bool) -> bool {
+    pub(super) fn keep_limits(&self, limits: &Limits, passes: bool) -> bool {
         self.ratio <= limits.ratio && (self.crossings <= limits.crossings || passes)
     }
 }
@@ -51,7 +51,7 @@ impl Bones {
     ///
     /// # Complexity
     /// O(p²) for p points.
-    pub(super) fn penalty(
+    pub(super) fn place_penalty(
         &self,
         at: &[Point],
         most: f64,
@@ -59,29 +59,29 @@ impl Bones {
         besides: impl FnOnce() -> Option<f64>,
     ) -> Option<f64> {
         let cheap = |sum: f64| (sum <= most).then_some(sum);
-        let sum = cheap(self.places(at) + self.lengths(at).1)?;
-        let sum = cheap(sum + self.spacing(at))?;
+        let sum = cheap(self.places(at) + self.length_cost(at).1)?;
+        let sum = cheap(sum + self.spacing_cost(at))?;
         let sum = cheap(sum + besides()?)?;
-        cheap(sum + seen.crossings(self, at).1)
+        cheap(sum + seen.crossing_cost(self, at).1)
     }
 
     /// All figures.
     ///
     /// # Complexity
     /// As [`Bones::penalty`].
-    pub(super) fn looks(&self, at: &[Point], motion: LayoutMotion) -> Option<Looks> {
+    pub(super) fn drawn_figures(&self, at: &[Point], motion: LayoutMotion) -> Option<Looks> {
         let mut seen = SeenSides::default();
         Some(Looks {
-            crossings: seen.crossings(self, at).0,
-            ratio: self.lengths(at).0,
-            penalty: self.penalty(at, f64::INFINITY, &mut seen, || Some(motion.penalty))?,
+            crossings: seen.crossing_cost(self, at).0,
+            ratio: self.length_cost(at).0,
+            penalty: self.place_penalty(at, f64::INFINITY, &mut seen, || Some(motion.penalty))?,
             closing: motion.closing,
             tips: motion.tips,
         })
     }
 
     /// Points that run into each other, and pins in line.
-    fn spacing(&self, at: &[Point]) -> f64 {
+    fn spacing_cost(&self, at: &[Point]) -> f64 {
         let [near, _] = self.wished;
         let mut penalty = 0.0;
         for (i, a) in at.iter().enumerate() {
@@ -89,14 +89,14 @@ impl Bones {
                 let apart = sub(*a, *b);
                 let square = dot(apart, apart);
                 if square < near * near && !self.are_together(i, j) {
-                    penalty += 4.0 * beyond(near - square.sqrt(), near);
+                    penalty += 4.0 * beyond_limit(near - square.sqrt(), near);
                 }
                 // Pins level with each other, or square above each other, have an axis in common: a special place that costs
                 // redesigns.
                 if i < self.joints.len() && !self.follows[i] && !self.follows[j] {
                     penalty += apart
                         .iter()
-                        .map(|x| 0.5 * beyond(ALIGNED - x.abs(), ALIGNED))
+                        .map(|x| 0.5 * beyond_limit(ALIGNED - x.abs(), ALIGNED))
                         .sum::<f64>();
                 }
             }
@@ -110,7 +110,7 @@ impl Bones {
     }
 
     /// The longest link over the shortest, and what long and short ones cost.
-    fn lengths(&self, at: &[Point]) -> (f64, f64) {
+    fn length_cost(&self, at: &[Point]) -> (f64, f64) {
         let (mut longest, mut shortest, mut penalty) = (0.0_f64, f64::INFINITY, 0.0);
         let moving = self.of_link.iter().enumerate();
         for (_, points) in moving.filter(|(l, _)| *l != self.frame) {
@@ -118,7 +118,7 @@ impl Bones {
                 for &b in points[..i].iter().filter(|&&b| !self.are_together(a, b)) {
                     let d = length(sub(at[a], at[b]));
                     (longest, shortest) = (longest.max(d), shortest.min(d));
-                    penalty += beyond(d - LONG, 25.0) + beyond(SHORT - d, 10.0);
+                    penalty += beyond_limit(d - LONG, 25.0) + beyond_limit(SHORT - d, 10.0);
                 }
             }
         }
@@ -126,7 +126,7 @@ impl Bones {
     }
 
     /// Gives the sides of the links but the frame, link by link.
-    pub(super) fn sides(&self, at: &[Point], out: &mut Vec<LinkSide>) {
+    pub(super) fn link_sides(&self, at: &[Point], out: &mut Vec<LinkSide>) {
         out.clear();
         let moving = self.of_link.iter().enumerate();
         for (link, points) in moving.filter(|(l, _)| *l != self.frame) {
@@ -134,7 +134,7 @@ impl Bones {
             match points[..] {
                 [a, b] => out.push(side([a, b])),
                 [a, b, c] => out.extend([[a, b], [b, c], [c, a]].map(side)),
-                _ => out.extend(hull(points, at).map(side)),
+                _ => out.extend(convex_hull(points, at).map(side)),
             }
         }
     }
@@ -145,67 +145,70 @@ impl Bones {
         if let Some(within) = self.round {
             let pin = |p: &Point| {
                 let far = length(*p);
-                beyond(far - 80.0, 25.0) + beyond(within - far, 10.0)
+                beyond_limit(far - 80.0, 25.0) + beyond_limit(within - far, 10.0)
             };
             return pins.iter().map(pin).sum();
         }
         let mut penalty = 0.0;
         for &i in &self.of_link[self.frame] {
-            penalty += beyond(at[i][0] - 50.0, 25.0) + beyond(-at[i][0], 25.0);
+            penalty += beyond_limit(at[i][0] - 50.0, 25.0) + beyond_limit(-at[i][0], 25.0);
         }
-        let foremost = self.front() - self.wished[1];
+        let foremost = self.front_distance() - self.wished[1];
         for [x, y] in pins {
             // Nothing but the tips is where the part is.
-            penalty += beyond(x - foremost, 10.0);
-            penalty += beyond(y.abs() - 60.0, 25.0) + beyond(-x, 25.0);
+            penalty += beyond_limit(x - foremost, 10.0);
+            penalty += beyond_limit(y.abs() - 60.0, 25.0) + beyond_limit(-x, 25.0);
         }
         for (&jaw, tip) in self.jaws.iter().zip(tips) {
             for &i in &self.of_link[jaw] {
                 let [x, y] = at[i];
-                penalty += beyond(30.0 - x, 25.0) + 0.3 * beyond(-tip[1].signum() * y, 25.0);
+                penalty +=
+                    beyond_limit(30.0 - x, 25.0) + 0.3 * beyond_limit(-tip[1].signum() * y, 25.0);
             }
         }
         penalty
     }
 
     /// How far ahead the tips are drawn.
-    fn front(&self) -> f64 {
+    fn front_distance(&self) -> f64 {
         let tips = self.tips.iter().map(|t| t[0]);
         tips.fold(f64::INFINITY, f64::min)
     }
 
     /// How far the tips are drawn ahead of all joints; beyond all bounds where the part is not ahead.
-    pub(super) fn reach(&self, at: &[Point]) -> f64 {
+    pub(super) fn tip_reach(&self, at: &[Point]) -> f64 {
         if self.round.is_some() {
             return f64::INFINITY;
         }
         let joints = at.iter().zip(&self.joints);
         let ahead = joints.filter(|(_, ends)| ends.is_some()).map(|(p, _)| p[0]);
-        self.front() - ahead.fold(f64::NEG_INFINITY, f64::max)
+        self.front_distance() - ahead.fold(f64::NEG_INFINITY, f64::max)
     }
 
     /// What breaks the limits as drawn, each break dear; wishes do not count.
     ///
     /// # Complexity
     /// As [`Bones::penalty`].
-    pub(super) fn breaks(&self, at: &[Point], limits: &Limits, seen: &mut SeenSides) -> f64 {
-        let (ratio, _) = self.lengths(at);
-        let (count, crossings) = seen.crossings(self, at);
+    pub(super) fn broken_limits(&self, at: &[Point], limits: &Limits, seen: &mut SeenSides) -> f64 {
+        let (ratio, _) = self.length_cost(at);
+        let (count, crossings) = seen.crossing_cost(self, at);
         let over = count.saturating_sub(limits.crossings);
         #[allow(clippy::cast_precision_loss, reason = "a few")]
         let over = over as f64;
-        DEAR * (beyond((ratio / limits.ratio).ln(), 0.1) + over) + 0.01 * crossings
+        DEAR * (beyond_limit((ratio / limits.ratio).ln(), 0.1) + over) + 0.01 * crossings
     }
 
     /// The figures of the motion for a unit speed of the driver, and what they cost where each jaw is to have a force.
-    pub(super) fn motion(
+    pub(super) fn motion_cost(
         &self,
         at: &[Point],
         velocities: &[Velocity],
         least_force: f64,
     ) -> LayoutMotion {
         let jaws = self.jaws.iter().zip(&self.tips);
-        let tips: Vec<Point> = jaws.map(|(&j, tip)| velocities[j].at(*tip)).collect();
+        let tips: Vec<Point> = jaws
+            .map(|(&j, tip)| velocities[j].velocity_at(*tip))
+            .collect();
         let closing = tips.iter().zip(&self.inward).map(|(v, i)| dot(*v, *i));
         let (sum, all) = (
             closing.clone().sum::<f64>(),
@@ -228,34 +231,35 @@ impl Bones {
             penalty: 0.0,
         };
         let even = (fastest / slowest.max(1e-9 * fastest)).max(1.0).ln();
-        out.penalty += 8.0 * beyond(0.8 - straightness, 0.8) + 0.5 * beyond(even - 0.5, 1.0);
+        out.penalty +=
+            8.0 * beyond_limit(0.8 - straightness, 0.8) + 0.5 * beyond_limit(even - 0.5, 1.0);
         // The drive: a millimetre for half to four millimetres of closing, a radian for 15 to 120; less where the force asks for it.
         let unit = if self.turns { 30.0 } else { 1.0 };
         let wanted = match least_force {
             0.0 => 1.5,
-            asked => (0.7 * self.force(1.0) / asked / unit).min(1.5),
+            asked => (0.7 * self.jaw_force(1.0) / asked / unit).min(1.5),
         };
         let drive = out.closing / unit;
-        out.penalty += beyond((drive.max(1e-9) / wanted).ln().abs() - 0.9, 0.5).min(20.0);
+        out.penalty += beyond_limit((drive.max(1e-9) / wanted).ln().abs() - 0.9, 0.5).min(20.0);
         let turning = velocities.iter().map(|v| v.turning.abs());
         let turning = turning.fold(0.0, f64::max);
-        out.penalty += beyond(turning * 40.0 / out.closing.max(1e-9) - 2.0, 1.5).min(20.0);
+        out.penalty += beyond_limit(turning * 40.0 / out.closing.max(1e-9) - 2.0, 1.5).min(20.0);
         let rods = self.rods.iter();
-        let sines = rods.map(|(l, ends)| transmission(&velocities[*l], ends.map(|i| at[i])));
-        out.penalty += beyond(40.0 - angle(sines.fold(1.0, f64::min)), 20.0);
+        let sines = rods.map(|(l, ends)| transmission_sine(&velocities[*l], ends.map(|i| at[i])));
+        out.penalty += beyond_limit(40.0 - angle_degrees(sines.fold(1.0, f64::min)), 20.0);
         out
     }
 }
 
 /// An angle of up to 90° by its sine, in degrees.
-pub(super) fn angle(sine: f64) -> f64 {
+pub(super) fn angle_degrees(sine: f64) -> f64 {
     sine.asin().to_degrees()
 }
 
 /// The sine of the transmission angle of a rod: between it and the motion across it at its faster end.
-pub(super) fn transmission(velocity: &Velocity, [a, b]: [Point; 2]) -> f64 {
+pub(super) fn transmission_sine(velocity: &Velocity, [a, b]: [Point; 2]) -> f64 {
     let along = sub(b, a);
-    let (va, vb) = (velocity.at(a), velocity.at(b));
+    let (va, vb) = (velocity.velocity_at(a), velocity.velocity_at(b));
     let speed = length(va).max(length(vb));
     // Along the rod both ends are equally fast. A rod from the frame pulls nothing: its end goes across it.
     let least = length(va).min(length(vb));
@@ -267,7 +271,7 @@ pub(super) fn transmission(velocity: &Velocity, [a, b]: [Point; 2]) -> f64 {
 }
 
 /// The edges of the convex hull of points, by their numbers.
-fn hull<'a>(points: &'a [usize], at: &'a [Point]) -> impl Iterator<Item = [usize; 2]> + 'a {
+fn convex_hull<'a>(points: &'a [usize], at: &'a [Point]) -> impl Iterator<Item = [usize; 2]> + 'a {
     let pairs = points.iter().flat_map(move |&a| {
         let others = points.iter().filter(move |&&b| b != a);
         others.map(move |&b| [a, b])

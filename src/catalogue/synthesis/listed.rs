@@ -37,12 +37,12 @@ pub fn symmetric_structures(links: usize, menu: Menu<'_>) -> Vec<Structure> {
 pub fn generic_structures(links: usize, jaws: usize, menu: Menu<'_>) -> Vec<Structure> {
     let all = Mutex::new(BTreeSet::new());
     visit_pair_chains(links, menu, &|subject| {
-        let drives = subject.drives().into_iter();
-        let roles = drives.flat_map(|(frame, input)| subject.grippers(frame, &input, jaws));
+        let drives = subject.list_drives().into_iter();
+        let roles = drives.flat_map(|(frame, input)| subject.list_grippers(frame, &input, jaws));
         let essential = roles.filter(|r| subject.is_essential(r));
         let keys = essential.map(|roles| {
             let chain = subject.chain.clone();
-            PairStructure { chain, roles }.key()
+            PairStructure { chain, roles }.canonical_key()
         });
         // Numbered before others have to wait.
         let keys: Vec<_> = keys.collect();
@@ -75,7 +75,7 @@ pub fn hinged_structures(
     let mut out = Vec::new();
     let forms = forms
         .iter()
-        .filter(|(_, form)| form.suits(jaws))
+        .filter(|(_, form)| form.suits_jaws(jaws))
         .collect_vec();
     let is_generic = |form: &Form| form.symmetry == Symmetry::Generic;
     let generic = forms.iter().any(|(_, form)| is_generic(form));
@@ -89,10 +89,13 @@ pub fn hinged_structures(
             continue;
         }
         for &&(input, form) in forms.iter().filter(|(_, f)| symmetric || is_generic(f)) {
-            let chain = subject.chain.clone().with_pair(roles.input, input.pair());
+            let chain = subject
+                .chain
+                .clone()
+                .with_pair(roles.input, input.driven_pair());
             let roles = roles.clone();
             let structure = Structure::new(PairStructure { chain, roles }, form);
-            if !form.parallel || structure.rings().is_some() {
+            if !form.parallel || structure.parallelogram_rings().is_some() {
                 out.push(structure);
             }
         }

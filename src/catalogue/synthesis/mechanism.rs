@@ -9,13 +9,14 @@ use crate::file::schema::{
 use crate::geom::vector::Vector;
 use crate::synthesis::layout::Layout;
 use crate::synthesis::options::{
-    Menu, direction_turned, faces, is_ball, nuts, options_turned, slides, slots,
+    Menu, direction_turned, face_options, is_ball, nut_options, options_turned, slide_options,
+    slot_options,
 };
-use crate::synthesis::place::{Pivot, Place, number, point};
+use crate::synthesis::place::{Pivot, Place, number_words, point};
 use crate::synthesis::places::{Places, Teeth};
 use crate::synthesis::rules::Rules;
 use crate::synthesis::structure::Structure;
-use crate::synthesis::task::{self, outward};
+use crate::synthesis::task::{self, outward_vectors};
 use crate::synthesis::threefold::SIDES;
 use crate::synthesis::workload::{HeldPart, Workload};
 use itertools::Itertools;
@@ -25,8 +26,8 @@ use itertools::Itertools;
 #[must_use]
 fn link_names(structure: &Structure) -> Vec<String> {
     let roles = &structure.structure.roles;
-    let [base, driver] = roles.drive();
-    let slides = structure.structure.slides();
+    let [base, driver] = roles.drive_links();
+    let slides = structure.structure.input_slides();
     let jaw = |l: usize| roles.jaws.iter().position(|&j| j == l);
     let name = |l: usize| match l {
         l if l == roles.frame => "frame".to_owned(),
@@ -42,7 +43,7 @@ fn link_names(structure: &Structure) -> Vec<String> {
 }
 
 /// Returns an entry which says that places are exact, if they have decimals: decimals are treated as rounded otherwise.
-fn exact(at: &[Place]) -> Option<ToleranceEntry> {
+fn exactness_entry(at: &[Place]) -> Option<ToleranceEntry> {
     let fine = at.iter().any(|p| p.fine != [0; 2]);
     fine.then_some(ToleranceEntry {
         length: Some(Coordinate::Integer(0)),
@@ -76,7 +77,7 @@ impl<'a> DrawnJoints<'a> {
             }
         };
         DrawnJoints {
-            pivot: structure.pivot(),
+            pivot: structure.turn_axis(),
             structure,
             rules,
             at,
@@ -90,25 +91,25 @@ impl<'a> DrawnJoints<'a> {
     }
 
     /// Returns every joint on every side that has it.
-    fn each(&self) -> impl Iterator<Item = (usize, usize)> + '_ {
+    fn each_side(&self) -> impl Iterator<Item = (usize, usize)> + '_ {
         let joints = self.rules.joints.iter().enumerate();
-        joints.flat_map(|(i, j)| (0..self.structure.copies(j)).map(move |side| (i, side)))
+        joints.flat_map(|(i, j)| (0..self.structure.copy_count(j)).map(move |side| (i, side)))
     }
 
     /// Returns the joints of the file, each with its side.
-    fn made(&self) -> impl Iterator<Item = (usize, usize)> + '_ {
-        self.each().filter(|(i, _)| !self.is_geared(*i))
+    fn made_joints(&self) -> impl Iterator<Item = (usize, usize)> + '_ {
+        self.each_side().filter(|(i, _)| !self.is_geared(*i))
     }
 
     fn place(&self, joint: usize, side: usize) -> Place {
-        let place = self.rules.place(&self.at.points, joint);
+        let place = self.rules.exact_place(&self.at.points, joint);
         #[allow(clippy::cast_possible_truncation, reason = "at most three")]
         let thirds = place.thirds + side as u8;
         Place { thirds, ..place }
     }
 
     fn link_name(&self, link: usize, side: usize) -> &str {
-        let link = self.structure.link(link, side);
+        let link = self.structure.side_link(link, side);
         link.map_or("", |l| &self.names[l])
     }
 
@@ -126,26 +127,36 @@ impl<'a> DrawnJoints<'a> {
         let input = joint.links == self.structure.structure.roles.input;
         let flat = self.structure.flat_slots().contains(joint);
         let upright = [0, 0, 1].map(Coordinate::Integer);
-        let along = point(self.at.along[i].place());
+        let along = point(self.at.along[i].place_along());
         let (kind, axis, reference, options) = match joint.pair {
             PairKind::Slide if form.hinges => ("prismatic", along, None, None),
-            PairKind::Slide => ("prismatic", along, Some(upright.clone()), Some(slides())),
+            PairKind::Slide => (
+                "prismatic",
+                along,
+                Some(upright.clone()),
+                Some(slide_options()),
+            ),
             PairKind::Slot if flat => {
                 let upright = Some(upright.clone());
-                ("prismatic", along, upright, Some(faces()))
+                ("prismatic", along, upright, Some(face_options()))
             }
-            PairKind::Slot => ("slotted", upright.clone(), Some(along), Some(slots())),
+            PairKind::Slot => (
+                "slotted",
+                upright.clone(),
+                Some(along),
+                Some(slot_options()),
+            ),
             // Teeth are a coupling, and two slots are two joints.
             PairKind::Hinge | PairKind::Gear | PairKind::TwoSlots => {
                 ("revolute", upright.clone(), None, None)
             }
         };
-        let thread = self.thread(i);
+        let thread = self.thread_lead(i);
         let across = [0, 1, 0].map(Coordinate::Integer);
         let (kind, axis, reference, options) = match thread {
             None => (kind, axis, reference, options),
             Some(None) => ("revolute", across, Some(upright), None),
-            Some(Some(lead)) => ("helical", across, Some(upright), Some(nuts(lead))),
+            Some(Some(lead)) => ("helical", across, Some(upright), Some(nut_options(lead))),
         };
         let mut at = self.place(i, side);
         if let Some(mesh) = self.rules.meshes[i].filter(|_| thread.is_some()) {
@@ -160,7 +171,9 @@ impl<'a> DrawnJoints<'a> {
         let in_series = joint.pair == PairKind::Hinge && !input && !menu.unloading.is_empty();
         JointEntry {
             id: self.name(i, side),
-            links: self.ends(i).map(|l| self.link_name(l, side).to_owned()),
+            links: self
+                .joint_links(i)
+                .map(|l| self.link_name(l, side).to_owned()),
             kind: kind.to_owned(),
             freedoms: None,
             point: self.pivot.point(at),
@@ -190,7 +203,7 @@ impl<'a> DrawnJoints<'a> {
     }
 
     /// Returns the lead along y for a joint of a screw and a nut, and `Some(None)` for the hinge of the screw; `None` for other joints.
-    fn thread(&self, i: usize) -> Option<Option<i64>> {
+    fn thread_lead(&self, i: usize) -> Option<Option<i64>> {
         if !self.structure.form.threaded {
             return None;
         }
@@ -201,7 +214,7 @@ impl<'a> DrawnJoints<'a> {
         });
         let lead = lead.map(|(mesh, lead)| {
             // If the nut does not turn, it goes back as the screw turns on.
-            let [_, y] = self.at.along[mesh.held[1]].place().whole;
+            let [_, y] = self.at.along[mesh.held[1]].place_along().whole;
             -lead * i64::from(y.signum())
         });
         let own = self.rules.joints[i].links == self.structure.structure.roles.input;
@@ -210,12 +223,12 @@ impl<'a> DrawnJoints<'a> {
 
     /// Returns the links of a joint in the order of the file. The second link of the drive is the driver. The first link of a slot has
     /// the pin. The second link of a slide has the block.
-    fn ends(&self, i: usize) -> [usize; 2] {
+    fn joint_links(&self, i: usize) -> [usize; 2] {
         let joint = &self.rules.joints[i];
         let [u, v] = joint.links;
         let second_first = match joint.pair {
             _ if joint.links == self.structure.structure.roles.input => {
-                self.structure.structure.roles.drive() == [v, u]
+                self.structure.structure.roles.drive_links() == [v, u]
             }
             PairKind::Slot => self.at.pinned[i] == v,
             PairKind::Slide => self.rules.blocks[i] == u,
@@ -226,7 +239,7 @@ impl<'a> DrawnJoints<'a> {
 
     fn coupling(&self, i: usize, side: usize) -> Option<CouplingEntry> {
         let mesh = self.rules.meshes[i].filter(|_| self.is_geared(i))?;
-        let first = mesh.held.map(|j| self.ends(j)[0]);
+        let first = mesh.held.map(|j| self.joint_links(j)[0]);
         let turned = first.iter().filter(|&&l| l != mesh.carrier).count() == 1;
         let signed = |x: i32| i64::from(if turned { -x } else { x });
         let ratio = match self.at.teeth[i] {
@@ -244,21 +257,24 @@ impl<'a> DrawnJoints<'a> {
     }
 
     /// Returns the points of a link in space: its joints, and its tip if it is a jaw.
-    fn points(&self, link: usize, jaws: &[usize], tips: &[Place]) -> Vec<Vector> {
+    fn link_points(&self, link: usize, jaws: &[usize], tips: &[Place]) -> Vec<Vector> {
         let of = |&(i, side): &(usize, usize)| {
             let ends = self.rules.joints[i]
                 .links
-                .map(|l| self.structure.link(l, side));
+                .map(|l| self.structure.side_link(l, side));
             ends.contains(&Some(link))
         };
-        let own = self.made().filter(of).map(|(i, side)| self.place(i, side));
+        let own = self
+            .made_joints()
+            .filter(of)
+            .map(|(i, side)| self.place(i, side));
         let jaw = jaws.iter().position(|&j| j == link);
         let all = own.chain(jaw.map(|n| tips[n]));
         all.map(|p| self.pivot.real(p)).collect()
     }
 
     /// Returns the options of the hinges for a search, and the joints that it changes together.
-    fn search(&self, menu: &Menu) -> SearchEntry {
+    fn search_options(&self, menu: &Menu) -> SearchEntry {
         let joints = self.rules.joints.iter();
         let mut hinges = joints.filter(|j| j.pair == PairKind::Hinge);
         let input = self.structure.structure.roles.input;
@@ -270,13 +286,18 @@ impl<'a> DrawnJoints<'a> {
         let made = |i: &usize| !self.is_geared(*i);
         if self.structure.sides.is_some() {
             let joints = (0..self.rules.joints.len()).filter(made);
-            let rounds = joints.filter(|&i| self.structure.copies(&self.rules.joints[i]) == SIDES);
+            let rounds =
+                joints.filter(|&i| self.structure.copy_count(&self.rules.joints[i]) == SIDES);
             let round = |i| (0..SIDES).map(|side| self.name(i, side)).collect();
             out.turn = rounds.map(round).collect();
         } else if !self.structure.form.one_sided {
-            let images = self.rules.images().filter(|(of, _)| made(of)).collect_vec();
+            let images = self
+                .rules
+                .image_pairs()
+                .filter(|(of, _)| made(of))
+                .collect_vec();
             for first in images.iter().map(|(of, _)| *of).unique() {
-                let times = |i: &usize| self.rules.place(&self.at.points, *i).thirds;
+                let times = |i: &usize| self.rules.exact_place(&self.at.points, *i).thirds;
                 let own = images
                     .iter()
                     .filter(|(of, _)| *of == first)
@@ -314,10 +335,10 @@ pub(crate) fn bare_file(
         length_unit: Some("mm".to_owned()),
         link: drawn.names.iter().enumerate().map(link).collect(),
         joint: drawn
-            .made()
+            .made_joints()
             .map(|(i, side)| drawn.joint(i, side, menu))
             .collect(),
-        search: drawn.search(menu),
+        search: drawn.search_options(menu),
         ..MechanismFile::default()
     }
 }
@@ -333,20 +354,24 @@ pub fn mechanism_file(
     let drawn = DrawnJoints::new(structure, &layout.rules, &layout.at);
     let roles = structure.whole_structure().roles;
     let task = &layout.limits.task;
-    let (mut tips, mut away) = (structure.tips(task), outward(roles.jaws.len(), 1));
+    let (mut tips, mut away) = (
+        structure.tip_places(task),
+        outward_vectors(roles.jaws.len(), 1),
+    );
     if structure.sides.is_some() {
         tips = [0, 1, 2].map(|thirds| Place { thirds, ..tips[0] }).into();
-        away = outward(SIDES, 1);
+        away = outward_vectors(SIDES, 1);
     }
     let held = HeldPart {
         tips: &tips,
         outward: &away,
-        grip: task.grip.sign(),
+        grip: task.grip.grip_sign(),
         pivot: drawn.pivot,
     };
     let links = drawn.names.iter().enumerate().map(|(l, name)| {
-        let points = || drawn.points(l, &roles.jaws, &tips);
-        let mass = (workload.weighs_links() && l != roles.frame).then(|| workload.mass(&points()));
+        let points = || drawn.link_points(l, &roles.jaws, &tips);
+        let mass =
+            (workload.weighs_links() && l != roles.frame).then(|| workload.link_mass(&points()));
         LinkEntry {
             id: name.clone(),
             role: match l {
@@ -355,7 +380,7 @@ pub fn mechanism_file(
                 _ => None,
             },
             mass: mass.map(|(kg, _)| kg),
-            centre: mass.map(|(_, centre)| centre.map(number)),
+            centre: mass.map(|(_, centre)| centre.map(number_words)),
             inertia: None,
         }
     });
@@ -380,23 +405,23 @@ pub fn mechanism_file(
             structure.name()
         ),
         length_unit: Some("mm".to_owned()),
-        tolerance: exact(&layout.places()),
+        tolerance: exactness_entry(&layout.places()),
         link: links.collect(),
         joint: drawn
-            .made()
+            .made_joints()
             .map(|(i, side)| drawn.joint(i, side, menu))
             .collect(),
         coupling: drawn
-            .each()
+            .each_side()
             .filter_map(|(i, side)| drawn.coupling(i, side))
             .collect(),
         point: shown.collect(),
-        search: drawn.search(menu),
+        search: drawn.search_options(menu),
         workload: WorkloadEntry {
             gravity: workload
                 .weighs_links()
-                .then(|| workload.gravity.map(number)),
-            force: workload.forces(&jaws, &held),
+                .then(|| workload.gravity.map(number_words)),
+            force: workload.jaw_forces(&jaws, &held),
             ..WorkloadEntry::default()
         },
         ..MechanismFile::default()

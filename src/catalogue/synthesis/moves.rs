@@ -4,14 +4,14 @@ use crate::chains::PairKind;
 use crate::geom::vector::{length, sub};
 use crate::synthesis::bones::Bones;
 use crate::synthesis::direction::{self, WholeDirection};
-use crate::synthesis::equations::velocities;
+use crate::synthesis::equations::solve_velocities;
 use crate::synthesis::place::Point;
 use crate::synthesis::places::{Places, Teeth};
 use crate::synthesis::rules::Rule;
 use crate::synthesis::sketch::Sketch;
-use crate::synthesis::task::outward;
+use crate::synthesis::task::outward_vectors;
 use crate::synthesis::velocities::Velocity;
-use crate::synthesis::{bell, below, unit};
+use crate::synthesis::{random_below, random_normal, random_unit};
 use chacha20::ChaCha8Rng;
 use std::borrow::Cow;
 use std::ops::RangeInclusive;
@@ -51,21 +51,23 @@ impl Sketch<'_> {
     fn first_direction(&self, joint: usize, random: &mut ChaCha8Rng) -> WholeDirection {
         match self.guided_jaw(joint) {
             Some(jaw) => {
-                let outward = outward(self.bones.jaws.len(), 1);
+                let outward = outward_vectors(self.bones.jaws.len(), 1);
                 WholeDirection::ACROSS.turned_by_thirds(outward[jaw].thirds)
             }
-            None => WholeDirection::number(below(direction::ALL, random)),
+            None => WholeDirection::number(random_below(direction::ALL, random)),
         }
     }
 
     fn first_teeth(&self, joint: usize, random: &mut ChaCha8Rng) -> Teeth {
         match self.rules.meshes[joint] {
-            Some(_) if self.rules.threaded => Teeth::Thread(LEADS[below(LEADS.len(), random)]),
+            Some(_) if self.rules.threaded => {
+                Teeth::Thread(LEADS[random_below(LEADS.len(), random)])
+            }
             Some(mesh) if mesh.rack => {
                 #[allow(clippy::cast_possible_truncation, reason = "small")]
                 #[allow(clippy::cast_possible_wrap, reason = "small")]
-                let diameter = 16 + below(30, random) as i32;
-                Teeth::Rack(if unit(random) < 0.5 {
+                let diameter = 16 + random_below(30, random) as i32;
+                Teeth::Rack(if random_unit(random) < 0.5 {
                     diameter
                 } else {
                     -diameter
@@ -78,12 +80,12 @@ impl Sketch<'_> {
     /// Changes the teeth of a gear pair.
     fn change_teeth(teeth: &mut Teeth, warmth: f64, random: &mut ChaCha8Rng) {
         *teeth = match *teeth {
-            Teeth::Gears(_) => Teeth::Gears(RATIOS[below(RATIOS.len(), random)]),
-            Teeth::Thread(_) => Teeth::Thread(LEADS[below(LEADS.len(), random)]),
-            Teeth::Rack(diameter) if unit(random) < 0.1 => Teeth::Rack(-diameter),
+            Teeth::Gears(_) => Teeth::Gears(RATIOS[random_below(RATIOS.len(), random)]),
+            Teeth::Thread(_) => Teeth::Thread(LEADS[random_below(LEADS.len(), random)]),
+            Teeth::Rack(diameter) if random_unit(random) < 0.1 => Teeth::Rack(-diameter),
             Teeth::Rack(diameter) => {
                 #[allow(clippy::cast_possible_truncation, reason = "some millimetres")]
-                let by = ((2.0 + 16.0 * warmth) * bell(random)).round() as i32;
+                let by = ((2.0 + 16.0 * warmth) * random_normal(random)).round() as i32;
                 let now = (diameter.abs() + by).clamp(*DIAMETERS.start(), *DIAMETERS.end());
                 Teeth::Rack(diameter.signum() * now)
             }
@@ -102,7 +104,7 @@ impl Sketch<'_> {
     pub(super) fn each_copy(&self, point: usize, at: Point, take: &mut dyn FnMut(Point)) {
         match &self.around {
             None => take(at),
-            Some(around) => around.each(point, at, take),
+            Some(around) => around.each_place(point, at, take),
         }
     }
 
@@ -123,7 +125,7 @@ impl Sketch<'_> {
     }
 
     /// Returns the cost below which places are taken without a search for better ones.
-    pub(super) fn good(&self) -> f64 {
+    pub(super) fn good_cost(&self) -> f64 {
         if self.structure.form.hinges {
             GOOD_HINGES
         } else {
@@ -132,10 +134,10 @@ impl Sketch<'_> {
     }
 
     /// Returns all points that are drawn, and the bones that they belong to.
-    pub(super) fn drawn<'p>(&'p self, at: &'p Places) -> (Cow<'p, [Point]>, &'p Bones) {
+    pub(super) fn drawn_points<'p>(&'p self, at: &'p Places) -> (Cow<'p, [Point]>, &'p Bones) {
         match &self.around {
             None => (Cow::Borrowed(&at.points), &self.bones),
-            Some(around) => (Cow::Owned(around.points(&at.points)), &around.bones),
+            Some(around) => (Cow::Owned(around.all_points(&at.points)), &around.bones),
         }
     }
 
@@ -146,14 +148,14 @@ impl Sketch<'_> {
         if self.structure.form.hinges {
             let points = self.bones.first_places(joints, random);
             let mut at = Places::of_hinges(points);
-            self.rules.settle(&mut at);
+            self.rules.settle_joints(&mut at);
             return at;
         }
         let all = 0..joints.len();
         let mut at = Places {
             pinned: joints
                 .iter()
-                .map(|links| links[usize::from(unit(random) < 0.5)])
+                .map(|links| links[usize::from(random_unit(random) < 0.5)])
                 .collect(),
             points: self.bones.first_places(joints, random),
             along: all
@@ -162,14 +164,18 @@ impl Sketch<'_> {
                 .collect(),
             teeth: all.map(|j| self.first_teeth(j, random)).collect(),
         };
-        self.rules.settle(&mut at);
+        self.rules.settle_joints(&mut at);
         at
     }
 
     /// Moves places at random, by how warm the search still is: 1 at first, 0 at its end.
-    pub(super) fn change(&self, at: &mut Places, warmth: f64, random: &mut ChaCha8Rng) {
-        let movable = self.rules.movable().count();
-        let Some(joint) = self.rules.movable().nth(below(movable.max(1), random)) else {
+    pub(super) fn change_places(&self, at: &mut Places, warmth: f64, random: &mut ChaCha8Rng) {
+        let movable = self.rules.movable_joints().count();
+        let Some(joint) = self
+            .rules
+            .movable_joints()
+            .nth(random_below(movable.max(1), random))
+        else {
             return;
         };
         let pair = self.rules.joints[joint].pair;
@@ -181,11 +187,11 @@ impl Sketch<'_> {
         };
         if pair == PairKind::Gear {
             Sketch::change_teeth(&mut at.teeth[joint], warmth, random);
-        } else if turns && unit(random) < 0.4 {
+        } else if turns && random_unit(random) < 0.4 {
             #[allow(clippy::cast_possible_truncation, reason = "a few")]
-            let by = ((1.0 + 6.0 * warmth) * bell(random)).round() as isize;
-            at.along[joint] = at.along[joint].turned(by);
-        } else if pair == PairKind::Slot && unit(random) < 0.1 {
+            let by = ((1.0 + 6.0 * warmth) * random_normal(random)).round() as isize;
+            at.along[joint] = at.along[joint].turn_by(by);
+        } else if pair == PairKind::Slot && random_unit(random) < 0.1 {
             let [u, v] = self.rules.joints[joint].links;
             at.pinned[joint] = if at.pinned[joint] == u { v } else { u };
         } else {
@@ -197,10 +203,10 @@ impl Sketch<'_> {
                 2
             };
             for x in &mut at.points[joint][..moving] {
-                *x = (*x + reach * bell(random)).round();
+                *x = (*x + reach * random_normal(random)).round();
             }
         }
-        self.rules.settle(at);
+        self.rules.settle_joints(at);
     }
 
     /// Returns how the links move for a unit speed of the driver; `None` if the pose is singular.
@@ -208,17 +214,17 @@ impl Sketch<'_> {
     /// # Complexity
     /// O(n³) for n links.
     #[must_use]
-    pub fn velocities(&self, at: &Places) -> Option<Vec<Velocity>> {
+    pub fn link_velocities(&self, at: &Places) -> Option<Vec<Velocity>> {
         match &self.contours {
-            Some(contours) => contours.velocities(&at.points),
-            None => velocities(self, at),
+            Some(contours) => contours.link_velocities(&at.points),
+            None => solve_velocities(self, at),
         }
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use crate::synthesis::random;
+    use crate::synthesis::random_for;
     use crate::synthesis::seen_sides::SeenSides;
     use crate::synthesis::sketch::each_classic;
 
@@ -229,14 +235,22 @@ mod tests {
         each_classic(|name, sketch| {
             let mut seen = SeenSides::default();
             for start in 0..20 {
-                let at = sketch.first_places(&mut random(name, 1, start));
+                let at = sketch.first_places(&mut random_for(name, 1, start));
                 for moving in [false, true] {
-                    let Some(cost) = sketch.penalty(&at, moving, f64::INFINITY, &mut seen) else {
+                    let Some(cost) = sketch.place_penalty(&at, moving, f64::INFINITY, &mut seen)
+                    else {
                         continue;
                     };
-                    assert_eq!(sketch.penalty(&at, moving, cost, &mut seen), Some(cost));
+                    assert_eq!(
+                        sketch.place_penalty(&at, moving, cost, &mut seen),
+                        Some(cost)
+                    );
                     let less = cost - 1e-6 * cost.max(1.0);
-                    assert_eq!(sketch.penalty(&at, moving, less, &mut seen), None, "{name}");
+                    assert_eq!(
+                        sketch.place_penalty(&at, moving, less, &mut seen),
+                        None,
+                        "{name}"
+                    );
                 }
                 geared += usize::from(sketch.pitch_penalty(&at) > 0.0);
             }

@@ -70,7 +70,7 @@ fn word(kind: &str) -> OptionEntry {
 }
 
 /// Returns the types that may replace a guide: z is along it, x is square to the plane of motion.
-pub(super) fn slides() -> Vec<OptionEntry> {
+pub(super) fn slide_options() -> Vec<OptionEntry> {
     vec![
         word("prismatic"),
         word("cylindrical"),
@@ -81,18 +81,18 @@ pub(super) fn slides() -> Vec<OptionEntry> {
 }
 
 /// Returns the types that may replace flat faces: z is along them, x is square to the plane of motion.
-pub(super) fn faces() -> Vec<OptionEntry> {
+pub(super) fn face_options() -> Vec<OptionEntry> {
     let of_slots = vec![
         named("pin-in-slot", &["tz", "rx"]),
         named("pin-in-deep-slot", &["tz", "rx", "tx"]),
         named("ball-in-slot", &["tz", "rx", "ry", "rz"]),
         named("ball-in-deep-slot", &["tz", "tx", "rx", "ry", "rz"]),
     ];
-    slides().into_iter().chain(of_slots).collect()
+    slide_options().into_iter().chain(of_slots).collect()
 }
 
 /// Returns the types that may replace a pin in a slot: z is along the pin, x is along the slot.
-pub(super) fn slots() -> Vec<OptionEntry> {
+pub(super) fn slot_options() -> Vec<OptionEntry> {
     vec![
         word("slotted"),
         named("pin-in-deep-slot", &["rz", "tx", "tz"]),
@@ -102,7 +102,7 @@ pub(super) fn slots() -> Vec<OptionEntry> {
 }
 
 /// Returns the types that may replace a nut: z is along the screw.
-pub(super) fn nuts(lead: i64) -> Vec<OptionEntry> {
+pub(super) fn nut_options(lead: i64) -> Vec<OptionEntry> {
     let nut = |name, freedoms: &[&str]| with_lead(Some(lead), name, freedoms);
     vec![
         nut("nut", &["screw"]),

@@ -70,7 +70,7 @@ pub type Point = [f64; 2];
 
 /// The middle of points.
 #[must_use]
-pub(crate) fn middle<const N: usize>(points: &[[f64; N]]) -> [f64; N] {
+pub(crate) fn middle_of<const N: usize>(points: &[[f64; N]]) -> [f64; N] {
     #[allow(clippy::cast_precision_loss, reason = "a few")]
     let n = points.len().max(1) as f64;
     points
@@ -79,7 +79,7 @@ pub(crate) fn middle<const N: usize>(points: &[[f64; N]]) -> [f64; N] {
 }
 
 /// A number, without a point where it is whole.
-pub(super) fn number(x: f64) -> Coordinate {
+pub(super) fn number_words(x: f64) -> Coordinate {
     #[allow(clippy::cast_possible_truncation, reason = "whole and small")]
     if x.fract() == 0.0 && x.abs() < 1e15 {
         Coordinate::Integer(x as i64)
@@ -94,13 +94,13 @@ fn turned([x, y]: [f64; 2], thirds: u8) -> [Coordinate; 2] {
     let surd = |a: f64, b: f64| {
         let sign = if b < 0.0 { '-' } else { '+' };
         match (a, b) {
-            (_, 0.0) => number(a / 2.0),
+            (_, 0.0) => number_words(a / 2.0),
             (0.0, _) => Coordinate::Expression(format!("{b}*sqrt(3)/2")),
             _ => Coordinate::Expression(format!("({a} {sign} {}*sqrt(3))/2", b.abs())),
         }
     };
     match thirds {
-        0 => [number(x), number(y)],
+        0 => [number_words(x), number_words(y)],
         1 => [surd(-x, -y), surd(-y, x)],
         _ => [surd(-x, y), surd(-y, -x)],
     }
@@ -125,11 +125,11 @@ impl Pivot {
         match self {
             Pivot::Normal => {
                 let [x, y] = turned([x, y], thirds);
-                [x, y, number(z)]
+                [x, y, number_words(z)]
             }
             Pivot::Ahead => {
                 let [y, z] = turned([y, z], thirds);
-                [number(x), y, z]
+                [number_words(x), y, z]
             }
         }
     }

@@ -1,7 +1,7 @@
 //! Places of the joints of a gripper. Points are whole millimetres, directions have whole lengths (3, 4 and 5), and radii are whole, so
 //! that layouts are exact.
 
-use crate::geom::vector::{add_scaled, quarter, sub};
+use crate::geom::vector::{add_scaled, quarter_turn, sub};
 use crate::synthesis::direction::WholeDirection;
 use crate::synthesis::place::Point;
 use std::f64::consts::TAU;
@@ -48,7 +48,7 @@ pub enum Teeth {
 impl Teeth {
     /// How fast the second gear turns by the first, or the rack goes by the pinion: millimetres a radian.
     #[must_use]
-    pub fn ratio(self) -> f64 {
+    pub fn gear_ratio(self) -> f64 {
         match self {
             Teeth::Gears([a, b]) => -f64::from(a) / f64::from(b),
             Teeth::Rack(diameter) => f64::from(diameter) / 2.0,
@@ -57,10 +57,10 @@ impl Teeth {
     }
 
     /// Where pitch circles about these centres touch; of a rack, whose guide goes that way, about the first; of a nut the screw's axis.
-    pub(crate) fn pitch(self, [a, b]: [Point; 2], along: Point) -> Point {
+    pub(crate) fn pitch_point(self, [a, b]: [Point; 2], along: Point) -> Point {
         match self {
             Teeth::Gears([r, s]) => add_scaled(a, f64::from(r) / f64::from(r + s), sub(b, a)),
-            Teeth::Rack(_) => add_scaled(a, -self.ratio(), quarter(along)),
+            Teeth::Rack(_) => add_scaled(a, -self.gear_ratio(), quarter_turn(along)),
             Teeth::Thread(_) => a,
         }
     }

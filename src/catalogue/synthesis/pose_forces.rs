@@ -17,7 +17,7 @@ use crate::synthesis::stroke::walk::RADIAN;
 ///
 /// # Complexity
 /// O(n³) for n links.
-pub(super) fn forces(
+pub(super) fn joint_forces(
     sketch: &Sketch<'_>,
     at: &Places,
     links: &[LinkPose],
@@ -33,8 +33,8 @@ pub(super) fn forces(
     let mut own: Vec<(usize, usize, JointForce)> = Vec::with_capacity(size);
     let mut column = 0;
     for (joint, j) in rules.joints.iter().enumerate() {
-        rows.joint(joint, TeethSeen::Force, &mut |_, terms| {
-            balance.add(column, terms);
+        rows.joint_rows(joint, TeethSeen::Force, &mut |_, terms| {
+            balance.add_row(column, terms);
             let on_second = terms.iter().filter(|t| t.link == j.links[1]);
             let unit = |t: &Term| JointForce {
                 force: t.force,
@@ -45,15 +45,15 @@ pub(super) fn forces(
             column += 1;
         });
     }
-    let (_, drive) = rows.drive(sketch.input, sketch.drive);
-    balance.add(column, &drive);
+    let (_, drive) = rows.drive_row(sketch.input, sketch.drive);
+    balance.add_row(column, &drive);
     for (n, &jaw) in bones.jaws.iter().enumerate() {
         // The part pushes outward; what the joints do makes up for it.
-        let tip = links[jaw].point(bones.tips[n]);
-        balance.add(size, &[Term::force(jaw, bones.inward[n], tip)]);
+        let tip = links[jaw].moved_point(bones.tips[n]);
+        balance.add_row(size, &[Term::force(jaw, bones.inward[n], tip)]);
     }
     let mut system = balance.system;
-    system.solve()?;
+    system.solve_all()?;
     let mut joints = vec![JointForce::default(); rules.joints.len()];
     for (joint, column, unit) in own {
         let size = system.get(column, 0);
@@ -73,20 +73,20 @@ struct Equilibrium {
 
 impl Equilibrium {
     /// Adds what a row does to its links; moments are forces at the arm [`RADIAN`].
-    fn add(&mut self, column: usize, terms: &[Term]) {
+    fn add_row(&mut self, column: usize, terms: &[Term]) {
         for term in terms {
             let Some(row) = place_of(term.link, self.frame) else {
                 continue;
             };
-            for (k, x) in term.about([0.0; 2]).into_iter().enumerate() {
-                self.system.add(row + k, column, x);
+            for (k, x) in term.force_about([0.0; 2]).into_iter().enumerate() {
+                self.system.add_entry(row + k, column, x);
             }
         }
     }
 }
 
 /// What forces say, with the links moving as they do for a millimetre of the width.
-pub(super) fn figures(
+pub(super) fn force_figures(
     sketch: &Sketch<'_>,
     at: &Places,
     links: &[LinkPose],
@@ -101,13 +101,13 @@ pub(super) fn figures(
         let [u, v] = joint.links.map(|l| links[l].velocity);
         let force = length(f.force);
         out.peak = out.peak.max(force);
-        let slid = || length(sub(v.at(f.at), u.at(f.at)));
+        let slid = || length(sub(v.velocity_at(f.at), u.velocity_at(f.at)));
         lost += friction.coefficient
             * match joint.pair {
                 PairKind::Hinge => friction.pin_radius * force * (u.turning - v.turning).abs(),
                 // Pressed on at both ends of the guide.
                 PairKind::Slide => force.max(2.0 * f.moment.abs() / friction.guide) * slid(),
-                PairKind::Slot => force * rows.sliding(i).abs(),
+                PairKind::Slot => force * rows.sliding_speed(i).abs(),
                 // Where pitch circles touch they roll.
                 PairKind::Gear if rules.threaded => {
                     // Flanks press and slide aslant, by the angle of the thread.
@@ -118,13 +118,15 @@ pub(super) fn figures(
             };
     }
     for (n, &jaw) in bones.jaws.iter().enumerate() {
-        let velocity = links[jaw].velocity.at(links[jaw].point(bones.tips[n]));
+        let velocity = links[jaw]
+            .velocity
+            .velocity_at(links[jaw].moved_point(bones.tips[n]));
         let work = dot(velocity, bones.inward[n]).abs();
         given += work;
-        let passed = passed(sketch, links, forces, jaw, work);
+        let passed = passed_angle(sketch, links, forces, jaw, work);
         out.transmission = out.transmission.min(passed);
     }
-    let driver = passed(sketch, links, forces, sketch.drive[1], given);
+    let driver = passed_angle(sketch, links, forces, sketch.drive[1], given);
     out.transmission = out.transmission.min(driver);
     out.efficiency = given / (given + lost).max(1e-12);
     out
@@ -132,7 +134,7 @@ pub(super) fn figures(
 
 /// The angle whose sine is the work of a link over what the forces at its moving joints could do at their speeds; what holds it in
 /// the frame passes nothing on.
-fn passed(
+fn passed_angle(
     sketch: &Sketch<'_>,
     links: &[LinkPose],
     forces: &[JointForce],
@@ -143,18 +145,19 @@ fn passed(
     let own = joints.filter(|(i, (joint, _))| {
         joint.is_at(link) && !joint.is_at(sketch.bones.frame) && *i != sketch.input
     });
-    let could = own.map(|(_, (_, f))| length(f.force) * length(links[link].velocity.at(f.at)));
+    let could =
+        own.map(|(_, (_, f))| length(f.force) * length(links[link].velocity.velocity_at(f.at)));
     let could: f64 = could.sum();
     (work / could.max(1e-12)).min(1.0).asin().to_degrees()
 }
 
 impl PoseRows<'_> {
     /// How fast a pin goes along its slot.
-    fn sliding(&self, joint: usize) -> f64 {
+    fn sliding_speed(&self, joint: usize) -> f64 {
         let [pinned, slotted] = self.pin_and_slot(joint);
-        let pin = self.links[pinned].point(self.at.points[joint]);
-        let along = self.along(slotted, joint);
-        let speed = |l: usize| self.links[l].velocity.at(pin);
+        let pin = self.links[pinned].moved_point(self.at.points[joint]);
+        let along = self.line_direction(slotted, joint);
+        let speed = |l: usize| self.links[l].velocity.velocity_at(pin);
         dot(along, sub(speed(pinned), speed(slotted)))
     }
 }

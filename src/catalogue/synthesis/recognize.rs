@@ -17,7 +17,7 @@ use crate::chains::roles::Roles;
 use crate::chains::structure::PairStructure;
 use crate::model::StateId;
 use crate::model::mechanism::Mechanism;
-use found::jaws;
+use found::jaw_links;
 use in_plane::InPlane;
 use itertools::Itertools;
 use sides::three_sides;
@@ -30,7 +30,7 @@ use threads::{is_thread, screw_with_nuts};
 ///
 /// # Complexity
 /// A few eliminations of six columns for each joint and each axis.
-pub fn recognize(m: &Mechanism) -> Result<Recognized, NoStructure> {
+pub fn recognize_structure(m: &Mechanism) -> Result<Recognized, NoStructure> {
     if let Some(found) = screw_with_nuts(m)? {
         return Ok(found);
     }
@@ -53,7 +53,7 @@ fn in_a_plane(m: &Mechanism) -> Result<Recognized, NoStructure> {
     let roles = Roles {
         frame: found.links.frame,
         input: found.links.input,
-        jaws: jaws(m, |l| found.body(l))?,
+        jaws: jaw_links(m, |l| found.body(l))?,
     };
     let jaws_on_one_pin = match roles.jaws[..] {
         [a, b] => {

@@ -4,7 +4,7 @@
 //! joint acts. A hinge has two, a slide two, a slot and a gear pair one, and the drive one.
 
 use crate::chains::PairKind;
-use crate::geom::vector::{cross_plane, dot, quarter, scale, sub, unit};
+use crate::geom::vector::{cross_plane, dot, quarter_turn, scale, sub, unit};
 use crate::synthesis::place::Point;
 use crate::synthesis::places::{Places, Teeth};
 use crate::synthesis::rules::{Mesh, Rules};
@@ -33,7 +33,7 @@ impl Term {
     }
 
     /// Its force, and its moment about a point, a force at the arm of [`RADIAN`].
-    pub(super) fn about(&self, point: Point) -> [f64; 3] {
+    pub(super) fn force_about(&self, point: Point) -> [f64; 3] {
         let moment = cross_plane(sub(self.at, point), self.force);
         [self.force[0], self.force[1], moment / RADIAN + self.moment]
     }
@@ -70,28 +70,28 @@ type Visit<'v> = &'v mut dyn FnMut(f64, &[Term]);
 
 impl PoseRows<'_> {
     fn on(&self, link: usize, joint: usize) -> Point {
-        self.links[link].point(self.at.points[joint])
+        self.links[link].moved_point(self.at.points[joint])
     }
 
     /// The direction of a slide or a slot, as it is fixed to a link.
-    pub(super) fn along(&self, link: usize, joint: usize) -> Point {
-        self.links[link].direction(self.at.along[joint].real())
+    pub(super) fn line_direction(&self, link: usize, joint: usize) -> Point {
+        self.links[link].turned_direction(self.at.along[joint].real())
     }
 
     /// How far a link has turned against another.
-    fn turn(&self, [of, against]: [usize; 2]) -> f64 {
+    fn relative_turn(&self, [of, against]: [usize; 2]) -> f64 {
         self.links[of].angle - self.links[against].angle
     }
 
     /// Every joint's rows, in order.
-    pub(super) fn each(&self, seen: TeethSeen, visit: Visit<'_>) {
+    pub(super) fn each_joint(&self, seen: TeethSeen, visit: Visit<'_>) {
         for joint in 0..self.rules.joints.len() {
-            self.joint(joint, seen, visit);
+            self.joint_rows(joint, seen, visit);
         }
     }
 
     /// The rows of a joint.
-    pub(super) fn joint(&self, joint: usize, seen: TeethSeen, visit: Visit<'_>) {
+    pub(super) fn joint_rows(&self, joint: usize, seen: TeethSeen, visit: Visit<'_>) {
         let [u, v] = self.rules.joints[joint].links;
         match (self.rules.joints[joint].pair, self.rules.meshes[joint]) {
             (PairKind::Hinge, _) => {
@@ -106,11 +106,11 @@ impl PoseRows<'_> {
                 }
             }
             (PairKind::Slide, _) => {
-                let turn = RADIAN * self.turn([v, u]);
+                let turn = RADIAN * self.relative_turn([v, u]);
                 visit(turn, &[Term::moment(v, 1.0), Term::moment(u, -1.0)]);
-                self.line(self.block_and_guide(joint), joint, visit);
+                self.line_row(self.block_and_guide(joint), joint, visit);
             }
-            (PairKind::Slot, _) => self.line(self.pin_and_slot(joint), joint, visit),
+            (PairKind::Slot, _) => self.line_row(self.pin_and_slot(joint), joint, visit),
             (PairKind::Gear, Some(mesh)) => match seen {
                 TeethSeen::Ratio => self.ratio(joint, &mesh, visit),
                 TeethSeen::Force => self.teeth(joint, &mesh, visit),
@@ -137,8 +137,8 @@ impl PoseRows<'_> {
     }
 
     /// A point of the first link stays on a line of the second.
-    fn line(&self, [pinned, slotted]: [usize; 2], joint: usize, visit: Visit<'_>) {
-        let normal = quarter(self.along(slotted, joint));
+    fn line_row(&self, [pinned, slotted]: [usize; 2], joint: usize, visit: Visit<'_>) {
+        let normal = quarter_turn(self.line_direction(slotted, joint));
         let pin = self.on(pinned, joint);
         let off = dot(normal, sub(pin, self.on(slotted, joint)));
         let back = scale(normal, -1.0);
@@ -152,12 +152,12 @@ impl PoseRows<'_> {
     }
 
     fn ratio(&self, joint: usize, mesh: &Mesh, visit: Visit<'_>) {
-        let ratio = self.at.teeth[joint].ratio();
+        let ratio = self.at.teeth[joint].gear_ratio();
         let ([first, second], carrier) = (mesh.gears, mesh.carrier);
-        let turned = self.turn([first, carrier]);
+        let turned = self.relative_turn([first, carrier]);
         if mesh.rack {
             let guide = mesh.held[1];
-            let along = self.along(carrier, guide);
+            let along = self.line_direction(carrier, guide);
             let on = self.on(second, guide);
             let gone = dot(along, sub(on, self.on(carrier, guide)));
             let arm = ratio / RADIAN;
@@ -171,7 +171,7 @@ impl PoseRows<'_> {
                 ],
             );
         } else {
-            let off = self.turn([second, carrier]) - ratio * turned;
+            let off = self.relative_turn([second, carrier]) - ratio * turned;
             visit(
                 RADIAN * off,
                 &[
@@ -184,25 +184,25 @@ impl PoseRows<'_> {
     }
 
     /// Where the pitch circles of a gear pair touch, and which way their teeth press.
-    fn pitch(&self, joint: usize, mesh: &Mesh) -> [Point; 2] {
+    fn pitch_contact(&self, joint: usize, mesh: &Mesh) -> [Point; 2] {
         let centres @ [a, b] = mesh.held.map(|j| self.on(mesh.carrier, j));
-        let along = self.along(mesh.carrier, mesh.held[1]);
+        let along = self.line_direction(mesh.carrier, mesh.held[1]);
         let presses = if mesh.rack {
             along
         } else {
-            quarter(unit(sub(b, a)))
+            quarter_turn(unit(sub(b, a)))
         };
-        [self.at.teeth[joint].pitch(centres, along), presses]
+        [self.at.teeth[joint].pitch_point(centres, along), presses]
     }
 
     fn teeth(&self, joint: usize, mesh: &Mesh, visit: Visit<'_>) {
-        let [at, along] = self.pitch(joint, mesh);
+        let [at, along] = self.pitch_contact(joint, mesh);
         let [first, second] = mesh.gears;
         let back = scale(along, -1.0);
         let forces = [Term::force(first, along, at), Term::force(second, back, at)];
         if let Teeth::Thread(_) = self.at.teeth[joint] {
             // A nut pushes along the screw, and turns it.
-            let arm = self.at.teeth[joint].ratio() / RADIAN;
+            let arm = self.at.teeth[joint].gear_ratio() / RADIAN;
             let turns = [Term::moment(first, arm), Term::moment(mesh.carrier, -arm)];
             visit(0.0, &[forces, turns].concat());
         } else {
@@ -211,9 +211,9 @@ impl PoseRows<'_> {
     }
 
     /// How far the drive has gone, in mm or in rad, and the row of its speed.
-    pub(super) fn drive(&self, joint: usize, [base, driver]: [usize; 2]) -> (f64, [Term; 2]) {
+    pub(super) fn drive_row(&self, joint: usize, [base, driver]: [usize; 2]) -> (f64, [Term; 2]) {
         if self.rules.joints[joint].pair == PairKind::Slide {
-            let along = self.along(base, joint);
+            let along = self.line_direction(base, joint);
             let on = self.on(driver, joint);
             let gone = dot(along, sub(on, self.on(base, joint)));
             let back = Term::force(base, scale(along, -1.0), on);
@@ -221,7 +221,7 @@ impl PoseRows<'_> {
         } else {
             let arm = 1.0 / RADIAN;
             let terms = [Term::moment(driver, arm), Term::moment(base, -arm)];
-            (self.turn([driver, base]), terms)
+            (self.relative_turn([driver, base]), terms)
         }
     }
 }

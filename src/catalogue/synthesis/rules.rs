@@ -1,6 +1,6 @@
 //! Which places of a gripper's joints are free, and which follow from them.
 
-use crate::chains::chain::{Chain, Joint, carried, ordered};
+use crate::chains::chain::{Chain, Joint, carry_links, order_links};
 use crate::chains::{Input, PairKind, Symmetry};
 use crate::geom::vector::{add_scaled, sub};
 use crate::synthesis::direction::WholeDirection;
@@ -46,7 +46,7 @@ pub struct Mesh {
 impl Mesh {
     fn carried(self, swap: &[usize], joints: &[Joint]) -> Option<Mesh> {
         let at = |i: usize| {
-            let links = carried(joints[i].links, swap);
+            let links = carry_links(joints[i].links, swap);
             joints.iter().position(|j| j.links == links)
         };
         let [a, b] = self.held.map(at);
@@ -122,10 +122,10 @@ impl Rules {
             if rules[i] != Rule::Free {
                 continue;
             }
-            let links = carried(joint.links, &lay.swap);
+            let links = carry_links(joint.links, &lay.swap);
             let own = links == joint.links && symmetry != Symmetry::Generic;
             let swapped = own && lay.swap[joint.links[0]] != joint.links[0];
-            meshes[i] = mesh(chain, &joints, joint, |c| !swapped || lay.swap[c] == c);
+            meshes[i] = gear_mesh(chain, &joints, joint, |c| !swapped || lay.swap[c] == c);
             if joint.pair == PairKind::Gear && meshes[i].is_none() {
                 return Err(NoRules::SwappedCarrier);
             }
@@ -135,7 +135,7 @@ impl Rules {
             if !own {
                 let (mut at, mut times) = (i, 0);
                 loop {
-                    let links = carried(joints[at].links, &lay.swap);
+                    let links = carry_links(joints[at].links, &lay.swap);
                     let image = image_of(&joints, at, links).ok_or(NoRules::Still)?;
                     if image == i {
                         break;
@@ -164,18 +164,20 @@ impl Rules {
             .iter()
             .position(|j| j.links == structure.structure.roles.input);
         if let Some(input) =
-            input.filter(|_| structure.form.hinges && structure.input() == Input::Slide)
+            input.filter(|_| structure.form.hinges && structure.drive_input() == Input::Slide)
         {
             rules[input] = Rule::OnLine;
         }
         on_one_pin(structure, lay, &joints, &mut rules)?;
         if structure.form.parallel {
-            let rings = structure.rings().ok_or(NoRules::Parallelograms)?;
+            let rings = structure
+                .parallelogram_rings()
+                .ok_or(NoRules::Parallelograms)?;
             parallelograms(&rings, &joints, &mut rules).ok_or(NoRules::Parallelograms)?;
         }
         let order = in_order(&rules).ok_or(NoRules::Parallelograms)?;
         Ok(Rules {
-            blocks: blocks(structure, lay, &joints, &rules),
+            blocks: block_links(structure, lay, &joints, &rules),
             joints,
             rules,
             meshes,
@@ -188,7 +190,7 @@ impl Rules {
     }
 
     /// Returns the joints that may be placed. The image of a joint follows it.
-    pub(crate) fn movable(&self) -> impl Iterator<Item = usize> + '_ {
+    pub(crate) fn movable_joints(&self) -> impl Iterator<Item = usize> + '_ {
         let fixed = |i: usize| {
             let own = matches!(self.rules[i], Rule::Own(_));
             let central = own && self.symmetry != Symmetry::Mirror;
@@ -203,7 +205,7 @@ impl Rules {
     }
 
     /// Returns the pairs of a joint and its image.
-    pub fn images(&self) -> impl Iterator<Item = (usize, usize)> + '_ {
+    pub fn image_pairs(&self) -> impl Iterator<Item = (usize, usize)> + '_ {
         let rules = self.rules.iter().enumerate();
         rules.filter_map(|(i, rule)| match rule {
             Rule::Image { of, .. } => Some((*of, i)),
@@ -213,7 +215,7 @@ impl Rules {
 
     /// Returns the image of a point.
     #[must_use]
-    pub fn image(&self, [x, y]: Point) -> Point {
+    pub fn image_point(&self, [x, y]: Point) -> Point {
         match self.symmetry {
             Symmetry::Generic => [x, y],
             Symmetry::Mirror => [x, -y],
@@ -224,7 +226,7 @@ impl Rules {
 
     /// Returns the exact place of a joint.
     #[must_use]
-    pub fn place(&self, points: &[Point], joint: usize) -> Place {
+    pub fn exact_place(&self, points: &[Point], joint: usize) -> Place {
         match self.rules[joint] {
             Rule::Image { of, times } if self.symmetry == Symmetry::Threefold => Place {
                 thirds: times,
@@ -239,14 +241,14 @@ impl Rules {
     fn turned(&self, direction: WholeDirection) -> WholeDirection {
         match self.symmetry {
             Symmetry::Generic => direction,
-            Symmetry::Mirror => direction.mirrored(),
-            Symmetry::HalfTurn => direction.reversed(),
+            Symmetry::Mirror => direction.mirror_x(),
+            Symmetry::HalfTurn => direction.reverse_direction(),
             Symmetry::Threefold => direction.turned_by_thirds(1),
         }
     }
 
     /// Moves the joints whose places follow from others.
-    pub fn settle(&self, at: &mut Places) {
+    pub fn settle_joints(&self, at: &mut Places) {
         for &i in &self.order {
             match self.rules[i] {
                 Rule::Free => {}
@@ -268,14 +270,16 @@ impl Rules {
                 }
                 Rule::Image { of, times } => {
                     let times = 0..times;
-                    at.points[i] = times.clone().fold(at.points[of], |p, _| self.image(p));
+                    at.points[i] = times
+                        .clone()
+                        .fold(at.points[of], |p, _| self.image_point(p));
                     at.along[i] = times.clone().fold(at.along[of], |d, _| self.turned(d));
                     at.pinned[i] = times.fold(at.pinned[of], |l, _| self.swap[l]);
                 }
             }
         }
         // Teeth follow from the guides of racks.
-        for (of, i) in self.images() {
+        for (of, i) in self.image_pairs() {
             at.teeth[i] = self.image_of_teeth(at, of, i);
         }
         for i in 0..self.joints.len() {
@@ -303,7 +307,7 @@ impl Rules {
         let mesh = self.meshes[i]?;
         let centres = mesh.held.map(|j| at.points[j]);
         let along = at.along[mesh.held[1]].real();
-        Some(at.teeth[i].pitch(centres, along))
+        Some(at.teeth[i].pitch_point(centres, along))
     }
 }
 
@@ -325,11 +329,11 @@ fn image_of(joints: &[Joint], joint: usize, links: [usize; 2]) -> Option<usize> 
 }
 
 /// Returns the link with the block of each slide, and the second link of each other joint. The block of an image is the image of the block.
-fn blocks(structure: &Structure, lay: &Lay, joints: &[Joint], rules: &[Rule]) -> Vec<usize> {
-    let drive = structure.structure.roles.drive();
+fn block_links(structure: &Structure, lay: &Lay, joints: &[Joint], rules: &[Rule]) -> Vec<usize> {
+    let drive = structure.structure.roles.drive_links();
     let frame = structure.structure.roles.frame;
     let first = |joint: &Joint| match joint.links {
-        links if links == ordered(drive) => drive[1],
+        links if links == order_links(drive) => drive[1],
         [u, _] if structure.form.hinges => u,
         [u, v] if v == frame => u,
         [_, v] => v,
@@ -399,7 +403,7 @@ fn in_order(rules: &[Rule]) -> Option<Vec<usize>> {
 }
 
 /// Returns a gear pair with its carrier: the first allowed link that is hinged to both gears, or otherwise the first on which one slides.
-fn mesh(
+fn gear_mesh(
     chain: &Chain,
     joints: &[Joint],
     joint: &Joint,
@@ -409,12 +413,12 @@ fn mesh(
         return None;
     }
     let held = |carrier: usize, gear: usize| {
-        let links = ordered([carrier, gear]);
+        let links = order_links([carrier, gear]);
         joints.iter().position(|j| j.links == links)
     };
     let [u, v] = joint.links;
-    let slides = |c: usize, gear: usize| chain.between(c, gear) == Some(PairKind::Slide);
-    let hinges = |c: usize, gear: usize| chain.between(c, gear) == Some(PairKind::Hinge);
+    let slides = |c: usize, gear: usize| chain.pair_between(c, gear) == Some(PairKind::Slide);
+    let hinges = |c: usize, gear: usize| chain.pair_between(c, gear) == Some(PairKind::Hinge);
     let of = |carrier: usize| {
         let gears = match (carrier, [u, v]) {
             (c, [u, v]) if hinges(c, u) && hinges(c, v) => [u, v],

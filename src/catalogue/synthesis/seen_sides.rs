@@ -4,7 +4,7 @@
 use crate::geom::vector::{cross_plane, dot, length, sub};
 use crate::synthesis::bones::Bones;
 use crate::synthesis::place::Point;
-use crate::synthesis::task::beyond;
+use crate::synthesis::task::beyond_limit;
 use itertools::Itertools;
 
 /// A pin nearer than this to a link that it is no part of lies on it.
@@ -18,7 +18,7 @@ pub(crate) fn crosses([a, b]: [Point; 2], [c, d]: [Point; 2]) -> bool {
     side(a, b, c) != side(a, b, d) && side(c, d, a) != side(c, d, b)
 }
 
-pub(crate) fn distance(p: Point, [a, b]: [Point; 2]) -> f64 {
+pub(crate) fn side_distance(p: Point, [a, b]: [Point; 2]) -> f64 {
     let (along, to) = (sub(b, a), sub(p, a));
     let t = (dot(to, along) / dot(along, along).max(1e-9)).clamp(0.0, 1.0);
     length(sub(to, along.map(|x| x * t)))
@@ -41,7 +41,7 @@ impl LinkSide {
 
 /// Whether a link of these sides, a bar or a plate, lies over a point.
 pub(crate) fn lies_over(sides: &[LinkSide], at: &[Point], point: Point) -> bool {
-    let near = |side: &LinkSide| distance(point, side.of(at)) < ON;
+    let near = |side: &LinkSide| side_distance(point, side.of(at)) < ON;
     let left = |side: &LinkSide| {
         let [a, b] = side.of(at);
         cross_plane(sub(b, a), sub(point, a)) > 0.0
@@ -83,7 +83,7 @@ impl SideSeen {
     }
 
     /// Looks at some points again.
-    fn look(&mut self, bones: &Bones, at: &[Point], moved: impl Iterator<Item = usize>) {
+    fn look_again(&mut self, bones: &Bones, at: &[Point], moved: impl Iterator<Item = usize>) {
         let [a, b] = self.side.of(at);
         let along = sub(b, a);
         // So far from the line through both, by the area of the triangle.
@@ -97,15 +97,15 @@ impl SideSeen {
             self.near = self.near & !bit | u32::from(area * area < strip) << p;
         }
         self.near &= !self.at_ends;
-        for p in bits(self.near & looked_at) {
-            self.near ^= u32::from(distance(at[p], [a, b]) >= ON) << p;
+        for p in set_bits(self.near & looked_at) {
+            self.near ^= u32::from(side_distance(at[p], [a, b]) >= ON) << p;
         }
         if (self.near | was_near) & looked_at != 0 {
             // Where pitch circles touch is on no link; a point of the link itself makes it a splinter, which is no crossing.
             let near = self.near & !bones.touching;
             self.foreign = (near & !bones.members[self.side.link]).count_ones();
-            let cost = |p: usize| beyond(ON - distance(at[p], [a, b]), ON);
-            self.penalty = bits(near).map(cost).sum();
+            let cost = |p: usize| beyond_limit(ON - side_distance(at[p], [a, b]), ON);
+            self.penalty = set_bits(near).map(cost).sum();
         }
     }
 
@@ -127,7 +127,7 @@ struct SeenPlaces {
 
 impl SeenPlaces {
     /// The points that are elsewhere now, as bits.
-    fn moved(&self, at: &[Point]) -> u32 {
+    fn moved_points(&self, at: &[Point]) -> u32 {
         if self.at.len() != at.len() {
             return u32::MAX;
         }
@@ -140,9 +140,9 @@ impl SeenPlaces {
         let mut again = 0_u64;
         for (i, seen) in self.sides.iter_mut().enumerate() {
             if seen.ends & moved == 0 {
-                seen.look(bones, at, bits(moved));
+                seen.look_again(bones, at, set_bits(moved));
             } else {
-                seen.look(bones, at, 0..at.len());
+                seen.look_again(bones, at, 0..at.len());
                 again |= 1 << i;
             }
         }
@@ -177,15 +177,15 @@ impl SeenSides {
     ///
     /// # Complexity
     /// O(s·(c + m) + p·c) for s sides, of which c have moved, and p points, of which m have.
-    pub(super) fn crossings(&mut self, bones: &Bones, at: &[Point]) -> (usize, f64) {
-        let moved = self.seen.each_ref().map(|seen| seen.moved(at));
+    pub(super) fn crossing_cost(&mut self, bones: &Bones, at: &[Point]) -> (usize, f64) {
+        let moved = self.seen.each_ref().map(|seen| seen.moved_points(at));
         let nearer = usize::from(moved[1].count_ones() < moved[0].count_ones());
         self.seen.swap(1, nearer);
         let (moved, [now, known]) = (moved[nearer], &mut self.seen);
         // Which are the sides of links of many points depends on where these are.
         let mut same = moved & bones.hulled == 0 && !known.sides.is_empty();
         if !same {
-            bones.sides(at, &mut self.sides);
+            bones.link_sides(at, &mut self.sides);
             let sides = known.sides.iter().map(|seen| seen.side);
             same = sides.eq(self.sides.iter().copied());
         }
@@ -218,7 +218,7 @@ impl SeenSides {
 }
 
 /// The places of the bits that are set.
-fn bits(mut set: u32) -> impl Iterator<Item = usize> {
+fn set_bits(mut set: u32) -> impl Iterator<Item = usize> {
     std::iter::from_fn(move || {
         let first = (set != 0).then(|| set.trailing_zeros() as usize);
         set &= set.wrapping_sub(1);
@@ -230,21 +230,22 @@ fn bits(mut set: u32) -> impl Iterator<Item = usize> {
 mod tests {
     use super::SeenSides;
     use crate::synthesis::sketch::each_classic;
-    use crate::synthesis::{below, random};
+    use crate::synthesis::{random_below, random_for};
 
     /// Tries that are taken and refused in any order: what is looked at again is what has moved, and all else is known still.
     #[test]
     fn what_was_seen_of_other_places_is_what_is_seen_afresh() {
         each_classic(|name, sketch| {
-            let mut random = random(name, 2, 0);
+            let mut random = random_for(name, 2, 0);
             let (mut at, mut seen) = (sketch.first_places(&mut random), SeenSides::default());
             for _ in 0..200 {
                 let before = at.clone();
-                sketch.change(&mut at, 0.5, &mut random);
-                let afresh = sketch.penalty(&at, false, f64::INFINITY, &mut SeenSides::default());
-                let known = sketch.penalty(&at, false, f64::INFINITY, &mut seen);
+                sketch.change_places(&mut at, 0.5, &mut random);
+                let afresh =
+                    sketch.place_penalty(&at, false, f64::INFINITY, &mut SeenSides::default());
+                let known = sketch.place_penalty(&at, false, f64::INFINITY, &mut seen);
                 assert_eq!(known, afresh, "{name}");
-                if below(2, &mut random) == 0 {
+                if random_below(2, &mut random) == 0 {
                     at = before;
                 }
             }

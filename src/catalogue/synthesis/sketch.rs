@@ -12,7 +12,7 @@ use crate::synthesis::seen_sides::SeenSides;
 use crate::synthesis::stroke::closure::Closure;
 use crate::synthesis::stroke::pose::LinkPose;
 use crate::synthesis::structure::Structure;
-use crate::synthesis::task::{Limits, beyond, room_round_part};
+use crate::synthesis::task::{Limits, beyond_limit, room_round_part};
 use crate::synthesis::threefold::{Around, SIDES};
 use crate::synthesis::velocities::Contours;
 
@@ -47,7 +47,7 @@ impl<'a> Sketch<'a> {
     #[must_use]
     pub fn new(structure: &'a Structure, rules: Rules, limits: Limits) -> Sketch<'a> {
         let (chain, roles) = (&structure.structure.chain, &structure.structure.roles);
-        let drive = roles.drive();
+        let drive = roles.drive_links();
         let pinned = |link: usize| {
             let mut own = rules.joints.iter().filter(|j| j.is_at(link));
             own.all(|j| j.pair == PairKind::Hinge)
@@ -57,14 +57,14 @@ impl<'a> Sketch<'a> {
             let links = if block == u { [u, v] } else { [v, u] };
             (j.pair != PairKind::Gear).then_some(links)
         };
-        let hinged = |&jaw: &usize| chain.between(roles.frame, jaw) == Some(PairKind::Hinge);
+        let hinged = |&jaw: &usize| chain.pair_between(roles.frame, jaw) == Some(PairKind::Hinge);
         let free = |r: &Rule| *r == Rule::Free;
         let turned = structure.form.symmetry == Symmetry::HalfTurn;
         let rows = rules.rules.iter().enumerate();
         let own = rows.filter(|(_, r)| turned && matches!(r, Rule::Own(_)));
         let central = own.fold(0, |bits, (i, _)| bits | 1u32 << i);
         let shared = rules
-            .images()
+            .image_pairs()
             .filter(|(of, _)| rules.rules[*of] == Rule::OnLine);
         let shared = shared.map(|(of, image)| 1u32 << of | 1 << image);
         let plan = BonePlan {
@@ -73,13 +73,14 @@ impl<'a> Sketch<'a> {
             jaws: &roles.jaws,
             joints: rules.joints.iter().zip(&rules.blocks).map(point).collect(),
             follows: rules.rules.iter().map(|r| !free(r)).collect(),
-            tips: (structure.tips(&limits.task).iter().map(|t| t.real())).collect(),
-            turns: structure.input() == Input::Turn,
+            tips: (structure.tip_places(&limits.task).iter().map(|t| t.real())).collect(),
+            turns: structure.drive_input() == Input::Turn,
             hinged: roles.jaws.iter().map(hinged).collect(),
             round: room_round_part(roles.jaws.len(), structure.form.symmetry),
-            wished: limits.task.distances(),
+            wished: limits.task.wished_distances(),
             together: shared.chain((central > 0).then_some(central)).collect(),
-            cylinder: (structure.structure.slides() && drive[0] != roles.frame).then_some(drive),
+            cylinder: (structure.structure.input_slides() && drive[0] != roles.frame)
+                .then_some(drive),
         };
         let at_input = |j: &Joint| j.links == roles.input;
         let mut bones = Bones::new(chain.links(), plan, pinned);
@@ -90,9 +91,11 @@ impl<'a> Sketch<'a> {
         Sketch {
             around: (structure.sides.is_some() && !structure.is_axial())
                 .then(|| Around::new(structure, &rules, &bones)),
-            closure: contours.as_ref().map(|c| Closure::new(c, bones.apart())),
+            closure: contours
+                .as_ref()
+                .map(|c| Closure::new(c, bones.apart_vectors())),
             contours,
-            apart: bones.apart(),
+            apart: bones.apart_vectors(),
             bones,
             input: rules.joints.iter().position(at_input).unwrap_or(0),
             at_rest: vec![LinkPose::AT_REST; chain.links()],
@@ -115,15 +118,15 @@ impl Sketch<'_> {
     /// # Complexity
     /// That of the crossings that are new, and with motion an elimination.
     #[must_use]
-    pub fn penalty(
+    pub fn place_penalty(
         &self,
         at: &Places,
         moving: bool,
         most: f64,
         seen: &mut SeenSides,
     ) -> Option<f64> {
-        let (points, bones) = self.drawn(at);
-        bones.penalty(&points, most, seen, || {
+        let (points, bones) = self.drawn_points(at);
+        bones.place_penalty(&points, most, seen, || {
             let motion = moving.then(|| Some(self.motion(at)?.penalty));
             Some(self.pitch_penalty(at) + motion.unwrap_or(Some(0.0))?)
         })
@@ -131,9 +134,9 @@ impl Sketch<'_> {
 
     /// Returns the cost of the limits that places break in the drawn pose, for a search that asks for no more.
     #[must_use]
-    pub fn breaks(&self, at: &Places, seen: &mut SeenSides) -> f64 {
-        let (points, bones) = self.drawn(at);
-        bones.breaks(&points, &self.limits, seen) + self.pitch_penalty(at)
+    pub fn broken_cost(&self, at: &Places, seen: &mut SeenSides) -> f64 {
+        let (points, bones) = self.drawn_points(at);
+        bones.broken_limits(&points, &self.limits, seen) + self.pitch_penalty(at)
     }
 
     /// Returns the figures of the drawn pose; `None` if it is singular.
@@ -141,22 +144,22 @@ impl Sketch<'_> {
     /// # Complexity
     /// That of all crossings, and an elimination.
     #[must_use]
-    pub fn looks(&self, at: &Places) -> Option<Looks> {
-        let (points, bones) = self.drawn(at);
-        let mut looks = bones.looks(&points, self.motion(at)?)?;
+    pub fn drawn_figures(&self, at: &Places) -> Option<Looks> {
+        let (points, bones) = self.drawn_points(at);
+        let mut looks = bones.drawn_figures(&points, self.motion(at)?)?;
         looks.penalty += self.pitch_penalty(at);
         Some(looks)
     }
 
     fn motion(&self, at: &Places) -> Option<LayoutMotion> {
         let least_force = self.limits.task.least_force;
-        let velocities = self.velocities(at)?;
-        Some((self.bones).motion(&at.points, &velocities, least_force))
+        let velocities = self.link_velocities(at)?;
+        Some((self.bones).motion_cost(&at.points, &velocities, least_force))
     }
 
     /// Returns the cost of pitch circles that are too large or too small.
     pub(super) fn pitch_penalty(&self, at: &Places) -> f64 {
-        let cost = |r: f64| beyond(r - LARGE, 10.0) + beyond(SMALL - r, 3.0);
+        let cost = |r: f64| beyond_limit(r - LARGE, 10.0) + beyond_limit(SMALL - r, 3.0);
         let mut sum = 0.0;
         self.each_circle(at, &mut |_, r, _| sum += cost(r));
         sum
@@ -166,11 +169,11 @@ impl Sketch<'_> {
 /// Calls `take` with the sketch of each well-known structure that has rules, and with its name.
 #[cfg(test)]
 pub(in crate::synthesis) fn each_classic(mut take: impl FnMut(&str, &Sketch<'_>)) {
-    use crate::chains::classics::classics;
+    use crate::chains::classics::known_classics;
     use crate::synthesis::layout::most_symmetric;
-    for classic in classics() {
+    for classic in known_classics() {
         let paired = most_symmetric(&classic.structure).unwrap();
-        let lay = paired.lays().swap_remove(0);
+        let lay = paired.symmetry_lays().swap_remove(0);
         if let Ok(rules) = Rules::new(&paired, &lay) {
             take(&classic.id, &Sketch::new(&paired, rules, Limits::default()));
         }

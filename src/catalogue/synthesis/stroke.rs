@@ -16,13 +16,13 @@ pub mod walk;
 use crate::synthesis::layout_quality::DEAR;
 use crate::synthesis::stroke::judge::StrokeFigures;
 use crate::synthesis::stroke::shortfall::NOISE;
-use crate::synthesis::task::{AskedMotion, Limits, PARALLEL, Task, beyond};
+use crate::synthesis::task::{AskedMotion, Limits, PARALLEL, Task, beyond_limit};
 
 impl Task {
     /// Distances that are asked for at least, each with that of a stroke, in millimetres.
     fn least_distances(&self, f: &StrokeFigures) -> impl Iterator<Item = (f64, f64)> {
         let side = if self.own_sides {
-            0.5 * self.distances()[0]
+            0.5 * self.wished_distances()[0]
         } else {
             0.0
         };
@@ -47,42 +47,42 @@ impl Limits {
         let missing = [f.reached[0] - task.narrowest, task.widest - f.reached[1]];
         let mut cost = 0.0;
         for m in missing.into_iter().filter(|m| *m > 0.0) {
-            cost += 6.0 + 40.0 * m / task.span();
+            cost += 6.0 + 40.0 * m / task.opening_span();
         }
         let ratio = f.force_ratio().ln();
         let asked = (0.9 * task.force_ratio).max(1.0).ln();
-        cost += 3.0 * beyond(ratio - asked, 0.2).min(10.0);
+        cost += 3.0 * beyond_limit(ratio - asked, 0.2).min(10.0);
         if task.least_force > 0.0 {
             let lacks = (1.1 * task.least_force / f.force.max(1e-12)).ln();
-            cost += 3.0 * beyond(lacks, 0.2).min(10.0);
+            cost += 3.0 * beyond_limit(lacks, 0.2).min(10.0);
         }
-        cost += 2.0 * beyond(0.6 - f.straightness, 0.5);
+        cost += 2.0 * beyond_limit(0.6 - f.straightness, 0.5);
         if f.straightness <= 0.0 {
             cost += OPENS;
         }
-        cost += 4.0 * beyond(task.transmission + 4.0 - f.transmission, 8.0);
+        cost += 4.0 * beyond_limit(task.transmission + 4.0 - f.transmission, 8.0);
         let most = if task.pin_force > 0.0 {
             task.pin_force
         } else {
             10.0
         };
-        cost += 2.0 * beyond((f.forces.peak / (0.6 * most)).max(1e-12).ln(), 0.5).min(10.0);
-        cost += beyond(task.efficiency.max(0.7) + 0.1 - f.forces.efficiency, 0.2);
+        cost += 2.0 * beyond_limit((f.forces.peak / (0.6 * most)).max(1e-12).ln(), 0.5).min(10.0);
+        cost += beyond_limit(task.efficiency.max(0.7) + 0.1 - f.forces.efficiency, 0.2);
         let turn = f.turn;
         cost += match task.motion {
-            AskedMotion::Parallel => 2.0 * beyond(turn - 0.5 * PARALLEL, 0.5).min(10.0),
-            AskedMotion::Any | AskedMotion::Swinging => beyond(turn - 40.0, 20.0).min(20.0),
+            AskedMotion::Parallel => 2.0 * beyond_limit(turn - 0.5 * PARALLEL, 0.5).min(10.0),
+            AskedMotion::Any | AskedMotion::Swinging => beyond_limit(turn - 40.0, 20.0).min(20.0),
         };
         for (size, most) in f.size.into_iter().zip(task.room) {
             if most > 0.0 {
-                cost += beyond(size - most + 2.0, 4.0).min(10.0);
+                cost += beyond_limit(size - most + 2.0, 4.0).min(10.0);
             }
         }
         for (least, is) in task.least_distances(f) {
-            cost += beyond(least - is + 1.0, 3.0).min(10.0);
+            cost += beyond_limit(least - is + 1.0, 3.0).min(10.0);
         }
         if task.pulled_out > 0.0 {
-            cost += beyond((f.pulled_out / (0.95 * task.pulled_out)).ln(), 0.1).min(10.0);
+            cost += beyond_limit((f.pulled_out / (0.95 * task.pulled_out)).ln(), 0.1).min(10.0);
         }
         cost
     }
@@ -94,13 +94,13 @@ impl Limits {
         let task = &self.task;
         let missing = [f.reached[0] - task.narrowest, task.widest - f.reached[1]];
         let missing = missing.into_iter().filter(|m| *m > 0.0);
-        let unreached: f64 = missing.map(|m| 1.0 + 10.0 * m / task.span()).sum();
+        let unreached: f64 = missing.map(|m| 1.0 + 10.0 * m / task.opening_span()).sum();
         let over = |value: f64, most: f64| (value / most).max(1e-12).ln();
         let mut broken = 0.0;
         // However little a limit is broken, it is.
         let mut limit = |over: f64, width: f64| {
             if over > NOISE {
-                broken += 0.02 + beyond(over, slack * width);
+                broken += 0.02 + beyond_limit(over, slack * width);
             }
         };
         limit(over(f.force_ratio(), task.force_ratio), 0.1);

@@ -1,6 +1,6 @@
 //! Structures: a gripper's chain and roles with the symmetry it is to have, and how it is laid out.
 
-use crate::chains::chain::{Joint, carried, ordered};
+use crate::chains::chain::{Joint, carry_links, order_links};
 use crate::chains::classics::MadeAs;
 use crate::chains::layout_symmetry::{NoGripper, working_swap};
 use crate::chains::motion::{Swap, symmetric_ways};
@@ -75,7 +75,7 @@ impl Form {
         let inputs = Input::ALL.into_iter().map(|(input, _)| input);
         let symmetries = Symmetry::ALL.map(|(symmetry, _)| symmetry);
         let all = inputs.cartesian_product(symmetries);
-        let all = all.filter(|(input, symmetry)| symmetry.suits(*input));
+        let all = all.filter(|(input, symmetry)| symmetry.suits_input(*input));
         let all = all.cartesian_product([false, true]);
         all.map(|((input, symmetry), parallel)| {
             let form = Form {
@@ -90,8 +90,8 @@ impl Form {
     /// Returns whether a gripper of N jaws can be laid out in this form in a plane. Three jaws are never on parallelograms: that takes many
     /// links.
     #[must_use]
-    pub fn suits(self, jaws: usize) -> bool {
-        self.symmetry.jaws().is_none_or(|n| n == jaws) && (jaws == 2 || !self.parallel)
+    pub fn suits_jaws(self, jaws: usize) -> bool {
+        self.symmetry.jaw_count().is_none_or(|n| n == jaws) && (jaws == 2 || !self.parallel)
     }
 
     /// Returns whether a joint, the first of two, is on one pin with its image.
@@ -146,11 +146,11 @@ impl Structure {
         let form = self.form.name(&self.symmetry_name());
         if self.form.hinges {
             let PairStructure { chain, roles } = &self.structure;
-            let [frame, driver] = roles.drive();
-            let (jaws, input) = (roles.jaws.iter().join(","), self.input().name());
+            let [frame, driver] = roles.drive_links();
+            let (jaws, input) = (roles.jaws.iter().join(","), self.drive_input().name());
             return format!(
                 "{} {frame}-{driver} {jaws} {input} {form}",
-                graph6::write(chain)
+                graph6::write_graph(chain)
             );
         }
         let pins = self.on_one_pin();
@@ -200,10 +200,12 @@ impl Structure {
     pub(crate) fn with_one_pins(self) -> impl Iterator<Item = Structure> {
         let joints = self.structure.chain.joints_made();
         let mirror = self.form.symmetry == Symmetry::Mirror;
-        let lay = mirror.then(|| self.lays().into_iter().next()).flatten();
+        let lay = mirror
+            .then(|| self.symmetry_lays().into_iter().next())
+            .flatten();
         let first = |(i, joint): (usize, &Joint)| {
             let lay = lay.as_ref()?;
-            let image = carried(joint.links, &lay.swap);
+            let image = carry_links(joint.links, &lay.swap);
             let later = joints[i..].iter().any(|j| j.links == image);
             (later && lay.may_share(joint)).then_some(i)
         };
@@ -227,7 +229,7 @@ impl Structure {
     /// A short name that a shell takes as it is: the number of links, and the beginning of the SHA-256 of the whole name.
     #[must_use]
     pub fn id(&self) -> String {
-        let mut id = format!("{}-", self.links());
+        let mut id = format!("{}-", self.link_count());
         for byte in &Sha256::digest(self.name())[..6] {
             // Writing to a string does not fail.
             let _ = write!(id, "{byte:02x}");
@@ -237,14 +239,14 @@ impl Structure {
 
     /// Returns the places of the tips of the jaws as drawn for a task, in millimetres.
     #[must_use]
-    pub fn tips(&self, task: &Task) -> Vec<Place> {
+    pub fn tip_places(&self, task: &Task) -> Vec<Place> {
         task::draw_tips(self.structure.roles.jaws.len(), self.form.symmetry, task)
     }
 
     /// Returns how the structure is driven.
     #[must_use]
-    pub fn input(&self) -> Input {
-        if self.structure.slides() {
+    pub fn drive_input(&self) -> Input {
+        if self.structure.input_slides() {
             Input::Slide
         } else {
             Input::Turn
@@ -256,7 +258,7 @@ impl Structure {
     /// # Complexity
     /// An elimination for each way of each automorphism.
     #[must_use]
-    pub fn lays(&self) -> Vec<Lay> {
+    pub fn symmetry_lays(&self) -> Vec<Lay> {
         let (chain, roles) = (&self.structure.chain, &self.structure.roles);
         if self.form.symmetry == Symmetry::Generic {
             let identity = (0..chain.links()).collect();
@@ -267,7 +269,7 @@ impl Structure {
             return Vec::new();
         }
         let involutions = chain.automorphisms().into_iter().filter(|s| {
-            let keeps = carried(roles.input, s) == roles.input;
+            let keeps = carry_links(roles.input, s) == roles.input;
             let fixed = s[roles.frame] == roles.frame && keeps != self.form.one_sided;
             fixed && carries_round(&roles.jaws, s)
         });
@@ -314,30 +316,30 @@ impl Structure {
             .chain
             .clone()
             .with_pair(roles.input, PairKind::Hinge);
-        let (chain, mut automorphisms) = hinges.canonical();
+        let (chain, mut automorphisms) = hinges.canonical_form();
         if chain != hinges {
             automorphisms = hinges.automorphisms();
         }
         let subject = Subject::new(&hinges, &automorphisms);
-        let swap = working_swap(&subject, roles, self.form.symmetry, self.input())?;
+        let swap = working_swap(&subject, roles, self.form.symmetry, self.drive_input())?;
         Ok(Lay { swap, bits: 0 })
     }
 
     /// Returns the joints of a parallelogram for each jaw, or `None` if a jaw has none: those of two rods at the base, then those at the jaw
     /// in the same order.
     #[must_use]
-    pub fn rings(&self) -> Option<Vec<[[usize; 2]; 4]>> {
+    pub fn parallelogram_rings(&self) -> Option<Vec<[[usize; 2]; 4]>> {
         let (chain, roles) = (&self.structure.chain, &self.structure.roles);
-        let [base, driver] = roles.drive();
-        let sliding = (base == roles.frame && self.structure.slides()).then_some(driver);
-        let hinged = |u: usize, v: usize| chain.between(u, v) == Some(PairKind::Hinge);
+        let [base, driver] = roles.drive_links();
+        let sliding = (base == roles.frame && self.structure.input_slides()).then_some(driver);
+        let hinged = |u: usize, v: usize| chain.pair_between(u, v) == Some(PairKind::Hinge);
         let ring = |jaw: usize| {
             let bases = std::iter::once(roles.frame).chain(sliding);
             bases.filter(|b| *b != jaw).find_map(|base| {
                 let rod =
                     |l: &usize| hinged(*l, jaw) && hinged(*l, base) && !roles.jaws.contains(l);
                 let (p, q) = (0..chain.links()).filter(rod).tuples().next()?;
-                Some([[p, base], [q, base], [p, jaw], [q, jaw]].map(ordered))
+                Some([[p, base], [q, base], [p, jaw], [q, jaw]].map(order_links))
             })
         };
         roles.jaws.iter().map(|&jaw| ring(jaw)).collect()
@@ -354,7 +356,7 @@ impl Structure {
     }
 
     pub(super) fn on_parallelograms_if_any(self) -> Structure {
-        let parallel = self.rings().is_some();
+        let parallel = self.parallelogram_rings().is_some();
         Structure {
             form: Form {
                 parallel,
@@ -389,10 +391,10 @@ impl Structure {
     #[must_use]
     pub(crate) fn with_threads(&self) -> Option<Structure> {
         let (chain, roles) = (&self.structure.chain, &self.structure.roles);
-        let [base, screw] = roles.drive();
+        let [base, screw] = roles.drive_links();
         let is_nut = |&jaw: &usize| {
-            chain.between(jaw, screw) == Some(PairKind::Gear)
-                && chain.between(jaw, base) == Some(PairKind::Slide)
+            chain.pair_between(jaw, screw) == Some(PairKind::Gear)
+                && chain.pair_between(jaw, base) == Some(PairKind::Slide)
         };
         let all = chain.links() == 4 && base == roles.frame && roles.jaws.iter().all(is_nut);
         all.then(|| Structure {

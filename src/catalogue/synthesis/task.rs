@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 ///
 /// # Errors
 /// Returns an error if the list has more or fewer.
-pub(super) fn exactly<'de, const N: usize, D: Deserializer<'de>>(
+pub(super) fn exact_list<'de, const N: usize, D: Deserializer<'de>>(
     from: D,
 ) -> Result<[f64; N], D::Error> {
     let all = Vec::<f64>::deserialize(from)?;
@@ -36,7 +36,7 @@ impl HeldFrom {
 
     /// 1 where the jaws hold as they close, -1 where they do as they open.
     #[must_use]
-    pub fn sign(self) -> f64 {
+    pub fn grip_sign(self) -> f64 {
         match self {
             HeldFrom::Outside => 1.0,
             HeldFrom::Inside => -1.0,
@@ -104,7 +104,7 @@ pub struct Task {
     /// The efficiency over the stroke at least; 0 where any will do.
     pub efficiency: f64,
     /// Width and height of the box round pins, tips and pitch circles over the stroke at most, in mm; 0 where it may be of any size.
-    #[serde(deserialize_with = "exactly")]
+    #[serde(deserialize_with = "exact_list")]
     pub room: [f64; 2],
     /// How far pins are apart over the stroke at least, in mm, from middle to middle; 0 where no more than 14 as drawn is wished.
     pub pin_distance: f64,
@@ -193,14 +193,14 @@ impl Task {
     }
 
     /// How far apart joints are wished at least, and how far behind the tips: as asked, or as is usual. In mm.
-    pub(super) fn distances(&self) -> [f64; 2] {
+    pub(super) fn wished_distances(&self) -> [f64; 2] {
         let asked = [(self.pin_distance, NEAR), (self.reach, BEHIND)];
         asked.map(|(asked, usual)| if asked > 0.0 { asked } else { usual })
     }
 
     /// By how much the tips go apart over the stroke, in millimetres.
     #[must_use]
-    pub fn span(&self) -> f64 {
+    pub fn opening_span(&self) -> f64 {
         self.widest - self.narrowest
     }
 }
@@ -228,7 +228,7 @@ impl Default for Limits {
 }
 
 /// How far a number is beyond a limit, squared, in units of a width.
-pub(crate) fn beyond(over: f64, width: f64) -> f64 {
+pub(crate) fn beyond_limit(over: f64, width: f64) -> f64 {
     (over.max(0.0) / width).powi(2)
 }
 
@@ -242,7 +242,7 @@ pub(crate) const JAW_NAMES: [&str; 3] = ["jaw-a", "jaw-b", "jaw-c"];
 
 /// What is so long and points from the part to each of so many jaws: opposite ways for two, at 120° for three.
 #[must_use]
-pub(crate) fn outward(jaws: usize, length: i32) -> Vec<Place> {
+pub(crate) fn outward_vectors(jaws: usize, length: i32) -> Vec<Place> {
     match jaws {
         2 => [[0, length], [0, -length]].map(Place::from).into(),
         _ => (0..3)
@@ -273,7 +273,7 @@ pub(crate) fn room_round_part(jaws: usize, symmetry: Symmetry) -> Option<f64> {
 pub(crate) fn draw_tips(jaws: usize, symmetry: Symmetry, task: &Task) -> Vec<Place> {
     let is_round = room_round_part(jaws, symmetry).is_some();
     let ahead = if is_round { 0 } else { REACH };
-    let mut tips = outward(jaws, task.half_opening());
+    let mut tips = outward_vectors(jaws, task.half_opening());
     // Tips that are turned are round the middle.
     tips.iter_mut().for_each(|tip| tip.whole[0] += ahead);
     tips

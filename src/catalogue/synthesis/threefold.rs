@@ -5,7 +5,7 @@
 //! to themselves stay in their plane, and turn about its normal, as a scroll chuck does. Mirror images turn about the axis along
 //! which their driver slides, each side in a plane of its own through it, as in a wedge chuck: half a turn about it is the mirror.
 
-use crate::chains::chain::{Chain, Joint, ordered};
+use crate::chains::chain::{Chain, Joint, order_links};
 use crate::chains::roles::Roles;
 use crate::chains::structure::PairStructure;
 use crate::chains::{PairKind, Symmetry};
@@ -22,7 +22,7 @@ impl Sides {
     /// Of a gripper of two jaws; `None` where its sides are joined to each other or one of them is driven, or it is a mirror image
     /// of which something that stands once does more than slide along the middle.
     fn new(two: &Structure) -> Option<Sides> {
-        let lay = two.lays().into_iter().next()?;
+        let lay = two.symmetry_lays().into_iter().next()?;
         let swap = &lay.swap;
         let chain = &two.structure.chain;
         let own: Vec<usize> = (0..chain.links()).filter(|&l| swap[l] == l).collect();
@@ -67,7 +67,7 @@ impl Sides {
 impl Structure {
     /// Returns the gripper of three jaws that is made of this one of two, if there is one.
     #[must_use]
-    pub fn thrice(self) -> Option<Structure> {
+    pub fn three_jawed(self) -> Option<Structure> {
         let sides = Some(Sides::new(&self)?);
         Some(Structure { sides, ..self })
     }
@@ -79,7 +79,7 @@ impl Structure {
     }
 
     /// Returns the axis about which the sides are turned.
-    pub(super) fn pivot(&self) -> Pivot {
+    pub(super) fn turn_axis(&self) -> Pivot {
         if self.is_axial() {
             Pivot::Ahead
         } else {
@@ -89,14 +89,14 @@ impl Structure {
 
     /// Returns the number of links.
     #[must_use]
-    pub fn links(&self) -> usize {
+    pub fn link_count(&self) -> usize {
         let all = self.structure.chain.links();
         (self.sides.as_ref()).map_or(all, |s| s.own.len() + SIDES * s.side.len())
     }
 
     /// Returns the number of a link on one of the sides, from its number on the first side.
     #[must_use]
-    pub fn link(&self, of: usize, side: usize) -> Option<usize> {
+    pub fn side_link(&self, of: usize, side: usize) -> Option<usize> {
         let Some(sides) = &self.sides else {
             return Some(of);
         };
@@ -107,11 +107,11 @@ impl Structure {
 
     /// Returns the number of copies of a joint: one, three, or none if it is on the other side.
     #[must_use]
-    pub fn copies(&self, joint: &Joint) -> usize {
+    pub fn copy_count(&self, joint: &Joint) -> usize {
         let Some(sides) = &self.sides else { return 1 };
         match joint.links.map(|l| sides.own.contains(&l)) {
             [true, true] => 1,
-            _ if joint.links.iter().all(|l| self.link(*l, 0).is_some()) => SIDES,
+            _ if joint.links.iter().all(|l| self.side_link(*l, 0).is_some()) => SIDES,
             _ => 0,
         }
     }
@@ -121,10 +121,10 @@ impl Structure {
     pub fn whole_structure(&self) -> PairStructure {
         let PairStructure { chain, roles } = &self.structure;
         let joints = chain.joints().into_iter();
-        let joints = joints.flat_map(|j| (0..self.copies(&j)).map(move |side| (j, side)));
+        let joints = joints.flat_map(|j| (0..self.copy_count(&j)).map(move |side| (j, side)));
         let carried = |links: [usize; 2], side| {
-            let [u, v] = links.map(|l| self.link(l, side));
-            Some(ordered([u?, v?]))
+            let [u, v] = links.map(|l| self.side_link(l, side));
+            Some(order_links([u?, v?]))
         };
         let joints = joints.filter_map(|(j, side)| {
             Some(Joint {
@@ -132,11 +132,11 @@ impl Structure {
                 pair: j.pair,
             })
         });
-        let of_side = |side| self.link(roles.jaws[0], side);
+        let of_side = |side| self.side_link(roles.jaws[0], side);
         PairStructure {
-            chain: Chain::new(self.links(), joints),
+            chain: Chain::new(self.link_count(), joints),
             roles: Roles {
-                frame: self.link(roles.frame, 0).unwrap_or(0),
+                frame: self.side_link(roles.frame, 0).unwrap_or(0),
                 input: carried(roles.input, 0).unwrap_or_default(),
                 jaws: match self.sides {
                     Some(_) => (0..SIDES).filter_map(of_side).collect(),
@@ -161,11 +161,15 @@ impl Around {
     pub(super) fn new(structure: &Structure, rules: &Rules, two: &Bones) -> Around {
         let mut made = Vec::new();
         let mut joints = Vec::new();
-        let mut copies: Vec<usize> = rules.joints.iter().map(|j| structure.copies(j)).collect();
+        let mut copies: Vec<usize> = rules
+            .joints
+            .iter()
+            .map(|j| structure.copy_count(j))
+            .collect();
         for (i, joint) in rules.joints.iter().enumerate() {
             for side in 0..copies[i] {
                 made.push((i, side));
-                let [u, v] = joint.links.map(|l| structure.link(l, side));
+                let [u, v] = joint.links.map(|l| structure.side_link(l, side));
                 joints.push(two.joints[i].and_then(|_| Some([u?, v?])));
             }
         }
@@ -174,10 +178,14 @@ impl Around {
         copies.extend([SIDES, 0]);
         let jaws = structure.whole_structure().roles.jaws;
         let turned = |side: usize| (0..side).fold(two.tips[0], |p, _| third(p));
-        let pushes = |l: usize| two.rods.iter().any(|r| structure.link(r.0, 0) == Some(l));
+        let pushes = |l: usize| {
+            two.rods
+                .iter()
+                .any(|r| structure.side_link(r.0, 0) == Some(l))
+        };
         let plan = BonePlan {
-            frame: structure.link(two.frame, 0).unwrap_or(0),
-            driver: structure.link(two.driver, 0).unwrap_or(0),
+            frame: structure.side_link(two.frame, 0).unwrap_or(0),
+            driver: structure.side_link(two.driver, 0).unwrap_or(0),
             jaws: &jaws,
             follows: vec![true; joints.len()],
             joints,
@@ -190,20 +198,20 @@ impl Around {
             together: Vec::new(),
         };
         Around {
-            bones: Bones::new(structure.links(), plan, pushes),
+            bones: Bones::new(structure.link_count(), plan, pushes),
             made,
             copies,
         }
     }
 
     /// Where all points are.
-    pub(super) fn points(&self, two: &[Point]) -> Vec<Point> {
+    pub(super) fn all_points(&self, two: &[Point]) -> Vec<Point> {
         let turned = |&(of, side): &(usize, usize)| (0..side).fold(two[of], |p, _| third(p));
         self.made.iter().map(turned).collect()
     }
 
     /// Gives every place of a point of two sides.
-    pub(super) fn each(&self, point: usize, at: Point, take: &mut dyn FnMut(Point)) {
+    pub(super) fn each_place(&self, point: usize, at: Point, take: &mut dyn FnMut(Point)) {
         let mut now = at;
         for _ in 0..self.copies[point] {
             take(now);

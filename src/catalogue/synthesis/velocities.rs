@@ -4,8 +4,8 @@
 //! besides frame and driver. Where the links go follows from how they turn, from pin to pin.
 
 use crate::chains::Input;
-use crate::closure::tree::{TreeStep, forest};
-use crate::geom::vector::{add_scaled, quarter, sub};
+use crate::closure::tree::{TreeStep, spanning_forest};
+use crate::geom::vector::{add_scaled, quarter_turn, sub};
 use crate::synthesis::elimination::SmallSystem;
 use crate::synthesis::structure::Structure;
 
@@ -21,8 +21,8 @@ pub struct Velocity {
 impl Velocity {
     /// Of a point of the link.
     #[must_use]
-    pub fn at(&self, point: [f64; 2]) -> [f64; 2] {
-        add_scaled(self.shift, self.turning, quarter(point))
+    pub fn velocity_at(&self, point: [f64; 2]) -> [f64; 2] {
+        add_scaled(self.shift, self.turning, quarter_turn(point))
     }
 }
 
@@ -67,11 +67,11 @@ impl Contours {
     #[must_use]
     pub fn new(structure: &Structure) -> Contours {
         let roles = &structure.structure.roles;
-        let (n, [frame, driver]) = (structure.structure.chain.links(), roles.drive());
+        let (n, [frame, driver]) = (structure.structure.chain.links(), roles.drive_links());
         let pins = structure.structure.chain.joints();
         let ends = pins.iter().map(|j| j.links);
         // The driver is next to the frame, so that its joint is in the tree.
-        let (_, tree) = forest(n, ends, |_| false, [frame]);
+        let (_, tree) = spanning_forest(n, ends, |_| false, [frame]);
         let mut ways: Vec<Vec<(usize, usize)>> = vec![Vec::new(); n];
         for s in &tree {
             ways[s.link] = ways[s.from].clone();
@@ -98,7 +98,7 @@ impl Contours {
         Contours {
             links: n,
             driver,
-            input: structure.input(),
+            input: structure.drive_input(),
             unknown: unknown.collect(),
             contours: contours.collect(),
             tips: tips.collect(),
@@ -113,7 +113,7 @@ impl Contours {
     /// # Complexity
     /// O(n³) for n links.
     #[must_use]
-    pub fn velocities(&self, at: &[[f64; 2]]) -> Option<Vec<Velocity>> {
+    pub fn link_velocities(&self, at: &[[f64; 2]]) -> Option<Vec<Velocity>> {
         let size = 2 * self.contours.len();
         let mut system = SmallSystem::new(size, 1);
         // The sum of ω × (leaves - comes) over the one way is that over the other; a slide adds its millimetre, turned back by
@@ -124,19 +124,19 @@ impl Contours {
                     let arm = sub(at[side.leaves], at[side.comes]);
                     match (self.unknown[side.link], self.input) {
                         (Some(column), _) => {
-                            system.add(2 * k, column, sign * arm[0]);
-                            system.add(2 * k + 1, column, sign * arm[1]);
+                            system.add_entry(2 * k, column, sign * arm[0]);
+                            system.add_entry(2 * k + 1, column, sign * arm[1]);
                         }
                         (None, Input::Turn) => {
-                            system.add(2 * k, size, -sign * arm[0]);
-                            system.add(2 * k + 1, size, -sign * arm[1]);
+                            system.add_entry(2 * k, size, -sign * arm[0]);
+                            system.add_entry(2 * k + 1, size, -sign * arm[1]);
                         }
-                        (None, Input::Slide) => system.add(2 * k + 1, size, sign),
+                        (None, Input::Slide) => system.add_entry(2 * k + 1, size, sign),
                     }
                 }
             }
         }
-        system.solve()?;
+        system.solve_all()?;
         let mut out = vec![Velocity::default(); self.links];
         for s in &self.tree {
             let before = out[s.from];
@@ -151,7 +151,7 @@ impl Contours {
                     let slower = before.turning - turning;
                     Velocity {
                         turning,
-                        shift: add_scaled(before.shift, slower, quarter(at[s.joint])),
+                        shift: add_scaled(before.shift, slower, quarter_turn(at[s.joint])),
                     }
                 }
             };

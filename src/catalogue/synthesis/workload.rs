@@ -2,8 +2,8 @@
 
 use crate::file::schema::{Coordinate, ForceEntry};
 use crate::geom::vector::{Vector, add_scaled, length, sub};
-use crate::synthesis::place::{Pivot, Place, middle, number};
-use crate::synthesis::task::exactly;
+use crate::synthesis::place::{Pivot, Place, middle_of, number_words};
+use crate::synthesis::task::exact_list;
 use serde::{Deserialize, Serialize};
 
 /// Forces and masses that every structure has alike.
@@ -15,7 +15,7 @@ pub struct Workload {
     /// Mass of the part, in kg: the jaws share its weight.
     pub part: f64,
     /// Acceleration of gravity in m/s²; z is square to the plane, of jaw a where each has its own, x is ahead.
-    #[serde(deserialize_with = "exactly")]
+    #[serde(deserialize_with = "exact_list")]
     pub gravity: [f64; 3],
     /// Mass of a metre of link, in kg.
     pub link_mass: f64,
@@ -46,13 +46,13 @@ pub(super) struct HeldPart<'a> {
 }
 
 /// A rod from the middle of a link's points to each of them, in millimetres: their length, and where their mass is.
-fn rods(points: &[Vector]) -> (f64, Vector) {
-    let centre = middle(points);
+fn link_rods(points: &[Vector]) -> (f64, Vector) {
+    let centre = middle_of(points);
     let (mut whole, mut moment) = (0.0, [0.0; 3]);
     for p in points {
         let rod = length(sub(*p, centre));
         whole += rod;
-        moment = add_scaled(moment, rod, middle(&[centre, *p]));
+        moment = add_scaled(moment, rod, middle_of(&[centre, *p]));
     }
     if whole > 0.0 {
         (whole, moment.map(|m| m / whole))
@@ -70,13 +70,13 @@ impl Workload {
 
     /// Mass in kg and mass centre in millimetres of a link with these points.
     #[must_use]
-    pub fn mass(&self, points: &[Vector]) -> (f64, Vector) {
-        let (length, centre) = rods(points);
+    pub fn link_mass(&self, points: &[Vector]) -> (f64, Vector) {
+        let (length, centre) = link_rods(points);
         (self.link_mass * length / 1000.0, centre)
     }
 
     /// The forces on jaws of these names: of each the part's push, then its share of the weight.
-    pub(super) fn forces(&self, jaws: &[String], held: &HeldPart<'_>) -> Vec<ForceEntry> {
+    pub(super) fn jaw_forces(&self, jaws: &[String], held: &HeldPart<'_>) -> Vec<ForceEntry> {
         let entry = |n: usize, force| ForceEntry {
             link: jaws[n].clone(),
             point: held.pivot.point(held.tips[n]),
@@ -98,7 +98,7 @@ impl Workload {
         if weight != [0.0; 3] {
             let share = |w: f64| match jaws.len() {
                 _ if w == 0.0 => Coordinate::Integer(0),
-                2 => number(w / 2.0),
+                2 => number_words(w / 2.0),
                 n => Coordinate::Expression(format!("{w}/{n}")),
             };
             out.extend((0..jaws.len()).map(|n| entry(n, weight.map(share))));

@@ -2,12 +2,12 @@
 
 use crate::accuracy::stability;
 use crate::accuracy::study::{self, Effort};
-use crate::accuracy::survey::{Survey, cases, generated};
+use crate::accuracy::survey::{Survey, built_in_cases, generated_cases};
 use crate::accuracy::timing::Stopwatch;
 use crate::builtin;
 use crate::cli::prelude::*;
 use crate::cli::terminal::machine;
-use crate::view::accuracy::summary;
+use crate::view::accuracy::accuracy_text;
 
 #[derive(Debug, ClapArgs)]
 pub(crate) struct Accuracy {
@@ -22,7 +22,7 @@ pub(crate) struct Accuracy {
     repeat: Option<usize>,
 }
 
-pub(crate) fn run(args: &Global, a: &Accuracy) -> anyhow::Result<Done> {
+pub(crate) fn run_accuracy(args: &Global, a: &Accuracy) -> anyhow::Result<Done> {
     let repeat = a.repeat.unwrap_or(if a.quick { 1 } else { 5 });
     ensure!(repeat > 0, "--repeat must be at least 1");
     // The folder before the work: a bad path should not cost a minute.
@@ -32,12 +32,13 @@ pub(crate) fn run(args: &Global, a: &Accuracy) -> anyhow::Result<Done> {
     }
     let mut bar = Bar::new(args.quiet);
     let clock = machine::processor_time;
-    let machine = machine::machine();
+    let machine = machine::this_machine();
     let watch = Stopwatch { clock, repeat };
-    let mut surveyed =
-        |cases, what: &str| Survey::new(cases, watch, &mut |done, of| bar.step(what, done, of));
-    let survey = surveyed(cases(&builtin::all())?, "timing the methods");
-    let generated = surveyed(generated(args.seed), "mechanisms from the seed");
+    let mut surveyed = |cases, what: &str| {
+        Survey::new(cases, watch, &mut |done, of| bar.show_step(what, done, of))
+    };
+    let survey = surveyed(built_in_cases(&builtin::all())?, "timing the methods");
+    let generated = surveyed(generated_cases(args.seed), "mechanisms from the seed");
     let both = [&survey, &generated];
     if let Some(folder) = &a.output {
         let effort = Effort {
@@ -46,37 +47,40 @@ pub(crate) fn run(args: &Global, a: &Accuracy) -> anyhow::Result<Done> {
             clock,
         };
         let mut studies = vec![
-            survey.study("share-time"),
-            generated.study("share-time-generated"),
+            survey.as_study("share-time"),
+            generated.as_study("share-time-generated"),
         ];
-        let all = stability::all(&survey.cases, effort, &mut |what, done, of| {
-            bar.step(what, done, of)
+        let all = stability::run_studies(&survey.cases, effort, &mut |what, done, of| {
+            bar.show_step(what, done, of)
         });
         studies.extend(all);
         let quick = if a.quick { " --quick" } else { "" };
         let made = format!(
             "Made by: ozols accuracy{quick} --seed {} -o DIR. {}. On {machine}. The table of each chart is next to it as CSV.",
             args.seed,
-            survey.repeated()
+            survey.describe_repeats()
         );
         let tables = [("survey.csv", &survey), ("generated.csv", &generated)];
-        let tables = tables.map(|(name, survey)| (name.to_owned(), survey.csv()));
+        let tables = tables.map(|(name, survey)| (name.to_owned(), survey.to_csv()));
         let title = "Mobility methods: accuracy, speed, stability";
-        output::files(folder, study::files(title, &made, &studies, tables.into()))?;
+        output::write_files(
+            folder,
+            study::page_files(title, &made, &studies, tables.into()),
+        )?;
         bar.clear();
-        let text = summary(both, &studies[2..], &machine, output::width(None));
+        let text = accuracy_text(both, &studies[2..], &machine, output::output_width(None));
         let index = folder.join("index.html");
         let written = format!("Written to {}: open it in a browser.", index.display());
-        return output::put(None, format!("{text}\n{written}\n"));
+        return output::write_bytes(None, format!("{text}\n{written}\n"));
     }
     bar.clear();
-    let text = summary(both, &[], &machine, output::width(None));
+    let text = accuracy_text(both, &[], &machine, output::output_width(None));
     let charts = NextCommand {
         command: "ozols accuracy -o accuracy".to_owned(),
         gives: "the same as charts, and where each method's numbers fail".to_owned(),
     };
-    output::put(
+    output::write_bytes(
         None,
-        text + &next_commands::text(&[charts], output::width(None)),
+        text + &next_commands::steps_text(&[charts], output::output_width(None)),
     )
 }

@@ -2,11 +2,11 @@
 
 use crate::cli::command::verify;
 use crate::cli::prelude::*;
-use crate::file::read::workload::motion::stroke;
+use crate::file::read::workload::motion::parse_stroke;
 use crate::rank::method::{MobilityMethod, RankOfJ, registry};
-use crate::rank::rounded::verdict::verdict;
+use crate::rank::rounded::verdict::rank_verdict;
 use crate::rank::stroke::request::AskedStroke;
-use crate::redundancy::analysis::{Method, StateAnalysis, analyse};
+use crate::redundancy::analysis::{Method, StateAnalysis, analyse_states};
 use crate::view::analysis::mobility::ByMethod;
 use crate::view::analysis::next::next as steps;
 use crate::view::analysis::{Analysis, State, suggestions};
@@ -68,40 +68,40 @@ pub(crate) struct Analyze {
     pub(crate) svg: Option<PathBuf>,
 }
 
-pub(crate) fn run(_: &Global, a: &Analyze) -> anyhow::Result<Done> {
-    let mut mechanism = load::mechanism(&a.file)?;
+pub(crate) fn run_analyze(_: &Global, a: &Analyze) -> anyhow::Result<Done> {
+    let mut mechanism = load::load_mechanism(&a.file)?;
     if a.planar {
         load::put_in_plane(&mut mechanism)?;
     }
     let states = states_asked(&mechanism, a)?;
     check_tolerance(a)?;
-    let over = mechanism.state(&a.state).unwrap_or(StateId::FREE);
-    let asked = a.stroke.as_ref().map(|_| verdict(&mechanism, over));
+    let over = mechanism.state_named(&a.state).unwrap_or(StateId::FREE);
+    let asked = a.stroke.as_ref().map(|_| rank_verdict(&mechanism, over));
     let asked = asked.transpose()?;
     let stroke = match (&a.stroke, &asked) {
         (Some(range), Some(verdict)) => Some(AskedStroke::new(
             &mechanism,
             over,
             range,
-            stroke(range)?,
+            parse_stroke(range)?,
             a.drive.as_deref(),
             verdict,
             a.tolerance,
         )?),
         _ => None,
     };
-    let Some(method) = Method::of(a.method, a.tolerance) else {
+    let Some(method) = Method::of_method(a.method, a.tolerance) else {
         return mobility_alone(&mechanism, &states, a);
     };
-    let found = analyse(&mechanism, &states, method)?;
+    let found = analyse_states(&mechanism, &states, method)?;
     if let Some(path) = &a.certificate {
-        verify::write(path, &mechanism, &states, &found)?;
+        verify::write_certificates(path, &mechanism, &states, &found)?;
     }
-    let stroke = stroke.as_ref().map(StrokeData::of);
+    let stroke = stroke.as_ref().map(StrokeData::follow_stroke);
     if let (Some(s), Some(path)) = (&stroke, &a.svg) {
-        output::put(Some(path), s.chart().svg())?;
+        output::write_bytes(Some(path), s.chart().svg())?;
     }
-    let advice = suggestions::advise(&mechanism, &states, &found)?;
+    let advice = suggestions::advise_states(&mechanism, &states, &found)?;
     let mut analysis = Analysis {
         stroke,
         ..Analysis::new(&mechanism, &found, &advice)
@@ -122,11 +122,11 @@ pub(crate) fn run(_: &Global, a: &Analyze) -> anyhow::Result<Done> {
 
 /// Returns the states to analyse: the one named, or all. Over a stroke this is the free state unless another is named.
 fn states_asked(mechanism: &Mechanism, a: &Analyze) -> anyhow::Result<Vec<StateId>> {
-    Ok(match (a.state.as_str(), mechanism.state(&a.state)) {
+    Ok(match (a.state.as_str(), mechanism.state_named(&a.state)) {
         (_, Some(s)) => vec![s],
         ("all", None) if a.stroke.is_some() => vec![StateId::FREE],
         ("all", None) => mechanism.state_ids().collect(),
-        (other, None) => vec![load::state(mechanism, other)?],
+        (other, None) => vec![load::find_state(mechanism, other)?],
     })
 }
 
@@ -139,12 +139,12 @@ fn add_motions<'m>(
 ) -> anyhow::Result<()> {
     let link = |name: &String| {
         let known = || mechanism.links.iter().map(|l| l.id.as_str()).join(", ");
-        let found = mechanism.link(name);
+        let found = mechanism.link_named(name);
         found.with_context(|| format!("{} has no link {name}; it has: {}", mechanism.name, known()))
     };
     let links: Vec<LinkId> = a.link.iter().map(link).collect::<Result<_, _>>()?;
     let to = a.relative_to.as_ref().map(link).transpose()?;
-    let to = to.unwrap_or(mechanism.frame());
+    let to = to.unwrap_or(mechanism.frame_link());
     for (state, found) in analysis.states.iter_mut().zip(found) {
         let all = found.link_motions(mechanism, &links, to)?;
         state.asked.extend(all);
@@ -175,24 +175,27 @@ fn check_tolerance(a: &Analyze) -> anyhow::Result<()> {
 /// Writes what was found in the format asked for; text says what to do next.
 fn write(a: &Analyze, analysis: &Analysis<'_>, next: &[NextCommand]) -> anyhow::Result<Done> {
     let width = a.to.width();
-    a.to.put(match a.format {
-        TextOrJson::Json => output::json(&analysis.json())?,
+    a.to.write_all_of(match a.format {
+        TextOrJson::Json => output::json_text(&analysis.json())?,
         TextOrJson::Text => {
-            let verdicts = analysis.states.iter().map(|s| (s.verdict(), tone(s)));
-            let text = toned(analysis.text(width, a.verbose), a.to.path(), verdicts);
+            let verdicts = analysis
+                .states
+                .iter()
+                .map(|s| (s.verdict(), verdict_tone(s)));
+            let text = colour_verdicts(analysis.text(width, a.verbose), a.to.path(), verdicts);
             let stroke = analysis.stroke.as_ref();
-            let stroke = stroke.map(|s| format!("\n{}", fit(&s.text(width), width)));
-            let next = a.file.with_loops(next_commands::text(next, width));
+            let stroke = stroke.map(|s| format!("\n{}", fit_lines(&s.text(width), width)));
+            let next = a.file.with_loops(next_commands::steps_text(next, width));
             text + &stroke.unwrap_or_default() + &next
         }
     })?;
     // A stroke that could not be finished is no success.
     let stopped = analysis.stroke.as_ref().is_some_and(StrokeData::stops);
-    Ok(Done::found(!stopped))
+    Ok(Done::found_or_nothing(!stopped))
 }
 
 /// Returns the tone of a verdict: good news or bad.
-fn tone(s: &State<'_>) -> Tone {
+fn verdict_tone(s: &State<'_>) -> Tone {
     match (s.found.redundant, s.found.at_most()) {
         (_, Some(_)) => Tone::Doubtful,
         (0, None) => Tone::Good,
@@ -225,8 +228,8 @@ fn mobility_alone(mechanism: &Mechanism, states: &[StateId], a: &Analyze) -> any
         method,
         answers,
     };
-    a.to.put(match a.format {
-        TextOrJson::Json => output::json(&found.json())?,
+    a.to.write_all_of(match a.format {
+        TextOrJson::Json => output::json_text(&found.json())?,
         TextOrJson::Text => found.text(),
     })
 }

@@ -1,9 +1,9 @@
 //! `ozols bench`.
 
 use crate::accuracy::change::Noise;
-use crate::accuracy::lattice::{Scene, ladder, lift};
+use crate::accuracy::lattice::{Scene, make_ladder, make_lift};
 use crate::accuracy::searching::record::{self, Trial, Way};
-use crate::accuracy::searching::{MECHANISMS, TrialEffort, pictures, trial};
+use crate::accuracy::searching::{MECHANISMS, TrialEffort, pictures, run_trial};
 use crate::accuracy::study;
 use crate::accuracy::timing::Stopwatch;
 use crate::cli::option::request::Which;
@@ -69,7 +69,7 @@ struct Trials {
 
 impl Trials {
     /// Returns the trials that the options ask for.
-    fn asked(args: &Global, a: &Bench) -> anyhow::Result<Trials> {
+    fn from_options(args: &Global, a: &Bench) -> anyhow::Result<Trials> {
         let repeat = a.repeat.unwrap_or(if a.quick { 1 } else { 15 });
         let looked = a.looked.unwrap_or(if a.quick { 1_000 } else { 20_000 });
         ensure!(repeat > 0, "--repeat must be at least 1");
@@ -100,15 +100,15 @@ impl Trials {
     /// Runs them, and shows how far they are.
     fn run(&self, m: &Mechanism, effort: TrialEffort, bar: &mut Bar) -> anyhow::Result<Trial> {
         let progress = &mut |way: Way, done, of| {
-            bar.step(&format!("{}: {way}", m.name), done, of);
+            bar.show_step(&format!("{}: {way}", m.name), done, of);
         };
-        let found = trial(m, &self.request, effort, self.watch, progress);
+        let found = run_trial(m, &self.request, effort, self.watch, progress);
         found.with_context(|| format!("cannot search {}", m.name))
     }
 }
 
 pub(crate) fn run(args: &Global, a: &Bench) -> anyhow::Result<Done> {
-    let asked = Trials::asked(args, a)?;
+    let asked = Trials::from_options(args, a)?;
     // The folder and the files before the work: a bad path should not cost a minute.
     if let Some(folder) = &a.output {
         std::fs::create_dir_all(folder)
@@ -120,7 +120,7 @@ pub(crate) fn run(args: &Global, a: &Bench) -> anyhow::Result<Done> {
     } else {
         &a.files[..]
     };
-    let (mechanisms, mut well) = load::each(files, &a.loops);
+    let (mechanisms, mut well) = load::load_each(files, &a.loops);
     let mut bar = Bar::new(args.quiet);
     let mut trials = Vec::new();
     let mut runs: Vec<_> = mechanisms
@@ -134,9 +134,9 @@ pub(crate) fn run(args: &Global, a: &Bench) -> anyhow::Result<Done> {
             ..asked.effort
         };
         let hard = [
-            ladder(Scene::Plane, 10, &mut noise()),
-            ladder(Scene::Space, 6, &mut noise()),
-            lift(40),
+            make_ladder(Scene::Plane, 10, &mut noise()),
+            make_ladder(Scene::Space, 6, &mut noise()),
+            make_lift(40),
         ];
         runs.extend(hard.map(|m| (m, counted)));
     }
@@ -145,7 +145,7 @@ pub(crate) fn run(args: &Global, a: &Bench) -> anyhow::Result<Done> {
             Ok(found) => trials.push(found),
             Err(e) => {
                 well = false;
-                output::complain(&e);
+                output::print_error(&e);
             }
         }
     }
@@ -153,28 +153,28 @@ pub(crate) fn run(args: &Global, a: &Bench) -> anyhow::Result<Done> {
     if trials.is_empty() {
         return Ok(Done::Partly);
     }
-    let machine = machine::machine();
+    let machine = machine::this_machine();
     if let Some(folder) = &a.output {
         let made = format!(
             "Made by: {}. On {machine}.",
             std::env::args().collect::<Vec<_>>().join(" ")
         );
-        let tables = vec![("searches.csv".to_owned(), record::csv(&trials))];
-        let studies = pictures::studies(&trials, ADVICE);
+        let tables = vec![("searches.csv".to_owned(), record::trials_csv(&trials))];
+        let studies = pictures::make_studies(&trials, ADVICE);
         let title = "Ways of searching: accuracy against speed";
-        output::files(folder, study::files(title, &made, &studies, tables))?;
+        output::write_files(folder, study::page_files(title, &made, &studies, tables))?;
     }
     let mut text = match a.format {
-        BenchFormat::Text => bench_text(&trials, &ADVICE, &machine, output::width(None)),
-        BenchFormat::Json => output::json(
-            &json!({"machine": machine, "mechanisms": trials, "ways": record::rows(&trials)}),
+        BenchFormat::Text => bench_text(&trials, &ADVICE, &machine, output::output_width(None)),
+        BenchFormat::Json => output::json_text(
+            &json!({"machine": machine, "mechanisms": trials, "ways": record::trial_rows(&trials)}),
         )?,
-        BenchFormat::Csv => record::csv(&trials),
+        BenchFormat::Csv => record::trials_csv(&trials),
     };
     if let Some(folder) = &a.output {
         let index = folder.join("index.html");
         text += &format!("Written to {}: open it in a browser.\n", index.display());
     }
-    output::put(None, text)?;
+    output::write_bytes(None, text)?;
     Ok(if well { Done::Found } else { Done::Partly })
 }

@@ -41,17 +41,17 @@ enum What {
     Page(look::Page),
 }
 
-pub(crate) fn run(args: &Global, a: &Catalog) -> anyhow::Result<Done> {
+pub(crate) fn run_catalog(args: &Global, a: &Catalog) -> anyhow::Result<Done> {
     match &a.what {
         What::Count(c) => chains::count(args, c),
         What::Chains(c) => chains::list(c),
-        What::Build(b) => build::run(args, b),
-        What::Search(s) => drawn::search(args, s),
-        What::Merge(m) => merge::merge(m),
-        What::Find(f) => look::find(f),
-        What::Query(q) => look::query(q),
-        What::Show(s) => look::show(s),
-        What::Export(e) => look::export(e),
-        What::Page(p) => look::page(p),
+        What::Build(b) => build::run_build(args, b),
+        What::Search(s) => drawn::run_search_drawn(args, s),
+        What::Merge(m) => merge::run_merge(m),
+        What::Find(f) => look::run_find(f),
+        What::Query(q) => look::run_query(q),
+        What::Show(s) => look::run_show(s),
+        What::Export(e) => look::run_export(e),
+        What::Page(p) => look::run_page(p),
     }
 }

@@ -2,16 +2,16 @@
 
 use crate::cli::command::statics::args::{Statics, StaticsFormat, StaticsMethod};
 use crate::cli::prelude::*;
-use crate::grip::clamped::clamped;
+use crate::grip::clamped::clamped_reactions;
 use crate::grip::clamping::DiameterRow;
 use crate::grip::jaw_loads::Gripping;
 use crate::view::grip::clamped::NotHeld;
 use crate::view::statics::told::ToldStatics;
 
 /// Returns the diameter asked for, or the hardest one to hold. `None` if that part cannot be held.
-fn chosen<'g>(g: &'g Gripping, a: &Statics) -> anyhow::Result<Option<&'g DiameterRow>> {
+fn chosen_diameter<'g>(g: &'g Gripping, a: &Statics) -> anyhow::Result<Option<&'g DiameterRow>> {
     let Some(diameter) = a.diameter else {
-        return Ok(g.study.hardest());
+        return Ok(g.study.hardest_row());
     };
     let unit = g.mechanism.length_unit;
     let near =
@@ -19,7 +19,7 @@ fn chosen<'g>(g: &'g Gripping, a: &Statics) -> anyhow::Result<Option<&'g Diamete
     let found = g.study.rows.iter().find(near);
     let known = || {
         let all = g.study.rows.iter().take(30);
-        let all = all.map(|r| significant(r.diameter / unit.metres));
+        let all = all.map(|r| four_digits(r.diameter / unit.metres));
         all.collect::<Vec<_>>().join(", ")
     };
     let row = found.with_context(|| {
@@ -29,7 +29,7 @@ fn chosen<'g>(g: &'g Gripping, a: &Statics) -> anyhow::Result<Option<&'g Diamete
             known()
         )
     })?;
-    Ok(Some(row).filter(|r| r.holds()))
+    Ok(Some(row).filter(|r| r.is_held()))
 }
 
 /// Refuses what makes no sense round a part.
@@ -51,12 +51,12 @@ fn check_options(a: &Statics) -> anyhow::Result<()> {
     Ok(())
 }
 
-pub(crate) fn run(g: &Gripping, a: &Statics) -> anyhow::Result<Done> {
+pub(crate) fn run_clamped(g: &Gripping, a: &Statics) -> anyhow::Result<Done> {
     check_options(a)?;
-    let Some(row) = chosen(g, a)? else {
+    let Some(row) = chosen_diameter(g, a)? else {
         return not_held(g, a);
     };
-    let Some(found) = clamped(g, row, a.spatial)? else {
+    let Some(found) = clamped_reactions(g, row, a.spatial)? else {
         return not_held(g, a);
     };
     let shown = ToldStatics::round_a_part(g, row, &found);
@@ -66,8 +66,8 @@ pub(crate) fn run(g: &Gripping, a: &Statics) -> anyhow::Result<Done> {
 /// Says why there are no forces: exit code 1.
 fn not_held(g: &Gripping, a: &Statics) -> anyhow::Result<Done> {
     let shown = NotHeld::new(g);
-    a.put(match a.format {
-        StaticsFormat::Json => output::json(&shown)?,
+    a.write_text(match a.format {
+        StaticsFormat::Json => output::json_text(&shown)?,
         StaticsFormat::Csv | StaticsFormat::Text => shown.text(),
     })?;
     Ok(Done::Nothing)

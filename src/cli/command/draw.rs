@@ -6,7 +6,7 @@ use crate::cli::option::{picture, variant};
 use crate::cli::prelude::*;
 use crate::draw::{self, Drawing, Sight, Size, Subject};
 use crate::page::moving::Moving;
-use crate::redundancy::analysis::{Method, StateAnalysis, analyse};
+use crate::redundancy::analysis::{Method, StateAnalysis, analyse_states};
 use crate::view::analysis::Analysis;
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -31,10 +31,10 @@ pub(crate) struct Draw {
     chosen: Chosen,
     /// Side from which a kinematic scheme is seen: x, y, z, iso, or the direction towards the reader such as "1,-2,0.5" [default:
     /// the side with least overlap].
-    #[arg(long, value_name = "SIDE", value_parser = side, allow_hyphen_values = true)]
+    #[arg(long, value_name = "SIDE", value_parser = parse_side, allow_hyphen_values = true)]
     view: Option<[f64; 3]>,
     /// Direction that points up on paper: x, y, z, or a direction such as "0,1,1" [default: z].
-    #[arg(long, value_name = "AXIS", value_parser = axis, allow_hyphen_values = true)]
+    #[arg(long, value_name = "AXIS", value_parser = parse_axis, allow_hyphen_values = true)]
     up: Option<[f64; 3]>,
     /// Animated SVG of the kinematic scheme: the drive moves through its range, one turn or back and forth, at 30 pictures a
     /// second. It stands still for readers who ask for less motion, and on paper.
@@ -72,95 +72,99 @@ pub(crate) struct Draw {
 
 impl Draw {
     /// Returns true if a motion is shown; only the kinematic scheme can show one.
-    fn moves(&self) -> bool {
+    fn shows_motion(&self) -> bool {
         self.motion || self.stroke.is_some() || self.drive.is_some()
     }
 }
 
 /// Parses a side as a direction towards the reader.
-fn side(text: &str) -> Result<[f64; 3], String> {
+fn parse_side(text: &str) -> Result<[f64; 3], String> {
     match text.trim() {
         // x to the right and z up
         "y" => Ok([0.0, -1.0, 0.0]),
         "iso" => Ok([1.0, 1.0, 1.0]),
-        _ => direction(text, "x, y, z, iso", "1,-2,0.5"),
+        _ => parse_direction(text, "x, y, z, iso", "1,-2,0.5"),
     }
 }
 
 /// Parses the direction that points up.
-fn axis(text: &str) -> Result<[f64; 3], String> {
-    direction(text, "x, y, z", "0,1,1")
+fn parse_axis(text: &str) -> Result<[f64; 3], String> {
+    parse_direction(text, "x, y, z", "0,1,1")
 }
 
 /// Parses a direction as an axis or three numbers; an error names other words and an example.
-fn direction(text: &str, words: &str, example: &str) -> Result<[f64; 3], String> {
+fn parse_direction(text: &str, words: &str, example: &str) -> Result<[f64; 3], String> {
     match text.trim() {
         "x" => Ok([1.0, 0.0, 0.0]),
         "y" => Ok([0.0, 1.0, 0.0]),
         "z" => Ok([0.0, 0.0, 1.0]),
-        _ => numbers(text).ok_or_else(|| {
+        _ => parse_numbers(text).ok_or_else(|| {
             format!("give {words}, or three numbers that are not all zero, such as \"{example}\"")
         }),
     }
 }
 
 /// Parses a direction as three numbers.
-fn numbers(text: &str) -> Option<[f64; 3]> {
+fn parse_numbers(text: &str) -> Option<[f64; 3]> {
     let parts: Option<Vec<f64>> = text.split(',').map(|p| p.trim().parse().ok()).collect();
     let direction: [f64; 3] = parts?.try_into().ok()?;
     let size = direction.iter().fold(0.0f64, |m, x| m.max(x.abs()));
     (size > 0.0 && size.is_finite()).then(|| direction.map(|x| x / size))
 }
 
-pub(crate) fn run(_: &Global, a: &Draw) -> anyhow::Result<Done> {
-    let wanted = wanted(a)?;
+pub(crate) fn run_draw(_: &Global, a: &Draw) -> anyhow::Result<Done> {
+    let wanted = png_size(a)?;
     ensure!(
-        a.moves()
+        a.shows_motion()
             || a.self_stress.is_some()
             || a.kind == DrawKind::Kinematic
             || (a.view.is_none() && a.up.is_none()),
         "--view and --up need the kinematic scheme, which has coordinates; add --kind kinematic"
     );
-    let mut mechanism = load::mechanism(&a.file)?;
-    let state = load::state(&mechanism, &a.state)?;
+    let mut mechanism = load::load_mechanism(&a.file)?;
+    let state = load::find_state(&mechanism, &a.state)?;
     let mut marks = None;
     let searched = state != StateId::FREE;
     let request = a.which.request(searched.then_some(a.state.as_str()))?;
-    let request = a.chosen.of(request);
-    if let Some(k) = a.chosen.place() {
-        let (realized, changes) = variant::kth(mechanism, request, k, |v| {
+    let request = a.chosen.list_request(request);
+    if let Some(k) = a.chosen.list_place() {
+        let (realized, changes) = variant::with_variant(mechanism, request, k, |v| {
             let search = &v.outcome().search;
             draw::Marks::of_variant(search, v.assignment(), &v.name())
         })?;
         (mechanism, marks) = (realized, Some(changes));
     }
-    let found = analyse(&mechanism, &[state], Method::Auto)?;
+    let found = analyse_states(&mechanism, &[state], Method::Auto)?;
     let subject = Subject {
         mechanism: &mechanism,
         state,
         analysis: found.first(),
         marks,
     };
-    let drawing = drawing(a, &subject, &found)?;
+    let drawing = make_drawing(a, &subject, &found)?;
     let bytes = match wanted {
-        Some(size) => picture::png(&drawing, size)?,
+        Some(size) => picture::render_png(&drawing, size)?,
         None => drawing.svg.into_bytes(),
     };
-    a.to.put(bytes)
+    a.to.write_all_of(bytes)
 }
 
 /// Returns the drawing that is asked for.
-fn drawing(a: &Draw, subject: &Subject<'_>, found: &[StateAnalysis]) -> anyhow::Result<Drawing> {
+fn make_drawing(
+    a: &Draw,
+    subject: &Subject<'_>,
+    found: &[StateAnalysis],
+) -> anyhow::Result<Drawing> {
     let sight = Sight {
         toward: a.view,
         up: a.up,
     };
     let first = found.first().context("no state was analysed")?;
     if let Some(k) = a.self_stress {
-        return stressed(a, subject, &sight, found, k.wrapping_sub(1));
+        return draw_stressed(a, subject, &sight, found, k.wrapping_sub(1));
     }
-    if a.moves() {
-        return moving(a, subject, &sight, first);
+    if a.shows_motion() {
+        return draw_moving(a, subject, &sight, first);
     }
     Ok(match a.kind {
         DrawKind::Scheme => draw::scheme(subject),
@@ -169,7 +173,7 @@ fn drawing(a: &Draw, subject: &Subject<'_>, found: &[StateAnalysis]) -> anyhow::
 }
 
 /// Draws the kinematic scheme with a self-stress, counted from 0, as arrows.
-fn stressed(
+fn draw_stressed(
     a: &Draw,
     subject: &Subject<'_>,
     sight: &Sight,
@@ -202,7 +206,7 @@ fn stressed(
 }
 
 /// Draws the kinematic scheme with its motion, or with the paths of its points.
-fn moving(
+fn draw_moving(
     a: &Draw,
     subject: &Subject<'_>,
     sight: &Sight,
@@ -210,18 +214,18 @@ fn moving(
 ) -> anyhow::Result<Drawing> {
     let (mechanism, state) = (subject.mechanism, subject.state);
     let moving = match a.idle {
-        Some(k) => Moving::idle(mechanism, analysis, state, k.wrapping_sub(1))?,
+        Some(k) => Moving::idle_motion(mechanism, analysis, state, k.wrapping_sub(1))?,
         None => Moving::new(mechanism, state, a.stroke.as_deref(), a.drive.as_deref())?,
     };
     Ok(if a.motion {
-        draw::kinematic_moving(subject, sight, &moving.moved())
+        draw::kinematic_moving(subject, sight, &moving.as_moved())
     } else {
-        draw::kinematic_along(subject, sight, &moving.moved())
+        draw::kinematic_along(subject, sight, &moving.as_moved())
     })
 }
 
 /// Returns the size of the PNG, if one is asked for. Reports mistakes before any work is done.
-fn wanted(a: &Draw) -> anyhow::Result<Option<Size>> {
+fn png_size(a: &Draw) -> anyhow::Result<Option<Size>> {
     output::not_to_terminal(a.to.path(), "a drawing")?;
     if !a.png && !picture::named(a.to.path()) {
         ensure!(
@@ -230,7 +234,7 @@ fn wanted(a: &Draw) -> anyhow::Result<Option<Size>> {
         );
         return Ok(None);
     }
-    picture::there()?;
+    picture::ensure_png()?;
     let scale = a.scale.unwrap_or(picture::SCALE);
     ensure!(
         scale > 0.0 && scale <= 100.0,

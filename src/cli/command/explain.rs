@@ -20,22 +20,25 @@ pub(crate) struct Explain {
 /// Width of running text, in columns, if the output is not a terminal.
 const COLUMNS: u16 = 100;
 
-pub(crate) fn run(a: &Explain) -> anyhow::Result<Done> {
+pub(crate) fn run_explain(a: &Explain) -> anyhow::Result<Done> {
     let terms = Terms::builtin();
     let word = a.term.join(" ");
     if word.trim().is_empty() {
         let (terms, types) = (
-            all(&terms, output::width(None)),
-            pair::all(output::width(None)),
+            table_of_terms(&terms, output::output_width(None)),
+            pair::table_of_types(output::output_width(None)),
         );
         let hint = "ozols explain TERM explains one of them, or a joint type.";
-        return output::put(None, format!("{terms}\n\n{types}\n\n{hint}\n"));
+        return output::write_bytes(None, format!("{terms}\n\n{types}\n\n{hint}\n"));
     }
-    if let Some(joint_type) = JointType::from_name(&pair::word(&word)) {
-        return pair::explain(&joint_type, a.output.as_deref());
+    if let Some(joint_type) = JointType::from_name(&pair::spelled_type(&word)) {
+        return pair::explain_type(&joint_type, a.output.as_deref());
     }
     if word == "types" {
-        return output::put(None, pair::all(output::width(None)) + "\n");
+        return output::write_bytes(
+            None,
+            pair::table_of_types(output::output_width(None)) + "\n",
+        );
     }
     ensure!(
         a.output.is_none(),
@@ -47,29 +50,29 @@ pub(crate) fn run(a: &Explain) -> anyhow::Result<Done> {
         let types = JointType::NAMED.iter().map(JointType::name);
         let trade = JointType::TRADE_NAMES.map(|(name, _)| name);
         let types: Vec<&str> = types.chain(trade).collect();
-        let near = did_you_mean::near(&word, terms.words().chain(types));
+        let near = did_you_mean::nearest_words(&word, terms.known_words().chain(types));
         let names = near
             .iter()
             .map(|w| terms.find(w).map_or(*w, |t| t.name.as_str()));
         bail!(
             "no term or joint type {word:?}{}; run `ozols explain` for the list",
-            did_you_mean::question(&names.unique().collect_vec())
+            did_you_mean::ask_words(&names.unique().collect_vec())
         )
     };
-    output::put(None, one(&terms, term))
+    output::write_bytes(None, explain_term(&terms, term))
 }
 
-fn all(terms: &Terms, width: Option<u16>) -> String {
+fn table_of_terms(terms: &Terms, width: Option<u16>) -> String {
     let rows = terms.term.iter().map(|t| {
         // Signs and the commonest words come first in the file.
         let also = t.also.iter().take(2).join(", ");
         vec![t.name.clone(), also, t.first_sentence().to_owned()]
     });
-    table("term | also | what it is", rows, width)
+    text_table("term | also | what it is", rows, width)
 }
 
-fn one(terms: &Terms, term: &GlossaryTerm) -> String {
-    let width = usize::from(output::width(None).unwrap_or(COLUMNS).min(COLUMNS));
+fn explain_term(terms: &Terms, term: &GlossaryTerm) -> String {
+    let width = usize::from(output::output_width(None).unwrap_or(COLUMNS).min(COLUMNS));
     let row = |head: &str, text: &str| {
         let options = textwrap::Options::new(width).subsequent_indent("           ");
         textwrap::fill(&format!("  {head:<8} {text}"), options)

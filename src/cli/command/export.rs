@@ -1,15 +1,15 @@
 //! `ozols export`.
 
-use crate::cli::command::types::changed;
-use crate::cli::option::reading::{Reading, description};
+use crate::cli::command::types::plan_variant;
+use crate::cli::option::reading::{Reading, import_description};
 use crate::cli::option::request::Which;
 use crate::cli::option::variant;
-use crate::cli::option::variant::{Chosen, tell};
+use crate::cli::option::variant::{Chosen, print_note};
 use crate::cli::prelude::*;
 use crate::redundancy::release::Release;
 use crate::robots::formats::{self, Format, FormattedFile};
 use crate::robots::{self, Imported};
-use crate::view::lint::words;
+use crate::view::lint::describe_release;
 use clap::builder::{PossibleValue, PossibleValuesParser};
 
 /// The formats of the mechanism file: TOML, which holds exact numbers, and the same as JSON.
@@ -25,7 +25,7 @@ pub(crate) struct Export {
     #[command(flatten)]
     reading: Reading,
     /// Output format.
-    #[arg(long, value_parser = written())]
+    #[arg(long, value_parser = parse_format())]
     to: String,
     #[command(flatten)]
     chosen: Chosen,
@@ -38,19 +38,19 @@ pub(crate) struct Export {
     out: ToFile,
 }
 
-fn written() -> PossibleValuesParser {
+fn parse_format() -> PossibleValuesParser {
     let value = |f: &'static Format| PossibleValue::new(f.word).help(f.about);
-    PossibleValuesParser::new(formats::written().map(value))
+    PossibleValuesParser::new(formats::writable_formats().map(value))
 }
 
-pub(crate) fn run(_: &Global, a: &Export) -> anyhow::Result<Done> {
+pub(crate) fn run_export(_: &Global, a: &Export) -> anyhow::Result<Done> {
     if formats::is_own(&a.to) {
-        return own(a);
+        return write_own(a);
     }
-    let request = a.chosen.of(a.which.request(a.state.as_deref())?);
-    let imported = imported(a)?;
+    let request = a.chosen.list_request(a.which.request(a.state.as_deref())?);
+    let imported = import_file(a)?;
     if let Some(imported) = &imported
-        && a.chosen.place().is_none()
+        && a.chosen.list_place().is_none()
         && [TOML, JSON].contains(&a.to.as_str())
     {
         return mechanism_file(a, imported);
@@ -60,24 +60,27 @@ pub(crate) fn run(_: &Global, a: &Export) -> anyhow::Result<Done> {
             load::tell_doubts(&a.file, &imported);
             (imported.mechanism, imported.report.left_behind())
         }
-        None => (load::written(&a.file)?, None),
+        None => (load::load_written(&a.file)?, None),
     };
-    if let Some(k) = a.chosen.place() {
-        m = variant::kth(m, request, k, |v| v.mechanism())?;
+    if let Some(k) = a.chosen.list_place() {
+        m = variant::with_variant(m, request, k, |v| v.as_mechanism())?;
     } else if a.to == TOML {
         // Other formats hold decimals, in which the two are one.
-        m = request.meant(&m, &mut note)?;
+        m = request.meant_mechanism(&m, &mut print_line)?;
     }
-    let text = text(&m, &a.to, left_behind)?;
-    a.out.put(text)
+    let text = export_text(&m, &a.to, left_behind)?;
+    a.out.write_all_of(text)
 }
 
 /// Returns the robot description or CAD assembly that FILE names. `None` if FILE is neither.
-fn imported(a: &Export) -> anyhow::Result<Option<Imported>> {
+fn import_file(a: &Export) -> anyhow::Result<Option<Imported>> {
     if load::is_described(&a.file)? {
-        return Ok(Some(description(a.file.path(), &a.reading.options()?)?));
+        return Ok(Some(import_description(
+            a.file.path(),
+            &a.reading.import_options()?,
+        )?));
     }
-    let flags = a.reading.flags();
+    let flags = a.reading.typed_flags();
     let flag = flags.split(' ').next().unwrap_or_default();
     ensure!(
         flag.is_empty(),
@@ -91,8 +94,8 @@ fn imported(a: &Export) -> anyhow::Result<Option<Imported>> {
 /// dropped.
 fn mechanism_file(a: &Export, imported: &Imported) -> anyhow::Result<Done> {
     let width = output::error_width();
-    output::note(&fit(&imported.report.text(&a.file), width));
-    a.out.put(if a.to == TOML {
+    output::print_note(&fit_lines(&imported.report.text(&a.file), width));
+    a.out.write_all_of(if a.to == TOML {
         imported.toml()?
     } else {
         format!("{:#}\n", imported.file.json())
@@ -104,42 +107,49 @@ fn mechanism_file(a: &Export, imported: &Imported) -> anyhow::Result<Done> {
             ("search", "the redesigns that remove those"),
         ];
         let steps = steps.map(|(command, gives)| NextCommand::new(command, &file, "", gives));
-        output::note(&next_commands::text(&steps, output::error_width()));
+        output::print_note(&next_commands::steps_text(&steps, output::error_width()));
     }
     Ok(Done::Found)
 }
 
 /// Writes an assembly of a CAD program in its own format, with the joint types of the chosen variant.
-fn own(a: &Export) -> anyhow::Result<Done> {
-    let imported = description(a.file.path(), &a.reading.options()?)?;
+fn write_own(a: &Export) -> anyhow::Result<Done> {
+    let imported = import_description(a.file.path(), &a.reading.import_options()?)?;
     ensure!(
         imported.format.word == a.to,
         "--to {} writes a document of {} with other joint types; {} is not one",
         a.to,
-        formats::written()
+        formats::writable_formats()
             .find(|f| f.word == a.to)
             .map_or("", |f| f.name),
         a.file
     );
     let m = &imported.mechanism;
-    let request = a.chosen.of(a.which.request(a.state.as_deref())?);
-    let releases = match a.chosen.place() {
-        Some(k) => changed(m, request, k, tell)?.releases,
+    let request = a.chosen.list_request(a.which.request(a.state.as_deref())?);
+    let releases = match a.chosen.list_place() {
+        Some(k) => plan_variant(m, request, k, print_note)?.releases,
         None => Vec::new(),
     };
-    let told: Vec<(Release, String)> = releases.into_iter().map(|r| (r, words(m, &r))).collect();
-    let written = robots::fix(&imported, &told)?;
-    a.out.put(written)
+    let told: Vec<(Release, String)> = releases
+        .into_iter()
+        .map(|r| (r, describe_release(m, &r)))
+        .collect();
+    let written = robots::apply_releases(&imported, &told)?;
+    a.out.write_all_of(written)
 }
 
 /// Converts a mechanism to a format and reports what is lost, after the notes of the import.
-pub(crate) fn text(m: &Mechanism, to: &str, left_behind: Option<String>) -> anyhow::Result<String> {
+pub(crate) fn export_text(
+    m: &Mechanism,
+    to: &str,
+    left_behind: Option<String>,
+) -> anyhow::Result<String> {
     let FormattedFile { text, told } = formats::export(m, to)?;
     let told = left_behind.into_iter().chain(told);
     let told: String = told.map(|t| format!("  {t}\n")).collect();
     if !told.is_empty() {
         let all = format!("{} as {to}:\n{told}", m.name);
-        output::note(&fit(&all, output::error_width()));
+        output::print_note(&fit_lines(&all, output::error_width()));
     }
     Ok(text)
 }

@@ -1,16 +1,16 @@
 //! `ozols fix`.
 
 use crate::api::{self, MAX_DESCRIPTION_BYTES};
-use crate::cli::command::types::{TypePlan, changed};
+use crate::cli::command::types::{TypePlan, plan_variant};
 use crate::cli::command::{lint, types};
-use crate::cli::option::reading::{Reading, description};
+use crate::cli::option::reading::{Reading, import_description};
 use crate::cli::option::request::Which;
-use crate::cli::option::variant::{Chosen, tell};
+use crate::cli::option::variant::{Chosen, print_note};
 use crate::cli::prelude::*;
 use crate::redundancy::analysis::StateAnalysis;
 use crate::redundancy::release::Release;
 use crate::robots::{self, Imported};
-use crate::view::lint::{TypeChange, words};
+use crate::view::lint::{TypeChange, describe_release};
 
 #[derive(Debug, ClapArgs)]
 pub(crate) struct Fix {
@@ -31,20 +31,20 @@ pub(crate) struct Fix {
     output: Option<PathBuf>,
 }
 
-pub(crate) fn run(a: &Fix) -> anyhow::Result<Done> {
-    let options = a.reading.options()?;
-    let imported = description(&a.file, &options)?;
+pub(crate) fn run_fix(a: &Fix) -> anyhow::Result<Done> {
+    let options = a.reading.import_options()?;
+    let imported = import_description(&a.file, &options)?;
     let m = &imported.mechanism;
     let bytes = api::bytes(&a.file, MAX_DESCRIPTION_BYTES)?;
-    let (before, plan) = match a.chosen.place() {
+    let (before, plan) = match a.chosen.list_place() {
         Some(k) => of_search(&imported, a, k)?,
         None if imported.origin.is_assembly() => other_types(&imported, a)?,
-        None => cheapest(&imported, &a.at)?,
+        None => plan_cheapest(&imported, &a.at)?,
     };
-    let told = |release: &Release| (*release, words(m, release));
+    let told = |release: &Release| (*release, describe_release(m, release));
     let releases: Vec<(Release, String)> = plan.releases.iter().map(told).collect();
-    let edited = robots::fix(&imported, &releases)?;
-    let retyped = types::named(m, &imported.origin, &plan.releases);
+    let edited = robots::apply_releases(&imported, &releases)?;
+    let retyped = types::name_changes(m, &imported.origin, &plan.releases);
     // The byte order mark is no part of the text.
     let mark = "\u{feff}".as_bytes();
     let mark = if bytes.starts_with(mark) { mark } else { b"" };
@@ -52,12 +52,12 @@ pub(crate) fn run(a: &Fix) -> anyhow::Result<Done> {
     let again = api::description_of(&a.file, &text, &options).context(
         "the edited file cannot be read again; nothing was written; report this with the file",
     )?;
-    let found = lint::look(&again.mechanism, Some(&again.origin))?;
+    let found = lint::find_duplicates(&again.mechanism, Some(&again.origin))?;
     let (lasting, after) = (found.lasting, found.analysis);
     as_planned(a, &plan, &after, lasting)?;
-    output::put(a.output.as_deref(), text)?;
+    output::write_bytes(a.output.as_deref(), text)?;
     let told = match retyped {
-        Some(all) => all.iter().map(TypeChange::words).collect(),
+        Some(all) => all.iter().map(TypeChange::describe_change).collect(),
         None => releases
             .into_iter()
             .map(|(_, words)| words)
@@ -68,9 +68,9 @@ pub(crate) fn run(a: &Fix) -> anyhow::Result<Done> {
     } else {
         "release"
     };
-    let lines = summary(&a.file, &told, what, [&before, &after])
-        + &reservations(&imported, &after, lasting);
-    output::note(&fit(&lines, output::error_width()));
+    let lines = describe_changes(&a.file, &told, what, [&before, &after])
+        + &describe_limits(&imported, &after, lasting);
+    output::print_note(&fit_lines(&lines, output::error_width()));
     Ok(Done::Found)
 }
 
@@ -90,14 +90,14 @@ fn as_planned(
         plan.redundant
     );
     ensure!(
-        a.chosen.place().is_some() || lasting == 0 || after.at_most().is_some(),
+        a.chosen.list_place().is_some() || lasting == 0 || after.at_most().is_some(),
         "the edited file still has {lasting} redundant over its motion when read again; nothing was written; try another pose (--pose)"
     );
     Ok(())
 }
 
 /// Returns the limits of the figures of the edited file, a line each.
-fn reservations(imported: &Imported, after: &StateAnalysis, lasting: usize) -> String {
+fn describe_limits(imported: &Imported, after: &StateAnalysis, lasting: usize) -> String {
     let mut lines = String::new();
     if after.redundant > lasting && after.at_most().is_none() {
         lines += &format!(
@@ -108,7 +108,7 @@ fn reservations(imported: &Imported, after: &StateAnalysis, lasting: usize) -> S
     if let n @ 1.. = imported.report.left_out() {
         lines += &format!(
             "  {} of FILE omitted, which may be redundant and lower W; `ozols lint` lists them\n",
-            plural(n, "row")
+            count_noun(n, "row")
         );
     }
     if imported.origin.is_of_this_pose() {
@@ -122,7 +122,7 @@ fn reservations(imported: &Imported, after: &StateAnalysis, lasting: usize) -> S
     lines
 }
 
-fn summary(
+fn describe_changes(
     file: &Path,
     told: &[String],
     what: &str,
@@ -130,7 +130,7 @@ fn summary(
 ) -> String {
     let file = file.display();
     if told.is_empty() {
-        let (w, sure) = (before.mobility, before.certainty.word());
+        let (w, sure) = (before.mobility, before.certainty.as_word());
         let redundant = match before.redundant {
             0 => "nothing is redundant".to_owned(),
             n => format!("{n} redundant"),
@@ -138,7 +138,7 @@ fn summary(
         return format!("{file}: {redundant} (W = {w}, {sure}); written unchanged\n");
     }
     let n = told.len();
-    let mut out = format!("{file}: {}\n", plural(n, what));
+    let mut out = format!("{file}: {}\n", count_noun(n, what));
     for words in told {
         out += &format!("  {words}\n");
     }
@@ -149,14 +149,14 @@ fn summary(
             s.rows,
             s.mobility,
             s.redundant,
-            s.certainty.word()
+            s.certainty.as_word()
         )
     };
     out + &row("before:", before) + &row("after:", after)
 }
 
 /// Checks that everything that may be changed exists.
-fn known(m: &Mechanism, at: &[String]) -> anyhow::Result<()> {
+fn check_names(m: &Mechanism, at: &[String]) -> anyhow::Result<()> {
     let coupled = |q: usize| m.couplings[q].name(m);
     for name in at {
         let known = m.joints.iter().any(|j| j.id == *name)
@@ -170,10 +170,10 @@ fn known(m: &Mechanism, at: &[String]) -> anyhow::Result<()> {
 }
 
 /// Returns the cheapest releases that remove all redundant constraints.
-fn cheapest(imported: &Imported, at: &[String]) -> anyhow::Result<(StateAnalysis, TypePlan)> {
+fn plan_cheapest(imported: &Imported, at: &[String]) -> anyhow::Result<(StateAnalysis, TypePlan)> {
     let m = &imported.mechanism;
     let coupled = |q: usize| m.couplings[q].name(m);
-    known(m, at)?;
+    check_names(m, at)?;
     let wanted = |r: &Release| match *r {
         Release::Coupling(q) => at.is_empty() || at.contains(&coupled(q)),
         Release::Freedom { joint, .. } if at.is_empty() => {
@@ -218,12 +218,12 @@ fn cheapest(imported: &Imported, at: &[String]) -> anyhow::Result<(StateAnalysis
 /// mobility is asked for.
 fn of_search(imported: &Imported, a: &Fix, k: usize) -> anyhow::Result<(StateAnalysis, TypePlan)> {
     let m = &imported.mechanism;
-    let request = a.chosen.of(a.which.request(None)?);
+    let request = a.chosen.list_request(a.which.request(None)?);
     let before = api::analyze(m)?.remove(0);
     if before.redundant == 0 && before.at_most().is_none() && request.max_mobility.is_none() {
-        note(format!(
+        print_line(format!(
             "nothing is redundant, so {} {k} of the search would only add mobility; use --max-mobility to apply it nevertheless",
-            request.one()
+            request.noun_of_one()
         ));
         let plan = TypePlan {
             releases: Vec::new(),
@@ -232,7 +232,7 @@ fn of_search(imported: &Imported, a: &Fix, k: usize) -> anyhow::Result<(StateAna
         };
         return Ok((before, plan));
     }
-    Ok((before, changed(m, request, k, tell)?))
+    Ok((before, plan_variant(m, request, k, print_note)?))
 }
 
 /// Returns the first idea of the search among the types that the CAD program has, at the joints that may be changed.
@@ -247,7 +247,7 @@ fn other_types(imported: &Imported, a: &Fix) -> anyhow::Result<(StateAnalysis, T
         };
         return Ok((before, plan));
     }
-    known(&m, &a.at)?;
+    check_names(&m, &a.at)?;
     for joint in m
         .joints
         .iter_mut()
@@ -256,7 +256,7 @@ fn other_types(imported: &Imported, a: &Fix) -> anyhow::Result<(StateAnalysis, T
         joint.options.truncate(1);
     }
     let request = a.which.request(None)?;
-    let plan = types::first(&m, request, tell).context(
+    let plan = types::plan_first_idea(&m, request, print_note).context(
         "no choice of joint types removes all redundant constraints and keeps the output motion; `ozols search` explains why",
     )?;
     Ok((before, plan))

@@ -4,13 +4,13 @@ use crate::api::MAX_DESCRIPTION_BYTES;
 use crate::cli::prelude::*;
 use crate::cli::terminal::charts;
 use crate::file::disk;
-use crate::file::read::workload::trajectory::trajectory;
+use crate::file::read::workload::trajectory::read_trajectory;
 use crate::file::read::workload::{WorkloadFile, grip_from_bytes};
-use crate::grip::grip;
-use crate::grip::motion::along;
+use crate::grip::analyse_grip;
+use crate::grip::motion::clamp_along;
 use crate::model::grip::{GripSpec, MotionStep, Toward};
 use crate::view::grip::GripReport;
-use crate::view::grip::charts::charts;
+use crate::view::grip::charts::grip_charts;
 use crate::view::grip::motion::GripMotion;
 
 #[derive(Debug, ClapArgs)]
@@ -18,7 +18,7 @@ pub(crate) struct Grip {
     #[command(flatten)]
     file: File,
     /// Additional acceleration of the gripper in m/s², in its axes, such as 5,0,-2 (repeatable).
-    #[arg(long, value_name = "X,Y,Z", value_parser = vector, allow_hyphen_values = true)]
+    #[arg(long, value_name = "X,Y,Z", value_parser = parse_vector, allow_hyphen_values = true)]
     acceleration: Vec<[f64; 3]>,
     /// Additional acceleration of the gripper in m/s², in any direction; `ozols drive` prints one.
     #[arg(long, value_name = "A")]
@@ -37,7 +37,7 @@ pub(crate) struct Grip {
     to: ToFile,
 }
 
-fn vector(text: &str) -> Result<[f64; 3], String> {
+fn parse_vector(text: &str) -> Result<[f64; 3], String> {
     let numbers: Vec<f64> = text
         .split(',')
         .map(|t| t.trim().parse::<f64>().ok().filter(|x| x.abs() <= 1e6))
@@ -47,19 +47,19 @@ fn vector(text: &str) -> Result<[f64; 3], String> {
         .map_err(|_| "give three numbers such as 5,0,-2, none beyond 1e6".to_owned())
 }
 
-pub(crate) fn run(a: &Grip) -> anyhow::Result<Done> {
-    let (name, bytes) = load::named(&a.file)?;
+pub(crate) fn run_grip(a: &Grip) -> anyhow::Result<Done> {
+    let (name, bytes) = load::read_named(&a.file)?;
     let mut file = grip_from_bytes(&name, &bytes)?;
     add_accelerations(&mut file, a)?;
     let steps = match &a.motion {
         Some(path) => Some(steps_of(path, &mut file)?),
         None => None,
     };
-    let found = grip(&file.spec, file.mechanism.as_ref())?;
+    let found = analyse_grip(&file.spec, file.mechanism.as_ref())?;
     let motion = match steps {
         None => None,
         Some(steps) => Some(GripMotion {
-            steps: along(&file.spec, &found, &steps)?,
+            steps: clamp_along(&file.spec, &found, &steps)?,
             unit: file.length_unit,
         }),
     };
@@ -69,16 +69,18 @@ pub(crate) fn run(a: &Grip) -> anyhow::Result<Done> {
         motion,
     };
     if let Some(folder) = &a.svg {
-        charts::write(folder, None, &charts(&shown), &[])?;
+        charts::write(folder, None, &grip_charts(&shown), &[])?;
     }
     let gives = "charts of the arms and the drive moment";
     let charts = NextCommand::new("grip", &a.file.file, "--svg charts", gives);
     let next = if a.svg.is_none() { &[charts][..] } else { &[] };
-    a.to.put(match a.format {
-        TextOrJson::Json => output::json(&shown.json())?,
-        TextOrJson::Text => shown.text(a.to.width()) + &next_commands::text(next, a.to.width()),
+    a.to.write_all_of(match a.format {
+        TextOrJson::Json => output::json_text(&shown.json())?,
+        TextOrJson::Text => {
+            shown.text(a.to.width()) + &next_commands::steps_text(next, a.to.width())
+        }
     })?;
-    Ok(Done::found(shown.holds()))
+    Ok(Done::found_or_nothing(shown.holds()))
 }
 
 /// Adds the accelerations of the command line to the load of the file.
@@ -106,7 +108,7 @@ fn add_accelerations(file: &mut WorkloadFile<GripSpec>, a: &Grip) -> anyhow::Res
 fn steps_of(path: &Path, file: &mut WorkloadFile<GripSpec>) -> anyhow::Result<Vec<MotionStep>> {
     let bytes = disk::at_most(path, MAX_DESCRIPTION_BYTES)
         .with_context(|| format!("cannot read {}", path.display()))?;
-    let steps = trajectory(&path.display().to_string(), &bytes, file.length_unit.metres)?;
+    let steps = read_trajectory(&path.display().to_string(), &bytes, file.length_unit.metres)?;
     let parts = steps
         .iter()
         .map(|s| s.diameter.unwrap_or(file.spec.diameter));

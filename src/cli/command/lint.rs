@@ -1,7 +1,7 @@
 //! `ozols lint`.
 
 use crate::cli::command::types;
-use crate::cli::option::reading::{Reading, description};
+use crate::cli::option::reading::{Reading, import_description};
 use crate::cli::prelude::*;
 use crate::file::problem::ImportError;
 use crate::file::text::mechanism_from_bytes;
@@ -27,12 +27,12 @@ pub(crate) struct Lint {
     to: ToFile,
 }
 
-pub(crate) fn run(a: &Lint) -> anyhow::Result<Done> {
-    let options = a.reading.options()?;
+pub(crate) fn run_lint(a: &Lint) -> anyhow::Result<Done> {
+    let options = a.reading.import_options()?;
     // A file that cannot be looked at takes nothing from the others.
     let mut failed = false;
     let all: Vec<Result<Found, PassedOver>> = (a.files.iter())
-        .map(|file| one(file, &options).map_err(|e| passed_over(file, &e, &mut failed)))
+        .map(|file| lint_file(file, &options).map_err(|e| passed_over(file, &e, &mut failed)))
         .collect();
     let found: Vec<&Found> = all.iter().flatten().collect();
     let others: Vec<PassedOver> = all
@@ -40,18 +40,18 @@ pub(crate) fn run(a: &Lint) -> anyhow::Result<Done> {
         .filter_map(|f| f.as_ref().err().cloned())
         .collect();
     let text = match a.format {
-        TextOrJson::Text => text(a, &all, &found),
-        TextOrJson::Json => output::json(&lint::json(&found, &others))?,
+        TextOrJson::Text => lint_text(a, &all, &found),
+        TextOrJson::Json => output::json_text(&lint::lint_json(&found, &others))?,
     };
-    a.to.put(text)?;
+    a.to.write_all_of(text)?;
     Ok(match found.iter().all(|l| l.is_in_order()) {
         _ if failed => Done::Partly,
-        in_order => Done::found(in_order),
+        in_order => Done::found_or_nothing(in_order),
     })
 }
 
 /// Returns a paragraph on each file, and how to fix those that can be fixed.
-fn text(a: &Lint, all: &[Result<Found, PassedOver>], found: &[&Found]) -> String {
+fn lint_text(a: &Lint, all: &[Result<Found, PassedOver>], found: &[&Found]) -> String {
     let width = a.to.width();
     let paragraph = |file: &Result<Found, PassedOver>| {
         let (text, verdict) = match file {
@@ -61,11 +61,11 @@ fn text(a: &Lint, all: &[Result<Found, PassedOver>], found: &[&Found]) -> String
             Ok(lint) => (lint.text(), Some(Tone::Good)),
         };
         let words = match file {
-            Ok(lint) if !lint.is_clean() => lint.sigma(),
+            Ok(lint) if !lint.is_clean() => lint.sigma_words(),
             _ => lint::NONE.to_owned(),
         };
-        toned(
-            fit(&text, width),
+        colour_verdicts(
+            fit_lines(&text, width),
             a.to.path(),
             verdict.map(|tone| (words, tone)),
         )
@@ -74,27 +74,27 @@ fn text(a: &Lint, all: &[Result<Found, PassedOver>], found: &[&Found]) -> String
         .iter()
         .filter(|l| l.from_description && l.is_decided() && !l.cheapest.is_empty());
     let gives = "apply the cheapest fix; all else stays unchanged";
-    let flags = a.reading.flags();
+    let flags = a.reading.typed_flags();
     let steps = fixed
-        .map(|l| NextCommand::mend(&l.file, &flags, gives))
+        .map(|l| NextCommand::fix_command(&l.file, &flags, gives))
         .collect_vec();
-    all.iter().map(paragraph).collect::<String>() + &next_commands::text(&steps, width)
+    all.iter().map(paragraph).collect::<String>() + &next_commands::steps_text(&steps, width)
 }
 
 /// Examines one file.
-fn one(file: &Named, options: &robots::Options) -> anyhow::Result<Found> {
+fn lint_file(file: &Named, options: &robots::Options) -> anyhow::Result<Found> {
     let (mechanism, imported) = if robots::is_description(file) && file.path().is_file() {
-        let imported = description(file.path(), options)?;
+        let imported = import_description(file.path(), options)?;
         (imported.mechanism.clone(), Some(imported))
     } else {
         ensure!(
             options.loops.is_none(),
             "--loops is for robot descriptions, and {file} is not one"
         );
-        let (name, bytes) = load::plain(file)?;
+        let (name, bytes) = load::read_plain(file)?;
         (mechanism_from_bytes(&name, &bytes)?, None)
     };
-    let found = look(&mechanism, imported.as_ref().map(|i| &i.origin))?;
+    let found = find_duplicates(&mechanism, imported.as_ref().map(|i| &i.origin))?;
     let out = Found::new(file, &mechanism, imported.as_ref(), &found);
     let exact = !matches!(
         found.analysis.certainty,
@@ -102,23 +102,25 @@ fn one(file: &Named, options: &robots::Options) -> anyhow::Result<Found> {
     );
     let assembly = imported.map(|i| i.origin).filter(Origin::is_assembly);
     Ok(match assembly {
-        Some(origin) if !out.is_clean() => out.changing(types::changes(&mechanism, &origin, exact)),
+        Some(origin) if !out.is_clean() => {
+            out.with_changes(types::find_changes(&mechanism, &origin, exact))
+        }
         _ => out,
     })
 }
 
 /// Records a skipped file, and reports at once if something is wrong with it.
 fn passed_over(file: &str, e: &anyhow::Error, failed: &mut bool) -> PassedOver {
-    let rigid = output::problems(e).is_some_and(ImportError::is_rigid);
+    let rigid = output::file_problems(e).is_some_and(ImportError::is_rigid);
     if !rigid {
         *failed = true;
-        output::complain(e);
+        output::print_error(e);
     }
     PassedOver::new(file, &format!("{e:#}"), rigid)
 }
 
 /// Finds the redundant constraints of a mechanism. Drives, and joints that no format can change, stay unchanged.
-pub(crate) fn look(m: &Mechanism, origin: Option<&Origin>) -> anyhow::Result<HeldTwice> {
+pub(crate) fn find_duplicates(m: &Mechanism, origin: Option<&Origin>) -> anyhow::Result<HeldTwice> {
     look_at(m, origin, &|r| match *r {
         Release::Freedom { joint, .. } => !is_actuated(m, origin, joint),
         Release::Coupling(_) => true,

@@ -45,32 +45,32 @@ struct ListRow {
 /// Minimum width of a column of descriptions.
 const NARROWEST: usize = 16;
 
-pub(crate) fn run(a: &List) -> anyhow::Result<Done> {
-    let rows = wanted(a)?;
+pub(crate) fn run_list(a: &List) -> anyhow::Result<Done> {
+    let rows = wanted_rows(a)?;
     if rows.is_empty() {
-        let hint = did_you_mean::hint(&a.words.join("-"), builtin::names());
-        output::note(&format!(
+        let hint = did_you_mean::suggest_words(&a.words.join("-"), builtin::names());
+        output::print_note(&format!(
             "no built-in mechanism has all of: {}{hint}\n",
             a.words.join(", ")
         ));
         return Ok(Done::Nothing);
     }
     match a.format {
-        ListFormat::Text => text(a, rows),
-        ListFormat::Json => output::put(None, output::json(&rows)?),
-        ListFormat::Csv => output::put(None, csv::records(rows)),
+        ListFormat::Text => write_list(a, rows),
+        ListFormat::Json => output::write_bytes(None, output::json_text(&rows)?),
+        ListFormat::Csv => output::write_bytes(None, csv::write_records(rows)),
     }
 }
 
 /// Lists all of them for people.
-pub(crate) fn all() -> anyhow::Result<Done> {
-    run(&List {
+pub(crate) fn list_all() -> anyhow::Result<Done> {
+    run_list(&List {
         words: Vec::new(),
         format: ListFormat::Text,
     })
 }
 
-fn text(a: &List, rows: Vec<ListRow>) -> anyhow::Result<Done> {
+fn write_list(a: &List, rows: Vec<ListRow>) -> anyhow::Result<Done> {
     let header = "mechanism | state | n | p | k | f | W | σ";
     let (mut cells, mut notes) = (Vec::new(), Vec::new());
     let (mut family, mut name) = (String::new(), String::new());
@@ -93,21 +93,21 @@ fn text(a: &List, rows: Vec<ListRow>) -> anyhow::Result<Done> {
         cells.push(row);
         notes.push((heading, if first { r.description } else { String::new() }));
     }
-    let table = table(header, cells, None);
-    let width = output::width(None).map(usize::from);
-    output::to(None, |out| {
+    let table = text_table(header, cells, None);
+    let width = output::output_width(None).map(usize::from);
+    output::write_with(None, |out| {
         let lines: Vec<&str> = table.lines().collect();
         let (head, body) = lines.split_at(2);
         for line in head {
             let room = width.unwrap_or(usize::MAX);
             writeln!(out, "{}", console::truncate_str(line, room, ""))?;
         }
-        let columns = lines.iter().map(|l| measure(l)).max().unwrap_or(0) + 2;
+        let columns = lines.iter().map(|l| text_width(l)).max().unwrap_or(0) + 2;
         for (line, (heading, description)) in body.iter().zip(&notes) {
             if let Some(heading) = heading {
                 writeln!(out, "\n{heading}")?;
             }
-            let gap = " ".repeat(columns - measure(line));
+            let gap = " ".repeat(columns - text_width(line));
             match width.map(|w| w.saturating_sub(columns)) {
                 _ if description.is_empty() => writeln!(out, "{line}")?,
                 None => writeln!(out, "{line}{gap}{description}")?,
@@ -120,14 +120,14 @@ fn text(a: &List, rows: Vec<ListRow>) -> anyhow::Result<Done> {
         }
         if a.words.is_empty() {
             let signs = "\nn links, p joints, k contours, f freedoms, W mobility, σ redundant constraints; see `ozols explain`\n";
-            write!(out, "{}", fit(signs, output::width(None)))?;
+            write!(out, "{}", fit_lines(signs, output::output_width(None)))?;
         }
         Ok(Done::Found)
     })
 }
 
 /// Returns a row for each state of the mechanisms that have all the words.
-fn wanted(a: &List) -> anyhow::Result<Vec<ListRow>> {
+fn wanted_rows(a: &List) -> anyhow::Result<Vec<ListRow>> {
     let words: Vec<String> = a.words.iter().map(|w| w.to_lowercase()).collect();
     let mut out = Vec::new();
     for row in ::csv::Reader::from_reader(ALL.as_bytes()).deserialize() {
@@ -140,6 +140,6 @@ fn wanted(a: &List) -> anyhow::Result<Vec<ListRow>> {
     Ok(out)
 }
 
-fn measure(line: &str) -> usize {
+fn text_width(line: &str) -> usize {
     console::measure_text_width(line)
 }

@@ -20,17 +20,17 @@ pub(crate) struct New {
     force: bool,
 }
 
-pub(crate) fn run(args: &Global, a: &New) -> anyhow::Result<Done> {
+pub(crate) fn run_new(args: &Global, a: &New) -> anyhow::Result<Done> {
     if let Some(file) = &a.file {
         let from = a.from.as_deref().unwrap_or("four-bar");
         return write(args, file, from, a.force);
     }
     if !std::io::stdin().is_terminal() || !std::io::stdout().is_terminal() {
-        let done = list::all()?;
-        output::note("to start from one of these: ozols new mine.toml --from NAME\n");
+        let done = list::list_all()?;
+        output::print_note("to start from one of these: ozols new mine.toml --from NAME\n");
         return Ok(done);
     }
-    let (from, file) = asked(&mut std::io::stdin().lock())?;
+    let (from, file) = ask_questions(&mut std::io::stdin().lock())?;
     write(args, Path::new(&file), &from, false)
 }
 
@@ -53,15 +53,15 @@ fn write(args: &Global, file: &Path, from: &str, force: bool) -> anyhow::Result<
     if !force && file.symlink_metadata().is_ok() {
         bail!("{shown} already exists; choose another name or use --force");
     }
-    let text = template::commented(text, from, &name)
+    let text = template::with_comments(text, from, &name)
         .with_context(|| format!("built-in mechanism {from}"))?;
-    output::put(Some(file), text)?;
+    output::write_bytes(Some(file), text)?;
     if args.quiet {
         return Ok(Done::Found);
     }
     let next = ["check", "analyze", "search"].map(|c| format!("  ozols {c} {shown}\n"));
     let head = format!("{shown}: the built-in {from} with comments\n");
-    output::put(None, head + &next.concat())
+    output::write_bytes(None, head + &next.concat())
 }
 
 /// The questions, in the order of the answers that each template has.
@@ -72,22 +72,22 @@ const QUESTIONS: [&str; 3] = [
 ];
 
 /// Asks which template to start from and how to name the file; returns both. An empty answer takes the first choice.
-fn asked(from: &mut impl BufRead) -> anyhow::Result<(String, String)> {
-    let mut left: Vec<([String; 3], &str)> = templates().collect();
+fn ask_questions(from: &mut impl BufRead) -> anyhow::Result<(String, String)> {
+    let mut left: Vec<([String; 3], &str)> = all_templates().collect();
     for (n, question) in QUESTIONS.into_iter().enumerate() {
         let choices: Vec<String> = left.iter().map(|(a, _)| a[n].clone()).collect();
-        let answer = choice(from, question, choices)?;
+        let answer = ask_choice(from, question, choices)?;
         left.retain(|(a, _)| a[n] == answer);
     }
     let names = left.iter().map(|(_, name)| (*name).to_owned()).collect();
-    let name = choice(from, "Which of these?", names)?;
+    let name = ask_choice(from, "Which of these?", names)?;
     let file = format!("my-{name}.toml");
-    let typed = line(from, &format!("Name of the file? [{file}] "))?;
+    let typed = ask_line(from, &format!("Name of the file? [{file}] "))?;
     Ok((name, if typed.is_empty() { file } else { typed }))
 }
 
 /// Every built-in mechanism with its answers: jaws, drive and parts.
-fn templates() -> impl Iterator<Item = ([String; 3], &'static str)> {
+fn all_templates() -> impl Iterator<Item = ([String; 3], &'static str)> {
     let all = builtin::families().into_iter();
     let all = all.flat_map(|(family, names)| names.into_iter().map(move |n| (family, n)));
     all.filter_map(|(family, name)| {
@@ -112,7 +112,7 @@ fn templates() -> impl Iterator<Item = ([String; 3], &'static str)> {
 }
 
 /// Asks until one of some choices is typed; one alone is not asked for.
-fn choice(from: &mut impl BufRead, question: &str, all: Vec<String>) -> anyhow::Result<String> {
+fn ask_choice(from: &mut impl BufRead, question: &str, all: Vec<String>) -> anyhow::Result<String> {
     let all: Vec<String> = all.into_iter().unique().collect();
     let by_number = |c: &String| c.parse().unwrap_or(usize::MAX);
     let all: Vec<String> = all.into_iter().sorted_by_key(by_number).collect();
@@ -121,7 +121,7 @@ fn choice(from: &mut impl BufRead, question: &str, all: Vec<String>) -> anyhow::
         return Ok(first);
     }
     loop {
-        let typed = line(from, &format!("{question} [{}] ", all.join(", ")))?;
+        let typed = ask_line(from, &format!("{question} [{}] ", all.join(", ")))?;
         if typed.is_empty() {
             return Ok(first);
         }
@@ -132,8 +132,8 @@ fn choice(from: &mut impl BufRead, question: &str, all: Vec<String>) -> anyhow::
 }
 
 /// Asks for a line.
-fn line(from: &mut impl BufRead, question: &str) -> anyhow::Result<String> {
-    output::say(question);
+fn ask_line(from: &mut impl BufRead, question: &str) -> anyhow::Result<String> {
+    output::print_message(question);
     let mut typed = String::new();
     if from.read_line(&mut typed)? == 0 {
         bail!("the questions were not answered; `ozols new FILE --from NAME` asks none");
@@ -143,17 +143,18 @@ fn line(from: &mut impl BufRead, question: &str) -> anyhow::Result<String> {
 
 #[cfg(test)]
 mod tests {
-    use super::asked;
+    use super::ask_questions;
 
     #[test]
     fn questions_lead_to_a_template() {
-        let (name, file) = asked(&mut &b"2\nslide\n10\ngripper-10\n\n"[..]).unwrap();
+        let (name, file) = ask_questions(&mut &b"2\nslide\n10\ngripper-10\n\n"[..]).unwrap();
         assert_eq!(
             (name.as_str(), file.as_str()),
             ("gripper-10", "my-gripper-10.toml")
         );
-        let (name, file) = asked(&mut &b"seven\n0\nhinge\n4\nfour-bar\nmine.toml\n"[..]).unwrap();
+        let (name, file) =
+            ask_questions(&mut &b"seven\n0\nhinge\n4\nfour-bar\nmine.toml\n"[..]).unwrap();
         assert_eq!((name.as_str(), file.as_str()), ("four-bar", "mine.toml"));
-        assert!(asked(&mut &b"2\n"[..]).is_err());
+        assert!(ask_questions(&mut &b"2\n"[..]).is_err());
     }
 }

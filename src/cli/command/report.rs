@@ -3,15 +3,15 @@
 use crate::cli::option::request::Checked;
 use crate::cli::prelude::*;
 use crate::cli::terminal::progress::SearchWatch;
-use crate::page::scenes::scenes;
-use crate::page::{Commands, Page, Redesigns, html};
-use crate::redundancy::analysis::{Method, analyse};
+use crate::page::scenes::state_scenes;
+use crate::page::{Commands, Page, Redesigns, report_html};
+use crate::redundancy::analysis::{Method, analyse_states};
 use crate::score::outcome::Outcome;
 use crate::score::outcome::listing::Variants;
 use crate::score::outcome::remarks::Remarks;
 use crate::score::request::{List, Request};
 use crate::view::search::nothing_found::wider_commands;
-use crate::view::terminal::next_commands::{file_name, flags, stem};
+use crate::view::terminal::next_commands::{file_name, file_stem, request_flags};
 use std::sync::Arc;
 
 #[derive(Debug, ClapArgs)]
@@ -30,21 +30,21 @@ pub(crate) struct Report {
 /// Maximum number of variants on a page.
 const MOST: usize = 10_000;
 
-pub(crate) fn run(args: &Global, a: &Report) -> anyhow::Result<Done> {
+pub(crate) fn run_report(args: &Global, a: &Report) -> anyhow::Result<Done> {
     output::not_to_terminal(a.to.path(), "a page")?;
-    let request = asked(args, a)?;
-    let written = load::mechanism(&a.file)?;
+    let request = search_request(args, a)?;
+    let written = load::load_mechanism(&a.file)?;
     // An unknown state is a mistake; geometry that cannot be searched is not.
-    let prepared = request.prepare(written.clone(), &mut note)?;
+    let prepared = request.prepare(written.clone(), &mut print_line)?;
     let states: Vec<StateId> = written.state_ids().collect();
-    let states = analyse(&written, &states, Method::Auto)?;
-    let conditions = request.conditions(&prepared, &mut note);
+    let states = analyse_states(&written, &states, Method::Auto)?;
+    let conditions = request.search_conditions(&prepared, &mut print_line);
     let mechanism = Arc::new(prepared.mechanism);
     let write = |redesigns: Result<Redesigns<'_>, String>, ideas, wider| {
-        let page = html(&Page {
+        let page = report_html(&Page {
             mechanism: &mechanism,
             states: &states,
-            scenes: scenes(
+            scenes: state_scenes(
                 &mechanism,
                 &states,
                 redesigns.as_ref().ok().map(|r| r.found),
@@ -53,10 +53,10 @@ pub(crate) fn run(args: &Global, a: &Report) -> anyhow::Result<Done> {
             ideas,
             commands: Commands {
                 wider,
-                ..commands(&mechanism, a, &request)
+                ..page_commands(&mechanism, a, &request)
             },
         })?;
-        a.to.put(page)
+        a.to.write_all_of(page)
     };
     // What is known of the mechanism as it is stands, even where its coordinates do not allow a search.
     let (conditions, measured) = match conditions {
@@ -66,22 +66,22 @@ pub(crate) fn run(args: &Global, a: &Report) -> anyhow::Result<Done> {
         }
     };
     let mut watch = SearchWatch::new(args.quiet);
-    let outcome = watch.answer(mechanism.clone(), conditions, measured, &request)?;
+    let outcome = watch.answer_request(mechanism.clone(), conditions, measured, &request)?;
     let ideas = (!request.distinct).then(|| {
-        let given = outcome.ideas_unless(&interrupt::pending);
-        redesigns(&outcome, given, Remarks::default())
+        let given = outcome.ideas_unless(&interrupt::is_pending);
+        list_redesigns(&outcome, given, Remarks::default())
     });
-    let remarks = outcome.remarks(&interrupt::pending)?;
-    let given = outcome.variants_unless(&interrupt::pending);
-    let wider = wider_commands(&outcome, &remarks, "report", &a.file.typed());
-    let variants = redesigns(&outcome, given, remarks);
+    let remarks = outcome.make_remarks(&interrupt::is_pending)?;
+    let given = outcome.variants_unless(&interrupt::is_pending);
+    let wider = wider_commands(&outcome, &remarks, "report", &a.file.as_typed());
+    let variants = list_redesigns(&outcome, given, remarks);
     // What is left is to be drawn: whoever interrupts that wants no page.
     interrupt::be_impatient();
     write(Ok(variants), ideas, wider)
 }
 
 /// Returns the search that the options ask for.
-fn asked(args: &Global, a: &Report) -> anyhow::Result<Request> {
+fn search_request(args: &Global, a: &Report) -> anyhow::Result<Request> {
     ensure!(
         (1..=MOST).contains(&a.top),
         "--top must be from 1 to {MOST} in a report; `ozols search` gives longer lists"
@@ -93,23 +93,27 @@ fn asked(args: &Global, a: &Report) -> anyhow::Result<Request> {
 }
 
 /// Builds a list of the page.
-fn redesigns<'o>(found: &'o Outcome, mut given: Variants<'o>, remarks: Remarks) -> Redesigns<'o> {
+fn list_redesigns<'o>(
+    found: &'o Outcome,
+    mut given: Variants<'o>,
+    remarks: Remarks,
+) -> Redesigns<'o> {
     let variants = given.by_ref().collect();
     Redesigns {
         found,
         variants,
         summary: given.summary(),
-        interrupted: given.interrupted(),
+        interrupted: given.is_interrupted(),
         remarks,
     }
 }
 
 /// Returns the commands that reproduce what the page shows.
-fn commands(mechanism: &Mechanism, a: &Report, request: &Request) -> Commands {
-    let file = a.file.typed();
+fn page_commands(mechanism: &Mechanism, a: &Report, request: &Request) -> Commands {
+    let file = a.file.as_typed();
     let more = list_options(mechanism, a, request);
     let [sdf, svg] = ["sdf", "svg"].map(|ending| file_name(&mechanism.name, ending));
-    let longer = joined(&[&flags(mechanism, request), "{}", "--top 10000"]);
+    let longer = join_words(&[&request_flags(mechanism, request), "{}", "--top 10000"]);
     let rows = [
         ("This page", format!("report {file} {more} -o report.html")),
         ("Original mechanism", format!("analyze {file}")),
@@ -137,13 +141,13 @@ fn commands(mechanism: &Mechanism, a: &Report, request: &Request) -> Commands {
 }
 
 /// Joins the words of a command, without empty ones.
-fn joined(words: &[&str]) -> String {
+fn join_words(words: &[&str]) -> String {
     words.iter().filter(|w| !w.is_empty()).join(" ")
 }
 
 /// Returns the options that made the list of the page.
 fn list_options(mechanism: &Mechanism, a: &Report, request: &Request) -> String {
-    let mut more = vec![flags(mechanism, request)];
+    let mut more = vec![request_flags(mechanism, request)];
     if request.poses > 0 {
         more.push(format!("--poses {}", request.poses));
     }
@@ -163,16 +167,16 @@ fn of_one(
         distinct: false,
         ..request.clone()
     };
-    let plain = flags(mechanism, &plain);
+    let plain = request_flags(mechanism, &plain);
     let one = if request.distinct {
-        request.one()
+        request.noun_of_one()
     } else {
         name
     };
     let number = format!("--{one} {{}}");
     let row = |what: &str, command: &str, rest: &str| {
-        let rest = rest.replace("NAME", &format!("{}-{one}", stem(&mechanism.name)));
-        let command = joined(&[command, file, &plain, &number, &rest]);
+        let rest = rest.replace("NAME", &format!("{}-{one}", file_stem(&mechanism.name)));
+        let command = join_words(&[command, file, &plain, &number, &rest]);
         (what.to_owned(), command)
     };
     vec![

@@ -4,7 +4,7 @@ use crate::cli::option::request::Checked;
 use crate::cli::prelude::*;
 use crate::cli::terminal::progress::SearchWatch;
 use crate::cli::terminal::{machine, memory};
-use crate::format::{duration, grouped};
+use crate::format::{format_duration, group_thousands};
 use crate::score::outcome::Outcome;
 use crate::score::outcome::remarks::Remarks;
 use crate::score::request::{List, Method, Request};
@@ -106,63 +106,69 @@ impl Search {
     }
 }
 
-pub(crate) fn run(args: &Global, a: &Search) -> anyhow::Result<Done> {
-    let begun = machine::clock();
-    let seconds = || (machine::clock() - begun).as_secs_f64();
-    let mechanism = load::mechanism(&a.file)?;
+pub(crate) fn run_search(args: &Global, a: &Search) -> anyhow::Result<Done> {
+    let begun = machine::elapsed_time();
+    let seconds = || (machine::elapsed_time() - begun).as_secs_f64();
+    let mechanism = load::load_mechanism(&a.file)?;
     let request = a.request(args.seed)?;
-    let mut outcome = SearchWatch::new(args.quiet).run(mechanism, &request)?;
+    let mut outcome = SearchWatch::new(args.quiet).run_search(mechanism, &request)?;
     outcome.request.distinct |= a.tells_ideas(&outcome);
     let remarks = &match a.format {
-        SearchFormat::Text | SearchFormat::Json => outcome.remarks(&interrupt::pending)?,
+        SearchFormat::Text | SearchFormat::Json => outcome.make_remarks(&interrupt::is_pending)?,
         SearchFormat::Jsonl | SearchFormat::Csv => Remarks::default(),
     };
-    let done = output::to(a.to.path(), |out| {
-        let variants = outcome.variants_unless(&interrupt::pending);
+    let done = output::write_with(a.to.path(), |out| {
+        let variants = outcome.variants_unless(&interrupt::is_pending);
         match a.format {
             SearchFormat::Text => {
                 let width = a.to.width();
                 let file = &a.file.file;
                 if request.list == List::All {
-                    text::write(out, &outcome, variants, remarks, file, width, a.verbose)?;
+                    text::write_text(out, &outcome, variants, remarks, file, width, a.verbose)?;
                 } else {
                     let (mut text, long) = (Vec::new(), a.verbose);
-                    text::write(&mut text, &outcome, variants, remarks, file, width, long)?;
+                    text::write_text(&mut text, &outcome, variants, remarks, file, width, long)?;
                     let text = a.file.with_loops(String::from_utf8(text)?);
-                    let text = toned(text, a.to.path(), [verdict(&outcome)]);
+                    let text = colour_verdicts(text, a.to.path(), [verdict_tone(&outcome)]);
                     out.write_all(text.as_bytes())?;
                 }
             }
             SearchFormat::Json => {
-                json::write(out, &outcome, variants, remarks, Some(&seconds))?;
+                json::write_json(out, &outcome, variants, remarks, Some(&seconds))?;
             }
             SearchFormat::Jsonl => json::write_lines(out, &outcome, variants)?,
             SearchFormat::Csv => {
-                if let Some(short) = csv::write(out, &outcome, variants)? {
+                if let Some(short) = csv::write_csv(out, &outcome, variants)? {
                     if a.comment {
                         writeln!(out, "# {short}")?
                     } else {
-                        output::say(&format!("{short}\n"))
+                        output::print_message(&format!("{short}\n"))
                     }
                 }
             }
         }
         let none = outcome.listed_counts().total.is_zero() && !outcome.admissible_may_be_more();
-        Ok(Done::found(!none))
+        Ok(Done::found_or_nothing(!none))
     })?;
     // The output itself is the same every time.
     if a.format == SearchFormat::Text && !args.quiet {
-        let allowed = memory::words(request.memory as u64);
-        let held = machine::peak().map_or(String::new(), |peak| {
-            format!(", {} of memory ({allowed} allowed)", memory::words(peak))
+        let allowed = memory::format_bytes(request.memory as u64);
+        let held = machine::peak_memory().map_or(String::new(), |peak| {
+            format!(
+                ", {} of memory ({allowed} allowed)",
+                memory::format_bytes(peak)
+            )
         });
-        output::note(&format!("Searched in {}{held}.\n", duration(seconds())));
+        output::print_note(&format!(
+            "Searched in {}{held}.\n",
+            format_duration(seconds())
+        ));
     }
     Ok(done)
 }
 
 /// Returns the number of redesigns in words, and whether that is good news.
-fn verdict(outcome: &Outcome) -> (String, Tone) {
+fn verdict_tone(outcome: &Outcome) -> (String, Tone) {
     let total = &outcome.listed_counts().total;
     if outcome.numeric.is_some() {
         ("numeric".to_owned(), Tone::Bad)
@@ -171,6 +177,6 @@ fn verdict(outcome: &Outcome) -> (String, Tone) {
     } else if total.is_zero() {
         ("none".to_owned(), Tone::Bad)
     } else {
-        (grouped(total), Tone::Good)
+        (group_thousands(total), Tone::Good)
     }
 }

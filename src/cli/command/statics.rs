@@ -5,38 +5,38 @@ pub(crate) mod args;
 use crate::cli::command::clamped;
 use crate::cli::prelude::*;
 use crate::cli::terminal::charts;
-use crate::file::read::workload::motion::stroke;
+use crate::file::read::workload::motion::parse_stroke;
 use crate::grip::jaw_loads::{Gripping, JawError};
 use crate::model::loads::Stroke;
 use crate::statics::contour_group::solutions::GroupMethod;
-use crate::statics::contour_group::stability::{GROUPS, study};
+use crate::statics::contour_group::stability::{GROUPS, study_failures};
 use crate::statics::cycle;
 use crate::statics::reactions::Unsolved;
 use crate::statics::reactions::contact::object_at;
-use crate::statics::solve::{Model, SolvedReactions, StaticsError, solve};
+use crate::statics::solve::{Model, SolvedReactions, StaticsError, solve_reactions};
 use crate::view::grip::clamped::NotHeld;
-use crate::view::statics::force_plans::plans;
+use crate::view::statics::force_plans::force_plans_of;
 use crate::view::statics::told::{ToldReactions, ToldStatics};
 use crate::view::statics::{Structures, charts as drawn};
 use args::{Statics, StaticsFormat, StaticsMethod};
 
-pub(crate) fn run(args: &Global, a: &Statics) -> anyhow::Result<Done> {
+pub(crate) fn run_statics(args: &Global, a: &Statics) -> anyhow::Result<Done> {
     let file = a.file.clone().unwrap_or_else(|| "parallel-shears".into());
     let loops = a.loops.clone();
-    let mut m = load::mechanism(&File { file, loops })?;
+    let mut m = load::load_mechanism(&File { file, loops })?;
     if a.planar {
         load::put_in_plane(&mut m)?;
     }
-    let state = load::state(&m, &a.state)?;
+    let state = load::find_state(&m, &a.state)?;
     match Gripping::new(&m, state) {
         // The nominal part is out of reach, so nothing is held.
         Err(JawError::Nominal(why)) => {
-            a.put(format!("{}: the part cannot be held: {why}\n", m.name))?;
+            a.write_text(format!("{}: the part cannot be held: {why}\n", m.name))?;
             return Ok(Done::Nothing);
         }
         found => match found? {
-            Some(gripping) if a.groups => return groups(&gripping.mechanism, state, a),
-            Some(gripping) => return clamped::run(&gripping, a),
+            Some(gripping) if a.groups => return run_groups(&gripping.mechanism, state, a),
+            Some(gripping) => return clamped::run_clamped(&gripping, a),
             None => {}
         },
     }
@@ -48,20 +48,22 @@ pub(crate) fn run(args: &Global, a: &Statics) -> anyhow::Result<Done> {
         );
     }
     if a.groups {
-        return groups(&m, state, a);
+        return run_groups(&m, state, a);
     }
     let stroke = match &a.stroke {
-        Some(text) => Some(stroke(text)?),
+        Some(text) => Some(parse_stroke(text)?),
         None => m.loads.stroke,
     };
     if let (true, Some(folder)) = (a.stability, &a.output) {
-        return stability(&m, state, stroke, folder, args.seed);
+        return run_stability(&m, state, stroke, folder, args.seed);
     }
     let own = matches!(a.method, StaticsMethod::Delta | StaticsMethod::Projective);
-    let model = model(&m, state, own, a)?;
-    let found = match solve(&m, state, stroke, model) {
+    let model = chosen_model(&m, state, own, a)?;
+    let found = match solve_reactions(&m, state, stroke, model) {
         // Not held is an answer, and no failure.
-        Err(StaticsError::Spatial(why @ Unsolved::Loose)) => return loose(&m, state, &why, a),
+        Err(StaticsError::Spatial(why @ Unsolved::Loose)) => {
+            return report_loose(&m, state, &why, a);
+        }
         found => found?,
     };
     let methods: &[GroupMethod] = match a.method {
@@ -80,11 +82,11 @@ pub(crate) fn run(args: &Global, a: &Statics) -> anyhow::Result<Done> {
     }
     write(&m, &ToldStatics::new(&m, state, stroke, &found, methods), a)?;
     // A stroke that could not be finished is no success.
-    Ok(Done::found(found.complete()))
+    Ok(Done::found_or_nothing(found.is_complete()))
 }
 
 /// Returns the model that the options ask for; `own` is true if the method solves groups in the plane by itself.
-fn model(m: &Mechanism, state: StateId, own: bool, a: &Statics) -> anyhow::Result<Model> {
+fn chosen_model(m: &Mechanism, state: StateId, own: bool, a: &Statics) -> anyhow::Result<Model> {
     if a.unilateral && !m.joints_in(state).any(|j| object_at(m, j).is_some()) {
         bail!(
             "--unilateral is for contacts with a clamped part, and state {} of {} has none; add a \
@@ -103,9 +105,14 @@ fn model(m: &Mechanism, state: StateId, own: bool, a: &Statics) -> anyhow::Resul
 }
 
 /// Says why nothing holds the mechanism: exit code 1.
-fn loose(m: &Mechanism, state: StateId, why: &Unsolved, a: &Statics) -> anyhow::Result<Done> {
-    a.put(match a.format {
-        StaticsFormat::Json => output::json(&NotHeld::because(m, state, &why.to_string()))?,
+fn report_loose(
+    m: &Mechanism,
+    state: StateId,
+    why: &Unsolved,
+    a: &Statics,
+) -> anyhow::Result<Done> {
+    a.write_text(match a.format {
+        StaticsFormat::Json => output::json_text(&NotHeld::because(m, state, &why.to_string()))?,
         StaticsFormat::Csv | StaticsFormat::Text => {
             format!("{}, state {}: {why}\n", m.name, a.state)
         }
@@ -116,7 +123,7 @@ fn loose(m: &Mechanism, state: StateId, why: &Unsolved, a: &Statics) -> anyhow::
 /// Writes what was found, with the charts where they are asked for.
 fn write(m: &Mechanism, shown: &ToldStatics<'_>, a: &Statics) -> anyhow::Result<()> {
     if let (ToldReactions::Planar(s), Some(folder)) = (&shown.reactions, &a.svg) {
-        let plans = plans(s)
+        let plans = force_plans_of(s)
             .into_iter()
             .map(|(name, plan)| charts::ChartDrawing {
                 name,
@@ -124,7 +131,7 @@ fn write(m: &Mechanism, shown: &ToldStatics<'_>, a: &Statics) -> anyhow::Result<
                 title: plan.title,
             });
         let plans: Vec<charts::ChartDrawing> = plans.collect();
-        charts::write(folder, Some(&m.name), &drawn::cycle(s), &plans)?;
+        charts::write(folder, Some(&m.name), &drawn::cycle_charts(s), &plans)?;
     }
     a.put_reactions(shown, &next_steps(m, shown, a))?;
     Ok(())
@@ -163,46 +170,51 @@ fn next_steps(m: &Mechanism, shown: &ToldStatics<'_>, a: &Statics) -> Vec<NextCo
     }
 }
 
-fn groups(m: &Mechanism, state: StateId, a: &Statics) -> anyhow::Result<Done> {
-    let (planar, found) = cycle::structures(m, state)?;
+fn run_groups(m: &Mechanism, state: StateId, a: &Statics) -> anyhow::Result<Done> {
+    let (planar, found) = cycle::drive_structures(m, state)?;
     let shown = Structures {
         mechanism: &m.name,
         planar: &planar,
         found: &found,
     };
-    a.put(match a.format {
-        StaticsFormat::Json => output::json(&shown.json())?,
+    a.write_text(match a.format {
+        StaticsFormat::Json => output::json_text(&shown.json())?,
         StaticsFormat::Csv => bail!("--groups has no CSV; use --format json"),
-        StaticsFormat::Text => shown.text(output::width(a.output.as_deref())),
+        StaticsFormat::Text => shown.text(output::output_width(a.output.as_deref())),
     })?;
-    Ok(Done::found(found.iter().any(|x| x.found.is_ok())))
+    Ok(Done::found_or_nothing(
+        found.iter().any(|x| x.found.is_ok()),
+    ))
 }
 
-fn stability(
+fn run_stability(
     m: &Mechanism,
     state: StateId,
     stroke: Option<Stroke>,
     folder: &Path,
     seed: u64,
 ) -> anyhow::Result<Done> {
-    let found = cycle::statics(m, state, stroke)?;
+    let found = cycle::planar_statics(m, state, stroke)?;
     let base = found.heaviest_contour_group().with_context(|| {
         format!(
             "{} has no four-link group with a closed loop to compare the methods on",
             m.name
         )
     })?;
-    let found = study(base, seed);
-    let all: Vec<drawn::Named> = found.iter().map(|(f, s)| drawn::stability(*f, s)).collect();
+    let found = study_failures(base, seed);
+    let all: Vec<drawn::Named> = found
+        .iter()
+        .map(|(f, s)| drawn::stability_chart(*f, s))
+        .collect();
     charts::write(folder, Some("Stability of the δ-point method"), &all, &[])?;
     let rows = found.iter().flat_map(|(f, s)| drawn::stability_rows(*f, s));
     let heads = "failure | figure | method | 1 | 1e-3 | 1e-6 | 1e-9 | 1e-12 | 1e-15";
-    let table = table(heads, rows, output::width(None));
+    let table = text_table(heads, rows, output::output_width(None));
     let index = folder.join("index.html");
     let text = format!(
         "Relative error against exact arithmetic by distance from each failure, median of {GROUPS} groups\n\n{table}\n\n\
          Charts and tables: {}\n",
         index.display()
     );
-    output::put(None, text)
+    output::write_bytes(None, text)
 }

@@ -21,7 +21,7 @@ pub(crate) struct StudioArgs {
 }
 
 /// Returns what an argument opens. A file takes precedence over a built-in mechanism of the same name.
-fn opening(file: Option<&Named>, loops: &Loops) -> anyhow::Result<Opening> {
+fn parse_opening(file: Option<&Named>, loops: &Loops) -> anyhow::Result<Opening> {
     let here = PathBuf::from(".");
     let Some(file) = file else {
         return Ok(Opening::Nothing(here));
@@ -37,7 +37,7 @@ fn opening(file: Option<&Named>, loops: &Loops) -> anyhow::Result<Opening> {
     );
     if path.is_file() {
         robots::refuse_foreign(file, &api::bytes(path, MAX_DESCRIPTION_BYTES)?)?;
-        return Ok(Opening::File(path.to_path_buf(), loops.options()?));
+        return Ok(Opening::File(path.to_path_buf(), loops.import_options()?));
     }
     if builtin::text(file).is_some() {
         return Ok(Opening::Builtin(file.to_string(), here));
@@ -50,11 +50,11 @@ fn opening(file: Option<&Named>, loops: &Loops) -> anyhow::Result<Opening> {
             robots::Options::default(),
         ));
     }
-    bail!(load::unknown(file))
+    bail!(load::unknown_file(file))
 }
 
-pub(crate) fn run(global: &Global, a: &StudioArgs) -> anyhow::Result<Done> {
-    let opening = opening(a.file.as_ref(), &a.loops)?;
+pub(crate) fn run_studio(global: &Global, a: &StudioArgs) -> anyhow::Result<Done> {
+    let opening = parse_opening(a.file.as_ref(), &a.loops)?;
     let request = Request {
         seed: global.seed,
         ..Request::default()
@@ -63,16 +63,16 @@ pub(crate) fn run(global: &Global, a: &StudioArgs) -> anyhow::Result<Done> {
         Some(file) => format!("cannot open {file}"),
         None => "cannot open the studio".to_owned(),
     })?;
-    let address = studio.address();
-    spinner::rest();
-    output::put(None, format!("{address}\n"))?;
-    if !a.no_open && !shown(&address) {
-        output::note("no browser could be started; open the address above in one\n");
+    let address = studio.page_address();
+    spinner::hide_spinner();
+    output::write_bytes(None, format!("{address}\n"))?;
+    if !a.no_open && !open_browser(&address) {
+        output::print_note("no browser could be started; open the address above in one\n");
     }
-    output::note("It ends when its window is closed, or with Ctrl-C.\n");
-    let unsaved = studio.serve(|words| output::say(&format!("{words}\n")))?;
+    output::print_note("It ends when its window is closed, or with Ctrl-C.\n");
+    let unsaved = studio.serve_windows(|words| output::print_message(&format!("{words}\n")))?;
     if let Some(path) = unsaved {
-        output::say(&format!(
+        output::print_message(&format!(
             "unsaved work is in {}; `ozols studio` offers it when the file is opened again\n",
             path.display()
         ));
@@ -87,7 +87,7 @@ pub(crate) fn has_display() -> bool {
 }
 
 /// Opens an address in the browser of this machine; whether there is a program that does.
-fn shown(address: &str) -> bool {
+fn open_browser(address: &str) -> bool {
     let (program, first): (&str, &[&str]) = if cfg!(target_os = "macos") {
         ("open", &[])
     } else if cfg!(windows) {

@@ -4,7 +4,7 @@ use crate::cli::option::variant;
 use crate::cli::prelude::*;
 use crate::geom::vector::Vector;
 use crate::redundancy::release::Release;
-use crate::robots::{Origin, releases};
+use crate::robots::{Origin, find_releases};
 use crate::score::request::Request;
 use crate::score::run::Event;
 use crate::view::lint::TypeChange;
@@ -24,20 +24,20 @@ pub(crate) struct TypePlan {
 }
 
 /// Returns the changes of variant `k` of a search.
-pub(crate) fn changed(
+pub(crate) fn plan_variant(
     m: &Mechanism,
     request: Request,
     k: usize,
     tell: fn(Event),
 ) -> anyhow::Result<TypePlan> {
     // What is added is told against the mechanism as it is meant, which is the one that was searched.
-    let one = request.one();
+    let one = request.noun_of_one();
     let (before_it, changed, w, sigma) =
         variant::kth_telling(m.clone(), request, k, &mut { tell }, |v| {
             let searched = v.outcome().search.mechanism.clone();
-            (searched, v.mechanism(), v.mobility(), v.redundant())
+            (searched, v.as_mechanism(), v.mobility(), v.redundant())
         })?;
-    let releases = releases(&before_it, &changed).map_err(|why| anyhow!("{one} {k} {why}"))?;
+    let releases = find_releases(&before_it, &changed).map_err(|why| anyhow!("{one} {k} {why}"))?;
     let plan = TypePlan {
         releases,
         mobility: usize::try_from(w)?,
@@ -47,18 +47,22 @@ pub(crate) fn changed(
 }
 
 /// Returns the first idea of the search, or `None` if it finds none.
-pub(crate) fn first(m: &Mechanism, request: Request, tell: fn(Event)) -> Option<TypePlan> {
+pub(crate) fn plan_first_idea(
+    m: &Mechanism,
+    request: Request,
+    tell: fn(Event),
+) -> Option<TypePlan> {
     let request = Request {
         distinct: true,
         ..request
     };
     // With no variant there is no first.
-    changed(m, request, 1, tell).ok()
+    plan_variant(m, request, 1, tell).ok()
 }
 
 /// Returns the joints to change so that no constraint is redundant, and W after that. `None` if no choice of types achieves it,
 /// or the assembly is large. `exact` is true if ranks are exact.
-pub(crate) fn changes(
+pub(crate) fn find_changes(
     m: &Mechanism,
     origin: &Origin,
     exact: bool,
@@ -72,12 +76,12 @@ pub(crate) fn changes(
         nodes: NODES,
         ..Request::default()
     };
-    let plan = first(m, request, |_| ())?;
-    Some((named(m, origin, &plan.releases)?, plan.mobility))
+    let plan = plan_first_idea(m, request, |_| ())?;
+    Some((name_changes(m, origin, &plan.releases)?, plan.mobility))
 }
 
 /// Returns the joint types of an assembly after releases. `None` if the mechanism is not an assembly, or has no such types.
-pub(crate) fn named(
+pub(crate) fn name_changes(
     m: &Mechanism,
     origin: &Origin,
     releases: &[Release],
@@ -100,6 +104,7 @@ pub(crate) fn named(
             None => all.push((joint, vec![(slides, direction)])),
         }
     }
-    let change = |(j, more): &(JointId, Vec<(bool, Vector)>)| TypeChange::at(m, origin, *j, more);
+    let change =
+        |(j, more): &(JointId, Vec<(bool, Vector)>)| TypeChange::at_joint(m, origin, *j, more);
     all.iter().map(change).collect()
 }

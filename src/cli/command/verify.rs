@@ -2,10 +2,10 @@
 
 use crate::cli::prelude::*;
 use crate::file::disk;
-use crate::rank::exact::certificate::{certify, matrix, number_field};
+use crate::rank::exact::certificate::{certify_state, closure_matrix, number_field};
 use crate::redundancy::analysis::StateAnalysis;
 use crate::verify::certificate::{CertificateFile, FORMAT, Without};
-use crate::verify::check;
+use crate::verify::check_certificate;
 use std::io::Write;
 
 #[derive(Debug, ClapArgs)]
@@ -25,7 +25,7 @@ const MOST: usize = 64 << 20;
 
 /// Writes a certificate for each state that has one. A certificate proves the rank as written, so there is none if another
 /// geometry was analysed.
-pub(crate) fn write(
+pub(crate) fn write_certificates(
     path: &Path,
     m: &Mechanism,
     states: &[StateId],
@@ -43,7 +43,7 @@ pub(crate) fn write(
         } else if m.has_pi() {
             Err("a certificate needs exact numbers, and a pitch contains digits of pi".to_owned())
         } else {
-            certify(m, state).map_err(|reason| reason.to_string())
+            certify_state(m, state).map_err(|reason| reason.to_string())
         };
         match certificate {
             Ok(c) if c.rank != s.rank => bail!(
@@ -63,12 +63,12 @@ pub(crate) fn write(
             }
         }
     }
-    output::put(Some(path), serde_json::to_string(&file)? + "\n")?;
+    output::write_bytes(Some(path), serde_json::to_string(&file)? + "\n")?;
     Ok(())
 }
 
-pub(crate) fn run(_: &Global, a: &Verify) -> anyhow::Result<Done> {
-    let mut m = load::mechanism(&a.file)?;
+pub(crate) fn run_verify(_: &Global, a: &Verify) -> anyhow::Result<Done> {
+    let mut m = load::load_mechanism(&a.file)?;
     if a.planar {
         load::put_in_plane(&mut m)?;
     }
@@ -77,9 +77,9 @@ pub(crate) fn run(_: &Global, a: &Verify) -> anyhow::Result<Done> {
         disk::at_most(&a.certificates, MOST).with_context(|| format!("cannot read {name}"))?;
     let file = CertificateFile::read(&bytes).with_context(|| format!("cannot read {name}"))?;
     let mut lines = Vec::new();
-    let mut done = Done::found(!file.certificates.is_empty());
+    let mut done = Done::found_or_nothing(!file.certificates.is_empty());
     for certificate in &file.certificates {
-        let Some(state) = m.state(&certificate.state) else {
+        let Some(state) = m.state_named(&certificate.state) else {
             bail!(
                 "{name} is about a state {}; {} has: {}",
                 certificate.state,
@@ -89,19 +89,21 @@ pub(crate) fn run(_: &Global, a: &Verify) -> anyhow::Result<Done> {
         };
         let field = number_field(&m, state)?;
         let (rows, columns) = (certificate.rows, certificate.columns);
-        lines.push(match check(&matrix(&field, &m, state)?, certificate) {
-            Ok(rank) => format!(
-                "{}, state {}: rank {rank} of the {rows} x {columns} closure matrix is proven",
-                m.name, certificate.state
-            ),
-            Err(flaw) => {
-                done = Done::Nothing;
-                format!(
-                    "{}, state {}: certificate rejected: {flaw}",
+        lines.push(
+            match check_certificate(&closure_matrix(&field, &m, state)?, certificate) {
+                Ok(rank) => format!(
+                    "{}, state {}: rank {rank} of the {rows} x {columns} closure matrix is proven",
                     m.name, certificate.state
-                )
-            }
-        });
+                ),
+                Err(flaw) => {
+                    done = Done::Nothing;
+                    format!(
+                        "{}, state {}: certificate rejected: {flaw}",
+                        m.name, certificate.state
+                    )
+                }
+            },
+        );
     }
     for Without { state, reason } in &file.without {
         lines.push(format!(
@@ -110,6 +112,6 @@ pub(crate) fn run(_: &Global, a: &Verify) -> anyhow::Result<Done> {
         ));
     }
     let lines: String = lines.iter().map(|l| format!("{l}\n")).collect();
-    output::put(None, lines)?;
+    output::write_bytes(None, lines)?;
     Ok(done)
 }

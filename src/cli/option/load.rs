@@ -3,12 +3,12 @@
 use crate::api::{self, MAX_DESCRIPTION_BYTES};
 use crate::builtin;
 use crate::cli::option::named::{File, Loops, Named};
-use crate::cli::option::reading::description;
+use crate::cli::option::reading::import_description;
 use crate::cli::terminal::output::kept;
 use crate::closure::coupling::in_plane;
 use crate::closure::twist::{FrameValues, MotionSpace};
 use crate::file::text::{MAX_BYTES, mechanism_from_bytes};
-use crate::format::{did_you_mean, list};
+use crate::format::{did_you_mean, join_and};
 use crate::geom::Reals;
 use crate::geom::expr::Expr;
 use crate::model::joint_type::Coupling;
@@ -19,16 +19,16 @@ use itertools::Itertools;
 use std::io::Read;
 
 /// Reads the mechanism that an argument names. A file wins over a built-in mechanism of the same name.
-pub(crate) fn mechanism(file: &File) -> anyhow::Result<Mechanism> {
-    if let Some(imported) = imported(file)? {
+pub(crate) fn load_mechanism(file: &File) -> anyhow::Result<Mechanism> {
+    if let Some(imported) = description_of(file)? {
         return Ok(imported.mechanism);
     }
-    written(&file.file)
+    load_written(&file.file)
 }
 
 /// Returns the mechanism that a mechanism file describes.
-pub(crate) fn written(file: &Named) -> anyhow::Result<Mechanism> {
-    let (name, bytes) = plain(file)?;
+pub(crate) fn load_written(file: &Named) -> anyhow::Result<Mechanism> {
+    let (name, bytes) = read_plain(file)?;
     Ok(mechanism_from_bytes(&name, &bytes)?)
 }
 
@@ -43,16 +43,19 @@ pub(crate) fn is_described(file: &Named) -> anyhow::Result<bool> {
 }
 
 /// Reads each of several files. A problem with one is reported and does not affect the others. Returns true if all could
-pub(crate) fn each<'a>(files: &'a [Named], loops: &Loops) -> (Vec<(&'a Named, Mechanism)>, bool) {
+pub(crate) fn load_each<'a>(
+    files: &'a [Named],
+    loops: &Loops,
+) -> (Vec<(&'a Named, Mechanism)>, bool) {
     let mut all = Vec::new();
     for name in files {
         let file = File {
             file: name.clone(),
             loops: loops.clone(),
         };
-        match mechanism(&file) {
+        match load_mechanism(&file) {
             Ok(found) => all.push((name, found)),
-            Err(e) => crate::cli::terminal::output::complain(&e),
+            Err(e) => crate::cli::terminal::output::print_error(&e),
         }
     }
     let well = all.len() == files.len();
@@ -61,18 +64,18 @@ pub(crate) fn each<'a>(files: &'a [Named], loops: &Loops) -> (Vec<(&'a Named, Me
 
 /// Returns the name for messages, and the bytes of the mechanism file that an argument names or that is converted from its
 /// description.
-pub(crate) fn named(file: &File) -> anyhow::Result<(String, Vec<u8>)> {
-    match imported(file)? {
+pub(crate) fn read_named(file: &File) -> anyhow::Result<(String, Vec<u8>)> {
+    match description_of(file)? {
         Some(imported) => {
             let text = imported.toml()?;
             Ok(("the imported mechanism".to_owned(), text.into_bytes()))
         }
-        None => plain(&file.file),
+        None => read_plain(&file.file),
     }
 }
 
 /// Returns the same for a file that is not a robot description or assembly.
-pub(crate) fn plain(file: &Named) -> anyhow::Result<(String, Vec<u8>)> {
+pub(crate) fn read_plain(file: &Named) -> anyhow::Result<(String, Vec<u8>)> {
     if &**file == "-" {
         kept::keep_standard_input()?;
         let mut bytes = Vec::new();
@@ -98,13 +101,13 @@ pub(crate) fn plain(file: &Named) -> anyhow::Result<(String, Vec<u8>)> {
         return Ok((file.to_string(), bytes));
     }
     let Some(text) = builtin::text(file) else {
-        bail!(unknown(file))
+        bail!(unknown_file(file))
     };
     Ok((format!("{file}.toml"), text.as_bytes().to_vec()))
 }
 
 /// Returns the mechanism of a robot description and reports doubtful values. `None` if the argument is not such a file.
-fn imported(file: &File) -> anyhow::Result<Option<robots::Imported>> {
+fn description_of(file: &File) -> anyhow::Result<Option<robots::Imported>> {
     let (file, loops) = (&file.file, &file.loops);
     let path = file.path();
     if !path.is_file() || !robots::is_description(file) {
@@ -114,21 +117,24 @@ fn imported(file: &File) -> anyhow::Result<Option<robots::Imported>> {
         );
         return Ok(None);
     }
-    let imported = description(path, &loops.options()?)?;
+    let imported = import_description(path, &loops.import_options()?)?;
     tell_doubts(file, &imported);
     Ok(Some(imported))
 }
 
 /// Says what is doubtful in a description.
 pub(crate) fn tell_doubts(file: &Named, imported: &robots::Imported) {
-    let doubts = imported.report.doubts();
+    let doubts = imported.report.list_doubts();
     if !doubts.is_empty() {
-        crate::cli::terminal::output::note(&format!("{file}: {}\n{doubts}", imported.format.name));
+        crate::cli::terminal::output::print_note(&format!(
+            "{file}: {}\n{doubts}",
+            imported.format.name
+        ));
     }
 }
 
 /// Returns the state that an option names.
-pub(crate) fn state(m: &Mechanism, name: &str) -> anyhow::Result<StateId> {
+pub(crate) fn find_state(m: &Mechanism, name: &str) -> anyhow::Result<StateId> {
     let known = || {
         format!(
             "{} has no state {name}; it has: {}",
@@ -136,7 +142,7 @@ pub(crate) fn state(m: &Mechanism, name: &str) -> anyhow::Result<StateId> {
             m.states.join(", ")
         )
     };
-    m.state(name).with_context(known)
+    m.state_named(name).with_context(known)
 }
 
 /// Models a mechanism in the plane of x and y. Couplings of freedoms out of the plane are omitted and reported.
@@ -152,7 +158,7 @@ pub(crate) fn put_in_plane(mechanism: &mut Mechanism) -> anyhow::Result<()> {
     for joint in &mechanism.joints {
         let freedoms = joint.joint_type.freedoms();
         let frame = FrameValues::new(&Reals, &joint.frame)?;
-        if !freedoms.is_empty() && frame.motions(&Reals, &space, freedoms).is_empty() {
+        if !freedoms.is_empty() && frame.motions_in_space(&Reals, &space, freedoms).is_empty() {
             stuck.push(joint.id.as_str());
         }
     }
@@ -161,7 +167,7 @@ pub(crate) fn put_in_plane(mechanism: &mut Mechanism) -> anyhow::Result<()> {
         "--planar does not apply to {}: no freedom of {} lies in the plane of x and y; omit --planar to model all six components, \
          or place the axes of hinges along z and those of sliders across it",
         mechanism.name,
-        list(
+        join_and(
             &stuck
                 .iter()
                 .map(|id| format!("joint {id}"))
@@ -177,7 +183,7 @@ pub(crate) fn put_in_plane(mechanism: &mut Mechanism) -> anyhow::Result<()> {
     let (kept, left): (Vec<Coupling>, Vec<Coupling>) = all.into_iter().partition(stays);
     if !left.is_empty() {
         let names = left.iter().map(|c| c.name(mechanism)).join(", ");
-        crate::cli::terminal::output::note(&format!(
+        crate::cli::terminal::output::print_note(&format!(
             "note: --planar omits the couplings of freedoms out of the plane: {names}\n"
         ));
     }
@@ -186,7 +192,7 @@ pub(crate) fn put_in_plane(mechanism: &mut Mechanism) -> anyhow::Result<()> {
 }
 
 /// Returns the message for a name that is neither a regular file nor a built-in mechanism.
-pub(crate) fn unknown(file: &Named) -> String {
+pub(crate) fn unknown_file(file: &Named) -> String {
     match std::fs::metadata(file.path()) {
         Ok(m) if m.is_dir() => return format!("{file} is a folder; name a file in it"),
         Ok(m) if !m.is_file() => {
@@ -194,7 +200,7 @@ pub(crate) fn unknown(file: &Named) -> String {
         }
         _ => {}
     }
-    let hint = did_you_mean::hint(file, builtin::names());
+    let hint = did_you_mean::suggest_words(file, builtin::names());
     format!(
         "{file} is neither a file nor a built-in mechanism{hint}; `ozols list` shows the built-in mechanisms"
     )
@@ -202,6 +208,6 @@ pub(crate) fn unknown(file: &Named) -> String {
 
 /// Returns the message for a name that is not a built-in mechanism, if a file is not allowed.
 pub(crate) fn no_built_in(name: &str) -> String {
-    let hint = did_you_mean::hint(name, builtin::names());
+    let hint = did_you_mean::suggest_words(name, builtin::names());
     format!("{name} is not a built-in mechanism{hint}; `ozols list` shows them")
 }

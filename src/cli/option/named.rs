@@ -3,7 +3,7 @@
 use crate::api::{self, MAX_DESCRIPTION_BYTES};
 use crate::cli::terminal::output;
 use crate::robots::Options;
-use crate::view::terminal::next_commands::word;
+use crate::view::terminal::next_commands::shell_word;
 use clap::{Args as ClapArgs, ValueHint};
 use std::ffi::OsString;
 use std::fmt;
@@ -62,15 +62,15 @@ pub(crate) struct File {
 
 impl File {
     /// Returns the file and its loops as they are typed.
-    pub(crate) fn typed(&self) -> String {
+    pub(crate) fn as_typed(&self) -> String {
         let side = self.loops.path.iter();
-        let side = side.map(|p| format!(" --loops {}", word(&p.display().to_string())));
-        word(&self.file) + &side.collect::<String>()
+        let side = side.map(|p| format!(" --loops {}", shell_word(&p.display().to_string())));
+        shell_word(&self.file) + &side.collect::<String>()
     }
 
     /// Returns a text whose commands about the file read its loops, too.
     pub(crate) fn with_loops(&self, text: String) -> String {
-        let (file, typed) = (word(&self.file), self.typed());
+        let (file, typed) = (shell_word(&self.file), self.as_typed());
         let line = |l: &str| {
             if l.trim_start().starts_with("ozols ") {
                 l.replacen(&file, &typed, 1)
@@ -96,10 +96,10 @@ impl Loops {
     ///
     /// # Errors
     /// Returns an error if the file cannot be read.
-    pub(crate) fn options(&self) -> anyhow::Result<Options> {
+    pub(crate) fn import_options(&self) -> anyhow::Result<Options> {
         let mut options = Options::default();
         if let Some(path) = &self.path {
-            output::kept::keep(path);
+            output::kept::keep_file(path);
             let bytes = api::bytes(path, MAX_DESCRIPTION_BYTES)?;
             options.loops = Some((path.display().to_string(), bytes));
         }

@@ -14,7 +14,7 @@ pub(crate) fn named(path: Option<&Path>) -> bool {
 }
 
 /// Refuses PNG where this build makes none.
-pub(crate) fn there() -> anyhow::Result<()> {
+pub(crate) fn ensure_png() -> anyhow::Result<()> {
     ensure!(
         cfg!(feature = "png"),
         "this ozols was built without PNG; build it with `cargo build --release --features png`, \
@@ -29,7 +29,7 @@ pub(crate) fn png(drawing: &Drawing, size: Size) -> anyhow::Result<Vec<u8>> {
     let picture = crate::draw::png::png(drawing, size)?;
     if !picture.missing.is_empty() {
         let missing: String = picture.missing.iter().collect();
-        crate::cli::terminal::output::note(&format!(
+        crate::cli::terminal::output::print_note(&format!(
             "warning: no font on this machine has {missing}; the PNG omits them\n"
         ));
     }
@@ -38,7 +38,7 @@ pub(crate) fn png(drawing: &Drawing, size: Size) -> anyhow::Result<Vec<u8>> {
 
 /// Returns an error, because this build has no PNG.
 #[cfg(not(feature = "png"))]
-pub(crate) fn png(_: &Drawing, size: Size) -> anyhow::Result<Vec<u8>> {
+pub(crate) fn render_png(_: &Drawing, size: Size) -> anyhow::Result<Vec<u8>> {
     // `there` has refused it
     anyhow::bail!("built without PNG: {size:?}")
 }

@@ -4,7 +4,7 @@ use crate::api;
 use crate::cli::option::named::Loops;
 use crate::cli::terminal::output;
 use crate::robots::{self, Options};
-use crate::view::terminal::next_commands::word;
+use crate::view::terminal::next_commands::shell_word;
 use anyhow::{Context, ensure};
 use clap::{Args as ClapArgs, ValueHint};
 use itertools::Itertools;
@@ -46,7 +46,7 @@ pub(crate) struct Reading {
 
 impl Reading {
     /// Returns the options of the import.
-    pub(crate) fn options(&self) -> anyhow::Result<Options> {
+    pub(crate) fn import_options(&self) -> anyhow::Result<Options> {
         let mut options = Options {
             floating: self.floating,
             assemble: self.assemble,
@@ -55,16 +55,16 @@ impl Reading {
             assembly: self.assembly.clone(),
             frame: self.frame.clone(),
             outputs: self.working_link.clone(),
-            ..self.loops.options()?
+            ..self.loops.import_options()?
         };
         for p in &self.pose {
-            options.pose.push(pose(p)?);
+            options.pose.push(parse_pose(p)?);
         }
         Ok(options)
     }
 
     /// Returns the options as they are typed.
-    pub(crate) fn flags(&self) -> String {
+    pub(crate) fn typed_flags(&self) -> String {
         let path = |p: &PathBuf| p.display().to_string();
         let valued = [
             ("--loops", self.loops.path.iter().map(path).collect()),
@@ -77,7 +77,9 @@ impl Reading {
         let valued = valued
             .iter()
             .flat_map(|(flag, values): &(&str, Vec<String>)| {
-                values.iter().map(move |v| format!("{flag} {}", word(v)))
+                values
+                    .iter()
+                    .map(move |v| format!("{flag} {}", shell_word(v)))
             });
         let switches = [
             ("--floating", self.floating),
@@ -89,7 +91,7 @@ impl Reading {
     }
 }
 
-fn pose(text: &str) -> anyhow::Result<(String, Vec<f64>)> {
+fn parse_pose(text: &str) -> anyhow::Result<(String, Vec<f64>)> {
     let bad = || {
         format!(
             "--pose {text}: write joint=value, in radians or metres, with commas between several values"
@@ -105,12 +107,15 @@ fn pose(text: &str) -> anyhow::Result<(String, Vec<f64>)> {
 }
 
 /// Returns the mechanism of a description, with the report on it.
-pub(crate) fn description(path: &Path, options: &Options) -> anyhow::Result<robots::Imported> {
+pub(crate) fn import_description(
+    path: &Path,
+    options: &Options,
+) -> anyhow::Result<robots::Imported> {
     ensure!(
         path.is_file(),
         "{} is not a file; give the path of a URDF, MJCF, SDF, FreeCAD or OndselSolver file",
         path.display()
     );
-    output::kept::keep(path);
+    output::kept::keep_file(path);
     Ok(api::import(path, options)?)
 }

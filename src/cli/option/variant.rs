@@ -1,6 +1,6 @@
 //! Selecting one variant of the list of a search.
 
-use crate::cli::terminal::progress::note;
+use crate::cli::terminal::progress::print_line;
 use crate::model::mechanism::Mechanism;
 use crate::score::outcome::variant::Variant;
 use crate::score::request::{Check, List, Request};
@@ -22,12 +22,12 @@ pub(crate) struct Chosen {
 
 impl Chosen {
     /// Returns its place in the list, if one is selected.
-    pub(crate) fn place(&self) -> Option<usize> {
+    pub(crate) fn list_place(&self) -> Option<usize> {
         self.variant.or(self.idea)
     }
 
     /// Returns the request for its list.
-    pub(crate) fn of(&self, request: Request) -> Request {
+    pub(crate) fn list_request(&self, request: Request) -> Request {
         Request {
             distinct: request.distinct || self.idea.is_some(),
             ..request
@@ -37,19 +37,19 @@ impl Chosen {
 
 /// Calls `with` on variant `k` of the list that `ozols search` prints for the same request: the cheapest first, or in the order
 /// of the ranking that the file or the request asks for.
-pub(crate) fn kth<T>(
+pub(crate) fn with_variant<T>(
     mechanism: Mechanism,
     request: Request,
     k: usize,
     with: impl FnOnce(&Variant<'_>) -> T,
 ) -> anyhow::Result<T> {
-    kth_telling(mechanism, request, k, &mut { tell }, with)
+    kth_telling(mechanism, request, k, &mut { print_note }, with)
 }
 
 /// Says the notes of a search on standard error.
-pub(crate) fn tell(event: Event) {
+pub(crate) fn print_note(event: Event) {
     if let Event::Note(text) = event {
-        note(text);
+        print_line(text);
     }
 }
 
@@ -61,7 +61,7 @@ pub(crate) fn kth_telling<T>(
     tell: &mut (dyn FnMut(Event) + Send),
     with: impl FnOnce(&Variant<'_>) -> T,
 ) -> anyhow::Result<T> {
-    let one = request.one();
+    let one = request.noun_of_one();
     ensure!(k > 0, "{one}s are numbered from 1");
     let request = Request {
         list: List::Top(k),

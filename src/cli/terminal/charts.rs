@@ -26,7 +26,7 @@ pub(crate) fn write(
 ) -> anyhow::Result<()> {
     std::fs::create_dir_all(folder)
         .with_context(|| format!("cannot make the folder {}", folder.display()))?;
-    let write = |name: &str, text: &str| output::put(Some(&folder.join(name)), text);
+    let write = |name: &str, text: &str| output::write_bytes(Some(&folder.join(name)), text);
     let mut parts = Vec::new();
     for (name, chart) in charts {
         let svg = chart.svg();

@@ -17,7 +17,7 @@ static PENDING: AtomicBool = AtomicBool::new(false);
 static PATIENT: AtomicBool = AtomicBool::new(false);
 
 /// Listens from now on.
-pub(crate) fn listen() -> anyhow::Result<()> {
+pub(crate) fn listen_for_signals() -> anyhow::Result<()> {
     handle().context("cannot listen for signals")
 }
 
@@ -46,7 +46,7 @@ fn handle() -> std::io::Result<()> {
         .name("signals".to_owned())
         .spawn(move || {
             for signal in signals.forever() {
-                heard(u8::try_from(signal).unwrap_or(2));
+                handle_signal(u8::try_from(signal).unwrap_or(2));
             }
         })
         .map(|_| ())
@@ -63,27 +63,27 @@ fn is_ignored(signal: u8) -> bool {
 
 #[cfg(not(unix))]
 fn handle() -> Result<(), ctrlc::Error> {
-    ctrlc::set_handler(|| heard(2))
+    ctrlc::set_handler(|| handle_signal(2))
 }
 
-fn heard(signal: u8) {
+fn handle_signal(signal: u8) {
     let _ = FIRST.compare_exchange(0, signal, Ordering::SeqCst, Ordering::SeqCst);
     output::cut_short();
     let name = NAMES.iter().find(|(n, _)| *n == signal);
     let name = name.map_or("a signal", |(_, name)| name);
     if PATIENT.load(Ordering::SeqCst) && !PENDING.swap(true, Ordering::SeqCst) {
-        output::note(&format!(
+        output::print_note(&format!(
             "interrupted by {name}; printing the results so far (once more ends at once)\n"
         ));
         return;
     }
-    spinner::rest();
-    output::abandon();
-    output::note(&format!("interrupted by {name}\n"));
-    std::process::exit(code(signal).into());
+    spinner::hide_spinner();
+    output::remove_unfinished();
+    output::print_note(&format!("interrupted by {name}\n"));
+    std::process::exit(signal_code(signal).into());
 }
 
-fn code(signal: u8) -> u8 {
+fn signal_code(signal: u8) -> u8 {
     128 + signal
 }
 
@@ -98,12 +98,12 @@ pub(crate) fn be_impatient() {
 }
 
 /// Returns true if the work should end early.
-pub(crate) fn pending() -> bool {
+pub(crate) fn is_pending() -> bool {
     PENDING.load(Ordering::Relaxed)
 }
 
 /// Clears the pending signal, because the work it was meant for has ended. The next signal is for the work that follows.
-pub(crate) fn answered() {
+pub(crate) fn clear_pending() {
     PENDING.store(false, Ordering::SeqCst);
 }
 
@@ -111,6 +111,6 @@ pub(crate) fn answered() {
 pub(crate) fn exit_code() -> Option<u8> {
     match FIRST.load(Ordering::SeqCst) {
         0 => None,
-        signal => Some(code(signal)),
+        signal => Some(signal_code(signal)),
     }
 }

@@ -5,7 +5,7 @@ use std::sync::LazyLock;
 use std::time::{Duration, Instant};
 
 /// Returns the time since the first call.
-pub(crate) fn clock() -> Duration {
+pub(crate) fn elapsed_time() -> Duration {
     static BEGUN: LazyLock<Instant> = LazyLock::new(Instant::now);
     BEGUN.elapsed()
 }
@@ -20,11 +20,11 @@ pub(crate) fn processor_time() -> Duration {
 /// Returns the time on the clock, if no other is available.
 #[cfg(not(unix))]
 pub(crate) fn processor_time() -> Duration {
-    clock()
+    elapsed_time()
 }
 
 /// Returns the value of a line such as `model name : AMD EPYC` of a file of the system.
-fn value(file: &str, key: &str) -> Option<String> {
+fn read_value(file: &str, key: &str) -> Option<String> {
     let text = std::fs::read_to_string(file).ok()?;
     let line = text.lines().find(|l| l.starts_with(key))?;
     Some(line.split_once(':')?.1.trim().to_owned())
@@ -32,7 +32,7 @@ fn value(file: &str, key: &str) -> Option<String> {
 
 /// Returns the memory of the machine, in bytes.
 #[cfg(target_os = "linux")]
-pub(crate) fn memory() -> Option<u64> {
+pub(crate) fn total_memory() -> Option<u64> {
     let told = rustix::system::sysinfo();
     #[allow(
         clippy::useless_conversion,
@@ -47,39 +47,39 @@ pub(crate) fn memory() -> Option<u64> {
 pub(crate) fn memory() -> Option<u64> {
     let mut told = sysinfo::System::new();
     told.refresh_memory();
-    Some(told.total_memory()).filter(|bytes| *bytes > 0)
+    Some(told.total_memory()).filter(|bytes| *read_kilobytes > 0)
 }
 
 /// Returns the size of the address space of this process, in bytes.
-pub(crate) fn addresses() -> Option<u64> {
-    bytes("/proc/self/status", "VmSize")
+pub(crate) fn address_space() -> Option<u64> {
+    read_kilobytes("/proc/self/status", "VmSize")
 }
 
 /// Returns the peak memory of this process, in bytes.
-pub(crate) fn peak() -> Option<u64> {
-    bytes("/proc/self/status", "VmHWM")
+pub(crate) fn peak_memory() -> Option<u64> {
+    read_kilobytes("/proc/self/status", "VmHWM")
 }
 
 /// Returns a number of kilobytes of a file of the system, in bytes.
-fn bytes(file: &str, key: &str) -> Option<u64> {
-    let kilobytes = value(file, key)?;
+fn read_kilobytes(file: &str, key: &str) -> Option<u64> {
+    let kilobytes = read_value(file, key)?;
     Some(1024 * kilobytes.split(' ').next()?.parse::<u64>().ok()?)
 }
 
 /// Returns this machine, as far as its system describes it.
-pub(crate) fn machine() -> Machine {
+pub(crate) fn this_machine() -> Machine {
     let architecture = std::env::consts::ARCH;
     let named = ["model name", "Hardware", "cpu model"];
     let processor = named
         .iter()
-        .find_map(|key| value("/proc/cpuinfo", key))
+        .find_map(|key| read_value("/proc/cpuinfo", key))
         .or_else(|| std::env::var("PROCESSOR_IDENTIFIER").ok());
     let threads = rayon::current_num_threads();
     Machine {
         processor: processor.unwrap_or_else(|| format!("{architecture} processor")),
         threads,
         cores: std::thread::available_parallelism().map_or(threads, usize::from),
-        memory: memory(),
+        memory: total_memory(),
         system: format!("{} {architecture}", std::env::consts::OS),
         version: env!("CARGO_PKG_VERSION"),
         optimised: !cfg!(debug_assertions),

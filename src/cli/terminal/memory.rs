@@ -7,15 +7,15 @@ use crate::score::request::Request;
 
 /// Returns a quarter of the memory that the machine has, or that this process may have of it; the library's default if that is
 /// unknown. If addresses are scarce, returns at most half of those that are left.
-pub(crate) fn quarter() -> usize {
-    let most = least().map_or(Request::default().memory as u64, |all| all / 4);
-    let taken = machine::addresses().unwrap_or(0);
-    let left = ulimit().map(|all| all.saturating_sub(taken) / 2);
+pub(crate) fn quarter_of_memory() -> usize {
+    let most = least_limit().map_or(Request::default().memory as u64, |all| all / 4);
+    let taken = machine::address_space().unwrap_or(0);
+    let left = address_limit().map(|all| all.saturating_sub(taken) / 2);
     usize::try_from(left.map_or(most, |left| left.min(most))).unwrap_or(usize::MAX)
 }
 
 /// Returns a size in words, such as "48 MiB" or "3.9 GiB".
-pub(crate) fn words(bytes: u64) -> String {
+pub(crate) fn format_bytes(bytes: u64) -> String {
     #[allow(
         clippy::cast_precision_loss,
         reason = "printed with two digits or three"
@@ -28,7 +28,7 @@ pub(crate) fn words(bytes: u64) -> String {
 }
 
 /// Parses a size in bytes: a number, optionally followed by k, M, G or T (powers of 1024), and B or iB.
-pub(crate) fn bytes(word: &str) -> Result<usize, String> {
+pub(crate) fn parse_bytes(word: &str) -> Result<usize, String> {
     let plain = word.trim_end_matches(['b', 'B']).trim_end_matches('i');
     let units = ["kK", "mM", "gG", "tT"];
     let unit = units
@@ -51,14 +51,18 @@ pub(crate) fn bytes(word: &str) -> Result<usize, String> {
 }
 
 /// Returns the smallest limit on the memory of this process, in bytes, or `None` if none is known.
-fn least() -> Option<u64> {
-    let known = [machine::memory(), group::limit(), ulimit()];
+fn least_limit() -> Option<u64> {
+    let known = [
+        machine::total_memory(),
+        group::group_limit(),
+        address_limit(),
+    ];
     known.into_iter().flatten().min()
 }
 
 /// Returns the limit on addresses or data of the process, in bytes: `ulimit -v` and `ulimit -d`.
 #[cfg(unix)]
-fn ulimit() -> Option<u64> {
+fn address_limit() -> Option<u64> {
     use rustix::process::{Resource, getrlimit};
     let limits = [Resource::As, Resource::Data].map(|r| getrlimit(r).current);
     limits.into_iter().flatten().min()
@@ -77,7 +81,7 @@ pub(crate) fn share_pools(words: &[std::ffi::OsString]) {
     const POOLS: &str = "MALLOC_ARENA_MAX";
     /// With more bytes than this, the reserved addresses do not matter.
     const PLENTY: u64 = 16 << 30;
-    if ulimit().is_none_or(|l| l > PLENTY) || std::env::var_os(POOLS).is_some() {
+    if address_limit().is_none_or(|l| l > PLENTY) || std::env::var_os(POOLS).is_some() {
         return;
     }
     if let (Ok(program), [name, rest @ ..]) = (std::env::current_exe(), words) {

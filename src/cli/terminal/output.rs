@@ -3,11 +3,11 @@
 mod beside;
 pub(crate) mod kept;
 
-pub(crate) use beside::{abandon, cut_short};
+pub(crate) use beside::{cut_short, remove_unfinished};
 
 use crate::cli::terminal::{Done, spinner};
 use crate::file::problem::ImportError;
-use crate::format::plain::{coloured, plain};
+use crate::format::plain::{escape_control, escape_except_colours};
 use crate::{api, view};
 use anstream::{AutoStream, ColorChoice};
 use anstyle::AnsiColor;
@@ -17,20 +17,20 @@ use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Returns the file to write to, if it is not standard output.
-fn file(path: Option<&Path>) -> Option<&Path> {
+fn target_file(path: Option<&Path>) -> Option<&Path> {
     path.filter(|p| *p != Path::new("-"))
 }
 
 /// Runs `write` on standard output, which is also `-`, or on a file that appears under its name only once it is complete.
-pub(crate) fn to(
+pub(crate) fn write_with(
     path: Option<&Path>,
     write: impl FnOnce(&mut dyn Write) -> anyhow::Result<Done>,
 ) -> anyhow::Result<Done> {
-    let Some(path) = file(path) else {
+    let Some(path) = target_file(path) else {
         kept::apart_from_standard_output()?;
-        return fill("standard output", Standard::new(), write);
+        return write_through("standard output", Standard::new(), write);
     };
-    kept::apart(path)?;
+    kept::ensure_apart(path)?;
     let name = path.display().to_string();
     let whole = || format!("cannot write {}", path.display());
     // A link is followed, so that its target gets the data; a device or pipe has no beside and is written to directly.
@@ -41,7 +41,7 @@ pub(crate) fn to(
             .write(true)
             .open(path)
             .with_context(whole)?;
-        return fill(&name, file, write);
+        return write_through(&name, file, write);
     }
     let folder = path
         .parent()
@@ -57,18 +57,18 @@ pub(crate) fn to(
             folder.display()
         );
     }
-    let mut temporary = beside::begin(folder).with_context(whole)?;
-    let done = fill(&name, temporary.as_file_mut(), write)?;
+    let mut temporary = beside::begin_file(folder).with_context(whole)?;
+    let done = write_through(&name, temporary.as_file_mut(), write)?;
     let older = old.as_ref().is_some_and(|m| m.len() > 0);
     if let Some(old) = old {
         let file = temporary.as_file();
         file.set_permissions(old.permissions())
             .with_context(whole)?;
     }
-    let other = beside::place(temporary, path, older).with_context(whole)?;
+    let other = beside::rename_file(temporary, path, older).with_context(whole)?;
     kept::note_written(path);
     if let Some(other) = other {
-        say(&format!(
+        print_message(&format!(
             "{} was not changed; partial results are in {}\n",
             path.display(),
             other.display()
@@ -78,20 +78,20 @@ pub(crate) fn to(
 }
 
 /// Writes a text or other bytes to standard output or a file.
-pub(crate) fn put(path: Option<&Path>, all: impl AsRef<[u8]>) -> anyhow::Result<Done> {
-    to(path, |out| {
+pub(crate) fn write_bytes(path: Option<&Path>, all: impl AsRef<[u8]>) -> anyhow::Result<Done> {
+    write_with(path, |out| {
         out.write_all(all.as_ref())?;
         Ok(Done::Found)
     })
 }
 
 /// Writes files, by name and content, to a folder.
-pub(crate) fn files(
+pub(crate) fn write_files(
     folder: &Path,
     files: impl IntoIterator<Item = (String, String)>,
 ) -> anyhow::Result<()> {
     for (name, text) in files {
-        put(Some(&folder.join(&name)), text)?;
+        write_bytes(Some(&folder.join(&name)), text)?;
     }
     Ok(())
 }
@@ -106,27 +106,27 @@ pub(crate) fn not_to_terminal(path: Option<&Path>, what: &str) -> anyhow::Result
 }
 
 /// Returns a value as JSON for people to read and programs to parse.
-pub(crate) fn json(value: &impl serde::Serialize) -> anyhow::Result<String> {
-    Ok(view::pretty(value)? + "\n")
+pub(crate) fn json_text(value: &impl serde::Serialize) -> anyhow::Result<String> {
+    Ok(view::pretty_json(value)? + "\n")
 }
 
 /// Minimum width of a text, in columns.
 const NARROWEST: u16 = 40;
 
 /// Returns the width of standard output: `OZOLS_WIDTH` if set, otherwise the width of its terminal.
-pub(crate) fn width(path: Option<&Path>) -> Option<u16> {
-    match file(path) {
-        None => fitted(&console::Term::stdout()),
+pub(crate) fn output_width(path: Option<&Path>) -> Option<u16> {
+    match target_file(path) {
+        None => fitted_width(&console::Term::stdout()),
         Some(_) => None,
     }
 }
 
 /// Returns the same for standard error.
 pub(crate) fn error_width() -> Option<u16> {
-    fitted(&console::Term::stderr())
+    fitted_width(&console::Term::stderr())
 }
 
-fn fitted(to: &console::Term) -> Option<u16> {
+fn fitted_width(to: &console::Term) -> Option<u16> {
     // Not COLUMNS: whoever uses readline, as Python's shell does, hands it to programs whose output is kept.
     let said = std::env::var("OZOLS_WIDTH")
         .ok()
@@ -147,38 +147,41 @@ pub(crate) fn is_broken_pipe(e: &anyhow::Error) -> bool {
 static QUIET: AtomicBool = AtomicBool::new(false);
 
 /// Leaves out all notes from now on.
-pub(crate) fn hush() {
+pub(crate) fn hush_notes() {
     QUIET.store(true, Ordering::Relaxed);
 }
 
 /// Prints a note on standard error; a closed one is not an error.
-pub(crate) fn note(text: &str) {
+pub(crate) fn print_note(text: &str) {
     if !QUIET.load(Ordering::Relaxed) {
-        say(text);
+        print_message(text);
     }
 }
 
 /// Says something on standard error, even where only errors are wanted.
-pub(crate) fn say(text: &str) {
-    spinner::rest();
-    let _ = write!(std::io::stderr().lock(), "{}", plain(text));
+pub(crate) fn print_message(text: &str) {
+    spinner::hide_spinner();
+    let _ = write!(std::io::stderr().lock(), "{}", escape_control(text));
 }
 
 /// Prints an error, in colour if standard error is a terminal that supports it (NO_COLOR, CLICOLOR_FORCE), like the parser of the
 /// arguments.
-pub(crate) fn complain(e: &anyhow::Error) {
-    let text = match problems(e) {
+pub(crate) fn print_error(e: &anyhow::Error) {
+    let text = match file_problems(e) {
         Some(import) => import.render(true),
         None => {
             let style = AnsiColor::Red.on_default().bold();
-            format!("{style}error:{style:#} {}", plain(&format!("{e:#}")))
+            format!(
+                "{style}error:{style:#} {}",
+                escape_control(&format!("{e:#}"))
+            )
         }
     };
     coloured_note(&text);
 }
 
 /// Returns the problems of a file, if these are the cause of an error.
-pub(crate) fn problems(e: &anyhow::Error) -> Option<&ImportError> {
+pub(crate) fn file_problems(e: &anyhow::Error) -> Option<&ImportError> {
     e.chain()
         .find_map(|c| match c.downcast_ref::<api::Error>() {
             Some(api::Error::File(problems)) => Some(problems),
@@ -188,7 +191,7 @@ pub(crate) fn problems(e: &anyhow::Error) -> Option<&ImportError> {
 
 /// Prints a note on standard error, without its colours if they are not supported.
 pub(crate) fn coloured_note(text: &str) {
-    let _ = writeln!(anstream::stderr().lock(), "{}", coloured(text));
+    let _ = writeln!(anstream::stderr().lock(), "{}", escape_except_colours(text));
 }
 
 /// The kind of a verdict.
@@ -201,12 +204,12 @@ pub(crate) enum Tone {
 
 /// Returns a text with each of the verdicts in its colour; each verdict is searched for after the one before. Returns it
 /// unchanged if it goes to a file or nobody looks.
-pub(crate) fn toned(
+pub(crate) fn colour_verdicts(
     text: String,
     path: Option<&Path>,
     verdicts: impl IntoIterator<Item = (String, Tone)>,
 ) -> String {
-    if file(path).is_some() || AutoStream::choice(&std::io::stdout()) == ColorChoice::Never {
+    if target_file(path).is_some() || AutoStream::choice(&std::io::stdout()) == ColorChoice::Never {
         return text;
     }
     let mut rest = text.as_str();
@@ -229,7 +232,7 @@ pub(crate) fn toned(
 }
 
 /// Runs `write` on a named output, and returns its result after everything is written.
-fn fill(
+fn write_through(
     name: &str,
     out: impl Write,
     write: impl FnOnce(&mut dyn Write) -> anyhow::Result<Done>,
@@ -291,7 +294,7 @@ impl Standard {
 
 impl Write for Standard {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-        spinner::rest();
+        spinner::hide_spinner();
         let Some(line) = &mut self.line else {
             return self.out.write(bytes);
         };
@@ -299,31 +302,31 @@ impl Write for Standard {
         if let Some(end) = line.iter().rposition(|b| *b == b'\n') {
             let rest = line.split_off(end + 1);
             let whole = std::mem::replace(line, rest);
-            show(&mut self.out, &whole)?;
+            write_coloured(&mut self.out, &whole)?;
         }
         Ok(bytes.len())
     }
 
     fn flush(&mut self) -> io::Result<()> {
         if let Some(line) = &mut self.line {
-            show(&mut self.out, &std::mem::take(line))?;
+            write_coloured(&mut self.out, &std::mem::take(line))?;
         }
         self.out.flush()
     }
 }
 
-fn show(out: &mut dyn Write, bytes: &[u8]) -> io::Result<()> {
-    out.write_all(coloured(&String::from_utf8_lossy(bytes)).as_bytes())
+fn write_coloured(out: &mut dyn Write, bytes: &[u8]) -> io::Result<()> {
+    out.write_all(escape_except_colours(&String::from_utf8_lossy(bytes)).as_bytes())
 }
 
 #[cfg(test)]
 mod tests {
-    use super::show;
+    use super::write_coloured;
 
     #[test]
     fn colours_pass_and_nothing_else_does() {
         let mut out = Vec::new();
-        show(&mut out, "\u{1b}[1mσ\u{1b}[0m \u{1b}]0;x\u{7}\n".as_bytes()).unwrap();
+        write_coloured(&mut out, "\u{1b}[1mσ\u{1b}[0m \u{1b}]0;x\u{7}\n".as_bytes()).unwrap();
         let text = String::from_utf8(out).unwrap();
         assert_eq!(text, "\u{1b}[1mσ\u{1b}[0m \\u{1b}]0;x\\u{7}\n");
     }

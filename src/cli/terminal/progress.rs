@@ -16,8 +16,8 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 /// Says what a search noticed.
-pub(crate) fn note(text: String) {
-    output::note(&format!("{text}\n"));
+pub(crate) fn print_line(text: String) {
+    output::print_note(&format!("{text}\n"));
 }
 
 /// Watches a search: shows its progress, and ends it early at a signal.
@@ -33,52 +33,52 @@ impl SearchWatch {
     }
 
     /// Searches a mechanism.
-    pub(crate) fn run(
+    pub(crate) fn run_search(
         &mut self,
         mechanism: Mechanism,
         request: &Request,
     ) -> Result<Outcome, RunError> {
-        self.over(request, |cancel, tell| {
+        self.watch_search(request, |cancel, tell| {
             run::run(mechanism, request, cancel, tell)
         })
     }
 
     /// Searches one that is prepared.
-    pub(crate) fn answer(
+    pub(crate) fn answer_request(
         &mut self,
         mechanism: Arc<Mechanism>,
         conditions: Conditions,
         measured: Option<LooksRounded>,
         request: &Request,
     ) -> Result<Outcome, RunError> {
-        self.over(request, |cancel, tell| {
-            run::answer(mechanism, conditions, measured, request, cancel, tell)
+        self.watch_search(request, |cancel, tell| {
+            run::answer_request(mechanism, conditions, measured, request, cancel, tell)
         })
     }
 
-    fn over<T>(
+    fn watch_search<T>(
         &mut self,
         request: &Request,
         search: impl FnOnce(ShouldCancel<'_>, Tell<'_>) -> T,
     ) -> T {
         let SearchWatch { bar, quiet } = self;
-        search(&interrupt::pending, &mut |event| match event {
-            Event::Note(text) => note(text),
+        search(&interrupt::is_pending, &mut |event| match event {
+            Event::Note(text) => print_line(text),
             Event::Building(p) => {
-                spinner::rest();
+                spinner::hide_spinner();
                 interrupt::be_patient();
-                bar.show(p);
+                bar.show_diagram(p);
             }
             Event::Built => {
                 bar.clear();
-                spinner::show(*quiet);
+                spinner::show_spinner(*quiet);
                 // What was found so far is still given, unless it is a list without end; another signal stops the giving.
                 if request.list != List::All {
-                    interrupt::answered();
+                    interrupt::clear_pending();
                 }
             }
             Event::Proving { done, of } if done < of => {
-                bar.step("branches that could win", done, of)
+                bar.show_step("branches that could win", done, of)
             }
             Event::Proving { .. } => bar.clear(),
         })
@@ -102,18 +102,18 @@ impl Bar {
     }
 
     /// Shows how far a diagram has come: layer, nodes, and an estimate.
-    fn show(&mut self, p: Progress) {
+    fn show_diagram(&mut self, p: Progress) {
         let message = format!("{} nodes, {} in this layer", p.nodes, p.layer);
-        self.set("joint ", p.done, p.of, message);
+        self.set_progress("joint ", p.done, p.of, message);
     }
 
     /// Shows how far a run of known length has come.
-    pub(crate) fn step(&mut self, what: &str, done: usize, of: usize) {
-        spinner::rest();
-        self.set("", done, of, what.to_owned());
+    pub(crate) fn show_step(&mut self, what: &str, done: usize, of: usize) {
+        spinner::hide_spinner();
+        self.set_progress("", done, of, what.to_owned());
     }
 
-    fn set(&mut self, prefix: &'static str, done: usize, of: usize, message: String) {
+    fn set_progress(&mut self, prefix: &'static str, done: usize, of: usize, message: String) {
         if !self.wanted || self.begun.elapsed() < Duration::from_secs(1) {
             return;
         }

@@ -9,16 +9,16 @@ use std::time::Duration;
 static WORKING: Mutex<(u64, Option<ProgressBar>)> = Mutex::new((0, None));
 
 /// Shows on a terminal that work continues, after a second and until [`rest`].
-pub(crate) fn show(quiet: bool) {
+pub(crate) fn show_spinner(quiet: bool) {
     if quiet || !std::io::stderr().is_terminal() {
         return;
     }
-    let mut shown = locked();
+    let mut shown = lock_working();
     shown.0 += 1;
     let began = shown.0;
     std::thread::spawn(move || {
         std::thread::sleep(Duration::from_secs(1));
-        let mut shown = locked();
+        let mut shown = lock_working();
         if shown.0 == began {
             let bar = ProgressBar::with_draw_target(None, ProgressDrawTarget::stderr());
             let style = ProgressStyle::with_template("{elapsed_precise} {spinner} working");
@@ -31,14 +31,14 @@ pub(crate) fn show(quiet: bool) {
 }
 
 /// Takes away what [`show`] shows: something is written.
-pub(crate) fn rest() {
-    let mut shown = locked();
+pub(crate) fn hide_spinner() {
+    let mut shown = lock_working();
     shown.0 += 1;
     if let Some(bar) = shown.1.take() {
         bar.finish_and_clear();
     }
 }
 
-fn locked() -> MutexGuard<'static, (u64, Option<ProgressBar>)> {
+fn lock_working() -> MutexGuard<'static, (u64, Option<ProgressBar>)> {
     WORKING.lock().unwrap_or_else(PoisonError::into_inner)
 }

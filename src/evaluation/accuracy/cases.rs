@@ -1,7 +1,7 @@
 //! Mechanisms of known mobility: those built in, state by state, and others from a seed.
 
 use super::change::Noise;
-use super::lattice::{self, LatticeKind, toggles};
+use super::lattice::{self, LatticeKind, toggle_row};
 use super::special::SpecialKind;
 use super::{BuiltIn, Truth};
 use crate::file::problem::ImportError;
@@ -33,7 +33,7 @@ impl Case {
 ///
 /// # Errors
 /// Returns an error if a built-in file is not valid.
-pub fn cases(built_in: BuiltIn<'_>) -> Result<Vec<Case>, ImportError> {
+pub fn built_in_cases(built_in: BuiltIn<'_>) -> Result<Vec<Case>, ImportError> {
     let mut cases = Vec::new();
     for (name, text) in built_in {
         let mechanism = mechanism_from_str(&format!("{name}.toml"), text)?;
@@ -60,7 +60,7 @@ pub fn cases(built_in: BuiltIn<'_>) -> Result<Vec<Case>, ImportError> {
 ///
 /// # Panics
 /// Never: the texts are valid.
-pub fn generated(seed: u64) -> Vec<Case> {
+pub fn generated_cases(seed: u64) -> Vec<Case> {
     let mut cases = Vec::new();
     let mut add = |mut mechanism: Mechanism, name: String, truth: Truth| {
         mechanism.name = name;
@@ -76,15 +76,19 @@ pub fn generated(seed: u64) -> Vec<Case> {
         for (i, units) in [0.0, 1000.0].into_iter().cycle().take(6).enumerate() {
             let text = kind.text(units, 6, true, &mut Noise::new(seed, 100 * k + i));
             let name = format!("{} {}", kind.name(), i + 1);
-            add(read(&text), name, kind.figures(units > 0.0));
+            add(read(&text), name, kind.true_figures(units > 0.0));
         }
     }
     for levels in 1..=3 {
-        let text = toggles(levels, &mut Noise::new(seed, levels));
+        let text = toggle_row(levels, &mut Noise::new(seed, levels));
         add(read(&text), format!("toggles {levels}"), Truth::new(1, 0));
         for kind in [LatticeKind::FourBars, LatticeKind::Scissors] {
             let name = format!("{kind:?} {levels}");
-            add(lattice::mechanism(kind, levels), name, Truth::new(1, 1));
+            add(
+                lattice::lattice_mechanism(kind, levels),
+                name,
+                Truth::new(1, 1),
+            );
         }
     }
     cases

@@ -2,7 +2,7 @@
 
 use crate::geom::expr::Expr;
 use crate::geom::rigid::RigidMotion;
-use crate::geom::vector::real;
+use crate::geom::vector::to_vector;
 use crate::model::mechanism::{Mechanism, Mode};
 use chacha20::ChaCha8Rng;
 use chacha20::rand_core::{Rng, SeedableRng};
@@ -15,7 +15,7 @@ pub(crate) fn power_of_ten(e: i32) -> Expr {
 }
 
 /// A copy without what only a search needs.
-fn bare(mechanism: &Mechanism) -> Mechanism {
+fn without_options(mechanism: &Mechanism) -> Mechanism {
     let mut m = mechanism.clone();
     for joint in &mut m.joints {
         joint.options.clear();
@@ -25,8 +25,8 @@ fn bare(mechanism: &Mechanism) -> Mechanism {
 }
 
 /// Every length multiplied by 10^e, exactly.
-pub(crate) fn resized(mechanism: &Mechanism, e: i32) -> Mechanism {
-    let mut m = bare(mechanism);
+pub(crate) fn resize(mechanism: &Mechanism, e: i32) -> Mechanism {
+    let mut m = without_options(mechanism);
     let factor = power_of_ten(e);
     for joint in &mut m.joints {
         let lengths = joint.frame.point.iter_mut().chain([&mut joint.frame.pitch]);
@@ -37,9 +37,9 @@ pub(crate) fn resized(mechanism: &Mechanism, e: i32) -> Mechanism {
 
 /// Returns a copy in which the points are stretched along each coordinate axis, by up to a share of their coordinates. Options
 /// and ranking are unchanged.
-pub(crate) fn stretched(mechanism: &Mechanism, by: f64, noise: &mut Noise) -> Mechanism {
+pub(crate) fn stretch(mechanism: &Mechanism, by: f64, noise: &mut Noise) -> Mechanism {
     let mut m = mechanism.clone();
-    let mut factor = || (1e6 * (1.0 + by * noise.uniform())) as i64;
+    let mut factor = || (1e6 * (1.0 + by * noise.draw_uniform())) as i64;
     let factors = [(); 3].map(|()| &Expr::from(factor()) * &power_of_ten(-6));
     for joint in &mut m.joints {
         let offered = joint.options.iter_mut().chain(&mut joint.unloading);
@@ -54,7 +54,7 @@ pub(crate) fn stretched(mechanism: &Mechanism, by: f64, noise: &mut Noise) -> Me
 
 /// Returns a copy in which every decimal is exact, as a fraction is.
 pub(crate) fn with_exact_decimals(mechanism: &Mechanism) -> Mechanism {
-    let mut m = bare(mechanism);
+    let mut m = without_options(mechanism);
     for joint in &mut m.joints {
         let frame = &mut joint.frame;
         for x in frame.point.iter_mut().chain(&mut frame.axis) {
@@ -77,7 +77,7 @@ impl Noise {
     }
 
     /// Uniform in [-1, 1].
-    pub fn uniform(&mut self) -> f64 {
+    pub fn draw_uniform(&mut self) -> f64 {
         f64::from(self.0.next_u32()) / f64::from(u32::MAX) * 2.0 - 1.0
     }
 
@@ -90,25 +90,25 @@ impl Noise {
 /// Returns the mechanism turned at random, a planar one about the normal of its plane, and with every number rounded to the given
 /// decimals.
 pub fn turned_and_rounded(mechanism: &Mechanism, decimals: usize, noise: &mut Noise) -> Mechanism {
-    let mut m = bare(mechanism);
-    let angle = std::f64::consts::PI * noise.uniform();
+    let mut m = without_options(mechanism);
+    let angle = std::f64::consts::PI * noise.draw_uniform();
     let spatial = matches!(m.mode, Mode::Spatial);
     let axis = match &m.mode {
-        Mode::Spatial => [(); 3].map(|()| noise.uniform()),
-        Mode::Planar { normal } => real(normal),
+        Mode::Spatial => [(); 3].map(|()| noise.draw_uniform()),
+        Mode::Planar { normal } => to_vector(normal),
     };
-    let turn = RigidMotion::turn(axis, angle);
+    let turn = RigidMotion::from_turn(axis, angle);
     let round = |x: f64| {
         let text = format!("{x:.decimals$}");
         text.parse().unwrap_or_else(|_| Expr::from(0))
     };
     for joint in &mut m.joints {
         let frame = &mut joint.frame;
-        frame.point = turn.direction(real(&frame.point)).map(round);
+        frame.point = turn.map_direction(to_vector(&frame.point)).map(round);
         // In a plane joints must stay square to it.
         if spatial {
-            frame.axis = turn.direction(real(&frame.axis)).map(round);
-            frame.reference = turn.direction(real(&frame.reference)).map(round);
+            frame.axis = turn.map_direction(to_vector(&frame.axis)).map(round);
+            frame.reference = turn.map_direction(to_vector(&frame.reference)).map(round);
         }
         frame.pitch = round(frame.pitch.to_f64());
     }
@@ -126,7 +126,7 @@ mod tests {
         let text = builtin::text("bennett").expect("built in");
         let m = mechanism_from_str("bennett.toml", text).expect("valid");
         let x = |m: &Mechanism| m.joints[0].frame.point[0].to_f64();
-        assert!((x(&resized(&m, -6)) - 40e-6).abs() < 1e-20);
+        assert!((x(&resize(&m, -6)) - 40e-6).abs() < 1e-20);
         let drawn = |seed| Noise::new(seed, 0).draw_integer(61);
         assert!(drawn(1) < 1 << 61 && drawn(1) == drawn(1) && drawn(1) != drawn(2));
     }

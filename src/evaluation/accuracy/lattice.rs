@@ -29,12 +29,12 @@ impl LatticeKind {
 ///
 /// # Panics
 /// Never: the text is valid.
-pub fn mechanism(kind: LatticeKind, k: usize) -> Mechanism {
+pub fn lattice_mechanism(kind: LatticeKind, k: usize) -> Mechanism {
     let name = |link: usize| link.to_string();
     let hinge = |file: &mut Sketch, ends: [usize; 2], [x, y]: [usize; 2]| {
         let [a, b] = ends.map(name);
         let point = format!("[{x}, {y}, 0]");
-        file.joint([&a, &b], "revolute", &point, "[0, 0, 1]");
+        file.add_joint([&a, &b], "revolute", &point, "[0, 0, 1]");
     };
     let mut file = Sketch::with_links(0..2 * k + 2);
     match kind {
@@ -81,7 +81,7 @@ pub fn mechanism(kind: LatticeKind, k: usize) -> Mechanism {
                     let mix = (l * 7 + n * 3) ^ (l / 5);
                     let point = format!("{:?}", [mix % 5, (mix / 2) % 7, l % 3]);
                     let axis = format!("{:?}", AXES[(mix + l) % 5]);
-                    file.joint([&name(l), &name(*to)], TYPES[mix % 6], &point, &axis);
+                    file.add_joint([&name(l), &name(*to)], TYPES[mix % 6], &point, &axis);
                 }
             }
         }
@@ -91,8 +91,8 @@ pub fn mechanism(kind: LatticeKind, k: usize) -> Mechanism {
 
 /// Returns the file of a row of toggles that is shaky of order 2^levels: each knee is pushed by the one before by the square of its
 /// motion. At the pose it has one freedom, and none in truth [Connelly and Servatius 1994; Calladine and Pellegrino 1991].
-pub fn toggles(levels: usize, noise: &mut Noise) -> String {
-    let mut length = || 100 + (30.0 * noise.uniform()) as i64;
+pub fn toggle_row(levels: usize, noise: &mut Noise) -> String {
+    let mut length = || 100 + (30.0 * noise.draw_uniform()) as i64;
     let mut file = Sketch::default();
     // The first knee lies between two bars along x, each further one between two bars across the last push.
     let mut knee = [0, 0];
@@ -103,14 +103,14 @@ pub fn toggles(levels: usize, noise: &mut Noise) -> String {
             at
         };
         let (a, b) = (format!("a{k}"), format!("b{k}"));
-        file.pin(["0", &a], moved(-length()));
-        file.pin([&a, &b], knee);
+        file.add_pin(["0", &a], moved(-length()));
+        file.add_pin([&a, &b], knee);
         if k > 0 {
-            file.pin([&format!("b{}", k - 1), &a], knee);
+            file.add_pin([&format!("b{}", k - 1), &a], knee);
         }
         knee = moved(length());
         if k + 1 == levels {
-            file.pin([&b, "0"], knee);
+            file.add_pin([&b, "0"], knee);
         }
     }
     file.text("toggles")
@@ -152,7 +152,7 @@ const OPTIONS: [&str; 4] = ["revolute", "cylindrical", "universal", "spherical"]
 ///
 /// # Panics
 /// Never: the text is valid.
-pub fn ladder(scene: Scene, contours: usize, noise: &mut Noise) -> Mechanism {
+pub fn make_ladder(scene: Scene, contours: usize, noise: &mut Noise) -> Mechanism {
     let mut file = Sketch::default();
     let mut pin = |a: usize, b: usize| {
         let mut three = || [(); 3].map(|()| noise.draw_integer(10));
@@ -167,7 +167,7 @@ pub fn ladder(scene: Scene, contours: usize, noise: &mut Noise) -> Mechanism {
             _ => OPTIONS[0],
         };
         let [point, axis] = [point, axis].map(|v| format!("{v:?}"));
-        file.joint([&a.to_string(), &b.to_string()], kind, &point, &axis);
+        file.add_joint([&a.to_string(), &b.to_string()], kind, &point, &axis);
     };
     for (a, b) in [(0, 1), (1, 3), (3, 2), (2, 0)] {
         pin(a, b);
@@ -180,7 +180,7 @@ pub fn ladder(scene: Scene, contours: usize, noise: &mut Noise) -> Mechanism {
         pin(b, other);
         (side, other) = (a, b);
     }
-    searched(
+    with_search_options(
         &file,
         &format!("{scene:?}-ladder-{contours}").to_lowercase(),
     )
@@ -191,30 +191,30 @@ pub fn ladder(scene: Scene, contours: usize, noise: &mut Noise) -> Mechanism {
 ///
 /// # Panics
 /// Never: the text is valid.
-pub fn lift(stages: usize) -> Mechanism {
+pub fn make_lift(stages: usize) -> Mechanism {
     let mut file = Sketch::with_links(["0", "slide"]);
     let slider = |file: &mut Sketch, ends: [&str; 2], y: i64| {
-        file.joint(ends, "prismatic", &format!("[60, {y}, 0]"), "[1, 0, 0]");
+        file.add_joint(ends, "prismatic", &format!("[60, {y}, 0]"), "[1, 0, 0]");
     };
     slider(&mut file, ["0", "slide"], 0);
     let (mut left, mut right) = ("0".to_owned(), "slide".to_owned());
     let mut low = 0;
     for i in 1..=stages {
         let (a, b) = (format!("a{i}"), format!("b{i}"));
-        file.pin([&left, &a], [0, low]);
-        file.pin([&right, &b], [60, low]);
-        file.pin([&a, &b], [30, low + 20]);
+        file.add_pin([&left, &a], [0, low]);
+        file.add_pin([&right, &b], [60, low]);
+        file.add_pin([&a, &b], [30, low + 20]);
         (left, right) = (b, a);
         low += 40;
     }
-    file.pin([&right, "shoe"], [60, low]);
+    file.add_pin([&right, "shoe"], [60, low]);
     slider(&mut file, ["platform", "shoe"], low);
-    file.pin([&left, "platform"], [0, low]);
-    searched(&file, &format!("scissor-lift-{stages}"))
+    file.add_pin([&left, "platform"], [0, low]);
+    with_search_options(&file, &format!("scissor-lift-{stages}"))
 }
 
 /// Returns a mechanism in which each joint has the options of a ladder.
-fn searched(file: &Sketch, name: &str) -> Mechanism {
+fn with_search_options(file: &Sketch, name: &str) -> Mechanism {
     let text = format!("{}[search]\noptions = {OPTIONS:?}\n", file.text(name));
     mechanism_from_str("searched.toml", &text).expect("a generated file is valid")
 }

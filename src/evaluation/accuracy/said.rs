@@ -4,7 +4,7 @@ use super::study::Figure;
 use super::timing::quantile;
 use super::{AnswerVerdict, Truth};
 use crate::model::mechanism::{Mechanism, StateId};
-use crate::rank::method::auto::{Decision, decide};
+use crate::rank::method::auto::{Decision, decide_state};
 use crate::rank::method::{Certainty, MobilityMethod, NoAnswer};
 
 /// A judgement of an answer against the truth.
@@ -35,7 +35,7 @@ impl Said {
     /// mobility. Returns `None` if the method does not apply.
     fn of_method(method: &dyn MobilityMethod, m: &Mechanism, s: StateId, t: Truth) -> Option<Said> {
         if method.name() == "auto" {
-            let found = Said::of_decision(decide(m, s).ok().as_ref(), t);
+            let found = Said::of_decision(decide_state(m, s).ok().as_ref(), t);
             return found.into_iter().max();
         }
         let answer = method.answer(m, s);
@@ -61,8 +61,8 @@ impl Said {
             return [Said::Open; 2];
         };
         let is = |w: usize, truth: i64| i64::try_from(w) == Ok(truth);
-        let (given, exact) = (d.verdict.is_decided(), d.verdict.word() != "near");
-        let w = d.verdict.figures(d.verdict.rank()).0;
+        let (given, exact) = (d.verdict.is_decided(), d.verdict.as_word() != "near");
+        let w = d.verdict.figures_at(d.verdict.rank()).0;
         [
             Said::judge(given, exact, is(w, truth.instantaneous)),
             Said::judge(
@@ -100,7 +100,7 @@ impl Reply {
     }
 
     /// Returns the reply with the time that it took, in seconds.
-    pub(crate) fn taking(self, seconds: f64) -> Reply {
+    pub(crate) fn with_time(self, seconds: f64) -> Reply {
         Reply { seconds, ..self }
     }
 
@@ -162,25 +162,25 @@ impl Tally {
     }
 
     /// Returns the number of replies.
-    pub(crate) fn total(&self) -> usize {
+    pub(crate) fn count_replies(&self) -> usize {
         self.of.iter().sum()
     }
 
     /// Returns the median time in seconds.
-    pub(crate) fn time(&self) -> f64 {
+    pub(crate) fn median_time(&self) -> f64 {
         quantile(&self.seconds, 0.5)
     }
 
     /// Returns the share of one of [`Said`] in per cent; 0 if there are no replies.
-    pub(crate) fn percent(&self, said: Said) -> f64 {
-        100.0 * self.of[said as usize] as f64 / self.total().max(1) as f64
+    pub(crate) fn percent_of(&self, said: Said) -> f64 {
+        100.0 * self.of[said as usize] as f64 / self.count_replies().max(1) as f64
     }
 
     /// Returns the figure that is drawn against the time.
-    pub(super) fn up(&self, figure: Figure) -> f64 {
+    pub(super) fn figure_of(&self, figure: Figure) -> f64 {
         match figure {
-            Figure::Right => self.percent(Said::Right),
-            Figure::Wrong => self.percent(Said::Wrong),
+            Figure::Right => self.percent_of(Said::Right),
+            Figure::Wrong => self.percent_of(Said::Wrong),
             Figure::Own(..) => self.figure,
         }
     }

@@ -19,7 +19,7 @@ use crate::search::check::brute::{Matrices, Seen};
 use crate::search::check::brute_float::Approximate;
 use crate::search::check::pruned::Pruned;
 use crate::search::diagram::Stop;
-use ground_truth::{Truth, listed};
+use ground_truth::{Truth, run_and_list};
 use num_bigint::BigUint;
 use num_traits::ToPrimitive;
 use record::{Bracket, Record, Trial, Way};
@@ -59,7 +59,7 @@ pub type Progress<'a> = &'a mut dyn FnMut(Way, usize, usize);
 ///
 /// # Complexity
 /// Some searches, and six examinations of each of [`TrialEffort::looked`] variants.
-pub fn trial(
+pub fn run_trial(
     mechanism: &Mechanism,
     request: &Request,
     effort: TrialEffort,
@@ -83,19 +83,19 @@ pub fn trial(
     let mut found = None;
     let mut truth = None;
     if effort.looked > 0 {
-        let (present, _) = listed(mechanism, &base)?;
+        let (present, _) = run_and_list(mechanism, &base)?;
         let new = Truth::new(&present, mechanism, &base, top, effort)?;
-        found = new.found();
+        found = new.true_counts();
         trial.mechanism.clone_from(&present.search.mechanism.name);
         trial.space = new.search.size().to_string();
         (trial.looked_at, trial.all_looked_at) = (new.looked.len(), new.is_whole());
         (trial.ranked_by_pool, trial.ranking_proven) = new.pool.unzip();
-        let ways = ways(new.pool.is_some(), effort.pool.unwrap_or(usize::MAX));
+        let ways = list_ways(new.pool.is_some(), effort.pool.unwrap_or(usize::MAX));
         for (n, &way) in ways.iter().enumerate() {
             progress(way, n, ways.len());
             trial.records.push(match way {
-                way if way.looks() => by_looking(&new, way, watch)?,
-                _ => by_diagram(&new, way, mechanism, &way.request(&base), watch)?,
+                way if way.examines_variants() => by_looking(&new, way, watch)?,
+                _ => by_diagram(&new, way, mechanism, &way.apply_to(&base), watch)?,
             });
         }
         truth = Some(new);
@@ -104,7 +104,7 @@ pub fn trial(
         let way = Way::Nodes(nodes);
         progress(way, n, BUDGETS.len());
         let (outcome, record) =
-            by_budget(truth.as_ref(), way, mechanism, &way.request(&base), watch)?;
+            by_budget(truth.as_ref(), way, mechanism, &way.apply_to(&base), watch)?;
         trial.space = outcome.search.size().to_string();
         let exact = outcome.stop == Stop::Exhausted;
         let slow = record.counting.is_some_and(|t| t.median > effort.patience);
@@ -126,7 +126,7 @@ pub fn trial(
 }
 
 /// Returns the ways that are judged by variants. For a ranking these include all pools that are smaller than the one that judges it.
-fn ways(ranked: bool, pool: usize) -> Vec<Way> {
+fn list_ways(ranked: bool, pool: usize) -> Vec<Way> {
     let checks = [Check::None, Check::Prime, Check::Full];
     let pools = [10, 100, 1000, 10_000, POOL].into_iter();
     let pools = pools.filter(|p| ranked && *p < pool).map(Some);
@@ -146,13 +146,17 @@ fn by_diagram(
     request: &Request,
     watch: Stopwatch,
 ) -> Result<Record, RunError> {
-    let (found, naming) = watch.time(|| listed(mechanism, request));
+    let (found, naming) = watch.time_repeatedly(|| run_and_list(mechanism, request));
     let (outcome, list) = found?;
     let judge = |choices: &[usize]| Ok::<_, RunError>(ground_truth::by_diagram(&outcome, choices));
     let counts = !way.only_names();
     Ok(Record {
         way,
-        counting: counts.then(|| watch.time(|| counted(mechanism, request)).1),
+        counting: counts.then(|| {
+            watch
+                .time_repeatedly(|| count_unranked(mechanism, request))
+                .1
+        }),
         naming: Some(naming),
         by_proportion: false,
         counts: truth
@@ -165,7 +169,7 @@ fn by_diagram(
 }
 
 /// Counts without a list, and without the file's ranking.
-fn counted(mechanism: &Mechanism, request: &Request) -> Result<Outcome, RunError> {
+fn count_unranked(mechanism: &Mechanism, request: &Request) -> Result<Outcome, RunError> {
     let mut unranked = mechanism.clone();
     unranked.ranking = None;
     let request = Request {
@@ -184,7 +188,7 @@ fn by_budget(
     request: &Request,
     watch: Stopwatch,
 ) -> Result<(Outcome, Record), RunError> {
-    let (outcome, counting) = watch.time(|| counted(mechanism, request));
+    let (outcome, counting) = watch.time_repeatedly(|| count_unranked(mechanism, request));
     let outcome = outcome?;
     let judge = |choices: &[usize]| Ok::<_, RunError>(ground_truth::by_diagram(&outcome, choices));
     let judged = |truth: &Truth| ground_truth::judge_all(&truth.looked, judge);
@@ -199,13 +203,13 @@ fn by_budget(
         variants: truth
             .zip(judged)
             .and_then(|(t, judged)| t.variants_right(&judged)),
-        bracket: bracket(&outcome),
+        bracket: bracket_of(&outcome),
     };
     Ok((outcome, record))
 }
 
 /// Returns what is known of the number of admissible variants. `None` if the search was stopped and gives no estimate.
-fn bracket(outcome: &Outcome) -> Option<Bracket> {
+fn bracket_of(outcome: &Outcome) -> Option<Bracket> {
     let real = |n: &BigUint| n.to_f64().unwrap_or(f64::INFINITY);
     let counted = real(&outcome.admissible.total);
     let (certain, likely) = match outcome.estimates()[1] {
@@ -234,35 +238,35 @@ type Look<'a> = Box<dyn Fn(&[usize]) -> Option<Seen> + Sync + 'a>;
 
 /// Returns the record of a search that examines variants one by one, over the first prime or in floating point.
 fn by_looking(truth: &Truth, way: Way, watch: Stopwatch) -> Result<Record, RunError> {
-    let search = ground_truth::over(&truth.search, 0)?;
+    let search = ground_truth::search_over_prime(&truth.search, 0)?;
     let look = || -> Result<Look<'_>, RunError> {
         Ok(match way {
             Way::Float(e) => {
                 let all = Approximate::new(&search, e, e.default_tolerance())?;
-                Box::new(move |choices| all.look(choices))
+                Box::new(move |choices| all.look_at(choices))
             }
             Way::Pruned => {
-                let all = Pruned::new(&search, &search.orders().determinate);
-                Box::new(move |choices| all.look(choices))
+                let all = Pruned::new(&search, &search.variable_orders().determinate);
+                Box::new(move |choices| all.look_at(choices))
             }
             _ => {
                 let all = Matrices::new(&search);
-                Box::new(move |choices| Some(all.look(choices)))
+                Box::new(move |choices| Some(all.look_at(choices)))
             }
         })
     };
-    let (look, ready) = watch.time(look);
+    let (look, ready) = watch.time_repeatedly(look);
     let look = look?;
     let judge = |choices: &[usize]| {
-        let judged = look(choices).map(|seen| ground_truth::judged(&search, choices, seen));
+        let judged = look(choices).map(|seen| ground_truth::judge_seen(&search, choices, seen));
         Ok::<_, RunError>(judged.transpose()?.flatten())
     };
-    let (judged, each) = watch.time(|| ground_truth::judge_all(&truth.looked, judge));
+    let (judged, each) = watch.time_repeatedly(|| ground_truth::judge_all(&truth.looked, judge));
     let judged = judged?;
     let counting = each.map(|t| t * truth.ratio + ready.median);
     let whole = truth.is_whole();
     let best = if whole && truth.pool.is_none() {
-        truth.best_right(&truth.cheapest(&judged))?
+        truth.best_right(&truth.cheapest_judged(&judged))?
     } else {
         None
     };

@@ -46,7 +46,7 @@ impl SpecialKind {
     }
 
     /// Returns the true figures, with the offset or without it. Parallel rods of any length stay shaky.
-    pub fn figures(self, off: bool) -> Truth {
+    pub fn true_figures(self, off: bool) -> Truth {
         match (self, off) {
             (_, false) => Truth::new(1, 1),
             (SpecialKind::Rods, true) => Truth::new(1, 0),
@@ -55,9 +55,9 @@ impl SpecialKind {
     }
 
     /// Its hinges, of a size near 2, one off by a length or an angle.
-    fn hinges(self, off: f64, unit: f64, noise: &mut Noise) -> Vec<Hinge> {
+    fn place_hinges(self, off: f64, unit: f64, noise: &mut Noise) -> Vec<Hinge> {
         // On the grid of the last digit, so that rounding does not change the offset of what is not turned.
-        let mut near = |x: f64| ((x + 0.2 * noise.uniform()) / unit).round() * unit;
+        let mut near = |x: f64| ((x + 0.2 * noise.draw_uniform()) / unit).round() * unit;
         match self {
             SpecialKind::Door => {
                 let [x, y, low, high] = [1.3, -0.7, 0.3, 2.2].map(&mut near);
@@ -108,12 +108,12 @@ impl SpecialKind {
     /// The file of one that is off by so many units of the last digit, turned in space or not.
     pub fn text(self, units: f64, decimals: usize, turned: bool, noise: &mut Noise) -> String {
         let unit = 10f64.powi(-(decimals as i32));
-        let axis = [(); 3].map(|()| noise.uniform());
-        let angle = std::f64::consts::PI * noise.uniform();
-        let hinges = self.hinges(units * unit, unit, noise);
-        let turn = RigidMotion::turn(axis, if turned { angle } else { 0.0 });
+        let axis = [(); 3].map(|()| noise.draw_uniform());
+        let angle = std::f64::consts::PI * noise.draw_uniform();
+        let hinges = self.place_hinges(units * unit, unit, noise);
+        let turn = RigidMotion::from_turn(axis, if turned { angle } else { 0.0 });
         let vector = |v: Vector, decimals: usize| {
-            let [x, y, z] = turn.direction(v);
+            let [x, y, z] = turn.map_direction(v);
             format!("[{x:.decimals$}, {y:.decimals$}, {z:.decimals$}]")
         };
         // A tilt counts in units of the axes; where points are off, axes have two decimals more, so that only points count.
@@ -131,7 +131,7 @@ impl SpecialKind {
         let mut file = Sketch::with_links(links);
         for (a, b, point, axis) in hinges {
             let (point, axis) = (vector(point, decimals), axis_of(axis));
-            file.joint([a, b], "revolute", &point, &axis);
+            file.add_joint([a, b], "revolute", &point, &axis);
         }
         file.text(self.name())
     }
@@ -169,7 +169,7 @@ impl Sketch {
     }
 
     /// Adds a joint between two links. Its point and axis are written to the file unchanged.
-    pub(crate) fn joint(&mut self, ends: [&str; 2], kind: &str, point: &str, axis: &str) {
+    pub(crate) fn add_joint(&mut self, ends: [&str; 2], kind: &str, point: &str, axis: &str) {
         for end in ends {
             if !self.links.iter().any(|l| l == end) {
                 self.links.push(end.to_owned());
@@ -185,8 +185,8 @@ impl Sketch {
     }
 
     /// Adds a hinge along z at a point of the x-y plane.
-    pub(crate) fn pin(&mut self, ends: [&str; 2], [x, y]: [i64; 2]) {
-        self.joint(ends, "revolute", &format!("[{x}, {y}, 0]"), "[0, 0, 1]");
+    pub(crate) fn add_pin(&mut self, ends: [&str; 2], [x, y]: [i64; 2]) {
+        self.add_joint(ends, "revolute", &format!("[{x}, {y}, 0]"), "[0, 0, 1]");
     }
 
     /// The file.

@@ -9,19 +9,19 @@ use super::cases::Case;
 use super::study::{Effort, Progress, Study};
 
 /// Every study in turn.
-pub fn all(cases: &[Case], effort: Effort, progress: Progress<'_>) -> Vec<Study> {
+pub fn run_studies(cases: &[Case], effort: Effort, progress: Progress<'_>) -> Vec<Study> {
     let step = if effort.quick { 4 } else { 1 };
     let some: Vec<Case> = cases.iter().step_by(step).cloned().collect();
     vec![
-        closeness::distance(cases, effort, progress),
-        closeness::tolerance(cases, effort, progress),
-        closeness::digits(effort, progress),
-        closeness::rounded(&some, effort, progress),
-        limits::size(effort, progress),
-        limits::scale(&some, effort, progress),
-        limits::prime(&some, effort, progress),
-        limits::shaky(effort, progress),
-        scenes::model(cases, effort, progress),
-        scenes::first_idea(cases, effort, progress),
+        closeness::study_distance(cases, effort, progress),
+        closeness::study_tolerance(cases, effort, progress),
+        closeness::study_digits(effort, progress),
+        closeness::study_rounded(&some, effort, progress),
+        limits::study_size(effort, progress),
+        limits::study_scale(&some, effort, progress),
+        limits::study_prime(&some, effort, progress),
+        limits::study_shaky(effort, progress),
+        scenes::study_least_model(cases, effort, progress),
+        scenes::study_first_idea(cases, effort, progress),
     ]
 }

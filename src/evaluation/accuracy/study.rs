@@ -107,7 +107,7 @@ impl Study {
 
     /// Asks about the given number of cases at each value. `ask` returns a reply for each row, `None` if it has none. Cases run in
     /// parallel unless they are timed.
-    pub(super) fn asked(
+    pub(super) fn ask_cases(
         mut self,
         rows: impl IntoIterator<Item = impl ToString>,
         cases: usize,
@@ -133,7 +133,7 @@ impl Study {
     }
 
     /// Adds a tally to a row, which is new if none has its name.
-    pub(super) fn add(&mut self, row: &str, value: f64, tally: Tally) {
+    pub(super) fn add_tally(&mut self, row: &str, value: f64, tally: Tally) {
         match self.rows.iter_mut().find(|r| r.0 == row) {
             Some(row) => row.1.push((value, tally)),
             None => self.rows.push((row.to_owned(), vec![(value, tally)])),
@@ -145,7 +145,7 @@ impl Study {
     }
 
     /// Returns the table, with a line for each row and each value that has replies.
-    pub fn csv(&self) -> String {
+    pub fn to_csv(&self) -> String {
         let mut heads = vec![
             "asked",
             self.texts.column.as_str(),
@@ -159,20 +159,24 @@ impl Study {
         heads.extend(own.then_some("figure"));
         let rows = self.rows.iter().flat_map(|(name, tallies)| {
             asked_of(tallies).map(move |(x, t)| {
-                let mut row = vec![name.clone(), format!("{x:e}"), t.total().to_string()];
+                let mut row = vec![
+                    name.clone(),
+                    format!("{x:e}"),
+                    t.count_replies().to_string(),
+                ];
                 row.extend(t.of.map(|n| n.to_string()));
                 row.push(t.wrong.join("; ").replace('\n', " "));
-                row.extend(self.is_timed().then(|| format!("{:.3e}", t.time())));
+                row.extend(self.is_timed().then(|| format!("{:.3e}", t.median_time())));
                 row.extend(own.then(|| format!("{:.3e}", t.figure)));
                 row
             })
         });
-        csv::table(&heads, rows)
+        csv::write_table(&heads, rows)
     }
 
     /// Returns the chart as SVG.
-    pub fn svg(&self) -> String {
-        let share = |said: Said| move |t: &Tally| t.percent(said);
+    pub fn to_svg(&self) -> String {
+        let share = |said: Said| move |t: &Tally| t.percent_of(said);
         let x = |scale| Axis {
             label: self.texts.axis.clone(),
             scale,
@@ -187,11 +191,11 @@ impl Study {
             },
             series,
         };
-        let mut series = self.lines("", Style::Line, share(Said::Right));
+        let mut series = self.draw_lines("", Style::Line, share(Said::Right));
         match self.view {
-            View::Regions => return self.regions(x(Scale::Log)).svg(),
+            View::Regions => return self.draw_regions(x(Scale::Log)).svg(),
             View::Shares => {
-                let sure = self.lines(", wrong and sure", Style::Dashed, share(Said::Wrong));
+                let sure = self.draw_lines(", wrong and sure", Style::Dashed, share(Said::Wrong));
                 series.extend(sure.into_iter().filter(|s| s.points.iter().any(|p| p.1 > 0.0)));
                 let about = "Solid: right. Dashed, if there are any: wrong and sure. The rest is undecided, or wrong but reported as \
                              not exact.";
@@ -199,7 +203,7 @@ impl Study {
             }
             View::Best => chart("", Scale::Log, "right answers, %", Scale::Linear, series),
             View::Times | View::Ratios => {
-                let series = self.lines("", Style::Line, Tally::time);
+                let series = self.draw_lines("", Style::Line, Tally::median_time);
                 let up = match self.view {
                     View::Times => "time of an answer, s",
                     _ => "times as long",
@@ -208,10 +212,10 @@ impl Study {
                 chart(about, Scale::Log, up, Scale::Log, series)
             }
             View::Errors(degree) => {
-                let mut series = self.lines("", Style::Line, share(Said::Wrong));
+                let mut series = self.draw_lines("", Style::Line, share(Said::Wrong));
                 series.push(Series {
                     name: "bound for random points".to_owned(),
-                    points: self.values.iter().map(|b| (*b, bound(degree, *b))).collect(),
+                    points: self.values.iter().map(|b| (*b, error_bound(degree, *b))).collect(),
                     style: Style::Dashed,
                 });
                 let about = format!("Share of wrong ranks. Bound of Schwartz and Zippel: {degree} over the least prime of each size.");
@@ -223,15 +227,15 @@ impl Study {
                     Figure::Wrong => ("A point for each mechanism and way.", "wrong, %", Scale::LogAndZero(-2)),
                     Figure::Own(up, zero) => ("", up, Scale::LogAndZero(zero)),
                 };
-                chart(about, Scale::Log, up, scale, self.against(figure))
+                chart(about, Scale::Log, up, scale, self.points_over_time(figure))
             }
         }
         .svg()
     }
 
     /// Returns the points of each row over their times. Own figures of several values are lines.
-    fn against(&self, figure: Figure) -> Vec<Series> {
-        let point = |t: &Tally| (t.time(), t.up(figure));
+    fn points_over_time(&self, figure: Figure) -> Vec<Series> {
+        let point = |t: &Tally| (t.median_time(), t.figure_of(figure));
         let row = |(name, tallies): &Row| {
             let points: Vec<_> = asked_of(tallies).map(|(_, t)| point(t)).collect();
             Series {
@@ -247,7 +251,11 @@ impl Study {
         };
         let mut series: Vec<Series> = self.rows.iter().map(row).collect();
         if figure == Figure::Right {
-            let mut points: Vec<_> = self.front().into_iter().map(|(_, t)| point(t)).collect();
+            let mut points: Vec<_> = self
+                .pareto_rows()
+                .into_iter()
+                .map(|(_, t)| point(t))
+                .collect();
             let slowest = series
                 .iter()
                 .flat_map(|s| &s.points)
@@ -265,7 +273,7 @@ impl Study {
     }
 
     /// Returns the rows of one value that no other one beats in both share and time, the fastest first.
-    fn front(&self) -> Vec<(&str, &Tally)> {
+    fn pareto_rows(&self) -> Vec<(&str, &Tally)> {
         let rows = self
             .rows
             .iter()
@@ -273,13 +281,13 @@ impl Study {
         let rows: Vec<_> = rows.collect();
         let points: Vec<_> = rows
             .iter()
-            .map(|(_, t)| (t.time(), t.percent(Said::Right)))
+            .map(|(_, t)| (t.median_time(), t.percent_of(Said::Right)))
             .collect();
         front(&points).into_iter().map(|i| rows[i]).collect()
     }
 
     /// Returns a line for each row through the values that have replies.
-    fn lines(&self, after: &str, style: Style, y: impl Fn(&Tally) -> f64) -> Vec<Series> {
+    fn draw_lines(&self, after: &str, style: Style, y: impl Fn(&Tally) -> f64) -> Vec<Series> {
         let line = |(name, tallies): &Row| Series {
             name: format!("{name}{after}"),
             points: asked_of(tallies).map(|(x, t)| (x, y(t))).collect(),
@@ -288,17 +296,17 @@ impl Study {
         self.rows.iter().map(line).collect()
     }
 
-    fn regions(&self, x: Axis) -> Bands {
-        let kind = |t: &Tally| match t.percent(Said::Right) {
-            _ if t.total() == 0 => VerdictKind::None,
+    fn draw_regions(&self, x: Axis) -> Bands {
+        let kind = |t: &Tally| match t.percent_of(Said::Right) {
+            _ if t.count_replies() == 0 => VerdictKind::None,
             100.0 => VerdictKind::Good,
-            right if right + t.percent(Said::Open) >= 90.0 => VerdictKind::Warn,
+            right if right + t.percent_of(Said::Open) >= 90.0 => VerdictKind::Warn,
             _ => VerdictKind::Bad,
         };
         let row = |(name, tallies): &Row| {
             (
                 name.clone(),
-                bands(&self.values, tallies.iter().map(|(_, t)| kind(t))),
+                verdict_bands(&self.values, tallies.iter().map(|(_, t)| kind(t))),
             )
         };
         Bands {
@@ -315,16 +323,16 @@ impl Study {
 fn asked_of(of: &[(f64, Tally)]) -> impl Iterator<Item = (f64, &Tally)> {
     of.iter()
         .map(|(x, t)| (*x, t))
-        .filter(|(_, t)| t.total() > 0)
+        .filter(|(_, t)| t.count_replies() > 0)
 }
 
 /// Returns the bound of Schwartz and Zippel in per cent, for a prime of the given number of bits.
-fn bound(degree: u32, bits: f64) -> f64 {
+fn error_bound(degree: u32, bits: f64) -> f64 {
     (100.0 * f64::from(degree) / (bits - 1.0).exp2()).min(100.0)
 }
 
 /// Returns bands around the values of a log axis. Neighbours of the same kind are one band.
-fn bands(values: &[f64], kinds: impl IntoIterator<Item = VerdictKind>) -> Vec<Band> {
+fn verdict_bands(values: &[f64], kinds: impl IntoIterator<Item = VerdictKind>) -> Vec<Band> {
     let between = |a: usize, b: usize| (values[a] * values[b]).sqrt();
     let last = values.len().saturating_sub(1);
     let mut out: Vec<Band> = Vec::new();
@@ -341,7 +349,7 @@ fn bands(values: &[f64], kinds: impl IntoIterator<Item = VerdictKind>) -> Vec<Ba
 
 /// Returns the names and texts of all files of some studies and further tables. `index.html` is the last, so that it exists only after the
 /// files that it shows. `made` says how they were made.
-pub fn files(
+pub fn page_files(
     title: &str,
     made: &str,
     studies: &[Study],
@@ -351,10 +359,10 @@ pub fn files(
     let mut parts = Vec::new();
     for study in studies {
         let sentence = format!("{} What to do: {}", study.conclusion(), study.texts.advice);
-        let (name, svg) = (study.name, study.svg());
+        let (name, svg) = (study.name, study.to_svg());
         let link = format!("<p><a href=\"{name}.csv\">{name}.csv</a></p>");
         parts.push((study.texts.title.clone(), sentence, svg.clone() + &link));
-        files.push((format!("{name}.csv"), study.csv()));
+        files.push((format!("{name}.csv"), study.to_csv()));
         files.push((format!("{name}.svg"), svg));
     }
     parts.push((
@@ -378,7 +386,7 @@ mod tests {
             VerdictKind::Warn,
             VerdictKind::Bad,
         ];
-        let b = bands(&[1e-3, 1e-2, 1e-1, 1.0], kinds);
+        let b = verdict_bands(&[1e-3, 1e-2, 1e-1, 1.0], kinds);
         assert_eq!((b.len(), b[0].0, b[2].1), (3, 1e-3, 1.0));
         assert_eq!(b[0].1, b[1].0);
     }

@@ -1,7 +1,7 @@
 //! Every method on every mechanism of known mobility.
 
 use super::AnswerVerdict;
-pub use super::cases::{Case, cases, generated};
+pub use super::cases::{Case, built_in_cases, generated_cases};
 use super::said::Tally;
 use super::study::{Figure, Study, View};
 use super::timing::{Stopwatch, Timing, quantile};
@@ -41,7 +41,7 @@ pub struct MethodRecord {
 
 impl MethodRecord {
     /// Cases it answers wrongly, for the pose too.
-    pub fn wrong(&self) -> usize {
+    pub fn count_wrong(&self) -> usize {
         self.applies - self.right - self.pose
     }
 }
@@ -77,10 +77,10 @@ impl Survey {
         for (n, (case, answers)) in cases.iter().zip(answers).enumerate() {
             progress(n, cases.len());
             let reply = |(method, answer): (&&dyn MobilityMethod, _)| Reply {
-                verdict: AnswerVerdict::on(&answer, case.truth),
+                verdict: AnswerVerdict::judge_answer(&answer, case.truth),
                 answer,
                 time: watch
-                    .time(|| black_box(*method).answer(&case.mechanism, case.state))
+                    .time_repeatedly(|| black_box(*method).answer(&case.mechanism, case.state))
                     .1,
             };
             replies.push(registry::ALL.iter().zip(answers).map(reply).collect());
@@ -98,7 +98,7 @@ impl Survey {
     }
 
     /// The record of the `m`th method.
-    pub fn standing(&self, m: usize) -> MethodRecord {
+    pub fn record_of(&self, m: usize) -> MethodRecord {
         let count = |of: &dyn Fn(&Reply) -> bool| self.of_method(m).filter(|(_, r)| of(r)).count();
         let right = count(&|r| r.verdict == AnswerVerdict::Right);
         let times: Vec<f64> = self
@@ -117,20 +117,20 @@ impl Survey {
     }
 
     /// Returns the share of right answers of each method against its median time, as the study of this name.
-    pub fn study(&self, name: &'static str) -> Study {
+    pub fn as_study(&self, name: &'static str) -> Study {
         let mut study = Study::new(name, Vec::new(), View::Against(Figure::Right));
         for (m, method) in registry::ALL.iter().enumerate() {
-            let record = self.standing(m);
+            let record = self.record_of(m);
             if record.applies > 0 {
                 let tally = Tally::of_share(record.right, self.cases.len(), record.seconds);
-                study.add(method.name(), 1.0, tally);
+                study.add_tally(method.name(), 1.0, tally);
             }
         }
         study
     }
 
     /// Returns how often answers were timed, and how far their times spread.
-    pub fn repeated(&self) -> String {
+    pub fn describe_repeats(&self) -> String {
         let times = || self.replies.iter().flatten().map(|r| r.time);
         let timed = times().filter(|t| t.repeats > 1 && t.median > 0.0);
         let spread: Vec<f64> = timed.map(|t| (t.most - t.least) / t.median).collect();
@@ -144,7 +144,7 @@ impl Survey {
     }
 
     /// Returns a line for each case and method.
-    pub fn csv(&self) -> String {
+    pub fn to_csv(&self) -> String {
         let heads = "mechanism,state,method,answer,quantity,certainty,expected_instantaneous,expected_finite,verdict,error,reason,\
                      median_seconds,least_seconds,most_seconds,repeats";
         let row = |m: usize, case: &Case, reply: &Reply| {
@@ -156,8 +156,8 @@ impl Survey {
                 case.mechanism.states[case.state].clone(),
                 registry::ALL[m].name().to_owned(),
                 of(&|a| a.mobility.to_string()),
-                of(&|a| quantity(a.quantity).to_owned()),
-                of(&|a| certainty(&a.certainty)),
+                of(&|a| quantity_word(a.quantity).to_owned()),
+                of(&|a| certainty_word(&a.certainty)),
                 truth.instantaneous.to_string(),
                 truth.finite.to_string(),
                 reply.verdict.word().to_owned(),
@@ -174,11 +174,11 @@ impl Survey {
             let each = replies.iter().enumerate();
             each.map(move |(m, reply)| row(m, case, reply))
         });
-        csv::table(&heads.split(',').collect::<Vec<_>>(), rows)
+        csv::write_table(&heads.split(',').collect::<Vec<_>>(), rows)
     }
 }
 
-fn quantity(q: Quantity) -> &'static str {
+fn quantity_word(q: Quantity) -> &'static str {
     match q {
         Quantity::Count => "count",
         Quantity::Instantaneous => "instantaneous",
@@ -186,7 +186,7 @@ fn quantity(q: Quantity) -> &'static str {
     }
 }
 
-fn certainty(c: &Certainty) -> String {
+fn certainty_word(c: &Certainty) -> String {
     match c {
         Certainty::Numeric {
             tolerance,
@@ -196,6 +196,6 @@ fn certainty(c: &Certainty) -> String {
         } => format!(
             "numeric at {tolerance:.0e}: smallest kept {kept:.1e}, largest dropped {dropped:.1e}"
         ),
-        other => other.word().to_owned(),
+        other => other.as_word().to_owned(),
     }
 }

@@ -112,7 +112,7 @@ pub struct Stopwatch {
 impl Stopwatch {
     /// Does something up to `repeat` times, and returns the last result with the times. If there are several, the first one does not
     /// count.
-    pub fn time<T>(&self, mut f: impl FnMut() -> T) -> (T, Timing) {
+    pub fn time_repeatedly<T>(&self, mut f: impl FnMut() -> T) -> (T, Timing) {
         let begun = (self.clock)();
         let mut times = Vec::new();
         loop {
@@ -161,7 +161,7 @@ mod tests {
         fn clock() -> Duration {
             Duration::from_millis(NOW.fetch_add(10, Ordering::Relaxed))
         }
-        let watch = |repeat| Stopwatch { clock, repeat }.time(|| ()).1;
+        let watch = |repeat| Stopwatch { clock, repeat }.time_repeatedly(|| ()).1;
         assert_eq!(watch(5).repeats, 5);
         assert_eq!(watch(0).repeats, 1);
         // Each repeat takes two readings of the clock, 20 ms; the first does not count.

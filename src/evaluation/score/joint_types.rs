@@ -46,7 +46,7 @@ impl JointTypes {
                 None => mechanism
                     .joints
                     .iter()
-                    .flat_map(Joint::offered)
+                    .flat_map(Joint::offered_options)
                     .find(|x| x.name == o.name)
                     .and_then(|x| all.by_name.get(x.joint_type.name()).copied()),
             };
@@ -65,7 +65,7 @@ impl JointTypes {
     }
 
     /// Returns the values of an option by its own name, or by that of its type.
-    pub fn option(&self, option: &JointOption) -> JointType {
+    pub fn option_type(&self, option: &JointOption) -> JointType {
         let bears_nothing = JointType {
             capacity_force: 1.0,
             capacity_moment: None,

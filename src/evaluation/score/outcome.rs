@@ -181,9 +181,9 @@ impl Outcome {
     ///
     /// # Complexity
     /// That of a diagram of the minimal variants.
-    pub fn minimal(&self) -> Option<BigUint> {
+    pub fn count_minimal(&self) -> Option<BigUint> {
         let found = self.diagrams.as_ref().filter(|_| self.is_exact());
-        self.search.minimal(found?)
+        self.search.count_minimal(found?)
     }
 
     /// Counts of the admissible variants by cost in thousandths; none of orbits, and none by brute force. `None`
@@ -220,7 +220,7 @@ impl Outcome {
     ///
     /// # Complexity
     /// A search for each condition and each step of easing it, none of more than some thousand nodes.
-    pub fn relaxations(
+    pub fn list_relaxations(
         &self,
         cancelled: &(dyn Fn() -> bool + Sync),
     ) -> Result<Vec<(Relaxation, BigUint)>, SearchError> {
@@ -233,17 +233,17 @@ impl Outcome {
             return Ok(vec![(Relaxation::PoseOnly, in_pose.clone())]);
         }
         let nodes = self.diagrams.as_ref().map_or(0, |d| d.admissible.nodes);
-        why_none::relaxations(&self.search, nodes, cancelled)
+        why_none::find_relaxations(&self.search, nodes, cancelled)
     }
 
     /// Returns the reasons that exclude every variant, if nothing was found.
     ///
     /// # Errors
     /// Returns an error if the geometry has no exact image.
-    pub fn hopeless(&self) -> Result<Hopeless, SearchError> {
+    pub fn why_hopeless(&self) -> Result<Hopeless, SearchError> {
         if self.numeric.is_some() || !self.admissible.total.is_zero() {
             return Ok(Hopeless::default());
         }
-        Ok(why_none::hopeless(&self.search)?)
+        Ok(why_none::find_obstacles(&self.search)?)
     }
 }

@@ -11,10 +11,10 @@ pub mod words;
 use crate::model::mechanism::{Mechanism, Mode, StateId};
 use crate::model::ranking::{Ranking, Term};
 use crate::rank::numeric::DEFAULT_TOLERANCE;
-use crate::rank::rounded::verdict::settle;
+use crate::rank::rounded::verdict::settle_states;
 pub use crate::score::request::error::RequestError;
 use crate::score::request::prepare::{
-    LooksRounded, Prepared, as_in_file, digits, nearest, tell_moved,
+    LooksRounded, Prepared, as_in_file, digits_of, nearest_exact, tell_moved,
 };
 use crate::search::question::conditions::{Conditions, InState, Symmetry};
 use crate::search::question::kept::Drives;
@@ -67,7 +67,7 @@ pub enum List {
 }
 
 /// The best so many, from a number.
-fn best<'de, D: Deserializer<'de>>(from: D) -> Result<List, D::Error> {
+fn read_best<'de, D: Deserializer<'de>>(from: D) -> Result<List, D::Error> {
     usize::deserialize(from).map(List::Top)
 }
 
@@ -166,7 +166,7 @@ pub struct Request {
     /// the last of the list.
     pub pool: Option<usize>,
     /// Which variants are given. In JSON it is `top`, a number.
-    #[serde(rename = "top", deserialize_with = "best")]
+    #[serde(rename = "top", deserialize_with = "read_best")]
     pub list: List,
     /// Whether of the variants that give the same freedoms to the same joints in series only the first is given.
     pub distinct: bool,
@@ -221,7 +221,7 @@ impl Default for Request {
 
 impl Request {
     /// Returns the word for an entry of the list: "idea" or "variant". The third entries of the two lists are different mechanisms.
-    pub fn one(&self) -> &'static str {
+    pub fn noun_of_one(&self) -> &'static str {
         if self.distinct { IDEA } else { VARIANT }
     }
 
@@ -237,9 +237,9 @@ impl Request {
         if let Some(named) = self.in_words_of_types(&mechanism) {
             return named.prepare(mechanism, tell);
         }
-        let state = self.state(&mechanism)?.map(|s| s.state);
+        let state = self.searched_state(&mechanism)?.map(|s| s.state);
         let states: Vec<StateId> = std::iter::once(StateId::FREE).chain(state).collect();
-        let mut settled = settle(&mechanism, &states)?;
+        let mut settled = settle_states(&mechanism, &states)?;
         let looked_at = !settled.verdicts.is_empty();
         let planar = matches!(mechanism.mode, Mode::Planar { .. });
         // In a plane joints have no freedom as they are written.
@@ -247,22 +247,22 @@ impl Request {
         let file = looked_at.then(|| whole.unwrap_or(&mechanism).clone());
         let mut out = mechanism;
         let numeric = settled.open.filter(|_| !self.as_written);
-        let numeric = numeric.map(|_| digits(&settled.verdicts));
+        let numeric = numeric.map(|_| digits_of(&settled.verdicts));
         if !self.as_written {
             tell_moved(&settled, tell);
             let meant = settled.snapped.take();
-            let near = || numeric.and_then(|_| nearest(&out, &settled.verdicts));
+            let near = || numeric.and_then(|_| nearest_exact(&out, &settled.verdicts));
             out = meant.or_else(near).unwrap_or(out);
         } else if let Some(i) = settled.verdicts.iter().position(|v| !v.is_as_written()) {
             settled.open.get_or_insert(i);
         }
         if let Some(file) = &self.costs {
-            prepare::price(&mut out, &file.name, &file.text)?;
+            prepare::read_costs(&mut out, &file.name, &file.text)?;
         }
         self.offer_usual(&mut out, tell);
         self.offer_unlisted(&mut out, tell)?;
-        self.restrict(&mut out)?;
-        self.insert(&mut out)?;
+        self.restrict_options(&mut out)?;
+        self.insert_unloading(&mut out)?;
         let file = file.filter(|_| numeric.is_none());
         let written = file.map(|f| as_in_file(&out, &f, &settled));
         Ok(Prepared {
@@ -278,7 +278,7 @@ impl Request {
     ///
     /// # Errors
     /// Returns an error if there is no verdict on the mechanism.
-    pub fn meant(
+    pub fn meant_mechanism(
         &self,
         mechanism: &Mechanism,
         tell: &mut dyn FnMut(String),
@@ -287,7 +287,7 @@ impl Request {
             return Ok(mechanism.clone());
         }
         let states: Vec<StateId> = mechanism.states_with_ids().map(|(s, _)| s).collect();
-        let settled = settle(mechanism, &states)?;
+        let settled = settle_states(mechanism, &states)?;
         tell_moved(&settled, tell);
         if settled.open.is_some() {
             tell("written as it stands: the geometry that its digits mean is not exact, or they do not decide it (`ozols check` tells more)".to_owned());
@@ -299,7 +299,7 @@ impl Request {
     ///
     /// # Errors
     /// Returns an error if the mechanism has no such state.
-    pub fn state(&self, mechanism: &Mechanism) -> Result<Option<InState>, RequestError> {
+    pub fn searched_state(&self, mechanism: &Mechanism) -> Result<Option<InState>, RequestError> {
         let state = match &self.state {
             None if self.max_external.is_none() && self.max_harmful.is_none() => {
                 return Ok(None);
@@ -310,11 +310,13 @@ impl Request {
                 });
             }
             None => StateId::new(1),
-            Some(name) => mechanism.state(name).ok_or_else(|| RequestError::NoState {
-                mechanism: mechanism.name.clone(),
-                state: name.clone(),
-                known: mechanism.states.clone(),
-            })?,
+            Some(name) => mechanism
+                .state_named(name)
+                .ok_or_else(|| RequestError::NoState {
+                    mechanism: mechanism.name.clone(),
+                    state: name.clone(),
+                    known: mechanism.states.clone(),
+                })?,
         };
         Ok((state != StateId::FREE).then_some(InState {
             state,
@@ -329,13 +331,13 @@ impl Request {
     ///
     /// # Errors
     /// Returns an error if the request names something that the mechanism does not have.
-    pub fn conditions(
+    pub fn search_conditions(
         &self,
         prepared: &Prepared,
         tell: &mut dyn FnMut(String),
     ) -> Result<(Conditions, Option<LooksRounded>), RequestError> {
-        let state = self.state(&prepared.mechanism)?;
-        let rounded = prepared.rounded(self.as_written, tell);
+        let state = self.searched_state(&prepared.mechanism)?;
+        let rounded = prepared.looks_rounded(self.as_written, tell);
         let verdicts = rounded.iter().flat_map(|(_, v)| v);
         // Second opinions are read at the errors of what is searched.
         let tolerance = match &prepared.settled {
@@ -359,7 +361,7 @@ impl Request {
             symmetry,
             throughout: !self.pose_only,
             counted: self.counted,
-            cheapest: self.cheapest(&prepared.mechanism)?,
+            cheapest: self.cheapest_needed(&prepared.mechanism)?,
             estimate: (self.symmetry != Symmetry::OnePerOrbit).then_some(self.seed),
             nodes: self.nodes.clamp(1, u32::MAX as usize / 2),
             memory: self.memory,
@@ -374,13 +376,15 @@ impl Request {
     ///
     /// # Errors
     /// Returns an error if the pool is 0 or too large.
-    pub fn ranking(&self, mechanism: &Mechanism) -> Result<Option<Ranking>, RequestError> {
+    pub fn asked_ranking(&self, mechanism: &Mechanism) -> Result<Option<Ranking>, RequestError> {
         let mut ranking = mechanism.ranking.clone();
         if !self.rank.is_empty() {
             ranking.get_or_insert_default().terms.clone_from(&self.rank);
         }
         let harm = ranking.iter().flat_map(|r| &r.terms);
-        if harm.clone().any(|(t, _)| *t == Term::Harmful) && self.state(mechanism)?.is_none() {
+        if harm.clone().any(|(t, _)| *t == Term::Harmful)
+            && self.searched_state(mechanism)?.is_none()
+        {
             let some = mechanism.states.get(1);
             return Err(RequestError::HarmfulWhere {
                 state: some.cloned().unwrap_or_else(|| "clamped".to_owned()),

@@ -6,7 +6,7 @@ mod opinions;
 use crate::model::mechanism::Mechanism;
 use crate::redundancy::analysis::exact_field;
 use crate::score::outcome::Outcome;
-use crate::score::outcome::ranked::ranked;
+use crate::score::outcome::ranked::rank_variants;
 use crate::score::outcome::ranking::RankedPool;
 use crate::score::request::prepare::LooksRounded;
 use crate::score::request::{Check, List, Method, Request, RequestError};
@@ -77,8 +77,8 @@ pub fn run(
 ) -> Result<Outcome, RunError> {
     let note = &mut |text| tell(Event::Note(text));
     let prepared = request.prepare(mechanism, note)?;
-    let (conditions, measured) = request.conditions(&prepared, note)?;
-    answer(
+    let (conditions, measured) = request.search_conditions(&prepared, note)?;
+    answer_request(
         Arc::new(prepared.mechanism),
         conditions,
         measured,
@@ -92,7 +92,7 @@ pub fn run(
 ///
 /// # Errors
 /// As [`run`].
-pub fn answer(
+pub fn answer_request(
     mechanism: Arc<Mechanism>,
     conditions: Conditions,
     measured: Option<LooksRounded>,
@@ -103,7 +103,7 @@ pub fn answer(
     let over = |nth: usize| over_prime(&mechanism, &conditions, nth);
     if let Some(digits) = conditions.numeric {
         let search = over(0)?;
-        return numeric(search, digits, measured, request, should_cancel, tell);
+        return search_numerically(search, digits, measured, request, should_cancel, tell);
     }
     if request.method == Method::Brute {
         return by_brute_force(over(0)?, request, measured);
@@ -117,22 +117,22 @@ pub fn answer(
     for note in search.already_loose()? {
         tell(Event::Note(note));
     }
-    let (diagrams, check) = built(&search, twin.as_ref(), request, should_cancel, tell)?;
+    let (diagrams, check) = build_diagrams(&search, twin.as_ref(), request, should_cancel, tell)?;
     tell(Event::Built);
     let mut stops = [diagrams.determinate.stop, diagrams.admissible.stop];
-    let mut counts = counted(&search, &diagrams, request);
+    let mut counts = count_found(&search, &diagrams, request);
     if counts.determinate.only_total || counts.admissible.only_total {
         tell(Event::Note(ONLY_TOTALS.to_owned()));
     }
     let of_all = counts.determinate.clone();
     if request.symmetry == Symmetry::OnePerOrbit {
-        (counts, stops) = orbits(&search, twin.as_ref(), counts, stops, should_cancel)?;
+        (counts, stops) = count_orbits(&search, twin.as_ref(), counts, stops, should_cancel)?;
     }
     let stroke = in_other_poses(&search, request, should_cancel, tell)?;
-    let ranking = pool(&search, &diagrams, request, should_cancel, tell)?;
+    let ranking = rank_pool(&search, &diagrams, request, should_cancel, tell)?;
     let mut second = opinion_on_diagrams(&search, &diagrams, &of_all, ranking.as_ref(), request)?;
     if let Some(second) = &mut second {
-        let admissible = search.counts(&diagrams.admissible, true);
+        let admissible = search.count_variants(&diagrams.admissible, true);
         second.scenes = other_scenes(&search, &of_all, &admissible, should_cancel)?;
     }
     let contradicted = second.as_ref().is_some_and(|s| !s.agrees());
@@ -140,14 +140,14 @@ pub fn answer(
     if contradicted && !request.as_written && request.symmetry != Symmetry::OnePerOrbit {
         tell(Event::Note(CONTRADICTED.to_owned()));
         if let Some((search, digits)) = by_values(&search.conditions)? {
-            let found = numeric(search, digits, measured, request, should_cancel, tell)?;
+            let found = search_numerically(search, digits, measured, request, should_cancel, tell)?;
             return Ok(Outcome { second, ..found });
         }
     }
     Ok(Outcome {
         second,
         diagrams: Some(diagrams),
-        stop: stops[0].or(stops[1]),
+        stop: stops[0].combine_with(stops[1]),
         determinate_stop: stops[0],
         check,
         stroke,
@@ -210,7 +210,7 @@ fn by_brute_force(
 }
 
 /// The diagrams, built over one prime or over two that must agree.
-fn built(
+fn build_diagrams(
     search: &Search,
     twin: Option<&Search>,
     request: &Request,
@@ -219,7 +219,7 @@ fn built(
 ) -> Result<(Diagrams, Option<PrimeCheck>), RunError> {
     let progress = &mut |p| tell(Event::Building(p));
     let Some(twin) = twin else {
-        return Ok((search.build(should_cancel, progress), None));
+        return Ok((search.build_diagrams(should_cancel, progress), None));
     };
     let both: [&Question; 2] = [search, twin];
     let (first, second) = second_prime::build_both(both, should_cancel, progress);
@@ -227,21 +227,21 @@ fn built(
         List::Top(k) => k,
         List::All | List::Sample(_) | List::Nothing => COMPARED,
     };
-    let verdict = second_prime::compare(both, [&first, &second], compared)?;
+    let verdict = second_prime::compare_primes(both, [&first, &second], compared)?;
     let primes = second_prime::primes(both);
     Ok((first, Some(PrimeCheck { primes, verdict })))
 }
 
 /// How many variants are determinate, and how many admissible.
-fn counted(search: &Search, diagrams: &Diagrams, request: &Request) -> SearchCounts {
+fn count_found(search: &Search, diagrams: &Diagrams, request: &Request) -> SearchCounts {
     let mut counts = if request.only_sums && request.symmetry != Symmetry::OnePerOrbit {
         SearchCounts::sums_of(search, diagrams)
     } else {
-        SearchCounts::of(search, diagrams)
+        SearchCounts::of_diagrams(search, diagrams)
     };
     // What is cut down elsewhere may have none of the cheapest.
     if let Some(best) = &diagrams.cheapest {
-        let known = search.counts(&best.diagram, true);
+        let known = search.count_variants(&best.diagram, true);
         for few in [&mut counts.determinate, &mut counts.admissible] {
             if few.total < known.total {
                 few.clone_from(&known);
@@ -250,7 +250,7 @@ fn counted(search: &Search, diagrams: &Diagrams, request: &Request) -> SearchCou
     }
     // Each is cut down by itself, and every admissible variant is determinate.
     if diagrams.determinate.stop != Stop::Exhausted {
-        counts.determinate.raise(&counts.admissible);
+        counts.determinate.raise_bounds(&counts.admissible);
     }
     counts
 }
@@ -264,9 +264,9 @@ fn in_other_poses(
 ) -> Result<Option<other_poses::Stroke>, RunError> {
     let poses = request.poses;
     let stroke = (poses > 0)
-        .then(|| other_poses::stroke(search, poses, request.seed, should_cancel))
+        .then(|| other_poses::reach_poses(search, poses, request.seed, should_cancel))
         .transpose()?;
-    if stroke.as_ref().is_some_and(|s| s.reached() == 0) && !should_cancel() {
+    if stroke.as_ref().is_some_and(|s| s.count_reached() == 0) && !should_cancel() {
         tell(Event::Note(format!(
             "warning: no other pose of {} could be reached: it has no motion to follow from this one",
             search.mechanism.name
@@ -276,21 +276,22 @@ fn in_other_poses(
 }
 
 /// The cheapest variants in the order of a ranking, where one is asked for.
-fn pool(
+fn rank_pool(
     search: &Search,
     diagrams: &Diagrams,
     request: &Request,
     should_cancel: ShouldCancel<'_>,
     tell: Tell<'_>,
 ) -> Result<Option<RankedPool>, RunError> {
-    let Some(by) = request.ranking(&search.mechanism)? else {
+    let Some(by) = request.asked_ranking(&search.mechanism)? else {
         return Ok(None);
     };
     let progress = &mut |done, of| tell(Event::Proving { done, of });
-    let pool = ranked(search, diagrams, request, &by, should_cancel, progress).map_err(|why| {
-        let mechanism = search.mechanism.name.clone();
-        RunError::Score { mechanism, why }
-    })?;
+    let pool =
+        rank_variants(search, diagrams, request, &by, should_cancel, progress).map_err(|why| {
+            let mechanism = search.mechanism.name.clone();
+            RunError::Score { mechanism, why }
+        })?;
     let mut speeds = search.mechanism.loads.drive_speeds.iter();
     if pool.is_some() && speeds.any(|s| *s != 0.0) {
         tell(Event::Note(
@@ -316,7 +317,7 @@ fn by_values(conditions: &Conditions) -> Result<Option<(Search, Digits)>, RunErr
 }
 
 /// Searches by singular values, if exact arithmetic cannot represent the mechanism that is meant.
-fn numeric(
+fn search_numerically(
     mut search: Search,
     digits: Digits,
     measured: Option<LooksRounded>,
@@ -328,7 +329,10 @@ fn numeric(
         return Err(RequestError::NumericOrbits.into());
     }
     let left_out = [
-        (request.ranking(&search.mechanism)?.is_some(), "ranked"),
+        (
+            request.asked_ranking(&search.mechanism)?.is_some(),
+            "ranked",
+        ),
         (request.poses > 0, "looked at in other poses"),
     ];
     for (_, what) in left_out.iter().filter(|(asked, _)| *asked) {
@@ -337,7 +341,7 @@ fn numeric(
         )));
     }
     let list = match request.list {
-        List::Top(_) => request.cheapest(&search.mechanism)?,
+        List::Top(_) => request.cheapest_needed(&search.mechanism)?,
         List::All => usize::MAX,
         List::Sample(_) | List::Nothing => 0,
     };
@@ -352,7 +356,7 @@ fn numeric(
 }
 
 /// Counts of orbits over one prime or two, which must agree, and why the search ended with that for the symmetric variants.
-fn orbits(
+fn count_orbits(
     search: &Search,
     twin: Option<&Search>,
     all: SearchCounts,
@@ -362,7 +366,7 @@ fn orbits(
     let of = |s: &Search| orbit_counts::orbit_counts(s, all.clone(), should_cancel);
     let (first, second) = rayon::join(|| of(search), || twin.map(of).transpose());
     let (first, second) = (first?, second?);
-    let stops = [0, 1].map(|i| stops[i].or(first.1[i]));
+    let stops = [0, 1].map(|i| stops[i].combine_with(first.1[i]));
     let ended = |stops: &[Stop; 2]| stops.contains(&Stop::Interrupted);
     if let (Some(twin), Some(second)) = (twin, &second)
         && !ended(&stops)

@@ -29,25 +29,25 @@ pub fn costs_from_str(
         ProblemKind::from(message).in_file(name, text, e.span())
     })?;
     let out = Findings::default();
-    let spec = costs(&stated, mechanism, &out.root());
-    let located = |found| ImportError::located(name, text, false, found);
-    out.unless(spec).map_err(located)
+    let spec = read_costs(&stated, mechanism, &out.root_place());
+    let located = |found| ImportError::with_places(name, text, false, found);
+    out.finish(spec).map_err(located)
 }
 
 /// The names of costs that do not belong to a joint type.
 const OTHERS: [&str; 4] = ["change", "driven", "link", "harmful"];
 
-pub(crate) fn costs(
+pub(crate) fn read_costs(
     stated: &BTreeMap<String, f64>,
     mechanism: &Mechanism,
     at: &Place<'_>,
 ) -> CostSpec {
     let mut spec = CostSpec::default();
-    let offered = mechanism.joints.iter().flat_map(Joint::offered);
+    let offered = mechanism.joints.iter().flat_map(Joint::offered_options);
     let offered: BTreeSet<&str> = offered.map(|o| o.name.as_str()).collect();
     for (name, &value) in stated {
         let at = at.key(name);
-        let Some(milli) = at.cost(value) else {
+        let Some(milli) = at.read_cost(value) else {
             continue;
         };
         match name.as_str() {
@@ -57,14 +57,14 @@ pub(crate) fn costs(
             "harmful" => spec.harmful_milli = Some(milli),
             n if JointType::from_name(n).is_some() || offered.contains(n) => {
                 let own = offered.contains(n);
-                let name = if own { n } else { JointType::word(n) };
+                let name = if own { n } else { JointType::word_of_trade(n) };
                 spec.by_type_milli.push((name.to_owned(), milli));
             }
             _ => {
                 let types = JointType::NAMED.iter().map(JointType::name);
                 let mut known: Vec<&str> = OTHERS.into_iter().chain(types).collect();
                 known.extend(&offered);
-                at.unknown("cost", name, known.iter().unique());
+                at.add_unknown_word("cost", name, known.iter().unique());
             }
         }
     }

@@ -20,7 +20,7 @@ const COORDINATES: [&str; 6] = ["point", "axis", "reference", "lead", "pitch", "
 
 /// Returns the text of a document with values `all` in which the coordinates that end with a zero are in quotes: expressions of the
 /// same value. Returns `None` if there are none.
-pub(crate) fn kept(text: &str, json: bool, all: &Value) -> Option<String> {
+pub(crate) fn quote_decimals(text: &str, json: bool, all: &Value) -> Option<String> {
     let digits = |c: char| c.is_ascii_digit() || c == '_' || c == '.';
     let mut words = text.split(|c| !digits(c));
     if !words.any(|w| w.contains('.') && w.ends_with('0')) {
@@ -31,16 +31,21 @@ pub(crate) fn kept(text: &str, json: bool, all: &Value) -> Option<String> {
     let tables = all.as_object()?.iter();
     for (key, value) in tables.filter(|(k, _)| GEOMETRY.contains(&k.as_str())) {
         let whole = ["plane_normal", "parameter"].contains(&key.as_str());
-        decimals(value, &DocumentPath::root(key), whole, &mut |path, x| {
-            let span = document.span(path)?;
-            let written = text.get(span.clone())?.trim().replace('_', "");
-            let mantissa = written.split(['e', 'E']).next().unwrap_or("");
-            // A missing path has the span of what is around it, which is not this number.
-            if mantissa.contains('.') && mantissa.ends_with('0') && written.parse() == Ok(x) {
-                found.push((span, written));
-            }
-            Some(())
-        });
+        visit_decimals(
+            value,
+            &DocumentPath::root_key(key),
+            whole,
+            &mut |path, x| {
+                let span = document.find_span(path)?;
+                let written = text.get(span.clone())?.trim().replace('_', "");
+                let mantissa = written.split(['e', 'E']).next().unwrap_or("");
+                // A missing path has the span of what is around it, which is not this number.
+                if mantissa.contains('.') && mantissa.ends_with('0') && written.parse() == Ok(x) {
+                    found.push((span, written));
+                }
+                Some(())
+            },
+        );
     }
     found.sort_by_key(|(span, _)| span.start);
     let mut out = text.to_owned();
@@ -51,7 +56,7 @@ pub(crate) fn kept(text: &str, json: bool, all: &Value) -> Option<String> {
 }
 
 /// Visits the decimals below a value that are coordinates; all of them are if it is `whole`.
-fn decimals(
+fn visit_decimals(
     value: &Value,
     at: &DocumentPath,
     whole: bool,
@@ -63,13 +68,13 @@ fn decimals(
         }
         Value::Array(list) => {
             for (i, item) in list.iter().enumerate() {
-                decimals(item, &at.index(i), whole, visit);
+                visit_decimals(item, &at.entry_at(i), whole, visit);
             }
         }
         Value::Object(table) => {
             for (key, item) in table {
                 let whole = whole || COORDINATES.contains(&key.as_str());
-                decimals(item, &at.key(key), whole, visit);
+                visit_decimals(item, &at.key(key), whole, visit);
             }
         }
         _ => {}

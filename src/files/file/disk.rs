@@ -16,9 +16,9 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 ///
 /// # Errors
 /// Returns an error if it is not a regular file, or cannot be read.
-pub fn bytes(path: &Path, limit: usize) -> io::Result<Vec<u8>> {
+pub fn read_bytes(path: &Path, limit: usize) -> io::Result<Vec<u8>> {
     let mut bytes = Vec::new();
-    regular(path)?
+    open_regular(path)?
         .take(limit as u64 + 1)
         .read_to_end(&mut bytes)?;
     Ok(bytes)
@@ -29,7 +29,7 @@ pub fn bytes(path: &Path, limit: usize) -> io::Result<Vec<u8>> {
 /// # Errors
 /// Returns an error if it is not a regular file, is longer, or cannot be read.
 pub fn at_most(path: &Path, limit: usize) -> io::Result<Vec<u8>> {
-    let all = bytes(path, limit)?;
+    let all = read_bytes(path, limit)?;
     if all.len() > limit {
         Err(too_long(limit))
     } else {
@@ -41,7 +41,7 @@ pub fn at_most(path: &Path, limit: usize) -> io::Result<Vec<u8>> {
 ///
 /// # Errors
 /// Returns the errors of [`at_most`], and an error if it is not UTF-8.
-pub fn text(path: &Path, limit: usize) -> io::Result<String> {
+pub fn read_text(path: &Path, limit: usize) -> io::Result<String> {
     let text = String::from_utf8(at_most(path, limit)?);
     text.map_err(|_| io::Error::new(ErrorKind::InvalidData, "it is not UTF-8 text"))
 }
@@ -50,11 +50,11 @@ pub fn text(path: &Path, limit: usize) -> io::Result<String> {
 ///
 /// # Errors
 /// Returns an error if it is not a regular file, or cannot be opened.
-pub fn regular(path: &Path) -> io::Result<File> {
+pub fn open_regular(path: &Path) -> io::Result<File> {
     if !std::fs::metadata(path)?.is_file() {
         return Err(io::Error::other("it is not a file"));
     }
-    note(path);
+    note_read(path);
     File::open(path)
 }
 
@@ -77,19 +77,19 @@ enum FileId {
 /// The files that were read since [`forget`].
 static READ: Mutex<BTreeSet<FileId>> = Mutex::new(BTreeSet::new());
 
-fn read() -> MutexGuard<'static, BTreeSet<FileId>> {
+fn files_read() -> MutexGuard<'static, BTreeSet<FileId>> {
     READ.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
 /// Returns what a file is known by: a name may be given to another file while the first is still read.
-fn ids(path: &Path) -> impl Iterator<Item = FileId> {
-    let number = fs::metadata(path).ok().and_then(|m| number(&m));
+fn file_ids(path: &Path) -> impl Iterator<Item = FileId> {
+    let number = fs::metadata(path).ok().and_then(|m| file_number(&m));
     let path = fs::canonicalize(path).ok().map(FileId::Path);
     number.into_iter().chain(path)
 }
 
 #[cfg(unix)]
-fn number(of: &Metadata) -> Option<FileId> {
+fn file_number(of: &Metadata) -> Option<FileId> {
     use std::os::unix::fs::MetadataExt;
     of.is_file().then(|| FileId::Number(of.dev(), of.ino()))
 }
@@ -100,38 +100,38 @@ fn number(_: &Metadata) -> Option<FileId> {
 }
 
 /// Forgets what was read.
-pub fn forget() {
-    read().clear();
+pub fn forget_read() {
+    files_read().clear();
 }
 
 /// Adds a file to those that were read.
-pub fn note(path: &Path) {
-    read().extend(ids(path));
+pub fn note_read(path: &Path) {
+    files_read().extend(file_ids(path));
 }
 
 /// Adds an open file to those that were read.
 pub fn note_open(file: &Metadata) {
-    read().extend(number(file));
+    files_read().extend(file_number(file));
 }
 
 /// Returns true if a file was read, under this or another name.
 #[must_use]
 pub fn was_read(path: &Path) -> bool {
-    let read = read();
-    ids(path).any(|id| read.contains(&id))
+    let read = files_read();
+    file_ids(path).any(|id| read.contains(&id))
 }
 
 /// Returns whether an open file was read.
 #[must_use]
 pub fn open_was_read(file: &Metadata) -> bool {
-    number(file).is_some_and(|id| read().contains(&id))
+    file_number(file).is_some_and(|id| files_read().contains(&id))
 }
 
 /// Returns whether an open file is the one that a path leads to.
 #[must_use]
 pub fn is_at(file: &Metadata, path: &Path) -> bool {
-    let id = number(file);
-    id.is_some() && id == fs::metadata(path).ok().and_then(|m| number(&m))
+    let id = file_number(file);
+    id.is_some() && id == fs::metadata(path).ok().and_then(|m| file_number(&m))
 }
 
 /// Removes the files of a folder that `are_ours` accepts by name and that no process has locked.

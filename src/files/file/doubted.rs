@@ -4,29 +4,31 @@
 use crate::file::locate::DocumentPath;
 use crate::file::problem::{Found, WarningKind, first_of};
 use crate::file::schema::{JointEntry, MechanismFile, OptionTable};
-use crate::format::significant;
+use crate::format::four_digits;
 use crate::geom::expr::Expr;
-use crate::geom::vector::{across, length, real, sub, unit};
+use crate::geom::vector::{across, length, sub, to_vector, unit};
 use crate::model::joint_type::JointType;
 use crate::model::mechanism::{Joint, JointId, Mechanism};
-use crate::model::rounded::ratio::{doubt, doubt_of};
+use crate::model::rounded::ratio::{doubt_of, doubt_ratio};
 use crate::model::rounded::{looks_rounded, uncertainties};
-use crate::rank::rounded::nearly_special::{NearJoint, Reach, Relation, nearly_special, reach};
-use crate::rank::rounded::size;
-use crate::rank::rounded::verdict::{Meant, RankVerdict, verdict};
+use crate::rank::rounded::mechanism_size;
+use crate::rank::rounded::nearly_special::{
+    NearJoint, Reach, Relation, nearly_special, rounding_reach,
+};
+use crate::rank::rounded::verdict::{Meant, RankVerdict, rank_verdict};
 
 /// Returns the doubtful values of the couplings and screws of a mechanism.
-pub(super) fn doubted(file: &MechanismFile, m: &Mechanism) -> Found {
+pub(super) fn find_doubtful(file: &MechanismFile, m: &Mechanism) -> Found {
     let couplings = m.couplings.iter().enumerate().filter_map(|(i, c)| {
         let doubt = doubt_of(c)?;
         let message = format!(
             "the ratio {} of {} is a decimal, known to within {}; write ratio = \"{}\" if that is intended, or another fraction",
             c.ratio,
             c.name(m),
-            significant(doubt.half),
+            four_digits(doubt.half),
             doubt.fraction
         );
-        let path = DocumentPath::root("coupling").index(i).key("ratio");
+        let path = DocumentPath::root_key("coupling").entry_at(i).key("ratio");
         Some((path, message.into()))
     });
     let screws = file.joint.iter().zip(&m.joints).enumerate();
@@ -36,13 +38,13 @@ pub(super) fn doubted(file: &MechanismFile, m: &Mechanism) -> Found {
         let turn = Expr::from(2) * Expr::pi();
         // The lead is what screws are made to.
         let lead = Expr::from_f64((pitch * &turn).to_f64()).ok()?;
-        let lead = doubt(&pitch.scaled_as_written(lead, turn.to_f64()))?;
+        let lead = doubt_ratio(&pitch.scaled_as_written(lead, turn.to_f64()))?;
         let message = format!(
             "the pitch {pitch} of joint \"{}\" is a decimal close to that of a simple lead; write lead = \"{}\" instead if that is intended",
             joint.id,
-            lead.simple()?
+            lead.simple_fraction()?
         );
-        let path = DocumentPath::root("joint").index(i).key("pitch");
+        let path = DocumentPath::root_key("joint").entry_at(i).key("pitch");
         Some((path, message.into()))
     });
     couplings.chain(screws).collect()
@@ -55,16 +57,16 @@ const SHOWN: usize = 8;
 type Guess = (&'static str, &'static str, &'static str);
 
 /// Lists each option with guessed directions once, with the joints where it has them.
-pub(crate) fn guessed(file: &MechanismFile, m: &Mechanism) -> Found {
+pub(crate) fn find_guessed(file: &MechanismFile, m: &Mechanism) -> Found {
     let mut found: Vec<(DocumentPath, String, Guess, Vec<&str>)> = Vec::new();
     for (i, (entry, joint)) in file.joint.iter().zip(&m.joints).enumerate() {
         let (list, at) = match &entry.options {
-            Some(list) => (list, DocumentPath::root("joint").index(i)),
-            None => (&file.search.options, DocumentPath::root("search")),
+            Some(list) => (list, DocumentPath::root_key("joint").entry_at(i)),
+            None => (&file.search.options, DocumentPath::root_key("search")),
         };
         for (n, item) in list.iter().enumerate() {
-            let path = at.key("options").index(n);
-            let Some((name, guess)) = of_option(&item.table(), entry, joint) else {
+            let path = at.key("options").entry_at(n);
+            let Some((name, guess)) = of_option(&item.as_table(), entry, joint) else {
                 continue;
             };
             let same = found.iter_mut().find(|f| f.0 == path && f.2 == guess);
@@ -103,7 +105,7 @@ fn of_option(table: &OptionTable, entry: &JointEntry, joint: &Joint) -> Option<(
     let ball = *present == JointType::Spherical && entry.axis.is_none();
     let guess = match option {
         JointType::CylinderOnPlane | JointType::SphereOnPlane
-            if table.axis.is_none() && !faces(present) =>
+            if table.axis.is_none() && !has_plane(present) =>
         {
             ("normal of the plane", line, "axis")
         }
@@ -129,7 +131,7 @@ fn of_option(table: &OptionTable, entry: &JointEntry, joint: &Joint) -> Option<(
 }
 
 /// Returns true if the axis of a type is the normal of a plane.
-fn faces(of: &JointType) -> bool {
+fn has_plane(of: &JointType) -> bool {
     matches!(
         of,
         JointType::Planar | JointType::CylinderOnPlane | JointType::SphereOnPlane
@@ -142,7 +144,7 @@ const NEARLY: f64 = 1e-4;
 const TOLD: usize = 5;
 
 /// Returns the doubtful values.
-pub(super) fn doubts(m: &Mechanism) -> Vec<WarningKind> {
+pub(super) fn find_rounding(m: &Mechanism) -> Vec<WarningKind> {
     let mut out = Vec::new();
     if let Some(rounded) = looks_rounded(m).filter(|r| r.digits.is_some() && !r.pi) {
         let message = format!(
@@ -152,16 +154,16 @@ pub(super) fn doubts(m: &Mechanism) -> Vec<WarningKind> {
     }
     for state in m.state_ids() {
         // `ozols analyze` reports why there is no verdict.
-        let Ok(found) = verdict(m, state) else {
+        let Ok(found) = rank_verdict(m, state) else {
             continue;
         };
         // Only figures that differ between the intended and the written geometry are doubtful.
-        if !found.agrees() {
+        if !found.agrees_as_written() {
             out.push(of_verdict(&found));
         }
     }
     out.extend(by_default(m));
-    let all = nearly(m);
+    let all = nearly_special_relations(m);
     if !all.is_empty() {
         let what = first_of(&all, TOLD);
         out.push(WarningKind::NearlySpecial { what });
@@ -175,8 +177,8 @@ fn by_default(m: &Mechanism) -> Option<WarningKind> {
     let half = uncertainties(m)?;
     let left = |(j, joint): &(JointId, &Joint)| {
         let given = |e: &Expr| e.is_written_whole() || e.half_unit().is_some();
-        let types =
-            std::iter::once(&joint.joint_type).chain(joint.offered().map(|o| &o.joint_type));
+        let types = std::iter::once(&joint.joint_type)
+            .chain(joint.offered_options().map(|o| &o.joint_type));
         half.frames[j.index()].axis != [0.0; 3]
             && types.into_iter().any(JointType::has_second_axis)
             && joint
@@ -187,12 +189,12 @@ fn by_default(m: &Mechanism) -> Option<WarningKind> {
     };
     let all: Vec<(JointId, &Joint)> = m.joints_with_ids().filter(left).collect();
     let (_, first) = all.first()?;
-    let axis = unit(real(&first.frame.axis));
-    let here = real(&first.frame.point);
+    let axis = unit(to_vector(&first.frame.axis));
+    let here = to_vector(&first.frame.point);
     let others = m
         .joints
         .iter()
-        .map(|other| across(sub(real(&other.frame.point), here), axis));
+        .map(|other| across(sub(to_vector(&other.frame.point), here), axis));
     let towards = others.max_by(|a, b| length(*a).total_cmp(&length(*b)))?;
     let towards = if length(towards) > 0.0 {
         unit(towards)
@@ -211,12 +213,12 @@ fn by_default(m: &Mechanism) -> Option<WarningKind> {
 
 fn of_verdict(found: &RankVerdict) -> WarningKind {
     let figures = |rank: usize| {
-        let (w, sigma) = found.figures(rank);
+        let (w, sigma) = found.figures_at(rank);
         format!("W = {w}, σ = {sigma}")
     };
     let state = &found.state;
     if !found.is_decided() {
-        return format!("state {state}: {}", found.undecided()).into();
+        return format!("state {state}: {}", found.explain_undecided()).into();
     }
     let understood = match &found.meant {
         Meant::Snapped { understood, .. } => format!(". Understood: {understood}"),
@@ -230,21 +232,23 @@ fn of_verdict(found: &RankVerdict) -> WarningKind {
 }
 
 /// Lists pairs of joints that are nearly parallel, perpendicular, coaxial or concurrent, and their distances from it.
-fn nearly(m: &Mechanism) -> Vec<String> {
-    let least = Reach::relative(NEARLY, size(m));
-    let within = reach(m).map_or(least, |r| Reach {
+fn nearly_special_relations(m: &Mechanism) -> Vec<String> {
+    let least = Reach::relative(NEARLY, mechanism_size(m));
+    let within = rounding_reach(m).map_or(least, |r| Reach {
         length: r.length.max(least.length),
         angle: r.angle.max(least.angle),
     });
     let all = nearly_special(m, within);
-    all.iter().filter_map(|x| words(m, x)).collect()
+    all.iter()
+        .filter_map(|x| describe_near_joint(m, x))
+        .collect()
 }
 
 /// Describes a pair of joints, such as "LF and LR are 0.002 degrees from coaxial".
-fn words(m: &Mechanism, x: &NearJoint) -> Option<String> {
+fn describe_near_joint(m: &Mechanism, x: &NearJoint) -> Option<String> {
     let strongest = x.relations.iter().max_by_key(|(r, of)| (*r, of.is_some()));
     let (relation, other) = strongest?;
-    let (id, far) = (&m.joints[x.joint].id, x.far(m));
+    let (id, far) = (&m.joints[x.joint].id, x.describe_deviation(m));
     let special = match relation {
         Relation::Parallel => "parallel",
         Relation::Square => "square",

@@ -6,7 +6,7 @@ mod references;
 mod value;
 
 pub use change::{Edit, EditError, Thing};
-pub use differences::differences;
+pub use differences::find_differences;
 use serde_json::Value;
 use toml_edit::{ArrayOfTables, DocumentMut, Item, Table};
 
@@ -14,7 +14,7 @@ use toml_edit::{ArrayOfTables, DocumentMut, Item, Table};
 ///
 /// # Errors
 /// Returns an error if the text is not TOML, or if a change names a missing item; then no change is made.
-pub fn edited(text: &str, edits: &[Edit]) -> Result<String, EditError> {
+pub fn apply_edits(text: &str, edits: &[Edit]) -> Result<String, EditError> {
     let mut text = text.to_owned();
     let mut document: Option<DocumentMut> = None;
     for edit in edits {
@@ -25,22 +25,22 @@ pub fn edited(text: &str, edits: &[Edit]) -> Result<String, EditError> {
         }
         let parsed = match document.take() {
             Some(d) => d,
-            None => parse(&text)?,
+            None => parse_toml(&text)?,
         };
         let changed = document.insert(parsed);
-        apply(changed, edit)?;
+        apply_edit(changed, edit)?;
     }
     Ok(document.map_or(text, |d| d.to_string()))
 }
 
-fn parse(text: &str) -> Result<DocumentMut, EditError> {
+fn parse_toml(text: &str) -> Result<DocumentMut, EditError> {
     text.parse()
         .map_err(|e: toml_edit::TomlError| EditError::NoToml {
             why: e.message().trim().replace('\n', ", "),
         })
 }
 
-fn apply(document: &mut DocumentMut, edit: &Edit) -> Result<(), EditError> {
+fn apply_edit(document: &mut DocumentMut, edit: &Edit) -> Result<(), EditError> {
     match edit {
         Edit::Text { .. } => Ok(()),
         Edit::Set {
@@ -48,16 +48,16 @@ fn apply(document: &mut DocumentMut, edit: &Edit) -> Result<(), EditError> {
             id,
             key,
             value,
-        } => value::set(item(document, *what, id)?, key, value),
-        Edit::Put { path, value } => put(document.as_table_mut(), path, value),
-        Edit::Add { what, entry } => add(document, *what, entry),
-        Edit::Rename { what, id, to } => rename(document, *what, id, to),
-        Edit::Remove { items } => remove(document, items),
+        } => value::set_value(table_of(document, *what, id)?, key, value),
+        Edit::Put { path, value } => put_value(document.as_table_mut(), path, value),
+        Edit::Add { what, entry } => add_table(document, *what, entry),
+        Edit::Rename { what, id, to } => rename_table(document, *what, id, to),
+        Edit::Remove { items } => remove_tables(document, items),
     }
 }
 
 /// Returns the tables of a kind; creates them if there are none.
-fn tables(document: &mut DocumentMut, what: Thing) -> Result<&mut ArrayOfTables, EditError> {
+fn tables_of(document: &mut DocumentMut, what: Thing) -> Result<&mut ArrayOfTables, EditError> {
     let entry = document.entry(what.word());
     let item = entry.or_insert_with(|| Item::ArrayOfTables(ArrayOfTables::new()));
     item.as_array_of_tables_mut()
@@ -68,12 +68,12 @@ fn id_of(table: &Table) -> Option<&str> {
     table.get("id").and_then(Item::as_str)
 }
 
-fn item<'d>(
+fn table_of<'d>(
     document: &'d mut DocumentMut,
     what: Thing,
     id: &str,
 ) -> Result<&'d mut Table, EditError> {
-    let all = tables(document, what)?;
+    let all = tables_of(document, what)?;
     let found = all.iter_mut().find(|t| id_of(t) == Some(id));
     found.ok_or_else(|| EditError::Gone {
         what,
@@ -82,8 +82,11 @@ fn item<'d>(
 }
 
 /// Checks that nothing else of its kind has this name.
-fn free(document: &mut DocumentMut, what: Thing, id: &str) -> Result<(), EditError> {
-    if tables(document, what)?.iter().any(|t| id_of(t) == Some(id)) {
+fn check_unused(document: &mut DocumentMut, what: Thing, id: &str) -> Result<(), EditError> {
+    if tables_of(document, what)?
+        .iter()
+        .any(|t| id_of(t) == Some(id))
+    {
         return Err(EditError::Taken {
             what,
             id: id.to_owned(),
@@ -92,10 +95,10 @@ fn free(document: &mut DocumentMut, what: Thing, id: &str) -> Result<(), EditErr
     Ok(())
 }
 
-fn put(table: &mut Table, path: &[String], to: &Value) -> Result<(), EditError> {
+fn put_value(table: &mut Table, path: &[String], to: &Value) -> Result<(), EditError> {
     match path {
         [] => Ok(()),
-        [key] => value::set(table, key, to),
+        [key] => value::set_value(table, key, to),
         [key, rest @ ..] => {
             let inner = table
                 .entry(key)
@@ -106,53 +109,58 @@ fn put(table: &mut Table, path: &[String], to: &Value) -> Result<(), EditError> 
                     why: "it is not a separate table",
                 });
             };
-            put(inner, rest, to)
+            put_value(inner, rest, to)
         }
     }
 }
 
-fn add(
+fn add_table(
     document: &mut DocumentMut,
     what: Thing,
     entry: &serde_json::Map<String, Value>,
 ) -> Result<(), EditError> {
     if let Some(id) = entry.get("id").and_then(Value::as_str) {
-        free(document, what, id)?;
+        check_unused(document, what, id)?;
     }
     let mut table = Table::new();
     for (key, to) in entry {
-        value::set(&mut table, key, to)?;
+        value::set_value(&mut table, key, to)?;
     }
     table.decor_mut().set_prefix("\n");
-    tables(document, what)?.push(table);
+    tables_of(document, what)?.push(table);
     Ok(())
 }
 
-fn rename(document: &mut DocumentMut, what: Thing, id: &str, to: &str) -> Result<(), EditError> {
+fn rename_table(
+    document: &mut DocumentMut,
+    what: Thing,
+    id: &str,
+    to: &str,
+) -> Result<(), EditError> {
     if id == to {
         return Ok(());
     }
-    free(document, what, to)?;
-    value::set(item(document, what, id)?, "id", &Value::from(to))?;
-    references::rename(document.as_table_mut(), what, id, to);
+    check_unused(document, what, to)?;
+    value::set_value(table_of(document, what, id)?, "id", &Value::from(to))?;
+    references::rename_references(document.as_table_mut(), what, id, to);
     Ok(())
 }
 
-fn remove(document: &mut DocumentMut, items: &[(Thing, String)]) -> Result<(), EditError> {
+fn remove_tables(document: &mut DocumentMut, items: &[(Thing, String)]) -> Result<(), EditError> {
     let mut all = items.to_vec();
     for (what, id) in items {
-        item(document, *what, id)?;
+        table_of(document, *what, id)?;
         if *what == Thing::Link {
             all.extend(references::of_link(document, id));
         }
     }
     for (what, id) in &all {
-        let list = tables(document, *what)?;
+        let list = tables_of(document, *what)?;
         list.retain(|t| id_of(t) != Some(id));
-        references::forget(document.as_table_mut(), *what, id);
+        references::remove_references(document.as_table_mut(), *what, id);
     }
     for what in [Thing::Link, Thing::Joint, Thing::Point] {
-        if tables(document, what)?.is_empty() {
+        if tables_of(document, what)?.is_empty() {
             document.remove(what.word());
         }
     }

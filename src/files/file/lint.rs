@@ -1,19 +1,19 @@
 //! Warnings about a file that can be used: likely mistakes, and entries without effect.
 
 use crate::closure::contour::{Contour, contour_basis};
-use crate::file::doubted::{doubted, doubts, guessed};
+use crate::file::doubted::{find_doubtful, find_guessed, find_rounding};
 use crate::file::locate::DocumentPath;
 use crate::file::problem::ImportError;
 use crate::file::problem::{Found, WarningKind, Warnings, first_of};
-use crate::file::read::build;
+use crate::file::read::build_mechanism;
 use crate::file::read::workload::workload_tables;
 use crate::file::schema::{LinkEntry, MechanismFile, OptionEntry, Unloading};
-use crate::file::text::{read, text_of};
-use crate::format::plain::turns;
-use crate::format::significant;
+use crate::file::text::{read_file, text_of};
+use crate::format::four_digits;
+use crate::format::plain::changes_direction;
 use crate::geom::expr::Expr;
-use crate::geom::extent::diagonal;
-use crate::geom::vector::{length, real, sub};
+use crate::geom::extent::box_diagonal;
+use crate::geom::vector::{length, sub, to_vector};
 use crate::model::joint_type::JointType;
 use crate::model::mechanism::{Joint, JointId, Mechanism, Role, StateId};
 use crate::model::ranking::Term;
@@ -47,45 +47,45 @@ pub struct Checked {
 ///
 /// # Errors
 /// Returns every problem found, each with its place, if the file cannot be used.
-pub fn check(name: &str, bytes: &[u8]) -> Result<Checked, ImportError> {
+pub fn check_file(name: &str, bytes: &[u8]) -> Result<Checked, ImportError> {
     let text = text_of(name, bytes)?;
-    read(name, text, |file| {
-        let mechanism = build(file)?;
+    read_file(name, text, |file| {
+        let mechanism = build_mechanism(file)?;
         Ok(Checked {
             tables: workload_tables(file),
-            warnings: Warnings::new(name, text, find(file, &mechanism)),
+            warnings: Warnings::new(name, text, find_warnings(file, &mechanism)),
             mechanism,
         })
     })
 }
 
-fn find(file: &MechanismFile, m: &Mechanism) -> Found {
+fn find_warnings(file: &MechanismFile, m: &Mechanism) -> Found {
     let mut out = Found::new();
     if m.name.trim().is_empty() {
         let empty = "the name is empty; give one, because every answer begins with it";
-        out.push((DocumentPath::root("name"), empty.into()));
+        out.push((DocumentPath::root_key("name"), empty.into()));
     }
-    ids(file, &mut out);
-    drives(m, &mut out);
-    lengths(file, m, &mut out);
-    contours(m, &mut out);
-    structure(file, m, &mut out);
-    search(file, m, &mut out);
-    out.extend(guessed(file, m));
-    out.extend(doubted(file, m));
-    workload(file, m, &mut out);
+    check_ids(file, &mut out);
+    check_drives(m, &mut out);
+    check_lengths(file, m, &mut out);
+    check_contours(m, &mut out);
+    check_structure(file, m, &mut out);
+    check_search(file, m, &mut out);
+    out.extend(find_guessed(file, m));
+    out.extend(find_doubtful(file, m));
+    check_workload(file, m, &mut out);
     out
 }
 
 /// Finds ids that do not read as they are written.
-fn ids(file: &MechanismFile, out: &mut Found) {
+fn check_ids(file: &MechanismFile, out: &mut Found) {
     let links = file.link.iter().map(|l| l.id.as_str()).enumerate();
     let joints = file.joint.iter().map(|j| j.id.as_str()).enumerate();
     let all = links
         .map(|(n, id)| ("link", n, id))
         .chain(joints.map(|(n, id)| ("joint", n, id)));
-    for (list, n, id) in all.filter(|(_, _, id)| id.contains(turns)) {
-        let path = DocumentPath::root(list).index(n).key("id");
+    for (list, n, id) in all.filter(|(_, _, id)| id.contains(changes_direction)) {
+        let path = DocumentPath::root_key(list).entry_at(n).key("id");
         let message = format!(
             "the id \"{id}\" has characters that reverse the order of letters; answers spell them out; remove them to show the id as it is read"
         );
@@ -94,7 +94,7 @@ fn ids(file: &MechanismFile, out: &mut Found) {
 }
 
 /// Finds driven joints with several freedoms for which the file does not name the driven one.
-fn drives(m: &Mechanism, out: &mut Found) {
+fn check_drives(m: &Mechanism, out: &mut Found) {
     for (at, joint) in m.joints.iter().enumerate() {
         let freedoms = joint.joint_type.freedoms();
         let Some(taken) = joint.driven_freedom() else {
@@ -107,14 +107,14 @@ fn drives(m: &Mechanism, out: &mut Found) {
                 freedoms.iter().map(|f| f.name()).join(", "),
                 taken.name()
             );
-            let path = DocumentPath::root("joint").index(at).key("drive");
+            let path = DocumentPath::root_key("joint").entry_at(at).key("drive");
             out.push((path, message.into()));
         }
     }
 }
 
-fn place(j: &Joint) -> [f64; 3] {
-    real(&j.frame.point)
+fn joint_point(j: &Joint) -> [f64; 3] {
+    to_vector(&j.frame.point)
 }
 
 fn distance(a: [f64; 3], b: [f64; 3]) -> f64 {
@@ -123,45 +123,45 @@ fn distance(a: [f64; 3], b: [f64; 3]) -> f64 {
 
 /// Returns the diagonal of the box around the joints, in the file's unit.
 #[must_use]
-pub fn across(m: &Mechanism) -> f64 {
-    diagonal(m.joints.iter().map(place))
+pub fn mechanism_size(m: &Mechanism) -> f64 {
+    box_diagonal(m.joints.iter().map(joint_point))
 }
 
-fn lengths(file: &MechanismFile, m: &Mechanism, out: &mut Found) {
-    let across = across(m);
+fn check_lengths(file: &MechanismFile, m: &Mechanism, out: &mut Found) {
+    let across = mechanism_size(m);
     let metres = across * m.length_unit.metres;
     if file.length_unit.is_none() && metres > FORGOTTEN_UNIT {
         let message = format!(
             "the mechanism is {} m across, because lengths without a unit are in metres; add length_unit = \"mm\" if they are millimetres",
-            significant(metres)
+            four_digits(metres)
         );
-        out.push((DocumentPath::root("name"), message.into()));
+        out.push((DocumentPath::root_key("name"), message.into()));
     } else if across > 0.0 && !(SIZES.0..=SIZES.1).contains(&metres) {
         let message = format!(
             "the mechanism is {} m across; check that length_unit = \"{}\" is correct",
-            significant(metres),
+            four_digits(metres),
             m.length_unit.symbol
         );
-        out.push((DocumentPath::root("length_unit"), message.into()));
+        out.push((DocumentPath::root_key("length_unit"), message.into()));
     }
     let before = out.len();
-    places(m, across, out);
+    check_places(m, across, out);
     // A pair reported with its line is not reported again.
     let told = out.len() > before;
-    let rounded = doubts(m).into_iter();
+    let rounded = find_rounding(m).into_iter();
     let rounded = rounded.filter(|k| !(told && matches!(k, WarningKind::NearlySpecial { .. })));
-    out.extend(rounded.map(|kind| (DocumentPath::root("joint"), kind)));
+    out.extend(rounded.map(|kind| (DocumentPath::root_key("joint"), kind)));
 }
 
 /// Finds joints of one link that are nearly in one place. If many digits show that coordinates were measured, reports that
 /// instead.
-fn places(m: &Mechanism, across: f64, out: &mut Found) {
+fn check_places(m: &Mechanism, across: f64, out: &mut Found) {
     if looks_rounded(m).is_some_and(|r| r.digits.is_some()) {
         return;
     }
     for (a, b) in m.joint_ids().tuple_combinations() {
         let [i, j] = [a, b].map(|j| &m.joints[j]);
-        let apart = distance(place(i), place(j));
+        let apart = distance(joint_point(i), joint_point(j));
         let near = apart > 0.0 && apart < SAME_PLACE * across;
         if near && i.links.iter().any(|l| j.links.contains(l)) {
             let unit = m.length_unit.symbol;
@@ -169,16 +169,18 @@ fn places(m: &Mechanism, across: f64, out: &mut Found) {
                 "joints \"{}\" and \"{}\" are {} {unit} apart in a mechanism of {} {unit}; give both the same point if they should coincide",
                 i.id,
                 j.id,
-                significant(apart),
-                significant(across)
+                four_digits(apart),
+                four_digits(across)
             );
-            let path = DocumentPath::root("joint").index(b.index()).key("point");
+            let path = DocumentPath::root_key("joint")
+                .entry_at(b.index())
+                .key("point");
             out.push((path, message.into()));
         }
     }
 }
 
-fn contours(m: &Mechanism, out: &mut Found) {
+fn check_contours(m: &Mechanism, out: &mut Found) {
     let joints = |c: &Contour| c.joints.iter().map(|&(j, _)| j).sorted().collect_vec();
     let bases: Vec<Vec<Vec<JointId>>> = m
         .state_ids()
@@ -193,13 +195,13 @@ fn contours(m: &Mechanism, out: &mut Found) {
         })
         .collect();
     if !walked.contains(&true) {
-        out.push((DocumentPath::root("joint"), WarningKind::NoContour));
+        out.push((DocumentPath::root_key("joint"), WarningKind::NoContour));
     } else {
         let open: Vec<JointId> = m.joint_ids().filter(|&j| !walked[j]).collect();
         if let Some(&first) = open.first() {
             let names = open.iter().map(|&j| m.joints[j].id.as_str()).collect_vec();
             let joints = first_of(&names, SHOWN);
-            let at = DocumentPath::root("joint").index(first.index());
+            let at = DocumentPath::root_key("joint").entry_at(first.index());
             out.push((at, WarningKind::OpenChain { joints }));
         }
     }
@@ -208,23 +210,23 @@ fn contours(m: &Mechanism, out: &mut Found) {
     let named = named.collect_vec();
     for (i, contour) in named.iter().enumerate() {
         if named[..i].contains(contour) || !bases.iter().flatten().contains(contour) {
-            let at = DocumentPath::root("contour").index(i).key("joints");
+            let at = DocumentPath::root_key("contour").entry_at(i).key("joints");
             let message = "this contour follows from the others of its state and is ignored; remove it or give another";
             out.push((at, message.into()));
         }
     }
 }
 
-fn structure(file: &MechanismFile, m: &Mechanism, out: &mut Found) {
+fn check_structure(file: &MechanismFile, m: &Mechanism, out: &mut Found) {
     let marked = |l: &LinkEntry| l.role.as_deref() == Some("output");
     if !file.link.iter().any(marked) {
-        out.push((DocumentPath::root("link"), WarningKind::NoOutput));
+        out.push((DocumentPath::root_key("link"), WarningKind::NoOutput));
     }
     for (l, link) in m.links_with_ids() {
         if link.role != Role::Object {
             continue;
         }
-        let at = DocumentPath::root("link").index(l.index()).key("id");
+        let at = DocumentPath::root_key("link").entry_at(l.index()).key("id");
         let here = |s: StateId| {
             let of = |&j: &JointId| m.joints[j].links.contains(&l);
             m.joints_in(s).filter(of).count()
@@ -246,7 +248,7 @@ fn structure(file: &MechanismFile, m: &Mechanism, out: &mut Found) {
         }
     }
     for (i, j) in m.joints_with_ids() {
-        let at = DocumentPath::root("joint").index(i.index());
+        let at = DocumentPath::root_key("joint").entry_at(i.index());
         if j.joint_type == JointType::Fixed && j.states.is_none() {
             let [first, second] = j.links.map(|l| &m.links[l].id);
             let message = format!(
@@ -255,7 +257,7 @@ fn structure(file: &MechanismFile, m: &Mechanism, out: &mut Found) {
             );
             out.push((at.key("type"), message.into()));
         }
-        let twin = m.joints[..i.index()].iter().find(|o| twins(o, j));
+        let twin = m.joints[..i.index()].iter().find(|o| are_identical(o, j));
         if let Some(o) = twin {
             let message = format!(
                 "joints \"{}\" and \"{}\" are identical; remove one",
@@ -267,7 +269,7 @@ fn structure(file: &MechanismFile, m: &Mechanism, out: &mut Found) {
 }
 
 /// Returns true if two joints have the same links, type, place and axis, in the same states.
-fn twins(a: &Joint, b: &Joint) -> bool {
+fn are_identical(a: &Joint, b: &Joint) -> bool {
     let same = |x: &[Expr; 3], y: &[Expr; 3]| (0..3).all(|i| x[i].to_f64() == y[i].to_f64());
     a.links.iter().sorted().eq(b.links.iter().sorted())
         && a.joint_type == b.joint_type
@@ -284,8 +286,8 @@ fn option_name(o: &OptionEntry) -> Option<&str> {
     }
 }
 
-fn search(file: &MechanismFile, m: &Mechanism, out: &mut Found) {
-    let at = DocumentPath::root("search");
+fn check_search(file: &MechanismFile, m: &Mechanism, out: &mut Found) {
+    let at = DocumentPath::root_key("search");
     let changeable = m.joints.iter().any(|j| j.options.len() > 1);
     for (i, o) in file.search.options.iter().enumerate() {
         let Some(name) = option_name(o) else { continue };
@@ -295,7 +297,7 @@ fn search(file: &MechanismFile, m: &Mechanism, out: &mut Found) {
             .any(|j| j.options.iter().any(|o| o.name == name));
         if changeable && !taken {
             let option = name.to_owned();
-            let path = at.key("options").index(i);
+            let path = at.key("options").entry_at(i);
             out.push((path, WarningKind::UselessOption { option }));
         }
     }
@@ -311,7 +313,7 @@ fn search(file: &MechanismFile, m: &Mechanism, out: &mut Found) {
                 "joint \"{}\" allows unloading joints, but [search] lists none; add unloading = [\"spherical\"] there",
                 file.joint[j].id
             );
-            let path = DocumentPath::root("joint").index(j).key("unloading");
+            let path = DocumentPath::root_key("joint").entry_at(j).key("unloading");
             out.push((path, message.into()));
         }
     } else if !file.joint.iter().any(|j| asks(&j.unloading)) {
@@ -326,15 +328,18 @@ fn search(file: &MechanismFile, m: &Mechanism, out: &mut Found) {
                     "joint \"{}\" forbids \"{word}\", which is not an option of that joint; remove it, or correct the name",
                     j.id
                 );
-                let path = DocumentPath::root("joint").index(i).key("forbid").index(n);
+                let path = DocumentPath::root_key("joint")
+                    .entry_at(i)
+                    .key("forbid")
+                    .entry_at(n);
                 out.push((path, message.into()));
             }
         }
     }
 }
 
-fn workload(file: &MechanismFile, m: &Mechanism, out: &mut Found) {
-    let at = DocumentPath::root("workload");
+fn check_workload(file: &MechanismFile, m: &Mechanism, out: &mut Found) {
+    let at = DocumentPath::root_key("workload");
     let loads = &m.loads;
     if !m.joints.iter().any(|j| j.drive) {
         let what = [
@@ -362,7 +367,7 @@ fn workload(file: &MechanismFile, m: &Mechanism, out: &mut Found) {
         // A disc of a torsional drive takes its inertia from its link.
         (Some(l), None) if !moved && file.workload.drive.is_none() => {
             let message = "masses have no effect without gravity or drive_speed; add gravity = [0, 0, -9.81] to [workload]";
-            let path = DocumentPath::root("link").index(l).key("mass");
+            let path = DocumentPath::root_key("link").entry_at(l).key("mass");
             out.push((path, message.into()));
         }
         _ => {}
@@ -381,6 +386,9 @@ fn workload(file: &MechanismFile, m: &Mechanism, out: &mut Found) {
         let message = format!(
             "the ranking uses {term}, but nothing loads the mechanism; add forces, moments, or masses with gravity"
         );
-        out.push((DocumentPath::root("ranking").key("terms"), message.into()));
+        out.push((
+            DocumentPath::root_key("ranking").key("terms"),
+            message.into(),
+        ));
     }
 }

@@ -22,28 +22,28 @@ pub struct DocumentPath(Vec<Step>);
 impl DocumentPath {
     /// Returns the path of a key of the whole document.
     #[must_use]
-    pub fn root(key: &str) -> DocumentPath {
+    pub fn root_key(key: &str) -> DocumentPath {
         DocumentPath::default().key(key)
     }
 
     /// Returns the path of a key of the table at this path.
     #[must_use]
     pub fn key(&self, key: &str) -> DocumentPath {
-        self.then(Step::Key(key.to_owned()))
+        self.with_step(Step::Key(key.to_owned()))
     }
 
     /// Returns the path of an entry of the list at this path.
     #[must_use]
-    pub fn index(&self, i: usize) -> DocumentPath {
-        self.then(Step::Index(i))
+    pub fn entry_at(&self, i: usize) -> DocumentPath {
+        self.with_step(Step::Index(i))
     }
 
     /// Returns the path of a key itself, instead of its value.
     pub(crate) fn name(&self, key: &str) -> DocumentPath {
-        self.then(Step::Name(key.to_owned()))
+        self.with_step(Step::Name(key.to_owned()))
     }
 
-    fn then(&self, step: Step) -> DocumentPath {
+    fn with_step(&self, step: Step) -> DocumentPath {
         DocumentPath(self.0.iter().cloned().chain([step]).collect())
     }
 
@@ -90,7 +90,7 @@ impl<'t> Document<'t> {
 
     /// Returns the bytes of an item, or of the innermost existing thing around it.
     #[must_use]
-    pub fn span(&self, path: &DocumentPath) -> Option<Range<usize>> {
+    pub fn find_span(&self, path: &DocumentPath) -> Option<Range<usize>> {
         match self {
             Document::Toml(document) => in_toml(document.as_item(), &path.0),
             Document::Json(root) => in_json(root, &path.0),

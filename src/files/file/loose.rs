@@ -1,17 +1,17 @@
 //! Information on an incomplete file: the places of its items, and the part of it that is connected to the frame.
 
-use crate::file::read::value::knowing;
+use crate::file::read::value::with_parameters;
 use crate::file::schema::{Coordinate, MechanismFile};
 use std::collections::BTreeSet;
 
 /// Returns the places of joints and of points of interest as numbers; `None` for those with an invalid expression.
 #[must_use]
-pub fn places(file: &MechanismFile) -> [Vec<Option<[f64; 3]>>; 2] {
+pub fn read_points(file: &MechanismFile) -> [Vec<Option<[f64; 3]>>; 2] {
     let one = |v: &[Coordinate; 3]| {
-        let out = knowing(file);
-        let before = out.count();
-        let read = out.root().vector(v);
-        (out.count() == before).then(|| read.map(|e| e.to_f64()))
+        let out = with_parameters(file);
+        let before = out.problem_count();
+        let read = out.root_place().read_vector(v);
+        (out.problem_count() == before).then(|| read.map(|e| e.to_f64()))
     };
     [
         file.joint.iter().map(|j| one(&j.point)).collect(),
@@ -22,7 +22,7 @@ pub fn places(file: &MechanismFile) -> [Vec<Option<[f64; 3]>>; 2] {
 /// Returns the file without the links that no joint joins to the frame, and without references to them. `None` if nothing is
 /// left, or all.
 #[must_use]
-pub fn connected(file: &MechanismFile) -> Option<MechanismFile> {
+pub fn connected_part(file: &MechanismFile) -> Option<MechanismFile> {
     let frame = file
         .link
         .iter()

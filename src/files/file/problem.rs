@@ -69,9 +69,13 @@ pub struct Located<K> {
 
 impl<K: Display> Located<K> {
     /// Locates what was found at the paths of a text.
-    pub(crate) fn all(text: &str, json: bool, found: Vec<(DocumentPath, K)>) -> Vec<Located<K>> {
+    pub(crate) fn locate_all(
+        text: &str,
+        json: bool,
+        found: Vec<(DocumentPath, K)>,
+    ) -> Vec<Located<K>> {
         let document = Document::new(text, json);
-        let span = |path: &DocumentPath| document.as_ref().and_then(|d| d.span(path));
+        let span = |path: &DocumentPath| document.as_ref().and_then(|d| d.find_span(path));
         let located = |(path, kind)| Located {
             span: span(&path),
             kind,
@@ -135,13 +139,13 @@ pub struct ImportError {
 
 impl ImportError {
     /// Returns the problems of a text with their places there, in its order.
-    pub(crate) fn located(
+    pub(crate) fn with_places(
         file: &str,
         text: &str,
         json: bool,
         found: Vec<(DocumentPath, ProblemKind)>,
     ) -> ImportError {
-        let mut problems = Located::all(text, json, found);
+        let mut problems = Located::locate_all(text, json, found);
         problems.sort_by_key(|p| p.span.as_ref().map_or(usize::MAX, |s| s.start));
         let (file, text) = (file.to_owned(), text.to_owned());
         ImportError {
@@ -198,11 +202,11 @@ impl Display for ImportError {
 impl std::error::Error for ImportError {}
 
 /// Returns "did you mean this? " for a word that is near to a known one, out of a list with commas; empty if none is near.
-pub(crate) fn suggestion(word: &str, known: &str) -> String {
+pub(crate) fn suggest_word(word: &str, known: &str) -> String {
     let trade = JointType::TRADE_NAMES.map(|(name, _)| name);
     let types = known.contains(JointType::Revolute.name());
     let known = known.split(", ").chain(trade.into_iter().filter(|_| types));
-    match did_you_mean::near(word, known).first() {
+    match did_you_mean::nearest_words(word, known).first() {
         Some(near) => format!("did you mean {near}? "),
         None => String::new(),
     }
@@ -283,7 +287,7 @@ impl Warnings {
 
     /// Adds warnings about the items at some paths of the file.
     pub fn add(&mut self, found: Vec<(DocumentPath, WarningKind)>) {
-        let found = Located::all(&self.text, is_json(&self.file), found);
+        let found = Located::locate_all(&self.text, is_json(&self.file), found);
         self.warnings.extend(found);
         self.warnings
             .sort_by_key(|d| d.span.as_ref().map_or(0, |s| s.start));

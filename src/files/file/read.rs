@@ -8,21 +8,21 @@ pub(crate) mod search;
 pub mod value;
 pub mod workload;
 
-use crate::file::read::coupling::couplings;
-use crate::file::read::joints::{connected, contours, links};
-use crate::file::read::joints::{joints, states};
+use crate::file::read::coupling::read_couplings;
+use crate::file::read::joints::{check_connected, read_contours, read_links};
+use crate::file::read::joints::{read_joints, read_states};
 use crate::file::read::resolve::zero_vector;
-use crate::file::read::search::search;
-use crate::file::read::search::{joint_types, ranking};
+use crate::file::read::search::read_search;
+use crate::file::read::search::{joint_types, read_ranking};
 use crate::file::read::value::LIMITS;
-use crate::file::read::value::quantity::tolerance;
-use crate::file::read::value::{ENTRIES, knowing, length_unit};
-use crate::file::read::workload::drive::drive;
-use crate::file::read::workload::grip::grip;
-use crate::file::read::workload::loads::loads;
+use crate::file::read::value::quantity::read_tolerance;
+use crate::file::read::value::{ENTRIES, length_unit, with_parameters};
+use crate::file::read::workload::drive::read_drive;
+use crate::file::read::workload::grip::read_grip;
+use crate::file::read::workload::loads::read_loads;
 use crate::file::schema::{ClaimEntry, MechanismFile};
 use crate::file::{Finding, Findings, Place};
-use crate::format::disjunction;
+use crate::format::join_or;
 use crate::geom::expr::Expr;
 use crate::model::claim::{Claim, Topic};
 use crate::model::loads::Loads;
@@ -30,12 +30,12 @@ use crate::model::mechanism::{Expected, Mechanism, Mode, PointOfInterest, Search
 use itertools::Itertools;
 
 /// Returns the claims of a file; reports those of an unknown topic.
-pub(crate) fn claims(file: &MechanismFile, out: &Findings) -> Vec<Claim> {
+pub(crate) fn read_claims(file: &MechanismFile, out: &Findings) -> Vec<Claim> {
     let claim = |(at, c): (Place<'_>, &ClaimEntry)| {
-        let topic = Topic::ALL.into_iter().find(|t| t.word() == c.topic);
+        let topic = Topic::ALL.into_iter().find(|t| t.as_word() == c.topic);
         if topic.is_none() {
-            let known = disjunction(Topic::ALL.map(Topic::word));
-            at.key("topic").unknown("topic", &c.topic, [known]);
+            let known = join_or(Topic::ALL.map(Topic::as_word));
+            at.key("topic").add_unknown_word("topic", &c.topic, [known]);
         }
         Some(Claim {
             topic: topic?,
@@ -47,7 +47,7 @@ pub(crate) fn claims(file: &MechanismFile, out: &Findings) -> Vec<Claim> {
         })
     };
     out.key("claim")
-        .entries(&file.claim)
+        .each_entry(&file.claim)
         .filter_map(claim)
         .collect()
 }
@@ -71,17 +71,17 @@ fn few_enough(file: &MechanismFile, out: &Findings) -> bool {
 ///
 /// # Errors
 /// Returns the first hundred problems found.
-pub fn build(file: &MechanismFile) -> Result<Mechanism, Vec<Finding>> {
-    let out = knowing(file);
+pub fn build_mechanism(file: &MechanismFile) -> Result<Mechanism, Vec<Finding>> {
+    let out = with_parameters(file);
     if !few_enough(file, &out) {
         return Err(out.into_findings());
     }
     let length_unit = length_unit(file, &out);
-    let mode = mode(file, &out);
-    let links = links(file, &out);
-    let states = states(file, &out);
-    let joints = joints(file, &links, &states, &out);
-    if out.count() > 0 {
+    let mode = read_mode(file, &out);
+    let links = read_links(file, &out);
+    let states = read_states(file, &out);
+    let joints = read_joints(file, &links, &states, &out);
+    if out.problem_count() > 0 {
         return Err(out.into_findings());
     }
     let mut mechanism = Mechanism {
@@ -104,17 +104,17 @@ pub fn build(file: &MechanismFile) -> Result<Mechanism, Vec<Finding>> {
         claims: Vec::new(),
         assumed: file.assumed.clone(),
     };
-    connected(&mechanism, &out);
-    if !size(&mechanism, &out) {
+    check_connected(&mechanism, &out);
+    if !check_matrix_size(&mechanism, &out) {
         return Err(out.into_findings());
     }
-    couplings(file, &mut mechanism, &out);
-    mechanism.contours = contours(file, &mechanism, &out);
-    mechanism.search = search(file, &mechanism, &out);
-    mechanism.loads = loads(file, &mechanism, &out);
-    mechanism.loads.grip = grip(file, length_unit.metres, Some(&mechanism), &out);
-    mechanism.loads.drive = drive(file, length_unit.metres, Some(&mechanism), &out);
-    mechanism.ranking = ranking(file, &mechanism, &out);
+    read_couplings(file, &mut mechanism, &out);
+    mechanism.contours = read_contours(file, &mechanism, &out);
+    mechanism.search = read_search(file, &mechanism, &out);
+    mechanism.loads = read_loads(file, &mechanism, &out);
+    mechanism.loads.grip = read_grip(file, length_unit.metres, Some(&mechanism), &out);
+    mechanism.loads.drive = read_drive(file, length_unit.metres, Some(&mechanism), &out);
+    mechanism.ranking = read_ranking(file, &mechanism, &out);
     let (joint_types, costs) = joint_types(file, &mechanism, &out);
     mechanism.joint_types = joint_types;
     let by_type = &mut mechanism.search.costs.by_type_milli;
@@ -122,48 +122,53 @@ pub fn build(file: &MechanismFile) -> Result<Mechanism, Vec<Finding>> {
     // [search.costs] come first and win.
     by_type.sort_by(|a, b| a.0.cmp(&b.0));
     by_type.dedup_by(|later, first| later.0 == first.0);
-    mechanism.points = points(file, &mechanism, &out);
-    tolerance(file, &mut mechanism, &out);
-    mechanism.expected = expected(file, &mechanism, &out);
-    mechanism.claims = claims(file, &out);
-    if out.count() == 0 {
+    mechanism.points = read_points(file, &mechanism, &out);
+    read_tolerance(file, &mut mechanism, &out);
+    mechanism.expected = read_expected(file, &mechanism, &out);
+    mechanism.claims = read_claims(file, &out);
+    if out.problem_count() == 0 {
         out.tell_unused();
     }
-    out.unless(mechanism)
+    out.finish(mechanism)
 }
 
-fn points(file: &MechanismFile, mechanism: &Mechanism, out: &Findings) -> Vec<PointOfInterest> {
+fn read_points(
+    file: &MechanismFile,
+    mechanism: &Mechanism,
+    out: &Findings,
+) -> Vec<PointOfInterest> {
     let mut points = Vec::with_capacity(file.point.len());
-    for (i, (at, entry)) in out.key("point").entries(&file.point).enumerate() {
+    for (i, (at, entry)) in out.key("point").each_entry(&file.point).enumerate() {
         let twice = file.point[..i].iter().any(|p| p.id == entry.id);
         at.check_id("point", &entry.id, twice);
-        let (id, point) = (entry.id.clone(), at.key("point").vector(&entry.point));
-        let link = at.key("link").link(&mechanism.links, &entry.link);
+        let (id, point) = (entry.id.clone(), at.key("point").read_vector(&entry.point));
+        let link = at.key("link").read_link(&mechanism.links, &entry.link);
         points.extend(link.map(|link| PointOfInterest { id, link, point }));
     }
     points
 }
 
-fn mode(file: &MechanismFile, out: &Findings) -> Mode {
+fn read_mode(file: &MechanismFile, out: &Findings) -> Mode {
     let words = [("spatial", false), ("planar", true)];
-    if !out.root().word("mode", &file.mode, &words) {
+    if !out.root_place().read_word("mode", &file.mode, &words) {
         return Mode::Spatial;
     }
     let at = out.key("plane_normal");
-    let given = file.plane_normal.as_ref().map(|v| at.direction(v));
+    let given = file.plane_normal.as_ref().map(|v| at.read_direction(v));
     let normal = given.unwrap_or_else(|| [0, 0, 1].map(Expr::from));
     if normal.iter().all(|c| c.to_f64() == 0.0) {
-        at.add(zero_vector("normal", "of the plane"));
+        at.add_problem(zero_vector("normal", "of the plane"));
     }
     Mode::Planar { normal }
 }
 
-fn expected(file: &MechanismFile, mechanism: &Mechanism, out: &Findings) -> Vec<Expected> {
+fn read_expected(file: &MechanismFile, mechanism: &Mechanism, out: &Findings) -> Vec<Expected> {
     let mut list = Vec::new();
-    for (at, e) in out.key("expected").entries(&file.expected) {
+    for (at, e) in out.key("expected").each_entry(&file.expected) {
         let state = e.state.clone().unwrap_or_else(|| "free".to_owned());
         if !mechanism.states.contains(&state) {
-            at.key("state").unknown("state", &state, &mechanism.states);
+            at.key("state")
+                .add_unknown_word("state", &state, &mechanism.states);
         }
         list.push(Expected {
             state,
@@ -180,7 +185,7 @@ fn expected(file: &MechanismFile, mechanism: &Mechanism, out: &Findings) -> Vec<
 }
 
 /// Returns true if no state's closure matrix is too large: a row for each constraint of a contour, a column for each freedom.
-fn size(m: &Mechanism, out: &Findings) -> bool {
+fn check_matrix_size(m: &Mechanism, out: &Findings) -> bool {
     let mut fits = true;
     let dim = match m.mode {
         Mode::Spatial => 6,
@@ -194,7 +199,7 @@ fn size(m: &Mechanism, out: &Findings) -> bool {
         let columns: usize = joints().map(|j| j.joint_type.freedoms().len()).sum();
         if dim * contours * columns > ENTRIES {
             fits = false;
-            out.root().add(format!(
+            out.root_place().add_problem(format!(
                 "the closure matrix of state {name} would have {} rows and {columns} columns, more than {ENTRIES} entries; remove irrelevant parts, or move independent parts to separate files",
                 dim * contours
             ));

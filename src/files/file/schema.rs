@@ -11,7 +11,7 @@ pub use crate::file::schema::workload::{
 pub use crate::file::schema::workload::{Coordinate, Quantities, Quantity};
 pub use crate::file::schema::workload::{DiameterSteps, Diameters, Gravity, GripEntry};
 pub use crate::file::schema::workload::{JointTypeEntry, LimitEntry, RankingEntry, TermEntry};
-use crate::format::disjunction;
+use crate::format::join_or;
 use crate::model::joint_type::JointType;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -104,7 +104,7 @@ pub struct JointEntry {
     /// The two links that it connects.
     pub links: [String; 2],
     /// Joint type, one of those of [`JointType`].
-    #[schemars(description = format!("Type: {}.", disjunction(JointType::words())))]
+    #[schemars(description = format!("Type: {}.", join_or(JointType::all_words())))]
     #[schemars(extend("enum" = joint_words()))]
     #[serde(rename = "type")]
     pub kind: String,
@@ -184,7 +184,7 @@ pub enum OptionEntry {
 
 impl OptionEntry {
     /// Returns the option as a table.
-    pub(crate) fn table(&self) -> Cow<'_, OptionTable> {
+    pub(crate) fn as_table(&self) -> Cow<'_, OptionTable> {
         match self {
             OptionEntry::Table(table) => Cow::Borrowed(table),
             OptionEntry::Word(kind) => Cow::Owned(OptionTable {
@@ -331,17 +331,17 @@ impl MechanismFile {
     #[must_use]
     pub fn json(&self) -> Value {
         let mut value = serde_json::to_value(self).unwrap_or_default();
-        strip(&mut value);
+        strip_defaults(&mut value);
         value
     }
 }
 
 /// Removes empty values: null, false, "" (except names) and empty tables and lists.
-fn strip(value: &mut Value) {
+fn strip_defaults(value: &mut Value) {
     match value {
-        Value::Array(items) => items.iter_mut().for_each(strip),
+        Value::Array(items) => items.iter_mut().for_each(strip_defaults),
         Value::Object(map) => {
-            map.values_mut().for_each(strip);
+            map.values_mut().for_each(strip_defaults);
             map.retain(|k, v| match v {
                 Value::Null | Value::Bool(false) => false,
                 Value::String(s) => !s.is_empty() || k == "name",
@@ -385,5 +385,5 @@ fn default_to_null(schema: &mut Value) {
 /// Returns the words and trade names of all joint types.
 fn joint_words() -> Vec<&'static str> {
     let trade = JointType::TRADE_NAMES.map(|(name, _)| name);
-    JointType::words().chain(trade).collect()
+    JointType::all_words().chain(trade).collect()
 }

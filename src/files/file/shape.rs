@@ -5,7 +5,7 @@
 
 use crate::file::schema::json_schema;
 use crate::file::{Finding, Findings, Place, unknown_word};
-use crate::format::plural;
+use crate::format::count_noun;
 use serde_json::{Map, Value};
 use std::sync::LazyLock;
 
@@ -14,34 +14,34 @@ static SCHEMA: LazyLock<Value> = LazyLock::new(json_schema);
 /// Returns a problem for each list of a document whose length its schema excludes and for each key that it does not have.
 pub(crate) fn wrong_shapes(document: &Value) -> Vec<Finding> {
     let out = Findings::default();
-    visit(&SCHEMA, document, "", &out.root());
+    check_value(&SCHEMA, document, "", &out.root_place());
     out.into_findings()
 }
 
 /// Checks a value against its schema; `owner` names the innermost item with an id around it.
-fn visit(schema: &Value, value: &Value, owner: &str, at: &Place<'_>) {
-    let all = alternatives(schema);
+fn check_value(schema: &Value, value: &Value, owner: &str, at: &Place<'_>) {
+    let all = schema_alternatives(schema);
     match value {
         Value::Array(items) => {
             let lists = all.into_iter().filter(|s| is_list(s));
             let (fit, not): (Vec<_>, Vec<_>) = lists.partition(|s| {
-                let [least, most] = lengths(s);
+                let [least, most] = length_limits(s);
                 (least..=most).contains(&items.len())
             });
             if let Some(schema) = fit.first().and_then(|s| s.get("items")) {
-                at.entries(items)
-                    .for_each(|(at, item)| visit(schema, item, owner, &at));
+                at.each_entry(items)
+                    .for_each(|(at, item)| check_value(schema, item, owner, &at));
             } else if let (true, Some(schema)) = (fit.is_empty(), not.first()) {
-                let wanted = match lengths(schema) {
+                let wanted = match length_limits(schema) {
                     [least, most] if least == most => {
-                        format!("{}, no more and no fewer", plural(least, "value"))
+                        format!("{}, no more and no fewer", count_noun(least, "value"))
                     }
-                    [least, most] => format!("{least} to {}", plural(most, "value")),
+                    [least, most] => format!("{least} to {}", count_noun(most, "value")),
                 };
-                at.add(format!(
+                at.add_problem(format!(
                     "{} has {}; write {wanted}",
-                    name(at, owner),
-                    plural(items.len(), "value")
+                    list_name(at, owner),
+                    count_noun(items.len(), "value")
                 ));
             }
         }
@@ -54,10 +54,13 @@ fn visit(schema: &Value, value: &Value, owner: &str, at: &Place<'_>) {
                 match all.iter().find_map(|s| of_key(s, k)) {
                     Some(Value::Bool(false)) => {
                         let known = all.iter().filter_map(|s| s.get("properties")?.as_object());
-                        at.name(k)
-                            .add(unknown_word("key", k, known.flat_map(Map::keys)));
+                        at.key_name(k).add_problem(unknown_word(
+                            "key",
+                            k,
+                            known.flat_map(Map::keys),
+                        ));
                     }
-                    Some(schema) => visit(schema, entry, owner, &at.key(k)),
+                    Some(schema) => check_value(schema, entry, owner, &at.key(k)),
                     None => {}
                 }
             }
@@ -67,16 +70,16 @@ fn visit(schema: &Value, value: &Value, owner: &str, at: &Place<'_>) {
 }
 
 /// Returns what a schema may be: what it refers to, or each that it offers, or itself.
-fn alternatives(schema: &Value) -> Vec<&Map<String, Value>> {
+fn schema_alternatives(schema: &Value) -> Vec<&Map<String, Value>> {
     let Some(own) = schema.as_object() else {
         return Vec::new();
     };
     if let Some(place) = own.get("$ref").and_then(Value::as_str) {
         let referred = SCHEMA.pointer(place.trim_start_matches('#'));
-        return referred.map(alternatives).unwrap_or_default();
+        return referred.map(schema_alternatives).unwrap_or_default();
     }
     match own.get("anyOf").and_then(Value::as_array) {
-        Some(offered) => offered.iter().flat_map(alternatives).collect(),
+        Some(offered) => offered.iter().flat_map(schema_alternatives).collect(),
         None => vec![own],
     }
 }
@@ -91,7 +94,7 @@ fn is_list(schema: &Map<String, Value>) -> bool {
 }
 
 /// Returns the least and the greatest length of a list.
-fn lengths(schema: &Map<String, Value>) -> [usize; 2] {
+fn length_limits(schema: &Map<String, Value>) -> [usize; 2] {
     let limit = |name: &str| {
         let stated = schema.get(name).and_then(Value::as_u64);
         stated.and_then(|n| usize::try_from(n).ok())
@@ -109,7 +112,7 @@ fn of_key<'s>(schema: &'s Map<String, Value>, key: &str) -> Option<&'s Value> {
 }
 
 /// Returns the name of a list in a message: its key, with its place where it is a list of a list, and its owner.
-fn name(at: &Place<'_>, owner: &str) -> String {
+fn list_name(at: &Place<'_>, owner: &str) -> String {
     let place = at.path.last_index();
     let place = place.map_or(String::new(), |i| format!("entry {} of ", i + 1));
     format!("{place}{}{owner}", at.path.last_key().unwrap_or_default())

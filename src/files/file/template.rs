@@ -52,7 +52,7 @@ const ADVICE: [(&str, &str); 10] = [
 ///
 /// # Errors
 /// Returns an error if the text is not TOML.
-pub fn plain(text: &str) -> Result<String, TomlError> {
+pub fn without_claims(text: &str) -> Result<String, TomlError> {
     let mut document: DocumentMut = text.parse()?;
     document.remove("claim");
     document.remove("expected");
@@ -65,7 +65,7 @@ pub fn plain(text: &str) -> Result<String, TomlError> {
 ///
 /// # Errors
 /// Returns an error if the text is not TOML.
-pub fn commented(text: &str, from: &str, name: &str) -> Result<String, TomlError> {
+pub fn with_comments(text: &str, from: &str, name: &str) -> Result<String, TomlError> {
     let mut document: DocumentMut = text.parse()?;
     document.remove("claim");
     if let Some(old) = document.get_mut("name").and_then(Item::as_value_mut) {
@@ -78,16 +78,16 @@ pub fn commented(text: &str, from: &str, name: &str) -> Result<String, TomlError
         root: &root,
         seen: BTreeSet::new(),
     };
-    writer.table(document.as_table_mut(), &root, "");
+    writer.comment_table(document.as_table_mut(), &root, "");
     let mut head = String::new();
-    let mut say = |text: &str| comment(&mut head, text);
+    let mut say = |text: &str| write_comment(&mut head, text);
     say(&format!(
         "{name}: a mechanism for ozols, made from the built-in {from} by `ozols new`."
     ));
     say(
         "Edit it, then run `ozols check FILE` for errors, `ozols analyze FILE` for redundant constraints, `ozols search FILE` for redesigns.",
     );
-    let more = unused(&root, [document.as_table()].into_iter());
+    let more = unused_keys(&root, [document.as_table()].into_iter());
     if !more.is_empty() {
         say(&format!(
             "Keys and tables that it does not use: {} (see `ozols schema`).",
@@ -105,24 +105,24 @@ struct TemplateWriter<'a> {
 }
 
 impl TemplateWriter<'_> {
-    fn table(&mut self, table: &mut Table, schema: &Value, path: &str) {
+    fn comment_table(&mut self, table: &mut Table, schema: &Value, path: &str) {
         let keys: Vec<String> = table.iter().map(|(k, _)| k.to_owned()).collect();
         for key in keys {
-            let (at, property) = property(schema, path, &key);
+            let (at, property) = find_property(schema, path, &key);
             let Some(property) = property else { continue };
-            let inner = resolve(self.root, property).unwrap_or(property);
+            let inner = resolve_schema(self.root, property).unwrap_or(property);
             let first = self.seen.insert(at.clone());
             let mut words = String::new();
             if first {
-                explain(&mut words, property, inner, &at);
+                explain_key(&mut words, property, inner, &at);
             }
             match table.get_mut(&key) {
                 Some(Item::Value(value)) => {
-                    if first && let Some(keys) = inline(value) {
+                    if first && let Some(keys) = inline_keys_of(value) {
                         inline_keys(&mut words, &keys, inner);
                     }
                     if let Some(mut key) = table.key_mut(&key) {
-                        put(key.leaf_decor_mut(), "", &words);
+                        set_comment(key.leaf_decor_mut(), "", &words);
                     }
                 }
                 Some(Item::Table(t)) => {
@@ -130,21 +130,21 @@ impl TemplateWriter<'_> {
                         self.seen.remove(&at);
                     } else {
                         if first {
-                            also(&mut words, inner, std::iter::once(&*t));
+                            list_other_keys(&mut words, inner, std::iter::once(&*t));
                         }
-                        put(t.decor_mut(), "\n", &words);
+                        set_comment(t.decor_mut(), "\n", &words);
                     }
-                    self.table(t, inner, &at);
+                    self.comment_table(t, inner, &at);
                 }
                 Some(Item::ArrayOfTables(list)) => {
                     if first {
-                        also(&mut words, inner, list.iter());
+                        list_other_keys(&mut words, inner, list.iter());
                     }
                     if let Some(t) = list.iter_mut().next() {
-                        put(t.decor_mut(), "\n", &words);
+                        set_comment(t.decor_mut(), "\n", &words);
                     }
                     for t in list.iter_mut() {
-                        self.table(t, inner, &at);
+                        self.comment_table(t, inner, &at);
                     }
                 }
                 _ => {}
@@ -154,7 +154,7 @@ impl TemplateWriter<'_> {
 }
 
 /// Returns the schema of a key and its path; keys that the user chooses, such as names of joint types, are `*`.
-fn property<'s>(schema: &'s Value, path: &str, key: &str) -> (String, Option<&'s Value>) {
+fn find_property<'s>(schema: &'s Value, path: &str, key: &str) -> (String, Option<&'s Value>) {
     let join = |k: &str| match path {
         "" => k.to_owned(),
         _ => format!("{path}.{k}"),
@@ -166,42 +166,42 @@ fn property<'s>(schema: &'s Value, path: &str, key: &str) -> (String, Option<&'s
 }
 
 /// Returns the definition that a property, the items of its list, or one of its alternatives refers to.
-fn resolve<'s>(root: &'s Value, property: &'s Value) -> Option<&'s Value> {
+fn resolve_schema<'s>(root: &'s Value, property: &'s Value) -> Option<&'s Value> {
     if let Some(reference) = property["$ref"].as_str() {
         let found = root.pointer(reference.trim_start_matches('#'))?;
         return match found.get("properties") {
             Some(_) => Some(found),
             // One of several forms: the table is the one that has keys.
-            None => resolve(root, found).or(Some(found)),
+            None => resolve_schema(root, found).or(Some(found)),
         };
     }
     let alternatives = property["anyOf"].as_array();
     let within = alternatives.into_iter().flatten();
     within
         .chain(property.get("items"))
-        .find_map(|p| resolve(root, p))
+        .find_map(|p| resolve_schema(root, p))
 }
 
 /// Explains a key and what to edit.
-fn explain(out: &mut String, property: &Value, inner: &Value, path: &str) {
+fn explain_key(out: &mut String, property: &Value, inner: &Value, path: &str) {
     let own = property["description"].as_str().unwrap_or_default();
     let advice = ADVICE.iter().find(|(p, _)| *p == path);
     let mut text = own.to_owned();
     if let Some((_, advice)) = advice {
         text = format!("{text} {advice}");
     }
-    comment(out, &text);
+    write_comment(out, &text);
     // Conventions of a table, such as its units, are in its definition.
     let convention = inner["description"]
         .as_str()
         .filter(|d| d.contains("in the file's unit") && inner.get("properties").is_some());
     if let Some(text) = convention {
-        comment(out, text);
+        write_comment(out, text);
     }
 }
 
 /// Returns the keys of a table in braces, or of the tables of a list.
-fn inline(value: &toml_edit::Value) -> Option<BTreeSet<String>> {
+fn inline_keys_of(value: &toml_edit::Value) -> Option<BTreeSet<String>> {
     let keys = |t: &InlineTable| t.iter().map(|(k, _)| k.to_owned()).collect::<BTreeSet<_>>();
     let found: BTreeSet<String> = match value {
         toml_edit::Value::InlineTable(t) => keys(t),
@@ -222,20 +222,20 @@ fn inline_keys(out: &mut String, keys: &BTreeSet<String>, schema: &Value) {
             .as_str()
             .filter(|_| keys.contains(key))
         {
-            comment(out, &format!("{key}: {d}"));
+            write_comment(out, &format!("{key}: {d}"));
         }
     }
 }
 
 /// Lists the keys that none of these tables has.
-fn also<'t>(out: &mut String, schema: &Value, tables: impl Iterator<Item = &'t Table>) {
-    let more = unused(schema, tables);
+fn list_other_keys<'t>(out: &mut String, schema: &Value, tables: impl Iterator<Item = &'t Table>) {
+    let more = unused_keys(schema, tables);
     if !more.is_empty() {
-        comment(out, &format!("It may also have: {}.", more.join(", ")));
+        write_comment(out, &format!("It may also have: {}.", more.join(", ")));
     }
 }
 
-fn unused<'s, 't>(schema: &'s Value, tables: impl Iterator<Item = &'t Table>) -> Vec<&'s str> {
+fn unused_keys<'s, 't>(schema: &'s Value, tables: impl Iterator<Item = &'t Table>) -> Vec<&'s str> {
     let used: BTreeSet<&str> = tables.flat_map(|t| t.iter().map(|(k, _)| k)).collect();
     let known = schema["properties"].as_object();
     known
@@ -247,7 +247,7 @@ fn unused<'s, 't>(schema: &'s Value, tables: impl Iterator<Item = &'t Table>) ->
 }
 
 /// Appends a comment, filled to the columns.
-fn comment(out: &mut String, text: &str) {
+fn write_comment(out: &mut String, text: &str) {
     if text.trim().is_empty() {
         return;
     }
@@ -260,7 +260,7 @@ fn comment(out: &mut String, text: &str) {
 }
 
 /// Puts a comment before the item of a decoration: after blank lines and earlier text, and before existing comments of the file.
-fn put(decor: &mut Decor, default: &str, words: &str) {
+fn set_comment(decor: &mut Decor, default: &str, words: &str) {
     if words.is_empty() {
         return;
     }
@@ -275,7 +275,7 @@ fn put(decor: &mut Decor, default: &str, words: &str) {
 
 #[cfg(test)]
 mod tests {
-    use super::commented;
+    use super::with_comments;
     use crate::file::schema::MechanismFile;
     use ozols::builtin;
 
@@ -298,7 +298,7 @@ mod tests {
     fn every_line_of_every_built_in_file_is_kept() {
         for name in builtin::names() {
             let text = builtin::text(name).expect("it is built in");
-            let new = commented(text, name, "mine").expect("it is TOML");
+            let new = with_comments(text, name, "mine").expect("it is TOML");
             assert!(
                 !new.contains("[[claim]]"),
                 "{name}: claims are of the mechanism that they are about"
@@ -322,7 +322,7 @@ mod tests {
         };
         for name in builtin::names() {
             let text = builtin::text(name).expect("it is built in");
-            let new = commented(text, name, "a \"b\"\n# c").expect("it is TOML");
+            let new = with_comments(text, name, "a \"b\"\n# c").expect("it is TOML");
             let (new_name, new) = json(&new);
             assert_eq!(new_name, "a \"b\"\n# c");
             assert_eq!(new, json(text).1, "{name}");
@@ -332,7 +332,7 @@ mod tests {
     #[test]
     fn each_kind_of_key_is_explained_where_it_first_stands() {
         let text = builtin::text("gripper-10-loaded").expect("it is built in");
-        let new = commented(text, "gripper-10-loaded", "mine").expect("it is TOML");
+        let new = with_comments(text, "gripper-10-loaded", "mine").expect("it is TOML");
         for (comment, key) in [
             ("# Name, unique among links.", "id = \"0\""),
             ("# Mass in kg.", "mass = 0.25"),
@@ -356,7 +356,7 @@ mod tests {
             for key in path.split('.') {
                 let next = &schema["properties"][key];
                 assert!(next.is_object(), "{path}");
-                schema = super::resolve(&root, next).unwrap_or(next);
+                schema = super::resolve_schema(&root, next).unwrap_or(next);
             }
         }
     }

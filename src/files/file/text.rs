@@ -2,7 +2,7 @@
 //! table.
 
 use crate::file::problem::{ImportError, ProblemKind, is_json};
-use crate::file::read::build;
+use crate::file::read::build_mechanism;
 use crate::file::schema::MechanismFile;
 use crate::file::shape::wrong_shapes;
 use crate::file::{Finding, Findings, Place, digits};
@@ -36,7 +36,7 @@ pub fn mechanism_from_bytes(name: &str, bytes: &[u8]) -> Result<Mechanism, Impor
 /// assert!(why.to_string().contains("mine.toml"));
 /// ```
 pub fn mechanism_from_str(name: &str, text: &str) -> Result<Mechanism, ImportError> {
-    read(name, text, build)
+    read_file(name, text, build_mechanism)
 }
 
 /// Returns the text in the bytes of a file, if the file is not too large.
@@ -48,11 +48,11 @@ pub fn text_of<'a>(name: &str, bytes: &'a [u8]) -> Result<&'a str, ImportError> 
         );
         return Err(ProblemKind::from(message).in_file(name, "", None));
     }
-    utf8(bytes).map_err(|problem| problem.in_file(name, "", None))
+    decode_utf8(bytes).map_err(|problem| problem.in_file(name, "", None))
 }
 
 /// Returns bytes as text, or the problem that they are not UTF-8.
-pub(crate) fn utf8(bytes: &[u8]) -> Result<&str, ProblemKind> {
+pub(crate) fn decode_utf8(bytes: &[u8]) -> Result<&str, ProblemKind> {
     std::str::from_utf8(bytes).map_err(|e| {
         let at = e.valid_up_to();
         format!("the file is not UTF-8 text (byte {at}); save it as UTF-8").into()
@@ -60,7 +60,7 @@ pub(crate) fn utf8(bytes: &[u8]) -> Result<&str, ProblemKind> {
 }
 
 /// Reads a file and makes something of it.
-pub fn read<T>(
+pub fn read_file<T>(
     name: &str,
     text: &str,
     make: impl FnOnce(&MechanismFile) -> Result<T, Vec<Finding>>,
@@ -70,9 +70,9 @@ pub fn read<T>(
         return Err(ProblemKind::from(message).in_file(name, text, None));
     }
     let json = is_json(name);
-    let located = |found| ImportError::located(name, text, json, found);
+    let located = |found| ImportError::with_places(name, text, json, found);
     // First of all, as the deserializer of TOML ignores the values that a list has too many.
-    let values = values(text, json).unwrap_or_default();
+    let values = parse_values(text, json).unwrap_or_default();
     let shapes = wrong_shapes(&values);
     if !shapes.is_empty() {
         return Err(located(shapes));
@@ -81,12 +81,12 @@ pub fn read<T>(
     let mut file = parse(text).map_err(|(message, span)| {
         ProblemKind::from(with_remedy(message)).in_file(name, text, span)
     })?;
-    if let Some(Ok(kept)) = digits::kept(text, json, &values).map(|text| parse(&text)) {
+    if let Some(Ok(kept)) = digits::quote_decimals(text, json, &values).map(|text| parse(&text)) {
         file = kept;
     }
     // TOML and JSON allow control characters only as escapes.
     let controls = if text.contains('\\') {
-        controls(&file)
+        find_controls(&file)
     } else {
         Vec::new()
     };
@@ -99,7 +99,7 @@ pub fn read<T>(
 }
 
 /// Returns the values of a file before they are given a meaning; `None` if it cannot be read.
-fn values(text: &str, json: bool) -> Option<serde_json::Value> {
+fn parse_values(text: &str, json: bool) -> Option<serde_json::Value> {
     if json {
         serde_json::from_str(text).ok()
     } else {
@@ -163,34 +163,36 @@ const PROSE: [&str; 3] = ["description", "sources", "assumed"];
 ///
 /// # Complexity
 /// The file is written out once as a value.
-pub(crate) fn controls(file: &MechanismFile) -> Vec<Finding> {
+pub(crate) fn find_controls(file: &MechanismFile) -> Vec<Finding> {
     let out = Findings::default();
     if let Ok(value) = serde_json::to_value(file) {
-        below(&value, &out.root());
+        check_controls_below(&value, &out.root_place());
     }
     out.into_findings()
 }
 
-fn below(value: &Value, at: &Place<'_>) {
+fn check_controls_below(value: &Value, at: &Place<'_>) {
     match value {
-        Value::String(text) => check(text, at),
-        Value::Array(all) => at.entries(all).for_each(|(at, value)| below(value, &at)),
+        Value::String(text) => check_text(text, at),
+        Value::Array(all) => at
+            .each_entry(all)
+            .for_each(|(at, value)| check_controls_below(value, &at)),
         Value::Object(all) => {
             for (key, value) in all {
-                check(key, at);
-                below(value, &at.key(key));
+                check_text(key, at);
+                check_controls_below(value, &at.key(key));
             }
         }
         Value::Null | Value::Bool(_) | Value::Number(_) => {}
     }
 }
 
-fn check(text: &str, at: &Place<'_>) {
+fn check_text(text: &str, at: &Place<'_>) {
     let key = at.path.last_key().unwrap_or("the file");
     let allowed = |c: char| PROSE.contains(&key) && (c == '\n' || c == '\t');
     let found = text.chars().find(|&c| c.is_control() && !allowed(c));
     if let Some(found) = found {
-        at.add(format!(
+        at.add_problem(format!(
             "{key} contains the control character {}; remove it",
             found.escape_unicode()
         ));

@@ -10,8 +10,8 @@ use crate::file::schema::{
     OptionEntry, OptionTable, PointEntry, Quantities, Quantity, SearchEntry, StiffnessEntry,
     StrokeEntry, ToleranceEntry, Unloading, Words, WorkloadEntry,
 };
-pub(crate) use crate::file::write::number::plain;
-use crate::file::write::number::{component, coordinate, ratio};
+pub(crate) use crate::file::write::number::plain_number;
+use crate::file::write::number::{write_component, write_coordinate, write_ratio};
 use crate::geom::expr::Expr;
 use crate::model::claim::Claim;
 use crate::model::joint_type::{Coupling, Freedom, JointType};
@@ -30,25 +30,25 @@ const LONGEST_COMMENT: usize = 110;
 #[must_use]
 pub fn mechanism_file(m: &Mechanism) -> MechanismFile {
     let ids = |list: &[JointId]| list.iter().map(|&j| m.joints[j].id.clone()).collect();
-    let stated = number::tolerance(m);
+    let stated = number::file_tolerance(m);
     let (mode, plane_normal) = match &m.mode {
         Mode::Spatial => (None, None),
-        Mode::Planar { normal } => (Some("planar".to_owned()), Some(direction(normal))),
+        Mode::Planar { normal } => (Some("planar".to_owned()), Some(write_direction(normal))),
     };
     let link = |l: &Link| {
         let mass = l.mass.as_ref();
         LinkEntry {
             id: l.id.clone(),
-            role: role(l.role).map(ToOwned::to_owned),
+            role: role_word(l.role).map(ToOwned::to_owned),
             mass: mass.map(|p| p.mass),
-            centre: mass.map(|p| vector(&p.centre)),
-            inertia: mass.and_then(|p| p.inertia).map(inertia),
+            centre: mass.map(|p| write_vector(&p.centre)),
+            inertia: mass.and_then(|p| p.inertia).map(write_inertia),
         }
     };
     let point = |p: &PointOfInterest| PointEntry {
         id: p.id.clone(),
         link: m.links[p.link].id.clone(),
-        point: vector(&p.point),
+        point: write_vector(&p.point),
         tolerance: number::point_tolerance(&p.point, stated.as_ref()),
     };
     MechanismFile {
@@ -64,21 +64,21 @@ pub fn mechanism_file(m: &Mechanism) -> MechanismFile {
         joint: m
             .joints
             .iter()
-            .map(|j| joint(m, j, stated.as_ref()))
+            .map(|j| write_joint(m, j, stated.as_ref()))
             .collect(),
-        coupling: m.couplings.iter().map(|c| coupling(m, c)).collect(),
+        coupling: m.couplings.iter().map(|c| write_coupling(m, c)).collect(),
         contour: m
             .contours
             .iter()
             .map(|c| ContourEntry { joints: ids(c) })
             .collect(),
         point: m.points.iter().map(point).collect(),
-        search: search(m),
-        workload: workload(m),
-        ranking: m.ranking.as_ref().map(|r| workload::ranking(m, r)),
+        search: write_search(m),
+        workload: write_workload(m),
+        ranking: m.ranking.as_ref().map(|r| workload::write_ranking(m, r)),
         joint_types: workload::joint_types(m),
-        expected: m.expected.iter().map(expected).collect(),
-        claim: m.claims.iter().map(claim).collect(),
+        expected: m.expected.iter().map(write_expected).collect(),
+        claim: m.claims.iter().map(write_claim).collect(),
         ..MechanismFile::default()
     }
 }
@@ -106,7 +106,7 @@ impl Comment {
     }
 
     /// Returns the words as lines of TOML, starting with a blank one.
-    fn lines(&self) -> String {
+    fn comment_lines(&self) -> String {
         let (mut out, mut width) = (String::from("\n#"), 0);
         for word in self.text.split_whitespace() {
             if width > 0 && width + word.len() > LONGEST_COMMENT {
@@ -137,14 +137,14 @@ pub fn toml(file: &MechanismFile, comments: &[Comment]) -> Result<String, toml::
             other => other.and_then(Item::as_table_mut),
         };
         if let Some(table) = table {
-            table.decor_mut().set_prefix(c.lines());
+            table.decor_mut().set_prefix(c.comment_lines());
         }
     }
     Ok(document.to_string())
 }
 
 /// Returns the word for a role.
-pub(crate) fn role(role: Role) -> Option<&'static str> {
+pub(crate) fn role_word(role: Role) -> Option<&'static str> {
     match role {
         Role::Frame => Some("frame"),
         Role::Output => Some("output"),
@@ -153,15 +153,15 @@ pub(crate) fn role(role: Role) -> Option<&'static str> {
     }
 }
 
-fn vector(v: &[Expr; 3]) -> [Coordinate; 3] {
-    v.each_ref().map(coordinate)
+fn write_vector(v: &[Expr; 3]) -> [Coordinate; 3] {
+    v.each_ref().map(write_coordinate)
 }
 
-fn direction(v: &[Expr; 3]) -> [Coordinate; 3] {
-    v.each_ref().map(component)
+fn write_direction(v: &[Expr; 3]) -> [Coordinate; 3] {
+    v.each_ref().map(write_component)
 }
 
-fn same(a: &[Expr; 3], b: &[Expr; 3]) -> bool {
+fn are_same(a: &[Expr; 3], b: &[Expr; 3]) -> bool {
     a.iter().zip(b).all(|(x, y)| x.to_string() == y.to_string())
 }
 
@@ -170,16 +170,16 @@ fn is_default(f: &Frame) -> bool {
     let unit = |i: usize| [0, 1, 2].map(|k| Expr::from(i64::from(k == i)));
     let size = f.axis.each_ref().map(|c| c.to_f64().abs());
     if size[1] + size[2] > 1e-6 * size[0] {
-        return same(&f.reference, &unit(0));
+        return are_same(&f.reference, &unit(0));
     }
-    f.axis[1].is_zero_rational() && f.axis[2].is_zero_rational() && same(&f.reference, &unit(1))
+    f.axis[1].is_zero_rational() && f.axis[2].is_zero_rational() && are_same(&f.reference, &unit(1))
 }
 
-fn screws(t: &JointType) -> bool {
+fn has_screw(t: &JointType) -> bool {
     t.freedoms().contains(&Freedom::Screw)
 }
 
-fn freedoms(t: &JointType) -> Option<Vec<String>> {
+fn freedom_names(t: &JointType) -> Option<Vec<String>> {
     match t {
         JointType::Custom(list) => Some(list.iter().map(|f| f.name().to_owned()).collect()),
         _ => None,
@@ -190,46 +190,52 @@ fn freedoms(t: &JointType) -> Option<Vec<String>> {
     clippy::cast_precision_loss,
     reason = "costs are at most 1e9 thousandths"
 )]
-fn cost(milli: i64) -> f64 {
+fn cost_number(milli: i64) -> f64 {
     milli as f64 / 1000.0
 }
 
 /// Returns the names of states, if any are named.
-fn states(m: &Mechanism, of: Option<&Vec<StateId>>) -> Option<Words> {
+fn state_names(m: &Mechanism, of: Option<&Vec<StateId>>) -> Option<Words> {
     of.map(|s| Words::Many(s.iter().map(|&s| m.states[s].clone()).collect()))
 }
 
-fn joint(m: &Mechanism, j: &Joint, stated: Option<&ToleranceEntry>) -> JointEntry {
+fn write_joint(m: &Mechanism, j: &Joint, stated: Option<&ToleranceEntry>) -> JointEntry {
     // The present joint is understood, unless it has a name or a cost of its own.
     let own = |o: &JointOption| o.cost_milli.is_some() || o.name != motion_name(&o.joint_type);
     let listed = j.options.iter();
     let listed = listed.skip(usize::from(!j.options.first().is_some_and(own)));
-    let options: Vec<OptionEntry> = listed.map(|o| option(m, o, &j.frame)).collect();
+    let options: Vec<OptionEntry> = listed.map(|o| write_option(m, o, &j.frame)).collect();
     let options = (!options.is_empty()).then_some(options);
-    let unloading = (!j.unloading.is_empty())
-        .then(|| Unloading::List(j.unloading.iter().map(|o| option(m, o, &j.frame)).collect()));
+    let unloading = (!j.unloading.is_empty()).then(|| {
+        Unloading::List(
+            j.unloading
+                .iter()
+                .map(|o| write_option(m, o, &j.frame))
+                .collect(),
+        )
+    });
     JointEntry {
         id: j.id.clone(),
         links: j.links.map(|l| m.links[l].id.clone()),
         kind: j.joint_type.name().to_owned(),
-        freedoms: freedoms(&j.joint_type),
-        point: vector(&j.frame.point),
-        axis: Some(direction(&j.frame.axis)),
-        reference: (!is_default(&j.frame)).then(|| direction(&j.frame.reference)),
-        pitch: screws(&j.joint_type).then(|| coordinate(&j.frame.pitch)),
+        freedoms: freedom_names(&j.joint_type),
+        point: write_vector(&j.frame.point),
+        axis: Some(write_direction(&j.frame.axis)),
+        reference: (!is_default(&j.frame)).then(|| write_direction(&j.frame.reference)),
+        pitch: has_screw(&j.joint_type).then(|| write_coordinate(&j.frame.pitch)),
         tolerance: number::point_tolerance(&j.frame.point, stated),
         drive: match j.drive_freedom {
             Some(freedom) => DriveWord::Freedom(freedom.name().to_owned()),
             None => DriveWord::Driven(j.drive),
         },
-        state: states(m, j.states.as_ref()),
+        state: state_names(m, j.states.as_ref()),
         options,
         unloading,
         ..JointEntry::default()
     }
 }
 
-fn coupling(m: &Mechanism, c: &Coupling) -> CouplingEntry {
+fn write_coupling(m: &Mechanism, c: &Coupling) -> CouplingEntry {
     let end = |i: usize| {
         let joint = &m.joints[c.ends[i].joint];
         match joint.joint_type.freedoms() {
@@ -239,37 +245,37 @@ fn coupling(m: &Mechanism, c: &Coupling) -> CouplingEntry {
     };
     CouplingEntry {
         joints: [end(0), end(1)],
-        ratio: ratio(&c.ratio),
+        ratio: write_ratio(&c.ratio),
         gear: c.gear,
     }
 }
 
 /// Returns the entry of an option: only its type if everything else equals the joint's own.
-fn option(m: &Mechanism, o: &JointOption, present: &Frame) -> OptionEntry {
+fn write_option(m: &Mechanism, o: &JointOption, present: &Frame) -> OptionEntry {
     let f = &o.frame;
-    let turned = !same(&f.axis, &present.axis);
+    let turned = !are_same(&f.axis, &present.axis);
     let table = OptionTable {
         kind: Some(o.joint_type.name().to_owned()),
-        freedoms: freedoms(&o.joint_type),
-        point: (!same(&f.point, &present.point)).then(|| vector(&f.point)),
-        axis: turned.then(|| direction(&f.axis)),
-        reference: (turned || !same(&f.reference, &present.reference))
-            .then(|| direction(&f.reference)),
-        pitch: (screws(&o.joint_type) && f.pitch.to_string() != present.pitch.to_string())
-            .then(|| coordinate(&f.pitch)),
+        freedoms: freedom_names(&o.joint_type),
+        point: (!are_same(&f.point, &present.point)).then(|| write_vector(&f.point)),
+        axis: turned.then(|| write_direction(&f.axis)),
+        reference: (turned || !are_same(&f.reference, &present.reference))
+            .then(|| write_direction(&f.reference)),
+        pitch: (has_screw(&o.joint_type) && f.pitch.to_string() != present.pitch.to_string())
+            .then(|| write_coordinate(&f.pitch)),
         name: Some(o.name.clone()).filter(|n| n != o.joint_type.name()),
-        cost: o.cost_milli.map(cost),
+        cost: o.cost_milli.map(cost_number),
         state: o.state.map(|s| m.states[s].clone()),
         ..OptionTable::default()
     };
     let word = OptionEntry::Word(o.joint_type.name().to_owned());
-    if *word.table() == table {
+    if *word.as_table() == table {
         return word;
     }
     OptionEntry::Table(Box::new(table))
 }
 
-fn search(m: &Mechanism) -> SearchEntry {
+fn write_search(m: &Mechanism) -> SearchEntry {
     let spec = &m.search;
     let costs = &spec.costs;
     let others = [
@@ -291,12 +297,12 @@ fn search(m: &Mechanism) -> SearchEntry {
         max_redundant: Some(spec.max_redundant).filter(|n| *n > 0),
         max_mobility: spec.max_mobility,
         symmetric: spec.symmetric,
-        costs: costs.map(|(n, c)| (n, cost(c))).collect(),
+        costs: costs.map(|(n, c)| (n, cost_number(c))).collect(),
         ..SearchEntry::default()
     }
 }
 
-fn inertia(i: Inertia) -> InertiaEntry {
+fn write_inertia(i: Inertia) -> InertiaEntry {
     match i {
         Inertia::Plane(x) => InertiaEntry::Plane(x),
         Inertia::Principal(v) => InertiaEntry::List(v.to_vec()),
@@ -304,20 +310,20 @@ fn inertia(i: Inertia) -> InertiaEntry {
     }
 }
 
-fn force(m: &Mechanism, f: &ExternalForce) -> ForceEntry {
+fn write_force(m: &Mechanism, f: &ExternalForce) -> ForceEntry {
     let end = |x: f64| x.is_finite().then_some(Quantity::Number(x));
     ForceEntry {
         link: m.links[f.link].id.clone(),
-        point: vector(&f.point),
-        force: vector(&f.force),
+        point: write_vector(&f.point),
+        force: write_vector(&f.force),
         from: f.range.and_then(|[from, _]| end(from)),
         to: f.range.and_then(|[_, to]| end(to)),
-        state: states(m, f.states.as_ref()),
+        state: state_names(m, f.states.as_ref()),
     }
 }
 
 /// Returns an entry for each axis that a joint is rotated or shifted along, or one of zero rotation if there is none.
-fn misalignment(m: &Mechanism, x: &Misalignment) -> Vec<MisalignmentEntry> {
+fn write_misalignment(m: &Mechanism, x: &Misalignment) -> Vec<MisalignmentEntry> {
     let none = x.turn == [0.0; 3] && x.shift == [0.0; 3];
     let entry = |axis: &str, angle, length| MisalignmentEntry {
         joint: m.joints[x.joint].id.clone(),
@@ -336,7 +342,7 @@ fn misalignment(m: &Mechanism, x: &Misalignment) -> Vec<MisalignmentEntry> {
     turned.chain(shifted).collect()
 }
 
-fn stiffness(s: Stiffness) -> StiffnessEntry {
+fn write_stiffness(s: Stiffness) -> StiffnessEntry {
     StiffnessEntry {
         linear: s.linear,
         angular: s.angular,
@@ -344,15 +350,15 @@ fn stiffness(s: Stiffness) -> StiffnessEntry {
 }
 
 /// Returns the workload without masses, with positions and speeds as plain numbers.
-fn workload(m: &Mechanism) -> WorkloadEntry {
+fn write_workload(m: &Mechanism) -> WorkloadEntry {
     let loads = &m.loads;
     let speed = |x: &f64| Quantity::Number(*x);
     let moment = |x: &ExternalMoment| MomentEntry {
         link: m.links[x.link].id.clone(),
-        moment: vector(&x.moment),
-        state: states(m, x.states.as_ref()),
+        moment: write_vector(&x.moment),
+        state: state_names(m, x.states.as_ref()),
     };
-    let decimal = |x: f64| number::number(x, 1.0);
+    let decimal = |x: f64| number::write_number(x, 1.0);
     let face = |f: &Face| ContactEntry {
         joint: m.joints[f.joint].id.clone(),
         friction: f.friction.map(decimal),
@@ -361,14 +367,14 @@ fn workload(m: &Mechanism) -> WorkloadEntry {
     let by_type = loads.stiffness.iter();
     let misaligned = loads.misalignments.iter();
     WorkloadEntry {
-        gravity: loads.gravity.as_ref().map(vector),
-        force: loads.forces.iter().map(|f| force(m, f)).collect(),
+        gravity: loads.gravity.as_ref().map(write_vector),
+        force: loads.forces.iter().map(|f| write_force(m, f)).collect(),
         moment: loads.moments.iter().map(moment).collect(),
         contact: loads.faces.iter().map(face).collect(),
         stiffness: by_type
-            .map(|(name, s)| (name.clone(), stiffness(*s)))
+            .map(|(name, s)| (name.clone(), write_stiffness(*s)))
             .collect(),
-        misalignment: misaligned.flat_map(|x| misalignment(m, x)).collect(),
+        misalignment: misaligned.flat_map(|x| write_misalignment(m, x)).collect(),
         drive_speed: match &loads.drive_speeds[..] {
             [] => None,
             [one] => Some(Quantities::One(speed(one))),
@@ -379,15 +385,15 @@ fn workload(m: &Mechanism) -> WorkloadEntry {
             to: Quantity::Number(s.to),
             steps: i64::try_from(s.steps).unwrap_or(i64::MAX),
         }),
-        grip: loads.grip.as_ref().map(|g| workload::grip(m, g)),
+        grip: loads.grip.as_ref().map(|g| workload::write_grip(m, g)),
         drive: loads
             .drive
             .as_ref()
-            .map(|d| workload::drive(d, m.length_unit.metres)),
+            .map(|d| workload::write_drive(d, m.length_unit.metres)),
     }
 }
 
-fn expected(e: &Expected) -> ExpectedEntry {
+fn write_expected(e: &Expected) -> ExpectedEntry {
     ExpectedEntry {
         state: Some(e.state.clone()),
         mobility: e.mobility,
@@ -400,9 +406,9 @@ fn expected(e: &Expected) -> ExpectedEntry {
     }
 }
 
-fn claim(c: &Claim) -> ClaimEntry {
+fn write_claim(c: &Claim) -> ClaimEntry {
     ClaimEntry {
-        topic: c.topic.word().to_owned(),
+        topic: c.topic.as_word().to_owned(),
         source: c.source.clone(),
         says: c.says.clone(),
         right: c.right.clone(),

@@ -5,12 +5,14 @@
 use crate::geom::rigid::RigidMotion;
 use crate::geom::vector::length;
 use crate::model::joint_type::JointType;
-use crate::robots::description::kinematics::{places, spanning_tree};
+use crate::robots::description::kinematics::{link_places, spanning_tree};
 use crate::robots::description::{Part, Ratio, Robot};
-use crate::robots::sdf::joints::joint;
+use crate::robots::sdf::joints::read_joint;
 use crate::robots::sdf::named_place;
-use crate::robots::sdf::scene::{Placed, SdfScene, absolute, end, insert, moves_with, resolve};
-use crate::robots::warning::{Read, known, unknown_name};
+use crate::robots::sdf::scene::{
+    Placed, SdfScene, absolute_name, insert, joint_end, moves_with, resolve_places,
+};
+use crate::robots::warning::{Read, list_known, unknown_name};
 use crate::robots::xml::element::Element;
 use std::collections::BTreeSet;
 
@@ -28,22 +30,26 @@ const HARMLESS: &str = "publish camera sensor imu lidar laser gps control drive 
     effector state";
 
 /// Returns the text of a child, or `None` if it has none.
-fn said<'a>(e: Element<'a>, tag: &str) -> Option<&'a str> {
-    let found = e.child(tag).map(Element::text);
+fn child_text<'a>(e: Element<'a>, tag: &str) -> Option<&'a str> {
+    let found = e.first_child(tag).map(Element::text);
     found.filter(|t| !t.is_empty())
 }
 
 /// Couples two joints, the leader first, unless another element couples them in the same way.
-pub(crate) fn couple(e: Element<'_>, joints: [&str; 2], ratio: f64, robot: &mut Robot) {
+pub(crate) fn add_coupling(e: Element<'_>, joints: [&str; 2], ratio: f64, robot: &mut Robot) {
     let same = |c: &Ratio| {
         let [a, b] = c.joints.each_ref().map(String::as_str);
         (joints == [a, b] && c.ratio == ratio) || (joints == [b, a] && c.ratio * ratio == 1.0)
     };
     if robot.couplings.iter().any(same) {
-        robot.report.drop("duplicate coupling", Some(joints[1]));
+        robot
+            .report
+            .count_dropped("duplicate coupling", Some(joints[1]));
         return;
     }
-    robot.report.map("coupling of a plugin or controller");
+    robot
+        .report
+        .count_mapped("coupling of a plugin or controller");
     robot.couplings.push(Ratio::new(joints, ratio, e));
 }
 
@@ -52,31 +58,31 @@ pub(crate) fn couple(e: Element<'_>, joints: [&str; 2], ratio: f64, robot: &mut 
 ///
 /// # Errors
 /// Returns an error if a multiplier is not a number.
-pub(crate) fn plugin(
+pub(crate) fn read_plugin(
     e: Element<'_>,
     scope: &str,
     scene: &SdfScene<'_>,
     robot: &mut Robot,
 ) -> Read<()> {
-    if let (Some(leader), Some(follower)) = (said(e, "joint"), said(e, "mimicJoint")) {
-        let ratio = e.child("multiplier").map(|m| m.text_numbers::<1>());
+    if let (Some(leader), Some(follower)) = (child_text(e, "joint"), child_text(e, "mimicJoint")) {
+        let ratio = e.first_child("multiplier").map(|m| m.text_numbers::<1>());
         let ratio = ratio.transpose()?.map_or(1.0, |[x]| x);
-        let joints = [leader, follower].map(|j| absolute(scope, j));
-        couple(e, joints.each_ref().map(String::as_str), ratio, robot);
+        let joints = [leader, follower].map(|j| absolute_name(scope, j));
+        add_coupling(e, joints.each_ref().map(String::as_str), ratio, robot);
         return Ok(());
     }
-    match (said(e, "parent_link"), said(e, "child_link")) {
+    match (child_text(e, "parent_link"), child_text(e, "child_link")) {
         (Some(parent), Some(child)) => {
-            let model = said(e, "child_model").unwrap_or("");
+            let model = child_text(e, "child_model").unwrap_or("");
             let own = scope.trim_end_matches("::");
             let own = own.rsplit("::").next().unwrap_or("");
             let is_own = ["", "__self__", "__model__", own, &robot.name].contains(&model);
             let child = if is_own {
-                absolute(scope, child)
+                absolute_name(scope, child)
             } else {
                 format!("{model}::{child}")
             };
-            weld(e, &[absolute(scope, parent), child], scene, robot);
+            weld_links(e, &[absolute_name(scope, parent), child], scene, robot);
         }
         _ => leave_out(e, None, robot),
     }
@@ -84,16 +90,16 @@ pub(crate) fn plugin(
 }
 
 /// Welds two links where they are drawn. A weld of a missing link is omitted and counted.
-fn weld(e: Element<'_>, names: &[String; 2], scene: &SdfScene<'_>, robot: &mut Robot) {
+fn weld_links(e: Element<'_>, names: &[String; 2], scene: &SdfScene<'_>, robot: &mut Robot) {
     let [Ok((a, at)), Ok((b, _))] = names.each_ref().map(|n| moves_with(scene, n)) else {
         let [a, b] = names;
         let what = format!("it welds {a} to {b}, which are not both in the file; omitted");
-        return robot.report.leave_out_joint(&label(e), MOST_ROWS, what);
+        return robot.report.leave_out_joint(&label_of(e), MOST_ROWS, what);
     };
     if a == b {
         return robot
             .report
-            .drop("weld of one link to itself", Some(&names[0]));
+            .count_dropped("weld of one link to itself", Some(&names[0]));
     }
     let sides = [
         robot.places[a].inverse().then(&at),
@@ -102,23 +108,23 @@ fn weld(e: Element<'_>, names: &[String; 2], scene: &SdfScene<'_>, robot: &mut R
     let id = format!("weld-{}-{}", names[0], names[1]);
     let mut part = Part::new(&id, [a, b], sides, JointType::Fixed).said_by(e);
     part.closes = true;
-    part.comment = Some(format!("closes a loop: {}", label(e)));
-    robot.report.map("weld of a plugin");
+    part.comment = Some(format!("closes a loop: {}", label_of(e)));
+    robot.report.count_mapped("weld of a plugin");
     robot.joints.push(part);
 }
 
 /// Omits an element of unknown meaning. It is counted if it could close a loop or couple joints: if its name suggests it, or if
 /// it names several links or joints of the robot. `own` is its parent joint, which it may name.
 pub(crate) fn leave_out(e: Element<'_>, own: Option<&str>, robot: &mut Robot) {
-    let kind = kind(e);
+    let kind = kind_of(e);
     let has = |words: &str| words.split(' ').any(|w| kind.contains(w));
-    let named = named(e, own, robot);
+    let named = named_parts(e, own, robot);
     let holds = match own {
         Some(_) => !named.is_empty(),
         None => has(HOLDS) || (!has(HARMLESS) && named.len() > 1),
     };
     if !holds {
-        return robot.report.drop(e.name(), e.attribute("name"));
+        return robot.report.count_dropped(e.name(), e.attribute("name"));
     }
     let of = match named.iter().take(4).cloned().collect::<Vec<_>>().join(", ") {
         names if names.is_empty() => String::new(),
@@ -127,11 +133,11 @@ pub(crate) fn leave_out(e: Element<'_>, own: Option<&str>, robot: &mut Robot) {
     let what = format!(
         "it is not read, though it may close a loop or couple joints{of}; omitted; write it as a joint, a <mimic> or a file of loop closures"
     );
-    robot.report.leave_out_joint(&label(e), MOST_ROWS, what);
+    robot.report.leave_out_joint(&label_of(e), MOST_ROWS, what);
 }
 
 /// Returns the name of an element for messages, with the kind of its plugin.
-fn label(e: Element<'_>) -> String {
+fn label_of(e: Element<'_>) -> String {
     match e.attribute("filename") {
         Some(file) => format!("{} ({file})", e.label()),
         None => e.label(),
@@ -139,7 +145,7 @@ fn label(e: Element<'_>) -> String {
 }
 
 /// Returns the texts that identify an element, in lower case: its name, and the file and class of a plugin.
-fn kind(e: Element<'_>) -> String {
+fn kind_of(e: Element<'_>) -> String {
     let class = e.attribute("name").filter(|n| n.contains("::"));
     let file = e.attribute("filename");
     let own = e
@@ -151,7 +157,7 @@ fn kind(e: Element<'_>) -> String {
 }
 
 /// Returns the links and joints that an element and its descendants name, except `own`.
-pub(crate) fn named(e: Element<'_>, own: Option<&str>, robot: &Robot) -> BTreeSet<String> {
+pub(crate) fn named_parts(e: Element<'_>, own: Option<&str>, robot: &Robot) -> BTreeSet<String> {
     let is_known = |word: &str| {
         robot.links.iter().any(|l| l == word) || robot.joints.iter().any(|j| j.id == word)
     };
@@ -172,25 +178,25 @@ pub(crate) fn ball_constraint(e: Element<'_>, robot: &mut Robot) -> Read<()> {
     for (end, (body, point)) in ends.iter_mut().zip([("A", "p_AP"), ("B", "p_BQ")]) {
         let part = |k: &str| {
             let tag = format!("drake:ball_constraint_{k}");
-            let found = e.child(&tag);
-            found.ok_or_else(|| e.missing(&format!("<{tag}>")))
+            let found = e.first_child(&tag);
+            found.ok_or_else(|| e.missing_error(&format!("<{tag}>")))
         };
         let b = part(&format!("body_{body}"))?;
         let name = b.attribute("name").unwrap_or_else(|| b.text());
         let (link, frame) = robot.frame(name).ok_or_else(|| {
-            let known = known("links", &robot.links);
-            b.fail(Some("name"), unknown_name(&e.label(), "link", name, &known))
+            let known = list_known("links", &robot.links);
+            b.error_at(Some("name"), unknown_name(&e.label(), "link", name, &known))
         })?;
         let p = part(point)?;
-        let at = match p.numbers::<3>("value")? {
+        let at = match p.read_numbers::<3>("value")? {
             Some(v) => v,
             None => p.text_numbers()?,
         };
-        *end = (link, frame.then(&RigidMotion::shift(at)));
+        *end = (link, frame.then(&RigidMotion::from_translation(at)));
     }
     let [a, b] = ends.map(|end| &robot.links[end.0]);
-    let part = Part::closing(e, &format!("ball-{a}-{b}"), ends, JointType::Spherical)?;
-    robot.report.map("ball constraint");
+    let part = Part::new_closing(e, &format!("ball-{a}-{b}"), ends, JointType::Spherical)?;
+    robot.report.count_mapped("ball constraint");
     robot.joints.push(part);
     Ok(())
 }
@@ -201,7 +207,7 @@ pub(crate) fn ball_constraint(e: Element<'_>, robot: &mut Robot) -> Read<()> {
 /// Returns an error if SDF has no such joint.
 pub(crate) fn read_gazebo(root: Element<'_>, robot: &mut Robot) -> Read<()> {
     let inside = root
-        .named("gazebo")
+        .children_named("gazebo")
         .flat_map(|g| g.children().collect::<Vec<_>>());
     let (mut joints, mut plugins) = (Vec::new(), Vec::new());
     for e in inside {
@@ -215,13 +221,14 @@ pub(crate) fn read_gazebo(root: Element<'_>, robot: &mut Robot) -> Read<()> {
         return Ok(());
     }
     if robot.frame("world").is_none() && joints.iter().any(|j| names_world(*j)) {
-        robot.link("world", RigidMotion::IDENTITY);
+        robot.add_link("world", RigidMotion::IDENTITY);
     }
     // SDF places joints where the links are drawn; places in the robot stay what they were.
     let tree = spanning_tree(robot, 0);
-    let drawn = places(robot, &tree);
+    let drawn = link_places(robot, &tree);
     let before = std::mem::replace(&mut robot.places, drawn);
-    let done = placed(root, robot).and_then(|scene| add_joints(scene, &joints, &plugins, robot));
+    let done =
+        place_links(root, robot).and_then(|scene| add_joints(scene, &joints, &plugins, robot));
     robot.places = before;
     done
 }
@@ -229,11 +236,11 @@ pub(crate) fn read_gazebo(root: Element<'_>, robot: &mut Robot) -> Read<()> {
 fn names_world(joint: Element<'_>) -> bool {
     ["parent", "child"]
         .iter()
-        .any(|t| end(joint, t).is_ok_and(|(_, name)| name == "world"))
+        .any(|t| joint_end(joint, t).is_ok_and(|(_, name)| name == "world"))
 }
 
 /// Returns the links where they are drawn.
-fn placed<'a>(root: Element<'a>, robot: &Robot) -> Read<SdfScene<'a>> {
+fn place_links<'a>(root: Element<'a>, robot: &Robot) -> Read<SdfScene<'a>> {
     let mut scene = SdfScene::default();
     scene.world = robot.links.iter().position(|l| l == "world").unwrap_or(0);
     let model = Placed::new(
@@ -268,12 +275,12 @@ fn add_joints<'a>(
             .is_some_and(|n| robot.frame(n).is_some());
         named_place(e, "", "__model__", shared, &mut scene)?;
     }
-    resolve(&mut scene)?;
+    resolve_places(&mut scene)?;
     let far = robot.places.iter().map(|p| length(p.translation));
     let size = far.fold(1e-3, f64::max);
     for &e in joints {
         let first = robot.joints.len();
-        joint(e, "", &scene, size, robot)?;
+        read_joint(e, "", &scene, size, robot)?;
         // A joint between a link and the world closes no loop.
         let closes = !names_world(e);
         robot.joints[first..]
@@ -281,7 +288,7 @@ fn add_joints<'a>(
             .for_each(|p| p.closes = closes);
     }
     for &e in plugins {
-        plugin(e, "", &scene, robot)?;
+        read_plugin(e, "", &scene, robot)?;
     }
     Ok(())
 }

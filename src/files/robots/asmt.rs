@@ -6,7 +6,9 @@ use crate::robots::cad::holds::Holds;
 use crate::robots::cad::{Assembly, Connection, NO_LIMITS};
 use crate::robots::description::{Robot, Unit};
 use crate::robots::warning::{Options, Reader};
-use crate::robots::warning::{Read, bad_value, known, missing, unknown_name, unknown_word};
+use crate::robots::warning::{
+    Read, bad_value, list_known, missing_problem, unknown_name, unknown_word,
+};
 use crate::robots::xml::Document;
 use crate::robots::xml::element::Element;
 use std::collections::BTreeMap;
@@ -29,7 +31,7 @@ pub(crate) fn is_one(text: &[u8]) -> bool {
 }
 
 /// Reads the lines of a file into the arena.
-pub(crate) fn document(document: &mut Document, name: &str, text: String) -> Read<usize> {
+pub(crate) fn read_lines(document: &mut Document, name: &str, text: String) -> Read<usize> {
     document.read_outline(name, text, 1, RESULTS)
 }
 
@@ -37,7 +39,7 @@ pub(crate) fn document(document: &mut Document, name: &str, text: String) -> Rea
 ///
 /// # Errors
 /// Returns the first problem found, with its place.
-pub(crate) fn read(
+pub(crate) fn read_assembly(
     document: &mut Document,
     root: usize,
     _: Reader<'_>,
@@ -49,40 +51,44 @@ pub(crate) fn read(
     let root = document.element(root);
     let name = name(root)?;
     let mut robot = Robot::new(name);
-    let ground = pose(root)?;
+    let ground = read_pose(root)?;
     let mut parts = vec![("ground".to_owned(), ground)];
     let mut markers = BTreeMap::new();
-    collect(root, 0, &ground, name, &mut markers)?;
-    for part in root.child("Parts").iter().flat_map(|p| p.named("Part")) {
-        part.room("parts", parts.len())?;
-        let (own, place) = (self::name(part)?, ground.then(&pose(part)?));
+    collect_markers(root, 0, &ground, name, &mut markers)?;
+    for part in root
+        .first_child("Parts")
+        .iter()
+        .flat_map(|p| p.children_named("Part"))
+    {
+        part.check_room("parts", parts.len())?;
+        let (own, place) = (self::name(part)?, ground.then(&read_pose(part)?));
         let path = format!("{name}/{own}");
-        collect(part, parts.len(), &place, &path, &mut markers)?;
+        collect_markers(part, parts.len(), &place, &path, &mut markers)?;
         parts.push((own.to_owned(), place));
     }
-    let sets = root.child("ConstraintSets");
+    let sets = root.first_child("ConstraintSets");
     let mut connections = Vec::new();
-    let joints = sets.and_then(|s| s.child("Joints"));
+    let joints = sets.and_then(|s| s.first_child("Joints"));
     for joint in joints.iter().flat_map(|j| j.children()) {
-        joint.room("joints", connections.len())?;
+        joint.check_room("joints", connections.len())?;
         if joint.name().contains(CONTACT) {
             robot
                 .report
-                .drop("contact", joint.child("Name").map(|n| n.text()));
+                .count_dropped("contact", joint.first_child("Name").map(|n| n.text()));
             continue;
         }
-        connections.push(connection(joint, &markers)?);
+        connections.push(read_connection(joint, &markers)?);
     }
     for set in ["Motions", "GeneralConstraintSets"] {
-        let found = sets.and_then(|s| s.child(set));
+        let found = sets.and_then(|s| s.first_child(set));
         for e in found.iter().flat_map(|s| s.children()) {
-            let name = e.child("Name").map(|n| n.text());
-            robot.report.drop(e.name(), name);
+            let name = e.first_child("Name").map(|n| n.text());
+            robot.report.count_dropped(e.name(), name);
         }
     }
-    let limits = sets.and_then(|s| s.child("Limits"));
+    let limits = sets.and_then(|s| s.first_child("Limits"));
     for limit in limits.iter().flat_map(|s| s.children()) {
-        robot.report.approximate(&called(limit), NO_LIMITS);
+        robot.report.add_approximation(&label_of(limit), NO_LIMITS);
     }
     let assembly = Assembly {
         name: name.to_owned(),
@@ -90,31 +96,31 @@ pub(crate) fn read(
         parts,
         connections,
     };
-    Ok(assembly.robot(robot, options))
+    Ok(assembly.to_robot(robot, options))
 }
 
 /// Returns the child with a label, or an error if it is missing.
-fn has<'a>(e: Element<'a>, label: &str) -> Read<Element<'a>> {
-    let found = e.child(label);
-    found.ok_or_else(|| e.fail(None, missing(&called(e), label)))
+fn required_child<'a>(e: Element<'a>, label: &str) -> Read<Element<'a>> {
+    let found = e.first_child(label);
+    found.ok_or_else(|| e.error_at(None, missing_problem(&label_of(e), label)))
 }
 
 fn name(e: Element<'_>) -> Read<&str> {
-    Ok(has(e, "Name")?.text())
+    Ok(required_child(e, "Name")?.text())
 }
 
 /// Returns the name of an element for messages: its label, and its name if it has one.
-fn called(e: Element<'_>) -> String {
-    match e.child("Name").map(Element::text) {
+fn label_of(e: Element<'_>) -> String {
+    match e.first_child("Name").map(Element::text) {
         Some(name) if !name.is_empty() => format!("{} \"{name}\"", e.name()),
         _ => e.name().to_owned(),
     }
 }
 
 /// Returns the pose of a label relative to its parent.
-fn pose(e: Element<'_>) -> Read<RigidMotion> {
-    let translation = has(e, "Position3D")?.text_numbers::<3>()?;
-    let matrix = has(e, "RotationMatrix")?;
+fn read_pose(e: Element<'_>) -> Read<RigidMotion> {
+    let translation = required_child(e, "Position3D")?.text_numbers::<3>()?;
+    let matrix = required_child(e, "RotationMatrix")?;
     let all = matrix.text_numbers::<9>()?;
     let rotation = [0, 3, 6].map(|i| [all[i], all[i + 1], all[i + 2]]);
     let m = RigidMotion {
@@ -130,8 +136,8 @@ fn pose(e: Element<'_>) -> Read<RigidMotion> {
         let found = matrix.text().replace(['\n', '\t'], " ");
         let found: String = found.chars().take(60).collect();
         let want = "write the rows of a rotation";
-        let problem = bad_value(&called(e), "RotationMatrix", &found, want);
-        return Err(matrix.fail(None, problem));
+        let problem = bad_value(&label_of(e), "RotationMatrix", &found, want);
+        return Err(matrix.error_at(None, problem));
     }
     Ok(m)
 }
@@ -144,33 +150,33 @@ fn determinant([a, b, c]: &[[f64; 3]; 3]) -> f64 {
 /// The part and the place of each marker, by its path.
 type Markers = BTreeMap<String, (usize, RigidMotion)>;
 
-fn collect(
+fn collect_markers(
     e: Element<'_>,
     part: usize,
     place: &RigidMotion,
     path: &str,
     out: &mut Markers,
 ) -> Read<()> {
-    let points = e.child("RefPoints");
-    for point in points.iter().flat_map(|p| p.named("RefPoint")) {
-        let at = place.then(&pose(point)?);
-        let markers = point.child("Markers");
-        for marker in markers.iter().flat_map(|m| m.named("Marker")) {
-            marker.room("markers", out.len())?;
+    let points = e.first_child("RefPoints");
+    for point in points.iter().flat_map(|p| p.children_named("RefPoint")) {
+        let at = place.then(&read_pose(point)?);
+        let markers = point.first_child("Markers");
+        for marker in markers.iter().flat_map(|m| m.children_named("Marker")) {
+            marker.check_room("markers", out.len())?;
             let path = format!("/{path}/{}", name(marker)?);
-            out.insert(path, (part, at.then(&pose(marker)?)));
+            out.insert(path, (part, at.then(&read_pose(marker)?)));
         }
     }
     Ok(())
 }
 
-fn connection(e: Element<'_>, markers: &Markers) -> Read<Connection> {
+fn read_connection(e: Element<'_>, markers: &Markers) -> Read<Connection> {
     let end = |label: &str| {
-        let said = has(e, label)?;
+        let said = required_child(e, label)?;
         let path = said.text();
         markers.get(path).copied().ok_or_else(|| {
-            let known = known("markers", markers.keys());
-            said.fail(None, unknown_name(&called(e), "marker", path, &known))
+            let known = list_known("markers", markers.keys());
+            said.error_at(None, unknown_name(&label_of(e), "marker", path, &known))
         })
     };
     let ((i, near), (j, far)) = (end("MarkerI")?, end("MarkerJ")?);
@@ -178,22 +184,23 @@ fn connection(e: Element<'_>, markers: &Markers) -> Read<Connection> {
         id: name(e)?.to_owned(),
         parts: [i, j],
         frames: [near, far],
-        holds: holds(e)?.settled(),
+        holds: read_constraint(e)?.settled(),
         element: e.id,
     })
 }
 
-fn figure(e: Element<'_>, label: &str) -> Read<f64> {
-    let [x] = has(e, label)?.text_numbers::<1>()?;
+fn read_figure(e: Element<'_>, label: &str) -> Read<f64> {
+    let [x] = required_child(e, label)?.text_numbers::<1>()?;
     Ok(x)
 }
 
 /// Returns the offset of a plane; 0 if the file gives none.
-fn offset(e: Element<'_>) -> Read<f64> {
-    e.child("offset").map_or(Ok(0.0), |_| figure(e, "offset"))
+fn read_offset(e: Element<'_>) -> Read<f64> {
+    e.first_child("offset")
+        .map_or(Ok(0.0), |_| read_figure(e, "offset"))
 }
 
-fn holds(e: Element<'_>) -> Read<Holds> {
+fn read_constraint(e: Element<'_>) -> Read<Holds> {
     let word = e.name().strip_suffix("Joint").unwrap_or(e.name());
     Ok(match word {
         "Fixed" => Holds::Fixed,
@@ -203,24 +210,24 @@ fn holds(e: Element<'_>) -> Read<Holds> {
         "Spherical" => Holds::Spherical,
         "Universal" => Holds::Universal,
         "ConstantVelocity" => Holds::ConstantVelocity,
-        "Planar" => Holds::Planar(offset(e)?),
-        "PointInPlane" | "InPlane" => Holds::PointInPlane(offset(e)?),
-        "LineInPlane" => Holds::LineInPlane(offset(e)?),
+        "Planar" => Holds::Planar(read_offset(e)?),
+        "PointInPlane" | "InPlane" => Holds::PointInPlane(read_offset(e)?),
+        "LineInPlane" => Holds::LineInPlane(read_offset(e)?),
         "PointInLine" | "InLine" => Holds::PointInLine,
         "ParallelAxes" => Holds::ParallelAxes,
         "NoRotation" => Holds::NoRotation,
         "Perpendicular" => Holds::Angle(0.0),
-        "Angle" => Holds::Angle(figure(e, "theIzJz")?.cos()),
-        "SphSph" | "SphericalSpherical" => Holds::PointPoint(figure(e, "distanceIJ")?),
-        "CylSph" => Holds::PointLine(figure(e, "distanceIJ")?),
-        "RevCyl" => Holds::LineLine(figure(e, "distanceIJ")?),
-        "RevRev" => Holds::Hinges(figure(e, "distanceIJ")?),
-        "Gear" => Holds::Gear([figure(e, "radiusI")?, figure(e, "radiusJ")?]),
-        "RackPinion" => Holds::RackPinion(figure(e, "pitchRadius")?),
-        "Screw" => Holds::Screw(figure(e, "pitch")?),
+        "Angle" => Holds::Angle(read_figure(e, "theIzJz")?.cos()),
+        "SphSph" | "SphericalSpherical" => Holds::PointPoint(read_figure(e, "distanceIJ")?),
+        "CylSph" => Holds::PointLine(read_figure(e, "distanceIJ")?),
+        "RevCyl" => Holds::LineLine(read_figure(e, "distanceIJ")?),
+        "RevRev" => Holds::Hinges(read_figure(e, "distanceIJ")?),
+        "Gear" => Holds::Gear([read_figure(e, "radiusI")?, read_figure(e, "radiusJ")?]),
+        "RackPinion" => Holds::RackPinion(read_figure(e, "pitchRadius")?),
+        "Screw" => Holds::Screw(read_figure(e, "pitch")?),
         other => {
-            let problem = unknown_word(&called(e), "type", other, KNOWN);
-            return Err(e.fail(None, problem));
+            let problem = unknown_word(&label_of(e), "type", other, KNOWN);
+            return Err(e.error_at(None, problem));
         }
     })
 }

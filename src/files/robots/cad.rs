@@ -11,9 +11,9 @@ use crate::geom::rigid::RigidMotion;
 use crate::geom::vector::length;
 use crate::model::joint_type::JointType;
 use crate::robots::cad::holds::Holds;
-use crate::robots::cad::meet::coupling;
-use crate::robots::cad::meet::{Meeting, meeting};
-use crate::robots::description::{Part, Robot, Unit, free};
+use crate::robots::cad::meet::find_coupling;
+use crate::robots::cad::meet::{Meeting, find_meeting};
+use crate::robots::description::{Part, Robot, Unit, free_joint};
 use crate::robots::warning::{CadCount, Options};
 
 /// Frames that are apart by less than this, as a share of the assembly's size and in radians, meet: solvers leave so much.
@@ -62,16 +62,16 @@ pub(crate) struct Assembly {
 
 impl Assembly {
     /// Converts the assembly to a robot. Notes that are already in its report stay.
-    pub(crate) fn robot(&self, mut robot: Robot, options: &Options) -> Robot {
+    pub(crate) fn to_robot(&self, mut robot: Robot, options: &Options) -> Robot {
         robot.name.clone_from(&self.name);
         robot.unit = self.unit;
         robot.assembly = true;
         robot.options = &OPTIONS;
-        let tied = self.tied(&mut robot);
+        let tied = self.find_tied(&mut robot);
         // Floating parts do not become links.
         let mut link = vec![None; self.parts.len()];
         for (p, (name, place)) in self.parts.iter().enumerate().filter(|(p, _)| tied[*p]) {
-            link[p] = Some(robot.link(name, *place));
+            link[p] = Some(robot.add_link(name, *place));
         }
         robot.world = link[0];
         let known: Vec<(&Connection, [usize; 2])> = (self.connections.iter())
@@ -82,11 +82,11 @@ impl Assembly {
         let mut rows = 0;
         for (c, links) in &ties {
             rows += c.holds.rows();
-            self.tie(c, *links, options, &mut robot);
+            self.add_joint(c, *links, options, &mut robot);
         }
         for (c, links) in &couplers {
             rows += c.holds.rows();
-            couple(c, *links, &mut robot);
+            add_coupling(c, *links, &mut robot);
         }
         let moving = tied.iter().filter(|t| **t).count() - 1;
         robot.report.count = Some(CadCount {
@@ -98,7 +98,7 @@ impl Assembly {
     }
 
     /// Returns for each part whether a chain of joints connects it to the ground; the others are reported.
-    fn tied(&self, robot: &mut Robot) -> Vec<bool> {
+    fn find_tied(&self, robot: &mut Robot) -> Vec<bool> {
         let mut tied = vec![false; self.parts.len()];
         tied[0] = true;
         let ties = || self.connections.iter().filter(|c| !c.holds.couples());
@@ -115,7 +115,7 @@ impl Assembly {
         for ((name, _), _) in loose {
             robot
                 .report
-                .drop("part that is not connected to the ground", Some(name));
+                .count_dropped("part that is not connected to the ground", Some(name));
         }
         for c in self
             .connections
@@ -124,45 +124,52 @@ impl Assembly {
         {
             robot
                 .report
-                .drop("joint between floating parts", Some(&c.id));
+                .count_dropped("joint between floating parts", Some(&c.id));
         }
         tied
     }
 
-    fn tie(&self, c: &Connection, links: [usize; 2], options: &Options, robot: &mut Robot) {
+    fn add_joint(&self, c: &Connection, links: [usize; 2], options: &Options, robot: &mut Robot) {
         if links[0] == links[1] {
             let what = "both ends are on one part, so it has no effect; omitted";
-            robot.report.approximate(&c.label(), what);
+            robot.report.add_approximation(&c.label(), what);
             return;
         }
-        let m = match meeting(c.holds, &c.frames[0], &c.frames[1]) {
+        let m = match find_meeting(c.holds, &c.frames[0], &c.frames[1]) {
             Ok(m) => m,
             Err(why) => {
                 left_out(c, why, robot);
                 // A joint all the same, which holds nothing: its parts do not fall off.
                 let there = c.frames[0];
-                Meeting::new(free(), there, there)
+                Meeting::new(free_joint(), there, there)
             }
         };
-        let part = part(c, links, &m, &robot.places, options);
-        self.tell(c, &part, &m, options, robot);
-        robot.report.map(c.holds.word());
+        let part = make_part(c, links, &m, &robot.places, options);
+        self.report_joint(c, &part, &m, options, robot);
+        robot.report.count_mapped(c.holds.word());
         robot.joints.push(part);
     }
 
     /// Reports frames that do not meet, and joints that are valid at this pose only.
-    fn tell(&self, c: &Connection, part: &Part, m: &Meeting, options: &Options, robot: &mut Robot) {
+    fn report_joint(
+        &self,
+        c: &Connection,
+        part: &Part,
+        m: &Meeting,
+        options: &Options,
+        robot: &mut Robot,
+    ) {
         let element = c.label();
         if let Some(apart) = part.misfit.filter(|a| self.is_open(*a)) {
-            let apart = words(apart, self.unit);
+            let apart = describe_misfit(apart, self.unit);
             if options.assemble {
                 let what = format!("{element}: its two frames are {apart} apart in the file");
-                robot.report.moved(what);
+                robot.report.add_moved(what);
             } else {
                 let what = format!(
                     "its two frames are {apart} apart; the figures use the pose of the file, and the joint lies at its first frame (the option `assemble` closes joints)"
                 );
-                robot.report.assume(&element, what);
+                robot.report.add_assumption(&element, what);
                 robot.here_only = true;
             }
         }
@@ -171,7 +178,7 @@ impl Assembly {
                 "{}: its freedoms are those of this pose; in other poses they may differ",
                 c.holds.word()
             );
-            robot.report.approximate(&element, what);
+            robot.report.add_approximation(&element, what);
             robot.here_only = true;
         }
     }
@@ -202,7 +209,7 @@ impl Assembly {
     }
 }
 
-fn part(
+fn make_part(
     c: &Connection,
     links: [usize; 2],
     m: &Meeting,
@@ -227,15 +234,15 @@ fn part(
     part
 }
 
-fn couple(c: &Connection, links: [usize; 2], robot: &mut Robot) {
-    let m = match meeting(c.holds, &c.frames[0], &c.frames[1]) {
+fn add_coupling(c: &Connection, links: [usize; 2], robot: &mut Robot) {
+    let m = match find_meeting(c.holds, &c.frames[0], &c.frames[1]) {
         Ok(m) => m,
         Err(why) => return left_out(c, why, robot),
     };
-    robot.report.map(c.holds.word());
+    robot.report.count_mapped(c.holds.word());
     let element = c.label();
     let said = (element.as_str(), c.element);
-    if let Some(found) = coupling(&m, links, &robot.joints, &robot.places, said) {
+    if let Some(found) = find_coupling(&m, links, &robot.joints, &robot.places, said) {
         robot.couplings.push(found);
         return;
     }
@@ -243,9 +250,9 @@ fn couple(c: &Connection, links: [usize; 2], robot: &mut Robot) {
         "{}: its parts are not both connected to one part by a hinge or a slider; its constraints are those of this pose, and may differ in others",
         c.holds.word()
     );
-    robot.report.approximate(&element, what);
+    robot.report.add_approximation(&element, what);
     robot.here_only = true;
-    let mut held = part(c, links, &m, &robot.places, &Options::default());
+    let mut held = make_part(c, links, &m, &robot.places, &Options::default());
     held.closes = true;
     robot.joints.push(held);
 }
@@ -257,7 +264,7 @@ fn left_out(c: &Connection, why: &str, robot: &mut Robot) {
 }
 
 /// Describes a misfit, such as "0.02 mm and 1.2 degrees".
-pub(crate) fn words([shift, turn]: [f64; 2], unit: Unit) -> String {
+pub(crate) fn describe_misfit([shift, turn]: [f64; 2], unit: Unit) -> String {
     let number = |x: f64| match x {
         x if x >= 0.095 => format!("{x:.1}"),
         x => format!("{x:.1e}"),

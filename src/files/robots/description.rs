@@ -56,7 +56,7 @@ pub(crate) struct Part {
 impl Part {
     /// Returns the value and the limits of a joint of one freedom that is outside them after it moved so far; `None` if it is
     /// within them or has no limits.
-    pub(in crate::robots) fn exceeded(&self, moved: f64) -> Option<[f64; 3]> {
+    pub(in crate::robots) fn exceeded_limits(&self, moved: f64) -> Option<[f64; 3]> {
         let (Some((low, high)), [value]) = (self.limits, &self.values[..]) else {
             return None;
         };
@@ -96,7 +96,7 @@ impl Part {
     ///
     /// # Errors
     /// Returns an error if both places are on the same link.
-    pub(crate) fn closing(
+    pub(crate) fn new_closing(
         e: Element<'_>,
         id: &str,
         ends: [(usize, RigidMotion); 2],
@@ -120,7 +120,7 @@ impl Part {
     }
 
     /// Rotates the joint to another axis of its frame.
-    pub(crate) fn about(mut self, axis: Vector) -> Part {
+    pub(crate) fn with_axis(mut self, axis: Vector) -> Part {
         self.axis = axis;
         self.second = perpendicular(axis);
         self
@@ -138,11 +138,11 @@ impl Part {
 
 /// Returns the error for a joint or constraint that connects a link to itself.
 pub(crate) fn same_link(e: Element<'_>) -> ImportError {
-    e.unsupported("it connects a link to itself", "name two different links")
+    e.unsupported_error("it connects a link to itself", "name two different links")
 }
 
 /// Returns a joint type with all six freedoms.
-pub(crate) fn free() -> JointType {
+pub(crate) fn free_joint() -> JointType {
     use Freedom::{Rx, Ry, Rz, Tx, Ty, Tz};
     JointType::Custom(vec![Tx, Ty, Tz, Rx, Ry, Rz])
 }
@@ -178,7 +178,7 @@ impl Ratio {
     }
 
     /// Returns the rate at a value of the leader: the derivative of the polynomial.
-    pub(in crate::robots) fn at(&self, value: f64) -> f64 {
+    pub(in crate::robots) fn rate_at(&self, value: f64) -> f64 {
         let [two, three, four] = self.higher;
         self.ratio + value * (2.0 * two + value * (3.0 * three + value * 4.0 * four))
     }
@@ -262,7 +262,7 @@ impl Robot {
     }
 
     /// Adds a link; its frame gets its name.
-    pub(crate) fn link(&mut self, name: &str, place: RigidMotion) -> usize {
+    pub(crate) fn add_link(&mut self, name: &str, place: RigidMotion) -> usize {
         let l = self.links.len();
         self.links.push(name.to_owned());
         self.places.push(place);

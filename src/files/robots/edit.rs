@@ -5,7 +5,9 @@ use crate::geom::vector::Vector;
 use crate::robots::description::Part;
 use crate::robots::description::origin::Origin;
 use crate::robots::description::physical::Light;
-use crate::robots::mechanism::series_of_single_joints::{Names, comment, escape, numbers};
+use crate::robots::mechanism::series_of_single_joints::{
+    Names, escape_comment, escape_xml, format_numbers,
+};
 use crate::robots::sdf::include::is_old;
 use crate::robots::warning::{Read, syntax_problem};
 use crate::robots::xml::element::Element;
@@ -43,57 +45,57 @@ impl<'a> Edits<'a> {
     /// Returns a name that no element has.
     pub(crate) fn name(&mut self, wanted: &str) -> String {
         let nth = |n| format!("{wanted}_{n}");
-        self.names.unique(wanted.to_owned(), nth)
+        self.names.unique_name(wanted.to_owned(), nth)
     }
 
-    fn text(&self, e: Element<'_>) -> &'a str {
+    fn source_text(&self, e: Element<'_>) -> &'a str {
         &self.origin.document.sources[e.node().source].text
     }
 
     /// Returns the text of the element in its file.
-    pub(crate) fn raw(&self, e: Element<'_>) -> &'a str {
-        &self.text(e)[e.node().span.start..end(e)]
+    pub(crate) fn raw_text(&self, e: Element<'_>) -> &'a str {
+        &self.source_text(e)[e.node().span.start..end_of(e)]
     }
 
-    pub(crate) fn replace(&mut self, e: Element<'_>, span: Range<usize>, by: String) {
+    pub(crate) fn replace_span(&mut self, e: Element<'_>, span: Range<usize>, by: String) {
         self.list.push((e.node().source, span, by));
     }
 
     /// Gives an attribute another value, or adds it.
-    pub(crate) fn set(&mut self, e: Element<'_>, name: &str, value: &str) -> Read<()> {
+    pub(crate) fn set_attribute(&mut self, e: Element<'_>, name: &str, value: &str) -> Read<()> {
         let value = quick_xml::escape::escape(value).into_owned();
         match (e.attribute(name), e.value_span(name)) {
-            (_, Some(span)) => self.replace(e, span, value),
+            (_, Some(span)) => self.replace_span(e, span, value),
             (Some(_), None) => {
                 let why = format!("its attribute {name} is written with character references");
-                return Err(e.unsupported(&why, "write the characters themselves"));
+                return Err(e.unsupported_error(&why, "write the characters themselves"));
             }
             (None, None) => {
                 // Behind the tag's name.
                 let at = e.node().span.start + 1 + e.name().len();
-                self.replace(e, at..at, format!(" {name}=\"{value}\""));
+                self.replace_span(e, at..at, format!(" {name}=\"{value}\""));
             }
         }
         Ok(())
     }
 
     /// Inserts lines after an element, with its indentation.
-    pub(crate) fn after(&mut self, e: Element<'_>, lines: &[String]) {
-        let (indent, newline) = self.layout(e);
+    pub(crate) fn insert_after(&mut self, e: Element<'_>, lines: &[String]) {
+        let (indent, newline) = self.find_layout(e);
         let text = lines.iter().map(|l| format!("{newline}{indent}{l}"));
         let text = text.collect();
-        self.replace(e, end(e)..end(e), text);
+        self.replace_span(e, end_of(e)..end_of(e), text);
     }
 
     /// Inserts lines as the last children of an element.
-    pub(crate) fn within(&mut self, e: Element<'_>, lines: &[String]) {
+    pub(crate) fn append_child(&mut self, e: Element<'_>, lines: &[String]) {
         let all = self.children.entry(e.id).or_default();
         all.extend_from_slice(lines);
     }
 
     /// Returns the indentation of an element and the line ending of its file.
-    fn layout(&self, e: Element<'_>) -> (&'a str, &'static str) {
-        let text = self.text(e);
+    fn find_layout(&self, e: Element<'_>) -> (&'a str, &'static str) {
+        let text = self.source_text(e);
         let before = &text[..e.node().span.start];
         let line = &before[before.rfind('\n').map_or(0, |n| n + 1)..];
         let indent = if line.trim().is_empty() { line } else { "" };
@@ -101,10 +103,10 @@ impl<'a> Edits<'a> {
         (indent, newline)
     }
 
-    fn children(&mut self) {
+    fn write_children(&mut self) {
         for (id, lines) in std::mem::take(&mut self.children) {
             let e = self.origin.element(id);
-            let (indent, newline) = self.layout(e);
+            let (indent, newline) = self.find_layout(e);
             let inner: String = lines
                 .iter()
                 .map(|l| format!("{newline}{indent}  {l}"))
@@ -113,21 +115,21 @@ impl<'a> Edits<'a> {
             if node.close.is_empty() {
                 // <body .../> is opened.
                 let slash = node.span.end - 2..node.span.end;
-                self.replace(
+                self.replace_span(
                     e,
                     slash,
                     format!(">{inner}{newline}{indent}</{}>", e.name()),
                 );
             } else {
-                let at = self.text(e)[..node.close.start].trim_end().len();
-                self.replace(e, at..at, inner);
+                let at = self.source_text(e)[..node.close.start].trim_end().len();
+                self.replace_span(e, at..at, inner);
             }
         }
     }
 
     /// Returns the text of the description with all edits.
-    pub(crate) fn apply(mut self) -> Read<String> {
-        self.children();
+    pub(crate) fn apply_edits(mut self) -> Read<String> {
+        self.write_children();
         let sources = &self.origin.document.sources;
         // The root's file is the first that was read.
         if let Some((source, span, _)) = self.list.iter().find(|(s, ..)| *s != 0) {
@@ -161,24 +163,26 @@ impl<'a> Edits<'a> {
 }
 
 /// Returns the end of an element.
-pub(crate) fn end(e: Element<'_>) -> usize {
+pub(crate) fn end_of(e: Element<'_>) -> usize {
     e.node().close.end.max(e.node().span.end)
 }
 
 /// Gives joints freedoms. Inserted joints come before the joint: its child, its name and its followers stay.
 pub(crate) fn free_urdf(origin: &Origin, all: &[Freeing<'_>], edits: &mut Edits<'_>) -> Read<()> {
-    let light = Light::in_description(&origin.document).urdf();
+    let light = Light::in_description(&origin.document).write_urdf();
     for &(part, e, freed) in all {
         // A loop's first link has the place of the loop in its own attributes, a joint in an element of its own.
         let (tag, at) = match e.name() {
-            "joint" => ("parent", e.child("origin")),
-            _ => ("link1", e.child("link1")),
+            "joint" => ("parent", e.first_child("origin")),
+            _ => ("link1", e.first_child("link1")),
         };
-        let Some(end) = e.child(tag) else {
-            return Err(e.unsupported("it has no end that can be changed", "choose another joint"));
+        let Some(end) = e.first_child(tag) else {
+            return Err(
+                e.unsupported_error("it has no end that can be changed", "choose another joint")
+            );
         };
         let frame = origin.places[part.links[0]].then(&part.sides[0]);
-        let mut from = end.required("link")?.to_owned();
+        let mut from = end.required_attribute("link")?.to_owned();
         let mut place = at.map_or(String::new(), origin_of);
         let mut lines = Vec::new();
         for (slides, direction, why) in freed {
@@ -191,23 +195,23 @@ pub(crate) fn free_urdf(origin: &Origin, all: &[Freeing<'_>], edits: &mut Edits<
             lines.push(format!("<!-- {why} -->"));
             lines.push(format!(
                 "<link name=\"{}\">{light}</link>",
-                escape(&between)
+                escape_xml(&between)
             ));
             lines.push(format!(
                 "<joint name=\"{}\" type=\"{kind}\"><parent link=\"{}\"/><child link=\"{}\"/>{place}<axis xyz=\"{}\"/>{limit}</joint>",
-                escape(&name),
-                escape(&from),
-                escape(&between),
-                numbers(frame.inverse().direction(*direction)),
+                escape_xml(&name),
+                escape_xml(&from),
+                escape_xml(&between),
+                format_numbers(frame.inverse().map_direction(*direction)),
             ));
             place.clear();
             from = between;
         }
-        edits.after(e, &lines);
-        edits.set(end, "link", &from)?;
+        edits.insert_after(e, &lines);
+        edits.set_attribute(end, "link", &from)?;
         for (key, zero) in [("xyz", "0 0 0"), ("rpy", "0 0 0"), ("quat_xyzw", "0 0 0 1")] {
             if let Some(at) = at.filter(|at| at.attribute(key).is_some()) {
-                edits.set(at, key, zero)?;
+                edits.set_attribute(at, key, zero)?;
             }
         }
     }
@@ -221,7 +225,7 @@ const LIMIT: &str = "<limit lower=\"-1\" upper=\"1\" effort=\"0\" velocity=\"0\"
 fn origin_of(at: Element<'_>) -> String {
     let given = ["xyz", "rpy", "quat_xyzw"].into_iter().filter_map(|key| {
         let value = at.attribute(key)?;
-        Some(format!(" {key}=\"{}\"", escape(value)))
+        Some(format!(" {key}=\"{}\"", escape_xml(value)))
     });
     format!("<origin{}/>", given.collect::<String>())
 }
@@ -234,19 +238,19 @@ pub(crate) fn comment_out(
     edits: &mut Edits<'_>,
 ) -> Read<()> {
     let e = origin.element(element);
-    let raw = comment(edits.raw(e));
-    let span = e.node().span.start..end(e);
-    edits.replace(e, span, format!("<!-- {why}; it was {raw} -->"));
+    let raw = escape_comment(edits.raw_text(e));
+    let span = e.node().span.start..end_of(e);
+    edits.replace_span(e, span, format!("<!-- {why}; it was {raw} -->"));
     Ok(())
 }
 
 /// Gives joints freedoms.
 pub(crate) fn free_sdf(origin: &Origin, all: &[Freeing<'_>], edits: &mut Edits<'_>) -> Read<()> {
-    let light = Light::in_description(&origin.document).sdf();
+    let light = Light::in_description(&origin.document).write_sdf();
     for &(part, e, freed) in all {
         let remedy = "choose another joint";
-        let (Some(child), "joint") = (e.child("child"), e.name()) else {
-            return Err(e.unsupported("no link can be inserted there", remedy));
+        let (Some(child), "joint") = (e.first_child("child"), e.name()) else {
+            return Err(e.unsupported_error("no link can be inserted there", remedy));
         };
         let mut nodes = origin.document.nodes.iter();
         let model = nodes
@@ -254,11 +258,15 @@ pub(crate) fn free_sdf(origin: &Origin, all: &[Freeing<'_>], edits: &mut Edits<'
             .unwrap_or(origin.root);
         let model = origin.element(model);
         let named = |l: &Element<'_>| l.attribute("name") == Some(child.text());
-        let Some(link) = model.named("link").find(named) else {
-            return Err(e.unsupported("its child is not a link of the same model", remedy));
+        let Some(link) = model.children_named("link").find(named) else {
+            return Err(e.unsupported_error("its child is not a link of the same model", remedy));
         };
         let frame = axes_frame(origin, model, part, e)?;
-        let pose = |e: Element<'_>| e.child("pose").map_or("", |p| edits.raw(p)).to_owned();
+        let pose = |e: Element<'_>| {
+            e.first_child("pose")
+                .map_or("", |p| edits.raw_text(p))
+                .to_owned()
+        };
         let (link_pose, joint_pose) = (pose(link), pose(e));
         let mut lines = Vec::new();
         let mut chain = Vec::new();
@@ -270,11 +278,11 @@ pub(crate) fn free_sdf(origin: &Origin, all: &[Freeing<'_>], edits: &mut Edits<'
             };
             let between = edits.name(&format!("{}_{word}_link", part.id.replace("::", "_")));
             let name = edits.name(&format!("{}_{word}", part.id.replace("::", "_")));
-            let axis = numbers(frame.inverse().direction(*direction));
+            let axis = format_numbers(frame.inverse().map_direction(*direction));
             lines.push(format!("<!-- {why} -->"));
             lines.push(format!(
                 "<link name=\"{}\">{link_pose}{light}</link>",
-                escape(&between)
+                escape_xml(&between)
             ));
             chain.push((name, kind, between, axis));
         }
@@ -282,14 +290,14 @@ pub(crate) fn free_sdf(origin: &Origin, all: &[Freeing<'_>], edits: &mut Edits<'
             let next = chain.get(i + 1).map_or(child.text(), |c| &c.2);
             lines.push(format!(
                 "<joint name=\"{}\" type=\"{kind}\">{joint_pose}<parent>{}</parent><child>{}</child><axis><xyz>{axis}</xyz><limit><lower>-1e16</lower><upper>1e16</upper></limit></axis></joint>",
-                escape(name),
-                escape(between),
-                escape(next),
+                escape_xml(name),
+                escape_xml(between),
+                escape_xml(next),
             ));
         }
         let inner = child.node().span.end..child.node().close.start;
-        edits.replace(child, inner, escape(&chain[0].2));
-        edits.after(e, &lines);
+        edits.replace_span(child, inner, escape_xml(&chain[0].2));
+        edits.insert_after(e, &lines);
     }
     Ok(())
 }
@@ -309,7 +317,7 @@ fn axes_frame(
         return Ok(origin.places[to].then(&last.sides[1]));
     }
     let back = origin.robot.places[to].then(&origin.places[to].inverse());
-    let pose = model.child("pose").map(|p| p.text_numbers::<6>());
+    let pose = model.first_child("pose").map(|p| p.text_numbers::<6>());
     let [_, _, _, roll, pitch, yaw] = pose.transpose()?.unwrap_or_default();
     let model = RigidMotion::roll_pitch_yaw([0.0; 3], [roll, pitch, yaw]);
     Ok(back.inverse().then(&model))

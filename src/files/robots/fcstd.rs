@@ -8,11 +8,11 @@ use crate::geom::rigid::RigidMotion;
 use crate::robots::cad::archive::Archive;
 use crate::robots::cad::{Assembly, Connection, NO_LIMITS};
 use crate::robots::description::{Robot, Unit};
-use crate::robots::fcstd::distance::{Held, Shapes, Slide, frames, held};
+use crate::robots::fcstd::distance::{Held, Shapes, Slide, joint_constraint, joint_frames};
 use crate::robots::fcstd::objects::{Object, Objects};
-use crate::robots::fcstd::reference::{Documents, Reference, reference};
+use crate::robots::fcstd::reference::{Documents, Reference, read_reference};
 use crate::robots::warning::{Options, Reader};
-use crate::robots::warning::{Read, known, syntax_problem, too_many, unknown_name};
+use crate::robots::warning::{Read, list_known, syntax_problem, too_many, unknown_name};
 use crate::robots::xml::element::Element;
 use crate::robots::xml::{self, Document};
 use std::collections::{BTreeMap, BTreeSet};
@@ -32,72 +32,75 @@ const LIMITS: &str = "EnableLengthMin EnableLengthMax EnableAngleMin EnableAngle
 ///
 /// # Errors
 /// Returns the first problem found, with its place.
-pub(crate) fn read(
+pub(crate) fn read_document(
     document: &mut Document,
     root: usize,
     read: Reader<'_>,
     options: &Options,
 ) -> Read<Robot> {
     let mut robot = Robot::new("");
-    let roots = linked(document, root, read, &mut robot)?;
+    let roots = read_linked(document, root, read, &mut robot)?;
     let mut documents = Documents {
-        main: Objects::of(document.element(root))?,
+        main: Objects::read_objects(document.element(root))?,
         linked: BTreeMap::new(),
     };
     for (file, root) in &roots {
-        let objects = Objects::of(document.element(*root))?;
+        let objects = Objects::read_objects(document.element(*root))?;
         documents.linked.insert(file.clone(), objects);
     }
-    let assembly = chosen(document, root, &documents.main, options, &mut robot)?;
+    let assembly = choose_assembly(document, root, &documents.main, options, &mut robot)?;
     let shapes = |member: &str| String::from_utf8(read(member).ok()?).ok();
     let reading = Assembling {
         documents: &documents,
         assembly,
-        joints: joints(&documents.main, &assembly),
+        joints: assembly_joints(&documents.main, &assembly),
         shapes: &shapes,
     };
-    let assembly = reading.assembly(document, root, &mut robot)?;
-    Ok(assembly.robot(robot, options))
+    let assembly = reading.read_assembly(document, root, &mut robot)?;
+    Ok(assembly.to_robot(robot, options))
 }
 
 /// Reads the documents that links lead to, with those that these lead to; their root elements by the names of their files.
-fn linked(
+fn read_linked(
     document: &mut Document,
     root: usize,
     read: Reader<'_>,
     robot: &mut Robot,
 ) -> Read<BTreeMap<String, usize>> {
     let mut out = BTreeMap::new();
-    let mut wanted = files(document, root)?;
+    let mut wanted = linked_files(document, root)?;
     let mut seen: BTreeSet<String> = wanted.iter().cloned().collect();
     while let Some(file) = wanted.pop() {
         if out.len() >= MAX_LINKED {
             let problem = too_many("linked documents", MAX_LINKED);
-            return Err(document.element(root).fail(None, problem));
+            return Err(document.element(root).error_at(None, problem));
         }
         let bytes = match read(&file) {
             Ok(bytes) => bytes,
             Err(why) => {
-                robot.report.drop(
+                robot.report.count_dropped(
                     &format!("linked document that cannot be read ({why})"),
                     Some(&file),
                 );
                 continue;
             }
         };
-        let archive = Archive::of(&file, &bytes);
-        let member = archive.map(|a| a.member(DOCUMENT)).transpose()?.flatten();
+        let archive = Archive::find_archive(&file, &bytes);
+        let member = archive
+            .map(|a| a.read_member(DOCUMENT))
+            .transpose()?
+            .flatten();
         let Some(member) = member else {
-            robot.report.drop(
+            robot.report.count_dropped(
                 "linked document that is not a FreeCAD document",
                 Some(&file),
             );
             continue;
         };
         let name = format!("{file}/{DOCUMENT}");
-        let inner = document.read(&name, xml::utf8(&name, &member)?)?;
+        let inner = document.read(&name, xml::decode_utf8(&name, &member)?)?;
         out.insert(file, inner);
-        for more in files(document, inner)? {
+        for more in linked_files(document, inner)? {
             if seen.insert(more.clone()) {
                 wanted.push(more);
             }
@@ -107,16 +110,18 @@ fn linked(
 }
 
 /// Returns the files that links of a document refer to.
-fn files(document: &Document, root: usize) -> Read<Vec<String>> {
-    let objects = Objects::of(document.element(root))?;
-    let files = objects.all().filter_map(|o| Some(o.linked()?.0.to_owned()));
+fn linked_files(document: &Document, root: usize) -> Read<Vec<String>> {
+    let objects = Objects::read_objects(document.element(root))?;
+    let files = objects
+        .all_objects()
+        .filter_map(|o| Some(o.linked_object()?.0.to_owned()));
     let files: BTreeSet<String> = files.filter(|f| !f.is_empty()).collect();
     Ok(files.into_iter().collect())
 }
 
 /// Objects of the groups of another, groups within groups and parts of assemblies that move by themselves, too.
-fn below<'a>(objects: &Objects<'a>, of: &Object<'a>, out: &mut Vec<Object<'a>>) {
-    for name in of.links("Group") {
+fn collect_below<'a>(objects: &Objects<'a>, of: &Object<'a>, out: &mut Vec<Object<'a>>) {
+    for name in of.linked_names("Group") {
         let Some(&child) = objects.get(name) else {
             continue;
         };
@@ -125,28 +130,30 @@ fn below<'a>(objects: &Objects<'a>, of: &Object<'a>, out: &mut Vec<Object<'a>>) 
         }
         out.push(child);
         if child.is_group() || child.kind == "Assembly::JointGroup" {
-            below(objects, &child, out);
+            collect_below(objects, &child, out);
         }
     }
 }
 
 /// Returns the joints of an assembly, in the order of its groups.
-fn joints<'a>(objects: &Objects<'a>, assembly: &Object<'a>) -> Vec<Object<'a>> {
+fn assembly_joints<'a>(objects: &Objects<'a>, assembly: &Object<'a>) -> Vec<Object<'a>> {
     let mut all = Vec::new();
-    below(objects, assembly, &mut all);
-    all.retain(|o| o.property("JointType").is_some() || o.property("ObjectToGround").is_some());
+    collect_below(objects, assembly, &mut all);
+    all.retain(|o| {
+        o.find_property("JointType").is_some() || o.find_property("ObjectToGround").is_some()
+    });
     all
 }
 
 /// Returns the chosen assembly: the named one, or else the one with most joints.
-fn chosen<'a>(
+fn choose_assembly<'a>(
     document: &'a Document,
     root: usize,
     objects: &Objects<'a>,
     options: &Options,
     robot: &mut Robot,
 ) -> Read<Object<'a>> {
-    let all: Vec<Object<'a>> = (objects.all())
+    let all: Vec<Object<'a>> = (objects.all_objects())
         .filter(|o| o.kind == "Assembly::AssemblyObject")
         .copied()
         .collect();
@@ -154,24 +161,24 @@ fn chosen<'a>(
     if let Some(wanted) = &options.assembly {
         let named = |o: &&Object<'a>| o.label() == wanted || o.name == wanted;
         return all.iter().find(named).copied().ok_or_else(|| {
-            let known = known("assemblies", all.iter().map(Object::label));
+            let known = list_known("assemblies", all.iter().map(Object::label));
             let problem = unknown_name("--assembly", "assembly", wanted, &known);
-            root.fail(None, problem)
+            root.error_at(None, problem)
         });
     }
-    let count = |o: &&Object<'a>| joints(objects, o).len();
+    let count = |o: &&Object<'a>| assembly_joints(objects, o).len();
     // Of assemblies with equally many joints, the first.
     let Some(&most) = all.iter().rev().max_by_key(count) else {
         let message =
             "there is no assembly in the document; make one with FreeCAD's Assembly workbench";
-        return Err(root.fail(None, syntax_problem(message)));
+        return Err(root.error_at(None, syntax_problem(message)));
     };
     for other in all.iter().filter(|o| o.name != most.name) {
         let what = format!(
             "another assembly of the document, which is not read; this is assembly \"{}\" (the option `assembly` selects another)",
             most.label()
         );
-        robot.report.drop(&what, Some(other.label()));
+        robot.report.count_dropped(&what, Some(other.label()));
     }
     Ok(most)
 }
@@ -196,11 +203,16 @@ struct Parts<'a> {
 }
 
 impl<'a> Assembling<'a, '_> {
-    fn assembly(&self, document: &'a Document, root: usize, robot: &mut Robot) -> Read<Assembly> {
-        let ended = self.ended(robot)?;
-        let grounded = self.grounded(&ended, robot);
-        let Parts { parts, place } = self.parts(&ended, &grounded, document.element(root))?;
-        let slides = slides(&ended)?;
+    fn read_assembly(
+        &self,
+        document: &'a Document,
+        root: usize,
+        robot: &mut Robot,
+    ) -> Read<Assembly> {
+        let ended = self.joints_with_ends(robot)?;
+        let grounded = self.grounded_parts(&ended, robot);
+        let Parts { parts, place } = self.find_parts(&ended, &grounded, document.element(root))?;
+        let slides = slide_directions(&ended)?;
         let of = |end: &Reference<'_>| end.part.map_or(0, |p| place.get(p).copied().unwrap_or(0));
         let mut connections = Vec::new();
         let mut labels = BTreeSet::new();
@@ -212,7 +224,7 @@ impl<'a> Assembling<'a, '_> {
                 format!("{label} ({})", joint.name)
             };
             let element = format!("joint \"{id}\"");
-            let Some(found) = held(word, joint, ends, &slides, self.shapes)? else {
+            let Some(found) = joint_constraint(word, joint, ends, &slides, self.shapes)? else {
                 let what = format!("omitted: its type {word} is not known");
                 robot.report.leave_out_joint(&element, UNKNOWN_ROWS, what);
                 continue;
@@ -225,10 +237,10 @@ impl<'a> Assembling<'a, '_> {
             } = found;
             let doubts = ends.iter().filter_map(|e| e.doubt.clone());
             for doubt in doubts.chain(doubt.map(str::to_owned)) {
-                robot.report.assume(&element, doubt);
+                robot.report.add_assumption(&element, doubt);
             }
             if LIMITS.split(' ').any(|l| joint.is_true(l) == Some(true)) {
-                robot.report.approximate(&element, NO_LIMITS);
+                robot.report.add_approximation(&element, NO_LIMITS);
             }
             let [a, b] = [of(&ends[0]), of(&ends[1])];
             connections.push(Connection {
@@ -237,7 +249,7 @@ impl<'a> Assembling<'a, '_> {
                 frames,
                 holds,
                 element: joint
-                    .property("JointType")
+                    .find_property("JointType")
                     .map_or(joint.listed.id, |p| p.id),
             });
         }
@@ -250,7 +262,7 @@ impl<'a> Assembling<'a, '_> {
     }
 
     /// Returns the parts that joints hold; grounded parts are merged with the ground and name it.
-    fn parts(
+    fn find_parts(
         &self,
         ended: &[Ended<'a>],
         grounded: &BTreeSet<&'a str>,
@@ -264,7 +276,7 @@ impl<'a> Assembling<'a, '_> {
             if place.contains_key(part) {
                 continue;
             }
-            root.room("parts", parts.len())?;
+            root.check_room("parts", parts.len())?;
             let label = self.documents.main.get(part).map_or(part, Object::label);
             if grounded.contains(part) {
                 if place.values().all(|p| *p != 0) {
@@ -280,19 +292,21 @@ impl<'a> Assembling<'a, '_> {
     }
 
     /// Returns the joints whose two ends are known; the others are reported.
-    fn ended(&self, robot: &mut Robot) -> Read<Vec<Ended<'a>>> {
+    fn joints_with_ends(&self, robot: &mut Robot) -> Read<Vec<Ended<'a>>> {
         let mut out = Vec::new();
         for joint in &self.joints {
-            let Some(word) = joint.word("JointType")? else {
+            let Some(word) = joint.enumeration_word("JointType")? else {
                 continue;
             };
             let off = joint.is_true("Suppressed") == Some(true)
                 || joint.is_true("Activated") == Some(false);
             if off {
-                robot.report.drop("suppressed joint", Some(joint.label()));
+                robot
+                    .report
+                    .count_dropped("suppressed joint", Some(joint.label()));
                 continue;
             }
-            let end = |which: &str| reference(joint, which, &self.assembly, self.documents);
+            let end = |which: &str| read_reference(joint, which, &self.assembly, self.documents);
             match (end("Reference1")?, end("Reference2")?) {
                 (Ok(a), Ok(b)) => out.push((*joint, word, [a, b])),
                 (Err(why), _) | (_, Err(why)) => {
@@ -306,9 +320,9 @@ impl<'a> Assembling<'a, '_> {
     }
 
     /// Returns the grounded parts, or the first part of the first joint if nothing is grounded.
-    fn grounded(&self, ended: &[Ended<'a>], robot: &mut Robot) -> BTreeSet<&'a str> {
+    fn grounded_parts(&self, ended: &[Ended<'a>], robot: &mut Robot) -> BTreeSet<&'a str> {
         let mut grounded: BTreeSet<&str> = (self.joints.iter())
-            .flat_map(|j| j.links("ObjectToGround"))
+            .flat_map(|j| j.linked_names("ObjectToGround"))
             .collect();
         let mut ends = ended.iter().flat_map(|(_, _, ends)| ends);
         let still = |e: &Reference<'_>| e.part.is_none_or(|p| grounded.contains(p));
@@ -318,18 +332,18 @@ impl<'a> Assembling<'a, '_> {
             let label = self.documents.main.get(part).map_or(part, Object::label);
             let what =
                 format!("nothing that joints hold is grounded; {label} is taken as the ground");
-            robot.report.moved(what);
+            robot.report.add_moved(what);
         }
         grounded
     }
 }
 
 /// Returns the directions of sliders, by the parts they join.
-fn slides<'a>(ended: &[Ended<'a>]) -> Read<Vec<Slide<'a>>> {
+fn slide_directions<'a>(ended: &[Ended<'a>]) -> Read<Vec<Slide<'a>>> {
     let mut out = Vec::new();
     for (joint, word, ends) in ended {
         if *word == "Slider" {
-            let [frame, _] = frames(joint, ends)?;
+            let [frame, _] = joint_frames(joint, ends)?;
             let direction = frame.rotation.map(|row| row[2]);
             out.extend(ends.iter().map(|e| (e.part, direction)));
         }

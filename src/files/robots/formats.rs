@@ -79,31 +79,31 @@ static FORMATS: [Format; 9] = [
         name: "URDF",
         about: "A spanning tree, loops as <loop_joint>",
         endings: &["urdf", "xacro", "xml"],
-        read: Some(("robot", urdf::read)),
-        write: Some(FormatWriter::Mechanism(urdf::write::urdf)),
+        read: Some(("robot", urdf::read_urdf)),
+        write: Some(FormatWriter::Mechanism(urdf::write::write_urdf)),
     },
     Format {
         word: "mjcf",
         name: "MJCF",
         about: "Bodies; loops as connect and weld",
         endings: &["mjcf", "xml"],
-        read: Some(("mujoco", mjcf::read)),
-        write: Some(FormatWriter::Mechanism(mjcf::write::mjcf)),
+        read: Some(("mujoco", mjcf::read_mujoco)),
+        write: Some(FormatWriter::Mechanism(mjcf::write::write_mjcf)),
     },
     Format {
         word: "sdf",
         name: "SDF",
         about: "Loops closed by joints",
         endings: &["sdf", "world", "xml"],
-        read: Some(("sdf", sdf::read)),
-        write: Some(FormatWriter::Mechanism(|m| Ok(sdf::write::sdf(m)))),
+        read: Some(("sdf", sdf::read_sdf)),
+        write: Some(FormatWriter::Mechanism(|m| Ok(sdf::write::write_sdf(m)))),
     },
     Format {
         word: "fcstd",
         name: "FreeCAD",
         about: "FILE, a FreeCAD document, with joints of other types",
         endings: &["fcstd"],
-        read: Some(("Document", fcstd::read)),
+        read: Some(("Document", fcstd::read_document)),
         write: Some(FormatWriter::Own),
     },
     Format {
@@ -111,7 +111,7 @@ static FORMATS: [Format; 9] = [
         name: "OndselSolver",
         about: "FILE, an assembly of FreeCAD's solver, with joints of other types",
         endings: &["asmt"],
-        read: Some(("Assembly", asmt::read)),
+        read: Some(("Assembly", asmt::read_assembly)),
         write: Some(FormatWriter::Own),
     },
     Format {
@@ -120,7 +120,7 @@ static FORMATS: [Format; 9] = [
         about: "Graphviz",
         endings: &[],
         read: None,
-        write: Some(FormatWriter::Mechanism(|m| Ok(graph::dot(m).into()))),
+        write: Some(FormatWriter::Mechanism(|m| Ok(graph::write_dot(m).into()))),
     },
     Format {
         word: "graphml",
@@ -128,18 +128,20 @@ static FORMATS: [Format; 9] = [
         about: "GraphML, for graph programs",
         endings: &[],
         read: None,
-        write: Some(FormatWriter::Mechanism(|m| Ok(graph::graphml(m).into()))),
+        write: Some(FormatWriter::Mechanism(|m| {
+            Ok(graph::write_graphml(m).into())
+        })),
     },
 ];
 
 /// Returns true if a format can only be written from files read in it, with joints changed.
 #[must_use]
 pub fn is_own(word: &str) -> bool {
-    written().any(|f| f.word == word && matches!(f.write, Some(FormatWriter::Own)))
+    writable_formats().any(|f| f.word == word && matches!(f.write, Some(FormatWriter::Own)))
 }
 
 /// Returns the formats in which a mechanism can be written.
-pub fn written() -> impl Iterator<Item = &'static Format> {
+pub fn writable_formats() -> impl Iterator<Item = &'static Format> {
     FORMATS.iter().filter(|f| f.write.is_some())
 }
 
@@ -163,13 +165,16 @@ pub fn write(m: &Mechanism, word: &str) -> Result<String, ExportError> {
 /// # Errors
 /// Returns the errors of [`write()`].
 pub fn export(m: &Mechanism, word: &str) -> Result<FormattedFile, ExportError> {
-    let format = written().find(|f| f.word == word);
+    let format = writable_formats().find(|f| f.word == word);
     match format.and_then(|f| Some((f.name, f.write?))) {
         Some((_, FormatWriter::Mechanism(write))) => write(m),
         Some((format, FormatWriter::Own)) => Err(ExportError::Own { format }),
         None => Err(ExportError::Unknown {
             word: word.to_owned(),
-            known: written().map(|f| f.word).collect::<Vec<_>>().join(", "),
+            known: writable_formats()
+                .map(|f| f.word)
+                .collect::<Vec<_>>()
+                .join(", "),
         }),
     }
 }
@@ -188,7 +193,7 @@ pub fn is_description(name: &str) -> bool {
 #[must_use]
 pub fn begins_description(bytes: &[u8]) -> bool {
     let text = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
-    Archive::of("", bytes).is_some()
+    Archive::find_archive("", bytes).is_some()
         || asmt::is_one(text)
         || text.trim_ascii_start().starts_with(b"<")
 }
@@ -204,7 +209,7 @@ pub(crate) fn of_root(element: &str) -> Option<(&'static Format, Describe)> {
 }
 
 /// Lists the root elements that can be read.
-pub(crate) fn roots() -> String {
+pub(crate) fn list_roots() -> String {
     let known = FORMATS.iter().filter_map(|f| Some((f.read?.0, f.name)));
     let words: Vec<String> = known
         .map(|(root, name)| format!("<{root}> ({name})"))
@@ -299,7 +304,7 @@ static FOREIGN: [Foreign; 38] = [
 ///
 /// # Errors
 /// Returns the name of the format and the remedy.
-pub fn refuse(name: &str, bytes: &[u8]) -> Result<(), ImportError> {
+pub fn refuse_foreign(name: &str, bytes: &[u8]) -> Result<(), ImportError> {
     let path = std::path::Path::new(name);
     let ending = path
         .extension()
@@ -348,7 +353,7 @@ mod tests {
     #[test]
     fn root_elements_are_listed() {
         assert_eq!(
-            roots(),
+            list_roots(),
             "<robot> (URDF), <mujoco> (MJCF), <sdf> (SDF), <Document> (FreeCAD) and <Assembly> (OndselSolver)"
         );
     }

@@ -1,16 +1,16 @@
 //! The graph of links and joints: Graphviz DOT and GraphML.
 
-use crate::file::write::role;
+use crate::file::write::role_word;
 use crate::geom::expr::Expr;
 use crate::model::mechanism::{Joint, JointId, LinkId, Mechanism, Role};
-use crate::robots::mechanism::series_of_single_joints::escape;
+use crate::robots::mechanism::series_of_single_joints::escape_xml;
 use petgraph::dot::{Config, Dot};
 use petgraph::graph::UnGraph;
 use std::fmt::Write;
 
 /// Writes links as nodes (the frame with a double outline, outputs filled) and joints as edges with their class.
 #[must_use]
-pub(super) fn dot(m: &Mechanism) -> String {
+pub(super) fn write_dot(m: &Mechanism) -> String {
     let mut graph: UnGraph<LinkId, JointId> = UnGraph::new_undirected();
     let nodes: Vec<_> = m.link_ids().map(|l| graph.add_node(l)).collect();
     for (j, joint) in m.joints_with_ids() {
@@ -25,8 +25,13 @@ pub(super) fn dot(m: &Mechanism) -> String {
         } else {
             ""
         };
-        let label = format!("{}\n{} {}", j.id, j.joint_type.class(), j.joint_type.name());
-        format!("label={}{drive}{dashed}", quoted(&label))
+        let label = format!(
+            "{}\n{} {}",
+            j.id,
+            j.joint_type.class_numeral(),
+            j.joint_type.name()
+        );
+        format!("label={}{drive}{dashed}", quote_dot(&label))
     };
     let node = |_: &UnGraph<LinkId, JointId>, (_, l): (petgraph::graph::NodeIndex, &LinkId)| {
         let link = &m.links[*l];
@@ -36,15 +41,15 @@ pub(super) fn dot(m: &Mechanism) -> String {
             Role::Object => " shape=octagon",
             Role::Inner => " shape=box",
         };
-        format!("label={}{shape}", quoted(&link.id))
+        format!("label={}{shape}", quote_dot(&link.id))
     };
     let none = [Config::NodeNoLabel, Config::EdgeNoLabel];
     let body = format!("{:?}", Dot::with_attr_getters(&graph, &none, &edge, &node));
-    body.replacen("graph {", &format!("graph {} {{", quoted(&m.name)), 1)
+    body.replacen("graph {", &format!("graph {} {{", quote_dot(&m.name)), 1)
 }
 
 /// Quotes a string for DOT.
-fn quoted(text: &str) -> String {
+fn quote_dot(text: &str) -> String {
     let inner = text
         .replace('\\', "\\\\")
         .replace('"', "\\\"")
@@ -66,7 +71,7 @@ const KEYS: [(&str, &str, &str); 8] = [
 
 /// Writes links as nodes and joints as edges, with all data on the structure.
 #[must_use]
-pub(super) fn graphml(m: &Mechanism) -> String {
+pub(super) fn write_graphml(m: &Mechanism) -> String {
     let mut out = String::from(
         "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<graphml xmlns=\"http://graphml.graphdrawing.org/xmlns\">\n",
     );
@@ -79,43 +84,47 @@ pub(super) fn graphml(m: &Mechanism) -> String {
     let _ = writeln!(
         out,
         "  <graph id=\"{}\" edgedefault=\"undirected\">",
-        escape(&m.name)
+        escape_xml(&m.name)
     );
     for link in &m.links {
-        let _ = writeln!(out, "    <node id=\"{}\">", escape(&link.id));
-        datum(&mut out, "role", role(link.role).unwrap_or("inner"));
+        let _ = writeln!(out, "    <node id=\"{}\">", escape_xml(&link.id));
+        write_datum(&mut out, "role", role_word(link.role).unwrap_or("inner"));
         out.push_str("    </node>\n");
     }
     for j in &m.joints {
-        edge(&mut out, m, j);
+        write_edge(&mut out, m, j);
     }
     out.push_str("  </graph>\n</graphml>\n");
     out
 }
 
-fn datum(out: &mut String, key: &str, value: &str) {
-    let _ = writeln!(out, "      <data key=\"{key}\">{}</data>", escape(value));
+fn write_datum(out: &mut String, key: &str, value: &str) {
+    let _ = writeln!(
+        out,
+        "      <data key=\"{key}\">{}</data>",
+        escape_xml(value)
+    );
 }
 
 /// Writes a joint as an edge of GraphML.
-fn edge(out: &mut String, m: &Mechanism, j: &Joint) {
-    let [a, b] = j.links.map(|l| escape(&m.links[l].id));
+fn write_edge(out: &mut String, m: &Mechanism, j: &Joint) {
+    let [a, b] = j.links.map(|l| escape_xml(&m.links[l].id));
     let _ = writeln!(
         out,
         "    <edge id=\"{}\" source=\"{a}\" target=\"{b}\">",
-        escape(&j.id)
+        escape_xml(&j.id)
     );
     let text = |v: &[Expr; 3]| v.each_ref().map(ToString::to_string).join(" ");
     let freedoms = j.joint_type.freedoms().len();
-    datum(out, "type", j.joint_type.name());
-    datum(out, "class", j.joint_type.class());
-    datum(out, "freedoms", &freedoms.to_string());
-    datum(out, "drive", &j.drive.to_string());
+    write_datum(out, "type", j.joint_type.name());
+    write_datum(out, "class", j.joint_type.class_numeral());
+    write_datum(out, "freedoms", &freedoms.to_string());
+    write_datum(out, "drive", &j.drive.to_string());
     if let Some(states) = &j.states {
         let names: Vec<&str> = states.iter().map(|&s| m.states[s].as_str()).collect();
-        datum(out, "states", &names.join(" "));
+        write_datum(out, "states", &names.join(" "));
     }
-    datum(out, "point", &text(&j.frame.point));
-    datum(out, "axis", &text(&j.frame.axis));
+    write_datum(out, "point", &text(&j.frame.point));
+    write_datum(out, "axis", &text(&j.frame.axis));
     out.push_str("    </edge>\n");
 }

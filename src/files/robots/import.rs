@@ -6,11 +6,11 @@
 //! entries of its file, with a [`Report`] of what was mapped, approximated and dropped.
 
 use crate::file::problem::{ImportError, ProblemKind};
-use crate::file::read::build;
+use crate::file::read::build_mechanism;
 use crate::file::schema::{MechanismFile, ToleranceEntry};
 use crate::file::text::mechanism_from_str;
 use crate::file::write::{self, Comment};
-use crate::geom::extent::diagonal;
+use crate::geom::extent::box_diagonal;
 use crate::geom::rigid::RigidMotion;
 use crate::model::mechanism::Mechanism;
 use crate::robots::asmt;
@@ -19,10 +19,10 @@ use crate::robots::description::kinematics::spanning_tree;
 use crate::robots::description::origin::Origin;
 use crate::robots::description::{Robot, coupling, digits, loops};
 use crate::robots::fcstd::DOCUMENT;
-use crate::robots::formats::{Format, of_root, refuse, roots};
-use crate::robots::mechanism::loop_closing::size;
+use crate::robots::formats::{Format, list_roots, of_root, refuse_foreign};
+use crate::robots::mechanism::loop_closing::robot_size;
 use crate::robots::mechanism::{
-    Entries, apply_pose, close_loops, entries, held, loop_options, root_link,
+    Entries, apply_pose, check_held, close_loops, loop_options, make_entries, root_link,
 };
 use crate::robots::warning::{ExportError, syntax_problem};
 use crate::robots::warning::{Options, Reader, Report};
@@ -56,26 +56,26 @@ impl Imported {
 }
 
 /// Reads the root element of a description: of XML, of the document in an archive, or of lines indented by tabs.
-fn root(
+fn read_root(
     document: &mut Document,
     name: &str,
     bytes: &[u8],
     archive: Option<&Archive>,
 ) -> Result<usize, ImportError> {
     let Some(archive) = archive else {
-        let text = xml::utf8(name, bytes)?;
+        let text = xml::decode_utf8(name, bytes)?;
         return if asmt::is_one(text.as_bytes()) {
-            asmt::document(document, name, text)
+            asmt::read_lines(document, name, text)
         } else {
             document.read(name, text)
         };
     };
     let name = format!("{name}/{DOCUMENT}");
-    let Some(found) = archive.member(DOCUMENT)? else {
+    let Some(found) = archive.read_member(DOCUMENT)? else {
         let message = format!("the archive has no {DOCUMENT}; it is not a FreeCAD document");
         return Err(syntax_problem(message).in_file(&name, "", None));
     };
-    document.read(&name, xml::utf8(&name, &found)?)
+    document.read(&name, xml::decode_utf8(&name, &found)?)
 }
 
 /// Imports a description. `read` gives the files it includes.
@@ -88,27 +88,27 @@ pub fn import(
     read: Reader<'_>,
     options: &Options,
 ) -> Result<Imported, ImportError> {
-    refuse(name, bytes)?;
+    refuse_foreign(name, bytes)?;
     let mut document = Document::default();
-    let archive = Archive::of(name, bytes);
-    let root = root(&mut document, name, bytes, archive.as_ref())?;
+    let archive = Archive::find_archive(name, bytes);
+    let root = read_root(&mut document, name, bytes, archive.as_ref())?;
     // Members of the archive take precedence over files next to it.
-    let inner = |member: &str| match archive.as_ref().map(|a| a.member(member)) {
+    let inner = |member: &str| match archive.as_ref().map(|a| a.read_member(member)) {
         Some(Ok(Some(found))) => Ok(found),
         _ => read(member),
     };
     let read: Reader<'_> = &inner;
-    let (format, mut robot) = described(&mut document, root, read, options)?;
+    let (format, mut robot) = read_described(&mut document, root, read, options)?;
     let fail = |p: ProblemKind| p.in_file(name, "", None);
     match &options.loops {
-        Some((side, bytes)) => loops::add(side, bytes, &mut robot)?,
-        None if format.word == "urdf" => loops::beside(name, read, &mut robot),
+        Some((side, bytes)) => loops::add_loops(side, bytes, &mut robot)?,
+        None if format.word == "urdf" => loops::report_beside(name, read, &mut robot),
         None => {}
     }
     apply_pose(&mut robot, options).map_err(fail)?;
     let frame = root_link(&mut robot, options).map_err(fail)?;
     let tree = spanning_tree(&robot, frame);
-    held(&robot, &tree).map_err(fail)?;
+    check_held(&robot, &tree).map_err(fail)?;
     close_loops(&mut robot, &tree, options).map_err(fail)?;
     let Entries {
         mut file,
@@ -116,12 +116,12 @@ pub fn import(
         places,
         joints,
         couplings,
-    } = entries(&mut robot, &tree, name, format.name, options).map_err(fail)?;
+    } = make_entries(&mut robot, &tree, name, format.name, options).map_err(fail)?;
     file.assumed.clone_from(&robot.report.assumed);
-    file.tolerance = tolerance(document.element(root), &robot, &places, &joints);
+    file.tolerance = find_tolerance(document.element(root), &robot, &places, &joints);
     let closes: Vec<bool> = joints.iter().map(|&j| robot.joints[j].closes).collect();
     let mechanism = with_offers(&mut file, &comments, &closes)?;
-    robot.report.kept = coupling::kept(&mechanism);
+    robot.report.kept = coupling::kept_couplings(&mechanism);
     Ok(Imported {
         mechanism,
         file,
@@ -141,24 +141,24 @@ pub fn import(
 }
 
 /// Returns the accuracy of a robot: from its reader, or from the digits of the numbers below its root element.
-fn tolerance(
+fn find_tolerance(
     root: Element<'_>,
     robot: &Robot,
     places: &[RigidMotion],
     joints: &[usize],
 ) -> Option<ToleranceEntry> {
     if let Some(known) = robot.known_to {
-        return digits::stated(known);
+        return digits::stated_tolerance(known);
     }
     let at_joints = joints.iter().map(|&j| {
         let part = &robot.joints[j];
         places[part.links[0]].then(&part.sides[0]).translation
     });
-    digits::tolerance(root, size(robot), diagonal(at_joints))
+    digits::find_tolerance(root, robot_size(robot), box_diagonal(at_joints))
 }
 
 /// Returns the robot that the reader of its root element finds.
-fn described(
+fn read_described(
     document: &mut Document,
     root: usize,
     read: Reader<'_>,
@@ -166,21 +166,21 @@ fn described(
 ) -> Result<(&'static Format, Robot), ImportError> {
     let found = document.element(root).name().to_owned();
     let Some((format, describe)) = of_root(&found) else {
-        let known = roots();
+        let known = list_roots();
         let element = document.element(root);
         let message = format!("the root element is <{found}>; {known} can be read");
-        return Err(element.fail(None, syntax_problem(message)));
+        return Err(element.error_at(None, syntax_problem(message)));
     };
-    expanded(document)?;
+    check_expanded(document)?;
     let robot = describe(document, root, read, options)?;
     if robot.links.is_empty() {
-        return Err(document.element(root).missing("links"));
+        return Err(document.element(root).missing_error("links"));
     }
     Ok((format, robot))
 }
 
 /// Refuses a template whose macros are not expanded, because no element contains their content.
-fn expanded(document: &Document) -> Result<(), ImportError> {
+fn check_expanded(document: &Document) -> Result<(), ImportError> {
     let all = (0..document.nodes.len()).map(|id| document.element(id));
     let is_macro = |e: &Element<'_>| {
         let values = e.attributes().map(|(_, v)| v).chain([e.text()]);
@@ -192,7 +192,7 @@ fn expanded(document: &Document) -> Result<(), ImportError> {
     };
     match all.into_iter().find(is_macro) {
         None => Ok(()),
-        Some(e) => Err(e.unsupported(
+        Some(e) => Err(e.unsupported_error(
             "the file is xacro, a template whose macros are not expanded",
             "run `xacro FILE > robot.urdf` and give the result",
         )),
@@ -206,13 +206,13 @@ fn with_offers(
     closes: &[bool],
 ) -> Result<Mechanism, ImportError> {
     // Problems are shown in the text that would be written.
-    let mechanism = build(file).or_else(|_| {
+    let mechanism = build_mechanism(file).or_else(|_| {
         let text = write::toml(file, comments).unwrap_or_default();
         mechanism_from_str("the imported mechanism", &text)
     })?;
     let mut offered = file.clone();
     if loop_options::at_loops(&mechanism, closes, &mut offered)
-        && let Ok(m) = build(&offered)
+        && let Ok(m) = build_mechanism(&offered)
     {
         *file = offered;
         return Ok(m);

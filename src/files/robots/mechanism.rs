@@ -9,23 +9,25 @@ use crate::file::problem::ProblemKind;
 use crate::file::read::value::LIMITS;
 use crate::file::schema::MechanismFile;
 use crate::file::write::Comment;
-use crate::format::plural;
+use crate::format::count_noun;
 use crate::geom::rigid::RigidMotion;
 use crate::model::joint_type::JointType;
-use crate::robots::description::kinematics::{Tree, places, spanning_tree};
-use crate::robots::description::{Part, Robot, coupling, free};
+use crate::robots::description::kinematics::{Tree, link_places, spanning_tree};
+use crate::robots::description::{Part, Robot, coupling, free_joint};
 use crate::robots::mechanism::entries::{Bodies, Content};
 use crate::robots::mechanism::entries::{link_of, output_links};
-use crate::robots::mechanism::loop_closing::{CLOSED, ROUNDED, close, gaps, size, worst};
+use crate::robots::mechanism::loop_closing::{
+    CLOSED, ROUNDED, close_numerically, loop_gaps, robot_size, worst_gap,
+};
 use crate::robots::warning::Options;
-use crate::robots::warning::{bad_value, known, syntax_problem, unknown_name};
+use crate::robots::warning::{bad_value, list_known, syntax_problem, unknown_name};
 use itertools::Itertools;
 use std::collections::BTreeSet;
 
 pub(crate) fn apply_pose(robot: &mut Robot, options: &Options) -> Result<(), ProblemKind> {
     for (id, values) in &options.pose {
         let Some(joint) = robot.joints.iter_mut().find(|j| j.id == *id) else {
-            let known = known("joints", robot.joints.iter().map(|j| &j.id));
+            let known = list_known("joints", robot.joints.iter().map(|j| &j.id));
             return Err(unknown_name("the pose", "joint", id, &known));
         };
         if values.len() != joint.values.len() || !values.iter().all(|v| v.abs() <= 1e9) {
@@ -62,14 +64,14 @@ pub(crate) fn root_link(robot: &mut Robot, options: &Options) -> Result<usize, P
         .unwrap_or(0);
     // A model that nothing holds to the world falls, as far as engines are concerned.
     let falls = robot.world.is_none_or(|w| !held(&w));
-    let parts = loose(robot, &spanning_tree(robot, root)).len();
+    let parts = loose_roots(robot, &spanning_tree(robot, root)).len();
     let apart = robot.floats && (falls || parts > 0);
     if !options.floating && !apart {
         return Ok(root);
     }
     let world = match robot.world {
         Some(w) => w,
-        None => robot.link("world", RigidMotion::IDENTITY),
+        None => robot.add_link("world", RigidMotion::IDENTITY),
     };
     robot.world = Some(world);
     // Every tree of links that the world does not hold floats by itself.
@@ -77,8 +79,10 @@ pub(crate) fn root_link(robot: &mut Robot, options: &Options) -> Result<usize, P
     for &r in tree.roots.iter().skip(1) {
         let sides = [robot.places[r], RigidMotion::IDENTITY];
         let id = format!("floating-{}", robot.links[r]);
-        robot.joints.push(Part::new(&id, [world, r], sides, free()));
-        robot.report.map("floating base");
+        robot
+            .joints
+            .push(Part::new(&id, [world, r], sides, free_joint()));
+        robot.report.count_mapped("floating base");
     }
     if apart && !options.floating {
         let what = if parts == 0 {
@@ -86,13 +90,13 @@ pub(crate) fn root_link(robot: &mut Robot, options: &Options) -> Result<usize, P
         } else {
             "parts without joints float freely in the world"
         };
-        robot.report.moved(what.to_owned());
+        robot.report.add_moved(what.to_owned());
     }
     Ok(world)
 }
 
 /// Returns the roots other than the frame, except a world that holds nothing.
-fn loose(robot: &Robot, tree: &Tree) -> Vec<usize> {
+fn loose_roots(robot: &Robot, tree: &Tree) -> Vec<usize> {
     let jointless =
         |l: usize| robot.world == Some(l) && !robot.joints.iter().any(|j| j.links.contains(&l));
     let others = tree.roots.iter().skip(1).copied();
@@ -100,8 +104,8 @@ fn loose(robot: &Robot, tree: &Tree) -> Vec<usize> {
 }
 
 /// Checks that every link is connected to the frame.
-pub(crate) fn held(robot: &Robot, tree: &Tree) -> Result<(), ProblemKind> {
-    let loose = loose(robot, tree);
+pub(crate) fn check_held(robot: &Robot, tree: &Tree) -> Result<(), ProblemKind> {
+    let loose = loose_roots(robot, tree);
     let loose: Vec<&str> = loose.iter().map(|&l| robot.links[l].as_str()).collect();
     if loose.is_empty() {
         return Ok(());
@@ -126,10 +130,10 @@ pub(crate) fn close_loops(
     if tree.loops.is_empty() {
         return Ok(());
     }
-    let size = size(robot);
+    let size = robot_size(robot);
     let unit = robot.unit.symbol();
-    let first = worst(&gaps(robot, tree), size);
-    let loops = plural(tree.loops.len(), "loop");
+    let first = worst_gap(&loop_gaps(robot, tree), size);
+    let loops = count_noun(tree.loops.len(), "loop");
     if first <= CLOSED * size {
         robot.report.pose.push(format!(
             "{loops} closed in the pose of the file, to {first:.1e} {unit}"
@@ -137,16 +141,16 @@ pub(crate) fn close_loops(
         return Ok(());
     }
     if options.open {
-        let widest = widest(robot, tree, size);
+        let widest = widest_gap(robot, tree, size);
         let note =
             format!("loops are open, the widest by {widest}; the figures are those of that pose");
-        robot.report.moved(note);
+        robot.report.add_moved(note);
         return Ok(());
     }
     let before: Vec<Vec<f64>> = robot.joints.iter().map(|j| j.values.clone()).collect();
-    let (left, outside) = close(robot, tree);
+    let (left, outside) = close_numerically(robot, tree);
     if left > ROUNDED * size {
-        let widest = widest(robot, tree, size);
+        let widest = widest_gap(robot, tree, size);
         return Err(syntax_problem(format!(
             "the loops do not close, the widest is {widest}; give a nearby `pose`, or set `open` to leave them open"
         )));
@@ -155,14 +159,14 @@ pub(crate) fn close_loops(
         let what = format!(
             "open by {left:.1e} {unit} in every pose, within the rounding of the coordinates; treated as closed"
         );
-        robot.report.approximate(&loops, what);
+        robot.report.add_approximation(&loops, what);
     }
     let moved = moved_most(robot, tree, &before);
     let limits = match outside {
         0 => String::new(),
         n => format!("; {n} outside their limits"),
     };
-    robot.report.moved(format!(
+    robot.report.add_moved(format!(
         "{loops} open by {first:.1e} {unit} in the pose of the file, closed to {left:.1e} {unit} by moving joints{moved}{limits}"
     ));
     Ok(())
@@ -183,10 +187,10 @@ fn moved_most(robot: &Robot, tree: &Tree, before: &[Vec<f64>]) -> String {
 }
 
 /// Describes the loop with the widest gap.
-fn widest(robot: &Robot, tree: &Tree, size: f64) -> String {
+fn widest_gap(robot: &Robot, tree: &Tree, size: f64) -> String {
     let unit = robot.unit.symbol();
     let by = |g: &loop_closing::Gap| g.shift.max(g.turn * size);
-    let gaps = gaps(robot, tree);
+    let gaps = loop_gaps(robot, tree);
     let most = gaps.iter().max_by(|a, b| by(a).total_cmp(&by(b)));
     most.map_or(String::new(), |g| {
         let p = &robot.joints[g.joint];
@@ -228,16 +232,16 @@ pub(crate) struct Entries {
 }
 
 /// Returns the entries of the file called `file` of a `format`.
-pub(crate) fn entries(
+pub(crate) fn make_entries(
     robot: &mut Robot,
     tree: &Tree,
     file: &str,
     format: &'static str,
     options: &Options,
 ) -> Result<Entries, ProblemKind> {
-    let places = places(robot, tree);
+    let places = link_places(robot, tree);
     let (bodies, joints) = rigid_bodies(robot, tree)?;
-    let couplings = coupling::usable(robot, &joints);
+    let couplings = coupling::usable_couplings(robot, &joints);
     let frame = bodies.of[tree.roots[0]];
     let outputs = output_links(robot, &bodies, &joints, frame, options)?;
     let mut report = std::mem::take(&mut robot.report);
@@ -252,10 +256,10 @@ pub(crate) fn entries(
     report.size = (used.len(), joints.len());
     within_limits(used.len(), joints.len())?;
     let limited = robot.joints.iter().filter(|j| j.limits.is_some());
-    limited.for_each(|j| report.drop("limit of a joint", Some(&j.id)));
+    limited.for_each(|j| report.count_dropped("limit of a joint", Some(&j.id)));
     robot.report = report;
     let file = std::path::Path::new(file).file_name();
-    let (file, comments) = entries::entries(&Content {
+    let (file, comments) = entries::make_file(&Content {
         robot,
         file: &file.unwrap_or_default().to_string_lossy(),
         format,
@@ -299,7 +303,9 @@ fn rigid_bodies(robot: &mut Robot, tree: &Tree) -> Result<(Bodies, Vec<usize>), 
     }
     for id in within {
         let what = "both ends are on one rigid body; omitted, with all its rows redundant";
-        robot.report.approximate(&format!("joint \"{id}\""), what);
+        robot
+            .report
+            .add_approximation(&format!("joint \"{id}\""), what);
     }
     if joints.is_empty() {
         let links = robot.links.len();

@@ -12,8 +12,8 @@ use crate::geom::rigid::RigidMotion;
 use crate::geom::vector::{Vector, Z, length};
 use crate::model::joint_type::JointType;
 use crate::robots::additions::leave_out;
-use crate::robots::description::{Part, Robot, free};
-use crate::robots::mjcf::context::{Context, compiler};
+use crate::robots::description::{Part, Robot, free_joint};
+use crate::robots::mjcf::context::{Context, read_compiler};
 use crate::robots::mjcf::context::{Defaults, Lookup};
 use crate::robots::warning::{Options, Reader};
 use crate::robots::warning::{Read, bad_value};
@@ -38,7 +38,7 @@ struct Waiting<'a> {
 
 impl<'a> Waiting<'a> {
     /// Returns the world, which is the first link.
-    fn world(element: Element<'a>) -> Waiting<'a> {
+    fn at_world(element: Element<'a>) -> Waiting<'a> {
         Waiting {
             element,
             link: 0,
@@ -48,7 +48,7 @@ impl<'a> Waiting<'a> {
     }
 
     /// Returns an element within this one, which a link holds at the given place.
-    fn within(&self, element: Element<'a>, link: usize, place: RigidMotion) -> Waiting<'a> {
+    fn at_element(&self, element: Element<'a>, link: usize, place: RigidMotion) -> Waiting<'a> {
         let class = element.attribute("childclass").or(self.class);
         Waiting {
             element,
@@ -60,42 +60,42 @@ impl<'a> Waiting<'a> {
 }
 
 /// Reads a `<mujoco>` and the files it includes.
-pub(crate) fn read(
+pub(crate) fn read_mujoco(
     document: &mut Document,
     root: usize,
     inner: Reader<'_>,
     options: &Options,
 ) -> Read<Robot> {
-    include::expand(document, root, inner, !options.models.is_empty())?;
-    replicate::expand(document, root)?;
+    include::expand_includes(document, root, inner, !options.models.is_empty())?;
+    replicate::expand_replicates(document, root)?;
     let root = document.element(root);
     let name = root.attribute("model").unwrap_or("robot");
     let mut robot = Robot::new(name);
     let mut context = Context {
-        compiler: compiler(root)?,
+        compiler: read_compiler(root)?,
         defaults: Defaults::read(root)?,
         sites: BTreeMap::new(),
     };
-    let world = robot.link("world", RigidMotion::IDENTITY);
+    let world = robot.add_link("world", RigidMotion::IDENTITY);
     robot.world = Some(world);
-    for w in root.named("worldbody") {
+    for w in root.children_named("worldbody") {
         robot.said_by(world, w);
-        bodies(Waiting::world(w), &mut context, &mut robot)?;
+        read_bodies(Waiting::at_world(w), &mut context, &mut robot)?;
     }
     for section in root.children() {
         match section.name() {
             "worldbody" | "compiler" | "default" => {}
-            "equality" => equality::read(section, root, &context, &mut robot)?,
+            "equality" => equality::read_equalities(section, root, &context, &mut robot)?,
             "actuator" => {
                 for a in section.children() {
-                    actuator(a, root, &mut robot);
+                    read_actuator(a, root, &mut robot);
                 }
             }
             "deformable" => {
                 let what = "deformable bodies are not links; omitted";
-                robot.report.approximate(&section.label(), what);
+                robot.report.add_approximation(&section.label(), what);
             }
-            other if section.is_one_of(SECTIONS) => robot.report.drop(other, None),
+            other if section.is_one_of(SECTIONS) => robot.report.count_dropped(other, None),
             _ => leave_out(section, None, &mut robot),
         }
     }
@@ -103,14 +103,14 @@ pub(crate) fn read(
 }
 
 /// Records the joint that an actuator drives, or those that it pulls by a tendon.
-fn actuator(a: Element<'_>, root: Element<'_>, robot: &mut Robot) {
+fn read_actuator(a: Element<'_>, root: Element<'_>, robot: &mut Robot) {
     let name = a.attribute("name");
     // Whichever frame it acts in.
     let joint = a.attribute("joint").or(a.attribute("jointinparent"));
     let mut joints = robot.joints.iter_mut();
     if let Some(j) = joints.find(|j| Some(j.id.as_str()) == joint) {
         j.drive = true;
-        robot.report.drop("data of an actuator", name);
+        robot.report.count_dropped("data of an actuator", name);
         return;
     }
     let pulled = of_tendon(root, a);
@@ -120,7 +120,7 @@ fn actuator(a: Element<'_>, root: Element<'_>, robot: &mut Robot) {
         .iter_mut()
         .filter(pulled)
         .for_each(|j| j.pulled = true);
-    robot.report.drop("actuator", name);
+    robot.report.count_dropped("actuator", name);
 }
 
 /// Returns the names of the joints that an actuator moves by a fixed tendon.
@@ -128,49 +128,58 @@ fn of_tendon<'a>(root: Element<'a>, actuator: Element<'a>) -> Vec<&'a str> {
     let Some(name) = actuator.attribute("tendon") else {
         return Vec::new();
     };
-    let all = root.named("tendon").flat_map(|s| s.named("fixed"));
+    let all = root
+        .children_named("tendon")
+        .flat_map(|s| s.children_named("fixed"));
     let called = all.filter(|f| f.attribute("name") == Some(name));
-    let joints = called.flat_map(|f| f.named("joint"));
+    let joints = called.flat_map(|f| f.children_named("joint"));
     joints.filter_map(|j| j.attribute("joint")).collect()
 }
 
-fn bodies<'a>(start: Waiting<'a>, context: &mut Context<'a>, robot: &mut Robot) -> Read<()> {
+fn read_bodies<'a>(start: Waiting<'a>, context: &mut Context<'a>, robot: &mut Robot) -> Read<()> {
     let mut stack = vec![start];
     while let Some(w) = stack.pop() {
         let mut here = Vec::new();
         for e in w.element.children() {
-            let inner = |link, place| w.within(e, link, place);
+            let inner = |link, place| w.at_element(e, link, place);
             match e.name() {
                 "body" => {
-                    let place = w.place.then(&context.compiler.place(e)?);
-                    let link = body(e, w.link, place, inner(0, place).class, context, robot)?;
+                    let place = w.place.then(&context.compiler.read_place(e)?);
+                    let link = read_body(e, w.link, place, inner(0, place).class, context, robot)?;
                     robot.said_by(link, e);
                     here.push(inner(link, RigidMotion::IDENTITY));
                 }
                 "frame" => {
-                    here.push(inner(w.link, w.place.then(&context.compiler.place(e)?)));
+                    here.push(inner(
+                        w.link,
+                        w.place.then(&context.compiler.read_place(e)?),
+                    ));
                 }
-                "site" => site(e, &w, context, robot)?,
+                "site" => read_site(e, &w, context, robot)?,
                 "joint" | "freejoint" if w.link != 0 => {}
                 "joint" | "freejoint" => {
-                    return Err(e.unsupported("the world cannot move", "put the joint into a body"));
+                    return Err(
+                        e.unsupported_error("the world cannot move", "put the joint into a body")
+                    );
                 }
                 "flexcomp" | "attach" => {
                     let what = "its result when the model is compiled is omitted; save the compiled model from MuJoCo as XML to include it";
                     match e.name() {
                         "attach" => robot.report.leave_out_joint(&e.label(), 6, what),
-                        _ => robot.report.approximate(&e.label(), what),
+                        _ => robot.report.add_approximation(&e.label(), what),
                     }
                 }
                 "composite" => {
                     let remedy = "save the compiled model from MuJoCo as XML and import that file";
-                    return Err(e.unsupported("it makes bodies when the model is compiled", remedy));
+                    return Err(
+                        e.unsupported_error("it makes bodies when the model is compiled", remedy)
+                    );
                 }
                 other => {
                     if other == "geom" {
                         robot.shown.insert(w.link);
                     }
-                    robot.report.drop(other, e.attribute("name"));
+                    robot.report.count_dropped(other, e.attribute("name"));
                 }
             }
         }
@@ -179,10 +188,15 @@ fn bodies<'a>(start: Waiting<'a>, context: &mut Context<'a>, robot: &mut Robot) 
     Ok(())
 }
 
-fn site(e: Element<'_>, w: &Waiting<'_>, context: &mut Context<'_>, robot: &mut Robot) -> Read<()> {
-    let place = w.place.then(&context.compiler.place(e)?);
+fn read_site(
+    e: Element<'_>,
+    w: &Waiting<'_>,
+    context: &mut Context<'_>,
+    robot: &mut Robot,
+) -> Read<()> {
+    let place = w.place.then(&context.compiler.read_place(e)?);
     let Some(name) = e.attribute("name") else {
-        robot.report.drop("site", None);
+        robot.report.count_dropped("site", None);
         return Ok(());
     };
     if context
@@ -190,19 +204,19 @@ fn site(e: Element<'_>, w: &Waiting<'_>, context: &mut Context<'_>, robot: &mut 
         .insert(name.to_owned(), (w.link, place))
         .is_some()
     {
-        return Err(e.duplicate());
+        return Err(e.duplicate_error());
     }
     robot
         .frames
         .entry(name.to_owned())
         .or_insert((w.link, place));
     robot.shown.insert(w.link);
-    robot.report.map("site");
+    robot.report.count_mapped("site");
     Ok(())
 }
 
 /// Reads a body and its joints, in series through extra links if there are several.
-fn body<'a>(
+fn read_body<'a>(
     e: Element<'a>,
     parent: usize,
     place: RigidMotion,
@@ -212,27 +226,31 @@ fn body<'a>(
 ) -> Read<usize> {
     let name = match e.attribute("name") {
         Some(n) if robot.frame(n).is_some() && robot.links.iter().any(|l| l == n) => {
-            return Err(e.duplicate());
+            return Err(e.duplicate_error());
         }
         Some(n) => n.to_owned(),
         None => format!("body-{}", robot.links.len()),
     };
-    e.room("bodies", robot.links.len())?;
-    e.room("joints", robot.joints.len())?;
+    e.check_room("bodies", robot.links.len())?;
+    e.check_room("joints", robot.joints.len())?;
     let world = robot.places[parent].then(&place);
     let mut joints = Vec::new();
     own_joints(e, RigidMotion::IDENTITY, class, context, &mut joints)?;
-    robot.report.map("body");
+    robot.report.count_mapped("body");
     if joints.is_empty() {
-        let link = robot.link(&name, world);
+        let link = robot.add_link(&name, world);
         // A hand or a recording moves it in six freedoms: it is a drive, and not part of the frame.
         let mocap = e.attribute("mocap") == Some("true");
-        let kind = if mocap { free() } else { JointType::Fixed };
+        let kind = if mocap {
+            free_joint()
+        } else {
+            JointType::Fixed
+        };
         let sides = [place, RigidMotion::IDENTITY];
         let mut part = Part::new(&name, [parent, link], sides, kind).said_by(e);
         if mocap {
             part.drive = true;
-            robot.report.map("mocap body, as a drive");
+            robot.report.count_mapped("mocap body, as a drive");
         }
         robot.joints.push(part);
         return Ok(link);
@@ -240,17 +258,17 @@ fn body<'a>(
     let (mut from, mut at) = (parent, place);
     for (i, j) in joints.iter().enumerate() {
         let link = if i + 1 == joints.len() {
-            robot.link(&name, world)
+            robot.add_link(&name, world)
         } else {
             let between = format!("{name}~{}", i + 1);
-            robot.link(&between, world)
+            robot.add_link(&between, world)
         };
-        let part = joint(j, &name, [from, link], at, context, robot)?;
+        let part = read_joint(j, &name, [from, link], at, context, robot)?;
         robot.joints.push(part);
         (from, at) = (link, RigidMotion::IDENTITY);
     }
     if joints.len() > 1 {
-        robot.report.map("body on joints in series");
+        robot.report.count_mapped("body on joints in series");
     }
     Ok(from)
 }
@@ -280,7 +298,7 @@ fn own_joints<'a>(
                 class,
             }),
             "frame" => {
-                let inner = place.then(&context.compiler.place(c)?);
+                let inner = place.then(&context.compiler.read_place(c)?);
                 let class = c.attribute("childclass").or(class);
                 own_joints(c, inner, class, context, out)?;
             }
@@ -293,13 +311,13 @@ fn own_joints<'a>(
 /// Returns the name of a joint: its own, or one made from its body's and its type.
 fn joint_id(e: Element<'_>, body: &str, word: &str, robot: &Robot) -> Read<String> {
     match e.attribute("name") {
-        Some(n) if robot.joints.iter().any(|j| j.id == n) => Err(e.duplicate()),
+        Some(n) if robot.joints.iter().any(|j| j.id == n) => Err(e.duplicate_error()),
         Some(n) => Ok(n.to_owned()),
         None => Ok(format!("{body}.{word}")),
     }
 }
 
-fn joint<'a>(
+fn read_joint<'a>(
     own: &OwnJoint<'a>,
     body: &str,
     links: [usize; 2],
@@ -313,7 +331,7 @@ fn joint<'a>(
         class,
     } = own;
     let tag = if e.name() == "freejoint" { "" } else { "joint" };
-    let look = context.defaults.of(e, tag, class)?;
+    let look = context.defaults.lookup(e, tag, class)?;
     let word = if tag.is_empty() {
         "free"
     } else {
@@ -323,7 +341,7 @@ fn joint<'a>(
         "hinge" => JointType::Revolute,
         "slide" => JointType::Prismatic,
         "ball" => JointType::Spherical,
-        "free" => free(),
+        "free" => free_joint(),
         _ => return Err(e.unknown_word("type", word, "hinge, slide, ball, free")),
     };
     let id = joint_id(e, body, word, robot)?;
@@ -331,12 +349,12 @@ fn joint<'a>(
     let at = if word == "free" {
         RigidMotion::IDENTITY
     } else {
-        RigidMotion::shift(inner.point(pos))
+        RigidMotion::from_translation(inner.map_point(pos))
     };
     let mut part = Part::new(&id, links, [place.then(&at), at], joint_type).said_by(e);
     if matches!(word, "hinge" | "slide") {
-        let axis = axis(e, &look)?;
-        part = part.about(inner.direction(axis));
+        let axis = read_axis(e, &look)?;
+        part = part.with_axis(inner.map_direction(axis));
         let unit = if word == "hinge" {
             context.compiler.angle
         } else {
@@ -349,20 +367,20 @@ fn joint<'a>(
     }
     for key in RESISTANCE.split(' ') {
         if look.attribute(key).is_some() {
-            robot.report.drop(key, Some(&id));
+            robot.report.count_dropped(key, Some(&id));
         }
     }
-    robot.report.map(word);
+    robot.report.count_mapped(word);
     Ok(part)
 }
 
 /// Returns the direction of a hinge or a slide.
-fn axis(e: Element<'_>, look: &Lookup<'_>) -> Read<Vector> {
+fn read_axis(e: Element<'_>, look: &Lookup<'_>) -> Read<Vector> {
     let axis = look.vector("axis", Z)?;
     if length(axis) >= 1e-9 {
         return Ok(axis);
     }
     let found = look.attribute("axis").map_or("", |(_, v)| v);
     let want = "give a direction such as 0 0 1";
-    Err(e.fail(Some("axis"), bad_value(&e.label(), "axis", found, want)))
+    Err(e.error_at(Some("axis"), bad_value(&e.label(), "axis", found, want)))
 }

@@ -9,13 +9,13 @@ pub(super) mod write;
 use crate::geom::rigid::RigidMotion;
 use crate::geom::vector::{length, scale};
 use crate::model::joint_type::JointType;
-use crate::robots::additions::{ball_constraint, leave_out, plugin};
+use crate::robots::additions::{ball_constraint, leave_out, read_plugin};
 use crate::robots::description::{Part, Robot};
 use crate::robots::sdf::include::Expanded;
-use crate::robots::sdf::joints::gearbox;
-use crate::robots::sdf::joints::{joint, weld};
+use crate::robots::sdf::joints::read_gearbox;
+use crate::robots::sdf::joints::{read_joint, read_weld};
 use crate::robots::sdf::scene::{
-    BESIDE, Placed, SdfScene, absolute, end, insert, moves_with, resolve,
+    BESIDE, Placed, SdfScene, absolute_name, insert, joint_end, moves_with, resolve_places,
 };
 use crate::robots::warning::Read;
 use crate::robots::warning::{Options, Reader};
@@ -23,19 +23,21 @@ use crate::robots::xml::Document;
 use crate::robots::xml::element::Element;
 
 /// Reads an `<sdf>`.
-pub(crate) fn read(
+pub(crate) fn read_sdf(
     document: &mut Document,
     root: usize,
     inner: Reader<'_>,
     options: &Options,
 ) -> Read<Robot> {
-    let Expanded { old, scenery } = include::expand(document, root, inner)?;
+    let Expanded { old, scenery } = include::expand_includes(document, root, inner)?;
     let root = document.element(root);
     let mut robot = Robot::new("robot");
     for uri in &scenery {
-        robot.report.drop("include of a light or floor", Some(uri));
+        robot
+            .report
+            .count_dropped("include of a light or floor", Some(uri));
     }
-    robot.world = Some(robot.link("world", RigidMotion::IDENTITY));
+    robot.world = Some(robot.add_link("world", RigidMotion::IDENTITY));
     robot.floats = true;
     let mut scene = SdfScene {
         old_axes: old,
@@ -43,19 +45,19 @@ pub(crate) fn read(
         ..SdfScene::default()
     };
     let among = of_worlds(root, &mut scene);
-    models(root, among.is_empty(), &mut scene, &mut robot)?;
+    read_models(root, among.is_empty(), &mut scene, &mut robot)?;
     // Joints and frames of the world name parts with the prefix of their model.
     for e in among {
         named_place(e, "", "world", false, &mut scene)?;
     }
-    resolve(&mut scene)?;
+    resolve_places(&mut scene)?;
     place_links(&scene, &mut robot);
     // Other elements of worlds are judged by the names that are known now.
     let others = root
-        .named("world")
+        .children_named("world")
         .flat_map(|w| w.children().collect::<Vec<_>>());
     let others: Vec<Element<'_>> = others.filter(|e| !IN_WORLDS.contains(&e.name())).collect();
-    joints(scene, &mut robot)?;
+    read_joints(scene, &mut robot)?;
     for e in others {
         leave_out(e, None, &mut robot);
     }
@@ -68,7 +70,7 @@ const IN_WORLDS: [&str; 4] = ["model", "joint", "frame", "plugin"];
 /// Returns joints and frames in worlds, next to their models; plugins there are stored in the scene.
 fn of_worlds<'a>(root: Element<'a>, scene: &mut SdfScene<'a>) -> Vec<Element<'a>> {
     let mut among = Vec::new();
-    for e in root.named("world").flat_map(|w| w.children()) {
+    for e in root.children_named("world").flat_map(|w| w.children()) {
         match e.name() {
             "joint" | "frame" => among.push(e),
             "plugin" => scene.plugins.push((e, String::new())),
@@ -79,16 +81,18 @@ fn of_worlds<'a>(root: Element<'a>, scene: &mut SdfScene<'a>) -> Vec<Element<'a>
 }
 
 /// Takes in all models, those within others after them.
-fn models<'a>(
+fn read_models<'a>(
     root: Element<'a>,
     nothing_else: bool,
     scene: &mut SdfScene<'a>,
     robot: &mut Robot,
 ) -> Read<()> {
-    let of_worlds = root.named("world").flat_map(|w| w.named("model"));
-    let models: Vec<Element<'_>> = root.named("model").chain(of_worlds).collect();
+    let of_worlds = root
+        .children_named("world")
+        .flat_map(|w| w.children_named("model"));
+    let models: Vec<Element<'_>> = root.children_named("model").chain(of_worlds).collect();
     let Some(first) = models.first() else {
-        return Err(root.missing("<model>"));
+        return Err(root.missing_error("<model>"));
     };
     let name = first.attribute("name").unwrap_or("robot");
     name.clone_into(&mut robot.name);
@@ -97,15 +101,18 @@ fn models<'a>(
     let mut stack: Vec<(Element<'_>, String, bool)> =
         outermost.map(|m| (m, String::new(), false)).collect();
     while let Some((m, outer, inner)) = stack.pop() {
-        let own = m.required("name")?;
+        let own = m.required_attribute("name")?;
         // The names of a single model are kept; others get a prefix, as SDF does for nested models.
         let scope = if inner || !alone {
             format!("{outer}{own}::")
         } else {
             String::new()
         };
-        model(m, &outer, &scope, scene, robot)?;
-        let nested: Vec<_> = m.named("model").map(|n| (n, scope.clone(), true)).collect();
+        read_model(m, &outer, &scope, scene, robot)?;
+        let nested: Vec<_> = m
+            .children_named("model")
+            .map(|n| (n, scope.clone(), true))
+            .collect();
         stack.extend(nested.into_iter().rev());
     }
     Ok(())
@@ -133,27 +140,27 @@ fn place_links(scene: &SdfScene<'_>, robot: &mut Robot) {
 }
 
 /// Reads all joints, their couplings, and Drake's constraints.
-fn joints(mut scene: SdfScene<'_>, robot: &mut Robot) -> Read<()> {
+fn read_joints(mut scene: SdfScene<'_>, robot: &mut Robot) -> Read<()> {
     let far = |p: &Placed<'_>| length(p.raw.translation);
     let size = scene.placed.values().map(far).fold(1e-3, f64::max);
     let is_gearbox = |e: &Element<'_>| e.attribute("type") == Some("gearbox");
     let all = std::mem::take(&mut scene.joints).into_iter();
     let (gearboxes, joints): (Vec<_>, Vec<_>) = all.partition(|(e, _)| is_gearbox(e));
     for (e, scope) in joints {
-        joint(e, &scope, &scene, size, robot)?;
+        read_joint(e, &scope, &scene, size, robot)?;
     }
     // These couple joints that are read by now.
     for (e, scope) in gearboxes {
-        gearbox(e, &scope, &scene, robot)?;
+        read_gearbox(e, &scope, &scene, robot)?;
     }
     for (e, scope) in std::mem::take(&mut scene.constraints) {
         match e.name() {
-            "drake:weld_constraint" => weld(e, &scope, &scene, robot)?,
+            "drake:weld_constraint" => read_weld(e, &scope, &scene, robot)?,
             _ => ball_constraint(e, robot)?,
         }
     }
     for (e, scope) in std::mem::take(&mut scene.plugins) {
-        plugin(e, &scope, &scene, robot)?;
+        read_plugin(e, &scope, &scene, robot)?;
     }
     for e in std::mem::take(&mut scene.unknown) {
         leave_out(e, None, robot);
@@ -162,8 +169,8 @@ fn joints(mut scene: SdfScene<'_>, robot: &mut Robot) -> Read<()> {
 }
 
 /// Reads the pose child: its numbers, its reference frame, and its unit.
-pub(crate) fn pose(e: Element<'_>) -> Read<(RigidMotion, Option<&str>)> {
-    let Some(p) = e.child("pose") else {
+pub(crate) fn read_pose(e: Element<'_>) -> Read<(RigidMotion, Option<&str>)> {
+    let Some(p) = e.first_child("pose") else {
         return Ok((RigidMotion::IDENTITY, None));
     };
     let relative = p
@@ -175,7 +182,10 @@ pub(crate) fn pose(e: Element<'_>) -> Read<(RigidMotion, Option<&str>)> {
     }
     if p.attribute("rotation_format") == Some("quat_xyzw") {
         let [a, b, c, x, y, z, w] = p.text_numbers::<7>()?;
-        return Ok((RigidMotion::quaternion([a, b, c], [w, x, y, z]), relative));
+        return Ok((
+            RigidMotion::from_quaternion([a, b, c], [w, x, y, z]),
+            relative,
+        ));
     }
     let [x, y, z, roll, pitch, yaw] = p.text_numbers::<6>()?;
     let degrees = p
@@ -193,7 +203,7 @@ pub(crate) fn pose(e: Element<'_>) -> Read<(RigidMotion, Option<&str>)> {
 }
 
 /// Takes in what a model holds; places are worked out afterwards.
-fn model<'a>(
+fn read_model<'a>(
     m: Element<'a>,
     outer: &str,
     scope: &str,
@@ -201,17 +211,17 @@ fn model<'a>(
     robot: &mut Robot,
 ) -> Read<()> {
     let own = own_frame(m, outer, scope, scene)?;
-    let is_static = m.child("static");
+    let is_static = m.first_child("static");
     let is_static = is_static.is_some_and(|s| ["true", "1"].contains(&s.text()));
     for e in m.children() {
         match e.name() {
-            "link" => link(e, scope, &own, is_static, scene, robot)?,
+            "link" => read_link(e, scope, &own, is_static, scene, robot)?,
             "frame" => named_place(e, scope, &own, false, scene)?,
             "joint" => {
                 let wanted = e.attribute("name");
                 let others = ["link", "frame", "model"].into_iter();
                 let shared = others
-                    .flat_map(|tag| m.named(tag).collect::<Vec<_>>())
+                    .flat_map(|tag| m.children_named(tag).collect::<Vec<_>>())
                     .any(|o| o.attribute("name") == wanted);
                 named_place(e, scope, &own, shared, scene)?;
             }
@@ -220,12 +230,12 @@ fn model<'a>(
                 robot.report.leave_out_joint(&e.label(), 6, what);
             }
             "drake:weld_constraint" | "drake:ball_constraint" => {
-                e.room("constraints", scene.constraints.len())?;
+                e.check_room("constraints", scene.constraints.len())?;
                 scene.constraints.push((e, scope.to_owned()));
             }
             "plugin" => scene.plugins.push((e, scope.to_owned())),
             "model" | "pose" | "static" => {}
-            "gripper" => robot.report.drop("gripper", e.attribute("name")),
+            "gripper" => robot.report.count_dropped("gripper", e.attribute("name")),
             _ => scene.unknown.push(e),
         }
     }
@@ -239,7 +249,7 @@ fn own_frame<'a>(
     scope: &str,
     scene: &mut SdfScene<'a>,
 ) -> Read<String> {
-    let (raw, relative) = pose(m)?;
+    let (raw, relative) = read_pose(m)?;
     let own = format!("{scope}__model__");
     let relative_to = match relative {
         Some(r) => format!("{outer}{r}"),
@@ -248,7 +258,7 @@ fn own_frame<'a>(
     };
     let canonical = m
         .attribute("canonical_link")
-        .or_else(|| m.child("link").and_then(|l| l.attribute("name")));
+        .or_else(|| m.first_child("link").and_then(|l| l.attribute("name")));
     let attached_to = canonical.map_or_else(|| "world".to_owned(), |c| format!("{scope}{c}"));
     let frame = Placed::new(m, relative_to, raw, attached_to);
     insert(scene, own.clone(), frame)?;
@@ -261,7 +271,7 @@ fn own_frame<'a>(
 }
 
 /// Reads a link of a model whose own frame is `own`.
-fn link<'a>(
+fn read_link<'a>(
     e: Element<'a>,
     scope: &str,
     own: &str,
@@ -269,22 +279,22 @@ fn link<'a>(
     scene: &mut SdfScene<'a>,
     robot: &mut Robot,
 ) -> Read<()> {
-    e.room("links", robot.links.len())?;
-    let name = format!("{scope}{}", e.required("name")?);
-    let (raw, relative) = pose(e)?;
+    e.check_room("links", robot.links.len())?;
+    let name = format!("{scope}{}", e.required_attribute("name")?);
+    let (raw, relative) = read_pose(e)?;
     if name == "world" {
         // Joints that name it mean the world.
         if raw != RigidMotion::IDENTITY {
             let why = "a link named world is not in its place";
-            return Err(e.unsupported(why, "remove its pose, or give it another name"));
+            return Err(e.unsupported_error(why, "remove its pose, or give it another name"));
         }
-        robot.report.map("link that is the world");
+        robot.report.count_mapped("link that is the world");
         robot.said_by(0, e);
         return Ok(());
     }
-    let link = robot.link(&name, RigidMotion::IDENTITY);
+    let link = robot.add_link(&name, RigidMotion::IDENTITY);
     robot.said_by(link, e);
-    let to = relative.map_or_else(|| own.to_owned(), |r| absolute(scope, r));
+    let to = relative.map_or_else(|| own.to_owned(), |r| absolute_name(scope, r));
     let mut placed = Placed::new(e, to, raw, name.clone());
     placed.link = Some(link);
     insert(scene, name, placed)?;
@@ -292,7 +302,7 @@ fn link<'a>(
         if ["visual", "collision"].contains(&c.name()) {
             robot.shown.insert(link);
         }
-        robot.report.drop(c.name(), None);
+        robot.report.count_dropped(c.name(), None);
     }
     if is_static {
         scene.fixed.push(link);
@@ -308,19 +318,19 @@ pub(crate) fn named_place<'a>(
     shared: bool,
     scene: &mut SdfScene<'a>,
 ) -> Read<()> {
-    let mut name = format!("{scope}{}", e.required("name")?);
-    let (raw, relative) = pose(e)?;
+    let mut name = format!("{scope}{}", e.required_attribute("name")?);
+    let (raw, relative) = read_pose(e)?;
     let attached_to = if e.name() == "joint" {
-        e.room("joints", scene.joints.len())?;
+        e.check_room("joints", scene.joints.len())?;
         scene.joints.push((e, scope.to_owned()));
         if shared {
             name += BESIDE;
         }
-        absolute(scope, end(e, "child")?.1)
+        absolute_name(scope, joint_end(e, "child")?.1)
     } else {
         let to = e.attribute("attached_to").filter(|a| !a.is_empty());
-        to.map_or_else(|| own.to_owned(), |a| absolute(scope, a))
+        to.map_or_else(|| own.to_owned(), |a| absolute_name(scope, a))
     };
-    let relative_to = relative.map_or_else(|| attached_to.clone(), |r| absolute(scope, r));
+    let relative_to = relative.map_or_else(|| attached_to.clone(), |r| absolute_name(scope, r));
     insert(scene, name, Placed::new(e, relative_to, raw, attached_to))
 }

@@ -1,7 +1,7 @@
 //! Options of an import, and its mapped, approximated and dropped elements.
 
 use crate::file::problem::{ImportError, ProblemKind, first_of};
-use crate::format::plural;
+use crate::format::count_noun;
 use itertools::Itertools;
 use std::collections::BTreeMap;
 use std::fmt::Write;
@@ -106,17 +106,17 @@ pub struct Report {
 }
 
 impl Report {
-    pub(crate) fn map(&mut self, kind: &str) {
+    pub(crate) fn count_mapped(&mut self, kind: &str) {
         *self.mapped.entry(kind.to_owned()).or_default() += 1;
     }
 
     /// Records a difference of the pose from the drawn one.
-    pub(crate) fn moved(&mut self, what: String) {
+    pub(crate) fn add_moved(&mut self, what: String) {
         self.pose.push(what.clone());
         self.moved.push(what);
     }
 
-    pub(crate) fn approximate(&mut self, element: &str, what: impl Into<String>) {
+    pub(crate) fn add_approximation(&mut self, element: &str, what: impl Into<String>) {
         self.approximated.push(Note {
             element: element.to_owned(),
             what: what.into(),
@@ -124,22 +124,22 @@ impl Report {
     }
 
     /// Records an assumption that the file does not state.
-    pub(crate) fn assume(&mut self, element: &str, what: impl Into<String>) {
+    pub(crate) fn add_assumption(&mut self, element: &str, what: impl Into<String>) {
         let what = what.into();
         self.assumed.push(format!("{element}: {what}"));
-        self.approximate(element, what);
+        self.add_approximation(element, what);
     }
 
     /// Records a coupling of joints that is omitted, one row.
     pub(crate) fn leave_out_coupling(&mut self, element: &str, what: impl Into<String>) {
         self.coupling_rows += 1;
-        self.assume(element, what);
+        self.add_assumption(element, what);
     }
 
     /// Records a constraint between links that is omitted, with its largest possible number of rows.
     pub(crate) fn leave_out_joint(&mut self, element: &str, rows: usize, what: impl Into<String>) {
         self.constraint_rows += rows;
-        self.assume(element, what);
+        self.add_assumption(element, what);
     }
 
     /// Returns the number of rows omitted from the figures.
@@ -148,7 +148,7 @@ impl Report {
         self.coupling_rows + self.constraint_rows
     }
 
-    pub(crate) fn drop(&mut self, kind: &str, name: Option<&str>) {
+    pub(crate) fn count_dropped(&mut self, kind: &str, name: Option<&str>) {
         let (count, names) = self.dropped.entry(kind.to_owned()).or_default();
         *count += 1;
         if let Some(n) = name
@@ -180,15 +180,15 @@ impl Report {
         let (links, joints) = self.size;
         let mut out = format!(
             "{file}: {}, {}\n",
-            plural(links, "link"),
-            plural(joints, "joint")
+            count_noun(links, "link"),
+            count_noun(joints, "joint")
         );
         let mapped = self.mapped.iter().map(|(k, n)| format!("{n} {k}"));
         if !self.mapped.is_empty() {
-            line(&mut out, "mapped", &mapped.format(", ").to_string());
+            write_line(&mut out, "mapped", &mapped.format(", ").to_string());
         }
         for p in &self.pose {
-            line(&mut out, "pose", p);
+            write_line(&mut out, "pose", p);
         }
         if let Some(kept) = &self.kept {
             let n = match kept.couplings {
@@ -198,16 +198,16 @@ impl Report {
             let figures = kept.mobility.map_or(String::new(), |(without, with)| {
                 format!(": W = {without} without, {with} with")
             });
-            line(&mut out, "coupled", &format!("{n}{figures}"));
+            write_line(&mut out, "coupled", &format!("{n}{figures}"));
         }
-        out.push_str(&self.doubts());
+        out.push_str(&self.list_doubts());
         for (kind, (count, names)) in &self.dropped {
             let more = if *count > names.len() { ", ..." } else { "" };
             let names = match names[..] {
                 [] => String::new(),
                 _ => format!(" ({}{more})", names.join(", ")),
             };
-            line(&mut out, "dropped", &format!("{count} {kind}{names}"));
+            write_line(&mut out, "dropped", &format!("{count} {kind}{names}"));
         }
         let (names, asked) = &self.outputs;
         let hint = if *asked {
@@ -216,13 +216,13 @@ impl Report {
             " (end effectors, ends of chains, a floating base; the option `working_link` chooses others)"
         };
         let shown = first_of(names, 8);
-        line(&mut out, "output", &format!("{shown}{hint}"));
+        write_line(&mut out, "output", &format!("{shown}{hint}"));
         out
     }
 
     /// Returns the reasons why the figures may differ from those of the description, a line each; empty if there are none.
     #[must_use]
-    pub fn doubts(&self) -> String {
+    pub fn list_doubts(&self) -> String {
         let mut out = String::new();
         if self.coupling_rows > 0 {
             let n = self.coupling_rows;
@@ -234,25 +234,25 @@ impl Report {
             let what = format!(
                 "{n} coupling {rows} between joint values: W is up to {n} too high without {them}, σ may be too low"
             );
-            line(&mut out, "omitted", &what);
+            write_line(&mut out, "omitted", &what);
         }
         if self.constraint_rows > 0 {
             let n = self.constraint_rows;
             let what = format!(
                 "{} of joints: W is up to {n} too high, σ may be too low",
-                plural(n, "row")
+                count_noun(n, "row")
             );
-            line(&mut out, "omitted", &what);
+            write_line(&mut out, "omitted", &what);
         }
         for n in &self.approximated {
             let what = format!("{}: {}", n.element, n.what);
-            line(&mut out, "approximated", &what);
+            write_line(&mut out, "approximated", &what);
         }
         out
     }
 }
 
-fn line(out: &mut String, head: &str, what: &str) {
+fn write_line(out: &mut String, head: &str, what: &str) {
     let _ = writeln!(out, "  {head:<13} {what}");
 }
 
@@ -282,7 +282,7 @@ pub(crate) fn too_many(what: &str, limit: usize) -> ProblemKind {
     ))
 }
 
-pub(crate) fn missing(element: &str, what: &str) -> ProblemKind {
+pub(crate) fn missing_problem(element: &str, what: &str) -> ProblemKind {
     syntax_problem(format!("{element} has no {what}; add it"))
 }
 
@@ -303,12 +303,12 @@ pub(crate) fn unknown_name(element: &str, what: &str, name: &str, known: &str) -
     ))
 }
 
-pub(crate) fn unsupported(element: &str, why: &str, remedy: &str) -> ProblemKind {
+pub(crate) fn unsupported_problem(element: &str, why: &str, remedy: &str) -> ProblemKind {
     syntax_problem(format!("{element} cannot be mapped: {why}; {remedy}"))
 }
 
 /// Returns a list of names for a message, with at most 20 of them.
-pub(crate) fn known(what: &str, names: impl IntoIterator<Item: AsRef<str>>) -> String {
+pub(crate) fn list_known(what: &str, names: impl IntoIterator<Item: AsRef<str>>) -> String {
     let all: Vec<_> = names.into_iter().collect();
     if all.is_empty() {
         return format!("there are no {what}");

@@ -70,7 +70,7 @@ impl Node {
     }
 
     /// Creates a node without attributes: a line of a file that is not XML.
-    pub(super) fn line(name: &str, source: usize, span: Range<usize>) -> Node {
+    pub(super) fn from_line(name: &str, source: usize, span: Range<usize>) -> Node {
         Node {
             name: name.to_owned(),
             attributes: Vec::new(),
@@ -84,7 +84,7 @@ impl Node {
     }
 
     /// Adds a line to the text.
-    pub(super) fn say(&mut self, line: &str) {
+    pub(super) fn append_line(&mut self, line: &str) {
         if !self.text.is_empty() {
             self.text.push('\n');
         }
@@ -130,11 +130,11 @@ pub(crate) struct Document {
 }
 
 /// Returns bytes as text.
-pub(crate) fn utf8(name: &str, bytes: &[u8]) -> Read<String> {
+pub(crate) fn decode_utf8(name: &str, bytes: &[u8]) -> Read<String> {
     if bytes.len() > MAX_BYTES {
         return Err(too_large(bytes.len(), MAX_BYTES).in_file(name, "", None));
     }
-    let text = text::utf8(bytes).map_err(|problem| problem.in_file(name, "", None))?;
+    let text = text::decode_utf8(bytes).map_err(|problem| problem.in_file(name, "", None))?;
     Ok(text.strip_prefix('\u{feff}').unwrap_or(text).to_owned())
 }
 
@@ -142,7 +142,7 @@ impl Document {
     /// Reads a file into the arena; gives its root element.
     pub(crate) fn read(&mut self, name: &str, text: String) -> Read<usize> {
         let source = self.sources.len();
-        let root = parse(&text, source, &mut self.nodes).map_err(|(problem, at)| {
+        let root = parse_xml(&text, source, &mut self.nodes).map_err(|(problem, at)| {
             let at = (0..=at.min(text.len()))
                 .rev()
                 .find(|&i| text.is_char_boundary(i));
@@ -199,17 +199,17 @@ fn few_enough(depth: usize, elements: usize, attributes: usize) -> Result<(), Pr
     Ok(())
 }
 
-fn parse(text: &str, source: usize, nodes: &mut Vec<Node>) -> Result<usize, Located> {
+fn parse_xml(text: &str, source: usize, nodes: &mut Vec<Node>) -> Result<usize, Located> {
     no_control(text, &['\t', '\n', '\r'])?;
     let mut reader = Reader::from_str(text);
     let (mut open, mut root): (Vec<usize>, Option<usize>) = (Vec::new(), None);
     let mut attributes = 0;
     loop {
-        let before = position(reader.buffer_position());
+        let before = byte_position(reader.buffer_position());
         let event = reader
             .read_event()
-            .map_err(|e| (xml_problem(e), position(reader.error_position())))?;
-        let after = position(reader.buffer_position());
+            .map_err(|e| (xml_problem(e), byte_position(reader.error_position())))?;
+        let after = byte_position(reader.buffer_position());
         match event {
             Event::Start(ref tag) | Event::Empty(ref tag) => {
                 if open.is_empty() && root.is_some() {
@@ -218,7 +218,7 @@ fn parse(text: &str, source: usize, nodes: &mut Vec<Node>) -> Result<usize, Loca
                 few_enough(open.len(), nodes.len(), attributes)
                     .map_err(|problem| (problem, before))?;
                 let id = nodes.len();
-                nodes.push(node(tag, text, source, before..after)?);
+                nodes.push(read_node(tag, text, source, before..after)?);
                 attributes += nodes[id].attributes.len();
                 match open.last() {
                     Some(&parent) => nodes[parent].children.push(id),
@@ -233,15 +233,15 @@ fn parse(text: &str, source: usize, nodes: &mut Vec<Node>) -> Result<usize, Loca
                     nodes[id].close = before..after;
                 }
             }
-            Event::Text(t) => put(&t, &open, nodes),
-            Event::CData(t) => put(&t, &open, nodes),
+            Event::Text(t) => append_text(&t, &open, nodes),
+            Event::CData(t) => append_text(&t, &open, nodes),
             Event::GeneralRef(r) => {
                 let word = format!("&{};", &*r);
                 let plain = quick_xml::escape::unescape(&word)
                     .map_err(|e| (xml_problem(e), before))?
                     .into_owned();
                 no_control(&plain, &[]).map_err(|(problem, _)| (problem, before))?;
-                put(&plain, &open, nodes);
+                append_text(&plain, &open, nodes);
             }
             Event::DocType(t) if t.contains("<!ENTITY") => {
                 let message = "the file declares entities; expand them first, for example with `xmllint --noent`";
@@ -259,11 +259,11 @@ fn parse(text: &str, source: usize, nodes: &mut Vec<Node>) -> Result<usize, Loca
     }
 }
 
-fn position(at: u64) -> usize {
+fn byte_position(at: u64) -> usize {
     usize::try_from(at).unwrap_or(usize::MAX)
 }
 
-fn put(text: &str, open: &[usize], nodes: &mut [Node]) {
+fn append_text(text: &str, open: &[usize], nodes: &mut [Node]) {
     if let Some(&at) = open.last()
         && !text.trim().is_empty()
     {
@@ -271,7 +271,7 @@ fn put(text: &str, open: &[usize], nodes: &mut [Node]) {
     }
 }
 
-fn node(
+fn read_node(
     tag: &BytesStart<'_>,
     text: &str,
     source: usize,
@@ -302,6 +302,6 @@ fn node(
         let (name, span) = (name.to_owned(), here.unwrap_or(span.clone()));
         attributes.push(Attribute { name, value, span });
     }
-    let node = Node::line(tag.name().as_ref(), source, span);
+    let node = Node::from_line(tag.name().as_ref(), source, span);
     Ok(Node { attributes, ..node })
 }

@@ -55,7 +55,7 @@ pub struct Magnet {
 }
 
 /// Returns the action of the electromagnets in a run with this spring.
-pub(crate) fn magnet(run: &Run, spring: &CamSpring) -> Magnet {
+pub(crate) fn size_magnet(run: &Run, spring: &CamSpring) -> Magnet {
     let swings = run.steps.iter().filter_map(|s| match &s.event {
         Event::Swing { disc, swing } => Some((s, *disc, swing)),
         Event::Dwell => None,
@@ -70,12 +70,12 @@ pub(crate) fn magnet(run: &Run, spring: &CamSpring) -> Magnet {
     let time: f64 = run.steps.iter().map(|s| s.duration).sum();
     let force = |deformation: f64| spring.rate * spring.stroke * deformation;
     #[allow(clippy::cast_precision_loss, reason = "at most 10,000 steps")]
-    let work = spring.energy() * pulses.len() as f64;
+    let work = spring.stroke_energy() * pulses.len() as f64;
     Magnet {
         first_force: force(spring.mounting),
         last_force: force(1.0 + spring.mounting),
-        energy_per_swing: spring.energy(),
-        energy_per_cycle: 2.0 * spring.energy(),
+        energy_per_swing: spring.stroke_energy(),
+        energy_per_cycle: 2.0 * spring.stroke_energy(),
         mean_power: if time > 0.0 { work / time } else { 0.0 },
         pulses,
     }

@@ -1,9 +1,9 @@
 //! Design and run of a torsional drive: bar, missing angle, cam spring, programme, and the motion of its payload.
 
-use crate::drive::cam::{CamDesign, magnet};
+use crate::drive::cam::{CamDesign, size_magnet};
 use crate::drive::programme::{Endurance, Module, Run};
 use crate::drive::swing::{Disc, Feed, Latch, SwingError};
-use crate::drive::torsion::{Bar, CamSpring, Sizing, Wanted, frequency, friction_energy};
+use crate::drive::torsion::{Bar, CamSpring, Sizing, Wanted, friction_energy, natural_frequency};
 use crate::model::drive::{Cam, Damping, DriveSpec};
 use serde::Serialize;
 
@@ -76,7 +76,7 @@ pub struct Driving {
 
 /// Returns the requirements on the bar from a specification.
 #[must_use]
-pub(crate) fn wanted(spec: &DriveSpec) -> Wanted {
+pub(crate) fn bar_requirements(spec: &DriveSpec) -> Wanted {
     Wanted {
         twist: spec.twist,
         period: spec.period,
@@ -92,8 +92,8 @@ pub(crate) fn wanted(spec: &DriveSpec) -> Wanted {
 
 /// Returns the largest acceleration at radius r over a swing, from the tangential p² φ r and the radial p² (φ0² - φ²)
 /// r. The sum of their squares is convex in φ², so its maximum is at an end of its range: r p² φ0 max(1, φ0).
-fn motion(stiffness: f64, inertia: f64, twist: f64, radius: Option<f64>) -> PayloadMotion {
-    let p = frequency(stiffness, inertia);
+fn payload_motion(stiffness: f64, inertia: f64, twist: f64, radius: Option<f64>) -> PayloadMotion {
+    let p = natural_frequency(stiffness, inertia);
     PayloadMotion {
         angular_acceleration: p * p * twist,
         angular_speed: p * twist,
@@ -121,14 +121,17 @@ fn motion(stiffness: f64, inertia: f64, twist: f64, radius: Option<f64>) -> Payl
 /// assert!(design.run.complete());
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-pub fn drive(spec: &DriveSpec) -> Result<Driving, SwingError> {
-    let sizing = wanted(spec).size();
-    let design = sizing.bar.map(|bar| design(spec, bar)).transpose()?;
+pub fn design_drive(spec: &DriveSpec) -> Result<Driving, SwingError> {
+    let sizing = bar_requirements(spec).size_bar();
+    let design = sizing
+        .bar
+        .map(|bar| design_with_bar(spec, bar))
+        .transpose()?;
     Ok(Driving { sizing, design })
 }
 
 /// Returns the damping of the simulation, and its source.
-fn damping(spec: &DriveSpec, stiffness: f64) -> (Damping, DampingFrom) {
+fn choose_damping(spec: &DriveSpec, stiffness: f64) -> (Damping, DampingFrom) {
     let largest = usize::from(spec.inertias[1] > spec.inertias[0]);
     let viscous = |viscous| Damping {
         viscous,
@@ -157,9 +160,9 @@ fn needed_feed(discs: &[Disc; 2], latch: Latch, from: f64) -> Result<Option<f64>
 }
 
 /// Returns the drive with a bar, and the programme it runs.
-fn design(spec: &DriveSpec, bar: Bar) -> Result<Design, SwingError> {
+fn design_with_bar(spec: &DriveSpec, bar: Bar) -> Result<Design, SwingError> {
     let stiffness = bar.stiffness();
-    let (damping, damping_from) = damping(spec, stiffness);
+    let (damping, damping_from) = choose_damping(spec, stiffness);
     let disc = |inertia| Disc {
         inertia,
         stiffness,
@@ -177,7 +180,7 @@ fn design(spec: &DriveSpec, bar: Bar) -> Result<Design, SwingError> {
     let missing = spec.missing.unwrap_or_else(|| {
         discs
             .iter()
-            .map(|d| d.missing(spec.twist))
+            .map(|d| d.missing_angle(spec.twist))
             .fold(0.0, f64::max)
     });
     let friction_energy = friction_energy(stiffness, spec.twist, missing);
@@ -187,8 +190,8 @@ fn design(spec: &DriveSpec, bar: Bar) -> Result<Design, SwingError> {
     };
     let needed_feed = needed_feed(&discs, latch, feed.from)?;
     let module = Module { discs, latch, feed };
-    let run = module.run(&spec.programme)?;
-    let endurance = module.endurance(&spec.programme)?;
+    let run = module.run_programme(&spec.programme)?;
+    let endurance = module.run_endlessly(&spec.programme)?;
     let radius = spec.payload.map(|p| p.radius);
     let mut design = Design {
         bar,
@@ -202,7 +205,7 @@ fn design(spec: &DriveSpec, bar: Bar) -> Result<Design, SwingError> {
         cam: None,
         motions: spec
             .inertias
-            .map(|i| motion(stiffness, i, spec.twist, radius)),
+            .map(|i| payload_motion(stiffness, i, spec.twist, radius)),
         module,
         run,
         endurance,
@@ -219,6 +222,6 @@ fn design_cam(cam: &Cam, design: &Design) -> CamDesign {
         spring: spring(design.friction_energy),
         needed: design.needed_feed.map(spring),
         fitted,
-        magnet: magnet(&design.run, &fitted),
+        magnet: size_magnet(&design.run, &fitted),
     }
 }

@@ -99,12 +99,12 @@ pub struct RunMoment {
 impl Run {
     /// Returns true if every swing ended in a latch.
     #[must_use]
-    pub fn complete(&self) -> bool {
+    pub fn is_complete(&self) -> bool {
         self.latched == self.wanted
     }
 
     /// Returns the swings.
-    pub fn swings(&self) -> impl Iterator<Item = (usize, &Swing)> {
+    pub fn iter_swings(&self) -> impl Iterator<Item = (usize, &Swing)> {
         self.steps.iter().filter_map(|s| match &s.event {
             Event::Swing { disc, swing } => Some((*disc, swing)),
             Event::Dwell => None,
@@ -114,7 +114,7 @@ impl Run {
 
 /// Returns the discs that a programme releases, in order.
 #[must_use]
-fn swings(programme: &[ProgrammeStep]) -> Vec<usize> {
+fn released_discs(programme: &[ProgrammeStep]) -> Vec<usize> {
     let disc = |s: &ProgrammeStep| match s {
         ProgrammeStep::Swing(disc) => Some(*disc),
         ProgrammeStep::Dwell(_) => None,
@@ -148,7 +148,7 @@ impl Module {
         offsets: [0.0; 2],
     };
 
-    fn angles(&self, now: &DiscAngles) -> [f64; 2] {
+    fn disc_angles(&self, now: &DiscAngles) -> [f64; 2] {
         [0, 1].map(|d| f64::from(now.places[d]) * self.latch.at + now.offsets[d])
     }
 
@@ -156,7 +156,7 @@ impl Module {
     ///
     /// The latch and the cam's push are fixed to the disc's own grooves, however far either disc is from its groove. So
     /// shortfalls add up.
-    fn swing(&self, now: &mut DiscAngles, disc: usize) -> Result<Swing, SwingError> {
+    fn swing_disc(&self, now: &mut DiscAngles, disc: usize) -> Result<Swing, SwingError> {
         let other = 1 - disc;
         let onward = now.places[other] - now.places[disc];
         let way = f64::from(onward);
@@ -170,7 +170,7 @@ impl Module {
             ..self.feed
         };
         let start = self.latch.at - own + neutral;
-        let swing = self.discs[disc].swing(start, latch, feed)?;
+        let swing = self.discs[disc].swing_from(start, latch, feed)?;
         now.places[disc] += 2 * onward;
         now.offsets[disc] = way * (swing.place - latch.at);
         Ok(swing)
@@ -184,14 +184,14 @@ impl Module {
     ///
     /// # Errors
     /// Returns an error if the discs do not swing.
-    pub fn run(&self, programme: &[ProgrammeStep]) -> Result<Run, SwingError> {
-        let wanted = swings(programme).len();
+    pub fn run_programme(&self, programme: &[ProgrammeStep]) -> Result<Run, SwingError> {
+        let wanted = released_discs(programme).len();
         let mut now = Self::START;
         let mut run = Run {
             steps: Vec::new(),
             latched: 0,
             wanted,
-            angles: self.angles(&now),
+            angles: self.disc_angles(&now),
         };
         let mut time = 0.0;
         for step in programme {
@@ -199,8 +199,8 @@ impl Module {
             let (duration, event) = match *step {
                 ProgrammeStep::Dwell(length) => (length, Event::Dwell),
                 ProgrammeStep::Swing(disc) => {
-                    let swing = self.swing(&mut now, disc)?;
-                    run.angles = self.angles(&now);
+                    let swing = self.swing_disc(&mut now, disc)?;
+                    run.angles = self.disc_angles(&now);
                     (swing.duration, Event::Swing { disc, swing })
                 }
             };
@@ -234,8 +234,8 @@ impl Module {
     ///
     /// # Complexity
     /// At most [`PATIENCE`] swings, and those of one more round.
-    pub fn endurance(&self, programme: &[ProgrammeStep]) -> Result<Endurance, SwingError> {
-        let discs = swings(programme);
+    pub fn run_endlessly(&self, programme: &[ProgrammeStep]) -> Result<Endurance, SwingError> {
+        let discs = released_discs(programme);
         if discs.is_empty() {
             return Ok(Endurance::Lasts { missing: 0.0 });
         }
@@ -244,7 +244,7 @@ impl Module {
         let (mut latched, mut until, mut since) = (0, 1, 0);
         while latched < PATIENCE {
             for &disc in &discs {
-                let swing = self.swing(&mut now, disc)?;
+                let swing = self.swing_disc(&mut now, disc)?;
                 if matches!(swing.end, End::Missed { .. } | End::Stuck) {
                     return Ok(Endurance::Fails { after: latched });
                 }
@@ -268,7 +268,7 @@ impl Module {
 
     /// Returns the run at `per_swing` times per swing, for charts.
     #[must_use]
-    pub fn samples(&self, run: &Run, per_swing: u32) -> Vec<RunMoment> {
+    pub fn sample_run(&self, run: &Run, per_swing: u32) -> Vec<RunMoment> {
         let mut out = Vec::new();
         for step in &run.steps {
             let count = if matches!(step.event, Event::Dwell) {
@@ -283,11 +283,11 @@ impl Module {
                 let (mut speeds, mut accelerations) = ([0.0; 2], [0.0; 2]);
                 if let Event::Swing { disc, swing } = &step.event {
                     let ahead = (angles[*disc] - angles[1 - disc]).signum();
-                    let (u, v) = swing.at(t);
+                    let (u, v) = swing.position_at(t);
                     angles[*disc] = angles[1 - disc] - ahead * u;
                     kinetic = self.discs[*disc].inertia * v * v / 2.0;
                     speeds[*disc] = -ahead * v;
-                    accelerations[*disc] = -ahead * swing.acceleration(t);
+                    accelerations[*disc] = -ahead * swing.acceleration_at(t);
                 }
                 let twist = angles[0] - angles[1];
                 let potential = self.discs[0].stiffness * twist * twist / 2.0;

@@ -37,7 +37,7 @@ impl Feed {
 
     /// Returns the moment up to a latch, or `None` if nothing is fed before it. `[N·m]`
     #[must_use]
-    pub fn moment(&self, latch: f64) -> Option<f64> {
+    pub fn push_moment(&self, latch: f64) -> Option<f64> {
         (self.energy > 0.0 && self.from < latch).then(|| self.energy / (latch - self.from))
     }
 }
@@ -153,7 +153,7 @@ pub struct Swing {
 }
 
 impl Disc {
-    fn rates(&self) -> (f64, f64, f64) {
+    fn decay_rates(&self) -> (f64, f64, f64) {
         let (decay, square) = (
             self.viscous / (2.0 * self.inertia),
             self.stiffness / self.inertia,
@@ -176,15 +176,15 @@ impl Disc {
 
     /// Returns the distance by which a swing without the cam ends short of the start's mirror image, in closed form. `[rad]`
     #[must_use]
-    pub fn missing(&self, twist: f64) -> f64 {
-        let (decay, _, turning) = self.rates();
+    pub fn missing_angle(&self, twist: f64) -> f64 {
+        let (decay, _, turning) = self.decay_rates();
         let shift = self.coulomb / self.stiffness;
         let left = (twist - shift) * (-decay * PI / turning).exp();
         (twist - (left - shift)).clamp(0.0, 2.0 * twist)
     }
 
     /// Returns an error if the disc does not swing.
-    fn check(&self) -> Result<(), SwingError> {
+    fn check_disc(&self) -> Result<(), SwingError> {
         let positive = self.inertia > 0.0
             && self.stiffness > 0.0
             && self.inertia.is_finite()
@@ -209,8 +209,8 @@ impl Disc {
     ///
     /// # Errors
     /// Returns an error if the disc does not swing.
-    pub fn swing(&self, start: f64, latch: Latch, feed: Feed) -> Result<Swing, SwingError> {
-        self.check()?;
+    pub fn swing_from(&self, start: f64, latch: Latch, feed: Feed) -> Result<Swing, SwingError> {
+        self.check_disc()?;
         let (mut u, mut v, mut t) = (-start, 0.0, 0.0);
         let mut pieces = Vec::new();
         let mut balance = Balance {
@@ -218,7 +218,7 @@ impl Disc {
             ..Balance::default()
         };
         let (mut arrived, mut push_begins) = (false, None);
-        let pushed = feed.moment(latch.at);
+        let pushed = feed.push_moment(latch.at);
         let before = pushed.map_or(latch.at, |_| feed.from);
         for (bound, moment) in [(before, 0.0), (latch.at, pushed.unwrap_or(0.0))] {
             if u >= bound {
@@ -232,8 +232,8 @@ impl Disc {
             if moment > 0.0 {
                 push_begins.get_or_insert(t);
             }
-            let piece = self.piece(t, u, v, middle, bound);
-            let (end, speed) = self.state(&piece, piece.length);
+            let piece = self.trace_piece(t, u, v, middle, bound);
+            let (end, speed) = self.state_at(&piece, piece.length);
             arrived = end >= bound;
             let end = end.min(bound);
             balance.coulomb += self.coulomb * (end - u);
@@ -269,8 +269,8 @@ impl Disc {
     }
 
     /// Returns the motion from a position and speed until it stops or passes `bound`.
-    fn piece(&self, start: f64, u: f64, v: f64, middle: f64, bound: f64) -> Piece {
-        let (decay, square, turning) = self.rates();
+    fn trace_piece(&self, start: f64, u: f64, v: f64, middle: f64, bound: f64) -> Piece {
+        let (decay, square, turning) = self.decay_rates();
         let y = u - middle;
         let stop = if v > 0.0 {
             (v * turning).atan2(square * y + decay * v)
@@ -283,7 +283,7 @@ impl Disc {
             middle,
             from: (y, v),
         };
-        if self.state(&piece, stop).0 > bound {
+        if self.state_at(&piece, stop).0 > bound {
             // The position increases until the stop, so there is one crossing. The interval is halved to the precision of floats.
             let (mut before, mut after) = (0.0, stop);
             loop {
@@ -291,7 +291,7 @@ impl Disc {
                 if half <= before || half >= after {
                     break;
                 }
-                if self.state(&piece, half).0 >= bound {
+                if self.state_at(&piece, half).0 >= bound {
                     after = half
                 } else {
                     before = half
@@ -303,8 +303,8 @@ impl Disc {
     }
 
     /// Returns position and speed at a time into a piece.
-    fn state(&self, p: &Piece, t: f64) -> (f64, f64) {
-        let (decay, square, turning) = self.rates();
+    fn state_at(&self, p: &Piece, t: f64) -> (f64, f64) {
+        let (decay, square, turning) = self.decay_rates();
         let (y, v) = p.from;
         let (s, c) = (turning * t).sin_cos();
         let fade = (-decay * t).exp();
@@ -315,7 +315,7 @@ impl Disc {
 
     /// Returns the integral of the square of the speed over a piece.
     fn speed_squared(&self, p: &Piece) -> f64 {
-        let (decay, square, turning) = self.rates();
+        let (decay, square, turning) = self.decay_rates();
         let (y, v) = p.from;
         let (cosine, sine) = (v, -(square * y + decay * v) / turning);
         // Integrals of e^(-at), e^(-at) cos bt and e^(-at) sin bt.
@@ -342,7 +342,7 @@ impl Disc {
     /// Returns an error in the same cases as [`Disc::swing`].
     pub fn needed_feed(&self, latch: Latch, from: f64) -> Result<Option<f64>, SwingError> {
         let arrives = |energy: f64| -> Result<bool, SwingError> {
-            let swing = self.swing(latch.at, latch, Feed { energy, from })?;
+            let swing = self.swing_from(latch.at, latch, Feed { energy, from })?;
             Ok(matches!(swing.end, End::Latched { .. }))
         };
         if arrives(0.0)? {
@@ -375,10 +375,10 @@ impl Disc {
 impl Swing {
     /// Returns the acceleration at a time from the release, which is 0 at its end. `[rad/s²]`
     #[must_use]
-    pub fn acceleration(&self, time: f64) -> f64 {
+    pub fn acceleration_at(&self, time: f64) -> f64 {
         let now = self.pieces.iter().find(|p| time <= p.start + p.length);
         now.map_or(0.0, |p| {
-            let (place, speed) = self.disc.state(p, (time - p.start).max(0.0));
+            let (place, speed) = self.disc.state_at(p, (time - p.start).max(0.0));
             let moment = -self.disc.stiffness * (place - p.middle) - self.disc.viscous * speed;
             moment / self.disc.inertia
         })
@@ -386,10 +386,10 @@ impl Swing {
 
     /// Returns position and speed at a time from the release. Afterwards the disc is at rest at its end.
     #[must_use]
-    pub fn at(&self, time: f64) -> (f64, f64) {
+    pub fn position_at(&self, time: f64) -> (f64, f64) {
         let now = self.pieces.iter().find(|p| time <= p.start + p.length);
         match now {
-            Some(p) => self.disc.state(p, (time - p.start).max(0.0)),
+            Some(p) => self.disc.state_at(p, (time - p.start).max(0.0)),
             None => (self.place, 0.0),
         }
     }

@@ -36,7 +36,7 @@ impl Bar {
 
     /// Returns the shear stress at the rim at a twist. `[Pa]`
     #[must_use]
-    pub fn stress(&self, twist: f64) -> f64 {
+    pub fn rim_stress(&self, twist: f64) -> f64 {
         self.diameter * self.shear_modulus * twist / (2.0 * self.length)
     }
 }
@@ -49,7 +49,7 @@ pub fn stored_energy(stiffness: f64, twist: f64) -> f64 {
 
 /// Returns p = √(k/I). `[rad/s]`, `[Klyuchkovskyi 1999]` equation (4).
 #[must_use]
-pub fn frequency(stiffness: f64, inertia: f64) -> f64 {
+pub fn natural_frequency(stiffness: f64, inertia: f64) -> f64 {
     (stiffness / inertia).sqrt()
 }
 
@@ -58,13 +58,13 @@ pub fn frequency(stiffness: f64, inertia: f64) -> f64 {
 /// # Sources
 /// `[Klyuchkovskyi 1999]` equation (6), which also gives it as about ΔA/A.
 #[must_use]
-pub fn decrement(deflection: f64, next: f64) -> f64 {
+pub fn log_decrement(deflection: f64, next: f64) -> f64 {
     (deflection / next).ln()
 }
 
 /// Returns d = ⁴√(128 π I l / (τ² G)). `[m]`, `[Klyuchkovskyi 1999]` equation (10).
 #[must_use]
-pub fn diameter(inertia: f64, length: f64, period: f64, shear_modulus: f64) -> f64 {
+pub fn bar_diameter(inertia: f64, length: f64, period: f64, shear_modulus: f64) -> f64 {
     (128.0 * PI * inertia * length / (period * period * shear_modulus))
         .sqrt()
         .sqrt()
@@ -97,7 +97,7 @@ impl CamSpring {
     /// `[Klyuchkovskyi 1999]` equation (13). DIFFERENCE: the scan prints (1 + ψ0²); only the square of the sum agrees
     /// with (14).
     #[must_use]
-    pub fn energy(&self) -> f64 {
+    pub fn stroke_energy(&self) -> f64 {
         let psi = self.mounting;
         0.5 * ((1.0 + psi).powi(2) - psi * psi) * self.rate * self.stroke.powi(2)
     }
@@ -123,7 +123,7 @@ impl Serialize for CamSpring {
             ("rate", self.rate),
             ("stroke", self.stroke),
             ("mounting_coefficient", self.mounting),
-            ("energy", self.energy()),
+            ("energy", self.stroke_energy()),
         ])
     }
 }
@@ -205,7 +205,7 @@ impl Wanted {
         self.inertia * (2.0 * PI / self.period).powi(2)
     }
 
-    fn trial(&self, length: f64, diameter: f64) -> BarTrial {
+    fn try_bar(&self, length: f64, diameter: f64) -> BarTrial {
         let bar = Bar {
             length,
             diameter,
@@ -226,9 +226,9 @@ impl Wanted {
     /// Returns the smallest length, at which (11) is an equality: `[φ]` grows as l^(3/4) if d follows (10). `[m]`
     #[must_use]
     pub fn least_length(&self) -> f64 {
-        let one = self.trial(
+        let one = self.try_bar(
             1.0,
-            diameter(self.inertia, 1.0, self.period, self.shear_modulus),
+            bar_diameter(self.inertia, 1.0, self.period, self.shear_modulus),
         );
         (self.twist / one.allowable_twist).powf(4.0 / 3.0)
     }
@@ -242,15 +242,15 @@ impl Wanted {
     /// # Sources
     /// `[Klyuchkovskyi 1999]` equations (8), (10), (11) and the procedure after them.
     #[must_use]
-    pub fn size(&self) -> Sizing {
+    pub fn size_bar(&self) -> Sizing {
         let mut trials = Vec::new();
         if self.diameters.is_empty() {
             let up = |l: f64| (l / self.length_step - 1e-9).ceil().max(1.0) * self.length_step;
             let mut length = self.length.unwrap_or(self.length_step);
             for _ in 0..64 {
-                let trial = self.trial(
+                let trial = self.try_bar(
                     length,
-                    diameter(self.inertia, length, self.period, self.shear_modulus),
+                    bar_diameter(self.inertia, length, self.period, self.shear_modulus),
                 );
                 trials.push(trial);
                 if trial.strong || !trial.fits {
@@ -262,7 +262,7 @@ impl Wanted {
         } else {
             let k = self.stiffness();
             for &d in &self.diameters {
-                let trial = self.trial(PI * d.powi(4) * self.shear_modulus / (32.0 * k), d);
+                let trial = self.try_bar(PI * d.powi(4) * self.shear_modulus / (32.0 * k), d);
                 trials.push(trial);
                 if trial.strong {
                     break;
@@ -270,7 +270,7 @@ impl Wanted {
             }
         }
         let bar = trials.last().filter(|t| t.strong && t.fits).map(|t| t.bar);
-        let remedy = bar.is_none().then(|| self.remedy(&trials));
+        let remedy = bar.is_none().then(|| self.find_remedy(&trials));
         Sizing {
             trials,
             bar,
@@ -278,18 +278,18 @@ impl Wanted {
         }
     }
 
-    fn remedy(&self, trials: &[BarTrial]) -> Remedy {
+    fn find_remedy(&self, trials: &[BarTrial]) -> Remedy {
         let longest = trials.iter().map(|t| t.bar.length).fold(0.0, f64::max);
         let length = self.max_length.unwrap_or(longest);
-        let here = self.trial(
+        let here = self.try_bar(
             length,
-            diameter(self.inertia, length, self.period, self.shear_modulus),
+            bar_diameter(self.inertia, length, self.period, self.shear_modulus),
         );
         // The thickest bar of this length that twists by φ0 within its strength.
         let thickest = 2.0 * length * self.allowable_stress / (self.shear_modulus * self.twist);
         Remedy {
             length: self.least_length(),
-            allowable_stress: here.bar.stress(self.twist),
+            allowable_stress: here.bar.rim_stress(self.twist),
             period: (128.0 * PI * self.inertia * length / (thickest.powi(4) * self.shear_modulus))
                 .sqrt(),
             twist: here.allowable_twist,

@@ -1,7 +1,7 @@
 //! The arms of a gripper's levers as functions of one of their parameters, with the others constant: the figures of the
 //! paper, for any gripper.
 
-use crate::grip::clamping::gripper;
+use crate::grip::clamping::gripper_for;
 use crate::grip::lever_arm::{Arms, Lever};
 use crate::model::grip::GripSpec;
 
@@ -28,7 +28,7 @@ impl Varied {
     ];
 
     /// Returns the range. `[m]` or `[rad]`
-    fn range(self, spec: &GripSpec) -> [f64; 2] {
+    fn value_range(self, spec: &GripSpec) -> [f64; 2] {
         let round = |from: f64, to: f64, own: f64| {
             let (from, to) = (from.to_radians(), to.to_radians());
             [from.min(own), to.max(own)]
@@ -53,7 +53,7 @@ pub type Point = (f64, Option<Arms>);
 /// `[Pavlenko & Godunko 2010]` figs. 2, 4 and 5: combinations that cannot hold the part do not count.
 #[must_use]
 pub fn arm_curve(spec: &GripSpec, varied: Varied, diameter: f64) -> Vec<Point> {
-    let [from, to] = varied.range(spec);
+    let [from, to] = varied.value_range(spec);
     let at = |i: u32| {
         let x = from + (to - from) * f64::from(i) / f64::from(POINTS - 1);
         let (mut l, mut a, mut g) = (spec.lever_length, spec.prism_angle, spec.mounting_angle);
@@ -63,8 +63,12 @@ pub fn arm_curve(spec: &GripSpec, varied: Varied, diameter: f64) -> Vec<Point> {
             Varied::MountingAngle => g = x,
         }
         let lever = Lever::new(l, a, g).ok();
-        let held = lever.filter(|&l| gripper(spec, l, diameter).obstacles(diameter).is_empty());
-        (x, held.map(|l| l.arms(diameter)))
+        let held = lever.filter(|&l| {
+            gripper_for(spec, l, diameter)
+                .find_obstacles(diameter)
+                .is_empty()
+        });
+        (x, held.map(|l| l.force_arms(diameter)))
     };
     (0..POINTS).map(at).collect()
 }

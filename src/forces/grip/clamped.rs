@@ -3,17 +3,17 @@
 
 use crate::geom::exact::ExactError;
 use crate::grip::clamping::{DiameterRow, HoldVerdict};
-use crate::grip::effort;
+use crate::grip::drive_effort;
 use crate::grip::jaw_loads::{Fit, Gripping, JawError};
 use crate::model::grip::Transmission;
 use crate::model::mechanism::Mechanism;
 use crate::motion::pose::Pose;
 use crate::statics::cycle::{PlanarStaticsError, statics_at};
-use crate::statics::reactions::drives::driven;
+use crate::statics::reactions::drives::driven_freedoms;
 use crate::statics::reactions::geometry::Geometry;
 use crate::statics::reactions::{Cycle, Reactions, Unsolved};
 use crate::statics::solve::{SolvedReactions, is_for_space};
-use crate::statics::transmission::rates;
+use crate::statics::transmission::drive_rates;
 use thiserror::Error;
 
 /// Reason why a clamped mechanism has no reactions.
@@ -49,15 +49,15 @@ pub struct Clamped {
 }
 
 /// Returns the effort that the grip requires of one drive of both levers in a pose, if the mechanism has one.
-fn asked(g: &Gripping, row: &DiameterRow, pose: &Pose) -> Option<(f64, bool)> {
+fn required_effort(g: &Gripping, row: &DiameterRow, pose: &Pose) -> Option<(f64, bool)> {
     let spec = g.mechanism.loads.grip.as_ref()?;
     let (Transmission::Joints(joints), HoldVerdict::Held(h)) =
         (spec.transmission, &row.hardest.as_ref()?.verdict)
     else {
         return None;
     };
-    let t = rates(&g.mechanism, pose, &joints).ok()?;
-    Some((effort(spec.load.as_ref()?.levers, h, &t)?, t.slides))
+    let t = drive_rates(&g.mechanism, pose, &joints).ok()?;
+    Some((drive_effort(spec.load.as_ref()?.levers, h, &t)?, t.slides))
 }
 
 /// Returns the reactions around the part of a row, or `None` if it is not held. With one drive, planar statics are used
@@ -65,13 +65,13 @@ fn asked(g: &Gripping, row: &DiameterRow, pose: &Pose) -> Option<(f64, bool)> {
 ///
 /// # Errors
 /// Returns a [`ClampedError`].
-pub fn clamped(
+pub fn clamped_reactions(
     g: &Gripping,
     row: &DiameterRow,
     spatial: bool,
 ) -> Result<Option<Clamped>, ClampedError> {
-    let fit = g.fit(row)?;
-    let Some(loads) = g.loads(row) else {
+    let fit = g.fit_part(row)?;
+    let Some(loads) = g.jaw_loads(row) else {
         return Ok(None);
     };
     let mut m = g.mechanism.clone();
@@ -86,8 +86,8 @@ pub fn clamped(
         Some(found) => SolvedReactions::Planar(Box::new(found)),
         None => {
             let home = Pose::of_file(&m, g.state)?;
-            let drives = driven(&m, &Geometry::new(&m, g.state, &home)?)?;
-            let found = Reactions::at(&m, g.state, &m.loads, &fit.pose, fit.drive, &drives)?;
+            let drives = driven_freedoms(&m, &Geometry::new(&m, g.state, &home)?)?;
+            let found = Reactions::solve_at(&m, g.state, &m.loads, &fit.pose, fit.drive, &drives)?;
             SolvedReactions::Spatial(Cycle {
                 drives,
                 positions: vec![(fit.drive, Ok(found))],
@@ -96,7 +96,7 @@ pub fn clamped(
         }
     };
     Ok(Some(Clamped {
-        effort: asked(g, row, &fit.pose),
+        effort: required_effort(g, row, &fit.pose),
         mechanism: m,
         fit,
         found,

@@ -4,7 +4,7 @@ use crate::format::decimals;
 use crate::geom::vector::{length, unit};
 use crate::grip::contact::{Gripper, TouchingPose, Unholdable};
 use crate::grip::holding::{
-    Holding, HoldingError, HoldingOutcome, PartWrench, Slip, Spatial, hold,
+    Holding, HoldingError, HoldingOutcome, PartWrench, Slip, Spatial, find_holding,
 };
 use crate::grip::lever_arm::{Arms, Lever, LeverError};
 use crate::model::grip::{GripLoad, GripSpec, LeverDrive, Pivots, Toward};
@@ -43,7 +43,7 @@ pub struct Hardest {
 impl Hardest {
     /// Returns the forces that hold the part, if it is held.
     #[must_use]
-    pub fn held(&self) -> Option<&Holding> {
+    pub fn held_forces(&self) -> Option<&Holding> {
         match &self.verdict {
             HoldVerdict::Held(held) => Some(held),
             HoldVerdict::Slips(_) | HoldVerdict::Undecided(_) => None,
@@ -73,15 +73,15 @@ pub struct DiameterRow {
 impl DiameterRow {
     /// Returns the drive moment per lever, if the part is held against a load. `[N·m]`
     #[must_use]
-    pub fn drive(&self) -> Option<f64> {
-        Some(self.hardest.as_ref()?.held()?.drive)
+    pub fn drive_moment(&self) -> Option<f64> {
+        Some(self.hardest.as_ref()?.held_forces()?.drive)
     }
 
     /// Returns true if the part is held in every stated case.
     #[must_use]
-    pub fn holds(&self) -> bool {
+    pub fn is_held(&self) -> bool {
         let forces = self.hardest.as_ref();
-        self.obstacles.is_empty() && forces.is_none_or(|h| h.held().is_some())
+        self.obstacles.is_empty() && forces.is_none_or(|h| h.held_forces().is_some())
     }
 }
 
@@ -97,14 +97,17 @@ pub struct Study {
 impl Study {
     /// Returns true if every diameter is held in every case.
     #[must_use]
-    pub fn holds(&self) -> bool {
-        self.rows.iter().all(DiameterRow::holds)
+    pub fn holds_all(&self) -> bool {
+        self.rows.iter().all(DiameterRow::is_held)
     }
 
     /// Returns the diameter that requires the largest drive moment.
     #[must_use]
-    pub fn hardest(&self) -> Option<&DiameterRow> {
-        let held = self.rows.iter().filter_map(|r| Some((r, r.drive()?)));
+    pub fn hardest_row(&self) -> Option<&DiameterRow> {
+        let held = self
+            .rows
+            .iter()
+            .filter_map(|r| Some((r, r.drive_moment()?)));
         held.max_by(|a, b| a.1.total_cmp(&b.1)).map(|(r, _)| r)
     }
 }
@@ -116,12 +119,12 @@ struct GravityCase {
     words: Box<dyn Fn(Spatial) -> String>,
 }
 
-fn vector([x, y, z]: Spatial) -> String {
+fn vector_words([x, y, z]: Spatial) -> String {
     let round = |v| decimals(v, 3);
     format!("({}, {}, {})", round(x), round(y), round(z))
 }
 
-fn cases(load: &GripLoad) -> Vec<GravityCase> {
+fn gravity_cases(load: &GripLoad) -> Vec<GravityCase> {
     let each = |a: &Toward| match (load.gravity, *a) {
         (Toward::Fixed(g), Toward::Fixed(a)) => GravityCase {
             base: [0, 1, 2].map(|i| g[i] - a[i]),
@@ -130,7 +133,7 @@ fn cases(load: &GripLoad) -> Vec<GravityCase> {
                 if a == [0.0; 3] {
                     "at rest".to_owned()
                 } else {
-                    format!("acceleration {} m/s²", vector(a))
+                    format!("acceleration {} m/s²", vector_words(a))
                 }
             }),
         },
@@ -138,7 +141,10 @@ fn cases(load: &GripLoad) -> Vec<GravityCase> {
             base: g,
             any: size,
             words: Box::new(move |u| {
-                format!("acceleration {size} m/s² along {}", vector(u.map(|x| -x)))
+                format!(
+                    "acceleration {size} m/s² along {}",
+                    vector_words(u.map(|x| -x))
+                )
             }),
         },
         (Toward::Any(size), Toward::Fixed(a)) => GravityCase {
@@ -146,12 +152,12 @@ fn cases(load: &GripLoad) -> Vec<GravityCase> {
             any: size,
             words: Box::new(move |u| {
                 if a == [0.0; 3] {
-                    format!("gravity along {}", vector(u))
+                    format!("gravity along {}", vector_words(u))
                 } else {
                     format!(
                         "acceleration {} m/s², gravity along {}",
-                        vector(a),
-                        vector(u)
+                        vector_words(a),
+                        vector_words(u)
                     )
                 }
             }),
@@ -162,7 +168,7 @@ fn cases(load: &GripLoad) -> Vec<GravityCase> {
             words: Box::new(move |u| {
                 format!(
                     "gravity and {a} m/s² of acceleration both pulling along {}",
-                    vector(u)
+                    vector_words(u)
                 )
             }),
         },
@@ -182,7 +188,7 @@ fn cube_directions() -> impl Iterator<Item = Spatial> {
 }
 
 /// Returns the difficulty of a verdict; a part that cannot be held is the most difficult.
-fn hardness(v: &HoldVerdict) -> f64 {
+fn verdict_hardness(v: &HoldVerdict) -> f64 {
     match v {
         HoldVerdict::Held(h) => h.drive,
         HoldVerdict::Slips(_) | HoldVerdict::Undecided(_) => f64::INFINITY,
@@ -190,13 +196,13 @@ fn hardness(v: &HoldVerdict) -> f64 {
 }
 
 /// Returns the verdict on a load in a pose.
-pub(super) fn verdict(
+pub(super) fn find_verdict(
     pose: &TouchingPose,
     load: &PartWrench,
     friction: f64,
     levers: LeverDrive,
 ) -> HoldVerdict {
-    match hold(pose, load, friction, levers) {
+    match find_holding(pose, load, friction, levers) {
         Ok(HoldingOutcome::Held(h)) => HoldVerdict::Held(h),
         Ok(HoldingOutcome::Slips(s)) => HoldVerdict::Slips(s),
         Err(e) => HoldVerdict::Undecided(e),
@@ -207,8 +213,8 @@ fn hardest_of(pose: &TouchingPose, load: &GripLoad, mass: f64, case: &GravityCas
     let at = |u: Spatial| {
         let pull = [0, 1, 2].map(|i| case.base[i] + case.any * u[i]);
         let load_there =
-            PartWrench::of_mass(mass, pull, [0.0; 3], load.centre_of_mass).times(load.safety);
-        let verdict = verdict(pose, &load_there, load.friction, load.levers);
+            PartWrench::of_mass(mass, pull, [0.0; 3], load.centre_of_mass).scaled_by(load.safety);
+        let verdict = find_verdict(pose, &load_there, load.friction, load.levers);
         (
             u,
             Hardest {
@@ -226,21 +232,25 @@ fn hardest_of(pose: &TouchingPose, load: &GripLoad, mass: f64, case: &GravityCas
     // local maxima, and the global one need not be near the best of a few directions.
     let mut worst = at([1.0, 0.0, 0.0]);
     for u in cube_directions() {
-        let found = climbed(at, at(u));
+        let found = climb_from(at, at(u));
         // Mirror images are equally difficult. Rounding must not prefer one of them.
-        if hardness(&found.1.verdict) > hardness(&worst.1.verdict) * (1.0 + 1e-6) {
+        if verdict_hardness(&found.1.verdict) > verdict_hardness(&worst.1.verdict) * (1.0 + 1e-6) {
             worst = found;
         }
     }
     let mut step = 0.4;
-    while step > 2e-3 && hardness(&worst.1.verdict).is_finite() {
+    while step > 2e-3 && verdict_hardness(&worst.1.verdict).is_finite() {
         let from = worst.0;
         let aside = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]
             .into_iter()
             .cartesian_product([step, -step]);
         let tries = aside.map(|(a, s)| at(unit([0, 1, 2].map(|i| from[i] + s * a[i]))));
-        let best = tries.max_by(|a, b| hardness(&a.1.verdict).total_cmp(&hardness(&b.1.verdict)));
-        match best.filter(|b| hardness(&b.1.verdict) > hardness(&worst.1.verdict) * (1.0 + 1e-9)) {
+        let best = tries.max_by(|a, b| {
+            verdict_hardness(&a.1.verdict).total_cmp(&verdict_hardness(&b.1.verdict))
+        });
+        match best.filter(|b| {
+            verdict_hardness(&b.1.verdict) > verdict_hardness(&worst.1.verdict) * (1.0 + 1e-9)
+        }) {
             Some(better) => worst = better,
             None => step /= 2.0,
         }
@@ -250,25 +260,25 @@ fn hardest_of(pose: &TouchingPose, load: &GripLoad, mass: f64, case: &GravityCas
 
 /// Follows a direction to where the moment no longer increases. The direction of the slope there maximises the tangent
 /// over the ball. A convex function is nowhere below its tangent, so every step increases the moment.
-fn climbed(
+fn climb_from(
     at: impl Fn(Spatial) -> (Spatial, Hardest),
     mut here: (Spatial, Hardest),
 ) -> (Spatial, Hardest) {
     /// Step of a finite difference that approximates a slope.
     const STEP: f64 = 1e-3;
     for _ in 0..CLIMB {
-        let (u, now) = (here.0, hardness(&here.1.verdict));
+        let (u, now) = (here.0, verdict_hardness(&here.1.verdict));
         let slope = [0, 1, 2].map(|i| {
             let mut aside = u;
             aside[i] += STEP;
-            hardness(&at(aside).1.verdict) - now
+            verdict_hardness(&at(aside).1.verdict) - now
         });
         let steep = length(slope);
         if !(steep.is_finite() && steep > 0.0) {
             break;
         }
         let next = at(slope.map(|x| x / steep));
-        if hardness(&next.1.verdict) <= now * (1.0 + 1e-9) {
+        if verdict_hardness(&next.1.verdict) <= now * (1.0 + 1e-9) {
             break;
         }
         here = next;
@@ -277,7 +287,7 @@ fn climbed(
 }
 
 /// Returns the gripper for a diameter.
-pub(super) fn gripper(spec: &GripSpec, lever: Lever, diameter: f64) -> Gripper {
+pub(super) fn gripper_for(spec: &GripSpec, lever: Lever, diameter: f64) -> Gripper {
     Gripper {
         lever,
         pivot: match spec.pivots {
@@ -299,21 +309,24 @@ pub(super) fn gripper(spec: &GripSpec, lever: Lever, diameter: f64) -> Gripper {
 ///
 /// # Errors
 /// Returns an error if figures of the lever are out of range.
-pub fn study(spec: &GripSpec) -> Result<Study, LeverError> {
+pub fn study_diameters(spec: &GripSpec) -> Result<Study, LeverError> {
     let lever = Lever::new(spec.lever_length, spec.prism_angle, spec.mounting_angle)?;
     let row = |&diameter: &f64| {
-        let gripper = gripper(spec, lever, diameter);
-        let obstacles = gripper.obstacles(diameter);
-        let pose = gripper.pose(diameter).ok();
-        let mass = spec.load.as_ref().map_or(0.0, |l| l.mass.of(diameter));
+        let gripper = gripper_for(spec, lever, diameter);
+        let obstacles = gripper.find_obstacles(diameter);
+        let pose = gripper.touching_pose(diameter).ok();
+        let mass = spec
+            .load
+            .as_ref()
+            .map_or(0.0, |l| l.mass.for_diameter(diameter));
         let hardest = match (&spec.load, &pose) {
             (Some(load), Some(pose)) if obstacles.is_empty() => {
-                let found = cases(load)
+                let found = gravity_cases(load)
                     .iter()
                     .map(|c| hardest_of(pose, load, mass, c))
                     .collect_vec();
                 found.into_iter().reduce(|a, b| {
-                    if hardness(&b.verdict) > hardness(&a.verdict) {
+                    if verdict_hardness(&b.verdict) > verdict_hardness(&a.verdict) {
                         b
                     } else {
                         a
@@ -325,7 +338,7 @@ pub fn study(spec: &GripSpec) -> Result<Study, LeverError> {
         DiameterRow {
             diameter,
             gripper,
-            arms: lever.arms(diameter),
+            arms: lever.force_arms(diameter),
             pose,
             obstacles,
             mass,

@@ -3,7 +3,9 @@
 //! Axes: x along the gripper's axis of symmetry from the pivots to the part, y from the lower to the upper lever, z
 //! along the pivots and the part. The origin is midway between the pivots.
 
-use crate::geom::vector::{add, add_scaled, cross_plane, dot, norm, quarter, scale, sub, turned};
+use crate::geom::vector::{
+    add, add_scaled, cross_plane, dot, plane_norm, quarter_turn, rotate_plane, scale, sub,
+};
 use crate::grip::lever_arm::Lever;
 use std::fmt;
 
@@ -151,7 +153,7 @@ impl fmt::Display for Unholdable {
 impl Gripper {
     /// Creates the gripper for which a diameter is nominal.
     #[must_use]
-    pub fn nominal(lever: Lever, diameter: f64) -> Gripper {
+    pub fn with_nominal(lever: Lever, diameter: f64) -> Gripper {
         Gripper {
             lever,
             pivot: lever.nominal_pivot(diameter),
@@ -168,7 +170,7 @@ impl Gripper {
     ///
     /// # Sources
     /// The triangle of pivot, vertex and centre; `[Pavlenko & Godunko 2010]` fig. 1 for its angle at the vertex.
-    pub fn pose(&self, diameter: f64) -> Result<TouchingPose, Unholdable> {
+    pub fn touching_pose(&self, diameter: f64) -> Result<TouchingPose, Unholdable> {
         let (lever, half) = (&self.lever, self.lever.prism_angle / 2.0);
         let to_centre = lever.centre_distance(diameter);
         // With the vertex at the origin and the bisector pointing down, perpendicular to the axis.
@@ -176,7 +178,7 @@ impl Gripper {
         let pivot_there = [-lever.length * theta.sin(), -lever.length * theta.cos()];
         let centre_there = [0.0, -to_centre];
         let across = sub(centre_there, pivot_there);
-        let reach = norm(across);
+        let reach = plane_norm(across);
         let ahead = (reach - self.pivot.abs()) * (reach + self.pivot.abs());
         // At a difference this small the part is between the pivots.
         if ahead.is_nan() || ahead <= 1e-18 * reach * reach {
@@ -189,12 +191,12 @@ impl Gripper {
         let pivot = [0.0, self.pivot];
         let wanted = [centre[0], -self.pivot];
         let turn = cross_plane(across, wanted).atan2(dot(across, wanted));
-        let vertex = add(pivot, turned(scale(pivot_there, -1.0), turn));
-        let down = turned([0.0, -1.0], turn);
+        let vertex = add(pivot, rotate_plane(scale(pivot_there, -1.0), turn));
+        let down = rotate_plane([0.0, -1.0], turn);
         let along = lever.face_distance(diameter);
         let contact = |name, lever, far: bool| {
-            let tangent = turned(down, if far { half } else { -half });
-            let normal = scale(quarter(tangent), if far { -1.0 } else { 1.0 });
+            let tangent = rotate_plane(down, if far { half } else { -half });
+            let normal = scale(quarter_turn(tangent), if far { -1.0 } else { 1.0 });
             let point = add_scaled(vertex, along, tangent);
             // The face that opens counterclockwise from the bisector has the part on its clockwise side.
             let mirror = |v: Planar| if lever == 1 { [v[0], -v[1]] } else { v };
@@ -227,13 +229,13 @@ impl Gripper {
     /// # Sources
     /// `[Pavlenko & Godunko 2010]`: only combinations that can really hold the part count.
     #[must_use]
-    pub fn obstacles(&self, diameter: f64) -> Vec<Unholdable> {
-        let pose = match self.pose(diameter) {
+    pub fn find_obstacles(&self, diameter: f64) -> Vec<Unholdable> {
+        let pose = match self.touching_pose(diameter) {
             Ok(pose) => pose,
             Err(reason) => return vec![reason],
         };
         let mut out = Vec::new();
-        let arms = self.lever.arms(diameter);
+        let arms = self.lever.force_arms(diameter);
         for (name, arm) in [("l1", arms.l1), ("l2", arms.l2)] {
             if arm <= 0.0 {
                 out.push(Unholdable::Arm { name, arm });

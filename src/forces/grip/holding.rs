@@ -46,7 +46,7 @@ impl PartWrench {
 
     /// Returns the load times a factor, such as one for safety.
     #[must_use]
-    pub fn times(&self, factor: f64) -> PartWrench {
+    pub fn scaled_by(&self, factor: f64) -> PartWrench {
         PartWrench {
             force: self.force.map(|x| x * factor),
             moment: self.moment.map(|x| x * factor),
@@ -77,7 +77,7 @@ impl ContactForce {
 
     /// Returns the size of the friction force. `[N]`
     #[must_use]
-    pub fn friction(&self) -> f64 {
+    pub fn friction_force(&self) -> f64 {
         self.along.hypot(self.axial)
     }
 }
@@ -85,15 +85,15 @@ impl ContactForce {
 impl ContactForce {
     /// Returns the force moved into the friction cone, from which a solver's result deviates within its tolerance.
     /// Returns zero if the normal force is below `least`, which is rounding.
-    fn within(self, friction: f64, least: f64) -> ContactForce {
+    fn clamp_to_cone(self, friction: f64, least: f64) -> ContactForce {
         if self.normal <= least {
             return ContactForce::NONE;
         }
         let most = friction * self.normal;
         // A few digits of tolerance, so that rounding does not put the square root of the sum of squares above the
         // limit.
-        let scale = if self.friction() > most {
-            most / self.friction() * (1.0 - 4.0 * f64::EPSILON)
+        let scale = if self.friction_force() > most {
+            most / self.friction_force() * (1.0 - 4.0 * f64::EPSILON)
         } else {
             1.0
         };
@@ -212,13 +212,13 @@ impl<'a> Programme<'a> {
     }
 
     /// Returns contact, component and variable of every force component in use.
-    fn components(&self) -> impl Iterator<Item = (usize, usize, usize)> + use<> {
+    fn iter_components(&self) -> impl Iterator<Item = (usize, usize, usize)> + use<> {
         let used = self.used;
         (0..4).flat_map(move |c| (0..used).map(move |d| (c, d, 3 * c + d)))
     }
 
-    fn row(&mut self, row: impl IntoIterator<Item = (usize, f64)>, right: f64) {
-        self.cones.row(row, right);
+    fn add_row(&mut self, row: impl IntoIterator<Item = (usize, f64)>, right: f64) {
+        self.cones.add_row(row, right);
     }
 
     fn from(&self, origin: [f64; 2], contact: usize) -> Spatial {
@@ -231,32 +231,32 @@ impl<'a> Programme<'a> {
     }
 
     /// Adds three equations of forces and three of moments about the part's centre.
-    fn balance(&mut self, load: &PartWrench, unit: f64) {
+    fn add_balance(&mut self, load: &PartWrench, unit: f64) {
         let wrenches: Vec<(usize, Spatial, Spatial)> = self
-            .components()
+            .iter_components()
             .map(|(c, d, v)| {
                 let f = self.directions[c][d];
                 (v, f, cross(self.from(self.pose.centre, c), f))
             })
             .collect();
         for axis in 0..3 {
-            self.row(
+            self.add_row(
                 wrenches.iter().map(|(v, f, _)| (*v, f[axis])),
                 -load.force[axis] / unit,
             );
         }
         for axis in 0..3 {
             let right = -load.moment[axis] / unit / self.length;
-            self.row(wrenches.iter().map(|(v, _, m)| (*v, m[axis])), right);
+            self.add_row(wrenches.iter().map(|(v, _, m)| (*v, m[axis])), right);
         }
     }
 
     /// Returns the closing moment that a lever requires, times `scale`: that of the part's forces on it about its
     /// pivot.
-    fn lever(&self, k: usize, scale: f64) -> Vec<(usize, f64)> {
+    fn lever_row(&self, k: usize, scale: f64) -> Vec<(usize, f64)> {
         let sign = if k == 0 { -scale } else { scale };
         let own = self
-            .components()
+            .iter_components()
             .filter(|(c, _, _)| self.pose.contacts[*c].lever == k);
         own.map(|(c, d, v)| {
             (
@@ -270,47 +270,56 @@ impl<'a> Programme<'a> {
     /// Adds the balance of each lever's moment with the drive's.
     fn equal_levers(&mut self) {
         for k in 0..2 {
-            let row = self.lever(k, 1.0).into_iter().chain([(DRIVE, -1.0)]);
-            self.row(row, 0.0);
+            let row = self.lever_row(k, 1.0).into_iter().chain([(DRIVE, -1.0)]);
+            self.add_row(row, 0.0);
         }
     }
 
-    fn write(mut self, load: &PartWrench, unit: f64, friction: f64, levers: LeverDrive) -> Self {
-        self.balance(load, unit);
+    fn write_programme(
+        mut self,
+        load: &PartWrench,
+        unit: f64,
+        friction: f64,
+        levers: LeverDrive,
+    ) -> Self {
+        self.add_balance(load, unit);
         if levers == LeverDrive::Equal {
             self.equal_levers();
         }
         // The missing components of frictionless contacts are held at zero.
         let used = self.used;
         for v in (0..DRIVE).filter(|v| v % 3 >= used) {
-            self.row([(v, 1.0)], 0.0);
+            self.add_row([(v, 1.0)], 0.0);
         }
-        self.cones.within(ZeroConeT);
-        self.row([(DRIVE, -1.0)], 0.0);
+        self.cones.close_cone(ZeroConeT);
+        self.add_row([(DRIVE, -1.0)], 0.0);
         match levers {
             LeverDrive::Coupled => {
-                let both = self.lever(0, 0.5).into_iter().chain(self.lever(1, 0.5));
-                self.row(both.chain([(DRIVE, -1.0)]), 0.0);
+                let both = self
+                    .lever_row(0, 0.5)
+                    .into_iter()
+                    .chain(self.lever_row(1, 0.5));
+                self.add_row(both.chain([(DRIVE, -1.0)]), 0.0);
             }
             LeverDrive::Independent => {
                 self.equal_levers();
                 for k in 0..2 {
-                    let row = self.lever(k, -1.0);
-                    self.row(row, 0.0);
+                    let row = self.lever_row(k, -1.0);
+                    self.add_row(row, 0.0);
                 }
             }
             LeverDrive::Equal => {}
         }
         if friction == 0.0 {
-            (0..4).for_each(|c| self.row([(3 * c, -1.0)], 0.0));
+            (0..4).for_each(|c| self.add_row([(3 * c, -1.0)], 0.0));
         }
-        self.cones.within(NonnegativeConeT);
+        self.cones.close_cone(NonnegativeConeT);
         if friction > 0.0 {
             for c in 0..4 {
-                self.row([(3 * c, -friction)], 0.0);
-                self.row([(3 * c + 1, -1.0)], 0.0);
-                self.row([(3 * c + 2, -1.0)], 0.0);
-                self.cones.within(SecondOrderConeT);
+                self.add_row([(3 * c, -friction)], 0.0);
+                self.add_row([(3 * c + 1, -1.0)], 0.0);
+                self.add_row([(3 * c + 2, -1.0)], 0.0);
+                self.cones.close_cone(SecondOrderConeT);
             }
         }
         self
@@ -323,7 +332,7 @@ impl<'a> Programme<'a> {
             [f.normal, f.along, f.axial][v % 3]
         };
         let moment = |k| {
-            let own = self.lever(k, 1.0);
+            let own = self.lever_row(k, 1.0);
             own.iter().map(|&(v, a)| a * of(v)).sum::<f64>() * self.length
         };
         let moments = [moment(0), moment(1)];
@@ -359,7 +368,7 @@ impl<'a> Programme<'a> {
 /// # Sources
 /// Equilibrium of the part (six equations) and of each lever about its pivot, with moments from coordinates, not from
 /// the arms of `[Pavlenko & Godunko 2010]`.
-pub fn hold(
+pub fn find_holding(
     pose: &TouchingPose,
     load: &PartWrench,
     friction: f64,
@@ -382,10 +391,10 @@ pub fn hold(
     if unit == 0.0 {
         return Ok(HoldingOutcome::Held(Holding::IDLE));
     }
-    let programme = programme.write(load, unit, friction, levers);
+    let programme = programme.write_programme(load, unit, friction, levers);
     let mut objective = [0.0; DRIVE + 1];
     objective[DRIVE] = 1.0;
-    let s = programme.cones.solve(&[], &objective);
+    let s = programme.cones.solve_programme(&[], &objective);
     let s = s.map_err(HoldingError::Solver)?;
     match s.status {
         SolverStatus::Solved | SolverStatus::AlmostSolved => {
@@ -396,7 +405,7 @@ pub fn hold(
                     along,
                     axial,
                 };
-                found.within(friction, ROUNDING * unit)
+                found.clamp_to_cone(friction, ROUNDING * unit)
             });
             let least = s.obj_val_dual.max(0.0) * unit * length;
             Ok(HoldingOutcome::Held(

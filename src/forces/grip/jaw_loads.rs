@@ -22,14 +22,14 @@
 use crate::geom::exact::ExactError;
 use crate::geom::expr::Expr;
 use crate::geom::vector::{self, across, add, add_scaled, cross, dot, length, sub};
-use crate::grip::clamping::{DiameterRow, HoldVerdict, Study, study};
+use crate::grip::clamping::{DiameterRow, HoldVerdict, Study, study_diameters};
 use crate::grip::contact::{self, Contact, Unholdable};
 use crate::grip::lever_arm::LeverError;
 use crate::model::grip::{GripSpec, Transmission};
 use crate::model::joint_type::Freedom;
 use crate::model::loads::{ExternalForce, Loads};
 use crate::model::mechanism::{JointId, LinkId, Mechanism, StateId};
-use crate::motion::follow::{Follower, slides};
+use crate::motion::follow::{Follower, column_slides};
 use crate::motion::pose::Pose;
 use thiserror::Error;
 
@@ -113,28 +113,28 @@ struct Axes {
 }
 
 impl Axes {
-    fn direction(&self, v: [f64; 3]) -> [f64; 3] {
+    fn to_direction(&self, v: [f64; 3]) -> [f64; 3] {
         [0, 1, 2].map(|i| (0..3).map(|k| v[k] * self.unit[k][i]).sum())
     }
 
-    fn point(&self, p: [f64; 3]) -> [f64; 3] {
-        add(self.origin, self.direction(p))
+    fn to_point(&self, p: [f64; 3]) -> [f64; 3] {
+        add(self.origin, self.to_direction(p))
     }
 
-    fn flat(&self, p: [f64; 3]) -> [f64; 2] {
+    fn to_plane(&self, p: [f64; 3]) -> [f64; 2] {
         let d = sub(p, self.origin);
         [dot(d, self.unit[0]), dot(d, self.unit[1])]
     }
 
     /// Returns an error if a joint is farther than `most` from its expected position. `[m]`
-    fn check(
+    fn check_position(
         &self,
         m: &Mechanism,
         joint: JointId,
         wanted: [f64; 2],
         most: f64,
     ) -> Result<(), JawError> {
-        let is = self.flat(metres(m, joint));
+        let is = self.to_plane(joint_metres(m, joint));
         let off = (is[0] - wanted[0]).hypot(is[1] - wanted[1]);
         if off.is_nan() || off > most {
             let told = |p: [f64; 2]| p.map(|x| x / m.length_unit.metres);
@@ -180,30 +180,33 @@ fn cut_free(m: &Mechanism, part: LinkId) -> Mechanism {
     out
 }
 
-fn metres(m: &Mechanism, joint: JointId) -> [f64; 3] {
+fn joint_metres(m: &Mechanism, joint: JointId) -> [f64; 3] {
     let p = &m.joints[joint].frame.point;
     [0, 1, 2].map(|i| p[i].to_f64() * m.length_unit.metres)
 }
 
-fn mean(points: &[[f64; 3]]) -> [f64; 3] {
+fn mean_point(points: &[[f64; 3]]) -> [f64; 3] {
     #[allow(clippy::cast_precision_loss, reason = "two or four points")]
     let n = points.len() as f64;
     [0, 1, 2].map(|i| points.iter().map(|p| p[i]).sum::<f64>() / n)
 }
 
-fn unit(a: [f64; 3]) -> Option<[f64; 3]> {
+fn unit_vector(a: [f64; 3]) -> Option<[f64; 3]> {
     (length(a) > 0.0).then(|| vector::unit(a))
 }
 
 /// Returns the gripper's axes, from the contacts and the hinges of the levers along `hinge`.
-fn axes(contacts: [[f64; 3]; 4], pivots: [[f64; 3]; 2], hinge: [f64; 3]) -> Option<Axes> {
-    let ahead = sub(mean(&contacts), mean(&pivots));
-    let x = unit(across(ahead, hinge))?;
-    let up = across(sub(mean(&contacts[..2]), mean(&contacts[2..])), hinge);
-    let y = unit(across(up, x))?;
+fn grip_axes(contacts: [[f64; 3]; 4], pivots: [[f64; 3]; 2], hinge: [f64; 3]) -> Option<Axes> {
+    let ahead = sub(mean_point(&contacts), mean_point(&pivots));
+    let x = unit_vector(across(ahead, hinge))?;
+    let up = across(
+        sub(mean_point(&contacts[..2]), mean_point(&contacts[2..])),
+        hinge,
+    );
+    let y = unit_vector(across(up, x))?;
     Some(Axes {
         // Midway between the pivots, in the plane of the contacts.
-        origin: add_scaled(mean(&pivots), dot(ahead, hinge), hinge),
+        origin: add_scaled(mean_point(&pivots), dot(ahead, hinge), hinge),
         unit: [x, y, cross(x, y)],
     })
 }
@@ -218,7 +221,7 @@ impl Gripping {
     /// That of [`study`].
     pub fn new(m: &Mechanism, state: StateId) -> Result<Option<Gripping>, JawError> {
         match grip_of(m, state) {
-            Some((spec, ..)) => Gripping::of_study(m, state, study(spec)?),
+            Some((spec, ..)) => Gripping::of_study(m, state, study_diameters(spec)?),
             None => Ok(None),
         }
     }
@@ -235,7 +238,10 @@ impl Gripping {
         let Some((spec, contacts, joints)) = grip_of(m, state) else {
             return Ok(None);
         };
-        let of_row = study.rows.first().map(|r| r.gripper.pose(spec.diameter));
+        let of_row = study
+            .rows
+            .first()
+            .map(|r| r.gripper.touching_pose(spec.diameter));
         let nominal = match of_row {
             Some(Ok(pose)) => pose,
             Some(Err(why)) => return Err(JawError::Nominal(why)),
@@ -255,18 +261,18 @@ impl Gripping {
         let mechanism = cut_free(m, part);
         let start = Pose::of_file(&mechanism, state)?;
         let not_a_hinge = || JawError::NotAHinge(m.joints[joints[0]].id.clone());
-        let at = hinge(&start, joints[0]).ok_or_else(not_a_hinge)?;
+        let at = hinge_column(&start, joints[0]).ok_or_else(not_a_hinge)?;
         let t = start.columns[at].twist;
-        let axes = axes(
-            contacts.map(|j| metres(m, j)),
-            joints.map(|j| metres(m, j)),
+        let axes = grip_axes(
+            contacts.map(|j| joint_metres(m, j)),
+            joints.map(|j| joint_metres(m, j)),
             [t[0], t[1], t[2]],
         )
         .ok_or_else(not_a_hinge)?;
         let placed = contacts.into_iter().zip(nominal.contacts.map(|c| c.point));
         let placed = placed.chain(joints.into_iter().zip(nominal.pivots));
         for (joint, wanted) in placed {
-            axes.check(m, joint, wanted, PLACED * spec.lever_length)?;
+            axes.check_position(m, joint, wanted, PLACED * spec.lever_length)?;
         }
         Ok(Some(Gripping {
             levers: [lever(0), lever(2)],
@@ -285,14 +291,14 @@ impl Gripping {
     ///
     /// # Errors
     /// Returns an error if a lever is not a hinge, or cannot reach the pose.
-    pub fn fit(&self, row: &DiameterRow) -> Result<Fit, JawError> {
+    pub fn fit_part(&self, row: &DiameterRow) -> Result<Fit, JawError> {
         let m = &self.mechanism;
         let there = row.pose.as_ref().map_or(0.0, |p| p.turn);
         let mut pose = self.start.clone();
         let mut held = Vec::new();
         for (k, &joint) in self.joints.iter().enumerate() {
             let name = || m.joints[joint].id.clone();
-            let column = hinge(&pose, joint).ok_or_else(|| JawError::NotAHinge(name()))?;
+            let column = hinge_column(&pose, joint).ok_or_else(|| JawError::NotAHinge(name()))?;
             // The lower lever is the mirror image of the upper one.
             let turn = (there - self.nominal.turn) * if k == 0 { 1.0 } else { -1.0 };
             let t = self.start.columns[column].twist;
@@ -305,20 +311,24 @@ impl Gripping {
             if (pose.columns[column].moved - to).abs() > TURNED {
                 let mut follower = Follower::new(pose, column, &held);
                 follower
-                    .advance(to, |_| {})
+                    .advance_to(to, |_| {})
                     .map_err(|_| JawError::OutOfReach {
                         joint: name(),
                         degrees: to.to_degrees(),
                         diameter: row.diameter,
                     })?;
-                pose = follower.pose();
+                pose = follower.current_pose();
             }
             held.push(column);
         }
         let drive = (0..pose.columns.len())
-            .find(|&c| m.joints[pose.columns[c].joint].drives(pose.columns[c].freedom));
+            .find(|&c| m.joints[pose.columns[c].joint].may_drive(pose.columns[c].freedom));
         let position = drive.map(|c| {
-            let scale = if slides(&pose, c) { pose.length } else { 1.0 };
+            let scale = if column_slides(&pose, c) {
+                pose.length
+            } else {
+                1.0
+            };
             pose.columns[c].moved * scale
         });
         Ok(Fit {
@@ -330,7 +340,7 @@ impl Gripping {
     /// Returns the loads of the mechanism in a diameter's worst case: those of the file, and the part's forces on the
     /// jaws. Returns `None` if the part is not held. The drives are at rest.
     #[must_use]
-    pub fn loads(&self, row: &DiameterRow) -> Option<Loads> {
+    pub fn jaw_loads(&self, row: &DiameterRow) -> Option<Loads> {
         let (hardest, fitted) = (row.hardest.as_ref()?, row.pose.as_ref()?);
         let HoldVerdict::Held(holding) = &hardest.verdict else {
             return None;
@@ -345,18 +355,18 @@ impl Gripping {
             ..self.mechanism.loads.in_state(self.state)
         };
         if out.gravity.is_some() {
-            out.gravity = Some(exact(self.axes.direction(hardest.pull))?);
+            out.gravity = Some(exact(self.axes.to_direction(hardest.pull))?);
         }
         let along = self.study.lever.face_distance(row.diameter);
         let each = self.nominal.contacts.iter().zip(&fitted.contacts);
         for ((home, now), f) in each.zip(&holding.forces) {
-            let point = self.axes.point(on_face(&self.nominal, home, along));
+            let point = self.axes.to_point(on_face(&self.nominal, home, along));
             let force = [0, 1].map(|i| f.normal * now.normal[i] + f.along * now.tangent[i]);
             out.forces.push(ExternalForce {
                 link: self.levers[home.lever],
                 point: exact(point.map(|x| x / self.mechanism.length_unit.metres))?,
                 // The part's force on the jaw is the opposite of the jaw's on the part.
-                force: exact(self.axes.direction([-force[0], -force[1], -f.axial]))?,
+                force: exact(self.axes.to_direction([-force[0], -force[1], -f.axial]))?,
                 range: None,
                 states: None,
             });
@@ -366,7 +376,7 @@ impl Gripping {
 }
 
 /// Returns the column of a joint that is only a hinge.
-fn hinge(pose: &Pose, joint: JointId) -> Option<usize> {
+fn hinge_column(pose: &Pose, joint: JointId) -> Option<usize> {
     let mut own = (0..pose.columns.len()).filter(|&c| pose.columns[c].joint == joint);
     match (own.next(), own.next()) {
         (Some(c), None) if pose.columns[c].freedom == Freedom::Rz => Some(c),

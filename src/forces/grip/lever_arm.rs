@@ -86,7 +86,7 @@ impl Lever {
     /// # Sources
     /// `[Pavlenko & Godunko 2010]` equations (1) to (8).
     #[must_use]
-    pub fn arms(&self, diameter: f64) -> Arms {
+    pub fn force_arms(&self, diameter: f64) -> Arms {
         let part = self.face_distance(diameter);
         let l11 = self.length * (PI - self.prism_angle - self.mounting_angle).cos();
         let l21 = self.length * self.mounting_angle.cos();

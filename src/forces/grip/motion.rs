@@ -3,9 +3,9 @@
 //! [`study`](crate::grip::clamping::study) only considers the worst case. A gripper that always closes with that force
 //! marks soft parts. One whose force follows the motion closes harder only when necessary.
 
-use crate::grip::clamping::{DiameterRow, HoldVerdict, verdict};
+use crate::grip::clamping::{DiameterRow, HoldVerdict, find_verdict};
 use crate::grip::holding::PartWrench;
-use crate::grip::{Grip, effort};
+use crate::grip::{Grip, drive_effort};
 use crate::model::grip::{GripSpec, MotionStep, Toward};
 use thiserror::Error;
 
@@ -44,7 +44,7 @@ pub struct StepTaken {
 impl StepTaken {
     /// Returns the smallest drive moment per lever, if the part is held. `[N·m]`
     #[must_use]
-    pub fn drive(&self) -> Option<f64> {
+    pub fn drive_moment(&self) -> Option<f64> {
         match &self.verdict {
             Some(HoldVerdict::Held(h)) => Some(h.drive),
             Some(HoldVerdict::Slips(_) | HoldVerdict::Undecided(_)) | None => None,
@@ -63,7 +63,7 @@ impl StepTaken {
 ///
 /// # Errors
 /// Returns a [`MotionError`].
-pub fn along(
+pub fn clamp_along(
     spec: &GripSpec,
     grip: &Grip,
     steps: &[MotionStep],
@@ -84,12 +84,12 @@ pub fn along(
         let row = &rows[at];
         let pull = [0, 1, 2].map(|k| gravity[k] - step.acceleration[k]);
         let pose = row.pose.as_ref().filter(|_| row.obstacles.is_empty());
-        let wrench =
-            PartWrench::of_mass(row.mass, pull, [0.0; 3], load.centre_of_mass).times(load.safety);
-        let verdict = pose.map(|p| verdict(p, &wrench, load.friction, load.levers));
+        let wrench = PartWrench::of_mass(row.mass, pull, [0.0; 3], load.centre_of_mass)
+            .scaled_by(load.safety);
+        let verdict = pose.map(|p| find_verdict(p, &wrench, load.friction, load.levers));
         let effort = match (&verdict, grip.transmission.get(at)) {
             (Some(HoldVerdict::Held(h)), Some(rates)) => {
-                effort(load.levers, h, rates).map(|e| (e, rates.slides))
+                drive_effort(load.levers, h, rates).map(|e| (e, rates.slides))
             }
             _ => None,
         };

@@ -11,7 +11,7 @@
 //! IDETC 2011; B. Servatius, O. Shai, W. Whiteley, "Combinatorial characterization of the Assur graphs from
 //! engineering", arXiv:0801.2525, 2008 (the components are the Assur groups).
 
-use crate::statics::assur_class::{AssurClass, classify};
+use crate::statics::assur_class::{AssurClass, classify_group};
 use crate::statics::planar::{BodyId, PairId, PairKind, PlanarMechanism};
 use itertools::Itertools;
 use std::collections::VecDeque;
@@ -78,7 +78,7 @@ impl Group {
 
     /// Returns all pairs that position the group: inner, outer and locked, ascending.
     #[must_use]
-    pub fn pairs(&self) -> Vec<PairId> {
+    pub fn all_pairs(&self) -> Vec<PairId> {
         let all = self.inner.iter().chain(&self.outer).chain(&self.locked);
         all.copied().sorted().collect()
     }
@@ -100,7 +100,7 @@ pub struct Decomposition {
 impl Decomposition {
     /// Returns the class of the mechanism: the highest among its groups, or 1 if there are none.
     #[must_use]
-    pub fn class(&self) -> usize {
+    pub fn highest_class(&self) -> usize {
         self.groups.iter().map(|g| g.class.class).max().unwrap_or(1)
     }
 }
@@ -112,7 +112,10 @@ impl Decomposition {
 ///
 /// # Complexity
 /// O(p·(n + p)) time, O(n + p) space, for n bodies and p pairs.
-pub fn decompose(m: &PlanarMechanism, drives: &[PairId]) -> Result<Decomposition, AssurError> {
+pub fn decompose_groups(
+    m: &PlanarMechanism,
+    drives: &[PairId],
+) -> Result<Decomposition, AssurError> {
     let blocks = Blocks::new(m, drives)?;
     let held = blocks.of[m.frame];
     let mut placement = Placement {
@@ -132,7 +135,7 @@ pub fn decompose(m: &PlanarMechanism, drives: &[PairId]) -> Result<Decomposition
         }
         placement.of_pair[p] = Some((ends, [usize::MAX; 2]));
         for half in 0..2 {
-            if let Err(reached) = placement.place(p, half, held) {
+            if let Err(reached) = placement.place_constraint(p, half, held) {
                 full.extend(reached);
                 excess += 1;
             }
@@ -141,7 +144,7 @@ pub fn decompose(m: &PlanarMechanism, drives: &[PairId]) -> Result<Decomposition
     if excess > 0 {
         let full = full.into_iter().sorted().dedup().collect_vec();
         return Err(AssurError::Overconstrained {
-            bodies: names(m, &blocks, &full),
+            bodies: body_names(m, &blocks, &full),
             excess,
         });
     }
@@ -151,16 +154,16 @@ pub fn decompose(m: &PlanarMechanism, drives: &[PairId]) -> Result<Decomposition
     if !free.is_empty() {
         let freedoms = free.iter().map(|&b| 3 - placement.load[b]).sum();
         return Err(AssurError::Underconstrained {
-            bodies: names(m, &blocks, &placement.loose(free)),
+            bodies: body_names(m, &blocks, &placement.loose_blocks(free)),
             freedoms,
         });
     }
-    Ok(assemble(
+    Ok(assemble_groups(
         m,
         drives,
         &blocks,
         held,
-        &components(&blocks, held, &placement),
+        &group_components(&blocks, held, &placement),
     ))
 }
 
@@ -170,7 +173,7 @@ pub fn decompose(m: &PlanarMechanism, drives: &[PairId]) -> Result<Decomposition
 /// # Complexity
 /// O(p) decompositions.
 #[must_use]
-pub fn alternatives(
+pub fn decompose_alternatives(
     m: &PlanarMechanism,
     drives: &[PairId],
 ) -> Vec<(PairId, Result<Decomposition, AssurError>)> {
@@ -182,7 +185,7 @@ pub fn alternatives(
     let with = |p: PairId| [p].into_iter().chain(rest.iter().copied()).collect_vec();
     candidates
         .into_iter()
-        .map(|p| (p, decompose(m, &with(p))))
+        .map(|p| (p, decompose_groups(m, &with(p))))
         .collect()
 }
 
@@ -239,7 +242,7 @@ impl Blocks {
     }
 }
 
-fn names(m: &PlanarMechanism, blocks: &Blocks, which: &[usize]) -> String {
+fn body_names(m: &PlanarMechanism, blocks: &Blocks, which: &[usize]) -> String {
     let bodies = which.iter().flat_map(|&b| &blocks.members[b]);
     let names = bodies.sorted().map(|&x| m.bodies[x].name.as_str());
     names.dedup().join(", ")
@@ -257,7 +260,7 @@ struct Placement {
 impl Placement {
     /// Assigns one constraint of pair `p` to one of its ends, moving others if necessary. On failure it returns the
     /// full blocks.
-    fn place(&mut self, p: PairId, half: usize, held: usize) -> Result<(), Vec<usize>> {
+    fn place_constraint(&mut self, p: PairId, half: usize, held: usize) -> Result<(), Vec<usize>> {
         let ends = self.of_pair[p].map_or([held; 2], |x| x.0);
         // came[b] = the constraint that may move into block b, and the block it leaves (none for the new one).
         let mut came: Vec<Option<(PairId, usize, Option<usize>)>> = vec![None; self.load.len()];
@@ -298,7 +301,7 @@ impl Placement {
     }
 
     /// Returns these blocks and those that may be left free instead of them.
-    fn loose(&self, mut free: Vec<usize>) -> Vec<usize> {
+    fn loose_blocks(&self, mut free: Vec<usize>) -> Vec<usize> {
         let mut next = 0;
         while let Some(&to) = free.get(next) {
             next += 1;
@@ -315,7 +318,7 @@ impl Placement {
 }
 
 /// Returns strongly connected blocks, each component after those it depends on, the first in file order first.
-fn components(blocks: &Blocks, held: usize, placement: &Placement) -> Vec<Vec<usize>> {
+fn group_components(blocks: &Blocks, held: usize, placement: &Placement) -> Vec<Vec<usize>> {
     let n = blocks.members.len();
     let mut needs: Vec<Vec<usize>> = vec![Vec::new(); n];
     for (ends, given) in placement.of_pair.iter().flatten() {
@@ -355,7 +358,7 @@ fn components(blocks: &Blocks, held: usize, placement: &Placement) -> Vec<Vec<us
     order
 }
 
-fn assemble(
+fn assemble_groups(
     m: &PlanarMechanism,
     drives: &[PairId],
     blocks: &Blocks,
@@ -386,7 +389,7 @@ fn assemble(
             }
         }
         let members = c.iter().map(|&b| blocks.members[b].clone()).collect_vec();
-        let class = classify(m, &members, &inner, &outer);
+        let class = classify_group(m, &members, &inner, &outer);
         Group {
             bodies: members.iter().flatten().copied().sorted().collect(),
             blocks: members,

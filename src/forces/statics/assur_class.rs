@@ -40,7 +40,7 @@ pub struct AssurClass {
 
 /// Returns a class in Roman numerals, as is usual in the field.
 #[must_use]
-pub fn roman(class: usize) -> String {
+pub fn roman_numeral(class: usize) -> String {
     const ROMAN: [&str; 13] = [
         "0", "I", "II", "III", "IV", "V", "VI", "VII", "VIII", "IX", "X", "XI", "XII",
     ];
@@ -51,7 +51,12 @@ pub fn roman(class: usize) -> String {
 
 impl fmt::Display for AssurClass {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "class {}, order {}", roman(self.class), self.order)?;
+        write!(
+            f,
+            "class {}, order {}",
+            roman_numeral(self.class),
+            self.order
+        )?;
         match self.kind {
             Kind::Dyad(species) => {
                 const NAMES: [&str; 6] = ["RRR", "RRP", "RPR", "PRP", "RPP", "PPP"];
@@ -74,7 +79,7 @@ impl fmt::Display for AssurClass {
 /// # Sources
 /// I. I. Artobolevsky, "Theory of Mechanisms and Machines", 4th ed., 1988.
 #[must_use]
-pub(crate) fn classify(
+pub(crate) fn classify_group(
     m: &PlanarMechanism,
     blocks: &[Vec<BodyId>],
     inner: &[PairId],
@@ -105,11 +110,11 @@ pub(crate) fn classify(
         order: outer.len(),
         composition,
         contours: (edges.len() + 1).saturating_sub(blocks.len()),
-        kind: kind(m, blocks, inner, outer, &degree, &edges),
+        kind: group_kind(m, blocks, inner, outer, &degree, &edges),
     }
 }
 
-fn kind(
+fn group_kind(
     m: &PlanarMechanism,
     blocks: &[Vec<BodyId>],
     inner: &[PairId],
@@ -163,7 +168,7 @@ fn longest_contour(n: usize, edges: &[(usize, usize)]) -> usize {
     for (i, &(a, b)) in edges.iter().enumerate() {
         graph.add_edge(NodeIndex::new(a), NodeIndex::new(b), i);
     }
-    let mut candidates = candidates(&graph);
+    let mut candidates = basis_candidates(&graph);
     candidates.sort_unstable();
     candidates.dedup();
     let mut basis: Vec<Vec<usize>> = Vec::new();
@@ -184,7 +189,7 @@ fn longest_contour(n: usize, edges: &[(usize, usize)]) -> usize {
 
 /// Returns Horton's candidates for a shortest basis, each with its length: for every body and pair, the two shortest
 /// paths to the pair's ends, and the pair.
-fn candidates(graph: &UnGraph<(), usize>) -> Vec<(usize, Vec<usize>)> {
+fn basis_candidates(graph: &UnGraph<(), usize>) -> Vec<(usize, Vec<usize>)> {
     let mut out: Vec<(usize, Vec<usize>)> = Vec::new();
     for v in graph.node_indices() {
         let far = dijkstra(graph, v, None, |_| 1usize);

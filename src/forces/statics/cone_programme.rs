@@ -18,13 +18,13 @@ pub(crate) struct ConeProgramme {
 
 impl ConeProgramme {
     /// Adds a row.
-    pub(crate) fn row(&mut self, row: impl IntoIterator<Item = (usize, f64)>, right: f64) {
+    pub(crate) fn add_row(&mut self, row: impl IntoIterator<Item = (usize, f64)>, right: f64) {
         self.rows.push(row.into_iter().collect());
         self.right.push(right);
     }
 
     /// Puts the slacks of the rows since the last cone into a cone.
-    pub(crate) fn within(&mut self, cone: impl Fn(usize) -> SupportedConeT<f64>) {
+    pub(crate) fn close_cone(&mut self, cone: impl Fn(usize) -> SupportedConeT<f64>) {
         self.cones.push(cone(self.rows.len() - self.grouped));
         self.grouped = self.rows.len();
     }
@@ -33,16 +33,16 @@ impl ConeProgramme {
     ///
     /// # Errors
     /// Returns the solver's message if it rejects the program.
-    pub(crate) fn solve(
+    pub(crate) fn solve_programme(
         &self,
         quadratic: &[Row],
         linear: &[f64],
     ) -> Result<DefaultSolution<f64>, String> {
         let columns = linear.len();
         let mut solver = DefaultSolver::new(
-            &matrix(quadratic, columns, columns),
+            &sparse_matrix(quadratic, columns, columns),
             linear,
-            &matrix(&self.rows, self.rows.len(), columns),
+            &sparse_matrix(&self.rows, self.rows.len(), columns),
             &self.right,
             &self.cones,
             DefaultSettings {
@@ -56,7 +56,7 @@ impl ConeProgramme {
     }
 }
 
-fn matrix(list: &[Row], rows: usize, columns: usize) -> CscMatrix<f64> {
+fn sparse_matrix(list: &[Row], rows: usize, columns: usize) -> CscMatrix<f64> {
     let (mut i, mut j, mut v) = (Vec::new(), Vec::new(), Vec::new());
     for (r, row) in list.iter().enumerate() {
         for &(c, x) in row {

@@ -42,7 +42,7 @@ pub struct ContourGroup {
 
 /// Finds the letters in a group. Returns `None` for groups of another kind, and those with a drive inside.
 #[must_use]
-pub(crate) fn recognise(m: &PlanarMechanism, group: &Group) -> Option<ContourGroup> {
+pub(crate) fn recognise_letters(m: &PlanarMechanism, group: &Group) -> Option<ContourGroup> {
     if group.class.kind != Kind::FourLinkContour || !group.locked.is_empty() {
         return None;
     }
@@ -70,8 +70,11 @@ pub(crate) fn recognise(m: &PlanarMechanism, group: &Group) -> Option<ContourGro
             .filter(move |&p| m.pairs[p].bodies.contains(&b))
     };
     let (f, k) = (at(ternary).next()?, at(ternary).nth(1)?);
-    let rods = [m.pairs[f].other(ternary)?, m.pairs[k].other(ternary)?];
-    let foot = |rod: BodyId| at(rod).find(|&p| m.pairs[p].other(rod) == Some(slider));
+    let rods = [
+        m.pairs[f].other_body(ternary)?,
+        m.pairs[k].other_body(ternary)?,
+    ];
+    let foot = |rod: BodyId| at(rod).find(|&p| m.pairs[p].other_body(rod) == Some(slider));
     Some(ContourGroup {
         ternary,
         rods,

@@ -4,18 +4,18 @@ use crate::geom::vector::dot;
 use crate::model::loads::Stroke;
 use crate::model::mechanism::{Mechanism, StateId};
 use crate::motion::pose::Pose as PoseOfLinks;
-use crate::statics::assur::{AssurError, Decomposition, alternatives, decompose};
+use crate::statics::assur::{AssurError, Decomposition, decompose_alternatives, decompose_groups};
 use crate::statics::contour_group::pose::GroupPose;
 use crate::statics::contour_group::solutions::GroupSolutions;
-use crate::statics::contour_group::{ContourGroup, recognise};
+use crate::statics::contour_group::{ContourGroup, recognise_letters};
 use crate::statics::kinetostatics::{
     LinkInertia, Load, LoadSource, Reaction, Worth, link_inertias, planar_loads, planar_reactions,
-    worth,
+    solution_worth,
 };
 use crate::statics::planar::{BodyId, PairId, PairKind, PlanarError, PlanarMechanism};
 use crate::statics::pose::{Linkage, Pose};
 use crate::statics::reactions::contact::Contacts;
-use crate::statics::reactions::drives::{Driven, driven};
+use crate::statics::reactions::drives::{Driven, driven_freedoms};
 use crate::statics::reactions::follow::follow_to;
 use crate::statics::reactions::geometry::Geometry;
 use crate::statics::reactions::loads::Borne;
@@ -118,7 +118,7 @@ impl Statics {
     ///
     /// # Errors
     /// Returns an [`Unsolved`]; [`Unsolved::Stuck`] if a group is singular to working precision.
-    fn moment(
+    fn solve_moment(
         &self,
         m: &Mechanism,
         state: StateId,
@@ -127,7 +127,7 @@ impl Statics {
     ) -> Result<Moment, Unsolved> {
         let (linkage, d) = (&self.linkage, &self.decomposition);
         let borne = Borne::new(m, state, of_links, at, held)?;
-        let pose = linkage.placed(of_links, &turns(linkage, &borne.geometry, of_links));
+        let pose = linkage.place_bodies(of_links, &link_turns(linkage, &borne.geometry, of_links));
         let singular = |c: f64| c > WORST;
         if group_conditions(linkage, &pose, d)
             .into_iter()
@@ -135,11 +135,11 @@ impl Statics {
         {
             return Err(Unsolved::Stuck);
         }
-        let solution = borne.solve(m, held, Contacts::AsJoints)?;
+        let solution = borne.solve_loads(m, held, Contacts::AsJoints)?;
         let loads = planar_loads(linkage, &borne);
         let reactions = planar_reactions(linkage, &pose, &solution.reactions);
         let worth = |bodies: &[BodyId], pairs: &[PairId]| {
-            worth(
+            solution_worth(
                 linkage,
                 &pose,
                 (bodies, pairs, &d.drives),
@@ -150,7 +150,7 @@ impl Statics {
         let frame = linkage.mechanism.frame;
         let bodies = (0..linkage.mechanism.bodies.len()).filter(|&b| b != frame);
         let pairs: Vec<PairId> = (0..linkage.mechanism.pairs.len()).collect();
-        let groups = d.groups.iter().map(|g| worth(&g.bodies, &g.pairs()));
+        let groups = d.groups.iter().map(|g| worth(&g.bodies, &g.all_pairs()));
         let unit = |p: PairId| match linkage.mechanism.pairs[p].kind {
             PairKind::Sliding => linkage.mechanism.metres,
             PairKind::Turning | PairKind::Rigid => 1.0,
@@ -185,8 +185,8 @@ impl Statics {
         (at, of_links): (f64, &PoseOfLinks),
     ) -> Result<DeadPoint, Unsolved> {
         let geometry = Geometry::new(m, state, of_links)?;
-        let turns = turns(&self.linkage, &geometry, of_links);
-        let pose = self.linkage.placed(of_links, &turns);
+        let turns = link_turns(&self.linkage, &geometry, of_links);
+        let pose = self.linkage.place_bodies(of_links, &turns);
         let conditions = group_conditions(&self.linkage, &pose, &self.decomposition);
         let all = conditions.into_iter().enumerate();
         let worst = all.max_by(|a, b| a.1.total_cmp(&b.1));
@@ -220,7 +220,7 @@ impl Statics {
 ///
 /// # Complexity
 /// O(steps · n³) for n bodies.
-pub fn statics(
+pub fn planar_statics(
     mechanism: &Mechanism,
     state: StateId,
     stroke: Option<Stroke>,
@@ -239,13 +239,13 @@ pub(crate) fn statics_at(
     positions: &[f64],
 ) -> Result<Statics, PlanarStaticsError> {
     let planar = PlanarMechanism::new(mechanism, state)?;
-    let drives = planar.drives();
-    let decomposition = decompose(&planar, &drives)?;
+    let drives = planar.driven_pairs();
+    let decomposition = decompose_groups(&planar, &drives)?;
     let linkage = Linkage::new(planar);
     let m = linkage.mechanism.as_driven(mechanism);
     let home = PoseOfLinks::of_file(&m, state).map_err(PlanarError::from)?;
     let home = Geometry::new(&m, state, &home).map_err(PlanarError::from)?;
-    let held = driven(&m, &home)?;
+    let held = driven_freedoms(&m, &home)?;
     let followed = follow_to(&m, state, &held, positions)?;
     let mut poses = followed.poses;
     if positions.first() > positions.last() {
@@ -253,9 +253,9 @@ pub(crate) fn statics_at(
     }
     let found = decomposition.groups.iter().enumerate();
     let contour_groups: Vec<(usize, ContourGroup)> = found
-        .filter_map(|(i, g)| Some((i, recognise(&linkage.mechanism, g)?)))
+        .filter_map(|(i, g)| Some((i, recognise_letters(&linkage.mechanism, g)?)))
         .collect();
-    let conditions = group_conditions(&linkage, &linkage.home(), &decomposition);
+    let conditions = group_conditions(&linkage, &linkage.home_pose(), &decomposition);
     let is_body = |link| linkage.mechanism.body_of(link).is_some();
     let stated = m.loads.in_state(state);
     let loaded = stated.forces.iter().any(|f| is_body(f.link))
@@ -272,7 +272,7 @@ pub(crate) fn statics_at(
         dead: None,
     };
     for (at, pose) in &poses {
-        match out.moment(&m, state, &held, (*at, pose)) {
+        match out.solve_moment(&m, state, &held, (*at, pose)) {
             Err(Unsolved::Stuck | Unsolved::Moves { .. }) => {
                 out.dead = Some(out.dead_point(&m, state, (*at, pose))?);
                 return Ok(out);
@@ -290,12 +290,12 @@ pub(crate) fn statics_at(
 fn group_conditions(linkage: &Linkage, pose: &Pose, d: &Decomposition) -> Vec<f64> {
     let groups = d.groups.iter();
     groups
-        .map(|g| linkage.condition(pose, &g.bodies, &g.pairs(), &d.drives))
+        .map(|g| linkage.equations_condition(pose, &g.bodies, &g.all_pairs(), &d.drives))
         .collect()
 }
 
 /// Returns the angles by which the links have turned since the pose of the file, about the plane's normal.
-fn turns(linkage: &Linkage, geometry: &Geometry, pose: &PoseOfLinks) -> Vec<f64> {
+fn link_turns(linkage: &Linkage, geometry: &Geometry, pose: &PoseOfLinks) -> Vec<f64> {
     let moved: Vec<f64> = pose.columns.iter().map(|c| c.moved).collect();
     let twists = geometry.link_twists(pose.links.len(), &moved);
     let about = |[x, y, z, ..]: [f64; 6]| dot(linkage.mechanism.axes[2], [x, y, z]);
@@ -316,17 +316,17 @@ pub struct DrivenStructure {
 ///
 /// # Errors
 /// Returns an error if the mechanism is not planar.
-pub fn structures(
+pub fn drive_structures(
     mechanism: &Mechanism,
     state: StateId,
 ) -> Result<(PlanarMechanism, Vec<DrivenStructure>), PlanarError> {
     let planar = PlanarMechanism::new(mechanism, state)?;
     let linkage = Linkage::new(planar.clone());
-    let all = alternatives(&planar, &planar.drives()).into_iter();
+    let all = decompose_alternatives(&planar, &planar.driven_pairs()).into_iter();
     let found = all.map(|(drive, d)| DrivenStructure {
         drive,
         found: d.map(|d| {
-            let conditions = group_conditions(&linkage, &linkage.home(), &d);
+            let conditions = group_conditions(&linkage, &linkage.home_pose(), &d);
             (d, conditions)
         }),
     });

@@ -9,7 +9,7 @@ use crate::statics::pose::{Linkage, Pose, cross, length, minus};
 use crate::statics::reactions::JointReaction;
 use crate::statics::reactions::loads::Borne;
 pub use crate::statics::reactions::loads::LoadSource;
-use crate::statics::{greatest, over_load, without};
+use crate::statics::{drop_rounding, greatest_abs, over_load};
 use serde::Serialize;
 
 /// A force at a point of a body, with a moment.
@@ -62,7 +62,7 @@ impl LinkInertia {
     /// # Sources
     /// `[Bychkov, Dvornikov & Zhukov 2018]`, who offset the force by it.
     #[must_use]
-    pub fn offset(&self) -> f64 {
+    pub fn inertia_offset(&self) -> f64 {
         self.moment / length(self.force)
     }
 }
@@ -86,7 +86,7 @@ pub struct Reaction {
 impl Reaction {
     /// Returns force and moment about a point on one of the two bodies; zero on any other.
     #[must_use]
-    pub fn on(&self, linkage: &Linkage, body: BodyId, about: [f64; 2]) -> [f64; 3] {
+    pub fn wrench_on(&self, linkage: &Linkage, body: BodyId, about: [f64; 2]) -> [f64; 3] {
         let sign = match linkage.mechanism.pairs[self.pair].bodies {
             [_, b] if b == body => 1.0,
             [a, _] if a == body => -1.0,
@@ -113,8 +113,8 @@ pub(crate) fn planar_loads(linkage: &Linkage, borne: &Borne) -> Vec<Load> {
         Some(Load {
             body: m.body_of(x.link)?,
             source: x.source,
-            point: m.across(borne.geometry.to_metres(x.point)),
-            force: m.across(x.force),
+            point: m.plane_components(borne.geometry.to_metres(x.point)),
+            force: m.plane_components(x.force),
             moment: Reals.dot(m.axes[2], x.moment),
         })
     });
@@ -127,10 +127,10 @@ pub(crate) fn link_inertias(linkage: &Linkage, borne: &Borne) -> Vec<LinkInertia
     let each = borne.masses.iter().filter_map(|x| {
         Some(LinkInertia {
             body: m.body_of(x.link)?,
-            centre: m.across(borne.geometry.to_metres(x.centre)),
-            acceleration: m.across(x.acceleration),
+            centre: m.plane_components(borne.geometry.to_metres(x.centre)),
+            acceleration: m.plane_components(x.acceleration),
             angular_acceleration: Reals.dot(m.axes[2], x.angular_acceleration),
-            force: m.across(x.force),
+            force: m.plane_components(x.force),
             moment: Reals.dot(m.axes[2], x.moment),
         })
     });
@@ -146,17 +146,17 @@ pub(crate) fn planar_reactions(
     let m = &linkage.mechanism;
     let one = |(pair, p): (PairId, &Pair)| {
         let r = joints.iter().find(|r| r.joint == p.joint)?;
-        let point = linkage.place(pose, pair);
+        let point = linkage.pair_position(pose, pair);
         let force = m
-            .across(r.global_force())
-            .map(|x| without(r.rounding[0], x));
+            .plane_components(r.global_force())
+            .map(|x| drop_rounding(r.rounding[0], x));
         let effort = r.effort.filter(|_| p.drive).map(|(_, x)| x);
         let moment = match p.kind {
             PairKind::Turning => effort.unwrap_or(0.0),
             PairKind::Sliding | PairKind::Rigid => {
-                let about = cross(minus(m.across(r.point), point), force);
+                let about = cross(minus(m.plane_components(r.point), point), force);
                 let moment = Reals.dot(m.axes[2], r.global_moment()) + about;
-                without(r.rounding[0] * linkage.size, moment)
+                drop_rounding(r.rounding[0] * linkage.size, moment)
             }
         };
         Some(Reaction {
@@ -172,7 +172,7 @@ pub(crate) fn planar_reactions(
 
 /// Returns the reliability of reactions in the equations of some bodies for some of the pairs. Reactions of the other
 /// pairs count as loads.
-pub(crate) fn worth(
+pub(crate) fn solution_worth(
     linkage: &Linkage,
     pose: &Pose,
     (bodies, pairs, drives): (&[BodyId], &[PairId], &[PairId]),
@@ -192,17 +192,17 @@ pub(crate) fn worth(
             } else {
                 &mut given
             };
-            *to = add(*to, r.on(linkage, body, about));
+            *to = add(*to, r.wrench_on(linkage, body, about));
         }
         all = add(all, given);
         for sum in [&mut given, &mut all] {
             sum[2] /= linkage.size;
         }
-        load = load.max(greatest(&given));
-        left_over = left_over.max(greatest(&all));
+        load = load.max(greatest_abs(&given));
+        left_over = left_over.max(greatest_abs(&all));
     }
     Worth {
-        condition: linkage.condition(pose, bodies, pairs, drives),
+        condition: linkage.equations_condition(pose, bodies, pairs, drives),
         residual: over_load(left_over, load),
     }
 }

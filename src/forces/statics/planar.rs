@@ -3,11 +3,11 @@
 use crate::closure::twist::FrameValues;
 use crate::geom::exact::ExactError;
 use crate::geom::expr::Expr;
-use crate::geom::vector::{X, Y, Z, across, cross, dot, length, real, unit};
+use crate::geom::vector::{X, Y, Z, across, cross, dot, length, to_vector, unit};
 use crate::geom::{Reals, Scalars};
 use crate::model::joint_type::Freedom;
 use crate::model::mechanism::{JointId, LinkId, Mechanism, Mode, StateId};
-use crate::statics::greatest;
+use crate::statics::greatest_abs;
 use std::fmt;
 use thiserror::Error;
 
@@ -118,7 +118,7 @@ pub struct Pair {
 impl Pair {
     /// Returns the body at the other end, if `body` is at one end.
     #[must_use]
-    pub fn other(&self, body: BodyId) -> Option<BodyId> {
+    pub fn other_body(&self, body: BodyId) -> Option<BodyId> {
         match self.bodies {
             [a, b] if a == body => Some(b),
             [a, b] if b == body => Some(a),
@@ -169,7 +169,7 @@ impl PlanarMechanism {
             let coupling = c.name(m);
             return Err(PlanarError::Coupled { coupling });
         }
-        let normal = normal(m, state)?;
+        let normal = plane_normal(m, state)?;
         let x = [X, Y]
             .into_iter()
             .find(|g| !is_parallel(*g, normal))
@@ -186,7 +186,7 @@ impl PlanarMechanism {
         let mut body_of = vec![None; m.links.len()];
         for (l, link) in m.links_with_ids() {
             let joined = m.joints_in(state).any(|j| m.joints[j].links.contains(&l));
-            if joined || l == m.frame() {
+            if joined || l == m.frame_link() {
                 body_of[l] = Some(planar.bodies.len());
                 planar.bodies.push(Body {
                     link: Some(l),
@@ -194,7 +194,7 @@ impl PlanarMechanism {
                 });
             }
         }
-        planar.frame = body_of[m.frame()].unwrap_or(0);
+        planar.frame = body_of[m.frame_link()].unwrap_or(0);
         for j in m.joints_in(state) {
             let [Some(a), Some(b)] = m.joints[j].links.map(|l| body_of[l]) else {
                 continue;
@@ -233,13 +233,13 @@ impl PlanarMechanism {
 
     /// Converts a point of the file to (x, y) in metres.
     #[must_use]
-    pub fn flat(&self, point: [f64; 3]) -> [f64; 2] {
-        self.across(point).map(|c| c * self.metres)
+    pub fn to_plane(&self, point: [f64; 3]) -> [f64; 2] {
+        self.plane_components(point).map(|c| c * self.metres)
     }
 
     /// Returns the components of a vector of the file along x and y.
     #[must_use]
-    pub fn across(&self, v: [f64; 3]) -> [f64; 2] {
+    pub fn plane_components(&self, v: [f64; 3]) -> [f64; 2] {
         [dot(self.axes[0], v), dot(self.axes[1], v)]
     }
 
@@ -251,14 +251,14 @@ impl PlanarMechanism {
 
     /// Returns the pairs that are marked as drives.
     #[must_use]
-    pub fn drives(&self) -> Vec<PairId> {
+    pub fn driven_pairs(&self) -> Vec<PairId> {
         (0..self.pairs.len())
             .filter(|&p| self.pairs[p].drive)
             .collect()
     }
 
     /// Returns the freedoms of a joint in the plane, with these axes of its frame.
-    fn seen(&self, freedoms: &[Freedom], axes: [[f64; 3]; 3]) -> FreedomsInPlane {
+    fn plane_freedoms(&self, freedoms: &[Freedom], axes: [[f64; 3]; 3]) -> FreedomsInPlane {
         let normal = |k: usize| is_parallel(axes[k], self.axes[2]);
         let across = |k: usize| dot(axes[k], self.axes[2]).abs() <= PARALLEL;
         let ball = [Freedom::Rx, Freedom::Ry, Freedom::Rz]
@@ -275,9 +275,9 @@ impl PlanarMechanism {
                 Freedom::Rx if normal(0) => seen.turns += 1,
                 Freedom::Ry if normal(1) => seen.turns += 1,
                 Freedom::Rz if normal(2) => seen.turns += 1,
-                Freedom::Tx if across(0) => seen.slides.push(self.across(axes[0])),
-                Freedom::Ty if across(1) => seen.slides.push(self.across(axes[1])),
-                Freedom::Tz if across(2) => seen.slides.push(self.across(axes[2])),
+                Freedom::Tx if across(0) => seen.slides.push(self.plane_components(axes[0])),
+                Freedom::Ty if across(1) => seen.slides.push(self.plane_components(axes[1])),
+                Freedom::Tz if across(2) => seen.slides.push(self.plane_components(axes[2])),
                 _ => seen.outside = true,
             }
         }
@@ -294,11 +294,11 @@ impl PlanarMechanism {
         let name = || joint.id.clone();
         let values = FrameValues::new(&Reals, &joint.frame)?;
         let axes = values.axes.map(unit);
-        let seen = self.seen(joint.joint_type.freedoms(), axes);
+        let seen = self.plane_freedoms(joint.joint_type.freedoms(), axes);
         if seen.outside && matches!(m.mode, Mode::Spatial) {
             return Err(PlanarError::NotPlanar { joint: name() });
         }
-        let point = self.flat(values.point);
+        let point = self.to_plane(values.point);
         let mut push = |bodies, kind, along, name| {
             self.pairs.push(Pair {
                 joint: j,
@@ -341,7 +341,7 @@ impl PlanarMechanism {
     }
 }
 
-fn normal(m: &Mechanism, state: StateId) -> Result<[f64; 3], PlanarError> {
+fn plane_normal(m: &Mechanism, state: StateId) -> Result<[f64; 3], PlanarError> {
     match &m.mode {
         Mode::Planar { normal } => Ok(unit(Reals.eval3(normal)?)),
         Mode::Spatial => spatial_normal(m, state),
@@ -352,7 +352,7 @@ fn normal(m: &Mechanism, state: StateId) -> Result<[f64; 3], PlanarError> {
 /// and no force at a point above or below it if all joints have one height. No joint may be misaligned, which strains
 /// the constraints out of the plane. All loads of a file in planar mode act in its plane.
 pub(crate) fn loads_are_in_plane(m: &Mechanism, state: StateId) -> bool {
-    let (Mode::Spatial, Ok(n)) = (&m.mode, normal(m, state)) else {
+    let (Mode::Spatial, Ok(n)) = (&m.mode, plane_normal(m, state)) else {
         return true;
     };
     let small = |x: f64, of: f64| x.abs() <= 1e-9 * of;
@@ -360,24 +360,24 @@ pub(crate) fn loads_are_in_plane(m: &Mechanism, state: StateId) -> bool {
     let along = |v: [f64; 3]| small(length(cross(v, n)), length(v));
     let points: Vec<[f64; 3]> = m
         .joints_in(state)
-        .map(|j| real(&m.joints[j].frame.point))
+        .map(|j| to_vector(&m.joints[j].frame.point))
         .collect();
-    let size = greatest(points.iter().flatten());
+    let size = greatest_abs(points.iter().flatten());
     let mut heights = points.iter().map(|&p| dot(p, n));
     let level = heights.next().unwrap_or(0.0);
     let flat = heights.all(|h| small(h - level, size));
-    let beside = |p: &[Expr; 3]| !flat || small(dot(real(p), n) - level, size);
+    let beside = |p: &[Expr; 3]| !flat || small(dot(to_vector(p), n) - level, size);
     let loads = m.loads.in_state(state);
     let straight = loads.misalignments.is_empty();
     let mut masses = m.links.iter().filter_map(|l| l.mass.as_ref());
     let weights = loads.gravity.as_ref().is_none_or(|g| {
-        masses.all(|mass| mass.mass == 0.0 || across(real(g)) && beside(&mass.centre))
+        masses.all(|mass| mass.mass == 0.0 || across(to_vector(g)) && beside(&mass.centre))
     });
     let forces = &mut loads.forces.iter();
     straight
         && weights
-        && forces.all(|f| across(real(&f.force)) && beside(&f.point))
-        && loads.moments.iter().all(|x| along(real(&x.moment)))
+        && forces.all(|f| across(to_vector(&f.force)) && beside(&f.point))
+        && loads.moments.iter().all(|x| along(to_vector(&x.moment)))
 }
 
 /// Returns the normal shared by the joints of a spatial mechanism. It is the first axis they turn about, or the

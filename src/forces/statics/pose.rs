@@ -3,12 +3,12 @@
 //! The position of a body is given by its origin (the mean of its pairs' points) and its turn since the pose of the
 //! file: (x, y, θ).
 
-use crate::geom::vector::turned;
+use crate::geom::vector::rotate_plane;
 pub use crate::geom::vector::{
-    add_scaled as plus, cross_plane as cross, dot, norm as length, quarter, sub as minus,
+    add_scaled as plus, cross_plane as cross, dot, plane_norm as length, quarter_turn, sub as minus,
 };
 use crate::motion::pose as motion;
-use crate::statics::condition;
+use crate::statics::condition_number;
 use crate::statics::planar::{BodyId, Pair, PairId, PairKind, PlanarMechanism};
 use ozols_dense::Matrix;
 
@@ -76,65 +76,69 @@ impl Linkage {
 
     /// Returns the pose of the file.
     #[must_use]
-    pub fn home(&self) -> Pose {
+    pub fn home_pose(&self) -> Pose {
         self.origins.iter().map(|o| [o[0], o[1], 0.0]).collect()
     }
 
     /// Returns the position of a body's point that is at `point` in the file.
     #[must_use]
-    pub fn point(&self, pose: &Pose, body: BodyId, point: [f64; 2]) -> [f64; 2] {
+    pub fn point_at(&self, pose: &Pose, body: BodyId, point: [f64; 2]) -> [f64; 2] {
         let [x, y, angle] = pose[body];
-        plus([x, y], 1.0, turned(minus(point, self.origins[body]), angle))
+        plus(
+            [x, y],
+            1.0,
+            rotate_plane(minus(point, self.origins[body]), angle),
+        )
     }
 
     /// Returns the direction of a sliding pair in a pose.
     #[must_use]
-    pub fn along(&self, pose: &Pose, pair: PairId) -> [f64; 2] {
+    pub fn slide_direction(&self, pose: &Pose, pair: PairId) -> [f64; 2] {
         let p = &self.mechanism.pairs[pair];
-        turned(p.along, pose[p.bodies[0]][2])
+        rotate_plane(p.along, pose[p.bodies[0]][2])
     }
 
     /// Returns the position of a pair in a pose: its point on the second body.
     #[must_use]
-    pub fn place(&self, pose: &Pose, pair: PairId) -> [f64; 2] {
+    pub fn pair_position(&self, pose: &Pose, pair: PairId) -> [f64; 2] {
         let p = &self.mechanism.pairs[pair];
-        self.point(pose, p.bodies[1], p.point)
+        self.point_at(pose, p.bodies[1], p.point)
     }
 
-    fn now(&self, pose: &Pose, pair: &Pair) -> Now {
+    fn pair_now(&self, pose: &Pose, pair: &Pair) -> Now {
         let arms = pair.bodies.map(|b| {
-            let at = self.point(pose, b, pair.point);
+            let at = self.point_at(pose, b, pair.point);
             minus(at, [pose[b][0], pose[b][1]])
         });
-        let [a, b] = pair.bodies.map(|b| self.point(pose, b, pair.point));
+        let [a, b] = pair.bodies.map(|b| self.point_at(pose, b, pair.point));
         Now {
             arms,
             gap: minus(b, a),
-            along: turned(pair.along, pose[pair.bodies[0]][2]),
+            along: rotate_plane(pair.along, pose[pair.bodies[0]][2]),
         }
     }
 
     /// Returns the derivatives of the equations of a pair with respect to the placements of the two bodies. There are
     /// two lengths, or a length and an angle, and with `drive` the equation of the drive last.
     #[must_use]
-    pub fn rows(&self, pose: &Pose, pair: PairId, drive: bool) -> Vec<Row> {
+    pub fn pair_rows(&self, pose: &Pose, pair: PairId, drive: bool) -> Vec<Row> {
         let p = &self.mechanism.pairs[pair];
-        let now = self.now(pose, p);
+        let now = self.pair_now(pose, p);
         let turn: Row = [[0.0, 0.0, -1.0], [0.0, 0.0, 1.0]];
         // The derivative of (a fixed direction)·gap.
         let fixed = |n: [f64; 2]| -> Row {
-            let [a, b] = now.arms.map(|r| dot(n, quarter(r)));
+            let [a, b] = now.arms.map(|r| dot(n, quarter_turn(r)));
             [[-n[0], -n[1], -a], [n[0], n[1], b]]
         };
         // The direction turns with the first body.
         let carried = |n: [f64; 2]| -> Row {
             let [mut a, b] = fixed(n);
-            a[2] += dot(quarter(n), now.gap);
+            a[2] += dot(quarter_turn(n), now.gap);
             [a, b]
         };
         let mut out = match p.kind {
             PairKind::Turning => vec![fixed([1.0, 0.0]), fixed([0.0, 1.0])],
-            PairKind::Sliding => vec![turn, carried(quarter(now.along))],
+            PairKind::Sliding => vec![turn, carried(quarter_turn(now.along))],
             PairKind::Rigid => vec![fixed([1.0, 0.0]), fixed([0.0, 1.0]), turn],
         };
         match (drive, p.kind) {
@@ -147,21 +151,21 @@ impl Linkage {
 
     /// Returns the positions of the bodies for links moved from the pose of the file as in `pose`, and turned by these
     /// angles.
-    pub(crate) fn placed(&self, pose: &motion::Pose, turns: &[f64]) -> Pose {
+    pub(crate) fn place_bodies(&self, pose: &motion::Pose, turns: &[f64]) -> Pose {
         let m = &self.mechanism;
-        let mut out = self.home();
+        let mut out = self.home_pose();
         for (b, body) in m.bodies.iter().enumerate() {
             let Some(link) = body.link else { continue };
             let [x, y] = self.origins[b];
             let point = [0, 1, 2].map(|i| (x * m.axes[0][i] + y * m.axes[1][i]) / m.metres);
-            let [x, y] = m.flat(pose.carried(&pose.links, link, point));
+            let [x, y] = m.to_plane(pose.carry_point(&pose.links, link, point));
             out[b] = [x, y, turns[link]];
         }
         // A block moves with the pin of the first link, and turns with the slot of the second.
         for pin_slot in m.pairs.windows(2) {
             let ([pin, block], [of, slot]) = (pin_slot[0].bodies, pin_slot[1].bodies);
             if block == of && m.bodies[block].link.is_none() {
-                let [x, y] = self.point(&out, pin, pin_slot[0].point);
+                let [x, y] = self.point_at(&out, pin, pin_slot[0].point);
                 out[block] = [x, y, out[slot][2]];
             }
         }
@@ -172,7 +176,7 @@ impl Linkage {
     /// that position them. Angles and angular equations are converted to lengths by the mechanism's size. The
     /// equilibrium of the bodies has the transposed equations.
     #[must_use]
-    pub(crate) fn condition(
+    pub(crate) fn equations_condition(
         &self,
         pose: &Pose,
         bodies: &[BodyId],
@@ -182,7 +186,7 @@ impl Linkage {
         let mut rows: Vec<Vec<f64>> = Vec::new();
         for &p in pairs {
             let pair = &self.mechanism.pairs[p];
-            for row in self.rows(pose, p, drives.contains(&p)) {
+            for row in self.pair_rows(pose, p, drives.contains(&p)) {
                 let is_angle = row[1][..2] == [0.0; 2];
                 let scale = if is_angle { self.size } else { 1.0 };
                 let mut out = vec![0.0; 3 * bodies.len()];
@@ -195,7 +199,7 @@ impl Linkage {
                 rows.push(out);
             }
         }
-        condition(&Matrix::from_fn(rows.len(), 3 * bodies.len(), |r, c| {
+        condition_number(&Matrix::from_fn(rows.len(), 3 * bodies.len(), |r, c| {
             rows[r][c]
         }))
     }

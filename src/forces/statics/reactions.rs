@@ -32,7 +32,7 @@ pub(crate) mod unsolved;
 pub(crate) mod wrench;
 
 pub use contact::Contacts;
-pub use cycle::{Cycle, cycle};
+pub use cycle::{Cycle, solve_cycle};
 pub use solution::{
     CouplingReaction, JointReaction, NEARLY_SINGULAR, Solution, ToothForce, Uniqueness,
 };

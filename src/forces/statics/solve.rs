@@ -3,7 +3,7 @@
 use crate::model::loads::Stroke;
 use crate::model::mechanism::{Mechanism, StateId};
 use crate::statics::assur::AssurError;
-use crate::statics::cycle::{PlanarStaticsError, Statics, statics};
+use crate::statics::cycle::{PlanarStaticsError, Statics, planar_statics};
 use crate::statics::planar::{PlanarError, loads_are_in_plane};
 use crate::statics::reactions::Unsolved;
 use crate::statics::reactions::contact::{Contacts, object_at};
@@ -37,7 +37,7 @@ pub enum SolvedReactions {
 impl SolvedReactions {
     /// Returns true if every requested position was reached and has a solution.
     #[must_use]
-    pub fn complete(&self) -> bool {
+    pub fn is_complete(&self) -> bool {
         match self {
             SolvedReactions::Planar(s) => s.dead.is_none(),
             SolvedReactions::Spatial(c) => {
@@ -95,7 +95,7 @@ pub(crate) fn is_for_space(error: &PlanarStaticsError) -> bool {
 /// assert_eq!(found.moments.len(), 1);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-pub fn solve(
+pub fn solve_reactions(
     m: &Mechanism,
     state: StateId,
     stroke: Option<Stroke>,
@@ -109,7 +109,7 @@ pub fn solve(
         Model::Pushing => (false, Contacts::Pushing),
     };
     if flat {
-        match statics(m, state, stroke) {
+        match planar_statics(m, state, stroke) {
             Ok(found) => return Ok(SolvedReactions::Planar(Box::new(found))),
             Err(e) if model == Model::Either && is_for_space(&e) => {}
             Err(e) => return Err(e.into()),

@@ -2,7 +2,7 @@
 
 use crate::model::joint_type::Freedom;
 use crate::model::mechanism::{JointId, Mechanism};
-use crate::motion::follow::slides;
+use crate::motion::follow::column_slides;
 use crate::motion::pose::Pose;
 use ozols_dense::svd;
 use thiserror::Error;
@@ -52,7 +52,7 @@ pub struct Rates {
 ///
 /// # Complexity
 /// One singular value decomposition of J.
-pub(crate) fn rates(
+pub(crate) fn drive_rates(
     mechanism: &Mechanism,
     pose: &Pose,
     joints: &[JointId],
@@ -76,7 +76,7 @@ pub(crate) fn rates(
         }
     };
     let at = only(drive)?;
-    let jacobian = pose.jacobian(&vec![0.0; f]);
+    let jacobian = pose.jacobian_at(&vec![0.0; f]);
     let svd = svd(&jacobian).ok_or(TransmissionError::Numeric)?;
     let free = svd.null_space(svd.rank(TOLERANCE));
     let speeds = |c: usize| -> Vec<f64> { (0..free.ncols()).map(|i| free[(c, i)]).collect() };
@@ -85,7 +85,7 @@ pub(crate) fn rates(
     if size.sqrt() <= TOLERANCE {
         return Err(TransmissionError::Stuck(id(drive)));
     }
-    let slides = slides(pose, at);
+    let slides = column_slides(pose, at);
     let unit = if slides {
         pose.length * mechanism.length_unit.metres
     } else {

@@ -1,6 +1,6 @@
 //! Independent contours: those named in the file, completed to a minimum cycle basis.
 
-use crate::closure::tree::{forest, tied};
+use crate::closure::tree::{connected_sets, spanning_forest};
 use crate::model::mechanism::{JointId, LinkId, Mechanism, StateId};
 use fixedbitset::FixedBitSet;
 use itertools::Itertools;
@@ -31,7 +31,7 @@ impl Contour {
 
     /// Returns the direction of passage of a joint, if it is part of the contour.
     #[must_use]
-    pub fn direction(&self, joint: JointId) -> Option<bool> {
+    pub fn direction_of(&self, joint: JointId) -> Option<bool> {
         self.joints
             .iter()
             .find(|(j, _)| *j == joint)
@@ -117,16 +117,17 @@ pub fn contour_basis(mechanism: &Mechanism, state: StateId) -> Vec<Contour> {
             .filter(|c| c.iter().all(|j| present.contains(j)));
         for walk in named.filter_map(|c| closed_walk(mechanism, c)) {
             let passed = walk.joints.iter().map(|&(j, _)| j).collect_vec();
-            if basis.insert(&passed, joints) {
+            if basis.insert_cycle(&passed, joints) {
                 contours.push(walk);
             }
         }
-        let rank = present.len() + components(mechanism, &present) - touched(mechanism, &present);
+        let rank = present.len() + count_components(mechanism, &present)
+            - count_links(mechanism, &present);
         for cycle in shortest_cycles(mechanism, &present) {
             if contours.len() == rank {
                 break;
             }
-            if basis.insert(&cycle, joints) {
+            if basis.insert_cycle(&cycle, joints) {
                 contours.extend(closed_walk(mechanism, &cycle));
             }
         }
@@ -134,7 +135,7 @@ pub fn contour_basis(mechanism: &Mechanism, state: StateId) -> Vec<Contour> {
     contours
 }
 
-fn touched(mechanism: &Mechanism, joints: &[JointId]) -> usize {
+fn count_links(mechanism: &Mechanism, joints: &[JointId]) -> usize {
     joints
         .iter()
         .flat_map(|&j| mechanism.joints[j].links)
@@ -142,7 +143,7 @@ fn touched(mechanism: &Mechanism, joints: &[JointId]) -> usize {
         .count()
 }
 
-fn components(mechanism: &Mechanism, joints: &[JointId]) -> usize {
+fn count_components(mechanism: &Mechanism, joints: &[JointId]) -> usize {
     let mut sets = petgraph::unionfind::UnionFind::<usize>::new(mechanism.links.len());
     let merged = joints
         .iter()
@@ -151,14 +152,14 @@ fn components(mechanism: &Mechanism, joints: &[JointId]) -> usize {
             sets.union(a.index(), b.index())
         })
         .count();
-    touched(mechanism, joints) - merged
+    count_links(mechanism, joints) - merged
 }
 
 /// Returns the joints of each biconnected block of the graph of links. Joints that are in no cycle are omitted.
-fn blocks(mechanism: &Mechanism, present: &[JointId]) -> Vec<Vec<JointId>> {
+fn biconnected_blocks(mechanism: &Mechanism, present: &[JointId]) -> Vec<Vec<JointId>> {
     let links = mechanism.links.len();
     let ends = |e: usize| mechanism.joints[present[e]].links.map(LinkId::index);
-    let (_, steps) = forest(links, (0..present.len()).map(ends), |_| false, 0..links);
+    let (_, steps) = spanning_forest(links, (0..present.len()).map(ends), |_| false, 0..links);
     let mut depth = vec![0_usize; links];
     let mut back: Vec<Option<(usize, usize)>> = vec![None; links];
     let mut closing = vec![true; present.len()];
@@ -179,7 +180,7 @@ fn blocks(mechanism: &Mechanism, present: &[JointId]) -> Vec<Vec<JointId>> {
         }
         out
     };
-    tied((0..present.len()).filter(|&e| closing[e]).map(cycle))
+    connected_sets((0..present.len()).filter(|&e| closing[e]).map(cycle))
 }
 
 /// Returns Horton's candidates, shortest first: for each link v and joint (x, y) of a block, the shortest paths from v with the joint.
@@ -208,7 +209,10 @@ fn shortest_cycles(
         }
         graph
     };
-    let graphs: Vec<Graph> = blocks(mechanism, present).into_iter().map(graph).collect();
+    let graphs: Vec<Graph> = biconnected_blocks(mechanism, present)
+        .into_iter()
+        .map(graph)
+        .collect();
     let of = |(g, graph): (usize, &Graph)| {
         let tree = |v| (g, Tree::new(graph, v));
         graph.node_indices().map(tree).collect_vec()
@@ -219,7 +223,9 @@ fn shortest_cycles(
         .iter()
         .enumerate()
         .flat_map(|(v, (g, tree))| {
-            let closing = graphs[*g].edge_references().filter_map(|e| tree.closes(e));
+            let closing = graphs[*g]
+                .edge_references()
+                .filter_map(|e| tree.closing_length(e));
             closing.map(move |(length, e)| Reverse((length, v, e)))
         })
         .collect::<Vec<_>>()
@@ -237,7 +243,7 @@ fn shortest_cycles(
                 }
                 heap.pop();
                 let (g, tree) = &trees[v];
-                let cycle = tree.cycle(&graphs[*g], e);
+                let cycle = tree.closing_cycle(&graphs[*g], e);
                 equal.push((cycle.iter().copied().sorted().collect_vec(), cycle));
             }
             equal.sort_unstable();
@@ -303,7 +309,7 @@ impl Tree {
 
     /// Returns the length of the closed walk through a joint, if the two shortest paths to its ends share only their
     /// first link. O(1).
-    fn closes(&self, e: EdgeReference<'_, WeighedJoint>) -> Option<(u64, usize)> {
+    fn closing_length(&self, e: EdgeReference<'_, WeighedJoint>) -> Option<(u64, usize)> {
         let (x, y) = (e.source().index(), e.target().index());
         let (dx, dy) = (self.dist[x]?, self.dist[y]?);
         let in_tree = dx.abs_diff(dy) == e.weight().length;
@@ -312,7 +318,7 @@ impl Tree {
     }
 
     /// Returns the joints of that walk, in order.
-    fn cycle(&self, graph: &Graph, e: usize) -> Vec<JointId> {
+    fn closing_cycle(&self, graph: &Graph, e: usize) -> Vec<JointId> {
         let e = EdgeIndex::new(e);
         let Some((x, y)) = graph.edge_endpoints(e) else {
             return Vec::new();
@@ -353,7 +359,7 @@ struct Basis {
 }
 
 impl Basis {
-    fn insert(&mut self, cycle: &[JointId], joints: usize) -> bool {
+    fn insert_cycle(&mut self, cycle: &[JointId], joints: usize) -> bool {
         let mut bits = FixedBitSet::with_capacity(joints);
         cycle.iter().for_each(|j| bits.toggle(j.index()));
         for (pivot, row) in &self.rows {

@@ -18,7 +18,7 @@ const UNIT: f64 = 1e-12;
 const LONG: u64 = 64;
 
 /// Returns the squared length of the axis of a freedom; see [`super::twist::FrameValues`].
-pub(super) fn square(frame: &Frame, freedom: Freedom) -> Expr {
+pub(super) fn squared_axis_length(frame: &Frame, freedom: Freedom) -> Expr {
     let dot = |a: &[Expr; 3], b: &[Expr; 3]| &a[0] * &b[0] + &a[1] * &b[1] + &a[2] * &b[2];
     let z = || dot(&frame.axis, &frame.axis);
     // x = r (z·z) - z (z·r), so x·x = (z·z)((z·z)(r·r) - (z·r)²); y = z × x.
@@ -38,7 +38,10 @@ pub(super) fn square(frame: &Frame, freedom: Freedom) -> Expr {
 /// rounding, and a decimal if axes of many digits have no short root.
 #[must_use]
 pub fn length_ratio(of: (&Frame, Freedom), over: (&Frame, Freedom)) -> Expr {
-    let (a, b) = (square(of.0, of.1), square(over.0, over.1));
+    let (a, b) = (
+        squared_axis_length(of.0, of.1),
+        squared_axis_length(over.0, over.1),
+    );
     let ratio = a.to_f64() / b.to_f64();
     if (ratio - 1.0).abs() < UNIT {
         return Expr::from(1);
@@ -59,7 +62,7 @@ pub fn length_ratio(of: (&Frame, Freedom), over: (&Frame, Freedom)) -> Expr {
 
 /// Returns the entry of a coupling's row at the speed of its first freedom, with the entry of the second scaled to 1.
 #[must_use]
-pub fn coefficient(mechanism: &Mechanism, coupling: &Coupling) -> Expr {
+pub fn coupling_coefficient(mechanism: &Mechanism, coupling: &Coupling) -> Expr {
     let [a, b] = coupling.ends;
     let frame = |j: JointId| &mechanism.joints[j].frame;
     let length = length_ratio((frame(a.joint), a.freedom), (frame(b.joint), b.freedom));
@@ -68,10 +71,10 @@ pub fn coefficient(mechanism: &Mechanism, coupling: &Coupling) -> Expr {
 
 /// Returns the entries of all couplings of a state, for the field in which they need values.
 #[must_use]
-pub fn coefficients(mechanism: &Mechanism, state: StateId) -> Vec<Expr> {
+pub fn coupling_coefficients(mechanism: &Mechanism, state: StateId) -> Vec<Expr> {
     mechanism
         .couplings_in(state)
-        .map(|c| coefficient(mechanism, c))
+        .map(|c| coupling_coefficient(mechanism, c))
         .collect()
 }
 
@@ -81,8 +84,8 @@ pub fn in_plane(mechanism: &Mechanism, joint: JointId, freedom: Freedom) -> bool
     let stays = || {
         let space = MotionSpace::new(&Reals, &mechanism.mode)?;
         let frame = FrameValues::new(&Reals, &mechanism.joints[joint].frame)?;
-        let twist = frame.twist(&Reals, freedom);
-        Ok::<_, ExactError>(space.components(&Reals, &twist).is_some())
+        let twist = frame.twist_of(&Reals, freedom);
+        Ok::<_, ExactError>(space.components_in_space(&Reals, &twist).is_some())
     };
     stays().unwrap_or(false)
 }

@@ -4,7 +4,7 @@
 //! along the driven axis. The rate of a slide is the velocity along it of the point at the joint. The rate of a thread
 //! is that of its turn.
 
-use crate::closure::coupling::square;
+use crate::closure::coupling::squared_axis_length;
 use crate::closure::twist::{FrameValues, MotionSpace};
 use crate::geom::exact::ExactError;
 use crate::geom::expr::Expr;
@@ -30,14 +30,14 @@ pub(crate) fn rate_row<S: Scalars>(
     };
     let freedom = mechanism.search.drives[drive].freedom;
     let present = &mechanism.joints[joint].frame;
-    let size = Expr::from(1).div(&square(present, freedom));
+    let size = Expr::from(1).div(&squared_axis_length(present, freedom));
     let size = s.eval(&size.unwrap_or_else(|| Expr::from(1)))?;
     let axis = axis_of(FrameValues::new(s, present)?.axes, freedom);
     let point = s.eval3(&at.point)?;
     let product3 = |a: &[S::Number; 3], b: &[S::Number; 3]| s.dot(a.clone(), b.clone());
     // (ω × p)·a = ω·(p × a)
     let arm = s.cross(point, axis.clone());
-    let row = match (space, freedom.slides()) {
+    let row = match (space, freedom.is_slide()) {
         (MotionSpace::Spatial, false) => {
             let [a, b, c] = axis;
             let zero = S::Number::default;
@@ -69,7 +69,11 @@ pub(crate) fn rate_row<S: Scalars>(
 }
 
 /// Returns the value of a row of coefficients at a twist.
-pub(crate) fn rate<S: Scalars>(s: &S, row: &[S::Number], twist: &[S::Number]) -> S::Number {
+pub(crate) fn rate_of_twist<S: Scalars>(
+    s: &S,
+    row: &[S::Number],
+    twist: &[S::Number],
+) -> S::Number {
     let products = row.iter().zip(twist);
     products.fold(S::Number::default(), |sum, (a, b)| {
         s.add(sum, s.mul(a.clone(), b.clone()))
@@ -95,11 +99,13 @@ pub(crate) fn driven_in(
     let mut found = None;
     for &freedom in joint_type.freedoms() {
         // A thread slides when it turns.
-        if freedom.slides() != driven.slides() && !(driven.slides() && freedom == Freedom::Screw) {
+        if freedom.is_slide() != driven.is_slide()
+            && !(driven.is_slide() && freedom == Freedom::Screw)
+        {
             continue;
         }
         let own = axis(at, freedom)?;
-        if length(cross(own, along)) < SQUARE && freedom.slides() == driven.slides() {
+        if length(cross(own, along)) < SQUARE && freedom.is_slide() == driven.is_slide() {
             found = Some(freedom);
         } else if dot(own, along).abs() > SQUARE {
             return None;

@@ -2,11 +2,11 @@
 //! one axis, and their deviations.
 
 use crate::closure::twist::{FrameValues, MotionSpace, joint_twists};
-use crate::format::brief;
+use crate::format::three_digits;
 use crate::geom::Scalars;
 use crate::geom::exact::{ExactError, ExactField};
 use crate::geom::expr::Expr;
-use crate::geom::vector::{Vector, add, cross, dot, length, real, sub};
+use crate::geom::vector::{Vector, add, cross, dot, length, sub, to_vector};
 use crate::linalg::echelon::Echelon;
 use crate::linalg::modp::{Field, Residue};
 use crate::model::joint_type::JointType;
@@ -24,10 +24,10 @@ pub(crate) struct Spot {
 impl Spot {
     /// Returns the position of a joint's frame.
     #[must_use]
-    pub(crate) fn of(frame: &Frame) -> Spot {
+    pub(crate) fn from_frame(frame: &Frame) -> Spot {
         Spot {
-            point: real(&frame.point),
-            axis: real(&frame.axis),
+            point: to_vector(&frame.point),
+            axis: to_vector(&frame.axis),
         }
     }
 
@@ -35,7 +35,7 @@ impl Spot {
     pub(crate) fn of_joints(mechanism: &Mechanism) -> Vec<Spot> {
         let joints = mechanism.joint_ids();
         joints
-            .map(|j| Spot::of(&mechanism.joints[j].frame))
+            .map(|j| Spot::from_frame(&mechanism.joints[j].frame))
             .collect()
     }
 }
@@ -79,18 +79,18 @@ impl Miss {
     }
 
     /// Returns distance and angle combined into one number for comparisons.
-    fn size(&self) -> f64 {
+    fn total_miss(&self) -> f64 {
         self.distance + self.angle
     }
 
     /// Describes the deviation, such as "2.062 cm and 0.5°"; `unit` is that of the file.
     #[must_use]
-    pub fn words(&self, unit: &str) -> String {
+    pub fn describe_miss(&self, unit: &str) -> String {
         let number = |x: f64| {
             if x < 1e-3 {
                 format!("{x:.3e}")
             } else {
-                brief(x)
+                three_digits(x)
             }
         };
         let distance = format!("{} {unit}", number(self.distance));
@@ -127,12 +127,12 @@ pub(crate) fn frame_directions(mechanism: &Mechanism) -> Vec<[ExactVector; 3]> {
 
 impl Isometry {
     fn new(round: Vec<ExactVector>, axis: ExactVector, reflects: bool) -> Isometry {
-        let points: Vec<Vector> = round.iter().map(real).collect();
+        let points: Vec<Vector> = round.iter().map(to_vector).collect();
         #[allow(clippy::cast_precision_loss, reason = "two or three")]
         let count = points.len() as f64;
         Isometry {
             centre: [0, 1, 2].map(|i| points.iter().map(|p| p[i]).sum::<f64>() / count),
-            along: real(&axis),
+            along: to_vector(&axis),
             round,
             axis,
             reflects,
@@ -140,8 +140,8 @@ impl Isometry {
     }
 
     /// Returns the reflection that maps two points to each other.
-    fn mirror(one: ExactVector, other: ExactVector) -> Isometry {
-        let normal = difference(&other, &one);
+    fn mirror_between(one: ExactVector, other: ExactVector) -> Isometry {
+        let normal = exact_difference(&other, &one);
         Isometry::new(vec![one, other], normal, true)
     }
 
@@ -150,20 +150,23 @@ impl Isometry {
     /// also pass through a third point that is its own image.
     fn mirrors_of(one: &Frame, other: &Frame, own: &[&ExactVector]) -> Vec<Isometry> {
         let [p, q] = [&one.point, &other.point];
-        if real(p) != real(q) {
-            return vec![Isometry::mirror(p.clone(), q.clone())];
+        if to_vector(p) != to_vector(q) {
+            return vec![Isometry::mirror_between(p.clone(), q.clone())];
         }
         let [z, x, w] = [&one.axis, &one.reference, &other.axis];
         let mut normals = vec![
             z.clone(),
             x.clone(),
             cross_exactly(z, x),
-            difference(z, w),
+            exact_difference(z, w),
             sum(z, w),
         ];
-        normals.extend(own.iter().map(|o| cross_exactly(z, &difference(o, p))));
-        normals.retain(|n| length(real(n)) > 0.0);
-        let mirror = |n: &ExactVector| Isometry::mirror(difference(p, n), sum(p, n));
+        normals.extend(
+            own.iter()
+                .map(|o| cross_exactly(z, &exact_difference(o, p))),
+        );
+        normals.retain(|n| length(to_vector(n)) > 0.0);
+        let mirror = |n: &ExactVector| Isometry::mirror_between(exact_difference(p, n), sum(p, n));
         normals.iter().map(mirror).collect()
     }
 
@@ -171,7 +174,7 @@ impl Isometry {
     /// pair. The pairs themselves suggest the planes, which are ranked by most of the pairs, and then by all joints if
     /// these agree.
     #[must_use]
-    pub fn mirrors(
+    pub fn find_mirrors(
         mechanism: &Mechanism,
         pairs: &[(JointId, JointId)],
     ) -> Vec<(Isometry, Vec<Miss>)> {
@@ -186,7 +189,7 @@ impl Isometry {
     ) -> Vec<(Isometry, Vec<Miss>)> {
         let frame = |j: JointId| &mechanism.joints[j].frame;
         let point = |j: JointId| &frame(j).point;
-        let at_one_point = |&&(a, b): &&_| real(point(a)) == real(point(b));
+        let at_one_point = |&&(a, b): &&_| to_vector(point(a)) == to_vector(point(b));
         let own = pairs.iter().filter(at_one_point);
         let own: Vec<_> = own.map(|p| point(p.0)).collect();
         let mirrors = pairs
@@ -196,14 +199,15 @@ impl Isometry {
         let alone: Vec<JointId> = mechanism.joint_ids().filter(|&j| !paired(j)).collect();
         let spot = |j: JointId| spots[j.index()];
         let judged = mirrors.map(|mirror| {
-            let miss =
-                |a: JointId, b| mirror.miss(spot(a), &mechanism.joints[a].joint_type, spot(b));
+            let miss = |a: JointId, b| {
+                mirror.miss_of_image(spot(a), &mechanism.joints[a].joint_type, spot(b))
+            };
             let misses: Vec<Miss> = pairs.iter().map(|&(a, b)| miss(a, b)).collect();
-            let mut off: Vec<f64> = misses.iter().map(Miss::size).collect();
+            let mut off: Vec<f64> = misses.iter().map(Miss::total_miss).collect();
             off.sort_by(f64::total_cmp);
             // The median comes first, because one wrong pair must not choose the plane.
-            let all =
-                off.iter().sum::<f64>() + alone.iter().map(|&j| miss(j, j).size()).sum::<f64>();
+            let all = off.iter().sum::<f64>()
+                + alone.iter().map(|&j| miss(j, j).total_miss()).sum::<f64>();
             let key = (off[off.len() / 2], all);
             (key, (mirror, misses))
         });
@@ -216,7 +220,7 @@ impl Isometry {
     /// middle. The axis is then along a direction of their joints, between or across these, or along a direction of a
     /// joint that is its own image.
     #[must_use]
-    pub(crate) fn turns(
+    pub(crate) fn find_turns(
         mechanism: &Mechanism,
         directions: &[[ExactVector; 3]],
         groups: &[Vec<JointId>],
@@ -229,17 +233,20 @@ impl Isometry {
         for group in groups {
             let round: Vec<ExactVector> = group.iter().map(|j| frame(j).point.clone()).collect();
             let axes: Vec<ExactVector> = match &round[..] {
-                [a, b, c] => vec![cross_exactly(&difference(b, a), &difference(c, a))],
+                [a, b, c] => vec![cross_exactly(
+                    &exact_difference(b, a),
+                    &exact_difference(c, a),
+                )],
                 _ => {
                     let [z, w] = [0, 1].map(|i| &frame(&group[i]).axis);
-                    let own = directions(group[0]).chain([sum(z, w), difference(z, w)]);
+                    let own = directions(group[0]).chain([sum(z, w), exact_difference(z, w)]);
                     own.chain(alone.clone().flat_map(directions)).collect()
                 }
             };
             // Joints of a plane share their directions.
             let mut known: Vec<Vector> = Vec::new();
             for axis in axes {
-                let along = real(&axis);
+                let along = to_vector(&axis);
                 if length(along) == 0.0 || known.contains(&along) {
                     continue;
                 }
@@ -251,7 +258,7 @@ impl Isometry {
     }
 
     /// Returns the image of a joint, in numbers.
-    pub(crate) fn image(&self, spot: Spot) -> Spot {
+    pub(crate) fn image_of_spot(&self, spot: Spot) -> Spot {
         let (centre, n) = (self.centre, self.along);
         let nn = dot(n, n);
         let (sine, cosine) = match self.round.len() {
@@ -275,7 +282,7 @@ impl Isometry {
     ///
     /// # Errors
     /// Returns an error if a coordinate has no value in the field.
-    pub(crate) fn map(&self, exact: &ExactField) -> Result<Option<Map>, ExactError> {
+    pub(crate) fn exact_map(&self, exact: &ExactField) -> Result<Option<Map>, ExactError> {
         let f = exact.field();
         let n = exact.eval3(&self.axis)?;
         let square = exact.dot(n, n);
@@ -318,23 +325,23 @@ impl Isometry {
 
     /// Returns the deviation of the image of a joint of a type from a position.
     #[must_use]
-    pub(crate) fn miss(&self, from: Spot, of: &JointType, to: Spot) -> Miss {
-        Miss::new(self.image(from), of, to)
+    pub(crate) fn miss_of_image(&self, from: Spot, of: &JointType, to: Spot) -> Miss {
+        Miss::new(self.image_of_spot(from), of, to)
     }
 
     /// Returns true if the image of a joint allows exactly the motions of another.
     ///
     /// # Errors
     /// Returns an error if a coordinate has no value in the field.
-    pub(crate) fn carries(
+    pub(crate) fn maps_motions(
         &self,
         exact: &ExactField,
         mode: &Mode,
         from: PlacedType<'_>,
         to: PlacedType<'_>,
     ) -> Result<bool, ExactError> {
-        match self.map(exact)? {
-            Some(map) => map.carries(exact, mode, from, to),
+        match self.exact_map(exact)? {
+            Some(map) => map.maps_motions(exact, mode, from, to),
             None => Ok(false),
         }
     }
@@ -343,7 +350,7 @@ impl Isometry {
 /// An exact vector in space.
 type ExactVector = [Expr; 3];
 
-fn difference(a: &ExactVector, b: &ExactVector) -> ExactVector {
+fn exact_difference(a: &ExactVector, b: &ExactVector) -> ExactVector {
     [0, 1, 2].map(|i| &a[i] - &b[i])
 }
 
@@ -368,14 +375,14 @@ pub(crate) struct Map {
 }
 
 impl Map {
-    fn direction(&self, f: Field, v: [Residue; 3]) -> [Residue; 3] {
+    fn map_direction(&self, f: Field, v: [Residue; 3]) -> [Residue; 3] {
         [0, 1, 2].map(|i| {
             let columns = self.linear.iter().zip(v);
             f.sum_of_products(columns.map(|(c, x)| (c[i], x)))
         })
     }
 
-    fn carries(
+    fn maps_motions(
         &self,
         exact: &ExactField,
         mode: &Mode,
@@ -386,14 +393,14 @@ impl Map {
         // A turn about u is a turn about -u in a mirror. The body point at the origin is the image of that at the
         // shift.
         let image = |[w0, w1, w2, v0, v1, v2]: [Residue; 6]| {
-            let turned = self.direction(f, [w0, w1, w2]);
+            let turned = self.map_direction(f, [w0, w1, w2]);
             let w = if self.reflects {
                 turned.map(|x| f.neg(x))
             } else {
                 turned
             };
             let arm = exact.cross(self.shift, w);
-            let v = self.direction(f, [v0, v1, v2]);
+            let v = self.map_direction(f, [v0, v1, v2]);
             let at = |i: usize| f.add(v[i], arm[i]);
             [w[0], w[1], w[2], at(0), at(1), at(2)]
         };
@@ -401,8 +408,8 @@ impl Map {
         let freedoms = from.joint_type.freedoms();
         let values = FrameValues::new(exact, from.frame)?;
         let (mut images, mut own) = (Echelon::new(f), Echelon::new(f));
-        for (_, twist) in values.motions(exact, &space, freedoms) {
-            match space.components(exact, &image(twist)) {
+        for (_, twist) in values.motions_in_space(exact, &space, freedoms) {
+            match space.components_in_space(exact, &image(twist)) {
                 Some(t) => images.insert(&t),
                 None => return Ok(false),
             };
@@ -410,6 +417,6 @@ impl Map {
         for (_, t) in joint_twists(exact, &space, to.frame, to.joint_type)? {
             own.insert(&t);
         }
-        Ok(images.reduced() == own.reduced())
+        Ok(images.reduced_rows() == own.reduced_rows())
     }
 }

@@ -29,11 +29,11 @@ pub fn spanning_tree(mechanism: &Mechanism, state: StateId) -> Vec<TreeStep> {
     let ends = joints
         .iter()
         .map(|&j| mechanism.joints[j].links.map(LinkId::index));
-    let (_, steps) = forest(
+    let (_, steps) = spanning_forest(
         mechanism.links.len(),
         ends,
         |_| false,
-        [mechanism.frame().index()],
+        [mechanism.frame_link().index()],
     );
     let named = |s: TreeStep<usize, usize>| TreeStep {
         link: LinkId::new(s.link),
@@ -80,7 +80,7 @@ pub(crate) fn path_in(tree: &[TreeStep], link: LinkId) -> Vec<(JointId, bool)> {
 ///
 /// # Complexity
 /// O(n + m) for n nodes, m edges.
-pub fn forest(
+pub fn spanning_forest(
     nodes: usize,
     edges: impl IntoIterator<Item = [usize; 2]>,
     late: impl Fn(usize) -> bool,
@@ -135,7 +135,9 @@ pub fn forest(
 ///
 /// # Complexity
 /// O(n log n) for groups with n members in all.
-pub(crate) fn tied<T: Ord + Copy>(groups: impl IntoIterator<Item = Vec<T>>) -> Vec<Vec<T>> {
+pub(crate) fn connected_sets<T: Ord + Copy>(
+    groups: impl IntoIterator<Item = Vec<T>>,
+) -> Vec<Vec<T>> {
     let groups: Vec<Vec<T>> = groups.into_iter().collect();
     let mut number: BTreeMap<T, usize> = groups.iter().flatten().map(|&t| (t, 0)).collect();
     number.values_mut().zip(0..).for_each(|(n, i)| *n = i);
@@ -154,14 +156,14 @@ pub(crate) fn tied<T: Ord + Copy>(groups: impl IntoIterator<Item = Vec<T>>) -> V
 
 #[cfg(test)]
 mod tests {
-    use super::tied;
+    use super::connected_sets;
     use super::*;
     use proptest::prelude::*;
 
     proptest! {
         #[test]
         fn a_forest_spans(edges in prop::collection::vec([0..8usize, 0..8usize], 0..16), split in 0..16usize) {
-            let (roots, steps) = forest(8, edges.iter().copied(), |e| e >= split, 0..8);
+            let (roots, steps) = spanning_forest(8, edges.iter().copied(), |e| e >= split, 0..8);
             // Each tree has one step fewer than nodes, and there are as many trees as components.
             prop_assert_eq!(roots.len() + steps.len(), 8);
             let mut sets = petgraph::unionfind::UnionFind::<usize>::new(8);
@@ -180,13 +182,13 @@ mod tests {
     #[test]
     fn early_edges_come_first() {
         // With 0-1 late and 0-2 and 2-1 early, node 1 is reached by the longer path.
-        let (_, steps) = forest(3, [[0, 1], [0, 2], [2, 1]], |e| e == 0, [0]);
+        let (_, steps) = spanning_forest(3, [[0, 1], [0, 2], [2, 1]], |e| e == 0, [0]);
         assert_eq!(steps.iter().map(|s| s.joint).collect::<Vec<_>>(), [1, 2]);
     }
 
     #[test]
     fn groups_are_tied_through_others() {
         let groups = [vec![5, 2], vec![9], vec![], vec![3, 4, 5], vec![7, 9]];
-        assert_eq!(tied(groups), [vec![2, 3, 4, 5], vec![7, 9]]);
+        assert_eq!(connected_sets(groups), [vec![2, 3, 4, 5], vec![7, 9]]);
     }
 }

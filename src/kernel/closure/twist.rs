@@ -60,9 +60,13 @@ impl<N: Clone + PartialEq + Default> MotionSpace<N> {
     }
 
     /// Returns the components of a twist in this space, or `None` for a motion that leaves the plane.
-    pub fn components<S: Scalars<Number = N>>(&self, s: &S, t: &Twist<N>) -> Option<Vec<N>> {
+    pub fn components_in_space<S: Scalars<Number = N>>(
+        &self,
+        s: &S,
+        t: &Twist<N>,
+    ) -> Option<Vec<N>> {
         if let MotionSpace::Planar { axes: [n, ..] } = self {
-            let [w, v] = halves(t);
+            let [w, v] = split_twist(t);
             let dot = |a: &[N; 3], b: &[N; 3]| s.dot(a.clone(), b.clone());
             // Products of decimals are rounded. This must not move a turn about the normal out of the plane.
             let (nn, ww) = (dot(n, n), dot(&w, &w));
@@ -83,7 +87,7 @@ impl<N: Clone + PartialEq + Default> MotionSpace<N> {
         match self {
             MotionSpace::Spatial => t.to_vec(),
             MotionSpace::Planar { axes: [n, e1, e2] } => {
-                let [w, v] = halves(t);
+                let [w, v] = split_twist(t);
                 let dot = |a: &[N; 3], b: &[N; 3]| s.dot(a.clone(), b.clone());
                 vec![dot(&w, n), dot(&v, e1), dot(&v, e2)]
             }
@@ -92,7 +96,7 @@ impl<N: Clone + PartialEq + Default> MotionSpace<N> {
 }
 
 /// Returns the angular velocity and the velocity of a twist.
-fn halves<N: Clone>(t: &Twist<N>) -> [[N; 3]; 2] {
+fn split_twist<N: Clone>(t: &Twist<N>) -> [[N; 3]; 2] {
     let [a, b, c, d, e, f] = t.clone();
     [[a, b, c], [d, e, f]]
 }
@@ -101,7 +105,7 @@ fn halves<N: Clone>(t: &Twist<N>) -> [[N; 3]; 2] {
 /// steps.
 #[must_use]
 pub fn unit_twist(mut t: Twist<f64>) -> Twist<f64> {
-    let [w, v] = halves(&t);
+    let [w, v] = split_twist(&t);
     let size = match length(w) {
         0.0 => length(v),
         turn => turn,
@@ -132,11 +136,15 @@ impl<N: Clone + PartialEq + Default> FrameValues<N> {
             s.eval3(&frame.axis)?,
             s.eval3(&frame.reference)?,
         ];
-        Ok(Self::of(s, vectors, s.eval(&frame.pitch)?))
+        Ok(Self::from_vectors(s, vectors, s.eval(&frame.pitch)?))
     }
 
     /// Creates a frame from the values of its point, axis and reference.
-    pub fn of<S: Scalars<Number = N>>(s: &S, [point, z, r]: [[N; 3]; 3], pitch: N) -> Self {
+    pub fn from_vectors<S: Scalars<Number = N>>(
+        s: &S,
+        [point, z, r]: [[N; 3]; 3],
+        pitch: N,
+    ) -> Self {
         let zero = s.sub(z[0].clone(), z[0].clone());
         let minus = s.sub(zero, s.dot(z.clone(), r.clone()));
         let zz = s.dot(z.clone(), z.clone());
@@ -154,14 +162,14 @@ impl<N: Clone + PartialEq + Default> FrameValues<N> {
     /// In a plane, freedoms that leave it are combined so that together they stay in it. For example, a ball turns
     /// about the plane's normal for any direction of its axes. A combination has the name of its last freedom. Freedoms
     /// that cannot be combined are omitted.
-    pub fn motions<S: Scalars<Number = N>>(
+    pub fn motions_in_space<S: Scalars<Number = N>>(
         &self,
         s: &S,
         space: &MotionSpace<N>,
         freedoms: &[Freedom],
     ) -> Vec<(Freedom, Twist<N>)> {
         let MotionSpace::Planar { axes } = space else {
-            return freedoms.iter().map(|&f| (f, self.twist(s, f))).collect();
+            return freedoms.iter().map(|&f| (f, self.twist_of(s, f))).collect();
         };
         // At the joint's own point, turns and slides do not mix.
         let point = [(); 3].map(|()| N::default());
@@ -171,19 +179,19 @@ impl<N: Clone + PartialEq + Default> FrameValues<N> {
         };
         let mut rest: Vec<_> = freedoms
             .iter()
-            .map(|&f| (f, OutOfPlane::new(s, axes, here.twist(s, f))))
+            .map(|&f| (f, OutOfPlane::new(s, axes, here.twist_of(s, f))))
             .collect();
         for way in 0..3 {
-            let Some(first) = rest.iter().position(|(_, m)| m.leaves(s, way)) else {
+            let Some(first) = rest.iter().position(|(_, m)| m.leaves_plane(s, way)) else {
                 continue;
             };
             let (_, first) = rest.remove(first);
-            for (_, motion) in rest.iter_mut().filter(|(_, m)| m.leaves(s, way)) {
-                *motion = motion.combined(s, &first, way);
+            for (_, motion) in rest.iter_mut().filter(|(_, m)| m.leaves_plane(s, way)) {
+                *motion = motion.combine_with(s, &first, way);
             }
         }
         let at_origin = |t: Twist<N>| {
-            let [w, v] = halves(&t);
+            let [w, v] = split_twist(&t);
             let arm = s.cross(self.point.clone(), w.clone());
             let [d, e, f] = [0, 1, 2].map(|i| s.add(v[i].clone(), arm[i].clone()));
             let [a, b, c] = w;
@@ -202,25 +210,25 @@ impl<N: Clone + PartialEq + Default> FrameValues<N> {
         space: &MotionSpace<N>,
         freedoms: &[Freedom],
     ) -> Vec<(Freedom, Twist<N>)> {
-        let mut all = self.motions(s, space, freedoms);
+        let mut all = self.motions_in_space(s, space, freedoms);
         let slot = freedoms.contains(&Freedom::Tx) && !freedoms.contains(&Freedom::Ty);
-        all.sort_by_key(|(f, _)| f.slides() == slot);
+        all.sort_by_key(|(f, _)| f.is_slide() == slot);
         all
     }
 
     /// Returns [`FrameValues::motions`] in the components of the motion space.
-    pub fn twists<S: Scalars<Number = N>>(
+    pub fn twists_in_space<S: Scalars<Number = N>>(
         &self,
         s: &S,
         space: &MotionSpace<N>,
         freedoms: &[Freedom],
     ) -> FreedomTwists<N> {
-        let motions = self.motions(s, space, freedoms).into_iter();
+        let motions = self.motions_in_space(s, space, freedoms).into_iter();
         motions.map(|(f, t)| (f, space.along_axes(s, &t))).collect()
     }
 
     /// Returns the twist of one freedom.
-    pub fn twist<S: Scalars<Number = N>>(&self, s: &S, freedom: Freedom) -> Twist<N> {
+    pub fn twist_of<S: Scalars<Number = N>>(&self, s: &S, freedom: Freedom) -> Twist<N> {
         let zero = || s.sub(self.point[0].clone(), self.point[0].clone());
         let join = |[a, b, c]: [N; 3], [d, e, f]: [N; 3]| [a, b, c, d, e, f];
         let rotation = |u: &[N; 3]| {
@@ -257,7 +265,7 @@ struct OutOfPlane<N> {
 impl<N: Clone + PartialEq + Default> OutOfPlane<N> {
     fn new<S: Scalars<Number = N>>(s: &S, [n, e1, e2]: &[[N; 3]; 3], twist: Twist<N>) -> Self {
         let dot = |a: &[N; 3], b: &[N; 3]| s.dot(a.clone(), b.clone());
-        let [w, v] = halves(&twist);
+        let [w, v] = split_twist(&twist);
         let of = |a: &[N; 3], b: &[N; 3]| (dot(a, b), s.mul(dot(a, a), dot(b, b)));
         let all = [of(&w, e1), of(&w, e2), of(&v, n)];
         OutOfPlane {
@@ -268,12 +276,12 @@ impl<N: Clone + PartialEq + Default> OutOfPlane<N> {
     }
 
     /// Returns true if the motion leaves the plane in this part.
-    fn leaves<S: Scalars<Number = N>>(&self, s: &S, way: usize) -> bool {
+    fn leaves_plane<S: Scalars<Number = N>>(&self, s: &S, way: usize) -> bool {
         !s.vanishes(self.ways[way].clone(), self.sizes[way].clone())
     }
 
     /// Returns the combination of this motion and another that does not leave the plane in this part.
-    fn combined<S: Scalars<Number = N>>(&self, s: &S, other: &Self, way: usize) -> Self {
+    fn combine_with<S: Scalars<Number = N>>(&self, s: &S, other: &Self, way: usize) -> Self {
         let (a, b) = (other.ways[way].clone(), self.ways[way].clone());
         let minus = s.sub(N::default(), b.clone());
         let sum = |[f, g]: [&N; 2], x: &N, y: &N| {
@@ -303,5 +311,5 @@ pub fn joint_twists<S: Scalars>(
     frame: &Frame,
     joint_type: &JointType,
 ) -> Result<FreedomTwists<S::Number>, ExactError> {
-    Ok(FrameValues::new(s, frame)?.twists(s, space, joint_type.freedoms()))
+    Ok(FrameValues::new(s, frame)?.twists_in_space(s, space, joint_type.freedoms()))
 }

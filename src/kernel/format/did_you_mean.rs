@@ -7,7 +7,7 @@ const ALIKE: f64 = 0.75;
 
 /// Returns the known words nearest to `word`, best first: those of similar spelling, then those that contain it or are contained in it.
 #[must_use]
-pub fn near<'a>(word: &str, known: impl IntoIterator<Item = &'a str>) -> Vec<&'a str> {
+pub fn nearest_words<'a>(word: &str, known: impl IntoIterator<Item = &'a str>) -> Vec<&'a str> {
     let word = word.to_lowercase();
     if word.is_empty() {
         return Vec::new();
@@ -29,13 +29,13 @@ pub fn near<'a>(word: &str, known: impl IntoIterator<Item = &'a str>) -> Vec<&'a
 
 /// Returns "; did you mean this, that or the other?", or an empty text if no known word is near.
 #[must_use]
-pub fn hint<'a>(word: &str, known: impl IntoIterator<Item = &'a str>) -> String {
-    question(&near(word, known))
+pub fn suggest_words<'a>(word: &str, known: impl IntoIterator<Item = &'a str>) -> String {
+    ask_words(&nearest_words(word, known))
 }
 
 /// Returns the same for words that are chosen already.
 #[must_use]
-pub fn question(near: &[&str]) -> String {
+pub fn ask_words(near: &[&str]) -> String {
     match near {
         [] => String::new(),
         [one] => format!("; did you mean {one}?"),
@@ -45,16 +45,16 @@ pub fn question(near: &[&str]) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::{hint, near};
+    use super::{nearest_words, suggest_words};
 
     #[test]
     fn the_nearest_comes_first_and_what_is_far_does_not_come() {
         let known = ["gripper-10", "gripper-10-planar", "four-bar", "bennett"];
-        assert_eq!(near("gripper10", known)[0], "gripper-10");
-        assert_eq!(near("benett", known), ["bennett"]);
-        assert_eq!(near("fourbar", known), ["four-bar"]);
-        assert!(near("zzz", known).is_empty());
-        assert!(near("", known).is_empty());
-        assert_eq!(hint("benett", known), "; did you mean bennett?");
+        assert_eq!(nearest_words("gripper10", known)[0], "gripper-10");
+        assert_eq!(nearest_words("benett", known), ["bennett"]);
+        assert_eq!(nearest_words("fourbar", known), ["four-bar"]);
+        assert!(nearest_words("zzz", known).is_empty());
+        assert!(nearest_words("", known).is_empty());
+        assert_eq!(suggest_words("benett", known), "; did you mean bennett?");
     }
 }

@@ -40,7 +40,7 @@ impl ExactField {
         let exprs: Vec<&Expr> = exprs.into_iter().collect();
         let plan = PrimePlan::new(&exprs)?;
         let (mut found, mut failures) = (0, 0);
-        for field in plan.fields() {
+        for field in plan.suitable_fields() {
             let mut zero = None;
             for e in &exprs {
                 match field.eval(e) {
@@ -97,7 +97,7 @@ impl ExactField {
     /// Returns [`ExactError::NotInField`] for roots or angles beyond those the field was made for, and
     /// [`ExactError::DivisionByZero`] if a divisor vanishes in F_p.
     pub fn eval(&self, expr: &Expr) -> Result<Residue, ExactError> {
-        eval::eval(self, expr)
+        eval::eval_in(self, expr)
     }
 }
 

@@ -23,7 +23,7 @@ pub(crate) use node::{Function, NodeKind};
 pub use parse::WORDS;
 pub use parse::{MAX_ANGLE_DENOMINATOR, MAX_EXPONENT, MAX_NESTING, MAX_POWER, MAX_TEXT};
 pub use rational::PI_DIGITS;
-use rational::{MAX_BITS, bits, decimal};
+use rational::{MAX_BITS, bit_size, rational_from_decimal};
 pub(crate) use rational::{PI, rational_sqrt};
 pub use written::half_of;
 
@@ -56,10 +56,10 @@ impl Expr {
         let (mantissa, exponent) = text.split_once('e').ok_or_else(bad)?;
         let (whole, fraction) = mantissa.split_once('.').unwrap_or((mantissa, ""));
         let exponent: i64 = exponent.parse().map_err(|_| bad())?;
-        let value = decimal(whole, fraction, exponent).ok_or_else(bad)?;
+        let value = rational_from_decimal(whole, fraction, exponent).ok_or_else(bad)?;
         let value = Expr::rational(if x < 0.0 { -value } else { value });
         let places = i64::try_from(fraction.len()).unwrap_or(i64::MAX) - exponent;
-        let digits = (places > 0).then(|| Digits::of(whole, fraction, exponent, true));
+        let digits = (places > 0).then(|| Digits::from_decimal(whole, fraction, exponent, true));
         let written = digits
             .flatten()
             .map_or(WrittenNumber::No, WrittenNumber::Decimal);
@@ -162,7 +162,7 @@ impl Expr {
             return None;
         }
         if let (Some(a), Some(b)) = (self.rational_ref(), other.rational_ref())
-            && bits(a) + bits(b) <= MAX_BITS
+            && bit_size(a) + bit_size(b) <= MAX_BITS
         {
             return Some(Expr::rational(a / b));
         }
@@ -173,7 +173,7 @@ impl Expr {
     }
 
     /// Returns the function of `k/n` turns (any integer `k`, `n > 0`), or `None` at a pole.
-    pub(crate) fn trig(function: Function, k: u64, n: u64) -> Option<Expr> {
+    pub(crate) fn trig_of_turns(function: Function, k: u64, n: u64) -> Option<Expr> {
         let n = n.max(1);
         let g = (k % n).gcd(&n);
         let (k, n) = (k % n / g, n / g);
@@ -197,13 +197,13 @@ impl Expr {
         }
     }
 
-    fn combine(
+    fn fold_rationals(
         a: &Expr,
         b: &Expr,
         fold: impl Fn(&BigRational, &BigRational) -> BigRational,
     ) -> Option<Expr> {
         let (x, y) = (a.rational_ref()?, b.rational_ref()?);
-        (bits(x) + bits(y) <= MAX_BITS).then(|| Expr::rational(fold(x, y)))
+        (bit_size(x) + bit_size(y) <= MAX_BITS).then(|| Expr::rational(fold(x, y)))
     }
 }
 

@@ -19,7 +19,7 @@ pub struct Extent {
 }
 
 /// Returns the corners of the bounding box of some points, or the origin if there are none.
-fn corners(points: impl Iterator<Item = Vector> + Clone) -> [Vector; 2] {
+fn box_corners(points: impl Iterator<Item = Vector> + Clone) -> [Vector; 2] {
     let bound = |pick: fn(f64, f64) -> f64| {
         let each = |a: Vector, b: Vector| std::array::from_fn(|i| pick(a[i], b[i]));
         points.clone().reduce(each).unwrap_or([0.0; 3])
@@ -29,16 +29,16 @@ fn corners(points: impl Iterator<Item = Vector> + Clone) -> [Vector; 2] {
 
 /// Returns the diagonal of the bounding box of some points, however small; 0 for one point and for none.
 #[must_use]
-pub fn diagonal(points: impl Iterator<Item = Vector> + Clone) -> f64 {
-    let [low, high] = corners(points);
+pub fn box_diagonal(points: impl Iterator<Item = Vector> + Clone) -> f64 {
+    let [low, high] = box_corners(points);
     length(sub(high, low))
 }
 
 impl Extent {
     /// Returns the extent of some points.
     #[must_use]
-    pub fn of(points: &[[f64; 3]]) -> Extent {
-        let [low, high] = corners(points.iter().copied());
+    pub fn from_points(points: &[[f64; 3]]) -> Extent {
+        let [low, high] = box_corners(points.iter().copied());
         let diagonal = length(sub(high, low)) / 2.0;
         let far = low
             .iter()
@@ -69,7 +69,7 @@ pub struct OwnScale {
 impl OwnScale {
     /// Returns the scale of some points; sizes are those of [`Extent::of`].
     #[must_use]
-    pub fn of(points: &[&[Expr; 3]]) -> OwnScale {
+    pub fn from_points(points: &[&[Expr; 3]]) -> OwnScale {
         let zero = Expr::from(0);
         let along = |i: usize| points.iter().map(move |p| &p[i]);
         let least = |i: usize| along(i).min_by(|a, b| a.to_f64().total_cmp(&b.to_f64()));
@@ -116,19 +116,19 @@ impl OwnScale {
 
     /// Returns the ratio of a length to that of the extent.
     #[must_use]
-    pub fn part(&self, x: &Expr) -> f64 {
+    pub fn relative_length(&self, x: &Expr) -> f64 {
         x.div(&self.unit).map_or(0.0, |x| x.to_f64()) / self.diagonal
     }
 
     /// Returns the length of the extent times a number per length.
     #[must_use]
-    pub fn times(&self, x: &Expr) -> f64 {
+    pub fn scaled_rate(&self, x: &Expr) -> f64 {
         (x * &self.unit).to_f64() * self.diagonal
     }
 
     /// Returns a point relative to the middle, over the length of the extent.
     #[must_use]
-    pub fn place(&self, point: &[Expr; 3]) -> Vector {
-        [0, 1, 2].map(|i| self.part(&(&point[i] - &self.middle[i])))
+    pub fn relative_point(&self, point: &[Expr; 3]) -> Vector {
+        [0, 1, 2].map(|i| self.relative_length(&(&point[i] - &self.middle[i])))
     }
 }

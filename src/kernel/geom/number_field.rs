@@ -22,7 +22,7 @@ use super::Scalars;
 use super::exact::ExactError;
 use super::exact::eval::{self, Target};
 use super::exact::plan::PrimePlan;
-use super::exact::radical::{Radical, factor};
+use super::exact::radical::{Radical, prime_factors};
 use super::expr::Expr;
 use crate::linalg::number_ring::{Element, NumberRing};
 use cosine::cosine_relation;
@@ -74,7 +74,7 @@ impl NumberField {
     ) -> Result<NumberField, NumberFieldError> {
         let exprs: Vec<&Expr> = exprs.into_iter().collect();
         let plan = PrimePlan::new(&exprs)?;
-        let half = factor(plan.order)
+        let half = prime_factors(plan.order)
             .iter()
             .fold(plan.order, |phi, (q, _)| phi / q * (q - 1))
             / 2;
@@ -101,7 +101,7 @@ impl NumberField {
             field.ring = field.ring.adjoin(relation).ok_or_else(outside)?;
             c = field.ring.generator(0);
         }
-        field.cosines = vec![Element::integer(2), c.clone()];
+        field.cosines = vec![Element::from_integer(2), c.clone()];
         while (field.cosines.len() as u64) < field.order {
             let k = field.cosines.len();
             let next = field.ring.mul(&c, &field.cosines[k - 1]);
@@ -113,12 +113,12 @@ impl NumberField {
             field.roots.insert(q, root);
         }
         for &q in &plan.free_roots {
-            let radicand = Element::rational(BigRational::from_integer(BigInt::from(q)));
+            let radicand = Element::from_rational(BigRational::from_integer(BigInt::from(q)));
             let root = field.adjoin_root(&radicand).ok_or_else(outside)?;
             field.roots.insert(q, root);
         }
         for inner in &plan.nested {
-            let radicand = eval::eval(&field, inner)?;
+            let radicand = eval::eval_in(&field, inner)?;
             let root = field.adjoin_root(&radicand).ok_or_else(outside)?;
             field.nested.push((radicand, root));
         }
@@ -129,11 +129,11 @@ impl NumberField {
     fn adjoin_root(&mut self, radicand: &Element) -> Option<Element> {
         let below = radicand.coordinates().iter();
         let d = below.fold(BigInt::one(), |d, q| d.lcm(q.denom()));
-        let square = Element::rational(BigRational::from_integer(-(&d * &d)));
+        let square = Element::from_rational(BigRational::from_integer(-(&d * &d)));
         let constant = self.ring.mul(radicand, &square);
         self.ring = std::mem::take(&mut self.ring).adjoin(vec![constant, Element::default()])?;
         let y = self.ring.generator(self.ring.generators() - 1);
-        let scale = Element::rational(BigRational::new(BigInt::one(), d));
+        let scale = Element::from_rational(BigRational::new(BigInt::one(), d));
         Some(self.ring.mul(&y, &scale))
     }
 
@@ -141,24 +141,24 @@ impl NumberField {
     fn gauss_sum(&self, q: u64) -> Element {
         let half = BigRational::new(1.into(), 2.into());
         if q == 2 {
-            return self.cosine(self.order / 8).clone();
+            return self.cosine_of_turns(self.order / 8).clone();
         }
         let turn = self.order / q;
         let shift = if q % 4 == 1 { 0 } else { self.order / 4 * 3 };
         let mut sum = Element::default();
         for a in 1..q {
-            let term = self.cosine(a * turn + shift);
+            let term = self.cosine_of_turns(a * turn + shift);
             sum = if is_square(a, q) {
                 self.ring.add(&sum, term)
             } else {
                 self.ring.sub(&sum, term)
             };
         }
-        self.ring.mul(&sum, &Element::rational(half))
+        self.ring.mul(&sum, &Element::from_rational(half))
     }
 
     /// Returns 2 cos(2πk/N).
-    fn cosine(&self, k: u64) -> &Element {
+    fn cosine_of_turns(&self, k: u64) -> &Element {
         let at = usize::try_from(k % self.order).unwrap_or(0);
         &self.cosines[at]
     }
@@ -188,7 +188,7 @@ fn is_square(a: u64, q: u64) -> bool {
 
 impl Target for NumberField {
     fn rational(&self, r: &BigRational) -> Option<Element> {
-        Some(Element::rational(r.clone()))
+        Some(Element::from_rational(r.clone()))
     }
     fn inverse(&self, a: &Element) -> Option<Element> {
         self.ring.inverse(a)
@@ -199,8 +199,8 @@ impl Target for NumberField {
         }
         let at = self.order / n * k;
         // sin x = cos(x - 1/4 turn)
-        let sine = self.cosine(at + self.order / 4 * 3);
-        Some([self.cosine(at).clone(), sine.clone()])
+        let sine = self.cosine_of_turns(at + self.order / 4 * 3);
+        Some([self.cosine_of_turns(at).clone(), sine.clone()])
     }
     fn prime_root(&self, q: u64) -> Option<Element> {
         self.roots.get(&q).cloned()
@@ -218,7 +218,7 @@ impl Scalars for NumberField {
     type Number = Element;
 
     fn eval(&self, expr: &Expr) -> Result<Element, ExactError> {
-        eval::eval(self, expr)
+        eval::eval_in(self, expr)
     }
     fn add(&self, a: Element, b: Element) -> Element {
         self.ring.add(&a, &b)
@@ -354,7 +354,7 @@ mod tests {
             let order = if q == 2 { 8 } else { 4 * q };
             let (f, exprs) = field(&[&format!("cos(360deg/{order})"), &format!("sqrt({q})")]);
             let root = Scalars::eval(&f, &exprs[1]).unwrap();
-            let q = Element::integer(q as i64);
+            let q = Element::from_integer(q as i64);
             assert_eq!(f.ring().mul(&root, &root), q);
             // Under the identity, c is 2 cos(2π/N).
             use num_traits::ToPrimitive;
@@ -381,15 +381,15 @@ mod tests {
             let monomials = f.ring().monomials(p, images);
             for e in &exprs[1..] {
                 let x = Scalars::eval(&f, e).unwrap();
-                let square = f.ring().mul(&x, &x).image(p, &monomials).unwrap();
-                let image = x.image(p, &monomials).unwrap();
+                let square = f.ring().mul(&x, &x).image_in(p, &monomials).unwrap();
+                let image = x.image_in(p, &monomials).unwrap();
                 assert_eq!(p.mul(image, image), square);
             }
         }
         // Some homomorphism of the field is the one of the exact field.
         let exact = ExactField::for_expressions(&exprs, 0).unwrap();
         let p = exact.field();
-        let split = f.split(p);
+        let split = f.split_at(p);
         if let Some(split) = split {
             let values: Vec<Residue> = exprs.iter().map(|e| exact.eval(e).unwrap()).collect();
             assert!(split.homomorphisms.iter().any(|images| {
@@ -397,7 +397,7 @@ mod tests {
                 exprs
                     .iter()
                     .zip(&values)
-                    .all(|(e, v)| Scalars::eval(&f, e).unwrap().image(p, &monomials) == Some(*v))
+                    .all(|(e, v)| Scalars::eval(&f, e).unwrap().image_in(p, &monomials) == Some(*v))
             }));
         }
     }

@@ -7,7 +7,7 @@ pub type Twist = [f64; 6];
 
 /// Returns angular velocity and velocity of a twist, or moment and force of a wrench.
 #[must_use]
-pub fn halves(t: &Twist) -> (Vector, Vector) {
+pub fn split_twist(t: &Twist) -> (Vector, Vector) {
     ([t[0], t[1], t[2]], [t[3], t[4], t[5]])
 }
 
@@ -29,7 +29,7 @@ impl RigidMotion {
 
     /// Returns a translation without rotation.
     #[must_use]
-    pub fn shift(translation: Vector) -> RigidMotion {
+    pub fn from_translation(translation: Vector) -> RigidMotion {
         RigidMotion {
             translation,
             ..RigidMotion::IDENTITY
@@ -38,7 +38,7 @@ impl RigidMotion {
 
     /// Returns the rotation about an axis of any length through the origin `[rad]`; quarter turns are exact.
     #[must_use]
-    pub fn turn(axis: Vector, angle: f64) -> RigidMotion {
+    pub fn from_turn(axis: Vector, angle: f64) -> RigidMotion {
         let exact = |x: f64| {
             if (x - x.round()).abs() < 1e-15 {
                 x.round()
@@ -48,7 +48,7 @@ impl RigidMotion {
         };
         let (sine, cosine) = angle.sin_cos();
         RigidMotion {
-            rotation: rotation(towards(axis), exact(sine), exact(cosine)),
+            rotation: rotation_matrix(unit_or_z(axis), exact(sine), exact(cosine)),
             translation: [0.0; 3],
         }
     }
@@ -59,7 +59,7 @@ impl RigidMotion {
     pub fn roll_pitch_yaw(translation: Vector, angles: Vector) -> RigidMotion {
         let turns = [X, Y, Z].into_iter().zip(angles);
         let turned = turns.fold(RigidMotion::IDENTITY, |m, (axis, angle)| {
-            RigidMotion::turn(axis, angle).then(&m)
+            RigidMotion::from_turn(axis, angle).then(&m)
         });
         RigidMotion {
             translation,
@@ -69,7 +69,7 @@ impl RigidMotion {
 
     /// Returns the rotation by a quaternion w, x, y, z of any nonzero length, and a translation.
     #[must_use]
-    pub fn quaternion(translation: Vector, q: [f64; 4]) -> RigidMotion {
+    pub fn from_quaternion(translation: Vector, q: [f64; 4]) -> RigidMotion {
         let n = dot(q, q);
         let [w, x, y, z] = q;
         let s = if n > 0.0 { 2.0 / n } else { 0.0 };
@@ -99,16 +99,16 @@ impl RigidMotion {
     /// Returns the smallest rotation that takes z to an axis.
     #[must_use]
     pub fn z_to(axis: Vector) -> RigidMotion {
-        let to = towards(axis);
+        let to = unit_or_z(axis);
         let about = cross(Z, to);
         if length(about) < 1e-12 {
             return if dot(to, Z) > 0.0 {
                 RigidMotion::IDENTITY
             } else {
-                RigidMotion::turn(X, std::f64::consts::PI)
+                RigidMotion::from_turn(X, std::f64::consts::PI)
             };
         }
-        RigidMotion::turn(about, length(about).atan2(dot(Z, to)))
+        RigidMotion::from_turn(about, length(about).atan2(dot(Z, to)))
     }
 
     /// Returns the exponential of a unit twist (unit angular velocity, or none) times `q`.
@@ -117,12 +117,12 @@ impl RigidMotion {
     /// Lynch & Park, "Modern Robotics", 2017, proposition 3.25.
     #[must_use]
     pub fn exp(twist: &Twist, q: f64) -> RigidMotion {
-        let (w, v) = halves(twist);
+        let (w, v) = split_twist(twist);
         if w == [0.0; 3] {
-            return RigidMotion::shift(scale(v, q));
+            return RigidMotion::from_translation(scale(v, q));
         }
         let (sine, cosine) = q.sin_cos();
-        let rotation = rotation(w, sine, cosine);
+        let rotation = rotation_matrix(w, sine, cosine);
         // (I - R)(ω × v) + ω (ω·v) q
         let u = cross(w, v);
         let along = dot(w, v) * q;
@@ -140,7 +140,7 @@ impl RigidMotion {
         let columns = [column(0), column(1), column(2)];
         RigidMotion {
             rotation: self.rotation.map(|row| columns.map(|c| dot(row, c))),
-            translation: self.point(inner.translation),
+            translation: self.map_point(inner.translation),
         }
     }
 
@@ -153,29 +153,29 @@ impl RigidMotion {
             translation: [0.0; 3],
         };
         RigidMotion {
-            translation: scale(back.direction(self.translation), -1.0),
+            translation: scale(back.map_direction(self.translation), -1.0),
             ..back
         }
     }
 
     /// Returns the image of a point.
     #[must_use]
-    pub fn point(&self, p: Vector) -> Vector {
-        add(self.direction(p), self.translation)
+    pub fn map_point(&self, p: Vector) -> Vector {
+        add(self.map_direction(p), self.translation)
     }
 
     /// Returns the image of a direction.
     #[must_use]
-    pub fn direction(&self, d: Vector) -> Vector {
+    pub fn map_direction(&self, d: Vector) -> Vector {
         self.rotation.map(|row| dot(row, d))
     }
 
     /// Returns the image of a twist.
     #[must_use]
-    pub fn twist(&self, t: &Twist) -> Twist {
-        let (w, v) = halves(t);
-        let w = self.direction(w);
-        let (v, m) = (self.direction(v), cross(self.translation, w));
+    pub fn map_twist(&self, t: &Twist) -> Twist {
+        let (w, v) = split_twist(t);
+        let w = self.map_direction(w);
+        let (v, m) = (self.map_direction(v), cross(self.translation, w));
         [w[0], w[1], w[2], v[0] + m[0], v[1] + m[1], v[2] + m[2]]
     }
 
@@ -221,13 +221,13 @@ impl RigidMotion {
             .map(column)
             .max_by(|a, b| length(*a).total_cmp(&length(*b)))
             .unwrap_or(Z);
-        scale(towards(longest), std::f64::consts::PI)
+        scale(unit_or_z(longest), std::f64::consts::PI)
     }
 }
 
 /// Returns the unit vector, or z if there is none.
 #[must_use]
-pub fn towards(a: Vector) -> Vector {
+pub fn unit_or_z(a: Vector) -> Vector {
     let l = length(a);
     if l > 0.0 && l.is_finite() {
         scale(a, 1.0 / l)
@@ -239,16 +239,16 @@ pub fn towards(a: Vector) -> Vector {
 /// Returns a direction perpendicular to an axis: the first of x, y, z that is not parallel to it, made perpendicular.
 #[must_use]
 pub fn perpendicular(axis: Vector) -> Vector {
-    let z = towards(axis);
+    let z = unit_or_z(axis);
     let first = [X, Y, Z]
         .into_iter()
         .find(|g| dot(*g, z).abs() < 0.9)
         .unwrap_or(X);
-    towards(across(first, z))
+    unit_or_z(across(first, z))
 }
 
 /// Returns the rotation about a unit vector (Rodrigues).
-fn rotation([x, y, z]: Vector, s: f64, c: f64) -> [Vector; 3] {
+fn rotation_matrix([x, y, z]: Vector, s: f64, c: f64) -> [Vector; 3] {
     let t = 1.0 - c;
     [
         [t * x * x + c, t * x * y - s * z, t * x * z + s * y],
@@ -271,7 +271,7 @@ mod tests {
 
     fn motion() -> impl Strategy<Value = RigidMotion> {
         (vector(), [-1.0..1.0, -1.0..1.0, -1.0..1.0, 0.1..1.0f64])
-            .prop_map(|(at, q)| RigidMotion::quaternion(at, q))
+            .prop_map(|(at, q)| RigidMotion::from_quaternion(at, q))
     }
 
     /// Returns the largest difference of two motions.
@@ -295,9 +295,9 @@ mod tests {
 
         #[test]
         fn lengths_angles_and_handedness_stay(a in motion(), u in vector(), v in vector()) {
-            let [x, y] = [u, v].map(|d| a.direction(d));
+            let [x, y] = [u, v].map(|d| a.map_direction(d));
             prop_assert!((dot(x, y) - dot(u, v)).abs() < 1e-13);
-            prop_assert!(length(sub(cross(x, y), a.direction(cross(u, v)))) < 1e-12);
+            prop_assert!(length(sub(cross(x, y), a.map_direction(cross(u, v)))) < 1e-12);
         }
 
         #[test]
@@ -315,13 +315,13 @@ mod tests {
             let w = unit(axis);
             let twist = [w[0], w[1], w[2], v[0], v[1], v[2]];
             let carried = a.then(&RigidMotion::exp(&twist, q)).then(&a.inverse());
-            prop_assert!(apart(&carried, &RigidMotion::exp(&a.twist(&twist), q)) < 1e-12);
+            prop_assert!(apart(&carried, &RigidMotion::exp(&a.map_twist(&twist), q)) < 1e-12);
         }
 
         #[test]
         fn the_rotation_vector_gives_the_turn_back(axis in vector(), angle in 0.001..3.1) {
             prop_assume!(length(axis) > 0.1);
-            let turn = RigidMotion::turn(axis, angle);
+            let turn = RigidMotion::from_turn(axis, angle);
             prop_assert!((turn.angle() - angle).abs() < 1e-12);
             prop_assert!(length(sub(turn.rotation_vector(), scale(unit(axis), angle))) < 1e-10);
         }
@@ -329,29 +329,29 @@ mod tests {
         #[test]
         fn z_goes_to_the_axis(axis in vector()) {
             prop_assume!(length(axis) > 0.1);
-            prop_assert!(length(sub(RigidMotion::z_to(axis).direction(Z), unit(axis))) < 1e-9);
+            prop_assert!(length(sub(RigidMotion::z_to(axis).map_direction(Z), unit(axis))) < 1e-9);
         }
     }
 
     #[test]
     fn quarter_turns_are_exact() {
         let p = RigidMotion::roll_pitch_yaw([1.0, 2.0, 3.0], [FRAC_PI_2, 0.0, 0.0]);
-        assert_eq!(p.direction(Z), [0.0, -1.0, 0.0]);
-        assert_eq!(p.point([0.0, 0.1, 0.0]), [1.0, 2.0, 3.1]);
+        assert_eq!(p.map_direction(Z), [0.0, -1.0, 0.0]);
+        assert_eq!(p.map_point([0.0, 0.1, 0.0]), [1.0, 2.0, 3.1]);
     }
 
     #[test]
     fn roll_comes_first() {
         let p = RigidMotion::roll_pitch_yaw([0.0; 3], [FRAC_PI_2, 0.0, FRAC_PI_2]);
         // The roll takes y to z; the yaw leaves it there.
-        assert_eq!(p.direction(Y), Z);
-        assert_eq!(p.direction(X), Y);
+        assert_eq!(p.map_direction(Y), Z);
+        assert_eq!(p.map_direction(X), Y);
     }
 
     #[test]
     fn half_a_turn_has_its_axis() {
         for axis in [X, Y, unit([1.0, -2.0, 0.5])] {
-            let v = RigidMotion::turn(axis, PI).rotation_vector();
+            let v = RigidMotion::from_turn(axis, PI).rotation_vector();
             assert!(length(cross(v, axis)) < 1e-9 && (length(v) - PI).abs() < 1e-9);
         }
     }

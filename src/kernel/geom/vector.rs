@@ -60,13 +60,13 @@ pub fn cross_plane(a: [f64; 2], b: [f64; 2]) -> f64 {
 
 /// Returns a vector of the plane after a quarter turn.
 #[must_use]
-pub fn quarter(v: [f64; 2]) -> [f64; 2] {
+pub fn quarter_turn(v: [f64; 2]) -> [f64; 2] {
     [-v[1], v[0]]
 }
 
 /// Returns a vector of the plane after a turn `[rad]`.
 #[must_use]
-pub fn turned([x, y]: [f64; 2], angle: f64) -> [f64; 2] {
+pub fn rotate_plane([x, y]: [f64; 2], angle: f64) -> [f64; 2] {
     let (s, c) = angle.sin_cos();
     [c * x - s * y, s * x + c * y]
 }
@@ -79,13 +79,13 @@ pub fn length<const N: usize>(a: [f64; N]) -> f64 {
 
 /// Returns the length of a vector of the plane, rounded once.
 #[must_use]
-pub fn norm(v: [f64; 2]) -> f64 {
+pub fn plane_norm(v: [f64; 2]) -> f64 {
     v[0].hypot(v[1])
 }
 
 /// Returns the sides of the bounding box of points of the plane, or negative infinity if there are none.
 #[must_use]
-pub fn sides(points: &[[f64; 2]]) -> [f64; 2] {
+pub fn box_sides(points: &[[f64; 2]]) -> [f64; 2] {
     [0, 1].map(|k| {
         let all = points.iter().map(|p| p[k]);
         all.clone().fold(f64::MIN, f64::max) - all.fold(f64::MAX, f64::min)
@@ -108,6 +108,6 @@ pub fn across(v: Vector, along: Vector) -> Vector {
 
 /// Converts a vector of the file to double precision.
 #[must_use]
-pub fn real(v: &[Expr; 3]) -> Vector {
+pub fn to_vector(v: &[Expr; 3]) -> Vector {
     v.each_ref().map(Expr::to_f64)
 }

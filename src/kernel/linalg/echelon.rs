@@ -21,7 +21,10 @@ impl Echelon {
 
     /// Creates the span of some vectors.
     #[must_use]
-    pub fn of<V: AsRef<[Residue]>>(field: Field, vectors: impl IntoIterator<Item = V>) -> Self {
+    pub fn from_vectors<V: AsRef<[Residue]>>(
+        field: Field,
+        vectors: impl IntoIterator<Item = V>,
+    ) -> Self {
         let mut span = Echelon::new(field);
         for v in vectors {
             span.insert(v.as_ref());
@@ -42,7 +45,7 @@ impl Echelon {
     }
 
     /// Subtracts from `v` its part along the pivots.
-    pub fn reduce(&self, v: &mut [Residue]) {
+    pub fn reduce_vector(&self, v: &mut [Residue]) {
         let f = self.field;
         for (pivot, row) in &self.rows {
             // Rows are zero before their pivot, which is scaled to one.
@@ -54,7 +57,7 @@ impl Echelon {
     pub fn insert(&mut self, v: &[Residue]) -> bool {
         let f = self.field;
         let mut v = v.to_vec();
-        self.reduce(&mut v);
+        self.reduce_vector(&mut v);
         let Some(pivot) = v.iter().position(|&x| x != 0) else {
             return false;
         };
@@ -69,13 +72,13 @@ impl Echelon {
     #[must_use]
     pub fn contains(&self, v: &[Residue]) -> bool {
         let mut v = v.to_vec();
-        self.reduce(&mut v);
+        self.reduce_vector(&mut v);
         v.iter().all(|&x| x == 0)
     }
 
     /// Returns the reduced row echelon form: a canonical basis of the span, pivots ascending.
     #[must_use]
-    pub fn reduced(&self) -> Vec<Vec<Residue>> {
+    pub fn reduced_rows(&self) -> Vec<Vec<Residue>> {
         let f = self.field;
         let mut out: Vec<(usize, Vec<Residue>)> = self.rows.clone();
         for i in (0..out.len()).rev() {
@@ -90,8 +93,8 @@ impl Echelon {
 
 /// Returns the dimension of the span of some vectors.
 #[must_use]
-pub fn rank<'a>(field: Field, vectors: impl IntoIterator<Item = &'a [Residue]>) -> usize {
-    Echelon::of(field, vectors).rank()
+pub fn rank_of<'a>(field: Field, vectors: impl IntoIterator<Item = &'a [Residue]>) -> usize {
+    Echelon::from_vectors(field, vectors).rank()
 }
 
 /// A vector without its zeros.
@@ -110,7 +113,7 @@ type Sparse = Vec<(usize, Residue)>;
 /// and its record. This is close to O(n · width) if a vector meets few others, and O(n · rank · (width + rank)) at
 /// worst.
 #[must_use]
-pub fn relations(field: Field, vectors: &[Vec<Residue>]) -> Vec<Vec<Residue>> {
+pub fn linear_relations(field: Field, vectors: &[Vec<Residue>]) -> Vec<Vec<Residue>> {
     let n = vectors.len();
     let width = vectors.first().map_or(0, Vec::len);
     let nonzero = |from: usize, v: &[Residue]| -> Sparse {
@@ -168,7 +171,11 @@ pub fn relations(field: Field, vectors: &[Vec<Residue>]) -> Vec<Vec<Residue>> {
 /// Returns the linear combination of some vectors of equal length with the given factors. Empty if there are no
 /// vectors.
 #[must_use]
-pub fn combination(field: Field, vectors: &[Vec<Residue>], factors: &[Residue]) -> Vec<Residue> {
+pub fn linear_combination(
+    field: Field,
+    vectors: &[Vec<Residue>],
+    factors: &[Residue],
+) -> Vec<Residue> {
     let mut out = vec![0; vectors.first().map_or(0, Vec::len)];
     for (v, &a) in vectors.iter().zip(factors).filter(|(_, a)| **a != 0) {
         field.add_multiple(&mut out, a, v);
@@ -202,12 +209,12 @@ mod tests {
             e.insert(&tagged);
         }
         let mut kernel = Echelon::new(field);
-        for row in e.reduced() {
+        for row in e.reduced_rows() {
             if row[..width].iter().all(|&x| x == 0) {
                 kernel.insert(&row[width..]);
             }
         }
-        kernel.reduced()
+        kernel.reduced_rows()
     }
 
     proptest! {
@@ -227,7 +234,7 @@ mod tests {
                     (0..width).map(|c| if kept(c) { f.from_i64(row[c]) } else { 0 }).collect()
                 })
                 .collect();
-            prop_assert_eq!(relations(f, &vectors), by_tags(f, &vectors));
+            prop_assert_eq!(linear_relations(f, &vectors), by_tags(f, &vectors));
         }
     }
 }

@@ -75,16 +75,16 @@ impl Field {
     #[must_use]
     pub fn mul(self, a: Residue, b: Residue) -> Residue {
         let t = u128::from(a) * u128::from(b);
-        self.reduced(t)
+        self.reduce_sum(t)
     }
 
     /// Returns `a·x - b·y` with one reduction.
     #[inline(always)]
     #[must_use]
-    pub fn cross(self, a: Residue, x: Residue, b: Residue, y: Residue) -> Residue {
+    pub fn difference_of_products(self, a: Residue, x: Residue, b: Residue, y: Residue) -> Residue {
         // Below 2p² < 2^64·p/2, so the quotient is below 3p/2.
         let t = u128::from(a) * u128::from(x) + u128::from(b) * u128::from(self.p - y);
-        self.reduced(t)
+        self.reduce_sum(t)
     }
 
     /// Returns Σ a·b with one reduction.
@@ -97,7 +97,7 @@ impl Field {
             let t = t + u128::from(a) * u128::from(b);
             if t >= least { t - least } else { t }
         });
-        self.reduced(t)
+        self.reduce_sum(t)
     }
 
     /// Returns Σ x·y with one reduction, over the entries that both have.
@@ -117,12 +117,12 @@ impl Field {
         let done = x.len().min(y.len()) / 4 * 4;
         let rest = x[done..].iter().zip(&y[done..]).map(product);
         let t = below(t + rest.sum::<u128>());
-        self.reduced(t)
+        self.reduce_sum(t)
     }
 
     /// Reduces a sum of products below p·2^64, divided by 2^64.
     #[inline(always)]
-    fn reduced(self, t: u128) -> Residue {
+    fn reduce_sum(self, t: u128) -> Residue {
         let m = (t as u64).wrapping_mul(self.neg_inv);
         let u = ((t + u128::from(m) * u128::from(self.p)) >> 64) as u64;
         if u >= self.p { u - self.p } else { u }
@@ -167,7 +167,7 @@ impl Field {
 
     /// Computes `x += y` or `x -= y`.
     #[inline]
-    pub fn accumulate(self, x: &mut [Residue], y: &[Residue], plus: bool) {
+    pub fn add_or_subtract(self, x: &mut [Residue], y: &[Residue], plus: bool) {
         for (x, &y) in x.iter_mut().zip(y) {
             *x = if plus {
                 self.add(*x, y)
@@ -396,7 +396,7 @@ mod tests {
             prop_assert_eq!(f.to_u64(f.sub(x, y)), wide(i128::from(a) - i128::from(b)));
             let (c, d) = (i64::from(b as i32), i64::from(a as i32));
             let cross = i128::from(a) * i128::from(c) - i128::from(b) * i128::from(d);
-            prop_assert_eq!(f.to_u64(f.cross(x, f.from_i64(c), y, f.from_i64(d))), wide(cross));
+            prop_assert_eq!(f.to_u64(f.difference_of_products(x, f.from_i64(c), y, f.from_i64(d))), wide(cross));
             if x != 0 {
                 prop_assert_eq!(f.mul(x, f.inv(x)), f.one());
             }

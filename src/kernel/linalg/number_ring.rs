@@ -110,13 +110,13 @@ impl NumberRing {
     /// Returns the sum. O(dimension).
     #[must_use]
     pub fn add(&self, a: &Element, b: &Element) -> Element {
-        entrywise(a, b, |x, y| *x += y)
+        combine_entries(a, b, |x, y| *x += y)
     }
 
     /// Returns the difference. O(dimension).
     #[must_use]
     pub fn sub(&self, a: &Element, b: &Element) -> Element {
-        entrywise(a, b, |x, y| *x -= y)
+        combine_entries(a, b, |x, y| *x -= y)
     }
 
     /// Returns the product of two elements of the ring. At most O(dimension² · generators) operations on rationals; a rational factor
@@ -130,13 +130,14 @@ impl NumberRing {
             return Element::default();
         }
         match (a.0.as_slice(), b.0.as_slice()) {
-            ([q], _) => return b.scaled(q),
-            (_, [q]) => return a.scaled(q),
+            ([q], _) => return b.scale_by(q),
+            (_, [q]) => return a.scale_by(q),
             _ => {}
         }
         let [x, y] = [a, b].map(Element::denominator);
-        let product = self.integral_product(&a.times(&x), &b.times(&y));
-        Element::over(product, &(x * y))
+        let product =
+            self.integral_product(&a.integral_coordinates(&x), &b.integral_coordinates(&y));
+        Element::from_integral(product, &(x * y))
     }
 
     /// Computes the scalar product. Fractions are reduced once, not after each sum. O(1) products.
@@ -145,9 +146,9 @@ impl NumberRing {
         let ((a, x), (b, y)) = (over_one(a), over_one(b));
         let mut sum = Vec::new();
         for (a, b) in a.iter().zip(&b) {
-            combine(&mut sum, self.integral_product(a, b), |s, p| *s += p);
+            combine_integers(&mut sum, self.integral_product(a, b), |s, p| *s += p);
         }
-        Element::over(sum, &(x * y))
+        Element::from_integral(sum, &(x * y))
     }
 
     /// Computes the vector product, reduced like [`NumberRing::dot`]. O(1) products.
@@ -158,8 +159,8 @@ impl NumberRing {
         let product = |i: usize, j: usize| self.integral_product(&a[i], &b[j]);
         let minor = |i, j| {
             let mut difference = product(i, j);
-            combine(&mut difference, product(j, i), |s, p| *s -= p);
-            Element::over(difference, &below)
+            combine_integers(&mut difference, product(j, i), |s, p| *s -= p);
+            Element::from_integral(difference, &below)
         };
         [minor(1, 2), minor(2, 0), minor(0, 1)]
     }
@@ -230,7 +231,7 @@ impl NumberRing {
     pub fn inverse(&self, a: &Element) -> Option<Element> {
         match a.0.as_slice() {
             [] => return None,
-            [q] => return Some(Element::rational(q.recip())),
+            [q] => return Some(Element::from_rational(q.recip())),
             _ => {}
         }
         let step = self.steps.iter().rposition(|s| s.width < a.0.len())?;
@@ -238,12 +239,12 @@ impl NumberRing {
             relation, width, ..
         } = &self.steps[step];
         let mut modulus = relation.clone();
-        modulus.push(Element::integer(1));
+        modulus.push(Element::from_integer(1));
         // Invariant: r ≡ t · a modulo the relation.
-        let (mut r0, mut r1) = (modulus, blocks(a, *width));
-        let (mut t0, mut t1) = (Vec::new(), vec![Element::integer(1)]);
+        let (mut r0, mut r1) = (modulus, split_blocks(a, *width));
+        let (mut t0, mut t1) = (Vec::new(), vec![Element::from_integer(1)]);
         while r1.len() > 1 {
-            let (quotient, rest) = self.divided(r0, &r1)?;
+            let (quotient, rest) = self.divide_polynomials(r0, &r1)?;
             let t = self.poly_sub(t0, &self.poly_mul(&quotient, &t1));
             (r0, r1) = (r1, rest);
             (t0, t1) = (t1, t);
@@ -291,13 +292,17 @@ impl NumberRing {
         for (x, y) in a.iter_mut().zip(b) {
             *x = self.sub(x, y);
         }
-        trimmed(a)
+        trim_polynomial(a)
     }
 
     /// Returns quotient and remainder of polynomials, or `None` if the divisor's leading coefficient has no inverse.
-    fn divided(&self, a: Vec<Element>, b: &[Element]) -> Option<(Vec<Element>, Vec<Element>)> {
+    fn divide_polynomials(
+        &self,
+        a: Vec<Element>,
+        b: &[Element],
+    ) -> Option<(Vec<Element>, Vec<Element>)> {
         let lead = self.inverse(b.last()?)?;
-        let mut rest = trimmed(a);
+        let mut rest = trim_polynomial(a);
         let mut quotient = vec![Element::default(); (rest.len() + 1).saturating_sub(b.len())];
         while rest.len() >= b.len() {
             let low = rest.len() - b.len();
@@ -307,13 +312,17 @@ impl NumberRing {
             }
             quotient[low] = q;
             rest.pop();
-            rest = trimmed(rest);
+            rest = trim_polynomial(rest);
         }
         Some((quotient, rest))
     }
 }
 
-fn entrywise(a: &Element, b: &Element, with: impl Fn(&mut BigRational, &BigRational)) -> Element {
+fn combine_entries(
+    a: &Element,
+    b: &Element,
+    with: impl Fn(&mut BigRational, &BigRational),
+) -> Element {
     let mut out = a.0.clone();
     out.resize(a.0.len().max(b.0.len()), BigRational::zero());
     out.iter_mut().zip(&b.0).for_each(|(x, y)| with(x, y));
@@ -323,23 +332,26 @@ fn entrywise(a: &Element, b: &Element, with: impl Fn(&mut BigRational, &BigRatio
 /// Returns elements as integral coordinates over one denominator.
 fn over_one(all: &[Element; 3]) -> ([Vec<BigInt>; 3], BigInt) {
     let below = common_denominator(all.iter().flat_map(|x| &x.0));
-    (all.each_ref().map(|x| x.times(&below)), below)
+    (
+        all.each_ref().map(|x| x.integral_coordinates(&below)),
+        below,
+    )
 }
 
 /// Combines coordinates with others, one by one; either list may be shorter. O(length).
-pub fn combine(of: &mut Vec<BigInt>, by: Vec<BigInt>, with: impl Fn(&mut BigInt, BigInt)) {
+pub fn combine_integers(of: &mut Vec<BigInt>, by: Vec<BigInt>, with: impl Fn(&mut BigInt, BigInt)) {
     of.resize(of.len().max(by.len()), BigInt::zero());
     of.iter_mut().zip(by).for_each(|(x, y)| with(x, y));
 }
 
 /// Returns the coefficients of an element as a polynomial in a generator whose powers are `width` coordinates apart.
-fn blocks(a: &Element, width: usize) -> Vec<Element> {
+fn split_blocks(a: &Element, width: usize) -> Vec<Element> {
     a.0.chunks(width)
         .map(|c| Element::new(c.to_vec()))
         .collect()
 }
 
-fn trimmed(mut polynomial: Vec<Element>) -> Vec<Element> {
+fn trim_polynomial(mut polynomial: Vec<Element>) -> Vec<Element> {
     while polynomial.last().is_some_and(Element::is_zero) {
         polynomial.pop();
     }
@@ -353,7 +365,7 @@ mod tests {
 
     /// Returns Q(c)(y)(z) with c = 2 cos 40deg, y^2 = 2 and z^2 = 3 + c.
     fn ring() -> NumberRing {
-        let int = Element::integer;
+        let int = Element::from_integer;
         NumberRing::rationals()
             .adjoin(vec![int(1), int(-3), int(0)])
             .unwrap()
@@ -414,7 +426,7 @@ mod tests {
             let minor = |i, j| r.sub(&times(i, j), &times(j, i));
             prop_assert_eq!(r.cross(&left, &right), [minor(1, 2), minor(2, 0), minor(0, 1)]);
             match r.inverse(&a) {
-                Some(i) => prop_assert_eq!(r.mul(&a, &i), Element::integer(1)),
+                Some(i) => prop_assert_eq!(r.mul(&a, &i), Element::from_integer(1)),
                 None => prop_assert!(a.is_zero()),
             }
         }
@@ -425,9 +437,9 @@ mod tests {
         let long = Element::new(vec![BigRational::one(); 3]);
         assert!(NumberRing::rationals().adjoin(vec![long]).is_none());
         assert!(NumberRing::rationals().adjoin(Vec::new()).is_none());
-        let half = Element::rational(BigRational::new(1.into(), 2.into()));
+        let half = Element::from_rational(BigRational::new(1.into(), 2.into()));
         assert!(NumberRing::rationals().adjoin(vec![half]).is_none());
         let r = ring();
-        assert!(r.mul(&r.generator(1), &r.generator(1)) == Element::integer(2));
+        assert!(r.mul(&r.generator(1), &r.generator(1)) == Element::from_integer(2));
     }
 }

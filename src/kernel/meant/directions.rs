@@ -4,7 +4,7 @@
 //! a hundred times what the points leave. So a direction is turned, within its own digits, to where most pairs of
 //! points lie along it or perpendicular to it.
 
-use super::written::{PointPair, Written, pairs};
+use super::written::{PointPair, Written, distinct_pairs};
 use crate::geom::vector::{Vector, X, Y, Z, add_scaled, cross, dot, length, scale, unit};
 
 /// Maximum move of a direction's components, in halves of their last digit. Such a direction is fitted, not solved for.
@@ -43,14 +43,14 @@ pub(super) struct Directions {
 
 /// Merges rays that are parallel within their errors into one direction, refined by the points.
 pub(super) fn of_rays(rays: &[Written], points: &[Vector], errors: &[f64]) -> Directions {
-    let pairs = pairs(points, errors);
+    let pairs = distinct_pairs(points, errors);
     let mut order: Vec<usize> = (0..rays.len()).collect();
     // The most accurate come first, so that others are compared with them.
-    order.sort_by(|&a, &b| rays[a].error().total_cmp(&rays[b].error()));
+    order.sort_by(|&a, &b| rays[a].angular_error().total_cmp(&rays[b].angular_error()));
     let (mut all, mut of_ray) = (Vec::<Direction>::new(), vec![(0, 1.0); rays.len()]);
     let mut sums: Vec<(Vector, f64)> = Vec::new();
     for i in order {
-        let (v, error) = (rays[i].unit(), rays[i].error());
+        let (v, error) = (rays[i].unit_vector(), rays[i].angular_error());
         let near = |d: &Direction| length(cross(d.unit, v)) <= 1.05 * (d.error + error);
         let nearest = |a: &usize, b: &usize| {
             let off = |k: &usize| length(cross(all[*k].unit, v));
@@ -91,8 +91,8 @@ pub(super) fn of_rays(rays: &[Written], points: &[Vector], errors: &[f64]) -> Di
             .filter(|r| r.1.0 == k)
             .map(|r| r.0)
             .collect();
-        let allowed = |v: Vector| own.iter().all(|r| r.moved(v, 0.0) <= WITHIN);
-        let Refined { unit, error, tilts } = refined(unit(sum), d.error, &pairs, allowed);
+        let allowed = |v: Vector| own.iter().all(|r| r.move_to(v, 0.0) <= WITHIN);
+        let Refined { unit, error, tilts } = refine_direction(unit(sum), d.error, &pairs, allowed);
         (d.unit, d.error, d.tilts) = (unit, error, tilts);
     }
     Directions { all, of_ray }
@@ -148,7 +148,7 @@ struct TurnEstimate {
 }
 
 impl TurnEstimate {
-    fn tilts(&self, [a, b]: [Vector; 2]) -> [(Vector, f64); 2] {
+    fn tilt_axes(&self, [a, b]: [Vector; 2]) -> [(Vector, f64); 2] {
         let (s, c) = self.angle.sin_cos();
         let turned = |x: f64, y: f64| add_scaled(a.map(|v| x * v), y, b);
         [
@@ -178,7 +178,7 @@ fn square_to(v: Vector) -> [Vector; 2] {
     [first, cross(v, first)]
 }
 
-fn evidence(v: Vector, error: f64, [e1, e2]: [Vector; 2], pairs: &[PointPair]) -> Evidence {
+fn gather_evidence(v: Vector, error: f64, [e1, e2]: [Vector; 2], pairs: &[PointPair]) -> Evidence {
     let mut out = Evidence {
         lines: Vec::new(),
         pairs: Vec::new(),
@@ -212,7 +212,7 @@ fn evidence(v: Vector, error: f64, [e1, e2]: [Vector; 2], pairs: &[PointPair]) -
 
 impl Evidence {
     /// Returns the lines of the pairs that agree with a turn.
-    fn agreeing(&self, [a, b]: [f64; 2]) -> impl Iterator<Item = &TurnEquation> + '_ {
+    fn agreeing_lines(&self, [a, b]: [f64; 2]) -> impl Iterator<Item = &TurnEquation> + '_ {
         let fits =
             move |l: &&TurnEquation| (l.row[0] * a + l.row[1] * b - l.row[2]).abs() <= l.error;
         self.pairs.iter().flat_map(move |&(first, n)| {
@@ -222,15 +222,15 @@ impl Evidence {
         })
     }
 
-    fn support(&self, turn: [f64; 2]) -> usize {
-        self.agreeing(turn).count()
+    fn count_support(&self, turn: [f64; 2]) -> usize {
+        self.agreeing_lines(turn).count()
     }
 
     /// Returns the turn fitted to the lines that agree with a given one, and its error. `prior` is the error of the
     /// direction's digits.
-    fn fit(&self, turn: [f64; 2], prior: f64) -> Option<TurnEstimate> {
+    fn fit_turn(&self, turn: [f64; 2], prior: f64) -> Option<TurnEstimate> {
         let (mut m, mut g) = ([[prior.powi(-2), 0.0], [0.0, prior.powi(-2)]], [0.0; 2]);
-        for l in self.agreeing(turn) {
+        for l in self.agreeing_lines(turn) {
             let weight = l.error.powi(-2);
             for (i, (m, g)) in m.iter_mut().zip(&mut g).enumerate() {
                 m[0] += weight * l.row[i] * l.row[0];
@@ -260,7 +260,7 @@ impl Evidence {
     }
 
     /// Returns candidate turns from single pairs along the direction, and from two pairs perpendicular to it.
-    fn hypotheses(&self) -> Vec<[f64; 2]> {
+    fn candidate_turns(&self) -> Vec<[f64; 2]> {
         let mut out = vec![[0.0; 2]];
         let mut square: Vec<&TurnEquation> = Vec::new();
         for &(first, n) in &self.pairs {
@@ -296,7 +296,7 @@ impl Evidence {
 ///
 /// # Complexity
 /// O(p²) hypotheses of at most 48² pairs, each compared with O(p²) pairs of p points.
-fn refined(
+fn refine_direction(
     v: Vector,
     error: f64,
     pairs: &[PointPair],
@@ -311,21 +311,25 @@ fn refined(
             tilts: untold,
         };
     }
-    let found = evidence(v, error, across, pairs);
+    let found = gather_evidence(v, error, across, pairs);
     let turned = |t: &[f64; 2]| unit(add_scaled(add_scaled(v, t[0], across[0]), t[1], across[1]));
     let within = |t: &[f64; 2]| t[0].hypot(t[1]) <= 1.1 * error && allowed(turned(t));
     let axes = [X, Y, Z].map(|e| if dot(e, v) < 0.0 { e.map(|x| -x) } else { e });
     let own = axes.into_iter().find(|e| length(cross(*e, v)) <= error);
     let own = own.map(|e| across.map(|a| dot(a, e)));
     let mut best = ([0.0; 2], 0);
-    for turn in own.into_iter().chain(found.hypotheses()).filter(within) {
-        let support = found.support(turn);
+    for turn in own
+        .into_iter()
+        .chain(found.candidate_turns())
+        .filter(within)
+    {
+        let support = found.count_support(turn);
         if support > best.1 {
             best = (turn, support);
         }
     }
     if let Some(turn) = own
-        && found.support(turn) == best.1
+        && found.count_support(turn) == best.1
     {
         let unit = axes.into_iter().find(|e| length(cross(*e, v)) <= error);
         // An axis of the file stays unchanged, even if other directions are near.
@@ -337,8 +341,8 @@ fn refined(
     }
     let (mut turn, mut left) = (best.0, None);
     for _ in 0..4 {
-        if let Some(fit) = found.fit(turn, error).filter(|f| within(&f.turn)) {
-            if found.support(fit.turn) + 2 < best.1 {
+        if let Some(fit) = found.fit_turn(turn, error).filter(|f| within(&f.turn)) {
+            if found.count_support(fit.turn) + 2 < best.1 {
                 break;
             }
             turn = fit.turn;
@@ -348,6 +352,6 @@ fn refined(
     Refined {
         unit: turned(&turn),
         error: left.as_ref().map_or(error, |f| f.errors[1]),
-        tilts: left.map_or(untold, |f| f.tilts(across)),
+        tilts: left.map_or(untold, |f| f.tilt_axes(across)),
     }
 }

@@ -2,7 +2,7 @@
 //! are normal to. Without such a plane it is free, with one it is kept in it, and with two it is their intersection.
 
 use super::directions::Direction;
-use super::number::{Rational3, axes, cross, decimal, is_zero, scaled, to_f64};
+use super::number::{Rational3, cross, frame_axes, is_zero, nearest_decimal, scale_to_one, to_f64};
 use crate::geom::vector::{Vector, cross as cross_f64, dot, length, unit};
 use num_traits::Zero;
 
@@ -22,7 +22,7 @@ impl Exact {
     }
 
     /// Creates a direction near another.
-    pub(super) fn near(exact: Rational3, other: &Exact) -> Exact {
+    pub(super) fn exact_near(exact: Rational3, other: &Exact) -> Exact {
         Exact::new(exact, other.error)
     }
 
@@ -41,7 +41,7 @@ const APART: f64 = 1e-4;
 
 /// Returns the exact directions of a scene, in the order of `all`. `inside` rotates to the scene's frame, `written`
 /// gives those that are written exactly.
-pub(super) fn exact(
+pub(super) fn make_exact(
     all: &[Direction],
     inside: impl Fn(Vector) -> Vector,
     written: impl Fn(usize) -> Rational3,
@@ -55,7 +55,7 @@ pub(super) fn exact(
             .total_cmp(&all[b].error)
             .then(all[b].rays.cmp(&all[a].rays))
     });
-    let mut fixed: Vec<Exact> = axes().map(|e| Exact::new(e, 0.0)).to_vec();
+    let mut fixed: Vec<Exact> = frame_axes().map(|e| Exact::new(e, 0.0)).to_vec();
     let mut out: Vec<Option<Exact>> = vec![None; all.len()];
     for k in order {
         let d = &all[k];
@@ -67,7 +67,7 @@ pub(super) fn exact(
         }
         let v = inside(d.unit);
         // A direction in a plane lies in it up to rounding at this stage.
-        let found = placed(v, TOGETHER, &fixed, digits);
+        let found = place_direction(v, TOGETHER, &fixed, digits);
         if !fixed
             .iter()
             .any(|f| length(cross_f64(f.unit, found.unit)) == 0.0)
@@ -80,7 +80,7 @@ pub(super) fn exact(
 }
 
 /// Returns a direction near `v`, in the planes that fixed ones define.
-pub(super) fn placed(v: Vector, error: f64, fixed: &[Exact], digits: u32) -> Exact {
+pub(super) fn place_direction(v: Vector, error: f64, fixed: &[Exact], digits: u32) -> Exact {
     if let Some(same) = fixed
         .iter()
         .find(|f| length(cross_f64(f.unit, v)) <= 1.1 * (error + f.error))
@@ -93,7 +93,7 @@ pub(super) fn placed(v: Vector, error: f64, fixed: &[Exact], digits: u32) -> Exa
         };
         return Exact::new(exact, same.error);
     }
-    let planes = offered(v, error, fixed);
+    let planes = planes_offered(v, error, fixed);
     let first = planes.first();
     let second = first.and_then(|f| {
         planes
@@ -102,8 +102,8 @@ pub(super) fn placed(v: Vector, error: f64, fixed: &[Exact], digits: u32) -> Exa
     });
     match (first, second) {
         (Some(a), Some(b)) => {
-            let first = a.exact(fixed);
-            let meet = scaled(cross(&first, &b.exact(fixed)));
+            let first = a.exact_normal(fixed);
+            let meet = scale_to_one(cross(&first, &b.exact_normal(fixed)));
             let along = dot(to_f64(&meet), v);
             let meet = if along < 0.0 { meet.map(|x| -x) } else { meet };
             let of = Exact::new(meet, error.min(1e-15));
@@ -113,13 +113,13 @@ pub(super) fn placed(v: Vector, error: f64, fixed: &[Exact], digits: u32) -> Exa
             }
             in_plane(v, &first, error, digits)
         }
-        (Some(a), None) => in_plane(v, &a.exact(fixed), error, digits),
-        _ => free(v, error, digits),
+        (Some(a), None) => in_plane(v, &a.exact_normal(fixed), error, digits),
+        _ => place_freely(v, error, digits),
     }
 }
 
 /// Returns the planes in which a direction may lie, best fit first.
-fn offered(v: Vector, error: f64, fixed: &[Exact]) -> Vec<OfferedPlane> {
+fn planes_offered(v: Vector, error: f64, fixed: &[Exact]) -> Vec<OfferedPlane> {
     let mut planes: Vec<OfferedPlane> = Vec::new();
     let mut offer = |of: [usize; 2], normal: Vector, slack: f64| {
         let off = dot(normal, v).abs();
@@ -161,7 +161,7 @@ struct OfferedPlane {
 
 impl OfferedPlane {
     /// Returns the exact normal. Its numbers are long, so it is computed only for accepted planes.
-    fn exact(&self, fixed: &[Exact]) -> Rational3 {
+    fn exact_normal(&self, fixed: &[Exact]) -> Rational3 {
         let [i, j] = self.of;
         if i == j {
             fixed[i].exact.clone()
@@ -171,12 +171,15 @@ impl OfferedPlane {
     }
 }
 
-fn free(v: Vector, error: f64, digits: u32) -> Exact {
-    Exact::new(v.map(|x| decimal(x, digits)), error.max(last(digits)))
+fn place_freely(v: Vector, error: f64, digits: u32) -> Exact {
+    Exact::new(
+        v.map(|x| nearest_decimal(x, digits)),
+        error.max(last_digit_error(digits)),
+    )
 }
 
 /// Returns the error of a direction with this many decimals.
-fn last(digits: u32) -> f64 {
+fn last_digit_error(digits: u32) -> f64 {
     10f64.powi(-i32::try_from(digits).unwrap_or(i32::MAX))
 }
 
@@ -186,14 +189,14 @@ fn in_plane(v: Vector, normal: &Rational3, error: f64, digits: u32) -> Exact {
     let i = (0..3)
         .max_by(|&a, &b| n[a].abs().total_cmp(&n[b].abs()))
         .unwrap_or(0);
-    let mut w = v.map(|x| decimal(x, digits));
+    let mut w = v.map(|x| nearest_decimal(x, digits));
     let (j, k) = ((i + 1) % 3, (i + 2) % 3);
     if normal[i].is_zero() {
-        return free(v, error, digits);
+        return place_freely(v, error, digits);
     }
     w[i] = -(&w[j] * &normal[j] + &w[k] * &normal[k]) / &normal[i];
     if is_zero(&w) {
-        return free(v, error, digits);
+        return place_freely(v, error, digits);
     }
-    Exact::new(w, error.max(last(digits)))
+    Exact::new(w, error.max(last_digit_error(digits)))
 }

@@ -3,7 +3,7 @@
 //! are exact in the other.
 
 use super::directions::Direction;
-use super::number::{Rational3, Whole, decimal, to_f64};
+use super::number::{Rational3, Whole, nearest_decimal, to_f64};
 use crate::geom::vector::{Vector, X, Y, Z, across, cross, dot, length, unit};
 use num_bigint::BigInt;
 use num_rational::BigRational;
@@ -24,7 +24,7 @@ pub(super) struct SceneFrame {
 
 impl SceneFrame {
     /// Creates the file's own frame.
-    fn file() -> SceneFrame {
+    fn of_file() -> SceneFrame {
         SceneFrame {
             rotation: None,
             whole: None,
@@ -41,15 +41,15 @@ impl SceneFrame {
 
     /// Creates the frame of some directions. z is the most accurate one, and x the most accurate one perpendicular to
     /// it or in a plane with it.
-    pub(super) fn of(all: &[Direction]) -> SceneFrame {
+    pub(super) fn from_directions(all: &[Direction]) -> SceneFrame {
         if SceneFrame::is_the_files(all) {
-            return SceneFrame::file();
+            return SceneFrame::of_file();
         }
         let used = || all.iter().filter(|d| d.rays > 0);
         let sharper =
             |a: &&Direction, b: &&Direction| a.error.total_cmp(&b.error).then(b.rays.cmp(&a.rays));
         let Some(first) = used().min_by(sharper).or(all.first()) else {
-            return SceneFrame::file();
+            return SceneFrame::of_file();
         };
         let z = first.unit;
         let square = |d: &&Direction| dot(d.unit, z).abs() <= 1e-12;
@@ -60,14 +60,14 @@ impl SceneFrame {
         let any = if z[0].abs() < 0.9 { X } else { Y };
         let x = unit(across(axis.or(frequent).unwrap_or(any), z));
         if [x, z].iter().flatten().all(|c| c.is_finite()) {
-            SceneFrame::turned([x, cross(z, x), z])
+            SceneFrame::from_axes([x, cross(z, x), z])
         } else {
-            SceneFrame::file()
+            SceneFrame::of_file()
         }
     }
 
     /// Returns the rational rotation nearest to the one whose columns are these axes.
-    fn turned(columns: [Vector; 3]) -> SceneFrame {
+    fn from_axes(columns: [Vector; 3]) -> SceneFrame {
         let m = |i: usize, j: usize| columns[j][i];
         let trace = [1.0, m(0, 0), m(1, 1), m(2, 2)];
         // There are four formulas for the quaternion; the one by its largest component is accurate.
@@ -95,7 +95,7 @@ impl SceneFrame {
             if c.abs() < 1e-15 {
                 BigRational::zero()
             } else {
-                decimal(c / 2.0, DIGITS)
+                nearest_decimal(c / 2.0, DIGITS)
             }
         });
         let norm = [&w, &x, &y, &z]
@@ -114,21 +114,21 @@ impl SceneFrame {
             [off(&x, &z, -1, &y), off(&y, &z, 1, &x), diagonal(&x, &y)],
         ];
         let real = rotation.each_ref().map(to_f64);
-        let out = Whole::of(rotation.each_ref());
+        let out = Whole::over_denominator(rotation.each_ref());
         SceneFrame {
-            whole: Some([out.clone(), out.transposed()]),
+            whole: Some([out.clone(), out.transpose()]),
             rotation: Some(rotation),
             real,
         }
     }
 
     /// Converts a vector of the file to the scene's frame.
-    pub(super) fn inside(&self, v: Vector) -> Vector {
+    pub(super) fn into_scene(&self, v: Vector) -> Vector {
         [0, 1, 2].map(|j| (0..3).map(|i| self.real[i][j] * v[i]).sum())
     }
 
     /// Converts a vector of the scene's frame to the file's.
-    pub(super) fn outside(&self, v: Vector) -> Vector {
+    pub(super) fn into_file(&self, v: Vector) -> Vector {
         self.real.map(|row| dot(row, v))
     }
 

@@ -2,11 +2,11 @@
 
 use super::MeantScene;
 use super::number::{Rational3, is_same};
-use super::resolve::{Resolved, resolve};
+use super::resolve::{Resolved, resolve_scene};
 use super::written::{Written, WrittenScene, WrittenSymmetry};
 use crate::closure::contour::contour_basis;
 use crate::geom::expr::Expr;
-use crate::geom::vector::{cross, dot, length, real, sub, unit};
+use crate::geom::vector::{cross, dot, length, sub, to_vector, unit};
 use crate::meant::relations::RelationKind;
 use crate::model::joint_type::JointType;
 use crate::model::mechanism::{Frame, Joint, JointId, JointOption, Mechanism, Mode};
@@ -52,20 +52,20 @@ struct Gathered {
 }
 
 impl Gathered {
-    fn point(&mut self, v: &[Expr; 3], half: [f64; 3], of: JointId) -> usize {
+    fn add_point(&mut self, v: &[Expr; 3], half: [f64; 3], of: JointId) -> usize {
         self.points.push(of);
-        self.written.points.push(written(v, half));
+        self.written.points.push(as_written(v, half));
         self.points.len() - 1
     }
 
-    fn ray(&mut self, v: &[Expr; 3], half: [f64; 3], of: Option<JointId>) -> usize {
+    fn add_ray(&mut self, v: &[Expr; 3], half: [f64; 3], of: Option<JointId>) -> usize {
         self.rays.push(of);
-        self.written.rays.push(written(v, half));
+        self.written.rays.push(as_written(v, half));
         self.rays.len() - 1
     }
 
     /// Adds the parts of a frame that differ from the joint's own frame, if given with its slots.
-    fn frame(
+    fn add_frame(
         &mut self,
         f: &Frame,
         half: &FrameUncertainty,
@@ -81,24 +81,26 @@ impl Gathered {
         let refers = uses.reference && half.reference != [0.0; 3];
         Slots {
             point: kept(|f| &f.point, |s| s.point)
-                .unwrap_or_else(|| Some(self.point(&f.point, half.point, of))),
-            axis: kept(|f| &f.axis, |s| s.axis)
-                .unwrap_or_else(|| uses.axis.then(|| self.ray(&f.axis, half.axis, Some(of)))),
+                .unwrap_or_else(|| Some(self.add_point(&f.point, half.point, of))),
+            axis: kept(|f| &f.axis, |s| s.axis).unwrap_or_else(|| {
+                uses.axis
+                    .then(|| self.add_ray(&f.axis, half.axis, Some(of)))
+            }),
             reference: kept(|f| &f.reference, |s| s.reference).unwrap_or_else(|| {
-                refers.then(|| self.ray(&f.reference, half.reference, Some(of)))
+                refers.then(|| self.add_ray(&f.reference, half.reference, Some(of)))
             }),
         }
     }
 
     /// Adds the frame of a joint, with the directions used by it and by the options along its axis.
-    fn joint(&mut self, joint: &Joint, half: &FrameUncertainty, j: JointId) -> Slots {
+    fn add_joint(&mut self, joint: &Joint, half: &FrameUncertainty, j: JointId) -> Slots {
         let uses = joint
-            .offered()
+            .offered_options()
             .filter(|o| written_alike(&o.frame.axis, &joint.frame.axis))
-            .fold(Uses::of(&joint.joint_type), |u, o| {
-                u.or(Uses::of(&o.joint_type))
+            .fold(Uses::by_type(&joint.joint_type), |u, o| {
+                u.union_with(Uses::by_type(&o.joint_type))
             });
-        self.frame(&joint.frame, half, j, uses, None)
+        self.add_frame(&joint.frame, half, j, uses, None)
     }
 }
 
@@ -110,14 +112,14 @@ struct Uses {
 }
 
 impl Uses {
-    fn of(joint_type: &JointType) -> Uses {
+    fn by_type(joint_type: &JointType) -> Uses {
         Uses {
             axis: joint_type.is_directed(),
             reference: joint_type.has_second_axis(),
         }
     }
 
-    fn or(self, other: Uses) -> Uses {
+    fn union_with(self, other: Uses) -> Uses {
         Uses {
             axis: self.axis || other.axis,
             reference: self.reference || other.reference,
@@ -125,16 +127,16 @@ impl Uses {
     }
 }
 
-fn written(v: &[Expr; 3], half: [f64; 3]) -> Written {
+fn as_written(v: &[Expr; 3], half: [f64; 3]) -> Written {
     Written {
-        value: real(v),
-        exact: rational(v),
+        value: to_vector(v),
+        exact: to_rationals(v),
         half,
     }
 }
 
 /// Returns an exact vector, to forty digits if it is irrational.
-fn rational(v: &[Expr; 3]) -> Rational3 {
+fn to_rationals(v: &[Expr; 3]) -> Rational3 {
     v.each_ref().map(|e| {
         e.as_rational()
             .or_else(|| BigRational::from_float(e.to_f64()))
@@ -157,7 +159,7 @@ fn written_alike(a: &[Expr; 3], b: &[Expr; 3]) -> bool {
 /// # Complexity
 /// As [`resolve`].
 #[must_use]
-pub fn meant(mechanism: &Mechanism) -> Option<Meant> {
+pub fn recover_mechanism(mechanism: &Mechanism) -> Option<Meant> {
     let half = uncertainties(mechanism)?;
     let mut all = Gathered::default();
     let mut own: Vec<Slots> = Vec::new();
@@ -166,35 +168,38 @@ pub fn meant(mechanism: &Mechanism) -> Option<Meant> {
     for (j, joint) in mechanism.joints_with_ids() {
         if !takes_part[j.index()] {
             own.push(Slots::default());
-            offered.push(joint.offered().map(|_| Slots::default()).collect());
+            offered.push(joint.offered_options().map(|_| Slots::default()).collect());
             continue;
         }
-        let slots = all.joint(joint, &half.frames[j.index()], j);
+        let slots = all.add_joint(joint, &half.frames[j.index()], j);
         own.push(slots);
         let halves = &half.option_frames[j.index()];
         let of_option = |(o, half): (&JointOption, &FrameUncertainty)| {
-            let (frame, uses) = (&joint.frame, Uses::of(&o.joint_type));
-            all.frame(&o.frame, half, j, uses, Some((frame, slots)))
+            let (frame, uses) = (&joint.frame, Uses::by_type(&o.joint_type));
+            all.add_frame(&o.frame, half, j, uses, Some((frame, slots)))
         };
-        offered.push(joint.offered().zip(halves).map(of_option).collect());
+        offered.push(joint.offered_options().zip(halves).map(of_option).collect());
     }
     let normal = match &mechanism.mode {
         Mode::Spatial => None,
-        Mode::Planar { normal } => Some(all.ray(normal, half.normal, None)),
+        Mode::Planar { normal } => Some(all.add_ray(normal, half.normal, None)),
     };
     if all.points.is_empty() {
         return None;
     }
-    all.written.symmetry = stated(mechanism, &own, &offered);
-    let Resolved { scene, others } = resolve(&all.written)?;
+    all.written.symmetry = stated_symmetry(mechanism, &own, &offered);
+    let Resolved { scene, others } = resolve_scene(&all.written)?;
     let places = Places {
         own,
         offered,
         normal,
     };
-    let others = others.iter().map(|o| places.put(mechanism, o)).collect();
+    let others = others
+        .iter()
+        .map(|o| places.apply_scene(mechanism, o))
+        .collect();
     Some(Meant {
-        mechanism: places.put(mechanism, &scene),
+        mechanism: places.apply_scene(mechanism, &scene),
         others,
         written: mechanism.joints.iter().map(|j| j.frame.clone()).collect(),
         scene,
@@ -222,9 +227,13 @@ fn taking_part(mechanism: &Mechanism) -> Vec<bool> {
 }
 
 /// Returns the images stated in the file, or `None` for a third of a turn, which is rational only in special frames.
-fn stated(mechanism: &Mechanism, own: &[Slots], offered: &[Vec<Slots>]) -> Option<WrittenSymmetry> {
+fn stated_symmetry(
+    mechanism: &Mechanism,
+    own: &[Slots],
+    offered: &[Vec<Slots>],
+) -> Option<WrittenSymmetry> {
     let search = &mechanism.search;
-    if search.order() != 2 {
+    if search.symmetry_order() != 2 {
         return None;
     }
     let mut out = WrittenSymmetry {
@@ -233,7 +242,7 @@ fn stated(mechanism: &Mechanism, own: &[Slots], offered: &[Vec<Slots>]) -> Optio
         rays: Vec::new(),
     };
     for (j, _) in mechanism.joints_with_ids() {
-        let (a, b) = (j.index(), search.image(j).index());
+        let (a, b) = (j.index(), search.image_of_joint(j).index());
         if b < a {
             continue;
         }
@@ -260,7 +269,7 @@ struct Places {
 
 impl Places {
     /// Returns the mechanism with the geometry of a scene.
-    fn put(&self, mechanism: &Mechanism, scene: &MeantScene) -> Mechanism {
+    fn apply_scene(&self, mechanism: &Mechanism, scene: &MeantScene) -> Mechanism {
         let mut out = mechanism.clone();
         let put = |f: &mut Frame, s: &Slots| {
             for (v, x) in [
@@ -270,7 +279,7 @@ impl Places {
             ] {
                 match x {
                     Some(x) => write(v, x),
-                    None => settled(v),
+                    None => make_exact(v),
                 }
             }
         };
@@ -285,14 +294,14 @@ impl Places {
             write(normal, &scene.rays[k]);
         }
         for p in &mut out.points {
-            settled(&mut p.point);
+            make_exact(&mut p.point);
         }
         out
     }
 }
 
 /// Makes a vector that no relation depends on exact as written.
-fn settled(v: &mut [Expr; 3]) {
+fn make_exact(v: &mut [Expr; 3]) {
     for e in v {
         if let (true, Some(x)) = (e.half_unit().is_some(), e.as_rational()) {
             *e = Expr::rational(x);
@@ -302,13 +311,13 @@ fn settled(v: &mut [Expr; 3]) {
 
 /// Writes a vector over another. Equal values stay as written, because they may be irrational.
 fn write(v: &mut [Expr; 3], x: &Rational3) {
-    let before = rational(v);
+    let before = to_rationals(v);
     for k in 0..3 {
         if !is_same(&before[k], &x[k]) {
             v[k] = Expr::rational(x[k].clone());
         }
     }
-    settled(v);
+    make_exact(v);
 }
 
 /// Returns the joints that a scene has moved, in file order.
@@ -316,29 +325,29 @@ fn write(v: &mut [Expr; 3], x: &Rational3) {
 pub fn moved_joints(meant: &Meant) -> Vec<JointId> {
     let moved = |(j, joint): &(JointId, &Joint)| {
         let before = &meant.written[j.index()];
-        let shift = length(sub(real(&joint.frame.point), real(&before.point)));
-        shift != 0.0 || turned(before, &joint.frame) != 0.0
+        let shift = length(sub(to_vector(&joint.frame.point), to_vector(&before.point)));
+        shift != 0.0 || turn_angle(before, &joint.frame) != 0.0
     };
     let joints = meant.mechanism.joints_with_ids();
     joints.filter(moved).map(|(j, _)| j).collect()
 }
 
 /// Returns the angle by which the axes of a frame have turned `[rad]`.
-fn turned(before: &Frame, now: &Frame) -> f64 {
+fn turn_angle(before: &Frame, now: &Frame) -> f64 {
     let angle = |a: [f64; 3], b: [f64; 3]| {
         let (a, b) = (unit(a), unit(b));
         length(cross(a, b)).atan2(dot(a, b).abs())
     };
     // Differences at the level of rounding errors are not reported.
     let told = |x: f64| if x > 1e-15 { x } else { 0.0 };
-    let of = |a: &[_; 3], b: &[_; 3]| told(angle(real(a), real(b)));
+    let of = |a: &[_; 3], b: &[_; 3]| told(angle(to_vector(a), to_vector(b)));
     of(&before.axis, &now.axis).max(of(&before.reference, &now.reference))
 }
 
 /// Describes the recovered relations: "13 axes parallel, 14 centres in planes, 4 equal vectors" and a largest move such
 /// as 0.9 halves of a unit of the last digit.
 #[must_use]
-pub fn understood(meant: &Meant) -> String {
+pub fn describe_relations(meant: &Meant) -> String {
     let mut parts: Vec<String> = Vec::new();
     let mut groups: Vec<usize> = Vec::new();
     for (of, &cluster) in meant.rays.iter().zip(&meant.scene.cluster) {

@@ -1,7 +1,7 @@
 //! Rational numbers near doubles, and vectors of them.
 
 use crate::geom::vector::Vector;
-use crate::linalg::{common_denominator, whole};
+use crate::linalg::{common_denominator, whole_over};
 use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::{ToPrimitive, Zero};
@@ -10,7 +10,7 @@ use num_traits::{ToPrimitive, Zero};
 pub(crate) type Rational3 = [BigRational; 3];
 
 /// Returns the nearest decimal with `places` places to a finite number.
-pub(super) fn decimal(x: f64, places: u32) -> BigRational {
+pub(super) fn nearest_decimal(x: f64, places: u32) -> BigRational {
     let Some(exact) = BigRational::from_float(x) else {
         return BigRational::zero();
     };
@@ -34,10 +34,10 @@ pub(super) struct Whole<const N: usize> {
 }
 
 impl<const N: usize> Whole<N> {
-    pub(super) fn of(all: [&Rational3; N]) -> Whole<N> {
+    pub(super) fn over_denominator(all: [&Rational3; N]) -> Whole<N> {
         let denom = common_denominator(all.iter().flat_map(|v| v.iter()));
         Whole {
-            numer: all.map(|v| v.each_ref().map(|x| whole(x, &denom))),
+            numer: all.map(|v| v.each_ref().map(|x| whole_over(x, &denom))),
             denom,
         }
     }
@@ -45,7 +45,7 @@ impl<const N: usize> Whole<N> {
 
 impl Whole<3> {
     /// Returns the rows as columns.
-    pub(super) fn transposed(&self) -> Whole<3> {
+    pub(super) fn transpose(&self) -> Whole<3> {
         let entry = |i: usize, j: usize| self.numer[j][i].clone();
         Whole {
             numer: [0, 1, 2].map(|i| [0, 1, 2].map(|j| entry(i, j))),
@@ -55,7 +55,7 @@ impl Whole<3> {
 
     /// Returns the products of the rows with a vector, reduced once, not after every sum.
     pub(super) fn times(&self, v: &Rational3) -> Rational3 {
-        let Whole { numer: [v], denom } = Whole::of([v]);
+        let Whole { numer: [v], denom } = Whole::over_denominator([v]);
         let denom = denom * &self.denom;
         self.numer.each_ref().map(|row| {
             let sum = &row[0] * &v[0] + &row[1] * &v[1] + &row[2] * &v[2];
@@ -73,7 +73,7 @@ pub(super) fn cross(a: &Rational3, b: &Rational3) -> Rational3 {
     let Whole {
         numer: [a, b],
         denom,
-    } = Whole::of([a, b]);
+    } = Whole::over_denominator([a, b]);
     let denom = &denom * &denom;
     let minor = |i: usize, j: usize| BigRational::new(&a[i] * &b[j] - &a[j] * &b[i], denom.clone());
     [minor(1, 2), minor(2, 0), minor(0, 1)]
@@ -83,12 +83,12 @@ pub(super) fn is_zero(v: &Rational3) -> bool {
     v.iter().all(Zero::is_zero)
 }
 
-pub(super) fn axes() -> [Rational3; 3] {
+pub(super) fn frame_axes() -> [Rational3; 3] {
     [[1, 0, 0], [0, 1, 0], [0, 0, 1]].map(|v| v.map(|x| BigRational::from_integer(BigInt::from(x))))
 }
 
 /// Returns a direction scaled to a largest component of 1.
-pub(super) fn scaled(v: Rational3) -> Rational3 {
+pub(super) fn scale_to_one(v: Rational3) -> Rational3 {
     use num_traits::Signed;
     let largest = v.iter().map(Signed::abs).max();
     match largest.filter(|m| !m.is_zero()) {
@@ -115,7 +115,7 @@ mod tests {
             (1.0 / 3.0, 6, ratio(333_333, 1_000_000)),
             (-123.456, 0, ratio(-123, 1)),
         ] {
-            assert_eq!(decimal(x, places), expected, "{x}");
+            assert_eq!(nearest_decimal(x, places), expected, "{x}");
         }
     }
 
@@ -127,12 +127,12 @@ mod tests {
             [ratio(2, 1), ratio(0, 1), ratio(9, 10)],
         ];
         let v = [ratio(3, 5), ratio(-7, 11), ratio(1, 2)];
-        let whole = Whole::of(rows.each_ref());
+        let whole = Whole::over_denominator(rows.each_ref());
         for (i, x) in whole.times(&v).iter().enumerate() {
             let sum = (0..3).fold(ratio(0, 1), |s, k| s + &rows[i][k] * &v[k]);
             assert!(is_same(x, &sum));
         }
-        for (j, x) in whole.transposed().times(&v).iter().enumerate() {
+        for (j, x) in whole.transpose().times(&v).iter().enumerate() {
             let sum = (0..3).fold(ratio(0, 1), |s, k| s + &rows[k][j] * &v[k]);
             assert!(is_same(x, &sum));
         }

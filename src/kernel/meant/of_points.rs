@@ -2,14 +2,14 @@
 
 use super::directions::Direction;
 use super::projection::Projection;
-use super::written::{PointPair, pairs};
+use super::written::{PointPair, distinct_pairs};
 use crate::geom::vector::{Vector, add_scaled, cross, dot, length, sub, unit};
 use std::collections::BTreeMap;
 
 /// Maximum number of points among which lines and planes are sought.
 const MOST: usize = 60;
 
-fn direction(unit: Vector, error: f64, plane: bool) -> Direction {
+fn direction_of_points(unit: Vector, error: f64, plane: bool) -> Direction {
     Direction {
         plane,
         ..Direction::of_points(unit, error)
@@ -18,12 +18,12 @@ fn direction(unit: Vector, error: f64, plane: bool) -> Direction {
 
 /// Returns lines with at least two pairs of points along them that no accepted relation makes parallel, the most
 /// frequent first.
-pub(super) fn lines(at: &Projection<'_>, errors: &[f64]) -> Vec<Direction> {
+pub(super) fn lines_of(at: &Projection<'_>, errors: &[f64]) -> Vec<Direction> {
     let points = &at.points;
     if points.len() > MOST {
         return Vec::new();
     }
-    let pairs = pairs(points, errors);
+    let pairs = distinct_pairs(points, errors);
     let units: Vec<Vector> = pairs.iter().map(|p| unit(p.along)).collect();
     let mut used = vec![false; pairs.len()];
     let mut found: Vec<(usize, Direction)> = Vec::new();
@@ -51,7 +51,7 @@ pub(super) fn lines(at: &Projection<'_>, errors: &[f64]) -> Vec<Direction> {
         if open {
             found.push((
                 alike.len(),
-                direction(unit(sum), weight.sqrt().recip(), false),
+                direction_of_points(unit(sum), weight.sqrt().recip(), false),
             ));
         }
     }
@@ -74,7 +74,7 @@ fn parallel_already(at: &Projection<'_>, a: &PointPair, b: &PointPair) -> bool {
                 (b.ends[1], by_w),
                 (b.ends[0], minus(by_w)),
             ];
-            at.implies(&gradients) || gradients.iter().all(|g| length(g.1) < 1e-9 * length(v))
+            at.implies_moves(&gradients) || gradients.iter().all(|g| length(g.1) < 1e-9 * length(v))
         })
 }
 
@@ -128,7 +128,7 @@ pub(super) fn planes_of(at: &Projection<'_>, errors: &[f64]) -> Vec<Direction> {
                     // The derivatives of the volume of the four with respect to each of them.
                     let (by_a, by_b, by_w) = (cross(b, w), cross(w, a), area);
                     let sum = [0, 1, 2].map(|c| -(by_a[c] + by_b[c] + by_w[c]));
-                    if !at.implies(&[(i, by_a), (j, by_b), (l, by_w), (k, sum)]) {
+                    if !at.implies_moves(&[(i, by_a), (j, by_b), (l, by_w), (k, sum)]) {
                         places += 1;
                     }
                 }
@@ -141,6 +141,6 @@ pub(super) fn planes_of(at: &Projection<'_>, errors: &[f64]) -> Vec<Direction> {
     found.sort_by_key(|f| std::cmp::Reverse(f.0));
     found
         .into_iter()
-        .map(|(_, v, e)| direction(v, e, true))
+        .map(|(_, v, e)| direction_of_points(v, e, true))
         .collect()
 }

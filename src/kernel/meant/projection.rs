@@ -80,7 +80,7 @@ impl<'a> Projection<'a> {
     }
 
     /// Returns the deviation of a row from zero, a length times coefficients.
-    pub(super) fn residue(&self, row: &PointEquation, normals: &[Vector]) -> f64 {
+    pub(super) fn row_residue(&self, row: &PointEquation, normals: &[Vector]) -> f64 {
         let n = normals[row.normal];
         let first = self.points[row.terms[0].0];
         // Differences from the first point avoid the cancellation of large numbers.
@@ -91,21 +91,21 @@ impl<'a> Projection<'a> {
     }
 
     /// Returns true if the accepted rows determine small moves of points in these directions.
-    pub(super) fn implies(&self, gradients: &[(usize, Vector)]) -> bool {
-        let a = self.weighted(gradients.iter().copied());
-        norm(&self.free_of(&a)) <= 1e-6 * norm(&a)
+    pub(super) fn implies_moves(&self, gradients: &[(usize, Vector)]) -> bool {
+        let a = self.weight_direction(gradients.iter().copied());
+        sparse_norm(&self.free_of(&a)) <= 1e-6 * sparse_norm(&a)
     }
 
     /// Returns the move that a row currently requires, in errors. Returns `None` if the accepted rows determine it.
     /// [`Projection::make_basis`] must have been called.
-    pub(super) fn asks(&self, row: &PointEquation, normals: &[Vector]) -> Option<f64> {
-        let a = self.gradient(row, normals);
-        let before = norm(&a);
-        if norm(&self.free_of(&a)) <= DEPENDENT * before {
+    pub(super) fn required_move(&self, row: &PointEquation, normals: &[Vector]) -> Option<f64> {
+        let a = self.row_gradient(row, normals);
+        let before = sparse_norm(&a);
+        if sparse_norm(&self.free_of(&a)) <= DEPENDENT * before {
             return None;
         }
-        let left = norm(&self.across(&a));
-        (left > DEPENDENT * before).then(|| (self.residue(row, normals) / left).abs())
+        let left = sparse_norm(&self.across_basis(&a));
+        (left > DEPENDENT * before).then(|| (self.row_residue(row, normals) / left).abs())
     }
 
     /// Accepts the relations that hold together within the digits, retrying the refused ones at the end. Returns them
@@ -116,21 +116,21 @@ impl<'a> Projection<'a> {
         normals: &[Vector],
     ) -> Vec<(Relation, Taken)> {
         let each = |r: Relation| {
-            let became = self.take(&r.rows, normals);
+            let became = self.take_rows(&r.rows, normals);
             (r, became, self.rows.len())
         };
         let mut out: Vec<(Relation, Taken, usize)> = found.into_iter().map(each).collect();
         // A relation that was too far off may be near now that others hold.
         for (r, became, rows) in &mut out {
             if *became == Taken::Refused && *rows < self.rows.len() {
-                *became = self.take(&r.rows, normals);
+                *became = self.take_rows(&r.rows, normals);
             }
         }
         out.into_iter().map(|(r, became, _)| (r, became)).collect()
     }
 
     /// Accepts all of some rows, or none of them.
-    pub(super) fn take(&mut self, rows: &[PointEquation], normals: &[Vector]) -> Taken {
+    pub(super) fn take_rows(&mut self, rows: &[PointEquation], normals: &[Vector]) -> Taken {
         // The accepted rows determine most rows: no point must be moved to see whether they hold.
         let told: Vec<Option<bool>> = rows.iter().map(|r| self.is_told(r, normals)).collect();
         if told.contains(&Some(false)) {
@@ -139,18 +139,19 @@ impl<'a> Projection<'a> {
         if !told.contains(&None) {
             return Taken::Implied;
         }
-        let most = (self.bold * limit(rows.len())).powi(2);
+        let most = (self.bold * largest_move(rows.len())).powi(2);
         let (points, taken, square) = (self.points.clone(), self.rows.len(), self.square);
         let mut moved = 0.0;
         for row in rows {
-            moved += self.put(row, normals, most).unwrap_or(f64::INFINITY);
+            moved += self.accept_row(row, normals, most).unwrap_or(f64::INFINITY);
             if moved > most {
                 break;
             }
         }
         let touched = self.rows.len() > taken;
         let by_chance = self.square <= self.bold.powi(2) * most_by_chance(self.rows.len());
-        let is_taken = moved <= most && (!touched || (by_chance && self.relax(normals)));
+        let is_taken =
+            moved <= most && (!touched || (by_chance && self.relax_into_digits(normals)));
         let changed = std::mem::take(&mut self.before);
         if is_taken {
             return if touched { Taken::New } else { Taken::Implied };
@@ -169,7 +170,7 @@ impl<'a> Projection<'a> {
     /// nearer.
     ///
     /// Alternating projections: to the box of the digits, and back to where all rows hold.
-    fn relax(&mut self, normals: &[Vector]) -> bool {
+    fn relax_into_digits(&mut self, normals: &[Vector]) -> bool {
         let mut last = f64::INFINITY;
         for round in 0..ROUNDS {
             let mut by = vec![0.0; 3 * self.points.len()];
@@ -209,19 +210,19 @@ impl<'a> Projection<'a> {
     }
 
     /// Returns the directions of points in errors, without the coordinates that must not change.
-    fn weighted(&self, of: impl IntoIterator<Item = (usize, Vector)>) -> Sparse {
+    fn weight_direction(&self, of: impl IntoIterator<Item = (usize, Vector)>) -> Sparse {
         let each = of.into_iter().flat_map(|(p, g)| {
             let by = |k: usize| (3 * p + k, g[k] * self.errors[p][k]);
             [0, 1, 2].map(by)
         });
-        added(each.filter(|x| x.1 != 0.0).collect())
+        add_terms(each.filter(|x| x.1 != 0.0).collect())
     }
 
     /// Returns the gradient of a row in errors.
-    fn gradient(&self, row: &PointEquation, normals: &[Vector]) -> Sparse {
+    fn row_gradient(&self, row: &PointEquation, normals: &[Vector]) -> Sparse {
         let n = normals[row.normal];
         let terms = row.terms.iter();
-        self.weighted(terms.map(|&(p, c)| (p, n.map(|x| f64::from(c) * x))))
+        self.weight_direction(terms.map(|&(p, c)| (p, n.map(|x| f64::from(c) * x))))
     }
 
     /// Returns the remainder of a direction in the free coordinates.
@@ -233,11 +234,11 @@ impl<'a> Projection<'a> {
                 None => out.push((i, x)),
             }
         }
-        added(out)
+        add_terms(out)
     }
 
     /// Eliminates one free coordinate by a new independent row, given its gradient in the free coordinates.
-    fn tell(&mut self, free: &[(usize, f64)]) {
+    fn eliminate_row(&mut self, free: &[(usize, f64)]) {
         let largest = free.iter().max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()));
         let Some(&(pivot, by)) = largest else {
             return;
@@ -257,33 +258,33 @@ impl<'a> Projection<'a> {
                     next.push((j, x));
                 }
             }
-            self.before.push((i, self.told[i].replace(added(next))));
+            self.before.push((i, self.told[i].replace(add_terms(next))));
         }
         self.before.push((pivot, self.told[pivot].replace(is)));
     }
 
     /// Returns whether a row holds, or `None` if the accepted rows do not determine it.
     fn is_told(&self, row: &PointEquation, normals: &[Vector]) -> Option<bool> {
-        let a = self.gradient(row, normals);
-        let before = norm(&a);
-        is_dependent(before, &self.free_of(&a)).then(|| self.holds(row, normals, before))
+        let a = self.row_gradient(row, normals);
+        let before = sparse_norm(&a);
+        is_dependent(before, &self.free_of(&a)).then(|| self.row_holds(row, normals, before))
     }
 
     /// Returns true if a row of the given size holds, except for rounding errors.
-    fn holds(&self, row: &PointEquation, normals: &[Vector], size: f64) -> bool {
+    fn row_holds(&self, row: &PointEquation, normals: &[Vector], size: f64) -> bool {
         let farthest = |p: usize| self.points[p].iter().fold(0.0, |m: f64, x| m.max(x.abs()));
         let terms = row.terms.iter();
         let scale: f64 = terms.map(|&(p, c)| f64::from(c.abs()) * farthest(p)).sum();
-        self.residue(row, normals).abs() <= 1e-14 * scale + 1e-5 * size
+        self.row_residue(row, normals).abs() <= 1e-14 * scale + 1e-5 * size
     }
 
     /// Computes the directions of the rows that have none yet.
     pub(super) fn make_basis(&mut self, normals: &[Vector]) {
         while let Some(row) = self.rows.get(self.basis.len()) {
-            let a = self.gradient(row, normals);
-            let mut across = self.across(&a);
-            let left = norm(&across);
-            if left < DEPENDENT * norm(&a) {
+            let a = self.row_gradient(row, normals);
+            let mut across = self.across_basis(&a);
+            let left = sparse_norm(&across);
+            if left < DEPENDENT * sparse_norm(&a) {
                 across.clear();
             }
             across.iter_mut().for_each(|x| x.1 /= left);
@@ -292,7 +293,7 @@ impl<'a> Projection<'a> {
     }
 
     /// Returns a direction without its parts along the determined directions.
-    fn across(&self, a: &[(usize, f64)]) -> Sparse {
+    fn across_basis(&self, a: &[(usize, f64)]) -> Sparse {
         let mut out = vec![0.0; 3 * self.points.len()];
         a.iter().for_each(|&(i, x)| out[i] = x);
         for _ in 0..2 {
@@ -312,24 +313,24 @@ impl<'a> Projection<'a> {
 
     /// Accepts one row and returns the square of the move. Returns `None` if the row contradicts the accepted ones, or
     /// certainly requires more than `most`.
-    fn put(&mut self, row: &PointEquation, normals: &[Vector], most: f64) -> Option<f64> {
-        let a = self.gradient(row, normals);
-        let (before, free) = (norm(&a), self.free_of(&a));
+    fn accept_row(&mut self, row: &PointEquation, normals: &[Vector], most: f64) -> Option<f64> {
+        let a = self.row_gradient(row, normals);
+        let (before, free) = (sparse_norm(&a), self.free_of(&a));
         if is_dependent(before, &free) {
-            return self.holds(row, normals, before).then_some(0.0);
+            return self.row_holds(row, normals, before).then_some(0.0);
         }
-        let residue = self.residue(row, normals);
+        let residue = self.row_residue(row, normals);
         // The part across the determined directions is no longer than the part in the free coordinates.
-        if (residue / norm(&free)).powi(2) > most {
+        if (residue / sparse_norm(&free)).powi(2) > most {
             return None;
         }
         let mut step = 0.0;
         if residue.abs() > HOLDS * before {
             self.make_basis(normals);
-            let mut across = self.across(&a);
-            let left = norm(&across);
+            let mut across = self.across_basis(&a);
+            let left = sparse_norm(&across);
             if left < DEPENDENT * before {
-                return self.holds(row, normals, before).then_some(0.0);
+                return self.row_holds(row, normals, before).then_some(0.0);
             }
             step = residue / left;
             for (i, x) in &mut across {
@@ -340,7 +341,7 @@ impl<'a> Projection<'a> {
             self.basis.push(across);
         }
         self.rows.push(row.clone());
-        self.tell(&free);
+        self.eliminate_row(&free);
         self.square += step * step;
         Some(step * step)
     }
@@ -349,11 +350,11 @@ impl<'a> Projection<'a> {
 /// Returns true if other rows determine a row of the given size: only rounding errors are left of it in the free
 /// coordinates.
 fn is_dependent(size: f64, free: &[(usize, f64)]) -> bool {
-    size == 0.0 || norm(free) < DEPENDENT * size
+    size == 0.0 || sparse_norm(free) < DEPENDENT * size
 }
 
 /// Adds up the coefficients of each coordinate, and omits those that cancel except for rounding errors.
-fn added(mut terms: Sparse) -> Sparse {
+fn add_terms(mut terms: Sparse) -> Sparse {
     terms.sort_unstable_by_key(|x| x.0);
     let mut out = Sparse::with_capacity(terms.len());
     for of in terms.chunk_by(|a, b| a.0 == b.0) {
@@ -367,7 +368,7 @@ fn added(mut terms: Sparse) -> Sparse {
 }
 
 /// Returns the largest move for a relation of `rows` rows, in errors. With more rows, one is more likely to be far off.
-fn limit(rows: usize) -> f64 {
+fn largest_move(rows: usize) -> f64 {
     #[allow(clippy::cast_precision_loss, reason = "at most three rows")]
     let n = rows as f64;
     (3.0 + 1.5 * n).sqrt()
@@ -383,6 +384,6 @@ fn most_by_chance(rows: usize) -> f64 {
     n / 3.0 + FAR * (2.0 * n / 9.0).sqrt()
 }
 
-fn norm(a: &[(usize, f64)]) -> f64 {
+fn sparse_norm(a: &[(usize, f64)]) -> f64 {
     a.iter().map(|x| x.1 * x.1).sum::<f64>().sqrt()
 }

@@ -1,7 +1,7 @@
 //! Relations between points of a scene, as linear equations along its directions.
 
 use super::exact_directions::Exact;
-use super::number::{Rational3, axes, cross, scaled, to_f64};
+use super::number::{Rational3, cross, frame_axes, scale_to_one, to_f64};
 use super::solve::PointEquation;
 use super::written::SPREAD;
 use crate::geom::vector::{self, Vector, add, dot, length, sub, unit};
@@ -41,7 +41,7 @@ pub(super) struct Normals {
 
 impl Normals {
     fn new() -> Normals {
-        let exact = axes().to_vec();
+        let exact = frame_axes().to_vec();
         let real = exact.iter().map(to_f64).collect();
         Normals { exact, real }
     }
@@ -52,7 +52,7 @@ impl Normals {
         if let Some(k) = self.real.iter().position(same) {
             return k;
         }
-        let normal = scaled(normal);
+        let normal = scale_to_one(normal);
         self.real.push(to_f64(&normal));
         self.exact.push(normal);
         self.real.len() - 1
@@ -64,7 +64,7 @@ impl Normals {
         let mut order = [0, 1, 2];
         order.sort_by(|&a, &b| v[a].abs().total_cmp(&v[b].abs()));
         // Not perpendicular to each other, but with short numbers.
-        [0, 1].map(|k| self.index(cross(d, &axes()[order[k]])))
+        [0, 1].map(|k| self.index(cross(d, &frame_axes()[order[k]])))
     }
 }
 
@@ -102,18 +102,18 @@ impl<'a> Finder<'a> {
     }
 
     /// Returns the relations along further directions only.
-    pub(super) fn along(&mut self, directions: Vec<(Exact, Use)>) -> Vec<Relation> {
+    pub(super) fn relations_along(&mut self, directions: Vec<(Exact, Use)>) -> Vec<Relation> {
         self.directions = directions;
-        let firsts = self.places();
+        let firsts = self.first_coincident();
         let places: Vec<usize> = (0..firsts.len()).filter(|&i| firsts[i] == i).collect();
         let mut out = Vec::new();
         self.planes_and_lines(&places, &mut out);
-        sort(&mut out);
+        sort_by_strength(&mut out);
         out
     }
 
     /// Returns the size of the point set, used to estimate chance.
-    fn size(&self) -> f64 {
+    fn scene_size(&self) -> f64 {
         let far = |p: &Vector| length(sub(*p, self.points[0]));
         self.points
             .iter()
@@ -122,11 +122,11 @@ impl<'a> Finder<'a> {
             .max(f64::MIN_POSITIVE)
     }
 
-    fn wide(&self, i: usize, j: usize) -> f64 {
+    fn pair_tolerance(&self, i: usize, j: usize) -> f64 {
         SPREAD * (self.errors[i] + self.errors[j])
     }
 
-    fn difference(&self, i: usize, j: usize, normal: usize) -> PointEquation {
+    fn difference_row(&self, i: usize, j: usize, normal: usize) -> PointEquation {
         let _ = self;
         PointEquation {
             terms: vec![(i, 1), (j, -1)],
@@ -135,13 +135,14 @@ impl<'a> Finder<'a> {
     }
 
     /// Returns all relations, the strongest first.
-    pub(super) fn all(&mut self) -> Vec<Relation> {
-        let firsts = self.places();
+    pub(super) fn find_all(&mut self) -> Vec<Relation> {
+        let firsts = self.first_coincident();
         let mut out = Vec::new();
         for (i, &first) in firsts.iter().enumerate() {
             if first != i {
-                let rows = (0..3).map(|n| self.difference(i, first, n)).collect();
-                let off = length(sub(self.points[i], self.points[first])) / self.wide(i, first);
+                let rows = (0..3).map(|n| self.difference_row(i, first, n)).collect();
+                let off =
+                    length(sub(self.points[i], self.points[first])) / self.pair_tolerance(i, first);
                 out.push(Relation {
                     kind: RelationKind::Coincident,
                     rows,
@@ -154,17 +155,18 @@ impl<'a> Finder<'a> {
         let places: Vec<usize> = (0..firsts.len()).filter(|&i| firsts[i] == i).collect();
         self.planes_and_lines(&places, &mut out);
         self.equal_vectors(&places, &mut out);
-        self.mirrored(&places, &mut out);
-        sort(&mut out);
+        self.find_mirrored(&places, &mut out);
+        sort_by_strength(&mut out);
         out
     }
 
     /// Returns for each point the first point that it coincides with.
-    fn places(&self) -> Vec<usize> {
+    fn first_coincident(&self) -> Vec<usize> {
         let mut first: Vec<usize> = Vec::new();
         for i in 0..self.points.len() {
             let near = |&j: &usize| {
-                first[j] == j && length(sub(self.points[i], self.points[j])) <= self.wide(i, j)
+                first[j] == j
+                    && length(sub(self.points[i], self.points[j])) <= self.pair_tolerance(i, j)
             };
             let found = (0..i).find(near).unwrap_or(i);
             first.push(found);
@@ -201,27 +203,33 @@ impl<'a> Finder<'a> {
         self.directions = directions;
         let of = normals.len();
         for n in normals {
-            self.planes(n, of, places, out);
+            self.find_planes(n, of, places, out);
         }
         for pair in lines {
-            self.lines(pair, places, out);
+            self.find_lines(pair, places, out);
         }
     }
 
     /// Finds points in planes perpendicular to a normal: neighbours in the order along it.
-    fn planes(&self, normal: usize, normals: usize, places: &[usize], out: &mut Vec<Relation>) {
+    fn find_planes(
+        &self,
+        normal: usize,
+        normals: usize,
+        places: &[usize],
+        out: &mut Vec<Relation>,
+    ) {
         let n = unit(self.normals.real[normal]);
         let mut at: Vec<(f64, usize)> = places
             .iter()
             .map(|&p| (dot(n, self.points[p]), p))
             .collect();
         at.sort_by(|a, b| a.0.total_cmp(&b.0));
-        let spread = self.size();
+        let spread = self.scene_size();
         let mut start = 0;
         for k in 1..=at.len() {
             let apart = at
                 .get(k)
-                .is_none_or(|x| x.0 - at[k - 1].0 > self.wide(x.1, at[k - 1].1));
+                .is_none_or(|x| x.0 - at[k - 1].0 > self.pair_tolerance(x.1, at[k - 1].1));
             if apart {
                 let error = self.errors[at[start].1];
                 let chance = by_chance(places.len(), k - start, error / spread);
@@ -229,9 +237,9 @@ impl<'a> Finder<'a> {
                 for w in at[start..k].windows(2) {
                     out.push(Relation {
                         kind: RelationKind::InPlane,
-                        rows: vec![self.difference(w[1].1, w[0].1, normal)],
+                        rows: vec![self.difference_row(w[1].1, w[0].1, normal)],
                         weight: k - start,
-                        off: (w[1].0 - w[0].0) / self.wide(w[1].1, w[0].1),
+                        off: (w[1].0 - w[0].0) / self.pair_tolerance(w[1].1, w[0].1),
                         weak,
                     });
                 }
@@ -241,7 +249,7 @@ impl<'a> Finder<'a> {
     }
 
     /// Finds points on lines along a direction, given by two normals perpendicular to it.
-    fn lines(&self, normals: [usize; 2], places: &[usize], out: &mut Vec<Relation>) {
+    fn find_lines(&self, normals: [usize; 2], places: &[usize], out: &mut Vec<Relation>) {
         let n = normals.map(|k| unit(self.normals.real[k]));
         let off = |i: usize, j: usize| {
             let w = sub(self.points[i], self.points[j]);
@@ -252,7 +260,7 @@ impl<'a> Finder<'a> {
         for &p in places {
             let near = firsts
                 .iter_mut()
-                .find(|(f, _)| off(p, *f) <= self.wide(p, *f));
+                .find(|(f, _)| off(p, *f) <= self.pair_tolerance(p, *f));
             match near {
                 Some((f, of)) => {
                     *of += 1;
@@ -265,9 +273,9 @@ impl<'a> Finder<'a> {
             let of = firsts.iter().find(|x| x.0 == f).map_or(2, |x| x.1);
             out.push(Relation {
                 kind: RelationKind::OnLine,
-                rows: normals.map(|k| self.difference(p, f, k)).to_vec(),
+                rows: normals.map(|k| self.difference_row(p, f, k)).to_vec(),
                 weight: of,
-                off: off(p, f) / self.wide(p, f),
+                off: off(p, f) / self.pair_tolerance(p, f),
                 weak: false,
             });
         }
@@ -287,7 +295,7 @@ impl<'a> Finder<'a> {
             let w = sub(self.points[i], self.points[j]);
             for b in a + 1..pairs.len() {
                 let (m, p, q) = pairs[b];
-                let wide = 0.8 * (self.wide(i, j) + self.wide(p, q));
+                let wide = 0.8 * (self.pair_tolerance(i, j) + self.pair_tolerance(p, q));
                 if m - l > wide {
                     break;
                 }
@@ -316,7 +324,7 @@ impl<'a> Finder<'a> {
 
     /// Finds pairs along a direction whose middles are in one plane perpendicular to it, with each other or with
     /// points.
-    fn mirrored(&mut self, places: &[usize], out: &mut Vec<Relation>) {
+    fn find_mirrored(&mut self, places: &[usize], out: &mut Vec<Relation>) {
         let directions: Vec<Rational3> = self
             .directions
             .iter()
@@ -333,17 +341,19 @@ impl<'a> Finder<'a> {
                 for &j in &places[..k] {
                     let w = sub(self.points[i], self.points[j]);
                     let across = sub(w, unit.map(|x| x * dot(unit, w)));
-                    if length(across) <= self.wide(i, j) && length(w) > 10.0 * self.wide(i, j) {
+                    if length(across) <= self.pair_tolerance(i, j)
+                        && length(w) > 10.0 * self.pair_tolerance(i, j)
+                    {
                         middles.push((dot(unit, add(self.points[i], self.points[j])), i, j));
                     }
                 }
             }
             middles.sort_by(|a, b| a.0.total_cmp(&b.0));
-            let error = 2.0 * self.errors[places[0]] / self.size();
+            let error = 2.0 * self.errors[places[0]] / self.scene_size();
             let chance = by_chance(middles.len(), 2, error) * as_f64(self.directions.len());
             for w in middles.windows(2) {
                 let ((a, i, j), (b, p, q)) = (w[0], w[1]);
-                let wide = 0.8 * (self.wide(i, j) + self.wide(p, q));
+                let wide = 0.8 * (self.pair_tolerance(i, j) + self.pair_tolerance(p, q));
                 // Two points in the plane are found already.
                 if (i == j && p == q) || b - a > wide {
                     continue;
@@ -382,7 +392,7 @@ fn by_chance(n: usize, k: usize, error: f64) -> f64 {
 }
 
 /// Sorts the strongest first.
-fn sort(out: &mut [Relation]) {
+fn sort_by_strength(out: &mut [Relation]) {
     let rank = |r: &Relation| match r.kind {
         RelationKind::Coincident => 0,
         RelationKind::InPlane if r.weight > 3 => 1,

@@ -1,7 +1,7 @@
 //! The recovered scene, and others that the digits do not exclude.
 
 use super::directions::Caution;
-use super::exact_directions::{Exact, placed};
+use super::exact_directions::{Exact, place_direction};
 use super::projection::{Projection, Taken};
 use super::relations::{Finder, Normals, Relation, Use};
 use super::stage::{Stage, StageMark};
@@ -36,10 +36,10 @@ const BOLD: f64 = 1.6;
 /// # Complexity
 /// O(p²) pairs of p points, compared with each other and with d directions; then O(r² p) for r relations.
 #[must_use]
-pub fn resolve(written: &WrittenScene) -> Option<Resolved> {
-    let size = written.size();
+pub fn resolve_scene(written: &WrittenScene) -> Option<Resolved> {
+    let size = written.scene_size();
     if (SMALL..SMALL.recip()).contains(&size) {
-        return resolved(written);
+        return resolve_moderate(written);
     }
     // Squares of lengths such as 10^-200 underflow in doubles.
     let power = -size.log10().floor();
@@ -48,7 +48,7 @@ pub fn resolve(written: &WrittenScene) -> Option<Resolved> {
     }
     #[allow(clippy::cast_possible_truncation, reason = "308 at most")]
     let power = power as i32;
-    let mut out = resolved(&written.resized(power)?)?;
+    let mut out = resolve_moderate(&written.scale_by_power(power)?)?;
     let back = BigRational::from_integer(BigInt::from(10)).pow(-power);
     for scene in std::iter::once(&mut out.scene).chain(&mut out.others) {
         for x in scene.points.iter_mut().flatten() {
@@ -59,7 +59,7 @@ pub fn resolve(written: &WrittenScene) -> Option<Resolved> {
 }
 
 /// Recovers the scene of a geometry of moderate size.
-fn resolved(written: &WrittenScene) -> Option<Resolved> {
+fn resolve_moderate(written: &WrittenScene) -> Option<Resolved> {
     let usual = Caution {
         bold: 1.0,
         weak: true,
@@ -104,10 +104,13 @@ impl Doubts {
         // A relation that follows from others only up to rounding does not hold.
         let broken = |(r, b): &&(Relation, Taken)| {
             *b == Taken::Refused
-                || (*b == Taken::Implied && !r.rows.iter().all(|w| images.holds(w)))
+                || (*b == Taken::Implied && !r.rows.iter().all(|w| images.row_holds(w)))
         };
         let left_out = |(r, _): &&(Relation, Taken)| {
-            let asks = r.rows.iter().filter_map(|w| solved.asks(w, &normals.real));
+            let asks = r
+                .rows
+                .iter()
+                .filter_map(|w| solved.required_move(w, &normals.real));
             let far = asks.fold(0.0, f64::max);
             far > 0.0 && far <= LEFT_OUT
         };
@@ -130,9 +133,9 @@ fn resolve_with(
     caution: Caution,
 ) -> Option<(MeantScene, Doubts, Option<MeantScene>)> {
     let stage = Stage::new(written, caution);
-    let weights = stage.weights();
-    let clipped = |p: usize, by: Vector| stage.clipped(p, by);
-    let directions = stage.directions();
+    let weights = stage.point_weights();
+    let clipped = |p: usize, by: Vector| stage.clip_move(p, by);
+    let directions = stage.scene_directions();
     let mut fixed: Vec<Exact> = directions.iter().map(|d| d.0.clone()).collect();
     let mut finder = Finder::new(&stage.inside, &stage.errors, directions);
     let mut solved = Projection::new(stage.inside.clone(), &weights, &clipped);
@@ -141,18 +144,18 @@ fn resolve_with(
         let certain = all.into_iter().filter(|r| caution.weak || !r.weak);
         certain.collect()
     };
-    let stated = stage.stated(&mut finder.normals);
+    let stated = stage.stated_relations(&mut finder.normals);
     let mut became = solved.take_all(stated, &finder.normals.real);
-    let found = keep(finder.all());
+    let found = keep(finder.find_all());
     became.extend(solved.take_all(found, &finder.normals.real));
-    let (first, plain) = (became.len(), StageMark::of(&solved));
+    let (first, plain) = (became.len(), StageMark::from_projection(&solved));
     // Lines and planes defined only by points that no relation above determines.
     let directions_of_rays = fixed.len();
-    for further in [of_points::lines, of_points::planes_of] {
+    for further in [of_points::lines_of, of_points::planes_of] {
         for d in further(&solved, &stage.errors) {
-            let e = placed(d.unit, d.error, &fixed, stage.digits);
+            let e = place_direction(d.unit, d.error, &fixed, stage.digits);
             let of = if d.plane { Use::Planes } else { Use::Lines };
-            let found = keep(finder.along(vec![(e.clone(), of)]));
+            let found = keep(finder.relations_along(vec![(e.clone(), of)]));
             let found = solved.take_all(found, &finder.normals.real);
             // Further ones may be perpendicular to it.
             if fixed.len() < directions_of_rays + MOST
@@ -167,11 +170,11 @@ fn resolve_with(
     if became.iter().any(|x| x.1 == Taken::Refused) {
         solved.make_basis(&normals.real);
     }
-    let without = || stage.scene(&solved.rows[..plain.rows], &plain.points, &normals);
+    let without = || stage.exact_scene(&solved.rows[..plain.rows], &plain.points, &normals);
     let scene = stage
-        .scene(&solved.rows, &solved.points, &normals)
+        .exact_scene(&solved.rows, &solved.points, &normals)
         .or_else(without)?;
-    let images = Images::of(&scene.inside, &normals.exact);
+    let images = Images::from_scene(&scene.inside, &normals.exact);
     let doubts = Doubts::new(&became, first, &solved, &normals, &images);
     let without = (doubts.of_points > 0).then(without).flatten();
     let taken = became.into_iter().filter(|b| b.1 == Taken::New);

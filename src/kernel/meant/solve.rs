@@ -6,11 +6,11 @@ const LARGE: f64 = 0.2;
 /// relations without a pattern depend on each other.
 const WORK: u64 = 2_500_000_000;
 
-fn bits(x: &BigRational) -> u64 {
+fn bit_length(x: &BigRational) -> u64 {
     x.numer().bits() + x.denom().bits()
 }
 
-fn words(x: &BigInt) -> u64 {
+fn word_count(x: &BigInt) -> u64 {
     x.bits() / 64 + 1
 }
 
@@ -22,11 +22,11 @@ struct Equation {
 }
 
 impl Equation {
-    fn numbers(&self) -> impl Iterator<Item = &BigInt> {
+    fn all_numbers(&self) -> impl Iterator<Item = &BigInt> {
         self.of.values().chain([&self.constant])
     }
 
-    fn each(&mut self, change: impl Fn(&mut BigInt)) {
+    fn change_each(&mut self, change: impl Fn(&mut BigInt)) {
         self.of
             .values_mut()
             .chain([&mut self.constant])
@@ -37,7 +37,7 @@ impl Equation {
     fn add(&mut self, by: &BigInt, other: &Equation) -> u64 {
         let mut spent = 0;
         for (&v, x) in &other.of {
-            spent += words(by) * words(x) + 1;
+            spent += word_count(by) * word_count(x) + 1;
             *self.of.entry(v).or_default() += by * x;
         }
         self.constant += by * &other.constant;
@@ -46,10 +46,10 @@ impl Equation {
     }
 
     /// Divides by the common factor of all numbers. Returns the number of operations on words.
-    fn shorten(&mut self) -> u64 {
+    fn divide_common(&mut self) -> u64 {
         let mut spent = 0;
         let mut shared = BigInt::zero();
-        let mut all: Vec<&BigInt> = self.numbers().filter(|x| !x.is_zero()).collect();
+        let mut all: Vec<&BigInt> = self.all_numbers().filter(|x| !x.is_zero()).collect();
         // The common factor is no longer than the shortest number.
         all.sort_by_key(|x| x.bits());
         for x in all {
@@ -63,11 +63,11 @@ impl Equation {
             } else {
                 x % &shared
             };
-            spent += 64 * words(&rest) * words(&rest);
+            spent += 64 * word_count(&rest) * word_count(&rest);
             shared = shared.gcd(&rest);
         }
         if !shared.is_zero() && !shared.is_one() {
-            self.each(|x| *x /= &shared);
+            self.change_each(|x| *x /= &shared);
         }
         spent
     }
@@ -81,7 +81,7 @@ struct Solved {
 
 impl Solved {
     /// Returns the coefficient of the coordinate.
-    fn unit(&self) -> &BigInt {
+    fn pivot_coefficient(&self) -> &BigInt {
         &self.equation.of[&self.pivot]
     }
 }
@@ -102,26 +102,26 @@ impl Solution {
         let by_pivot = &self.by_pivot;
         let known = row.of.keys().filter_map(|v| by_pivot.get(v));
         let known: Vec<&Solved> = known.map(|&i| &self.solved[i]).collect();
-        let times = known
-            .iter()
-            .fold(BigInt::one(), |t, s| common_multiple(t, &s.unit().abs()));
+        let times = known.iter().fold(BigInt::one(), |t, s| {
+            common_multiple(t, &s.pivot_coefficient().abs())
+        });
         if !times.is_one() {
-            row.each(|x| *x *= &times);
+            row.change_each(|x| *x *= &times);
         }
         for s in known {
-            let by = -(&row.of[&s.pivot] / s.unit());
+            let by = -(&row.of[&s.pivot] / s.pivot_coefficient());
             self.spent += row.add(&by, &s.equation);
         }
         times
     }
 
     /// Solves a row for one of its coordinates; `count` is the factor of its numbers.
-    fn take(&mut self, mut row: Equation, mut count: BigInt) -> Option<()> {
+    fn solve_row(&mut self, mut row: Equation, mut count: BigInt) -> Option<()> {
         count *= self.put_in(&mut row);
-        let Some(pivot) = pivot(&row, &count) else {
+        let Some(pivot) = choose_pivot(&row, &count) else {
             return row.constant.is_zero().then_some(());
         };
-        self.spent += row.shorten();
+        self.spent += row.divide_common();
         let unit = &row.of[&pivot];
         for s in &mut self.solved {
             if self.spent > WORK {
@@ -132,8 +132,8 @@ impl Solution {
             };
             let shared = unit.gcd(by);
             let (times, by) = (unit / &shared, -(by / &shared));
-            s.equation.each(|x| *x *= &times);
-            self.spent += s.equation.add(&by, &row) + s.equation.shorten();
+            s.equation.change_each(|x| *x *= &times);
+            self.spent += s.equation.add(&by, &row) + s.equation.divide_common();
         }
         self.by_pivot.insert(pivot, self.solved.len());
         self.solved.push(Solved {
@@ -145,19 +145,19 @@ impl Solution {
 }
 
 /// Returns the pivot: among large enough coordinates the one with the shortest number, so that numbers stay short.
-fn pivot(row: &Equation, count: &BigInt) -> Option<usize> {
+fn choose_pivot(row: &Equation, count: &BigInt) -> Option<usize> {
     let longest = row.of.values().map(BigInt::bits).max()?;
     // Doubles cover about a thousand bits; only the sizes close to the largest matter.
     let beyond = longest.saturating_sub(512);
     let size = |x: &BigInt| (x.abs() >> beyond).to_f64().unwrap_or(0.0);
     let largest = row.of.values().map(size).fold(0.0, f64::max);
     let large = row.of.iter().filter(|x| size(x.1) >= LARGE * largest);
-    let length = |x: &BigInt| bits(&BigRational::new(x.clone(), count.clone()));
+    let length = |x: &BigInt| bit_length(&BigRational::new(x.clone(), count.clone()));
     large.min_by_key(|x| length(x.1)).map(|(v, _)| *v)
 }
 
 /// Returns a row without the `fixed` coordinates, and the factor of its numbers.
-fn equation(
+fn integral_equation(
     row: &PointEquation,
     normals: &[Rational3],
     value: impl Fn(usize, usize) -> BigRational,
@@ -179,9 +179,9 @@ fn equation(
         }
     }
     let count = common_denominator(of.values().chain([&constant]));
-    let constant = whole(&constant, &count);
+    let constant = whole_over(&constant, &count);
     let of = of.iter().filter(|x| !x.1.is_zero());
-    let of = of.map(|(&v, x)| (v, whole(x, &count))).collect();
+    let of = of.map(|(&v, x)| (v, whole_over(x, &count))).collect();
     (Equation { of, constant }, count)
 }
 
@@ -190,7 +190,7 @@ fn equation(
 ///
 /// # Complexity
 /// O(r² w) operations on whole numbers for r rows of w coordinates.
-pub(super) fn solve(
+pub(super) fn solve_rows(
     rows: &[PointEquation],
     normals: &[Rational3],
     points: usize,
@@ -201,15 +201,15 @@ pub(super) fn solve(
     let width = |r: &&PointEquation| -> u64 {
         let n = &normals[r.normal];
         n.iter()
-            .map(|x| if x.is_zero() { 0 } else { bits(x) })
+            .map(|x| if x.is_zero() { 0 } else { bit_length(x) })
             .sum()
     };
     let mut rows: Vec<&PointEquation> = rows.iter().collect();
     rows.sort_by_key(width);
     let mut solution = Solution::default();
     for row in rows {
-        let (row, count) = equation(row, normals, &value, &fixed);
-        solution.take(row, count)?;
+        let (row, count) = integral_equation(row, normals, &value, &fixed);
+        solution.solve_row(row, count)?;
     }
     let mut out: Vec<Rational3> = (0..points)
         .map(|p| [0, 1, 2].map(|k| value(p, k)))
@@ -220,9 +220,9 @@ pub(super) fn solve(
         let terms: Vec<(&BigInt, &BigRational)> =
             others.map(|(v, by)| (by, &out[v / 3][v % 3])).collect();
         let denom = common_denominator(terms.iter().map(|t| t.1));
-        let sum: BigInt = terms.iter().map(|t| t.0 * whole(t.1, &denom)).sum();
+        let sum: BigInt = terms.iter().map(|t| t.0 * whole_over(t.1, &denom)).sum();
         let sum = sum + &s.equation.constant * &denom;
-        out[s.pivot / 3][s.pivot % 3] = BigRational::new(-sum, denom * s.unit());
+        out[s.pivot / 3][s.pivot % 3] = BigRational::new(-sum, denom * s.pivot_coefficient());
     }
     Some(out)
 }
@@ -231,7 +231,7 @@ pub(super) fn solve(
 mod tests;
 
 use super::number::Rational3;
-use crate::linalg::{common_denominator, common_multiple, whole};
+use crate::linalg::{common_denominator, common_multiple, whole_over};
 use num_bigint::BigInt;
 use num_integer::Integer;
 use num_rational::BigRational;

@@ -2,13 +2,13 @@
 
 use super::MeantScene;
 use super::directions::{Caution, Directions, WITHIN, of_rays};
-use super::exact_directions::{Exact, exact};
+use super::exact_directions::{Exact, make_exact};
 use super::frame::SceneFrame;
-use super::number::{self, Rational3, decimal, to_f64};
+use super::number::{self, Rational3, nearest_decimal, to_f64};
 use super::projection::Projection;
 use super::relations::{Normals, Relation, Use};
-use super::solve::{PointEquation, solve};
-use super::together::together;
+use super::solve::{PointEquation, solve_rows};
+use super::together::adjust_together;
 use super::written::{Written, WrittenScene};
 use crate::geom::vector::{Vector, sub};
 use num_bigint::BigInt;
@@ -43,7 +43,7 @@ pub(super) struct Stage<'a> {
 }
 
 /// Returns the number of decimals that leave two digits beyond an error.
-fn places(error: f64) -> u32 {
+fn decimal_places(error: f64) -> u32 {
     let digits = (-error.log10()).ceil() + 2.0;
     #[allow(
         clippy::cast_possible_truncation,
@@ -56,31 +56,38 @@ fn places(error: f64) -> u32 {
 
 impl<'a> Stage<'a> {
     pub(super) fn new(written: &'a WrittenScene, caution: Caution) -> Stage<'a> {
-        let errors = written.errors();
+        let errors = written.point_errors();
         let points: Vec<Vector> = written.points.iter().map(|p| p.value).collect();
-        let size = written.size();
+        let size = written.scene_size();
         let within = NEVER_ALL * caution.bold;
         let least = errors.iter().fold(f64::INFINITY, |a, &e| a.min(e));
-        let inexact = written.rays.iter().map(Written::error).filter(|e| *e > 0.0);
-        let digits = places((least / size).min(inexact.fold(1.0, f64::min))).min(18);
-        let (of, symmetric) = directions(written, &points, &errors, caution.bold);
-        let frame = SceneFrame::of(&of.all);
+        let inexact = written
+            .rays
+            .iter()
+            .map(Written::angular_error)
+            .filter(|e| *e > 0.0);
+        let digits = decimal_places((least / size).min(inexact.fold(1.0, f64::min))).min(18);
+        let (of, symmetric) = adjusted_directions(written, &points, &errors, caution.bold);
+        let frame = SceneFrame::from_directions(&of.all);
         let whole = |p: &usize| written.points[*p].half == [0.0; 3];
         let origin = (0..points.len()).find(whole).unwrap_or(0);
         let exactly = |ray: usize| frame.inside_exactly(&written.rays[ray].exact);
-        let mut exact = exact(&of.all, |v| frame.inside(v), exactly, digits);
+        let mut exact = make_exact(&of.all, |v| frame.into_scene(v), exactly, digits);
         if let (Some(symmetry), Some(own)) = (&written.symmetry, symmetric) {
             let n = exact[own].exact.clone();
-            for (a, b) in symmetry.pairs(&of) {
-                let image = Exact::near(symmetry.image_exactly(&n, &exact[a].exact), &exact[b]);
+            for (a, b) in symmetry.image_pairs(&of) {
+                let image =
+                    Exact::exact_near(symmetry.image_exactly(&n, &exact[a].exact), &exact[b]);
                 if of.all[b].exact.is_none()
-                    && fits(written, &of, caution.bold)(b, frame.outside(image.unit))
+                    && digits_allow(written, &of, caution.bold)(b, frame.into_file(image.unit))
                 {
                     exact[b] = image;
                 }
             }
         }
-        let inside = points.iter().map(|p| frame.inside(sub(*p, points[origin])));
+        let inside = points
+            .iter()
+            .map(|p| frame.into_scene(sub(*p, points[origin])));
         let same = [0, 1, 2].map(|k| match &frame.rotation {
             None => Some(k),
             Some(r) => (0..3).find(|&c| r[c][k].is_one() || (-&r[c][k]).is_one()),
@@ -88,7 +95,7 @@ impl<'a> Stage<'a> {
         Stage {
             written,
             within,
-            floor: written.floor(),
+            floor: written.least_error(),
             size,
             digits,
             origin,
@@ -103,31 +110,33 @@ impl<'a> Stage<'a> {
     }
 
     /// Returns the exact directions of the scene. They include the file's own axes if its frame is the scene's.
-    pub(super) fn directions(&self) -> Vec<(Exact, Use)> {
-        let own = number::axes().into_iter().map(Exact::of_axis);
+    pub(super) fn scene_directions(&self) -> Vec<(Exact, Use)> {
+        let own = number::frame_axes().into_iter().map(Exact::of_axis);
         let own = own.filter(|_| self.frame.rotation.is_none());
         let all = self.exact.iter().cloned().chain(own);
         all.map(|e| (e, Use::Both)).collect()
     }
 
     /// Returns the relations of the stated symmetry.
-    pub(super) fn stated(&self, normals: &mut Normals) -> Vec<Relation> {
+    pub(super) fn stated_relations(&self, normals: &mut Normals) -> Vec<Relation> {
         match (&self.written.symmetry, self.symmetric) {
-            (Some(s), Some(own)) => s.relations(&self.exact[own].exact, &self.inside, normals),
+            (Some(s), Some(own)) => {
+                s.image_relations(&self.exact[own].exact, &self.inside, normals)
+            }
             _ => Vec::new(),
         }
     }
 
     /// Returns true if a coordinate must stay, because it is exact along an axis that both frames share.
-    fn stays(&self, p: usize, k: usize) -> bool {
+    fn must_stay(&self, p: usize, k: usize) -> bool {
         let half = &self.written.points[p].half;
         (p == self.origin && *half == [0.0; 3]) || self.same[k].is_some_and(|c| half[c] == 0.0)
     }
 
     /// Returns the error of each coordinate in the scene's frame; 0 if it must stay.
-    pub(super) fn weights(&self) -> Vec<Vector> {
+    pub(super) fn point_weights(&self) -> Vec<Vector> {
         let weight = |p: usize, k: usize| match self.same[k] {
-            _ if self.stays(p, k) => 0.0,
+            _ if self.must_stay(p, k) => 0.0,
             Some(c) => self.written.points[p].half[c].max(1e-15 * self.size),
             None => self.errors[p],
         };
@@ -136,18 +145,18 @@ impl<'a> Stage<'a> {
     }
 
     /// Returns the displacement nearest to `by` that the digits of the point allow, in the scene's frame.
-    pub(super) fn clipped(&self, p: usize, by: Vector) -> Vector {
-        let (out, half) = (self.frame.outside(by), &self.written.points[p].half);
+    pub(super) fn clip_move(&self, p: usize, by: Vector) -> Vector {
+        let (out, half) = (self.frame.into_file(by), &self.written.points[p].half);
         let most = half.map(|h| self.within * h.max(self.floor));
         if (0..3).all(|c| out[c].abs() <= most[c]) {
             return by;
         }
         let inside = [0, 1, 2].map(|c| out[c].clamp(-most[c], most[c]));
-        self.frame.inside(inside)
+        self.frame.into_scene(inside)
     }
 
     /// Returns the exact scene of rows that hold at some points, or `None` if they contradict each other.
-    pub(super) fn scene(
+    pub(super) fn exact_scene(
         &self,
         rows: &[PointEquation],
         at: &[Vector],
@@ -160,24 +169,24 @@ impl<'a> Stage<'a> {
             self.frame
                 .inside_exactly(&[0, 1, 2].map(|k| &written[k] - &offset[k]))
         };
-        let weights = self.weights();
+        let weights = self.point_weights();
         let value = |p: usize, k: usize| {
             let still = (at[p][k] - self.inside[p][k]).abs() <= 1e-3 * weights[p][k];
-            if self.stays(p, k) || (!rotated && still) {
+            if self.must_stay(p, k) || (!rotated && still) {
                 return start(p)[k].clone();
             }
-            decimal(at[p][k], places(weights[p][k].min(1.0)))
+            nearest_decimal(at[p][k], decimal_places(weights[p][k].min(1.0)))
         };
-        let stays = |p: usize, k: usize| self.stays(p, k);
-        let inside = solve(rows, &normals.exact, at.len(), value, stays)?;
+        let stays = |p: usize, k: usize| self.must_stay(p, k);
+        let inside = solve_rows(rows, &normals.exact, at.len(), value, stays)?;
         let back = |x: &Rational3| {
             let x = self.frame.outside_exactly(x);
             [0, 1, 2].map(|k| &x[k] + &offset[k])
         };
         let points: Vec<Rational3> = inside.iter().map(back).collect();
-        let rays = self.rays();
+        let rays = self.rays_in_file();
         Some(MeantScene {
-            moved: self.moved(&points, &rays),
+            moved: self.largest_move(&points, &rays),
             points,
             rays,
             inside,
@@ -187,7 +196,7 @@ impl<'a> Stage<'a> {
     }
 
     /// Returns the rays in the file's frame; exact ones stay as written.
-    fn rays(&self) -> Vec<Rational3> {
+    fn rays_in_file(&self) -> Vec<Rational3> {
         let minus_one = BigRational::from_integer(BigInt::from(-1));
         let outside: Vec<Rational3> = self
             .exact
@@ -204,7 +213,7 @@ impl<'a> Stage<'a> {
     }
 
     /// Returns the largest move of a number, in halves of its last digit.
-    fn moved(&self, points: &[Rational3], rays: &[Rational3]) -> f64 {
+    fn largest_move(&self, points: &[Rational3], rays: &[Rational3]) -> f64 {
         let point = points.iter().zip(&self.written.points).flat_map(|(x, w)| {
             let by = to_f64(&[0, 1, 2].map(|k| &x[k] - &w.exact[k]));
             [0, 1, 2].map(|k| by[k].abs() / w.half[k].max(self.floor))
@@ -213,13 +222,13 @@ impl<'a> Stage<'a> {
             .iter()
             .zip(&self.written.rays)
             .filter(|r| !r.1.is_exact());
-        let ray = inexact.map(|(x, w)| w.moved(to_f64(x), 0.0));
+        let ray = inexact.map(|(x, w)| w.move_to(to_f64(x), 0.0));
         point.chain(ray).fold(0.0, f64::max)
     }
 }
 
 /// Returns a test whether the digits of the rays of a direction allow another direction.
-fn fits<'a>(
+fn digits_allow<'a>(
     written: &'a WrittenScene,
     of: &Directions,
     bold: f64,
@@ -227,13 +236,13 @@ fn fits<'a>(
     let of_ray = of.of_ray.clone();
     move |k, v| {
         let mut of_it = written.rays.iter().zip(&of_ray).filter(|r| r.1.0 == k);
-        of_it.all(|r| r.0.moved(v, 0.0) <= WITHIN * bold)
+        of_it.all(|r| r.0.move_to(v, 0.0) <= WITHIN * bold)
     }
 }
 
 /// Returns the directions of a scene, with perpendicular and coplanar ones adjusted together, and the index of the
 /// direction of the stated symmetry.
-fn directions(
+fn adjusted_directions(
     written: &WrittenScene,
     points: &[Vector],
     errors: &[f64],
@@ -241,13 +250,13 @@ fn directions(
 ) -> (Directions, Option<usize>) {
     let mut of = of_rays(&written.rays, points, errors);
     let symmetry = written.symmetry.as_ref();
-    let symmetric = symmetry.and_then(|s| s.put(&mut of, points, errors));
+    let symmetric = symmetry.and_then(|s| s.apply_to(&mut of, points, errors));
     let own = of.all.len();
     if SceneFrame::is_the_files(&of.all) {
         of.add_axes();
     }
-    let fits = fits(written, &of, bold);
-    together(&mut of.all, bold, fits);
+    let fits = digits_allow(written, &of, bold);
+    adjust_together(&mut of.all, bold, fits);
     of.all.truncate(own);
     (of, symmetric)
 }
@@ -259,7 +268,7 @@ pub(super) struct StageMark {
 }
 
 impl StageMark {
-    pub(super) fn of(at: &Projection<'_>) -> StageMark {
+    pub(super) fn from_projection(at: &Projection<'_>) -> StageMark {
         StageMark {
             rows: at.rows.len(),
             points: at.points.clone(),

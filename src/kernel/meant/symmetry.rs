@@ -20,7 +20,7 @@ const LEAST: f64 = 1e-15;
 impl WrittenSymmetry {
     /// Returns the normal of the plane, or the axis of the half turn, with its error `[rad]`. Returns `None` if images
     /// are too close to each other.
-    fn direction(&self, points: &[Vector], errors: &[f64]) -> Option<(Vector, f64)> {
+    fn own_direction(&self, points: &[Vector], errors: &[f64]) -> Option<(Vector, f64)> {
         let apart = self.points.iter().filter_map(|&[a, b]| {
             let (w, error) = (sub(points[b], points[a]), errors[a] + errors[b]);
             (length(w) > FAR * error).then_some((w, SPREAD * error))
@@ -46,7 +46,7 @@ impl WrittenSymmetry {
     }
 
     /// Returns the image of a direction.
-    fn image(&self, n: Vector, v: Vector) -> Vector {
+    fn image_of_direction(&self, n: Vector, v: Vector) -> Vector {
         let along = n.map(|x| 2.0 * dot(n, v) * x);
         if self.turned {
             sub(along, v)
@@ -57,35 +57,35 @@ impl WrittenSymmetry {
 
     /// Adds its own direction if no ray has it, and makes directions exact images if they are within their errors.
     /// Returns the index of the added direction.
-    pub(super) fn put(
+    pub(super) fn apply_to(
         &self,
         of: &mut Directions,
         points: &[Vector],
         errors: &[f64],
     ) -> Option<usize> {
-        let (n, error) = self.direction(points, errors)?;
+        let (n, error) = self.own_direction(points, errors)?;
         let near = |d: &Direction| length(cross(d.unit, n)) <= 1.05 * (d.error + error);
         let at = of.all.iter().position(near).unwrap_or_else(|| {
             of.all.push(Direction::of_points(n, error));
             of.all.len() - 1
         });
         let n = of.all[at].unit;
-        for (a, b) in self.pairs(of) {
-            let (v, w) = (of.all[a].unit, self.image(n, of.all[b].unit));
+        for (a, b) in self.image_pairs(of) {
+            let (v, w) = (of.all[a].unit, self.image_of_direction(n, of.all[b].unit));
             let [x, y] = [a, b].map(|k| of.all[k].error.max(LEAST).powi(-2));
             let exact = of.all[a].exact.is_some() || of.all[b].exact.is_some();
             if !exact && length(cross(v, w)) <= of.all[a].error + of.all[b].error + error {
                 let sign = dot(v, w).signum();
                 let middle = unit(add(v.map(|c| x * c), w.map(|c| sign * y * c)));
                 of.all[a].unit = middle;
-                of.all[b].unit = self.image(n, middle);
+                of.all[b].unit = self.image_of_direction(n, middle);
             }
         }
         Some(at)
     }
 
     /// Returns directions that are images of each other and distinct.
-    pub(super) fn pairs(&self, of: &Directions) -> Vec<(usize, usize)> {
+    pub(super) fn image_pairs(&self, of: &Directions) -> Vec<(usize, usize)> {
         let each = |&[r, s]: &[usize; 2]| (of.of_ray[r].0, of.of_ray[s].0);
         let mut out: Vec<(usize, usize)> = self.rays.iter().map(each).collect();
         out.retain(|(a, b)| a != b);
@@ -104,7 +104,7 @@ impl WrittenSymmetry {
     }
 
     /// Returns its relations for its own exact direction.
-    pub(super) fn relations(
+    pub(super) fn image_relations(
         &self,
         own: &Rational3,
         points: &[Vector],

@@ -23,7 +23,7 @@ const DEPENDENT: f64 = 1e-6;
 
 impl DirectionRelation {
     /// Returns the deviation, and its change with each direction.
-    fn at(self, units: &[Vector]) -> (f64, Vec<(usize, Vector)>) {
+    fn deviation_at(self, units: &[Vector]) -> (f64, Vec<(usize, Vector)>) {
         match self {
             DirectionRelation::Square(i, j) => {
                 let (a, b) = (units[i], units[j]);
@@ -46,7 +46,7 @@ struct Turns<'a> {
 }
 
 impl Turns<'_> {
-    fn row(&self, gradient: &[(usize, Vector)]) -> Vec<f64> {
+    fn weighted_row(&self, gradient: &[(usize, Vector)]) -> Vec<f64> {
         let mut a = vec![0.0; 2 * self.all.len()];
         for (d, g) in gradient {
             for (k, (tilt, error)) in self.all[*d].tilts.iter().enumerate() {
@@ -56,7 +56,7 @@ impl Turns<'_> {
         a
     }
 
-    fn units(&self) -> Vec<Vector> {
+    fn turned_units(&self) -> Vec<Vector> {
         let turned = |(n, d): (usize, &Direction)| {
             let by = |k: usize| self.turns[2 * n + k] * d.tilts[k].1;
             let v = vector::add_scaled(d.unit, by(0), d.tilts[0].0);
@@ -66,7 +66,7 @@ impl Turns<'_> {
     }
 
     /// Makes a row hold that deviates by `residue`. Returns the move in errors, or `None` if it contradicts the others.
-    fn put(&mut self, mut a: Vec<f64>, residue: f64) -> Option<f64> {
+    fn accept_row(&mut self, mut a: Vec<f64>, residue: f64) -> Option<f64> {
         let before = norm(&a);
         if before == 0.0 {
             return (residue.abs() < 1e-14).then_some(0.0);
@@ -89,12 +89,12 @@ impl Turns<'_> {
 }
 
 /// Returns the relations that may hold within the errors, those of two directions first, the nearest first.
-fn candidates(all: &[Direction]) -> Vec<DirectionRelation> {
+fn candidate_relations(all: &[Direction]) -> Vec<DirectionRelation> {
     let units: Vec<Vector> = all.iter().map(|d| d.unit).collect();
     let n = all.len();
     let mut out: Vec<(bool, f64, DirectionRelation)> = Vec::new();
     let mut offer = |r: DirectionRelation| {
-        let (off, by) = r.at(&units);
+        let (off, by) = r.deviation_at(&units);
         let errors = by.iter().flat_map(|(d, g)| {
             let tilts = all[*d].tilts;
             tilts.map(|(t, e)| (dot(*g, t) * e).powi(2))
@@ -134,8 +134,12 @@ fn candidates(all: &[Direction]) -> Vec<DirectionRelation> {
 ///
 /// # Complexity
 /// O(d³) relations of d directions, each compared with the accepted ones.
-pub(super) fn together(all: &mut [Direction], bold: f64, allowed: impl Fn(usize, Vector) -> bool) {
-    let found = candidates(all);
+pub(super) fn adjust_together(
+    all: &mut [Direction],
+    bold: f64,
+    allowed: impl Fn(usize, Vector) -> bool,
+) {
+    let found = candidate_relations(all);
     let mut turns = Turns {
         all,
         basis: Vec::new(),
@@ -145,16 +149,16 @@ pub(super) fn together(all: &mut [Direction], bold: f64, allowed: impl Fn(usize,
     let mut taken: Vec<DirectionRelation> = Vec::new();
     for r in found {
         let (before, rows) = (turns.turns.clone(), turns.basis.len());
-        let (off, by) = r.at(&start);
-        let row = turns.row(&by);
+        let (off, by) = r.deviation_at(&start);
+        let row = turns.weighted_row(&by);
         let moved = list_dot(&row, &turns.turns);
-        let step = turns.put(row, off + moved);
+        let step = turns.accept_row(row, off + moved);
         let touched: Vec<usize> = (0..start.len())
             .filter(|d| {
                 turns.turns[2 * d] != before[2 * d] || turns.turns[2 * d + 1] != before[2 * d + 1]
             })
             .collect();
-        let units = turns.units();
+        let units = turns.turned_units();
         if step.is_some_and(|s| s <= bold * LIMIT) && touched.iter().all(|&d| allowed(d, units[d]))
         {
             taken.push(r);
@@ -165,21 +169,21 @@ pub(super) fn together(all: &mut [Direction], bold: f64, allowed: impl Fn(usize,
     }
     // Newton's method: the relations held linearly so far, and then hold exactly up to rounding.
     for _ in 0..4 {
-        let (at, last) = (turns.units(), turns.turns.clone());
+        let (at, last) = (turns.turned_units(), turns.turns.clone());
         let mut next = Turns {
             all: turns.all,
             basis: Vec::new(),
             turns: vec![0.0; last.len()],
         };
         for r in &taken {
-            let (off, by) = r.at(&at);
-            let row = next.row(&by);
+            let (off, by) = r.deviation_at(&at);
+            let row = next.weighted_row(&by);
             let (there, here) = (list_dot(&row, &last), list_dot(&row, &next.turns));
-            let _ = next.put(row, off - there + here);
+            let _ = next.accept_row(row, off - there + here);
         }
         turns = next;
     }
-    let units = turns.units();
+    let units = turns.turned_units();
     for (d, v) in all.iter_mut().zip(units) {
         d.unit = v;
     }

@@ -44,7 +44,7 @@ const DOUBLE: f64 = 2e-15;
 
 impl WrittenScene {
     /// Returns the largest distance between two points, or 1 if all points coincide.
-    pub(super) fn size(&self) -> f64 {
+    pub(super) fn scene_size(&self) -> f64 {
         let of = |i: usize| {
             let each = self.points.iter().map(move |p| p.value[i]);
             each.clone().fold(f64::MIN, f64::max) - each.fold(f64::MAX, f64::min)
@@ -59,7 +59,7 @@ impl WrittenScene {
 
     /// Returns the scene with lengths multiplied by a power of ten, or `None` if the result is too large or small for
     /// doubles.
-    pub(super) fn resized(&self, power: i32) -> Option<WrittenScene> {
+    pub(super) fn scale_by_power(&self, power: i32) -> Option<WrittenScene> {
         let (by, exactly) = (
             10f64.powi(power),
             BigRational::from_integer(BigInt::from(10)).pow(power),
@@ -80,19 +80,19 @@ impl WrittenScene {
     }
 
     /// Returns the largest absolute coordinate, to which double precision is relative.
-    fn reach(&self) -> f64 {
+    fn largest_coordinate(&self) -> f64 {
         let all = self.points.iter().flat_map(|p| p.value);
         all.fold(0.0, |a: f64, x| a.max(x.abs()))
     }
 
     /// Returns the minimum error of a coordinate: that of double precision.
-    pub(super) fn floor(&self) -> f64 {
-        DOUBLE * self.reach().max(self.size())
+    pub(super) fn least_error(&self) -> f64 {
+        DOUBLE * self.largest_coordinate().max(self.scene_size())
     }
 
     /// Returns the possible error of each point, in each coordinate.
-    pub(super) fn errors(&self) -> Vec<f64> {
-        let least = self.floor();
+    pub(super) fn point_errors(&self) -> Vec<f64> {
+        let least = self.least_error();
         let largest = |p: &Written| p.half.iter().fold(least, |a, &h| a.max(h));
         self.points.iter().map(largest).collect()
     }
@@ -100,12 +100,12 @@ impl WrittenScene {
 
 impl Written {
     /// Returns the unit vector of a direction.
-    pub(super) fn unit(&self) -> Vector {
+    pub(super) fn unit_vector(&self) -> Vector {
         unit(self.value)
     }
 
     /// Returns the possible angular error of a direction `[rad]`; 0 if it is exact.
-    pub(super) fn error(&self) -> f64 {
+    pub(super) fn angular_error(&self) -> f64 {
         if self.is_exact() {
             return 0.0;
         }
@@ -114,7 +114,7 @@ impl Written {
 
     /// Returns how far its components would move to have a direction, in halves of their last digits or in the minimum
     /// error.
-    pub(super) fn moved(&self, v: Vector, least: f64) -> f64 {
+    pub(super) fn move_to(&self, v: Vector, least: f64) -> f64 {
         let least = least.max(DOUBLE * length(self.value));
         let at = |along: f64| {
             (0..3)
@@ -144,7 +144,7 @@ pub(super) struct PointPair {
 }
 
 /// Returns all pairs of distinct points, the longest first.
-pub(super) fn pairs(points: &[Vector], errors: &[f64]) -> Vec<PointPair> {
+pub(super) fn distinct_pairs(points: &[Vector], errors: &[f64]) -> Vec<PointPair> {
     let mut out = Vec::new();
     for i in 0..points.len() {
         for j in 0..i {

@@ -21,7 +21,7 @@ impl Topic {
 
     /// Returns the word in files.
     #[must_use]
-    pub fn word(self) -> &'static str {
+    pub fn as_word(self) -> &'static str {
         match self {
             Topic::Structure => "structure",
             Topic::Grip => "grip",

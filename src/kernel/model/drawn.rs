@@ -17,12 +17,12 @@ pub(crate) const Z: [f64; 3] = [0.0, 0.0, 1.0];
 pub(crate) type Drawn = (JointType, [usize; 2], [f64; 3], [f64; 3]);
 
 /// Converts numbers to exact ones.
-pub(crate) fn exactly(v: [f64; 3]) -> [Expr; 3] {
+pub(crate) fn to_exact(v: [f64; 3]) -> [Expr; 3] {
     v.map(|x| Expr::from_f64(x).unwrap())
 }
 
 /// Returns a mechanism in space whose link 0 is the frame, and whose joints have no options.
-pub(crate) fn drawn(joints: &[Drawn], outputs: &[usize]) -> Mechanism {
+pub(crate) fn draw_mechanism(joints: &[Drawn], outputs: &[usize]) -> Mechanism {
     let last = joints.iter().flat_map(|j| j.1).max().unwrap_or(0);
     let role = |i: usize| match i {
         0 => Role::Frame,
@@ -44,7 +44,7 @@ pub(crate) fn drawn(joints: &[Drawn], outputs: &[usize]) -> Mechanism {
         },
         mode: Mode::Spatial,
         links: (0..=last).map(link).collect(),
-        joints: (0..).zip(joints).map(|(n, j)| joint(n, j)).collect(),
+        joints: (0..).zip(joints).map(|(n, j)| drawn_joint(n, j)).collect(),
         couplings: Vec::new(),
         states: vec!["free".to_owned()],
         contours: Vec::new(),
@@ -59,12 +59,12 @@ pub(crate) fn drawn(joints: &[Drawn], outputs: &[usize]) -> Mechanism {
     }
 }
 
-fn joint(number: usize, drawn: &Drawn) -> Joint {
+fn drawn_joint(number: usize, drawn: &Drawn) -> Joint {
     let (joint_type, links, point, axis) = drawn;
     let frame = Frame {
-        point: exactly(*point),
-        axis: exactly(*axis),
-        reference: exactly(if axis[0] == 0.0 {
+        point: to_exact(*point),
+        axis: to_exact(*axis),
+        reference: to_exact(if axis[0] == 0.0 {
             X
         } else {
             [axis[2], 1.0, 0.0]

@@ -56,7 +56,7 @@ impl Mechanism {
 
     /// Returns the number of links, including the virtual links of kept drives.
     #[must_use]
-    pub fn bodies(&self) -> usize {
+    pub fn count_bodies(&self) -> usize {
         self.links.len() + self.kept_drives()
     }
 

@@ -41,7 +41,7 @@ pub enum PartMass {
 impl PartMass {
     /// Returns the mass of a part of this diameter. `[kg]`
     #[must_use]
-    pub fn of(&self, diameter: f64) -> f64 {
+    pub fn for_diameter(&self, diameter: f64) -> f64 {
         match *self {
             PartMass::Constant(mass) => mass,
             PartMass::Cylinder { density, length } => {

@@ -44,13 +44,13 @@ impl Freedom {
 
     /// Returns true if it is a turn; a screw is neither a turn nor a slide.
     #[must_use]
-    pub fn turns(self) -> bool {
+    pub fn is_turn(self) -> bool {
         matches!(self, Freedom::Rx | Freedom::Ry | Freedom::Rz)
     }
 
     /// Returns true if it is a slide.
     #[must_use]
-    pub fn slides(self) -> bool {
+    pub fn is_slide(self) -> bool {
         matches!(self, Freedom::Tx | Freedom::Ty | Freedom::Tz)
     }
 
@@ -102,7 +102,7 @@ impl JointType {
     #[must_use]
     pub fn is_directed(&self) -> bool {
         let freedoms = self.freedoms();
-        let turns = freedoms.iter().filter(|f| f.turns()).count();
+        let turns = freedoms.iter().filter(|f| f.is_turn()).count();
         !freedoms.is_empty() && (turns < 3 || freedoms.len() > 3)
     }
 
@@ -137,14 +137,14 @@ impl JointType {
     ];
 
     /// Returns the words of all types in files.
-    pub fn words() -> impl Iterator<Item = &'static str> {
-        let custom = JointType::Custom(Vec::new()).known().0;
+    pub fn all_words() -> impl Iterator<Item = &'static str> {
+        let custom = JointType::Custom(Vec::new()).properties_of().0;
         let named = JointType::NAMED.iter().map(JointType::name);
         named.chain([custom])
     }
 
     /// Returns the properties of each type: its word, its freedoms in the joint's frame, and its default cost.
-    fn known(&self) -> (&'static str, &[Freedom], i64) {
+    fn properties_of(&self) -> (&'static str, &[Freedom], i64) {
         use Freedom::{Rx, Ry, Rz, Screw, Tx, Ty, Tz};
         match self {
             JointType::Revolute => ("revolute", &[Rz], 1000),
@@ -174,13 +174,13 @@ impl JointType {
     /// Returns the word used for this type in files.
     #[must_use]
     pub fn name(&self) -> &'static str {
-        self.known().0
+        self.properties_of().0
     }
 
     /// Returns the default cost in thousandths of a revolute joint's: an order of magnitude for machined parts.
     #[must_use]
     pub fn default_cost_milli(&self) -> i64 {
-        self.known().2
+        self.properties_of().2
     }
 
     /// Names of the trade, each with the word of the one type that it means.
@@ -218,7 +218,7 @@ impl JointType {
 
     /// Returns the word of the type that a trade name means; any other name unchanged.
     #[must_use]
-    pub fn word(name: &str) -> &str {
+    pub fn word_of_trade(name: &str) -> &str {
         let meant = JointType::TRADE_NAMES
             .iter()
             .find(|(trade, _)| *trade == name);
@@ -234,7 +234,7 @@ impl JointType {
     /// ```
     #[must_use]
     pub fn from_name(name: &str) -> Option<JointType> {
-        let word = JointType::word(name);
+        let word = JointType::word_of_trade(name);
         JointType::NAMED.iter().find(|t| t.name() == word).cloned()
     }
 
@@ -248,23 +248,23 @@ impl JointType {
     /// ```
     #[must_use]
     pub fn freedoms(&self) -> &[Freedom] {
-        self.known().1
+        self.properties_of().1
     }
 
     /// Returns the freedoms in the order of passage from the first link to the second, as in `motion::pose`. Slides
     /// come first, but a slot (a slide along x and none along y) comes after its pin.
     #[must_use]
-    pub fn passed(&self) -> Vec<Freedom> {
+    pub fn freedoms_in_series(&self) -> Vec<Freedom> {
         let mut passed = self.freedoms().to_vec();
         let slot = passed.contains(&Freedom::Tx) && !passed.contains(&Freedom::Ty);
-        passed.sort_by_key(|f| f.slides() == slot);
+        passed.sort_by_key(|f| f.is_slide() == slot);
         passed
     }
 
     /// Returns the class of the joint, its number of constraints (6 - freedoms), in Roman numerals as is usual in the
     /// field.
     #[must_use]
-    pub fn class(&self) -> &'static str {
+    pub fn class_numeral(&self) -> &'static str {
         ["VI", "V", "IV", "III", "II", "I", "0"][self.freedoms().len().min(6)]
     }
 }

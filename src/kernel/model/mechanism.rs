@@ -1,6 +1,6 @@
 //! The validated mechanism and its parts.
 
-use crate::format::significant;
+use crate::format::four_digits;
 use crate::geom::expr::Expr;
 use crate::model::claim::Claim;
 use crate::model::joint_type::{CoupledFreedom, Coupling, Freedom, JointType};
@@ -131,12 +131,12 @@ impl Joint {
 
     /// Returns true if the drive may move this freedom: the named one, or any if none is named.
     #[must_use]
-    pub fn drives(&self, freedom: Freedom) -> bool {
+    pub fn may_drive(&self, freedom: Freedom) -> bool {
         self.drive && self.drive_freedom.is_none_or(|named| named == freedom)
     }
 
     /// Returns the options that a search may use or insert here.
-    pub fn offered(&self) -> impl Iterator<Item = &JointOption> {
+    pub fn offered_options(&self) -> impl Iterator<Item = &JointOption> {
         self.options.iter().chain(&self.unloading)
     }
 }
@@ -165,8 +165,8 @@ pub struct LengthUnit {
 impl LengthUnit {
     /// Returns a length in metres in this unit, with its symbol: "12.5 mm".
     #[must_use]
-    pub fn words(&self, metres: f64) -> String {
-        format!("{} {}", significant(metres / self.metres), self.symbol)
+    pub fn format_metres(&self, metres: f64) -> String {
+        format!("{} {}", four_digits(metres / self.metres), self.symbol)
     }
 }
 
@@ -240,7 +240,7 @@ pub struct SearchSpec {
 impl SearchSpec {
     /// Returns the joint that another maps to by the mechanism's symmetry, or the joint itself if none is stated.
     #[must_use]
-    pub fn image(&self, j: JointId) -> JointId {
+    pub fn image_of_joint(&self, j: JointId) -> JointId {
         let pairs = self.mirror.iter().flat_map(|&(a, b)| [(a, b), (b, a)]);
         let next = |g: &Vec<JointId>| {
             let at = g.iter().position(|&x| x == j)?;
@@ -253,7 +253,7 @@ impl SearchSpec {
 
     /// Returns the order of the symmetry, after which all joints are back in place; 1 if there is none.
     #[must_use]
-    pub fn order(&self) -> usize {
+    pub fn symmetry_order(&self) -> usize {
         match (self.mirror.is_empty(), self.turn.first()) {
             (false, _) => 2,
             (true, Some(group)) => group.len(),
@@ -384,7 +384,7 @@ impl Mechanism {
     /// # Panics
     /// Never panics, because a validated mechanism has a frame.
     #[must_use]
-    pub fn frame(&self) -> LinkId {
+    pub fn frame_link(&self) -> LinkId {
         self.link_ids()
             .find(|&l| self.links[l].role == Role::Frame)
             .expect("a validated mechanism has a frame")
@@ -399,7 +399,7 @@ impl Mechanism {
     /// Returns "frame 0", for display. A link with the id "frame" is not named twice.
     #[must_use]
     pub fn frame_words(&self) -> String {
-        match self.links[self.frame()].id.as_str() {
+        match self.links[self.frame_link()].id.as_str() {
             "frame" => "frame".to_owned(),
             id => format!("frame {id}"),
         }
@@ -407,19 +407,19 @@ impl Mechanism {
 
     /// Returns the link with this id.
     #[must_use]
-    pub fn link(&self, id: &str) -> Option<LinkId> {
+    pub fn link_named(&self, id: &str) -> Option<LinkId> {
         self.link_ids().find(|&l| self.links[l].id == id)
     }
 
     /// Returns the state with this name.
     #[must_use]
-    pub fn state(&self, name: &str) -> Option<StateId> {
+    pub fn state_named(&self, name: &str) -> Option<StateId> {
         self.state_ids().find(|&s| self.states[s] == name)
     }
 
     /// Returns the joint with this id.
     #[must_use]
-    pub fn joint(&self, id: &str) -> Option<JointId> {
+    pub fn joint_named(&self, id: &str) -> Option<JointId> {
         self.joint_ids().find(|&j| self.joints[j].id == id)
     }
 }

@@ -47,7 +47,7 @@ pub struct AboutTerm {
 
 impl AboutTerm {
     /// Describes a term that is measured, as most are.
-    const fn measured(word: &'static str, meaning: &'static str) -> AboutTerm {
+    const fn measured_term(word: &'static str, meaning: &'static str) -> AboutTerm {
         AboutTerm {
             word,
             key: word,
@@ -79,14 +79,14 @@ impl Term {
         match self {
             Term::PeakForce => AboutTerm {
                 heading: Some("force"),
-                ..AboutTerm::measured(
+                ..AboutTerm::measured_term(
                     "peak-force",
                     "the greatest joint force divided by the capacity of its type",
                 )
             },
             Term::PeakMoment => AboutTerm {
                 heading: Some("moment"),
-                ..AboutTerm::measured(
+                ..AboutTerm::measured_term(
                     "peak-moment",
                     "the greatest joint moment divided by the capacity of its type",
                 )
@@ -95,7 +95,7 @@ impl Term {
             Term::Conditioning => AboutTerm {
                 key: "conditioning-held",
                 heading: Some("cond. held"),
-                ..AboutTerm::measured(
+                ..AboutTerm::measured_term(
                     "conditioning",
                     "the smallest singular value divided by the largest, with the drives locked; greater is better",
                 )
@@ -103,27 +103,30 @@ impl Term {
             Term::OutputError => AboutTerm {
                 heading: Some("error, mm"),
                 scale: 1e3,
-                ..AboutTerm::measured("output-error", "how far clearances move the outputs, in mm")
+                ..AboutTerm::measured_term(
+                    "output-error",
+                    "how far clearances move the outputs, in mm",
+                )
             },
             Term::Changes => AboutTerm {
                 heading: Some("changed"),
                 csv: false,
                 is_count: true,
-                ..AboutTerm::measured("changes", "number of joints changed and inserted")
+                ..AboutTerm::measured_term("changes", "number of joints changed and inserted")
             },
             Term::Cost => AboutTerm {
                 csv: false,
-                ..AboutTerm::measured("cost", "additive cost")
+                ..AboutTerm::measured_term("cost", "additive cost")
             },
             Term::Idle => AboutTerm {
                 heading: Some("idle"),
                 is_count: true,
-                ..AboutTerm::measured("idle", "mobility in addition to that of the outputs")
+                ..AboutTerm::measured_term("idle", "mobility in addition to that of the outputs")
             },
             Term::Harmful => AboutTerm {
                 csv: false,
                 is_count: true,
-                ..AboutTerm::measured(
+                ..AboutTerm::measured_term(
                     "harmful",
                     "number of harmful redundant constraints that the searched state adds",
                 )

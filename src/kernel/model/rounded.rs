@@ -14,7 +14,7 @@ pub use source::{Largest, Sources};
 pub use uncertainty::{FrameNumbers, FrameUncertainty, Uncertainties, uncertainties};
 
 use crate::geom::expr::{End, Expr, PI_DIGITS, WrittenNumber};
-use crate::geom::vector::{length, real};
+use crate::geom::vector::{length, to_vector};
 use crate::model::mechanism::{Frame, Mechanism, Mode};
 use class::is_rounded;
 use std::collections::BTreeMap;
@@ -86,7 +86,7 @@ impl CoordinateKind {
             LONG_DIRECTION
         };
         CoordinateKind {
-            norm: length(real(direction)),
+            norm: length(to_vector(direction)),
             least,
         }
     }
@@ -106,10 +106,10 @@ struct SeenDecimals {
 
 impl SeenDecimals {
     /// Adds a coordinate.
-    fn see(&mut self, v: &Expr, kind: CoordinateKind, place: &dyn Fn() -> String) {
+    fn see_number(&mut self, v: &Expr, kind: CoordinateKind, place: &dyn Fn() -> String) {
         let direction = kind.norm > 0.0;
         let long = |d: &Decimal| d.digits.is_none_or(|n| n >= kind.least);
-        let Some(decimal) = decimal(v).filter(long) else {
+        let Some(decimal) = decimal_of(v).filter(long) else {
             return;
         };
         let of = if direction { kind.norm } else { 1.0 };
@@ -122,7 +122,9 @@ impl SeenDecimals {
         self.digits = self.digits.into_iter().chain(digits).min();
         for (first, counts) in self.first.iter_mut().zip([measured, true]) {
             if counts {
-                first.get_or_insert_with(|| (0, place(), text(v))).0 += 1;
+                first
+                    .get_or_insert_with(|| (0, place(), coordinate_text(v)))
+                    .0 += 1;
             }
         }
     }
@@ -139,17 +141,17 @@ impl SeenDecimals {
                 CoordinateKind::LENGTH
             };
             for c in vector {
-                self.see(c, kind, &|| format!("{what} of {}", at()));
+                self.see_number(c, kind, &|| format!("{what} of {}", at()));
             }
         }
-        self.see(&f.pitch, CoordinateKind::LENGTH, &|| {
+        self.see_number(&f.pitch, CoordinateKind::LENGTH, &|| {
             format!("pitch of {}", at())
         });
     }
 }
 
 /// Returns the text of a coordinate for reports.
-fn text(v: &Expr) -> String {
+fn coordinate_text(v: &Expr) -> String {
     if v.has_pi() {
         format!("{v}, with {PI_DIGITS} decimals of pi")
     } else {
@@ -158,7 +160,7 @@ fn text(v: &Expr) -> String {
 }
 
 /// Returns the coarsest unit that enough decimals share; 0 for none.
-fn shared(mut units: Vec<f64>) -> f64 {
+fn shared_unit(mut units: Vec<f64>) -> f64 {
     units.sort_by(|a, b| b.total_cmp(a));
     let enough = units.len().div_ceil(SHARE);
     enough.checked_sub(1).map_or(0.0, |i| units[i])
@@ -176,8 +178,8 @@ pub fn looks_rounded(mechanism: &Mechanism) -> Option<Rounded> {
     for joint in &mechanism.joints {
         seen.see_frame(&joint.frame, &|| format!("joint {}", joint.id));
         // Options mostly share the joint's position; only their own coordinates count.
-        for o in joint.offered() {
-            let own = |a: &[Expr; 3], b: &[Expr; 3]| real(a) != real(b);
+        for o in joint.offered_options() {
+            let own = |a: &[Expr; 3], b: &[Expr; 3]| to_vector(a) != to_vector(b);
             if own(&o.frame.point, &joint.frame.point)
                 || own(&o.frame.axis, &joint.frame.axis)
                 || own(&o.frame.reference, &joint.frame.reference)
@@ -192,7 +194,7 @@ pub fn looks_rounded(mechanism: &Mechanism) -> Option<Rounded> {
     if let Mode::Planar { normal } = &mechanism.mode {
         let kind = CoordinateKind::of_direction(normal);
         for c in normal {
-            seen.see(c, kind, &|| "normal of the plane".to_owned());
+            seen.see_number(c, kind, &|| "normal of the plane".to_owned());
         }
     }
     let [measured, any] = seen.first;
@@ -204,8 +206,8 @@ pub fn looks_rounded(mechanism: &Mechanism) -> Option<Rounded> {
         place,
         value,
         units: Units {
-            length: shared(lengths.into_values().collect()),
-            direction: shared(directions.into_values().collect()),
+            length: shared_unit(lengths.into_values().collect()),
+            direction: shared_unit(directions.into_values().collect()),
         },
         pi,
         digits: seen.digits,
@@ -222,7 +224,7 @@ struct Decimal {
 
 /// Returns the accuracy of a decimal, of a number with decimals of pi, or of one with a stated uncertainty. Returns
 /// `None` for all exact numbers.
-fn decimal(expr: &Expr) -> Option<Decimal> {
+fn decimal_of(expr: &Expr) -> Option<Decimal> {
     if expr.has_pi() {
         let places = i32::try_from(PI_DIGITS).unwrap_or(i32::MAX);
         return Some(Decimal {
@@ -237,7 +239,7 @@ fn decimal(expr: &Expr) -> Option<Decimal> {
             unit: 2.0 * d.half,
         }),
         WrittenNumber::Stated(half) if half > 0.0 => Some(Decimal {
-            digits: measured(expr),
+            digits: measured_digits(expr),
             unit: 2.0 * half,
         }),
         _ => None,
@@ -246,7 +248,7 @@ fn decimal(expr: &Expr) -> Option<Decimal> {
 
 /// Returns the number of significant digits of a number as a double, if there are so many that it was measured or
 /// computed.
-fn measured(expr: &Expr) -> Option<usize> {
+fn measured_digits(expr: &Expr) -> Option<usize> {
     match Expr::from_f64(expr.to_f64()).ok()?.written() {
         WrittenNumber::Decimal(d) => Some(d.significant).filter(|n| *n >= DIGITS),
         _ => None,
@@ -260,7 +262,7 @@ mod tests {
     #[test]
     fn decimals_have_digits_and_a_unit() {
         let of =
-            |s: &str| decimal(&s.parse::<Expr>().unwrap()).map(|d| (d.digits.unwrap(), d.unit));
+            |s: &str| decimal_of(&s.parse::<Expr>().unwrap()).map(|d| (d.digits.unwrap(), d.unit));
         assert_eq!(of("0.8660254037844386"), Some((16, 1e-16)));
         assert_eq!(of("-12.7"), Some((3, 0.1)));
         assert_eq!(of("0.49400"), Some((5, 1e-5)));
@@ -281,12 +283,12 @@ mod tests {
 
     #[test]
     fn the_unit_is_the_coarsest_that_a_fifth_shares() {
-        assert_eq!(shared(vec![]), 0.0);
+        assert_eq!(shared_unit(vec![]), 0.0);
         // One last digit in ten is 0.
         let mut units = vec![1e-6; 9];
         units.push(1e-5);
-        assert_eq!(shared(units.clone()), 1e-6);
+        assert_eq!(shared_unit(units.clone()), 1e-6);
         units.extend([1e-5, 1e-4]);
-        assert_eq!(shared(units), 1e-5);
+        assert_eq!(shared_unit(units), 1e-5);
     }
 }

@@ -1,7 +1,7 @@
 //! Closing the contours of a pose: damped Newton steps of least norm.
 
 use crate::motion::pose::Pose;
-use ozols_dense::{Matrix, add_scaled, difference, largest, least_squares, norm};
+use ozols_dense::{Matrix, add_scaled, difference, largest_entry, least_squares, norm};
 
 /// Maximum number of Newton steps per pose.
 const STEPS: usize = 60;
@@ -47,13 +47,19 @@ impl Pose {
     /// # Complexity
     /// As [`Pose::close`] for each step tried.
     #[must_use]
-    pub fn beside(&self, from: &[f64], along: &[f64], far: f64, halvings: u32) -> Option<Vec<f64>> {
-        let whole = far / largest(along).max(f64::MIN_POSITIVE);
+    pub fn closed_beside(
+        &self,
+        from: &[f64],
+        along: &[f64],
+        far: f64,
+        halvings: u32,
+    ) -> Option<Vec<f64>> {
+        let whole = far / largest_entry(along).max(f64::MIN_POSITIVE);
         let steps =
             (0..=halvings).map(|h| (far / f64::from(1u32 << h), whole / f64::from(1u32 << h)));
         steps.into_iter().find_map(|(far, step)| {
-            let q = self.close(add_scaled(from, step, along), &[]).ok()?;
-            (largest(&difference(&q, from)) > BACK * far.abs()).then_some(q)
+            let q = self.close_loops(add_scaled(from, step, along), &[]).ok()?;
+            (largest_entry(&difference(&q, from)) > BACK * far.abs()).then_some(q)
         })
     }
 
@@ -65,7 +71,7 @@ impl Pose {
     ///
     /// # Complexity
     /// O((6k)²·f) per step.
-    pub fn close(&self, q: Vec<f64>, hold: &[usize]) -> Result<Vec<f64>, PoseError> {
+    pub fn close_loops(&self, q: Vec<f64>, hold: &[usize]) -> Result<Vec<f64>, PoseError> {
         self.close_within(q, hold, f64::INFINITY)
     }
 
@@ -83,13 +89,13 @@ impl Pose {
         hold: &[usize],
         most: f64,
     ) -> Result<Vec<f64>, PoseError> {
-        let closed = self.closed();
+        let closed = self.closed_tolerance();
         // Measured contours never close exactly. Further steps would creep along the motion to where they close better.
         let stops = |gaps: &[f64]| match *gaps {
             [.., before, gap] => self.accuracy() > 0.0 && gap < closed && gap > before / 2.0,
             _ => false,
         };
-        let (q, residual, far) = self.newton(
+        let (q, residual, far) = self.close_by_newton(
             q,
             &Newton {
                 hold,
@@ -112,7 +118,11 @@ impl Pose {
 
     /// Returns the coordinates near `q` that satisfy all equations best, the remaining gap, and whether they led too
     /// far.
-    pub(crate) fn newton(&self, mut q: Vec<f64>, how: &Newton<'_>) -> (Vec<f64>, f64, bool) {
+    pub(crate) fn close_by_newton(
+        &self,
+        mut q: Vec<f64>,
+        how: &Newton<'_>,
+    ) -> (Vec<f64>, f64, bool) {
         let start = q.clone();
         // Coordinate errors must not be corrected by moving along the motion.
         let floor = (1e3 * self.accuracy()).clamp(1e-11, 1e-2);
@@ -120,7 +130,7 @@ impl Pose {
         let mut history: Vec<f64> = Vec::new();
         for _ in 0..how.steps {
             let more = (how.beside)(&q);
-            let mut gaps = self.gaps(&q);
+            let mut gaps = self.closure_gaps(&q);
             gaps.extend(more.iter().map(|(x, _)| x));
             let gap = norm(&gaps);
             if gap < best.1 {
@@ -131,7 +141,7 @@ impl Pose {
             if gap < 1e-14 || !gap.is_finite() || (how.stops)(&history) {
                 break;
             }
-            let mut jacobian = self.jacobian(&q);
+            let mut jacobian = self.jacobian_at(&q);
             for &c in how.hold {
                 jacobian.col_mut(c).fill(0.0);
             }

@@ -41,7 +41,7 @@ impl DisplacementSeries {
         let order = q.len();
         let mut out = Self::identity(field, order);
         let mut power = out.terms.first().copied().unwrap_or_default();
-        let hat = hat(field, s);
+        let hat = twist_matrix(field, s);
         let mut factor: Series = vec![0; order];
         factor.iter_mut().take(1).for_each(|x| *x = field.one());
         for k in 1..order {
@@ -50,7 +50,7 @@ impl DisplacementSeries {
             factor = series_product(field, &factor, q);
             factor.iter_mut().for_each(|x| *x = field.mul(*x, part));
             for (term, &x) in out.terms.iter_mut().zip(&factor) {
-                accumulate(field, term, &power, x);
+                add_multiple(field, term, &power, x);
             }
         }
         out
@@ -67,7 +67,7 @@ impl DisplacementSeries {
                 if j == 0 {
                     (0..3).for_each(|r| of[r][3] = f.add(of[r][3], a[r][3]));
                 }
-                accumulate(f, &mut terms[i + j], &of, f.one());
+                add_multiple(f, &mut terms[i + j], &of, f.one());
             }
         }
         DisplacementSeries { field: f, terms }
@@ -92,7 +92,7 @@ impl DisplacementSeries {
 
     /// Returns a twist (ω; v) moved by the displacement: (Rω; p × Rω + Rv) for the rotation R and the translation p,
     /// one for each power of t.
-    pub(crate) fn carried(&self, s: &Twist<Residue>) -> Vec<Twist<Residue>> {
+    pub(crate) fn carry_twist(&self, s: &Twist<Residue>) -> Vec<Twist<Residue>> {
         let f = self.field;
         let times = |t: &Term, v: &[Residue]| [0, 1, 2].map(|i| f.dot(&t[i][..3], v));
         let turned: Vec<[Residue; 3]> = self.terms.iter().map(|t| times(t, &s[..3])).collect();
@@ -102,7 +102,7 @@ impl DisplacementSeries {
                 let p = [0, 1, 2].map(|i| shift[i][3]);
                 for (i, x) in v.iter_mut().enumerate() {
                     let (a, b) = ((i + 1) % 3, (i + 2) % 3);
-                    *x = f.add(*x, f.cross(p[a], w[b], p[b], w[a]));
+                    *x = f.add(*x, f.difference_of_products(p[a], w[b], p[b], w[a]));
                 }
             }
             let [a, b, c] = turned[k];
@@ -112,14 +112,14 @@ impl DisplacementSeries {
     }
 
     /// Returns the twist whose matrix is the coefficient of t^k. It is a twist if those of t¹ to t^(k-1) vanish.
-    pub(crate) fn twist(&self, k: usize) -> Twist<Residue> {
+    pub(crate) fn twist_of_order(&self, k: usize) -> Twist<Residue> {
         self.terms.get(k).map_or([0; 6], twist_of)
     }
 }
 
 /// Returns a vector of series times 1, t, t², ..., truncated at its order: the coefficients of t⁰ first, then those of
 /// t¹, and so on.
-pub(crate) fn multiples(terms: &[impl AsRef<[Residue]>]) -> Vec<Vec<Residue>> {
+pub(crate) fn shifted_multiples(terms: &[impl AsRef<[Residue]>]) -> Vec<Vec<Residue>> {
     let width = terms.first().map_or(0, |t| t.as_ref().len());
     let shifted = |by: usize| {
         let zeros = std::iter::repeat_n(0, by * width);
@@ -130,7 +130,7 @@ pub(crate) fn multiples(terms: &[impl AsRef<[Residue]>]) -> Vec<Vec<Residue>> {
 }
 
 /// Returns the matrix of a twist (ω; v): the rows of ω's cross product, each with its component of v.
-pub(crate) fn hat(f: Field, s: &Twist<Residue>) -> Term {
+pub(crate) fn twist_matrix(f: Field, s: &Twist<Residue>) -> Term {
     let [x, y, z, u, v, w] = *s;
     [
         [0, f.neg(z), y, u],
@@ -151,7 +151,7 @@ pub(crate) fn product(f: Field, a: &Term, b: &Term) -> Term {
 }
 
 /// Adds a multiple of a matrix.
-fn accumulate(f: Field, sum: &mut Term, more: &Term, by: Residue) {
+fn add_multiple(f: Field, sum: &mut Term, more: &Term, by: Residue) {
     if by != 0 {
         let (sum, more) = (sum.as_flattened_mut(), more.as_flattened());
         f.add_multiple(sum, by, more);
@@ -186,7 +186,7 @@ mod tests {
         let f = field();
         let q = [0, f.one(), 0, 0];
         let turn = DisplacementSeries::exp(f, &of(f, [0, 0, 1, 0, 0, 0]), &q);
-        let x = turn.carried(&of(f, [0, 0, 0, 1, 0, 0]));
+        let x = turn.carry_twist(&of(f, [0, 0, 0, 1, 0, 0]));
         let (half, sixth) = (f.inv(f.from_i64(2)), f.inv(f.from_i64(6)));
         let expected = [
             [0, 0, 0, f.one(), 0, 0],
@@ -208,12 +208,12 @@ mod tests {
         assert_eq!(none.terms, DisplacementSeries::identity(f, 4).terms);
         // Applying two displacements in turn is the same as applying their product.
         let s = of(f, [3, 1, 4, 1, 5, 9]);
-        let second = two.carried(&s);
-        let of_one: Vec<_> = second.iter().map(|s| one.carried(s)).collect();
+        let second = two.carry_twist(&s);
+        let of_one: Vec<_> = second.iter().map(|s| one.carry_twist(s)).collect();
         let sum = |k: usize| -> Twist<Residue> {
             let parts = (0..=k).map(|i| of_one[i][k - i]);
             parts.fold([0; 6], |a, b| std::array::from_fn(|i| f.add(a[i], b[i])))
         };
-        assert_eq!(both.carried(&s), [0, 1, 2, 3].map(sum));
+        assert_eq!(both.carry_twist(&s), [0, 1, 2, 3].map(sum));
     }
 }

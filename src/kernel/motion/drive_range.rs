@@ -1,7 +1,7 @@
 //! The full range of a drive, from one end to the other or through one turn, step by step.
 
 use crate::geom::rigid::RigidMotion;
-use crate::motion::follow::{Follower, Stop, positions, slides};
+use crate::motion::follow::{Follower, Stop, column_slides, stroke_positions};
 use crate::motion::pose::Pose;
 use std::f64::consts::{PI, TAU};
 
@@ -38,14 +38,14 @@ pub struct Way {
 /// # Complexity
 /// As [`Follower::advance`], for about ten poses per radian, three times.
 #[must_use]
-pub fn way(
+pub fn follow_range(
     pose: &Pose,
     drive: usize,
     held: &[usize],
     range: Option<[f64; 2]>,
     steps: usize,
 ) -> Way {
-    let turns = !slides(pose, drive);
+    let turns = !column_slides(pose, drive);
     let far = if turns { PI } else { SLIDE };
     let wanted = range.unwrap_or([-far, far]);
     let mut ends = [None, None];
@@ -53,7 +53,7 @@ pub fn way(
     let mut go = |n: usize, to: f64| {
         let mut follower = Follower::new(pose.clone(), drive, held);
         reached[n] = to;
-        if let Err(stop) = follower.advance(to, |_| {}) {
+        if let Err(stop) = follower.advance_to(to, |_| {}) {
             (ends[n], reached[n]) = (Some(stop), stop.at);
         }
         ends[n].is_some()
@@ -66,11 +66,11 @@ pub fn way(
     }
     let round = range.is_none() && turns && reached.iter().all(|x| x.abs() > PI - ROUND);
     if round {
-        let way = along(pose, drive, held, [0.0, TAU], steps, ends);
+        let way = poses_along(pose, drive, held, [0.0, TAU], steps, ends);
         let (first, last) = (way.links.first(), way.links.last());
         let back = first
             .zip(last)
-            .is_some_and(|(a, b)| a.iter().zip(b).all(|(a, b)| apart(a, b) < BACK));
+            .is_some_and(|(a, b)| a.iter().zip(b).all(|(a, b)| position_distance(a, b) < BACK));
         if back {
             return Way {
                 closed: true,
@@ -85,11 +85,11 @@ pub fn way(
             reached[n] = end + SHORT * ((from + to) / 2.0 - end);
         }
     }
-    along(pose, drive, held, reached, steps, ends)
+    poses_along(pose, drive, held, reached, steps, ends)
 }
 
 /// Returns the poses of a range that is known to be reachable.
-fn along(
+fn poses_along(
     pose: &Pose,
     drive: usize,
     held: &[usize],
@@ -100,17 +100,17 @@ fn along(
     let stopped = ends.map(|e| e.is_some());
     let mut follower = Follower::new(pose.clone(), drive, held);
     let (mut at, mut links) = (Vec::new(), Vec::new());
-    for to in positions([0.0, 1.0], steps) {
-        let part = eased(to, stopped);
+    for to in stroke_positions([0.0, 1.0], steps) {
+        let part = ease_part(to, stopped);
         let [from, last] = range;
         if follower
-            .advance(from + part * (last - from), |_| {})
+            .advance_to(from + part * (last - from), |_| {})
             .is_err()
         {
             break;
         }
-        at.push(follower.at());
-        links.push(follower.pose().links);
+        at.push(follower.drive_position());
+        links.push(follower.current_pose().links);
     }
     let nearest = at
         .iter()
@@ -127,7 +127,7 @@ fn along(
 
 /// Returns a fraction of the range from equal fractions of a turn. Near an end that stops a drive, the other joints
 /// move farther than the drive.
-fn eased(part: f64, stopped: [bool; 2]) -> f64 {
+fn ease_part(part: f64, stopped: [bool; 2]) -> f64 {
     match stopped {
         [false, false] => part,
         [true, false] => 1.0 - (part * PI / 2.0).cos(),
@@ -137,7 +137,7 @@ fn eased(part: f64, stopped: [bool; 2]) -> f64 {
 }
 
 /// Returns the distance between two positions of a link: radians, and fractions of [`Pose::length`].
-fn apart(a: &RigidMotion, b: &RigidMotion) -> f64 {
+fn position_distance(a: &RigidMotion, b: &RigidMotion) -> f64 {
     let shift = (0..3).map(|i| (a.translation[i] - b.translation[i]).abs());
     let turn = (0..9).map(|i| (a.rotation[i / 3][i % 3] - b.rotation[i / 3][i % 3]).abs());
     shift.chain(turn).fold(0.0, f64::max)

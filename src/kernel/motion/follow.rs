@@ -15,7 +15,7 @@
 //! get a new reference pose.
 
 use crate::motion::pose::{FLAT, Pose};
-use ozols_dense::{add_scaled, difference, dot, largest, norm, svd};
+use ozols_dense::{add_scaled, difference, dot, largest_entry, norm, svd};
 use thiserror::Error;
 
 /// The longest step of the drive: radians, or fractions of the mechanism's size.
@@ -60,7 +60,7 @@ pub enum Why {
 impl Why {
     /// Returns one word for data.
     #[must_use]
-    pub fn word(self) -> &'static str {
+    pub fn as_word(self) -> &'static str {
         match self {
             Why::DeadPoint => "dead-point",
             Why::Locked => "locked",
@@ -107,7 +107,7 @@ pub struct Follower {
 }
 
 /// Returns the motion at drive speed 1 nearest to `before` (or the smallest if there is none), with some columns held.
-fn tangent(
+fn nearest_tangent(
     anchor: &Pose,
     q: &[f64],
     drive: usize,
@@ -123,12 +123,12 @@ fn tangent(
         motions,
         kept,
     };
-    let whole = anchor.jacobian(q);
+    let whole = anchor.jacobian_at(q);
     let Some(svd) = svd(&whole.select_columns(&free)) else {
         return none(0, 0.0);
     };
     // Coordinate errors open poses slightly, and hide singular values up to their size.
-    let rank = svd.rank(FLAT.max(10.0 * anchor.closed()));
+    let rank = svd.rank(FLAT.max(10.0 * anchor.closed_tolerance()));
     let last = rank.checked_sub(1);
     let kept = last.map_or(1.0, |i| svd.values[i] / svd.values[0]);
     let null = svd.null_space(rank);
@@ -156,7 +156,7 @@ fn tangent(
         *w += missing * s;
     }
     let mut speeds = vec![0.0; f];
-    for (&c, speed) in free.iter().zip(null.combined(&weights)) {
+    for (&c, speed) in free.iter().zip(null.combine_columns(&weights)) {
         speeds[c] = speed;
     }
     Tangent {
@@ -172,7 +172,7 @@ impl Follower {
     #[must_use]
     pub fn new(pose: Pose, drive: usize, held: &[usize]) -> Follower {
         let q = vec![0.0; pose.columns.len()];
-        let tangent = tangent(&pose, &q, drive, held, None, usize::MAX);
+        let tangent = nearest_tangent(&pose, &q, drive, held, None, usize::MAX);
         Follower {
             q,
             drive,
@@ -185,36 +185,36 @@ impl Follower {
 
     /// Returns the position of the drive: radians, or fractions of [`Pose::length`], from the pose of the file.
     #[must_use]
-    pub fn at(&self) -> f64 {
+    pub fn drive_position(&self) -> f64 {
         self.anchor.columns[self.drive].moved + self.q[self.drive]
     }
 
     /// Returns the pose.
     #[must_use]
-    pub fn pose(&self) -> Pose {
-        self.anchor.moved(&self.q)
+    pub fn current_pose(&self) -> Pose {
+        self.anchor.moved_to(&self.q)
     }
 
     /// Returns the gap of the contours: radians, and fractions of [`Pose::length`].
     #[must_use]
-    pub fn gap(&self) -> f64 {
-        norm(&self.anchor.gaps(&self.q))
+    pub fn closure_gap(&self) -> f64 {
+        norm(&self.anchor.closure_gaps(&self.q))
     }
 
     /// Returns the share of the drive's speed in the motion of unit length: 1 if nothing else moves, 0 at a dead point.
     #[must_use]
-    pub fn share(&self) -> f64 {
+    pub fn drive_share(&self) -> f64 {
         self.tangent.share
     }
 
     fn tangent_at(&self, q: &[f64], before: Option<&Tangent>) -> Tangent {
         let (drive, held) = (self.drive, &self.held);
-        tangent(&self.anchor, q, drive, held, before, self.fewest)
+        nearest_tangent(&self.anchor, q, drive, held, before, self.fewest)
     }
 
     /// Returns the result of one step to a position of the drive, or `None` if it leaves the branch.
-    fn step(&self, to: f64) -> Option<Follower> {
-        let ahead = to - self.at();
+    fn step_to(&self, to: f64) -> Option<Follower> {
+        let ahead = to - self.drive_position();
         let mut guess = add_scaled(&self.q, ahead, &self.tangent.speeds);
         // The position is exact, whatever the rounding along the path.
         guess[self.drive] = to - self.anchor.columns[self.drive].moved;
@@ -250,12 +250,13 @@ impl Follower {
     fn drop_anchor(&mut self) {
         let columns = &self.anchor.columns;
         let far = columns.windows(3).enumerate().any(|(i, w)| {
-            w.iter().all(|c| c.joint == w[0].joint && c.freedom.turns())
+            w.iter()
+                .all(|c| c.joint == w[0].joint && c.freedom.is_turn())
                 && self.q[i + 1].abs() > BALL
         });
         // In a singular pose the incoming direction would be lost.
         if far && self.tangent.motions == self.fewest {
-            self.anchor = self.anchor.moved(&self.q);
+            self.anchor = self.anchor.moved_to(&self.q);
             self.q = vec![0.0; self.q.len()];
             self.tangent = self.tangent_at(&self.q, None);
         }
@@ -268,25 +269,25 @@ impl Follower {
     ///
     /// # Complexity
     /// One closure and singular values, O((6k + f)³), per step; steps of at most `LONGEST`.
-    pub fn advance(&mut self, to: f64, mut visit: impl FnMut(&Follower)) -> Result<(), Stop> {
+    pub fn advance_to(&mut self, to: f64, mut visit: impl FnMut(&Follower)) -> Result<(), Stop> {
         let mut longest = LONGEST;
         loop {
-            let ahead = to - self.at();
+            let ahead = to - self.drive_position();
             if ahead.abs() < 1e-15 {
                 return Ok(());
             }
             if self.tangent.speeds.is_empty() {
-                return Err(self.stop());
+                return Err(self.reason_to_stop());
             }
-            let fastest = largest(&self.tangent.speeds).max(1.0);
+            let fastest = largest_entry(&self.tangent.speeds).max(1.0);
             let most = longest.min(FARTHEST / fastest);
             let target = if ahead.abs() <= most {
                 to
             } else {
-                self.at() + most.copysign(ahead)
+                self.drive_position() + most.copysign(ahead)
             };
-            let tried = (target - self.at()).abs();
-            match self.step(target) {
+            let tried = (target - self.drive_position()).abs();
+            match self.step_to(target) {
                 Some(next) => {
                     *self = next;
                     self.drop_anchor();
@@ -296,7 +297,7 @@ impl Follower {
                 None => {
                     longest = tried / 2.0;
                     if longest < SMALLEST {
-                        return Err(self.stop());
+                        return Err(self.reason_to_stop());
                     }
                 }
             }
@@ -304,7 +305,7 @@ impl Follower {
     }
 
     /// Returns the reason why the drive stops.
-    fn stop(&self) -> Stop {
+    fn reason_to_stop(&self) -> Stop {
         let t = &self.tangent;
         let why = if t.motions == 0 {
             Why::Locked
@@ -312,21 +313,24 @@ impl Follower {
             Why::Singular
         } else if t.share < STILL {
             Why::DeadPoint
-        } else if t.kept < NEARLY_FLAT || self.branches() {
+        } else if t.kept < NEARLY_FLAT || self.has_branches() {
             Why::Singular
         } else {
             Why::Instantaneous
         };
-        Stop { at: self.at(), why }
+        Stop {
+            at: self.drive_position(),
+            why,
+        }
     }
 
     /// Returns true if nearby poses have fewer motions; the file's pose may be singular itself.
-    fn branches(&self) -> bool {
+    fn has_branches(&self) -> bool {
         let ahead = 1e-3;
         [ahead, -ahead].iter().any(|h| {
             let near = add_scaled(&self.q, *h, &self.tangent.speeds);
             self.anchor
-                .close(near, &self.held)
+                .close_loops(near, &self.held)
                 .is_ok_and(|q| self.tangent_at(&q, None).motions < self.tangent.motions)
         })
     }
@@ -334,8 +338,8 @@ impl Follower {
 
 /// Returns true if a column of a pose slides.
 #[must_use]
-pub fn slides(pose: &Pose, column: usize) -> bool {
-    pose.columns[column].freedom.slides()
+pub fn column_slides(pose: &Pose, column: usize) -> bool {
+    pose.columns[column].freedom.is_slide()
 }
 
 /// Returns the positions of a stroke in equal steps, including both ends.
@@ -345,7 +349,7 @@ pub fn slides(pose: &Pose, column: usize) -> bool {
 /// let all: Vec<f64> = ozols::motion::follow::positions([0.0, 1.0], 2).collect();
 /// assert_eq!(all, [0.0, 0.5, 1.0]);
 /// ```
-pub fn positions([from, to]: [f64; 2], steps: usize) -> impl Iterator<Item = f64> {
+pub fn stroke_positions([from, to]: [f64; 2], steps: usize) -> impl Iterator<Item = f64> {
     (0..=steps).map(move |i| {
         #[allow(clippy::cast_precision_loss, reason = "at most 1e5 steps")]
         let part = i as f64 / steps.max(1) as f64;

@@ -12,7 +12,7 @@ use crate::closure::twist::{FrameValues, MotionSpace, Twist, unit_twist};
 use crate::geom::Reals;
 use crate::geom::exact::ExactError;
 use crate::geom::extent::OwnScale;
-use crate::geom::rigid::{RigidMotion, halves};
+use crate::geom::rigid::{RigidMotion, split_twist};
 use crate::geom::vector::{self, across, cross, dot, sub};
 use crate::model::joint_type::{CoupledFreedom, Coupling, Freedom};
 use crate::model::mechanism::{JointId, LinkId, Mechanism, StateId};
@@ -25,7 +25,7 @@ const CLOSED: f64 = 1e-12;
 pub const FLAT: f64 = 1e-6;
 
 /// Returns rotation and translation as six numbers that vanish together with a motion: (sin θ · axis; translation).
-fn defect(motion: &RigidMotion) -> [f64; 6] {
+fn closure_defect(motion: &RigidMotion) -> [f64; 6] {
     // Beyond a quarter turn the sine decreases again. It is extended, so that half a turn is not a solution.
     let cosine = motion.cosine();
     let grow = if cosine < 0.0 {
@@ -79,9 +79,9 @@ pub struct Pose {
 impl Pose {
     /// Returns the position to which motions of links, in the lengths of this pose, move a point of one of them.
     #[must_use]
-    pub fn carried(&self, links: &[RigidMotion], link: LinkId, p: [f64; 3]) -> [f64; 3] {
+    pub fn carry_point(&self, links: &[RigidMotion], link: LinkId, p: [f64; 3]) -> [f64; 3] {
         let parts = sub(p, self.middle).map(|x| x / self.length);
-        let there = links[link].point(parts);
+        let there = links[link].map_point(parts);
         [0, 1, 2].map(|i| self.middle[i] + there[i] * self.length)
     }
 
@@ -93,7 +93,7 @@ impl Pose {
         let joints: Vec<JointId> = mechanism.joints_in(state).collect();
         let space = MotionSpace::new(&Reals, &mechanism.mode)?;
         let points = joints.iter().map(|&j| &mechanism.joints[j].frame.point);
-        let scale = OwnScale::of(&points.collect::<Vec<_>>());
+        let scale = OwnScale::from_points(&points.collect::<Vec<_>>());
         let extent = scale.extent();
         let mut all = JointColumns {
             columns: Vec::new(),
@@ -105,13 +105,18 @@ impl Pose {
         }
         let couplings = mechanism
             .couplings_in(state)
-            .filter_map(|c| coupled(c, &all.columns, &scale))
+            .filter_map(|c| coupling_factors(c, &all.columns, &scale))
             .collect();
-        let walk = |c: &Contour| c.joints.iter().flat_map(|&(j, d)| all.walk(j, d)).collect();
+        let walk = |c: &Contour| {
+            c.joints
+                .iter()
+                .flat_map(|&(j, d)| all.walk_joint(j, d))
+                .collect()
+        };
         let contours = contour_basis(mechanism, state).iter().map(walk).collect();
         let tree = spanning_tree(mechanism, state)
             .into_iter()
-            .map(|s| (s.link, s.from, all.walk(s.joint, s.forward)))
+            .map(|s| (s.link, s.from, all.walk_joint(s.joint, s.forward)))
             .collect();
         let JointColumns { columns, base, .. } = all;
         Ok(Pose {
@@ -137,7 +142,7 @@ impl Pose {
     /// Returns the file's pose with the frame of one joint moved. If the joint then has a different number of motions in the mechanism's
     /// plane, each keeps the freedom that it is named by.
     #[must_use]
-    pub(crate) fn reframed(
+    pub(crate) fn with_frame(
         &self,
         mechanism: &Mechanism,
         space: &MotionSpace<f64>,
@@ -145,7 +150,7 @@ impl Pose {
         frame: &FrameValues<f64>,
     ) -> Pose {
         let frame = in_lengths(frame, self.middle, self.length);
-        let motions = motions(&frame, space, mechanism.joints[joint].joint_type.freedoms());
+        let motions = unit_motions(&frame, space, mechanism.joints[joint].joint_type.freedoms());
         let mut out = self.clone();
         let own = out.columns.iter_mut().filter(|c| c.joint == joint);
         let all = motions.len() == self.columns.iter().filter(|c| c.joint == joint).count();
@@ -153,14 +158,14 @@ impl Pose {
             c.twist = if all {
                 motions[n].1
             } else {
-                frame.twist(&Reals, c.freedom)
+                frame.twist_of(&Reals, c.freedom)
             };
         }
         out
     }
 
     /// Returns the file's pose with one column tied to another: it moves by `ratio` if the other moves by 1, each in its own unit.
-    pub fn tied(mut self, other: usize, column: usize, ratio: f64) -> Pose {
+    pub fn with_coupling(mut self, other: usize, column: usize, ratio: f64) -> Pose {
         let size = ratio.hypot(1.0);
         self.couplings
             .push([(other, -ratio / size), (column, 1.0 / size)]);
@@ -175,19 +180,19 @@ impl Pose {
 
     /// Returns the largest gap of a pose that counts as closed: radians, and fractions of [`Pose::length`].
     #[must_use]
-    pub fn closed(&self) -> f64 {
+    pub fn closed_tolerance(&self) -> f64 {
         CLOSED.max(10.0 * self.accuracy)
     }
 
     /// Returns the number of rows of the closure equations, 6 per contour and one per coupling.
     #[must_use]
     pub fn rows(&self) -> usize {
-        self.constraints(6)
+        self.constraint_rows(6)
     }
 
     /// Returns the number of rows of the closure matrix with `dim` per contour, 6 or 3, and one per coupling.
     #[must_use]
-    pub fn constraints(&self, dim: usize) -> usize {
+    pub fn constraint_rows(&self, dim: usize) -> usize {
         dim * self.contours.len() + self.couplings.len()
     }
 
@@ -201,14 +206,14 @@ impl Pose {
 
     /// Returns the gaps of the contours at coordinates `q`, six numbers each, then those of the couplings since the pose of the file.
     #[must_use]
-    pub fn gaps(&self, q: &[f64]) -> Vec<f64> {
+    pub fn closure_gaps(&self, q: &[f64]) -> Vec<f64> {
         let mut out = Vec::with_capacity(self.rows());
         for contour in &self.contours {
             let mut at = RigidMotion::IDENTITY;
             for &(c, sign) in contour {
                 at = at.then(&RigidMotion::exp(&self.columns[c].twist, sign * q[c]));
             }
-            out.extend(defect(&at));
+            out.extend(closure_defect(&at));
         }
         let from_file = |&(c, factor): &(usize, f64)| factor * (self.columns[c].moved + q[c]);
         out.extend(
@@ -221,12 +226,12 @@ impl Pose {
 
     /// Returns J at coordinates `q` from this pose, (6k + c) × f.
     #[must_use]
-    pub fn jacobian(&self, q: &[f64]) -> Matrix {
+    pub fn jacobian_at(&self, q: &[f64]) -> Matrix {
         let mut matrix = Matrix::zeros(self.rows(), self.columns.len());
         for (k, contour) in self.contours.iter().enumerate() {
             let mut at = RigidMotion::IDENTITY;
             for &(c, sign) in contour {
-                let twist = at.twist(&self.columns[c].twist);
+                let twist = at.map_twist(&self.columns[c].twist);
                 for (i, x) in twist.iter().enumerate() {
                     matrix[(6 * k + i, c)] += sign * x;
                 }
@@ -244,12 +249,12 @@ impl Pose {
     /// Returns the change of J along speeds `v`, times `v`: the remaining accelerations if all joints keep their speeds. It is exact, by
     /// the Lie brackets of successive twists [Müller 2016]. Couplings are linear and have none.
     #[must_use]
-    pub(crate) fn bend(&self, v: &[f64]) -> Vec<f64> {
+    pub(crate) fn bend_along(&self, v: &[f64]) -> Vec<f64> {
         let mut out = vec![0.0; self.rows()];
         for (contour, rows) in self.contours.iter().zip(out.chunks_mut(6)) {
             let (mut turn, mut shift) = ([0.0; 3], [0.0; 3]);
             for &(c, sign) in contour {
-                let (w, u) = halves(&self.columns[c].twist.map(|x| sign * v[c] * x));
+                let (w, u) = split_twist(&self.columns[c].twist.map(|x| sign * v[c] * x));
                 let (a, b, d) = (cross(turn, w), cross(turn, u), cross(shift, w));
                 for i in 0..3 {
                     rows[i] += a[i];
@@ -267,7 +272,7 @@ impl Pose {
     #[must_use]
     pub fn jacobian_with(&self, paths: &[Vec<(JointId, bool)>], speeds: &[usize]) -> Matrix {
         let f = self.columns.len();
-        let (closure, rows) = (self.jacobian(&vec![0.0; f]), self.rows());
+        let (closure, rows) = (self.jacobian_at(&vec![0.0; f]), self.rows());
         let twists = 6 * paths.len();
         Matrix::from_fn(rows + twists + speeds.len(), f, |r, c| {
             let Some(r) = r.checked_sub(rows) else {
@@ -285,7 +290,7 @@ impl Pose {
 
     /// Returns the pose at coordinates `q` from this one, with its twists updated.
     #[must_use]
-    pub fn moved(&self, q: &[f64]) -> Pose {
+    pub fn moved_to(&self, q: &[f64]) -> Pose {
         let mut since = vec![RigidMotion::IDENTITY; self.links.len()];
         for (to, from, walk) in &self.tree {
             let mut at = since[*from];
@@ -300,7 +305,7 @@ impl Pose {
             for (p, x) in q.iter().enumerate().take(c).skip(c - before) {
                 at = at.then(&RigidMotion::exp(&self.columns[p].twist, *x));
             }
-            next.columns[c].twist = unit_twist(at.twist(&self.columns[c].twist));
+            next.columns[c].twist = unit_twist(at.map_twist(&self.columns[c].twist));
             next.columns[c].moved += q[c];
         }
         square_balls(&mut next.columns);
@@ -334,10 +339,10 @@ impl JointColumns {
             axes: FrameValues::new(&Reals, &joint.frame)?
                 .axes
                 .map(vector::unit),
-            point: scale.place(&joint.frame.point),
-            pitch: scale.part(&joint.frame.pitch),
+            point: scale.relative_point(&joint.frame.point),
+            pitch: scale.relative_length(&joint.frame.pitch),
         };
-        let kept = motions(&frame, space, joint.joint_type.freedoms());
+        let kept = unit_motions(&frame, space, joint.joint_type.freedoms());
         for (n, (freedom, twist)) in kept.into_iter().enumerate() {
             self.of_joint[j].push(self.columns.len());
             self.base.push((joint.links[0], n));
@@ -352,7 +357,7 @@ impl JointColumns {
     }
 
     /// Returns the freedoms of a joint as they are passed in a direction.
-    fn walk(&self, j: JointId, forward: bool) -> Walk {
+    fn walk_joint(&self, j: JointId, forward: bool) -> Walk {
         let own = self.of_joint[j].iter();
         if forward {
             own.map(|&c| (c, 1.0)).collect()
@@ -363,7 +368,7 @@ impl JointColumns {
 }
 
 /// Returns the motions of a joint as the columns of a pose use them: unit twists, in series.
-fn motions(
+fn unit_motions(
     frame: &FrameValues<f64>,
     space: &MotionSpace<f64>,
     freedoms: &[Freedom],
@@ -384,7 +389,7 @@ fn in_lengths(frame: &FrameValues<f64>, middle: [f64; 3], size: f64) -> FrameVal
 }
 
 /// Returns a coupling in the coordinates of a pose, with slides in lengths of the scale.
-fn coupled(
+fn coupling_factors(
     coupling: &Coupling,
     columns: &[PoseColumn],
     scale: &OwnScale,
@@ -395,9 +400,9 @@ fn coupled(
             .iter()
             .position(|c| (c.joint, c.freedom) == (e.joint, e.freedom))
     };
-    let rate = match [a, b].map(|e| e.freedom.slides()) {
-        [false, true] => scale.part(&coupling.ratio),
-        [true, false] => scale.times(&coupling.ratio),
+    let rate = match [a, b].map(|e| e.freedom.is_slide()) {
+        [false, true] => scale.relative_length(&coupling.ratio),
+        [true, false] => scale.scaled_rate(&coupling.ratio),
         _ => coupling.ratio.to_f64(),
     };
     let factors = [-rate, 1.0];
@@ -413,15 +418,15 @@ fn square_balls(columns: &mut [PoseColumn]) {
         let j = columns[i].joint;
         if columns[i..i + 3]
             .iter()
-            .all(|c| c.joint == j && c.freedom.turns())
+            .all(|c| c.joint == j && c.freedom.is_turn())
         {
-            let (w0, v0) = halves(&columns[i].twist);
-            let (w2, v2) = halves(&columns[i + 2].twist);
+            let (w0, v0) = split_twist(&columns[i].twist);
+            let (w2, v2) = split_twist(&columns[i + 2].twist);
             // The common point c: v = c × ω for two of the axes; two equations in the least-squares sense.
             let centre = meeting_point(w0, v0, w2, v2);
             let last = vector::unit(across(w2, w0));
             let middle = cross(last, w0);
-            let (w1, _) = halves(&columns[i + 1].twist);
+            let (w1, _) = split_twist(&columns[i + 1].twist);
             let along = dot(middle, w1).signum();
             for (n, w) in [w0, middle.map(|x| x * along), last]
                 .into_iter()

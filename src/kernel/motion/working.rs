@@ -4,7 +4,7 @@ use crate::closure::tree::path_from_frame;
 use crate::model::mechanism::{JointId, Mechanism, Role, StateId};
 use crate::motion::drive_range::Way;
 use crate::motion::pose::{FLAT, Pose};
-use ozols_dense::{difference, dot, largest, svd};
+use ozols_dense::{difference, dot, largest_entry, svd};
 
 /// Distance to which it is followed to either side, by the coordinate that moves most from step to step: radians, or
 /// fractions of [`Pose::length`].
@@ -23,7 +23,7 @@ pub fn working_way(m: &Mechanism, state: StateId, pose: &Pose, steps: usize) -> 
     let paths = outputs.map(|l| path_from_frame(m, state, l));
     let paths: Vec<Vec<(JointId, bool)>> = paths.filter(|p| !p.is_empty()).collect();
     let half = (steps / 2).max(1);
-    let first = direction(pose, &paths, None)?;
+    let first = working_direction(pose, &paths, None)?;
     let side = |sign: f64| {
         let mut out = Vec::new();
         let mut at = pose.clone();
@@ -62,32 +62,32 @@ fn next(
     onward: &[f64],
     step: f64,
 ) -> Option<(Pose, Vec<f64>)> {
-    let along = direction(at, paths, Some(onward))?;
+    let along = working_direction(at, paths, Some(onward))?;
     let ahead: Vec<f64> = along.iter().map(|x| step * x).collect();
-    let q = at.close(ahead.clone(), &[]).ok()?;
-    (largest(&difference(&q, &ahead)) <= ASTRAY * step).then(|| (at.moved(&q), q))
+    let q = at.close_loops(ahead.clone(), &[]).ok()?;
+    (largest_entry(&difference(&q, &ahead)) <= ASTRAY * step).then(|| (at.moved_to(&q), q))
 }
 
 /// Returns the motion, scaled to a largest coordinate of 1, that moves the outputs most for its size. During following
 /// it is the one nearest to the incoming direction. Idle freedoms take no part.
-fn direction(
+fn working_direction(
     pose: &Pose,
     paths: &[Vec<(JointId, bool)>],
     onward: Option<&[f64]>,
 ) -> Option<Vec<f64>> {
     let f = pose.columns.len();
     let all = pose.jacobian_with(paths, &[]);
-    let closure = svd(&pose.jacobian(&vec![0.0; f]))?;
+    let closure = svd(&pose.jacobian_at(&vec![0.0; f]))?;
     let kernel = closure.null_space(closure.rank(FLAT));
     let rows: Vec<usize> = (pose.rows()..all.nrows()).collect();
     let moved = svd(&all.select_rows(&rows).times(&kernel))?;
     let working = moved.values.iter().filter(|&&s| s > FLAT).count();
     let mut out = vec![0.0; f];
     for i in 0..working.min(if onward.is_some() { working } else { 1 }) {
-        let own = kernel.combined(moved.v.col(i));
+        let own = kernel.combine_columns(moved.v.col(i));
         let share = onward.map_or(1.0, |o| dot(o, &own));
         out.iter_mut().zip(&own).for_each(|(x, y)| *x += share * y);
     }
-    let size = largest(&out);
+    let size = largest_entry(&out);
     (size > FLAT).then(|| out.into_iter().map(|x| x / size).collect())
 }

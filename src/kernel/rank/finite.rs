@@ -21,10 +21,10 @@ use crate::rank::exact::field::field_of;
 use crate::rank::exact::modular;
 use crate::rank::finite::local_dimension::Traced;
 use crate::rank::finite::local_dimension::continuation::lengths_are_alike;
-use crate::rank::finite::mobility::{by_ranks, regular};
+use crate::rank::finite::mobility::{by_ranks, prove_regular};
 use crate::rank::finite::multiplicity::{Expanded, are_apart};
-use crate::rank::finite::second_order::{Roundings, SecondOrder, passed};
-use crate::rank::numeric::scaling::{rank_of_values, scaled};
+use crate::rank::finite::second_order::{Roundings, SecondOrder, mobility_at_singular};
+use crate::rank::numeric::scaling::{rank_of_values, scaled_matrix};
 use ozols_dense::singular_values;
 
 pub use mobility::{Finite, How, Proof};
@@ -56,7 +56,7 @@ const CLOSINGS: usize = 1_000;
 ///
 /// # Complexity
 /// One rank and, if nothing is proven, the closures of [`local_dimension::mobility`].
-pub fn finite(
+pub fn finite_mobility(
     exact: &ExactField,
     mechanism: &Mechanism,
     closure: &Closure<Residue>,
@@ -80,30 +80,30 @@ pub(crate) fn finite_known(
         return Ok(known);
     }
     let state = closure.state;
-    let parts = independent_parts::parts(closure);
+    let parts = independent_parts::independent_parts(closure);
     // Joints in no contour move freely.
     let inside = |j: JointId| parts.iter().any(|p| p.contains(&j));
     let free = closure.columns.iter().filter(|c| !inside(c.joint)).count();
     let mut total = Finite::new(free, How::Rigid);
     for joints in &parts {
-        let mut part = independent_parts::alone(mechanism, joints);
+        let mut part = independent_parts::with_joints_only(mechanism, joints);
         let mut own = Closure::new(exact, &part, state)?;
-        let mut rank = modular::rank(exact, &own);
+        let mut rank = modular::rank_modulo(exact, &own);
         if let Some(known) = by_ranks(exact, &part, &own, rank)? {
-            total = total.and(known);
+            total = total.combine_with(known);
             continue;
         }
         let idle = independent_parts::lock_idle(exact, &mut part, state)?;
         if idle > 0 {
             total.mobility += idle;
             own = Closure::new(exact, &part, state)?;
-            rank = modular::rank(exact, &own);
+            rank = modular::rank_modulo(exact, &own);
         }
-        let found = match regular(exact, &part, &own, rank)? {
+        let found = match prove_regular(exact, &part, &own, rank)? {
             Some(known) => known,
             None => {
                 let pose = Pose::of_file(&part, state)?;
-                let found = exactly(exact, &part, &own, rank, &pose)?;
+                let found = exact_mobility(exact, &part, &own, rank, &pose)?;
                 let digits = |known| {
                     let instantaneous = own.columns.len() - rank;
                     within_digits(&part, &pose, instantaneous, Some(found), known)
@@ -111,13 +111,13 @@ pub(crate) fn finite_known(
                 known.map_or(found, digits)
             }
         };
-        total = total.and(found);
+        total = total.combine_with(found);
     }
     Ok(total)
 }
 
 /// Returns the finite mobility of a part with exact coordinates that ranks do not decide.
-fn exactly(
+fn exact_mobility(
     exact: &ExactField,
     mechanism: &Mechanism,
     closure: &Closure<Residue>,
@@ -127,7 +127,7 @@ fn exactly(
     let instantaneous = closure.columns.len() - rank;
     let expanded = Expanded::new(exact, mechanism, closure, pose, rank)?;
     let (series, line) = (expanded.series.as_ref(), expanded.line);
-    let isolated = |m: usize| series.and_then(|s| s.isolated(m));
+    let isolated = |m: usize| series.and_then(|s| s.isolating_degree(m));
     let stopped = line.and_then(|l| l.stopped);
     let motions = instantaneous;
     let proven = |order| Finite::new(0, How::Stopped { order, motions });
@@ -142,7 +142,7 @@ fn exactly(
         None
     };
     if let Some(by) = by {
-        return Ok(Finite::regular(instantaneous, rank, by));
+        return Ok(Finite::regular_pose(instantaneous, rank, by));
     }
     // If series stop the motion in a random direction, not every first-order motion is finite.
     let shaky = stopped.is_some();
@@ -151,11 +151,12 @@ fn exactly(
         return Ok(Finite::new(from, How::Undecided { from, to }));
     }
     if let (Some(series), Some(order)) = (series, stopped)
-        && let Some(found) = passed(exact, mechanism, closure, rank, pose, series, order)?
+        && let Some(found) =
+            mobility_at_singular(exact, mechanism, closure, rank, pose, series, order)?
     {
         return Ok(found);
     }
-    let Some(mut found) = pursued(pose, instantaneous, shaky) else {
+    let Some(mut found) = follow_motion(pose, instantaneous, shaky) else {
         return Ok(too_large(instantaneous - usize::from(shaky)));
     };
     // A coordinate that begins to move with a high power of the path length pushes with a higher one, if at all, which
@@ -177,13 +178,13 @@ fn exactly(
 }
 
 /// Follows the motion of a pose, unless it is too large.
-fn pursued(pose: &Pose, instantaneous: usize, shaky: bool) -> Option<Traced> {
+fn follow_motion(pose: &Pose, instantaneous: usize, shaky: bool) -> Option<Traced> {
     let work = pose.rows() * pose.rows() * pose.columns.len();
     if work > LARGEST {
         return None;
     }
     let budget = (WORK / work.max(1)).clamp(40, CLOSINGS);
-    local_dimension::mobility(pose, instantaneous, shaky, budget)
+    local_dimension::mobility_by_following(pose, instantaneous, shaky, budget)
 }
 
 /// Returns the result for a pose that is not followed: at most the instantaneous mobility.
@@ -210,7 +211,7 @@ fn of_pursuit(found: Traced) -> Finite {
 ///
 /// # Errors
 /// Returns an error if a coordinate has no value.
-pub fn followed(
+pub fn followed_mobility(
     mechanism: &Mechanism,
     state: StateId,
     instantaneous: usize,
@@ -220,7 +221,7 @@ pub fn followed(
         return Ok(Finite::new(0, How::Rigid));
     }
     let pose = Pose::of_file(mechanism, state)?.with_accuracy(accuracy);
-    let found = pursued(&pose, instantaneous, false);
+    let found = follow_motion(&pose, instantaneous, false);
     Ok(found.map_or(too_large(instantaneous), of_pursuit))
 }
 
@@ -266,7 +267,7 @@ fn within_digits(
         return range(least);
     }
     let pose = pose.clone().with_accuracy(OPEN * known.unit);
-    match pursued(&pose, instantaneous, stopped) {
+    match follow_motion(&pose, instantaneous, stopped) {
         Some(found) if found.mobility >= most => of_pursuit(Traced {
             mobility: most,
             at_most: most,
@@ -281,7 +282,7 @@ fn within_digits(
 ///
 /// # Errors
 /// Returns an error if a coordinate has no value.
-pub(super) fn within(
+pub(super) fn mobility_within(
     mechanism: &Mechanism,
     state: StateId,
     instantaneous: usize,
@@ -294,7 +295,7 @@ pub(super) fn within(
     };
     let mut total = Finite::new(parts.0, How::Rigid);
     for (part, instantaneous) in &parts.1 {
-        total = total.and(whole_within(part, state, *instantaneous, known)?);
+        total = total.combine_with(whole_within(part, state, *instantaneous, known)?);
     }
     Ok(total)
 }
@@ -305,11 +306,11 @@ type Parts = (usize, Vec<(Mechanism, usize)>);
 /// Returns the independent parts of a mechanism in doubles.
 fn numeric_parts(mechanism: &Mechanism, state: StateId) -> Option<Parts> {
     let closure = Closure::new(&Reals, mechanism, state).ok()?;
-    let parts = independent_parts::parts(&closure);
+    let parts = independent_parts::independent_parts(&closure);
     let inside = |j: JointId| parts.iter().any(|p| p.contains(&j));
     let free = closure.columns.iter().filter(|c| !inside(c.joint)).count();
     let each = parts.iter().map(|joints| {
-        let part = independent_parts::alone(mechanism, joints);
+        let part = independent_parts::with_joints_only(mechanism, joints);
         numeric_mobility(&part, state).map(|w| (part, w))
     });
     Some((free, each.collect::<Option<_>>()?))
@@ -318,7 +319,7 @@ fn numeric_parts(mechanism: &Mechanism, state: StateId) -> Option<Parts> {
 /// Returns the instantaneous mobility of a mechanism in doubles whose geometry was moved until it has that mobility.
 fn numeric_mobility(mechanism: &Mechanism, state: StateId) -> Option<usize> {
     let own = Closure::new(&Reals, mechanism, state).ok()?;
-    let values = singular_values(&scaled(&own))?;
+    let values = singular_values(&scaled_matrix(&own))?;
     Some(own.columns.len() - rank_of_values(values, SEPARATE).rank)
 }
 
@@ -346,13 +347,13 @@ fn whole_within(
         return Ok(spins);
     }
     let pose = Pose::of_file(part, state)?;
-    Ok(spins.and(within_digits(part, &pose, left, None, known)))
+    Ok(spins.combine_with(within_digits(part, &pose, left, None, known)))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::model::drawn::{drawn, hinges};
+    use crate::model::drawn::{draw_mechanism, hinges};
     use crate::model::rounded::Uncertainties;
 
     /// Two motions of a ring of five hinges exist. Digits too coarse to show what stops a shaky pose cannot distinguish
@@ -367,10 +368,10 @@ mod tests {
             [8.0, 1.0, 0.0],
         ];
         let at = |i: usize| ([i, (i + 1) % 5], ring[i]);
-        let m = drawn(&hinges(&(0..5).map(at).collect::<Vec<_>>()), &[]);
+        let m = draw_mechanism(&hinges(&(0..5).map(at).collect::<Vec<_>>()), &[]);
         let found = |unit: f64| {
             let half = Uncertainties::uniform(&m, unit / 2.0, unit / 2.0);
-            within(&m, StateId::FREE, 2, &Roundings::new(&m, half, 1.0)).unwrap()
+            mobility_within(&m, StateId::FREE, 2, &Roundings::new(&m, half, 1.0)).unwrap()
         };
         let fine = found(1e-12);
         assert_eq!((fine.mobility, fine.at_most()), (2, 2));

@@ -113,7 +113,7 @@ impl Certainty {
 
     /// Returns one word for programs.
     #[must_use]
-    pub fn word(&self) -> &'static str {
+    pub fn as_word(&self) -> &'static str {
         match self {
             Certainty::Counted => "counted",
             Certainty::Exact => "exact",
@@ -139,7 +139,7 @@ pub struct Answer {
 
 impl Answer {
     /// Creates a count from the structure.
-    pub(in crate::rank) fn counted(mobility: i64, certainty: Certainty) -> Answer {
+    pub(in crate::rank) fn from_count(mobility: i64, certainty: Certainty) -> Answer {
         Answer {
             mobility,
             quantity: Quantity::Count,
@@ -150,14 +150,14 @@ impl Answer {
     /// Creates the answer W = freedoms - rank at the pose of the file.
     pub(in crate::rank) fn at_pose(freedoms: usize, rank: usize, certainty: Certainty) -> Answer {
         Answer {
-            mobility: int(freedoms) - int(rank),
+            mobility: to_i64(freedoms) - to_i64(rank),
             quantity: Quantity::Instantaneous,
             certainty,
         }
     }
 }
 
-pub(in crate::rank) fn int(x: usize) -> i64 {
+pub(in crate::rank) fn to_i64(x: usize) -> i64 {
     i64::try_from(x).unwrap_or(i64::MAX)
 }
 

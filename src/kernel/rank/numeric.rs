@@ -9,7 +9,7 @@ use crate::closure::Closure;
 use crate::geom::Reals;
 use crate::model::mechanism::{Mechanism, StateId};
 pub use crate::rank::numeric::scaling::NumericRank;
-use crate::rank::numeric::scaling::{as_it_stands, rank_of_values, scaled};
+use crate::rank::numeric::scaling::{as_it_stands, rank_of_values, scaled_matrix};
 use ozols_dense::{Format, Matrix, singular_values};
 use thiserror::Error;
 
@@ -57,7 +57,7 @@ impl Elimination {
 
     /// Returns the elimination of a method, if it is one.
     #[must_use]
-    pub fn of(method: &dyn MobilityMethod) -> Option<Elimination> {
+    pub fn of_method(method: &dyn MobilityMethod) -> Option<Elimination> {
         let mut all = Elimination::ALL.into_iter();
         all.find(|e| e.about() == method.about())
     }
@@ -78,9 +78,13 @@ impl Elimination {
     ///
     /// # Complexity
     /// O(6k · f · min(6k, f)).
-    pub fn rank(self, closure: &Closure<f64>, tolerance: f64) -> Result<NumericRank, NumericError> {
+    pub fn rank_of_closure(
+        self,
+        closure: &Closure<f64>,
+        tolerance: f64,
+    ) -> Result<NumericRank, NumericError> {
         let matrix = match self {
-            Elimination::Svd => scaled(closure),
+            Elimination::Svd => scaled_matrix(closure),
             _ => as_it_stands(closure),
         };
         self.rank_of(&matrix, tolerance)
@@ -96,8 +100,8 @@ impl Elimination {
         tolerance: f64,
     ) -> Result<NumericRank, NumericError> {
         let values = match self {
-            Elimination::Lu32 => Format::Single.pivots(matrix),
-            Elimination::Lu => Format::Double.pivots(matrix),
+            Elimination::Lu32 => Format::Single.lu_pivots(matrix),
+            Elimination::Lu => Format::Double.lu_pivots(matrix),
             Elimination::Qr32 => Format::Single.qr_diagonal(matrix),
             Elimination::Qr => Format::Double.qr_diagonal(matrix),
             Elimination::Svd => singular_values(matrix).ok_or(NumericError::NoConvergence)?,
@@ -109,11 +113,11 @@ impl Elimination {
     /// tolerance between the largest dropped value and the smallest kept one, so a few decompositions serve many
     /// tolerances.
     #[must_use]
-    pub fn mobilities(self, closure: &Closure<f64>, tolerances: &[f64]) -> Vec<Option<i64>> {
+    pub fn mobilities_at(self, closure: &Closure<f64>, tolerances: &[f64]) -> Vec<Option<i64>> {
         let mut last: Option<NumericRank> = None;
         let of = |&t: &f64| {
             if last.is_none_or(|l| t < l.dropped || t >= l.kept) {
-                last = self.rank(closure, t).ok();
+                last = self.rank_of_closure(closure, t).ok();
             }
             let free = closure.columns.len().checked_sub(last?.rank)?;
             i64::try_from(free).ok()
@@ -123,7 +127,7 @@ impl Elimination {
 
     /// Returns the certainty of a rank found at a tolerance.
     #[must_use]
-    pub fn certainty(self, rank: NumericRank, tolerance: f64) -> Certainty {
+    pub fn certainty_of(self, rank: NumericRank, tolerance: f64) -> Certainty {
         Certainty::Numeric {
             values: match self {
                 Elimination::Lu32 => "f32 pivots",
@@ -148,7 +152,7 @@ pub(crate) fn rank_with_tolerance(
     closure: &Closure<f64>,
     tolerance: f64,
 ) -> Result<NumericRank, NumericError> {
-    Elimination::Svd.rank(closure, tolerance)
+    Elimination::Svd.rank_of_closure(closure, tolerance)
 }
 
 const CUBIC: &str = "O(6k f min(6k, f))";
@@ -212,9 +216,9 @@ impl MobilityMethod for Elimination {
         let closure = Closure::new(&Reals, mechanism, state)?;
         let tolerance = self.default_tolerance();
         let rank = self
-            .rank(&closure, tolerance)
+            .rank_of_closure(&closure, tolerance)
             .map_err(|e| NoAnswer::Failed(e.to_string()))?;
-        let certainty = self.certainty(rank, tolerance);
+        let certainty = self.certainty_of(rank, tolerance);
         Ok(Answer::at_pose(closure.columns.len(), rank.rank, certainty))
     }
 }

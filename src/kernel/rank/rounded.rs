@@ -7,20 +7,20 @@ pub mod verdict;
 use crate::closure::twist::FrameValues;
 use crate::geom::Reals;
 use crate::geom::extent::Extent;
-use crate::geom::vector::{Vector, length, real};
+use crate::geom::vector::{Vector, length, to_vector};
 use crate::model::mechanism::{JointId, Mechanism, Mode};
 use crate::model::rounded::Uncertainties;
 
 /// Returns the reference size of a mechanism for relative tolerances. It is half the diagonal of the bounding box of
 /// its joints, or their distance from the origin if they are at one point.
 #[must_use]
-pub fn size(mechanism: &Mechanism) -> f64 {
+pub fn mechanism_size(mechanism: &Mechanism) -> f64 {
     let points: Vec<Vector> = mechanism
         .joints
         .iter()
-        .map(|j| real(&j.frame.point))
+        .map(|j| to_vector(&j.frame.point))
         .collect();
-    Extent::of(&points).length
+    Extent::from_points(&points).length
 }
 
 /// A coordinate that rounding may have moved.
@@ -38,12 +38,12 @@ pub(in crate::rank) struct Coordinate {
 }
 
 /// Returns the coordinates of some joints that may be rounded.
-pub(in crate::rank) fn coordinates(
+pub(in crate::rank) fn rounded_coordinates(
     m: &Mechanism,
     joints: impl IntoIterator<Item = JointId>,
     half: &Uncertainties,
 ) -> Vec<Coordinate> {
-    let size = size(m);
+    let size = mechanism_size(m);
     // In a plane, axes must stay perpendicular to it.
     let vectors = match m.mode {
         Mode::Spatial => 3,
@@ -53,7 +53,7 @@ pub(in crate::rank) fn coordinates(
     for joint in joints {
         let (frame, half) = (&m.joints[joint].frame, &half.frames[joint.index()]);
         let halves = [half.point, half.axis, half.reference];
-        let all = [&frame.point, &frame.axis, &frame.reference].map(real);
+        let all = [&frame.point, &frame.axis, &frame.reference].map(to_vector);
         for (vector, (of, halves)) in all.into_iter().zip(halves).enumerate().take(vectors) {
             let of_vector = of.into_iter().zip(halves).enumerate();
             let inexact = of_vector.filter(|(_, (_, half))| *half > 0.0);
@@ -73,7 +73,7 @@ pub(in crate::rank) fn coordinates(
 /// Returns the values of a joint's frame with a coordinate changed.
 pub(in crate::rank) fn frame_with(m: &Mechanism, c: &Coordinate, value: f64) -> FrameValues<f64> {
     let frame = &m.joints[c.joint].frame;
-    let mut vectors = [&frame.point, &frame.axis, &frame.reference].map(real);
+    let mut vectors = [&frame.point, &frame.axis, &frame.reference].map(to_vector);
     vectors[c.vector][c.component] = value;
-    FrameValues::of(&Reals, vectors, frame.pitch.to_f64())
+    FrameValues::from_vectors(&Reals, vectors, frame.pitch.to_f64())
 }

@@ -8,8 +8,8 @@ use crate::rank::exact::certificate::{self, Budget};
 pub use crate::rank::exact::field::exact_field;
 use crate::rank::exact::field::field_of;
 use crate::rank::exact::modular;
-use crate::rank::finite::{Finite, finite, followed};
-use crate::rank::method::auto::{Decision, decide};
+use crate::rank::finite::{Finite, finite_mobility, followed_mobility};
+use crate::rank::method::auto::{Decision, decide_state};
 use crate::rank::method::{Certainty, MobilityMethod, RankOfJ};
 pub use crate::rank::numeric::Elimination;
 use crate::rank::numeric::NumericRank;
@@ -18,12 +18,12 @@ use crate::rank::rounded::verdict::Meant;
 use crate::redundancy::AnalysisError;
 use crate::redundancy::contour_shares::Measured;
 pub use crate::redundancy::contour_shares::{ContourShare, CouplingShare};
-use crate::redundancy::contour_shares::{coupling_shares, shares};
+use crate::redundancy::contour_shares::{contour_shares, coupling_shares};
 pub use crate::redundancy::external::External;
-use crate::redundancy::external::{external, freedoms_of, int, present_links};
+use crate::redundancy::external::{external_constraints, freedoms_of, present_links, to_i64};
 use crate::redundancy::local_mobility::{Idle, idle_motions};
 use crate::redundancy::motion::{DriveFault, drive_faults};
-use crate::redundancy::motion::{motions, outputs, span_of_links};
+use crate::redundancy::motion::{motion_basis, output_links, span_of_links};
 use crate::redundancy::stress::{SelfStress, self_stresses};
 
 /// Method for the rank.
@@ -41,12 +41,12 @@ impl Method {
     /// Returns the rank method for a method from the list of all names. `tolerance` replaces the default in floating
     /// point. Returns `None` for a method that only gives a mobility.
     #[must_use]
-    pub fn of(method: &dyn MobilityMethod, tolerance: Option<f64>) -> Option<Method> {
+    pub fn of_method(method: &dyn MobilityMethod, tolerance: Option<f64>) -> Option<Method> {
         match method.about().rank {
             RankOfJ::Chosen => Some(Method::Auto),
             RankOfJ::Exact => Some(Method::Modular),
             RankOfJ::Numeric => {
-                let elimination = Elimination::of(method)?;
+                let elimination = Elimination::of_method(method)?;
                 let tolerance = tolerance.unwrap_or(elimination.default_tolerance());
                 Some(Method::Numeric(elimination, tolerance))
             }
@@ -131,7 +131,7 @@ impl StateAnalysis {
 /// # Errors
 /// Returns an error if the geometry has no exact image, the singular values fail, two primes disagree, or a certificate
 /// proves another rank.
-pub fn analyse(
+pub fn analyse_states(
     mechanism: &Mechanism,
     states: &[StateId],
     method: Method,
@@ -139,28 +139,31 @@ pub fn analyse(
     states
         .iter()
         .map(|&s| match method {
-            Method::Auto => chosen(mechanism, s),
-            Method::Modular => exactly(mechanism, s, None),
+            Method::Auto => analyse_by_choice(mechanism, s),
+            Method::Modular => analyse_exactly(mechanism, s, None),
             Method::Numeric(elimination, tolerance) => {
                 let real = Closure::new(&Reals, mechanism, s)?;
-                let rank = elimination.rank(&real, tolerance)?;
-                numerically(mechanism, s, elimination, rank, tolerance, None)
+                let rank = elimination.rank_of_closure(&real, tolerance)?;
+                analyse_numerically(mechanism, s, elimination, rank, tolerance, None)
             }
         })
         .collect()
 }
 
 /// Analyses a state by the automatic choice.
-fn chosen(mechanism: &Mechanism, state: StateId) -> Result<StateAnalysis, AnalysisError> {
+fn analyse_by_choice(
+    mechanism: &Mechanism,
+    state: StateId,
+) -> Result<StateAnalysis, AnalysisError> {
     let Decision {
         verdict,
         finite,
         line,
-    } = decide(mechanism, state)?;
+    } = decide_state(mechanism, state)?;
     let as_written = (verdict.as_written != verdict.rank()).then_some(verdict.as_written);
     let whole = match &verdict.meant {
-        Meant::AsWritten => exactly(mechanism, state, Some(finite))?,
-        Meant::Snapped { mechanism, .. } => exactly(mechanism, state, Some(finite))?,
+        Meant::AsWritten => analyse_exactly(mechanism, state, Some(finite))?,
+        Meant::Snapped { mechanism, .. } => analyse_exactly(mechanism, state, Some(finite))?,
         Meant::Near {
             mechanism: near,
             rank,
@@ -171,8 +174,8 @@ fn chosen(mechanism: &Mechanism, state: StateId) -> Result<StateAnalysis, Analys
                 ..verdict.numeric.unwrap_or_default()
             };
             StateAnalysis {
-                certainty: Elimination::Svd.certainty(found, verdict.tolerance),
-                ..numerically(
+                certainty: Elimination::Svd.certainty_of(found, verdict.tolerance),
+                ..analyse_numerically(
                     near,
                     state,
                     Elimination::Svd,
@@ -190,10 +193,10 @@ fn chosen(mechanism: &Mechanism, state: StateId) -> Result<StateAnalysis, Analys
                 kept: verdict.numeric.unwrap_or_default().kept,
                 dropped: verdict.numeric.unwrap_or_default().dropped,
             },
-            ..exactly(mechanism, state, Some(finite))?
+            ..analyse_exactly(mechanism, state, Some(finite))?
         },
     };
-    let (meant, snapped) = snapped(verdict.meant);
+    let (meant, snapped) = snapped_relations(verdict.meant);
     Ok(StateAnalysis {
         choice: Some(line),
         meant,
@@ -204,7 +207,7 @@ fn chosen(mechanism: &Mechanism, state: StateId) -> Result<StateAnalysis, Analys
 }
 
 /// Returns the snapped mechanism, and the recovered relations.
-fn snapped(meant: Meant) -> (Option<Box<Mechanism>>, Vec<String>) {
+fn snapped_relations(meant: Meant) -> (Option<Box<Mechanism>>, Vec<String>) {
     match meant {
         Meant::Snapped {
             mechanism,
@@ -217,7 +220,7 @@ fn snapped(meant: Meant) -> (Option<Box<Mechanism>>, Vec<String>) {
 
 /// Analyses a state by a floating-point rank. If it differs from the exact one, everything else comes from singular
 /// values.
-fn numerically(
+fn analyse_numerically(
     mechanism: &Mechanism,
     state: StateId,
     by: Elimination,
@@ -227,21 +230,23 @@ fn numerically(
 ) -> Result<StateAnalysis, AnalysisError> {
     let whole = StateAnalysis {
         method: by.name(),
-        certainty: by.certainty(rank, tolerance),
-        ..exactly(mechanism, state, known)?
+        certainty: by.certainty_of(rank, tolerance),
+        ..analyse_exactly(mechanism, state, known)?
     };
     let rank = rank.rank;
     let finite = match known {
         Some(known) => known,
         None if rank == whole.rank => whole.finite.by_numeric_rank(),
-        None => followed(mechanism, state, whole.freedoms - rank, tolerance)?.by_numeric_rank(),
+        None => {
+            followed_mobility(mechanism, state, whole.freedoms - rank, tolerance)?.by_numeric_rank()
+        }
     };
     let whole = StateAnalysis { finite, ..whole };
     if rank == whole.rank {
         return Ok(whole);
     }
     let measured = Measured::new(mechanism, state, tolerance)?;
-    let working_mobility = measured.span_of_links(&outputs(mechanism));
+    let working_mobility = measured.span_of_links(&output_links(mechanism));
     let external = match &whole.external {
         Some(e) => external_by(mechanism, tolerance, &whole, e, &measured)?,
         None => None,
@@ -253,7 +258,7 @@ fn numerically(
         working_mobility,
         local_mobility: measured.mobility().saturating_sub(working_mobility),
         least_rows: None,
-        per_contour: measured.shares(),
+        per_contour: measured.contour_shares(),
         per_coupling: measured.coupling_shares(),
         external,
         idle: Vec::new(),
@@ -276,16 +281,19 @@ fn external_by(
     let free = Measured::new(mechanism, StateId::FREE, tolerance)?;
     let free_rows = Closure::new(&Reals, mechanism, StateId::FREE)?;
     let free_redundant = free_rows.rows() + free.mobility() - free_rows.columns.len();
-    let (actual, working) = (int(free.mobility()), int(measured.span_of_joints(&own)));
+    let (actual, working) = (
+        to_i64(free.mobility()),
+        to_i64(measured.span_of_joints(&own)),
+    );
     let redundant = whole.rows + measured.mobility() - whole.freedoms;
-    let bodies = e.lost_mobility + int(whole.mobility) - e.working_mobility;
-    let lost = bodies - (int(measured.mobility()) - working);
+    let bodies = e.lost_mobility + to_i64(whole.mobility) - e.working_mobility;
+    let lost = bodies - (to_i64(measured.mobility()) - working);
     let found = External {
         actual_mobility: actual,
         working_mobility: working,
         lost_mobility: lost,
         redundant: e.constraints - (actual - working) - lost,
-        by_rank: int(redundant) - int(free_redundant),
+        by_rank: to_i64(redundant) - to_i64(free_redundant),
         ..*e
     };
     // Ranks of two states at a tolerance may contradict each other. Neither is reported then.
@@ -306,7 +314,11 @@ const CERTIFICATE: Budget = Budget {
 ///
 /// # Errors
 /// Returns [`AnalysisError::Refuted`] if the certificate proves another rank.
-fn proven(mechanism: &Mechanism, state: StateId, rank: usize) -> Result<bool, AnalysisError> {
+fn has_certificate(
+    mechanism: &Mechanism,
+    state: StateId,
+    rank: usize,
+) -> Result<bool, AnalysisError> {
     match certificate::certify_within(mechanism, state, CERTIFICATE) {
         Err(_) => Ok(false),
         Ok(c) if c.rank == rank => Ok(true),
@@ -319,7 +331,7 @@ fn proven(mechanism: &Mechanism, state: StateId, rank: usize) -> Result<bool, An
 }
 
 /// Returns the certainty of a rank by the first of two fields, after checking it with the second.
-fn certainty(
+fn rank_certainty(
     mechanism: &Mechanism,
     state: StateId,
     fields: &[ExactField; 2],
@@ -329,7 +341,7 @@ fn certainty(
     let [_, other] = fields;
     let ranks = [
         rank,
-        modular::rank(other, &Closure::new(other, mechanism, state)?),
+        modular::rank_modulo(other, &Closure::new(other, mechanism, state)?),
     ];
     let primes = fields.each_ref().map(|f| f.field().modulus());
     if ranks[0] != ranks[1] {
@@ -342,16 +354,18 @@ fn certainty(
         });
     }
     // A certificate would apply to the digits used for π.
-    Ok(if !mechanism.has_pi() && proven(mechanism, state, rank)? {
-        Certainty::Proven { primes }
-    } else {
-        Certainty::Modular { primes }
-    })
+    Ok(
+        if !mechanism.has_pi() && has_certificate(mechanism, state, rank)? {
+            Certainty::Proven { primes }
+        } else {
+            Certainty::Modular { primes }
+        },
+    )
 }
 
 /// Analyses a state with exact geometry. `known` is the finite mobility if it was already found, because following a
 /// motion takes the most time.
-fn exactly(
+fn analyse_exactly(
     mechanism: &Mechanism,
     state: StateId,
     known: Option<Finite>,
@@ -364,13 +378,13 @@ fn exactly(
     let closure = Closure::new(exact, mechanism, state)?;
     let least_rows = LeastRows::new(exact, mechanism, &closure)?;
     let rank = least_rows.rank();
-    let certainty = certainty(mechanism, state, &fields, rank)?;
-    let kernel = motions(exact, &closure);
-    let outputs = outputs(mechanism);
+    let certainty = rank_certainty(mechanism, state, &fields, rank)?;
+    let kernel = motion_basis(exact, &closure);
+    let outputs = output_links(mechanism);
     let working_mobility = span_of_links(exact, mechanism, &closure, &kernel, &outputs);
     let finite = match known {
         Some(known) => known,
-        None => finite(exact, mechanism, &closure, rank)?,
+        None => finite_mobility(exact, mechanism, &closure, rank)?,
     };
     let drives = drive_faults(
         exact,
@@ -391,7 +405,7 @@ fn exactly(
     let links = present_links(mechanism, &joints);
     let constraints: i64 = joints
         .iter()
-        .map(|&j| int(closure.dim) - int(freedoms_of(&closure, j)))
+        .map(|&j| to_i64(closure.dim) - to_i64(freedoms_of(&closure, j)))
         .sum();
     Ok(StateAnalysis {
         state: mechanism.states[state].clone(),
@@ -407,14 +421,14 @@ fn exactly(
         working_mobility,
         local_mobility: kernel.len() - working_mobility,
         redundant: closure.rows() - rank,
-        formula_mobility: int(closure.dim) * (int(links.len()) - 1)
+        formula_mobility: to_i64(closure.dim) * (to_i64(links.len()) - 1)
             - constraints
-            - int(closure.couplings.len()),
+            - to_i64(closure.couplings.len()),
         least_rows: Some(least_rows),
-        per_contour: shares(exact, &closure),
+        per_contour: contour_shares(exact, &closure),
         per_coupling: coupling_shares(exact, mechanism, &closure),
         external: (state != StateId::FREE)
-            .then(|| external(exact, mechanism, &closure, &kernel))
+            .then(|| external_constraints(exact, mechanism, &closure, &kernel))
             .transpose()?,
         idle,
         self_stresses: self_stresses(exact, mechanism, &closure)?,

@@ -7,7 +7,7 @@ use crate::geom::exact::{ExactError, ExactField};
 use crate::linalg::echelon::Echelon;
 use crate::linalg::modp::Residue;
 use crate::model::mechanism::{JointId, LinkId, Mechanism, StateId};
-use crate::rank::numeric::scaling::{Scaling, scaled};
+use crate::rank::numeric::scaling::{Scaling, scaled_matrix};
 use crate::redundancy::stress::stress_basis;
 use ozols_dense::{Matrix, singular_values, svd};
 
@@ -79,7 +79,7 @@ pub(crate) fn coupling_shares(
 /// One elimination of J by rows, then O(σ·k) to examine the basis and an elimination of at most `dim` independent rows
 /// per contour. By the definition it would be k + 2 eliminations of J.
 #[must_use]
-pub fn shares(exact: &ExactField, closure: &Closure<Residue>) -> Vec<ContourShare> {
+pub fn contour_shares(exact: &ExactField, closure: &Closure<Residue>) -> Vec<ContourShare> {
     let dim = closure.dim;
     let stresses = stress_basis(exact, closure);
     let mut ending = vec![0; closure.contours.len()];
@@ -127,7 +127,7 @@ pub fn shares(exact: &ExactField, closure: &Closure<Residue>) -> Vec<ContourShar
                 redundant: ending[i],
                 range: (dim - ranks(&mut own), greatest),
                 over_bases: over_bases(&closure.contours, i, greatest, |weights| {
-                    let mixed = loaded.iter().map(|s| combined(exact, s, weights, dim));
+                    let mixed = loaded.iter().map(|s| combine_parts(exact, s, weights, dim));
                     let mixed: Vec<Vec<Residue>> = mixed.collect();
                     ranks(&mut mixed.iter().map(Vec::as_slice))
                 }),
@@ -143,7 +143,7 @@ fn loaded_parts(stress: &[Residue], dim: usize) -> impl Iterator<Item = (usize, 
 }
 
 /// Returns the parts of a self-stress in the loops' rows, times these weights and summed.
-fn combined(
+fn combine_parts(
     exact: &ExactField,
     stress: &[(usize, &[Residue])],
     weights: &[i64],
@@ -177,7 +177,7 @@ pub(crate) fn over_bases(
     carried: impl Fn(&[i64]) -> usize,
 ) -> (usize, usize) {
     let any: Vec<i64> = (0..contours.len())
-        .map(|j| if j == i { 1 } else { scattered(j) })
+        .map(|j| if j == i { 1 } else { scattered_number(j) })
         .collect();
     let most = carried(&any).max(greatest);
     let mut reached = greatest;
@@ -187,7 +187,7 @@ pub(crate) fn over_bases(
             break;
         }
         let passes = |c: &Contour| {
-            c.direction(joint)
+            c.direction_of(joint)
                 .map_or(0, |d| if d == forward { 1 } else { -1 })
         };
         let weights: Vec<i64> = contours.iter().map(passes).collect();
@@ -200,7 +200,7 @@ pub(crate) fn over_bases(
 }
 
 /// Returns numbers unrelated to the geometry, of either sign and up to about a thousand.
-fn scattered(n: usize) -> i64 {
+fn scattered_number(n: usize) -> i64 {
     let mixed = (n as u64 + 1).wrapping_mul(0x9e37_79b9_7f4a_7c15);
     i64::try_from(mixed >> 53).unwrap_or(1) - 1023
 }
@@ -232,7 +232,7 @@ impl<'a> Measured<'a> {
         tolerance: f64,
     ) -> Result<Self, ExactError> {
         let closure = Closure::new(&Reals, mechanism, state)?;
-        let matrix = scaled(&closure);
+        let matrix = scaled_matrix(&closure);
         let f = closure.columns.len();
         let (mut floor, mut kernel) = (0.0, Matrix::identity(f, f));
         if let Some(svd) = svd(&matrix) {
@@ -265,14 +265,14 @@ impl<'a> Measured<'a> {
     /// Returns the dimension of the joint motion of some links.
     #[must_use]
     pub(crate) fn span_of_links(&self, links: &[LinkId]) -> usize {
-        let scaling = Scaling::of(&self.closure);
+        let scaling = Scaling::of_closure(&self.closure);
         let twists: Vec<Vec<Vec<f64>>> = links
             .iter()
             .map(|&l| {
                 let path = self.closure.link_motion(&Reals, self.mechanism, l);
                 path.iter()
                     .enumerate()
-                    .map(|(c, t)| scaling.apply(c, t))
+                    .map(|(c, t)| scaling.scale_column(c, t))
                     .collect()
             })
             .collect();
@@ -330,7 +330,7 @@ impl<'a> Measured<'a> {
     /// # Complexity
     /// 3k decompositions.
     #[must_use]
-    pub fn shares(&self) -> Vec<ContourShare> {
+    pub fn contour_shares(&self) -> Vec<ContourShare> {
         let dim = self.closure.dim;
         let all: Vec<usize> = (0..self.closure.contours.len()).collect();
         let couplings: Vec<usize> = (0..self.closure.couplings.len()).collect();

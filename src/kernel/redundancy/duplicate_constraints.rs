@@ -2,15 +2,15 @@
 //! remove it.
 
 use crate::closure::tree::spanning_tree;
-use crate::geom::vector::{Vector, cross, length, real, unit};
+use crate::geom::vector::{Vector, cross, length, to_vector, unit};
 use crate::model::joint_type::JointType;
 use crate::model::mechanism::{JointId, Mechanism, Role, StateId};
 use crate::motion::pose::Pose;
-use crate::motion::{moved, turned_back};
+use crate::motion::{move_mechanism, turned_back};
 use crate::rank::method::Certainty;
-use crate::rank::rounded::verdict::{Meant, RankVerdict, verdict};
+use crate::rank::rounded::verdict::{Meant, RankVerdict, rank_verdict};
 use crate::redundancy::AnalysisError;
-use crate::redundancy::analysis::{Method, StateAnalysis, analyse};
+use crate::redundancy::analysis::{Method, StateAnalysis, analyse_states};
 use crate::redundancy::other_poses::{Where, redundant_where};
 use crate::redundancy::release::{Duplicate, Release};
 use crate::redundancy::stressed::Stressed;
@@ -84,7 +84,7 @@ impl HeldTwice {
         let (lasting, releases, built) = match elsewhere {
             None => {
                 let built = as_built(m, part, &here);
-                (part.redundant(), here, built)
+                (part.count_redundant(), here, built)
             }
             Some((_, None)) => (0, Vec::new(), Vec::new()),
             // Lasting constraints are identified in the other pose, which has no others, and converted back to this
@@ -93,15 +93,15 @@ impl HeldTwice {
                 let [theirs, releases] = find(there);
                 let built = as_built(m, there, &releases);
                 let back = |r: &Release| taken_back(m, pose, r);
-                let chosen = there.cheapest(&theirs);
+                let chosen = there.cheapest_releases(&theirs);
                 let first = chosen.iter().map(|&i| (FIRST, back(&theirs[i].1)));
                 rows.splice(0..0, first);
                 let releases = releases.iter().map(|(c, r)| (*c, back(r))).collect();
-                (there.redundant(), releases, built)
+                (there.count_redundant(), releases, built)
             }
         };
         let before = self.releases.len();
-        let mut list = part.duplicates(&rows, &releases);
+        let mut list = part.find_duplicates(&rows, &releases);
         for d in &mut list {
             d.remedies.iter_mut().for_each(|i| *i += before);
         }
@@ -132,7 +132,7 @@ pub fn held_twice(
     inside: Option<&dyn Fn(&Pose) -> bool>,
 ) -> Result<HeldTwice, AnalysisError> {
     let state = StateId::FREE;
-    let mut found = analyse(m, &[state], Method::Auto)?;
+    let mut found = analyse_states(m, &[state], Method::Auto)?;
     let analysis = found.remove(0);
     let mut out = HeldTwice {
         analysis,
@@ -147,21 +147,21 @@ pub fn held_twice(
     if most == 0 {
         return Ok(out);
     }
-    let meant = verdict(m, state)?;
-    let geometry = meant.mechanism().unwrap_or(m);
+    let meant = rank_verdict(m, state)?;
+    let geometry = meant.intended_mechanism().unwrap_or(m);
     let elsewhere = match inside {
-        Some(inside) => out.look_elsewhere(geometry, errors(&meant), inside)?,
+        Some(inside) => out.look_elsewhere(geometry, value_errors(&meant), inside)?,
         None => None,
     };
     let there = match &elsewhere {
-        Some(pose) => match moved(geometry, pose) {
+        Some(pose) => match move_mechanism(geometry, pose) {
             Some(there) => Some((pose, there)),
             None => return Ok(out),
         },
         None => None,
     };
     let rows = out.analysis.rows;
-    let parts = |m, redundant| Stressed::parts(m, state, rows - redundant);
+    let parts = |m, redundant| Stressed::stressed_parts(m, state, rows - redundant);
     let lasting = match &there {
         Some((pose, there)) => parts(there, out.lasting)?.map(|parts| Some((*pose, parts))),
         None => Some(None),
@@ -169,7 +169,7 @@ pub fn held_twice(
     let (Some(here), Some(lasting)) = (parts(geometry, most)?, lasting) else {
         return Ok(out);
     };
-    let find = |part: &Stressed<'_>| candidates(m, part, closes, may);
+    let find = |part: &Stressed<'_>| find_candidates(m, part, closes, may);
     let mut lists = [Vec::new(), Vec::new()];
     for part in &here {
         let elsewhere = lasting.as_ref().map(|(pose, parts)| {
@@ -188,17 +188,17 @@ pub fn held_twice(
 
 /// Returns the share of the largest singular value below which values count as zero, and the relative error of
 /// coordinates, 0 if they are exact.
-fn errors(meant: &RankVerdict) -> [f64; 2] {
+fn value_errors(meant: &RankVerdict) -> [f64; 2] {
     let accuracy = match meant.meant {
         Meant::AsWritten | Meant::Snapped { .. } => 0.0,
         Meant::Near { .. } | Meant::Undecided { .. } => meant.tolerance,
     };
-    [tolerance(meant), accuracy]
+    [value_tolerance(meant), accuracy]
 }
 
 /// Returns the relative singular value below which values count as zero: between the kept and the dropped ones, if
 /// coordinates are rounded.
-fn tolerance(meant: &RankVerdict) -> f64 {
+fn value_tolerance(meant: &RankVerdict) -> f64 {
     let gap = meant
         .numeric
         .map_or(FLAT, |n| (n.kept * n.dropped.max(1e-13)).sqrt());
@@ -234,7 +234,7 @@ type Costed = Vec<(i64, Release)>;
 
 /// Returns the constraints that self-stresses load, in the order of the report, and the allowed releases with their
 /// costs.
-fn candidates(
+fn find_candidates(
     m: &Mechanism,
     stressed: &Stressed<'_>,
     closes: &dyn Fn(JointId) -> bool,
@@ -249,10 +249,10 @@ fn candidates(
         }
     }
     for &j in &stressed.joints {
-        for r in stressed.at(j) {
+        for r in stressed.releases_at(j) {
             rows.push((if closes(j) { 1 } else { 2 }, r));
             if may(&r) {
-                releases.push((cost(m, &r, closes(j)), r));
+                releases.push((release_cost(m, &r, closes(j)), r));
             }
         }
     }
@@ -278,7 +278,7 @@ fn as_built(m: &Mechanism, stressed: &Stressed<'_>, candidates: &[(i64, Release)
         let mut steps = tree.iter();
         steps.any(|s| s.joint == j && m.links[s.link].role == Role::Output)
     };
-    stressed.chosen(candidates, &|i, chosen| {
+    stressed.choose_releases(candidates, &|i, chosen| {
         let (cost, release) = &candidates[i];
         let Release::Freedom { joint, slides, .. } = *release else {
             return *cost;
@@ -305,7 +305,7 @@ fn as_built(m: &Mechanism, stressed: &Stressed<'_>, candidates: &[(i64, Release)
 const COUPLING: i64 = 500;
 
 /// Returns the cost of a release, in thousandths of a revolute joint. A pin that may slide is the cheapest.
-fn cost(m: &Mechanism, release: &Release, closes: bool) -> i64 {
+fn release_cost(m: &Mechanism, release: &Release, closes: bool) -> i64 {
     let Release::Freedom {
         joint,
         slides,
@@ -317,7 +317,7 @@ fn cost(m: &Mechanism, release: &Release, closes: bool) -> i64 {
     let j = &m.joints[joint];
     let pin = j.joint_type == JointType::Revolute
         && slides
-        && parallel(unit(real(&j.frame.axis)), direction);
+        && is_parallel(unit(to_vector(&j.frame.axis)), direction);
     match (closes, pin, slides) {
         (false, true, _) => 1500,
         (true, _, true) => 1750,
@@ -326,6 +326,6 @@ fn cost(m: &Mechanism, release: &Release, closes: bool) -> i64 {
     }
 }
 
-fn parallel(a: Vector, b: Vector) -> bool {
+fn is_parallel(a: Vector, b: Vector) -> bool {
     length(cross(a, b)) < 1e-6
 }

@@ -28,29 +28,29 @@ pub struct External {
 }
 
 /// Returns the external constraints of the state of `closure`; `kernel` is a basis of its motions.
-pub(super) fn external(
+pub(super) fn external_constraints(
     exact: &ExactField,
     mechanism: &Mechanism,
     closure: &Closure<Residue>,
     kernel: &[Speeds],
 ) -> Result<External, ExactError> {
     let free = Closure::new(exact, mechanism, StateId::FREE)?;
-    let free_rank = modular::rank(exact, &free);
-    let rank = modular::rank(exact, closure);
+    let free_rank = modular::rank_modulo(exact, &free);
+    let rank = modular::rank_modulo(exact, closure);
     let own: Vec<JointId> = mechanism.joints_in(StateId::FREE).collect();
     let all: Vec<JointId> = mechanism.joints_in(closure.state).collect();
     let added = || mechanism.joints_added_in(closure.state);
     let of_joints: i64 = added()
-        .map(|j| int(closure.dim) - int(freedoms_of(closure, j)))
+        .map(|j| to_i64(closure.dim) - to_i64(freedoms_of(closure, j)))
         .sum();
     let left_out = own.iter().filter(|j| !all.contains(j));
     let of_joints = of_joints
         - left_out
-            .map(|&j| int(closure.dim) - int(freedoms_of(&free, j)))
+            .map(|&j| to_i64(closure.dim) - to_i64(freedoms_of(&free, j)))
             .sum::<i64>();
-    let constraints = of_joints + int(closure.couplings.len()) - int(free.couplings.len());
+    let constraints = of_joints + to_i64(closure.couplings.len()) - to_i64(free.couplings.len());
     let bodies =
-        int(present_links(mechanism, &all).len()) - int(present_links(mechanism, &own).len());
+        to_i64(present_links(mechanism, &all).len()) - to_i64(present_links(mechanism, &own).len());
     // The mechanism's own part of each motion.
     let mut span = Echelon::new(exact.field());
     for speeds in kernel {
@@ -61,19 +61,19 @@ pub(super) fn external(
             .collect();
         span.insert(&part);
     }
-    let (actual, working) = (int(free.columns.len() - free_rank), int(span.rank()));
-    let lost = int(closure.dim) * bodies - (int(kernel.len()) - working);
+    let (actual, working) = (to_i64(free.columns.len() - free_rank), to_i64(span.rank()));
+    let lost = to_i64(closure.dim) * bodies - (to_i64(kernel.len()) - working);
     Ok(External {
         constraints,
         actual_mobility: actual,
         working_mobility: working,
         lost_mobility: lost,
         redundant: constraints - (actual - working) - lost,
-        by_rank: int(closure.rows() - rank) - int(free.rows() - free_rank),
+        by_rank: to_i64(closure.rows() - rank) - to_i64(free.rows() - free_rank),
     })
 }
 
-pub(super) fn int(x: usize) -> i64 {
+pub(super) fn to_i64(x: usize) -> i64 {
     i64::try_from(x).unwrap_or(i64::MAX)
 }
 

@@ -12,10 +12,10 @@ use crate::geom::exact::ExactError;
 use crate::geom::vector::{Vector, X, Y, Z, add, cross, dot, length, scale, sub};
 use crate::model::mechanism::{JointId, LinkId, Mechanism, StateId};
 use crate::motion::pose::{FLAT, Pose};
-use crate::rank::finite::local_dimension::motions;
+use crate::rank::finite::local_dimension::null_space_of;
 use crate::redundancy::analysis::StateAnalysis;
 use crate::redundancy::external::present_links;
-use crate::redundancy::motion::outputs;
+use crate::redundancy::motion::output_links;
 use ozols_dense::{Matrix, norm, svd};
 
 /// Maximum number of freedoms of a mechanism. For larger ones, singular vectors are computed only on request.
@@ -57,7 +57,7 @@ impl LinkMotion {
 
     /// Returns the twists (ω; v) about the origin in the file's unit: translations first.
     #[must_use]
-    pub fn twists(&self) -> Vec<[f64; 6]> {
+    pub fn motion_twists(&self) -> Vec<[f64; 6]> {
         let slides = self
             .slides
             .iter()
@@ -78,12 +78,12 @@ impl StateAnalysis {
     /// # Errors
     /// Returns an error if a coordinate has no value.
     pub fn output_motions(&self, mechanism: &Mechanism) -> Result<Vec<LinkMotion>, ExactError> {
-        let state = mechanism.state(&self.state).unwrap_or(StateId::FREE);
+        let state = mechanism.state_named(&self.state).unwrap_or(StateId::FREE);
         let joints: Vec<JointId> = mechanism.joints_in(state).collect();
         let there = present_links(mechanism, &joints);
-        let mut outputs = outputs(mechanism);
+        let mut outputs = output_links(mechanism);
         outputs.retain(|l| there.contains(l));
-        self.link_motions(mechanism, &outputs, mechanism.frame())
+        self.link_motions(mechanism, &outputs, mechanism.frame_link())
     }
 
     /// Returns the motions of some links relative to another in this state of the analysed mechanism. Empty if the
@@ -98,7 +98,7 @@ impl StateAnalysis {
         relative_to: LinkId,
     ) -> Result<Vec<LinkMotion>, ExactError> {
         let meant = self.meant.as_deref().unwrap_or(mechanism);
-        let state = mechanism.state(&self.state).unwrap_or(StateId::FREE);
+        let state = mechanism.state_named(&self.state).unwrap_or(StateId::FREE);
         link_motions(meant, state, links, relative_to, self.mobility)
     }
 }
@@ -122,7 +122,7 @@ fn link_motions(
     if pose.columns.len() > FREEDOMS {
         return Ok(Vec::new());
     }
-    let kernel = motions(&pose);
+    let kernel = null_space_of(&pose);
     if kernel.ncols() != mobility {
         return Ok(Vec::new());
     }
@@ -134,14 +134,19 @@ fn link_motions(
     let of = |(at, &link): (usize, &LinkId)| {
         let difference = |r: usize, c: usize| moved[(row(at + 1, r), c)] - moved[(row(0, r), c)];
         let relative = Matrix::from_fn(6, kernel.ncols(), difference);
-        named(&pose, link, relative_to, &relative)
+        name_motion(&pose, link, relative_to, &relative)
     };
     Ok(links.iter().enumerate().filter_map(of).collect())
 }
 
 /// Returns a span of twists in the lengths of a pose and about its middle as a motion, or `None` if singular values do
 /// not converge.
-fn named(pose: &Pose, link: LinkId, relative_to: LinkId, span: &Matrix) -> Option<LinkMotion> {
+fn name_motion(
+    pose: &Pose,
+    link: LinkId,
+    relative_to: LinkId,
+    span: &Matrix,
+) -> Option<LinkMotion> {
     let mut out = LinkMotion {
         link,
         relative_to,
@@ -162,7 +167,7 @@ fn named(pose: &Pose, link: LinkId, relative_to: LinkId, span: &Matrix) -> Optio
     let still = turns.null_space(rank);
     let slides = svd(&shifting.times(&still))?;
     let many = slides.values.iter().filter(|&&s| s > FLAT).count();
-    out.slides = (0..many).map(|c| vector(&slides.u, c)).collect();
+    out.slides = (0..many).map(|c| column_vector(&slides.u, c)).collect();
     let across = |v: Vector| {
         out.slides
             .iter()
@@ -172,12 +177,12 @@ fn named(pose: &Pose, link: LinkId, relative_to: LinkId, span: &Matrix) -> Optio
         .map(|i| {
             let along = turns.v.cols(i..i + 1);
             let by = 1.0 / turns.values[i];
-            let v = vector(&shifting.times(&along), 0);
-            [vector(&turns.u, i), across(scale(v, by))]
+            let v = column_vector(&shifting.times(&along), 0);
+            [column_vector(&turns.u, i), across(scale(v, by))]
         })
         .collect();
     if rank >= 2 {
-        out.meet = meeting(&each, &across).map(|p| placed(pose, p));
+        out.meet = meeting_point(&each, &across).map(|p| point_in_file(pose, p));
     }
     out.turns = each.iter().map(|[w, v]| turning_of(pose, *w, *v)).collect();
     Some(out)
@@ -189,19 +194,19 @@ fn turning_of(pose: &Pose, axis: Vector, v: Vector) -> Turning {
     let pitch = if pitch.abs() < FLAT { 0.0 } else { pitch };
     Turning {
         axis,
-        point: placed(pose, cross(axis, v)),
+        point: point_in_file(pose, cross(axis, v)),
         lead: pitch * std::f64::consts::TAU * pose.length,
     }
 }
 
 /// Returns a point in the file's unit.
-fn placed(pose: &Pose, p: Vector) -> Vector {
+fn point_in_file(pose: &Pose, p: Vector) -> Vector {
     add(scale(p, pose.length), pose.middle)
 }
 
 /// Returns the point about which all these twists are rotations, up to existing translations. Returns `None` if there
 /// is no such point, or more than one.
-fn meeting(twists: &[[Vector; 2]], across: &dyn Fn(Vector) -> Vector) -> Option<Vector> {
+fn meeting_point(twists: &[[Vector; 2]], across: &dyn Fn(Vector) -> Vector) -> Option<Vector> {
     // v = c × ω for each: three equations, linear in c.
     let units = [X, Y, Z];
     let matrix = Matrix::from_fn(3 * twists.len(), 3, |r, c| {
@@ -212,11 +217,11 @@ fn meeting(twists: &[[Vector; 2]], across: &dyn Fn(Vector) -> Vector) -> Option<
     if found.rank(FLAT) < 3 {
         return None;
     }
-    let c = vector(&found.least_norm(3, &right), 0);
+    let c = column_vector(&found.least_norm(3, &right), 0);
     let off = |[w, v]: &[Vector; 2]| length(sub(across(cross(c, *w)), *v));
     twists.iter().all(|t| off(t) < FLAT.sqrt()).then_some(c)
 }
 
-fn vector(m: &Matrix, c: usize) -> Vector {
+fn column_vector(m: &Matrix, c: usize) -> Vector {
     [0, 1, 2].map(|r| m[(r, c)])
 }

@@ -6,14 +6,14 @@ use crate::closure::tree::path_from_frame;
 use crate::geom::Scalars;
 use crate::geom::exact::{ExactError, ExactField};
 use crate::geom::rigid::RigidMotion;
-use crate::linalg::echelon::{Echelon, combination, relations};
+use crate::linalg::echelon::{Echelon, linear_combination, linear_relations};
 use crate::linalg::modp::Residue;
 use crate::model::mechanism::{JointId, LinkId, Mechanism, StateId};
 use crate::motion::drive_range::Way;
 use crate::motion::pose::{FLAT, Pose};
 use crate::rank::reduce::axis_names::Direction;
-use crate::redundancy::motion::{Speeds, twist};
-use ozols_dense::{add_scaled, difference, dot, largest, norm, svd};
+use crate::redundancy::motion::{Speeds, link_twist};
+use ozols_dense::{add_scaled, difference, dot, largest_entry, norm, svd};
 use std::f64::consts::TAU;
 
 /// One idle motion.
@@ -41,7 +41,7 @@ pub fn idle_motions(
     kernel: &[Speeds],
     outputs: &[LinkId],
 ) -> Vec<Idle> {
-    let ids = joined(mechanism, closure);
+    let ids = joined_links(mechanism, closure);
     let there = ids.iter().copied().filter(|l| outputs.contains(l));
     let there: Vec<LinkId> = there.collect();
     let all = at_rest(exact, mechanism, closure, kernel, &there);
@@ -57,16 +57,16 @@ pub fn idle_motions(
             continue;
         }
         let joints: Vec<JointId> = mechanism.joints_at(l, closure.state).collect();
-        for speeds in links.alone(l, &joints) {
+        for speeds in links.motions_alone(l, &joints) {
             if span.insert(&speeds) {
-                let own = twist(exact, &links.motion[at], &speeds);
+                let own = link_twist(exact, &links.motion[at], &speeds);
                 let rests = |j: &JointId| rests_at(exact, mechanism, *j, &own);
                 let turns = own.len() == 6 && own[..3].iter().any(|&x| x != 0);
                 found.push(Idle {
                     links: vec![l],
                     through: joints.iter().copied().filter(rests).collect(),
                     turns,
-                    direction: direction(exact, mechanism, &own),
+                    direction: motion_direction(exact, mechanism, &own),
                 });
             }
         }
@@ -74,7 +74,7 @@ pub fn idle_motions(
     for speeds in all {
         if span.insert(&speeds) {
             found.push(Idle {
-                links: links.moved(&speeds),
+                links: links.moved_links(&speeds),
                 through: Vec::new(),
                 turns: false,
                 direction: None,
@@ -85,7 +85,7 @@ pub fn idle_motions(
 }
 
 /// Returns the links that have a joint in a state.
-fn joined(mechanism: &Mechanism, closure: &Closure<Residue>) -> Vec<LinkId> {
+fn joined_links(mechanism: &Mechanism, closure: &Closure<Residue>) -> Vec<LinkId> {
     let is_joined = |l: &LinkId| mechanism.joints_at(*l, closure.state).next().is_some();
     mechanism.link_ids().filter(is_joined).collect()
 }
@@ -101,13 +101,13 @@ fn at_rest(
     let f = exact.field();
     let of_outputs = closure.link_motions(exact, mechanism, outputs);
     let moved = |speeds: &Speeds| {
-        let twists = of_outputs.iter().flat_map(|m| twist(exact, m, speeds));
+        let twists = of_outputs.iter().flat_map(|m| link_twist(exact, m, speeds));
         twists.chain([0]).collect()
     };
     let images: Vec<Vec<Residue>> = kernel.iter().map(moved).collect();
-    let all = relations(f, &images);
+    let all = linear_relations(f, &images);
     all.iter()
-        .map(|factors| combination(f, kernel, factors))
+        .map(|factors| linear_combination(f, kernel, factors))
         .collect()
 }
 
@@ -130,7 +130,7 @@ impl<'a> Links<'a> {
         closure: &'a Closure<Residue>,
         ids: Vec<LinkId>,
     ) -> Links<'a> {
-        let mut rows = closure.dense(exact);
+        let mut rows = closure.dense_columns(exact);
         rows.iter_mut().for_each(|r| r.push(0));
         Links {
             exact,
@@ -143,9 +143,9 @@ impl<'a> Links<'a> {
     }
 
     /// Returns the links that speeds move.
-    fn moved(&self, speeds: &Speeds) -> Vec<LinkId> {
+    fn moved_links(&self, speeds: &Speeds) -> Vec<LinkId> {
         let moving = |(_, m): &(&LinkId, &Vec<Vec<Residue>>)| {
-            twist(self.exact, m, speeds).iter().any(|&x| x != 0)
+            link_twist(self.exact, m, speeds).iter().any(|&x| x != 0)
         };
         let links = self.ids.iter().zip(&self.motion).filter(moving);
         links.map(|(l, _)| *l).collect()
@@ -153,7 +153,7 @@ impl<'a> Links<'a> {
 
     /// Returns the motions of a single link. Only its own joints move, and its neighbours and everything behind them
     /// are at rest.
-    fn alone(&self, link: LinkId, joints: &[JointId]) -> Vec<Speeds> {
+    fn motions_alone(&self, link: LinkId, joints: &[JointId]) -> Vec<Speeds> {
         let closure = self.closure;
         let mut neighbours: Vec<LinkId> = joints
             .iter()
@@ -183,7 +183,7 @@ impl<'a> Links<'a> {
                 .for_each(|(&c, speed)| speeds[c] = speed);
             speeds
         };
-        relations(self.exact.field(), &images)
+        linear_relations(self.exact.field(), &images)
             .into_iter()
             .map(whole)
             .collect()
@@ -191,7 +191,7 @@ impl<'a> Links<'a> {
 }
 
 /// Returns the rotation axis of a twist, or its direction of sliding if it does not turn.
-fn direction(exact: &ExactField, mechanism: &Mechanism, t: &[Residue]) -> Option<Direction> {
+fn motion_direction(exact: &ExactField, mechanism: &Mechanism, t: &[Residue]) -> Option<Direction> {
     let &[w0, w1, w2, v0, v1, v2] = t else {
         return None;
     };
@@ -200,7 +200,7 @@ fn direction(exact: &ExactField, mechanism: &Mechanism, t: &[Residue]) -> Option
     } else {
         [w0, w1, w2]
     };
-    Direction::of(exact, mechanism, of)
+    Direction::name_direction(exact, mechanism, of)
 }
 
 /// Returns true if a twist leaves a joint's point at rest: v + ω × p = 0.
@@ -241,17 +241,17 @@ pub struct Wiggle {
 /// # Complexity
 /// Singular values of a matrix of six rows per contour and per link at rest, for each motion up to the requested one.
 /// Then one closure per pose.
-pub fn wiggle(
+pub fn animate_idle(
     mechanism: &Mechanism,
     state: StateId,
     idle: &[Idle],
     which: usize,
 ) -> Result<Option<Wiggle>, ExactError> {
     let pose = Pose::of_file(mechanism, state)?;
-    let Some(speeds) = speeds(mechanism, state, &pose, idle, which) else {
+    let Some(speeds) = speeds_of_idle(mechanism, state, &pose, idle, which) else {
         return Ok(None);
     };
-    let largest = largest(&speeds);
+    let largest = largest_entry(&speeds);
     // links at rest in it stay at rest throughout
     let moving = |l: &LinkId| idle[which].links.contains(l);
     let rests = |&c: &usize| {
@@ -268,9 +268,9 @@ pub fn wiggle(
         let far = FAR * (TAU * step as f64 / STEPS as f64).sin();
         let ahead: Vec<f64> = speeds.iter().map(|x| x * far / largest).collect();
         let near = |q: &Vec<f64>| norm(&difference(q, &ahead)) <= ASTRAY * norm(&ahead);
-        let found = pose.close(ahead.clone(), &held).ok().filter(near);
+        let found = pose.close_loops(ahead.clone(), &held).ok().filter(near);
         closed &= found.is_some();
-        let mut there = pose.moved(&found.unwrap_or(ahead)).links;
+        let mut there = pose.moved_to(&found.unwrap_or(ahead)).links;
         // they are connected to moving links, within the closure tolerance
         for l in mechanism.link_ids().filter(|l| !moving(l)) {
             there[l.index()] = RigidMotion::IDENTITY;
@@ -290,7 +290,7 @@ pub fn wiggle(
 
 /// Returns the speeds of one of the motions: the null vectors under which the same links are at rest, less the earlier
 /// motions of some of these links.
-fn speeds(
+fn speeds_of_idle(
     mechanism: &Mechanism,
     state: StateId,
     pose: &Pose,

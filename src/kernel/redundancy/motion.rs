@@ -2,7 +2,7 @@
 //! show, and the working mobility,
 //! that of the output links.
 
-use crate::closure::drive::{rate, rate_row};
+use crate::closure::drive::{rate_of_twist, rate_row};
 use crate::closure::twist::MotionSpace;
 use crate::closure::{Closure, Column};
 use crate::geom::exact::{ExactError, ExactField};
@@ -17,8 +17,11 @@ pub type Speeds = Vec<Residue>;
 
 /// Returns the motions of a mechanism in its reference pose: a reduced basis of the kernel of J.
 #[must_use]
-pub fn motions(exact: &ExactField, closure: &Closure<Residue>) -> Vec<Speeds> {
-    echelon::relations(exact.field(), &columns_with_rows(&closure.dense(exact)))
+pub fn motion_basis(exact: &ExactField, closure: &Closure<Residue>) -> Vec<Speeds> {
+    echelon::linear_relations(
+        exact.field(),
+        &columns_with_rows(&closure.dense_columns(exact)),
+    )
 }
 
 /// Returns columns that have a row. Without contours J has none, and one row of zeros gives every column its own
@@ -30,12 +33,12 @@ fn columns_with_rows(columns: &[Vec<Residue>]) -> Vec<Vec<Residue>> {
 
 /// Returns the twist of a link under a motion.
 #[must_use]
-pub(crate) fn twist(
+pub(crate) fn link_twist(
     exact: &ExactField,
     link_motion: &[Vec<Residue>],
     speeds: &[Residue],
 ) -> Vec<Residue> {
-    echelon::combination(exact.field(), link_motion, speeds)
+    echelon::linear_combination(exact.field(), link_motion, speeds)
 }
 
 /// Returns the joint motion of some links and of the kept drives in a state. It is the reduced span of the links'
@@ -52,7 +55,7 @@ pub(crate) fn joint_motion(
     let closure = Closure::new(exact, mechanism, state)?;
     let of_links = closure.link_motions(exact, mechanism, links);
     let of_drives = drive_rates(exact, mechanism, &closure)?;
-    let mut columns = columns_with_rows(&closure.dense(exact));
+    let mut columns = columns_with_rows(&closure.dense_columns(exact));
     let mut kept: Vec<&Vec<Vec<Residue>>> = of_links.iter().collect();
     if mechanism.search.locks_drives {
         for (c, column) in columns.iter_mut().enumerate() {
@@ -62,11 +65,11 @@ pub(crate) fn joint_motion(
         kept.extend(&of_drives);
     }
     let mut span = Echelon::new(exact.field());
-    for speeds in echelon::relations(exact.field(), &columns) {
-        let of_each = kept.iter().flat_map(|m| twist(exact, m, &speeds));
+    for speeds in echelon::linear_relations(exact.field(), &columns) {
+        let of_each = kept.iter().flat_map(|m| link_twist(exact, m, &speeds));
         span.insert(&of_each.collect::<Vec<Residue>>());
     }
-    Ok(span.reduced())
+    Ok(span.reduced_rows())
 }
 
 /// Returns, for each drive that the search follows, the rate that each column of J gives it, as a list of one number.
@@ -81,7 +84,11 @@ fn drive_rates(
         let row = rate_row(exact, &space, mechanism, drive.joint, at)?.unwrap_or_default();
         let of_column = |c: &Column<Residue>| {
             let own = c.joint == drive.joint;
-            vec![if own { rate(exact, &row, &c.twist) } else { 0 }]
+            vec![if own {
+                rate_of_twist(exact, &row, &c.twist)
+            } else {
+                0
+            }]
         };
         Ok(closure.columns.iter().map(of_column).collect())
     };
@@ -101,13 +108,13 @@ pub fn working_mobility(
     state: StateId,
 ) -> Result<usize, ExactError> {
     let closure = Closure::new(exact, mechanism, state)?;
-    let kernel = motions(exact, &closure);
-    let outputs = outputs(mechanism);
+    let kernel = motion_basis(exact, &closure);
+    let outputs = output_links(mechanism);
     Ok(span_of_links(exact, mechanism, &closure, &kernel, &outputs))
 }
 
 /// Returns the links whose motion is wanted.
-pub(crate) fn outputs(mechanism: &Mechanism) -> Vec<LinkId> {
+pub(crate) fn output_links(mechanism: &Mechanism) -> Vec<LinkId> {
     mechanism
         .link_ids()
         .filter(|&l| mechanism.links[l].role == Role::Output)
@@ -125,7 +132,10 @@ pub(crate) fn span_of_links(
     let paths = closure.link_motions(exact, mechanism, links);
     let mut span = Echelon::new(exact.field());
     for speeds in kernel {
-        let all: Vec<Residue> = paths.iter().flat_map(|p| twist(exact, p, speeds)).collect();
+        let all: Vec<Residue> = paths
+            .iter()
+            .flat_map(|p| link_twist(exact, p, speeds))
+            .collect();
         span.insert(&all);
     }
     span.rank()

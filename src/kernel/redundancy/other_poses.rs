@@ -1,11 +1,11 @@
 //! Whether constraints that are redundant at the pose of the file are so over the motion: proven, followed, observed in
 //! further poses, or unknown.
 
-use crate::format::plural;
+use crate::format::count_noun;
 use crate::geom::exact::ExactError;
 use crate::model::mechanism::{Mechanism, Mode, StateId};
 use crate::motion::pose::Pose;
-use crate::rank::finite::local_dimension::motions;
+use crate::rank::finite::local_dimension::null_space_of;
 use crate::rank::finite::{Finite, How};
 use crate::rank::numeric::scaling::rank_of_values;
 use ozols_dense::{Matrix, add_scaled, difference, norm, svd};
@@ -65,7 +65,7 @@ pub enum Where {
 impl Where {
     /// Returns one word for programs.
     #[must_use]
-    pub fn word(self) -> &'static str {
+    pub fn as_word(self) -> &'static str {
         match self {
             Where::Proven => "proven",
             Where::Followed => "followed",
@@ -86,8 +86,8 @@ impl Where {
             }
             Where::Seen { poses, limited } => format!(
                 "at this pose and in {}{} (numeric); not proven for the rest of the motion",
-                plural(poses, "further closed pose"),
-                limits(limited)
+                count_noun(poses, "further closed pose"),
+                limit_words(limited)
             ),
             Where::Rigid => "at this pose; no loop moves".to_owned(),
             Where::Shaky => {
@@ -99,8 +99,8 @@ impl Where {
                 limited,
             } => format!(
                 "at this pose; elsewhere in the motion {elsewhere}, by {}{} (numeric)",
-                plural(poses, "closed pose"),
-                limits(limited)
+                count_noun(poses, "closed pose"),
+                limit_words(limited)
             ),
             Where::Unknown => "at this pose; not determined for the rest of the motion".to_owned(),
         }
@@ -108,7 +108,7 @@ impl Where {
 }
 
 /// Returns the words for poses that are inside the limits of the joints.
-fn limits(limited: bool) -> &'static str {
+fn limit_words(limited: bool) -> &'static str {
     if limited { " inside the limits" } else { "" }
 }
 
@@ -137,7 +137,7 @@ pub(crate) fn redundant_where(
     inside: &dyn Fn(&Pose) -> bool,
 ) -> Result<(Where, Option<Pose>), ExactError> {
     let pose = Pose::of_file(m, state)?;
-    let rows = pose.constraints(match m.mode {
+    let rows = pose.constraint_rows(match m.mode {
         Mode::Spatial => 6,
         Mode::Planar { .. } => 3,
     });
@@ -154,7 +154,7 @@ pub(crate) fn redundant_where(
         accuracy,
         inside: &|p| !limited || inside(p),
     };
-    Ok(match walk.seen(redundant) {
+    Ok(match walk.examine_poses(redundant) {
         Seen { poses: 0, .. } => (Where::Unknown, None),
         Seen {
             poses,
@@ -213,13 +213,13 @@ struct Walk<'a> {
 
 impl Walk<'_> {
     /// Returns the findings in poses on the motion, if `redundant` constraints are redundant in the pose of the file.
-    fn seen(&self, redundant: usize) -> Seen {
+    fn examine_poses(&self, redundant: usize) -> Seen {
         let f = self.pose.columns.len();
         let wanted = POSES[usize::from(self.rows * f * self.rows.min(f) > LONG)];
         let mut out = Seen::default();
         // All coordinates are relative to the pose of the file, so that closure errors do not accumulate. This is the
         // path to the last pose, with its directions of motion.
-        let start = (vec![0.0; f], motions(self.pose));
+        let start = (vec![0.0; f], null_space_of(self.pose));
         let mut way = vec![start];
         for i in 0..TRIES * wanted {
             if out.poses == wanted {
@@ -233,14 +233,17 @@ impl Walk<'_> {
             let Some(q) = self.next(from, span, i) else {
                 continue;
             };
-            let Some(found) = self.judged(&q) else {
+            let Some(found) = self.judge_pose(&q) else {
                 continue;
             };
             out.poses += 1;
             let fewest = out.least.as_ref().map_or(redundant, |l| l.0);
             way.push((q, found.motions));
             if found.redundant[1] < fewest && self.is_joined(&way) {
-                out.least = Some((found.redundant[1], self.pose.moved(&way[way.len() - 1].0)));
+                out.least = Some((
+                    found.redundant[1],
+                    self.pose.moved_to(&way[way.len() - 1].0),
+                ));
             } else if found.redundant[0] < redundant {
                 out.unclear = true;
             }
@@ -256,20 +259,20 @@ impl Walk<'_> {
         }
         // Every motion takes part, with other weights for each pose, forwards and backwards.
         let weight = |c: usize| f64::from(u32::try_from((c * 7 + i * 3) % 11).unwrap_or(0)) - 5.3;
-        let along = span.combined(&(0..span.ncols()).map(weight).collect::<Vec<_>>());
+        let along = span.combine_columns(&(0..span.ncols()).map(weight).collect::<Vec<_>>());
         let sign = if i.is_multiple_of(2) { 1.0 } else { -1.0 };
         // Shorter steps, in case limits leave little space.
         let mut tried = SHORTER
             .iter()
-            .filter_map(|s| (self.pose).beside(from, &along, sign * s * STEP, HALVINGS));
-        tried.find(|q| (self.inside)(&self.pose.moved(q)))
+            .filter_map(|s| (self.pose).closed_beside(from, &along, sign * s * STEP, HALVINGS));
+        tried.find(|q| (self.inside)(&self.pose.moved_to(q)))
     }
 
     /// Returns the figures of J at closed coordinates, or `None` if J leaves fewer motions than there are, because then
     /// the pose is not closed well enough.
-    fn judged(&self, q: &[f64]) -> Option<Judged> {
-        let gap = norm(&self.pose.gaps(q)).max(f64::EPSILON);
-        let svd = svd(&self.pose.jacobian(q))?;
+    fn judge_pose(&self, q: &[f64]) -> Option<Judged> {
+        let gap = norm(&self.pose.closure_gaps(q)).max(f64::EPSILON);
+        let svd = svd(&self.pose.jacobian_at(q))?;
         // If J is rank-deficient all along the motion, the error of a closed pose is the root of its gap, and J is off
         // by as much.
         let zero = self.tolerance.max(SLOPE * gap.sqrt());
@@ -293,7 +296,7 @@ impl Walk<'_> {
             let step = difference(to, from);
             BETWEEN.iter().all(|share| {
                 let guess = add_scaled(from, *share, &step);
-                self.pose.close(guess.clone(), &[]).is_ok_and(|q| {
+                self.pose.close_loops(guess.clone(), &[]).is_ok_and(|q| {
                     norm(&difference(&q, &guess)) <= share.min(1.0 - share) * norm(&step)
                 })
             })
@@ -312,13 +315,13 @@ struct Judged {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::model::drawn::{drawn, four_bar};
+    use crate::model::drawn::{draw_mechanism, four_bar};
 
     /// If limits leave only the pose of the file, nothing is known about others. Without limits, a four-bar also has
     /// its three redundant constraints in other poses.
     #[test]
     fn poses_outside_the_limits_do_not_count() {
-        let m = drawn(&four_bar(0, 1, 0.0), &[]);
+        let m = draw_mechanism(&four_bar(0, 1, 0.0), &[]);
         let finite = Finite {
             mobility: 0,
             how: How::Undecided { from: 0, to: 1 },

@@ -10,7 +10,7 @@
 use crate::closure::twist::{MotionSpace, joint_twists};
 use crate::geom::Reals;
 use crate::geom::exact::ExactError;
-use crate::geom::vector::{Vector, cross, length, real, sub, unit};
+use crate::geom::vector::{Vector, cross, length, sub, to_vector, unit};
 use crate::model::joint_type::JointType;
 use crate::model::mechanism::{Frame, JointId, Mechanism};
 use ozols_dense::{add_scaled, dot, norm};
@@ -51,9 +51,9 @@ pub struct Duplicate {
 
 /// Describes the joint with one more freedom: by the name of its type if it has one.
 #[must_use]
-pub fn becomes(m: &Mechanism, joint: JointId, slides: bool, direction: Vector) -> String {
+pub fn released_type(m: &Mechanism, joint: JointId, slides: bool, direction: Vector) -> String {
     let j = &m.joints[joint];
-    let along = length(cross(unit(real(&j.frame.axis)), direction)) < ALIKE;
+    let along = length(cross(unit(to_vector(&j.frame.axis)), direction)) < ALIKE;
     match (&j.joint_type, slides, along) {
         (JointType::Revolute, true, true) | (JointType::Prismatic, false, true) => {
             JointType::Cylindrical.name().to_owned()
@@ -68,7 +68,7 @@ pub fn becomes(m: &Mechanism, joint: JointId, slides: bool, direction: Vector) -
     }
 }
 
-pub(super) fn positive(d: Vector) -> Vector {
+pub(super) fn point_positive(d: Vector) -> Vector {
     let largest = d.iter().fold(
         0.0,
         |m: f64, x| if x.abs() > m.abs() + ALIKE { *x } else { m },
@@ -79,15 +79,15 @@ pub(super) fn positive(d: Vector) -> Vector {
 }
 
 /// Returns the remainder of a vector after projection on orthonormal vectors.
-pub(super) fn rest(v: &[f64], span: &[Vec<f64>]) -> Vec<f64> {
+pub(super) fn remainder_of(v: &[f64], span: &[Vec<f64>]) -> Vec<f64> {
     let without = |v: Vec<f64>, s: &Vec<f64>| add_scaled(&v, -dot(&v, s), s);
     span.iter().fold(v.to_vec(), without)
 }
 
-pub(super) fn orthonormal(vectors: impl Iterator<Item = Vec<f64>>) -> Vec<Vec<f64>> {
+pub(super) fn orthonormal_span(vectors: impl Iterator<Item = Vec<f64>>) -> Vec<Vec<f64>> {
     let mut span: Vec<Vec<f64>> = Vec::new();
     for v in vectors {
-        let r = rest(&v, &span);
+        let r = remainder_of(&v, &span);
         if norm(&r) > ALIKE {
             span.push(r.iter().map(|x| x / norm(&r)).collect());
         }
@@ -100,11 +100,11 @@ pub(super) fn orthonormal(vectors: impl Iterator<Item = Vec<f64>>) -> Vec<Vec<f6
 ///
 /// # Errors
 /// Returns an error if a coordinate has no value.
-pub fn added(
+pub fn added_freedoms(
     now: (&Frame, &JointType),
     then: (&Frame, &JointType),
 ) -> Result<Vec<(bool, Vector)>, ExactError> {
-    let origin = real(&now.0.point);
+    let origin = to_vector(&now.0.point);
     let single = |(frame, kind): (&Frame, &JointType)| -> Result<Vec<[Vector; 2]>, ExactError> {
         let all = joint_twists(&Reals, &MotionSpace::Spatial, frame, kind)?;
         let about = |t: Vec<f64>| {
@@ -119,13 +119,13 @@ pub fn added(
         let size = norm(&all).max(f64::MIN_POSITIVE);
         all.into_iter().map(|x| x / size).collect()
     };
-    let mut span = orthonormal(single(now)?.into_iter().map(flat));
+    let mut span = orthonormal_span(single(now)?.into_iter().map(flat));
     let mut out = Vec::new();
     for [w, v] in single(then)? {
-        let r = rest(&flat([w, v]), &span);
+        let r = remainder_of(&flat([w, v]), &span);
         if norm(&r) > ALIKE {
             let slides = dot(&w, &w) < ALIKE * ALIKE;
-            out.push((slides, positive(unit(if slides { v } else { w }))));
+            out.push((slides, point_positive(unit(if slides { v } else { w }))));
             span.push(r.iter().map(|x| x / norm(&r)).collect());
         }
     }

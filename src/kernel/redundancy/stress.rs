@@ -8,7 +8,7 @@
 
 use crate::closure::{Closure, Column};
 use crate::geom::exact::{ExactError, ExactField};
-use crate::linalg::echelon::{Echelon, combination, relations, transpose};
+use crate::linalg::echelon::{Echelon, linear_combination, linear_relations, transpose};
 use crate::linalg::modp::Residue;
 use crate::model::joint_type::{Freedom, JointType};
 use crate::model::mechanism::{JointId, Mechanism, Mode, StateId};
@@ -65,7 +65,7 @@ pub struct SelfStress {
 /// One elimination of J by rows, see [`relations`].
 #[must_use]
 pub(crate) fn stress_basis(exact: &ExactField, closure: &Closure<Residue>) -> Vec<Vec<Residue>> {
-    let columns = closure.dense(exact);
+    let columns = closure.dense_columns(exact);
     let mut rows = if columns.is_empty() {
         vec![vec![0]; closure.rows()]
     } else {
@@ -73,7 +73,7 @@ pub(crate) fn stress_basis(exact: &ExactField, closure: &Closure<Residue>) -> Ve
     };
     // With the coordinates reversed, the reduced form uses the earliest possible contours.
     rows.reverse();
-    let mut stresses = relations(exact.field(), &rows);
+    let mut stresses = linear_relations(exact.field(), &rows);
     stresses.iter_mut().for_each(|v| v.reverse());
     stresses.reverse();
     stresses
@@ -100,7 +100,10 @@ impl<'a> Stresses<'a> {
         let wrenches = JointWrenches::new(exact, mechanism, closure)?;
         let added: Vec<JointId> = mechanism.joints_added_in(closure.state).collect();
         let at_added = |s: &[Residue]| -> Vec<Residue> {
-            added.iter().flat_map(|&j| wrenches.at(s, j)).collect()
+            added
+                .iter()
+                .flat_map(|&j| wrenches.wrench_at(s, j))
+                .collect()
         };
         let (internal, external) =
             first_those_without(exact, stress_basis(exact, closure), &at_added);
@@ -121,30 +124,30 @@ impl<'a> Stresses<'a> {
         let friction = |reference: Option<JointId>| {
             let harm = |s: &Vec<Residue>| out.harm_at(s, reference);
             let images: Vec<Vec<Residue>> = out.external.iter().map(harm).collect();
-            relations(exact.field(), &images).len()
+            linear_relations(exact.field(), &images).len()
         };
         let faces = out.faces.iter().copied().rev();
         out.reference = faces.max_by_key(|&j| friction(Some(j)));
         if !out.faces.is_empty() {
             let stresses = std::mem::take(&mut out.external);
-            let (friction, harmful) = first_those_without(exact, stresses, &|s| out.harm(s));
+            let (friction, harmful) = first_those_without(exact, stresses, &|s| out.harm_of(s));
             out.external = [friction, harmful].concat();
         }
         Ok(out)
     }
 
     fn harm_at(&self, s: &[Residue], reference: Option<JointId>) -> Vec<Residue> {
-        let part = |&j: &JointId| self.wrenches.harm(s, j, Some(j) == reference);
+        let part = |&j: &JointId| self.wrenches.harm_at_face(s, j, Some(j) == reference);
         self.faces.iter().flat_map(part).collect()
     }
 
-    fn harm(&self, s: &[Residue]) -> Vec<Residue> {
+    fn harm_of(&self, s: &[Residue]) -> Vec<Residue> {
         self.harm_at(s, self.reference)
     }
 
     /// Returns true if an external stress is only friction.
     fn is_friction(&self, s: &[Residue]) -> bool {
-        !self.faces.is_empty() && self.harm(s).iter().all(|&x| x == 0)
+        !self.faces.is_empty() && self.harm_of(s).iter().all(|&x| x == 0)
     }
 }
 
@@ -201,9 +204,9 @@ pub(crate) fn self_stresses(
             .filter(|q| s[closure.contour_rows() + q] != 0)
             .collect();
         let friction = is_external && stresses.is_friction(s);
-        let borne = shares.of(s, friction.then_some(at_faces));
+        let borne = shares.loads_of(s, friction.then_some(at_faces));
         let joints = mechanism.joints_in(closure.state).filter_map(|j| {
-            let w = wrenches.at(s, j);
+            let w = wrenches.wrench_at(s, j);
             let nonzero = |v: [Residue; 3]| v.map(|x| x != 0);
             w.iter().any(|&x| x != 0).then(|| JointWrench {
                 joint: j,
@@ -250,11 +253,11 @@ fn first_those_without(
         }
     }
     let (with, images): (Vec<_>, Vec<_>) = with.into_iter().unzip();
-    let vanishing = relations(f, &images);
+    let vanishing = linear_relations(f, &images);
     without.extend(
         vanishing
             .iter()
-            .map(|factors| combination(f, &with, factors)),
+            .map(|factors| linear_combination(f, &with, factors)),
     );
     let mut span = Echelon::new(f);
     without.iter().for_each(|s| {
@@ -293,5 +296,5 @@ pub fn exact_self_stresses(
         let entries = closure.couplings.iter_mut().flat_map(|q| &mut q.entries);
         entries.filter(|(c, _)| *c == i).for_each(|(_, x)| *x = 0);
     }
-    Some(closure.rows() - modular::rank(&exact, &closure))
+    Some(closure.rows() - modular::rank_modulo(&exact, &closure))
 }

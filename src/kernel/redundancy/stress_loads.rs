@@ -40,7 +40,7 @@ pub struct Borne {
 impl Borne {
     /// Returns its part of Σ |f|² + |m|²/ℓ² over the joints, about their own points.
     #[must_use]
-    pub fn share(&self) -> f64 {
+    pub fn energy_share(&self) -> f64 {
         dot(self.force, self.force) + dot(self.moment, self.moment)
     }
 }
@@ -82,7 +82,7 @@ impl<'a> Shares<'a> {
         let size = (points.iter().map(square).sum::<f64>() / count).sqrt();
         Ok(Shares {
             mechanism,
-            columns: closure.dense(&Reals),
+            columns: closure.dense_columns(&Reals),
             wrenches: JointWrenches::new(&Reals, mechanism, of)?,
             closure,
             size: if size > 0.0 { size } else { 1.0 },
@@ -91,7 +91,7 @@ impl<'a> Shares<'a> {
     }
 
     /// Returns the unit of an unknown: moments are divided by the size.
-    fn unit(&self, row: usize) -> f64 {
+    fn row_unit(&self, row: usize) -> f64 {
         let (dim, of_contours) = (self.closure.dim, self.closure.contour_rows());
         let turning = if dim == 6 { 3 } else { 1 };
         if row < of_contours && row % dim < turning {
@@ -111,7 +111,7 @@ impl<'a> Shares<'a> {
     ///
     /// # Complexity
     /// O(r² f) for r nonzero rows and f freedoms in their contours.
-    pub(super) fn of(
+    pub(super) fn loads_of(
         &mut self,
         stress: &[Residue],
         faces: Option<Faces<'_>>,
@@ -119,7 +119,7 @@ impl<'a> Shares<'a> {
         let rows: Vec<usize> = (0..stress.len()).filter(|&r| stress[r] != 0).collect();
         let equation = |column: &Vec<f64>| -> Vec<f64> {
             rows.iter()
-                .map(|&r| column[r] * self.unit(r) / self.size)
+                .map(|&r| column[r] * self.row_unit(r) / self.size)
                 .collect()
         };
         let mut equations: Vec<Vec<f64>> = self.columns.iter().map(equation).collect();
@@ -127,8 +127,11 @@ impl<'a> Shares<'a> {
         if let Some(faces) = faces {
             let one = |&r: &usize| {
                 let mut unit = vec![0.0; stress.len()];
-                unit[r] = self.unit(r);
-                let at = |&j: &JointId| self.wrenches.harm(&unit, j, Some(j) == faces.reference);
+                unit[r] = self.row_unit(r);
+                let at = |&j: &JointId| {
+                    self.wrenches
+                        .harm_at_face(&unit, j, Some(j) == faces.reference)
+                };
                 faces.joints.iter().flat_map(at).collect::<Vec<f64>>()
             };
             let harm: Vec<Vec<f64>> = rows.iter().map(one).collect();
@@ -141,18 +144,18 @@ impl<'a> Shares<'a> {
         let found = only_solution(equations, rows.len())?;
         let mut real = vec![0.0; stress.len()];
         for (&r, x) in rows.iter().zip(&found) {
-            real[r] = x * self.unit(r);
+            real[r] = x * self.row_unit(r);
         }
         let mut out = vec![Borne::default(); self.mechanism.joints.len()];
         for j in self.mechanism.joints_in(self.closure.state) {
-            let w = self.wrenches.at(&real, j);
-            let unit = self.wrenches.scale().unwrap_or(1.0) * self.size;
+            let w = self.wrenches.wrench_at(&real, j);
+            let unit = self.wrenches.moment_scale().unwrap_or(1.0) * self.size;
             out[j] = Borne {
                 moment: scale(self.wrenches.moment_at(j, &w), 1.0 / unit),
                 force: [w[3], w[4], w[5]],
             };
         }
-        let whole = out.iter().map(Borne::share).sum::<f64>().sqrt();
+        let whole = out.iter().map(Borne::energy_share).sum::<f64>().sqrt();
         for b in &mut out {
             (b.moment, b.force) = (scale(b.moment, 1.0 / whole), scale(b.force, 1.0 / whole));
         }
@@ -247,12 +250,12 @@ impl<'a, S: Scalars> JointWrenches<'a, S> {
         })
     }
 
-    fn zero(&self) -> [S::Number; 3] {
+    fn zero_vector(&self) -> [S::Number; 3] {
         std::array::from_fn(|_| S::Number::default())
     }
 
     /// Returns the wrench of a self-stress on a joint.
-    pub(super) fn at(&self, stress: &[S::Number], joint: JointId) -> Wrench<S::Number> {
+    pub(super) fn wrench_at(&self, stress: &[S::Number], joint: JointId) -> Wrench<S::Number> {
         let s = self.s;
         let mut sum = vec![S::Number::default(); self.dim];
         for &(i, forward) in &self.passes[joint] {
@@ -267,9 +270,9 @@ impl<'a, S: Scalars> JointWrenches<'a, S> {
         }
         let (m, f) = match (&self.space, &sum[..]) {
             (MotionSpace::Planar { axes: [n, e1, e2] }, [turn, along, across]) => {
-                let first = s.scaled_sum(along.clone(), e1.clone(), self.zero());
+                let first = s.scaled_sum(along.clone(), e1.clone(), self.zero_vector());
                 (
-                    s.scaled_sum(turn.clone(), n.clone(), self.zero()),
+                    s.scaled_sum(turn.clone(), n.clone(), self.zero_vector()),
                     s.scaled_sum(across.clone(), e2.clone(), first),
                 )
             }
@@ -293,13 +296,13 @@ impl<'a, S: Scalars> JointWrenches<'a, S> {
         match &self.space {
             MotionSpace::Spatial => moment,
             MotionSpace::Planar { axes: [n, ..] } => {
-                s.scaled_sum(s.dot(n.clone(), moment), n.clone(), self.zero())
+                s.scaled_sum(s.dot(n.clone(), moment), n.clone(), self.zero_vector())
             }
         }
     }
 
     /// Returns the factor of [`Self::moment_at`] in a plane, n · n, or `None` in space.
-    pub(super) fn scale(&self) -> Option<S::Number> {
+    pub(super) fn moment_scale(&self) -> Option<S::Number> {
         match &self.space {
             MotionSpace::Spatial => None,
             MotionSpace::Planar { axes: [n, ..] } => Some(self.s.dot(n.clone(), n.clone())),
@@ -308,13 +311,13 @@ impl<'a, S: Scalars> JointWrenches<'a, S> {
 
     /// Returns the components of a self-stress at a face (z its normal) other than friction: a normal force and, if
     /// requested, tangential moments.
-    pub(super) fn harm(
+    pub(super) fn harm_at_face(
         &self,
         stress: &[S::Number],
         joint: JointId,
         moments: bool,
     ) -> Vec<S::Number> {
-        let (s, w) = (self.s, self.at(stress, joint));
+        let (s, w) = (self.s, self.wrench_at(stress, joint));
         let m = self.moment_at(joint, &w);
         let [x, y, z] = self.frames[joint].axes.clone();
         let [_, _, _, f0, f1, f2] = w;

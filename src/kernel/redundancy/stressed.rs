@@ -5,11 +5,13 @@ use crate::closure::twist::MotionSpace;
 use crate::geom::Reals;
 use crate::geom::exact::ExactError;
 use crate::geom::rigid::perpendicular;
-use crate::geom::vector::{Vector, X, Y, Z, across, cross, length, real, unit};
+use crate::geom::vector::{Vector, X, Y, Z, across, cross, length, to_vector, unit};
 use crate::model::mechanism::{JointId, Mechanism, StateId};
-use crate::rank::finite::independent_parts::parts;
-use crate::rank::numeric::scaling::{Scaling, scaled};
-use crate::redundancy::release::{ALIKE, Duplicate, Release, orthonormal, positive, rest};
+use crate::rank::finite::independent_parts::independent_parts;
+use crate::rank::numeric::scaling::{Scaling, scaled_matrix};
+use crate::redundancy::release::{
+    ALIKE, Duplicate, Release, orthonormal_span, point_positive, remainder_of,
+};
 use itertools::Itertools;
 use ozols_dense::{Matrix, Svd, dot, norm, solve, svd};
 
@@ -50,14 +52,17 @@ impl<'a> Stressed<'a> {
     ///
     /// # Errors
     /// Returns an error if a coordinate has no value.
-    pub fn parts(
+    pub fn stressed_parts(
         m: &'a Mechanism,
         state: StateId,
         rank: usize,
     ) -> Result<Option<Vec<Self>>, ExactError> {
         let whole = Closure::new(&Reals, m, state)?;
-        let parts = whole.parts(&parts(&whole));
-        let found: Option<Vec<Svd>> = parts.iter().map(|p| svd(&scaled(&p.closure))).collect();
+        let parts = whole.split_parts(&independent_parts(&whole));
+        let found: Option<Vec<Svd>> = parts
+            .iter()
+            .map(|p| svd(&scaled_matrix(&p.closure)))
+            .collect();
         let Some(found) = found else {
             return Ok(None);
         };
@@ -77,30 +82,30 @@ impl<'a> Stressed<'a> {
             joints: part.joints,
             contours: part.contours,
             couplings: part.couplings,
-            scaling: Scaling::of(&part.closure),
+            scaling: Scaling::of_closure(&part.closure),
             basis: svd.left_null_space(kept.get(&i).copied().unwrap_or(0)),
             closure: part.closure,
         });
-        Ok(Some(all.filter(|p| p.redundant() > 0).collect()))
+        Ok(Some(all.filter(|p| p.count_redundant() > 0).collect()))
     }
 
     /// Returns σ.
     #[must_use]
-    pub fn redundant(&self) -> usize {
+    pub fn count_redundant(&self) -> usize {
         self.basis.ncols()
     }
 
-    fn point(&self, joint: JointId) -> Vector {
-        real(&self.mechanism.joints[joint].frame.point)
+    fn joint_point(&self, joint: JointId) -> Vector {
+        to_vector(&self.mechanism.joints[joint].frame.point)
     }
 
     /// Returns the power of a vector of scaled twist components in the rows of the contours that pass a joint: one
     /// number per stress.
     fn powers_of(&self, joint: JointId, twist: &[f64]) -> Vec<f64> {
         let dim = self.closure.dim;
-        let mut out = vec![0.0; self.redundant()];
+        let mut out = vec![0.0; self.count_redundant()];
         for (i, contour) in self.closure.contours.iter().enumerate() {
-            let Some(forward) = contour.direction(joint) else {
+            let Some(forward) = contour.direction_of(joint) else {
                 continue;
             };
             let sign = if forward { 1.0 } else { -1.0 };
@@ -114,87 +119,87 @@ impl<'a> Stressed<'a> {
     }
 
     /// Returns the twist of a freedom, scaled to unit length, or `None` if it leaves the plane of a planar model.
-    fn twist(&self, joint: JointId, slides: bool, d: Vector) -> Option<Vec<f64>> {
+    fn freedom_twist(&self, joint: JointId, slides: bool, d: Vector) -> Option<Vec<f64>> {
         let v = if slides {
             d
         } else {
-            cross(self.point(joint), d)
+            cross(self.joint_point(joint), d)
         };
         let w = if slides { [0.0; 3] } else { d };
         let whole = [w[0], w[1], w[2], v[0], v[1], v[2]];
-        let mut twist = self.space.components(&Reals, &whole)?;
-        self.scaling.unit(&mut twist);
+        let mut twist = self.space.components_in_space(&Reals, &whole)?;
+        self.scaling.scale_to_unit(&mut twist);
         Some(twist)
     }
 
     /// Returns the work of each self-stress on a release.
     #[must_use]
-    pub fn powers(&self, release: &Release) -> Vec<f64> {
+    pub fn release_powers(&self, release: &Release) -> Vec<f64> {
         match *release {
             Release::Freedom {
                 joint,
                 slides,
                 direction,
-            } => match self.twist(joint, slides, direction) {
+            } => match self.freedom_twist(joint, slides, direction) {
                 Some(twist) => self.powers_of(joint, &twist),
-                None => vec![0.0; self.redundant()],
+                None => vec![0.0; self.count_redundant()],
             },
             Release::Coupling(q) => {
                 let place = self.couplings.iter().position(|&own| own == q);
                 let row = place.map(|q| self.closure.contour_rows() + q);
-                row.map_or(vec![0.0; self.redundant()], |row| self.basis.row(row))
+                row.map_or(vec![0.0; self.count_redundant()], |row| self.basis.row(row))
             }
         }
     }
 
     /// Returns the forces on a joint, or the moments about its point: three numbers per stress, by columns.
-    fn carried(&self, joint: JointId, forces: bool) -> Matrix {
-        let rows = [X, Y, Z].map(|a| match self.twist(joint, forces, a) {
+    fn carried_loads(&self, joint: JointId, forces: bool) -> Matrix {
+        let rows = [X, Y, Z].map(|a| match self.freedom_twist(joint, forces, a) {
             Some(t) => self.powers_of(joint, &t),
-            None => vec![0.0; self.redundant()],
+            None => vec![0.0; self.count_redundant()],
         });
-        Matrix::from_fn(3, self.redundant(), |i, s| rows[i][s])
+        Matrix::from_fn(3, self.count_redundant(), |i, s| rows[i][s])
     }
 
     /// Returns the single freedoms that the joint lacks and on which a self-stress does work. Their directions fit the
     /// forces and moments on the joint, and slides come first.
     #[must_use]
-    pub fn at(&self, joint: JointId) -> Vec<Release> {
-        let directions = self.directions(joint);
+    pub fn releases_at(&self, joint: JointId) -> Vec<Release> {
+        let directions = self.joint_directions(joint);
         let own: Vec<Vec<f64>> = {
             let columns = self.closure.columns.iter();
             let of_joint = columns.filter(|c| c.joint == joint);
             let scaled = of_joint.map(|c| {
                 let mut t = c.twist.clone();
-                self.scaling.unit(&mut t);
+                self.scaling.scale_to_unit(&mut t);
                 t
             });
-            orthonormal(scaled)
+            orthonormal_span(scaled)
         };
         let each = [true, false].into_iter();
         each.flat_map(|slides| directions.map(|direction| (slides, direction)))
             .filter(|&(slides, d)| {
-                let twist = self.twist(joint, slides, d);
-                twist.is_some_and(|t| norm(&rest(&t, &own)) > ALIKE)
+                let twist = self.freedom_twist(joint, slides, d);
+                twist.is_some_and(|t| norm(&remainder_of(&t, &own)) > ALIKE)
             })
             .map(|(slides, direction)| Release::Freedom {
                 joint,
                 slides,
                 direction,
             })
-            .filter(|r| norm(&self.powers(r)) > LEAST)
+            .filter(|r| norm(&self.release_powers(r)) > LEAST)
             .collect()
     }
 
     /// Returns three perpendicular directions at a joint: along the single force or moment on it, perpendicular to the
     /// plane of two, and otherwise its own axes.
-    fn directions(&self, joint: JointId) -> [Vector; 3] {
+    fn joint_directions(&self, joint: JointId) -> [Vector; 3] {
         let frame = &self.mechanism.joints[joint].frame;
-        let z = unit(real(&frame.axis));
-        let x = unit(across(real(&frame.reference), z));
+        let z = unit(to_vector(&frame.axis));
+        let x = unit(across(to_vector(&frame.reference), z));
         let own = [z, x, cross(z, x)];
         let special = |forces: bool| -> Option<Vector> {
-            let found = svd(&self.carried(joint, forces))?;
+            let found = svd(&self.carried_loads(joint, forces))?;
             let column = |i: usize| [0, 1, 2].map(|r| found.u[(r, i)]);
             match found.values.iter().filter(|v| **v > NOTHING).count() {
                 1 => Some(column(0)),
@@ -203,7 +208,7 @@ impl<'a> Stressed<'a> {
             }
         };
         let [forces, moments] = [special(true), special(false)];
-        let Some(first) = forces.or(moments).map(|d| settled(d, &own)) else {
+        let Some(first) = forces.or(moments).map(|d| settle_direction(d, &own)) else {
             return own;
         };
         // The other two follow the moments, or the joint's own axes.
@@ -211,30 +216,33 @@ impl<'a> Stressed<'a> {
         let mut wanted = wanted.map(|d| across(d, first));
         let second = wanted.find(|d| length(*d) > 0.1).map(unit);
         let second = second.unwrap_or_else(|| unit(perpendicular(first)));
-        let second = settled(second, &own);
-        [first, second, unit(cross(first, second))].map(positive)
+        let second = settle_direction(second, &own);
+        [first, second, unit(cross(first, second))].map(point_positive)
     }
 
     /// Returns the cheapest set of releases that removes all redundant constraints and adds no mobility, by their
     /// indices in the list. Fewer than σ if no such set is among them.
     #[must_use]
-    pub fn cheapest(&self, candidates: &[(i64, Release)]) -> Vec<usize> {
-        self.chosen(candidates, &|i, _| candidates[i].0)
+    pub fn cheapest_releases(&self, candidates: &[(i64, Release)]) -> Vec<usize> {
+        self.choose_releases(candidates, &|i, _| candidates[i].0)
     }
 
     /// Returns a set of releases chosen one by one, each the cheapest of those that remove more. Costs may depend on
     /// those chosen before, and the whole set is then not necessarily the cheapest. A release that hardly works on a
     /// stress is chosen only as a last resort, because it would have to move far.
     #[must_use]
-    pub fn chosen(
+    pub fn choose_releases(
         &self,
         candidates: &[(i64, Release)],
         cost: &dyn Fn(usize, &[usize]) -> i64,
     ) -> Vec<usize> {
-        let powers: Vec<Vec<f64>> = candidates.iter().map(|(_, r)| self.powers(r)).collect();
+        let powers: Vec<Vec<f64>> = candidates
+            .iter()
+            .map(|(_, r)| self.release_powers(r))
+            .collect();
         let strongest = powers.iter().map(|p| norm(p)).fold(0.0, f64::max);
         let well = self.chosen_above(&powers, LEAST.max(WELL * strongest), cost);
-        if well.len() == self.redundant() {
+        if well.len() == self.count_redundant() {
             return well;
         }
         self.chosen_above(&powers, LEAST, cost)
@@ -247,8 +255,8 @@ impl<'a> Stressed<'a> {
         cost: &dyn Fn(usize, &[usize]) -> i64,
     ) -> Vec<usize> {
         let (mut chosen, mut span): (Vec<usize>, Vec<Vec<f64>>) = (Vec::new(), Vec::new());
-        while span.len() < self.redundant() {
-            let left = (0..powers.len()).map(|i| (i, norm(&rest(&powers[i], &span))));
+        while span.len() < self.count_redundant() {
+            let left = (0..powers.len()).map(|i| (i, norm(&remainder_of(&powers[i], &span))));
             let left: Vec<(usize, f64)> = left.filter(|(_, x)| *x > enough).collect();
             let Some(least) = left.iter().map(|&(i, _)| cost(i, &chosen)).min() else {
                 break;
@@ -259,7 +267,7 @@ impl<'a> Stressed<'a> {
             let Some(&(i, _)) = alike.clone().find(|(_, x)| *x > most / 2.0) else {
                 break;
             };
-            let r = rest(&powers[i], &span);
+            let r = remainder_of(&powers[i], &span);
             span.push(r.iter().map(|x| x / norm(&r)).collect());
             chosen.push(i);
         }
@@ -269,21 +277,27 @@ impl<'a> Stressed<'a> {
     /// Returns the redundant constraints, expressed in the preferred candidates, each with the joints that impose the
     /// same and the releases that remove it.
     #[must_use]
-    pub fn duplicates(
+    pub fn find_duplicates(
         &self,
         rows: &[(i64, Release)],
         remedies: &[(i64, Release)],
     ) -> Vec<Duplicate> {
-        let chosen = self.cheapest(rows);
-        let n = self.redundant();
+        let chosen = self.cheapest_releases(rows);
+        let n = self.count_redundant();
         if chosen.len() < n {
             return Vec::new();
         }
-        let powers: Vec<Vec<f64>> = chosen.iter().map(|&i| self.powers(&rows[i].1)).collect();
+        let powers: Vec<Vec<f64>> = chosen
+            .iter()
+            .map(|&i| self.release_powers(&rows[i].1))
+            .collect();
         let matrix = Matrix::from_fn(n, n, |i, s| powers[i][s]);
         let mut by_cost: Vec<usize> = (0..remedies.len()).collect();
         by_cost.sort_by_key(|&i| remedies[i].0);
-        let works: Vec<Vec<f64>> = remedies.iter().map(|(_, r)| self.powers(r)).collect();
+        let works: Vec<Vec<f64>> = remedies
+            .iter()
+            .map(|(_, r)| self.release_powers(r))
+            .collect();
         let duplicate = |i: usize| {
             // The stress that works only on this one of the chosen rows.
             let mut right = vec![0.0; n];
@@ -301,7 +315,7 @@ impl<'a> Stressed<'a> {
             let itself = |j: &JointId| matches!(row, Release::Freedom { joint, .. } if joint == *j);
             let loaded = |j: &JointId| {
                 [true, false].into_iter().any(|forces| {
-                    let carried = self.carried(*j, forces);
+                    let carried = self.carried_loads(*j, forces);
                     (0..3).any(|r| on(&carried.row(r)))
                 })
             };
@@ -320,8 +334,8 @@ impl<'a> Stressed<'a> {
 
 /// Returns a direction, replaced by one of the global or own axes if it is almost equal; its largest component is
 /// positive.
-fn settled(d: Vector, own: &[Vector; 3]) -> Vector {
+fn settle_direction(d: Vector, own: &[Vector; 3]) -> Vector {
     let near = |a: &&Vector| length(cross(**a, d)) < ALIKE;
     let found = own.iter().chain(&[X, Y, Z]).find(near);
-    positive(found.copied().unwrap_or(d))
+    point_positive(found.copied().unwrap_or(d))
 }

@@ -9,7 +9,7 @@ mod in_state;
 mod judge;
 
 pub use found::{AtTolerance, Bracket, Sampled, Share};
-pub(in crate::search) use found::{any_choices, choices};
+pub(in crate::search) use found::{any_choices, choices_of_number};
 
 use crate::geom::exact::ExactError;
 use crate::search::answer::k_best::Assignment;
@@ -58,8 +58,8 @@ pub(crate) fn at_tolerance(
         judge: &judge,
         cancelled,
     };
-    let found = looking.search(list, seed);
-    let motion = judge.motion();
+    let found = looking.search_variants(list, seed);
+    let motion = judge.motion_dimension();
     drop(judge);
     question.present = Some(motion);
     Ok(found)
@@ -73,7 +73,7 @@ struct Looking<'a> {
 }
 
 impl Looking<'_> {
-    fn search(&self, list: usize, seed: u64) -> AtTolerance {
+    fn search_variants(&self, list: usize, seed: u64) -> AtTolerance {
         let question = self.question;
         let size = question.size();
         let whole = size.to_usize().filter(|n| *n <= WHOLE as usize);
@@ -84,14 +84,14 @@ impl Looking<'_> {
         };
         let looked = usize::try_from(met.looked).unwrap_or(usize::MAX);
         let sampled = whole.is_none().then(|| {
-            let (drawn, [determinate, admissible]) = self.sample(seed, next_cost, &mut met);
+            let (drawn, [determinate, admissible]) = self.judge_sample(seed, next_cost, &mut met);
             Sampled {
                 drawn,
                 seed,
                 determinate,
                 admissible,
                 in_order: looked,
-                all_below: next_cost.map(|next| question.steps.milli(next)),
+                all_below: next_cost.map(|next| question.steps.cost_in_milli(next)),
             }
         });
         let stop = match whole {
@@ -99,7 +99,7 @@ impl Looking<'_> {
             None if !(self.cancelled)() => Stop::NodeBudget,
             _ => Stop::Interrupted,
         };
-        let [determinate, admissible] = met.brackets(question, &size);
+        let [determinate, admissible] = met.count_brackets(question, &size);
         AtTolerance {
             digits: self.judge.digits(),
             looked: met.looked,
@@ -113,10 +113,10 @@ impl Looking<'_> {
     }
 
     /// Judges variants, as many as it comes to before it is cancelled.
-    fn look(&self, all: Vec<Vec<usize>>) -> Vec<(Vec<usize>, Judged)> {
+    fn judge_all(&self, all: Vec<Vec<usize>>) -> Vec<(Vec<usize>, Judged)> {
         let one = |choices: Vec<usize>| {
             (!(self.cancelled)()).then(|| {
-                let judged = self.judge.judge(&choices);
+                let judged = self.judge.judge_variant(&choices);
                 (choices, judged)
             })
         };
@@ -134,12 +134,12 @@ impl Looking<'_> {
     ) -> (Vec<Assignment>, Option<u64>) {
         let question = self.question;
         let mut list: Vec<Assignment> = Vec::new();
-        let diagram = free(question);
+        let diagram = diagram_of_all(question);
         let mut all = every_choice(question, &diagram, most + 2 * AT_ONCE).peekable();
         while list.len() < wanted && (met.looked as usize) < most && !(self.cancelled)() {
             let block = all.by_ref().take(AT_ONCE).map(|v| v.choices).collect();
-            for (choices, judged) in self.look(block) {
-                met.add(&judged);
+            for (choices, judged) in self.judge_all(block) {
+                met.add_judged(&judged);
                 if let Standing::Sure(key) = judged.admissible {
                     list.push(Assignment { choices, key });
                 }
@@ -148,17 +148,22 @@ impl Looking<'_> {
                 break;
             }
         }
-        let order = |v: &Assignment| (question.rank(v.key), v.choices.clone());
+        let order = |v: &Assignment| (question.sort_rank(v.key), v.choices.clone());
         list.sort_by_cached_key(order);
         (list, all.peek().map(|v| v.key.cost()))
     }
 
     /// Examines a sample of all variants. Returns its size, and the shares of determinate and admissible variants in it. Sampled variants
     /// that cost more than those examined in order are counted.
-    fn sample(&self, seed: u64, next_cost: Option<u64>, met: &mut Met) -> (usize, [Share; 2]) {
+    fn judge_sample(
+        &self,
+        seed: u64,
+        next_cost: Option<u64>,
+        met: &mut Met,
+    ) -> (usize, [Share; 2]) {
         let mut random = ChaCha8Rng::seed_from_u64(seed);
         let one = |_| any_choices(self.question, &mut random);
-        let drawn = self.look((0..DRAWN).map(one).collect());
+        let drawn = self.judge_all((0..DRAWN).map(one).collect());
         let mut seen = BTreeSet::new();
         let mut shares = [[0usize; 2]; 2];
         for (choices, judged) in &drawn {
@@ -173,16 +178,16 @@ impl Looking<'_> {
             let cost = chosen.map(|(keys, &c)| keys[c].cost()).sum::<u64>();
             // Those below were counted already.
             if next_cost.is_none_or(|next| cost > next) && seen.insert(choices) {
-                met.add(judged);
+                met.add_judged(judged);
             }
         }
-        let shares = shares.map(|[sure, may]| Share::of(sure, may, drawn.len()));
+        let shares = shares.map(|[sure, may]| Share::from_sample(sure, may, drawn.len()));
         (drawn.len(), shares)
     }
 }
 
 /// Returns the diagram of every choice.
-fn free(question: &Question) -> Diagram {
+fn diagram_of_all(question: &Question) -> Diagram {
     let layer = |(variable, keys): (usize, &Vec<_>)| Layer {
         variable,
         nodes: 1,
@@ -190,5 +195,5 @@ fn free(question: &Question) -> Diagram {
         edges: vec![0; keys.len()],
     };
     let layers = question.steps.keys.iter().enumerate().map(layer);
-    Diagram::whole(layers.collect(), vec![Redundancy::default()])
+    Diagram::from_layers(layers.collect(), vec![Redundancy::default()])
 }

@@ -14,16 +14,16 @@ pub(in crate::search) mod two_sided;
 use crate::search::answer::estimate::Estimate;
 use crate::search::answer::proven_cheapest::{UpTo, cost_of, up_to};
 use crate::search::build::at_most::at_most;
-use crate::search::build::estimates::estimates;
+use crate::search::build::estimates::estimate_counts;
 use crate::search::build::lanes::{Lanes, in_self_stress_space};
-use crate::search::build::orders::{Orders, one_diagram, orders};
-use crate::search::build::self_stress::{Wanted, limits, nothing};
+use crate::search::build::orders::{Orders, one_diagram, variable_orders};
+use crate::search::build::self_stress::{Wanted, diagram_limits, empty_diagram};
 use crate::search::build::spanning_halves::Halves;
 use crate::search::build::two_sided::two_sided;
 use crate::search::diagram::completion::Missing;
 use crate::search::diagram::layer::{CUT, DEAD, Merge, Nodes};
 use crate::search::diagram::redundancy_so_far::Limits;
-use crate::search::diagram::{self, Diagram, Progress, Stop, next};
+use crate::search::diagram::{self, Diagram, Progress, Stop, next_layer};
 use crate::search::question::Question;
 use crate::search::question::throughout::PoseOnly;
 use itertools::Itertools;
@@ -51,14 +51,14 @@ pub struct Diagrams {
 impl Diagrams {
     /// Returns the diagram of the listed variants: those that keep the motion throughout if that is known, otherwise the admissible ones.
     #[must_use]
-    pub fn listed(&self) -> &Diagram {
+    pub fn listed_diagram(&self) -> &Diagram {
         self.lasting.as_ref().unwrap_or(&self.admissible)
     }
 
     /// The less complete of the two reasons for stopping.
     #[must_use]
-    pub fn stop(&self) -> Stop {
-        self.determinate.stop.or(self.admissible.stop)
+    pub fn stop_reason(&self) -> Stop {
+        self.determinate.stop.combine_with(self.admissible.stop)
     }
 
     /// Returns the cost in thousandths up to which every admissible variant is known; `None` if there is no such cost.
@@ -80,12 +80,12 @@ fn is_empty(of: &Diagram) -> bool {
 }
 
 /// Builds the diagrams of a question.
-pub fn build(
+pub fn build_diagrams(
     question: &Question,
     cancelled: &(dyn Fn() -> bool + Sync),
     progress: &mut (dyn FnMut(Progress) + Send),
 ) -> Diagrams {
-    build_in(question, &orders(question), cancelled, progress)
+    build_in(question, &variable_orders(question), cancelled, progress)
 }
 
 /// Builds the diagrams of a question in given orders.
@@ -95,20 +95,21 @@ pub(crate) fn build_in(
     cancelled: &(dyn Fn() -> bool + Sync),
     progress: &mut (dyn FnMut(Progress) + Send),
 ) -> Diagrams {
-    let limits = limits(question);
-    let mut of =
-        |order: &[usize], wanted| built(question, order, &limits, wanted, cancelled, progress);
+    let limits = diagram_limits(question);
+    let mut of = |order: &[usize], wanted| {
+        build_whole(question, order, &limits, wanted, cancelled, progress)
+    };
     let determinate = of(&orders.determinate, Wanted::Determinate);
     let order = &orders.admissible;
     let mut admissible = if one_diagram(question) {
         determinate.clone()
     } else if is_empty(&determinate) {
         // What is not determinate is not admissible.
-        nothing(question, order)
+        empty_diagram(question, order)
     } else {
         of(order, Wanted::Admissible)
     };
-    let cheapest = prove(
+    let cheapest = prove_cheapest(
         question,
         &mut admissible,
         order,
@@ -117,7 +118,7 @@ pub(crate) fn build_in(
         progress,
     );
     let both = [&determinate, &admissible];
-    let estimates = estimates(question, both, orders, &limits, cancelled);
+    let estimates = estimate_counts(question, both, orders, &limits, cancelled);
     let lasting = build_lasting(question, order, &admissible, cancelled, progress);
     Diagrams {
         determinate,
@@ -148,9 +149,9 @@ fn build_lasting(
     // It is wanted whole or not at all.
     let limits = Limits {
         layer: question.conditions.nodes,
-        ..limits(question)
+        ..diagram_limits(question)
     };
-    let built = built(
+    let built = build_whole(
         question,
         order,
         &limits,
@@ -169,7 +170,7 @@ fn build_lasting(
 const AT_ONCE: usize = 40_000;
 
 /// Returns the diagram of a question, cut down where it does not fit the limits; from both ends where from one it grows too large.
-fn built(
+fn build_whole(
     question: &Question,
     order: &[usize],
     limits: &Limits,
@@ -204,7 +205,7 @@ fn built(
     }
     let most = at_most(question, order, &few, wanted, cancelled);
     if most.is_some_and(|m| m.diagram.terminals.is_empty()) {
-        return nothing(question, order);
+        return empty_diagram(question, order);
     }
     let halves = Halves::new(question, order, limits, wanted);
     let whole = halves.and_then(|h| two_sided(&h, &question.space, cancelled, progress));
@@ -220,7 +221,7 @@ fn built(
 }
 
 /// Returns the cheapest admissible variants where they are wanted and not all are known.
-fn prove(
+fn prove_cheapest(
     question: &Question,
     admissible: &mut Diagram,
     order: &[usize],
@@ -236,7 +237,7 @@ fn prove(
     let Lanes { stages, root } = Lanes::new(question, order, limits, Wanted::Admissible);
     let space = &question.space;
     let missing = Missing::new(space, &stages, &root, limits);
-    if missing.root().is_none() {
+    if missing.least_of_root().is_none() {
         // There is none, by dimensions alone.
         admissible.stop = Stop::Exhausted;
         return None;
@@ -244,7 +245,7 @@ fn prove(
     let known = cost_of(question, admissible, &most).flatten();
     let proof = up_to(question, &missing, &most, known, &mut |ceiling| {
         let root = root.clone();
-        diagram::build(
+        diagram::build_layers(
             space,
             &stages,
             limits,
@@ -276,13 +277,13 @@ fn prove(
 /// At most that of the diagram of the question, and O(n·choices) for n pairs of a node of the diagram and a space.
 pub(in crate::search) fn has_all(question: &Question, known: &Diagram) -> bool {
     let order: Vec<usize> = known.layers.iter().map(|l| l.variable).collect();
-    let limits = limits(question);
+    let limits = diagram_limits(question);
     let Lanes { stages, root } = Lanes::new(question, &order, &limits, Wanted::Determinate);
-    let mut nodes = Nodes::root(root);
+    let mut nodes = Nodes::root_node(root);
     let mut reached = BTreeSet::from([(0, 0)]);
     for (stage, layer) in stages.iter().zip(&known.layers) {
         let edges = nodes.len() * layer.choices;
-        let merge = next(
+        let merge = next_layer(
             stage,
             &question.space.variables[layer.variable].choices,
             limits.bytes,

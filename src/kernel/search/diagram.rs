@@ -85,7 +85,10 @@ pub struct Diagram {
 
 impl Diagram {
     /// Returns a diagram of complete layers.
-    pub(in crate::search) fn whole(layers: Vec<Layer>, terminals: Vec<Redundancy>) -> Diagram {
+    pub(in crate::search) fn from_layers(
+        layers: Vec<Layer>,
+        terminals: Vec<Redundancy>,
+    ) -> Diagram {
         let sizes = || layers.iter().map(|l| l.nodes).chain([terminals.len()]);
         Diagram {
             nodes: sizes().sum(),
@@ -98,7 +101,7 @@ impl Diagram {
 
     /// Returns the redundant constraints of a variant; `None` if the diagram does not have it.
     #[must_use]
-    pub fn end(&self, choices: &[usize]) -> Option<Redundancy> {
+    pub fn end_of(&self, choices: &[usize]) -> Option<Redundancy> {
         let mut node = 0;
         for layer in &self.layers {
             let to = layer.edges[node * layer.choices + choices[layer.variable]];
@@ -118,7 +121,7 @@ impl Diagram {
 /// # Complexity
 /// O(nodes · choices · d²w) field operations for matrices of d rows and w columns; memory is the edges of all layers
 /// and the matrices of two, both bounded by `limits.nodes` and `limits.bytes`.
-pub(super) fn build(
+pub(super) fn build_layers(
     space: &Space,
     stages: &[impl Carries],
     limits: &Limits,
@@ -127,7 +130,7 @@ pub(super) fn build(
     cancelled: &(dyn Fn() -> bool + Sync),
     progress: &mut (dyn FnMut(Progress) + Send),
 ) -> Diagram {
-    let mut nodes = Nodes::root(root);
+    let mut nodes = Nodes::root_node(root);
     let mut ways = vec![1.0];
     let mut layers = Vec::with_capacity(stages.len());
     let (mut largest, mut stop) = (1, Stop::Exhausted);
@@ -135,12 +138,12 @@ pub(super) fn build(
     for (done, stage) in stages.iter().enumerate() {
         let choices = &space.variables[stage.variable()].choices;
         let total = allowance.nodes;
-        let merge = next(
+        let merge = next_layer(
             stage,
             choices,
             allowance.bytes,
             &nodes,
-            allowance.layer(&nodes, nodes.len() * choices.len(), stop),
+            allowance.begin_layer(&nodes, nodes.len() * choices.len(), stop),
             |spent, matrix, least| {
                 let ceiling = ceiling.as_mut();
                 ceiling.is_some_and(|c| c.is_above(done + 1, spent, matrix, least))
@@ -151,13 +154,13 @@ pub(super) fn build(
         stop = merge.stop;
         let (refused, mut next, mut edges) = (merge.refused, merge.next, merge.edges);
         if refused {
-            allowance.lower(&nodes, &next, edges.len());
+            allowance.lower_bytes(&nodes, &next, edges.len());
         }
-        let keep = allowance.keep(&next, choices.len(), stop, stages.len() - done);
-        ways = carried(&ways, &edges, choices.len(), next.len());
+        let keep = allowance.kept_nodes(&next, choices.len(), stop, stages.len() - done);
+        ways = carry_ways(&ways, &edges, choices.len(), next.len());
         ways = cut_down(&mut next, &mut edges, ways, keep);
         largest = largest.max(next.len());
-        allowance.take(next.len(), edges.len());
+        allowance.take_layer(next.len(), edges.len());
         layers.push(Layer {
             variable: stage.variable(),
             nodes: nodes.len(),
@@ -176,7 +179,7 @@ pub(super) fn build(
 }
 
 /// How many ways lead to each of the next nodes, from how many lead to these.
-fn carried(ways: &[f64], edges: &[u32], choices: usize, next: usize) -> Vec<f64> {
+fn carry_ways(ways: &[f64], edges: &[u32], choices: usize, next: usize) -> Vec<f64> {
     let mut out = vec![0.0; next];
     for (edges, n) in edges.chunks(choices.max(1)).zip(ways) {
         for &to in edges.iter().filter(|to| **to != DEAD) {
@@ -192,7 +195,7 @@ fn cut_down(next: &mut Nodes, edges: &mut [u32], ways: Vec<f64>, keep: usize) ->
         return ways;
     }
     let kept = worth_keeping(next, &ways, keep);
-    retain(next, &kept, edges);
+    retain_nodes(next, &kept, edges);
     kept.iter().map(|&i| ways[i]).collect()
 }
 
@@ -201,11 +204,17 @@ pub(super) trait Carries: Sync {
     /// Index of the variable in the space.
     fn variable(&self) -> usize;
     /// Scratch space for a thread.
-    fn worker(&self) -> Worker;
+    fn make_worker(&self) -> Worker;
     /// About how many field operations a child takes of a node that has so many bytes.
-    fn effort(&self, bytes: usize) -> usize;
+    fn child_effort(&self, bytes: usize) -> usize;
     /// Takes all children of a node, in order of choices.
-    fn children(&self, worker: &mut Worker, matrix: &[Residue], spent: &Spent, out: &mut Children);
+    fn push_children(
+        &self,
+        worker: &mut Worker,
+        matrix: &[Residue],
+        spent: &Spent,
+        out: &mut Children,
+    );
 }
 
 /// Returns the merged children of a layer's nodes, without those that are `out` of the question. `told` receives the number of children so
@@ -214,7 +223,7 @@ pub(super) trait Carries: Sync {
     clippy::too_many_arguments,
     reason = "one layer of a diagram, or of half of one"
 )]
-pub(super) fn next(
+pub(super) fn next_layer(
     carries: &impl Carries,
     choices: &[Choice],
     bytes: usize,
@@ -226,17 +235,17 @@ pub(super) fn next(
 ) -> Merge {
     // Children that are not merged yet may take an eighth of the memory, and no more than stays in use from batch to batch; one is about
     // as large as its parent.
-    let each = nodes.bytes() / nodes.len().max(1);
+    let each = nodes.held_bytes() / nodes.len().max(1);
     let size = (CHILDREN.min(bytes / 8) / (each * choices.len()).max(1))
-        .min(BATCH / (carries.effort(each) * choices.len()).max(1))
+        .min(BATCH / (carries.child_effort(each) * choices.len()).max(1))
         .clamp(CUT, MOST);
     for batch in (0..nodes.len()).step_by(size) {
         let batch = batch..(batch + size).min(nodes.len());
-        for part in expand(carries, choices.len(), nodes, batch) {
-            merge.take(&part, nodes, |choice| choices[choice].cost_milli, &mut out);
+        for part in expand_nodes(carries, choices.len(), nodes, batch) {
+            merge.take_children(&part, nodes, |choice| choices[choice].cost_milli, &mut out);
         }
         if cancelled() {
-            merge.interrupt(nodes.len() * choices.len());
+            merge.interrupt_merge(nodes.len() * choices.len());
         }
         told(merge.next.len());
         if merge.edges.len() == nodes.len() * choices.len() {
@@ -257,17 +266,17 @@ const BATCH: usize = 1 << 25;
 const PARALLEL: usize = 1024;
 
 /// The children of some nodes, in parallel, in order.
-pub(super) fn expand(
+pub(super) fn expand_nodes(
     carries: &impl Carries,
     choices: usize,
     nodes: &Nodes,
     range: std::ops::Range<usize>,
 ) -> Vec<Children> {
     let some = |range: std::ops::Range<usize>| {
-        let mut worker = carries.worker();
+        let mut worker = carries.make_worker();
         let mut out = Children::new(choices);
         for i in range {
-            carries.children(&mut worker, nodes.matrix(i), &nodes.spent[i], &mut out);
+            carries.push_children(&mut worker, nodes.matrix(i), &nodes.spent[i], &mut out);
         }
         out
     };
@@ -299,7 +308,7 @@ fn worth_keeping(nodes: &Nodes, ways: &[f64], keep: usize) -> Vec<usize> {
 }
 
 /// Keeps the nodes listed, ascending, and renames the edges that lead to them.
-pub(super) fn retain(nodes: &mut Nodes, kept: &[usize], edges: &mut [u32]) {
+pub(super) fn retain_nodes(nodes: &mut Nodes, kept: &[usize], edges: &mut [u32]) {
     let mut renamed = vec![DEAD; nodes.len()];
     for (to, &from) in kept.iter().enumerate() {
         renamed[from] = u32::try_from(to).expect("fewer than before");

@@ -8,7 +8,7 @@ pub(in crate::search) mod canonical;
 mod ears;
 mod widths;
 
-use crate::search::order::canonical::canonical;
+use crate::search::order::canonical::canonical_order;
 use crate::search::order::ears::Joined;
 use crate::search::order::widths::{Trial, Widths};
 use crate::search::question::Question;
@@ -33,7 +33,7 @@ pub(super) fn variable_order(
     later: &[usize],
 ) -> Vec<usize> {
     let all: Vec<usize> = blocks.iter().flat_map(|b| b.variables.clone()).collect();
-    let place = canonical(&question.mechanism, &question.space, &all);
+    let place = canonical_order(&question.mechanism, &question.space, &all);
     let mut block_of = BTreeMap::new();
     for (b, block) in blocks.iter().enumerate() {
         block_of.extend(block.variables.iter().map(|&v| (v, b)));
@@ -61,14 +61,14 @@ pub(super) fn variable_order(
 
 /// Returns the order of one block, whose variables are given in the canonical order.
 fn order_of_block(joined: &Joined, widths: &Widths, variables: &[usize]) -> Vec<usize> {
-    let mut beam = vec![widths.start()];
+    let mut beam = vec![widths.empty_trial()];
     while beam.iter().any(|t| t.order.len() < variables.len()) {
         let mut next: BTreeMap<Vec<u64>, Trial> = BTreeMap::new();
         for trial in beam {
-            for ear in joined.ears(&trial) {
+            for ear in joined.find_ears(&trial) {
                 let mut grown = trial.clone();
-                ear.iter().for_each(|&v| widths.add(&mut grown, v));
-                match next.entry(joined.taken(&grown)) {
+                ear.iter().for_each(|&v| widths.add_variable(&mut grown, v));
+                match next.entry(joined.taken_bits(&grown)) {
                     Entry::Vacant(vacant) => {
                         vacant.insert(grown);
                     }
@@ -81,7 +81,7 @@ fn order_of_block(joined: &Joined, widths: &Widths, variables: &[usize]) -> Vec<
         }
         let places = |t: &Trial| -> Vec<usize> {
             let each = t.order.iter();
-            each.map(|&v| joined.place(v)).collect()
+            each.map(|&v| joined.canonical_place(v)).collect()
         };
         beam = next.into_values().collect();
         beam.sort_by_cached_key(|t| (t.work, places(t)));

@@ -19,12 +19,12 @@ use crate::redundancy::motion::joint_motion;
 use crate::search::answer::keys::{Key, Steps};
 use crate::search::question::conditions::{Conditions, OPEN, SearchError, Symmetry};
 use crate::search::question::cost::CostTable;
-use crate::search::question::grasp::{Grasp, grasps, is_free, loose};
+use crate::search::question::grasp::{Grasp, find_grasps, is_free, loose_bodies};
 use crate::search::question::kept::{Followed, Kept};
 use crate::search::question::own_images::OwnSymmetry;
 use crate::search::question::space::{Space, Variable, choice_name};
 use crate::search::question::throughout::{PoseOnly, Throughout};
-use crate::search::reduce::biconnected::{Block, blocks};
+use crate::search::reduce::biconnected::{Block, find_blocks};
 use crate::search::reduce::self_stress_space::is_contained;
 use itertools::Itertools;
 use num_bigint::BigUint;
@@ -73,7 +73,7 @@ fn kept_links(mechanism: &Mechanism) -> Vec<LinkId> {
 }
 
 /// How many joints of the free state are in none of its contours.
-fn open(mechanism: &Mechanism, contours: &[Contour]) -> usize {
+fn count_open_joints(mechanism: &Mechanism, contours: &[Contour]) -> usize {
     let joints = contours.iter().flat_map(|c| &c.joints);
     let closed = joints.map(|(j, _)| j).unique();
     mechanism.joints_in(StateId::FREE).count() - closed.count()
@@ -101,8 +101,8 @@ fn check_options(
 }
 
 /// The frame, the links that are kept to the end, and those of joints that come after the common ones.
-fn pinned(mechanism: &Mechanism, space: &Space, to_end: &[LinkId]) -> Vec<LinkId> {
-    let mut pinned = vec![mechanism.frame()];
+fn pinned_links(mechanism: &Mechanism, space: &Space, to_end: &[LinkId]) -> Vec<LinkId> {
+    let mut pinned = vec![mechanism.frame_link()];
     pinned.extend(to_end);
     let later = space.variables.iter().filter(|v| v.alone || v.external);
     let later = later.flat_map(|v| &v.joints);
@@ -126,20 +126,22 @@ fn both_blocks(
     let free = variables(|v| !v.external);
     let common = variables(|v| !v.external && !v.alone);
     [(free, &[][..]), (common, pinned)]
-        .map(|(of, pinned)| blocks(mechanism, space, &of, pinned, contours))
+        .map(|(of, pinned)| find_blocks(mechanism, space, &of, pinned, contours))
 }
 
 /// Returns what is asked of a search with each symmetry of these orders that the geometry has, where the file states none.
-fn symmetries<'a>(
+fn find_symmetries<'a>(
     exact: &'a ExactField,
     mechanism: &'a Mechanism,
     state: Option<StateId>,
     orders: &'a [usize],
 ) -> impl Iterator<Item = SearchSpec> + 'a {
-    let unstated = orders.iter().filter(|_| mechanism.search.order() == 1);
-    let found =
-        unstated.filter_map(move |&order| OwnSymmetry::find(exact, mechanism, state, order));
-    found.map(|own| own.of(&mechanism.search))
+    let unstated = orders
+        .iter()
+        .filter(|_| mechanism.search.symmetry_order() == 1);
+    let found = unstated
+        .filter_map(move |&order| OwnSymmetry::find_symmetry(exact, mechanism, state, order));
+    found.map(|own| own.apply_to(&mechanism.search))
 }
 
 impl Question {
@@ -158,9 +160,9 @@ impl Question {
             let others = written.others.iter_mut();
             others
                 .chain([&mut written.mechanism])
-                .for_each(|of| followed.enter(of));
+                .for_each(|of| followed.enter_drives(of));
         }
-        followed.enter(&mut mechanism);
+        followed.enter_drives(&mut mechanism);
         let searched = conditions.state.map(|s| s.state);
         // What is chosen alike at three legs is more symmetric than what is at two.
         let orders: &[usize] = match conditions.symmetry {
@@ -168,12 +170,12 @@ impl Question {
             Symmetry::SymmetricOnly => &[3, 2],
             Symmetry::OnePerOrbit => &[2, 3],
         };
-        let found = symmetries(&exact, &mechanism, searched, orders).next();
+        let found = find_symmetries(&exact, &mechanism, searched, orders).next();
         if let Some(search) = found {
             Arc::make_mut(&mut mechanism).search = search;
         }
         if conditions.symmetry != Symmetry::All {
-            symmetry::check(&exact, &mechanism, searched)?;
+            symmetry::check_images(&exact, &mechanism, searched)?;
         }
         if conditions.symmetry == Symmetry::OnePerOrbit {
             symmetry::check_drives(&mechanism)?;
@@ -192,20 +194,20 @@ impl Question {
         }
         let kept = Kept { links, motion };
         let contours = contour_basis(&mechanism, StateId::FREE);
-        let open = open(&mechanism, &contours);
+        let open = count_open_joints(&mechanism, &contours);
         if open > OPEN {
             return Err(SearchError::Open { open });
         }
         let rows = space.dim * contours.len() + mechanism.couplings_in(StateId::FREE).count();
         let rows = i64::try_from(rows).unwrap_or(i64::MAX);
         let searched = conditions.state.iter();
-        let grasps = searched.flat_map(|s| grasps(&mechanism, s.state, s.hold_objects));
+        let grasps = searched.flat_map(|s| find_grasps(&mechanism, s.state, s.hold_objects));
         let to_end = if conditions.keep_output {
-            kept.bodies(&mechanism)
+            kept.kept_bodies(&mechanism)
         } else {
             Vec::new()
         };
-        let pinned = pinned(&mechanism, &space, &to_end);
+        let pinned = pinned_links(&mechanism, &space, &to_end);
         let throughout =
             Throughout::new(&exact, &mechanism, &conditions, &space, &contours, &kept)?;
         Ok(Question {
@@ -227,11 +229,11 @@ impl Question {
     /// Returns the mechanism with each of its symmetries: that of its file, or else those of its geometry, a third of a turn first.
     #[must_use]
     pub fn symmetric_mechanisms(&self) -> Vec<Arc<Mechanism>> {
-        if self.mechanism.search.order() > 1 {
+        if self.mechanism.search.symmetry_order() > 1 {
             return vec![self.mechanism.clone()];
         }
         let state = self.conditions.state.map(|s| s.state);
-        let found = symmetries(&self.exact, &self.mechanism, state, &[3, 2]);
+        let found = find_symmetries(&self.exact, &self.mechanism, state, &[3, 2]);
         let with = |search| {
             let mechanism = Mechanism::clone(&self.mechanism);
             Arc::new(Mechanism {
@@ -243,7 +245,7 @@ impl Question {
     }
 
     /// The bodies that must be held in the searched state.
-    pub fn held(&self) -> impl Iterator<Item = LinkId> + '_ {
+    pub fn held_bodies(&self) -> impl Iterator<Item = LinkId> + '_ {
         self.grasps.iter().map(|g| g.body)
     }
 
@@ -264,7 +266,7 @@ impl Question {
                  --allow-loose-object searches all the same"
             )
         };
-        let loose = loose(&self.exact, m, s.state, &self.grasps)?;
+        let loose = loose_bodies(&self.exact, m, s.state, &self.grasps)?;
         Ok(loose.into_iter().map(said).collect())
     }
 
@@ -272,7 +274,8 @@ impl Question {
     /// depend on the joints that it adds and on the motion of the kept links, which is the original one in every admissible variant.
     pub(in crate::search) fn state_joins_kept_links(&self) -> bool {
         let m = &self.mechanism;
-        let is_known = |l: LinkId| l == m.frame() || self.kept.links.contains(&l) || !is_free(m, l);
+        let is_known =
+            |l: LinkId| l == m.frame_link() || self.kept.links.contains(&l) || !is_free(m, l);
         let is_coupled = |j: JointId| m.couplings_of(j).next().is_some();
         self.conditions.keep_output
             && self.space.variables.iter().all(|v| {
@@ -317,13 +320,13 @@ impl Question {
 
     /// Returns the sort key of variants: cost, then W, then changes, then the other properties.
     #[must_use]
-    pub fn rank(&self, key: Key) -> (u64, i64, u32, Key) {
+    pub fn sort_rank(&self, key: Key) -> (u64, i64, u32, Key) {
         (key.cost(), self.mobility(key), key.changes(), key)
     }
 
     /// Whether a variant's key meets the conditions on mobility and changes.
     #[must_use]
-    pub fn wanted(&self, key: Key) -> bool {
+    pub fn is_wanted(&self, key: Key) -> bool {
         self.conditions
             .max_mobility
             .is_none_or(|m| self.mobility(key) <= m)
@@ -335,13 +338,13 @@ impl Question {
 
     /// The choices of a variant's image.
     #[must_use]
-    pub fn image(&self, choices: &[usize]) -> Vec<usize> {
+    pub fn image_of(&self, choices: &[usize]) -> Vec<usize> {
         let mut out = choices.to_vec();
         let variables = &self.space.variables;
         let of = |j: JointId| variables.iter().position(|v| v.joints == [j]);
         for (v, &choice) in variables.iter().zip(choices) {
             let [j] = v.joints[..] else { continue };
-            if let Some(to) = of(self.mechanism.search.image(j)) {
+            if let Some(to) = of(self.mechanism.search.image_of_joint(j)) {
                 out[to] = choice;
             }
         }

@@ -5,11 +5,11 @@ use super::answer::k_best::{Cheapest, Enter, ListLimits, Reach};
 use super::answer::keys::Key;
 use super::build::Diagrams;
 use super::build::lanes::in_self_stress_space;
-use super::build::orders::{one_diagram, orders};
-use super::build::self_stress::{Wanted, limits};
+use super::build::orders::{one_diagram, variable_orders};
+use super::build::self_stress::{Wanted, diagram_limits};
 use super::build::spanning_halves::Halves;
 use super::build::two_sided::two_sided;
-use super::diagram::minimize::minimal;
+use super::diagram::minimize::minimize_diagram;
 use super::diagram::{Diagram, Stop};
 use super::question::Question;
 
@@ -17,7 +17,9 @@ use super::question::Question;
 /// if more redundant constraints are allowed than every variant has.
 #[must_use]
 pub fn from_both_ends(question: &Question) -> Vec<[Option<Diagram>; 2]> {
-    let (orders, limits, never) = (orders(question), limits(question), || false);
+    let (orders, limits, never) = (variable_orders(question), diagram_limits(question), || {
+        false
+    });
     let mut both = vec![(&orders.determinate, Wanted::Determinate)];
     if !one_diagram(question) {
         both.push((&orders.admissible, Wanted::Admissible));
@@ -28,12 +30,12 @@ pub fn from_both_ends(question: &Question) -> Vec<[Option<Diagram>; 2]> {
         let space = &question.space;
         let both = halves.and_then(|halves| two_sided(&halves, space, &never, &mut |_| {}));
         (one.stop == Stop::Exhausted)
-            .then(|| [Some(one), both].map(|d| d.map(|d| minimal(d.layers, d.terminals))))
+            .then(|| [Some(one), both].map(|d| d.map(|d| minimize_diagram(d.layers, d.terminals))))
     };
     both.into_iter().filter_map(of).collect()
 }
 
-fn cheapest<'d>(
+fn cheapest_variants<'d>(
     question: &'d Question,
     found: &'d Diagrams,
     top: usize,
@@ -71,7 +73,7 @@ pub fn walked_for_variants(question: &Question, found: &Diagrams, top: usize) ->
         steps += 1;
         true
     };
-    let listed = cheapest(question, found, top, Box::new(enter)).count();
+    let listed = cheapest_variants(question, found, top, Box::new(enter)).count();
     Walked { listed, steps }
 }
 
@@ -81,7 +83,7 @@ pub fn walked_for_ideas(question: &Question, found: &Diagrams, top: usize) -> Wa
     let mut steps = 0;
     let listed = ideas_in_steps(
         question,
-        &IdeaBasis::of(question),
+        &IdeaBasis::of_question(question),
         &idea_variants(question, found),
         top,
         &mut steps,

@@ -3,7 +3,7 @@
 use super::certificate::FieldClaim;
 use super::flaw::Flaw;
 use super::matrix::MatrixOverRing;
-use super::modular::{Homomorphism, power};
+use super::modular::{Homomorphism, power_modular};
 use crate::linalg::number_ring::{Element, NumberRing};
 use num_bigint::BigInt;
 use num_rational::BigRational;
@@ -13,7 +13,7 @@ use num_traits::{One, Zero};
 const MAX_ORDER: u64 = 4096;
 
 /// Confirms that the field is that of the matrix, and that it is a field.
-pub(super) fn check(matrix: &MatrixOverRing, claim: &FieldClaim) -> Result<(), Flaw> {
+pub(super) fn check_field(matrix: &MatrixOverRing, claim: &FieldClaim) -> Result<(), Flaw> {
     let ring = matrix.ring();
     let same = claim.cosine_order == matrix.cosine_order()
         && claim.relations.len() == ring.generators()
@@ -60,12 +60,12 @@ fn root_is_new(
         return Err(flaw("its relation is not that of a square root"));
     }
     let images = Homomorphism::new(prime, images, ring)?;
-    images.respects(ring, generator)?;
-    if !images.simple(ring)? {
+    images.satisfies_relation(ring, generator)?;
+    if !images.are_roots_simple(ring)? {
         return Err(flaw("the prime of its witness divides a discriminant"));
     }
-    let radicand = (prime - images.of(constant)?) % prime;
-    if power(radicand, (prime - 1) / 2, prime) != prime - 1 {
+    let radicand = (prime - images.image_of(constant)?) % prime;
+    if power_modular(radicand, (prime - 1) / 2, prime) != prime - 1 {
         return Err(flaw(
             "its radicand is a square modulo the prime of its witness",
         ));
@@ -101,11 +101,11 @@ fn is_cosine_relation(order: u64, relation: &[Element]) -> bool {
         expanded = next;
     }
     expanded.truncate(2 * degree + 1);
-    expanded == cyclotomic(order)
+    expanded == cyclotomic_polynomial(order)
 }
 
 /// Returns the cyclotomic polynomial, lowest coefficient first: x^n - 1 divided by those of all proper divisors.
-fn cyclotomic(n: u64) -> Vec<BigInt> {
+fn cyclotomic_polynomial(n: u64) -> Vec<BigInt> {
     let divisors: Vec<u64> = (1..=n).filter(|d| n.is_multiple_of(*d)).collect();
     let mut known: Vec<(u64, Vec<BigInt>)> = Vec::new();
     for d in divisors {
@@ -115,7 +115,7 @@ fn cyclotomic(n: u64) -> Vec<BigInt> {
             *lead += 1;
         }
         for (_, divisor) in known.iter().filter(|(e, _)| d.is_multiple_of(*e)) {
-            rest = divided(rest, divisor);
+            rest = divide_monic(rest, divisor);
         }
         known.push((d, rest));
     }
@@ -123,7 +123,7 @@ fn cyclotomic(n: u64) -> Vec<BigInt> {
 }
 
 /// Returns the quotient by a monic polynomial that divides.
-fn divided(mut a: Vec<BigInt>, b: &[BigInt]) -> Vec<BigInt> {
+fn divide_monic(mut a: Vec<BigInt>, b: &[BigInt]) -> Vec<BigInt> {
     let length = (a.len() + 1).saturating_sub(b.len());
     let mut quotient = vec![BigInt::zero(); length];
     for low in (0..length).rev() {
@@ -143,7 +143,8 @@ mod tests {
     #[test]
     fn polynomials_of_cosines() {
         let is = |order, relation: &[i64]| {
-            let relation: Vec<Element> = relation.iter().map(|&c| Element::integer(c)).collect();
+            let relation: Vec<Element> =
+                relation.iter().map(|&c| Element::from_integer(c)).collect();
             is_cosine_relation(order, &relation)
         };
         assert!(is(3, &[1]) && is(4, &[0]) && is(6, &[-1]));
@@ -152,6 +153,6 @@ mod tests {
         assert!(is(20, &[5, 0, -5, 0]));
         assert!(!is(5, &[1, 1]) && !is(8, &[-3, 0]) && !is(7, &[-1, 1]) && !is(20, &[-1, 1]));
         assert!(!is(5000, &[0]) && !is(1, &[-2]));
-        assert_eq!(cyclotomic(105)[7], BigInt::from(-2));
+        assert_eq!(cyclotomic_polynomial(105)[7], BigInt::from(-2));
     }
 }

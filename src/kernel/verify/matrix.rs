@@ -97,7 +97,7 @@ impl MatrixOverRing {
         for (row, _, x) in self.entries() {
             below[row] = common_multiple(std::mem::take(&mut below[row]), &x.denominator());
         }
-        let integral = |(row, x): &(usize, Element)| x.times(&below[*row]);
+        let integral = |(row, x): &(usize, Element)| x.integral_coordinates(&below[*row]);
         let columns = self.columns.iter();
         columns.map(|c| c.iter().map(integral).collect()).collect()
     }

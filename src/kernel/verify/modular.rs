@@ -8,25 +8,25 @@ use num_rational::BigRational;
 use num_traits::ToPrimitive;
 
 /// Returns the product modulo p.
-pub(super) fn times(a: u64, b: u64, p: u64) -> u64 {
+pub(super) fn multiply_modular(a: u64, b: u64, p: u64) -> u64 {
     let product = u128::from(a) * u128::from(b) % u128::from(p);
     u64::try_from(product).unwrap_or(0)
 }
 
 /// Returns the sum modulo p.
-pub(super) fn plus(a: u64, b: u64, p: u64) -> u64 {
+pub(super) fn add_modular(a: u64, b: u64, p: u64) -> u64 {
     let sum = (u128::from(a) + u128::from(b)) % u128::from(p);
     u64::try_from(sum).unwrap_or(0)
 }
 
 /// Returns the power modulo p.
-pub(super) fn power(mut base: u64, mut exponent: u64, p: u64) -> u64 {
+pub(super) fn power_modular(mut base: u64, mut exponent: u64, p: u64) -> u64 {
     let mut out = 1 % p;
     while exponent > 0 {
         if exponent % 2 == 1 {
-            out = times(out, base, p);
+            out = multiply_modular(out, base, p);
         }
-        base = times(base, base, p);
+        base = multiply_modular(base, base, p);
         exponent /= 2;
     }
     out
@@ -49,7 +49,7 @@ pub(super) fn is_odd_prime(p: u64) -> bool {
         (p - 1) >> (p - 1).trailing_zeros(),
     );
     BASES.iter().all(|&base| {
-        let mut x = power(base, odd, p);
+        let mut x = power_modular(base, odd, p);
         if x == 1 {
             return true;
         }
@@ -57,7 +57,7 @@ pub(super) fn is_odd_prime(p: u64) -> bool {
             if x == p - 1 {
                 return true;
             }
-            x = times(x, x, p);
+            x = multiply_modular(x, x, p);
         }
         false
     })
@@ -91,8 +91,8 @@ impl Homomorphism {
             let below = basis.clone();
             let mut factor = 1;
             for _ in 1..ring.relation(generator).len() {
-                factor = times(factor, image, prime);
-                basis.extend(below.iter().map(|&b| times(b, factor, prime)));
+                factor = multiply_modular(factor, image, prime);
+                basis.extend(below.iter().map(|&b| multiply_modular(b, factor, prime)));
             }
         }
         Ok(Homomorphism {
@@ -103,7 +103,7 @@ impl Homomorphism {
     }
 
     /// Confirms that exactly the first `count` generators have images, and that these satisfy their relations.
-    pub(super) fn respects(&self, ring: &NumberRing, count: usize) -> Result<(), Flaw> {
+    pub(super) fn satisfies_relation(&self, ring: &NumberRing, count: usize) -> Result<(), Flaw> {
         if self.images.len() != count {
             return Err(Flaw::Images {
                 prime: self.prime,
@@ -115,7 +115,11 @@ impl Homomorphism {
             // Horner, from the leading 1 down
             let mut value = 1;
             for c in ring.relation(generator).iter().rev() {
-                value = plus(times(value, x, self.prime), self.of(c)?, self.prime);
+                value = add_modular(
+                    multiply_modular(value, x, self.prime),
+                    self.image_of(c)?,
+                    self.prime,
+                );
             }
             if value != 0 {
                 return Err(Flaw::Relation {
@@ -128,12 +132,16 @@ impl Homomorphism {
     }
 
     /// Returns true if no image is a multiple root of its relation.
-    pub(super) fn simple(&self, ring: &NumberRing) -> Result<bool, Flaw> {
+    pub(super) fn are_roots_simple(&self, ring: &NumberRing) -> Result<bool, Flaw> {
         for (generator, &x) in self.images.iter().enumerate() {
             let (relation, p) = (ring.relation(generator), self.prime);
             let mut slope = relation.len() as u64 % p;
             for (k, c) in relation.iter().enumerate().skip(1).rev() {
-                slope = plus(times(slope, x, p), times(k as u64 % p, self.of(c)?, p), p);
+                slope = add_modular(
+                    multiply_modular(slope, x, p),
+                    multiply_modular(k as u64 % p, self.image_of(c)?, p),
+                    p,
+                );
             }
             if slope == 0 {
                 return Ok(false);
@@ -143,12 +151,12 @@ impl Homomorphism {
     }
 
     /// Returns the image of an element formed from the generators that have one.
-    pub(super) fn of(&self, element: &Element) -> Result<u64, Flaw> {
+    pub(super) fn image_of(&self, element: &Element) -> Result<u64, Flaw> {
         let mut sum = 0;
         for (i, q) in element.coordinates().iter().enumerate() {
             let monomial = *self.basis.get(i).ok_or(Flaw::FieldDiffers)?;
-            let term = times(self.of_rational(q)?, monomial, self.prime);
-            sum = plus(sum, term, self.prime);
+            let term = multiply_modular(self.of_rational(q)?, monomial, self.prime);
+            sum = add_modular(sum, term, self.prime);
         }
         Ok(sum)
     }
@@ -160,12 +168,16 @@ impl Homomorphism {
         if below == 0 {
             return Err(Flaw::Denominator { prime: p });
         }
-        Ok(times(residue(q.numer()), power(below, p - 2, p), p))
+        Ok(multiply_modular(
+            residue(q.numer()),
+            power_modular(below, p - 2, p),
+            p,
+        ))
     }
 }
 
 /// Returns true if the determinant of a square matrix vanishes modulo p, by elimination. O(n³).
-pub(super) fn singular(mut m: Vec<Vec<u64>>, p: u64) -> bool {
+pub(super) fn is_singular(mut m: Vec<Vec<u64>>, p: u64) -> bool {
     let size = m.len();
     for c in 0..size {
         let Some(r) = (c..size).find(|&r| m[r][c] != 0) else {
@@ -173,12 +185,12 @@ pub(super) fn singular(mut m: Vec<Vec<u64>>, p: u64) -> bool {
         };
         m.swap(c, r);
         let pivot = m[c].clone();
-        let inverse = power(pivot[c], p - 2, p);
+        let inverse = power_modular(pivot[c], p - 2, p);
         for row in m.iter_mut().skip(c + 1).filter(|row| row[c] != 0) {
             // row += (p - row[c] / pivot[c]) · pivot
-            let by = p - times(row[c], inverse, p);
+            let by = p - multiply_modular(row[c], inverse, p);
             for (x, &y) in row.iter_mut().zip(&pivot).skip(c) {
-                *x = plus(*x, times(by, y, p), p);
+                *x = add_modular(*x, multiply_modular(by, y, p), p);
             }
         }
     }
@@ -202,11 +214,11 @@ mod tests {
 
     #[test]
     fn determinants_modulo_small_primes() {
-        assert!(singular(vec![vec![1, 2], vec![3, 6]], 7));
-        assert!(!singular(vec![vec![0, 2], vec![3, 6]], 7));
+        assert!(is_singular(vec![vec![1, 2], vec![3, 6]], 7));
+        assert!(!is_singular(vec![vec![0, 2], vec![3, 6]], 7));
         // determinant -7
-        assert!(singular(vec![vec![1, 3], vec![3, 2]], 7));
-        assert!(!singular(vec![vec![1, 3], vec![3, 2]], 5));
-        assert!(!singular(Vec::new(), 5));
+        assert!(is_singular(vec![vec![1, 3], vec![3, 2]], 7));
+        assert!(!is_singular(vec![vec![1, 3], vec![3, 2]], 5));
+        assert!(!is_singular(Vec::new(), 5));
     }
 }

@@ -27,7 +27,7 @@ impl PlotAxes {
         across: impl FnOnce(Room) -> Ruler,
     ) -> Self {
         let labels = y.ticks.iter().filter_map(|t| t.label.as_ref());
-        let left = labels.map(Label::width).fold(0.0, f64::max);
+        let left = labels.map(Label::label_width).fold(0.0, f64::max);
         let left = (PAD + left + 8.0).max(48.0);
         let room = Room::Across(right - left, left - 4.0, WIDTH - right - 4.0);
         PlotAxes {
@@ -39,19 +39,19 @@ impl PlotAxes {
     }
 
     /// Draws the axes with their names.
-    pub(super) fn draw(&self, xml: &mut Xml, across: &str, up: &str) {
+    pub(super) fn draw_axes(&self, xml: &mut Xml, across: &str, up: &str) {
         let plot = &self.plot;
-        let label = text::cut(up, TICK, WIDTH - 2.0 * PAD);
-        frame::label(xml, "name", (PAD, plot.top - 14.0), "").text(&label);
-        frame::up(xml, &self.y, plot);
-        frame::across(xml, &self.x, across, plot);
+        let label = text::cut_text(up, TICK, WIDTH - 2.0 * PAD);
+        frame::begin_text(xml, "name", (PAD, plot.top - 14.0), "").write_text(&label);
+        frame::draw_up(xml, &self.y, plot);
+        frame::draw_across(xml, &self.x, across, plot);
         let corners = [plot.left, plot.right].map(|x| (x, plot.bottom));
-        frame::stroke(xml, "axis", corners[0], corners[1]);
+        frame::draw_stroke(xml, "axis", corners[0], corners[1]);
     }
 
     /// Returns the position of a point in the picture, or `None` if it cannot be shown.
-    pub(super) fn place(&self, x: f64, y: f64) -> Option<(f64, f64)> {
-        let (across, up) = (self.x.place(x)?, self.y.place(y)?);
+    pub(super) fn place_point(&self, x: f64, y: f64) -> Option<(f64, f64)> {
+        let (across, up) = (self.x.place_value(x)?, self.y.place_value(y)?);
         let plot = &self.plot;
         Some((
             plot.left + across * (plot.right - plot.left),

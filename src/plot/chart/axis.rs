@@ -2,7 +2,7 @@
 
 use super::data::Scale;
 use crate::chart::style::{self, TICK};
-use crate::format::minus;
+use crate::format::with_minus_sign;
 use crate::svg::text;
 
 /// The range of an axis with its ticks; positions are fractions of the axis from its low end.
@@ -55,19 +55,19 @@ pub(super) enum Room {
 
 impl Label {
     /// Creates a label without a power.
-    pub(super) fn plain(base: String) -> Label {
+    pub(super) fn plain_label(base: String) -> Label {
         Label { base, power: None }
     }
 
     /// Returns its width in pixels.
-    pub(super) fn width(&self) -> f64 {
+    pub(super) fn label_width(&self) -> f64 {
         let power = self.power.as_deref().unwrap_or_default();
-        text::width(&self.base, TICK) + text::width(power, style::RAISED)
+        text::text_width(&self.base, TICK) + text::text_width(power, style::RAISED)
     }
 }
 
 /// Returns the quantity that the axis measures, the value or its decimal logarithm, or `None` if it cannot be shown.
-fn measure(scale: Scale, value: f64) -> Option<f64> {
+fn measured_quantity(scale: Scale, value: f64) -> Option<f64> {
     match scale {
         Scale::Linear => (value.abs() <= 1e300).then_some(value),
         Scale::Log => (value > 0.0 && value.is_finite()).then(|| value.log10()),
@@ -87,34 +87,36 @@ impl Ruler {
         room: Room,
     ) -> Self {
         let range = values
-            .filter_map(|v| measure(scale, v))
+            .filter_map(|v| measured_quantity(scale, v))
             .fold(None, |range, v| {
                 let (lo, hi) = range.unwrap_or((v, v));
                 Some((v.min(lo), v.max(hi)))
             });
         let (lo, hi) = range.unwrap_or((0.0, 1.0));
         let mut ruler = match scale {
-            Scale::Linear => linear(lo, hi, fit, room),
-            Scale::Log => log(lo, hi, fit, room, None),
+            Scale::Linear => linear_ruler(lo, hi, fit, room),
+            Scale::Log => log_ruler(lo, hi, fit, room, None),
             // The axis always includes zero.
-            Scale::LogAndZero(least) => log(lo.min(f64::from(least)), hi, fit, room, Some(least)),
+            Scale::LogAndZero(least) => {
+                log_ruler(lo.min(f64::from(least)), hi, fit, room, Some(least))
+            }
         };
         ruler.drop_crowded(room);
         ruler
     }
 
     /// Returns true if an axis can show `value`.
-    pub(super) fn shows(scale: Scale, value: f64) -> bool {
-        measure(scale, value).is_some()
+    pub(super) fn can_show(scale: Scale, value: f64) -> bool {
+        measured_quantity(scale, value).is_some()
     }
 
     /// Returns the position of `value`, or `None` if it cannot be shown.
-    pub(super) fn place(&self, value: f64) -> Option<f64> {
-        measure(self.scale, value).map(|v| self.fraction(v))
+    pub(super) fn place_value(&self, value: f64) -> Option<f64> {
+        measured_quantity(self.scale, value).map(|v| self.axis_fraction(v))
     }
 
     /// Creates a ruler without ticks.
-    fn bare(scale: Scale, lo: f64, hi: f64) -> Ruler {
+    fn without_ticks(scale: Scale, lo: f64, hi: f64) -> Ruler {
         Ruler {
             scale,
             lo,
@@ -125,19 +127,19 @@ impl Ruler {
     }
 
     /// Creates a tick at a measured quantity.
-    fn tick(&self, measured: f64, label: Label) -> Tick {
+    fn make_tick(&self, measured: f64, label: Label) -> Tick {
         Tick {
-            at: self.fraction(measured).clamp(0.0, 1.0),
+            at: self.axis_fraction(measured).clamp(0.0, 1.0),
             label: Some(label),
         }
     }
 
-    fn fraction(&self, measured: f64) -> f64 {
+    fn axis_fraction(&self, measured: f64) -> f64 {
         // halved, so that the widest ranges do not overflow
         (measured / 2.0 - self.lo / 2.0) / (self.hi / 2.0 - self.lo / 2.0)
     }
 
-    fn crowded(&self, room: Room) -> bool {
+    fn is_crowded(&self, room: Room) -> bool {
         let Room::Across(length, ..) = room else {
             return false;
         };
@@ -147,7 +149,7 @@ impl Ruler {
             .filter_map(|t| Some((t.at, t.label.as_ref()?)));
         let mut end = f64::NEG_INFINITY;
         for (at, label) in labels {
-            let (middle, half) = (at * length, label.width() / 2.0);
+            let (middle, half) = (at * length, label.label_width() / 2.0);
             if middle - half < end + style::GAP {
                 return true;
             }
@@ -170,7 +172,7 @@ impl Ruler {
         };
         let mut end = f64::NEG_INFINITY;
         for tick in &mut self.ticks {
-            let half = tick.label.as_ref().map_or(0.0, Label::width) / 2.0;
+            let half = tick.label.as_ref().map_or(0.0, Label::label_width) / 2.0;
             let (from, to) = (tick.at * length - half, tick.at * length + half);
             if from < -before || to > length + after || from < end + style::GAP {
                 tick.label = None;
@@ -182,7 +184,7 @@ impl Ruler {
 }
 
 /// Returns the numbers of steps to try, the best first.
-fn counts(room: Room) -> impl Iterator<Item = f64> {
+fn step_counts(room: Room) -> impl Iterator<Item = f64> {
     let best = match room {
         Room::Across(length, ..) => length / 60.0,
         Room::Up(length) => length / 46.0,
@@ -193,7 +195,7 @@ fn counts(room: Room) -> impl Iterator<Item = f64> {
         .filter(|&n| n >= 1.0)
 }
 
-fn linear(lo: f64, hi: f64, fit: AxisFit, room: Room) -> Ruler {
+fn linear_ruler(lo: f64, hi: f64, fit: AxisFit, room: Room) -> Ruler {
     let size = lo.abs().max(hi.abs());
     let (mut lo, mut hi) = if hi / 2.0 - lo / 2.0 > (size * 1e-10).max(1e-290) {
         (lo, hi)
@@ -215,9 +217,9 @@ fn linear(lo: f64, hi: f64, fit: AxisFit, room: Room) -> Ruler {
         lo = if lo == 0.0 { lo } else { lo - pad };
         hi = if hi == 0.0 { hi } else { hi + pad };
     }
-    let rulers = || counts(room).map(|count| linear_by(lo, hi, count, fit));
+    let rulers = || step_counts(room).map(|count| linear_by(lo, hi, count, fit));
     // A scale needs two labels: if no ruler has them without crowding, one whose crowded labels are dropped is better.
-    let good = |r: &Ruler| !r.crowded(room) && r.count_fitting_labels(room) >= 2;
+    let good = |r: &Ruler| !r.is_crowded(room) && r.count_fitting_labels(room) >= 2;
     let most = || rulers().max_by_key(|r| r.count_fitting_labels(room));
     let ruler = rulers().find(good).or_else(most);
     ruler.unwrap_or_else(|| linear_by(lo, hi, 1.0, fit))
@@ -227,7 +229,7 @@ fn linear(lo: f64, hi: f64, fit: AxisFit, room: Room) -> Ruler {
 fn linear_by(lo: f64, hi: f64, count: f64, fit: AxisFit) -> Ruler {
     let raw = hi / count - lo / count;
     let mut exponent = raw.log10().floor() as i32;
-    let lead = raw / ten(exponent) * (1.0 - 1e-9);
+    let lead = raw / power_of_ten(exponent) * (1.0 - 1e-9);
     let mut lead = [1_i64, 2, 5, 10]
         .into_iter()
         .find(|&m| lead <= m as f64)
@@ -235,7 +237,7 @@ fn linear_by(lo: f64, hi: f64, count: f64, fit: AxisFit) -> Ruler {
     if lead == 10 {
         (lead, exponent) = (1, exponent + 1);
     }
-    let step = lead as f64 * ten(exponent);
+    let step = lead as f64 * power_of_ten(exponent);
     let (first, last) = if fit == AxisFit::Round {
         ((lo / step + 1e-9).floor(), (hi / step - 1e-9).ceil())
     } else {
@@ -244,46 +246,46 @@ fn linear_by(lo: f64, hi: f64, count: f64, fit: AxisFit) -> Ruler {
     // whole multiples of ten(exponent)
     let whole: Vec<i64> = (first as i64..=last as i64).map(|k| k * lead).collect();
     let value = |k: i64| match exponent {
-        ..0 => k as f64 / ten(-exponent),
-        _ => k as f64 * ten(exponent),
+        ..0 => k as f64 / power_of_ten(-exponent),
+        _ => k as f64 * power_of_ten(exponent),
     };
     let (mut lo, mut hi) = (lo, hi);
     if let (AxisFit::Round, Some(&first), Some(&last)) = (fit, whole.first(), whole.last()) {
         (lo, hi) = (lo.min(value(first)), hi.max(value(last)));
     }
     let most = whole.iter().map(|k| k.abs()).max().unwrap_or(0);
-    let mut ruler = Ruler::bare(Scale::Linear, lo, hi);
-    let tick = |&k: &i64| ruler.tick(value(k), decimal(k, exponent, most));
+    let mut ruler = Ruler::without_ticks(Scale::Linear, lo, hi);
+    let tick = |&k: &i64| ruler.make_tick(value(k), decimal_label(k, exponent, most));
     ruler.ticks = whole.iter().map(tick).collect();
     ruler
 }
 
-fn ten(exponent: i32) -> f64 {
+fn power_of_ten(exponent: i32) -> f64 {
     10_f64.powi(exponent)
 }
 
 /// Formats `whole` times ten to the `exponent` like its neighbours, the largest of which is `most`.
-fn decimal(whole: i64, exponent: i32, most: i64) -> Label {
+fn decimal_label(whole: i64, exponent: i32, most: i64) -> Label {
     if whole == 0 {
-        return Label::plain("0".to_owned());
+        return Label::plain_label("0".to_owned());
     }
     let sign = if whole < 0 { "\u{2212}" } else { "" };
     let top = exponent + most.max(1).ilog10() as i32;
     if top < 6 && exponent >= -4 {
-        let size = whole.unsigned_abs() as f64 * ten(exponent);
+        let size = whole.unsigned_abs() as f64 * power_of_ten(exponent);
         let digits = format!("{size:.0$}", (-exponent).max(0) as usize);
-        return Label::plain(format!("{sign}{}", style::grouped(&digits)));
+        return Label::plain_label(format!("{sign}{}", style::group_thousands(&digits)));
     }
     let decimals = (top - exponent).max(0);
-    let mantissa = whole.unsigned_abs() as f64 / ten(decimals);
+    let mantissa = whole.unsigned_abs() as f64 / power_of_ten(decimals);
     Label {
         base: format!("{sign}{mantissa:.0$}×10", decimals as usize),
-        power: Some(minus(&top.to_string())),
+        power: Some(with_minus_sign(&top.to_string())),
     }
 }
 
 /// Creates decades; one of them may represent zero.
-fn log(lo: f64, hi: f64, fit: AxisFit, room: Room, zero: Option<i32>) -> Ruler {
+fn log_ruler(lo: f64, hi: f64, fit: AxisFit, room: Room, zero: Option<i32>) -> Ruler {
     let decades = |lo: f64, hi: f64| (hi + 1e-9).floor() - (lo - 1e-9).ceil() + 1.0;
     let (mut lo, mut hi) = if decades(lo, hi) >= 2.0 {
         let pad = if fit == AxisFit::Tight {
@@ -301,19 +303,19 @@ fn log(lo: f64, hi: f64, fit: AxisFit, room: Room, zero: Option<i32>) -> Ruler {
     let first = (lo - 1e-9).ceil() as i32;
     let last = (hi + 1e-9).floor() as i32;
     let plain = first >= -3 && last <= 5;
-    let most = counts(room).next().unwrap_or(1.0) as i32 + 1;
-    let mut ruler = Ruler::bare(zero.map_or(Scale::Log, Scale::LogAndZero), lo, hi);
+    let most = step_counts(room).next().unwrap_or(1.0) as i32 + 1;
+    let mut ruler = Ruler::without_ticks(zero.map_or(Scale::Log, Scale::LogAndZero), lo, hi);
     for step in [1, 2, 3, 5, 10, 20, 50, 100, 200, 500] {
         let decades = (first..=last).filter(|e| e % step == 0 || Some(*e) == zero);
         let tick = |e| {
             let label = match zero {
-                Some(z) if z == e => Label::plain("0".to_owned()),
-                _ => decade(e, plain),
+                Some(z) if z == e => Label::plain_label("0".to_owned()),
+                _ => decade_label(e, plain),
             };
-            ruler.tick(f64::from(e), label)
+            ruler.make_tick(f64::from(e), label)
         };
         ruler.ticks = decades.map(tick).collect();
-        if ruler.ticks.len() as i32 <= most && !ruler.crowded(room) {
+        if ruler.ticks.len() as i32 <= most && !ruler.is_crowded(room) {
             break;
         }
     }
@@ -322,20 +324,24 @@ fn log(lo: f64, hi: f64, fit: AxisFit, room: Room, zero: Option<i32>) -> Ruler {
             let places = (2..10).map(|m| f64::from(decade) + f64::from(m).log10());
             let places = places
                 .filter(|p| (lo..=hi).contains(p))
-                .map(|p| ruler.fraction(p));
+                .map(|p| ruler.axis_fraction(p));
             ruler.fine.extend(places.collect::<Vec<_>>());
         }
     }
     ruler
 }
 
-fn decade(exponent: i32, plain: bool) -> Label {
+fn decade_label(exponent: i32, plain: bool) -> Label {
     if !plain {
         return Label {
             base: "10".to_owned(),
-            power: Some(minus(&exponent.to_string())),
+            power: Some(with_minus_sign(&exponent.to_string())),
         };
     }
-    let digits = format!("{:.1$}", ten(exponent), (-exponent).max(0) as usize);
-    Label::plain(style::grouped(&digits))
+    let digits = format!(
+        "{:.1$}",
+        power_of_ten(exponent),
+        (-exponent).max(0) as usize
+    );
+    Label::plain_label(style::group_thousands(&digits))
 }

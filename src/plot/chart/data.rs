@@ -83,7 +83,7 @@ pub enum VerdictKind {
 
 impl VerdictKind {
     /// Returns the class of its colours in the style sheet.
-    pub(super) fn class(self) -> &'static str {
+    pub(super) fn colour_class(self) -> &'static str {
         match self {
             VerdictKind::Good => "good",
             VerdictKind::Bad => "bad",

@@ -3,11 +3,11 @@
 use super::data::{Series, Style};
 use super::frame;
 use crate::chart::style::{COLOURS, PAD, TICK, WIDTH};
-use crate::format::tooltip;
+use crate::format::six_digits;
 use crate::svg::labels::{self, Wish};
 use crate::svg::plane::Rect;
 use crate::svg::text;
-use crate::svg::xml::{Xml, number};
+use crate::svg::xml::{Xml, format_number};
 
 /// The vertical distance between names in the margin.
 pub(super) const STEP: f64 = 18.0;
@@ -51,42 +51,45 @@ pub(super) struct DrawnSeries<'a> {
 }
 
 impl DrawnSeries<'_> {
-    fn points(&self) -> impl Iterator<Item = ((f64, f64), (f64, f64))> + '_ {
+    fn shown_points(&self) -> impl Iterator<Item = ((f64, f64), (f64, f64))> + '_ {
         self.runs.iter().flatten().copied()
     }
 
     /// Returns the position of the rightmost point, or the later of two.
-    fn end(&self) -> Option<(f64, f64)> {
-        self.points()
+    fn last_end(&self) -> Option<(f64, f64)> {
+        self.shown_points()
             .map(|(place, _)| place)
             .max_by(|a, b| a.0.total_cmp(&b.0))
     }
 
     /// Returns true if it is a point with its name next to it.
-    fn lone(&self) -> bool {
-        self.series.style == Style::Points && self.points().count() == 1
+    fn is_lone(&self) -> bool {
+        self.series.style == Style::Points && self.shown_points().count() == 1
     }
 
     /// Returns true if every point has its mark.
-    fn marked(&self) -> bool {
+    fn is_marked(&self) -> bool {
         match self.series.style {
             Style::Points => true,
             Style::Steps => false,
-            Style::Line | Style::Dashed => self.points().count() <= SPARSE,
+            Style::Line | Style::Dashed => self.shown_points().count() <= SPARSE,
         }
     }
 
-    fn colour(&self) -> usize {
+    fn colour_index(&self) -> usize {
         self.number % COLOURS
     }
 
-    fn hollow(&self) -> bool {
+    fn is_hollow(&self) -> bool {
         self.number / COLOURS % 2 == 1
     }
 }
 
 /// Returns the points that can be shown, broken at those that cannot.
-pub(super) fn runs(series: &Series, place: impl Fn((f64, f64)) -> Option<(f64, f64)>) -> Vec<Run> {
+pub(super) fn find_runs(
+    series: &Series,
+    place: impl Fn((f64, f64)) -> Option<(f64, f64)>,
+) -> Vec<Run> {
     let mut runs = vec![Vec::new()];
     for &point in &series.points {
         match place(point) {
@@ -102,12 +105,12 @@ pub(super) fn runs(series: &Series, place: impl Fn((f64, f64)) -> Option<(f64, f
 }
 
 /// Returns the path through runs of positions, with held levels if `steps`.
-fn path(runs: &[Run], steps: bool) -> String {
+fn runs_path(runs: &[Run], steps: bool) -> String {
     let mut out = String::new();
     for run in runs.iter().filter(|run| run.len() > 1) {
         let mut last = (String::new(), String::new());
         for (n, ((x, y), _)) in run.iter().enumerate() {
-            let (x, y) = (number(*x), number(*y));
+            let (x, y) = (format_number(*x), format_number(*y));
             if n == 0 {
                 out += &format!("M{x} {y}");
             } else if (&x, &y) != (&last.0, &last.1) {
@@ -129,36 +132,36 @@ fn line_class(d: &DrawnSeries) -> String {
     } else {
         ""
     };
-    format!("line{dash} c{}", d.colour())
+    format!("line{dash} c{}", d.colour_index())
 }
 
 /// Draws the line and the points of a series.
-pub(super) fn body(xml: &mut Xml, d: &DrawnSeries) {
+pub(super) fn draw_body(xml: &mut Xml, d: &DrawnSeries) {
     let style = d.series.style;
-    xml.tag("g").open();
+    xml.begin_tag("g").keep_open();
     if style != Style::Points {
-        let path = path(&d.runs, style == Style::Steps);
+        let path = runs_path(&d.runs, style == Style::Steps);
         if !path.is_empty() {
-            xml.tag("path")
-                .set("class", &line_class(d))
-                .set("d", &path)
-                .tip(&d.series.name);
+            xml.begin_tag("path")
+                .set_text("class", &line_class(d))
+                .set_text("d", &path)
+                .close_with_tip(&d.series.name);
         }
     }
-    let count = d.points().count();
+    let count = d.shown_points().count();
     let alone = d.runs.iter().filter(|run| run.len() == 1).flatten();
     let tip = |point: (f64, f64)| {
-        let (x, y) = (tooltip(point.0), tooltip(point.1));
+        let (x, y) = (six_digits(point.0), six_digits(point.1));
         format!("{}: {x}, {y}", d.series.name)
     };
-    if d.marked() {
+    if d.is_marked() {
         let size = match (style, count) {
             (Style::Points, ..=200) => 4.5,
             (Style::Points, _) => 3.0,
             _ => 3.2,
         };
-        for (at, point) in d.points() {
-            mark(
+        for (at, point) in d.shown_points() {
+            draw_mark(
                 xml,
                 d,
                 at.0,
@@ -172,35 +175,39 @@ pub(super) fn body(xml: &mut Xml, d: &DrawnSeries) {
             );
         }
     } else {
-        alone.for_each(|&(at, point)| mark(xml, d, at.0, at.1, 3.2, &tip(point)));
+        alone.for_each(|&(at, point)| draw_mark(xml, d, at.0, at.1, 3.2, &tip(point)));
         let every = count.div_ceil(8).max(1);
         let shift = d.number * every / 14;
-        for (n, (at, point)) in d.points().enumerate() {
+        for (n, (at, point)) in d.shown_points().enumerate() {
             if d.many && n % every == shift {
-                mark(xml, d, at.0, at.1, 3.2, &tip(point));
+                draw_mark(xml, d, at.0, at.1, 3.2, &tip(point));
             } else if n % count.div_ceil(80).max(1) == 0 {
-                let hit = xml.tag("circle").set("class", "hit");
-                hit.num("cx", at.0)
-                    .num("cy", at.1)
-                    .num("r", 7.0)
-                    .tip(&tip(point));
+                let hit = xml.begin_tag("circle").set_text("class", "hit");
+                hit.set_number("cx", at.0)
+                    .set_number("cy", at.1)
+                    .set_number("r", 7.0)
+                    .close_with_tip(&tip(point));
             }
         }
     }
-    xml.end();
+    xml.end_element();
 }
 
 /// Draws the mark of a series, which is identified by its shape, colour and filling.
-fn mark(xml: &mut Xml, d: &DrawnSeries, x: f64, y: f64, r: f64, tip: &str) {
-    let class = match (d.hollow(), d.series.style) {
-        (true, _) => format!("hollow c{}", d.colour()),
-        (_, Style::Points) => format!("full f{}", d.colour()),
-        _ => format!("f{}", d.colour()),
+fn draw_mark(xml: &mut Xml, d: &DrawnSeries, x: f64, y: f64, r: f64, tip: &str) {
+    let class = match (d.is_hollow(), d.series.style) {
+        (true, _) => format!("hollow c{}", d.colour_index()),
+        (_, Style::Points) => format!("full f{}", d.colour_index()),
+        _ => format!("f{}", d.colour_index()),
     };
     let corners: &[(f64, f64)] = match (d.number + d.number / (2 * COLOURS)) % COLOURS {
         0 => {
-            let circle = xml.tag("circle").set("class", &class);
-            return circle.num("cx", x).num("cy", y).num("r", r).tip(tip);
+            let circle = xml.begin_tag("circle").set_text("class", &class);
+            return circle
+                .set_number("cx", x)
+                .set_number("cy", y)
+                .set_number("r", r)
+                .close_with_tip(tip);
         }
         1 => &[(-0.9, -0.9), (0.9, -0.9), (0.9, 0.9), (-0.9, 0.9)],
         2 => &[(0.0, -1.25), (1.15, 0.8), (-1.15, 0.8)],
@@ -212,25 +219,29 @@ fn mark(xml: &mut Xml, d: &DrawnSeries, x: f64, y: f64, r: f64, tip: &str) {
     let mut shape = String::new();
     for (n, (a, b)) in corners.iter().enumerate() {
         let letter = if n == 0 { "M" } else { "L" };
-        shape += &format!("{letter}{} {}", number(x + a * r), number(y + b * r));
+        shape += &format!(
+            "{letter}{} {}",
+            format_number(x + a * r),
+            format_number(y + b * r)
+        );
     }
-    xml.tag("path")
-        .set("class", &class)
-        .set("d", &(shape + "Z"))
-        .tip(tip);
+    xml.begin_tag("path")
+        .set_text("class", &class)
+        .set_text("d", &(shape + "Z"))
+        .close_with_tip(tip);
 }
 
 /// Draws the names of single points, each next to its point.
 pub(super) fn beside_points(xml: &mut Xml, drawn: &[DrawnSeries], plot: &Rect) {
     let lone = drawn
         .iter()
-        .filter(|d| d.lone() && !d.series.name.is_empty());
-    let lone: Vec<_> = lone.filter_map(|d| Some((d.end()?, d))).collect();
-    let name = |s: &Series| text::cut(&s.name, TICK, plot.right - plot.left - 40.0);
+        .filter(|d| d.is_lone() && !d.series.name.is_empty());
+    let lone: Vec<_> = lone.filter_map(|d| Some((d.last_end()?, d))).collect();
+    let name = |s: &Series| text::cut_text(&s.name, TICK, plot.right - plot.left - 40.0);
     let names: Vec<String> = lone.iter().map(|l| name(l.1.series)).collect();
     let wishes = lone.iter().zip(&names).map(|(l, name)| Wish {
         height: 15.0,
-        ..Wish::of(name, TICK, l.0.into(), 6.0)
+        ..Wish::for_text(name, TICK, l.0.into(), 6.0)
     });
     let wishes: Vec<Wish> = wishes.collect();
     let room = Rect::new(
@@ -240,30 +251,30 @@ pub(super) fn beside_points(xml: &mut Xml, drawn: &[DrawnSeries], plot: &Rect) {
         plot.bottom - 2.0,
     );
     let points = lone.iter().map(|l| Rect::around(l.0.into(), 12.0, 12.0));
-    let mut taken: Vec<Rect> = points.chain(around(&room)).collect();
-    let places = labels::place(&wishes, &mut taken, &[]);
+    let mut taken: Vec<Rect> = points.chain(around_room(&room)).collect();
+    let places = labels::place_labels(&wishes, &mut taken, &[]);
     for ((place, name), ((x, _), _)) in places.iter().zip(&names).zip(&lone) {
         let mut rect = place.rect;
-        if !rect.within(&room) {
+        if !rect.is_within(&room) {
             // There is no room left: it starts at the left edge.
-            rect = rect.moved([room.left - rect.left, 0.0]);
+            rect = rect.moved_by([room.left - rect.left, 0.0]);
         }
         if let Some((from, to)) = place.leader {
-            frame::stroke(xml, "lead", from.into(), to.into());
+            frame::draw_stroke(xml, "lead", from.into(), to.into());
         }
         let (anchor, at) = match (rect.left >= *x, rect.right <= *x) {
             (true, _) => ("start", rect.left),
             (_, true) => ("end", rect.right),
             _ => ("middle", f64::midpoint(rect.left, rect.right)),
         };
-        frame::label(xml, "name halo", (at, rect.bottom - 3.5), anchor).text(name);
+        frame::begin_text(xml, "name halo", (at, rect.bottom - 3.5), anchor).write_text(name);
     }
 }
 
 /// Returns rectangles that cover all around a room.
-fn around(room: &Rect) -> [Rect; 4] {
+fn around_room(room: &Rect) -> [Rect; 4] {
     const FAR: f64 = 1e3;
-    let all = room.grown(FAR);
+    let all = room.grown_by(FAR);
     [
         Rect {
             right: room.left,
@@ -288,7 +299,7 @@ fn around(room: &Rect) -> [Rect; 4] {
 /// possible.
 ///
 /// The requested heights must ascend. If there is too little space, the last ones go below it.
-fn spread(wishes: &[f64], step: f64, from: f64, to: f64) -> Vec<f64> {
+fn spread_heights(wishes: &[f64], step: f64, from: f64, to: f64) -> Vec<f64> {
     // least squares with a fixed order: pools of neighbours that push each other take their mean
     let mut pools: Vec<(f64, usize)> = Vec::new();
     for (n, wish) in wishes.iter().enumerate() {
@@ -317,19 +328,19 @@ fn spread(wishes: &[f64], step: f64, from: f64, to: f64) -> Vec<f64> {
 }
 
 /// Draws the names of all other series in the margin, each near the end of its line and with a sample of it.
-pub(super) fn margin(xml: &mut Xml, drawn: &[DrawnSeries], plot: &Rect) {
+pub(super) fn name_in_margin(xml: &mut Xml, drawn: &[DrawnSeries], plot: &Rect) {
     let named = drawn
         .iter()
-        .filter(|d| !d.lone() && !d.series.name.is_empty());
-    let mut ends: Vec<_> = named.filter_map(|d| Some((d.end()?, d))).collect();
+        .filter(|d| !d.is_lone() && !d.series.name.is_empty());
+    let mut ends: Vec<_> = named.filter_map(|d| Some((d.last_end()?, d))).collect();
     ends.sort_by(|a, b| a.0.1.total_cmp(&b.0.1));
     let wishes: Vec<_> = ends.iter().map(|(end, _)| end.1).collect();
     let half = STEP / 2.0;
-    let heights = spread(&wishes, STEP, plot.top + half, plot.bottom - half);
+    let heights = spread_heights(&wishes, STEP, plot.top + half, plot.bottom - half);
     for ((end, d), y) in ends.iter().zip(heights) {
         let from = plot.right + LEAD;
         if plot.right - end.0 < 12.0 {
-            frame::stroke(
+            frame::draw_stroke(
                 xml,
                 "lead",
                 (end.0.max(plot.right) + 3.0, end.1),
@@ -337,30 +348,36 @@ pub(super) fn margin(xml: &mut Xml, drawn: &[DrawnSeries], plot: &Rect) {
             );
         }
         if d.series.style != Style::Points {
-            frame::stroke(xml, &line_class(d), (from, y), (from + SAMPLE, y));
+            frame::draw_stroke(xml, &line_class(d), (from, y), (from + SAMPLE, y));
         }
-        if d.marked() || d.many {
-            mark(xml, d, from + SAMPLE / 2.0, y, 4.0, "");
+        if d.is_marked() || d.many {
+            draw_mark(xml, d, from + SAMPLE / 2.0, y, 4.0, "");
         }
         let at = from + SAMPLE + 8.0;
-        let name = text::cut(&d.series.name, TICK, WIDTH - PAD / 2.0 - at);
-        frame::label(xml, "name", (at, y + 4.0), "").text_and_tip(&name, &d.series.name);
+        let name = text::cut_text(&d.series.name, TICK, WIDTH - PAD / 2.0 - at);
+        frame::begin_text(xml, "name", (at, y + 4.0), "").text_and_tip(&name, &d.series.name);
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::spread;
+    use super::spread_heights;
 
     #[test]
     fn names_keep_apart_and_near() {
-        assert_eq!(spread(&[10.0, 50.0], 16.0, 0.0, 100.0), [10.0, 50.0]);
-        assert_eq!(spread(&[50.0, 50.0], 16.0, 0.0, 100.0), [42.0, 58.0]);
         assert_eq!(
-            spread(&[99.0, 100.0, 100.0], 10.0, 0.0, 100.0),
+            spread_heights(&[10.0, 50.0], 16.0, 0.0, 100.0),
+            [10.0, 50.0]
+        );
+        assert_eq!(
+            spread_heights(&[50.0, 50.0], 16.0, 0.0, 100.0),
+            [42.0, 58.0]
+        );
+        assert_eq!(
+            spread_heights(&[99.0, 100.0, 100.0], 10.0, 0.0, 100.0),
             [80.0, 90.0, 100.0]
         );
-        assert_eq!(spread(&[1.0, 2.0], 10.0, 0.0, 5.0), [0.0, 10.0]);
-        assert!(spread(&[], 10.0, 0.0, 5.0).is_empty());
+        assert_eq!(spread_heights(&[1.0, 2.0], 10.0, 0.0, 5.0), [0.0, 10.0]);
+        assert!(spread_heights(&[], 10.0, 0.0, 5.0).is_empty());
     }
 }

@@ -19,15 +19,16 @@ impl Chart {
             .series
             .iter()
             .enumerate()
-            .partition(|(_, s)| s.points.iter().any(|p| self.shows(p)));
+            .partition(|(_, s)| s.points.iter().any(|p| self.shows_point(p)));
         let head = Head::new(&self.title, &self.subtitle, WIDTH);
-        let axes = self.axes(head.height() + 32.0, &shown);
-        let note = missing(&absent);
+        let axes = self.make_axes(head.head_height() + 32.0, &shown);
+        let note = missing_note(&absent);
         let foot = axes.plot.bottom + 52.0;
 
         let size = (WIDTH, foot + 16.0 * note.len() as f64);
-        let mut xml = frame::begin(size, "oz oz-chart", &self.title, &self.about(), &head);
-        axes.draw(&mut xml, &self.x.label, &self.y.label);
+        let mut xml =
+            frame::begin_picture(size, "oz oz-chart", &self.title, &self.about_text(), &head);
+        axes.draw_axes(&mut xml, &self.x.label, &self.y.label);
         let lines = self.series.iter().filter(|s| s.style != Style::Points);
         let many = lines.count() > COLOURS;
         let drawn: Vec<DrawnSeries> = shown
@@ -36,42 +37,42 @@ impl Chart {
                 many,
                 number,
                 series,
-                runs: drawn::runs(series, |p| axes.place(p.0, p.1)),
+                runs: drawn::find_runs(series, |p| axes.place_point(p.0, p.1)),
             })
             .collect();
         for d in &drawn {
-            drawn::body(&mut xml, d);
+            drawn::draw_body(&mut xml, d);
         }
         drawn::beside_points(&mut xml, &drawn, &axes.plot);
-        drawn::margin(&mut xml, &drawn, &axes.plot);
+        drawn::name_in_margin(&mut xml, &drawn, &axes.plot);
         for (n, line) in note.iter().enumerate() {
             let y = foot + 16.0 * n as f64;
-            frame::label(&mut xml, "soft small", (PAD, y), "").text(line);
+            frame::begin_text(&mut xml, "soft small", (PAD, y), "").write_text(line);
         }
-        xml.finish()
+        xml.finish_document()
     }
 
     /// Returns true if a point can be shown on both axes.
-    fn shows(&self, &(x, y): &(f64, f64)) -> bool {
-        Ruler::shows(self.x.scale, x) && Ruler::shows(self.y.scale, y)
+    fn shows_point(&self, &(x, y): &(f64, f64)) -> bool {
+        Ruler::can_show(self.x.scale, x) && Ruler::can_show(self.y.scale, y)
     }
 
     /// Returns the points that can be shown.
-    fn seen(&self) -> impl Iterator<Item = &(f64, f64)> {
+    fn seen_points(&self) -> impl Iterator<Item = &(f64, f64)> {
         let points = self.series.iter().flat_map(|s| &s.points);
-        points.filter(|p| self.shows(p))
+        points.filter(|p| self.shows_point(p))
     }
 
     /// Returns the axes below `top`, as high as the names of series in the margin require, and as wide as those leave
     /// space for.
-    fn axes(&self, top: f64, shown: &[Numbered]) -> PlotAxes {
+    fn make_axes(&self, top: f64, shown: &[Numbered]) -> PlotAxes {
         let lone = |s: &Series| {
-            s.style == Style::Points && s.points.iter().filter(|p| self.shows(p)).count() == 1
+            s.style == Style::Points && s.points.iter().filter(|p| self.shows_point(p)).count() == 1
         };
         let beside = shown.iter().filter(|(_, s)| !lone(s) && !s.name.is_empty());
         let longest = beside
             .clone()
-            .map(|(_, s)| text::width(&s.name, TICK))
+            .map(|(_, s)| text::text_width(&s.name, TICK))
             .fold(0.0, f64::max);
         let names = beside.count();
         let height = (names as f64 * STEP).max(330.0);
@@ -81,7 +82,7 @@ impl Chart {
         };
         let y = Ruler::new(
             self.y.scale,
-            self.seen().map(|p| p.1),
+            self.seen_points().map(|p| p.1),
             AxisFit::Round,
             Room::Up(height),
         );
@@ -92,7 +93,7 @@ impl Chart {
             AxisFit::Tight
         };
         PlotAxes::new(top, height, right, y, |room| {
-            Ruler::new(self.x.scale, self.seen().map(|p| p.0), fit, room)
+            Ruler::new(self.x.scale, self.seen_points().map(|p| p.0), fit, room)
         })
     }
 
@@ -102,13 +103,13 @@ impl Chart {
             let one = |(x, y)| [s.name.clone(), format!("{x:?}"), format!("{y:?}")];
             s.points.iter().copied().map(one).collect::<Vec<_>>()
         };
-        csv::table(&["series", "x", "y"], self.series.iter().flat_map(points))
+        csv::write_table(&["series", "x", "y"], self.series.iter().flat_map(points))
     }
 
     /// Returns the text for screen readers.
-    fn about(&self) -> String {
+    fn about_text(&self) -> String {
         let all: usize = self.series.iter().map(|s| s.points.len()).sum();
-        let shown = self.seen().count();
+        let shown = self.seen_points().count();
         let names = self
             .series
             .iter()
@@ -130,7 +131,7 @@ impl Chart {
 }
 
 /// Returns lines that list the series with nothing to show.
-fn missing(absent: &[Numbered]) -> Vec<String> {
+fn missing_note(absent: &[Numbered]) -> Vec<String> {
     let names = absent
         .iter()
         .map(|(_, s)| s.name.as_str())
@@ -138,7 +139,7 @@ fn missing(absent: &[Numbered]) -> Vec<String> {
         .join(", ");
     match names.as_str() {
         "" => Vec::new(),
-        names => text::wrap(
+        names => text::wrap_text(
             &format!("Nothing to show: {names}."),
             11.0,
             WIDTH - 2.0 * PAD,

@@ -1,9 +1,9 @@
 //! Vectors set head to tail in adjacent panels: force plans that close in equilibrium.
 
-use super::frame::{Head, begin, label, stroke};
+use super::frame::{Head, begin_picture, begin_text, draw_stroke};
 use crate::chart::style::{PAD, WIDTH};
-use crate::format::{csv, significant};
-use crate::svg::plane::{Point, Rect, add, bounds, norm, polyline, scale, sub, unit};
+use crate::format::{csv, four_digits};
+use crate::svg::plane::{Point, Rect, add, bounds_of, path_data, plane_norm, scale, sub, unit};
 use crate::svg::xml::Xml;
 
 /// A vector of a plan.
@@ -29,19 +29,19 @@ pub struct Panel {
 impl Panel {
     /// Returns the size of the sum of the vectors, zero if the plan closes.
     #[must_use]
-    pub fn gap(&self) -> f64 {
-        norm(self.arrows.iter().fold([0.0; 2], |s, a| add(s, a.vector)))
+    pub fn closing_gap(&self) -> f64 {
+        plane_norm(self.arrows.iter().fold([0.0; 2], |s, a| add(s, a.vector)))
     }
 
-    fn longest(&self) -> f64 {
+    fn longest_vector(&self) -> f64 {
         self.arrows
             .iter()
-            .map(|a| norm(a.vector))
+            .map(|a| plane_norm(a.vector))
             .fold(0.0, f64::max)
     }
 
     /// Returns the heads of the vectors from the origin, y down.
-    fn corners(&self) -> Vec<Point> {
+    fn vector_heads(&self) -> Vec<Point> {
         let mut at = [0.0; 2];
         let mut out = vec![at];
         for a in &self.arrows {
@@ -92,13 +92,13 @@ impl Polygons {
             .iter()
             .map(|r| PLAN + 30.0 + LINE * lines(r) as f64 + PAD)
             .collect();
-        let height = head.height() + heights.iter().sum::<f64>() + PAD;
+        let height = head.head_height() + heights.iter().sum::<f64>() + PAD;
         let about = "Vectors head to tail; a plan that closes is in equilibrium.";
-        let mut xml = begin((WIDTH, height), "oz", &self.title, about, &head);
-        let mut top = head.height() + 6.0;
+        let mut xml = begin_picture((WIDTH, height), "oz", &self.title, about, &head);
+        let mut top = head.head_height() + 6.0;
         let half = (WIDTH - 3.0 * PAD) / 2.0;
         for (row, taken) in self.rows.iter().zip(heights) {
-            let boxes = row.panels.each_ref().map(|p| bounds(&p.corners()));
+            let boxes = row.panels.each_ref().map(|p| bounds_of(&p.vector_heads()));
             let fits = boxes.map(|b| {
                 let (wide, high) = (b.right - b.left, b.bottom - b.top);
                 ((half - 70.0) / wide.max(1e-300)).min((PLAN - 50.0) / high.max(1e-300))
@@ -112,33 +112,33 @@ impl Polygons {
                 #[allow(clippy::cast_precision_loss, reason = "two columns")]
                 let left = PAD + k as f64 * (half + PAD);
                 let room = Rect::new(left, top + 22.0, left + half, top + 22.0 + PLAN);
-                label(&mut xml, "sub", (left, top + 14.0), "").text(&panel.title);
-                plan(&mut xml, panel, &boxes[k], &room, by);
-                self.list(&mut xml, panel, [left, room.bottom + LINE]);
+                begin_text(&mut xml, "sub", (left, top + 14.0), "").write_text(&panel.title);
+                draw_plan(&mut xml, panel, &boxes[k], &room, by);
+                self.write_list(&mut xml, panel, [left, room.bottom + LINE]);
             }
             top += taken;
         }
-        xml.finish()
+        xml.finish_document()
     }
 
     /// Writes the vectors by name and size.
-    fn list(&self, xml: &mut Xml, panel: &Panel, [x, mut y]: Point) {
+    fn write_list(&self, xml: &mut Xml, panel: &Panel, [x, mut y]: Point) {
         for a in &panel.arrows {
             let line = format!("line c{}", a.colour);
-            stroke(xml, &line, (x, y - 4.0), (x + 18.0, y - 4.0));
+            draw_stroke(xml, &line, (x, y - 4.0), (x + 18.0, y - 4.0));
             let angle = a.vector[1].atan2(a.vector[0]).to_degrees();
             let text = format!(
                 "{}: {} {} at {angle:.1}°",
                 a.name,
-                significant(norm(a.vector)),
+                four_digits(plane_norm(a.vector)),
                 self.unit
             );
-            label(xml, "small", (x + 24.0, y), "").text(&text);
+            begin_text(xml, "small", (x + 24.0, y), "").write_text(&text);
             y += LINE;
         }
-        let share = panel.gap() / panel.longest().max(1e-300);
+        let share = panel.closing_gap() / panel.longest_vector().max(1e-300);
         let text = format!("closes to {share:.0e} of the longest");
-        label(xml, "small soft", (x + 24.0, y), "").text(&text);
+        begin_text(xml, "small soft", (x + 24.0, y), "").write_text(&text);
     }
 
     /// Returns one vector per line.
@@ -150,31 +150,33 @@ impl Polygons {
             vec![p.title.clone(), a.name.clone(), x, y]
         };
         let rows = panels.flat_map(|p| p.arrows.iter().map(move |a| row(p, a)));
-        csv::table(&["plan", "vector", "x", "y"], rows)
+        csv::write_table(&["plan", "vector", "x", "y"], rows)
     }
 }
 
-fn plan(xml: &mut Xml, panel: &Panel, is: &Rect, room: &Rect, by: f64) {
+fn draw_plan(xml: &mut Xml, panel: &Panel, is: &Rect, room: &Rect, by: f64) {
     let to = |p: Point| add(room.middle(), scale(sub(p, is.middle()), by));
-    let corners: Vec<Point> = panel.corners().into_iter().map(to).collect();
+    let corners: Vec<Point> = panel.vector_heads().into_iter().map(to).collect();
     for (a, ends) in panel.arrows.iter().zip(corners.windows(2)) {
         let (from, to) = (ends[0], ends[1]);
-        let (along, long) = (unit(sub(to, from)), norm(sub(to, from)));
+        let (along, long) = (unit(sub(to, from)), plane_norm(sub(to, from)));
         if long < 0.5 {
             continue;
         }
         let barb = HEAD.min(long);
         let neck = sub(to, scale(along, barb));
         let aside = scale([-along[1], along[0]], barb / 3.0);
-        stroke(
+        draw_stroke(
             xml,
             &format!("line c{}", a.colour),
             from.into(),
             neck.into(),
         );
         let corners = [to, add(neck, aside), sub(neck, aside)];
-        let head = xml.tag("path").set("class", &format!("f{}", a.colour));
-        head.set("d", &polyline(&corners, true)).close();
+        let head = xml
+            .begin_tag("path")
+            .set_text("class", &format!("f{}", a.colour));
+        head.set_text("d", &path_data(&corners, true)).close_empty();
         if long >= 24.0 {
             let middle = scale(add(from, to), 0.5);
             // To the left of its direction, so that two opposite vectors have their names apart.
@@ -185,7 +187,7 @@ fn plan(xml: &mut Xml, panel: &Panel, is: &Rect, room: &Rect, by: f64) {
                 x if x < -0.3 => "end",
                 _ => "middle",
             };
-            label(xml, "small halo", (at[0], at[1] + 4.0), anchor).text(&a.name);
+            begin_text(xml, "small halo", (at[0], at[1] + 4.0), anchor).write_text(&a.name);
         }
     }
 }

@@ -75,7 +75,7 @@ pub(super) const STYLE: &str = "
 ";
 
 /// Formats digits with a narrow space between thousands, from five digits on.
-pub(super) fn grouped(digits: &str) -> String {
+pub(super) fn group_thousands(digits: &str) -> String {
     let (whole, rest) = digits.split_at(digits.find('.').unwrap_or(digits.len()));
     if whole.len() < 5 {
         return digits.to_owned();

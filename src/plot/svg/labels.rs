@@ -1,7 +1,7 @@
 //! Where labels go so that none touches another or a symbol.
 
-use super::plane::{Point, Rect, norm, segments_cross, sub};
-use super::text::width;
+use super::plane::{Point, Rect, plane_norm, segments_cross, sub};
+use super::text::text_width;
 
 /// A label to be placed.
 #[derive(Clone, Debug)]
@@ -20,9 +20,9 @@ pub struct Wish {
 
 impl Wish {
     /// Returns the wish of a text for a place at least `clear` away from its anchor.
-    pub fn of(text: &str, size: f64, anchor: Point, clear: f64) -> Wish {
+    pub fn for_text(text: &str, size: f64, anchor: Point, clear: f64) -> Wish {
         Wish {
-            width: width(text, size),
+            width: text_width(text, size),
             height: size + 1.0,
             anchor,
             clear,
@@ -60,11 +60,15 @@ const NEAR: f64 = 9.0;
 const ANGLES: usize = 24;
 
 /// Places the labels one by one; none touches what is taken or one placed before. Each joins what is taken.
-pub fn place(wishes: &[Wish], taken: &mut Vec<Rect>, lines: &[AvoidedLine]) -> Vec<LabelPlace> {
+pub fn place_labels(
+    wishes: &[Wish],
+    taken: &mut Vec<Rect>,
+    lines: &[AvoidedLine],
+) -> Vec<LabelPlace> {
     let mut lines = lines.to_vec();
     let mut out = Vec::new();
     for wish in wishes {
-        let place = best(wish, taken, &lines);
+        let place = best_place(wish, taken, &lines);
         taken.push(place.rect);
         if let Some(ends) = place.leader {
             lines.push(AvoidedLine {
@@ -77,20 +81,20 @@ pub fn place(wishes: &[Wish], taken: &mut Vec<Rect>, lines: &[AvoidedLine]) -> V
     out
 }
 
-fn best(wish: &Wish, taken: &[Rect], lines: &[AvoidedLine]) -> LabelPlace {
+fn best_place(wish: &Wish, taken: &[Rect], lines: &[AvoidedLine]) -> LabelPlace {
     let cheaper = |a: &(f64, LabelPlace), b: &(f64, LabelPlace)| a.0.total_cmp(&b.0);
     let first = wish.first.iter().map(|&(middle, cost)| {
         let rect = Rect::around(middle, wish.width, wish.height);
-        let cost = cost + crossed(&rect, lines);
+        let cost = cost + crossed_weight(&rect, lines);
         (cost, LabelPlace { rect, leader: None })
     });
-    let first = first.filter(|(_, place)| free(&place.rect, taken));
+    let first = first.filter(|(_, place)| is_free(&place.rect, taken));
     let mut best = first.min_by(cheaper);
     let mut away = wish.clear + GAP + 0.5;
     let bounds = taken
         .iter()
         .fold(Rect::around(wish.anchor, 1.0, 1.0), |a, b| a.with(b));
-    let farthest = norm(sub(
+    let farthest = plane_norm(sub(
         [bounds.left, bounds.top],
         [bounds.right, bounds.bottom],
     ));
@@ -102,15 +106,15 @@ fn best(wish: &Wish, taken: &[Rect], lines: &[AvoidedLine]) -> LabelPlace {
         }
         let tried = (0..ANGLES).filter_map(|step| {
             let angle = std::f64::consts::TAU * step as f64 / ANGLES as f64;
-            let rect = beside(wish, angle, away);
-            if !free(&rect, taken) {
+            let rect = beside_anchor(wish, angle, away);
+            if !is_free(&rect, taken) {
                 return None;
             }
             // level and upright places read best
             let slant = 0.25 * (2.0 * angle).sin().abs() + 0.05 * (1.0 - angle.cos());
-            let leader = (far > NEAR).then(|| (wish.anchor, rect.nearest(wish.anchor)));
-            let across = leader.map_or(0.0, |(a, b)| over(a, b, wish.anchor, taken, lines));
-            let cost = ring + slant + crossed(&rect, lines) + across;
+            let leader = (far > NEAR).then(|| (wish.anchor, rect.nearest_point(wish.anchor)));
+            let across = leader.map_or(0.0, |(a, b)| leader_cost(a, b, wish.anchor, taken, lines));
+            let cost = ring + slant + crossed_weight(&rect, lines) + across;
             Some((cost, LabelPlace { rect, leader }))
         });
         best = best.into_iter().chain(tried).min_by(cheaper);
@@ -120,14 +124,14 @@ fn best(wish: &Wish, taken: &[Rect], lines: &[AvoidedLine]) -> LabelPlace {
         // outside of everything there always is room
         let middle = [bounds.right + wish.width / 2.0 + GAP, wish.anchor[1]];
         let rect = Rect::around(middle, wish.width, wish.height);
-        let leader = Some((wish.anchor, rect.nearest(wish.anchor)));
+        let leader = Some((wish.anchor, rect.nearest_point(wish.anchor)));
         LabelPlace { rect, leader }
     };
     best.map_or_else(outside, |(_, place)| place)
 }
 
 /// The box whose distance from the anchor is `away`, in a direction.
-fn beside(wish: &Wish, angle: f64, away: f64) -> Rect {
+fn beside_anchor(wish: &Wish, angle: f64, away: f64) -> Rect {
     let (w, h) = (wish.width / 2.0, wish.height / 2.0);
     let (x, y) = (angle.cos(), angle.sin());
     // the middle lies on the outline of the rounded box of that distance
@@ -148,21 +152,23 @@ fn beside(wish: &Wish, angle: f64, away: f64) -> Rect {
     Rect::around(middle, wish.width, wish.height)
 }
 
-fn free(rect: &Rect, taken: &[Rect]) -> bool {
-    let grown = rect.grown(GAP);
+fn is_free(rect: &Rect, taken: &[Rect]) -> bool {
+    let grown = rect.grown_by(GAP);
     !taken.iter().any(|t| t.overlaps(&grown))
 }
 
-fn crossed(rect: &Rect, lines: &[AvoidedLine]) -> f64 {
-    let on = lines.iter().filter(|l| rect.meets(l.ends.0, l.ends.1));
+fn crossed_weight(rect: &Rect, lines: &[AvoidedLine]) -> f64 {
+    let on = lines
+        .iter()
+        .filter(|l| rect.meets_segment(l.ends.0, l.ends.1));
     on.map(|l| l.weight).sum()
 }
 
 /// How bad a leader is for what it crosses.
-fn over(a: Point, b: Point, anchor: Point, taken: &[Rect], lines: &[AvoidedLine]) -> f64 {
+fn leader_cost(a: Point, b: Point, anchor: Point, taken: &[Rect], lines: &[AvoidedLine]) -> f64 {
     let boxes = taken
         .iter()
-        .filter(|t| t.nearest(anchor) != anchor && t.meets(a, b))
+        .filter(|t| t.nearest_point(anchor) != anchor && t.meets_segment(a, b))
         .count();
     let lines = lines
         .iter()
@@ -185,7 +191,7 @@ mod tests {
         };
         let symbol = Rect::around([100.0, 100.0], 24.0, 24.0);
         let mut taken = vec![symbol];
-        let places = place(&vec![wish; 40], &mut taken, &[]);
+        let places = place_labels(&vec![wish; 40], &mut taken, &[]);
         for (i, a) in places.iter().enumerate() {
             assert!(!a.rect.overlaps(&symbol));
             assert!(!places[..i].iter().any(|b| b.rect.overlaps(&a.rect)));

@@ -1,7 +1,7 @@
 //! Points, segments, polygons and rectangles of a picture.
 
-use super::xml::number;
-pub use crate::geom::vector::{add, cross_plane as cross, dot, norm, scale, sub};
+use super::xml::format_number;
+pub use crate::geom::vector::{add, cross_plane as cross, dot, plane_norm, scale, sub};
 use std::fmt::Write as _;
 
 /// A point of the picture; y points down.
@@ -50,7 +50,7 @@ impl Rect {
 
     /// Returns the rectangle with a margin on every side.
     #[must_use]
-    pub fn grown(&self, by: f64) -> Rect {
+    pub fn grown_by(&self, by: f64) -> Rect {
         let (low, high) = (self.left - by, self.top - by);
         Rect::new(low, high, self.right + by, self.bottom + by)
     }
@@ -64,7 +64,7 @@ impl Rect {
     }
 
     /// Returns true if it lies completely inside another.
-    pub(crate) fn within(&self, room: &Rect) -> bool {
+    pub(crate) fn is_within(&self, room: &Rect) -> bool {
         self.left >= room.left
             && self.top >= room.top
             && self.right <= room.right
@@ -86,7 +86,7 @@ impl Rect {
     }
 
     /// Returns its point nearest to `p`.
-    pub fn nearest(&self, p: Point) -> Point {
+    pub fn nearest_point(&self, p: Point) -> Point {
         [
             p[0].clamp(self.left, self.right),
             p[1].clamp(self.top, self.bottom),
@@ -94,13 +94,13 @@ impl Rect {
     }
 
     /// Returns it moved.
-    pub fn moved(&self, [x, y]: Point) -> Rect {
+    pub fn moved_by(&self, [x, y]: Point) -> Rect {
         let (left, top) = (self.left + x, self.top + y);
         Rect::new(left, top, self.right + x, self.bottom + y)
     }
 
     /// Returns true if a segment touches it.
-    pub fn meets(&self, a: Point, b: Point) -> bool {
+    pub fn meets_segment(&self, a: Point, b: Point) -> bool {
         let within = |p: Point| {
             (self.left..=self.right).contains(&p[0]) && (self.top..=self.bottom).contains(&p[1])
         };
@@ -118,7 +118,7 @@ impl Rect {
 }
 
 /// Returns the smallest rectangle around some points, or an empty one at the origin.
-pub fn bounds(points: &[Point]) -> Rect {
+pub fn bounds_of(points: &[Point]) -> Rect {
     let all = points.iter().map(|&p| Rect::around(p, 0.0, 0.0));
     let all = all.reduce(|a, b| a.with(&b));
     all.unwrap_or(Rect::new(0.0, 0.0, 0.0, 0.0))
@@ -136,7 +136,7 @@ pub fn mean(points: impl Iterator<Item = Point>) -> Point {
 
 /// Returns the direction of a vector, or the horizontal one if it has none.
 pub fn unit(a: Point) -> Point {
-    let length = norm(a);
+    let length = plane_norm(a);
     if length > 1e-12 {
         scale(a, 1.0 / length)
     } else {
@@ -153,11 +153,11 @@ pub fn to_segment(p: Point, a: Point, b: Point) -> f64 {
     } else {
         0.0
     };
-    norm(sub(p, add(a, scale(along, t))))
+    plane_norm(sub(p, add(a, scale(along, t))))
 }
 
 /// Returns true if two segments share no value of one coordinate.
-pub fn apart([a, b]: [Point; 2], [c, d]: [Point; 2]) -> bool {
+pub fn are_apart([a, b]: [Point; 2], [c, d]: [Point; 2]) -> bool {
     (0..2).any(|k| a[k].max(b[k]) < c[k].min(d[k]) || c[k].max(d[k]) < a[k].min(b[k]))
 }
 
@@ -168,7 +168,7 @@ pub fn segments_cross(a: Point, b: Point, c: Point, d: Point) -> bool {
 }
 
 /// Returns the area of a polygon.
-pub fn area(polygon: &[Point]) -> f64 {
+pub fn polygon_area(polygon: &[Point]) -> f64 {
     let n = polygon.len();
     let twice: f64 = (0..n)
         .map(|i| cross(polygon[i], polygon[(i + 1) % n]))
@@ -177,7 +177,7 @@ pub fn area(polygon: &[Point]) -> f64 {
 }
 
 /// Returns true if a point is inside a polygon (even-odd).
-pub fn inside(p: Point, polygon: &[Point]) -> bool {
+pub fn is_inside(p: Point, polygon: &[Point]) -> bool {
     let mut odd = false;
     for (i, &a) in polygon.iter().enumerate() {
         let b = polygon[(i + 1) % polygon.len()];
@@ -191,12 +191,12 @@ pub fn inside(p: Point, polygon: &[Point]) -> bool {
 }
 
 /// Returns the data of the path through some points.
-pub fn polyline(points: &[Point], closed: bool) -> String {
+pub fn path_data(points: &[Point], closed: bool) -> String {
     let mut d = String::new();
     for (i, p) in points.iter().enumerate() {
         let c = if i == 0 { 'M' } else { 'L' };
         // writing to a string does not fail
-        let _ = write!(d, "{c}{} {}", number(p[0]), number(p[1]));
+        let _ = write!(d, "{c}{} {}", format_number(p[0]), format_number(p[1]));
     }
     if closed {
         d.push('Z');

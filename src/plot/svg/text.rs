@@ -1,9 +1,9 @@
 //! The space that text takes, and text cut and broken to fit a space.
 
-use crate::format::plain::straight;
+use crate::format::plain::escape_direction;
 
 /// Returns the width of `text` at `size` pixels, estimated generously because the fonts are unknown here.
-pub fn width(text: &str, size: f64) -> f64 {
+pub fn text_width(text: &str, size: f64) -> f64 {
     let of = |c| {
         if c < '\u{1100}' || ('\u{2000}'..'\u{2070}').contains(&c) {
             0.6
@@ -15,15 +15,15 @@ pub fn width(text: &str, size: f64) -> f64 {
 }
 
 /// Returns `text` in one line, cut to `room` pixels.
-pub fn cut(text: &str, size: f64, room: f64) -> String {
+pub fn cut_text(text: &str, size: f64, room: f64) -> String {
     let text = text.split_whitespace().collect::<Vec<_>>().join(" ");
-    if width(&text, size) <= room {
+    if text_width(&text, size) <= room {
         return text;
     }
     let mut short = String::new();
     for c in text.chars() {
         short.push(c);
-        if width(&short, size) > room - size {
+        if text_width(&short, size) > room - size {
             short.pop();
             break;
         }
@@ -32,15 +32,15 @@ pub fn cut(text: &str, size: f64, room: f64) -> String {
 }
 
 /// Returns names in one line, each shortened in its middle to `room` pixels. Different names stay different.
-pub fn names(all: &[&str], size: f64, room: f64) -> Vec<String> {
+pub fn shorten_names(all: &[&str], size: f64, room: f64) -> Vec<String> {
     let straight: Vec<String> = all
         .iter()
-        .map(|n| straight(&cut(n, size, f64::INFINITY)).into_owned())
+        .map(|n| escape_direction(&cut_text(n, size, f64::INFINITY)).into_owned())
         .collect();
     let whole: Vec<Vec<char>> = straight.iter().map(|n| n.chars().collect()).collect();
-    let fits = |n: usize| width(&straight[n], size) <= room;
+    let fits = |n: usize| text_width(&straight[n], size) <= room;
     // The number of characters left next to the dots, assuming the widest ones.
-    let wide = |c: &&char| width(&c.to_string(), size) > 0.6 * size;
+    let wide = |c: &&char| text_width(&c.to_string(), size) > 0.6 * size;
     let left = |n: usize| {
         let one = if whole[n].iter().any(|c| wide(&c)) {
             size
@@ -95,13 +95,13 @@ pub fn names(all: &[&str], size: f64, room: f64) -> Vec<String> {
 }
 
 /// Returns `text` in lines of at most `room` pixels; a longer word is cut.
-pub(crate) fn wrap(text: &str, size: f64, room: f64) -> Vec<String> {
+pub(crate) fn wrap_text(text: &str, size: f64, room: f64) -> Vec<String> {
     let mut lines: Vec<String> = Vec::new();
     for word in text.split_whitespace() {
-        let word = cut(word, size, room);
+        let word = cut_text(word, size, room);
         if let Some(line) = lines.last_mut() {
             let longer = format!("{line} {word}");
-            if width(&longer, size) <= room {
+            if text_width(&longer, size) <= room {
                 *line = longer;
                 continue;
             }
@@ -113,7 +113,7 @@ pub(crate) fn wrap(text: &str, size: f64, room: f64) -> Vec<String> {
 
 #[cfg(test)]
 mod tests {
-    use super::{names, width};
+    use super::{shorten_names, text_width};
     use std::collections::BTreeSet;
 
     #[test]
@@ -125,8 +125,11 @@ mod tests {
             .map(String::as_str)
             .chain(["A", "short"])
             .collect();
-        let short = names(&all, 11.0, 90.0);
-        assert!(short.iter().all(|s| width(s, 11.0) <= 90.0), "{short:?}");
+        let short = shorten_names(&all, 11.0, 90.0);
+        assert!(
+            short.iter().all(|s| text_width(s, 11.0) <= 90.0),
+            "{short:?}"
+        );
         assert_eq!(short.iter().collect::<BTreeSet<_>>().len(), all.len());
         assert!(
             short[0].starts_with("left_") && short[0].ends_with("ersion"),
@@ -136,10 +139,13 @@ mod tests {
         assert_eq!(short[300..], ["A", "short"]);
         // The same name gives the same text.
         assert_eq!(
-            names(&[all[0], all[0]], 11.0, 90.0),
+            shorten_names(&[all[0], all[0]], 11.0, 90.0),
             [short[0].clone(), short[0].clone()]
         );
         // No text changes the direction of letters, and no text has two lines.
-        assert_eq!(names(&["a\u{202e}b\nc"], 11.0, 150.0), ["a\\u{202e}b c"]);
+        assert_eq!(
+            shorten_names(&["a\u{202e}b\nc"], 11.0, 150.0),
+            ["a\\u{202e}b c"]
+        );
     }
 }

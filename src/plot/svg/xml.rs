@@ -1,7 +1,7 @@
 //! A small XML writer: it closes elements, escapes text and writes all numbers in one format.
 
 use crate::format::decimals;
-use crate::format::plain::straight;
+use crate::format::plain::escape_direction;
 
 /// A document being written.
 #[derive(Debug, Default)]
@@ -20,29 +20,29 @@ pub struct Tag<'a> {
 
 impl Xml {
     /// Begins an element.
-    pub fn tag(&mut self, name: &'static str) -> Tag<'_> {
+    pub fn begin_tag(&mut self, name: &'static str) -> Tag<'_> {
         self.out.push('<');
         self.out.push_str(name);
         Tag { xml: self, name }
     }
 
     /// Writes text inside the innermost open element.
-    pub(crate) fn text(&mut self, text: &str) {
-        escape(&mut self.out, text);
+    pub(crate) fn write_text(&mut self, text: &str) {
+        escape_text(&mut self.out, text);
     }
 
     /// Writes text that is known to need no escaping.
-    pub fn raw(&mut self, text: &'static str) {
+    pub fn write_raw(&mut self, text: &'static str) {
         self.out.push_str(text);
     }
 
     /// Writes elements that this writer has finished before.
-    pub fn piece(&mut self, elements: &str) {
+    pub fn write_piece(&mut self, elements: &str) {
         self.out.push_str(elements);
     }
 
     /// Closes the innermost open element.
-    pub fn end(&mut self) {
+    pub fn end_element(&mut self) {
         if let Some(name) = self.open.pop() {
             self.out.push_str("</");
             self.out.push_str(name);
@@ -54,9 +54,9 @@ impl Xml {
     }
 
     /// Closes every open element and returns the document.
-    pub fn finish(mut self) -> String {
+    pub fn finish_document(mut self) -> String {
         while !self.open.is_empty() {
-            self.end();
+            self.end_element();
         }
         self.out
     }
@@ -64,37 +64,37 @@ impl Xml {
 
 impl Tag<'_> {
     /// Adds an attribute with text.
-    pub fn set(self, name: &str, value: &str) -> Self {
+    pub fn set_text(self, name: &str, value: &str) -> Self {
         self.xml.out.push(' ');
         self.xml.out.push_str(name);
         self.xml.out.push_str("=\"");
-        escape(&mut self.xml.out, value);
+        escape_text(&mut self.xml.out, value);
         self.xml.out.push('"');
         self
     }
 
     /// Adds an attribute with a number.
-    pub fn num(self, name: &str, value: f64) -> Self {
-        self.set(name, &number(value))
+    pub fn set_number(self, name: &str, value: f64) -> Self {
+        self.set_text(name, &format_number(value))
     }
 
     /// Keeps the element open.
-    pub fn open(self) {
+    pub fn keep_open(self) {
         self.xml.out.push('>');
         self.xml.open.push(self.name);
     }
 
     /// Closes the element with nothing inside.
-    pub fn close(self) {
+    pub fn close_empty(self) {
         self.xml.out.push_str("/>\n");
     }
 
     /// Closes the element with text inside.
-    pub fn text(self, text: &str) {
+    pub fn write_text(self, text: &str) {
         self.xml.out.push('>');
-        escape(&mut self.xml.out, text);
+        escape_text(&mut self.xml.out, text);
         self.xml.open.push(self.name);
-        self.xml.end();
+        self.xml.end_element();
     }
 
     /// Closes the element with text inside, and adds the full text as a tooltip if it differs.
@@ -102,33 +102,33 @@ impl Tag<'_> {
         self.xml.out.push('>');
         self.xml.open.push(self.name);
         if text != whole {
-            self.xml.tag("title").text(whole);
+            self.xml.begin_tag("title").write_text(whole);
         }
-        escape(&mut self.xml.out, text);
-        self.xml.end();
+        escape_text(&mut self.xml.out, text);
+        self.xml.end_element();
     }
 
     /// Closes the element with a tooltip inside, if there is one to show.
-    pub fn tip(self, tip: &str) {
+    pub fn close_with_tip(self, tip: &str) {
         if tip.is_empty() {
-            return self.close();
+            return self.close_empty();
         }
         self.xml.out.push('>');
         self.xml.open.push(self.name);
-        self.xml.tag("title").text(tip);
-        self.xml.end();
+        self.xml.begin_tag("title").write_text(tip);
+        self.xml.end_element();
     }
 }
 
 /// Formats a coordinate with at most two decimals, no trailing zeros and no negative zero.
-pub fn number(value: f64) -> String {
+pub fn format_number(value: f64) -> String {
     decimals(value, 2)
 }
 
 /// Appends `text` so that it is valid character data anywhere in XML or HTML. A character that XML forbids becomes
 /// U+FFFD, and one that changes the direction of letters is spelt out.
-pub(crate) fn escape(out: &mut String, text: &str) {
-    for c in straight(text).chars() {
+pub(crate) fn escape_text(out: &mut String, text: &str) {
+    for c in escape_direction(text).chars() {
         match c {
             '&' => out.push_str("&amp;"),
             '<' => out.push_str("&lt;"),

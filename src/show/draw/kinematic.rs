@@ -19,7 +19,7 @@ use self::body::{Body, Marked};
 use super::subject::Subject;
 use crate::draw::place::projection::Sight;
 use crate::draw::place::projection::{JointInSpace, Projection, Vector};
-use crate::draw::sheet::{Anchor, Caption, Drawing, Sheet, Swatch, plan};
+use crate::draw::sheet::{Anchor, Caption, Drawing, Sheet, Swatch, plan_sheet};
 use crate::draw::subject;
 use crate::draw::symbol::ground::Ground;
 use crate::draw::symbol::placed::{Swap, Symbol};
@@ -39,7 +39,7 @@ pub fn kinematic(subject: &Subject<'_>) -> Drawing {
 /// Draws the kinematic scheme as seen from a side.
 #[must_use]
 pub fn kinematic_seen(subject: &Subject<'_>, sight: &Sight) -> Drawing {
-    Kinematic::new(subject, sight).draw()
+    Kinematic::new(subject, sight).draw_sheet()
 }
 
 /// Draws the kinematic scheme with a self-stress as arrows on the links that it loads; its name goes under the title.
@@ -53,7 +53,7 @@ pub fn kinematic_stressed(
     let mut drawn = Kinematic::new(subject, sight);
     drawn.arrows = drawn.arrows_of(stress);
     drawn.shows = Some(name.to_owned());
-    drawn.draw()
+    drawn.draw_sheet()
 }
 
 /// Draws the kinematic scheme with room for the symbols of other joints in place of some.
@@ -63,7 +63,7 @@ pub(crate) fn kinematic_with(subject: &Subject<'_>, swaps: &[Swap<'_>]) -> Drawi
     for swap in swaps {
         drawn.make_room(swap);
     }
-    drawn.draw()
+    drawn.draw_sheet()
 }
 
 /// A joint on paper.
@@ -129,7 +129,7 @@ struct Kinematic<'a> {
 
 impl Kinematic<'_> {
     /// The end of a link with one joint, and no point of interest that it leads to.
-    fn loose(&self, link: usize) -> Option<Point> {
+    fn loose_end(&self, link: usize) -> Option<Point> {
         let (link, of) = &self.links[link];
         let &[only] = of.as_slice() else { return None };
         if self.points_of(*link).next().is_some() {
@@ -158,8 +158,8 @@ impl Kinematic<'_> {
         self.subject.mechanism.links[link].role == Role::Output
     }
 
-    fn draw(mut self) -> Drawing {
-        let rest = self.picture(None, &[]);
+    fn draw_sheet(mut self) -> Drawing {
+        let rest = self.picture_in(None, &[]);
         let (places, texts) = self.place_labels(&rest);
         let labels = places.iter().map(|p| p.rect);
         let room = labels.chain(self.arrow_room(&self.arrows));
@@ -169,17 +169,17 @@ impl Kinematic<'_> {
         let words = Words {
             shows: self.shows.take(),
             more: String::new(),
-            legend: self.legend(),
+            legend: self.legend_rows(),
         };
         self.on_sheet(area, words, |sheet, by| {
-            sheet.group("data-drawing", "", by, |s| {
+            sheet.draw_group("data-drawing", "", by, |s| {
                 self.draw_ground(s);
                 self.draw_at_rest(s, &rest);
                 for (a, b) in self.coupling_lines() {
-                    s.line(subject::COUPLING, a, b);
+                    s.draw_line(subject::COUPLING, a, b);
                 }
                 for (a, b) in places.iter().filter_map(|p| p.leader) {
-                    s.line("lead", a, b);
+                    s.draw_line("lead", a, b);
                 }
                 self.draw_arrows(s);
                 for (n, (place, text)) in places.iter().zip(&texts).enumerate() {
@@ -191,22 +191,22 @@ impl Kinematic<'_> {
 
     /// Lays out a sheet for an area and draws on it; `draw` gets the offset of the scheme on the sheet.
     fn on_sheet(&self, area: Rect, words: Words, draw: impl FnOnce(&mut Sheet, Point)) -> Drawing {
-        let [what, figures] = self.subject.subtitle(&self.what());
+        let [what, figures] = self.subject.subtitle_lines(&self.view_title());
         let caption = Caption {
-            title: &self.subject.title(),
+            title: &self.subject.drawing_title(),
             subtitle: [&what, words.shows.as_ref().unwrap_or(&figures)],
-            description: &(self.description() + &words.more),
+            description: &(self.describe_drawing() + &words.more),
             legend: words.legend,
         };
-        let plan = plan(&caption, area, STRIP);
+        let plan = plan_sheet(&caption, area, STRIP);
         let mut sheet = Sheet::new(&caption, &plan);
         draw(&mut sheet, plan.shift);
         let below = plan.legend_top - STRIP;
-        sheet.group("data-home", "scale", [0.0; 2], |s| {
+        sheet.draw_group("data-home", "scale", [0.0; 2], |s| {
             self.draw_axes(s, below + 34.0);
             self.draw_scale(s, below + 40.0);
         });
-        sheet.finish(&caption, &plan)
+        sheet.finish_sheet(&caption, &plan)
     }
 
     /// A picture with the symbols of the pose of the file, in groups that say what each part is.
@@ -214,11 +214,11 @@ impl Kinematic<'_> {
         self.draw_traces(sheet);
         self.draw_picture(sheet, picture, true);
         for s in self.outer_first().into_iter().map(|i| &self.spots[i]) {
-            sheet.symbol(s.rect);
+            sheet.note_symbol(s.rect);
             let mark = self.subject.joint_mark(s.joint);
             let id = &self.subject.mechanism.joints[s.joint].id;
-            sheet.group("data-joint", id, s.at, |sheet| {
-                s.symbol.draw(sheet, mark);
+            sheet.draw_group("data-joint", id, s.at, |sheet| {
+                s.symbol.draw_symbol(sheet, mark);
             });
         }
     }
@@ -226,18 +226,18 @@ impl Kinematic<'_> {
     /// A label; those of joints come first and stand in groups, so that a joint is found by its name.
     fn draw_name(&self, sheet: &mut Sheet, n: usize, at: Point, label: &LabelText) {
         let LabelText { class, size, text } = label;
-        let write = |s: &mut Sheet| s.text(class, *size, at, Anchor::Middle, text);
+        let write = |s: &mut Sheet| s.write_text(class, *size, at, Anchor::Middle, text);
         match self.spots.get(n) {
             Some(s) => {
                 let id = &self.subject.mechanism.joints[s.joint].id;
-                sheet.group("data-joint-name", id, [0.0; 2], write);
+                sheet.draw_group("data-joint-name", id, [0.0; 2], write);
             }
             None => write(sheet),
         }
     }
 
     /// The classes of a link.
-    fn look(&self, link: usize, body: &Body) -> String {
+    fn link_classes(&self, link: usize, body: &Body) -> String {
         let (l, of) = &self.links[link];
         let here = of
             .iter()
@@ -246,7 +246,7 @@ impl Kinematic<'_> {
             "{}{}{}{}",
             if body.plate { "plate" } else { "bone" },
             if self.is_output(*l) { " out" } else { "" },
-            self.subject.link_mark(*l).class(),
+            self.subject.link_mark(*l).mark_class(),
             if here { " dash" } else { "" }
         )
     }

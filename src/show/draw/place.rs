@@ -17,7 +17,7 @@ impl Dice {
     }
 
     /// Even in 0..1.
-    fn even(&mut self) -> f64 {
+    fn random_unit(&mut self) -> f64 {
         self.0 ^= self.0 << 13;
         self.0 ^= self.0 >> 7;
         self.0 ^= self.0 << 17;
@@ -25,12 +25,12 @@ impl Dice {
     }
 
     /// Even in -1..1.
-    fn signed(&mut self) -> f64 {
-        2.0 * self.even() - 1.0
+    fn random_signed(&mut self) -> f64 {
+        2.0 * self.random_unit() - 1.0
     }
 
     /// Even among 0..n.
-    fn below(&mut self, n: usize) -> usize {
-        ((self.even() * n as f64) as usize).min(n.saturating_sub(1))
+    fn random_below(&mut self, n: usize) -> usize {
+        ((self.random_unit() * n as f64) as usize).min(n.saturating_sub(1))
     }
 }

@@ -5,14 +5,16 @@ mod naming;
 
 use super::subject::{Mark, Subject, roominess};
 use crate::closure::contour::{Contour, contour_basis};
-use crate::draw::place::graph::{Graph, ring};
-use crate::draw::place::layout::{Layout, layout};
-use crate::draw::sheet::shapes::{HALF, hatch, hatch_with, outline, rounded};
-use crate::draw::sheet::{Anchor, Caption, Drawing, SMALL, Shape, Sheet, Swatch, plan};
+use crate::draw::place::graph::{Graph, joint_ring};
+use crate::draw::place::layout::{Layout, find_layout};
+use crate::draw::sheet::shapes::{HALF, hatch_path, hatch_with, outline_sides, rounded_path};
+use crate::draw::sheet::{Anchor, Caption, Drawing, SMALL, Shape, Sheet, Swatch, plan_sheet};
 use crate::geom::expr::Expr;
 use crate::model::mechanism::{JointId, LinkId, Role};
 use crate::svg::labels::LabelPlace;
-use crate::svg::plane::{Point, Rect, inside, mean, norm, polyline, scale, sub, to_segment};
+use crate::svg::plane::{
+    Point, Rect, is_inside, mean, path_data, plane_norm, scale, sub, to_segment,
+};
 use std::fmt::Write as _;
 
 /// Pixels of a bar.
@@ -36,16 +38,16 @@ struct Parts {
 /// Draws the structural scheme.
 #[must_use]
 pub fn scheme(subject: &Subject<'_>) -> Drawing {
-    let parts = parts(subject);
-    let mut at = layout(&parts.graph, &hints(subject, &parts));
+    let parts = collect_parts(subject);
+    let mut at = find_layout(&parts.graph, &joint_hints(subject, &parts));
     let unit = UNIT * roominess(subject.mechanism, &parts.joints);
     for p in at.joints.iter_mut().chain(at.hubs.iter_mut()) {
         *p = scale(*p, unit);
     }
-    Scheme::new(subject, parts, at).draw()
+    Scheme::new(subject, parts, at).draw_sheet()
 }
 
-fn parts(subject: &Subject<'_>) -> Parts {
+fn collect_parts(subject: &Subject<'_>) -> Parts {
     let m = subject.mechanism;
     let joints: Vec<JointId> = m.joints_in(subject.state).collect();
     let mut links: Vec<LinkId> = joints.iter().flat_map(|&j| m.joints[j].links).collect();
@@ -75,7 +77,7 @@ fn parts(subject: &Subject<'_>) -> Parts {
             })
             .collect(),
         joints: joints.len(),
-        frame: links.iter().position(|&l| l == m.frame()),
+        frame: links.iter().position(|&l| l == m.frame_link()),
         contours: contours
             .iter()
             .map(|(c, _)| c.joints.iter().filter_map(|&(j, _)| local(j)).collect())
@@ -90,7 +92,7 @@ fn parts(subject: &Subject<'_>) -> Parts {
 }
 
 /// Returns the joints as the coordinates have them, seen along each axis and obliquely.
-fn hints(subject: &Subject<'_>, parts: &Parts) -> Vec<Vec<Point>> {
+fn joint_hints(subject: &Subject<'_>, parts: &Parts) -> Vec<Vec<Point>> {
     let at = |j: &JointId| {
         let p = &subject.mechanism.joints[*j].frame.point;
         [0, 1, 2].map(|i| Expr::to_f64(&p[i]))
@@ -122,7 +124,7 @@ impl<'a> Scheme<'a> {
             .graph
             .links
             .iter()
-            .map(|of| ring(of, &at.joints))
+            .map(|of| joint_ring(of, &at.joints))
             .collect();
         Scheme {
             subject,
@@ -133,7 +135,7 @@ impl<'a> Scheme<'a> {
     }
 
     /// The corners of a link: its joints, and its hub where it is loose or bowed.
-    fn corners(&self, l: usize) -> Vec<Point> {
+    fn link_corners(&self, l: usize) -> Vec<Point> {
         let ring = &self.rings[l];
         let mut out: Vec<Point> = ring.iter().map(|&j| self.at.joints[j]).collect();
         match out.len() {
@@ -142,7 +144,7 @@ impl<'a> Scheme<'a> {
             2 => {
                 let middle = mean(out.iter().copied());
                 // there and back: a bar with a bend, which leaves its contour open to sight
-                if norm(sub(middle, self.at.hubs[l])) > 1.0 {
+                if plane_norm(sub(middle, self.at.hubs[l])) > 1.0 {
                     out.insert(1, self.at.hubs[l]);
                     out.push(self.at.hubs[l]);
                 }
@@ -152,7 +154,7 @@ impl<'a> Scheme<'a> {
         out
     }
 
-    fn radius(&self, i: usize) -> f64 {
+    fn joint_radius(&self, i: usize) -> f64 {
         if self.subject.mechanism.joints[self.parts.joints[i]].drive {
             DRIVE
         } else {
@@ -160,7 +162,7 @@ impl<'a> Scheme<'a> {
         }
     }
 
-    fn draw(self) -> Drawing {
+    fn draw_sheet(self) -> Drawing {
         let labels = self.place_labels();
         let mut area = Rect::around(
             self.at.joints.first().copied().unwrap_or([0.0; 2]),
@@ -173,27 +175,27 @@ impl<'a> Scheme<'a> {
         for (place, _) in &labels {
             area = area.with(&place.rect);
         }
-        let title = self.subject.title();
-        let subtitle = self.subject.subtitle("Structural scheme");
+        let title = self.subject.drawing_title();
+        let subtitle = self.subject.subtitle_lines("Structural scheme");
         let caption = Caption {
             title: &title,
             subtitle: [&subtitle[0], &subtitle[1]],
-            description: &self.description(),
-            legend: self.legend(),
+            description: &self.describe_drawing(),
+            legend: self.legend_rows(),
         };
-        let plan = plan(&caption, area, 0.0);
+        let plan = plan_sheet(&caption, area, 0.0);
         let mut sheet = Sheet::new(&caption, &plan);
-        sheet.group("data-drawing", "", plan.shift, |sheet| {
+        sheet.draw_group("data-drawing", "", plan.shift, |sheet| {
             let order = self.contours_by_size().into_iter();
             let (seen, hidden): (Vec<usize>, Vec<usize>) = order.partition(|&c| self.is_seen(c));
             for c in seen {
-                self.draw_contour(sheet, c, &polyline(&self.round(c), true));
+                self.draw_contour(sheet, c, &path_data(&self.contour_outline(c), true));
             }
             for l in 0..self.rings.len() {
                 self.draw_link(sheet, l);
             }
             for c in hidden {
-                self.draw_contour(sheet, c, &self.band(c));
+                self.draw_contour(sheet, c, &self.contour_band(c));
             }
             self.subject.draw_couplings(sheet, |j| {
                 let i = self.parts.joints.iter().position(|&x| x == j)?;
@@ -201,27 +203,31 @@ impl<'a> Scheme<'a> {
             });
             self.draw_labels(sheet, &labels);
         });
-        sheet.finish(&caption, &plan)
+        sheet.finish_sheet(&caption, &plan)
     }
 
     fn draw_link(&self, sheet: &mut Sheet, l: usize) {
         let link = self.parts.links[l];
         let of = &self.subject.mechanism.links[link];
-        let corners = self.corners(l);
+        let corners = self.link_corners(l);
         let dashed = self.rings[l]
             .iter()
             .all(|&i| self.subject.only_here(self.parts.joints[i]));
         let class = format!(
             "link{}{}",
-            self.subject.link_mark(link).class(),
+            self.subject.link_mark(link).mark_class(),
             if dashed { " dash" } else { "" }
         );
-        sheet.group("data-link", &of.id, [0.0; 2], |s| {
-            s.path_with_tip(&class, &rounded(&corners, HALF), &format!("link {}", of.id));
+        sheet.draw_group("data-link", &of.id, [0.0; 2], |s| {
+            s.path_with_tip(
+                &class,
+                &rounded_path(&corners, HALF),
+                &format!("link {}", of.id),
+            );
             if of.role == Role::Frame {
-                let d = hatch(&corners);
+                let d = hatch_path(&corners);
                 if !d.is_empty() {
-                    s.path("fine", &d);
+                    s.draw_path("fine", &d);
                 }
             }
         });
@@ -231,7 +237,7 @@ impl<'a> Scheme<'a> {
         let (joints, links) = (self.parts.joints.len(), self.parts.links.len());
         for (place, _) in labels {
             if let Some((a, b)) = place.leader {
-                sheet.line("lead", a, b);
+                sheet.draw_line("lead", a, b);
             }
         }
         for i in 0..joints {
@@ -242,24 +248,25 @@ impl<'a> Scheme<'a> {
             let (class, size, mark) = if n < joints {
                 let mark = self.subject.joint_mark(self.parts.joints[n]);
                 if self.on_frame(rect.middle()) {
-                    sheet.rect("link-back", &rect, 3.0);
+                    sheet.draw_rect("link-back", &rect, 3.0);
                 }
                 ("small soft", SMALL, mark)
             } else if n < joints + links {
                 let link = self.parts.links[n - joints];
                 if self.subject.mechanism.links[link].role == Role::Frame {
-                    sheet.rect("link-back", &rect, 3.0);
+                    sheet.draw_rect("link-back", &rect, 3.0);
                 }
                 ("name", 12.0, self.subject.link_mark(link))
             } else {
-                sheet.rect("badge", &rect, 8.0);
+                sheet.draw_rect("badge", &rect, 8.0);
                 ("small", SMALL, Mark::None)
             };
-            let class = format!("{class}{}", mark.class());
-            let write = |s: &mut Sheet| s.text(&class, size, rect.middle(), Anchor::Middle, text);
+            let class = format!("{class}{}", mark.mark_class());
+            let write =
+                |s: &mut Sheet| s.write_text(&class, size, rect.middle(), Anchor::Middle, text);
             if n < joints {
                 let id = &self.subject.mechanism.joints[self.parts.joints[n]].id;
-                sheet.group("data-joint-name", id, [0.0; 2], write);
+                sheet.draw_group("data-joint-name", id, [0.0; 2], write);
             } else {
                 write(sheet);
             }
@@ -268,13 +275,13 @@ impl<'a> Scheme<'a> {
 
     /// Whether a point is on the hatching.
     fn on_frame(&self, p: Point) -> bool {
-        let frame = self.subject.mechanism.frame();
+        let frame = self.subject.mechanism.frame_link();
         let Some(l) = self.parts.links.iter().position(|&l| l == frame) else {
             return false;
         };
-        let corners = self.corners(l);
-        inside(p, &corners)
-            || outline(&corners)
+        let corners = self.link_corners(l);
+        is_inside(p, &corners)
+            || outline_sides(&corners)
                 .iter()
                 .any(|&(a, b)| to_segment(p, a, b) < HALF + 6.0)
     }
@@ -283,28 +290,28 @@ impl<'a> Scheme<'a> {
         let id = self.parts.joints[i];
         let joint = &self.subject.mechanism.joints[id];
         let at = self.at.joints[i];
-        sheet.group("data-joint", &joint.id, at, |s| {
-            let r = 2.0 * self.radius(i);
-            s.symbol(Rect::around([0.0; 2], r, r));
-            let mark = self.subject.joint_mark(id).class();
+        sheet.draw_group("data-joint", &joint.id, at, |s| {
+            let r = 2.0 * self.joint_radius(i);
+            s.note_symbol(Rect::around([0.0; 2], r, r));
+            let mark = self.subject.joint_mark(id).mark_class();
             let only_here = self.subject.only_here(id);
             let look = format!("joint{mark}{}", if only_here { " dash" } else { "" });
             if joint.drive {
-                s.circle(&look, [0.0; 2], DRIVE);
+                s.draw_circle(&look, [0.0; 2], DRIVE);
             }
-            s.circle(&look, [0.0; 2], JOINT);
-            let class = joint.joint_type.class();
-            s.text("class", 10.0, [0.0; 2], Anchor::Middle, class);
+            s.draw_circle(&look, [0.0; 2], JOINT);
+            let class = joint.joint_type.class_numeral();
+            s.write_text("class", 10.0, [0.0; 2], Anchor::Middle, class);
         });
     }
 
-    fn legend(&self) -> Vec<(Swatch, String)> {
+    fn legend_rows(&self) -> Vec<(Swatch, String)> {
         let m = self.subject.mechanism;
         let mut out = Vec::new();
         for (c, (contour, share)) in self.parts.contours.iter().enumerate() {
             let redundant = share.map_or(0, |(r, _)| r);
             let name = contour.name(m);
-            let words = Self::words(c, &name, *share);
+            let words = Self::contour_words(c, &name, *share);
             let words = words.split_once(": ").map_or(words.as_str(), |(_, w)| w);
             out.push((
                 Swatch::Tint(redundant, format!("{}", c + 1)),
@@ -321,8 +328,8 @@ impl<'a> Scheme<'a> {
         out.push((Swatch::Joint("joint", "V".to_owned()), class.to_owned()));
         let frame = |s: &mut Sheet| {
             let ends = [[-7.0, 0.0], [7.0, 0.0]];
-            s.path("link", &rounded(&ends, 7.0));
-            s.path("fine", &hatch_with(&ends, 6.4, 4.0));
+            s.draw_path("link", &rounded_path(&ends, 7.0));
+            s.draw_path("fine", &hatch_with(&ends, 6.4, 4.0));
         };
         out.push((Swatch::Symbol(frame), m.frame_words()));
         if any(&|j| self.subject.only_here(j)) {
@@ -337,9 +344,9 @@ impl<'a> Scheme<'a> {
     }
 
     /// The drawing in words, for those who do not see it.
-    fn description(&self) -> String {
+    fn describe_drawing(&self) -> String {
         let m = self.subject.mechanism;
-        let mut out = self.subject.summary("Structural scheme");
+        let mut out = self.subject.summary_sentence("Structural scheme");
         for &j in &self.parts.joints {
             let joint = &m.joints[j];
             let [a, b] = joint.links.map(|l| &m.links[l].id);
@@ -347,13 +354,17 @@ impl<'a> Scheme<'a> {
                 out,
                 " Joint {} of class {} ({}) between {a} and {b}{}.",
                 joint.id,
-                joint.joint_type.class(),
+                joint.joint_type.class_numeral(),
                 joint.joint_type,
                 if joint.drive { ", driven" } else { "" }
             );
         }
         for (c, (contour, share)) in self.parts.contours.iter().enumerate() {
-            let _ = write!(out, " {}.", Self::words(c, &contour.name(m), *share));
+            let _ = write!(
+                out,
+                " {}.",
+                Self::contour_words(c, &contour.name(m), *share)
+            );
         }
         out + &self.subject.coupling_words()
     }

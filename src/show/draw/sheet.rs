@@ -2,9 +2,9 @@
 
 pub(in crate::draw) mod shapes;
 
-use crate::svg::plane::{Point, Rect, add, norm, polyline, scale, sub};
-use crate::svg::text::{cut, width};
-use crate::svg::xml::{Xml, number};
+use crate::svg::plane::{Point, Rect, add, path_data, plane_norm, scale, sub};
+use crate::svg::text::{cut_text, text_width};
+use crate::svg::xml::{Xml, format_number};
 
 /// The space around everything.
 pub(super) const PAD: f64 = 20.0;
@@ -86,7 +86,7 @@ pub(super) enum Shape {
 
 impl Shape {
     /// The points of a path; none of a circle.
-    pub(super) fn points(&self) -> &[Point] {
+    pub(super) fn path_points(&self) -> &[Point] {
         match self {
             Shape::Path { points, .. } => points,
             Shape::Circle { .. } => &[],
@@ -150,9 +150,9 @@ pub(super) struct SheetPlan {
 const LEAST: f64 = 580.0;
 
 /// Lays the sheet out round a drawing that covers `area`, with `strip` pixels below it for other things.
-pub(super) fn plan(caption: &Caption<'_>, area: Rect, strip: f64) -> SheetPlan {
+pub(super) fn plan_sheet(caption: &Caption<'_>, area: Rect, strip: f64) -> SheetPlan {
     let rows = &caption.legend;
-    let widest = rows.iter().map(|(_, t)| width(t, TEXT));
+    let widest = rows.iter().map(|(_, t)| text_width(t, TEXT));
     let column = SWATCH + widest.fold(0.0, f64::max).min(WIDEST) + 24.0;
     // a long legend has two columns, however narrow the drawing is
     let least = if rows.len() > 8 { 2.0 } else { 1.0 };
@@ -184,124 +184,139 @@ impl Sheet {
     pub(super) fn new(caption: &Caption<'_>, plan: &SheetPlan) -> Sheet {
         let [w, h] = plan.size;
         let mut xml = Xml::default();
-        xml.tag("svg")
-            .set("xmlns", "http://www.w3.org/2000/svg")
-            .set("class", "ozd")
-            .num("width", w.ceil())
-            .num("height", h.ceil())
-            .set(
+        xml.begin_tag("svg")
+            .set_text("xmlns", "http://www.w3.org/2000/svg")
+            .set_text("class", "ozd")
+            .set_number("width", w.ceil())
+            .set_number("height", h.ceil())
+            .set_text(
                 "viewBox",
-                &format!("0 0 {} {}", number(w.ceil()), number(h.ceil())),
+                &format!(
+                    "0 0 {} {}",
+                    format_number(w.ceil()),
+                    format_number(h.ceil())
+                ),
             )
-            .set("role", "img")
-            .open();
-        xml.tag("title").text(caption.title);
-        xml.raw("\n");
-        xml.tag("desc").text(caption.description);
-        xml.tag("style").open();
-        xml.raw("\n");
-        xml.raw(STYLE);
-        xml.end();
-        xml.tag("rect")
-            .set("class", "bg")
-            .num("width", w.ceil())
-            .num("height", h.ceil())
-            .close();
+            .set_text("role", "img")
+            .keep_open();
+        xml.begin_tag("title").write_text(caption.title);
+        xml.write_raw("\n");
+        xml.begin_tag("desc").write_text(caption.description);
+        xml.begin_tag("style").keep_open();
+        xml.write_raw("\n");
+        xml.write_raw(STYLE);
+        xml.end_element();
+        xml.begin_tag("rect")
+            .set_text("class", "bg")
+            .set_number("width", w.ceil())
+            .set_number("height", h.ceil())
+            .close_empty();
         let mut sheet = Sheet {
             xml,
             size: plan.size,
             ..Sheet::default()
         };
         let room = w - 2.0 * PAD;
-        let title = cut(caption.title, 18.0, room);
-        sheet.text("title", 18.0, [PAD, PAD + 8.0], Anchor::Start, &title);
+        let title = cut_text(caption.title, 18.0, room);
+        sheet.write_text("title", 18.0, [PAD, PAD + 8.0], Anchor::Start, &title);
         for (i, line) in caption.subtitle.iter().enumerate() {
             let y = PAD + 30.0 + 17.0 * i as f64;
-            let line = cut(line, 13.0, room);
-            sheet.text("sub", 13.0, [PAD, y], Anchor::Start, &line);
+            let line = cut_text(line, 13.0, room);
+            sheet.write_text("sub", 13.0, [PAD, y], Anchor::Start, &line);
         }
         sheet
     }
 
     /// The elements of a piece.
     pub(super) fn into_text(self) -> String {
-        self.xml.finish()
+        self.xml.finish_document()
     }
 
     /// Draws something into a group round `at` that says what it stands for, so that a program can find it.
-    pub(super) fn group(
+    pub(super) fn draw_group(
         &mut self,
         name: &str,
         value: &str,
         at: Point,
         draw: impl FnOnce(&mut Sheet),
     ) {
-        let mut tag = self.xml.tag("g").set(name, value);
+        let mut tag = self.xml.begin_tag("g").set_text(name, value);
         if at != [0.0; 2] {
-            let by = format!("translate({} {})", number(at[0]), number(at[1]));
-            tag = tag.set("transform", &by);
+            let by = format!(
+                "translate({} {})",
+                format_number(at[0]),
+                format_number(at[1])
+            );
+            tag = tag.set_text("transform", &by);
         }
-        tag.open();
+        tag.keep_open();
         let outer = self.origin;
         self.origin = add(outer, at);
         draw(self);
         self.origin = outer;
-        self.xml.end();
+        self.xml.end_element();
     }
 
     /// Writes the tooltip of the open group.
-    pub(super) fn tip(&mut self, text: &str) {
-        self.xml.tag("title").text(text);
+    pub(super) fn write_tip(&mut self, text: &str) {
+        self.xml.begin_tag("title").write_text(text);
     }
 
     /// Writes further style rules.
-    pub(super) fn style(&mut self, rules: &str) {
-        self.xml.tag("style").text(rules);
+    pub(super) fn write_style(&mut self, rules: &str) {
+        self.xml.begin_tag("style").write_text(rules);
     }
 
     /// Finished pieces with ids, shown where they are used.
-    pub(super) fn defs<'p>(&mut self, pieces: impl Iterator<Item = (String, &'p str)>) {
-        self.xml.tag("defs").open();
+    pub(super) fn write_defs<'p>(&mut self, pieces: impl Iterator<Item = (String, &'p str)>) {
+        self.xml.begin_tag("defs").keep_open();
         for (id, piece) in pieces {
             // what is used elsewhere has no ancestors there but this group
-            let group = self.xml.tag("g").set("id", &id);
-            group.set("class", "ozd").open();
-            self.xml.piece(piece);
-            self.xml.end();
+            let group = self.xml.begin_tag("g").set_text("id", &id);
+            group.set_text("class", "ozd").keep_open();
+            self.xml.write_piece(piece);
+            self.xml.end_element();
         }
-        self.xml.end();
+        self.xml.end_element();
     }
 
     /// Shows a piece by its id, as the symbol of a joint.
     pub(super) fn joint_use(&mut self, joint: &str, id: &str, at: Point) {
         self.xml
-            .tag("use")
-            .set("href", &format!("#{id}"))
-            .num("x", at[0])
-            .num("y", at[1])
-            .set("data-joint", joint)
-            .close();
+            .begin_tag("use")
+            .set_text("href", &format!("#{id}"))
+            .set_number("x", at[0])
+            .set_number("y", at[1])
+            .set_text("data-joint", joint)
+            .close_empty();
     }
 
     /// Draws one of several pictures at the same place, of which one is visible.
-    pub(super) fn frame(&mut self, number: usize, seen: bool, draw: impl FnOnce(&mut Sheet)) {
+    pub(super) fn draw_frame(&mut self, number: usize, seen: bool, draw: impl FnOnce(&mut Sheet)) {
         let n = number.to_string();
         let mut tag = self
             .xml
-            .tag("g")
-            .set("class", &format!("f{n}"))
-            .set("data-frame", &n);
+            .begin_tag("g")
+            .set_text("class", &format!("f{n}"))
+            .set_text("data-frame", &n);
         if !seen {
-            tag = tag.set("visibility", "hidden");
+            tag = tag.set_text("visibility", "hidden");
         }
-        tag.open();
+        tag.keep_open();
         draw(self);
-        self.xml.end();
+        self.xml.end_element();
     }
 
     /// Text whose middle line is at `at`.
-    pub(super) fn text(&mut self, class: &str, size: f64, at: Point, anchor: Anchor, text: &str) {
-        let wide = width(text, size);
+    pub(super) fn write_text(
+        &mut self,
+        class: &str,
+        size: f64,
+        at: Point,
+        anchor: Anchor,
+        text: &str,
+    ) {
+        let wide = text_width(text, size);
         let left = match anchor {
             Anchor::Start => at[0],
             Anchor::Middle => at[0] - wide / 2.0,
@@ -311,128 +326,132 @@ impl Sheet {
         }
         self.labels.push(Label {
             text: text.to_owned(),
-            rect: Rect::around([left + wide / 2.0, at[1]], wide, size).moved(self.origin),
+            rect: Rect::around([left + wide / 2.0, at[1]], wide, size).moved_by(self.origin),
         });
         let mut tag = self
             .xml
-            .tag("text")
-            .set("class", class)
-            .num("x", at[0])
-            .num("y", at[1] + 0.36 * size)
-            .num("font-size", size);
+            .begin_tag("text")
+            .set_text("class", class)
+            .set_number("x", at[0])
+            .set_number("y", at[1] + 0.36 * size)
+            .set_number("font-size", size);
         if anchor == Anchor::Middle {
-            tag = tag.set("text-anchor", "middle");
+            tag = tag.set_text("text-anchor", "middle");
         }
-        tag.text(text);
+        tag.write_text(text);
     }
 
     /// A path.
-    pub(super) fn path(&mut self, class: &str, d: &str) {
-        self.xml.tag("path").set("class", class).set("d", d).close();
+    pub(super) fn draw_path(&mut self, class: &str, d: &str) {
+        self.xml
+            .begin_tag("path")
+            .set_text("class", class)
+            .set_text("d", d)
+            .close_empty();
     }
 
     /// A path that says something when one points at it.
     pub(super) fn path_with_tip(&mut self, class: &str, d: &str, tip: &str) {
         self.xml
-            .tag("path")
-            .set("class", class)
-            .set("d", d)
-            .tip(tip);
+            .begin_tag("path")
+            .set_text("class", class)
+            .set_text("d", d)
+            .close_with_tip(tip);
     }
 
     /// A segment.
-    pub(super) fn line(&mut self, class: &str, a: Point, b: Point) {
-        self.path(class, &polyline(&[a, b], false));
+    pub(super) fn draw_line(&mut self, class: &str, a: Point, b: Point) {
+        self.draw_path(class, &path_data(&[a, b], false));
     }
 
     /// An arrow with a head of some length.
-    pub(super) fn arrow(&mut self, class: &str, from: Point, to: Point, head: f64) {
-        self.line(class, from, to);
+    pub(super) fn draw_arrow(&mut self, class: &str, from: Point, to: Point, head: f64) {
+        self.draw_line(class, from, to);
         let along = sub(to, from);
-        let back = scale(along, -head / norm(along));
+        let back = scale(along, -head / plane_norm(along));
         let side = [-back[1] * 0.42, back[0] * 0.42];
         let corners = [to, add(add(to, back), side), sub(add(to, back), side)];
-        self.path("ink", &polyline(&corners, true));
+        self.draw_path("ink", &path_data(&corners, true));
     }
 
     /// A circle.
-    pub(super) fn circle(&mut self, class: &str, at: Point, radius: f64) {
+    pub(super) fn draw_circle(&mut self, class: &str, at: Point, radius: f64) {
         self.xml
-            .tag("circle")
-            .set("class", class)
-            .num("cx", at[0])
-            .num("cy", at[1])
-            .num("r", radius)
-            .close();
+            .begin_tag("circle")
+            .set_text("class", class)
+            .set_number("cx", at[0])
+            .set_number("cy", at[1])
+            .set_number("r", radius)
+            .close_empty();
     }
 
     /// A rectangle with round corners.
-    pub(super) fn rect(&mut self, class: &str, rect: &Rect, round: f64) {
+    pub(super) fn draw_rect(&mut self, class: &str, rect: &Rect, round: f64) {
         self.xml
-            .tag("rect")
-            .set("class", class)
-            .num("x", rect.left)
-            .num("y", rect.top)
-            .num("width", rect.right - rect.left)
-            .num("height", rect.bottom - rect.top)
-            .num("rx", round)
-            .close();
+            .begin_tag("rect")
+            .set_text("class", class)
+            .set_number("x", rect.left)
+            .set_number("y", rect.top)
+            .set_number("width", rect.right - rect.left)
+            .set_number("height", rect.bottom - rect.top)
+            .set_number("rx", round)
+            .close_empty();
     }
 
     /// Finished pieces.
-    pub(super) fn shapes(&mut self, shapes: &[Shape]) {
+    pub(super) fn draw_shapes(&mut self, shapes: &[Shape]) {
         for shape in shapes {
             match shape {
                 Shape::Path {
                     class,
                     points,
                     closed,
-                } => self.path(class, &polyline(points, *closed)),
-                Shape::Circle { at, radius, class } => self.circle(class, *at, *radius),
+                } => self.draw_path(class, &path_data(points, *closed)),
+                Shape::Circle { at, radius, class } => self.draw_circle(class, *at, *radius),
             }
         }
     }
 
     /// Notes that a symbol covers a rectangle.
-    pub(super) fn symbol(&mut self, rect: Rect) {
-        self.symbols.push(rect.moved(self.origin));
+    pub(super) fn note_symbol(&mut self, rect: Rect) {
+        self.symbols.push(rect.moved_by(self.origin));
     }
 
     /// Draws the sample in front of a row of the legend.
-    fn swatch(&mut self, swatch: &Swatch, at: Point) {
+    fn draw_swatch(&mut self, swatch: &Swatch, at: Point) {
         let (name, value) = match swatch {
             Swatch::Tint(_, label) => ("data-contour-key", label.as_str()),
             _ => ("data-key", ""),
         };
-        self.group(name, value, at, |s| match swatch {
+        self.draw_group(name, value, at, |s| match swatch {
             Swatch::Tint(redundant, label) => {
                 let class = format!("s s{}", redundant.min(&6));
-                s.rect(&class, &Rect::around([0.0; 2], 30.0, 16.0), 3.0);
-                s.text("small", SMALL, [0.0; 2], Anchor::Middle, label);
+                s.draw_rect(&class, &Rect::around([0.0; 2], 30.0, 16.0), 3.0);
+                s.write_text("small", SMALL, [0.0; 2], Anchor::Middle, label);
             }
             Swatch::Symbol(draw) => draw(s),
             Swatch::Joint(class, label) => {
-                s.circle(class, [0.0; 2], 9.5);
-                s.text("class", 9.0, [0.0; 2], Anchor::Middle, label);
+                s.draw_circle(class, [0.0; 2], 9.5);
+                s.write_text("class", 9.0, [0.0; 2], Anchor::Middle, label);
             }
-            Swatch::Shapes(shapes) => s.shapes(shapes),
+            Swatch::Shapes(shapes) => s.draw_shapes(shapes),
         });
     }
 
     /// Draws the legend and ends the sheet.
-    pub(super) fn finish(mut self, caption: &Caption<'_>, plan: &SheetPlan) -> Drawing {
+    pub(super) fn finish_sheet(mut self, caption: &Caption<'_>, plan: &SheetPlan) -> Drawing {
         let lines = caption.legend.len().div_ceil(plan.columns).max(1);
         for (i, (swatch, text)) in caption.legend.iter().enumerate() {
             let x = PAD + plan.column * (i / lines) as f64;
             let y = plan.legend_top + ROW * ((i % lines) as f64 + 0.5);
             let middle = [x + 15.0, y];
-            self.swatch(swatch, middle);
+            self.draw_swatch(swatch, middle);
             let room = plan.column - SWATCH - 20.0;
-            let shown = cut(text, TEXT, room.min(self.size[0] - x - SWATCH - PAD));
-            self.text("legend", TEXT, [x + SWATCH, y], Anchor::Start, &shown);
+            let shown = cut_text(text, TEXT, room.min(self.size[0] - x - SWATCH - PAD));
+            self.write_text("legend", TEXT, [x + SWATCH, y], Anchor::Start, &shown);
         }
         Drawing {
-            svg: self.xml.finish(),
+            svg: self.xml.finish_document(),
             width: self.size[0].ceil(),
             height: self.size[1].ceil(),
             labels: self.labels,

@@ -8,7 +8,7 @@ use crate::search::answer::k_best::Assignment;
 use crate::search::check::variant_mechanism;
 use crate::search::question::space::choice_name;
 use crate::svg::plane::Point;
-use crate::svg::text::width;
+use crate::svg::text::text_width;
 use std::fmt::Write as _;
 
 /// The class of the style sheet that the lines of couplings have.
@@ -47,7 +47,7 @@ impl Marks {
     #[must_use]
     pub fn of_variant(search: &Search, variant: &Assignment, name: &str) -> (Mechanism, Marks) {
         let old = &search.mechanism;
-        let realized = variant_mechanism::realize(search, &variant.choices);
+        let realized = variant_mechanism::realize_variant(search, &variant.choices);
         let mut changed: Vec<(JointId, String)> = Vec::new();
         for (v, &choice) in search.space.variables.iter().zip(&variant.choices) {
             if choice == 0 {
@@ -57,8 +57,8 @@ impl Marks {
                 let joint = &old.joints[j];
                 let to = choice_name(old, j, &v.choices[choice]);
                 let (from, now) = (
-                    joint.joint_type.class(),
-                    realized.joints[j].joint_type.class(),
+                    joint.joint_type.class_numeral(),
+                    realized.joints[j].joint_type.class_numeral(),
                 );
                 changed.push((j, format!("{}: {from} → {now} {to}", joint.id)));
             }
@@ -90,7 +90,7 @@ pub(super) enum Mark {
 
 impl Mark {
     /// The class of the style sheet that shows it, with a space before it.
-    pub(super) fn class(self) -> &'static str {
+    pub(super) fn mark_class(self) -> &'static str {
         match self {
             Mark::None => "",
             Mark::Changed => " changed",
@@ -123,7 +123,7 @@ impl Subject<'_> {
             .is_some_and(|s| !s.contains(&StateId::FREE))
     }
 
-    pub(super) fn title(&self) -> String {
+    pub(super) fn drawing_title(&self) -> String {
         let name = &self.mechanism.name;
         match &self.marks {
             Some(m) if !m.name.is_empty() => format!("{name}, {}", m.name),
@@ -132,7 +132,7 @@ impl Subject<'_> {
     }
 
     /// Returns the name of the drawing and the mechanism's figures.
-    pub(super) fn subtitle(&self, what: &str) -> [String; 2] {
+    pub(super) fn subtitle_lines(&self, what: &str) -> [String; 2] {
         let state = &self.mechanism.states[self.state];
         let what = if self.mechanism.states.len() > 1 {
             format!("{what}, state {state}")
@@ -157,8 +157,8 @@ impl Subject<'_> {
     }
 
     /// The same as the beginning of a text.
-    pub(super) fn summary(&self, what: &str) -> String {
-        let [what, figures] = self.subtitle(what);
+    pub(super) fn summary_sentence(&self, what: &str) -> String {
+        let [what, figures] = self.subtitle_lines(what);
         if figures.is_empty() {
             format!("{what}.")
         } else {
@@ -174,11 +174,11 @@ impl Subject<'_> {
         let m = self.mechanism;
         let mut out = Vec::new();
         for (j, words) in &marks.changed {
-            let class = m.joints[*j].joint_type.class().to_owned();
+            let class = m.joints[*j].joint_type.class_numeral().to_owned();
             out.push((Swatch::Joint("joint changed", class), words.clone()));
         }
         for joint in m.joints.iter().skip(marks.joints) {
-            let class = joint.joint_type.class();
+            let class = joint.joint_type.class_numeral();
             out.push((
                 Swatch::Joint("joint new", class.to_owned()),
                 format!("{}: added, {class} {}", joint.id, joint.joint_type),
@@ -198,7 +198,7 @@ impl Subject<'_> {
     ) {
         for coupling in self.mechanism.couplings_in(self.state) {
             if let [Some(a), Some(b)] = coupling.ends.map(|e| place(e.joint)) {
-                sheet.line(COUPLING, a, b);
+                sheet.draw_line(COUPLING, a, b);
             }
         }
     }
@@ -229,7 +229,7 @@ impl Subject<'_> {
 pub(super) fn roominess(m: &Mechanism, joints: &[JointId]) -> f64 {
     let wide = joints
         .iter()
-        .map(|&j| width(&m.joints[j].id, SMALL).min(150.0));
+        .map(|&j| text_width(&m.joints[j].id, SMALL).min(150.0));
     let usual = wide.sum::<f64>() / joints.len().max(1) as f64;
     1.0 + 0.5 * ((usual - 40.0) / 60.0).clamp(0.0, 1.0)
 }

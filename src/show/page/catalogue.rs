@@ -1,12 +1,12 @@
 //! A catalogue as one page: a card for each structure, with its drawing, to filter, sort and choose from.
 
-use super::data::escaped;
-use super::gripper::drawing;
+use super::data::escape_json;
+use super::gripper::gripper_drawing;
 use super::policy::{self, POLICY, STYLE};
 use crate::catalog::store::{Store, StoreError};
 use crate::file::text::mechanism_from_str;
 use crate::robots::formats;
-use crate::view::catalog::structures::hardware;
+use crate::view::catalog::structures::usual_hardware;
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use flate2::Compression;
@@ -72,29 +72,32 @@ const IDEAS: &str = "SELECT structure, place, changes, cost, change_count AS cha
      peak_moment FROM ideas ORDER BY structure, place";
 const WITHOUT: &str = "SELECT no_layout AS why, count(*) AS n FROM structures WHERE no_layout IS NOT NULL GROUP BY 1 ORDER BY 2 DESC, 1";
 
-fn maps(store: &Store, sql: &str) -> Result<Vec<Map<String, Value>>, StoreError> {
-    let (names, rows) = store.query(sql, None)?;
+fn query_maps(store: &Store, sql: &str) -> Result<Vec<Map<String, Value>>, StoreError> {
+    let (names, rows) = store.query_rows(sql, None)?;
     let map = |row: Vec<Value>| names.iter().cloned().zip(row).collect();
     Ok(rows.into_iter().map(map).collect())
 }
 
 /// Returns each structure with a layout and each drawn mechanism: the data of its card, and its files and ideas,
 /// which the page shows once it is chosen.
-fn cards(store: &Store) -> Result<Vec<(Value, Value)>, StoreError> {
+fn read_cards(store: &Store) -> Result<Vec<(Value, Value)>, StoreError> {
     let mut ideas: BTreeMap<String, Vec<Map<String, Value>>> = BTreeMap::new();
-    for mut idea in maps(store, IDEAS)? {
+    for mut idea in query_maps(store, IDEAS)? {
         if let Some(Value::String(of)) = idea.remove("structure") {
             ideas.entry(of).or_default().push(idea);
         }
     }
     let mut cards = Vec::new();
-    for mut card in maps(store, CARD)?.into_iter().chain(maps(store, DRAWN)?) {
+    for mut card in query_maps(store, CARD)?
+        .into_iter()
+        .chain(query_maps(store, DRAWN)?)
+    {
         let text = card.remove("mechanism");
         let id = card.get("id").and_then(Value::as_str).unwrap_or_default();
         let of = ideas.remove(id).unwrap_or_default();
         let mechanism = text.as_ref().and_then(Value::as_str);
         let mechanism = mechanism.and_then(|m| mechanism_from_str("mechanism.toml", m).ok());
-        let drawn = mechanism.as_ref().and_then(drawing);
+        let drawn = mechanism.as_ref().and_then(gripper_drawing);
         let mjcf = mechanism.and_then(|m| formats::write(&m, "mjcf").ok());
         let ideas: Value = of.into_iter().map(Value::Object).collect();
         card.insert("drawing".to_owned(), drawn.unwrap_or_default());
@@ -108,7 +111,7 @@ fn cards(store: &Store) -> Result<Vec<(Value, Value)>, StoreError> {
 ///
 /// # Panics
 /// Never: a list takes all that is written.
-fn packed(value: &[Value]) -> String {
+fn pack_values(value: &[Value]) -> String {
     let mut out = ZlibEncoder::new(Vec::new(), Compression::default());
     serde_json::to_writer(&mut out, value).expect("a list takes all");
     STANDARD.encode(out.finish().expect("a list takes all"))
@@ -116,17 +119,21 @@ fn packed(value: &[Value]) -> String {
 
 /// Returns what the script is given, to stand in the page: the cards, apart from them what is unpacked once a card is chosen, and the
 /// parts that are such joints as ideas put in.
-fn data(file: &str, cards: Vec<(Value, Value)>, hardware: &BTreeMap<String, String>) -> String {
+fn script_data(
+    file: &str,
+    cards: Vec<(Value, Value)>,
+    hardware: &BTreeMap<String, String>,
+) -> String {
     let (cards, chosen): (Vec<Value>, Vec<Value>) = cards.into_iter().unzip();
-    let chosen: Vec<String> = chosen.chunks(TOGETHER).map(packed).collect();
+    let chosen: Vec<String> = chosen.chunks(TOGETHER).map(pack_values).collect();
     let data = json!({
         "file": file,
         "together": TOGETHER,
-        "cards": packed(&cards),
+        "cards": pack_values(&cards),
         "chosen": chosen,
         "hardware": hardware,
     });
-    escaped(&data.to_string())
+    escape_json(&data.to_string())
 }
 
 fn left_out_table(without: &[Map<String, Value>]) -> maud::Markup {
@@ -151,17 +158,17 @@ fn left_out_table(without: &[Map<String, Value>]) -> maud::Markup {
 ///
 /// # Complexity
 /// A mechanism read for each structure.
-pub fn catalogue(store: &Store, file: &str) -> Result<String, StoreError> {
-    let cards = cards(store)?;
-    let without = maps(store, WITHOUT)?;
+pub fn catalogue_page(store: &Store, file: &str) -> Result<String, StoreError> {
+    let cards = read_cards(store)?;
+    let without = query_maps(store, WITHOUT)?;
     let left_out: u64 = without
         .iter()
         .filter_map(|w| w.get("n").and_then(Value::as_u64))
         .sum();
     let count = cards.len();
-    let (_, changes) = store.query("SELECT DISTINCT changes FROM ideas", None)?;
+    let (_, changes) = store.query_rows("SELECT DISTINCT changes FROM ideas", None)?;
     let changes = changes.iter().filter_map(|row| row.first()?.as_str());
-    let data = data(file, cards, &hardware(changes));
+    let data = script_data(file, cards, &usual_hardware(changes));
     let title = "Grippers by structure";
     let page = html! {
         (DOCTYPE)
@@ -185,7 +192,7 @@ pub fn catalogue(store: &Store, file: &str) -> Result<String, StoreError> {
                 }
                 main {
                     noscript { p { "The cards need scripts; " code { "ozols catalog query " (file) } " lists the same." } }
-                    (filters())
+                    (filter_form())
                     p.help {
                         "Green: the driver, with the way it goes to close. Blue: the jaws; red arrows: how their tips close on the part, dashed. "
                         "Triangles on a line: hinges in the frame; a block between two lines: a slide on its guide; long and round: a slot; dashed and dotted: pitch circles."
@@ -201,10 +208,10 @@ pub fn catalogue(store: &Store, file: &str) -> Result<String, StoreError> {
             }
         }
     };
-    Ok(policy::named(&page.into_string(), POLICY))
+    Ok(policy::with_policy(&page.into_string(), POLICY))
 }
 
-fn filters() -> maud::Markup {
+fn filter_form() -> maud::Markup {
     let select = |id: &str, label: &str, options: &[(&str, &str)]| {
         html! {
             label {

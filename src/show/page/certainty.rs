@@ -1,27 +1,27 @@
 //! How sure the figures of a page are: the same words as those of `analyze` and `search`.
 
 use super::contents::{Page, Redesigns};
-use crate::format::plural;
+use crate::format::count_noun;
 use crate::search::check::second_prime::{PrimeCheck, Verdict};
 use crate::view::analysis::{Analysis, State};
 use crate::view::search::stopped_early;
 use crate::view::search::text;
 use maud::{Markup, html};
 
-pub(super) fn html(page: &Page<'_>, analysis: &Analysis<'_>) -> Markup {
+pub(super) fn certainty_html(page: &Page<'_>, analysis: &Analysis<'_>) -> Markup {
     let head = |s: &State<'_>| match analysis.states.len() {
         1 => "The mechanism".to_owned(),
         _ => format!("State {}", s.found.state),
     };
     html! {
         dl.facts {
-            @for s in &analysis.states { (row(&head(s), &state(s))) }
-            @if let Ok(r) = &page.redesigns { (row("The search", &search(r))) }
+            @for s in &analysis.states { (fact_row(&head(s), &state_lines(s))) }
+            @if let Ok(r) = &page.redesigns { (fact_row("The search", &search_lines(r))) }
         }
     }
 }
 
-fn row(head: &str, lines: &[String]) -> Markup {
+fn fact_row(head: &str, lines: &[String]) -> Markup {
     html! {
         dt { (head) }
         dd {
@@ -41,15 +41,15 @@ fn row(head: &str, lines: &[String]) -> Markup {
     }
 }
 
-fn state(s: &State<'_>) -> Vec<String> {
+fn state_lines(s: &State<'_>) -> Vec<String> {
     let mut lines = vec![s.certainty()];
     lines.extend(s.method_lines());
-    lines.push(s.finite());
+    lines.push(s.describe_finite());
     lines.extend(s.left_out());
     lines
 }
 
-fn search(r: &Redesigns<'_>) -> Vec<String> {
+fn search_lines(r: &Redesigns<'_>) -> Vec<String> {
     let found = r.found;
     let mut lines = Vec::new();
     match found.check {
@@ -60,10 +60,10 @@ fn search(r: &Redesigns<'_>) -> Vec<String> {
         Some(_) => lines.push("Not checked by a second prime: interrupted".to_owned()),
         None => lines.push("One prime, without a second opinion".to_owned()),
     }
-    let early = stopped_early::stopped(found);
+    let early = stopped_early::stopped_line(found);
     lines.push(early.unwrap_or_else(|| "Every variant was counted; none was omitted".to_owned()));
-    lines.extend(stopped_early::estimated(found));
-    lines.extend(stopped_early::more(found));
+    lines.extend(stopped_early::estimate_line(found));
+    lines.extend(stopped_early::more_line(found));
     if let Some((why, verdicts)) = &found.measured {
         let written = verdicts.iter().all(|v| v.is_as_written());
         let searched = if written {
@@ -75,7 +75,7 @@ fn search(r: &Redesigns<'_>) -> Vec<String> {
         };
         lines.push(format!("The coordinates look rounded ({why}); {searched}"));
     }
-    lines.extend(text::notes(&r.summary));
+    lines.extend(text::summary_notes(&r.summary));
     lines.extend(
         found
             .check
@@ -84,7 +84,7 @@ fn search(r: &Redesigns<'_>) -> Vec<String> {
     if r.interrupted {
         lines.push(format!(
             "Interrupted after {}",
-            plural(r.variants.len(), "variant")
+            count_noun(r.variants.len(), "variant")
         ));
     }
     lines

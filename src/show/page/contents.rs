@@ -62,7 +62,7 @@ pub struct Commands {
 }
 
 impl Commands {
-    pub(super) fn html(&self) -> Markup {
+    pub(super) fn commands_html(&self) -> Markup {
         html! {
             dl.commands {
                 @for (what, command) in &self.rows {

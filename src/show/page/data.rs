@@ -1,15 +1,15 @@
 //! The data of the page's script, as JSON inside the page.
 
 use super::contents::Page;
-use super::symbols::places;
-use crate::format::plain::turns;
+use super::symbols::swap_places;
+use crate::format::plain::changes_direction;
 use crate::model::mechanism::Joint;
 use crate::redundancy::analysis::{ContourShare, StateAnalysis};
 use crate::view::analysis::Analysis;
 use serde_json::{Value, json};
 
 /// Returns all of it, ready to stand in a script element.
-pub(super) fn script(
+pub(super) fn script_data(
     page: &Page<'_>,
     analysis: &Analysis<'_>,
     [search, ideas]: [Option<Value>; 2],
@@ -17,7 +17,7 @@ pub(super) fn script(
     let m = page.mechanism;
     // Variable, choice and joint of each swap of the scene of a state, in its order.
     let swaps = |s| match &page.redesigns {
-        Ok(r) => places(m, r.found, s)
+        Ok(r) => swap_places(m, r.found, s)
             .iter()
             .map(|(v, c, swap)| [*v, *c, swap.joint.index()])
             .collect(),
@@ -42,7 +42,7 @@ pub(super) fn script(
             "id": j.id,
             "links": j.links.map(|l| m.links[l].id.as_str()),
             "type": j.joint_type.name(),
-            "class": j.joint_type.class(),
+            "class": j.joint_type.class_numeral(),
         })
     };
     let scenes = page.scenes.iter().map(|s| s.as_ref().map(|s| &s.1));
@@ -60,10 +60,10 @@ pub(super) fn script(
         "longer": page.commands.longer,
         "scenes": scenes.collect::<Vec<_>>(),
     });
-    escaped(&data.to_string())
+    escape_json(&data.to_string())
 }
 
-pub(super) fn escaped(json: &str) -> String {
+pub(super) fn escape_json(json: &str) -> String {
     let mut out = String::with_capacity(json.len());
     // These characters stand in strings only, where an escape means the same.
     for c in json.chars() {
@@ -72,7 +72,7 @@ pub(super) fn escaped(json: &str) -> String {
                 out.push_str(&format!("\\u{:04x}", u32::from(c)));
             }
             // Spelt out, as all else of the page has it.
-            _ if turns(c) => out.push_str(&format!("\\\\u{{{:x}}}", u32::from(c))),
+            _ if changes_direction(c) => out.push_str(&format!("\\\\u{{{:x}}}", u32::from(c))),
             _ => out.push(c),
         }
     }
@@ -86,7 +86,7 @@ mod tests {
     #[test]
     fn nothing_in_a_string_ends_the_script() {
         let hostile = json!({"name": "</script><!--\u{2028}&amp;", "n": 1});
-        let written = escaped(&hostile.to_string());
+        let written = escape_json(&hostile.to_string());
         assert!(!written.contains(['<', '>', '&', '\u{2028}']), "{written}");
         assert_eq!(serde_json::from_str::<Value>(&written).unwrap(), hostile);
     }

@@ -3,11 +3,11 @@
 
 use super::contents::{Page, SHOWN};
 use crate::view::analysis::Analysis;
-use crate::view::search::nothing_found::hopeless;
-use crate::view::terminal::next_commands::flag;
+use crate::view::search::nothing_found::hopeless_reasons;
+use crate::view::terminal::next_commands::typed_option;
 use maud::{Markup, PreEscaped, html};
 
-pub(super) fn stage(page: &Page<'_>, analysis: &Analysis<'_>) -> Markup {
+pub(super) fn stage_html(page: &Page<'_>, analysis: &Analysis<'_>) -> Markup {
     html! {
         section id="stage" aria-label="As built, and as chosen" {
             div.pair {
@@ -26,14 +26,14 @@ pub(super) fn stage(page: &Page<'_>, analysis: &Analysis<'_>) -> Markup {
                     div.turn {}
                 }
             }
-            (player(analysis))
-            (chosen())
+            (player_html(analysis))
+            (chosen_html())
         }
     }
 }
 
 /// What turns and moves both pictures.
-fn player(analysis: &Analysis<'_>) -> Markup {
+fn player_html(analysis: &Analysis<'_>) -> Markup {
     html! {
         div.player id="player" role="group" aria-label="Motion" hidden {
             div.row data-moves {
@@ -59,8 +59,8 @@ fn player(analysis: &Analysis<'_>) -> Markup {
             span.help role="status" data-part="say" data-moves {}
             @for (i, s) in analysis.states.iter().enumerate() {
                 @for (n, what, flags) in [
-                    (s.found.idle.len(), "idle freedoms", flag("motion", flag("idle", "K"))),
-                    (s.found.self_stresses.len(), "self-stresses", flag("self-stress", "K")),
+                    (s.found.idle.len(), "idle freedoms", typed_option("motion", typed_option("idle", "K"))),
+                    (s.found.self_stresses.len(), "self-stresses", typed_option("self-stress", "K")),
                 ] {
                     @if n > SHOWN {
                         span.help data-state-help=(i) {
@@ -74,7 +74,7 @@ fn player(analysis: &Analysis<'_>) -> Markup {
 }
 
 /// Returns the text about the choice.
-fn chosen() -> Markup {
+fn chosen_html() -> Markup {
     html! {
         div.chosen id="chosen" role="group" aria-labelledby="chosen-head" tabindex="0" hidden {
             h3 id="chosen-head" {}
@@ -86,12 +86,12 @@ fn chosen() -> Markup {
 }
 
 /// The frame, or why there is nothing to fill it with.
-pub(super) fn redesigns(page: &Page<'_>) -> Markup {
+pub(super) fn redesigns_html(page: &Page<'_>) -> Markup {
     match &page.redesigns {
         Err(why) => html! { p { "Redesigns were not searched: " (why) } },
         Ok(r) if r.variants.is_empty() => html! {
             p { "There is no variant to show; the verdict at the top says why." }
-            @for why in hopeless(page.mechanism, &r.remarks.hopeless) { p { (why) "." } }
+            @for why in hopeless_reasons(page.mechanism, &r.remarks.hopeless) { p { (why) "." } }
             dl.commands {
                 @for step in &page.commands.wider {
                     dt { (step.gives) }
@@ -99,11 +99,11 @@ pub(super) fn redesigns(page: &Page<'_>) -> Markup {
                 }
             }
         },
-        Ok(_) => frame(),
+        Ok(_) => frame_html(),
     }
 }
 
-fn frame() -> Markup {
+fn frame_html() -> Markup {
     html! {
         noscript {
             p {
@@ -113,19 +113,19 @@ fn frame() -> Markup {
             }
         }
         div id="explorer" hidden {
-            (filters())
+            (filters_html())
             p.help {
                 span id="count" role="status" {}
                 ". "
                 span id="head" {}
             }
-            (table())
-            (chart())
+            (table_html())
+            (chart_html())
         }
     }
 }
 
-fn filters() -> Markup {
+fn filters_html() -> Markup {
     html! {
         form id="filters" aria-label="Filter the variants" {
             label id="list-field" {
@@ -151,7 +151,7 @@ fn filters() -> Markup {
     }
 }
 
-fn table() -> Markup {
+fn table_html() -> Markup {
     let turn = |id: &str, word: &str| html! { button type="button" id=(id) { (word) } };
     html! {
         div.wide id="table-room" tabindex="0" role="group" aria-label="The list" {
@@ -175,7 +175,7 @@ fn table() -> Markup {
     }
 }
 
-fn chart() -> Markup {
+fn chart_html() -> Markup {
     html! {
         figure id="chart" {
             figcaption {

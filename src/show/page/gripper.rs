@@ -1,6 +1,6 @@
 //! A gripper of a catalogue as numbers, for the script that draws and moves it.
 
-use crate::geom::vector::{Vector, length, real, sides, turned, unit};
+use crate::geom::vector::{Vector, box_sides, length, rotate_plane, to_vector, unit};
 use crate::model::joint_type::{Coupling, Freedom, JointType};
 use crate::model::mechanism::{Joint, JointId, LinkId, Mechanism, Role, StateId};
 use itertools::Itertools;
@@ -9,8 +9,8 @@ use std::f64::consts::PI;
 
 /// The drawing of a mechanism; none of one whose pins are not all square to the plane of x and y, nor to planes at 120° through the
 /// x axis.
-pub(super) fn drawing(m: &Mechanism) -> Option<Value> {
-    let view = View::of(m)?;
+pub(super) fn gripper_drawing(m: &Mechanism) -> Option<Value> {
+    let view = View::seen_of(m)?;
     let joints = &view.joints;
     let pins: Vec<[f64; 2]> = joints.iter().map(|j| j.pin).collect();
     let of = |l: LinkId| joints.iter().positions(move |j| j.joint.links.contains(&l));
@@ -18,18 +18,20 @@ pub(super) fn drawing(m: &Mechanism) -> Option<Value> {
     let driver = drive.map(|d| joints[d].joint.links[1]);
     let output = |l: &&LinkId| m.links[**l].role == Role::Output;
     let jaws: Vec<LinkId> = view.links.iter().filter(output).copied().collect();
-    let tips = view.tips(m, &jaws).filter(|t| (2..=3).contains(&t.len()));
-    let scaled = scale(&[&pins[..], tips.as_deref().unwrap_or_default()].concat());
+    let tips = view
+        .jaw_tips(m, &jaws)
+        .filter(|t| (2..=3).contains(&t.len()));
+    let scaled = drawing_scale(&[&pins[..], tips.as_deref().unwrap_or_default()].concat());
     let place = |p: &[f64; 2]| p.map(|x| x * scaled);
     let slides = |d: usize| {
         let freedoms = joints[d].joint.joint_type.freedoms();
-        freedoms.iter().any(|f| f.slides())
+        freedoms.iter().any(|f| f.is_slide())
     };
     let gears = m.couplings_in(StateId::FREE).filter(|c| c.gear);
-    let gears = gears.filter_map(|c| geared(&view, c, scaled));
+    let gears = gears.filter_map(|c| gear_json(&view, c, scaled));
     let threads = view.threads.iter();
-    let gears = gears.chain(threads.filter_map(|t| threaded(m, &view, t, scaled)));
-    let link = |l: LinkId| view.link(l);
+    let gears = gears.chain(threads.filter_map(|t| thread_json(m, &view, t, scaled)));
+    let link = |l: LinkId| view.link_row(l);
     let ends = joints.iter().map(|j| match j.joint.links.map(link) {
         [Some(a), Some(b)] => Some([a, b]),
         _ => None,
@@ -40,13 +42,13 @@ pub(super) fn drawing(m: &Mechanism) -> Option<Value> {
         // The two links of each joint.
         "ends": ends.collect::<Option<Vec<_>>>()?,
         // What each joint is in the plane: hinge, slide, slot (its pin on the first link).
-        "kinds": joints.iter().map(|j| kind(j.joint)).collect::<Vec<_>>(),
+        "kinds": joints.iter().map(|j| joint_kind(j.joint)).collect::<Vec<_>>(),
         // Which way slides and slots go.
         "along": joints.iter().map(|j| j.along).collect::<Vec<_>>(),
         "gears": gears.collect::<Vec<_>>(),
         // The pins of each link.
         "links": view.links.iter().map(|&l| of(l).collect::<Vec<_>>()).collect::<Vec<_>>(),
-        "frame": link(m.frame())?,
+        "frame": link(m.frame_link())?,
         "driver": driver.and_then(link),
         "jaws": jaws.into_iter().map(link).collect::<Option<Vec<_>>>()?,
         "drive": drive,
@@ -83,7 +85,7 @@ struct View<'a> {
 
 /// A vector after so many sixths of a turn about the x axis.
 fn round_x([x, y, z]: Vector, sixths: i32) -> Vector {
-    let [y, z] = turned([y, z], f64::from(sixths) * PI / 3.0);
+    let [y, z] = rotate_plane([y, z], f64::from(sixths) * PI / 3.0);
     [x, y, z]
 }
 
@@ -97,16 +99,16 @@ fn is_in_plane([x, y, z]: Vector) -> bool {
 
 impl<'a> View<'a> {
     /// The place of a link among those that are seen.
-    fn link(&self, link: LinkId) -> Option<usize> {
+    fn link_row(&self, link: LinkId) -> Option<usize> {
         self.links.iter().position(|&l| l == link)
     }
 
-    fn of(m: &'a Mechanism) -> Option<View<'a>> {
+    fn seen_of(m: &'a Mechanism) -> Option<View<'a>> {
         let all = m.joints_in(StateId::FREE);
         let (threads, ids): (Vec<JointId>, Vec<JointId>) =
             all.partition(|&j| is_thread(&m.joints[j]));
         let threads: Vec<&Joint> = threads.into_iter().map(|j| &m.joints[j]).collect();
-        let lies = |j: &Joint| real(&j.frame.axis)[2] == 0.0;
+        let lies = |j: &Joint| to_vector(&j.frame.axis)[2] == 0.0;
         let is_screw = |j: &Joint| !threads.is_empty() && j.drive && lies(j);
         let seen = |&j: &JointId| is_square(&m.joints[j], 0) || is_screw(&m.joints[j]);
         if threads.iter().all(|j| lies(j)) && ids.iter().all(seen) {
@@ -125,7 +127,7 @@ impl<'a> View<'a> {
         let side = |&id: &JointId| {
             let joint = &m.joints[id];
             let in_plane = |&sixths: &i32| {
-                let at = round_x(real(&joint.frame.point), sixths);
+                let at = round_x(to_vector(&joint.frame.point), sixths);
                 is_in_plane(at) && is_square(joint, sixths)
             };
             [0, 1, -1].into_iter().find(in_plane).map(|s| (id, s))
@@ -144,14 +146,14 @@ impl<'a> View<'a> {
 
     /// Returns the gripping points of the jaws, or `None` if one is unknown. In a drawn mechanism, a force may show the
     /// position of the part.
-    fn tips(&self, m: &Mechanism, jaws: &[LinkId]) -> Option<Vec<[f64; 2]>> {
+    fn jaw_tips(&self, m: &Mechanism, jaws: &[LinkId]) -> Option<Vec<[f64; 2]>> {
         let tip = |jaw: &LinkId| {
             let points = m.points.iter().map(|p| (p.link, &p.point));
             let forces = m.loads.forces.iter().map(|f| (f.link, &f.point));
             let (_, at) = points.chain(forces).find(|(l, _)| l == jaw)?;
-            let at = real(at);
+            let at = to_vector(at);
             let aside = self.folded && !is_in_plane(at);
-            Some(flat(round_x(at, i32::from(aside))))
+            Some(flat_xy(round_x(at, i32::from(aside))))
         };
         jaws.iter().map(tip).collect()
     }
@@ -164,12 +166,12 @@ impl<'a> SeenJoint<'a> {
             JointType::Prismatic | JointType::Cylindrical => &joint.frame.axis,
             _ => &joint.frame.reference,
         };
-        let laid = |v| flat(round_x(real(v), sixths));
+        let laid = |v| flat_xy(round_x(to_vector(v), sixths));
         SeenJoint {
             pin: laid(&joint.frame.point),
             along: unit(laid(towards)),
-            way: match round_x(real(&joint.frame.axis), sixths) {
-                [_, _, z] if kind(joint) == "hinge" && z < 0.0 => -1.0,
+            way: match round_x(to_vector(&joint.frame.axis), sixths) {
+                [_, _, z] if joint_kind(joint) == "hinge" && z < 0.0 => -1.0,
                 _ => 1.0,
             },
             joint,
@@ -184,7 +186,7 @@ fn is_thread(joint: &Joint) -> bool {
 
 /// Whether a pin is square to the plane of x and y after so many sixths of a turn about x; a slide may lie in it.
 fn is_square(joint: &Joint, sixths: i32) -> bool {
-    let axis = real(&joint.frame.axis);
+    let axis = to_vector(&joint.frame.axis);
     let [x, y, z] = round_x(axis, sixths).map(|c| {
         if c.abs() <= NEAR * length(axis) {
             0.0
@@ -199,11 +201,11 @@ fn is_square(joint: &Joint, sixths: i32) -> bool {
     }
 }
 
-fn flat([x, y, _]: [f64; 3]) -> [f64; 2] {
+fn flat_xy([x, y, _]: [f64; 3]) -> [f64; 2] {
     [x, y]
 }
 
-fn kind(joint: &Joint) -> &'static str {
+fn joint_kind(joint: &Joint) -> &'static str {
     match joint.joint_type.freedoms() {
         [Freedom::Tz] => "slide",
         [Freedom::Rz, Freedom::Tx] => "slot",
@@ -212,7 +214,7 @@ fn kind(joint: &Joint) -> &'static str {
 }
 
 /// Returns the gears of a coupling of two hinges, or of a hinge and a slide, that have a link in common.
-fn geared(view: &View<'_>, coupling: &Coupling, scale: f64) -> Option<Value> {
+fn gear_json(view: &View<'_>, coupling: &Coupling, scale: f64) -> Option<Value> {
     let at = |id: JointId| view.joints.iter().position(|j| j.id == id);
     let [a, b] = coupling.ends.map(|e| at(e.joint));
     let joints = [a?, b?];
@@ -221,13 +223,13 @@ fn geared(view: &View<'_>, coupling: &Coupling, scale: f64) -> Option<Value> {
     let carrier = *ends[0].iter().find(|l| ends[1].contains(l))?;
     let other = |k: usize| ends[k].into_iter().find(|l| *l != carrier);
     let links = [other(0)?, other(1)?];
-    let link = |l: LinkId| view.link(l);
+    let link = |l: LinkId| view.link_row(l);
     // By how much the second goes for a turn of the first, both against the carrier.
     let told = seen[0].way * seen[1].way * coupling.ratio.to_f64();
     let turned = ends.iter().filter(|links| links[0] != carrier).count() == 1;
     let rate = if turned { -told } else { told };
     let [a, b] = seen.map(|s| s.pin);
-    let kinds = seen.map(|s| kind(s.joint));
+    let kinds = seen.map(|s| joint_kind(s.joint));
     let (pitch, ratio) = match kinds {
         ["hinge", "hinge"] if rate < 0.0 => {
             let share = rate / (rate - 1.0);
@@ -260,37 +262,38 @@ fn geared(view: &View<'_>, coupling: &Coupling, scale: f64) -> Option<Value> {
 }
 
 /// Returns the thread of a nut that slides along a screw driven in the frame.
-fn threaded(m: &Mechanism, view: &View<'_>, thread: &Joint, scale: f64) -> Option<Value> {
+fn thread_json(m: &Mechanism, view: &View<'_>, thread: &Joint, scale: f64) -> Option<Value> {
     let drive = view.joints.iter().position(|j| j.joint.drive)?;
     let held = view.joints[drive].joint;
     let screw = *held.links.iter().find(|l| thread.links.contains(l))?;
     let nut = *thread.links.iter().find(|l| **l != screw)?;
-    let guides =
-        |j: &&SeenJoint<'_>| j.joint.links.contains(&nut) && j.joint.links.contains(&m.frame());
+    let guides = |j: &&SeenJoint<'_>| {
+        j.joint.links.contains(&nut) && j.joint.links.contains(&m.frame_link())
+    };
     let guide = view.joints.iter().position(|j| guides(&j))?;
-    let [x, y] = flat(real(&held.frame.axis));
-    let [u, v] = flat(real(&thread.frame.axis));
+    let [x, y] = flat_xy(to_vector(&held.frame.axis));
+    let [u, v] = flat_xy(to_vector(&thread.frame.axis));
     let [p, q] = view.joints[guide].along;
     let along = |a: [f64; 2], b: [f64; 2]| a[0] * b[0] + a[1] * b[1];
     // A nut that does not turn goes back where the screw turns on, each joint by the order of its own links.
     let way = along([x, y], [u, v]).signum() * along([u, v], [p, q]).signum();
     let order = |joint: &Joint, second: LinkId| if joint.links[1] == second { 1.0 } else { -1.0 };
     let order = order(held, screw) * order(view.joints[guide].joint, nut);
-    let link = |l: LinkId| view.link(l);
+    let link = |l: LinkId| view.link_row(l);
     Some(json!({
         "joints": [drive, guide],
         "ratio": -way * order * thread.frame.pitch.to_f64() * scale,
         "links": [link(screw)?, link(nut)?],
-        "carrier": link(m.frame())?,
-        "pitch": flat(real(&thread.frame.point)).map(|x| x * scale),
+        "carrier": link(m.frame_link())?,
+        "pitch": flat_xy(to_vector(&thread.frame.point)).map(|x| x * scale),
         "thread": true,
     }))
 }
 
 /// How many times larger a drawing is to be made: layouts are about as large as symbols are drawn for, whatever units a
 /// drawn mechanism is in.
-fn scale(points: &[[f64; 2]]) -> f64 {
-    let [width, height] = sides(points);
+fn drawing_scale(points: &[[f64; 2]]) -> f64 {
+    let [width, height] = box_sides(points);
     match width.max(height) {
         s if s > 0.0 && !(60.0..=400.0).contains(&s) => 160.0 / s,
         _ => 1.0,

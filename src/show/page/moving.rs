@@ -1,20 +1,20 @@
 //! The motion that a moving drawing shows.
 
 use crate::draw::Moved;
-use crate::file::read::workload::motion::stroke;
+use crate::file::read::workload::motion::parse_stroke;
 use crate::format::decimals;
 use crate::model::loads::Stroke;
 use crate::model::mechanism::{Mechanism, StateId};
-use crate::motion::drive_range::{SLIDE, Way, way as way_of};
-use crate::motion::follow::slides;
-use crate::motion::jaws::meet;
+use crate::motion::drive_range::{SLIDE, Way, follow_range as way_of};
+use crate::motion::follow::column_slides;
+use crate::motion::jaws::jaws_meet;
 use crate::motion::pose::Pose;
 use crate::motion::working::working_way;
 use crate::rank::stroke::request::{AskedError, drive_or_any, lengths_where_it_slides, name_of};
 use crate::redundancy::analysis::StateAnalysis;
-use crate::redundancy::local_mobility::{FAR, wiggle};
+use crate::redundancy::local_mobility::{FAR, animate_idle};
 use crate::view::analysis::idle;
-use crate::view::terminal::next_commands::flag;
+use crate::view::terminal::next_commands::typed_option;
 use anyhow::{Context, ensure};
 use std::f64::consts::PI;
 
@@ -45,11 +45,11 @@ impl Moving {
         let (drive, held) = match drive_or_any(m, &pose, state, named) {
             // Balls have no axes of their own to be driven about.
             Err(AskedError::Still { .. }) if range.is_none() => {
-                return Self::working(m, state, pose);
+                return Self::working_motion(m, state, pose);
             }
             found => found?,
         };
-        let slide = slides(&pose, drive);
+        let slide = column_slides(&pose, drive);
         let unit = if slide { pose.length } else { 1.0 };
         let asked = stroke_asked(m, slide, range, named)?;
         let steps = asked.map_or(STEPS, |s| s.steps.clamp(2, MOST));
@@ -57,7 +57,7 @@ impl Moving {
         let mut way = way_of(&pose, drive, &held, range, steps);
         // Nobody wants to see jaws go through each other.
         let met = match asked {
-            None => meet(m, state, &pose, &way),
+            None => jaws_meet(m, state, &pose, &way),
             Some(_) => [None, None],
         };
         if met.iter().any(Option::is_some) {
@@ -92,12 +92,12 @@ impl Moving {
     }
 
     /// From where to where the drive goes, in radians or the file's length unit.
-    pub fn reach(&self) -> Option<[f64; 2]> {
+    pub fn drive_reach(&self) -> Option<[f64; 2]> {
         ends_of(&self.way).map(|ends| ends.map(|x| x * self.unit))
     }
 
     /// The working motion of a mechanism in which no joint can be a drive.
-    fn working(m: &Mechanism, state: StateId, pose: Pose) -> anyhow::Result<Moving> {
+    fn working_motion(m: &Mechanism, state: StateId, pose: Pose) -> anyhow::Result<Moving> {
         let way = working_way(m, state, &pose, STEPS)
             .with_context(|| format!("{}: no output moves from the pose of the file", m.name))?;
         let words = "the outputs' motion that is the largest for its size, no joint being a drive";
@@ -110,7 +110,7 @@ impl Moving {
     }
 
     /// To and fro along an idle freedom that the analysis of a state lists, counted from 0.
-    pub fn idle(
+    pub fn idle_motion(
         m: &Mechanism,
         found: &StateAnalysis,
         state: StateId,
@@ -126,8 +126,8 @@ impl Moving {
                     found.state
                 ),
             })?;
-        let words = idle::words(m, one);
-        let wiggle = wiggle(m, state, &found.idle, which)?
+        let words = idle::describe_idle(m, one);
+        let wiggle = animate_idle(m, state, &found.idle, which)?
             .with_context(|| format!("no numbers show that {words}"))?;
         let far = decimals(FAR.to_degrees(), 0);
         let far = if one.turns {
@@ -149,7 +149,7 @@ impl Moving {
     }
 
     /// The pose of the file.
-    pub(crate) fn still(m: &Mechanism, state: StateId) -> anyhow::Result<Moving> {
+    pub(crate) fn still_pose(m: &Mechanism, state: StateId) -> anyhow::Result<Moving> {
         let pose = Pose::of_file(m, state)?;
         let way = Way {
             at: vec![0.0],
@@ -167,7 +167,7 @@ impl Moving {
     }
 
     /// To be drawn.
-    pub fn moved(&self) -> Moved<'_> {
+    pub fn as_moved(&self) -> Moved<'_> {
         Moved {
             pose: &self.pose,
             way: &self.way,
@@ -188,11 +188,11 @@ fn stroke_asked(
         return Ok(m.loads.stroke.filter(|_| named.is_none()));
     };
     lengths_where_it_slides(m, slide, text)?;
-    let asked = stroke(text)?;
+    let asked = parse_stroke(text)?;
     ensure!(
         (2..=MOST).contains(&asked.steps),
         "{} takes 2 to {MOST} steps for a drawing",
-        flag("stroke", "")
+        typed_option("stroke", "")
     );
     Ok(Some(asked))
 }
@@ -206,7 +206,7 @@ fn ends_of(way: &Way) -> Option<[f64; 2]> {
 fn why_it_ends(way: &Way, met: [Option<f64>; 2]) -> String {
     let why = |n: usize| match met[n] {
         Some(_) => Some("jaws meet".to_owned()),
-        None => way.ends[n].map(|s| s.why.word().replace('-', " ")),
+        None => way.ends[n].map(|s| s.why.as_word().replace('-', " ")),
     };
     match [why(0), why(1)] {
         [Some(a), Some(b)] if a == b => format!(", {a} at both ends"),

@@ -12,14 +12,17 @@ pub(super) const POLICY: &str = "default-src 'none'";
 
 /// The page with the policy that allows its scripts and styles in place of the first `stand_in`. Text of mechanisms is
 /// escaped by then, so that every element found here is the page's own.
-pub(super) fn named(page: &str, stand_in: &str) -> String {
-    let (styles, scripts) = (hashes(page, "style"), hashes(page, "script"));
+pub(super) fn with_policy(page: &str, stand_in: &str) -> String {
+    let (styles, scripts) = (
+        element_hashes(page, "style"),
+        element_hashes(page, "script"),
+    );
     let policy = format!("{stand_in}; style-src {styles}; script-src {scripts}");
     page.replacen(stand_in, &policy, 1)
 }
 
 /// The hashes of all elements of a name, each once.
-fn hashes(page: &str, element: &str) -> String {
+fn element_hashes(page: &str, element: &str) -> String {
     let (begin, end) = (format!("<{element}"), format!("</{element}>"));
     let inside = page.split(&begin).skip(1).filter_map(|after| {
         let (tag, inside) = after.split_once('>')?;
@@ -33,14 +36,14 @@ fn hashes(page: &str, element: &str) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::named;
+    use super::with_policy;
 
     #[test]
     fn scripts_and_styles_are_allowed_by_their_hashes() {
         let page = "<meta content=\"P\"><style>a</style><script type=\"application/json\">1</script><script>a</script>";
         // printf a | openssl dgst -sha256 -binary | base64
         let a = "'sha256-ypeBEsobvcr6wjGzmiPcTaeG7/gUfE5yuYB3ha/uSLs='";
-        assert!(named(page, "P").starts_with(&format!(
+        assert!(with_policy(page, "P").starts_with(&format!(
             "<meta content=\"P; style-src {a}; script-src {a}\">"
         )));
     }

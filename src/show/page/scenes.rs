@@ -2,7 +2,7 @@
 
 use super::contents::SHOWN;
 use super::moving::Moving;
-use super::symbols::swaps;
+use super::symbols::state_swaps;
 use crate::draw::{Drawing, Moved, Scene, Shown, Sight, Subject, Swap, kinematic_scene};
 use crate::model::mechanism::{Mechanism, StateId};
 use crate::redundancy::analysis::StateAnalysis;
@@ -11,14 +11,14 @@ use crate::score::outcome::Outcome;
 use crate::view::analysis::Analysis;
 
 /// Returns the mechanism in space in each state, or `None` if its pose has no numbers.
-pub fn scenes(
+pub fn state_scenes(
     mechanism: &Mechanism,
     states: &[StateAnalysis],
     search: Option<&Outcome>,
 ) -> Vec<Option<(Drawing, Scene)>> {
     let one = |(found, state): (&StateAnalysis, StateId)| {
         let m = found.meant.as_deref().unwrap_or(mechanism);
-        let swaps = search.map(|found| swaps(mechanism, found, state));
+        let swaps = search.map(|found| state_swaps(mechanism, found, state));
         moving_scene(m, (found, state), &swaps.unwrap_or_default())
     };
     states.iter().zip(mechanism.state_ids()).map(one).collect()
@@ -34,21 +34,27 @@ pub fn moving_scene(
     let told = Analysis::new(m, std::slice::from_ref(found), &[]);
     let told = told.states.first()?;
     let drive = Moving::new(m, state, None, None).ok();
-    let idle =
-        (0..found.idle.len().min(SHOWN)).filter_map(|k| Moving::idle(m, found, state, k).ok());
+    let idle = (0..found.idle.len().min(SHOWN))
+        .filter_map(|k| Moving::idle_motion(m, found, state, k).ok());
     let mut moving: Vec<Moving> = drive.into_iter().chain(idle).collect();
     let known = |s: &SelfStress| s.joints.iter().any(|w| w.borne.is_some());
     let stresses = found.self_stresses.iter().enumerate();
     let stresses = stresses.filter(|(_, s)| known(s)).take(SHOWN);
     let stresses: Vec<_> = stresses.map(|(k, s)| (told.name(k), s)).collect();
     if moving.is_empty() {
-        moving.push(Moving::still(m, state).ok()?);
+        moving.push(Moving::still_pose(m, state).ok()?);
     }
-    Some(scene(m, (Some(found), state), &moving, &stresses, swaps))
+    Some(draw_scene(
+        m,
+        (Some(found), state),
+        &moving,
+        &stresses,
+        swaps,
+    ))
 }
 
 /// Draws it in one state: its motions, its self-stresses, and what redesigns put at its joints.
-fn scene(
+fn draw_scene(
     m: &Mechanism,
     (analysis, state): (Option<&StateAnalysis>, StateId),
     moving: &[Moving],
@@ -61,7 +67,7 @@ fn scene(
         analysis,
         marks: None,
     };
-    let moves: Vec<Moved<'_>> = moving.iter().map(Moving::moved).collect();
+    let moves: Vec<Moved<'_>> = moving.iter().map(Moving::as_moved).collect();
     let shown = Shown {
         moves: &moves,
         stresses,
@@ -72,8 +78,8 @@ fn scene(
 
 /// The picture of it at rest, without title and legend.
 pub fn still_picture(m: &Mechanism) -> Option<String> {
-    let rest = [Moving::still(m, StateId::FREE).ok()?];
-    let (Drawing { svg, .. }, scene) = scene(m, (None, StateId::FREE), &rest, &[], &[]);
+    let rest = [Moving::still_pose(m, StateId::FREE).ok()?];
+    let (Drawing { svg, .. }, scene) = draw_scene(m, (None, StateId::FREE), &rest, &[], &[]);
     let [left, top, right, bottom] = scene.room();
     let room = format!("viewBox=\"{left} {top} {} {}\"", right - left, bottom - top);
     let (before, rest) = svg.split_once("width=\"")?;
@@ -88,6 +94,6 @@ pub fn still_scene(
     of: (Option<&StateAnalysis>, StateId),
     swaps: &[Swap<'_>],
 ) -> Option<Scene> {
-    let rest = [Moving::still(m, of.1).ok()?];
-    Some(scene(m, of, &rest, &[], swaps).1)
+    let rest = [Moving::still_pose(m, of.1).ok()?];
+    Some(draw_scene(m, of, &rest, &[], swaps).1)
 }

@@ -1,19 +1,19 @@
 //! The original mechanism, state by state: figures, drawings, contours and self-stresses.
 
 use super::contents::Page;
-use super::symbols::swaps;
+use super::symbols::state_swaps;
 use super::verdict;
 use crate::draw::{Subject, kinematic_with, scheme};
-use crate::format::plural;
+use crate::format::count_noun;
 use crate::model::mechanism::{Mechanism, Mode, StateId};
 use crate::redundancy::analysis::{ContourShare, External};
 use crate::redundancy::stress::SelfStress;
-use crate::view::analysis::text::{formula, in_any_basis, in_any_order};
-use crate::view::analysis::{Analysis, State, agrees, harm};
+use crate::view::analysis::text::{external_formula, in_any_basis, in_any_order};
+use crate::view::analysis::{Analysis, State, harm_word, ranks_agree};
 use maud::{Markup, PreEscaped, html};
 
 /// The mechanism's size in a line.
-pub(super) fn facts(m: &Mechanism, analysis: &Analysis<'_>) -> String {
+pub(super) fn size_facts(m: &Mechanism, analysis: &Analysis<'_>) -> String {
     let plane = match m.mode {
         Mode::Planar { .. } => "planar, three equations a contour",
         Mode::Spatial => "spatial, six equations a contour",
@@ -23,31 +23,31 @@ pub(super) fn facts(m: &Mechanism, analysis: &Analysis<'_>) -> String {
         [s.found.links, s.found.joints, s.found.contours]
     });
     [
-        plural(links, "link"),
-        plural(joints, "joint"),
-        plural(contours, "contour"),
+        count_noun(links, "link"),
+        count_noun(joints, "joint"),
+        count_noun(contours, "contour"),
         plane.to_owned(),
         format!("lengths in {}", m.length_unit.symbol),
     ]
     .join(" · ")
 }
 
-pub(super) fn html(page: &Page<'_>, analysis: &Analysis<'_>) -> Markup {
+pub(super) fn states_html(page: &Page<'_>, analysis: &Analysis<'_>) -> Markup {
     let several = analysis.states.len() > 1;
     html! {
         @for (i, (s, id)) in analysis.states.iter().zip(page.mechanism.state_ids()).enumerate() {
             @if several {
-                h3 id={ "state-" (i) } { "State " (s.found.state) ": " (verdict::head(s).to_lowercase()) }
+                h3 id={ "state-" (i) } { "State " (s.found.state) ": " (verdict::verdict_head(s).to_lowercase()) }
             }
-            (figures(s))
-            (drawings(page, s, id))
-            (contours(s))
+            (figures_html(s))
+            (drawings_html(page, s, id))
+            (contours_html(s))
         }
     }
 }
 
 /// The two schemes; the kinematic one has room for what redesigns put at its joints.
-fn drawings(page: &Page<'_>, s: &State<'_>, state: StateId) -> Markup {
+fn drawings_html(page: &Page<'_>, s: &State<'_>, state: StateId) -> Markup {
     let subject = Subject {
         mechanism: page.mechanism,
         state,
@@ -55,7 +55,7 @@ fn drawings(page: &Page<'_>, s: &State<'_>, state: StateId) -> Markup {
         marks: None,
     };
     let redesigns = page.redesigns.as_ref().ok();
-    let swaps = redesigns.map(|r| swaps(page.mechanism, r.found, state));
+    let swaps = redesigns.map(|r| state_swaps(page.mechanism, r.found, state));
     let kinematic = kinematic_with(&subject, &swaps.unwrap_or_default());
     html! {
         div.drawings {
@@ -73,7 +73,7 @@ fn drawings(page: &Page<'_>, s: &State<'_>, state: StateId) -> Markup {
 }
 
 /// The figures with where they come from.
-fn figures(state: &State<'_>) -> Markup {
+fn figures_html(state: &State<'_>) -> Markup {
     let (s, finite) = (state.found, state.finite_mobility());
     let row = |sign: &str, value: i64, words: &str| {
         html! { div { dt { (sign) } dd { b { (value) } " " (words) } } }
@@ -81,10 +81,10 @@ fn figures(state: &State<'_>) -> Markup {
     let int = |n: usize| i64::try_from(n).unwrap_or(i64::MAX);
     html! {
         dl.figures {
-            (row("σ", int(s.redundant), &format!("redundant constraints = {} - rank {}", plural(s.rows, "equation"), s.rank)))
+            (row("σ", int(s.redundant), &format!("redundant constraints = {} - rank {}", count_noun(s.rows, "equation"), s.rank)))
             (row("W", int(s.mobility), &format!(
                 "mobility = {} - rank {}; working {}, idle {}",
-                plural(s.freedoms, "freedom"), s.rank, s.working_mobility, s.local_mobility
+                count_noun(s.freedoms, "freedom"), s.rank, s.working_mobility, s.local_mobility
             )))
             @if finite != Some(s.mobility) {
                 (row("", int(s.finite.mobility), &match finite {
@@ -96,19 +96,23 @@ fn figures(state: &State<'_>) -> Markup {
                 (row("", s.formula_mobility,
                     "is what counting alone (Malyshev's formula) gives, wrong by the redundant constraints"))
             }
-            @if let Some(e) = &s.external { (row("σ ext.", e.redundant, &external(e))) }
+            @if let Some(e) = &s.external { (row("σ ext.", e.redundant, &external_words(e))) }
         }
     }
 }
 
-fn external(e: &External) -> String {
-    let disagree = if agrees(e) { "" } else { ": THESE DISAGREE" };
-    let (formula, by_rank) = (formula(e), e.by_rank);
+fn external_words(e: &External) -> String {
+    let disagree = if ranks_agree(e) {
+        ""
+    } else {
+        ": THESE DISAGREE"
+    };
+    let (formula, by_rank) = (external_formula(e), e.by_rank);
     format!("external = {formula}; by rank {by_rank}{disagree}")
 }
 
 /// The contours, each with the self-stresses that end in it.
-fn contours(s: &State<'_>) -> Markup {
+fn contours_html(s: &State<'_>) -> Markup {
     let all = &s.found.per_contour;
     if all.is_empty() {
         return html! { p { "There is no closed contour, so nothing can be redundant." } };
@@ -131,18 +135,18 @@ fn contours(s: &State<'_>) -> Markup {
                         th scope="col" { "Self-stresses: where each is simplest, as what there, and the share that each joint bears" }
                     }
                 }
-                tbody { @for (i, c) in all.iter().enumerate() { (contour(s, i, c)) } }
+                tbody { @for (i, c) in all.iter().enumerate() { (contour_row(s, i, c)) } }
             }
         }
     }
 }
 
-fn contour(s: &State<'_>, i: usize, c: &ContourShare) -> Markup {
+fn contour_row(s: &State<'_>, i: usize, c: &ContourShare) -> Markup {
     let m = s.mechanism;
     let joints = c.contour.joints.iter().map(|(j, _)| &m.joints[*j].id);
     let ending = s.found.self_stresses.iter();
     let ending = ending.filter(|t| t.contours.last() == Some(&i));
-    let ending: Vec<Markup> = ending.map(|t| stress(s, t)).collect();
+    let ending: Vec<Markup> = ending.map(|t| stress_item(s, t)).collect();
     html! {
         tr {
             th scope="row" {
@@ -159,8 +163,8 @@ fn contour(s: &State<'_>, i: usize, c: &ContourShare) -> Markup {
 }
 
 /// A self-stress where it has the fewest components, and who bears it.
-fn stress(s: &State<'_>, t: &SelfStress) -> Markup {
-    let what = match s.simplest(t) {
+fn stress_item(s: &State<'_>, t: &SelfStress) -> Markup {
+    let what = match s.simplest_joint(t) {
         Some((joint, what)) => format!("{what} at {joint}"),
         None => "none".to_owned(),
     };
@@ -170,14 +174,14 @@ fn stress(s: &State<'_>, t: &SelfStress) -> Markup {
         }
         _ => String::new(),
     };
-    let (class, why) = match harm(t) {
+    let (class, why) = match harm_word(t) {
         "harmless" => ("good", ": friction shared by the contacts"),
         _ => ("bad", ""),
     };
     html! {
         li {
-            (what) (with) " " span class={ "tag " (class) } { (harm(t)) (why) }
-            br; small { "borne by " (s.borne(t)) }
+            (what) (with) " " span class={ "tag " (class) } { (harm_word(t)) (why) }
+            br; small { "borne by " (s.borne_shares(t)) }
         }
     }
 }

@@ -6,7 +6,7 @@ use crate::score::outcome::Outcome;
 use crate::search::question::space::choice_name;
 
 /// Returns each joint of a state with each choice except the present one: the variable, the choice, and the new joint.
-pub(super) fn places<'a>(
+pub(super) fn swap_places<'a>(
     m: &'a Mechanism,
     found: &Outcome,
     state: StateId,
@@ -35,8 +35,8 @@ pub(super) fn places<'a>(
 /// Returns what the variants of a search put at the joints of a state, for
 /// [`kinematic_scene`](crate::draw::kinematic_scene).
 #[must_use]
-pub fn swaps<'a>(m: &'a Mechanism, found: &Outcome, state: StateId) -> Vec<Swap<'a>> {
-    let all = places(m, found, state).into_iter();
+pub fn state_swaps<'a>(m: &'a Mechanism, found: &Outcome, state: StateId) -> Vec<Swap<'a>> {
+    let all = swap_places(m, found, state).into_iter();
     all.map(|(_, _, swap)| swap).collect()
 }
 
@@ -47,7 +47,7 @@ pub fn named_swaps<'a>(
     found: &Outcome,
     state: StateId,
 ) -> Vec<(String, String, Swap<'a>)> {
-    let all = places(m, found, state).into_iter();
+    let all = swap_places(m, found, state).into_iter();
     let named = all.filter_map(|(v, c, swap)| {
         let choice = found.search.space.variables.get(v)?.choices.get(c)?;
         let name = choice_name(&found.search.mechanism, swap.joint, choice);

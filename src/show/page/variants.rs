@@ -1,22 +1,22 @@
 //! The variants as columns for the script.
 
 use super::contents::{Page, Redesigns};
-use super::workload::{measured, workload};
+use super::workload::{five_digits, workload_json};
 use crate::closure::Closure;
 use crate::geom::exact::{ExactError, ExactField};
 use crate::model::mechanism::{LinkId, Mechanism, Role, StateId};
 use crate::rank::exact::modular;
 use crate::redundancy::AnalysisError;
-use crate::redundancy::contour_shares::shares;
+use crate::redundancy::contour_shares::contour_shares;
 use crate::redundancy::local_mobility::idle_motions;
-use crate::redundancy::motion::motions;
+use crate::redundancy::motion::motion_basis;
 use crate::score::outcome::variant::Variant;
 use crate::search::answer::freedom_patterns;
 use crate::search::check::singular_values::CHECKED;
 use crate::search::check::variant_mechanism;
 use crate::search::question::space::{Choice, Variable, choice_name};
 use crate::view::analysis::idle;
-use crate::view::search::variant::price;
+use crate::view::search::variant::price_json;
 use crate::view::search::{text, why};
 use rayon::prelude::*;
 use serde_json::{Value, json};
@@ -31,16 +31,16 @@ struct Further {
     contours: Option<Vec<usize>>,
 }
 
-fn further(r: &Redesigns<'_>) -> Result<Vec<Further>, AnalysisError> {
+fn compute_further(r: &Redesigns<'_>) -> Result<Vec<Further>, AnalysisError> {
     let search = &r.found.search;
     let exact = search.field();
     let one = |(i, c): (usize, &Variant<'_>)| -> Result<Further, AnalysisError> {
-        let m = variant_mechanism::realize(search, &c.assignment().choices);
-        let states = m.state_ids().skip(1).map(|s| figures(exact, &m, s));
+        let m = variant_mechanism::realize_variant(search, &c.assignment().choices);
+        let states = m.state_ids().skip(1).map(|s| state_figures(exact, &m, s));
         Ok(Further {
             states: states.collect::<Result<_, _>>()?,
             idle: if i < CHECKED {
-                idle(exact, &m)?
+                idle_words_of(exact, &m)?
             } else {
                 String::new()
             },
@@ -53,9 +53,9 @@ fn further(r: &Redesigns<'_>) -> Result<Vec<Further>, AnalysisError> {
 }
 
 /// Returns everything the script knows of the search: counts, what can be chosen, and a column for each figure of the variants.
-pub(super) fn columns(page: &Page<'_>, r: &Redesigns<'_>) -> Result<Value, AnalysisError> {
+pub(super) fn variant_columns(page: &Page<'_>, r: &Redesigns<'_>) -> Result<Value, AnalysisError> {
     let search = &r.found.search;
-    let further = further(r)?;
+    let further = compute_further(r)?;
     let working = page.states.first().map(|s| s.working_mobility);
     let working = working.and_then(|w| i64::try_from(w).ok());
     let (idle_words, idle_word) = idle_words(&further);
@@ -81,32 +81,32 @@ pub(super) fn columns(page: &Page<'_>, r: &Redesigns<'_>) -> Result<Value, Analy
         "admissible": r.found.listed_counts().total.to_string(),
         "max_redundant": conditions.max_redundant,
         "state": conditions.state.map(|s| s.state.index()),
-        "variables": variables.map(|v| choices(mechanism, v)).collect::<Value>(),
+        "variables": variables.map(|v| choices_json(mechanism, v)).collect::<Value>(),
         // Pairs of a variable and its choice, where that is not the present one.
-        "choices": column(r, changed),
-        "cost": column(r, |c| price(c.cost_milli())),
-        "changes": column(r, |c| c.change_count()),
-        "mobility": column(r, |c| c.mobility()),
-        "redundant": column(r, |c| c.redundant()),
-        "external": conditions.state.map(|_| column(r, |c| c.external_redundant())),
-        "idle": conditions.keep_output.then(|| column(r, |c| working.map(|w| c.mobility() - w))),
+        "choices": figure_column(r, changed),
+        "cost": figure_column(r, |c| price_json(c.cost_milli())),
+        "changes": figure_column(r, |c| c.change_count()),
+        "mobility": figure_column(r, |c| c.mobility()),
+        "redundant": figure_column(r, |c| c.redundant()),
+        "external": conditions.state.map(|_| figure_column(r, |c| c.external_redundant())),
+        "idle": conditions.keep_output.then(|| figure_column(r, |c| working.map(|w| c.mobility() - w))),
         // Idle motions repeat: each text once, and its number by variant.
         "idle_words": idle_words,
         "idle_word": idle_word,
         // The states but the free one.
         "states": (1..mechanism.states.len()).map(state).collect::<Value>(),
         "contours": further.iter().map(|f| f.contours.as_ref()).collect::<Vec<_>>(),
-        "conditioning": column(r, |c| c.second().opinion().map(|o| measured(o.conditioning))),
-        "agree": column(r, |c| c.second().opinion().map(|o| o.agree)),
-        "lucky": column(r, |c| c.over_stroke().and_then(|s| s.lucky())),
-        "notes": column(r, text::note),
+        "conditioning": figure_column(r, |c| c.second().opinion().map(|o| five_digits(o.conditioning))),
+        "agree": figure_column(r, |c| c.second().opinion().map(|o| o.agree)),
+        "lucky": figure_column(r, |c| c.over_stroke().and_then(|s| s.is_lucky())),
+        "notes": figure_column(r, text::variant_footnote),
         // Whether everything was looked at, so that what ideas stand for is counted and no lower bound.
         "exact": r.found.is_exact(),
-        "adds": column(r, added),
-        "stands_for": column(r, |c| c.idea().map(|i| i.variants.to_string())),
+        "adds": figure_column(r, added),
+        "stands_for": figure_column(r, |c| c.idea().map(|i| i.variants.to_string())),
         // Of the first ideas, line by line, what `ozols search` says of them.
-        "why": why(r),
-        "workload": workload(r),
+        "why": why_ideas(r),
+        "workload": workload_json(r),
     }))
 }
 
@@ -124,24 +124,24 @@ fn idle_words(further: &[Further]) -> (Vec<String>, Vec<usize>) {
     (words, word)
 }
 
-fn why(r: &Redesigns<'_>) -> Vec<Vec<(String, String)>> {
+fn why_ideas(r: &Redesigns<'_>) -> Vec<Vec<(String, String)>> {
     let ideas = r.variants.iter().filter(|v| v.idea().is_some());
     let first: Vec<_> = ideas.take(TOLD).map(Variant::assignment).collect();
-    why::told(r.found, &first)
+    why::rows_of_ideas(r.found, &first)
 }
 
-fn column<T>(r: &Redesigns<'_>, of: impl Fn(&Variant<'_>) -> T) -> Vec<T> {
+fn figure_column<T>(r: &Redesigns<'_>, of: impl Fn(&Variant<'_>) -> T) -> Vec<T> {
     r.variants.iter().map(of).collect()
 }
 
 /// Returns what can be put at a variable.
-fn choices(m: &Mechanism, v: &Variable) -> Value {
+fn choices_json(m: &Mechanism, v: &Variable) -> Value {
     let choice = |c: &Choice| {
         let first = v.joints.first();
         let option = first.and_then(|&j| m.joints[j].options.get(c.option));
         json!({
             "names": v.joints.iter().map(|&j| choice_name(m, j, c)).collect::<Value>(),
-            "class": option.map(|o| o.joint_type.class()),
+            "class": option.map(|o| o.joint_type.class_numeral()),
             "unloading": c.unloading.is_some(),
         })
     };
@@ -152,26 +152,26 @@ fn choices(m: &Mechanism, v: &Variable) -> Value {
 }
 
 /// W and σ of a state of a mechanism.
-pub(super) fn figures(
+pub(super) fn state_figures(
     exact: &ExactField,
     m: &Mechanism,
     state: StateId,
 ) -> Result<(usize, usize), ExactError> {
     let closure = Closure::new(exact, m, state)?;
-    let rank = modular::rank(exact, &closure);
+    let rank = modular::rank_modulo(exact, &closure);
     Ok((closure.columns.len() - rank, closure.rows() - rank))
 }
 
 /// Its idle motions in the free state, in words.
-pub(super) fn idle(exact: &ExactField, m: &Mechanism) -> Result<String, ExactError> {
+pub(super) fn idle_words_of(exact: &ExactField, m: &Mechanism) -> Result<String, ExactError> {
     let closure = Closure::new(exact, m, StateId::FREE)?;
-    let kernel = motions(exact, &closure);
+    let kernel = motion_basis(exact, &closure);
     let outputs: Vec<LinkId> = m
         .link_ids()
         .filter(|&l| m.links[l].role == Role::Output)
         .collect();
     let found = idle_motions(exact, m, &closure, &kernel, &outputs);
-    Ok(idle::told_once(found.iter().map(|i| idle::words(m, i))).join("; "))
+    Ok(idle::told_once(found.iter().map(|i| idle::describe_idle(m, i))).join("; "))
 }
 
 /// σ of each of its contours in the free state.
@@ -180,7 +180,7 @@ pub(super) fn redundant_by_contour(
     m: &Mechanism,
 ) -> Result<Vec<usize>, ExactError> {
     let closure = Closure::new(exact, m, StateId::FREE)?;
-    Ok(shares(exact, &closure)
+    Ok(contour_shares(exact, &closure)
         .iter()
         .map(|s| s.redundant)
         .collect())

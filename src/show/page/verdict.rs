@@ -1,7 +1,7 @@
 //! The verdict in words.
 
 use super::contents::{Page, Redesigns};
-use crate::format::{cost, grouped, list, plural};
+use crate::format::{count_noun, format_cost, group_thousands, join_and};
 use crate::model::mechanism::{Mechanism, Role};
 use crate::redundancy::stress::StressVerdict;
 use crate::score::outcome::variant::Variant;
@@ -11,7 +11,7 @@ use crate::view::search::counts::in_state;
 use crate::view::search::counts::where_kept;
 use crate::view::search::numeric;
 use crate::view::search::second_opinion;
-use crate::view::search::stopped_early::number;
+use crate::view::search::stopped_early::format_count;
 use itertools::Itertools;
 use maud::{Markup, html};
 use num_traits::{One, Zero};
@@ -19,16 +19,16 @@ use num_traits::{One, Zero};
 /// The greatest number of idle motions listed.
 const TOLD: usize = 4;
 
-pub(super) fn html(page: &Page<'_>, analysis: &Analysis<'_>) -> Markup {
+pub(super) fn verdict_html(page: &Page<'_>, analysis: &Analysis<'_>) -> Markup {
     let several = analysis.states.len() > 1;
     html! {
         @for (i, s) in analysis.states.iter().enumerate() {
             div class={ "verdict " (if s.found.redundant == 0 && s.found.at_most().is_none() { "good" } else { "bad" }) } {
                 @if several { p.label { "State " (s.found.state) } }
-                p.head { (head(s)) }
+                p.head { (verdict_head(s)) }
                 p {
-                    (state(s).join(" "))
-                    @if i == 0 { " " (redesigns(page, s)) }
+                    (state_sentences(s).join(" "))
+                    @if i == 0 { " " (redesigns_sentence(page, s)) }
                 }
             }
         }
@@ -36,18 +36,18 @@ pub(super) fn html(page: &Page<'_>, analysis: &Analysis<'_>) -> Markup {
 }
 
 /// The answer in a few words.
-pub fn head(s: &State<'_>) -> String {
-    capitalised(&s.verdict())
+pub fn verdict_head(s: &State<'_>) -> String {
+    capitalise_first(&s.verdict())
 }
 
-fn capitalised(text: &str) -> String {
+fn capitalise_first(text: &str) -> String {
     let mut rest = text.chars();
     let first = rest.next().map(|c| c.to_ascii_uppercase());
     first.into_iter().chain(rest).collect()
 }
 
 /// Returns the meaning of the verdict, in sentences.
-pub fn state(told: &State<'_>) -> Vec<String> {
+pub fn state_sentences(told: &State<'_>) -> Vec<String> {
     let s = told.found;
     let mut out = Vec::new();
     if s.at_most().is_some() {
@@ -79,8 +79,8 @@ pub fn state(told: &State<'_>) -> Vec<String> {
             if e.redundant == 1 { "comes" } else { "come" }
         ));
     }
-    out.push(moves(told));
-    out.extend(told.drive_faults().map(|f| capitalised(&f) + "."));
+    out.push(mobility_sentence(told));
+    out.extend(told.drive_faults().map(|f| capitalise_first(&f) + "."));
     let idle = told.idle_motions();
     let more = idle.len().saturating_sub(TOLD);
     if !idle.is_empty() {
@@ -95,9 +95,9 @@ pub fn state(told: &State<'_>) -> Vec<String> {
     out
 }
 
-fn moves(told: &State<'_>) -> String {
+fn mobility_sentence(told: &State<'_>) -> String {
     let s = told.found;
-    let ways = |n: usize| plural(n, "way");
+    let ways = |n: usize| count_noun(n, "way");
     let Some(finite) = told.finite_mobility() else {
         return format!(
             "W = {} in this pose; how much of that is really there is undecided: between {} and {}.",
@@ -125,7 +125,7 @@ fn moves(told: &State<'_>) -> String {
 }
 
 /// Returns the result of the search, in one or two sentences.
-fn redesigns(page: &Page<'_>, s: &State<'_>) -> String {
+fn redesigns_sentence(page: &Page<'_>, s: &State<'_>) -> String {
     let r = match &page.redesigns {
         Ok(r) => r,
         Err(why) => return format!("Redesigns were not searched: {why}"),
@@ -137,12 +137,12 @@ fn redesigns(page: &Page<'_>, s: &State<'_>) -> String {
             .to_owned();
     }
     let least = if found.is_counted() { "" } else { "at least " };
-    let by_values: String = numeric::lines(found)
+    let by_values: String = numeric::numeric_lines(found)
         .iter()
-        .chain(&second_opinion::against(found))
+        .chain(&second_opinion::reasons_against(found))
         .map(|l| format!(". {l}"))
         .collect();
-    let (all, good) = (grouped(&size), &found.listed_counts().total);
+    let (all, good) = (group_thousands(&size), &found.listed_counts().total);
     let request = &found.search.conditions;
     let one = good.is_one();
     let goal = match (request.max_redundant, one) {
@@ -154,10 +154,10 @@ fn redesigns(page: &Page<'_>, s: &State<'_>) -> String {
         (n, false) => format!("leave at most {n}"),
         (n, true) => format!("leaves at most {n}"),
     };
-    let conditions = conditions(page.mechanism, r, one);
+    let conditions = conditions_words(page.mechanism, r, one);
     if good.is_zero() && found.admissible_may_be_more() {
-        let may = numeric::admissible(found);
-        return capitalised(&format!(
+        let may = numeric::admissible_range(found);
+        return capitalise_first(&format!(
             "{may} of {all} variants {goal}{conditions}{by_values}."
         ));
     }
@@ -168,25 +168,25 @@ fn redesigns(page: &Page<'_>, s: &State<'_>) -> String {
         } else {
             format!(
                 "None of the {all} variants {goal}{conditions}; {least}{} {goal}, but do not meet the other conditions{by_values}.",
-                grouped(rest)
+                group_thousands(rest)
             )
         };
     }
     let estimate = found.estimates()[1].filter(|_| found.is_confirmed());
     let words = match found.numeric {
-        Some(_) => numeric::admissible(found),
-        None => number(good, found.is_counted(), estimate),
+        Some(_) => numeric::admissible_range(found),
+        None => format_count(good, found.is_counted(), estimate),
     };
     let out = format!("{words} of {all} variants {goal}{conditions}");
-    let out = capitalised(&out) + &by_values;
+    let out = capitalise_first(&out) + &by_values;
     if s.found.redundant == 0 && r.variants.iter().any(|c| c.change_count() == 0) {
         return format!("Nothing needs changing. {out}.");
     }
-    out + &best(r) + "."
+    out + &best_words(r) + "."
 }
 
 /// Returns the conditions other than redundant constraints.
-fn conditions(m: &Mechanism, r: &Redesigns<'_>, one: bool) -> String {
+fn conditions_words(m: &Mechanism, r: &Redesigns<'_>, one: bool) -> String {
     let s = if one { "s" } else { "" };
     let have = if one { "has" } else { "have" };
     let request = &r.found.search.conditions;
@@ -195,7 +195,7 @@ fn conditions(m: &Mechanism, r: &Redesigns<'_>, one: bool) -> String {
     let motion = match outputs.len() {
         0 => format!("keep{s} the motion"),
         1 => format!("keep{s} the motion of link {}", outputs[0]),
-        _ => format!("keep{s} the motion of links {}", list(&outputs)),
+        _ => format!("keep{s} the motion of links {}", join_and(&outputs)),
     };
     let all = [
         request.keep_output.then(|| motion + where_kept(r.found)),
@@ -204,7 +204,7 @@ fn conditions(m: &Mechanism, r: &Redesigns<'_>, one: bool) -> String {
             .map(|w| format!("{have} W at most {w}")),
         request
             .max_changes
-            .map(|c| format!("change{s} at most {}", plural(c as usize, "joint"))),
+            .map(|c| format!("change{s} at most {}", count_noun(c as usize, "joint"))),
     ];
     let all = all.into_iter().flatten();
     let all = all.chain(in_state(&r.found.search, one)).join(", ");
@@ -216,14 +216,14 @@ fn conditions(m: &Mechanism, r: &Redesigns<'_>, one: bool) -> String {
 }
 
 /// Returns a description of the best variant.
-fn best(r: &Redesigns<'_>) -> String {
+fn best_words(r: &Redesigns<'_>) -> String {
     let search = &r.found.search;
     let like = |v: &Assignment| match v.key.changes() {
         0 => "changes nothing".to_owned(),
         n => format!(
             "changes {} at cost {}",
-            plural(n as usize, "joint"),
-            cost(search.steps.milli(v.key.cost()))
+            count_noun(n as usize, "joint"),
+            format_cost(search.steps.cost_in_milli(v.key.cost()))
         ),
     };
     let cheapest = r.variants.iter().map(Variant::assignment);

@@ -1,12 +1,12 @@
 //! How right and how fast methods and ways of searching are, for people and as data.
 
 use crate::accuracy::AnswerVerdict;
-use crate::accuracy::searching::pictures::{ranking, wrong};
+use crate::accuracy::searching::pictures::{describe_errors, describe_ranking};
 use crate::accuracy::searching::record::{Bracket, Record, Share, Trial};
 use crate::accuracy::study::Study;
 use crate::accuracy::survey::{Case, Survey};
 use crate::accuracy::timing::{Machine, Timing};
-use crate::format::{brief, duration, signed};
+use crate::format::{format_duration, format_signed, three_digits};
 use crate::rank::method::{MobilityMethod, registry};
 use crate::view::prelude::*;
 use std::cmp::Reverse;
@@ -23,8 +23,8 @@ pub fn bench_text(
         let known = match t.determinate.as_ref().zip(t.admissible.as_ref()) {
             Some((determinate, admissible)) => format!(
                 "{} determinate, {} admissible",
-                grouped(determinate),
-                grouped(admissible)
+                group_thousands(determinate),
+                group_thousands(admissible)
             ),
             None => "the true counts are not known".to_owned(),
         };
@@ -32,11 +32,14 @@ pub fn bench_text(
             "way | right counts | counting | decades, 95 % | of the best {} | naming them | right variants",
             t.top
         );
-        let space = grouped(&t.space);
+        let space = group_thousands(&t.space);
         let head = format!("{}: {space} variants, {known}\n", t.mechanism);
-        out += &fit(&head, width);
-        out += &format!("\n{}\n\n", table(&heads, t.records.iter().map(row), width));
-        out += &fit(&format!("{}\n\n", notes(t)), width);
+        out += &fit_lines(&head, width);
+        out += &format!(
+            "\n{}\n\n",
+            text_table(&heads, t.records.iter().map(record_row), width)
+        );
+        out += &fit_lines(&format!("{}\n\n", trial_notes(t)), width);
     }
     let mut counted = trials
         .iter()
@@ -48,26 +51,28 @@ pub fn bench_text(
         "once"
     };
     let (when, clock) = (advice.join("\n"), machine.clock);
-    out + &fit(
+    out + &fit_lines(
         &format!("{when}\n\nTimes are {clock}, {times}; on {machine}.\n"),
         width,
     )
 }
 
-fn share(s: Share) -> String {
-    format!("{} of {}", grouped(s.right), grouped(s.of))
+fn format_share(s: Share) -> String {
+    format!("{} of {}", group_thousands(s.right), group_thousands(s.of))
 }
 
-fn row(r: &Record) -> Vec<String> {
-    let or_none = |s: Option<Share>| s.map_or_else(String::new, share);
+fn record_row(r: &Record) -> Vec<String> {
+    let or_none = |s: Option<Share>| s.map_or_else(String::new, format_share);
     let about = if r.by_proportion { "about " } else { "" };
-    let time = |t: Option<Timing>| t.map_or_else(String::new, |t| format!("{about}{}", spread(t)));
+    let time =
+        |t: Option<Timing>| t.map_or_else(String::new, |t| format!("{about}{}", format_spread(t)));
     vec![
         r.way.to_string(),
         or_none(r.counts),
         time(r.counting),
-        r.bracket
-            .map_or_else(String::new, |b| brief(Bracket::decades(b.likely))),
+        r.bracket.map_or_else(String::new, |b| {
+            three_digits(Bracket::width_in_decades(b.likely))
+        }),
         or_none(r.best),
         time(r.naming),
         or_none(r.variants),
@@ -75,30 +80,30 @@ fn row(r: &Record) -> Vec<String> {
 }
 
 /// Returns the median and the largest deviation from it.
-fn spread(t: Timing) -> String {
+fn format_spread(t: Timing) -> String {
     let off = (t.most - t.median).max(t.median - t.least);
     match t.repeats {
-        1 => duration(t.median),
-        _ => format!("{} ±{}", duration(t.median), duration(off)),
+        1 => format_duration(t.median),
+        _ => format!("{} ±{}", format_duration(t.median), format_duration(off)),
     }
 }
 
-fn notes(t: &Trial) -> String {
-    let mut notes = vec![wrong(t)];
+fn trial_notes(t: &Trial) -> String {
+    let mut notes = vec![describe_errors(t)];
     if t.looked_at > 0 && !t.all_looked_at {
         notes.push(format!(
             "Brute force examined {} variants, half drawn from all and half from the admissible ones: it gives no counts, \
              and its time is in proportion to all.",
-            grouped(t.looked_at)
+            group_thousands(t.looked_at)
         ));
     }
-    notes.extend(ranking(t));
+    notes.extend(describe_ranking(t));
     notes.join(" ")
 }
 
 /// Returns a table of the methods on built-in mechanisms and on those from the seed, the machine it was made on, and a paragraph
 /// for each study.
-pub fn summary(
+pub fn accuracy_text(
     [survey, generated]: [&Survey; 2],
     studies: &[Study],
     machine: &Machine,
@@ -112,19 +117,22 @@ pub fn summary(
     );
     let standing = |name: &str| {
         let m = registry::ALL.iter().position(|x| x.name() == name)?;
-        Some(survey.standing(m).right)
+        Some(survey.record_of(m).right)
     };
     let mut out = format!("{cases} cases of known mobility");
     if let (Some(auto), Some(count)) = (standing("auto"), standing("count")) {
         out +=
             &format!(": the automatic choice is right on {auto}, the counting formula on {count}");
     }
-    let table = table(&heads, method_rows(survey, generated), width);
-    out += &format!("\n\n{table}\n\n{}. On {machine}.\n", survey.repeated());
+    let table = text_table(&heads, method_rows(survey, generated), width);
+    out += &format!(
+        "\n\n{table}\n\n{}. On {machine}.\n",
+        survey.describe_repeats()
+    );
     for study in studies {
         out += &format!("\n{}: {}\n", study.texts.title, study.conclusion());
     }
-    fit(&out, width)
+    fit_lines(&out, width)
 }
 
 /// Returns a row for each method.
@@ -132,35 +140,35 @@ fn method_rows(survey: &Survey, generated: &Survey) -> Vec<Vec<String>> {
     let cases = survey.cases.len();
     let count = |n: usize| if n == 0 { String::new() } else { n.to_string() };
     let row = |(m, method): (usize, &&dyn MobilityMethod)| {
-        let s = survey.standing(m);
-        let [from, to] = s.middle_half.map(duration);
+        let s = survey.record_of(m);
+        let [from, to] = s.middle_half.map(format_duration);
         vec![
             method.name().to_owned(),
             s.right.to_string(),
             count(s.pose),
-            count(s.wrong()),
+            count(s.count_wrong()),
             count(cases - s.applies),
-            generated.standing(m).right.to_string(),
-            duration(s.seconds),
+            generated.record_of(m).right.to_string(),
+            format_duration(s.seconds),
             format!("{from} to {to}"),
-            failures(survey, m),
+            describe_failures(survey, m),
         ]
     };
     registry::ALL.iter().enumerate().map(row).collect()
 }
 
 /// The worst failures of a method, and what it needs to be right.
-fn failures(survey: &Survey, m: usize) -> String {
+fn describe_failures(survey: &Survey, m: usize) -> String {
     let mut wrong: Vec<(u64, &Case, String)> = survey
         .of_method(m)
         .filter_map(|(case, reply)| match reply.verdict {
-            AnswerVerdict::Wrong(by) => Some((by.unsigned_abs(), case, signed(by))),
+            AnswerVerdict::Wrong(by) => Some((by.unsigned_abs(), case, format_signed(by))),
             AnswerVerdict::Failed => Some((u64::MAX, case, "fails".to_owned())),
             _ => None,
         })
         .collect();
     wrong.sort_by_key(|(size, case, _)| (Reverse(*size), case.name()));
-    let pose = survey.standing(m).pose > 0;
+    let pose = survey.record_of(m).pose > 0;
     let Some((_, worst, by)) = wrong.first() else {
         return if pose {
             "speaks of the pose: singular and shaky poses look mobile".to_owned()

@@ -17,7 +17,7 @@ use crate::redundancy::link_motion::LinkMotion;
 use crate::redundancy::local_mobility::Idle;
 use crate::redundancy::stress::{JointWrench, SelfStress, StressVerdict};
 use crate::view::analysis::suggestions::Advice;
-use crate::view::claims::about;
+use crate::view::claims::claims_about;
 use crate::view::prelude::*;
 use crate::view::stroke::StrokeData;
 
@@ -75,14 +75,14 @@ impl<'a> Analysis<'a> {
             "assumptions": m.assumed,
             "states": self.states.iter().map(State::json).collect::<Value>(),
             "stroke": self.stroke.as_ref().map(StrokeData::json),
-            "claims": about(&m.claims, Topic::Structure),
+            "claims": claims_about(&m.claims, Topic::Structure),
         })
     }
 }
 
 impl State<'_> {
     /// Returns the motions of the outputs, then of links that were asked about.
-    fn motions(&self) -> Vec<LinkMotion> {
+    fn all_motions(&self) -> Vec<LinkMotion> {
         // Coordinates that were analysed have values.
         let mut all = self
             .found
@@ -113,7 +113,7 @@ impl State<'_> {
         (!finite.is_undecided()).then_some(finite.mobility)
     }
 
-    fn joint(&self, joint: JointId) -> &str {
+    fn joint_name(&self, joint: JointId) -> &str {
         &self.mechanism.joints[joint].id
     }
 
@@ -124,8 +124,8 @@ impl State<'_> {
             let (kind, joint, text) = idle::drive_fault(m, d);
             json!({ "kind": kind, "joint": joint, "text": text })
         };
-        let left_out = |&(j, freedoms): &(JointId, usize)| json!({ "joint": self.joint(j), "freedoms": freedoms });
-        let motions = self.motions();
+        let left_out = |&(j, freedoms): &(JointId, usize)| json!({ "joint": self.joint_name(j), "freedoms": freedoms });
+        let motions = self.all_motions();
         json!({
             "state": s.state,
             "links": s.links,
@@ -139,25 +139,25 @@ impl State<'_> {
             "finite_mobility": self.finite_mobility(),
             "finite_mobility_at_least": s.finite.mobility,
             "finite_mobility_at_most": s.finite.at_most(),
-            "finite_mobility_known_by": s.finite.word(),
+            "finite_mobility_known_by": s.finite.as_word(),
             "finite_mobility_proven": s.finite.is_proven() && m.assumed.is_empty(),
             "working_mobility": s.working_mobility,
             "local_mobility": s.local_mobility,
             "drives": s.drives.iter().map(fault).collect::<Value>(),
             "redundant": s.redundant,
-            "gogu": self.gogu().map(|[m, n, s, t]| json!({ "M": m, "N": n, "S": s, "T": t })),
+            "gogu": self.gogu_symbols().map(|[m, n, s, t]| json!({ "M": m, "N": n, "S": s, "T": t })),
             "redundant_at_most": most.map(|(_, sigma)| sigma),
             "formula_mobility": s.formula_mobility,
             "least_rows": least_rows(m, s),
-            "per_contour": s.per_contour.iter().map(|c| self.contour(c)).collect::<Value>(),
-            "external": s.external.as_ref().map(external),
-            "motions": motions.iter().map(|of| link_motions::json(m, of)).collect::<Value>(),
-            "idle": s.idle.iter().map(|i| self.idle(i)).collect::<Value>(),
+            "per_contour": s.per_contour.iter().map(|c| self.contour_json(c)).collect::<Value>(),
+            "external": s.external.as_ref().map(external_json),
+            "motions": motions.iter().map(|of| link_motions::motion_json(m, of)).collect::<Value>(),
+            "idle": s.idle.iter().map(|i| self.idle_json(i)).collect::<Value>(),
             "self_stresses": s.self_stresses.iter().map(|t| self.self_stress(t)).collect::<Value>(),
             "left_out": s.left_out.iter().map(left_out).collect::<Value>(),
             "method": s.method,
             "certainty": self.certainty(),
-            "certainty_kind": kind(m, s.certainty.word()),
+            "certainty_kind": certainty_kind(m, s.certainty.as_word()),
             // As text: they are beyond what a double holds.
             "primes": s.certainty.primes().map(|p| p.map(|p| p.to_string())),
             "choice": s.choice,
@@ -167,14 +167,14 @@ impl State<'_> {
                 "mobility": s.freedoms - rank,
                 "redundant": s.rows - rank,
             })),
-            "per_coupling": s.per_coupling.iter().map(coupling).collect::<Value>(),
-            "suggestions": self.advice.map(|advice| suggestions::json(m, s, advice)),
+            "per_coupling": s.per_coupling.iter().map(coupling_json).collect::<Value>(),
+            "suggestions": self.advice.map(|advice| suggestions::advice_json(m, s, advice)),
         })
     }
 
     /// The ranges are over all orders of these contours, and over all bases that one is part of.
-    fn contour(&self, c: &ContourShare) -> Value {
-        let joints = c.contour.joints.iter().map(|(j, _)| self.joint(*j));
+    fn contour_json(&self, c: &ContourShare) -> Value {
+        let joints = c.contour.joints.iter().map(|(j, _)| self.joint_name(*j));
         json!({
             "contour": c.contour.name(self.mechanism),
             "joints": joints.collect::<Value>(),
@@ -187,31 +187,31 @@ impl State<'_> {
         })
     }
 
-    fn idle(&self, i: &Idle) -> Value {
+    fn idle_json(&self, i: &Idle) -> Value {
         let link = |&l: &LinkId| self.mechanism.links[l].id.as_str();
         json!({
             "links": i.links.iter().map(link).collect::<Value>(),
             // Joints whose points it leaves at rest.
-            "through": i.through.iter().map(|&j| self.joint(j)).collect::<Value>(),
-            "text": idle::words(self.mechanism, i),
+            "through": i.through.iter().map(|&j| self.joint_name(j)).collect::<Value>(),
+            "text": idle::describe_idle(self.mechanism, i),
         })
     }
 
     fn self_stress(&self, t: &SelfStress) -> Value {
         let wrench = |w: &JointWrench| {
             json!({
-                "joint": self.joint(w.joint),
-                "moments": axes(w.moments),
-                "forces": axes(w.forces),
+                "joint": self.joint_name(w.joint),
+                "moments": axis_names(w.moments),
+                "forces": axis_names(w.forces),
                 "text": self.wrench_words(t, w),
                 // Its part of Σ |f|² + |m|²/ℓ² over the joints; nothing where that was not computed.
-                "share": w.borne.as_ref().map(|b| b.share()),
+                "share": w.borne.as_ref().map(|b| b.energy_share()),
             })
         };
         json!({
             "contours": self.contours_of(t),
             "external": t.external,
-            "verdict": harm(t),
+            "verdict": harm_word(t),
             "joints": t.joints.iter().map(wrench).collect::<Value>(),
             // In mechanisms that have any.
             "couplings": (!self.found.per_coupling.is_empty()).then(|| self.couplings_of(t)),
@@ -237,7 +237,7 @@ impl State<'_> {
 }
 
 /// Returns "harmless" or "harmful".
-pub(crate) fn harm(t: &SelfStress) -> &'static str {
+pub(crate) fn harm_word(t: &SelfStress) -> &'static str {
     match t.verdict {
         StressVerdict::Harmless => "harmless",
         StressVerdict::Harmful => "harmful",
@@ -245,21 +245,21 @@ pub(crate) fn harm(t: &SelfStress) -> &'static str {
 }
 
 /// Returns the names of global axes.
-fn axes(flags: [bool; 3]) -> Vec<&'static str> {
+fn axis_names(flags: [bool; 3]) -> Vec<&'static str> {
     let named = ["x", "y", "z"].into_iter().zip(flags);
     named.filter(|(_, there)| *there).map(|(a, _)| a).collect()
 }
 
 /// Returns whether the formula and the ranks say the same of what a state adds.
-pub(crate) fn agrees(e: &External) -> bool {
+pub(crate) fn ranks_agree(e: &External) -> bool {
     e.redundant == e.by_rank
 }
 
-fn external(e: &External) -> Value {
-    joined([json!(e), json!({ "agree": agrees(e) })])
+fn external_json(e: &External) -> Value {
+    join_objects([json!(e), json!({ "agree": ranks_agree(e) })])
 }
 
-fn coupling(c: &CouplingShare) -> Value {
+fn coupling_json(c: &CouplingShare) -> Value {
     json!({ "coupling": c.name, "redundant": c.redundant, "least": 0, "greatest": c.most })
 }
 
@@ -275,7 +275,7 @@ fn least_rows(mechanism: &Mechanism, s: &StateAnalysis) -> Value {
         let name = |&c: &usize| s.per_contour.get(c).map(|c| c.contour.name(mechanism));
         let contours = b.contours.iter().filter_map(name).collect_vec();
         b.parts.iter().map(move |part| {
-            let normal = |d: &Option<Direction>| d.map(|d| d.words(mechanism));
+            let normal = |d: &Option<Direction>| d.map(|d| d.describe_direction(mechanism));
             let (motions, of) = match &part.motions {
                 Motions::All => ("any", None),
                 Motions::Group(name) => ("group", Some(name.clone())),
@@ -291,7 +291,7 @@ fn least_rows(mechanism: &Mechanism, s: &StateAnalysis) -> Value {
                 "rows": part.rows,
                 "rows_in_all": part.of,
                 "rank": part.rank,
-                "redundant": part.redundant(),
+                "redundant": part.count_redundant(),
             })
         })
     });

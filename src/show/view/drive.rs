@@ -7,11 +7,11 @@ pub mod text;
 use crate::drive::driving::{Design, Driving};
 use crate::drive::programme::{Endurance, Event, Ran};
 use crate::drive::swing::End;
-use crate::drive::torsion::{Sizing, decrement};
+use crate::drive::torsion::{Sizing, log_decrement};
 use crate::file::read::workload::WorkloadFile;
 use crate::model::claim::Topic;
 use crate::model::drive::DriveSpec;
-use crate::view::claims::about;
+use crate::view::claims::claims_about;
 use crate::view::prelude::*;
 
 /// A drive of a file and what was found of it.
@@ -36,8 +36,8 @@ impl<'a> Drive<'a> {
     }
 
     /// Returns whether every swing ended in a latch.
-    pub fn complete(&self) -> bool {
-        self.design.is_some_and(|d| d.run.complete())
+    pub fn is_complete(&self) -> bool {
+        self.design.is_some_and(|d| d.run.is_complete())
     }
 
     /// Returns all of it as data.
@@ -49,30 +49,30 @@ impl<'a> Drive<'a> {
             "half_swing": spec.twist,
             "period": spec.period,
             "inertias": spec.inertias,
-            "complete": self.complete(),
+            "complete": self.is_complete(),
             "sizing": self.sizing,
-            "design": self.design.map(|d| design(spec, d)),
-            "claims": about(&self.file.claims, Topic::Drive),
+            "design": self.design.map(|d| design_json(spec, d)),
+            "claims": claims_about(&self.file.claims, Topic::Drive),
         })
     }
 }
 
-fn design(spec: &DriveSpec, d: &Design) -> Value {
+fn design_json(spec: &DriveSpec, d: &Design) -> Value {
     let feed = d.module.feed;
-    let moment = feed.moment(d.module.latch.at);
+    let moment = feed.push_moment(d.module.latch.at);
     let moments = moment.map(|moment| json!({ "from": feed.from, "moment": moment }));
     json!({
         "length": d.bar.length,
         "diameter": d.bar.diameter,
         "stiffness": d.stiffness,
-        "stress": d.bar.stress(spec.twist),
+        "stress": d.bar.rim_stress(spec.twist),
         "damping": {
             "viscous": d.damping.viscous,
             "coulomb": d.damping.coulomb,
             "from": d.damping_from,
         },
         "missing_angle": d.missing,
-        "decrement": decrement(spec.twist, spec.twist - d.missing),
+        "decrement": log_decrement(spec.twist, spec.twist - d.missing),
         "friction_energy": d.friction_energy,
         "needed_feed": d.needed_feed,
         "feed": d.feed,
@@ -86,12 +86,12 @@ fn design(spec: &DriveSpec, d: &Design) -> Value {
         },
         "latched": d.run.latched,
         "wanted": d.run.wanted,
-        "programme": d.run.steps.iter().map(step).collect::<Value>(),
+        "programme": d.run.steps.iter().map(step_json).collect::<Value>(),
     })
 }
 
 /// A step of the programme; its swing is nothing in a dwell.
-fn step(s: &Ran) -> Value {
+fn step_json(s: &Ran) -> Value {
     let swing = match &s.event {
         Event::Dwell => Value::Null,
         Event::Swing { disc, swing } => {
@@ -102,7 +102,7 @@ fn step(s: &Ran) -> Value {
                 End::Stuck => ("stuck", 0.0),
             };
             let residual = json!({ "residual": swing.balance.residual() });
-            let energy = joined([json!(swing.balance), residual]);
+            let energy = join_objects([json!(swing.balance), residual]);
             json!({ "disc": disc + 1, "end": end, "missing": missing, "energy": energy })
         }
     };

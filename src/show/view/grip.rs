@@ -10,11 +10,11 @@ use crate::file::read::workload::WorkloadFile;
 use crate::grip::clamping::{DiameterRow, Hardest, HoldVerdict};
 use crate::grip::contact::TouchingPose;
 use crate::grip::holding::{Holding, Slip};
-use crate::grip::{Grip, effort};
+use crate::grip::{Grip, drive_effort};
 use crate::model::claim::Topic;
 use crate::model::grip::GripSpec;
 use crate::statics::transmission::Rates;
-use crate::view::claims::about;
+use crate::view::claims::claims_about;
 use crate::view::grip::motion::GripMotion;
 use crate::view::prelude::*;
 
@@ -31,49 +31,53 @@ pub struct GripReport<'a> {
 
 impl<'a> GripReport<'a> {
     /// Returns the place of the diameter that takes the greatest drive moment.
-    fn hardest(&self) -> Option<usize> {
-        let (rows, hardest) = (&self.found.study.rows, self.found.study.hardest()?);
+    fn hardest_place(&self) -> Option<usize> {
+        let (rows, hardest) = (&self.found.study.rows, self.found.study.hardest_row()?);
         rows.iter().position(|r| r.diameter == hardest.diameter)
     }
 
     /// Returns how the drive works on the levers at a diameter.
-    fn rates(&self, at: usize) -> Option<&'a Rates> {
+    fn rates_at(&self, at: usize) -> Option<&'a Rates> {
         self.found.transmission.get(at)
     }
 
-    fn friction(&self) -> f64 {
+    fn load_friction(&self) -> f64 {
         self.file.spec.load.as_ref().map_or(0.0, |l| l.friction)
     }
 
     /// Returns what one drive of both levers takes at a diameter, `[N]` or `[N·m]`.
-    fn effort(&self, at: usize) -> Option<f64> {
-        let held = self.found.study.rows[at].hardest.as_ref()?.held()?;
-        effort(self.file.spec.load.as_ref()?.levers, held, self.rates(at)?)
+    fn drive_effort(&self, at: usize) -> Option<f64> {
+        let held = self.found.study.rows[at].hardest.as_ref()?.held_forces()?;
+        drive_effort(
+            self.file.spec.load.as_ref()?.levers,
+            held,
+            self.rates_at(at)?,
+        )
     }
 
     /// Returns whether every diameter is held in every case, and at every step of the motion.
     pub fn holds(&self) -> bool {
-        self.found.study.holds() && self.motion.as_ref().is_none_or(GripMotion::holds)
+        self.found.study.holds_all() && self.motion.as_ref().is_none_or(GripMotion::holds)
     }
 
     /// Returns all of it as data.
     pub fn json(&self) -> Value {
-        let (study, hardest) = (&self.found.study, self.hardest());
+        let (study, hardest) = (&self.found.study, self.hardest_place());
         json!({
             "mechanism": self.file.name,
             "units": "SI; angles in radians",
             "lever": study.lever,
-            "holds": study.holds(),
-            "hardest": hardest.map(|at| self.diameter(at)),
-            "diameters": (0..study.rows.len()).map(|at| self.diameter(at)).collect::<Value>(),
+            "holds": study.holds_all(),
+            "hardest": hardest.map(|at| self.diameter_json(at)),
+            "diameters": (0..study.rows.len()).map(|at| self.diameter_json(at)).collect::<Value>(),
             // At the hardest diameter, or the first.
-            "transmission": self.rates(hardest.unwrap_or(0)).map(transmission),
+            "transmission": self.rates_at(hardest.unwrap_or(0)).map(transmission_json),
             "motion": self.motion.as_ref().map(GripMotion::json),
-            "claims": about(&self.file.claims, Topic::Grip),
+            "claims": claims_about(&self.file.claims, Topic::Grip),
         })
     }
 
-    fn diameter(&self, at: usize) -> Value {
+    fn diameter_json(&self, at: usize) -> Value {
         let row = &self.found.study.rows[at];
         let pose = row.pose.as_ref();
         let first = json!({
@@ -88,16 +92,16 @@ impl<'a> GripReport<'a> {
             "centre": pose.map(|p| p.centre),
             "obstacles": row.obstacles.iter().map(ToString::to_string).collect::<Value>(),
             "mass": row.mass,
-            "transmission": self.rates(at).map(transmission),
-            "holds": row.holds(),
-            "load": row.hardest.as_ref().map(|h| self.load(at, h)),
+            "transmission": self.rates_at(at).map(transmission_json),
+            "holds": row.is_held(),
+            "load": row.hardest.as_ref().map(|h| self.load_json(at, h)),
         });
-        joined([first, json!(row.arms), rest])
+        join_objects([first, json!(row.arms), rest])
     }
 
     /// The hardest case of a diameter: the load on the part with its safety factor, and the least drive moment per lever that holds it.
-    fn load(&self, at: usize, h: &Hardest) -> Value {
-        let held = h.held();
+    fn load_json(&self, at: usize, h: &Hardest) -> Value {
+        let held = h.held_forces();
         let pose = self.found.study.rows[at].pose.as_ref();
         json!({
             "case": h.case,
@@ -107,37 +111,37 @@ impl<'a> GripReport<'a> {
             "drive_moment_per_lever": held.map(|h| h.drive),
             "lower_bound": held.map(|h| h.lower_bound),
             "lever_moments": held.map(|h| h.moments),
-            "drive_effort": self.effort(at),
-            "contacts": held.zip(pose).map(|(held, pose)| contacts(held, pose)),
-            "reason": reason(h, self.friction()),
+            "drive_effort": self.drive_effort(at),
+            "contacts": held.zip(pose).map(|(held, pose)| contacts_json(held, pose)),
+            "reason": hold_reason(h, self.load_friction()),
         })
     }
 }
 
 /// How a drive works on two levers: the turn of each by the travel of the drive, `[rad/m]` or `[1]`.
-fn transmission(r: &Rates) -> Value {
+fn transmission_json(r: &Rates) -> Value {
     json!({ "drive": if r.slides { "slides" } else { "turns" }, "rates": r.rates })
 }
 
 /// The contacts and their forces on the part.
-fn contacts(held: &Holding, pose: &TouchingPose) -> Value {
+fn contacts_json(held: &Holding, pose: &TouchingPose) -> Value {
     let each = pose.contacts.iter().zip(&held.forces);
     let one = each.map(|(c, force)| {
         // The normal is that of the face, towards the part.
         let place = json!({ "contact": c.name, "point": c.point, "normal_direction": c.normal });
-        joined([place, json!(force)])
+        join_objects([place, json!(force)])
     });
     one.collect()
 }
 
 /// Returns every reason why a diameter is not held.
-fn reasons(row: &DiameterRow, friction: f64) -> impl Iterator<Item = String> {
-    let forces = row.hardest.as_ref().and_then(|h| reason(h, friction));
+fn all_reasons(row: &DiameterRow, friction: f64) -> impl Iterator<Item = String> {
+    let forces = row.hardest.as_ref().and_then(|h| hold_reason(h, friction));
     row.obstacles.iter().map(ToString::to_string).chain(forces)
 }
 
 /// The motion in which a part slips, in words.
-fn slip(s: &Slip) -> String {
+fn describe_slip(s: &Slip) -> String {
     let names = [
         "slides outwards (x)",
         "slides across the jaws (y)",
@@ -159,7 +163,7 @@ fn slip(s: &Slip) -> String {
 }
 
 /// Why the hardest case is not held.
-fn reason(h: &Hardest, friction: f64) -> Option<String> {
+fn hold_reason(h: &Hardest, friction: f64) -> Option<String> {
     match &h.verdict {
         HoldVerdict::Held(_) => None,
         HoldVerdict::Undecided(e) => Some(format!("{}: {e}", h.case)),
@@ -169,7 +173,11 @@ fn reason(h: &Hardest, friction: f64) -> Option<String> {
             } else {
                 "no closing force stops that; use more friction, deeper prisms, or pivots set for this diameter"
             };
-            Some(format!("{}: the part {}; {remedy}", h.case, slip(s)))
+            Some(format!(
+                "{}: the part {}; {remedy}",
+                h.case,
+                describe_slip(s)
+            ))
         }
     }
 }

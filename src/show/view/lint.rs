@@ -5,14 +5,14 @@ mod finding;
 
 pub use assembly::{Misfit, TypeChange};
 pub use finding::PassedOver;
-pub use finding::{Finding, words};
+pub use finding::{Finding, describe_release};
 
 use crate::redundancy::duplicate_constraints::HeldTwice;
 use crate::redundancy::release::Duplicate;
 use crate::robots::{CadCount, Imported, Origin, Report};
 use crate::view::prelude::*;
 use crate::view::with_assumptions;
-use assembly::{count, then};
+use assembly::{describe_count, describe_then};
 use finding::LintWords;
 
 /// The verdict on a file without redundant constraints.
@@ -81,15 +81,16 @@ impl Lint {
         let report = read.map(|i| &i.report);
         let (least, most) = found.range();
         let words = LintWords { m, found };
-        let finding = |(i, d): (usize, &Duplicate)| words.finding(d, i < found.lasting, origin);
+        let finding =
+            |(i, d): (usize, &Duplicate)| words.make_finding(d, i < found.lasting, origin);
         let whole = found.cheapest.len() == found.lasting;
         let certainty = &found.analysis.certainty;
         let sure = if origin.is_some_and(Origin::is_of_this_pose) && most == least {
             (NUMERIC, OF_THIS_POSE.to_owned())
         } else {
-            (certainty.word(), certainty.describe())
+            (certainty.as_word(), certainty.describe())
         };
-        let sure = (kind(m, sure.0), as_read(m, sure.1));
+        let sure = (certainty_kind(m, sure.0), as_read(m, sure.1));
         Lint {
             file: file.to_owned(),
             mobility: found.analysis.mobility,
@@ -98,8 +99,8 @@ impl Lint {
             redundant_over_motion: found.lasting,
             certainty_kind: sure.0,
             certainty: sure.1,
-            over_motion_kind: found.over.map(|o| match o.word() {
-                "proven" => kind(m, "proven"),
+            over_motion_kind: found.over.map(|o| match o.as_word() {
+                "proven" => certainty_kind(m, "proven"),
                 word => word,
             }),
             over_motion: found.over.map(|o| as_read(m, o.describe())),
@@ -119,7 +120,7 @@ impl Lint {
                 found
                     .cheapest
                     .iter()
-                    .map(|&i| words.remedy(i, origin))
+                    .map(|&i| words.describe_remedy(i, origin))
                     .collect()
             } else {
                 Vec::new()
@@ -132,9 +133,9 @@ impl Lint {
     }
 
     /// The same with the types that joints are to get, and W then: they go before single freedoms.
-    pub fn changing(mut self, found: Option<(Vec<TypeChange>, usize)>) -> Lint {
+    pub fn with_changes(mut self, found: Option<(Vec<TypeChange>, usize)>) -> Lint {
         if let Some((changes, mobility)) = found {
-            self.cheapest = changes.iter().map(TypeChange::words).collect();
+            self.cheapest = changes.iter().map(TypeChange::describe_change).collect();
             (self.changes, self.mobility_then) = (changes, Some(mobility));
         }
         self
@@ -151,7 +152,7 @@ impl Lint {
     }
 
     /// How many are redundant at this pose only.
-    fn passing(&self) -> usize {
+    fn passing_count(&self) -> usize {
         self.redundant_at_most - self.redundant_over_motion
     }
 
@@ -167,11 +168,11 @@ impl Lint {
             return format!(
                 "{file}: {NONE} (σ = 0, W = {mobility}){}\n{}{}",
                 self.left_out(),
-                count(self.counted.filter(|_| self.left_out == 0), self.mobility),
-                self.told()
+                describe_count(self.counted.filter(|_| self.left_out == 0), self.mobility),
+                self.note_lines()
             );
         }
-        let (sigma, passing) = (self.sigma(), self.passing());
+        let (sigma, passing) = (self.sigma_words(), self.passing_count());
         let mut out = if self.is_clean() {
             format!(
                 "{file}: {NONE} over the motion; {sigma} at this pose, W = {mobility} there{}\n",
@@ -188,7 +189,7 @@ impl Lint {
         if passing > 0 && !self.is_clean() {
             out += &format!("  {passing} of them at this pose only\n");
         }
-        out += &count(self.counted.filter(|_| self.left_out == 0), self.mobility);
+        out += &describe_count(self.counted.filter(|_| self.left_out == 0), self.mobility);
         if let Some(over) = &self.over_motion {
             let what = if self.is_decided() {
                 "redundant"
@@ -197,7 +198,7 @@ impl Lint {
             };
             out += &format!("  {what} {over}\n");
         }
-        out += &self.told();
+        out += &self.note_lines();
         for f in &self.findings {
             let place = match (&f.file, f.line, f.column) {
                 (Some(file), Some(line), Some(column)) => format!("{file}:{line}:{column}: "),
@@ -217,14 +218,14 @@ impl Lint {
                 "\n  cheapest that removes all{}: {}{}\n",
                 if passing > 0 { " that last" } else { "" },
                 self.cheapest.join("; "),
-                then(self.mobility, self.mobility_then)
+                describe_then(self.mobility, self.mobility_then)
             );
         }
         out
     }
 
     /// Returns what was not taken as it is drawn, in lines.
-    fn told(&self) -> String {
+    fn note_lines(&self) -> String {
         let notes = || {
             let moved = self.moved.iter().chain(&self.outside_limits);
             moved.chain(&self.approximated)
@@ -236,7 +237,7 @@ impl Lint {
         if let more @ 1.. = notes().count().saturating_sub(NOTES) {
             out += &format!(
                 "  note: {more} more of the kind, which `ozols export {}` tells\n",
-                flag("to", "toml")
+                typed_option("to", "toml")
             );
         }
         out
@@ -248,7 +249,7 @@ impl Lint {
             0 => String::new(),
             n => format!(
                 "; {} between joints omitted, which may be redundant and lower W",
-                plural(n, "row")
+                count_noun(n, "row")
             ),
         };
         let read = self.read_with.as_ref().map(|r| format!("; {r}"));
@@ -256,12 +257,12 @@ impl Lint {
     }
 
     /// "2 redundant constraints (σ = 2)", "0 to 2 redundant constraints (...)".
-    pub fn sigma(&self) -> String {
+    pub fn sigma_words(&self) -> String {
         let (least, most) = (self.redundant, self.redundant_at_most);
         if self.is_decided() {
             format!(
                 "{} (σ = {most}, {})",
-                plural(most, "redundant constraint"),
+                count_noun(most, "redundant constraint"),
                 self.certainty_kind
             )
         } else {
@@ -273,7 +274,7 @@ impl Lint {
 }
 
 /// Returns the findings in some files as JSON, and the files that were skipped.
-pub fn json(all: &[&Lint], passed_over: &[PassedOver]) -> Value {
+pub fn lint_json(all: &[&Lint], passed_over: &[PassedOver]) -> Value {
     let mut out = json!({ "files": all });
     finding::in_json(&mut out, passed_over);
     out

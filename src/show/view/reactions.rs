@@ -6,11 +6,11 @@ pub(crate) mod couplings;
 pub mod stroke;
 pub mod text;
 
-use crate::format::csv::table;
+use crate::format::csv::write_table;
 use crate::statics::reactions::contact::{ContactForce, Touch};
 use crate::statics::reactions::{CouplingReaction, JointReaction, Solution, Uniqueness};
 use crate::view::prelude::*;
-use crate::view::reactions::couplings::{Coupled, couplings, unit};
+use crate::view::reactions::couplings::{Coupled, effort_unit, state_couplings};
 
 /// Reactions in one pose.
 #[derive(Debug, Clone, Copy)]
@@ -25,7 +25,7 @@ pub struct Reactions<'a> {
 }
 
 /// Returns the state of a face: `pushes`, `idle`, or one that no such face can have: `pulls`, `slips`, `tilts`.
-fn touch(c: &ContactForce) -> &'static str {
+fn touch_word(c: &ContactForce) -> &'static str {
     match c.touch {
         Touch::Pushes => "pushes",
         Touch::Idle => "idle",
@@ -36,7 +36,7 @@ fn touch(c: &ContactForce) -> &'static str {
 }
 
 /// Returns true if a face can do what is asked of it.
-fn holds(c: &ContactForce) -> bool {
+fn is_possible(c: &ContactForce) -> bool {
     matches!(c.touch, Touch::Pushes | Touch::Idle)
 }
 
@@ -65,7 +65,7 @@ impl<'a> Reactions<'a> {
     }
 
     /// Returns `unique`, `minimum-norm` of a family, or `pushing`: of minimum norm where contacts only push.
-    fn choice(&self) -> &'static str {
+    fn choice_word(&self) -> &'static str {
         match self.found.choice {
             Uniqueness::Unique => "unique",
             Uniqueness::MinimumNorm => "minimum-norm",
@@ -78,18 +78,18 @@ impl<'a> Reactions<'a> {
         self.exact_self_stresses = exact.filter(|&n| n != self.found.self_stresses.len());
     }
 
-    fn joint(&self, joint: JointId) -> &'a str {
+    fn joint_name(&self, joint: JointId) -> &'a str {
         &self.of.joints[joint].id
     }
 
     /// Returns the name of a joint and its type.
     fn joint_and_type(&self, joint: JointId) -> [String; 2] {
         let kind = self.of.joints[joint].joint_type.name();
-        [self.joint(joint), kind].map(str::to_owned)
+        [self.joint_name(joint), kind].map(str::to_owned)
     }
 
     fn couplings(&self) -> Vec<Coupled<'a>> {
-        couplings(self.of, self.state, &self.found.couplings)
+        state_couplings(self.of, self.state, &self.found.couplings)
     }
 
     /// Returns all of it as data.
@@ -101,12 +101,12 @@ impl<'a> Reactions<'a> {
                 .collect()
         };
         let coupled = |list: &Vec<CouplingReaction>| -> Value {
-            let all = couplings(self.of, self.state, list);
+            let all = state_couplings(self.of, self.state, list);
             all.iter().map(|c| c.json(false)).collect()
         };
         let contact = |c: &ContactForce| {
-            let head = json!({ "contact": self.joint(c.joint), "touch": touch(c) });
-            joined([head, json!(c)])
+            let head = json!({ "contact": self.joint_name(c.joint), "touch": touch_word(c) });
+            join_objects([head, json!(c)])
         };
         let reactions = s.reactions.iter().zip(&s.open);
         let all = self.couplings().into_iter().zip(&s.couplings_open);
@@ -114,7 +114,7 @@ impl<'a> Reactions<'a> {
             "mechanism": self.of.name,
             "state": self.of.states[self.state],
             "unique": self.is_unique(),
-            "choice": self.choice(),
+            "choice": self.choice_word(),
             // What moments are divided by in that norm `[m]`.
             "size": s.size,
             "condition": s.condition,
@@ -139,7 +139,7 @@ impl<'a> Reactions<'a> {
         let drive = r
             .effort
             .map(|(freedom, effort)| json!({ "freedom": freedom.name(), "effort": effort }));
-        joined([
+        join_objects([
             json!({
                 "joint": joint.id,
                 "type": joint.joint_type.name(),
@@ -160,14 +160,14 @@ impl<'a> Reactions<'a> {
 
     /// Returns one joint a line, and one for each joint of a coupling.
     pub fn csv(&self) -> String {
-        table(&HEADS.split(',').collect_vec(), self.rows())
+        write_table(&HEADS.split(',').collect_vec(), self.csv_rows())
     }
 
-    fn rows(&self) -> impl Iterator<Item = Vec<String>> {
+    fn csv_rows(&self) -> impl Iterator<Item = Vec<String>> {
         let s = self.found;
-        let given = self.rows_of(self.choice(), &s.reactions, self.couplings());
+        let given = self.rows_of(self.choice_word(), &s.reactions, self.couplings());
         let coupled = s.elastic_couplings.iter();
-        let coupled = coupled.flat_map(|list| couplings(self.of, self.state, list));
+        let coupled = coupled.flat_map(|list| state_couplings(self.of, self.state, list));
         let elastic = s.elastic.as_deref().unwrap_or_default();
         given
             .into_iter()
@@ -186,12 +186,14 @@ impl<'a> Reactions<'a> {
                 row.extend(vector.map(|x| x.to_string()));
                 row.push(size.to_string());
             }
-            let effort = r.effort.map(|(of, x)| [x.to_string(), unit(of).to_owned()]);
+            let effort = r
+                .effort
+                .map(|(of, x)| [x.to_string(), effort_unit(of).to_owned()]);
             row.extend(effort.unwrap_or_default());
             row
         };
         let rows = list.iter().map(joint);
-        let rows = rows.chain(coupled.iter().flat_map(Coupled::rows));
+        let rows = rows.chain(coupled.iter().flat_map(Coupled::csv_rows));
         rows.map(|row| [vec![kind.to_owned()], row].concat())
             .collect()
     }

@@ -23,16 +23,16 @@ pub struct StrokeData<'a> {
 
 impl<'a> StrokeData<'a> {
     /// Follows a stroke that is asked for, and says what was found.
-    pub fn of(asked: &AskedStroke<'a>) -> StrokeData<'a> {
+    pub fn follow_stroke(asked: &AskedStroke<'a>) -> StrokeData<'a> {
         let (m, state) = asked.subject();
-        let (drive, slides) = asked.drive();
+        let (drive, slides) = asked.drive_name();
         StrokeData {
             mechanism: m,
             state: &m.states[state],
             drive,
             unit: if slides { m.length_unit.symbol } else { "rad" },
             range: asked.range(),
-            found: asked.follow(),
+            found: asked.follow_stroke(),
         }
     }
 
@@ -66,7 +66,8 @@ impl<'a> StrokeData<'a> {
             let ([from, to], [before, rank, after]) = (c.between, c.ranks);
             json!({ "from": from, "to": to, "rank_before": before, "rank": rank, "rank_after": after })
         };
-        let stop = |x: Stop| json!({ "at": x.at, "why": x.why.word(), "text": x.why.to_string() });
+        let stop =
+            |x: Stop| json!({ "at": x.at, "why": x.why.as_word(), "text": x.why.to_string() });
         json!({
             "state": self.state,
             "drive": self.drive,
@@ -80,21 +81,21 @@ impl<'a> StrokeData<'a> {
         })
     }
 
-    fn turns(&self) -> bool {
+    fn drive_turns(&self) -> bool {
         self.unit == "rad"
     }
 
     /// A position for people: degrees, or the file's length unit.
-    fn place(&self, at: f64, digits: usize) -> String {
-        if self.turns() {
+    fn format_place(&self, at: f64, digits: usize) -> String {
+        if self.drive_turns() {
             format!("{}°", decimals(at.to_degrees(), digits))
         } else {
             format!("{} {}", decimals(at, digits), self.unit)
         }
     }
 
-    fn told(&self, c: &RankChange) -> String {
-        let (middle, [before, at, after]) = (self.place(middle(c), 5), c.ranks);
+    fn describe_change(&self, c: &RankChange) -> String {
+        let (middle, [before, at, after]) = (self.format_place(middle_of(c), 5), c.ranks);
         if before == after {
             format!(
                 "at {middle} alone the rank is {at} instead of {before}, so W and σ are {} more there",
@@ -108,35 +109,37 @@ impl<'a> StrokeData<'a> {
     /// Returns the stroke for people: one row a pose, where the rank changes, what no drive decides, and why the way ends early.
     pub fn text(&self, width: Option<u16>) -> String {
         let (found, mut out) = (&self.found, Report::new(None));
-        let [from, to] = self.range.map(|at| self.place(at, 3));
-        out.line(format!(
+        let [from, to] = self.range.map(|at| self.format_place(at, 3));
+        out.add_line(format!(
             "{}, state {}, over a stroke of {} from {from} to {to}:\n",
             self.mechanism.name, self.state, self.drive
         ));
-        out.line(self.pose_table(width) + "\n");
+        out.add_line(self.pose_table(width) + "\n");
         for c in &found.changes {
-            out.line(format!("  {}", self.told(c)));
+            out.add_line(format!("  {}", self.describe_change(c)));
         }
         if found.changes.is_empty() && !found.poses.is_empty() {
-            out.line("  no change of the rank was found on the way, at the poses and between them");
+            out.add_line(
+                "  no change of the rank was found on the way, at the poses and between them",
+            );
         }
         if found.undriven > 0 {
             let (motions, s) = (
-                plural(found.undriven, "motion"),
+                count_noun(found.undriven, "motion"),
                 if found.undriven == 1 { "s" } else { "" },
             );
-            out.line(format!(
+            out.add_line(format!(
                 "  {motions} of the outputs follow{s} no drive: the way shown is the one of least motion"
             ));
         }
         if let Some(stop) = &found.stop {
-            out.line(format!(
+            out.add_line(format!(
                 "  stops at {}: {}",
-                self.place(stop.at, 5),
+                self.format_place(stop.at, 5),
                 stop.why
             ));
         }
-        out.line(
+        out.add_line(
             "  conditioning: smallest kept singular value of J over the largest; drive share: of the drive in the motion of \
              unit length, 0 at its dead points",
         );
@@ -150,8 +153,13 @@ impl<'a> StrokeData<'a> {
         let mut changes = self.found.changes.iter().peekable();
         let rows = self.found.poses.iter().map(|p| {
             let here = changes.peeking_take_while(|c| c.between[0] * ahead <= p.at * ahead);
-            let flag =
-                |c: &RankChange| format!("rank {} at {}", c.ranks[1], self.place(middle(c), 4));
+            let flag = |c: &RankChange| {
+                format!(
+                    "rank {} at {}",
+                    c.ranks[1],
+                    self.format_place(middle_of(c), 4)
+                )
+            };
             let flags = here.map(flag).join(", ");
             let output = |o: &Output| {
                 let link = &self.mechanism.links[o.link].id;
@@ -160,8 +168,8 @@ impl<'a> StrokeData<'a> {
             };
             let outputs = p.outputs.iter().map(output).join("; ");
             let [kept, share] = [p.rank.kept, p.share].map(|x| format!("{x:.2e}"));
-            let (at, r) = (self.place(p.at, 3), p.rank.rank);
-            cells([
+            let (at, r) = (self.format_place(p.at, 3), p.rank.rank);
+            row_cells([
                 &at,
                 &r,
                 &p.mobility,
@@ -173,12 +181,18 @@ impl<'a> StrokeData<'a> {
             ])
         });
         let heads = "drive | rank | W | σ | conditioning | drive share | outputs: middle, turn | ";
-        table(heads, rows, width)
+        text_table(heads, rows, width)
     }
 
     /// Conditioning over the stroke.
     pub fn chart(&self) -> Chart {
-        let x = |at: f64| if self.turns() { at.to_degrees() } else { at };
+        let x = |at: f64| {
+            if self.drive_turns() {
+                at.to_degrees()
+            } else {
+                at
+            }
+        };
         let series = |name: &str, style, y: &dyn Fn(usize) -> f64| Series {
             name: name.to_owned(),
             points: (0..self.found.poses.len())
@@ -186,15 +200,19 @@ impl<'a> StrokeData<'a> {
                 .collect(),
             style,
         };
-        let unit = if self.turns() { "°" } else { self.unit };
-        let places = self.found.changes.iter().map(|c| self.place(middle(c), 3));
+        let unit = if self.drive_turns() { "°" } else { self.unit };
+        let places = self
+            .found
+            .changes
+            .iter()
+            .map(|c| self.format_place(middle_of(c), 3));
         let changes = if self.found.changes.is_empty() {
             "No change of the rank was found on the way, at the poses and between them".to_owned()
         } else {
             format!("The rank changes at {}", places.take(6).join(", "))
         };
         let stop = self.found.stop.as_ref().map_or_else(String::new, |x| {
-            format!("; stops at {}", self.place(x.at, 3))
+            format!("; stops at {}", self.format_place(x.at, 3))
         });
         Chart {
             title: format!("{}: conditioning over the stroke", self.mechanism.name),
@@ -214,6 +232,6 @@ impl<'a> StrokeData<'a> {
     }
 }
 
-fn middle(c: &RankChange) -> f64 {
+fn middle_of(c: &RankChange) -> f64 {
     f64::midpoint(c.between[0], c.between[1])
 }

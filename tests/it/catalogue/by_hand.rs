@@ -1,10 +1,10 @@
 //! Figures of strokes and places that are put down by hand, and what follows from them.
 
-use super::{Drawn, each, form, layout};
+use super::{Drawn, each_structure, form_of, layout};
 use ozols::catalog::spec::Spec;
 use ozols::chains::chain::Joint;
 use ozols::chains::{Input, Symmetry};
-use ozols::synthesis::figures::figures;
+use ozols::synthesis::figures::layout_figures;
 use ozols::synthesis::layout::NoLayout;
 use ozols::synthesis::layout_quality::Looks;
 use ozols::synthesis::mechanism::mechanism_file;
@@ -20,9 +20,9 @@ use ozols::synthesis::workload::Workload;
 /// The slider-crank of four links: driver, jaw, jaw that is hinged in the frame.
 fn slider_crank() -> Structure {
     let mut found = Vec::new();
-    each(
+    each_structure(
         4,
-        &[form(Input::Slide, Symmetry::Generic, false)],
+        &[form_of(Input::Slide, Symmetry::Generic, false)],
         |_, s| found.push(s),
     );
     assert_eq!(found.len(), 1);
@@ -64,7 +64,9 @@ fn rules(s: &Structure) -> Rules {
 fn lacks(task: Task, stroke: &StrokeFigures) -> Option<String> {
     let s = slider_crank();
     let sketch = Sketch::new(&s, rules(&s), for_task(task));
-    let found = sketch.limits.shortfall(stroke, sketch.bones.swings());
+    let found = sketch
+        .limits
+        .find_shortfall(stroke, sketch.bones.all_swing());
     found.map(|s| s.to_string())
 }
 
@@ -192,12 +194,12 @@ fn looks(places: Places) -> Looks {
     let s = slider_crank();
     let sketch = Sketch::new(&s, rules(&s), Limits::default());
     let r = &s.structure.roles;
-    let next = |&jaw: &&usize| s.structure.chain.joined(r.drive()[1], *jaw);
+    let next = |&jaw: &&usize| s.structure.chain.is_joined(r.drive_links()[1], *jaw);
     let near = *r.jaws.iter().find(next).unwrap();
     let far = *r.jaws.iter().find(|&&jaw| jaw != near).unwrap();
     let round = [
-        (r.frame, r.drive()[1]),
-        (r.drive()[1], near),
+        (r.frame, r.drive_links()[1]),
+        (r.drive_links()[1], near),
         (near, far),
         (far, r.frame),
     ];
@@ -212,7 +214,9 @@ fn looks(places: Places) -> Looks {
         .iter()
         .map(|&jaw| places[if jaw == near { 4 } else { 5 }]);
     let at: Vec<[f64; 2]> = pins.chain(tips).collect();
-    sketch.looks(&places::Places::of_hinges(at)).unwrap()
+    sketch
+        .drawn_figures(&places::Places::of_hinges(at))
+        .unwrap()
 }
 
 fn with(changes: &[(usize, [f64; 2])]) -> Places {
@@ -251,22 +255,26 @@ fn jaws_that_swing_have_a_hinge_in_the_frame() {
     let mut told = [0; 2];
     let floating = |name: &str| usize::from(name == "floating");
     let mut n = 0;
-    each(6, &[form(Input::Turn, Symmetry::Generic, false)], |_, s| {
-        n += 1;
-        if n % 6 != 0 {
-            return;
-        }
-        let l = layout(&s, &Limits::default(), 1).unwrap();
-        let f = figures(&s, &l).unwrap();
-        for ((jaw, motion), turn) in s.structure.roles.jaws.iter().zip(&f.jaws).zip(&f.turns) {
-            let hinged = s.structure.chain.joined(s.structure.roles.frame, *jaw);
-            let name = motion.name();
-            if *turn > 0.02 {
-                assert_eq!(name, if hinged { "swinging" } else { "floating" });
-                told[floating(name)] += 1;
+    each_structure(
+        6,
+        &[form_of(Input::Turn, Symmetry::Generic, false)],
+        |_, s| {
+            n += 1;
+            if n % 6 != 0 {
+                return;
             }
-        }
-    });
+            let l = layout(&s, &Limits::default(), 1).unwrap();
+            let f = layout_figures(&s, &l).unwrap();
+            for ((jaw, motion), turn) in s.structure.roles.jaws.iter().zip(&f.jaws).zip(&f.turns) {
+                let hinged = s.structure.chain.is_joined(s.structure.roles.frame, *jaw);
+                let name = motion.name();
+                if *turn > 0.02 {
+                    assert_eq!(name, if hinged { "swinging" } else { "floating" });
+                    told[floating(name)] += 1;
+                }
+            }
+        },
+    );
     assert!(told[0] > 0 && told[1] > 0, "{told:?}");
 }
 
@@ -275,11 +283,11 @@ fn jaws_that_swing_have_a_hinge_in_the_frame() {
 fn what_is_not_asked_is_margin() {
     let s = slider_crank();
     let mut laid = None;
-    each(4, &[(s.input(), s.form)], |_, s| {
+    each_structure(4, &[(s.drive_input(), s.form)], |_, s| {
         laid = Some(layout(&s, &Limits::default(), 1).unwrap());
     });
     let mut laid = laid.unwrap().layout;
-    let whole = figures(&s, &laid).unwrap();
+    let whole = layout_figures(&s, &laid).unwrap();
     assert_eq!(whole.openings, [0.0, 50.0]);
     laid.limits.task = Task {
         narrowest: 5.0,
@@ -287,7 +295,7 @@ fn what_is_not_asked_is_margin() {
         ..Task::default()
     };
     let most = 0.2 * 39.0 + 1e-9;
-    let [closing, opening] = figures(&s, &laid).unwrap().margin;
+    let [closing, opening] = layout_figures(&s, &laid).unwrap().margin;
     assert!((5.0..=most).contains(&closing), "{closing}");
     assert!((6.0..=most).contains(&opening), "{opening}");
 }
@@ -295,13 +303,17 @@ fn what_is_not_asked_is_margin() {
 /// Layouts of some structures of six links with a driver that turns.
 fn laid(limits: &Limits, every: usize) -> Vec<Result<(Structure, Drawn), NoLayout>> {
     let (mut n, mut out) = (0, Vec::new());
-    each(6, &[form(Input::Turn, Symmetry::Generic, false)], |_, s| {
-        n += 1;
-        if n % every == 0 {
-            let laid = layout(&s, limits, 1);
-            out.push(laid.map(|l| (s, l)));
-        }
-    });
+    each_structure(
+        6,
+        &[form_of(Input::Turn, Symmetry::Generic, false)],
+        |_, s| {
+            n += 1;
+            if n % every == 0 {
+                let laid = layout(&s, limits, 1);
+                out.push(laid.map(|l| (s, l)));
+            }
+        },
+    );
     out
 }
 
@@ -318,7 +330,7 @@ fn no_more_crosses_than_may() {
     let mut flat = 0;
     for (s, l) in found.iter().flatten() {
         flat += usize::from(l.looks.crossings == 0);
-        let passes = || figures(s, l).unwrap().stacking.is_known();
+        let passes = || layout_figures(s, l).unwrap().stacking.is_known();
         assert!(l.looks.crossings == 0 || passes(), "{}", s.name());
     }
     assert!(2 * flat > kept, "{flat} of {kept}");
@@ -352,7 +364,7 @@ fn more_starts_are_tried_where_none_keeps_the_limits() {
 /// Parallelograms for three jaws need more links than there are.
 #[test]
 fn three_jaws_have_no_parallel_form() {
-    let suit = |jaws| Form::of_hinges().filter(move |(_, f)| f.suits(jaws));
+    let suit = |jaws| Form::of_hinges().filter(move |(_, f)| f.suits_jaws(jaws));
     assert!(suit(2).any(|(_, f)| f.parallel));
     assert!(suit(3).count() > 0 && suit(3).all(|(_, f)| !f.parallel));
 }
@@ -361,7 +373,7 @@ fn three_jaws_have_no_parallel_form() {
 #[test]
 fn links_weigh_where_there_is_gravity() {
     let s = slider_crank();
-    each(4, &[(s.input(), s.form)], |_, s| {
+    each_structure(4, &[(s.drive_input(), s.form)], |_, s| {
         let l = layout(&s, &Limits::default(), 1).unwrap();
         for (gravity, weighs) in [([0.0; 3], false), ([0.0, -9.81, 0.0], true)] {
             let workload = Workload {
@@ -369,7 +381,7 @@ fn links_weigh_where_there_is_gravity() {
                 gravity,
                 ..Workload::default()
             };
-            let file = mechanism_file(&s, &l, &Spec::default().menu().unwrap(), &workload);
+            let file = mechanism_file(&s, &l, &Spec::default().option_menu().unwrap(), &workload);
             assert_eq!(file.workload.gravity.is_some(), weighs);
             let masses = file.link.iter().filter(|l| l.mass.is_some()).count();
             assert_eq!(masses, if weighs { 3 } else { 0 });

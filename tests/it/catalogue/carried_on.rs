@@ -1,36 +1,36 @@
 //! The same rows whatever the threads, the shards and the interruptions.
 
-use super::command::{at, small, whole};
+use super::command::{dump_catalogue, path_in, small_build};
 use crate::common::*;
 
 #[test]
 fn a_catalogue_is_the_same_whatever_the_threads_and_the_shards() {
     let folder = tempdir().unwrap();
     let made = |name: &str, more: &str| {
-        let file = at(&folder, name);
-        ok(&small(&file, more));
+        let file = path_in(&folder, name);
+        stdout_of(&small_build(&file, more));
         file
     };
     let one = made("one.db", "--threads 1");
-    let rows = whole(&one);
+    let rows = dump_catalogue(&one);
     has_all(&rows, &["slide,mirror", "turn,half-turn"]);
     for threads in ["2", "8"] {
         let more = made(threads, &format!("--threads {threads}"));
-        assert_eq!(whole(&more), rows, "{threads} threads");
+        assert_eq!(dump_catalogue(&more), rows, "{threads} threads");
     }
     let parts = (1..=7).map(|i| made(&format!("{i}.db"), &format!("--shard {i}/7")));
-    let merged = at(&folder, "merged.db");
-    ok(&format!(
+    let merged = path_in(&folder, "merged.db");
+    stdout_of(&format!(
         "catalog merge {} -o {merged}",
         parts.collect_vec().join(" ")
     ));
-    assert_eq!(whole(&merged), rows);
+    assert_eq!(dump_catalogue(&merged), rows);
     // What is there already is not made again.
-    has(&ok(&small(&one, "")), "0 structures added");
+    has(&stdout_of(&small_build(&one, "")), "0 structures added");
 }
 
 /// Numbers that look random, the same on every run.
-pub(super) fn scattered(seed: u64) -> impl Iterator<Item = u64> {
+pub(super) fn scattered_numbers(seed: u64) -> impl Iterator<Item = u64> {
     let mut x = seed;
     std::iter::repeat_with(move || {
         x = x
@@ -45,14 +45,14 @@ pub(super) fn scattered(seed: u64) -> impl Iterator<Item = u64> {
 fn merging_keeps_the_first_search_of_a_mechanism_whole() {
     let folder = tempdir().unwrap();
     let [two, three] = ["2", "3"].map(|ideas| {
-        let file = at(&folder, &format!("{ideas}.db"));
-        ok(&format!(
+        let file = path_in(&folder, &format!("{ideas}.db"));
+        stdout_of(&format!(
             "catalog search tongs four-bar --quiet --ideas {ideas} -o {file}"
         ));
         file
     });
-    let merged = at(&folder, "merged.db");
-    ok(&format!("catalog merge {two} {three} -o {merged}"));
-    assert_eq!(whole(&merged), whole(&two));
-    assert_ne!(whole(&two), whole(&three));
+    let merged = path_in(&folder, "merged.db");
+    stdout_of(&format!("catalog merge {two} {three} -o {merged}"));
+    assert_eq!(dump_catalogue(&merged), dump_catalogue(&two));
+    assert_ne!(dump_catalogue(&two), dump_catalogue(&three));
 }

@@ -2,9 +2,9 @@
 //! two canonical forms; OEIS A233288) and against a slow twin that tries every graph.
 
 use crate::common::*;
-use ozols::chains::census::{Census, Counted, DriveKind, census};
+use ozols::chains::census::{Census, Counted, DriveKind, count_hinged};
 use ozols::chains::chain::Chain;
-use ozols::chains::enumerate::{chains, count_chains};
+use ozols::chains::enumerate::{count_chains, list_chains};
 use ozols::chains::graph6::{self, Graph6Error};
 use ozols::chains::layout_symmetry::working_swap;
 use ozols::chains::roles::{Roles, Subject};
@@ -42,7 +42,7 @@ fn as_many_larger_chains_as_are_known() {
         inputs_at_frame: 195_816,
         ..Census::default()
     };
-    assert_eq!(census(12, 1, false), Ok(twelve));
+    assert_eq!(count_hinged(12, 1, false), Ok(twelve));
 }
 
 #[test]
@@ -70,7 +70,7 @@ fn as_many_structures_as_are_known() {
         ),
     ];
     for (links, [chains, frames, inputs, drives], of_two, more) in known {
-        let found = census(links, 1, true).unwrap();
+        let found = count_hinged(links, 1, true).unwrap();
         let drives_found = found.inputs_at_frame;
         let counted = [found.chains, found.frames, found.inputs, drives_found];
         assert_eq!(counted, [chains, frames, inputs, drives]);
@@ -174,11 +174,11 @@ fn the_chains_are_those_that_trying_every_graph_finds() {
         let slow = by_trying(links, mobility);
         let slow: BTreeSet<String> = slow
             .into_iter()
-            .map(|joints| graph6::code(&Chain::hinged(links, joints)))
+            .map(|joints| graph6::canonical_code(&Chain::with_hinges(links, joints)))
             .collect();
-        let fast = chains(links, mobility).unwrap();
+        let fast = list_chains(links, mobility).unwrap();
         assert!(fast.iter().all(|c| c.mobility() == mobility));
-        let fast: Vec<String> = fast.iter().map(graph6::write).collect();
+        let fast: Vec<String> = fast.iter().map(graph6::write_graph).collect();
         assert_eq!(slow.into_iter().collect_vec(), fast, "{links} {mobility}");
     }
 }
@@ -187,18 +187,18 @@ fn the_chains_are_those_that_trying_every_graph_finds() {
 #[test]
 fn names_stay() {
     let names = |links, mobility| -> Vec<String> {
-        chains(links, mobility)
+        list_chains(links, mobility)
             .unwrap()
             .iter()
-            .map(graph6::write)
+            .map(graph6::write_graph)
             .collect()
     };
     assert_eq!(names(4, 1), ["Cr"]);
     assert_eq!(names(6, 1), ["E_lo", "E`hW"]);
     assert_eq!(names(7, 2), ["F`Aio", "Fo@Xo", "FoDPW"]);
     assert_eq!(names(8, 1)[..3], ["G?Bcro", "G?qaho", "G?r@pg"]);
-    let gripper = graph6::read("I?BDA_g}?").unwrap();
-    assert_eq!(graph6::code(&gripper), "IQ?CQGKKw");
+    let gripper = graph6::read_graph("I?BDA_g}?").unwrap();
+    assert_eq!(graph6::canonical_code(&gripper), "IQ?CQGKKw");
 }
 
 /// [Pogrebnyak 2018]: the gripper is one of the structures that move in mirror places, of ten links and all of them needed.
@@ -214,11 +214,14 @@ fn the_ten_link_gripper_is_among_the_structures() {
     };
     let links: Vec<usize> = (0..m.links.len()).filter(|&l| used(l)).collect();
     let place = |l: usize| links.iter().position(|&x| x == l).unwrap();
-    let chain = Chain::hinged(links.len(), joints.map(|[u, v]| (place(u), place(v))));
-    let known = graph6::read("I?BDA_g}?").unwrap();
-    assert_eq!(graph6::code(&chain), graph6::code(&known));
+    let chain = Chain::with_hinges(links.len(), joints.map(|[u, v]| (place(u), place(v))));
+    let known = graph6::read_graph("I?BDA_g}?").unwrap();
+    assert_eq!(
+        graph6::canonical_code(&chain),
+        graph6::canonical_code(&known)
+    );
 
-    let frame = place(m.frame().index());
+    let frame = place(m.frame_link().index());
     let driven = m
         .joints_in(StateId::FREE)
         .find(|&j| m.joints[j].drive)
@@ -248,7 +251,7 @@ fn all_automorphisms(chain: &Chain) -> Vec<Vec<usize>> {
             return;
         }
         for to in 0..chain.links() {
-            let fits = |from: usize| chain.joined(from, at) == chain.joined(image[from], to);
+            let fits = |from: usize| chain.is_joined(from, at) == chain.is_joined(image[from], to);
             if !image.contains(&to) && (0..at).all(fits) {
                 image.push(to);
                 extend(chain, image, out);
@@ -274,50 +277,50 @@ proptest! {
         let mixed = |i: usize, x: u64| x.rotate_left(u32::try_from(7 * i).unwrap()).wrapping_mul(0x9e37_79b9_7f4a_7c15) >> 61;
         let joints = pairs.enumerate().filter(|(i, _)| mixed(*i, bits) < u64::from(density));
         let joints = joints.map(|(_, p)| p).collect_vec();
-        let chain = Chain::hinged(links, joints.iter().copied());
+        let chain = Chain::with_hinges(links, joints.iter().copied());
         let place = (0..links).sorted_by_key(|&i| (mixed(i, order), i)).collect_vec();
-        let other = Chain::hinged(links, joints.iter().map(|&(u, v)| (place[u], place[v])));
-        prop_assert_eq!(graph6::code(&chain), graph6::code(&other));
-        let (canonical, automorphisms) = chain.canonical();
+        let other = Chain::with_hinges(links, joints.iter().map(|&(u, v)| (place[u], place[v])));
+        prop_assert_eq!(graph6::canonical_code(&chain), graph6::canonical_code(&other));
+        let (canonical, automorphisms) = chain.canonical_form();
         let slow: BTreeSet<_> = all_automorphisms(&canonical).into_iter().collect();
         let count = automorphisms.len();
         prop_assert_eq!(automorphisms.into_iter().collect::<BTreeSet<_>>(), slow.clone());
         prop_assert_eq!(count, slow.len());
-        prop_assert_eq!(graph6::read(&graph6::write(&chain)), Ok(chain));
+        prop_assert_eq!(graph6::read_graph(&graph6::write_graph(&chain)), Ok(chain));
     }
 }
 
 #[test]
 fn texts_that_are_no_chains_are_refused() {
-    assert_eq!(graph6::read("C r"), Err(Graph6Error::Character(' ')));
-    assert_eq!(graph6::read(""), Err(Graph6Error::Links(0)));
-    assert_eq!(graph6::read("~?@A"), Err(Graph6Error::Links(63)));
+    assert_eq!(graph6::read_graph("C r"), Err(Graph6Error::Character(' ')));
+    assert_eq!(graph6::read_graph(""), Err(Graph6Error::Links(0)));
+    assert_eq!(graph6::read_graph("~?@A"), Err(Graph6Error::Links(63)));
     let short = Graph6Error::Length {
         links: 8,
         wanted: 6,
         found: 3,
     };
-    assert_eq!(graph6::read("G?B"), Err(short));
+    assert_eq!(graph6::read_graph("G?B"), Err(short));
 }
 
 #[test]
 fn the_command_counts_and_lists() {
-    let counted = out("catalog count");
+    let counted = run_quiet("catalog count");
     has_all(
         &counted,
         &["grippers of two jaws", "1,356", "4 links", "8 links"],
     );
-    let rows = json("catalog count --links 6..9 --format json");
+    let rows = run_json("catalog count --links 6..9 --format json");
     assert_eq!(rows.list().len(), 2);
     assert_eq!(rows[1]["three_jaws"], 2656);
-    let counted = out("catalog count --chains --links 10..12");
+    let counted = run_quiet("catalog count --chains --links 10..12");
     let table = counted.lines().take_while(|l| !l.is_empty()).collect_vec();
     assert_eq!(table.len(), 3, "chains alone: {counted}");
     has_all(table[2], &["230", "6,856"]);
-    let listed = json("catalog chains --links 6 --format json");
+    let listed = run_json("catalog chains --links 6 --format json");
     let drives = listed.list().iter().map(|c| c["drives"].whole());
     assert_eq!(drives.sum::<u64>(), 9);
-    let listed = out("catalog chains --links 6 --format csv");
+    let listed = run_quiet("catalog chains --links 6 --format csv");
     assert_eq!(listed.lines().count(), 3);
-    assert_eq!(ran("catalog count --links 7").0, Some(1));
+    assert_eq!(run_full("catalog count --links 7").0, Some(1));
 }

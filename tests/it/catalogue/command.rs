@@ -5,26 +5,26 @@ use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use flate2::read::ZlibDecoder;
 
-pub(super) fn at(folder: &TempDir, name: &str) -> String {
+pub(super) fn path_in(folder: &TempDir, name: &str) -> String {
     folder.path().join(name).display().to_string()
 }
 
 /// Returns the rows of a query to a catalogue.
-pub(super) fn rows(file: &str, sql: &str) -> Vec<Value> {
-    json(&["catalog", "query", file, sql, "--format", "json"])
+pub(super) fn query_rows(file: &str, sql: &str) -> Vec<Value> {
+    run_json(&["catalog", "query", file, sql, "--format", "json"])
         .list()
         .clone()
 }
 
 /// Returns the lines of a query as CSV, without the header.
-pub(super) fn lines(file: &str, sql: &str) -> Vec<String> {
-    let csv = ok(&["catalog", "query", file, sql, "--format", "csv"]);
+pub(super) fn query_lines(file: &str, sql: &str) -> Vec<String> {
+    let csv = stdout_of(&["catalog", "query", file, sql, "--format", "csv"]);
     csv.lines().skip(1).map(str::to_owned).collect()
 }
 
 /// Returns the analysis of the free state of a file.
 pub(super) fn free_state(file: &str) -> Value {
-    json(&["analyze", file, "--format", "json"])["states"][0].clone()
+    run_json(&["analyze", file, "--format", "json"])["states"][0].clone()
 }
 
 /// Returns the data of the script of a page.
@@ -36,18 +36,18 @@ pub(super) fn script_data(html: &str) -> Value {
 }
 
 /// Returns a list that a page holds as deflated data in base64.
-pub(super) fn unpacked(list: &Value) -> Vec<Value> {
+pub(super) fn unpack_list(list: &Value) -> Vec<Value> {
     let bytes = STANDARD.decode(list.as_str().unwrap()).unwrap();
     serde_json::from_reader(ZlibDecoder::new(&bytes[..])).unwrap()
 }
 
 /// Returns the cards of a page.
 pub(super) fn cards_of(html: &str) -> Vec<Value> {
-    unpacked(&script_data(html)["cards"])
+    unpack_list(&script_data(html)["cards"])
 }
 
 /// Returns the contents of a catalogue, table by table.
-pub(super) fn whole(file: &str) -> String {
+pub(super) fn dump_catalogue(file: &str) -> String {
     [
         "structures ORDER BY id",
         "layouts ORDER BY structure",
@@ -58,12 +58,12 @@ pub(super) fn whole(file: &str) -> String {
         "counts ORDER BY structure, mobility, changes",
         "ideas ORDER BY structure, place",
     ]
-    .map(|t| lines(file, &format!("SELECT * FROM {t}")).join("\n"))
+    .map(|t| query_lines(file, &format!("SELECT * FROM {t}")).join("\n"))
     .join("\n\n")
 }
 
 /// Small enough for a test without optimisation: structures of six links that are symmetric, and their ideas.
-pub(super) fn small(file: &str, more: &str) -> String {
+pub(super) fn small_build(file: &str, more: &str) -> String {
     format!(
         "catalog build --links 4..6 --symmetry mirror,half-turn --ideas 3 --quiet -o {file} {more}"
     )
@@ -72,28 +72,28 @@ pub(super) fn small(file: &str, more: &str) -> String {
 #[test]
 fn it_is_queried_shown_exported_and_drawn() {
     let folder = tempdir().unwrap();
-    let [db, svg, toml, page] = ["g.db", "g.svg", "g.toml", "g.html"].map(|n| at(&folder, n));
-    has(&ok(&small(&db, "")), "ozols catalog query");
-    let list = ok(&["catalog", "query", &db]);
+    let [db, svg, toml, page] = ["g.db", "g.svg", "g.toml", "g.html"].map(|n| path_in(&folder, n));
+    has(&stdout_of(&small_build(&db, "")), "ozols catalog query");
+    let list = stdout_of(&["catalog", "query", &db]);
     let line = list.lines().find(|l| l.contains("mirror")).unwrap();
     let id = line.split_whitespace().next().unwrap();
-    let shown = ok(&["catalog", "show", &db, &id[..6]]);
+    let shown = stdout_of(&["catalog", "show", &db, &id[..6]]);
     has(&shown, "W = 1, σ = 6; finite mobility 1, proven");
-    let told = json(&["catalog", "show", &db, id, "--json"]);
+    let told = run_json(&["catalog", "show", &db, id, "--json"]);
     assert_eq!(told["ideas"].list().len(), 3);
     assert_eq!(told["layout"]["mobility"], 1);
-    ok(&["catalog", "show", &db, id, "--svg", &svg]);
+    stdout_of(&["catalog", "show", &db, id, "--svg", &svg]);
     let drawn = fs::read_to_string(&svg).unwrap();
     has_all(&drawn, &["<svg", "tip-a", "tip-b"]);
-    ok(&["catalog", "export", &db, id, "-o", &toml]);
+    stdout_of(&["catalog", "export", &db, id, "-o", &toml]);
     assert_eq!(free_state(&toml)["redundant"], told["layout"]["redundant"]);
     // Every idea carried out is determinate, and of mobility 1.
     for k in ["1", "2", "3"] {
-        ok(&["catalog", "export", &db, id, "--idea", k, "-o", &toml]);
+        stdout_of(&["catalog", "export", &db, id, "--idea", k, "-o", &toml]);
         let free = free_state(&toml);
         assert_eq!([&free["mobility"], &free["redundant"]], [1, 0], "{k}");
     }
-    ok(&["catalog", "page", &db, "-o", &page]);
+    stdout_of(&["catalog", "page", &db, "-o", &page]);
     let html = fs::read_to_string(&page).unwrap();
     assert!(html.contains("Content-Security-Policy") && !html.contains("http://localhost"));
     let cards = cards_of(&html);
@@ -101,26 +101,26 @@ fn it_is_queried_shown_exported_and_drawn() {
     let card = &cards[place];
     assert!(card["drawing"]["pins"].is_array() && card.get("ideas").is_none());
     // Files and ideas stand apart, in the order of the cards.
-    let chosen = &unpacked(&script_data(&html)["chosen"][0])[place];
+    let chosen = &unpack_list(&script_data(&html)["chosen"][0])[place];
     assert_eq!(chosen["ideas"].list().len(), 3);
     has(chosen["mechanism"].word(), "[[joint]]");
     let counts = "SELECT links, count(*) AS n FROM structures GROUP BY links";
-    let csv = ok(&["catalog", "query", &db, counts, "--format", "csv"]);
+    let csv = stdout_of(&["catalog", "query", &db, counts, "--format", "csv"]);
     assert!(csv.starts_with("links,n\n6,"), "{csv}");
     let nothing = "SELECT id FROM structures WHERE links = 5";
-    assert_eq!(ran(&["catalog", "query", &db, nothing]).0, Some(1));
+    assert_eq!(run_full(&["catalog", "query", &db, nothing]).0, Some(1));
 }
 
 #[test]
 fn what_cannot_be_done_is_said() {
     let folder = tempdir().unwrap();
     let [db, other, missing, spec, s] =
-        ["g.db", "other.txt", "missing.db", "spec.toml", "s.db"].map(|n| at(&folder, n));
-    ok(&format!("catalog build --links 4 --quiet -o {db}"));
+        ["g.db", "other.txt", "missing.db", "spec.toml", "s.db"].map(|n| path_in(&folder, n));
+    stdout_of(&format!("catalog build --links 4 --quiet -o {db}"));
     let text = "This is no database, though it is long enough to be looked at as one.".repeat(20);
     fs::write(&other, &text).unwrap();
     fs::write(&spec, "links = \"4\"\ncolour = \"red\"\n").unwrap();
-    for [line, says] in cases::<2>(
+    for [line, says] in read_cases::<2>(
         "
         build --links 4 --ideas 2 -o DB | ideas differs
         build --links 5 -o DB | even number
@@ -173,17 +173,17 @@ fn what_cannot_be_done_is_said() {
         ];
         let word = |w| files.iter().find(|f| f.0 == w).map_or(w, |f| f.1.as_str());
         let words = line.split(' ').map(word).collect_vec();
-        fails(&[&["catalog"], &words[..]].concat(), says);
+        assert_fails(&[&["catalog"], &words[..]].concat(), says);
     }
-    fails(
+    assert_fails(
         &["catalog", "query", &db, "SELECT nonsense"],
         "no such column",
     );
-    fails(&["catalog", "query", &db, "DELETE FROM ideas"], "readonly");
+    assert_fails(&["catalog", "query", &db, "DELETE FROM ideas"], "readonly");
     assert_eq!(fs::read_to_string(&other).unwrap(), text);
     assert!(!Path::new(&missing).exists());
     fs::write(&spec, "links = \"4\"\nideas = 2\ninputs = [\"slide\"]\n").unwrap();
-    let told = ok(&format!("catalog build --spec {spec} -o {s} --quiet"));
+    let told = stdout_of(&format!("catalog build --spec {spec} -o {s} --quiet"));
     has(&told, "1 structures added");
 }
 
@@ -197,9 +197,9 @@ fn drawn_mechanisms_stand_beside_the_structures() {
         "redesign.toml",
         "page.html",
     ]
-    .map(|n| at(&folder, n));
+    .map(|n| path_in(&folder, n));
     let drawn = |ideas| {
-        ok(&format!(
+        stdout_of(&format!(
             "catalog search gripper-10 tongs --ideas {ideas} -o {file}"
         ))
     };
@@ -207,30 +207,33 @@ fn drawn_mechanisms_stand_beside_the_structures() {
     // Asked for fewer ideas, it keeps no more.
     has(&drawn(2), "2 mechanisms added");
     has(&drawn(2), "0 mechanisms added");
-    assert_eq!(lines(&file, "SELECT max(place) FROM ideas"), ["2"]);
+    assert_eq!(query_lines(&file, "SELECT max(place) FROM ideas"), ["2"]);
     // The counts are those of `ozols search`.
     let sql = "SELECT links, joints, contours, input, mobility, redundant, finite, determinate, admissible, certainty, best_cost \
          FROM drawn WHERE name = 'gripper-10'";
     assert_eq!(
-        lines(&file, sql),
+        query_lines(&file, sql),
         ["10,13,4,,1,11,\"1, proven\",6340592477,7150020,exact,11.5"]
     );
     // It takes in structures, and is taken in.
-    ok(&small(&parts, ""));
+    stdout_of(&small_build(&parts, ""));
     has(
-        &ok(&format!("catalog merge {file} {parts} -o {merged}")),
+        &stdout_of(&format!("catalog merge {file} {parts} -o {merged}")),
         "drawn",
     );
-    ok(&small(&file, ""));
-    assert_eq!(whole(&merged), whole(&file));
-    has_all(&ok(&["catalog", "query", &merged]), &["tongs", "mirror"]);
-    let told = ok(&["catalog", "show", &merged, "gripper-10"]);
+    stdout_of(&small_build(&file, ""));
+    assert_eq!(dump_catalogue(&merged), dump_catalogue(&file));
+    has_all(
+        &stdout_of(&["catalog", "query", &merged]),
+        &["tongs", "mirror"],
+    );
+    let told = stdout_of(&["catalog", "show", &merged, "gripper-10"]);
     has_all(&told, &["6,340,592,477", "--idea 1"]);
-    ok(&format!(
+    stdout_of(&format!(
         "catalog export {merged} gripper-10 --idea 1 -o {redesign}"
     ));
     assert_eq!(free_state(&redesign)["redundant"], 0);
-    ok(&["catalog", "page", &merged, "-o", &page]);
+    stdout_of(&["catalog", "page", &merged, "-o", &page]);
     let cards = cards_of(&fs::read_to_string(&page).unwrap());
     assert!(cards.iter().any(|c| c["name"] == "tongs"));
 }
@@ -241,19 +244,19 @@ fn drawn_mechanisms_stand_beside_the_structures() {
 fn unloading_joints_are_on_the_menu() {
     let folder = tempdir().unwrap();
     let count = |name: &str, more: &str| -> (String, u64) {
-        let file = at(&folder, name);
+        let file = path_in(&folder, name);
         let words = "catalog build --links 4 --input turn --options spherical --quiet --ideas 9 -o";
-        ok(&format!("{words} {file} {more}"));
-        let count = lines(&file, "SELECT determinate_w1 FROM layouts")[0].parse();
+        stdout_of(&format!("{words} {file} {more}"));
+        let count = query_lines(&file, "SELECT determinate_w1 FROM layouts")[0].parse();
         (file, count.unwrap())
     };
     assert_eq!(count("plain.db", "").1, 0);
     let (file, more) = count("more.db", "--unloading prismatic");
     assert!(more > 0);
-    let with = &lines(&file, "SELECT structure, place FROM ideas")[0];
+    let with = &query_lines(&file, "SELECT structure, place FROM ideas")[0];
     let (id, place) = with.split_once(',').unwrap();
-    let toml = at(&folder, "v.toml");
-    ok(&format!(
+    let toml = path_in(&folder, "v.toml");
+    stdout_of(&format!(
         "catalog export {file} {id} --idea {place} -o {toml}"
     ));
     let free = free_state(&toml);
@@ -265,12 +268,12 @@ fn unloading_joints_are_on_the_menu() {
 #[test]
 fn the_specification_of_mirror_images_is_built() {
     let folder = tempdir().unwrap();
-    let db = at(&folder, "mirror.db");
+    let db = path_in(&folder, "mirror.db");
     let spec = concat!(
         env!("CARGO_MANIFEST_DIR"),
         "/catalogs/specifications/mirror.toml"
     );
-    ok(&["catalog", "build", "--spec", spec, "-o", &db, "--quiet"]);
+    stdout_of(&["catalog", "build", "--spec", spec, "-o", &db, "--quiet"]);
     let counts = "SELECT count(*), sum(no_layout IS NULL), max(links) FROM structures";
-    assert_eq!(lines(&db, counts), ["60,7,8"]);
+    assert_eq!(query_lines(&db, counts), ["60,7,8"]);
 }

@@ -1,7 +1,7 @@
 //! Catalogues that are damaged: bytes changed, pages lost. SQLite's own check says which of them no command may take.
 
-use super::carried_on::scattered;
-use super::command::at;
+use super::carried_on::scattered_numbers;
+use super::command::path_in;
 use crate::common::*;
 use rusqlite::Connection;
 
@@ -49,17 +49,17 @@ fn is_well(file: &str) -> bool {
 #[test]
 fn what_fails_the_quick_check_is_refused_by_every_command() {
     let folder = tempdir().unwrap();
-    let good = at(&folder, "good.db");
+    let good = path_in(&folder, "good.db");
     let build = [
         "catalog", "build", "--links", "4", "--ideas", "2", "--quiet", "-o",
     ];
-    ok(&[&build[..], &[&good]].concat());
-    ok(&format!("catalog search four-bar --ideas 2 -q -o {good}"));
+    stdout_of(&[&build[..], &[&good]].concat());
+    stdout_of(&format!("catalog search four-bar --ideas 2 -q -o {good}"));
     let bytes = fs::read(&good).unwrap();
     let ids = "SELECT structure FROM layouts LIMIT 1";
-    let id = ok(&["catalog", "query", &good, ids, "--format", "csv"]);
+    let id = stdout_of(&["catalog", "query", &good, ids, "--format", "csv"]);
     let id = id.lines().nth(1).unwrap();
-    let [file, whole, page] = ["bad.db", "whole.db", "page.html"].map(|n| at(&folder, n));
+    let [file, whole, page] = ["bad.db", "whole.db", "page.html"].map(|n| path_in(&folder, n));
     let commands: [&[&str]; 9] = [
         &[&build[..], &[&file]].concat(),
         &[
@@ -74,8 +74,8 @@ fn what_fails_the_quick_check_is_refused_by_every_command() {
         &["catalog", "page", &file, "-o", &page],
     ];
     let cases = std::env::var("OZOLS_FUZZ").map_or(15, |n| n.parse::<usize>().unwrap());
-    let seed = fresh();
-    let mut random = scattered(seed);
+    let seed = fresh_seed();
+    let mut random = scattered_numbers(seed);
     let (mut bad, mut with_word) = (0, 0);
     for case in 0..cases {
         let changed = damaged(&bytes, &mut random);
@@ -88,7 +88,7 @@ fn what_fails_the_quick_check_is_refused_by_every_command() {
                 let _ = fs::remove_file(made);
             }
             let o = run(words);
-            let said = text(&o.stderr);
+            let said = utf8_text(&o.stderr);
             let code = o.status.code();
             let what = format!("seed {seed}, case {case}, {words:?}: {code:?} {said}");
             if is_well {

@@ -1,10 +1,10 @@
 //! Determinate variants of chains at generic places, as published, and by the twin that splits freedoms into trees.
 
-use super::{each, form, generic, layout, out_of_plane};
+use super::{each_structure, form_of, generic_mechanism, layout, out_of_plane};
 use crate::common::*;
 use ozols::Request;
 use ozols::chains::chain::Chain;
-use ozols::chains::enumerate::chains;
+use ozols::chains::enumerate::list_chains;
 use ozols::chains::roles::Subject;
 use ozols::chains::{Input, Symmetry, graph6};
 use ozols::score::request::{Check, List};
@@ -20,19 +20,19 @@ fn with_the_input_unchanged(links: usize) -> Vec<(Chain, (usize, usize), BigUint
         check: Check::None,
         ..Request::default()
     };
-    let turning = [form(Input::Turn, Symmetry::Generic, false)];
-    for chain in chains(links, 1).unwrap() {
-        let (chain, automorphisms) = chain.canonical();
+    let turning = [form_of(Input::Turn, Symmetry::Generic, false)];
+    for chain in list_chains(links, 1).unwrap() {
+        let (chain, automorphisms) = chain.canonical_form();
         let subject = Subject::new(&chain, &automorphisms);
         let first = hinged_structures(&subject, 2, &turning).swap_remove(0);
         let l = layout(&first, &Limits::default(), 1).unwrap();
-        for input in subject.inputs() {
+        for input in subject.iter_inputs() {
             let [frame, driver] = input.links;
             let jaws = (0..links).filter(|l| ![frame, driver].contains(l)).take(2);
             let mut s = first.clone();
             (s.structure.roles.frame, s.structure.roles.input) = (frame, input.links);
             s.structure.roles.jaws = jaws.collect();
-            let mut outcome = ozols::search(&generic(&s, &l, false), &request).unwrap();
+            let mut outcome = ozols::search(&generic_mechanism(&s, &l, false), &request).unwrap();
             let count = outcome.determinate.by_mobility.remove(&1).unwrap();
             out.push((chain.clone(), (frame, driver), count));
         }
@@ -78,16 +78,17 @@ fn determinate_variants_of_known_chains_are_as_published() {
         (8, Some("G?`F`w"), 42_470_582, 425_244),
         (8, Some("GCOf?{"), 39_461_211, 307_962),
     ];
-    let turning = [form(Input::Turn, Symmetry::Generic, false)];
+    let turning = [form_of(Input::Turn, Symmetry::Generic, false)];
     let mut found = Vec::new();
     for links in [6, 8] {
         let mut seen = Vec::new();
-        each(links, &turning, |_, s| {
-            let code = graph6::write(&s.structure.chain);
+        each_structure(links, &turning, |_, s| {
+            let code = graph6::write_graph(&s.structure.chain);
             let asked = |k: &(usize, Option<&str>, u64, u64)| {
                 k.0 == links
-                    && k.1
-                        .is_none_or(|c| graph6::code(&graph6::read(c).unwrap()) == code)
+                    && k.1.is_none_or(|c| {
+                        graph6::canonical_code(&graph6::read_graph(c).unwrap()) == code
+                    })
             };
             if seen.contains(&code) || !known.iter().any(asked) {
                 return;
@@ -96,7 +97,8 @@ fn determinate_variants_of_known_chains_are_as_published() {
             // Whole millimetres may be special by chance, and then have fewer variants: the more general of two layouts counts.
             let counted = |seed| {
                 let l = layout(&s, &Limits::default(), seed).unwrap();
-                let outcome = ozols::search(&generic(&s, &l, true), &Request::default()).unwrap();
+                let outcome =
+                    ozols::search(&generic_mechanism(&s, &l, true), &Request::default()).unwrap();
                 let one = outcome.determinate.by_mobility[&1].clone();
                 (outcome.determinate.total.clone(), one)
             };

@@ -1,10 +1,10 @@
 //! `ozols catalog find`: the structure of a drawn mechanism, what it is known as, and where a catalogue has it.
 
-use super::command::{at, lines};
+use super::command::{path_in, query_lines};
 use super::rows::all_of_six;
 use crate::common::*;
-use ozols::chains::classics::classics;
-use ozols::synthesis::recognize::{NoStructure, recognize};
+use ozols::chains::classics::known_classics;
+use ozols::synthesis::recognize::{NoStructure, recognize_structure};
 
 /// Mechanisms of known schemes, as far as they are built in.
 #[test]
@@ -15,12 +15,12 @@ fn built_in_grippers_are_what_they_are_known_as() {
         ("lever-slot-gripper", "wedge-levers"),
         ("geared-gripper", "geared-parallelograms"),
     ] {
-        let data = json(&["catalog", "find", name, "--json"]);
+        let data = run_json(&["catalog", "find", name, "--json"]);
         let known = data["classics"].as_array().unwrap();
         assert!(known.iter().any(|c| c["id"] == id), "{name}: {known:?}");
     }
     // None of these, so that the exit code is 1.
-    let (code, told, _) = ran("catalog find gripper-10 --json");
+    let (code, told, _) = run_full("catalog find gripper-10 --json");
     assert_eq!(code, Some(1));
     let data: Value = serde_json::from_str(&told).unwrap();
     assert_eq!(data["links"], 10);
@@ -32,7 +32,7 @@ fn built_in_grippers_are_what_they_are_known_as() {
 /// A redesign in space moves as before in its plane, so that its structure is the same.
 #[test]
 fn a_redesign_has_the_structure_it_had() {
-    let name = |m: &str| recognize(&built_in(m)).unwrap().structure.name();
+    let name = |m: &str| recognize_structure(&built_in(m)).unwrap().structure.name();
     assert_eq!(name("gripper-10-redesign"), name("gripper-10"));
     assert_eq!(name("gripper-10-planar"), name("gripper-10"));
 }
@@ -40,19 +40,24 @@ fn a_redesign_has_the_structure_it_had() {
 /// Names do not depend on the order in which links are numbered, and tell structures apart.
 #[test]
 fn every_scheme_has_a_name_of_its_own() {
-    let all = classics();
+    let all = known_classics();
     assert_eq!(all.len(), 34);
     for (i, a) in all.iter().enumerate() {
         let links: Vec<usize> = (0..a.structure.chain.links()).rev().collect();
-        let turned = a.structure.part(&links);
+        let turned = a.structure.part_of(&links);
         assert_ne!(turned, a.structure, "{}", a.id);
         assert_eq!(turned.name(), a.structure.name(), "{}", a.id);
-        assert_eq!(turned.key(), a.structure.key(), "{}", a.id);
+        assert_eq!(
+            turned.canonical_key(),
+            a.structure.canonical_key(),
+            "{}",
+            a.id
+        );
         for b in &all[..i] {
             // Tongs with their pins apart are a piston with two rods, and flat faces stand as slots.
             let tongs = a.id == "scissors-one-pin" && b.id == "piston-links-angular"
                 || [a, b].iter().any(|c| c.made_as.threaded)
-                    && a.structure.key() == b.structure.key()
+                    && a.structure.canonical_key() == b.structure.canonical_key()
                 || a.made_as.flat && b.id == "wedge-hook"
                 || b.made_as.flat && a.id == "wedge-hook";
             assert_eq!(
@@ -62,7 +67,10 @@ fn every_scheme_has_a_name_of_its_own() {
                 a.id,
                 b.id
             );
-            assert_eq!(a.structure.key() == b.structure.key(), tongs);
+            assert_eq!(
+                a.structure.canonical_key() == b.structure.canonical_key(),
+                tongs
+            );
         }
     }
 }
@@ -74,7 +82,7 @@ fn slot_gripper() -> String {
         b | piston lower | slotted | 20, -5, 0 | 0, 0, 1 | reference = [1, -2, 0]
         c | frame upper | spherical | 30, 15, 0 | 0, 0, 1
         d | frame lower | revolute | 30, -15, 0 | 0, 0, 1";
-    file_of(
+    write_mechanism(
         "name = \"slotted\"\nlength_unit = \"mm\"",
         "frame piston upper* lower*",
         joints,
@@ -83,8 +91,8 @@ fn slot_gripper() -> String {
 
 #[test]
 fn a_pin_in_a_slot_is_a_slot_and_a_ball_a_hinge() {
-    let (_folder, file) = written("slot.toml", slot_gripper());
-    let found = json(&["catalog", "find", file, "--json"]);
+    let (_folder, file) = write_temporary("slot.toml", slot_gripper());
+    let found = run_json(&["catalog", "find", file, "--json"]);
     let counts = ["links", "hinges", "slides", "slots"].map(|key| &found[key]);
     assert_eq!(counts, [4, 2, 1, 2]);
     assert!(
@@ -98,19 +106,19 @@ fn a_pin_in_a_slot_is_a_slot_and_a_ball_a_hinge() {
 
 #[test]
 fn what_is_no_structure_says_why() {
-    for [from, to, says] in cases::<3>(
+    for [from, to, says] in read_cases::<3>(
         r#"
         drive = true |  | 0 joints are driven
         role = "output" |  | 1 links are outputs
         type = "slotted" | type = "planar" | joint "a" leaves 1 turns and 2 slides
         "#,
     ) {
-        let (_folder, file) = written("none.toml", changed(&slot_gripper(), from, to));
-        fails(&["catalog", "find", file], says);
-        fails(&["catalog", "find", file], "none.toml");
+        let (_folder, file) = write_temporary("none.toml", replace_once(&slot_gripper(), from, to));
+        assert_fails(&["catalog", "find", file], says);
+        assert_fails(&["catalog", "find", file], "none.toml");
     }
     // Four hinges with no plane in common.
-    let bennett = recognize(&built_in("bennett"));
+    let bennett = recognize_structure(&built_in("bennett"));
     assert!(matches!(bennett, Err(NoStructure::Links(_))), "{bennett:?}");
 }
 
@@ -120,17 +128,17 @@ fn a_catalogue_has_what_it_laid_out() {
     let (folder, db) = (tempdir().unwrap(), all_of_six());
     let laid =
         "SELECT structure FROM layouts JOIN structures ON id = structure WHERE symmetry = 'mirror'";
-    let ids = lines(db, laid);
+    let ids = query_lines(db, laid);
     assert!(!ids.is_empty());
     for id in &ids {
-        let file = at(&folder, &format!("{id}.toml"));
-        ok(&["catalog", "export", db, id, "-o", &file]);
-        let data = json(&["catalog", "find", &file, "--in", db, "--json"]);
+        let file = path_in(&folder, &format!("{id}.toml"));
+        stdout_of(&["catalog", "export", db, id, "-o", &file]);
+        let data = run_json(&["catalog", "find", &file, "--in", db, "--json"]);
         assert!(
             data["catalogue"].list().iter().any(|e| e["id"] == **id),
             "{id}: {data}"
         );
     }
-    let (_, told, _) = ran(&["catalog", "find", "geared-gripper", "--in", db]);
+    let (_, told, _) = run_full(&["catalog", "find", "geared-gripper", "--in", db]);
     has(&told, "does not have it");
 }

@@ -1,9 +1,9 @@
 //! Layouts that are called generic are in general position: none has fewer determinate variants than its chain and input have.
 
-use super::{Drawn, each, form, layout, out_of_plane, plain};
+use super::{Drawn, each_structure, form_of, layout, out_of_plane, plain_spec};
 use crate::common::*;
 use ozols::Request;
-use ozols::catalog::row::row;
+use ozols::catalog::row::structure_row;
 use ozols::catalog::spec::Spec;
 use ozols::chains::{Input, Symmetry};
 use ozols::score::request::List;
@@ -11,19 +11,22 @@ use ozols::score::request::List;
 /// Every so many generic structures of eight links, laid out from a seed: the row counts what the twin counts at places of its own, and
 /// what a search of the row's own file counts, which knows nothing of other layouts. Gives how many are off the whole millimetres.
 fn are_in_general_position(every: usize, seed: u64) -> usize {
-    let forms = [Input::Slide, Input::Turn].map(|input| form(input, Symmetry::Generic, false));
-    let spec = Spec { seed, ..plain(1) };
+    let forms = [Input::Slide, Input::Turn].map(|input| form_of(input, Symmetry::Generic, false));
+    let spec = Spec {
+        seed,
+        ..plain_spec(1)
+    };
     let (mut n, mut seen, mut moved, mut twins) = (0, 0, 0, BTreeMap::new());
-    each(8, &forms, |_, s| {
+    each_structure(8, &forms, |_, s| {
         n += 1;
         if n % every != 0 {
             return;
         }
-        let Ok(laid) = row(&s, &spec).unwrap().laid else {
+        let Ok(laid) = structure_row(&s, &spec).unwrap().laid else {
             return;
         };
         seen += 1;
-        let said = (laid.determinate(None), laid.determinate(Some(1)));
+        let said = (laid.variant_count(None), laid.variant_count(Some(1)));
         let told = format!("{}, seed {seed}", s.name());
         let own = ozols::from_toml(&laid.file).unwrap();
         let request = Request {
@@ -39,7 +42,7 @@ fn are_in_general_position(every: usize, seed: u64) -> usize {
             .or_insert_with(|| BigUint::from(out_of_plane::determinate(&s.structure.chain, input)));
         assert_eq!(said.1, *twin, "{told}");
         // Where the search for places put them, but for less than half a millimetre.
-        let found = layout(&s, &spec.limits(), seed).unwrap();
+        let found = layout(&s, &spec.layout_limits(), seed).unwrap();
         let own = Drawn::new(&s, laid.layout.clone());
         for (here, there) in own.at.iter().zip(&found.at) {
             assert_eq!((here.whole, there.fine), (there.whole, [0; 2]), "{told}");
@@ -55,7 +58,7 @@ fn are_in_general_position(every: usize, seed: u64) -> usize {
 #[test]
 fn generic_layouts_have_all_variants_of_their_chain_and_input() {
     assert!(are_in_general_position(250, 1) > 0);
-    are_in_general_position(500, fresh());
+    are_in_general_position(500, fresh_seed());
 }
 
 /// `cargo test --release --test integration all_generic_layouts -- --ignored`

@@ -1,6 +1,6 @@
 //! A stroke that is given up before it is gone to its end would have cost too much, and no other is given up.
 
-use super::{each, form, layout};
+use super::{each_structure, form_of, layout};
 use ozols::chains::{Input, Symmetry};
 use ozols::synthesis::place::Point;
 use ozols::synthesis::places::Places;
@@ -10,9 +10,9 @@ use ozols::synthesis::task::Limits;
 
 #[test]
 fn a_stroke_is_given_up_only_where_it_costs_too_much() {
-    let forms = [Input::Slide, Input::Turn].map(|i| form(i, Symmetry::Generic, false));
+    let forms = [Input::Slide, Input::Turn].map(|i| form_of(i, Symmetry::Generic, false));
     let (mut kept, mut given_up) = (0, 0);
-    each(6, &forms, |_, structure| {
+    each_structure(6, &forms, |_, structure| {
         let limits = Limits::default();
         let Ok(layout) = layout(&structure, &limits, 1) else {
             return;
@@ -29,13 +29,13 @@ fn a_stroke_is_given_up_only_where_it_costs_too_much() {
                 [0, 1].map(|k| p[k] + by * (off(i, k) - 5.0))
             });
             let at = Places::of_hinges(moved.collect());
-            let Some(whole) = judge.coarse(&at, f64::INFINITY) else {
-                assert_eq!(judge.coarse(&at, 1e9), None);
+            let Some(whole) = judge.coarse_figures(&at, f64::INFINITY) else {
+                assert_eq!(judge.coarse_figures(&at, 1e9), None);
                 continue;
             };
             let cost = limits.stroke_cost(&whole);
             for share in [0.0, 0.3, 0.9, 0.999, 1.0, 1.001, 3.0] {
-                let found = judge.coarse(&at, share * cost);
+                let found = judge.coarse_figures(&at, share * cost);
                 if cost > share * cost {
                     assert_eq!(found, None, "{} of {cost}", share * cost);
                     given_up += 1;

@@ -3,8 +3,8 @@
 //! `killed.c` is put in front of the functions that write, and kills the process at its Nth write. `OZOLS_KILLS=10000` takes so
 //! many places, all that there are and further ones in greater catalogues; a few of each command by default.
 
-use super::carried_on::scattered;
-use super::command::{at, small};
+use super::carried_on::scattered_numbers;
+use super::command::{path_in, small_build};
 use crate::common::*;
 use ozols::catalog::store::Store;
 use std::process::{Command, Stdio};
@@ -19,7 +19,7 @@ fn tiny(file: &str, more: &str) -> String {
 fn quiet(line: &str) -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_ozols"));
     command
-        .args(words(line))
+        .args(split_words(line))
         .stdout(Stdio::null())
         .stderr(Stdio::null());
     command
@@ -66,12 +66,12 @@ fn places(by_default: usize) -> usize {
 fn wherever_it_is_killed(some: usize, command: &dyn Fn(&str) -> String) {
     let folder = tempdir().unwrap();
     let killer = killer(&folder);
-    let plain = at(&folder, "plain.db");
-    ok(&command(&plain));
+    let plain = path_in(&folder, "plain.db");
+    stdout_of(&command(&plain));
     let wanted = held(&plain);
     // The places among the first writes, where it is made, are all taken.
     let last = {
-        let file = at(&folder, "counted.db");
+        let file = path_in(&folder, "counted.db");
         let (mut low, mut high) = (1_usize, 1 << 12);
         while low < high {
             let middle = (low + high).div_ceil(2);
@@ -86,10 +86,10 @@ fn wherever_it_is_killed(some: usize, command: &dyn Fn(&str) -> String) {
     };
     let places = places(some);
     let first = 1..=last.min(places / 2);
-    let more = scattered(3).map(|x| 1 + usize::try_from(x).unwrap() % last);
+    let more = scattered_numbers(3).map(|x| 1 + usize::try_from(x).unwrap() % last);
     let mut taken = 0;
     for write in first.chain(more).take(places) {
-        let file = at(&folder, "killed.db");
+        let file = path_in(&folder, "killed.db");
         remove(&file);
         // Rows come as threads make them, so that one run writes a little less often than another.
         let killed = killed_at(&killer, &command(&file), write);
@@ -100,11 +100,11 @@ fn wherever_it_is_killed(some: usize, command: &dyn Fn(&str) -> String) {
         }
         // Whoever looks in between is told what is there, or that nothing is.
         if write % 5 == 0 && Path::new(&file).exists() {
-            let (code, _, said) = ran(&["catalog", "query", &file]);
+            let (code, _, said) = run_full(&["catalog", "query", &file]);
             let answered = matches!(code, Some(0 | 1));
             assert!(answered || said.contains("is empty"), "{write}: {said}");
         }
-        ok(&command(&file));
+        stdout_of(&command(&file));
         assert!(held(&file) == wanted, "killed at write {write} of {last}");
         taken += usize::from(killed);
     }
@@ -114,7 +114,7 @@ fn wherever_it_is_killed(some: usize, command: &dyn Fn(&str) -> String) {
 
 /// All that a catalogue holds, and the parts that are whole.
 fn held(file: &str) -> String {
-    let store = Store::open(Path::new(file)).unwrap();
+    let store = Store::open_readonly(Path::new(file)).unwrap();
     let tables = [
         "parts ORDER BY part",
         "structures ORDER BY id",
@@ -123,7 +123,11 @@ fn held(file: &str) -> String {
         "counts ORDER BY structure, mobility, changes",
         "ideas ORDER BY structure, place",
     ];
-    let all = |t: &str| store.query(&format!("SELECT * FROM {t}"), None).unwrap();
+    let all = |t: &str| {
+        store
+            .query_rows(&format!("SELECT * FROM {t}"), None)
+            .unwrap()
+    };
     tables.map(|t| format!("{:?}", all(t))).join("\n")
 }
 
@@ -152,8 +156,8 @@ fn a_search_carries_on_wherever_it_is_killed() {
 fn a_merge_carries_on_wherever_it_is_killed() {
     let folder = tempdir().unwrap();
     let parts = [1, 2, 3].map(|part| {
-        let file = at(&folder, &format!("{part}.db"));
-        ok(&tiny(&file, &format!("--shard {part}/3")));
+        let file = path_in(&folder, &format!("{part}.db"));
+        stdout_of(&tiny(&file, &format!("--shard {part}/3")));
         file
     });
     let parts = parts.join(" ");
@@ -165,7 +169,7 @@ fn at_once(all: &[String]) -> Vec<Output> {
     let start = |line: &String| {
         let mut command = Command::new(env!("CARGO_BIN_EXE_ozols"));
         command
-            .args(words(line))
+            .args(split_words(line))
             .stdout(Stdio::piped())
             .stderr(Stdio::piped());
         command.spawn().unwrap()
@@ -179,17 +183,22 @@ fn at_once(all: &[String]) -> Vec<Output> {
 #[test]
 fn one_to_eight_may_make_a_catalogue_at_once() {
     let folder = tempdir().unwrap();
-    let plain = at(&folder, "plain.db");
-    ok(&tiny(&plain, ""));
+    let plain = path_in(&folder, "plain.db");
+    stdout_of(&tiny(&plain, ""));
     let wanted = held(&plain);
     let trials = match std::env::var_os("OZOLS_KILLS") {
         Some(_) => 20,
         None => 1,
     };
     for (n, trial) in (1..=8).flat_map(|n| (0..trials).map(move |t| (n, t))) {
-        let file = at(&folder, &format!("{n}-{trial}.db"));
+        let file = path_in(&folder, &format!("{n}-{trial}.db"));
         for o in at_once(&vec![tiny(&file, ""); n]) {
-            assert_eq!(o.status.code(), Some(0), "{n} at once: {}", text(&o.stderr));
+            assert_eq!(
+                o.status.code(),
+                Some(0),
+                "{n} at once: {}",
+                utf8_text(&o.stderr)
+            );
         }
         assert!(held(&file) == wanted, "{n} at once");
     }
@@ -199,8 +208,8 @@ fn one_to_eight_may_make_a_catalogue_at_once() {
 #[test]
 fn different_commands_may_make_a_catalogue_at_once() {
     let folder = tempdir().unwrap();
-    let [part, file, plain] = ["part.db", "all.db", "plain.db"].map(|n| at(&folder, n));
-    ok(&tiny(&part, "--shard 3/3"));
+    let [part, file, plain] = ["part.db", "all.db", "plain.db"].map(|n| path_in(&folder, n));
+    stdout_of(&tiny(&part, "--shard 3/3"));
     let search = |file: &str| format!("catalog search four-bar --ideas 1 --quiet -o {file}");
     let outputs = at_once(&[
         tiny(&file, "--shard 1/3"),
@@ -214,11 +223,11 @@ fn different_commands_may_make_a_catalogue_at_once() {
         assert!(
             code == Some(0) || n == 3 && code == Some(1),
             "{}",
-            text(&o.stderr)
+            utf8_text(&o.stderr)
         );
     }
-    ok(&tiny(&plain, ""));
-    ok(&search(&plain));
+    stdout_of(&tiny(&plain, ""));
+    stdout_of(&search(&plain));
     let rows = |file: &str| held(file).split_once("\n").unwrap().1.to_owned();
     assert!(rows(&file) == rows(&plain));
 }
@@ -228,10 +237,10 @@ fn different_commands_may_make_a_catalogue_at_once() {
 #[test]
 fn some_of_several_may_be_killed() {
     let folder = tempdir().unwrap();
-    let [plain, file] = ["plain.db", "some.db"].map(|n| at(&folder, n));
-    ok(&small(&plain, ""));
-    for wait in scattered(11).take(6) {
-        let start = |_| quiet(&small(&file, "--threads 1")).spawn().unwrap();
+    let [plain, file] = ["plain.db", "some.db"].map(|n| path_in(&folder, n));
+    stdout_of(&small_build(&plain, ""));
+    for wait in scattered_numbers(11).take(6) {
+        let start = |_| quiet(&small_build(&file, "--threads 1")).spawn().unwrap();
         let mut all = (0..3).map(start).collect_vec();
         std::thread::sleep(std::time::Duration::from_millis(wait % 250));
         for child in &mut all {
@@ -239,6 +248,6 @@ fn some_of_several_may_be_killed() {
             child.wait().unwrap();
         }
     }
-    ok(&small(&file, ""));
+    stdout_of(&small_build(&file, ""));
     assert!(held(&file) == held(&plain));
 }

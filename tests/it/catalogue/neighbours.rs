@@ -2,10 +2,10 @@
 
 use super::rows::all_of_six;
 use crate::common::*;
-use ozols::catalog::neighbours::{FIGURES, neighbours};
+use ozols::catalog::neighbours::{FIGURES, find_neighbours};
 use ozols::catalog::store::Store;
 use ozols::chains::structure::PairStructure;
-use ozols::synthesis::recognize::recognize;
+use ozols::synthesis::recognize::recognize_structure;
 
 /// Whether a small structure is a large one without two links in a row: all ways to place the small one's links on the large one's.
 fn is_left(small: &PairStructure, large: &PairStructure) -> bool {
@@ -14,7 +14,7 @@ fn is_left(small: &PairStructure, large: &PairStructure) -> bool {
     placed.into_iter().any(|at| {
         let out = (0..links).filter(|l| !at.contains(l)).collect_vec();
         let joined = |l: usize| {
-            let others = (0..links).filter(move |&o| large.chain.between(l, o).is_some());
+            let others = (0..links).filter(move |&o| large.chain.pair_between(l, o).is_some());
             others.collect_vec()
         };
         let [u, v] = [out[0], out[1]];
@@ -27,8 +27,9 @@ fn is_left(small: &PairStructure, large: &PairStructure) -> bool {
             return false;
         };
         let pairs = (0..links - 2).tuple_combinations();
-        let same =
-            |(a, b): (usize, usize)| small.chain.between(a, b) == large.chain.between(at[a], at[b]);
+        let same = |(a, b): (usize, usize)| {
+            small.chain.pair_between(a, b) == large.chain.pair_between(at[a], at[b])
+        };
         let roles = &small.roles;
         let jaws = [0, 1].map(|n| at[roles.jaws[n]]);
         let stands_for =
@@ -62,21 +63,21 @@ fn is_left(small: &PairStructure, large: &PairStructure) -> bool {
 #[test]
 fn two_links_less_are_those_that_taking_two_out_leaves() {
     let db = all_of_six();
-    let store = Store::open(Path::new(db)).unwrap();
+    let store = Store::open_readonly(Path::new(db)).unwrap();
     let reached = "SELECT id FROM grippers WHERE reached = 1 ORDER BY links";
-    let rows = store.query(reached, None).unwrap().1;
+    let rows = store.query_rows(reached, None).unwrap().1;
     let all: BTreeMap<String, PairStructure> = rows
         .iter()
         .map(|r| {
             let id = r[0].as_str().unwrap().to_owned();
-            let file = store.mechanism(&id).unwrap().unwrap();
+            let file = store.mechanism_text(&id).unwrap().unwrap();
             let m = mechanism_from_str("laid-out.toml", &file).unwrap();
-            (id, recognize(&m).unwrap().structure)
+            (id, recognize_structure(&m).unwrap().structure)
         })
         .collect();
     let mut related = 0;
     for structure in all.values() {
-        let found = neighbours(&store, structure).unwrap();
+        let found = find_neighbours(&store, structure).unwrap();
         for (id, other) in &all {
             let [less, more] = [other, structure].map(|s| s.chain.links());
             let expected = match less.abs_diff(more) {
@@ -100,10 +101,16 @@ fn two_links_less_are_those_that_taking_two_out_leaves() {
 /// A piston that drives two jaws by rods is a slider-crank whose piston and crank grip, once a rod and its jaw are out.
 #[test]
 fn half_of_a_two_jaw_gripper_is_a_slider_crank() {
-    let whole = recognize(&built_in("gripper-slider-two-fingers")).unwrap();
+    let whole = recognize_structure(&built_in("gripper-slider-two-fingers")).unwrap();
     let left = whole.structure.without_two_links();
     assert_eq!(left.len(), 2);
-    assert_eq!(left.iter().map(PairStructure::key).dedup().count(), 1);
+    assert_eq!(
+        left.iter()
+            .map(PairStructure::canonical_key)
+            .dedup()
+            .count(),
+        1
+    );
     let half = &left[0];
     assert_eq!(half.chain.links(), 4);
     assert!(half.roles.has_driven_jaw() && half.roles.is_driven_from_frame());
@@ -114,12 +121,12 @@ fn half_of_a_two_jaw_gripper_is_a_slider_crank() {
 fn what_a_neighbour_does_better_stands_in_the_catalogue() {
     let db = all_of_six();
     let asked = ["catalog", "find", "gripper-slider-two-fingers", "--in", db];
-    let data = json(&[&asked[..], &["--json"]].concat());
+    let data = run_json(&[&asked[..], &["--json"]].concat());
     let figures = |id: &str, column: &str| {
         let sql = format!(
             "SELECT least_force, force_ratio, turn, pin_force, width * height AS area, price FROM grippers WHERE id = '{id}' AND reached = 1"
         );
-        json(&["catalog", "query", db, &sql, "--format", "json"])[0][column].as_f64()
+        run_json(&["catalog", "query", db, &sql, "--format", "json"])[0][column].as_f64()
     };
     let own = data["catalogue"].as_array().unwrap();
     let own = own.iter().map(|e| e["id"].as_str().unwrap()).collect_vec();
@@ -155,6 +162,6 @@ fn what_a_neighbour_does_better_stands_in_the_catalogue() {
         }
     }
     assert!(better > 0, "{near:?}");
-    let said = ok(&asked);
+    let said = stdout_of(&asked);
     assert!(said.contains("Next to it in the catalogue"), "{said}");
 }

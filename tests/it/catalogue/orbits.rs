@@ -1,10 +1,10 @@
 //! Counts up to the symmetry of a layout, against a list of all variants whose images are found from the places of the joints.
 
-use super::command::{at, lines};
+use super::command::{path_in, query_lines};
 use super::three_jaws::third;
-use super::{each_of, form, plain};
+use super::{each_structure_of, form_of, plain_spec};
 use crate::common::*;
-use ozols::catalog::row::row;
+use ozols::catalog::row::structure_row;
 use ozols::catalog::spec::Spec;
 use ozols::chains::{Input, Symmetry};
 use ozols::search::answer::orbit_counts::orbit_counts;
@@ -14,7 +14,7 @@ use ozols::search::question::conditions::Symmetry as Asked;
 /// For each joint the one that stands where the symmetry carries it.
 fn images(m: &Mechanism, carry: impl Fn([f64; 2]) -> [f64; 2]) -> Vec<usize> {
     let place = |k: usize| {
-        let [x, y, _] = real(&m.joints.get(k).unwrap().frame.point);
+        let [x, y, _] = to_vector(&m.joints.get(k).unwrap().frame.point);
         [x, y]
     };
     let near = |a: [f64; 2], b: [f64; 2]| (a[0] - b[0]).hypot(a[1] - b[1]) < 1e-9;
@@ -37,8 +37,8 @@ fn one_per_orbit(m: &Mechanism) -> BigUint {
         ..Conditions::default()
     };
     let search = Search::new(exact_field(m, 0).unwrap(), m, conditions).unwrap();
-    let diagrams = search.build(&|| false, &mut |_| {});
-    let all = SearchCounts::of(&search, &diagrams);
+    let diagrams = search.build_diagrams(&|| false, &mut |_| {});
+    let all = SearchCounts::of_diagrams(&search, &diagrams);
     let (counted, _) = orbit_counts(&search, all, &|| false).unwrap();
     counted.admissible.total
 }
@@ -61,11 +61,11 @@ fn orbits_are_those_of_a_list_of_all_variants() {
         let spec = Spec {
             options,
             jaws,
-            ..plain(0)
+            ..plain_spec(0)
         };
-        let form = form(input, symmetry, false);
-        each_of(links, jaws, &[form], |_, s| {
-            let Ok(laid) = row(&s, &spec).unwrap().laid else {
+        let form = form_of(input, symmetry, false);
+        each_structure_of(links, jaws, &[form], |_, s| {
+            let Ok(laid) = structure_row(&s, &spec).unwrap().laid else {
                 return;
             };
             seen += 1;
@@ -82,10 +82,10 @@ fn orbits_are_those_of_a_list_of_all_variants() {
                 ..Conditions::default()
             };
             let search = Search::new(exact_field(&m, 0).unwrap(), &m, one).unwrap();
-            let diagrams = search.build(&|| false, &mut |_| {});
+            let diagrams = search.build_diagrams(&|| false, &mut |_| {});
             // The option of each joint, and how many are changed.
             let list: BTreeSet<Vec<usize>> = search
-                .cheapest(&diagrams, usize::MAX / 4)
+                .cheapest_variants(&diagrams, usize::MAX / 4)
                 .map(|v| {
                     let mut options = vec![0; m.joints.len()];
                     for (variable, &c) in search.space.variables.iter().zip(&v.choices) {
@@ -114,7 +114,7 @@ fn orbits_are_those_of_a_list_of_all_variants() {
             assert!(!list.is_empty(), "{}", s.name());
             let said = laid.counts.iter().filter(|((w, _), _)| *w == 1);
             let said = said.map(|(key, n)| {
-                let (own, orbits) = laid.symmetric.split(key, n);
+                let (own, orbits) = laid.symmetric.split_orbits(key, n);
                 (key.1 as usize, [n.clone(), orbits, own])
             });
             let found = orbits
@@ -136,23 +136,23 @@ fn orbits_are_those_of_a_list_of_all_variants() {
 #[test]
 fn a_file_says_what_a_turn_carries_round() {
     let folder = tempdir().unwrap();
-    let (db, file) = (at(&folder, "g.db"), at(&folder, "m.toml"));
-    ok(&format!(
+    let (db, file) = (path_in(&folder, "g.db"), path_in(&folder, "m.toml"));
+    stdout_of(&format!(
         "catalog build --links 6 --symmetry half-turn --parallel without --ideas 1 --quiet -o {db}"
     ));
     let sql = "SELECT id, determinate_w1, orbits_w1 FROM structures JOIN layouts ON structure = id ORDER BY id LIMIT 1";
-    let line = &lines(&db, sql)[0];
+    let line = &query_lines(&db, sql)[0];
     let row = line.split(',').collect_vec();
-    ok(&["catalog", "export", &db, row[0], "-o", &file]);
+    stdout_of(&["catalog", "export", &db, row[0], "-o", &file]);
     let counts = |more: &str| {
-        json(&format!(
+        run_json(&format!(
             "search {file} --max-mobility 1 --allow-output-change --quiet --format json {more}"
         ))["admissible"]
             .clone()
     };
     assert_eq!([counts(""), counts("--one-per-orbit")], [row[1], row[2]]);
     has(
-        &ok(&["catalog", "show", &db, row[0]]),
+        &stdout_of(&["catalog", "show", &db, row[0]]),
         "up to half-turn images",
     );
     // A file that groups wrong joints is told so, and one that groups them wrongly.
@@ -171,16 +171,16 @@ fn a_file_says_what_a_turn_carries_round() {
             "keep one of them",
         ),
     ] {
-        let wrong = at(&folder, "wrong.toml");
+        let wrong = path_in(&folder, "wrong.toml");
         fs::write(&wrong, format!("{}{turn}{}", &text[..begin], &text[end..])).unwrap();
-        fails(&format!("search {wrong} --one-per-orbit"), says);
+        assert_fails(&format!("search {wrong} --one-per-orbit"), says);
     }
 }
 
 /// Necklaces of two and of three beads, turned until all are back in place: counted one by one, and from those that a turn keeps.
 #[test]
 fn orbits_are_those_of_necklaces() {
-    use ozols::search::answer::counts::orbits;
+    use ozols::search::answer::counts::count_orbits;
     for order in [2usize, 3] {
         for colours in 1..6usize {
             let all = colours.pow(u32::try_from(order).unwrap());
@@ -192,7 +192,7 @@ fn orbits_are_those_of_necklaces() {
             };
             let necklaces: BTreeSet<_> = (0..all).map(least).collect();
             let kept = (0..all).filter(|&n| beads(n).all(|b| Some(b) == beads(n).next()));
-            let found = orbits(&all.into(), &kept.count().into(), order);
+            let found = count_orbits(&all.into(), &kept.count().into(), order);
             assert_eq!(found, necklaces.len().into(), "{order} {colours}");
         }
     }

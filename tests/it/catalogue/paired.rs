@@ -11,8 +11,8 @@ mod strongest;
 pub(super) mod three_generic;
 pub(super) mod twin_figures;
 
-use super::carried_on::scattered;
-use super::command::{at, lines, rows};
+use super::carried_on::scattered_numbers;
+use super::command::{path_in, query_lines, query_rows};
 use super::pairs::classics::schemes;
 use super::pairs::menu;
 use ozols::chains::structure::PairStructure;
@@ -24,8 +24,8 @@ pub(super) type Built = OnceLock<(TempDir, String)>;
 pub(super) fn built(once: &'static Built, words: &[&str]) -> &'static str {
     let (_, file) = once.get_or_init(|| {
         let folder = tempdir().unwrap();
-        let file = at(&folder, "grippers.db");
-        ok(&[words, &[file.as_str()]].concat());
+        let file = path_in(&folder, "grippers.db");
+        stdout_of(&[words, &[file.as_str()]].concat());
         (folder, file)
     });
     file
@@ -34,14 +34,14 @@ pub(super) fn built(once: &'static Built, words: &[&str]) -> &'static str {
 /// The well-known schemes.
 fn known() -> &'static str {
     static FILE: Built = OnceLock::new();
-    built(&FILE, &words("catalog build --classics --quiet -o"))
+    built(&FILE, &split_words("catalog build --classics --quiet -o"))
 }
 
 /// Those that have three jaws, too.
 fn known_three() -> &'static str {
     static FILE: Built = OnceLock::new();
     let line = "catalog build --classics --jaws 3 --ideas 1 --quiet -o";
-    built(&FILE, &words(line))
+    built(&FILE, &split_words(line))
 }
 
 /// Every structure of up to five links, and of six with a left and a right pair that is no hinge.
@@ -49,7 +49,7 @@ fn some() -> &'static str {
     static FILE: Built = OnceLock::new();
     built(
         &FILE,
-        &words(
+        &split_words(
             "catalog build --pairs slide,gear,slot --at-most 2 --symmetry mirror,half-turn --links 4..6 --ideas=2 --quiet -o",
         ),
     )
@@ -59,7 +59,7 @@ fn some() -> &'static str {
 fn three() -> &'static str {
     static FILE: Built = OnceLock::new();
     let line = "catalog build --jaws 3 --pairs slide,gear,slot --symmetry threefold --input turn --links 5 --ideas 2 --quiet -o";
-    built(&FILE, &words(line))
+    built(&FILE, &split_words(line))
 }
 
 /// What a third of a turn carries to each other is searched as such, and its redesigns are as many by the plain command.
@@ -70,13 +70,13 @@ fn sides_of_three_jaws_are_images_of_each_other() {
 
 fn are_images(file: &str) {
     let folder = tempdir().unwrap();
-    for row in rows(
+    for row in query_rows(
         file,
         "SELECT id, determinate, orbits_w1 FROM structures JOIN layouts ON structure = id",
     ) {
-        let toml = at(&folder, "chuck.toml");
-        ok(&["catalog", "export", file, row["id"].word(), "-o", &toml]);
-        let found = json(&format!(
+        let toml = path_in(&folder, "chuck.toml");
+        stdout_of(&["catalog", "export", file, row["id"].word(), "-o", &toml]);
+        let found = run_json(&format!(
             "search {toml} --max-mobility 1 --quiet --format json"
         ));
         assert_eq!(
@@ -85,7 +85,7 @@ fn are_images(file: &str) {
             "{row}"
         );
         let m = ozols::open(&toml).unwrap();
-        assert_eq!(m.search.order(), 3);
+        assert_eq!(m.search.symmetry_order(), 3);
     }
 }
 
@@ -121,7 +121,7 @@ fn in_plane(reaction: &Value, flat: bool) -> f64 {
 fn efforts(toml: &str, to: f64, flat: bool) -> Vec<Pulled> {
     const STEPS: u32 = 60;
     // Where links lock before the end it gives what is reached, with exit code 1.
-    let (_, told, _) = ran(&format!(
+    let (_, told, _) = run_full(&format!(
         "statics {toml} --stroke 0:{to:?}:{STEPS} --format json"
     ));
     let told: Value = serde_json::from_str(&told).unwrap();
@@ -167,8 +167,8 @@ fn until(poses: &[Pulled], work: f64, metre: f64) -> Option<Vec<Pulled>> {
 /// 2,000. The drive that does as much by the forces of the file goes as far as the layout says.
 fn pulls_as_its_file_says(file: &str, row: &Value, folder: &TempDir) {
     let id = row["id"].as_str().unwrap();
-    let toml = at(folder, &format!("{id}.toml"));
-    ok(&["catalog", "export", file, id, "-o", &toml]);
+    let toml = path_in(folder, &format!("{id}.toml"));
+    stdout_of(&["catalog", "export", file, id, "-o", &toml]);
     let metre = if row["input"] == "turn" { 1000.0 } else { 1.0 };
     let (travel, closes) = (number(row, "travel"), number(row, "closes"));
     let (mut gone, mut all) = (0.0, Vec::new());
@@ -217,11 +217,11 @@ const LAID: &str = "SELECT id, links, input, symmetry, travel, closes, force_min
 #[test]
 fn strokes_are_those_of_the_files_statics() {
     let folder = tempdir().unwrap();
-    let well_known = rows(known(), LAID);
+    let well_known = query_rows(known(), LAID);
     assert_eq!(well_known.len(), 34);
-    let all = rows(some(), LAID);
+    let all = query_rows(some(), LAID);
     let of = |i: u64| usize::try_from(i % all.len() as u64).unwrap();
-    let drawn: BTreeSet<usize> = scattered(11).take(12).map(of).collect();
+    let drawn: BTreeSet<usize> = scattered_numbers(11).take(12).map(of).collect();
     for row in well_known.iter().chain(drawn.iter().map(|&i| &all[i])) {
         assert_eq!(
             (&row["finite"], &row["mobility"]),
@@ -237,7 +237,7 @@ fn strokes_are_those_of_the_files_statics() {
     for &i in &drawn {
         pulls_as_its_file_says(some(), &all[i], &folder);
     }
-    let three = rows(three(), LAID);
+    let three = query_rows(three(), LAID);
     assert_eq!(three.len(), 8);
     for row in &three {
         assert_eq!(row["finite"], "1, proven");
@@ -248,7 +248,7 @@ fn strokes_are_those_of_the_files_statics() {
 /// Every scheme that is a structure is there by its name, and does its task.
 #[test]
 fn well_known_schemes_stand_in_a_catalogue_by_name() {
-    let found = rows(
+    let found = query_rows(
         known(),
         "SELECT c.id, g.jaws, g.turn FROM classics c JOIN grippers g ON g.id = c.structure WHERE reached = 1 AND shortfall IS NULL",
     );
@@ -269,7 +269,7 @@ fn well_known_schemes_stand_in_a_catalogue_by_name() {
         let jaws = all[row["id"].as_str().unwrap()];
         assert_eq!(row["jaws"] == "parallel", jaws == "parallel", "{row}");
     }
-    let shown = |scheme| ok(&["catalog", "show", known(), &first_of(scheme)]);
+    let shown = |scheme| stdout_of(&["catalog", "show", known(), &first_of(scheme)]);
     has_all(
         &shown("wedge-hook"),
         &["Known as wedge-hook", "5 joints (3 slides, 2 slots)"],
@@ -283,7 +283,7 @@ fn first_of(scheme: &str) -> String {
 
 /// The structure of a catalogue that is a scheme.
 fn scheme_in(file: &str, scheme: &str) -> String {
-    lines(
+    query_lines(
         file,
         &format!("SELECT structure FROM classics WHERE id = '{scheme}'"),
     )
@@ -294,18 +294,21 @@ fn scheme_in(file: &str, scheme: &str) -> String {
 #[test]
 fn what_is_exported_is_found() {
     let folder = tempdir().unwrap();
-    for id in lines(known(), "SELECT DISTINCT structure FROM classics") {
-        let toml = at(&folder, "gripper.toml");
-        ok(&["catalog", "export", known(), &id, "-o", &toml]);
-        has(&ok(&["catalog", "find", &toml, "--in", known()]), &id);
+    for id in query_lines(known(), "SELECT DISTINCT structure FROM classics") {
+        let toml = path_in(&folder, "gripper.toml");
+        stdout_of(&["catalog", "export", known(), &id, "-o", &toml]);
+        has(
+            &stdout_of(&["catalog", "find", &toml, "--in", known()]),
+            &id,
+        );
     }
 }
 
 #[test]
 fn what_is_not_laid_out_is_refused() {
     let folder = tempdir().unwrap();
-    let file = at(&folder, "none.db");
-    for [words, says] in cases::<2>(
+    let file = path_in(&folder, "none.db");
+    for [words, says] in read_cases::<2>(
         "
         --pairs cam | \"cam\" is none of slide, gear, slot
         --pairs slide --links 6..9 | 8 links at most
@@ -323,7 +326,7 @@ fn what_is_not_laid_out_is_refused() {
         --jaws 3 --generic-pairs --symmetry threefold --pairs slide | add it (--symmetry generic), or leave generic_pairs (--generic-pairs) out
         ",
     ) {
-        fails(&format!("catalog build {words} -o {file}"), says);
+        assert_fails(&format!("catalog build {words} -o {file}"), says);
         assert!(!Path::new(&file).exists(), "{words}");
     }
 }
@@ -334,8 +337,11 @@ fn keys_are_read_back_and_symmetric_structures_lie_somewhere() {
     for links in 4..=6 {
         for paired in symmetric_structures(links, menu(2)) {
             let structure = &paired.structure;
-            assert_eq!(&PairStructure::of_key(&structure.key()), structure);
-            assert!(!paired.lays().is_empty(), "{}", paired.name());
+            assert_eq!(
+                &PairStructure::of_key(&structure.canonical_key()),
+                structure
+            );
+            assert!(!paired.symmetry_lays().is_empty(), "{}", paired.name());
         }
     }
 }

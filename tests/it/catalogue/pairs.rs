@@ -10,7 +10,7 @@ mod two_slots;
 use ozols::chains::PairKind;
 use ozols::chains::census::{Census, Counted, DriveKind, Kinds, pair_census};
 use ozols::chains::chain::Chain;
-use ozols::chains::enumerate::chains;
+use ozols::chains::enumerate::list_chains;
 use ozols::chains::sharing::Menu;
 use ozols::chains::symmetric_census::{SymmetricKind, symmetric_grippers};
 
@@ -35,7 +35,7 @@ fn as_many_as_two_other_programs_count() {
     let inputs: [u64; 4] = [3, 4, 5, 6].map(|n| sum(n, |c| c.inputs_at_frame + c.inputs_between));
     assert_eq!(inputs, [21, 533, 23_267, 1_550_567]);
     let mut cells = 0;
-    for line in data("counts.csv").lines().skip(1) {
+    for line in read_data("counts.csv").lines().skip(1) {
         let numbers = line.split(',').map(|n| n.parse::<u64>().ok()).collect_vec();
         let size = |i: usize| usize::try_from(numbers[i].unwrap()).unwrap();
         let kinds = Kinds {
@@ -190,7 +190,7 @@ fn halves_give_the_symmetric_ones_of_all() {
 /// Rods of a hinged chain: links of two joints, no two of them joined, none between the same two links as another or between
 /// links that are joined already. A rod holds two links at a distance, as a slot holds them along a line.
 fn rods(chain: &Chain, count: usize) -> Vec<Vec<usize>> {
-    let near = |l: usize| (0..chain.links()).filter(move |&m| chain.joined(l, m));
+    let near = |l: usize| (0..chain.links()).filter(move |&m| chain.is_joined(l, m));
     let binary = (0..chain.links()).filter(|&l| near(l).count() == 2);
     let ends = |l: usize| near(l).collect_vec();
     let sets = binary.combinations(count);
@@ -198,9 +198,9 @@ fn rods(chain: &Chain, count: usize) -> Vec<Vec<usize>> {
         let apart = set
             .iter()
             .tuple_combinations()
-            .all(|(&a, &b)| !chain.joined(a, b));
+            .all(|(&a, &b)| !chain.is_joined(a, b));
         let ends = set.iter().map(|&l| ends(l)).collect_vec();
-        apart && ends.iter().all_unique() && ends.iter().all(|e| !chain.joined(e[0], e[1]))
+        apart && ends.iter().all_unique() && ends.iter().all(|e| !chain.is_joined(e[0], e[1]))
     });
     good.collect()
 }
@@ -229,8 +229,8 @@ fn slots_are_rods() {
         (8, 2),
     ] {
         let mut expected = [0; 4];
-        for chain in chains(links + slots, 1).unwrap() {
-            let (chain, automorphisms) = chain.canonical();
+        for chain in list_chains(links + slots, 1).unwrap() {
+            let (chain, automorphisms) = chain.canonical_form();
             let sets = rods(&chain, slots);
             let joints = chain.joints().into_iter();
             let joints = joints.map(|j| (j.links[0], j.links[1])).collect_vec();

@@ -1,11 +1,11 @@
 //! The planes in which links pass each other, against what meets at poses solved afresh and all ways of stacking links.
 
 use super::paired::twin_figures::filed::Gripper;
-use super::stroke::filed;
-use super::{Drawn, each, each_of, form, layout};
+use super::stroke::read_layout;
+use super::{Drawn, each_structure, each_structure_of, form_of, layout};
 use crate::common::*;
 use ozols::chains::{Input, Symmetry};
-use ozols::synthesis::figures::figures;
+use ozols::synthesis::figures::layout_figures;
 use ozols::synthesis::stroke::planes::Stacking;
 use ozols::synthesis::structure::Structure;
 use ozols::synthesis::task::Limits;
@@ -165,8 +165,8 @@ impl Met {
 
 /// What is told passes with a millimetre less room, and nothing in fewer planes does with a millimetre more.
 fn is_as_the_twin_says(s: &Structure, l: &Drawn) -> Stacking {
-    let f = figures(s, l).unwrap();
-    let g = &filed(s, l);
+    let f = layout_figures(s, l).unwrap();
+    let g = &read_layout(s, l);
     // Where jaws turn back or links lock, a little before.
     let end = |k: usize, before: f64| f.openings[k] + f.ends[k].map_or(0.0, |_| before);
     let all = g.stroke(end(0, 1e-3), end(1, -1e-3));
@@ -220,7 +220,7 @@ fn links_pass_in_the_planes_told_and_in_no_fewer() {
         (8, Input::Slide, Symmetry::Mirror, 2),
     ] {
         let mut n = 0;
-        each(links, &[form(input, symmetry, false)], |_, s| {
+        each_structure(links, &[form_of(input, symmetry, false)], |_, s| {
             n += 1;
             if n % every == 0
                 && let Ok(l) = layout(&s, &Limits::default(), 1)
@@ -229,10 +229,10 @@ fn links_pass_in_the_planes_told_and_in_no_fewer() {
             }
         });
     }
-    each_of(
+    each_structure_of(
         8,
         3,
-        &[form(Input::Turn, Symmetry::Threefold, false)],
+        &[form_of(Input::Turn, Symmetry::Threefold, false)],
         |_, s| {
             if let Ok(l) = layout(&s, &Limits::default(), 1) {
                 found.push(is_as_the_twin_says(&s, &l));
@@ -257,13 +257,13 @@ fn what_can_be_built_is_taken_before_what_is_cheaper() {
         "G_A_zo 5-0 3,4 slide generic",
         "G``HOk 4-0 2,7 turn generic",
     ];
-    let forms = [Input::Slide, Input::Turn].map(|input| form(input, Symmetry::Generic, false));
+    let forms = [Input::Slide, Input::Turn].map(|input| form_of(input, Symmetry::Generic, false));
     let mut found = 0;
-    each(8, &forms, |_, s| {
+    each_structure(8, &forms, |_, s| {
         if names.contains(&s.name().as_str()) {
             found += 1;
             let l = layout(&s, &Limits::default(), 1).unwrap();
-            let figures = figures(&s, &l).unwrap();
+            let figures = layout_figures(&s, &l).unwrap();
             assert!(figures.shortfall.is_none() && figures.stacking.is_known());
         }
     });

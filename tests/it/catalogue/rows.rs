@@ -1,7 +1,7 @@
 //! Rows of a catalogue against the plain commands, and its fronts against a slow look at all.
 
-use super::carried_on::scattered;
-use super::command::{self, at, free_state};
+use super::carried_on::scattered_numbers;
+use super::command::{self, free_state, path_in};
 use super::paired::{Built, built};
 use crate::common::*;
 use ozols::Request;
@@ -14,7 +14,7 @@ pub(super) fn all_of_six() -> &'static str {
     static FILE: Built = OnceLock::new();
     built(
         &FILE,
-        &words("catalog build --links 4..6 --ideas 6 --quiet -o"),
+        &split_words("catalog build --links 4..6 --ideas 6 --quiet -o"),
     )
 }
 
@@ -24,13 +24,17 @@ fn rows_that_are_exported_have_the_same_figures_by_the_plain_commands() {
     let folder = tempdir().unwrap();
     let sql = "SELECT id, mobility, redundant, finite, determinate, determinate_w1, best_cost FROM structures JOIN layouts \
                ON structure = id ORDER BY id";
-    let rows = command::rows(file, sql);
+    let rows = command::query_rows(file, sql);
     let count = u64::try_from(rows.len()).unwrap();
-    let drawn: BTreeSet<u64> = scattered(2).map(|x| x % count).unique().take(20).collect();
+    let drawn: BTreeSet<u64> = scattered_numbers(2)
+        .map(|x| x % count)
+        .unique()
+        .take(20)
+        .collect();
     for row in drawn.iter().map(|&i| &rows[usize::try_from(i).unwrap()]) {
         let id = row["id"].as_str().unwrap();
-        let toml = at(&folder, &format!("{id}.toml"));
-        ok(&["catalog", "export", file, id, "-o", &toml]);
+        let toml = path_in(&folder, &format!("{id}.toml"));
+        stdout_of(&["catalog", "export", file, id, "-o", &toml]);
         let free = free_state(&toml);
         for key in ["mobility", "redundant"] {
             assert_eq!(free[key], row[key], "{id}");
@@ -38,7 +42,7 @@ fn rows_that_are_exported_have_the_same_figures_by_the_plain_commands() {
         assert_eq!(row["finite"], "1, proven");
         assert_eq!(free["finite_mobility"], 1, "{id}");
         assert_eq!(free["finite_mobility_proven"], true, "{id}");
-        let found = json(&format!(
+        let found = run_json(&format!(
             "search {toml} --max-mobility 1 --quiet --format json"
         ));
         let told = |key: &str| Value::from(row[key].to_string());
@@ -70,7 +74,7 @@ fn unbeaten(rows: &[(String, String, Vec<f64>)]) -> Vec<&str> {
 fn the_fronts_are_what_no_other_beats() {
     let file = all_of_six();
     let rows = |sql: &str| -> Vec<(String, String, Vec<f64>)> {
-        let csv = ok(&["catalog", "query", file, sql, "--format", "csv"]);
+        let csv = stdout_of(&["catalog", "query", file, sql, "--format", "csv"]);
         let row = |line: &str| {
             let mut cells = line.split(',').map(str::to_owned);
             let [id, group] = [cells.next().unwrap(), cells.next().unwrap()];
@@ -110,12 +114,12 @@ fn the_fronts_are_what_no_other_beats() {
 fn areas_and_errors_are_in_millimetres() {
     let sql = "SELECT layouts.structure, mechanism, area, output_error FROM layouts JOIN ideas ON ideas.structure = layouts.structure \
                JOIN structures ON id = layouts.structure WHERE place = 1 AND symmetry = 'mirror' ORDER BY id LIMIT 4";
-    let rows = command::rows(all_of_six(), sql);
+    let rows = command::query_rows(all_of_six(), sql);
     assert!(rows.len() > 1);
     for row in rows {
         let m = ozols::from_toml(row["mechanism"].as_str().unwrap()).unwrap();
-        let joints = m.joints.iter().map(|j| real(&j.frame.point));
-        let points = joints.chain(m.points.iter().map(|p| real(&p.point)));
+        let joints = m.joints.iter().map(|j| to_vector(&j.frame.point));
+        let points = joints.chain(m.points.iter().map(|p| to_vector(&p.point)));
         let points: Vec<[f64; 3]> = points.collect();
         let side = |k: usize| {
             let (least, most) = points.iter().map(|p| p[k]).minmax().into_option().unwrap();
@@ -134,9 +138,11 @@ fn areas_and_errors_are_in_millimetres() {
             ..Request::default()
         };
         let outcome = ozols::search(&m, &request).unwrap();
-        let ideas = outcome.search.ideas(outcome.diagrams.as_ref().unwrap(), 1);
+        let ideas = outcome
+            .search
+            .list_ideas(outcome.diagrams.as_ref().unwrap(), 1);
         let evaluator = Evaluator::new(&outcome.search, ClearanceSum::Worst).unwrap();
-        let scores = evaluator.scores(&ideas[0].first, &mut Scratch::default());
+        let scores = evaluator.score_variant(&ideas[0].first, &mut Scratch::default());
         is("output_error", 1000.0 * scores.unwrap().output_error);
     }
 }
@@ -147,14 +153,14 @@ fn areas_and_errors_are_in_millimetres() {
 fn ideas_differ_and_symmetric_ones_come_first() {
     let sql = "SELECT structure, mechanism, changes, cost, best_cost FROM ideas JOIN layouts USING (structure) JOIN structures ON id = structure \
                WHERE symmetry IN ('mirror', 'half-turn') ORDER BY structure, place";
-    let rows = command::rows(all_of_six(), sql);
+    let rows = command::query_rows(all_of_six(), sql);
     let (mut symmetric, mut other) = (0, 0);
     for (_, ideas) in &rows.iter().chunk_by(|r| r["structure"].to_string()) {
         let ideas: Vec<_> = ideas.collect();
         let m = ozols::from_toml(ideas[0]["mechanism"].as_str().unwrap()).unwrap();
         let image = |joint: &str| {
             let of = m.joint_ids().find(|&j| m.joints[j].id == joint).unwrap();
-            m.joints[m.search.image(of)].id.clone()
+            m.joints[m.search.image_of_joint(of)].id.clone()
         };
         let mut seen = BTreeSet::new();
         let mut asymmetric = false;
@@ -189,7 +195,7 @@ fn ideas_differ_and_symmetric_ones_come_first() {
 #[test]
 fn variants_of_generic_layouts_are_their_own_images() {
     let sql = "SELECT variants, orbits, symmetric FROM counts JOIN structures ON id = structure WHERE symmetry = 'generic'";
-    let rows = command::rows(all_of_six(), sql);
+    let rows = command::query_rows(all_of_six(), sql);
     assert!(rows.len() > 20);
     for row in rows {
         assert!(

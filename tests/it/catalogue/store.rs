@@ -1,15 +1,15 @@
 //! The file of a catalogue: versions, parts that are missing, foreign files, and what a question may not do.
 
-use super::command::{at, whole};
+use super::command::{dump_catalogue, path_in};
 use crate::common::*;
 use rusqlite::Connection;
 use std::ffi::OsStr;
 
 /// A catalogue of two structures.
 fn tiny(folder: &TempDir, name: &str, more: &[&str]) -> String {
-    let file = at(folder, name);
-    let words = words("catalog build --links 4 --ideas 1 --quiet -o");
-    ok(&[&words[..], &[&file], more].concat());
+    let file = path_in(folder, name);
+    let words = split_words("catalog build --links 4 --ideas 1 --quiet -o");
+    stdout_of(&[&words[..], &[&file], more].concat());
     file
 }
 
@@ -21,7 +21,7 @@ fn change(file: &str, sql: &str) {
 fn a_catalogue_of_another_version_is_refused() {
     let folder = tempdir().unwrap();
     let file = tiny(&folder, "other.db", &[]);
-    let [page, whole] = ["page.html", "m.db"].map(|n| at(&folder, n));
+    let [page, whole] = ["page.html", "m.db"].map(|n| path_in(&folder, n));
     for version in [0, 9, 10, 12] {
         change(&file, &format!("PRAGMA user_version = {version};"));
         let bytes = fs::read(&file).unwrap();
@@ -35,8 +35,8 @@ fn a_catalogue_of_another_version_is_refused() {
             format!("search four-bar -o {file}"),
             format!("merge {file} -o {whole}"),
         ] {
-            fails(&format!("catalog {line}"), &says);
-            fails(
+            assert_fails(&format!("catalog {line}"), &says);
+            assert_fails(
                 &format!("catalog {line}"),
                 "`ozols catalog build -o NAME.db`",
             );
@@ -50,10 +50,10 @@ fn parts_that_are_missing_are_named() {
     let folder = tempdir().unwrap();
     let part = |i: usize| tiny(&folder, &format!("{i}.db"), &["--shard", &format!("{i}/7")]);
     let parts: Vec<String> = (1..=7).map(part).collect();
-    let file = at(&folder, "all.db");
+    let file = path_in(&folder, "all.db");
     let merge = |which: &[usize]| {
         let parts = which.iter().map(|i| &parts[i - 1]).join(" ");
-        let (code, _, said) = ran(&format!("catalog merge {parts} -o {file}"));
+        let (code, _, said) = run_full(&format!("catalog merge {parts} -o {file}"));
         (code, said)
     };
     let incomplete = |which: &[usize], says: &[&str]| {
@@ -67,7 +67,10 @@ fn parts_that_are_missing_are_named() {
     );
     incomplete(&[1, 3, 4, 7], &["of 7 parts 6/7 is missing"]);
     assert_eq!(merge(&[6]), (Some(0), String::new()));
-    assert_eq!(whole(&file), whole(&tiny(&folder, "once.db", &[])));
+    assert_eq!(
+        dump_catalogue(&file),
+        dump_catalogue(&tiny(&folder, "once.db", &[]))
+    );
     // A part that was not finished says so.
     change(&parts[2], "DELETE FROM parts");
     fs::remove_file(&file).unwrap();
@@ -80,14 +83,14 @@ fn parts_that_are_missing_are_named() {
 #[test]
 fn an_empty_file_is_a_catalogue_to_be_made() {
     let folder = tempdir().unwrap();
-    let [file, other] = ["empty.db", "other.db"].map(|n| at(&folder, n));
+    let [file, other] = ["empty.db", "other.db"].map(|n| path_in(&folder, n));
     fs::write(&file, "").unwrap();
-    fails(&["catalog", "query", &file], "is empty");
+    assert_fails(&["catalog", "query", &file], "is empty");
     assert_eq!(fs::read(&file).unwrap(), b"");
     // Pages, but no table: what a kill leaves that comes while it is being made.
     change(&file, "CREATE TABLE x (y); DROP TABLE x;");
     assert!(!fs::read(&file).unwrap().is_empty());
-    fails(
+    assert_fails(
         &["catalog", "query", &file],
         "run it again and it carries on",
     );
@@ -96,7 +99,7 @@ fn an_empty_file_is_a_catalogue_to_be_made() {
     change(&other, "CREATE TABLE x (y);");
     let bytes = fs::read(&other).unwrap();
     for line in ["query", "build --links 4 -o", "search four-bar -o"] {
-        fails(
+        assert_fails(
             &format!("catalog {line} {other}"),
             "is not a catalogue of ozols",
         );
@@ -109,7 +112,7 @@ fn an_empty_file_is_a_catalogue_to_be_made() {
 fn a_question_writes_nothing_and_opens_nothing_else() {
     let folder = tempdir().unwrap();
     let file = tiny(&folder, "g.db", &[]);
-    let other = at(&folder, "secret.db");
+    let other = path_in(&folder, "secret.db");
     change(
         &other,
         "CREATE TABLE secret (word); INSERT INTO secret VALUES ('x');",
@@ -117,10 +120,10 @@ fn a_question_writes_nothing_and_opens_nothing_else() {
     let there = || fs::read_dir(&folder).unwrap().count();
     let (before, bytes) = (there(), fs::read(&file).unwrap());
     for sql in [
-        &format!("VACUUM INTO '{}'", at(&folder, "copy.db")),
+        &format!("VACUUM INTO '{}'", path_in(&folder, "copy.db")),
         "VACUUM",
         &format!("ATTACH '{other}' AS other"),
-        &format!("ATTACH '{}' AS fresh", at(&folder, "fresh.db")),
+        &format!("ATTACH '{}' AS fresh", path_in(&folder, "fresh.db")),
         "DETACH main",
         "PRAGMA user_version = 8",
         "PRAGMA journal_mode = WAL",
@@ -136,16 +139,16 @@ fn a_question_writes_nothing_and_opens_nothing_else() {
         "",
     ] {
         let o = run(&["catalog", "query", &file, sql]);
-        assert_eq!(o.status.code(), Some(2), "{sql}: {}", text(&o.stdout));
+        assert_eq!(o.status.code(), Some(2), "{sql}: {}", utf8_text(&o.stdout));
     }
     assert_eq!((there(), fs::read(&file).unwrap()), (before, bytes));
-    fails(
+    assert_fails(
         &["catalog", "query", &file, "ATTACH 'x' AS y"],
         "ask with SELECT",
     );
     let columns = "SELECT count(*) > 5 AS many FROM pragma_table_info('ideas')";
     assert_eq!(
-        ok(&["catalog", "query", &file, columns, "--format", "csv"]),
+        stdout_of(&["catalog", "query", &file, columns, "--format", "csv"]),
         "many\n1\n"
     );
 }
@@ -159,10 +162,10 @@ fn an_answer_is_bounded() {
         let numbers = "WITH RECURSIVE n(i) AS (SELECT 1 UNION ALL SELECT i + 1 FROM n)";
         format!("{numbers} SELECT printf('%.*c', 1000000, 'x') AS x FROM n LIMIT {n}")
     };
-    let two = ok(&["catalog", "query", &file, &values(2), "--format", "csv"]);
+    let two = stdout_of(&["catalog", "query", &file, &values(2), "--format", "csv"]);
     assert_eq!(two.len(), 2_000_004);
     let all = ["catalog", "query", &file, &values(300), "--format", "csv"];
-    fails(&all, "larger than 256 MiB");
+    assert_fails(&all, "larger than 256 MiB");
 }
 
 /// Names stand for files, whatever SQLite makes of them, and need not be text.
@@ -172,7 +175,7 @@ fn a_name_is_that_of_a_file() {
     let here = |line: &str, name: &OsStr| {
         let mut command = ozols(line);
         let o = command.arg(name).current_dir(&folder).output().unwrap();
-        assert_eq!(o.status.code(), Some(0), "{line}: {}", text(&o.stderr));
+        assert_eq!(o.status.code(), Some(0), "{line}: {}", utf8_text(&o.stderr));
     };
     let mut names = [":memory:", "file:x.db?mode=memory", "a'b\".db", "%41.db"]
         .map(OsStr::new)
@@ -232,14 +235,14 @@ fn control_characters_are_escaped() {
         &["query", &format!("{file}\u{1b}[31m")],
     ] {
         let o = run(&[&["catalog"], args].concat());
-        let (out, said) = (text(&o.stdout), text(&o.stderr));
+        let (out, said) = (utf8_text(&o.stdout), utf8_text(&o.stderr));
         is_plain(&out);
         is_plain(&said);
         assert!(!out.is_empty() || !said.is_empty(), "{args:?}");
     }
     // Data stay what they are.
     let sql = "SELECT name FROM drawn WHERE id = 'drawn-x'";
-    let csv = ok(&["catalog", "query", &file, sql, "--format", "csv"]);
+    let csv = stdout_of(&["catalog", "query", &file, sql, "--format", "csv"]);
     assert_eq!(csv, "name\nn\u{1b}[1A\n");
     assert!(Path::new(&file).is_file());
 }

@@ -2,11 +2,11 @@
 
 use super::paired::twin_figures::WorkedOut;
 use super::paired::twin_figures::filed::{Gripper, To};
-use super::{Drawn, each, each_of, form, layout};
+use super::{Drawn, each_structure, each_structure_of, form_of, layout};
 use ozols::catalog::spec::Spec;
 use ozols::chains::{Input, Symmetry};
 use ozols::file::write;
-use ozols::synthesis::figures::figures;
+use ozols::synthesis::figures::layout_figures;
 use ozols::synthesis::mechanism::mechanism_file;
 use ozols::synthesis::stroke::walk::StrokeEnd;
 use ozols::synthesis::structure::Structure;
@@ -14,8 +14,8 @@ use ozols::synthesis::task::{AskedMotion, Limits, Task};
 use ozols::synthesis::workload::Workload;
 
 /// Returns the gripper of a layout, read from its mechanism file.
-pub(super) fn filed(s: &Structure, l: &Drawn) -> Gripper {
-    let menu = Spec::default().menu().unwrap();
+pub(super) fn read_layout(s: &Structure, l: &Drawn) -> Gripper {
+    let menu = Spec::default().option_menu().unwrap();
     let file = mechanism_file(s, l, &menu, &Workload::default());
     Gripper::read(&write::toml(&file, &[]).unwrap())
 }
@@ -30,13 +30,13 @@ fn near(told: f64, found: f64, within: f64, what: &str, s: &Structure) {
 
 /// All figures of a layout that does its task, by the twin.
 fn is_as_the_twin_says(s: &Structure, l: &Drawn) {
-    let f = figures(s, l).unwrap();
+    let f = layout_figures(s, l).unwrap();
     let task = &l.limits.task;
     assert_eq!(f.openings, [task.narrowest, task.widest], "{f:?}");
-    let twin = filed(s, l);
+    let twin = read_layout(s, l);
     let found = WorkedOut::new(&twin, f.openings);
     near(f.travel, found.travel, 1e-6 * f.travel, "travel", s);
-    let metre = if s.input() == Input::Slide {
+    let metre = if s.drive_input() == Input::Slide {
         1.0
     } else {
         1000.0
@@ -44,7 +44,7 @@ fn is_as_the_twin_says(s: &Structure, l: &Drawn) {
     let [least, most] = found.forces.map(|x| metre * x);
     near(f.force[0], least, 0.01 * least, "least force", s);
     near(f.force[2], most, 0.01 * most, "greatest force", s);
-    let mean = metre * f.travel / (s.structure.roles.jaws.len() as f64 / 2.0) / task.span();
+    let mean = metre * f.travel / (s.structure.roles.jaws.len() as f64 / 2.0) / task.opening_span();
     near(f.force[1], mean, 1e-6 * mean, "mean force", s);
     for (told, found) in f.turns.iter().zip(&found.turns) {
         near(*told, *found, 2e-3, "turn", s);
@@ -102,14 +102,14 @@ fn widest(twin: &Gripper) -> f64 {
 #[test]
 fn strokes_of_two_jaws_are_as_the_twin_says() {
     let forms = [
-        form(Input::Slide, Symmetry::Generic, false),
-        form(Input::Turn, Symmetry::Generic, false),
-        form(Input::Slide, Symmetry::Mirror, false),
-        form(Input::Turn, Symmetry::HalfTurn, false),
+        form_of(Input::Slide, Symmetry::Generic, false),
+        form_of(Input::Turn, Symmetry::Generic, false),
+        form_of(Input::Slide, Symmetry::Mirror, false),
+        form_of(Input::Turn, Symmetry::HalfTurn, false),
     ];
     let (mut n, mut tried) = (0, [0; 2]);
     for of in forms {
-        each(6, &[of], |_, s| {
+        each_structure(6, &[of], |_, s| {
             n += 1;
             if of.1.symmetry == Symmetry::Generic && n % 9 != 0 {
                 return;
@@ -125,9 +125,9 @@ fn strokes_of_two_jaws_are_as_the_twin_says() {
 
 #[test]
 fn strokes_of_three_jaws_are_as_the_twin_says() {
-    let threefold = [form(Input::Turn, Symmetry::Threefold, false)];
+    let threefold = [form_of(Input::Turn, Symmetry::Threefold, false)];
     let mut tried = 0;
-    each_of(8, 3, &threefold, |_, s| {
+    each_structure_of(8, 3, &threefold, |_, s| {
         if let Ok(l) = layout(&s, &Limits::default(), 1) {
             is_as_the_twin_says(&s, &l);
             tried += 1;
@@ -146,8 +146,8 @@ fn made_for(task: Task) -> Limits {
 /// Nearly every structure that can move does its task, by figures that the twin above confirms.
 #[test]
 fn nearly_all_do_their_task() {
-    let mirror = [false, true].map(|parallel| form(Input::Slide, Symmetry::Mirror, parallel));
-    let generic = [Input::Slide, Input::Turn].map(|i| form(i, Symmetry::Generic, false));
+    let mirror = [false, true].map(|parallel| form_of(Input::Slide, Symmetry::Mirror, parallel));
+    let generic = [Input::Slide, Input::Turn].map(|i| form_of(i, Symmetry::Generic, false));
     let (mut all, mut doing, mut n) = (0, 0, 0);
     for (links, forms, every) in [
         (6, &mirror[..], 1),
@@ -155,14 +155,14 @@ fn nearly_all_do_their_task() {
         (6, &generic, 2),
         (10, &mirror, 40),
     ] {
-        each(links, forms, |_, s| {
+        each_structure(links, forms, |_, s| {
             n += 1;
             if n % every != 0 {
                 return;
             }
             if let Ok(l) = layout(&s, &Limits::default(), 1) {
                 all += 1;
-                let f = figures(&s, &l).unwrap();
+                let f = layout_figures(&s, &l).unwrap();
                 doing += usize::from(f.shortfall.is_none() && f.force[2] <= 3.0 * f.force[0]);
             }
         });
@@ -177,9 +177,9 @@ fn what_is_not_reached_is_said() {
         widest: 190.0,
         ..Task::default()
     });
-    let generic = [form(Input::Turn, Symmetry::Generic, false)];
+    let generic = [form_of(Input::Turn, Symmetry::Generic, false)];
     let (mut n, mut short, mut turned) = (0, 0, 0);
-    each(6, &generic, |_, s| {
+    each_structure(6, &generic, |_, s| {
         n += 1;
         if n % 5 != 0 {
             return;
@@ -187,7 +187,7 @@ fn what_is_not_reached_is_said() {
         let Ok(l) = layout(&s, &limits, 1) else {
             return;
         };
-        let f = figures(&s, &l).unwrap();
+        let f = layout_figures(&s, &l).unwrap();
         for (k, asked) in [0.0, 190.0].into_iter().enumerate() {
             assert_eq!(f.ends[k].is_some(), f.openings[k] != asked, "{f:?}");
             if f.ends[k].is_some() {
@@ -200,7 +200,7 @@ fn what_is_not_reached_is_said() {
                 short += 1;
             }
             if k == 1 && f.ends[k] == Some(StrokeEnd::JawsTurnBack) {
-                near(f.openings[1], widest(&filed(&s, &l)), 0.05, "end", &s);
+                near(f.openings[1], widest(&read_layout(&s, &l)), 0.05, "end", &s);
                 turned += 1;
             }
         }
@@ -234,8 +234,8 @@ fn other_tasks_are_done_as_well() {
         room: [150.0, 100.0],
         ..Task::default()
     };
-    let generic = form(Input::Slide, Symmetry::Generic, false);
-    let on_parallelograms = form(Input::Turn, Symmetry::Generic, true);
+    let generic = form_of(Input::Slide, Symmetry::Generic, false);
+    let on_parallelograms = form_of(Input::Turn, Symmetry::Generic, true);
     for (task, of, every) in [
         (wide, generic, 6),
         (parallel, generic, 13),
@@ -244,7 +244,7 @@ fn other_tasks_are_done_as_well() {
         (tight, generic, 6),
     ] {
         let (mut n, mut does) = (0, 0);
-        each(6, &[of], |_, s| {
+        each_structure(6, &[of], |_, s| {
             n += 1;
             if n % every != 0 {
                 return;
@@ -252,8 +252,8 @@ fn other_tasks_are_done_as_well() {
             let Ok(l) = layout(&s, &made_for(task), 1) else {
                 return;
             };
-            let f = figures(&s, &l).unwrap();
-            let swings = |&j: &usize| s.structure.chain.joined(s.structure.roles.frame, j);
+            let f = layout_figures(&s, &l).unwrap();
+            let swings = |&j: &usize| s.structure.chain.is_joined(s.structure.roles.frame, j);
             let hinged = s.structure.roles.jaws.iter().all(swings);
             if let Some(lacks) = f.shortfall {
                 // Of those that close and open so far, without a hinge for each jaw, it is said that they do not swing.

@@ -1,19 +1,19 @@
 //! The task of a catalogue as a file and as options, the filters, and what rows say of it.
 
-use super::command::{at, rows, whole};
+use super::command::{dump_catalogue, path_in, query_rows};
 use super::rows::all_of_six;
 use crate::common::*;
 
 #[test]
 fn a_stroke_that_is_not_reached_has_a_reason_and_no_place_in_the_front() {
     let folder = tempdir().unwrap();
-    let file = at(&folder, "wide.db");
+    let file = path_in(&folder, "wide.db");
     let words = "catalog build --links 6 --input turn --symmetry generic --ideas 1 --widths 0..190 --quiet -o";
-    ok(&format!("{words} {file}"));
+    stdout_of(&format!("{words} {file}"));
     let sql = "SELECT s.id, reached, shortfall, ends_closing, ends_opening, opening_min, opening_max, k.force_ratio, force_min, force_max, \
                s.id IN (SELECT id FROM front) AS front FROM structures s JOIN layouts l ON l.structure = s.id \
                JOIN strokes k ON k.structure = s.id";
-    let all = rows(&file, sql);
+    let all = query_rows(&file, sql);
     let mut short = 0;
     for row in &all {
         let number = |key: &str| row[key].as_f64().unwrap();
@@ -29,7 +29,7 @@ fn a_stroke_that_is_not_reached_has_a_reason_and_no_place_in_the_front() {
     }
     assert!(short > 0 && all.len() > 20, "{short} of {}", all.len());
     let id = all.iter().find(|r| r["reached"] == 0).unwrap()["id"].word();
-    let shown = ok(&["catalog", "show", &file, id]);
+    let shown = stdout_of(&["catalog", "show", &file, id]);
     has_all(&shown, &["Task: parts of 0 to 190 mm; ", "is asked: there"]);
 }
 
@@ -38,10 +38,10 @@ fn a_stroke_that_is_not_reached_has_a_reason_and_no_place_in_the_front() {
 fn the_strongest_layouts_are_stronger() {
     let folder = tempdir().unwrap();
     let built = |name: &str, more: &str| {
-        let file = at(&folder, name);
+        let file = path_in(&folder, name);
         let words = "catalog build --links 4 --input turn --ideas 0 --pin-distance 20 --reach 30 --quiet -o";
-        ok(&format!("{words} {file} {more}"));
-        rows(
+        stdout_of(&format!("{words} {file} {more}"));
+        query_rows(
             &file,
             "SELECT force_min, shortfall, mechanism FROM layouts JOIN strokes USING (structure) ORDER BY structure",
         )
@@ -79,10 +79,10 @@ fn the_strongest_layouts_are_stronger() {
 fn jaws_have_the_force_that_is_asked() {
     let folder = tempdir().unwrap();
     let built = |name: &str, more: &str| {
-        let file = at(&folder, name);
+        let file = path_in(&folder, name);
         let words = "catalog build --classics --input slide --widths 30..50 --ideas 0 --quiet -o";
-        ok(&format!("{words} {file} {more}"));
-        rows(
+        stdout_of(&format!("{words} {file} {more}"));
+        query_rows(
             &file,
             "SELECT id, least_force, travel, shortfall FROM grippers WHERE input = 'slide' ORDER BY id",
         )
@@ -112,14 +112,14 @@ fn jaws_have_the_force_that_is_asked() {
 #[test]
 fn filters_leave_what_is_as_good() {
     let file = all_of_six();
-    let all = rows(
+    let all = query_rows(
         file,
         "SELECT *, id IN (SELECT id FROM front) AS front FROM grippers",
     );
     let ids =
         |of: Vec<Value>| -> BTreeSet<String> { of.iter().map(|r| r["id"].to_string()).collect() };
     let mut cutting = 0;
-    for [words, condition] in cases::<2>(
+    for [words, condition] in read_cases::<2>(
         "
         --least-force 0.8 | least_force >= 0.8
         --force-ratio 1.7 | force_ratio <= 1.7
@@ -131,7 +131,7 @@ fn filters_leave_what_is_as_good() {
         --turn 20 --transmission 20 | turn <= 20 AND transmission >= 20
         ",
     ) {
-        let kept = ids(rows(
+        let kept = ids(query_rows(
             file,
             &format!("SELECT id FROM grippers WHERE {condition}"),
         ));
@@ -140,13 +140,13 @@ fn filters_leave_what_is_as_good() {
     }
     assert!(cutting > 6, "{cutting}");
     assert_eq!(
-        ran(&["catalog", "query", file, "SELECT 1", "--front"]).0,
+        run_full(&["catalog", "query", file, "SELECT 1", "--front"]).0,
         Some(2)
     );
 }
 
 fn filtered(file: &str, filters: &str) -> Vec<Value> {
-    let found = json(&format!("catalog query {file} --format json {filters}"));
+    let found = run_json(&format!("catalog query {file} --format json {filters}"));
     found.list().clone()
 }
 
@@ -178,7 +178,7 @@ fn answers_are_sorted_by_what_is_asked() {
             assert_eq!(row["force_per_newton_metre"].is_null(), slides, "{row}");
         }
     }
-    let told = ok(&["catalog", "query", file]);
+    let told = stdout_of(&["catalog", "query", file]);
     has_all(
         &told,
         &[
@@ -195,8 +195,8 @@ fn answers_are_sorted_by_what_is_asked() {
 fn an_empty_answer_says_what_is_in_the_way() {
     let file = all_of_six();
     let greatest = "SELECT count(*) AS n, max(least_force) AS most FROM grippers WHERE turn <= 30";
-    let greatest = &rows(file, greatest)[0];
-    let (code, _, told) = ran(&format!(
+    let greatest = &query_rows(file, greatest)[0];
+    let (code, _, told) = run_full(&format!(
         "catalog query {file} --least-force 1000 --turn 30"
     ));
     assert_eq!(code, Some(1));
@@ -210,7 +210,7 @@ fn an_empty_answer_says_what_is_in_the_way() {
     near(most, exact, 1e-3 * exact);
     // The turn alone is not: without it there is none, either.
     assert!(!told.contains("without --turn"), "{told}");
-    let (_, _, told) = ran(&format!(
+    let (_, _, told) = run_full(&format!(
         "catalog query {file} --least-force 1000 --price 0"
     ));
     has(&told, "two or more of them");
@@ -220,18 +220,18 @@ fn an_empty_answer_says_what_is_in_the_way() {
 #[test]
 fn a_task_is_a_table_and_options() {
     let folder = tempdir().unwrap();
-    let [spec, one, two] = ["task.toml", "1.db", "2.db"].map(|n| at(&folder, n));
+    let [spec, one, two] = ["task.toml", "1.db", "2.db"].map(|n| path_in(&folder, n));
     let text = "links = \"4\"\nideas = 1\n[task]\nnarrowest = 10\nwidest = 40\ngrip = \"inside\"\nmotion = \"swinging\"\nforce_ratio = 2\nroom = [200, 150]\n";
     fs::write(&spec, text).unwrap();
-    ok(&format!("catalog build --spec {spec} --quiet -o {one}"));
+    stdout_of(&format!("catalog build --spec {spec} --quiet -o {one}"));
     let words = "catalog build --links 4 --ideas 1 --widths 10..40 --grip inside --motion swinging --force-ratio 2 --room 200x150 --quiet -o";
-    ok(&format!("{words} {two}"));
-    assert_eq!(whole(&one), whole(&two));
-    fails(
+    stdout_of(&format!("{words} {two}"));
+    assert_eq!(dump_catalogue(&one), dump_catalogue(&two));
+    assert_fails(
         &format!("catalog build --links 4 --ideas 1 -o {one}"),
         "differs",
     );
-    for [text, says] in cases::<2>(
+    for [text, says] in read_cases::<2>(
         r#"
         [task]\nnarrowest = 60 | task.toml:2: narrowest must be less
         [task]\nwidest = 500 | task.toml:2: widest must be from 1 to 200
@@ -248,8 +248,11 @@ fn a_task_is_a_table_and_options() {
         "#,
     ) {
         fs::write(&spec, text).unwrap();
-        fails(
-            &format!("catalog build --spec {spec} -o {}", at(&folder, "no.db")),
+        assert_fails(
+            &format!(
+                "catalog build --spec {spec} -o {}",
+                path_in(&folder, "no.db")
+            ),
             says,
         );
     }
@@ -260,16 +263,16 @@ fn a_task_is_a_table_and_options() {
 fn parts_are_held_from_inside_by_the_other_way() {
     let folder = tempdir().unwrap();
     let built = |side: &str, pushes: f64| -> Vec<Value> {
-        let file = at(&folder, &format!("{side}.db"));
-        ok(&format!(
+        let file = path_in(&folder, &format!("{side}.db"));
+        stdout_of(&format!(
             "catalog build --links 6 --symmetry mirror --ideas 1 --grip {side} --quiet -o {file}"
         ));
         let sql = "SELECT closes, force_min, tip_a_dx, tip_a_dy, mechanism FROM layouts ORDER BY structure";
-        let all = rows(&file, sql);
+        let all = query_rows(&file, sql);
         for row in &all {
             let m = mechanism_from_str("m.toml", row["mechanism"].word()).unwrap();
-            let up = m.loads.forces.iter().find(|f| real(&f.point)[1] > 0.0);
-            assert_eq!(real(&up.unwrap().force)[1], pushes);
+            let up = m.loads.forces.iter().find(|f| to_vector(&f.point)[1] > 0.0);
+            assert_eq!(to_vector(&up.unwrap().force)[1], pushes);
         }
         all
     };

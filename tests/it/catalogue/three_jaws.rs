@@ -1,13 +1,13 @@
 //! Three jaws: as many structures as move in threefold places, laid out exactly so, closing together.
 
-use super::command::{at, free_state, lines};
-use super::stroke::filed;
-use super::{Drawn, each_of, form, free_motions, layout, plain};
+use super::command::{free_state, path_in, query_lines};
+use super::stroke::read_layout;
+use super::{Drawn, each_structure_of, form_of, free_motions, layout, plain_spec};
 use crate::common::*;
-use ozols::catalog::row::row;
+use ozols::catalog::row::structure_row;
 use ozols::chains::roles::Subject;
 use ozols::chains::{Input, Symmetry};
-use ozols::synthesis::figures::figures;
+use ozols::synthesis::figures::layout_figures;
 use ozols::synthesis::structure::Structure;
 use ozols::synthesis::task::Limits;
 
@@ -48,13 +48,13 @@ fn motions(s: &Structure, at: &BTreeMap<(usize, usize), [f64; 2]>) -> (usize, bo
     let moves = |l: &usize| motion[3 * l..3 * l + 3].iter().any(|x| x.abs() > 1e-9);
     (
         1,
-        moves(&s.structure.roles.drive()[1]) && s.structure.roles.jaws.iter().all(moves),
+        moves(&s.structure.roles.drive_links()[1]) && s.structure.roles.jaws.iter().all(moves),
     )
 }
 
 /// Places that look random, carried to each other by thirds of a turn.
 fn scattered(subject: &Subject<'_>, s: &Structure) -> BTreeMap<(usize, usize), [f64; 2]> {
-    let turn = subject.swaps(&s.structure.roles).next().unwrap();
+    let turn = subject.iter_swaps(&s.structure.roles).next().unwrap();
     let mut at = BTreeMap::new();
     for (i, joint) in s.structure.chain.joints().into_iter().enumerate() {
         let joint = (joint.links[0], joint.links[1]);
@@ -76,10 +76,10 @@ fn scattered(subject: &Subject<'_>, s: &Structure) -> BTreeMap<(usize, usize), [
 
 #[test]
 fn threefold_structures_are_those_that_move_in_threefold_places() {
-    let threefold = [form(Input::Turn, Symmetry::Threefold, false)];
+    let threefold = [form_of(Input::Turn, Symmetry::Threefold, false)];
     for (links, symmetric, possible) in [(6, 0, 0), (8, 2, 2), (10, 10, 0)] {
         let (mut all, mut by_twin, mut laid) = (0, 0, 0);
-        each_of(links, 3, &threefold, |subject, s| {
+        each_structure_of(links, 3, &threefold, |subject, s| {
             all += 1;
             let (count, moving) = motions(&s, &scattered(subject, &s));
             by_twin += usize::from(count == 1 && moving);
@@ -98,21 +98,21 @@ fn threefold_structures_are_those_that_move_in_threefold_places() {
 
 #[test]
 fn threefold_layouts_are_exact_and_their_jaws_close_together() {
-    let threefold = [form(Input::Turn, Symmetry::Threefold, false)];
+    let threefold = [form_of(Input::Turn, Symmetry::Threefold, false)];
     let mut seen = 0;
-    each_of(8, 3, &threefold, |subject, s| {
-        let row = row(&s, &plain(3)).unwrap();
+    each_structure_of(8, 3, &threefold, |subject, s| {
+        let row = structure_row(&s, &plain_spec(3)).unwrap();
         let laid = row.laid.unwrap();
         seen += 1;
         let m = ozols::from_toml(&laid.file).unwrap();
         let drawn = Drawn::new(&s, laid.layout.clone());
-        let turn = subject.swaps(&s.structure.roles).next().unwrap();
+        let turn = subject.iter_swaps(&s.structure.roles).next().unwrap();
         let places: BTreeMap<(usize, usize), [f64; 2]> = m
             .joints
             .iter()
             .zip(&drawn.pins)
             .map(|(j, &pin)| {
-                let [x, y, _] = real(&j.frame.point);
+                let [x, y, _] = to_vector(&j.frame.point);
                 (pin, [x, y])
             })
             .collect();
@@ -127,12 +127,15 @@ fn threefold_layouts_are_exact_and_their_jaws_close_together() {
         }
         // Over the rationals with a root of three, not over rounded places.
         assert_eq!(
-            (laid.finite.figure().as_str(), laid.finite.is_proven()),
+            (
+                laid.finite.format_figure().as_str(),
+                laid.finite.is_proven()
+            ),
             ("1", true)
         );
         assert!(laid.exact && !laid.ideas.is_empty());
         // All three tips as fast towards the middle, as the layout says.
-        let twin = filed(&s, &drawn);
+        let twin = read_layout(&s, &drawn);
         let pose = twin.seen(twin.drawn());
         near(
             2.0 * laid.layout.looks.closing * pose.drive().abs(),
@@ -153,18 +156,18 @@ fn threefold_layouts_are_exact_and_their_jaws_close_together() {
 
 #[test]
 fn generic_structures_of_three_jaws_close_on_the_part() {
-    let generic = [Input::Slide, Input::Turn].map(|i| form(i, Symmetry::Generic, false));
+    let generic = [Input::Slide, Input::Turn].map(|i| form_of(i, Symmetry::Generic, false));
     let (mut does, mut all) = (0, 0);
-    each_of(6, 3, &generic, |_, s| {
+    each_structure_of(6, 3, &generic, |_, s| {
         all += 1;
         let Ok(l) = layout(&s, &Limits::default(), 1) else {
             return;
         };
-        if figures(&s, &l).is_none_or(|f| f.shortfall.is_some()) {
+        if layout_figures(&s, &l).is_none_or(|f| f.shortfall.is_some()) {
             return;
         }
         does += 1;
-        let twin = filed(&s, &l);
+        let twin = read_layout(&s, &l);
         let speeds = twin.seen(twin.drawn()).parting();
         assert!(speeds.iter().all(|v| *v > 0.0), "{}: {speeds:?}", s.name());
     });
@@ -177,22 +180,22 @@ fn generic_structures_of_three_jaws_close_on_the_part() {
 #[test]
 fn the_command_takes_three_jaws() {
     let folder = tempdir().unwrap();
-    let [db, toml] = ["three.db", "g.toml"].map(|n| at(&folder, n));
+    let [db, toml] = ["three.db", "g.toml"].map(|n| path_in(&folder, n));
     has(
-        &ok(&format!(
+        &stdout_of(&format!(
             "catalog build --links 8 --symmetry threefold --ideas 2 --quiet -o {db} --jaws 3"
         )),
         "threefold",
     );
     let sql = "SELECT id FROM structures JOIN layouts ON structure = id WHERE jaws_at_frame = 3";
-    let id = &lines(&db, sql)[0];
-    let shown = ok(&["catalog", "show", &db, id]);
+    let id = &query_lines(&db, sql)[0];
+    let shown = stdout_of(&["catalog", "show", &db, id]);
     has(
         &shown,
         "round the part, 3 of them at the frame; laid out threefold",
     );
     has(&shown, "swinging, swinging and swinging");
-    ok(&["catalog", "export", &db, id, "--idea", "1", "-o", &toml]);
+    stdout_of(&["catalog", "export", &db, id, "--idea", "1", "-o", &toml]);
     let free = free_state(&toml);
     assert_eq!([&free["mobility"], &free["redundant"]], [1, 0]);
 }

@@ -1,8 +1,8 @@
 //! The workload of a catalogue: what the drive must do for it, by hand and by virtual work.
 
-use super::command::{at, rows};
-use super::stroke::filed;
-use super::{each, form, layout};
+use super::command::{path_in, query_rows};
+use super::stroke::read_layout;
+use super::{each_structure, form_of, layout};
 use crate::common::*;
 use ozols::catalog::spec::Spec;
 use ozols::chains::{Input, Symmetry};
@@ -13,7 +13,7 @@ use ozols::synthesis::workload::Workload;
 
 /// What the drive of a file bears, in N or N·m, by the equilibrium of all links.
 fn effort(file: &str) -> f64 {
-    let found = json(&["statics", "--planar", file, "--format", "json"]);
+    let found = run_json(&["statics", "--planar", file, "--format", "json"]);
     let reactions = found["positions"][0]["reactions"].list().iter();
     reactions
         .filter_map(|r| r["effort"].as_f64())
@@ -37,19 +37,21 @@ part = 0
 #[test]
 fn the_force_ratio_is_that_of_the_lever_arms() {
     let folder = tempdir().unwrap();
-    let [spec, db, file] = ["spec.toml", "g.db", "m.toml"].map(|n| at(&folder, n));
+    let [spec, db, file] = ["spec.toml", "g.db", "m.toml"].map(|n| path_in(&folder, n));
     fs::write(&spec, SPEC).unwrap();
-    ok(&format!("catalog build --spec {spec} --quiet -o {db}"));
+    stdout_of(&format!("catalog build --spec {spec} --quiet -o {db}"));
     let id = "E`hW 4-5 0,2 slide mirror";
-    ok(&["catalog", "export", &db, id, "-o", &file]);
+    stdout_of(&["catalog", "export", &db, id, "-o", &file]);
     let m = ozols::open(&file).unwrap();
     let pin = |name: &str| {
-        let [x, y, _] = real(&m.joints[m.joint(name).unwrap()].frame.point);
+        let [x, y, _] = to_vector(&m.joints[m.joint_named(name).unwrap()].frame.point);
         [x, y]
     };
     let [hinge, rod, far] = ["jaw-a.frame", "jaw-a.link-1", "link-1.slider"].map(pin);
-    let push = m.loads.forces.iter().find(|f| real(&f.force)[1] > 0.0);
-    let [tip, force] = push.map(|f| [real(&f.point), real(&f.force)]).unwrap();
+    let push = m.loads.forces.iter().find(|f| to_vector(&f.force)[1] > 0.0);
+    let [tip, force] = push
+        .map(|f| [to_vector(&f.point), to_vector(&f.force)])
+        .unwrap();
     assert_eq!((force, m.loads.forces.len()), ([0.0, 250.0, 0.0], 2));
     // Along the rod from the jaw, as a multiple of its length: moments about the hinge vanish.
     let along = [far[0] - rod[0], far[1] - rod[1]];
@@ -63,21 +65,21 @@ fn the_force_ratio_is_that_of_the_lever_arms() {
     );
     // The file keeps what it was made for, and another workload is another catalogue.
     let sql = "SELECT value FROM meta WHERE key = 'spec'";
-    has(&ok(&["catalog", "query", &db, sql]), "closing = 250");
+    has(&stdout_of(&["catalog", "query", &db, sql]), "closing = 250");
     fs::write(&spec, SPEC.replace("250", "251")).unwrap();
-    fails(&format!("catalog build --spec {spec} -o {db}"), "closing");
+    assert_fails(&format!("catalog build --spec {spec} -o {db}"), "closing");
 }
 
 /// Reactions are in proportion to a workload of one force.
 #[test]
 fn peaks_grow_with_the_closing_force() {
     let folder = tempdir().unwrap();
-    let spec = at(&folder, "spec.toml");
+    let spec = path_in(&folder, "spec.toml");
     let peaks = |closing: &str| -> Vec<f64> {
         fs::write(&spec, SPEC.replace("250", closing)).unwrap();
-        let db = at(&folder, &format!("{closing}.db"));
-        ok(&format!("catalog build --spec {spec} --quiet -o {db}"));
-        let rows = rows(
+        let db = path_in(&folder, &format!("{closing}.db"));
+        stdout_of(&format!("catalog build --spec {spec} --quiet -o {db}"));
+        let rows = query_rows(
             &db,
             "SELECT peak_force FROM ideas ORDER BY structure, place",
         );
@@ -102,18 +104,18 @@ fn the_drive_does_the_work_of_part_and_links() {
     };
     let folder = tempdir().unwrap();
     let forms = [
-        form(Input::Slide, Symmetry::Generic, false),
-        form(Input::Turn, Symmetry::Generic, false),
+        form_of(Input::Slide, Symmetry::Generic, false),
+        form_of(Input::Turn, Symmetry::Generic, false),
     ];
     let (mut n, mut tried) = (0, 0);
-    each(6, &forms, |_, s| {
+    each_structure(6, &forms, |_, s| {
         n += 1;
         if n % 11 != 0 {
             return;
         }
         let l = layout(&s, &Limits::default(), 1).unwrap();
-        let file = mechanism_file(&s, &l, &Spec::default().menu().unwrap(), &workload);
-        let path = at(&folder, &format!("{n}.toml"));
+        let file = mechanism_file(&s, &l, &Spec::default().option_menu().unwrap(), &workload);
+        let path = path_in(&folder, &format!("{n}.toml"));
         fs::write(&path, write::toml(&file, &[]).unwrap()).unwrap();
         // Points that forces act at, with the force in the plane.
         let mut acting: Vec<(usize, [f64; 2], [f64; 2])> = Vec::new();
@@ -139,14 +141,14 @@ fn the_drive_does_the_work_of_part_and_links() {
                 acting.push((link, half, [3.0 * mass, -9.81 * mass]));
             }
         }
-        let twin = filed(&s, &l);
+        let twin = read_layout(&s, &l);
         let pose = twin.seen(twin.drawn());
         let work = acting.iter().map(|&(link, p, f)| {
             let [x, y] = pose.speed(link, p);
             f[0] * x + f[1] * y
         });
         // N, or N·m for N·mm.
-        let metre = if s.input() == Input::Slide {
+        let metre = if s.drive_input() == Input::Slide {
             1.0
         } else {
             1000.0

@@ -1,20 +1,20 @@
 //! What is wrong with a mechanism file is said with its line, the item and the remedy.
 
-use super::{four_bar, refused};
+use super::{assert_refused, four_bar};
 use crate::common::*;
 
 /// Asserts that a file is refused at the line where `line_with` first stands, with these words.
 pub(super) fn bad_file(name: &str, content: &str, line_with: &str, parts: &[&str]) {
-    let (_folder, path) = written(name, content);
+    let (_folder, path) = write_temporary(name, content);
     let place = place_of(name, content, line_with);
     for command in ["check", "analyze", "search"] {
-        has(&refused(&[command, path], parts), &place);
+        has(&assert_refused(&[command, path], parts), &place);
     }
 }
 
 /// The four-bar with one text replaced, which must be there.
 pub(super) fn with(from: &str, to: &str) -> String {
-    changed(&four_bar(), from, to)
+    replace_once(&four_bar(), from, to)
 }
 
 // What can be wrong with a file.
@@ -22,7 +22,7 @@ pub(super) fn with(from: &str, to: &str) -> String {
 /// What is replaced, with what, where the line is that is told, and what is said of it, two parts with `&` between them.
 #[test]
 fn what_is_wrong_in_a_file_is_told_with_its_line() {
-    for [from, to, line, said] in cases::<4>(
+    for [from, to, line, said] in read_cases::<4>(
         r#"
         ["2", "3"] | ["2", "zz"] | zz | unknown link "zz" & known links: 0, 1, 2, 3
         id = "2-3" | id = "1-2"  # again | # again | joint id "1-2" is used twice
@@ -159,8 +159,8 @@ fn error_numbers_beyond_all_bounds() {
     ] {
         bad_file("bad.toml", &place(point), "point =", &parts);
     }
-    let (_folder, path) = written("huge.toml", place("[1e300, 0, 0]"));
-    let said = refused(&["check", path], &["1e300"]);
+    let (_folder, path) = write_temporary("huge.toml", place("[1e300, 0, 0]"));
+    let said = assert_refused(&["check", path], &["1e300"]);
     assert!(said.lines().all(|l| l.len() < 200), "{said}");
 }
 
@@ -169,15 +169,15 @@ fn outputs_that_have_no_place_are_refused_by_their_names() {
     let folder = tempdir().unwrap();
     let place = folder.path().to_str().unwrap();
     for command in ["analyze", "search", "check"] {
-        refused(&[command, place], &["is a folder; name a file in it"]);
+        assert_refused(&[command, place], &["is a folder; name a file in it"]);
     }
     for command in ["analyze", "search"] {
         let whole = ["this is a folder; name a file in it"];
-        let said = refused(&[command, "four-bar", "-o", place], &whole);
+        let said = assert_refused(&[command, "four-bar", "-o", place], &whole);
         assert!(!said.contains(".tmp/"), "{said}");
         let nowhere = format!("{place}/none/x.txt");
         let parts = ["cannot write", "none/x.txt", "no folder", "create it first"];
-        let said = refused(&[command, "four-bar", "-o", &nowhere], &parts);
+        let said = assert_refused(&[command, "four-bar", "-o", &nowhere], &parts);
         assert!(!said.contains("os error"), "{said}");
     }
     assert_eq!(fs::read_dir(place).unwrap().count(), 0);

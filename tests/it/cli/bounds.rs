@@ -1,6 +1,6 @@
 //! Budgets of nodes, memory and threads, and files that are too large: an honest stop or a message, never an abort.
 
-use super::shell;
+use super::run_shell;
 use crate::common::*;
 use std::io::{BufRead, BufReader};
 use std::process::{Command, Stdio};
@@ -14,7 +14,7 @@ fn file(n: usize, joints: &[(usize, usize)]) -> String {
         format!("j{i} | {a} {b} | revolute | {x}, {y}, 0 | 0, 0, 1")
     };
     let joints = joints.iter().enumerate().map(line).join("\n");
-    file_of(head, &((0..=n).join(" ") + "*"), &joints)
+    write_mechanism(head, &((0..=n).join(" ") + "*"), &joints)
 }
 
 /// A ladder of contours that each share two links with the one before.
@@ -31,7 +31,7 @@ fn ladder(contours: usize) -> String {
 
 fn found(text: &str, more: &[&str]) -> Value {
     let args = [&["search", "-", "--count", "--format", "json"], more].concat();
-    let (code, told, said) = fed(&args, text);
+    let (code, told, said) = run_with_input(&args, text);
     assert!(matches!(code, Some(0 | 1)), "{said}");
     serde_json::from_str(&told).unwrap()
 }
@@ -95,7 +95,7 @@ fn tallies_stay_within_the_memory() {
     fs::write(folder.path().join("x.toml"), ladder(20)).unwrap();
     let line =
         "ulimit -v 1000000; exec ozols search x.toml --nodes 1 --count --threads 2 --format json";
-    let o = shell(folder.path(), line);
+    let o = run_shell(folder.path(), line);
     assert!(matches!(o.status.code(), Some(0 | 1)), "{o:?}");
     let v: Value = serde_json::from_slice(&o.stdout).unwrap();
     assert_eq!(v["exact"], false);
@@ -109,7 +109,7 @@ fn scarce_addresses_end_no_search() {
     for contours in [8, 20] {
         fs::write(folder.path().join("x.toml"), ladder(contours)).unwrap();
         let line = "ulimit -v 200000; exec ozols search x.toml --count --check none --threads 4 --format json";
-        let o = shell(folder.path(), line);
+        let o = run_shell(folder.path(), line);
         assert!(matches!(o.status.code(), Some(0 | 1)), "{contours}: {o:?}");
     }
 }
@@ -120,7 +120,7 @@ fn scarce_addresses_end_no_search() {
 fn limits_of_the_process_count() {
     for limit in ["-v 400000", "-d 400000"] {
         let line = format!("ulimit {limit}; exec ozols search four-bar --count");
-        let said = text(&shell(Path::new("."), &line).stderr);
+        let said = utf8_text(&run_shell(Path::new("."), &line).stderr);
         let (_, allowed) = said.split_once('(').unwrap();
         let allowed: u32 = allowed.split(' ').next().unwrap().parse().unwrap();
         assert!((20..=98).contains(&allowed), "{limit}: {said}");
@@ -149,11 +149,11 @@ fn no_reader_reads_without_a_bound() {
         let _ = fs::remove_file(folder.path().join("robot.xml"));
         fs::hard_link(folder.path().join("huge"), folder.path().join("robot.xml")).unwrap();
         let begun = std::time::Instant::now();
-        let o = shell(
+        let o = run_shell(
             folder.path(),
             &format!("ulimit -v 1000000; exec ozols {line} --quiet"),
         );
-        let said = text(&o.stderr);
+        let said = utf8_text(&o.stderr);
         assert_eq!(o.status.code(), Some(2), "{line}: {said}");
         assert!(
             !said.is_empty() && said.len() < 2000,
@@ -173,7 +173,7 @@ fn no_reader_reads_without_a_bound() {
 #[test]
 fn a_search_says_how_much_memory_it_took_of_what_it_may() {
     let o = run(&["search", "four-bar", "--memory", "300M"]);
-    let said = text(&o.stderr);
+    let said = utf8_text(&o.stderr);
     has(&said, " MiB of memory (300 MiB allowed)");
 }
 
@@ -201,7 +201,7 @@ fn budgets_may_be_said_in_several_units() {
 #[test]
 fn a_mechanism_too_entangled_is_refused_at_once() {
     let joints = vec![(0, 1); 3999];
-    let (code, _, said) = fed("analyze -", &file(1, &joints));
+    let (code, _, said) = run_with_input("analyze -", &file(1, &joints));
     assert_eq!(code, Some(2), "{said}");
     has(&said, "23988 rows and 3999 columns");
 }
@@ -218,7 +218,7 @@ fn a_long_open_chain_is_analysed_and_its_search_refused() {
         .unwrap();
     let v: Value = serde_json::from_slice(&o.stdout).unwrap();
     assert_eq!(v["states"][0]["mobility"], 300);
-    let (code, _, said) = fed("search -", &chain);
+    let (code, _, said) = run_with_input("search -", &chain);
     assert_eq!(code, Some(2), "{said}");
     has(&said, "300 joints are in no contour");
 }

@@ -1,13 +1,13 @@
 //! The contract of the formats, design.md section 4: keys, columns, counts.
 
-use super::{small, small_out};
+use super::{small_out, small_search};
 use crate::common::*;
 
 // The contract of the formats, design.md section 4.
 
 #[test]
 fn keys_of_analyze() {
-    let v = json(&["analyze", "gripper-10", "--format", "json"]);
+    let v = run_json(&["analyze", "gripper-10", "--format", "json"]);
     assert_eq!(v["mechanism"], "gripper-10");
     let states = v["states"].list();
     assert_eq!(
@@ -15,7 +15,7 @@ fn keys_of_analyze() {
         ["free", "clamped"]
     );
     for s in states {
-        for k in words(
+        for k in split_words(
             "links joints contours freedoms rank mobility working_mobility local_mobility redundant",
         ) {
             assert!(s[k].is_i64() || s[k].is_u64(), "{k}");
@@ -28,7 +28,7 @@ fn keys_of_analyze() {
         }
         assert!(s.as_object().unwrap().contains_key("external"));
     }
-    for k in words("constraints actual_mobility working_mobility lost_mobility redundant") {
+    for k in split_words("constraints actual_mobility working_mobility lost_mobility redundant") {
         assert!(states[1]["external"][k].is_number(), "{k}");
     }
 }
@@ -37,13 +37,13 @@ fn keys_of_analyze() {
 fn keys_of_search() {
     let v: Value = serde_json::from_str(&small_out("--format json --top 3")).unwrap();
     for k in ["space", "determinate", "admissible"] {
-        assert!(count(&v[k]) > 0, "{k}");
+        assert!(parse_count(&v[k]) > 0, "{k}");
     }
     for k in ["by_mobility", "admissible_by_mobility"] {
         let by = v[k].as_object().unwrap();
         assert!(
             by.iter()
-                .all(|(w, n)| w.parse::<i64>().is_ok() && count(n) > 0),
+                .all(|(w, n)| w.parse::<i64>().is_ok() && parse_count(n) > 0),
             "{k}"
         );
     }
@@ -129,10 +129,13 @@ fn csv_columns() {
 #[test]
 fn symmetry_counts() {
     let counts = |more: &str| {
-        let (code, told, _) = ran(&small(&format!("--count --format json {more}")));
+        let (code, told, _) = run_full(&small_search(&format!("--count --format json {more}")));
         assert_ne!(code, Some(2));
         let v: Value = serde_json::from_str(&told).unwrap();
-        (count(&v["determinate"]), count(&v["admissible"]))
+        (
+            parse_count(&v["determinate"]),
+            parse_count(&v["admissible"]),
+        )
     };
     for more in ["", "--allow-output-change"] {
         let with = |flag| counts(&format!("{more} {flag}"));
@@ -148,6 +151,6 @@ fn symmetry_counts() {
 
 #[test]
 fn schema_is_json() {
-    let v = json(&["schema"]);
+    let v = run_json(&["schema"]);
     assert!(v["properties"]["joint"].is_object() && v["properties"]["link"].is_object());
 }

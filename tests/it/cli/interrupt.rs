@@ -74,7 +74,7 @@ fn a_list_that_is_cut_short_says_so_at_its_end() {
             let child = start(folder, &line);
             let o = interrupted(child, signal, || written(folder) > 100_000);
             assert_eq!(o.status.code(), Some(code), "{signal} {format}");
-            assert!(text(&o.stderr).contains("interrupted by"), "{signal}");
+            assert!(utf8_text(&o.stderr).contains("interrupted by"), "{signal}");
             assert_eq!(fs::read_dir(folder).unwrap().count(), 1, "{signal}");
             let list = fs::read_to_string(folder.join("list")).unwrap();
             let last = list.lines().last().unwrap();
@@ -85,7 +85,11 @@ fn a_list_that_is_cut_short_says_so_at_its_end() {
                     let end = format!(
                         "stopped early (interrupted): {given} of 21817629 admissible variants given\n"
                     );
-                    assert!(text(&o.stderr).contains(&end), "{}", text(&o.stderr));
+                    assert!(
+                        utf8_text(&o.stderr).contains(&end),
+                        "{}",
+                        utf8_text(&o.stderr)
+                    );
                     assert!(!list.contains('#'));
                 }
                 "jsonl" => {
@@ -109,7 +113,7 @@ fn a_list_that_is_cut_short_says_so_at_its_end() {
 #[test]
 fn a_whole_list_has_no_such_end() {
     for format in ["csv", "jsonl", "json"] {
-        let list = out(&["search", "four-bar", "--all", "--format", format]);
+        let list = run_quiet(&["search", "four-bar", "--all", "--format", format]);
         assert!(!list.contains("stop\":\"") && !list.contains("# stopped"));
         if format == "json" {
             let whole: Value = serde_json::from_str(&list).unwrap();
@@ -122,15 +126,15 @@ fn a_whole_list_has_no_such_end() {
 #[test]
 fn a_list_of_a_bounded_search_says_so_at_its_end() {
     let args = ["search", "gripper-10", "--nodes", "50", "--top", "2"];
-    let csv = out(&[&args[..], &["--format", "csv", "--comment"]].concat());
+    let csv = run_quiet(&[&args[..], &["--format", "csv", "--comment"]].concat());
     let last = csv.lines().last().unwrap();
     assert!(last.starts_with("# stopped early (node-budget): 2 of at least"));
     // Unless it is asked for in the list, it is said beside it.
     let o = run(&[&args[..], &["--format", "csv"]].concat());
-    assert!(text(&o.stderr).starts_with("stopped early (node-budget): 2 of at least"));
+    assert!(utf8_text(&o.stderr).starts_with("stopped early (node-budget): 2 of at least"));
     assert_eq!(
         csv.strip_suffix(&format!("{last}\n")).unwrap(),
-        text(&o.stdout)
+        utf8_text(&o.stdout)
     );
 }
 
@@ -151,8 +155,13 @@ fn whatever_takes_long_ends_at_once() {
             sent = Instant::now();
             ready()
         });
-        assert_eq!(o.status.code(), Some(130), "{args:?} {}", text(&o.stderr));
-        assert_eq!(text(&o.stderr), "interrupted by Ctrl-C\n", "{args:?}");
+        assert_eq!(
+            o.status.code(),
+            Some(130),
+            "{args:?} {}",
+            utf8_text(&o.stderr)
+        );
+        assert_eq!(utf8_text(&o.stderr), "interrupted by Ctrl-C\n", "{args:?}");
         assert!(sent.elapsed() < Duration::from_secs(2), "{args:?}");
         assert_eq!(written(folder.path()), 0);
         assert!(!folder.path().join("x").is_file());
@@ -172,7 +181,12 @@ fn a_ranking_and_poses_end_with_what_they_have() {
         let o = interrupted(child, "INT", || {
             begun.elapsed() > Duration::from_millis(3000)
         });
-        assert_eq!(o.status.code(), Some(130), "{args:?} {}", text(&o.stderr));
+        assert_eq!(
+            o.status.code(),
+            Some(130),
+            "{args:?} {}",
+            utf8_text(&o.stderr)
+        );
         let found: Value = serde_json::from_slice(&o.stdout).unwrap();
         assert_eq!(found["variants_stop"], "interrupted", "{args:?}");
     }
@@ -218,7 +232,7 @@ fn what_is_cut_short_takes_nobodys_place() {
         let o = interrupted(start(folder, line), "INT", || {
             written(folder) > 100_000 || line == page && begun.elapsed() > Duration::from_secs(4)
         });
-        let said = text(&o.stderr);
+        let said = utf8_text(&o.stderr);
         assert_eq!(o.status.code(), Some(130), "{said}");
         assert_eq!(fs::read(folder.join(name)).unwrap(), b"whole and finished");
         assert!(said.contains(name) && said.contains(beside), "{said}");

@@ -100,7 +100,7 @@ fn lists_one_shorter_or_longer_are_refused() {
     lists(&schema, &schema, &[], &mut Vec::new(), &mut all);
     // What the structs of the schema have: lengths of points, axes, pairs and quadruples.
     let keys: BTreeSet<&str> = all.iter().map(List::key).collect();
-    for part in words(
+    for part in split_words(
 "links joints point axis reference centre plane_normal gravity force moment mirror accelerations lever_joints
             contacts centre_of_mass inertia",
 ) {

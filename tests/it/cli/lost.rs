@@ -1,6 +1,6 @@
 //! Nothing is lost: outputs of one name, outputs that are read, disks and files that are full.
 
-use super::{four_bar, shell, shell_fails};
+use super::{four_bar, run_shell, shell_fails};
 use crate::common::*;
 
 /// Names of the files in a folder, with what they hold.
@@ -50,7 +50,7 @@ fn two_outputs_of_one_name_are_refused() {
         for [one, other] in &named {
             let all = [words, &[option, one, "-o", other]].concat();
             let o = ozols(&all).current_dir(folder).output().unwrap();
-            let said = text(&o.stderr);
+            let said = utf8_text(&o.stderr);
             assert_eq!(o.status.code(), Some(2), "{all:?}: {said}");
             assert!(said.contains("name two files"), "{all:?}: {said}");
             assert_eq!(held(folder), [], "{all:?}");
@@ -62,7 +62,7 @@ fn two_outputs_of_one_name_are_refused() {
     let o = ozols(&both).current_dir(folder).output().unwrap();
     assert_eq!((o.status.code(), held(folder).len()), (Some(0), 2));
     #[cfg(unix)]
-    out("analyze four-bar --certificate /dev/null -o /dev/null");
+    run_quiet("analyze four-bar --certificate /dev/null -o /dev/null");
 }
 
 /// A folder of charts has a page, which no other output replaces.
@@ -73,7 +73,7 @@ fn an_output_among_the_charts_is_refused() {
     let page = charts.join("index.html");
     let [charts, page] = [charts, page].map(|p| p.display().to_string());
     let line = format!("statics parallel-shears --stroke 0:360deg:12 --svg {charts} -o {page}");
-    fails(&line, "already written by this command");
+    assert_fails(&line, "already written by this command");
     assert!(fs::read_to_string(&page).unwrap().starts_with("<!"));
 }
 
@@ -104,8 +104,8 @@ fn standard_input_and_output_are_files_like_others() {
     // The shell empties it first.
     shell_fails(folder, "ozols analyze - < f.toml > f.toml", "");
     fs::write(&file, four_bar()).unwrap();
-    let o = shell(folder, "ozols export - --to json < f.toml > new.json");
-    assert_eq!(o.status.code(), Some(0), "{}", text(&o.stderr));
+    let o = run_shell(folder, "ozols export - --to json < f.toml > new.json");
+    assert_eq!(o.status.code(), Some(0), "{}", utf8_text(&o.stderr));
 }
 
 /// What a description includes is read as well.
@@ -120,13 +120,13 @@ fn an_included_file_is_not_written_over() {
     fs::write(&part, robot).unwrap();
     fs::write(&main, "<mujoco><include file=\"part.xml\"/></mujoco>").unwrap();
     let [main, part] = [main, part].map(|p| p.display().to_string());
-    out(&["analyze", &main, "-q"]);
+    run_quiet(&["analyze", &main, "-q"]);
     for words in [
         ["export", "--to=mjcf"],
         ["export", "--to=toml"],
         ["draw", "-q"],
     ] {
-        fails(&[words[0], &main, words[1], "-o", &part], "is the input");
+        assert_fails(&[words[0], &main, words[1], "-o", &part], "is the input");
         assert_eq!(fs::read_to_string(&part).unwrap(), robot);
     }
 }
@@ -137,7 +137,7 @@ fn an_included_file_is_not_written_over() {
 fn a_file_that_may_not_grow_is_an_error_with_its_name() {
     let folder = tempdir().unwrap();
     let folder = folder.path();
-    for [words, name] in cases::<2>(
+    for [words, name] in read_cases::<2>(
         r"
         search gripper-10 --top 2000 --format csv -o list.csv | list.csv
         search gripper-10 --top 2000 --format json -o list.json | list.json
@@ -162,8 +162,8 @@ fn a_file_that_may_not_grow_is_an_error_with_its_name() {
         let left: Vec<String> = left.filter(|f| f != "c.db").collect();
         assert_eq!(left, [""; 0], "{words}");
     }
-    let o = shell(folder, "ozols catalog build --links 4 --ideas 1 -o c.db");
-    assert_eq!(o.status.code(), Some(0), "{}", text(&o.stderr));
+    let o = run_shell(folder, "ozols catalog build --links 4 --ideas 1 -o c.db");
+    assert_eq!(o.status.code(), Some(0), "{}", utf8_text(&o.stderr));
 }
 
 #[cfg(target_os = "linux")]
@@ -191,6 +191,6 @@ fn a_full_device_is_an_error_with_its_name() {
         );
     }
     // Who reads no further is no failure.
-    let o = shell(folder, "(ozols --help; echo $? >&2) | true");
-    assert_eq!(text(&o.stderr), "0\n");
+    let o = run_shell(folder, "(ozols --help; echo $? >&2) | true");
+    assert_eq!(utf8_text(&o.stderr), "0\n");
 }

@@ -1,7 +1,7 @@
 //! Mechanism files in JSON; files that are no mechanism at all: bytes, sizes, names.
 
 use super::bad_files::bad_file;
-use super::{four_bar, refused};
+use super::{assert_refused, four_bar};
 use crate::common::*;
 
 fn four_bar_json() -> String {
@@ -11,20 +11,20 @@ fn four_bar_json() -> String {
 
 #[test]
 fn json_is_read_like_toml() {
-    let (_folder, path) = written("four-bar.json", four_bar_json());
+    let (_folder, path) = write_temporary("four-bar.json", four_bar_json());
     // What to do next names the file.
-    let from = |file: &str| json(&["analyze", file, "--format", "json"])["states"].take();
+    let from = |file: &str| run_json(&["analyze", file, "--format", "json"])["states"].take();
     assert_eq!(from(path), from("four-bar"));
     assert_eq!(
-        out(&["search", path, "--format", "json"]),
-        out(&["search", "four-bar", "--format", "json"])
+        run_quiet(&["search", path, "--format", "json"]),
+        run_quiet(&["search", "four-bar", "--format", "json"])
     );
 }
 
 #[test]
 fn error_in_json() {
     let text = four_bar_json();
-    for [from, to, said] in cases::<3>(
+    for [from, to, said] in read_cases::<3>(
         r#"
         "revolute" | "hing" | unknown joint type "hing"
         "drive": true | "drive": true true | expected
@@ -52,7 +52,7 @@ fn bad_bytes(bytes: &[u8], parts: &[&str]) {
     for name in ["bad.toml", "bad.json"] {
         let path = folder.path().join(name);
         fs::write(&path, bytes).unwrap();
-        let said = refused(&["check", path.to_str().unwrap()], parts);
+        let said = assert_refused(&["check", path.to_str().unwrap()], parts);
         assert!(said.contains(name));
     }
 }

@@ -19,9 +19,9 @@ fn output_file_is_whole() {
         &["analyze", "four-bar", "--format", "json"],
         &["analyze", "four-bar"],
     ] {
-        assert_eq!(out(&[args, &["-o", file]].concat()), "");
-        let written = timeless(&fs::read_to_string(&path).unwrap());
-        assert_eq!(written, out(args), "{args:?}");
+        assert_eq!(run_quiet(&[args, &["-o", file]].concat()), "");
+        let written = without_time(&fs::read_to_string(&path).unwrap());
+        assert_eq!(written, run_quiet(args), "{args:?}");
     }
     assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1);
 }
@@ -33,14 +33,17 @@ fn show_round_trips_through_standard_input() {
         .write_stdin(shown.clone())
         .output()
         .unwrap();
-    assert_eq!((o.status.code(), text(&o.stderr).as_str()), (Some(0), ""));
-    assert_eq!(text(&o.stdout), out(&["check", "four-bar"]));
+    assert_eq!(
+        (o.status.code(), utf8_text(&o.stderr).as_str()),
+        (Some(0), "")
+    );
+    assert_eq!(utf8_text(&o.stdout), run_quiet(&["check", "four-bar"]));
     let o = ozols(&["analyze", "-", "--format", "json"])
         .write_stdin(shown)
         .output()
         .unwrap();
     let mut read: Value = serde_json::from_slice(&o.stdout).unwrap();
-    let mut named = json(&["analyze", "four-bar", "--format", "json"]);
+    let mut named = run_json(&["analyze", "four-bar", "--format", "json"]);
     // What to do next names the file.
     for v in [&mut read, &mut named] {
         v["next"].take();
@@ -51,7 +54,7 @@ fn show_round_trips_through_standard_input() {
         .output()
         .unwrap();
     assert_eq!(o.status.code(), Some(2));
-    assert!(text(&o.stderr).contains("standard input:1:"));
+    assert!(utf8_text(&o.stderr).contains("standard input:1:"));
 }
 
 // `ozols search ... | head -1`
@@ -102,7 +105,7 @@ fn output_to_a_special_file_keeps_it() {
         .write(true)
         .open(&path)
         .unwrap();
-    out(&["analyze", "four-bar", "-o", path.to_str().unwrap()]);
+    run_quiet(&["analyze", "four-bar", "-o", path.to_str().unwrap()]);
     assert!(fs::symlink_metadata(&path).unwrap().file_type().is_fifo());
 }
 
@@ -114,11 +117,11 @@ fn output_through_a_symbolic_link() {
     let (real, link) = (folder.path().join("real"), folder.path().join("link"));
     fs::write(&real, "old").unwrap();
     std::os::unix::fs::symlink(&real, &link).unwrap();
-    out(&["analyze", "four-bar", "-o", link.to_str().unwrap()]);
+    run_quiet(&["analyze", "four-bar", "-o", link.to_str().unwrap()]);
     assert!(fs::symlink_metadata(&link).unwrap().is_symlink());
     assert_eq!(
         fs::read_to_string(&real).unwrap(),
-        out(&["analyze", "four-bar"])
+        run_quiet(&["analyze", "four-bar"])
     );
 }
 
@@ -127,16 +130,16 @@ fn output_through_a_symbolic_link() {
 #[test]
 fn a_search_says_how_long_it_took() {
     let o = run(&["search", "four-bar", "--format", "json"]);
-    let whole = text(&o.stdout);
+    let whole = utf8_text(&o.stdout);
     let v: Value = serde_json::from_str(&whole).unwrap();
     let seconds = v["seconds"].real();
     assert!(seconds > 0.0 && seconds < 600.0, "{seconds}");
     // It is the last key, so that all before it is the same every time.
     let last = whole.lines().rev().nth(1).unwrap();
     assert!(last.starts_with("  \"seconds\": "), "{last}");
-    assert_eq!(text(&o.stderr), "");
+    assert_eq!(utf8_text(&o.stderr), "");
 
-    let said = |args: &[&str]| text(&run(args).stderr);
+    let said = |args: &[&str]| utf8_text(&run(args).stderr);
     let line = said(&["search", "four-bar"]);
     assert!(line.starts_with("Searched in ") && line.lines().count() == 1);
     assert_eq!(said(&["search", "four-bar", "--quiet"]), "");
@@ -154,8 +157,8 @@ fn what_is_read_is_not_written_over() {
     fs::write(&file, four_bar()).unwrap();
     let made = run(&["export", &file, "--to", "mjcf", "-o", &robot]);
     assert_eq!(made.status.code(), Some(0));
-    out(&["catalog", "build", "--links", "4", "--quiet", "-o", &db]);
-    let id = out(&[
+    run_quiet(&["catalog", "build", "--links", "4", "--quiet", "-o", &db]);
+    let id = run_quiet(&[
         "catalog",
         "query",
         &db,
@@ -187,7 +190,7 @@ fn what_is_read_is_not_written_over() {
     ];
     for words in over {
         let o = run(words);
-        let said = text(&o.stderr);
+        let said = utf8_text(&o.stderr);
         assert_eq!(o.status.code(), Some(2), "{words:?}: {said}");
         assert!(
             said.contains("name another file to write") || words.contains(&"--costs"),
@@ -201,7 +204,7 @@ fn what_is_read_is_not_written_over() {
 fn a_robot_description_on_standard_input_is_told_from_toml() {
     let xml = "\n<robot name='r'/>";
     let o = ozols(&["analyze", "-"]).write_stdin(xml).output().unwrap();
-    let said = text(&o.stderr);
+    let said = utf8_text(&o.stderr);
     assert_eq!(o.status.code(), Some(2), "{said}");
     has(&said, "standard input is XML");
 }

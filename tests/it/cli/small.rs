@@ -1,6 +1,6 @@
 //! Names, tables, files and pipes that are not as one expects.
 
-use super::refused;
+use super::assert_refused;
 use crate::common::*;
 
 /// ESC colours a terminal and worse, CR hides what came before, NUL ends strings of other programs.
@@ -8,7 +8,7 @@ use crate::common::*;
 fn control_characters_are_refused() {
     let folder = tempdir().unwrap();
     let file = folder.path().join("x.toml");
-    let shown = out(&["show", "four-bar"]);
+    let shown = run_quiet(&["show", "four-bar"]);
     for (from, to, key) in [
         (
             "name = \"four-bar\"",
@@ -19,14 +19,14 @@ fn control_characters_are_refused() {
         ("description = \"", "description = \"\\u0000", "description"),
         ("O. G. Ozols", "O.\\u009b Ozols", "sources"),
     ] {
-        fs::write(&file, changed(&shown, from, to)).unwrap();
+        fs::write(&file, replace_once(&shown, from, to)).unwrap();
         let words = format!("{key} contains the control character");
-        refused(&["analyze", file.to_str().unwrap()], &[&words]);
+        assert_refused(&["analyze", file.to_str().unwrap()], &[&words]);
     }
     let json = folder.path().join("x.json");
-    let shown = out(&["export", "four-bar", "--to", "json"]);
-    fs::write(&json, changed(&shown, "\"four-bar\"", "\"a\\u001b\"")).unwrap();
-    refused(
+    let shown = run_quiet(&["export", "four-bar", "--to", "json"]);
+    fs::write(&json, replace_once(&shown, "\"four-bar\"", "\"a\\u001b\"")).unwrap();
+    assert_refused(
         &format!("analyze {}", json.display()),
         &["name contains the control character \\u{1b}"],
     );
@@ -37,26 +37,26 @@ fn control_characters_are_refused() {
             format!("<robot name=\"{name}\"><link name=\"b\"/></robot>"),
         )
         .unwrap();
-        refused(&["analyze", urdf.to_str().unwrap()], &["control character"]);
+        assert_refused(&["analyze", urdf.to_str().unwrap()], &["control character"]);
     }
 }
 
 /// Prose may have several lines.
 #[test]
 fn a_description_of_two_lines_is_taken() {
-    let shown = out(&["show", "four-bar"]);
-    let two = changed(&shown, "description = \"", "description = \"one\\n\\ttwo ");
+    let shown = run_quiet(&["show", "four-bar"]);
+    let two = replace_once(&shown, "description = \"", "description = \"one\\n\\ttwo ");
     let o = ozols(&["check", "-"]).write_stdin(two).output().unwrap();
-    assert_eq!(o.status.code(), Some(0), "{}", text(&o.stderr));
+    assert_eq!(o.status.code(), Some(0), "{}", utf8_text(&o.stderr));
 }
 
 /// A spreadsheet would run them.
 #[test]
 fn names_like_formulas_are_neutralised_in_csv() {
-    let shown = out(&["show", "four-bar"]).replace("\"2-3\"", "\"=2+3\"");
+    let shown = run_quiet(&["show", "four-bar"]).replace("\"2-3\"", "\"=2+3\"");
     let search = ["search", "-", "--top", "3", "--format", "csv"];
     let o = ozols(&search).write_stdin(shown).output().unwrap();
-    let (csv, said) = (text(&o.stdout), text(&o.stderr));
+    let (csv, said) = (utf8_text(&o.stdout), utf8_text(&o.stderr));
     assert!(
         csv.contains(",'=2+3,") && !csv.contains(",=2+3"),
         "{csv}{said}"
@@ -80,7 +80,7 @@ fn every_row_of_csv_has_as_many_cells_as_the_head() {
         };
         let args = [&["search", name, "--format", "csv"], more].concat();
         let o = run(&args);
-        let csv = text(&o.stdout);
+        let csv = utf8_text(&o.stdout);
         let mut rows = csv::Reader::from_reader(csv.as_bytes());
         let width = rows.headers().unwrap().len();
         let rows: Vec<_> = rows.records().map(|r| r.unwrap().len()).collect();
@@ -104,7 +104,7 @@ fn a_written_file_has_the_mode_it_had_or_the_umask() {
     fs::write(&old, "").unwrap();
     for kept in [0o600, 0o664, 0o755] {
         fs::set_permissions(&old, fs::Permissions::from_mode(kept)).unwrap();
-        out(&["analyze", "four-bar", "-o", old.to_str().unwrap()]);
+        run_quiet(&["analyze", "four-bar", "-o", old.to_str().unwrap()]);
         assert_eq!(mode("old"), kept);
     }
     for (umask, expected) in [("077", 0o600), ("002", 0o664), ("022", 0o644)] {
@@ -131,7 +131,7 @@ fn a_dash_is_standard_output() {
     ] {
         let mut command = ozols(&[args, &["-o", "-"]].concat());
         let o = command.current_dir(&folder).output().unwrap();
-        assert_eq!(text(&o.stdout), out(args));
+        assert_eq!(utf8_text(&o.stdout), run_quiet(args));
     }
     assert_eq!(fs::read_dir(&folder).unwrap().count(), 0);
 }
@@ -139,7 +139,7 @@ fn a_dash_is_standard_output() {
 /// Once accepted in silence, and no file written.
 #[test]
 fn a_counting_method_has_no_certificate() {
-    refused(
+    assert_refused(
         "analyze four-bar --method count --certificate c",
         &["--method count", "no certificate"],
     );
@@ -160,7 +160,7 @@ fn an_included_pipe_is_refused() {
         "<mujoco><include file=\"pipe\"/><worldbody/></mujoco>",
     )
     .unwrap();
-    refused(
+    assert_refused(
         &format!("export {} --to toml", file.display()),
         &["pipe", "it is not a file"],
     );
@@ -186,15 +186,15 @@ fn a_closed_standard_error_is_no_failure() {
 /// Once a panic: in a plane a coupling of freedoms that lead out of it had no row, and its share was looked for there.
 #[test]
 fn couplings_out_of_the_plane_are_left_out_and_said() {
-    let shown = out(&["show", "four-bar"]);
+    let shown = run_quiet(&["show", "four-bar"]);
     let hinge = "links = [\"1\", \"2\"]\ntype = \"revolute\"";
-    let sliding = changed(&shown, hinge, &hinge.replace("revolute", "cylindrical"));
+    let sliding = replace_once(&shown, hinge, &hinge.replace("revolute", "cylindrical"));
     let coupled = format!("{sliding}\n[[coupling]]\njoints = [\"1-2:tz\", \"3-0\"]\nratio = 2\n");
-    let (_folder, file) = written("x.toml", coupled);
+    let (_folder, file) = write_temporary("x.toml", coupled);
     for more in [&[][..], &["--method", "svd"], &["--method", "count-planar"]] {
         let args = [&["analyze", file, "--planar"], more].concat();
         let o = run(&args);
-        let said = text(&o.stderr);
+        let said = utf8_text(&o.stderr);
         assert_eq!(o.status.code(), Some(0), "{args:?} {said}");
         has(&said, "--planar omits the couplings");
         has(&said, "1-2");
@@ -207,18 +207,18 @@ fn a_plane_that_stops_a_joint_is_refused() {
     let refused = |file: &str| {
         let o = run(&["analyze", file, "--planar"]);
         assert_eq!(o.status.code(), Some(2), "{file}");
-        text(&o.stderr)
+        utf8_text(&o.stderr)
     };
     let said = refused("bennett");
     for part in ["joint 0-1", "joint 1-2", "omit --planar"] {
         has(&said, part);
     }
-    let tilted = changed(
-        &out(&["show", "four-bar"]),
+    let tilted = replace_once(
+        &run_quiet(&["show", "four-bar"]),
         "point = [0, 0, 0]\naxis = [0, 0, 1]",
         "point = [0, 0, 0]\naxis = [1, 0, 0]",
     );
-    let (_folder, file) = written("x.toml", tilted);
+    let (_folder, file) = write_temporary("x.toml", tilted);
     has(&refused(file), "no freedom of joint 0-1 lies in the plane");
-    out(&["analyze", "gripper-10", "--planar"]);
+    run_quiet(&["analyze", "gripper-10", "--planar"]);
 }

@@ -9,11 +9,11 @@ pub(crate) use ozols::file::text::mechanism_from_str;
 pub(crate) use ozols::geom::exact::ExactField;
 pub(crate) use ozols::geom::expr::Expr;
 pub(crate) use ozols::geom::vector::{
-    add_scaled, cross, cross_plane, dot, length, quarter, real, scale, sub, unit,
+    add_scaled, cross, cross_plane, dot, length, quarter_turn, scale, sub, to_vector, unit,
 };
 pub(crate) use ozols::model::joint_type::{Freedom, JointType};
 pub(crate) use ozols::model::mechanism::{JointId, LinkId, Mechanism, Mode, Role, StateId};
-pub(crate) use ozols::redundancy::analysis::{Method, analyse, exact_field};
+pub(crate) use ozols::redundancy::analysis::{Method, analyse_states, exact_field};
 pub(crate) use ozols::search::Search;
 pub(crate) use ozols::search::question::conditions::Conditions;
 pub(crate) use serde_json::{Value, json};
@@ -47,7 +47,7 @@ impl Json for Value {
     }
 }
 
-pub(crate) fn text(bytes: &[u8]) -> String {
+pub(crate) fn utf8_text(bytes: &[u8]) -> String {
     String::from_utf8(bytes.to_vec()).unwrap()
 }
 

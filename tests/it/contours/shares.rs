@@ -4,7 +4,7 @@ use crate::common::*;
 use ozols::closure::contour::{Contour, closed_walk};
 use ozols::rank::exact::field::field_of;
 use ozols::redundancy::contour_shares::Measured;
-use ozols::redundancy::contour_shares::{ContourShare, shares};
+use ozols::redundancy::contour_shares::{ContourShare, contour_shares};
 
 /// Every closed walk that passes no link twice.
 fn walks(m: &Mechanism, joints: &[JointId]) -> Vec<Contour> {
@@ -51,7 +51,10 @@ fn in_order(m: &Mechanism, mut left: Vec<JointId>) -> Option<Contour> {
 /// Whether walks are independent, by elimination of how they pass joints.
 fn independent(walks: &[&Contour], joints: &[JointId]) -> bool {
     let row = |w: &&Contour| -> Vec<f64> {
-        let way = |j: &JointId| w.direction(*j).map_or(0.0, |d| if d { 1.0 } else { -1.0 });
+        let way = |j: &JointId| {
+            w.direction_of(*j)
+                .map_or(0.0, |d| if d { 1.0 } else { -1.0 })
+        };
         joints.iter().map(way).collect()
     };
     let mut rows: Vec<Vec<f64>> = walks.iter().map(row).collect();
@@ -85,7 +88,7 @@ fn beside_a_joint(
     let whole = redundant(exact, m, closure_of(exact, m).contours);
     let of = |&(joint, _): &(JointId, bool)| {
         let mut rest: Vec<&Contour> = Vec::new();
-        for walk in all.iter().filter(|w| w.direction(joint).is_none()) {
+        for walk in all.iter().filter(|w| w.direction_of(joint).is_none()) {
             rest.push(walk);
             if rest.len() >= k || !independent(&rest, joints) {
                 rest.pop();
@@ -116,8 +119,10 @@ fn the_range_over_bases_is_that_of_every_basis() {
         seen += 1;
         let all = walks(&m, &joints);
         let whole = redundant(&exact, &m, closure.contours.clone());
-        let measured = Measured::new(&m, StateId::FREE, 1e-9).unwrap().shares();
-        for (share, by_values) in shares(&exact, &closure).iter().zip(&measured) {
+        let measured = Measured::new(&m, StateId::FREE, 1e-9)
+            .unwrap()
+            .contour_shares();
+        for (share, by_values) in contour_shares(&exact, &closure).iter().zip(&measured) {
             let others = all.iter().combinations(k - 1);
             let last = others.filter_map(|rest| {
                 let mut basis = vec![&share.contour];
@@ -149,7 +154,7 @@ fn the_range_over_bases_is_that_of_every_basis() {
 /// well as the coupling.
 #[test]
 fn a_coupling_can_take_a_constraint_over_from_a_contour() {
-    let cranks = file_of(
+    let cranks = write_mechanism(
         "name = \"cranks\"\nmode = \"planar\"",
         "0 1 2* 3",
         "
@@ -164,8 +169,10 @@ fn a_coupling_can_take_a_constraint_over_from_a_contour() {
     for (more, greatest) in [("", 0), (coupling, 1)] {
         let m = ozols::from_toml(&text(more)).unwrap();
         let exact = field_of(&m, StateId::FREE, 0).unwrap();
-        let measured = Measured::new(&m, StateId::FREE, 1e-9).unwrap().shares();
-        for [share] in [shares(&exact, &closure_of(&exact, &m)), measured].map(one) {
+        let measured = Measured::new(&m, StateId::FREE, 1e-9)
+            .unwrap()
+            .contour_shares();
+        for [share] in [contour_shares(&exact, &closure_of(&exact, &m)), measured].map(one) {
             assert_eq!((share.redundant, share.range), (0, (0, greatest)), "{more}");
         }
     }

@@ -11,7 +11,7 @@ fn the_formula_counts_couplings() {
     for name in ozols::builtin::names() {
         let m = built_in(name);
         let states: Vec<StateId> = m.state_ids().collect();
-        for s in analyse(&m, &states, Method::Modular).unwrap() {
+        for s in analyse_states(&m, &states, Method::Modular).unwrap() {
             let wanted = s.mobility as i64 - s.redundant as i64;
             assert_eq!(s.formula_mobility, wanted, "{name}");
         }
@@ -35,7 +35,7 @@ fn a_state_may_add_couplings() {
     };
     let external = |text: &str| {
         let m = mechanism(text);
-        let found = analyse(&m, &[StateId::new(1)], Method::Modular).unwrap();
+        let found = analyse_states(&m, &[StateId::new(1)], Method::Modular).unwrap();
         found[0].external.unwrap()
     };
     // Two hinges: 5 + 5. The slides move alike then, and the part goes along: 10 - (2 - 1) - 6 = 3 of them are redundant.
@@ -67,7 +67,7 @@ fn no_bound_on_the_order_is_taken_where_joints_are_coupled() {
             }
         )
     };
-    let text = file_of(
+    let text = write_mechanism(
         "name = \"parallelogram\"",
         "0 1 2* 3",
         "
@@ -121,11 +121,11 @@ fn joints_of_several_couplings_are_counted_one_by_one() {
                     ..Conditions::default()
                 };
                 let s = Search::new(exact_field(&m, 0).unwrap(), &m, conditions).unwrap();
-                let d = s.build(&|| false, &mut |_| {});
+                let d = s.build_diagrams(&|| false, &mut |_| {});
                 let every = every_variant(&s).unwrap();
                 let found = (
-                    s.counts(&d.determinate, false),
-                    s.counts(&d.admissible, true),
+                    s.count_variants(&d.determinate, false),
+                    s.count_variants(&d.admissible, true),
                 );
                 assert_eq!(
                     found,

@@ -108,10 +108,10 @@ fn turns(m: &ozols::Mechanism) -> [f64; 2] {
     use ozols::motion::pose::Pose;
     let pose = Pose::of_file(m, StateId::FREE).unwrap();
     let mut follower = Follower::new(pose, 0, &[]);
-    follower.advance(0.3, |_| {}).unwrap();
-    let last = follower.pose();
+    follower.advance_to(0.3, |_| {}).unwrap();
+    let last = follower.current_pose();
     ["1", "2"].map(|id| {
-        let link = &last.links[m.link(id).unwrap()];
+        let link = &last.links[m.link_named(id).unwrap()];
         link.sine()[2].atan2(link.cosine())
     })
 }
@@ -175,7 +175,7 @@ fn equalities_of_mujoco() {
     let kept = i.report.kept.unwrap();
     assert_eq!((kept.couplings, kept.mobility), (2, Some((3, 1))));
     // Rates are those of the joints, whatever the length of their axes.
-    let rows = ozols::closure::coupling::coefficients(&m, StateId::FREE);
+    let rows = ozols::closure::coupling::coupling_coefficients(&m, StateId::FREE);
     assert!(
         rows.iter()
             .zip([0.25, -1.0])

@@ -2,7 +2,7 @@
 
 use crate::accuracy::SURVEY;
 use crate::common::*;
-use ozols::chains::classics::classics;
+use ozols::chains::classics::known_classics;
 use ozols::rank::method::registry;
 
 /// Asserts that a document has these words, wherever its lines are broken.
@@ -46,14 +46,14 @@ fn records_of_the_methods_are_those_of_the_survey() {
     says(MOBILITY, &format!("any of {} methods", registry::ALL.len()));
     says(MOBILITY, &format!("Results for {all} cases:"));
     for (m, method) in registry::ALL.iter().enumerate() {
-        let (about, record) = (method.about(), SURVEY.standing(m));
+        let (about, record) = (method.about(), SURVEY.record_of(m));
         let of = format!("`{}`: {}", about.name, about.title);
         let silent = all - record.applies;
-        row(&of, record.right, record.pose, record.wrong(), silent);
+        row(&of, record.right, record.pose, record.count_wrong(), silent);
     }
     let right = |name: &str| {
         let m = registry::ALL.iter().position(|m| m.name() == name).unwrap();
-        SURVEY.standing(m).right
+        SURVEY.record_of(m).right
     };
     assert_eq!(right("auto"), all);
     says(
@@ -74,10 +74,10 @@ fn sizes_of_searches_are_those_of_the_searches() {
             &["search", "gripper-10", "--count", "--format", "json"],
             more,
         ];
-        json(&args.concat())
+        run_json(&args.concat())
     };
     let size = |found: &Value| {
-        let space = format!("{:.1e}", count(&found["space"]) as f64);
+        let space = format!("{:.1e}", parse_count(&found["space"]) as f64);
         (space.replace('e', "·10^"), found["nodes"].to_string())
     };
     let (space, nodes) = size(&search(&[]));
@@ -102,7 +102,7 @@ fn sizes_of_searches_are_those_of_the_searches() {
     let names = ["four-bar", "watt-six-bar", "scissor-lift-3", "gripper-10"];
     let of = |name: &&str| {
         let options = "revolute,cylindrical,spherical";
-        json(&format!(
+        run_json(&format!(
             "search {name} --count --options {options} --format json"
         ))
     };
@@ -122,7 +122,8 @@ fn sizes_of_searches_are_those_of_the_searches() {
 /// The gripper as built, redesigned by the paper, and redesigned here.
 #[test]
 fn redesigns_of_the_gripper_are_those_that_are_found() {
-    let analysed = |name: &str| json(&["analyze", name, "--format", "json"])["states"][0].clone();
+    let analysed =
+        |name: &str| run_json(&["analyze", name, "--format", "json"])["states"][0].clone();
     let (built, paper) = (analysed("gripper-10"), analysed("gripper-10-redesign"));
     let figures = |state: &Value| format!("{} | {}", state["redundant"], state["mobility"]);
     says(
@@ -139,7 +140,7 @@ fn redesigns_of_the_gripper_are_those_that_are_found() {
             idle.join(", ")
         ),
     );
-    let found = json("search gripper-10 --distinct --top 1 --format json");
+    let found = run_json("search gripper-10 --distinct --top 1 --format json");
     let row = |found: &Value, sure: &str, same: &str| {
         let changes = found["changes"].list();
         let to = |kind: &str| {
@@ -160,7 +161,7 @@ fn redesigns_of_the_gripper_are_those_that_are_found() {
 /// How many schemes are known.
 #[test]
 fn as_many_schemes_are_known_as_the_documents_say() {
-    let known = classics().len();
+    let known = known_classics().len();
     says("README.md", &format!("{known} well-known schemes"));
     says(CATALOG, &format!("among {known} well-known schemes"));
     says(
@@ -172,7 +173,7 @@ fn as_many_schemes_are_known_as_the_documents_say() {
 /// What friction takes of a swing, and that it does not do to feed just that.
 #[test]
 fn the_guide_has_the_energies_of_the_built_in_drive() {
-    let found = json(&["drive", "torsion-module", "--format", "json"]);
+    let found = run_json(&["drive", "torsion-module", "--format", "json"]);
     let energy = found["design"]["friction_energy"].real();
     says(
         "src/guide/drive.md",
@@ -184,7 +185,7 @@ fn the_guide_has_the_energies_of_the_built_in_drive() {
         "src/guide/drive.md",
         &format!("gives {more:.1} % more than is needed"),
     );
-    let sampled = out(&["drive", "torsion-module", "--tolerance", "0.005"]);
+    let sampled = run_quiet(&["drive", "torsion-module", "--tolerance", "0.005"]);
     let (_, last) = sampled.split_once(" repeat it without end (").unwrap();
     let share = last.split_once(')').unwrap().0;
     says(

@@ -2,7 +2,7 @@
 
 use crate::common::*;
 use ozols::motion::pose::Pose;
-use ozols::redundancy::local_mobility::wiggle;
+use ozols::redundancy::local_mobility::animate_idle;
 
 #[test]
 fn an_idle_freedom_moves_its_own_links_and_keeps_joints_together() {
@@ -12,12 +12,12 @@ fn an_idle_freedom_moves_its_own_links_and_keeps_joints_together() {
         let states: Vec<StateId> = m.state_ids().collect();
         for (state, found) in states
             .iter()
-            .zip(analyse(&m, &states, Method::Modular).unwrap())
+            .zip(analyse_states(&m, &states, Method::Modular).unwrap())
         {
             let pose = Pose::of_file(&m, *state).unwrap();
             for (k, idle) in found.idle.iter().enumerate() {
                 seen += 1;
-                let found = wiggle(&m, *state, &found.idle, k).unwrap().unwrap();
+                let found = animate_idle(&m, *state, &found.idle, k).unwrap().unwrap();
                 let moved = |l: ozols::model::mechanism::LinkId| {
                     let far = found
                         .way
@@ -46,10 +46,10 @@ fn an_idle_freedom_moves_its_own_links_and_keeps_joints_together() {
                     .joints_in(*state)
                     .filter(|&j| pinned(&m.joints[j].joint_type))
                 {
-                    let p = real(&m.joints[j].frame.point);
+                    let p = to_vector(&m.joints[j].frame.point);
                     let p = scale(sub(p, pose.middle), 1.0 / pose.length);
                     for links in &found.way.links {
-                        let [a, b] = m.joints[j].links.map(|l| links[l].point(p));
+                        let [a, b] = m.joints[j].links.map(|l| links[l].map_point(p));
                         held += 1;
                         let apart = length(sub(a, b));
                         assert!(apart < 1e-9, "{name}: {} opens by {apart}", m.joints[j].id);
@@ -63,7 +63,7 @@ fn an_idle_freedom_moves_its_own_links_and_keeps_joints_together() {
 
 #[test]
 fn a_rod_that_spins_carries_a_flag() {
-    let svg = out(&["draw", "rssr", "--motion", "--idle", "1"]);
+    let svg = run_quiet(&["draw", "rssr", "--motion", "--idle", "1"]);
     let doc = roxmltree::Document::parse(&svg).unwrap();
     let frames = doc.descendants().filter(|n| n.has_attribute("data-frame"));
     let flags: Vec<&str> = frames

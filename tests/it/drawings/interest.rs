@@ -45,7 +45,7 @@ fn step() -> Vec<[f64; 2]> {
 
 #[test]
 fn the_foot_of_jansens_leg_goes_its_step() {
-    let svg = out("draw jansen-leg --kind kinematic --stroke 0:360deg:36");
+    let svg = run_quiet("draw jansen-leg --kind kinematic --stroke 0:360deg:36");
     let (drawn, meant) = (trace(&svg), step());
     assert!(drawn.len() >= 36);
     let box_of = |p: &[[f64; 2]]| {
@@ -80,31 +80,31 @@ fn points_are_shown_in_every_kinematic_drawing() {
         &["draw", "jansen-leg", "--motion"],
         &["report", "jansen-leg"],
     ] {
-        let shown = out(args);
+        let shown = run_quiet(args);
         assert!(
             shown.contains("point of interest, or face of a jaw"),
             "{args:?}"
         );
     }
-    let moving = out(&["draw", "jansen-leg", "--motion"]);
+    let moving = run_quiet(&["draw", "jansen-leg", "--motion"]);
     assert!(trace(&moving).len() > 60);
-    let page = out(&["report", "jansen-leg"]);
+    let page = run_quiet(&["report", "jansen-leg"]);
     assert!(page.contains("class=\"trace\"") && page.contains("way of a point"));
     // in a file that is written, too
-    let written = out(&["export", "jansen-leg", "--to", "toml"]);
+    let written = run_quiet(&["export", "jansen-leg", "--to", "toml"]);
     assert!(written.contains("[[point]]") && written.contains("id = \"foot\""));
     let options = "spherical,cylindrical,sphere-in-cylinder";
     let variant = run(&format!(
         "export jansen-leg --options {options} --variant 1 --to toml"
     ));
-    let variant = text(&variant.stdout);
+    let variant = utf8_text(&variant.stdout);
     assert!(variant.contains("id = \"foot\""));
 }
 
 #[test]
 fn what_is_wrong_with_a_point_is_told() {
-    let own = out(&["show", "jansen-leg"]);
-    for [from, to, said] in cases::<3>(
+    let own = run_quiet(&["show", "jansen-leg"]);
+    for [from, to, said] in read_cases::<3>(
         r#"
         link = "ghi" | link = "gih" | unknown link "gih"
         id = "foot" | id = "" | an id must have 1 to 64 characters
@@ -112,7 +112,7 @@ fn what_is_wrong_with_a_point_is_told() {
         [-26.53, -91.82, 0] | ["a", -91.82, 0] | unknown word `a`
 "#,
     ) {
-        let (code, _, err) = run_on("check", "leg.toml", &changed(&own, from, to), &[]);
+        let (code, _, err) = run_on("check", "leg.toml", &replace_once(&own, from, to), &[]);
         assert_eq!(code, Some(2), "{to}");
         assert!(
             err.contains(said) && err.contains("leg.toml:"),
@@ -127,7 +127,7 @@ fn what_is_wrong_with_a_point_is_told() {
 
 #[test]
 fn the_faces_of_jaws_are_shown_with_their_ways() {
-    let open = out("draw gripper-10 --kind kinematic --stroke=-1:1:20");
+    let open = run_quiet("draw gripper-10 --kind kinematic --stroke=-1:1:20");
     let doc = roxmltree::Document::parse(&open).unwrap();
     let faces = doc.descendants().filter_map(|n| n.attribute("data-point"));
     assert_eq!(faces.collect::<Vec<_>>(), ["4-a", "a-8"]);
@@ -136,6 +136,6 @@ fn the_faces_of_jaws_are_shown_with_their_ways() {
         .filter(|n| n.attribute("class") == Some("trace"));
     assert_eq!(ways.count(), 3, "one of each face, and one in the legend");
     // what is drawn as a joint is no point
-    let closed = out("draw gripper-10 --kind kinematic --state clamped");
+    let closed = run_quiet("draw gripper-10 --kind kinematic --state clamped");
     assert!(!closed.contains("data-point") && closed.contains("data-joint=\"4-a\""));
 }

@@ -80,7 +80,7 @@ fn no_name_lies_on_a_line() {
         {
             names += 1;
             // The leader of a name ends at its box.
-            let box_ = rect.grown(-1.0);
+            let box_ = rect.grown_by(-1.0);
             let on = lines.iter().filter(|(_, a, b)| through(&box_, *a, *b));
             wrong.extend(on.map(|(kind, ..)| format!("{name}: {text} on a {kind}")));
         }
@@ -233,7 +233,7 @@ fn traces(svg: &str) -> Vec<Vec<Point>> {
 #[test]
 fn circles_that_outputs_go_on_are_seen_as_such() {
     for name in ["bennett", "rssr"] {
-        let svg = out(&["draw", name, "--kind", "kinematic", "--motion"]);
+        let svg = run_quiet(&["draw", name, "--kind", "kinematic", "--motion"]);
         let ways = traces(&svg);
         assert!(!ways.is_empty(), "{name}");
         for way in &ways {
@@ -255,7 +255,7 @@ fn circles_that_outputs_go_on_are_seen_as_such() {
 
 #[test]
 fn the_stroke_of_a_gripper_ends_where_its_jaws_meet() {
-    let svg = out(&["draw", "gripper-10", "--kind", "kinematic", "--motion"]);
+    let svg = run_quiet(&["draw", "gripper-10", "--kind", "kinematic", "--motion"]);
     assert!(svg.contains("jaws meet at"), "the words say so");
     // The tips of both jaws come together at an end of their ways, and none of them crosses the middle.
     let ways = traces(&svg);
@@ -277,14 +277,14 @@ fn the_stroke_of_a_gripper_ends_where_its_jaws_meet() {
         .fold(f64::INFINITY, f64::min);
     assert!(least < 1.0, "{least} pixels apart");
     // A range that is asked for is kept, whatever it goes through.
-    let asked = out("draw gripper-10 --kind kinematic --motion --stroke -1.5:2:40");
+    let asked = run_quiet("draw gripper-10 --kind kinematic --motion --stroke -1.5:2:40");
     assert!(!asked.contains("jaws meet"));
 }
 
 #[test]
 fn ids_that_turn_letters_round_are_spelt_out() {
     let text = builtin::text("four-bar").unwrap();
-    let turned = changed(text, "name = \"four-bar\"", "name = \"four\\u202Ebar\"");
+    let turned = replace_once(text, "name = \"four-bar\"", "name = \"four\\u202Ebar\"");
     let d = drawn(&read(&turned));
     assert!(d.svg.contains("four\\u{202e}bar"));
     assert!(!d.svg.contains('\u{202e}'));

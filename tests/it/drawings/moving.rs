@@ -21,7 +21,7 @@ struct Frames {
 }
 
 fn frames(args: &[&str]) -> Frames {
-    let svg = out(&[&["draw"], args, &["--motion"]].concat());
+    let svg = run_quiet(&[&["draw"], args, &["--motion"]].concat());
     let doc = roxmltree::Document::parse(&svg).unwrap();
     let number =
         |n: roxmltree::Node<'_, '_>, a: &str| n.attribute(a).unwrap().parse::<f64>().unwrap();
@@ -66,7 +66,9 @@ fn frames(args: &[&str]) -> Frames {
 
 #[test]
 fn bars_keep_their_lengths_while_joints_move() {
-    for name in words("gripper-10 four-bar jansen-leg slider-crank-spatial watt-straight-line") {
+    for name in
+        split_words("gripper-10 four-bar jansen-leg slider-crank-spatial watt-straight-line")
+    {
         let f = frames(&[name, "--view", "z"]);
         assert!(f.bars.len() > 20, "{name}: {} pictures", f.bars.len());
         assert!(!f.bars[0].is_empty(), "{name}");
@@ -167,7 +169,7 @@ fn motion_can_be_had_without_motion() {
 #[test]
 fn what_cannot_be_drawn_is_said() {
     // Once: "none can move", of a platform with eight motions.
-    refuses(
+    assert_all_fail(
         "
         draw gripper-10 --motion --stroke 0:90deg:30 | the drive slides
         draw jansen-leg --motion --stroke 0:90deg:9999 | 2 to 600

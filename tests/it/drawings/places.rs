@@ -312,7 +312,7 @@ fn the_frame_is_drawn_once_at_each_of_its_places() {
         let mut places: Vec<Point> = Vec::new();
         for &j in of
             .iter()
-            .filter(|&&j| m.joints[j].links.contains(&m.frame()))
+            .filter(|&&j| m.joints[j].links.contains(&m.frame_link()))
         {
             let p = shown.joints[&m.joints[j].id];
             if !places.iter().any(|&q| far(p, q) < 1.6) {

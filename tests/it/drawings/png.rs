@@ -3,8 +3,8 @@
 use crate::common::*;
 #[test]
 fn sizes_are_for_png() {
-    fails(&["draw", "bennett", "--scale", "2"], "--scale and --width");
-    fails(&["draw", "bennett", "--width", "90"], "--scale and --width");
+    assert_fails(&["draw", "bennett", "--scale", "2"], "--scale and --width");
+    assert_fails(&["draw", "bennett", "--width", "90"], "--scale and --width");
 }
 
 #[cfg(not(feature = "png"))]
@@ -13,10 +13,10 @@ fn a_build_without_png_says_so() {
     let dir = tempdir().unwrap();
     let path = dir.path().join("x.PNG");
     let path = path.to_str().unwrap();
-    fails(&["draw", "bennett", "--png"], "--features png");
+    assert_fails(&["draw", "bennett", "--png"], "--features png");
     // the name asks for it
-    fails(&["draw", "bennett", "-o", path], "--features png");
-    fails(&["explain", "spherical", "-o", path], "--features png");
+    assert_fails(&["draw", "bennett", "-o", path], "--features png");
+    assert_fails(&["explain", "spherical", "-o", path], "--features png");
     assert_eq!(dir.path().read_dir().unwrap().count(), 0);
 }
 
@@ -69,7 +69,11 @@ mod with_png {
             ""
         };
         let joint = format!("0-1 | 0 1 | {joint_type} | 0, 0, 0 | 0, 0, 1 | {pitch}");
-        mechanism_from_str("one.toml", &file_of("name = \"one\"", "0 1*", &joint)).unwrap()
+        mechanism_from_str(
+            "one.toml",
+            &write_mechanism("name = \"one\"", "0 1*", &joint),
+        )
+        .unwrap()
     }
 
     /// The symbol of a drawing's only joint in so many pixels, in black and white.
@@ -156,9 +160,10 @@ joint = [
     #[test]
     fn every_contour_is_seen_in_its_tint() {
         let wishbone = mechanism_from_str("wishbone.toml", WISHBONE).unwrap();
-        let names = words("door-two-hinges twin-rail-slide shaft-two-bearings gripper-10 bennett");
+        let names =
+            split_words("door-two-hinges twin-rail-slide shaft-two-bearings gripper-10 bennett");
         for m in names.into_iter().map(built_in).chain([wishbone]) {
-            let found = analyse(&m, &[StateId::FREE], Method::Modular).unwrap();
+            let found = analyse_states(&m, &[StateId::FREE], Method::Modular).unwrap();
             let mut d = scheme(&Subject {
                 mechanism: &m,
                 state: StateId::FREE,
@@ -206,7 +211,7 @@ joint = [
         for t in JointType::NAMED {
             let path = dir.path().join(format!("{t}.png"));
             let done = run(&["explain", t.name(), "-o", path.to_str().unwrap()]);
-            let said = String::from_utf8_lossy(&done.stderr);
+            let said = String::from_utf8_lossy(&run_successful.stderr);
             assert!(done.status.success(), "{t}: {said}");
             let picture = Pixmap::decode_png(&fs::read(&path).unwrap()).unwrap();
             let dark = picture.pixels().iter().filter(|p| p.red() < 150).count();
@@ -230,8 +235,8 @@ joint = [
         assert_eq!(picture.width(), 321);
         let piped = run(&["draw", "four-bar", "--png", "--width", "321"]);
         assert_eq!(piped.stdout, file);
-        fails(&["draw", "four-bar", "--png", "--scale", "0"], "--scale");
-        fails(&["draw", "four-bar", "--png", "--width", "0"], "--width");
-        fails("draw four-bar --png --width 99999", "too large");
+        assert_fails(&["draw", "four-bar", "--png", "--scale", "0"], "--scale");
+        assert_fails(&["draw", "four-bar", "--png", "--width", "0"], "--width");
+        assert_fails("draw four-bar --png --width 99999", "too large");
     }
 }

@@ -81,7 +81,7 @@ proptest! {
 
     #[test]
     fn any_graph_is_drawn(m in any_mechanism()) {
-        let found = analyse(&m, &[StateId::FREE], Method::Modular).ok();
+        let found = analyse_states(&m, &[StateId::FREE], Method::Modular).ok();
         for analysis in [None, found.as_ref().and_then(|f| f.first())] {
             let subject = Subject { mechanism: &m, state: StateId::FREE, analysis, marks: None };
             for d in [scheme(&subject), kinematic(&subject)] {

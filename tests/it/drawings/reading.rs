@@ -159,7 +159,7 @@ pub(super) fn misread(
             .map(|l| l.text.as_str())
             .collect();
         let joint = &m.joints[joint];
-        if within != [joint.joint_type.class()] {
+        if within != [joint.joint_type.class_numeral()] {
             out.push(format!("{} of class {within:?}", joint.id));
         }
     }

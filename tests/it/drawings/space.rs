@@ -23,7 +23,7 @@ fn carried(by: &Value, p: Vector) -> Vector {
 
 /// A page and what it knows of the mechanism in space in its first state.
 fn page(name: &str) -> (String, Value) {
-    let page = out(&["report", name, "--top", "1"]);
+    let page = run_quiet(&["report", name, "--top", "1"]);
     let (_, data) = page.split_once("id=\"data\">").unwrap();
     let data: Value = serde_json::from_str(data.split_once("</script>").unwrap().0).unwrap();
     let scene = data["scenes"][0].clone();

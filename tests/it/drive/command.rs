@@ -24,7 +24,7 @@ fn run_file(text: &str, more: &[&str]) -> (Option<i32>, String, String) {
 }
 
 fn small_with(from: &str, to: &str) -> String {
-    changed(SMALL, from, to)
+    replace_once(SMALL, from, to)
 }
 
 fn small_json(text: &str, code: i32) -> Value {
@@ -35,9 +35,9 @@ fn small_json(text: &str, code: i32) -> Value {
 
 #[test]
 fn built_in_module_runs_its_programme() {
-    let text = out(&["drive", "torsion-module"]);
+    let text = run_quiet(&["drive", "torsion-module"]);
     assert!(text.starts_with("torsion-module: torsion bar d = 5 mm, l = 346 mm; swings 90° in 0.4 s, all 8 swings latched"), "{text}");
-    let value = json(&["drive", "torsion-module", "--format", "json"]);
+    let value = run_json(&["drive", "torsion-module", "--format", "json"]);
     let design = &value["design"];
     // I = 0.05 + 2 · 0.3², k = I (2π/0.8)².
     near(design["stiffness"].real(), 0.23 * (TAU / 0.8).powi(2), 1e-9);
@@ -60,14 +60,14 @@ fn built_in_module_runs_its_programme() {
 /// The motion that `drive` prints is what `grip` takes.
 #[test]
 fn the_drive_says_what_the_grip_must_hold() {
-    let text = out(&["drive", "torsion-module"]);
+    let text = run_quiet(&["drive", "torsion-module"]);
     let line = text
         .lines()
         .find(|l| l.contains("--any-acceleration"))
         .unwrap();
     let value = line.rsplit(' ').next().unwrap();
-    let plain = json(&["grip", "lever-gripper", "--format", "json"]);
-    let swung = json(&format!(
+    let plain = run_json(&["grip", "lever-gripper", "--format", "json"]);
+    let swung = run_json(&format!(
         "grip lever-gripper --any-acceleration {value} --format json"
     ));
     let moment = |v: &Value| v["hardest"]["load"]["drive_moment_per_lever"].real();
@@ -153,7 +153,7 @@ fn discs_that_cannot_swing_are_refused_or_told() {
 
 #[test]
 fn bad_tables_are_refused_where_they_stand() {
-    for [from, to, line, part] in cases::<4>(
+    for [from, to, line, part] in read_cases::<4>(
         r#"
         inertia = 0.23 | inertia = 0 | inertia | a number above 0
         inertia = 0.23 | inertia = -1 | inertia | a number above 0
@@ -192,9 +192,9 @@ fn bad_tables_are_refused_where_they_stand() {
 /// Inertia of a link that turns about an axis aside of its mass centre, with a payload.
 #[test]
 fn inertia_comes_from_a_link() {
-    let mechanism = file_of("", "0 1*", "0-1 | 0 1 | revolute | 0, 0, 0 | 0, 0, 5");
+    let mechanism = write_mechanism("", "0 1*", "0-1 | 0 1 | revolute | 0, 0, 0 | 0, 0, 5");
     let heavy = "role = \"output\"\nmass = 3\ncentre = [100, 0, 40]\ninertia = [1, 2, 0.04]";
-    let mechanism = &changed(&mechanism, "role = \"output\"", heavy);
+    let mechanism = &replace_once(&mechanism, "role = \"output\"", heavy);
     let with_link = |link: &str| {
         let table = small_with(
             "inertia = 0.23",
@@ -219,8 +219,11 @@ fn inertia_comes_from_a_link() {
 
 #[test]
 fn files_of_tables_alone_can_be_checked() {
-    let (_folder, path) = written("turner.toml", SMALL);
-    assert_eq!(out(&["check", path]), "turner: workload drive: valid\n");
+    let (_folder, path) = write_temporary("turner.toml", SMALL);
+    assert_eq!(
+        run_quiet(&["check", path]),
+        "turner: workload drive: valid\n"
+    );
     fs::write(path, small_with("inertia = 0.23", "inertia = 0")).unwrap();
     let o = run(&["check", path]);
     assert_eq!(o.status.code(), Some(2));

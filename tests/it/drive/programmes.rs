@@ -40,8 +40,8 @@ fn steps(discs: &[usize]) -> Vec<ProgrammeStep> {
 fn taking_turns_steps_on_and_one_disc_reverses() {
     let m = module(0.0, 0.0, 0.0);
     let turns = steps(&[1, 0, 1, 0, 1, 0]);
-    let run = m.run(&turns).unwrap();
-    assert!(run.complete());
+    let run = m.run_programme(&turns).unwrap();
+    assert!(run.is_complete());
     near(run.angles[0], 0.8 + 3.0 * 1.6, 1e-9);
     near(run.angles[1], 3.0 * 1.6, 1e-9);
     let waited = [
@@ -50,13 +50,13 @@ fn taking_turns_steps_on_and_one_disc_reverses() {
         &steps(&[1, 1]),
     ]
     .concat();
-    let run = m.run(&waited).unwrap();
+    let run = m.run_programme(&waited).unwrap();
     near(run.angles[0], 0.8, 0.0);
     near(run.angles[1], 1.6, 1e-9);
     assert_eq!(run.steps[2].start, run.steps[0].duration + 0.3);
     // Unequal discs keep the bar's energy and their own times.
-    let run = m.run(&turns).unwrap();
-    let times = run.swings().map(|(_, s)| s.duration).collect_vec();
+    let run = m.run_programme(&turns).unwrap();
+    let times = run.iter_swings().map(|(_, s)| s.duration).collect_vec();
     near(times[1] / times[0], (0.23f64 / 0.11).sqrt(), 1e-7);
 }
 
@@ -70,8 +70,8 @@ fn energy_of_a_run_is_conserved() {
         &steps(&[0, 1]),
     ]
     .concat();
-    let run = m.run(&waited).unwrap();
-    for s in m.samples(&run, 50) {
+    let run = m.run_programme(&waited).unwrap();
+    for s in m.sample_run(&run, 50) {
         near((s.potential + s.kinetic) / (14.0 * 0.32), 1.0, 1e-9);
     }
 }
@@ -80,10 +80,10 @@ fn energy_of_a_run_is_conserved() {
 #[test]
 fn energy_of_a_run_balances() {
     let m = module(0.02, 0.1, 0.37);
-    let run = m.run(&steps(&[1, 0, 1, 1])).unwrap();
-    assert!(run.complete());
+    let run = m.run_programme(&steps(&[1, 0, 1, 1])).unwrap();
+    assert!(run.is_complete());
     let mut had = 14.0 * 0.32;
-    for (_, s) in run.swings() {
+    for (_, s) in run.iter_swings() {
         let b = s.balance;
         near(b.initial, had, 1e-9);
         near(b.residual(), 0.0, 1e-9);
@@ -108,13 +108,18 @@ fn the_long_run_tells_enough_from_too_little() {
     };
     let one = steps(&[0]);
     assert!(
-        matches!(fed(1.001 * need).endurance(&one).unwrap(), Endurance::Lasts { missing } if missing == 0.0)
+        matches!(fed(1.001 * need).run_endlessly(&one).unwrap(), Endurance::Lasts { missing } if missing == 0.0)
     );
-    let Endurance::Fails { after } = fed(0.97 * need).endurance(&one).unwrap() else {
+    let Endurance::Fails { after } = fed(0.97 * need).run_endlessly(&one).unwrap() else {
         panic!()
     };
     // A run of as many swings is latched, and one more is not.
-    let latched = |n: usize| fed(0.97 * need).run(&steps(&vec![0; n])).unwrap().latched;
+    let latched = |n: usize| {
+        fed(0.97 * need)
+            .run_programme(&steps(&vec![0; n]))
+            .unwrap()
+            .latched
+    };
     assert_eq!((latched(after), latched(after + 1)), (after, after));
     // Viscous damping alone takes less from a smaller swing: with much capture, swings settle short of the latch.
     let soft = Module {
@@ -125,7 +130,7 @@ fn the_long_run_tells_enough_from_too_little() {
         ..module(0.05, 0.0, 0.3)
     };
     assert!(
-        matches!(soft.endurance(&one).unwrap(), Endurance::Lasts { missing } if missing > 0.02)
+        matches!(soft.run_endlessly(&one).unwrap(), Endurance::Lasts { missing } if missing > 0.02)
     );
     // Two discs of different inertia that take turns end up repeating as well.
     let both = Module {
@@ -136,7 +141,7 @@ fn the_long_run_tells_enough_from_too_little() {
         ..m
     };
     assert!(matches!(
-        both.endurance(&steps(&[0, 1])).unwrap(),
+        both.run_endlessly(&steps(&[0, 1])).unwrap(),
         Endurance::Lasts { .. }
     ));
 }
@@ -144,10 +149,10 @@ fn the_long_run_tells_enough_from_too_little() {
 #[test]
 fn a_missed_latch_ends_the_run() {
     let m = module(0.05, 0.1, 0.0);
-    let run = m.run(&steps(&[1, 0, 1])).unwrap();
-    assert!(!run.complete() && run.steps.len() < 3 + 1);
+    let run = m.run_programme(&steps(&[1, 0, 1])).unwrap();
+    assert!(!run.is_complete() && run.steps.len() < 3 + 1);
     assert!(matches!(
-        run.swings().last().unwrap().1.end,
+        run.iter_swings().last().unwrap().1.end,
         End::Missed { .. }
     ));
 }
@@ -157,10 +162,10 @@ fn a_missed_latch_ends_the_run() {
 #[test]
 fn samples_move_as_their_rates_say() {
     let m = module(0.01, 0.1, 0.4);
-    let run = m.run(&steps(&[0, 1, 0, 0, 1])).unwrap();
-    assert!(run.complete());
+    let run = m.run_programme(&steps(&[0, 1, 0, 0, 1])).unwrap();
+    assert!(run.is_complete());
     const PER_SWING: u32 = 500;
-    let samples = m.samples(&run, PER_SWING);
+    let samples = m.sample_run(&run, PER_SWING);
     let (mut off, mut seen) = (0, 0);
     for swing in samples.chunks_exact(PER_SWING as usize + 1) {
         for w in swing.windows(3) {
@@ -189,7 +194,7 @@ fn samples_move_as_their_rates_say() {
 /// Of two discs the drive's figures are those of the one that asks for more: it misses by as much as a free swing of it.
 #[test]
 fn the_missing_angle_is_that_of_the_disc_that_misses_more() {
-    use ozols::drive::driving::drive;
+    use ozols::drive::driving::design_drive;
     use ozols::file::read::workload::drive_from_bytes;
     let text = |first: &str, second: &str| {
         format!(
@@ -199,7 +204,7 @@ fn the_missing_angle_is_that_of_the_disc_that_misses_more() {
     };
     for text in [text("0.3", "0.1"), text("0.1", "0.3")] {
         let file = drive_from_bytes("d.toml", text.as_bytes()).unwrap();
-        let design = drive(&file.spec).unwrap().design.unwrap();
+        let design = design_drive(&file.spec).unwrap().design.unwrap();
         let short = design.module.discs.map(|disc| {
             let none = Feed::NONE;
             let twist = file.spec.twist;
@@ -207,7 +212,7 @@ fn the_missing_angle_is_that_of_the_disc_that_misses_more() {
                 at: twist,
                 capture: twist,
             };
-            twist - disc.swing(twist, latch, none).unwrap().place
+            twist - disc.swing_from(twist, latch, none).unwrap().place
         });
         assert!((short[0] - short[1]).abs() > 1e-3, "{short:?}");
         near(design.missing, short[0].max(short[1]), 1e-9);
@@ -218,7 +223,7 @@ fn the_missing_angle_is_that_of_the_disc_that_misses_more() {
 /// and in the middle of a great one.
 #[test]
 fn payloads_are_flung_outwards_in_great_swings() {
-    use ozols::drive::driving::drive;
+    use ozols::drive::driving::design_drive;
     use ozols::file::read::workload::drive_from_bytes;
     for angle in [40, 90, 114, 116, 170] {
         let text = format!(
@@ -226,7 +231,7 @@ fn payloads_are_flung_outwards_in_great_swings() {
              allowable_stress = 6e8\ninertia = 0.2\npayload_radius = 0.4\n"
         );
         let file = drive_from_bytes("d.toml", text.as_bytes()).unwrap();
-        let design = drive(&file.spec).unwrap().design.unwrap();
+        let design = design_drive(&file.spec).unwrap().design.unwrap();
         let (twist, square) = (file.spec.twist, design.stiffness / 0.2);
         let size = |i: i32| {
             let at = twist * f64::from(i) / 1000.0;
@@ -261,7 +266,9 @@ fn shortfalls_add_up_against_grooves_that_stay() {
     let text = builtin::text("torsion-module").unwrap();
     let name = "torsion-module.toml";
     let file = ozols::file::read::workload::drive_from_bytes(name, text.as_bytes()).unwrap();
-    let design = ozols::drive::driving::drive(&file.spec).unwrap().design;
+    let design = ozols::drive::driving::design_drive(&file.spec)
+        .unwrap()
+        .design;
     let built_in = design.unwrap().module;
     let reversing = vec![1; 40];
     let stepwise: Vec<usize> = (0..40).map(|i| (i + 1) % 2).collect();
@@ -277,7 +284,7 @@ fn shortfalls_add_up_against_grooves_that_stay() {
             },
             ..built_in
         };
-        let run = m.run(&steps(turns)).unwrap();
+        let run = m.run_programme(&steps(turns)).unwrap();
         let slow = by_steps(&m, turns);
         assert_eq!(run.steps.len(), most, "feed {feed}");
         assert_eq!(slow.len(), most, "feed {feed}");
@@ -287,7 +294,7 @@ fn shortfalls_add_up_against_grooves_that_stay() {
         near(run.angles[turns[most - 1]], slow[most - 1], 1e-4);
         // The last swing's shortfall is against its groove, and as far as the disc is from it.
         let (End::Caught { missing } | End::Missed { missing }) =
-            run.swings().last().unwrap().1.end
+            run.iter_swings().last().unwrap().1.end
         else {
             panic!("feed {feed}")
         };
@@ -315,7 +322,7 @@ fn the_push_stays_with_the_grooves_of_the_disc_that_swings() {
             ..weak
         };
         let turns = [1, 0, 1, 0];
-        let run = m.run(&steps(&turns)).unwrap();
+        let run = m.run_programme(&steps(&turns)).unwrap();
         let slow = by_steps(&m, &turns);
         assert_eq!((run.steps.len(), slow.len()), (4, 4));
         for (n, (step, slow)) in run.steps.iter().skip(1).zip(&slow).enumerate() {

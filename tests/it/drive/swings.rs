@@ -2,7 +2,7 @@
 
 use crate::common::*;
 use ozols::drive::swing::{Disc, End, Feed, Latch, SwingError};
-use ozols::drive::torsion::{decrement, frequency, friction_energy, stored_energy};
+use ozols::drive::torsion::{friction_energy, log_decrement, natural_frequency, stored_energy};
 use proptest::prelude::*;
 
 /// Classical Runge and Kutta in small steps, with friction against the motion and the push where it has begun.
@@ -51,18 +51,18 @@ fn without_friction_a_swing_is_half_a_period_and_loses_nothing() {
         at: 0.7,
         capture: 1e-9,
     };
-    let s = disc.swing(0.7, latch, Feed::NONE).unwrap();
+    let s = disc.swing_from(0.7, latch, Feed::NONE).unwrap();
     assert!(
         matches!(s.end, End::Latched { .. } | End::Caught { .. }),
         "{:?}",
         s.end
     );
-    near(s.duration, PI / frequency(200.0, 0.05), 1e-7);
+    near(s.duration, PI / natural_frequency(200.0, 0.05), 1e-7);
     near(s.place, 0.7, 1e-12);
-    let p = frequency(200.0, 0.05);
+    let p = natural_frequency(200.0, 0.05);
     for i in 0..=100 {
         let t = s.duration * f64::from(i) / 100.0;
-        let (u, v) = s.at(t);
+        let (u, v) = s.position_at(t);
         near(u, -0.7 * (p * t).cos(), 1e-12);
         let energy = stored_energy(200.0, u) + 0.05 * v * v / 2.0;
         near(energy / stored_energy(200.0, 0.7), 1.0, 1e-9);
@@ -85,7 +85,7 @@ fn discs_that_do_not_swing_are_named() {
         change(&mut disc);
         disc
     };
-    let swung = |change: &dyn Fn(&mut Disc)| with(change).swing(0.7, latch, Feed::NONE);
+    let swung = |change: &dyn Fn(&mut Disc)| with(change).swing_from(0.7, latch, Feed::NONE);
     assert_eq!(swung(&|d| d.coulomb = 150.0).unwrap().end, End::Stuck);
     let needed = with(&|d| d.coulomb = 150.0).needed_feed(latch, 0.0);
     assert_eq!(needed.unwrap(), None);
@@ -119,13 +119,13 @@ proptest! {
     fn swings_agree_with_an_integrator(d in disc(), twist in 0.3..1.5f64, fed in 0.0..0.3f64, from in -0.5..0.9f64) {
         let feed = Feed { energy: fed * stored_energy(d.stiffness, twist), from: from * twist };
         let latch = Latch { at: twist, capture: 0.0 };
-        let exact = d.swing(twist, latch, feed).unwrap();
+        let exact = d.swing_from(twist, latch, feed).unwrap();
         let (u, v, t) = by_steps(&d, twist, twist, feed);
-        let p = frequency(d.stiffness, d.inertia);
+        let p = natural_frequency(d.stiffness, d.inertia);
         // The integrator steps over the edge of the window and stops a step early, or where it is late, at the end.
         let t = t.min(exact.duration);
-        prop_assert!((exact.at(t).0 - u).abs() < 1e-3 * twist, "{} {u}", exact.at(t).0);
-        prop_assert!((exact.at(t).1 - v).abs() < 2e-3 * twist * p, "{} {v}", exact.at(t).1);
+        prop_assert!((exact.position_at(t).0 - u).abs() < 1e-3 * twist, "{} {u}", exact.position_at(t).0);
+        prop_assert!((exact.position_at(t).1 - v).abs() < 2e-3 * twist * p, "{} {v}", exact.position_at(t).1);
         prop_assert!((exact.place - u).abs() < 1e-3 * twist);
     }
 
@@ -133,17 +133,17 @@ proptest! {
     #[test]
     fn energy_balances(d in disc(), twist in 0.3..1.5f64, fed in 0.0..0.5f64, from in -0.5..0.9f64) {
         let feed = Feed { energy: fed * stored_energy(d.stiffness, twist), from: from * twist };
-        let s = d.swing(twist, Latch { at: twist, capture: 0.0 }, feed).unwrap();
+        let s = d.swing_from(twist, Latch { at: twist, capture: 0.0 }, feed).unwrap();
         if matches!(s.end, End::Latched { .. }) {
             prop_assert!((s.balance.fed - feed.energy).abs() <= 1e-9 * s.balance.initial, "{:?}", s.balance);
         }
         prop_assert!(s.balance.residual().abs() <= 1e-9 * s.balance.initial, "{:?}", s.balance);
         // Equation (12) is the balance of a swing without the cam.
-        let free = d.swing(twist, Latch { at: twist, capture: 0.0 }, Feed::NONE).unwrap();
+        let free = d.swing_from(twist, Latch { at: twist, capture: 0.0 }, Feed::NONE).unwrap();
         let lost = free.balance.coulomb + free.balance.viscous;
         let missing = twist - free.place;
         prop_assert!((lost - friction_energy(d.stiffness, twist, missing)).abs() <= 1e-9 * free.balance.initial);
-        prop_assert!((missing - d.missing(twist)).abs() <= 1e-9 * twist);
+        prop_assert!((missing - d.missing_angle(twist)).abs() <= 1e-9 * twist);
     }
 
     /// [Klyuchkovskyi 1999] equation (6): with viscous damping the decrement is π ζ/√(1 - ζ²) at any deflection, and a
@@ -152,9 +152,9 @@ proptest! {
     fn decrement_is_that_of_the_damping(d in disc(), twist in 0.3..1.5f64) {
         let d = Disc { coulomb: 0.0, ..d };
         let zeta = d.damping_ratio();
-        let s = d.swing(twist, Latch { at: 2.0 * twist, capture: 0.0 }, Feed::NONE).unwrap();
+        let s = d.swing_from(twist, Latch { at: 2.0 * twist, capture: 0.0 }, Feed::NONE).unwrap();
         let stated = PI * zeta / (1.0 - zeta * zeta).sqrt();
-        prop_assert!((decrement(twist, s.place) - stated).abs() <= 1e-12);
+        prop_assert!((log_decrement(twist, s.place) - stated).abs() <= 1e-12);
         let again = Disc::viscous_for(d.inertia, d.stiffness, twist, twist - s.place);
         prop_assert!((again - d.viscous).abs() <= 1e-9 * (1.0 + d.viscous));
     }
@@ -165,11 +165,11 @@ proptest! {
         let latch = Latch { at: twist, capture: 0.0 };
         let from = from * twist;
         if let Some(need) = d.needed_feed(latch, from).unwrap() {
-            let s = d.swing(twist, latch, Feed { energy: need, from }).unwrap();
+            let s = d.swing_from(twist, latch, Feed { energy: need, from }).unwrap();
             let End::Latched { impact } = s.end else { return Err(TestCaseError::fail(format!("{:?}", s.end))) };
             prop_assert!(impact <= 1e-9 * s.balance.initial, "{impact}");
             if need > 1e-9 {
-                let less = d.swing(twist, latch, Feed { energy: need * 0.999, from }).unwrap();
+                let less = d.swing_from(twist, latch, Feed { energy: need * 0.999, from }).unwrap();
                 let missed = matches!(less.end, End::Missed { .. });
                 prop_assert!(missed);
             }

@@ -1,7 +1,7 @@
 //! Discs of unequal inertia: the bar and the damping are for the heavier one, whichever is named first.
 
 use crate::common::*;
-use ozols::drive::driving::{Design, drive};
+use ozols::drive::driving::{Design, design_drive};
 use ozols::drive::swing::{Feed, Latch};
 use ozols::file::read::workload::drive_from_bytes;
 
@@ -13,7 +13,7 @@ fn designs(more: &str) -> [(Design, f64, usize); 2] {
              allowable_stress = 6e8\ninertia = {first}\nsecond_inertia = {second}\n{more}"
         );
         let spec = drive_from_bytes("d.toml", text.as_bytes()).unwrap().spec;
-        (drive(&spec).unwrap().design.unwrap(), spec.twist, heavier)
+        (design_drive(&spec).unwrap().design.unwrap(), spec.twist, heavier)
     })
 }
 
@@ -35,7 +35,7 @@ fn the_missing_angle_is_the_heavier_discs() {
             capture: twist,
         };
         let disc = design.module.discs[heavier];
-        let swing = disc.swing(twist, latch, Feed::NONE).unwrap();
+        let swing = disc.swing_from(twist, latch, Feed::NONE).unwrap();
         near(twist - swing.place, 3f64.to_radians(), 1e-9);
     }
 }

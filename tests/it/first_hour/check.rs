@@ -4,18 +4,18 @@ use crate::common::*;
 // check
 
 fn four_bar_with(from: &str, to: &str) -> String {
-    changed(builtin::text("four-bar").unwrap(), from, to)
+    replace_once(builtin::text("four-bar").unwrap(), from, to)
 }
 
 /// Checks a text that can be used: what is said on standard output and on standard error.
 fn checked(text: &str) -> (String, String) {
-    let (_folder, path) = written("mine.toml", text);
-    done(&["check", path])
+    let (_folder, path) = write_temporary("mine.toml", text);
+    run_successful(&["check", path])
 }
 
 #[test]
 fn check_says_what_a_file_describes() {
-    let said = out(&["check", "gripper-10-loaded"]);
+    let said = run_quiet(&["check", "gripper-10-loaded"]);
     has_all(
         &said,
         &[
@@ -27,30 +27,30 @@ fn check_says_what_a_file_describes() {
             "workload: gravity, 10 links with mass, 4 forces, ranking by peak-moment",
         ],
     );
-    assert!(out(&["check", "lever-gripper"]).contains("`ozols grip`"));
-    assert!(out(&["check", "torsion-module"]).contains("`ozols drive`"));
-    assert!(out(&["check", "four-bar-planar"]).contains("in the plane"));
+    assert!(run_quiet(&["check", "lever-gripper"]).contains("`ozols grip`"));
+    assert!(run_quiet(&["check", "torsion-module"]).contains("`ozols drive`"));
+    assert!(run_quiet(&["check", "four-bar-planar"]).contains("in the plane"));
 }
 
 #[test]
 fn a_file_alone_is_checked_where_nobody_looks_on() {
     for name in ["four-bar", "gripper-10"] {
-        let said = out(&[name]);
-        assert!(said.starts_with(&out(&["check", name])), "{said}");
+        let said = run_quiet(&[name]);
+        assert!(said.starts_with(&run_quiet(&["check", name])), "{said}");
         for command in ["analyze", "search", "studio"] {
             has(&said, &format!("ozols {command} {name}\n"));
         }
     }
-    fails(
+    assert_fails(
         "missing.toml",
         "missing.toml is neither a file nor a built-in mechanism",
     );
-    fails("analize", "unrecognized subcommand");
+    assert_fails("analize", "unrecognized subcommand");
 }
 
 #[test]
 fn check_doubts_what_is_likely_a_slip() {
-    for [from, to, line, parts] in cases::<4>(
+    for [from, to, line, parts] in read_cases::<4>(
         r#"
         length_unit = "mm"\n |  | name = | 150 m across & length_unit = "mm"
         "mm" | "m" | length_unit | 150 m across & is correct
@@ -85,12 +85,12 @@ fn check_doubts_what_is_likely_a_slip() {
 /// What the built-in files are doubted for is so: common options that suit none of their joints, and an arm.
 #[test]
 fn check_doubts_built_in_mechanisms_only_with_reason() {
-    use ozols::file::lint::check;
+    use ozols::file::lint::check_file;
     use ozols::file::problem::WarningKind;
     let mut doubted = 0;
     for name in builtin::names() {
         let text = builtin::text(name).unwrap();
-        let checked = check(&format!("{name}.toml"), text.as_bytes()).unwrap();
+        let checked = check_file(&format!("{name}.toml"), text.as_bytes()).unwrap();
         doubted += usize::from(!checked.warnings.warnings.is_empty());
         for d in &checked.warnings.warnings {
             let known = match &d.kind {
@@ -112,8 +112,9 @@ fn check_doubts_built_in_mechanisms_only_with_reason() {
 
 #[test]
 fn check_is_quiet_when_asked() {
-    let (_folder, path) = written("mine.toml", four_bar_with("redundant = 3", "redundant = 2"));
-    let (code, said, warned) = ran(&["check", "--quiet", path]);
+    let (_folder, path) =
+        write_temporary("mine.toml", four_bar_with("redundant = 3", "redundant = 2"));
+    let (code, said, warned) = run_full(&["check", "--quiet", path]);
     assert_eq!((code, warned.as_str()), (Some(0), ""));
     has(&said, "1 warning");
 }

@@ -7,11 +7,11 @@ use crate::common::*;
 fn a_template_of_every_built_in_mechanism_gives_its_figures() {
     for name in builtin::names() {
         let given = builtin::text(name).unwrap();
-        let new = ozols::file::template::commented(given, name, "mine").unwrap();
+        let new = ozols::file::template::with_comments(given, name, "mine").unwrap();
         let figures = |text: &str| {
             let m = mechanism_from_str("mine.toml", text).unwrap();
             let states: Vec<StateId> = m.state_ids().collect();
-            let of = analyse(&m, &states, Method::Modular).unwrap();
+            let of = analyse_states(&m, &states, Method::Modular).unwrap();
             of.into_iter()
                 .map(|s| {
                     (
@@ -33,15 +33,17 @@ fn a_template_of_every_built_in_mechanism_gives_its_figures() {
 #[test]
 fn a_new_file_is_checked_and_analysed_like_the_one_it_is_made_of() {
     let folder = tempdir().unwrap();
-    for from in words("four-bar gripper-10-loaded lever-gripper torsion-module parallel-shears") {
+    for from in
+        split_words("four-bar gripper-10-loaded lever-gripper torsion-module parallel-shears")
+    {
         let path = folder.path().join(format!("my {from}.toml"));
         let path = path.to_str().unwrap();
-        let said = out(&["new", path, "--from", from]);
+        let said = run_quiet(&["new", path, "--from", from]);
         has(&said, "ozols check");
-        let (code, _, err) = ran(&["check", path]);
+        let (code, _, err) = run_full(&["check", path]);
         assert_eq!((code, err.as_str()), (Some(0), ""), "{from}");
         let analysis = |file: &str| {
-            let mut v = json(&["analyze", file, "--format", "json"]);
+            let mut v = run_json(&["analyze", file, "--format", "json"]);
             v["next"].take(); // names the file
             (v["mechanism"].take(), v)
         };
@@ -57,12 +59,12 @@ fn a_new_file_never_takes_the_place_of_another_unasked() {
     let path = folder.path().join("mine.toml");
     let file = path.to_str().unwrap();
     fs::write(&path, "mine").unwrap();
-    let (code, stdout, err) = ran(&["new", file]);
+    let (code, stdout, err) = run_full(&["new", file]);
     assert_eq!((code, stdout.as_str()), (Some(2), ""));
     has(&err, "already exists");
     has(&err, "--force");
     assert_eq!(fs::read_to_string(&path).unwrap(), "mine");
-    assert_eq!(out(&["new", file, "--force", "--quiet"]), "");
+    assert_eq!(run_quiet(&["new", file, "--force", "--quiet"]), "");
     assert!(
         fs::read_to_string(&path)
             .unwrap()
@@ -79,13 +81,13 @@ fn a_new_file_needs_a_known_mechanism_and_a_toml_name() {
         ("benett", "bennett"),
         ("gripper10", "gripper-10"),
     ] {
-        let (code, _, err) = ran(&["new", path.to_str().unwrap(), "--from", from]);
+        let (code, _, err) = run_full(&["new", path.to_str().unwrap(), "--from", from]);
         assert_eq!(code, Some(2), "{err}");
         assert!(err.contains("did you mean") && err.contains(meant), "{err}");
         assert!(!path.exists());
     }
     for name in ["mine", "mine.json"] {
-        let (code, _, err) = ran(&["new", folder.path().join(name).to_str().unwrap()]);
+        let (code, _, err) = run_full(&["new", folder.path().join(name).to_str().unwrap()]);
         assert_eq!(code, Some(2));
         has(&err, "mine.toml");
     }
@@ -94,11 +96,11 @@ fn a_new_file_needs_a_known_mechanism_and_a_toml_name() {
 
 #[test]
 fn new_without_a_file_lists_what_to_start_from() {
-    let (code, said, err) = ran(&["new"]);
+    let (code, said, err) = run_full(&["new"]);
     assert_eq!(code, Some(0));
-    assert_eq!(said, out(&["list"]));
+    assert_eq!(said, run_quiet(&["list"]));
     has(&err, "ozols new mine.toml --from NAME");
-    let (code, _, err) = ran(&["new", "--from", "four-bar"]);
+    let (code, _, err) = run_full(&["new", "--from", "four-bar"]);
     assert_eq!(code, Some(2));
     has(&err, "FILE");
 }
@@ -107,7 +109,7 @@ fn new_without_a_file_lists_what_to_start_from() {
 
 #[test]
 fn the_list_is_by_family_and_can_be_narrowed() {
-    let all = out(&["list"]);
+    let all = run_quiet(&["list"]);
     for name in builtin::names() {
         assert!(
             all.lines()
@@ -124,7 +126,7 @@ fn the_list_is_by_family_and_can_be_narrowed() {
         );
     }
     let rows = |args: &str| {
-        let listed = out(args);
+        let listed = run_quiet(args);
         let rows = listed
             .lines()
             .skip(2)
@@ -132,13 +134,13 @@ fn the_list_is_by_family_and_can_be_narrowed() {
         rows.map(|l| l.split_whitespace().next().unwrap().to_owned())
             .collect_vec()
     };
-    let found = words("bennett bennett-perturbed two-bennetts waldron-hybrid");
+    let found = split_words("bennett bennett-perturbed two-bennetts waldron-hybrid");
     assert_eq!(rows("list bennett"), found);
     assert_eq!(rows("list BENNETT rigid"), ["bennett-perturbed"]);
     assert!(rows("list robot").contains(&"delta".to_owned()));
-    let line = out(&["list", "four-bar"]);
+    let line = run_quiet(&["list", "four-bar"]);
     has(&line, "Planar crank-rocker four-bar as a spatial mechanism");
-    let (code, stdout, err) = ran(&["list", "benett"]);
+    let (code, stdout, err) = run_full(&["list", "benett"]);
     assert_eq!((code, stdout.as_str()), (Some(1), ""));
     has(&err, "benett");
     has(&err, "did you mean bennett");

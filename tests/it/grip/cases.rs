@@ -4,22 +4,22 @@ use super::{SMALL, lever};
 use crate::common::*;
 use ozols::file::read::workload::grip_from_bytes;
 use ozols::grip::arm_curves::{Varied, arm_curve};
-use ozols::grip::clamping::{DiameterRow, HoldVerdict, study};
+use ozols::grip::clamping::{DiameterRow, HoldVerdict, study_diameters};
 use ozols::grip::contact::{Gripper, Unholdable};
-use ozols::grip::holding::{HoldingOutcome, PartWrench, hold};
+use ozols::grip::holding::{HoldingOutcome, PartWrench, find_holding};
 use ozols::model::grip::{GripSpec, LeverDrive};
 use proptest::prelude::*;
 
 fn spec(more: &str) -> GripSpec {
-    let text = changed(SMALL, "friction = 0\n", "friction = 0.4\n");
-    let text = changed(&text, "gravity = [-10, 0, 0]\n", "");
+    let text = replace_once(SMALL, "friction = 0\n", "friction = 0.4\n");
+    let text = replace_once(&text, "gravity = [-10, 0, 0]\n", "");
     grip_from_bytes("clamp.toml", format!("{text}{more}").as_bytes())
         .unwrap()
         .spec
 }
 
 fn only(spec: &GripSpec) -> DiameterRow {
-    study(spec).unwrap().rows.remove(0)
+    study_diameters(spec).unwrap().rows.remove(0)
 }
 
 /// The drive moment that a pull on the mass takes.
@@ -33,7 +33,7 @@ fn takes(row: &DiameterRow, pull: [f64; 3], load: (f64, [f64; 3], f64)) -> f64 {
         centre[0] * force[1] - centre[1] * force[0],
     ];
     let load = PartWrench { force, moment };
-    match hold(row.pose.as_ref().unwrap(), &load, 0.4, LeverDrive::Coupled).unwrap() {
+    match find_holding(row.pose.as_ref().unwrap(), &load, 0.4, LeverDrive::Coupled).unwrap() {
         HoldingOutcome::Held(h) => h.drive,
         HoldingOutcome::Slips(s) => panic!("{s:?}"),
     }
@@ -99,7 +99,7 @@ fn the_hardest_case_is_the_worst_of_all_directions() {
 /// A solid cylinder by its density.
 #[test]
 fn parts_weigh_what_their_cylinder_does() {
-    let text = changed(SMALL, "mass = 2", "density = 7850\npart_length = 120");
+    let text = replace_once(SMALL, "mass = 2", "density = 7850\npart_length = 120");
     let spec = grip_from_bytes("clamp.toml", text.as_bytes()).unwrap().spec;
     // π r² l ρ for r = 20 mm and l = 120 mm.
     let mass = PI * 0.02 * 0.02 * 0.12 * 7850.0;
@@ -108,7 +108,7 @@ fn parts_weigh_what_their_cylinder_does() {
         diameters: vec![0.02, 0.04],
         ..spec
     };
-    let rows = study(&of_two).unwrap().rows;
+    let rows = study_diameters(&of_two).unwrap().rows;
     assert!((rows[0].mass - mass / 4.0).abs() < 1e-12 && (rows[1].mass - mass).abs() < 1e-12);
 }
 
@@ -154,8 +154,8 @@ proptest! {
     ) {
         let l = lever(0.1, alpha, gamma);
         let gripper = Gripper { lever: l, pivot, face_length: Some(face), lever_width: width, may_cross: false };
-        let Ok(pose) = gripper.pose(d) else { return Ok(()) };
-        let said = gripper.obstacles(d);
+        let Ok(pose) = gripper.touching_pose(d) else { return Ok(()) };
+        let said = gripper.find_obstacles(d);
         let says = |of: fn(&Unholdable) -> bool| said.iter().any(of);
         let (p, v) = (pose.pivots[0], pose.vertices[0]);
         // A strip about the line from pivot to vertex, of the width measured across the axis.

@@ -11,7 +11,7 @@ use ozols::model::grip::PartMass;
 use ozols::model::loads::Loads;
 use ozols::motion::pose::Pose;
 
-use ozols::statics::reactions::drives::driven;
+use ozols::statics::reactions::drives::driven_freedoms;
 use ozols::statics::reactions::follow::follow_to;
 use ozols::statics::reactions::geometry::{Geometry, cross, dot};
 use ozols::statics::reactions::{JointReaction, Reactions, Solution};
@@ -33,11 +33,11 @@ fn number(v: &Value) -> f64 {
 }
 
 fn solve(g: &Gripping, row: &DiameterRow) -> Solution {
-    let (fit, loads) = (g.fit(row).unwrap(), g.loads(row).unwrap());
+    let (fit, loads) = (g.fit_part(row).unwrap(), g.jaw_loads(row).unwrap());
     let home = Pose::of_file(&g.mechanism, StateId::new(1)).unwrap();
     let geometry = Geometry::new(&g.mechanism, StateId::new(1), &home).unwrap();
-    let drives = driven(&g.mechanism, &geometry).unwrap();
-    Reactions::at(
+    let drives = driven_freedoms(&g.mechanism, &geometry).unwrap();
+    Reactions::solve_at(
         &g.mechanism,
         StateId::new(1),
         &loads,
@@ -55,19 +55,19 @@ fn effort(list: &[JointReaction]) -> f64 {
 /// `ozols grip` adds up lever moments and rates of the levers; statics solve for every joint.
 #[test]
 fn the_drive_bears_what_the_grip_asks() {
-    let grip = json(&["grip", "lever-gripper", "--format", "json"]);
+    let grip = run_json(&["grip", "lever-gripper", "--format", "json"]);
     for row in grip["diameters"].list() {
         let asked = number(&row["load"]["drive_effort"]);
         let diameter = (number(&row["diameter"]) * 1e3).round().to_string();
         let run = |more: &[&str]| {
-            let args = words("statics lever-gripper --state clamped --format json");
+            let args = split_words("statics lever-gripper --state clamped --format json");
             let args: Vec<&str> = args
                 .iter()
                 .chain(&["--diameter", &diameter])
                 .chain(more)
                 .copied()
                 .collect();
-            json(&args)
+            run_json(&args)
         };
         let planar = run(&[]);
         let found = planar["positions"][0]["reactions"].list();
@@ -98,10 +98,10 @@ fn the_contact_forces_do_the_work_of_the_drive_and_no_other() {
     let g = clamped(&m);
     let metres = m.length_unit.metres;
     for row in &g.study.rows {
-        let (fit, loads) = (g.fit(row).unwrap(), g.loads(row).unwrap());
+        let (fit, loads) = (g.fit_part(row).unwrap(), g.jaw_loads(row).unwrap());
         let home = Pose::of_file(&g.mechanism, StateId::new(1)).unwrap();
         let geometry = Geometry::new(&g.mechanism, StateId::new(1), &home).unwrap();
-        let drives = driven(&g.mechanism, &geometry).unwrap();
+        let drives = driven_freedoms(&g.mechanism, &geometry).unwrap();
         let h = 1e-3;
         let steps = [-2.0, -1.0, 1.0, 2.0].map(|k| fit.drive + k * h);
         let poses = follow_to(&g.mechanism, StateId::new(1), &drives, &steps)
@@ -110,12 +110,12 @@ fn the_contact_forces_do_the_work_of_the_drive_and_no_other() {
         assert_eq!(poses.len(), 4);
         let work = |pose: &Pose| -> f64 {
             let each = loads.forces.iter().map(|f| {
-                let p = real(&f.point);
+                let p = to_vector(&f.point);
                 let at = [0, 1, 2].map(|i| (p[i] - pose.middle[i]) / pose.length);
                 let to = pose.links[f.link]
-                    .point(at)
+                    .map_point(at)
                     .map(|x| x * pose.length * metres);
-                dot(real(&f.force), to)
+                dot(to_vector(&f.force), to)
             });
             each.sum()
         };
@@ -136,18 +136,18 @@ fn jaws_bear_the_part() {
     let m = built_in();
     let g = clamped(&m);
     for row in &g.study.rows {
-        let (loads, hardest) = (g.loads(row).unwrap(), row.hardest.as_ref().unwrap());
-        let fit = g.fit(row).unwrap();
+        let (loads, hardest) = (g.jaw_loads(row).unwrap(), row.hardest.as_ref().unwrap());
+        let fit = g.fit_part(row).unwrap();
         let mut sum = [0.0; 3];
         let mut turn = [0.0; 3];
         // The gripper's axes are the file's here, from midway between the pivots.
         let centre = row.pose.as_ref().unwrap().centre;
         for f in &loads.forces {
-            let force = real(&f.force);
-            let p = real(&f.point);
+            let force = to_vector(&f.force);
+            let p = to_vector(&f.point);
             let pose = &fit.pose;
             let at = [0, 1, 2].map(|i| (p[i] - pose.middle[i]) / pose.length);
-            let to = pose.links[f.link].point(at);
+            let to = pose.links[f.link].map_point(at);
             let to = [0, 1, 2].map(|i| (pose.middle[i] + pose.length * to[i]) * 1e-3);
             let arm = [to[0] - centre[0], to[1] - centre[1], to[2]];
             let moment = cross(arm, force);
@@ -207,7 +207,7 @@ fn loads_follow_the_gripper_in_the_files_axes() {
     let turn = [[2.0, -2.0, 1.0], [1.0, 2.0, 2.0], [-2.0, -1.0, 2.0]];
     let turn = turn.map(|r: [f64; 3]| r.map(|x| x / 3.0));
     let by = |v: &[Expr; 3], shift: [f64; 3]| -> [Expr; 3] {
-        let v = real(v);
+        let v = to_vector(v);
         [0, 1, 2].map(|i| Expr::from_f64(dot(turn[i], v) + shift[i]).unwrap())
     };
     for j in &mut m.joints {
@@ -215,7 +215,7 @@ fn loads_follow_the_gripper_in_the_files_axes() {
         j.frame.axis = by(&j.frame.axis, [0.0; 3]);
         j.frame.reference = by(&j.frame.reference, [0.0; 3]);
     }
-    let slider = m.link("3").unwrap();
+    let slider = m.link_named("3").unwrap();
     let mass = m.links[slider].mass.as_mut().unwrap();
     mass.centre = by(&mass.centre, [30.0, -70.0, 20.0]);
     let (a, b) = (clamped(&before), clamped(&m));
@@ -283,7 +283,7 @@ fn links_feel_the_case() {
 
 #[test]
 fn statics_say_which_loads_came_from_the_grip() {
-    let said = out(&["statics", "lever-gripper", "--state", "clamped"]);
+    let said = run_quiet(&["statics", "lever-gripper", "--state", "clamped"]);
     has_all(
         &said,
         &[
@@ -295,9 +295,9 @@ fn statics_say_which_loads_came_from_the_grip() {
         ],
     );
     // Empty jaws bear nothing.
-    let free = out(&["statics", "lever-gripper"]);
+    let free = run_quiet(&["statics", "lever-gripper"]);
     has(&free, "states no loads");
-    let csv = out("statics lever-gripper --state clamped --spatial --format csv");
+    let csv = run_quiet("statics lever-gripper --state clamped --spatial --format csv");
     assert!(
         csv.starts_with("kind,joint,type") && !csv.contains("1-a far"),
         "{csv}"
@@ -307,7 +307,7 @@ fn statics_say_which_loads_came_from_the_grip() {
 #[test]
 fn a_grip_without_load_has_no_forces() {
     let mut m = built_in();
-    m.loads = but(|l: &mut Loads| l.grip = m.loads.grip.clone());
+    m.loads = default_with(|l: &mut Loads| l.grip = m.loads.grip.clone());
     let g = clamped(&m);
     assert!(matches!(
         g.study.rows[0].hardest.as_ref().unwrap().verdict,
@@ -315,5 +315,5 @@ fn a_grip_without_load_has_no_forces() {
     ));
     m.loads.grip.as_mut().unwrap().load = None;
     let g = clamped(&m);
-    assert!(g.study.rows.iter().all(|r| g.loads(r).is_none()));
+    assert!(g.study.rows.iter().all(|r| g.jaw_loads(r).is_none()));
 }

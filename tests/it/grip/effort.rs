@@ -1,6 +1,6 @@
 //! What a drive must do for two levers, by virtual work.
 
-use ozols::grip::effort;
+use ozols::grip::drive_effort;
 use ozols::grip::holding::{ContactForce, Holding};
 use ozols::model::grip::LeverDrive;
 use ozols::statics::transmission::Rates;
@@ -29,6 +29,6 @@ fn one_drive_does_the_work_of_both_levers() {
         (LeverDrive::Equal, Some(26.0)),
         (LeverDrive::Independent, None),
     ] {
-        assert_eq!(effort(levers, &holding, &rates), wanted, "{levers:?}");
+        assert_eq!(drive_effort(levers, &holding, &rates), wanted, "{levers:?}");
     }
 }

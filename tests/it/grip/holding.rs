@@ -6,7 +6,9 @@ mod polyhedral;
 
 use ozols::geom::vector::cross_plane as cross;
 use ozols::grip::contact::{Gripper, TouchingPose, Unholdable};
-use ozols::grip::holding::{ContactForce, Holding, HoldingOutcome, PartWrench, Spatial, hold};
+use ozols::grip::holding::{
+    ContactForce, Holding, HoldingOutcome, PartWrench, Spatial, find_holding,
+};
 use ozols::grip::lever_arm::Lever;
 use ozols::model::grip::LeverDrive;
 
@@ -21,8 +23,8 @@ fn lever(length: f64, prism: f64, mounting: f64) -> Lever {
 }
 
 fn pose() -> TouchingPose {
-    Gripper::nominal(lever(0.1, 120.0, 30.0), 0.04)
-        .pose(0.04)
+    Gripper::with_nominal(lever(0.1, 120.0, 30.0), 0.04)
+        .touching_pose(0.04)
         .unwrap()
 }
 
@@ -34,7 +36,7 @@ fn pull(force: Spatial) -> PartWrench {
 }
 
 fn held(pose: &TouchingPose, load: PartWrench, friction: f64, coupling: LeverDrive) -> Holding {
-    match hold(pose, &load, friction, coupling).unwrap() {
+    match find_holding(pose, &load, friction, coupling).unwrap() {
         HoldingOutcome::Held(h) => h,
         HoldingOutcome::Slips(s) => panic!("slips: {s:?}"),
     }
@@ -62,7 +64,10 @@ fn assert_statics(pose: &TouchingPose, load: &PartWrench, friction: f64, h: &Hol
     let (mut sum, mut moment, mut levers) = (load.force, load.moment, [0.0; 2]);
     for (i, f) in h.forces.iter().enumerate() {
         assert!(f.normal >= 0.0);
-        assert!(f.friction() <= friction * f.normal + 1e-6 * size, "{f:?}");
+        assert!(
+            f.friction_force() <= friction * f.normal + 1e-6 * size,
+            "{f:?}"
+        );
         let (c, w) = (pose.contacts[i], force(pose, i, f));
         let from_centre = [
             c.point[0] - pose.centre[0],
@@ -94,9 +99,9 @@ fn assert_statics(pose: &TouchingPose, load: &PartWrench, friction: f64, h: &Hol
 fn arms_are_those_of_the_normals_in_every_pose() {
     for (prism, mounting) in [(120.0, 20.0), (120.0, 30.0), (90.0, 30.0), (100.0, 45.0)] {
         let l = lever(0.1, prism, mounting);
-        let g = Gripper::nominal(l, 0.04);
+        let g = Gripper::with_nominal(l, 0.04);
         for d in [0.02, 0.03, 0.04, 0.05, 0.06] {
-            let (pose, arms) = (g.pose(d).unwrap(), l.arms(d));
+            let (pose, arms) = (g.touching_pose(d).unwrap(), l.force_arms(d));
             near(pose.turn, 0.0, if d == 0.04 { 1e-12 } else { 1.0 });
             for c in pose.contacts {
                 let (p, v) = (pose.pivots[c.lever], pose.vertices[c.lever]);
@@ -120,42 +125,42 @@ fn arms_are_those_of_the_normals_in_every_pose() {
 
 #[test]
 fn parts_that_cannot_be_held_are_named() {
-    let mut g = Gripper::nominal(lever(0.1, 120.0, 30.0), 0.04);
+    let mut g = Gripper::with_nominal(lever(0.1, 120.0, 30.0), 0.04);
     g.face_length = Some(0.02);
     g.lever_width = 0.01;
-    assert_eq!(g.obstacles(0.04), []);
+    assert_eq!(g.find_obstacles(0.04), []);
     assert!(
-        g.obstacles(0.08)
+        g.find_obstacles(0.08)
             .iter()
             .any(|o| matches!(o, Unholdable::OffFace { .. }))
     );
     assert!(matches!(
-        g.obstacles(1.0)[..],
+        g.find_obstacles(1.0)[..],
         [.., Unholdable::OffFace { .. }] | [Unholdable::OffFace { .. }, ..]
     ));
     g.lever_width = 0.06;
     assert!(matches!(
-        g.obstacles(0.04)[..],
+        g.find_obstacles(0.04)[..],
         [Unholdable::Crossed { .. }]
     ));
     // A long near face reaches over the axis before a thin part is touched.
     g.lever_width = 0.0;
     g.face_length = Some(0.06);
     assert!(
-        g.obstacles(0.04)
+        g.find_obstacles(0.04)
             .iter()
             .any(|o| matches!(o, Unholdable::TipsMeet { .. }))
     );
     g.pivot = 0.2;
     assert!(matches!(
-        g.obstacles(0.04)[..],
+        g.find_obstacles(0.04)[..],
         [Unholdable::OutOfReach { .. }]
     ));
     // γ + α/2 small: the levers cross at the nominal diameter.
-    let crossing = Gripper::nominal(lever(0.2, 120.0, 20.0), 0.04);
+    let crossing = Gripper::with_nominal(lever(0.2, 120.0, 20.0), 0.04);
     assert!(crossing.pivot < 0.0);
     assert!(matches!(
-        crossing.obstacles(0.04)[..],
+        crossing.find_obstacles(0.04)[..],
         [Unholdable::Crossed { .. }]
     ));
 }
@@ -168,8 +173,8 @@ fn parts_that_cannot_be_held_are_named() {
 fn statics_confirm_the_arms() {
     for (prism, mounting) in [(120.0, 20.0), (120.0, 30.0), (90.0, 30.0)] {
         let l = lever(0.1, prism, mounting);
-        let pose = Gripper::nominal(l, 0.04).pose(0.04).unwrap();
-        let (arms, half) = (l.arms(0.04), f64::to_radians(prism / 2.0));
+        let pose = Gripper::with_nominal(l, 0.04).touching_pose(0.04).unwrap();
+        let (arms, half) = (l.force_arms(0.04), f64::to_radians(prism / 2.0));
         for coupling in COUPLINGS {
             // Outwards: the far contacts of both levers. Inwards: the near ones.
             near(
@@ -203,7 +208,7 @@ fn statics_confirm_the_arms() {
 fn symmetric_axial_pull_has_the_textbook_moment() {
     // α near 180° and γ so that the lever is at right angles to the bisector: both arms near L.
     let l = lever(0.1, 179.9, 0.05);
-    let pose = Gripper::nominal(l, 0.04).pose(0.04).unwrap();
+    let pose = Gripper::with_nominal(l, 0.04).touching_pose(0.04).unwrap();
     let h = held(&pose, pull([0.0, 0.0, -20.0]), 0.4, LeverDrive::Equal);
     // Each lever presses with W/(2μ) in all at the arm L.
     near(h.drive, 20.0 / (2.0 * 0.4) * 0.1, 20.0 / 0.8 * 0.1 * 5e-3);
@@ -214,7 +219,7 @@ fn symmetric_axial_pull_has_the_textbook_moment() {
 #[test]
 fn without_friction_an_axial_pull_slips_along_the_axis() {
     for coupling in COUPLINGS {
-        match hold(&pose(), &pull([0.0, 0.0, -5.0]), 0.0, coupling).unwrap() {
+        match find_holding(&pose(), &pull([0.0, 0.0, -5.0]), 0.0, coupling).unwrap() {
             HoldingOutcome::Slips(s) => {
                 near(s.velocity[2], -1.0, 1e-6);
                 near(s.velocity[0].hypot(s.velocity[1]), 0.0, 1e-6);
@@ -228,7 +233,7 @@ fn without_friction_an_axial_pull_slips_along_the_axis() {
             moment: [0.0, 0.0, 0.1],
         };
         assert!(
-            matches!(hold(&pose(), &twist, 0.0, coupling).unwrap(), HoldingOutcome::Slips(s) if s.rotation[2] > 0.99)
+            matches!(find_holding(&pose(), &twist, 0.0, coupling).unwrap(), HoldingOutcome::Slips(s) if s.rotation[2] > 0.99)
         );
     }
 }
@@ -237,7 +242,7 @@ fn without_friction_an_axial_pull_slips_along_the_axis() {
 #[test]
 fn slips_are_certificates() {
     // Made for thin parts, these levers turn so far for thick ones that all four faces push out of the jaws.
-    let g = Gripper::nominal(lever(0.1, 150.0, 80.0), 0.02);
+    let g = Gripper::with_nominal(lever(0.1, 150.0, 80.0), 0.02);
     let (mut slips, mu) = (0, 0.1);
     for d in [0.02, 0.05, 0.1, 0.15, 0.2] {
         for f in [
@@ -246,8 +251,11 @@ fn slips_are_certificates() {
             [0.0, 0.0, 3.0],
             [-3.0, 1.0, 1.0],
         ] {
-            let Ok(pose) = g.pose(d) else { continue };
-            let HoldingOutcome::Slips(s) = hold(&pose, &pull(f), mu, LeverDrive::Coupled).unwrap()
+            let Ok(pose) = g.touching_pose(d) else {
+                continue;
+            };
+            let HoldingOutcome::Slips(s) =
+                find_holding(&pose, &pull(f), mu, LeverDrive::Coupled).unwrap()
             else {
                 continue;
             };
@@ -279,9 +287,9 @@ fn slips_are_certificates() {
 #[test]
 fn bad_numbers_are_refused() {
     for mu in [-0.1, f64::NAN, f64::INFINITY, 11.0] {
-        assert!(hold(&pose(), &pull([1.0, 0.0, 0.0]), mu, LeverDrive::Equal).is_err());
+        assert!(find_holding(&pose(), &pull([1.0, 0.0, 0.0]), mu, LeverDrive::Equal).is_err());
     }
-    assert!(hold(&pose(), &pull([f64::NAN, 0.0, 0.0]), 0.3, LeverDrive::Equal).is_err());
+    assert!(find_holding(&pose(), &pull([f64::NAN, 0.0, 0.0]), 0.3, LeverDrive::Equal).is_err());
     let nothing = held(&pose(), pull([0.0; 3]), 0.0, LeverDrive::Equal);
     assert_eq!(nothing.drive, 0.0);
 }

@@ -2,10 +2,10 @@
 
 use crate::common::*;
 fn along(table: &str, more: &[&str]) -> (Option<i32>, String, String) {
-    let (_folder, path) = written("lift.csv", table);
+    let (_folder, path) = write_temporary("lift.csv", table);
     let args = [&["grip", "lever-gripper", "--motion", path], more].concat();
     let o = run(&args);
-    (o.status.code(), text(&o.stdout), text(&o.stderr))
+    (o.status.code(), utf8_text(&o.stdout), utf8_text(&o.stderr))
 }
 
 /// Each step takes what the gripper takes in a case of that acceleration alone.
@@ -32,7 +32,7 @@ fn every_step_has_its_own_least_force() {
     let moment = |i: usize| steps[i]["drive_moment_per_lever"].real();
     assert!(moment(2) < 0.2 * moment(0) && moment(3) < moment(0));
     // The step alone, as the one case of a file.
-    let file = json(&["grip", "lever-gripper", "--format", "json"]);
+    let file = run_json(&["grip", "lever-gripper", "--format", "json"]);
     assert!(file.get("motion").is_some_and(Value::is_null));
     let shown = String::from_utf8(run(&["show", "lever-gripper"]).stdout).unwrap();
     let alone = shown.replace("any_acceleration = 5", "accelerations = [[5, 0, -2]]");

@@ -30,11 +30,11 @@ impl Case {
     /// The arms in millimetres, where such a gripper can hold the part.
     fn arms(self) -> Option<Arms> {
         let lever = lever(self.length, self.prism, self.mounting);
-        let mut gripper = Gripper::nominal(lever, self.diameter);
+        let mut gripper = Gripper::with_nominal(lever, self.diameter);
         gripper.pivot = self.pivot.unwrap_or(gripper.pivot);
         gripper.may_cross = true;
-        let held = gripper.obstacles(self.diameter).is_empty();
-        held.then(|| lever.arms(self.diameter))
+        let held = gripper.find_obstacles(self.diameter).is_empty();
+        held.then(|| lever.force_arms(self.diameter))
     }
 }
 
@@ -215,7 +215,7 @@ fn the_findings_of_the_paper_are_confirmed() {
         points.last().unwrap().1 - points[0].1
     };
     assert!(grown(7) < grown(5));
-    let fixed = lever(100.0, 120.0, 30.0).arms(40.0);
+    let fixed = lever(100.0, 120.0, 30.0).force_arms(40.0);
     near(fixed.l11, fixed.l21, 1e-9);
     let told = [
         format!("{:.3} and {:.3} mm per mm of L", slope(0, 1), slope(0, 3)),
@@ -254,7 +254,7 @@ fn the_findings_of_the_paper_are_confirmed() {
     );
     // It is up to 3 where the right says so, and beyond that more.
     let ratio = |length, diameter, prism, mounting| {
-        let arms = lever(length, prism, mounting).arms(diameter);
+        let arms = lever(length, prism, mounting).force_arms(diameter);
         arms.l1 / arms.l2
     };
     assert!(ratio(56.2, 100.0, 120.0, 20.0) > 3.0 && ratio(56.3, 100.0, 120.0, 20.0) < 3.0);
@@ -276,7 +276,7 @@ fn the_findings_of_the_paper_are_confirmed() {
     }
     // l11 is the longer part of l1 from where the right says so.
     let longer = |length, prism: f64, mounting, diameter| {
-        let arms = lever(length, prism, mounting).arms(diameter);
+        let arms = lever(length, prism, mounting).force_arms(diameter);
         arms.l11 > arms.l12
     };
     for (length, mounting, diameter, from) in [
@@ -326,7 +326,7 @@ fn what_the_curves_refute_is_told_with_what_is_right() {
     assert!(right(held).contains(&told), "{told}");
     // l2 over L at one γ and two α, and l1 beside it.
     let slope = |part: &str, prism: f64| {
-        let at = |x: f64| arm(part, &lever(x, prism, 30.0).arms(40.0));
+        let at = |x: f64| arm(part, &lever(x, prism, 30.0).force_arms(40.0));
         (at(160.0) - at(80.0)) / 80.0
     };
     near(slope("l2", 90.0), slope("l2", 120.0), 1e-12);
@@ -337,7 +337,7 @@ fn what_the_curves_refute_is_told_with_what_is_right() {
     }
     near(slope("l12", 90.0), 0.0, 1e-12);
     assert_eq!(right(parts), "they do not depend on L");
-    let [from, to] = [0.0, 40.0].map(|mounting| lever(100.0, 120.0, mounting).arms(40.0));
+    let [from, to] = [0.0, 40.0].map(|mounting| lever(100.0, 120.0, mounting).force_arms(40.0));
     for number in [from.l21 - to.l21, to.l11 - from.l11] {
         assert!(number > 0.0 && shorter.evidence.contains(&format!("{number:.1} mm")));
     }
@@ -346,13 +346,13 @@ fn what_the_curves_refute_is_told_with_what_is_right() {
 /// In text and JSON, under the gripper of the paper and no other.
 #[test]
 fn claims_are_told_of_the_gripper_of_the_paper_alone() {
-    let text = out(&["grip", "lever-gripper"]);
+    let text = run_quiet(&["grip", "lever-gripper"]);
     has(
         &text,
         "17 claims, 10 confirmed, 4 refuted, 3 refuted if the scan of the text is right",
     );
     has(&text, "right: l1 alone does");
-    let value = json(&["grip", "lever-gripper", "--format", "json"]);
+    let value = run_json(&["grip", "lever-gripper", "--format", "json"]);
     assert_eq!(value["claims"].list().len(), 17);
     assert_eq!(value["claims"][0]["right"], Value::Null);
     assert_eq!(value["claims"][13]["holds"], false);
@@ -363,10 +363,10 @@ fn claims_are_told_of_the_gripper_of_the_paper_alone() {
     let folder = tempdir().unwrap();
     let mine = folder.path().join("mine.toml");
     let mine = mine.to_str().unwrap();
-    out(&["new", mine, "--from", "lever-gripper"]);
-    let value = json(&["grip", mine, "--format", "json"]);
+    run_quiet(&["new", mine, "--from", "lever-gripper"]);
+    let value = run_json(&["grip", mine, "--format", "json"]);
     assert_eq!(value["claims"], serde_json::json!([]));
-    let text = out(&["grip", mine]);
+    let text = run_quiet(&["grip", mine]);
     assert!(
         !text.contains("Pavlenko") && !text.contains("refuted"),
         "{text}"
@@ -383,7 +383,7 @@ fn figures_are_charts_of_any_gripper() {
     fs::write(&file, text).unwrap();
     let charts = folder.path().join("charts");
     let [file, into] = [&file, &charts].map(|p| p.to_str().unwrap());
-    out(&["grip", file, "--svg", into]);
+    run_quiet(&["grip", file, "--svg", into]);
     for (name, at) in [("length", 0), ("prism-angle", 1), ("mounting-angle", 2)] {
         let table = fs::read_to_string(charts.join(format!("arms-over-{name}.csv"))).unwrap();
         let mut seen = BTreeMap::new();
@@ -420,7 +420,7 @@ fn figures_are_charts_of_any_gripper() {
 /// Both arms stand in the text as what they are made of.
 #[test]
 fn parts_of_the_arms_are_in_the_text() {
-    let text = out(&["grip", "lever-gripper"]);
+    let text = run_quiet(&["grip", "lever-gripper"]);
     has_all(&text, &["l11, mm", "l12, mm", "l21, mm", "l22, mm"]);
     // l11 = l21 = 100 cos 30°, l12 = 20 tan 30° at D = 40.
     let row = text.lines().filter(|l| l.trim_start().starts_with("40 "));

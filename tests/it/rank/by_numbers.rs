@@ -5,7 +5,7 @@ use chacha20::ChaCha8Rng;
 use chacha20::rand_core::{Rng, SeedableRng};
 use ozols::geom::Reals;
 use ozols::rank::numeric::Elimination;
-use ozols::rank::numeric::scaling::{Scaling, rank_of_values, scaled};
+use ozols::rank::numeric::scaling::{Scaling, rank_of_values, scaled_matrix};
 use ozols::redundancy::analysis::StateAnalysis;
 
 /// The mechanism with every number off by some billionths; axes of planar models stay as they are.
@@ -72,13 +72,17 @@ fn figures_of_a_geometry_a_little_off_are_those_of_the_exact_one() {
         }
         let off = disturbed(&m);
         for state in m.state_ids() {
-            let exact = analyse(&m, &[state], Method::Modular).unwrap().remove(0);
-            let written = analyse(&off, &[state], Method::Modular).unwrap().remove(0);
+            let exact = analyse_states(&m, &[state], Method::Modular)
+                .unwrap()
+                .remove(0);
+            let written = analyse_states(&off, &[state], Method::Modular)
+                .unwrap()
+                .remove(0);
             // Where a special place is not left, numbers have nothing to say.
             if written.rank == exact.rank {
                 continue;
             }
-            let found = analyse(&off, &[state], numeric).unwrap().remove(0);
+            let found = analyse_states(&off, &[state], numeric).unwrap().remove(0);
             if figures(&found) != figures(&exact) {
                 wrong.push(format!(
                     "{name}\n  {}\n  {}",
@@ -116,8 +120,8 @@ fn ranks_at_several_tolerances_are_those_at_each() {
     for name in ["bennett", "gripper-10", "four-bar"] {
         let m = built_in(name);
         let closure = Closure::new(&Reals, &m, StateId::FREE).unwrap();
-        let together = Elimination::Svd.mobilities(&closure, &tolerances);
-        let alone = tolerances.map(|t| Elimination::Svd.mobilities(&closure, &[t])[0]);
+        let together = Elimination::Svd.mobilities_at(&closure, &tolerances);
+        let alone = tolerances.map(|t| Elimination::Svd.mobilities_at(&closure, &[t])[0]);
         assert_eq!(together, alone, "{name}");
         let mut each = alone.to_vec();
         each.sort_unstable();
@@ -133,12 +137,12 @@ fn rows_of_couplings_are_in_scaled_speeds() {
     for name in builtin::names() {
         let m = built_in(name);
         let closure = Closure::new(&Reals, &m, StateId::FREE).unwrap();
-        let (matrix, scaling) = (scaled(&closure), Scaling::of(&closure));
+        let (matrix, scaling) = (scaled_matrix(&closure), Scaling::of_closure(&closure));
         for (r, coupling) in (closure.contour_rows()..).zip(&closure.couplings) {
             let [(a, x), (b, y)] = coupling.entries;
             let size = |c: usize| {
                 let mut column = [&closure.columns[c].twist[..], &[1.0]].concat();
-                scaling.unit(&mut column);
+                scaling.scale_to_unit(&mut column);
                 1.0 / column[closure.dim]
             };
             let speed = |c: usize| matrix[(r, c)] * size(c);

@@ -9,7 +9,7 @@ use num_rational::BigRational;
 use ozols::geom::number_field::NumberField;
 use ozols::linalg::number_ring::{Element, NumberRing};
 use ozols::rank::exact::certificate::{
-    Budget, Certificate, NoCertificate, certify, certify_matrix, matrix, number_field,
+    Budget, Certificate, NoCertificate, certify_matrix, certify_state, closure_matrix, number_field,
 };
 use ozols::rank::exact::rational;
 use ozols::verify::certificate::{CertificateFile, FORMAT};
@@ -21,8 +21,8 @@ fn certified(name: &str) -> (MatrixOverRing, Certificate) {
     let m = built_in(name);
     let field = number_field(&m, StateId::FREE).unwrap();
     (
-        matrix(&field, &m, StateId::FREE).unwrap(),
-        certify(&m, StateId::FREE).unwrap(),
+        closure_matrix(&field, &m, StateId::FREE).unwrap(),
+        certify_state(&m, StateId::FREE).unwrap(),
     )
 }
 
@@ -32,8 +32,8 @@ fn every_built_in_mechanism_is_certified_in_every_state() {
     for name in builtin::names() {
         let m = built_in(name);
         for state in m.state_ids() {
-            let rank = analyse(&m, &[state], Method::Modular).unwrap()[0].rank;
-            let certificate = match certify(&m, state) {
+            let rank = analyse_states(&m, &[state], Method::Modular).unwrap()[0].rank;
+            let certificate = match certify_state(&m, state) {
                 Ok(certificate) => certificate,
                 Err(reason) => {
                     without.push(format!("{name} {}: {reason}", m.states[state]));
@@ -41,9 +41,13 @@ fn every_built_in_mechanism_is_certified_in_every_state() {
                 }
             };
             let field = number_field(&m, state).unwrap();
-            let j = matrix(&field, &m, state).unwrap();
-            assert_eq!(verify::check(&j, &certificate), Ok(rank), "{name}");
-            if let Some(plain) = rational::rank(&j) {
+            let j = closure_matrix(&field, &m, state).unwrap();
+            assert_eq!(
+                verify::check_certificate(&j, &certificate),
+                Ok(rank),
+                "{name}"
+            );
+            if let Some(plain) = rational::rational_rank(&j) {
                 assert_eq!(plain, rank, "{name}");
             }
             // Through JSON and back.
@@ -173,13 +177,13 @@ proptest! {
         let m = sparse(&f, &dense, random.size[1]);
         let certificate = certify_matrix(&f, &m, "free", Budget::default()).unwrap();
         let rank = slow_rank(f.ring(), dense);
-        prop_assert_eq!(verify::check(&m, &certificate), Ok(rank));
-        match rational::rank(&m) {
+        prop_assert_eq!(verify::check_certificate(&m, &certificate), Ok(rank));
+        match rational::rational_rank(&m) {
             Some(plain) => prop_assert_eq!(plain, rank),
             None => prop_assert!(random.field > 0),
         }
         for (what, false_one) in corruptions(&m, &certificate) {
-            prop_assert!(verify::check(&m, &false_one).is_err(), "{}", what);
+            prop_assert!(verify::check_certificate(&m, &false_one).is_err(), "{}", what);
         }
     }
 
@@ -206,7 +210,7 @@ proptest! {
         match CertificateFile::read(&bytes) {
             Err(e) => prop_assert!(e.to_string().starts_with("not a file of certificates")),
             Ok(read) => for c in read.certificates {
-                if let Ok(rank) = verify::check(&m, &c) {
+                if let Ok(rank) = verify::check_certificate(&m, &c) {
                     prop_assert_eq!(rank, certificate.rank);
                 }
             },
@@ -221,23 +225,23 @@ fn a_certificate_does_not_serve_another_matrix() {
     let int = |rows: &[&[i64]]| {
         let dense: Vec<Vec<Element>> = rows
             .iter()
-            .map(|r| r.iter().map(|&x| Element::integer(x)).collect())
+            .map(|r| r.iter().map(|&x| Element::from_integer(x)).collect())
             .collect();
         sparse(&rationals, &dense, rows[0].len())
     };
     let m = int(&[&[1, 2, 3], &[2, 4, 6], &[1, 0, 1]]);
     let c = certify_matrix(&rationals, &m, "free", Budget::default()).unwrap();
-    assert_eq!(verify::check(&m, &c), Ok(2));
+    assert_eq!(verify::check_certificate(&m, &c), Ok(2));
     // of rank 3: the kernel vector is none
     let higher = int(&[&[1, 2, 3], &[2, 4, 7], &[1, 0, 1]]);
     assert!(matches!(
-        verify::check(&higher, &c),
+        verify::check_certificate(&higher, &c),
         Err(Flaw::NotInKernel { vector: 0, row: 1 })
     ));
     // of rank 1: the minor vanishes
     let lower = int(&[&[1, 2, 3], &[2, 4, 6], &[1, 2, 3]]);
     assert!(matches!(
-        verify::check(&lower, &c),
+        verify::check_certificate(&lower, &c),
         Err(Flaw::MinorVanishes { .. })
     ));
     // over a number that has no image
@@ -249,11 +253,11 @@ fn a_certificate_does_not_serve_another_matrix() {
         [(
             0,
             0,
-            Element::rational(BigRational::new(1.into(), p.into())),
+            Element::from_rational(BigRational::new(1.into(), p.into())),
         )],
     );
     assert!(matches!(
-        verify::check(&odd.unwrap(), &c),
+        verify::check_certificate(&odd.unwrap(), &c),
         Err(Flaw::Denominator { .. })
     ));
 }
@@ -264,10 +268,10 @@ fn witnesses_at_a_discriminant_are_refused() {
     let f = field(&["sqrt(3)", "sqrt(5)"]);
     let m = sparse(&f, &[vec![f.ring().generator(1)]], 1);
     let mut c = certify_matrix(&f, &m, "free", Budget::default()).unwrap();
-    assert_eq!(verify::check(&m, &c), Ok(1));
+    assert_eq!(verify::check_certificate(&m, &c), Ok(1));
     (c.field.witnesses[1].prime, c.field.witnesses[1].images) = (3, vec![0]);
     assert!(matches!(
-        verify::check(&m, &c),
+        verify::check_certificate(&m, &c),
         Err(Flaw::NotAField { generator: 1, why }) if why.contains("discriminant")
     ));
 }
@@ -275,7 +279,7 @@ fn witnesses_at_a_discriminant_are_refused() {
 /// A ring that is no field, where a number can differ from 0 and be 0 in fact.
 #[test]
 fn rings_that_are_no_fields_are_found_out() {
-    let int = Element::integer;
+    let int = Element::from_integer;
     // y² = 4, and the matrix (y - 2), whose rank is 0 in fact.
     let ring = NumberRing::rationals()
         .adjoin(vec![int(-4), int(0)])
@@ -289,7 +293,7 @@ fn rings_that_are_no_fields_are_found_out() {
     c.minor.images = vec![c.minor.prime - 2];
     c.field.relations = vec![vec![int(-4), int(0)]];
     assert!(matches!(
-        verify::check(&m, &c),
+        verify::check_certificate(&m, &c),
         Err(Flaw::NotAField { generator: 0, .. })
     ));
     let prime = c.minor.prime;
@@ -298,7 +302,7 @@ fn rings_that_are_no_fields_are_found_out() {
         images: Vec::new(),
     }];
     assert!(matches!(
-        verify::check(&m, &c),
+        verify::check_certificate(&m, &c),
         Err(Flaw::NotAField { generator: 0, .. })
     ));
 }
@@ -310,8 +314,8 @@ fn long_numbers_take_more_primes_and_budgets_hold() {
     // A Vandermonde matrix with one column to spare: its kernel has entries of some hundred digits.
     let dense: Vec<Vec<Element>> = (0..12i64)
         .map(|i| {
-            let x = Element::integer(i * 37 + 1000);
-            let mut power = Element::integer(1);
+            let x = Element::from_integer(i * 37 + 1000);
+            let mut power = Element::from_integer(1);
             (0..13)
                 .map(|_| {
                     let now = power.clone();
@@ -323,18 +327,18 @@ fn long_numbers_take_more_primes_and_budgets_hold() {
         .collect();
     let m = sparse(&rationals, &dense, 13);
     let c = certify_matrix(&rationals, &m, "free", Budget::default()).unwrap();
-    assert_eq!(verify::check(&m, &c), Ok(12));
-    let few = but(|b: &mut Budget| b.primes = 3);
+    assert_eq!(verify::check_certificate(&m, &c), Ok(12));
+    let few = default_with(|b: &mut Budget| b.primes = 3);
     assert!(matches!(
         certify_matrix(&rationals, &m, "free", few),
         Err(NoCertificate::TooManyPrimes { primes: 3 })
     ));
-    let small = but(|b: &mut Budget| b.coordinates = 12);
+    let small = default_with(|b: &mut Budget| b.coordinates = 12);
     assert_eq!(
         certify_matrix(&rationals, &m, "free", small),
         Err(NoCertificate::TooLarge { coordinates: 13 })
     );
-    let short = but(|b: &mut Budget| b.operations = 10);
+    let short = default_with(|b: &mut Budget| b.operations = 10);
     assert!(matches!(
         certify_matrix(&rationals, &m, "free", short),
         Err(NoCertificate::TooMuchWork { .. })

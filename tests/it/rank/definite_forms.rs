@@ -112,7 +112,9 @@ fn range(blocks: &[Block]) -> (usize, usize) {
     let text = forms(blocks);
     let m = mechanism_from_str("forms.toml", &text).unwrap_or_else(|e| panic!("{e}\n{text}"));
     let method = Method::Auto;
-    let found = analyse(&m, &[StateId::FREE], method).unwrap().remove(0);
+    let found = analyse_states(&m, &[StateId::FREE], method)
+        .unwrap()
+        .remove(0);
     assert_eq!(found.mobility, blocks.len());
     (found.finite.mobility, found.finite.at_most())
 }

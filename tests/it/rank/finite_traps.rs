@@ -8,7 +8,7 @@ mod beyond_doubles;
 
 use ozols::rank::exact::field::field_of;
 use ozols::rank::exact::modular;
-use ozols::rank::finite::{Finite, How, finite};
+use ozols::rank::finite::{Finite, How, finite_mobility};
 
 pub(crate) fn judged(m: &Mechanism) -> (usize, Finite) {
     judged_in(m, StateId::FREE)
@@ -17,8 +17,8 @@ pub(crate) fn judged(m: &Mechanism) -> (usize, Finite) {
 pub(crate) fn judged_in(m: &Mechanism, state: StateId) -> (usize, Finite) {
     let exact = field_of(m, state, 0).unwrap();
     let closure = Closure::new(&exact, m, state).unwrap();
-    let rank = modular::rank(&exact, &closure);
-    let found = finite(&exact, m, &closure, rank).unwrap();
+    let rank = modular::rank_modulo(&exact, &closure);
+    let found = finite_mobility(&exact, m, &closure, rank).unwrap();
     (closure.columns.len() - rank, found)
 }
 
@@ -47,7 +47,7 @@ fn no_trap_is_answered_wrong_and_sure() {
                 "{}: truth {}, W {instantaneous}, found {}: {}",
                 t.name,
                 t.truth,
-                found.figure(),
+                found.format_figure(),
                 found.describe()
             ));
         }
@@ -106,7 +106,7 @@ fn idle_spins_stay_beside_what_else_moves() {
         assert!(
             state.finite.mobility >= 6,
             "{flipped}: {}",
-            state.finite.figure()
+            state.finite.format_figure()
         );
     }
 }
@@ -114,7 +114,7 @@ fn idle_spins_stay_beside_what_else_moves() {
 /// A triangle of bars stands with one more across it, and a pendulum hangs beside it.
 #[test]
 fn what_swings_beside_a_rigid_part_does_not_make_it_say_that_nothing_moves() {
-    let text = file_of(
+    let text = write_mechanism(
         "name = \"beside\"",
         "f a b* c p*",
         "

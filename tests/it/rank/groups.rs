@@ -90,7 +90,7 @@ fn groups_about_one_direction_have_their_names() {
 fn by_bonds(m: &Mechanism) -> Option<usize> {
     let exact = field_of(m, StateId::FREE, 0).unwrap();
     let closure = Closure::new(&exact, m, StateId::FREE).unwrap();
-    bonds::mobility(&exact, m, &closure).unwrap()
+    bonds::mobility_by_bonds(&exact, m, &closure).unwrap()
 }
 
 /// By hand, hinges about one direction: of n in a ring n - 3 move; about one axis n - 1.

@@ -57,7 +57,7 @@ fn built_in_mechanisms_need_no_more() {
 /// and out of it one, for that turn; every redundant constraint is out of the plane.
 #[test]
 fn a_cylindrical_drive_costs_one_row_out_of_the_plane() {
-    let found = json("analyze gripper-10 --state free --format json");
+    let found = run_json("analyze gripper-10 --state free --format json");
     let parts = found["states"][0]["least_rows"].list();
     let figures = |i: usize| {
         let p = &parts[i];
@@ -66,7 +66,7 @@ fn a_cylindrical_drive_costs_one_row_out_of_the_plane() {
     };
     assert_eq!(figures(0), ("in plane", "z", [12, 12, 12, 0]));
     assert_eq!(figures(1), ("out of plane", "z", [4, 12, 1, 11]));
-    let text = out(&["analyze", "gripper-10", "--state", "free", "--verbose"]);
+    let text = run_quiet(&["analyze", "gripper-10", "--state", "free", "--verbose"]);
     has(
         &text,
         "; all joints move in a plane with normal z (12 of 12 rows, rank 12, σ = 0) or out of it (4 of 12 rows, rank 1, \
@@ -125,7 +125,7 @@ fn blocks_are_judged_one_by_one() {
     let found = check(&m, StateId::FREE);
     let rows: Vec<usize> = found.blocks.iter().map(|b| b.parts[0].rows).collect();
     assert_eq!(rows, [3, 3, 6]);
-    let words = found.words(&m, |c| c.to_string());
+    let words = found.describe_rows(&m, |c| c.to_string());
     assert_eq!(
         words,
         "; the joints of contour 0 move in one plane (3), so 3 rows per contour are enough; the joints of contour 1 move in the turns \
@@ -158,7 +158,7 @@ fn hinges_on_a_flat_sheet_move_out_of_it_alone() {
     let m = mechanism_from_str("sheet.toml", &text).unwrap();
     let found = check(&m, StateId::FREE);
     assert_eq!(found.rows(), 3);
-    let words = found.words(&m, |c| c.to_string());
+    let words = found.describe_rows(&m, |c| c.to_string());
     has(&words, "all joints move only out of a plane with normal z");
 }
 
@@ -167,10 +167,10 @@ fn hinges_on_a_flat_sheet_move_out_of_it_alone() {
 #[test]
 fn reactions_in_a_plane_without_redundant_constraints_are_determined() {
     let mut seen = 0;
-    for name in words(
+    for name in split_words(
         "gripper-10-loaded four-bar jansen-leg watt-six-bar slider-crank-spatial scissor-lift-3",
     ) {
-        let analysis = json(&["analyze", name, "--state", "free", "--format", "json"]);
+        let analysis = run_json(&["analyze", name, "--state", "free", "--format", "json"]);
         let parts = analysis["states"][0]["least_rows"].list();
         let args = [
             "statics",
@@ -181,7 +181,7 @@ fn reactions_in_a_plane_without_redundant_constraints_are_determined() {
             "--format",
             "json",
         ];
-        let reactions = json(&args);
+        let reactions = run_json(&args);
         assert_eq!(reactions["unique"], false, "{name}");
         assert_eq!(
             parts.len() % 2,
@@ -202,11 +202,11 @@ fn reactions_in_a_plane_without_redundant_constraints_are_determined() {
         }
     }
     assert!(seen > 40, "{seen}");
-    let text = out(&["statics", "four-bar", "--spatial"]);
+    let text = run_quiet(&["statics", "four-bar", "--spatial"]);
     has(&text, "Left open by the self-stresses: Fz, Mx and My of ");
     has(&text, "; all else is the same in the whole family");
     // A third rod is redundant in the plane.
-    let rods = json("statics parallelogram-3-rods --spatial --format json");
+    let rods = run_json("statics parallelogram-3-rods --spatial --format json");
     let mut by_count: BTreeMap<usize, usize> = BTreeMap::new();
     for r in rods["reactions"].list() {
         *by_count
@@ -244,7 +244,7 @@ fn screws_are_not_called_turns() {
             .unwrap();
         }
         let m = mechanism_from_str("screws.toml", &text).unwrap();
-        check(&m, StateId::FREE).words(&m, |c| c.to_string())
+        check(&m, StateId::FREE).describe_rows(&m, |c| c.to_string())
     };
     let parallel = words(&[[0, 0], [3, 0], [4, 4], [0, 5]]);
     has(&parallel, "screws of one pitch and slides across them (3)");
@@ -260,7 +260,7 @@ fn joints_outside_contours_are_not_spoken_for() {
                point = [1, 2, 3]\naxis = [1, 2, 3]\n";
     let without_figures = four_bar.split("[[expected]]").next().unwrap();
     let m = mechanism_from_str("arm.toml", &format!("{without_figures}\n{arm}")).unwrap();
-    let words = check(&m, StateId::FREE).words(&m, |c| c.to_string());
+    let words = check(&m, StateId::FREE).describe_rows(&m, |c| c.to_string());
     assert!(
         words.starts_with(
             "; all joints of contours move in one plane (3), so 3 rows per contour are enough"
@@ -268,7 +268,7 @@ fn joints_outside_contours_are_not_spoken_for() {
         "{words}"
     );
     let whole = built_in("four-bar");
-    let words = check(&whole, StateId::FREE).words(&whole, |c| c.to_string());
+    let words = check(&whole, StateId::FREE).describe_rows(&whole, |c| c.to_string());
     assert!(
         words.starts_with("; all joints move in one plane (3)"),
         "{words}"
@@ -283,5 +283,8 @@ fn couplings_without_contours_are_not_told_of() {
                 [[joint]]\nid = \"B\"\nlinks = [\"0\", \"b\"]\ntype = \"revolute\"\npoint = [3, 0, 0]\naxis = [0, 0, 1]\n\
                 [[coupling]]\njoints = [\"A\", \"B\"]\nratio = -2\n";
     let m = mechanism_from_str("arms.toml", text).unwrap();
-    assert_eq!(check(&m, StateId::FREE).words(&m, |c| c.to_string()), "");
+    assert_eq!(
+        check(&m, StateId::FREE).describe_rows(&m, |c| c.to_string()),
+        ""
+    );
 }

@@ -2,7 +2,8 @@
 
 use crate::common::*;
 fn free(args: &[&str]) -> Value {
-    json(&[&["analyze", "--state", "free", "--format", "json"], args].concat())["states"][0].take()
+    run_json(&[&["analyze", "--state", "free", "--format", "json"], args].concat())["states"][0]
+        .take()
 }
 
 /// Delta, tripteron and the orthogonal platforms translate; the agile eye turns about a point; 4-UPU has Schoenflies motion.
@@ -40,7 +41,7 @@ fn outputs_move_as_published() {
 /// A dimension is that of the twists, no more than the working mobility, and equal to it where there is one output.
 #[test]
 fn dimensions_are_those_of_the_exact_kernel() {
-    let all = json(&["list", "--format", "json"]);
+    let all = run_json(&["list", "--format", "json"]);
     let names: BTreeSet<&str> = all.list().iter().map(|m| m["name"].word()).collect();
     let mut named = 0;
     for name in names {
@@ -64,7 +65,10 @@ fn dimensions_are_those_of_the_exact_kernel() {
 #[test]
 fn screws_and_connectivity() {
     let thread = "thread | 0 nut | helical | 1, 2, 3 | 0, 0, 1 | lead = 5";
-    let (_folder, path) = written("nut.toml", file_of("name = \"nut\"", "0 nut*", thread));
+    let (_folder, path) = write_temporary(
+        "nut.toml",
+        write_mechanism("name = \"nut\"", "0 nut*", thread),
+    );
     let state = free(&[path]);
     let found = state["motions"][0]["text"].word();
     assert!(
@@ -94,7 +98,7 @@ fn screws_and_connectivity() {
 fn wrenches_are_named() {
     let mut seen = BTreeSet::new();
     for name in ["gripper-10", "bennett", "sarrus", "3-crr", "four-bar"] {
-        let found = json(&format!("analyze {name} --format json"));
+        let found = run_json(&format!("analyze {name} --format json"));
         for stress in found["states"][0]["self_stresses"].list() {
             for joint in stress["joints"].list() {
                 let name = joint["text"].word();
@@ -125,7 +129,7 @@ fn wrenches_are_named() {
 /// A robot of three legs has Gogu's four numbers, which are W, σ, and the motions of its platform and of what that does not feel.
 #[test]
 fn robots_with_legs_have_the_numbers_of_gogu() {
-    let of = |name: &str| json(&format!("analyze {name} --format json"))["states"][0].take();
+    let of = |name: &str| run_json(&format!("analyze {name} --format json"))["states"][0].take();
     let crr = of("3-crr");
     for (symbol, key) in [
         ("M", "mobility"),
@@ -136,5 +140,8 @@ fn robots_with_legs_have_the_numbers_of_gogu() {
         assert_eq!(crr["gogu"][symbol], crr[key]);
     }
     assert!(of("gripper-10")["gogu"].is_null());
-    has(&out("analyze 3-crr --verbose"), "in Gogu's symbols: M = ");
+    has(
+        &run_quiet("analyze 3-crr --verbose"),
+        "in Gogu's symbols: M = ",
+    );
 }

@@ -12,8 +12,8 @@ use ozols::motion::pose::Pose;
 use ozols::rank::exact::field::field_of;
 use ozols::rank::exact::modular;
 use ozols::rank::finite::local_dimension;
-use ozols::rank::finite::{How, finite, followed};
-use ozols::rank::method::auto::decide;
+use ozols::rank::finite::{How, finite_mobility, followed_mobility};
+use ozols::rank::method::auto::decide_state;
 use ozols::rank::method::generic;
 use ozols::rank::method::registry;
 use ozols_dense::Matrix;
@@ -24,24 +24,24 @@ use proptest::prelude::*;
 fn as_measured(m: &Mechanism, seed: u64, noise: f64, away: f64) -> Mechanism {
     let mut random = Noise::new(seed, 0);
     // A random quaternion.
-    let [w, x, y, z] = [(); 4].map(|()| random.uniform());
+    let [w, x, y, z] = [(); 4].map(|()| random.draw_uniform());
     let axis = [x, y, z];
-    let turn = RigidMotion::turn(axis, 2.0 * length(axis).atan2(w));
-    let scale = 10f64.powf(random.uniform());
+    let turn = RigidMotion::from_turn(axis, 2.0 * length(axis).atan2(w));
+    let scale = 10f64.powf(random.draw_uniform());
     let size = m
         .joints
         .iter()
         .flat_map(|j| &j.frame.point)
         .map(|x| x.to_f64().abs())
         .fold(1.0, f64::max);
-    let shift = [(); 3].map(|()| away * size * random.uniform());
-    let turned = |v: &[Expr; 3]| turn.direction(real(v));
+    let shift = [(); 3].map(|()| away * size * random.draw_uniform());
+    let turned = |v: &[Expr; 3]| turn.map_direction(to_vector(v));
     let mut out = m.clone();
     for joint in &mut out.joints {
         let point = turned(&joint.frame.point);
         let reference = turned(&joint.frame.reference);
         let axis = turned(&joint.frame.axis);
-        let mut number = |x: f64, of: f64| Expr::from_f64(x + noise * of * random.uniform());
+        let mut number = |x: f64, of: f64| Expr::from_f64(x + noise * of * random.draw_uniform());
         let length = |v: [f64; 3]| v.iter().map(|x| x * x).sum::<f64>().sqrt();
         joint.frame = Frame {
             point: [0, 1, 2].map(|i| number(scale * (point[i] + shift[i]), scale * size).unwrap()),
@@ -61,9 +61,9 @@ fn the_automatic_choice_is_right_on_every_built_in_mechanism_turned_and_measured
     for (n, name) in builtin::names().into_iter().enumerate() {
         let m = built_in(name);
         for e in &m.expected {
-            let state = m.state(&e.state).unwrap();
+            let state = m.state_named(&e.state).unwrap();
             let mut check = |what: String, m: &Mechanism| {
-                let s = &analyse(m, &[state], Method::Auto).unwrap()[0];
+                let s = &analyse_states(m, &[state], Method::Auto).unwrap()[0];
                 let is = (
                     s.mobility as i64,
                     s.finite.mobility as i64,
@@ -137,11 +137,12 @@ fn what_is_proven_is_found_by_following_the_motion_too() {
         let m = built_in(name);
         let exact = field_of(&m, StateId::FREE, 0).unwrap();
         let closure = Closure::new(&exact, &m, StateId::FREE).unwrap();
-        let rank = modular::rank(&exact, &closure);
-        let found = finite(&exact, &m, &closure, rank).unwrap();
+        let rank = modular::rank_modulo(&exact, &closure);
+        let found = finite_mobility(&exact, &m, &closure, rank).unwrap();
         if found.is_proven() && closure.columns.len() < 60 {
             proven += 1;
-            let by_motion = followed(&m, StateId::FREE, closure.columns.len() - rank, 0.0).unwrap();
+            let by_motion =
+                followed_mobility(&m, StateId::FREE, closure.columns.len() - rank, 0.0).unwrap();
             // Pursuit may leave it open, but never says otherwise.
             let mobility = found.mobility as i64;
             assert!(
@@ -201,13 +202,13 @@ fn the_jacobian_is_the_derivative_of_the_gaps() {
         let pose = Pose::of_file(&built_in(name), StateId::FREE).unwrap();
         let f = pose.columns.len();
         let zero = vec![0.0; f];
-        let jacobian: Matrix = pose.jacobian(&zero);
+        let jacobian: Matrix = pose.jacobian_at(&zero);
         for c in 0..f {
             let h = 1e-6;
             let at = |x: f64| {
                 let mut q = zero.clone();
                 q[c] = x;
-                pose.gaps(&q)
+                pose.closure_gaps(&q)
             };
             for (r, (p, m)) in at(h).iter().zip(at(-h)).enumerate() {
                 let slope = (p - m) / (2.0 * h);
@@ -220,24 +221,24 @@ fn the_jacobian_is_the_derivative_of_the_gaps() {
 /// Moving on from a moved pose is moving on: the chain of poses closes, and links stay rigid.
 #[test]
 fn poses_reached_in_steps_are_closed_and_rigid() {
-    for name in words("bennett gripper-10 rsur stewart-gough sarrus delta") {
+    for name in split_words("bennett gripper-10 rsur stewart-gough sarrus delta") {
         let mut pose = Pose::of_file(&built_in(name), StateId::FREE).unwrap();
         let f = pose.columns.len();
         for _ in 0..20 {
-            let span = local_dimension::motions(&pose);
+            let span = local_dimension::null_space_of(&pose);
             let step: Vec<f64> = (0..f).map(|r| 0.05 * span[(r, 0)]).collect();
-            let q = pose.close(step, &[]).unwrap();
-            pose = pose.moved(&q);
+            let q = pose.close_loops(step, &[]).unwrap();
+            pose = pose.moved_to(&q);
             let gap = pose
-                .gaps(&vec![0.0; f])
+                .closure_gaps(&vec![0.0; f])
                 .iter()
                 .fold(0.0, |a: f64, x| a.max(x.abs()));
             assert!(gap < 1e-10, "{name}: {gap}");
         }
         for (i, link) in pose.links.iter().enumerate() {
             let [x, y] = [
-                link.direction([1.0, 0.0, 0.0]),
-                link.direction([0.0, 1.0, 0.0]),
+                link.map_direction([1.0, 0.0, 0.0]),
+                link.map_direction([0.0, 1.0, 0.0]),
             ];
             let dot = |a: [f64; 3], b: [f64; 3]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
             assert!(
@@ -307,7 +308,7 @@ fn random_bars_rank(bodies: usize, bars: &[(usize, usize)], dim: usize, seed: u6
             row
         })
         .collect();
-    echelon::rank(field, rows.iter().map(Vec::as_slice))
+    echelon::rank_of(field, rows.iter().map(Vec::as_slice))
 }
 
 proptest! {
@@ -337,8 +338,8 @@ proptest! {
         let names: Vec<_> = builtin::names();
         let m = built_in(names[pick.index(names.len())]);
         prop_assume!(matches!(m.mode, Mode::Spatial) && m.name != "wren-platform");
-        let before = decide(&m, StateId::FREE).unwrap();
-        let after = decide(&as_measured(&m, seed, 1e-13, 1.0), StateId::FREE).unwrap();
+        let before = decide_state(&m, StateId::FREE).unwrap();
+        let after = decide_state(&as_measured(&m, seed, 1e-13, 1.0), StateId::FREE).unwrap();
         // Off by a thousand units of the sixteenth digit, which may leave it open.
         let rank = before.verdict.rank();
         prop_assert!((after.verdict.at_least()..=after.verdict.rank()).contains(&rank), "{} {rank}: {}", m.name, after.line);
@@ -358,7 +359,7 @@ fn a_rod_spins_about_the_line_of_its_balls() {
     let names = |ids: &[ozols::model::mechanism::JointId]| -> Vec<String> {
         ids.iter().map(|&j| m.joints[j].id.clone()).collect()
     };
-    assert_eq!(idle.links, [m.link("2").unwrap()]);
+    assert_eq!(idle.links, [m.link_named("2").unwrap()]);
     assert_eq!(
         (names(&idle.through), idle.turns),
         (vec!["1-2".to_owned(), "2-3".to_owned()], true)

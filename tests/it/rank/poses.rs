@@ -5,7 +5,7 @@ use ozols::geom::Reals;
 use ozols::geom::extent::Extent;
 use ozols::geom::rigid::RigidMotion;
 use ozols::motion::drive_range::Way;
-use ozols::motion::jaws::meet;
+use ozols::motion::jaws::jaws_meet;
 use ozols::motion::pose::Pose;
 use ozols::motion::working::working_way;
 
@@ -23,10 +23,10 @@ fn a_screw_goes_its_lead_in_a_turn() {
     );
     let pose = Pose::of_file(&m, StateId::FREE).unwrap();
     assert!(pose.length > 100.0);
-    let there = pose.moved(&[TAU, 0.0]);
-    let nut = m.joints[m.joint("s").unwrap()].links[1];
-    let at = pose.carried(&there.links, nut, [20.0, 0.0, 5.0]);
-    all_to_nine_digits(at, [20.0, 0.0, 15.0]);
+    let there = pose.moved_to(&[TAU, 0.0]);
+    let nut = m.joints[m.joint_named("s").unwrap()].links[1];
+    let at = pose.carry_point(&there.links, nut, [20.0, 0.0, 5.0]);
+    assert_all_nine_digits(at, [20.0, 0.0, 15.0]);
 }
 
 /// Two hinges geared to each other: once out of step they stay so, however often they are moved.
@@ -39,12 +39,15 @@ fn couplings_remember_what_has_moved() {
         [[coupling]]\njoints = [\"a\", \"b\"]\nratio = -2\n",
     );
     let pose = Pose::of_file(&m, StateId::FREE).unwrap();
-    let open = pose.gaps(&[0.1, 0.0]);
+    let open = pose.closure_gaps(&[0.1, 0.0]);
     assert_eq!(open.len(), 1);
     assert!(open[0].abs() > 0.01);
-    let there = pose.moved(&[0.1, 0.0]);
-    to_nine_digits(there.gaps(&[0.0, 0.0])[0], open[0]);
-    to_nine_digits(there.moved(&[-0.1, 0.0]).gaps(&[0.0, 0.0])[0], 0.0);
+    let there = pose.moved_to(&[0.1, 0.0]);
+    assert_nine_digits(there.closure_gaps(&[0.0, 0.0])[0], open[0]);
+    assert_nine_digits(
+        there.moved_to(&[-0.1, 0.0]).closure_gaps(&[0.0, 0.0])[0],
+        0.0,
+    );
 }
 
 /// A link behind a joint that is named from it to the frame moves by the other sign.
@@ -61,7 +64,7 @@ fn paths_pass_joints_either_way() {
     let (there, back) = (rows(true), rows(false));
     assert!(there.iter().any(|x| x.abs() > 0.1));
     for (a, b) in there.iter().zip(&back) {
-        to_nine_digits(*a, -b);
+        assert_nine_digits(*a, -b);
     }
 }
 
@@ -72,7 +75,7 @@ fn ways_count_from_the_files_pose() {
     let pose = Pose::of_file(&m, StateId::FREE).unwrap();
     let way = working_way(&m, StateId::FREE, &pose, 20).unwrap();
     assert!(way.start > 0);
-    to_nine_digits(way.at[way.start], 0.0);
+    assert_nine_digits(way.at[way.start], 0.0);
     assert!(way.at.windows(2).all(|w| w[0] < w[1]));
     assert!(way.at[0] < 0.0);
 }
@@ -92,7 +95,7 @@ fn jaws_meet_between_poses() {
         let mut links = pose.links.clone();
         for (id, sign) in [("a", 1.0), ("b", -1.0)] {
             let link = m.links_with_ids().find(|(_, l)| l.id == id).unwrap().0;
-            links[link.index()] = RigidMotion::shift([sign * by, 0.0, 0.0]);
+            links[link.index()] = RigidMotion::from_translation([sign * by, 0.0, 0.0]);
         }
         links
     };
@@ -103,15 +106,15 @@ fn jaws_meet_between_poses() {
         closed: false,
         ends: [None, None],
     };
-    let [back, on] = meet(&m, StateId::FREE, &pose, &way);
+    let [back, on] = jaws_meet(&m, StateId::FREE, &pose, &way);
     assert_eq!(back, None);
-    to_nine_digits(on.unwrap(), 2.5);
+    assert_nine_digits(on.unwrap(), 2.5);
     // Where the last pose is the first again, the same are behind it, a whole turn back.
     let way = Way {
         closed: true,
         ..way
     };
-    let [back, _] = meet(&m, StateId::FREE, &pose, &way);
+    let [back, _] = jaws_meet(&m, StateId::FREE, &pose, &way);
     assert!(back.is_none_or(|at| at < 0.0), "{back:?}");
 }
 
@@ -133,9 +136,9 @@ fn what_a_plane_leaves_out_is_told() {
 
 #[test]
 fn an_extent_is_half_a_diagonal_about_the_middle() {
-    let e = Extent::of(&[[1.0, 2.0, 3.0], [3.0, 6.0, 5.0], [2.0, 3.0, 4.0]]);
+    let e = Extent::from_points(&[[1.0, 2.0, 3.0], [3.0, 6.0, 5.0], [2.0, 3.0, 4.0]]);
     assert_eq!(e.middle, [2.0, 4.0, 4.0]);
-    to_nine_digits(e.length, 6f64.sqrt());
+    assert_nine_digits(e.length, 6f64.sqrt());
 }
 
 /// A crane of metres turned by a quarter: what stood on its boom along x stands along y, and what slides there slides along y.
@@ -147,14 +150,14 @@ fn a_mechanism_is_written_anew_where_it_has_gone() {
         [[joint]]\nid = \"run\"\nlinks = [\"1\", \"2\"]\ntype = \"prismatic\"\npoint = [3000, 0, 2000]\naxis = [1, 0, 0]\n",
     );
     let pose = Pose::of_file(&m, StateId::FREE).unwrap();
-    let there = pose.moved(&[TAU / 4.0, 0.1]);
-    let anew = ozols::motion::moved(&m, &there).unwrap();
-    let frame = &anew.joints[anew.joint("run").unwrap()].frame;
+    let there = pose.moved_to(&[TAU / 4.0, 0.1]);
+    let anew = ozols::motion::move_mechanism(&m, &there).unwrap();
+    let frame = &anew.joints[anew.joint_named("run").unwrap()].frame;
     let slid = 0.1 * pose.length;
-    all_to_nine_digits(real(&frame.point), [0.0, 3000.0 + slid, 2000.0]);
-    all_to_nine_digits(real(&frame.axis), [0.0, 1.0, 0.0]);
-    let still = &anew.joints[anew.joint("turn").unwrap()].frame;
-    all_to_nine_digits(real(&still.point), [0.0; 3]);
+    assert_all_nine_digits(to_vector(&frame.point), [0.0, 3000.0 + slid, 2000.0]);
+    assert_all_nine_digits(to_vector(&frame.axis), [0.0, 1.0, 0.0]);
+    let still = &anew.joints[anew.joint_named("turn").unwrap()].frame;
+    assert_all_nine_digits(to_vector(&still.point), [0.0; 3]);
 }
 
 /// A pin stands on the first of its links and its slot in the second: where it slides, it stays on the first.
@@ -168,21 +171,21 @@ fn a_pin_stays_on_its_link() {
     let pose = Pose::of_file(&m, StateId::FREE).unwrap();
     let columns = pose.columns.iter();
     let q: Vec<f64> = columns
-        .map(|c| match (c.joint.index(), c.freedom.slides()) {
+        .map(|c| match (c.joint.index(), c.freedom.is_slide()) {
             (0, _) => TAU / 4.0,
             (_, true) => 0.1,
             (_, false) => 0.0,
         })
         .collect();
-    let anew = ozols::motion::moved(&m, &pose.moved(&q)).unwrap();
-    let frame = &anew.joints[anew.joint("pin").unwrap()].frame;
-    all_to_nine_digits(real(&frame.point), [0.0, 3000.0, 500.0]);
+    let anew = ozols::motion::move_mechanism(&m, &pose.moved_to(&q)).unwrap();
+    let frame = &anew.joints[anew.joint_named("pin").unwrap()].frame;
+    assert_all_nine_digits(to_vector(&frame.point), [0.0, 3000.0, 500.0]);
 }
 
 /// A link between two guides in a line slides between them alone, one between two hinges in a line turns.
 #[test]
 fn idle_motions_slide_or_turn() {
-    use ozols::redundancy::analysis::{Method, analyse};
+    use ozols::redundancy::analysis::{Method, analyse_states};
     for (kind, turns) in [("prismatic", false), ("revolute", true)] {
         let m = read(&format!(
             "name = \"idle\"\nlink = [{{ id = \"0\", role = \"frame\" }}, {{ id = \"1\" }}, {{ id = \"2\", role = \"output\" }}]\n\
@@ -190,7 +193,7 @@ fn idle_motions_slide_or_turn() {
             [[joint]]\nid = \"b\"\nlinks = [\"1\", \"2\"]\ntype = \"{kind}\"\npoint = [2, 0, 0]\naxis = [1, 0, 0]\n\
             [[joint]]\nid = \"c\"\nlinks = [\"2\", \"0\"]\ntype = \"fixed\"\npoint = [3, 0, 0]\n"
         ));
-        let found = analyse(&m, &[StateId::FREE], Method::Modular).unwrap();
+        let found = analyse_states(&m, &[StateId::FREE], Method::Modular).unwrap();
         let idle = &found[0].idle;
         assert_eq!((idle.len(), idle[0].links.len()), (1, 1), "{kind}");
         assert_eq!(idle[0].turns, turns, "{kind}");
@@ -204,7 +207,7 @@ fn gaps_grow_beyond_a_quarter_turn() {
     let pose =
         ozols::motion::pose::Pose::of_file(&m, ozols::model::mechanism::StateId::FREE).unwrap();
     let gap = |degrees: f64| {
-        let gaps = pose.gaps(&[degrees.to_radians(), 0.0]);
+        let gaps = pose.closure_gaps(&[degrees.to_radians(), 0.0]);
         gaps.iter().map(|x| x * x).sum::<f64>().sqrt()
     };
     let all: Vec<f64> = (0..=12).map(|i| gap(10.0 * f64::from(i))).collect();

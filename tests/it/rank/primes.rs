@@ -1,7 +1,7 @@
 //! Coordinates that hold large primes as factors are no zeros: a four-bar with one hinge tilted by such a number.
 
 use crate::common::*;
-use ozols::rank::exact::certificate::certify;
+use ozols::rank::exact::certificate::certify_state;
 use proptest::prelude::*;
 
 /// The two smallest primes above 2^61 that are 1 modulo 4, which every search took once.
@@ -41,15 +41,15 @@ fn tilted(by: &str) -> Mechanism {
 
 /// By hand: three parallel hinges and one that is not lock each other, whatever the tilt is. The counts are those of a tilt of 1.
 fn is_locked(m: &Mechanism) {
-    let found = analyse(m, &[StateId::FREE], Method::Auto)
+    let found = analyse_states(m, &[StateId::FREE], Method::Auto)
         .unwrap()
         .remove(0);
     assert_eq!((found.mobility, found.redundant, found.rank), (0, 2, 4));
-    assert_eq!(certify(m, StateId::FREE).unwrap().rank, 4);
+    assert_eq!(certify_state(m, StateId::FREE).unwrap().rank, 4);
     let search = Search::new(exact_field(m, 0).unwrap(), m, Conditions::default()).unwrap();
-    let built = search.build(&|| false, &mut |_| {});
+    let built = search.build_diagrams(&|| false, &mut |_| {});
     let counts = [(&built.determinate, false), (&built.admissible, true)]
-        .map(|(diagram, filter)| search.counts(diagram, filter).total);
+        .map(|(diagram, filter)| search.count_variants(diagram, filter).total);
     assert_eq!(counts, [52u8.into(), 11u8.into()]);
 }
 

@@ -2,14 +2,16 @@
 
 use crate::common::*;
 use ozols::model::mechanism::Frame;
-use ozols::redundancy::figures;
-use ozols::redundancy::release::{Release, added};
+use ozols::redundancy::release::{Release, added_freedoms};
+use ozols::redundancy::state_figures;
 use ozols::redundancy::stressed::Stressed;
 
 fn stressed(m: &Mechanism) -> Vec<Stressed<'_>> {
-    let found = figures(m, StateId::FREE).unwrap();
+    let found = state_figures(m, StateId::FREE).unwrap();
     let rank = found.freedoms - found.mobility;
-    Stressed::parts(m, StateId::FREE, rank).unwrap().unwrap()
+    Stressed::stressed_parts(m, StateId::FREE, rank)
+        .unwrap()
+        .unwrap()
 }
 
 fn size(v: &[f64]) -> f64 {
@@ -40,17 +42,17 @@ fn self_stresses_do_no_work_on_what_joints_let_go() {
                 JointType::Prismatic => true,
                 _ => continue,
             };
-            let axis = real(&m.joints[j].frame.axis);
+            let axis = to_vector(&m.joints[j].frame.axis);
             let direction = axis.map(|x| x / size(&axis));
             let own = Release::Freedom {
                 joint: j,
                 slides,
                 direction,
             };
-            let work = size(&stressed.powers(&own));
+            let work = size(&stressed.release_powers(&own));
             assert!(work < 1e-9, "{} {}: {work}", m.name, m.joints[j].id);
             seen += 1;
-            let ways: Vec<bool> = contours.iter().filter_map(|c| c.direction(j)).collect();
+            let ways: Vec<bool> = contours.iter().filter_map(|c| c.direction_of(j)).collect();
             several += usize::from(ways.contains(&true) && ways.contains(&false));
         }
     }
@@ -67,13 +69,16 @@ fn directions_of_releases_point_to_the_positive_side() {
             .iter()
             .flat_map(|p| p.joints.iter().map(move |&j| (p, j)))
         {
-            for release in stressed.at(j) {
+            for release in stressed.releases_at(j) {
                 let Release::Freedom { direction, .. } = release else {
                     panic!("a freedom of a joint")
                 };
                 // Where no force or moment says otherwise they are the joint's own axes as they are.
                 let frame = &m.joints[j].frame;
-                let (z, x) = (unit(real(&frame.axis)), unit(real(&frame.reference)));
+                let (z, x) = (
+                    unit(to_vector(&frame.axis)),
+                    unit(to_vector(&frame.reference)),
+                );
                 let own = [z, x, cross(z, x)];
                 if own.iter().any(|a| size(&cross(*a, direction)) < 1e-9) {
                     continue;
@@ -101,16 +106,25 @@ fn what_works_well_is_let_go_first() {
         let [stressed] = &stressed(m)[..] else {
             continue;
         };
-        if stressed.redundant() > 1 {
+        if stressed.count_redundant() > 1 {
             continue;
         }
-        let all = stressed.joints.iter().flat_map(|&j| stressed.at(j));
-        let mut all: Vec<(f64, Release)> = all.map(|r| (size(&stressed.powers(&r)), r)).collect();
+        let all = stressed
+            .joints
+            .iter()
+            .flat_map(|&j| stressed.releases_at(j));
+        let mut all: Vec<(f64, Release)> = all
+            .map(|r| (size(&stressed.release_powers(&r)), r))
+            .collect();
         all.sort_by(|a, b| a.0.total_cmp(&b.0));
         let (most, strong) = all[all.len() - 1];
         for (work, weak) in all.iter().filter(|(work, _)| *work < 0.49 * most) {
-            assert_eq!(stressed.cheapest(&[(1, *weak), (1, strong)]), [1], "{work}");
-            assert_eq!(stressed.cheapest(&[(1, strong), (2, *weak)]), [0]);
+            assert_eq!(
+                stressed.cheapest_releases(&[(1, *weak), (1, strong)]),
+                [1],
+                "{work}"
+            );
+            assert_eq!(stressed.cheapest_releases(&[(1, strong), (2, *weak)]), [0]);
             seen += 1;
         }
     }
@@ -127,7 +141,7 @@ fn a_ball_adds_two_turns_to_a_hinge_however_far_away() {
             reference: [1, 0, 0].map(Expr::from),
             pitch: Expr::from(0),
         };
-        let found = added(
+        let found = added_freedoms(
             (&frame, &JointType::Revolute),
             (&frame, &JointType::Spherical),
         );

@@ -2,9 +2,9 @@
 
 use crate::common::*;
 fn jack(pitch: &str) -> String {
-    let own = out(&["show", "screw-jack"]);
+    let own = run_quiet(&["show", "screw-jack"]);
     let old = own.lines().find(|l| l.starts_with("pitch = ")).unwrap();
-    changed(&own, old, pitch)
+    replace_once(&own, old, pitch)
 }
 
 fn analysed(file: &str) -> Value {
@@ -80,8 +80,8 @@ fn what_is_wrong_with_a_screw_is_told() {
         let err = err.split_whitespace().collect::<Vec<_>>().join(" ");
         assert!(err.contains(said), "{pitch}: {err}");
     }
-    let hinge = changed(
-        &out(&["show", "four-bar"]),
+    let hinge = replace_once(
+        &run_quiet(&["show", "four-bar"]),
         "drive = true",
         "drive = true\nlead = 5",
     );
@@ -89,7 +89,7 @@ fn what_is_wrong_with_a_screw_is_told() {
     assert_eq!(code, Some(2));
     has(&err, "takes no lead");
     // in degrees it is an angle, and still exact
-    let turned = changed(
+    let turned = replace_once(
         &jack("lead = 5"),
         "axis = [0, 0, 1]",
         "axis = [0, 0, \"2*cos(pi/3)\"]",
@@ -98,7 +98,7 @@ fn what_is_wrong_with_a_screw_is_told() {
         analysed(&turned)["states"][0]["mobility"],
         analysed(&jack("lead = 5"))["states"][0]["mobility"]
     );
-    let _ = json(&["analyze", "screw-jack", "--format", "json"]);
+    let _ = run_json(&["analyze", "screw-jack", "--format", "json"]);
 }
 
 /// 10 mm a radian: metres a turn in SDF, metres a radian in MuJoCo's equality; by SDF's old tag it is minus radians a metre.

@@ -32,7 +32,11 @@ fn what_moves_in_fact_is_stopped_at_no_order() {
             continue;
         };
         for dimensions in 1..=moves {
-            assert_eq!(series.isolated(dimensions), None, "{name} in {dimensions}");
+            assert_eq!(
+                series.isolating_degree(dimensions),
+                None,
+                "{name} in {dimensions}"
+            );
         }
         several += usize::from(moves > 1 && e.redundant.is_some_and(|s| s > 0));
     }
@@ -43,7 +47,7 @@ fn what_moves_in_fact_is_stopped_at_no_order() {
 /// together at the third, to which x² and y² have all powers among their multiples, xy not being one at the second.
 #[test]
 fn two_toggles_are_stopped_at_the_third_order() {
-    let text = file_of(
+    let text = write_mechanism(
         "name = \"toggles\"\nmode = \"planar\"",
         "0 a b* c d*",
         "
@@ -57,5 +61,8 @@ fn two_toggles_are_stopped_at_the_third_order() {
     );
     let m = mechanism_from_str("toggles.toml", &text).unwrap();
     let series = series(&m, 4).unwrap();
-    assert_eq!([1, 2].map(|k| series.isolated(k)), [Some(2), Some(3)]);
+    assert_eq!(
+        [1, 2].map(|k| series.isolating_degree(k)),
+        [Some(2), Some(3)]
+    );
 }

@@ -24,7 +24,7 @@ fn changes(v: &Value) -> Vec<(String, String)> {
 /// with the frame, happens to point at the ball.
 #[test]
 fn variants_that_are_right_in_the_pose_of_the_file_only_are_marked() {
-    let v = json(&[&BALANCE[..], &["--poses", "4"]].concat());
+    let v = run_json(&[&BALANCE[..], &["--poses", "4"]].concat());
     assert_eq!(v["poses"], serde_json::json!({"asked": 4, "reached": 4}));
     let variants = v["variants"].list();
     assert!(variants.iter().all(|x| x["lucky"].is_boolean()));
@@ -44,23 +44,23 @@ fn variants_that_are_right_in_the_pose_of_the_file_only_are_marked() {
     .map(|(j, t)| (j.to_owned(), t.to_owned()));
     assert!(lucky.iter().any(|x| changes(x) == one));
     // The same variant, exactly, here and with the arms turned by a 3-4-5 triangle's angle.
-    let text = out(&["show", "roberval-balance"]);
+    let text = run_quiet(&["show", "roberval-balance"]);
     let m = mechanism_from_str("it.toml", &text).unwrap();
     for (turned, working) in [(false, 1), (true, 2)] {
         let mut m = m.clone();
         for (joint, to) in &one {
-            let j = m.joint(joint).unwrap();
+            let j = m.joint_named(joint).unwrap();
             let option = m.joints[j].options.iter().find(|o| o.name == *to).unwrap();
             (m.joints[j].joint_type, m.joints[j].frame) =
                 (option.joint_type.clone(), option.frame.clone());
         }
         for (joint, x, y) in [("1-2", 120, 90), ("2-3", 120, -10)] {
-            let j = m.joint(joint).unwrap();
+            let j = m.joint_named(joint).unwrap();
             if turned {
                 m.joints[j].frame.point = [x, y, 0].map(|c: i64| c.into());
             }
         }
-        let found = &analyse(&m, &[StateId::FREE], Method::Modular).unwrap()[0];
+        let found = &analyse_states(&m, &[StateId::FREE], Method::Modular).unwrap()[0];
         assert_eq!(
             (found.mobility, found.redundant, found.working_mobility),
             (2, 0, working)
@@ -71,12 +71,12 @@ fn variants_that_are_right_in_the_pose_of_the_file_only_are_marked() {
 /// With the second pin in the rocker it points at the ball always.
 #[test]
 fn which_link_has_which_pin_matters() {
-    let text = out(&["show", "roberval-balance"]);
+    let text = run_quiet(&["show", "roberval-balance"]);
     let swapped = text.replace("links = [\"3\", \"0\"]", "links = [\"0\", \"3\"]");
     assert_ne!(text, swapped);
-    let (_folder, path) = written("swapped.toml", swapped);
+    let (_folder, path) = write_temporary("swapped.toml", swapped);
     let args = ["--format", "json", "--all", "--poses", "4"];
-    let v = json(&[&["search", path][..], &args].concat());
+    let v = run_json(&[&["search", path][..], &args].concat());
     let lucky = |joint: &str| {
         let list = v["variants"].list().iter();
         list.filter(|x| x["lucky"] == true)
@@ -88,7 +88,7 @@ fn which_link_has_which_pin_matters() {
 
 #[test]
 fn marked_variants_are_said_to_be_of_this_pose_only() {
-    let marked = out("search roberval-balance --pose-only --poses 2 --top 20");
+    let marked = run_quiet("search roberval-balance --pose-only --poses 2 --top 20");
     has_all(
         &marked,
         &["14 !", "! 14: in this pose only", "2 ways instead of 1"],
@@ -97,8 +97,9 @@ fn marked_variants_are_said_to_be_of_this_pose_only() {
 
 #[test]
 fn poses_do_not_depend_on_threads_and_need_a_motion() {
-    let run =
-        |threads: &str| out(&[&BALANCE[..], &["--poses", "3", "--threads", threads]].concat());
+    let run = |threads: &str| {
+        run_quiet(&[&BALANCE[..], &["--poses", "3", "--threads", threads]].concat())
+    };
     assert!(run("1") == run("2"));
     let o = ozols("search bennett-perturbed --poses 2 --format json")
         .output()
@@ -108,6 +109,6 @@ fn poses_do_not_depend_on_threads_and_need_a_motion() {
     let v: Value = serde_json::from_slice(&o.stdout).unwrap();
     assert_eq!(v["poses"]["reached"], 0);
     assert!(v["variants"].list().iter().all(|x| x["lucky"].is_null()));
-    let v = json(&["search", "four-bar", "--format", "json"]);
+    let v = run_json(&["search", "four-bar", "--format", "json"]);
     assert!(v["poses"].is_null() && v["variants"][0]["lucky"].is_null());
 }

@@ -2,12 +2,12 @@
 
 use crate::common::*;
 use ozols::motion::pose::Pose;
-use ozols::rank::stroke::analysis::{StrokeRequest, stroke};
+use ozols::rank::stroke::analysis::{StrokeRequest, analyse_stroke};
 
 /// A singular pose is found wherever the stroke ends: the parallelogram is flat at 90° to either side of the pose of the file.
 #[test]
 fn singular_poses_near_an_end_are_found() {
-    let text = file_of(
+    let text = write_mechanism(
         "name = \"parallelogram\"",
         "0 1 2* 3",
         "
@@ -17,7 +17,7 @@ fn singular_poses_near_an_end_are_found() {
         3-0 | 3 0 | revolute | 100, 0, 0 | 0, 0, 1
         ",
     );
-    let (_folder, path) = written("parallelogram.toml", text);
+    let (_folder, path) = write_temporary("parallelogram.toml", text);
     for (stroke, times) in [
         ("1:1.6:3", 1),
         ("0:-91deg:1", 1),
@@ -29,7 +29,7 @@ fn singular_poses_near_an_end_are_found() {
         ("95deg:170deg:5", 0),
     ] {
         let stroke = format!("--stroke={stroke}");
-        let found = json(&format!("analyze {} {stroke} --format json", path));
+        let found = run_json(&format!("analyze {} {stroke} --format json", path));
         let changes = found["stroke"]["changes"].list();
         assert_eq!(changes.len(), times, "{stroke}: {changes:?}");
     }
@@ -37,7 +37,7 @@ fn singular_poses_near_an_end_are_found() {
 
 /// A slider-crank whose slider drives, in millimetres: crank 30 upright, rod 96. The slider goes from √(96² - 30²) = √8316 out to 126.
 fn driven_slider() -> Mechanism {
-    let text = file_of(
+    let text = write_mechanism(
         "name = \"pump\"\nlength_unit = \"mm\"\nmode = \"planar\"",
         "0 1 2 3*",
         "
@@ -54,7 +54,7 @@ fn driven_slider() -> Mechanism {
 fn slides_are_followed_in_the_files_unit_and_end_where_they_must() {
     let m = driven_slider();
     let pose = Pose::of_file(&m, StateId::FREE).unwrap();
-    let joint = m.joint("d").unwrap();
+    let joint = m.joint_named("d").unwrap();
     let drive = pose.columns.iter().position(|c| c.joint == joint).unwrap();
     let request = |to: f64| StrokeRequest {
         mechanism: &m,
@@ -65,7 +65,7 @@ fn slides_are_followed_in_the_files_unit_and_end_where_they_must() {
         steps: 5,
         tolerance: None,
     };
-    let short = stroke(&request(20.0), &pose);
+    let short = analyse_stroke(&request(20.0), &pose);
     assert_eq!(short.stop, None);
     let at: Vec<f64> = short.poses.iter().map(|p| p.at).collect();
     for (found, wanted) in at.iter().zip([0.0, 4.0, 8.0, 12.0, 16.0, 20.0]) {
@@ -73,7 +73,7 @@ fn slides_are_followed_in_the_files_unit_and_end_where_they_must() {
     }
     let moved = short.poses[5].outputs[0].point[0] - short.poses[0].outputs[0].point[0];
     assert!((moved - 20.0).abs() < 1e-6, "{moved}");
-    let long = stroke(&request(60.0), &pose);
+    let long = analyse_stroke(&request(60.0), &pose);
     let end = 126.0 - 8316f64.sqrt();
     let stop = long.stop.unwrap();
     assert!((stop.at - end).abs() < 0.01, "{} for {end}", stop.at);
@@ -97,7 +97,7 @@ fn angles_over_a_slide_are_refused() {
 /// square to the slide, in that pose alone.
 #[test]
 fn a_pose_that_falls_in_rank_is_told_in_the_files_unit() {
-    let text = file_of(
+    let text = write_mechanism(
         "name = \"fold\"\nlength_unit = \"mm\"\nmode = \"planar\"",
         "0 1 2 3*",
         "
@@ -109,7 +109,7 @@ fn a_pose_that_falls_in_rank_is_told_in_the_files_unit() {
     );
     let m = mechanism_from_str("fold.toml", &text).unwrap();
     let pose = Pose::of_file(&m, StateId::FREE).unwrap();
-    let joint = m.joint("d").unwrap();
+    let joint = m.joint_named("d").unwrap();
     let request = StrokeRequest {
         mechanism: &m,
         state: StateId::FREE,
@@ -119,7 +119,7 @@ fn a_pose_that_falls_in_rank_is_told_in_the_files_unit() {
         steps: 7,
         tolerance: None,
     };
-    let found = stroke(&request, &pose);
+    let found = analyse_stroke(&request, &pose);
     assert_eq!((found.changes.len(), found.undriven), (1, 0), "{found:?}");
     let change = found.changes[0];
     assert_eq!(change.ranks, [3, 2, 3]);
@@ -150,7 +150,7 @@ fn drives_that_are_held_decide_too() {
             steps: 2,
             tolerance: None,
         };
-        stroke(&request, &pose).undriven
+        analyse_stroke(&request, &pose).undriven
     };
     assert_eq!([undriven(&drives[1..]), undriven(&[])], [0, 1]);
 }

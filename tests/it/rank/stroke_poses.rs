@@ -1,10 +1,10 @@
 //! Poses over a stroke: against closed forms, and as the command shows them.
 
 use crate::common::*;
-use crate::statics::{file, mechanism, r};
-use ozols::motion::follow::{Follower, Why, positions};
+use crate::statics::{planar_file, read_planar, turning_joint};
+use ozols::motion::follow::{Follower, Why, stroke_positions};
 use ozols::motion::pose::Pose;
-use ozols::rank::stroke::analysis::{StrokeFigures, StrokeRequest, stroke};
+use ozols::rank::stroke::analysis::{StrokeFigures, StrokeRequest, analyse_stroke};
 use std::f64::consts::FRAC_PI_2;
 
 /// Columns of the file's drives in the free state.
@@ -26,15 +26,15 @@ fn figures(m: &Mechanism, range: [f64; 2], steps: usize) -> StrokeFigures {
         steps,
         tolerance: None,
     };
-    stroke(&request, &pose)
+    analyse_stroke(&request, &pose)
 }
 
 fn followed(m: &Mechanism, range: [f64; 2], steps: usize) -> (Pose, Vec<Follower>) {
     let pose = Pose::of_file(m, StateId::FREE).unwrap();
     let drives = drives(m, &pose);
     let mut follower = Follower::new(pose.clone(), drives[0], &drives[1..]);
-    let reached = positions(range, steps).map_while(|to| {
-        let arrived = follower.advance(to, |_| {});
+    let reached = stroke_positions(range, steps).map_while(|to| {
+        let arrived = follower.advance_to(to, |_| {});
         arrived.is_ok().then(|| follower.clone())
     });
     (pose, reached.collect())
@@ -95,16 +95,16 @@ fn four_bar_over_a_turn() {
 /// 3 + 4 > 3 + √10: no link turns fully. The crank stops where coupler and rocker come to lie in line.
 #[test]
 fn a_four_bar_that_does_not_turn_stops_at_its_dead_points() {
-    let text = file(
+    let text = planar_file(
         &[
-            r("0", "1", 0.0, 0.0),
-            r("1", "2", 0.0, 3.0),
-            r("2", "3", 3.0, 3.0),
-            r("3", "0", 4.0, 0.0),
+            turning_joint("0", "1", 0.0, 0.0),
+            turning_joint("1", "2", 0.0, 3.0),
+            turning_joint("2", "3", 3.0, 3.0),
+            turning_joint("3", "0", 4.0, 0.0),
         ],
         "",
     );
-    let m = mechanism(&text);
+    let m = read_planar(&text);
     let reach = 3.0 + 10f64.sqrt();
     let limit = ((16.0 + 9.0 - reach * reach) / 24.0).acos();
     for (to, at) in [(TAU, limit - FRAC_PI_2), (-TAU, -limit - FRAC_PI_2)] {
@@ -138,11 +138,11 @@ fn bennett_half_angles() {
     };
     let mut products = Vec::new();
     for f in &found {
-        let now = f.pose();
+        let now = f.current_pose();
         // The pin of joint i, carried by its first link.
         let at = |i: usize| {
             let local = minus(points[i], pose.middle).map(|x| x / pose.length);
-            now.links[m.joints[i].links[0]].point(local)
+            now.links[m.joints[i].links[0]].map_point(local)
         };
         let tan = |i: usize| {
             let before = minus(at(i), at((i + 3) % 4));
@@ -152,7 +152,7 @@ fn bennett_half_angles() {
             (sine.atan2(dot(before, after)) / 2.0).tan()
         };
         products.push(tan(0) * tan(1));
-        assert!((tan(0) * tan(1)).is_finite() && f.gap() < 1e-12);
+        assert!((tan(0) * tan(1)).is_finite() && f.closure_gap() < 1e-12);
     }
     for p in &products {
         assert!((p / products[0] - 1.0).abs() < 1e-9, "{products:?}");
@@ -165,14 +165,14 @@ fn hooke_joint_angles() {
     let (_, found) = followed(&built_in("hooke-joint"), [0.0, TAU], 48);
     assert_eq!(found.len(), 49);
     for f in &found {
-        let (sine, cosine) = f.at().sin_cos();
-        let turn = -f.pose().columns[3].moved;
+        let (sine, cosine) = f.drive_position().sin_cos();
+        let turn = -f.current_pose().columns[3].moved;
         let (s, c) = turn.sin_cos();
         let wanted = (0.6 * sine).atan2(cosine);
         assert!(distance(&[s, c], &[wanted.sin(), wanted.cos()]) < 1e-12);
     }
     // Once round, not back.
-    assert!((found[48].pose().columns[3].moved.abs() - TAU).abs() < 1e-12);
+    assert!((found[48].current_pose().columns[3].moved.abs() - TAU).abs() < 1e-12);
 }
 
 /// Flat at 180° - 63.43° and 360° - 63.43°; it comes out a parallelogram each time.
@@ -211,7 +211,7 @@ fn parallelogram_through_its_flat_poses() {
 /// A truss that is only shaky moves nowhere.
 #[test]
 fn shaky_poses_do_not_move() {
-    for name in words("jessen-icosahedron octahedron-twisted three-parallel-bars") {
+    for name in split_words("jessen-icosahedron octahedron-twisted three-parallel-bars") {
         let found = figures(&built_in(name), [0.0, 1.0], 4);
         let stop = found.stop.unwrap();
         assert_eq!(stop.why, Why::Instantaneous, "{name}");
@@ -233,7 +233,7 @@ fn a_flat_parallelogram_does_not_guess() {
 
 #[test]
 fn the_gripper_keeps_its_redundancy() {
-    let v = json("analyze gripper-10 --stroke -0.5:0.5:20 --format json");
+    let v = run_json("analyze gripper-10 --stroke -0.5:0.5:20 --format json");
     let stroke = &v["stroke"];
     assert_eq!(
         (&stroke["stop"], &stroke["unit"]),
@@ -279,7 +279,7 @@ fn the_number_of_steps_does_not_matter() {
 
 #[test]
 fn the_command() {
-    let text = out(&["analyze", "parallelogram", "--stroke", "0:180deg:6"]);
+    let text = run_quiet(&["analyze", "parallelogram", "--stroke", "0:180deg:6"]);
     has_all(
         &text,
         &[
@@ -290,7 +290,7 @@ fn the_command() {
     );
     let folder = tempdir().unwrap();
     let svg = folder.path().join("c.svg");
-    let v = json(&format!(
+    let v = run_json(&format!(
         "analyze four-bar --stroke 0:-10deg:9 --drive 3-0 --format json --svg {}",
         svg.display()
     ));
@@ -309,7 +309,7 @@ fn a_stroke_that_stops_is_no_success() {
 
 #[test]
 fn bad_strokes_are_refused() {
-    refuses(
+    assert_all_fail(
         "
         analyze four-bar --stroke 0:1 | FROM:TO:STEPS
         analyze four-bar --stroke 0:1:0 | FROM:TO:STEPS

@@ -23,7 +23,7 @@ fn scaled(m: &Mechanism, exponent: i32) -> Mechanism {
         joint.unloading.iter_mut().for_each(|o| frame(&mut o.frame));
     }
     for coupling in &mut out.couplings {
-        coupling.ratio = match coupling.ends.map(|e| e.freedom.slides()) {
+        coupling.ratio = match coupling.ends.map(|e| e.freedom.is_slide()) {
             [false, true] => times(&coupling.ratio, exponent),
             [true, false] => times(&coupling.ratio, -exponent),
             _ => continue,
@@ -50,11 +50,11 @@ fn said(m: &Mechanism) -> Vec<String> {
             s.working_mobility,
             s.local_mobility,
             s.at_most(),
-            s.finite.figure(),
+            s.finite.format_figure(),
             s.finite.describe(),
         )
     };
-    match analyse(m, &states, Method::Auto) {
+    match analyse_states(m, &states, Method::Auto) {
         Ok(found) => found.iter().map(of).collect(),
         Err(e) => vec![e.to_string()],
     }

@@ -8,7 +8,7 @@ use ozols::search::answer::k_best::Assignment;
 
 #[test]
 fn the_command_changes_the_order_and_says_why() {
-    let v = json(&["search", "gripper-10-loaded", "--format", "json"]);
+    let v = run_json(&["search", "gripper-10-loaded", "--format", "json"]);
     let ranking = &v["ranking"];
     assert_eq!(ranking["order"], "weighted");
     assert_eq!(ranking["pool"], 20_000);
@@ -25,10 +25,10 @@ fn the_command_changes_the_order_and_says_why() {
         reason.starts_with("rank 1 was ") && reason.contains("instead of"),
         "{reason}"
     );
-    let text = out(&["search", "gripper-10-loaded", "--pool", "20000"]);
+    let text = run_quiet(&["search", "gripper-10-loaded", "--pool", "20000"]);
     has(&text, "rank 1 was ");
     has(&text, "ranked under the workload");
-    let csv = out("search gripper-10-loaded --format csv --top 3 --pool 300");
+    let csv = run_quiet("search gripper-10-loaded --format csv --top 3 --pool 300");
     let heads = csv.lines().next().unwrap();
     assert!(
         heads.ends_with(
@@ -41,11 +41,12 @@ fn the_command_changes_the_order_and_says_why() {
         "{csv}"
     );
     // Without a [ranking], the scores stay empty and the order is that of cost.
-    let plain = json(&["search", "gripper-10", "--top", "1", "--format", "json"]);
+    let plain = run_json(&["search", "gripper-10", "--top", "1", "--format", "json"]);
     assert!(plain.get("ranking").is_some_and(|r| r.is_null()));
     assert_eq!(plain["variants"][0]["scores"], serde_json::json!({}));
     // Asked for on the command line.
-    let asked = json("search gripper-10-loaded --rank peak-moment=2,cost --pool 50 --format json");
+    let asked =
+        run_json("search gripper-10-loaded --rank peak-moment=2,cost --pool 50 --format json");
     assert_eq!(asked["ranking"]["terms"][0]["weight"], 2.0);
     assert_eq!(asked["ranking"]["scored"], 50);
 }
@@ -53,7 +54,7 @@ fn the_command_changes_the_order_and_says_why() {
 #[test]
 fn bad_rankings_are_refused_with_line_item_and_remedy() {
     let good = builtin::text("gripper-10-loaded").unwrap().to_owned() + "\n# more\n";
-    for [from, to, parts] in cases::<3>(
+    for [from, to, parts] in read_cases::<3>(
         r#"
         term = "cost" | term = "price" | unknown term "price" & peak-force
         weight = 0.2 | weight = nan | weight NaN & from 0 to 1e12
@@ -67,8 +68,8 @@ fn bad_rankings_are_refused_with_line_item_and_remedy() {
         # more | [joint_types.bal]\nclearance = 1 | unknown joint type "bal" & spherical
         "#,
     ) {
-        let text = changed(&good, from, to);
-        let (_folder, path) = written("bad.toml", text);
+        let text = replace_once(&good, from, to);
+        let (_folder, path) = write_temporary("bad.toml", text);
         let o = run(&["search", path]);
         let said = String::from_utf8(o.stderr).unwrap();
         assert_eq!(o.status.code(), Some(2), "{said}");
@@ -99,7 +100,7 @@ fn joint_types_can_be_overridden() {
             choices: vec![0; s.space.variables.len()],
             key: cheapest(&s, 1)[0].key,
         };
-        e.slowly(&present).unwrap().force.utilisation
+        e.reference_scores(&present).unwrap().force.utilisation
     };
     assert!(near(of(&weak), 10.0 * of(&strong), 1e-9));
     assert!(

@@ -41,9 +41,9 @@ fn score(m: &Mechanism, clearance: ClearanceSum) -> ([f64; 3], Result<Scores, Un
     let e = Evaluator::new(&s, clearance).unwrap();
     let only = cheapest(&s, 2);
     assert_eq!(only.len(), 1);
-    let floor = e.floor();
-    let fast = e.scores(&only[0], &mut Scratch::default());
-    let slow = e.slowly(&only[0]);
+    let floor = e.least_terms();
+    let fast = e.score_variant(&only[0], &mut Scratch::default());
+    let slow = e.reference_scores(&only[0]);
     assert_eq!(fast.is_ok(), slow.is_ok(), "{fast:?} {slow:?}");
     ([floor.force, floor.moment, floor.output_error], fast)
 }
@@ -112,7 +112,7 @@ fn a_small_moment_about_a_free_spin_is_refused() {
     let with = |moment: [&str; 3]| {
         let mut m = as_built("rssr", [30, -70, 45]);
         m.loads.moments.push(ExternalMoment {
-            link: m.link("2").unwrap(),
+            link: m.link_named("2").unwrap(),
             moment: moment.map(|x| x.parse().unwrap()),
             states: None,
         });
@@ -144,14 +144,14 @@ fn losses_have_the_units_of_their_weights() {
         (2e-5, 5.0 - 2f64.log10()),
     ] {
         scores.conditioning = conditioning;
-        assert!((scores.loss(Term::Conditioning) - loss).abs() < 1e-9);
+        assert!((scores.term_loss(Term::Conditioning) - loss).abs() < 1e-9);
     }
     for (metres, loss) in [(0.0, 0.0), (1e-3, 1.0), (2.5e-5, 0.025)] {
         scores.output_error = metres;
-        assert!((scores.loss(Term::OutputError) - loss).abs() < 1e-9);
+        assert!((scores.term_loss(Term::OutputError) - loss).abs() < 1e-9);
     }
     scores.cost_milli = 2500;
-    assert_eq!(scores.loss(Term::Cost), 2.5);
+    assert_eq!(scores.term_loss(Term::Cost), 2.5);
 }
 
 /// An output is off where it is loaded; at its mass centre where it is not, and at its first joint where it weighs nothing.
@@ -159,7 +159,7 @@ fn losses_have_the_units_of_their_weights() {
 fn errors_are_told_of_the_point_that_is_loaded() {
     use ozols::score::evaluation::terms::output_points;
     let mut m = as_built("slider-crank-determinate", [0, -10, 0]);
-    let slider = m.link("3").unwrap();
+    let slider = m.link_named("3").unwrap();
     m.loads.forces[0].point = vector([160, 7, 1]);
     m.links[slider].mass = Some(MassProperties {
         mass: 2.0,
@@ -172,7 +172,7 @@ fn errors_are_told_of_the_point_that_is_loaded() {
         output_points(m, &e.cases)
     };
     assert_eq!(point(&m), [(slider, [160.0, 7.0, 1.0])]);
-    m.loads.forces[0].link = m.link("2").unwrap();
+    m.loads.forces[0].link = m.link_named("2").unwrap();
     assert_eq!(point(&m), [(slider, [155.0, 3.0, 2.0])]);
     m.links[slider].mass = None;
     assert_eq!(point(&m), [(slider, [150.0, -10.0, 0.0])]);
@@ -186,7 +186,7 @@ fn play_in_series_adds_up() {
     let text = text.replacen(ball, &format!("{ball}unloading = [\"spherical\"]\n"), 1);
     let series = mechanism_from_str("series.toml", &text).unwrap();
     let mut m = as_built("slider-crank-determinate", [30, -70, 45]);
-    let at = m.joint("2-3").unwrap();
+    let at = m.joint_named("2-3").unwrap();
     m.joints[at].unloading = series.joints[at].unloading.clone();
     let s = search(&m, 0);
     let e = Evaluator::new(&s, ClearanceSum::Worst).unwrap();
@@ -195,7 +195,10 @@ fn play_in_series_adds_up() {
         panic!("as it is, and with a ball in series")
     };
     let [one, two] = [alone, both].map(|v| {
-        let (fast, slow) = (e.scores(v, &mut scratch).unwrap(), e.slowly(v).unwrap());
+        let (fast, slow) = (
+            e.score_variant(v, &mut scratch).unwrap(),
+            e.reference_scores(v).unwrap(),
+        );
         assert!(near(fast.output_error, slow.output_error, 1e-7));
         fast.output_error
     });

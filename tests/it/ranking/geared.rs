@@ -15,7 +15,7 @@ fn text() -> String {
     };
     let stroke = "[workload]\nstroke = { from = -0.2, to = 0.2, steps = 2 }\n\n";
     let more = stroke.to_owned() + &force("2", 20, 80) + &force("5", -20, -80);
-    changed(
+    replace_once(
         builtin::text("geared-gripper").unwrap(),
         "[search]",
         &format!("{more}[search]"),
@@ -33,7 +33,7 @@ fn fast_scores_of_geared_variants_are_those_of_the_variants_built_and_solved() {
     assert!(solved > 20, "{solved} {refused}");
     both_ways(&m, 2, ClearanceSum::Rms, 12);
     // No teeth, no force of theirs in the bearings.
-    let belt = gripper(&changed(&text(), "gear = true", ""));
+    let belt = gripper(&replace_once(&text(), "gear = true", ""));
     let (solved, refused) = both_ways(&belt, 0, ClearanceSum::Worst, 30);
     assert!(solved > 10, "{solved} {refused}");
 }
@@ -41,14 +41,14 @@ fn fast_scores_of_geared_variants_are_those_of_the_variants_built_and_solved() {
 /// Options that teeth would push aside are scored as built, each as its teeth mesh or not, and joints in series, too.
 #[test]
 fn variants_whose_teeth_do_not_mesh_score_as_they_are() {
-    let some = changed(
+    let some = replace_once(
         &text(),
         "point = [0, -10, 0]\naxis = [0, 0, 1]",
         "point = [0, -10, 0]\naxis = [0, 0, 1]\noptions = [\"revolute\", \"planar\", \"universal\"]",
     );
     let (solved, refused) = both_ways(&gripper(&some), 0, ClearanceSum::Worst, 60);
     assert!(solved > 20, "{solved} {refused}");
-    let series = changed(
+    let series = replace_once(
         &text(),
         "point = [0, -10, 0]\naxis = [0, 0, 1]",
         "point = [0, -10, 0]\naxis = [0, 0, 1]\nunloading = [\"spherical\"]",
@@ -64,19 +64,19 @@ fn no_geared_variant_is_below_the_floor() {
     let s = search(&m, 0);
     for clearance in [ClearanceSum::Worst, ClearanceSum::Rms] {
         let e = Evaluator::new(&s, clearance).unwrap();
-        let floor = e.floor();
+        let floor = e.least_terms();
         assert!(floor.force > 0.0);
         let mut all = cheapest(&s, 60);
         all.extend(sampled(&s, 60));
         let mut tried = 0;
         for v in &all {
-            let Ok(scores) = e.scores(v, &mut Scratch::default()) else {
+            let Ok(scores) = e.score_variant(v, &mut Scratch::default()) else {
                 continue;
             };
             tried += 1;
-            assert!(floor.force <= scores.value(Term::PeakForce));
-            assert!(floor.moment <= scores.value(Term::PeakMoment));
-            assert!(floor.output_error <= scores.value(Term::OutputError));
+            assert!(floor.force <= scores.term_value(Term::PeakForce));
+            assert!(floor.moment <= scores.term_value(Term::PeakMoment));
+            assert!(floor.output_error <= scores.term_value(Term::OutputError));
         }
         assert!(tried > 40, "{tried}");
     }
@@ -85,8 +85,8 @@ fn no_geared_variant_is_below_the_floor() {
     let s = search(&m, 0);
     let e = Evaluator::new(&s, ClearanceSum::Worst).unwrap();
     let (floor, scores) = (
-        e.floor(),
-        e.scores(&cheapest(&s, 1)[0], &mut Scratch::default())
+        e.least_terms(),
+        e.score_variant(&cheapest(&s, 1)[0], &mut Scratch::default())
             .unwrap(),
     );
     assert!(
@@ -99,7 +99,7 @@ fn no_geared_variant_is_below_the_floor() {
 #[test]
 fn the_program_ranks_geared_grippers_by_force() {
     let ranking = "[ranking]\norder = \"weighted\"\nterms = [{ term = \"peak-force\", weight = 10 }, { term = \"cost\", weight = 1 }]\n\n[search]";
-    let text = changed(&text(), "[search]", ranking);
+    let text = replace_once(&text(), "[search]", ranking);
     let (code, said, complaint) = run_on(
         "search",
         "geared.toml",

@@ -38,11 +38,11 @@ fn request() -> Request {
 fn best(scores: &[Option<Scores>], ranking: &Ranking) -> Vec<(usize, f64)> {
     let loss = |s: &Scores| -> f64 {
         let terms = ranking.terms.iter();
-        terms.map(|(t, w)| w * s.loss(*t)).sum()
+        terms.map(|(t, w)| w * s.term_loss(*t)).sum()
     };
     let held = |s: &Scores| {
         let mut limits = ranking.limits.iter();
-        limits.all(|l| l.min.is_none_or(|min| s.value(l.term) >= min))
+        limits.all(|l| l.min.is_none_or(|min| s.term_value(l.term) >= min))
     };
     let some = scores.iter().enumerate();
     let some = some.filter_map(|(at, s)| s.as_ref().filter(|s| held(s)).map(|s| (at + 1, loss(s))));
@@ -65,11 +65,13 @@ fn every(m: &Mechanism) -> Vec<Option<Scores>> {
     let evaluator = Evaluator::new(&outcome.search, ClearanceSum::Worst).unwrap();
     let all: Vec<_> = outcome
         .search
-        .cheapest(outcome.diagrams.as_ref().unwrap(), usize::MAX)
+        .cheapest_variants(outcome.diagrams.as_ref().unwrap(), usize::MAX)
         .collect();
     assert_eq!(outcome.admissible.total, all.len().into());
     let mut scratch = Scratch::default();
-    let scored = all.iter().map(|v| evaluator.scores(v, &mut scratch).ok());
+    let scored = all
+        .iter()
+        .map(|v| evaluator.score_variant(v, &mut scratch).ok());
     scored.collect()
 }
 
@@ -171,7 +173,8 @@ fn dear_variants_that_bear_best_are_found() {
 fn the_same_for_any_number_of_threads() {
     let m = loaded();
     let terms = [(Term::PeakForce, 10.0), (Term::OutputError, 5.0)];
-    let ranking = but(|r: &mut Ranking| (r.order, r.terms) = (Order::Weighted, terms.to_vec()));
+    let ranking =
+        default_with(|r: &mut Ranking| (r.order, r.terms) = (Order::Weighted, terms.to_vec()));
     let found = [1, 2, 3].map(|threads| ranked(&m, &ranking, threads).ranking.unwrap());
     assert!(found[0].proven && found[0].elsewhere.is_some());
     let places: HashMap<usize, usize> = found[0].list.iter().map(|r| (r.by_cost, 1)).collect();

@@ -18,11 +18,12 @@ fn the_reason_is_the_term_that_speaks_most_for_a_variant() {
     let cheapest = pool.cheapest.as_ref().unwrap();
     let (mut told, mut none) = (0, 0);
     for (i, here) in pool.list.iter().enumerate() {
-        let gain = |(t, w): (Term, f64)| w * (cheapest.scores.loss(t) - here.scores.loss(t));
+        let gain =
+            |(t, w): (Term, f64)| w * (cheapest.scores.term_loss(t) - here.scores.term_loss(t));
         let gains = TERMS.map(gain);
         let most = gains.into_iter().fold(0.0, f64::max);
         let moved = here.by_cost != i + 1 && here.by_cost != cheapest.by_cost;
-        let reason = pool.reason(&m, i + 1);
+        let reason = pool.place_reason(&m, i + 1);
         if !moved || most <= 0.0 {
             assert_eq!(reason, None, "rank {}: {gains:?}", i + 1);
             none += 1;
@@ -41,11 +42,11 @@ fn the_reason_is_the_term_that_speaks_most_for_a_variant() {
 #[test]
 fn what_is_where_its_cost_puts_it_has_no_reason() {
     let (mut pool, m) = (pool(), loaded());
-    let at = (1..pool.list.len()).find(|at| pool.reason(&m, at + 1).is_some());
+    let at = (1..pool.list.len()).find(|at| pool.place_reason(&m, at + 1).is_some());
     let at = at.unwrap();
     assert_ne!(pool.list[at].by_cost, at + 1);
     pool.list[at].by_cost = at + 1;
-    assert_eq!(pool.reason(&m, at + 1), None);
+    assert_eq!(pool.place_reason(&m, at + 1), None);
 }
 
 #[test]

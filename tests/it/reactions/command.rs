@@ -3,27 +3,27 @@
 use crate::common::*;
 #[test]
 fn the_command_gives_six_components_a_joint() {
-    let v = json("statics gripper-10-loaded --spatial --format json");
+    let v = run_json("statics gripper-10-loaded --spatial --format json");
     assert_eq!(v["choice"], "minimum-norm");
     assert_eq!(v["self_stresses"].list().len(), 11);
     assert_eq!(v["reactions"].list().len(), 13);
     assert!(v["residual"].real() < 1e-12);
     assert_eq!(v["reactions"][0]["drive"]["freedom"], "tz");
-    let text = out(&["statics", "gripper-10-loaded", "--spatial"]);
+    let text = run_quiet(&["statics", "gripper-10-loaded", "--spatial"]);
     has(&text, "minimum norm");
     has(&text, "11 self-stresses");
     has(&text, "Drive 0-1 holds tz");
-    let csv = out("statics slider-crank-determinate --spatial --format csv");
+    let csv = run_quiet("statics slider-crank-determinate --spatial --format csv");
     assert!(csv.starts_with("kind,joint,type,Fx"), "{csv}");
     // Spatial and redundant mechanisms come here by themselves.
-    assert!(out(&["statics", "bennett"]).contains("states no loads"));
-    assert!(out(&["statics", "parallelogram-3-rods"]).contains("self-stress"));
+    assert!(run_quiet(&["statics", "bennett"]).contains("states no loads"));
+    assert!(run_quiet(&["statics", "parallelogram-3-rods"]).contains("self-stress"));
 }
 
 #[test]
 fn bad_workloads_are_refused_with_line_item_and_remedy() {
     let good = builtin::text("gripper-10-loaded").unwrap();
-    for [more, parts] in cases::<2>(
+    for [more, parts] in read_cases::<2>(
         r#"
         [workload.stiffness.default]\nlinear = 0\nangular = 1\n | stiffness 0 & above 0
         [workload.stiffness.bal]\nlinear = 1\nangular = 1\n | unknown joint type "bal" & spherical
@@ -32,8 +32,8 @@ fn bad_workloads_are_refused_with_line_item_and_remedy() {
         [[workload.moment]]\nlink = "x"\nmoment = [0, 0, 1]\n | unknown link "x"
 "#,
     ) {
-        let (_folder, path) = written("bad.toml", format!("{good}\n{more}"));
-        let (code, _, said) = ran(&["statics", path]);
+        let (_folder, path) = write_temporary("bad.toml", format!("{good}\n{more}"));
+        let (code, _, said) = run_full(&["statics", path]);
         assert_eq!(code, Some(2), "{said}");
         has(&said, "bad.toml:");
         parts.split(" & ").for_each(|part| has(&said, part));
@@ -52,7 +52,7 @@ fn loads_out_of_the_plane_are_not_left_out() {
     let path = folder.path().join("loaded.toml");
     let with = |load: &str| {
         fs::write(&path, format!("{four_bar}\n{load}\n")).unwrap();
-        json(&["statics", path.to_str().unwrap(), "--format", "json"])
+        run_json(&["statics", path.to_str().unwrap(), "--format", "json"])
     };
     let force = |point: &str, force: &str| {
         format!("[[workload.force]]\nlink = \"2\"\npoint = {point}\nforce = {force}")

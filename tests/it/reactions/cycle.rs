@@ -5,8 +5,8 @@ use crate::common::*;
 use crate::reactions::greatest_force;
 use ozols::model::loads::{Inertia, MassProperties, Stroke};
 use ozols::motion::pose::Pose;
-use ozols::statics::cycle::statics;
-use ozols::statics::reactions::cycle::{Cycle, cycle};
+use ozols::statics::cycle::planar_statics;
+use ozols::statics::reactions::cycle::{Cycle, solve_cycle};
 use ozols::statics::reactions::follow::follow_to;
 use ozols::statics::reactions::geometry::{cross, dot};
 use ozols::statics::reactions::{JointReaction, Uniqueness, Unsolved};
@@ -20,7 +20,7 @@ fn moving(name: &str, speed: f64, inertia: impl Fn(f64) -> Inertia) -> Mechanism
             continue;
         }
         let at = m.joints.iter().find(|j| j.links.contains(&l)).unwrap();
-        let p = real(&at.frame.point);
+        let p = to_vector(&at.frame.point);
         let flat = matches!(m.mode, Mode::Planar { .. });
         let near = [0, 1, 2].map(|i| {
             let off = draw.next().unwrap() - 0.5;
@@ -57,7 +57,7 @@ const STROKE: Stroke = Stroke {
 /// With all masses in the plane, what is redundant in space bears the same drive.
 #[test]
 fn the_drive_bears_the_same_in_the_plane_and_in_space() {
-    for name in words("four-bar-planar watt-six-bar stephenson-six-bar gripper-10-planar") {
+    for name in split_words("four-bar-planar watt-six-bar stephenson-six-bar gripper-10-planar") {
         let slides = name == "gripper-10-planar";
         let mut m = moving(name, if slides { 30.0 } else { 3.0 }, Inertia::Plane);
         m.mode = Mode::Planar {
@@ -68,15 +68,15 @@ fn the_drive_bears_the_same_in_the_plane_and_in_space() {
                 mass.centre[2] = Expr::from(0);
             }
         }
-        let c = cycle(&m, StateId::FREE, Some(STROKE)).unwrap();
+        let c = solve_cycle(&m, StateId::FREE, Some(STROKE)).unwrap();
         assert!(c.stopped.is_none(), "{name}");
-        let planar = statics(&m, StateId::FREE, Some(STROKE)).unwrap();
+        let planar = planar_statics(&m, StateId::FREE, Some(STROKE)).unwrap();
         assert!(planar.dead.is_none());
         let mut still = m.clone();
         still.loads.drive_speeds.clear();
-        let at_rest = cycle(&still, StateId::FREE, Some(STROKE)).unwrap();
+        let at_rest = solve_cycle(&still, StateId::FREE, Some(STROKE)).unwrap();
         m.mode = Mode::Spatial;
-        let spatial = cycle(&m, StateId::FREE, Some(STROKE)).unwrap();
+        let spatial = solve_cycle(&m, StateId::FREE, Some(STROKE)).unwrap();
         let mut differs = 0.0f64;
         let all = solved(&c).into_iter().zip(solved(&spatial));
         let all = all.zip(solved(&at_rest)).zip(&planar.moments);
@@ -105,14 +105,14 @@ fn energies(m: &Mechanism, c: &Cycle, at: f64, speed: f64) -> f64 {
     let mut energy = 0.0;
     for (l, link) in m.links_with_ids() {
         let Some(mass) = &link.mass else { continue };
-        let file = real(&mass.centre);
+        let file = to_vector(&mass.centre);
         let place = |pose: &Pose| {
             let p = [0, 1, 2].map(|i| (file[i] - pose.middle[i]) / pose.length);
-            let to = pose.links[l].point(p);
+            let to = pose.links[l].map_point(p);
             [0, 1, 2].map(|i| (pose.middle[i] + pose.length * to[i]) * metres)
         };
         let axis = |pose: &Pose, i: usize| {
-            pose.links[l].direction([0, 1, 2].map(|k| f64::from(u8::from(k == i))))
+            pose.links[l].map_direction([0, 1, 2].map(|k| f64::from(u8::from(k == i))))
         };
         let five = |f: &dyn Fn(&Pose) -> f64| diff([0, 1, 2, 3, 4].map(|n: usize| f(&poses[n].1)));
         let v = [0, 1, 2].map(|i| five(&|p| place(p)[i]));
@@ -135,7 +135,7 @@ fn energies(m: &Mechanism, c: &Cycle, at: f64, speed: f64) -> f64 {
             }
         };
         energy += 0.5 * mass.mass * dot(v, v) + 0.5 * spin;
-        energy -= mass.mass * dot(real(m.loads.gravity.as_ref().unwrap()), place(now));
+        energy -= mass.mass * dot(to_vector(m.loads.gravity.as_ref().unwrap()), place(now));
     }
     energy
 }
@@ -162,7 +162,7 @@ fn the_drive_feeds_the_energy_of_spatial_mechanisms() {
             _ => [0.0, 0.3],
         };
         let stroke = Stroke { from, to, steps: 2 };
-        let c = cycle(&m, StateId::FREE, Some(stroke)).unwrap();
+        let c = solve_cycle(&m, StateId::FREE, Some(stroke)).unwrap();
         let slides = matches!(c.drives[0].1, Freedom::Tx | Freedom::Ty | Freedom::Tz);
         let unit = if slides { m.length_unit.metres } else { 1.0 };
         for (at, s) in solved(&c) {
@@ -187,7 +187,7 @@ fn inertia_is_quadratic_in_the_speed() {
     let at = |speed: f64| {
         let mut m = moving("rsur", speed, |x| Inertia::Principal([x, 2.0 * x, 1.5 * x]));
         m.loads.gravity = None;
-        let found = cycle(&m, StateId::FREE, None).unwrap();
+        let found = solve_cycle(&m, StateId::FREE, None).unwrap();
         effort(&solved(&found)[0].1.reactions)
     };
     let (one, two) = (at(1.0), at(-2.0));
@@ -198,7 +198,7 @@ fn inertia_is_quadratic_in_the_speed() {
 #[test]
 fn an_inertia_for_a_plane_is_refused_in_space() {
     let m = moving("rsur", 1.0, Inertia::Plane);
-    match cycle(&m, StateId::FREE, None) {
+    match solve_cycle(&m, StateId::FREE, None) {
         Err(e @ Unsolved::PlaneInertia { .. }) => {
             assert!(e.to_string().contains("3 about the axes"))
         }
@@ -208,18 +208,18 @@ fn an_inertia_for_a_plane_is_refused_in_space() {
 
 #[test]
 fn the_command_goes_over_the_stroke() {
-    let args = words("statics gripper-10-loaded --spatial --stroke -0.3:0.3:4");
-    let said = out(&args);
+    let args = split_words("statics gripper-10-loaded --spatial --stroke -0.3:0.3:4");
+    let said = run_quiet(&args);
     has(&said, "greatest joint reactions over 5 poses");
     has(&said, "Drive 0-1 holds tz: from ");
     let with = |more: &[&'static str]| args.iter().chain(more).copied().collect_vec();
-    let v = json(&with(&["--format", "json"]));
+    let v = run_json(&with(&["--format", "json"]));
     assert_eq!(v["positions"].list().len(), 5);
     assert_eq!(v["positions"][4]["drive"], 0.3);
-    let csv = out(&with(&["--format", "csv"]));
+    let csv = run_quiet(&with(&["--format", "csv"]));
     assert_eq!(csv.lines().count(), 1 + 5 * 13);
     // The middle is the pose of the file.
-    let one = json("statics gripper-10-loaded --spatial --format json");
+    let one = run_json("statics gripper-10-loaded --spatial --format json");
     let pairs = one["reactions"].list().iter();
     for (a, b) in pairs.zip(v["positions"][2]["reactions"].list()) {
         let (x, y) = (a["force_magnitude"].real(), b["force_magnitude"].real());
@@ -228,6 +228,6 @@ fn the_command_goes_over_the_stroke() {
     // Farther than it goes.
     let o = run("statics gripper-10-loaded --spatial --stroke 0:1000:4");
     assert_eq!(o.status.code(), Some(1));
-    let said = text(&o.stdout);
+    let said = utf8_text(&o.stdout);
     has(&said, "The stroke could not be followed to");
 }

@@ -10,7 +10,7 @@ fn self_stresses_are_in_equilibrium_and_as_many_as_the_redundant_constraints() {
     for name in SOLVED {
         let mut m = built_in(name);
         let s = solve(&m);
-        let by_rank = analyse(&m, &[StateId::FREE], Method::Modular).unwrap()[0].redundant;
+        let by_rank = analyse_states(&m, &[StateId::FREE], Method::Modular).unwrap()[0].redundant;
         assert_eq!(s.self_stresses.len(), by_rank, "{name}");
         m.loads = Default::default();
         for stress in &s.self_stresses {
@@ -32,7 +32,7 @@ fn a_misaligned_joint_strains_as_by_hand() {
 
 fn strained(l: f64) {
     let ends = format!("a | 0 1 | fixed | 0, 0, 0\nb | 0 1 | fixed | {l}, 0, 0");
-    let text = file_of("name = \"bar\"", "0 1*", &ends)
+    let text = write_mechanism("name = \"bar\"", "0 1*", &ends)
         + "[workload.stiffness.default]\nlinear = 1000\nangular = 300\n\
            [[workload.misalignment]]\njoint = \"b\"\nangle = 0.01\naxis = \"z\"\n";
     let m = mechanism_from_str("bar.toml", &text).unwrap();
@@ -128,7 +128,7 @@ fn stiffness_decides_among_the_family_and_equilibrium_stays() {
     let straight = s.elastic.clone().unwrap();
     assert!(left_over(&m, &straight) < 1e-9);
     m.loads.misalignments.push(Misalignment {
-        joint: m.joint("2-3").unwrap(),
+        joint: m.joint_named("2-3").unwrap(),
         turn: [0.001, 0.0, 0.0],
         shift: [0.0; 3],
     });

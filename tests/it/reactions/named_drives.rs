@@ -2,7 +2,7 @@
 
 use crate::common::*;
 use ozols::motion::pose::Pose;
-use ozols::statics::reactions::drives::driven;
+use ozols::statics::reactions::drives::driven_freedoms;
 use ozols::statics::reactions::geometry::Geometry;
 
 /// The gripper's slider, which slides along its guide and may turn about it.
@@ -14,7 +14,7 @@ fn gripper(drive: &str) -> String {
 
 fn held(m: &Mechanism, state: StateId) -> Vec<Freedom> {
     let pose = Pose::of_file(m, state).unwrap();
-    let drives = driven(m, &Geometry::new(m, state, &pose).unwrap()).unwrap();
+    let drives = driven_freedoms(m, &Geometry::new(m, state, &pose).unwrap()).unwrap();
     drives.into_iter().map(|(_, f)| f).collect()
 }
 

@@ -6,8 +6,8 @@ use crate::common::*;
 use crate::reactions::greatest_force;
 use ozols::model::loads::{ExternalForce, Inertia, MassProperties, Stroke};
 use ozols::model::mechanism::{Joint, Link};
-use ozols::statics::cycle::statics;
-use ozols::statics::reactions::cycle::{Cycle, cycle};
+use ozols::statics::cycle::planar_statics;
+use ozols::statics::reactions::cycle::{Cycle, solve_cycle};
 use ozols::statics::reactions::{Solution, Uniqueness};
 use proptest::prelude::*;
 
@@ -22,7 +22,7 @@ fn points(m: &Mechanism, seed: &[f64]) -> Vec<(LinkId, Points)> {
     moving
         .map(|l| {
             let at = m.joints.iter().find(|j| j.links.contains(&l)).unwrap();
-            let near = real(&at.frame.point);
+            let near = to_vector(&at.frame.point);
             let point = |_| (0.1 + draw(), near.map(|x| x + 60.0 * draw() - 30.0));
             (l, (0..4).map(point).collect())
         })
@@ -104,7 +104,7 @@ proptest! {
         let name = ["rsur", "slider-crank-determinate"][which];
         let [whole, parts] = both(name, &seed, speed);
         let stroke = Some(Stroke { from: 0.0, to: 0.4, steps: 2 });
-        let [a, b] = [&whole, &parts].map(|m| cycle(m, StateId::FREE, stroke).unwrap());
+        let [a, b] = [&whole, &parts].map(|m| solve_cycle(m, StateId::FREE, stroke).unwrap());
         prop_assert_eq!(a.positions.len(), 3);
         for ((_, x), (_, y)) in solved(&a).zip(solved(&b)) {
             prop_assert_eq!((x.choice, y.choice), (Uniqueness::Unique, Uniqueness::Unique));
@@ -141,7 +141,7 @@ proptest! {
         upright.loads.gravity = None;
         let turn = [[2.0, -2.0, 1.0], [1.0, 2.0, 2.0], [-2.0, -1.0, 2.0]].map(|r: [f64; 3]| r.map(|x| x / 3.0));
         let by = |v: &[Expr; 3]| -> [Expr; 3] {
-            let v = real(v);
+            let v = to_vector(v);
             turn.map(|r| format!("{:.15}", (0..3).map(|i| r[i] * v[i]).sum::<f64>()).parse().unwrap())
         };
         let mut leans = upright.clone();
@@ -164,7 +164,7 @@ proptest! {
         }
         let stroke = Some(Stroke { from: 0.0, to: 1.0, steps: 4 });
         let efforts = |m: &Mechanism| -> Vec<f64> {
-            let found = statics(m, StateId::FREE, stroke).unwrap();
+            let found = planar_statics(m, StateId::FREE, stroke).unwrap();
             let of = |x: &ozols::statics::cycle::Moment| x.reactions.iter().find_map(|r| r.effort).unwrap();
             found.moments.iter().map(of).collect()
         };
@@ -197,14 +197,14 @@ fn a_dumb_bell_that_leans_tugs_at_its_bearing() {
         "{role}mass = {}\ncentre = [0, 0, 0]\ninertia = {inertia:?}\n",
         2.0 * mass
     );
-    let text = file_of(
+    let text = write_mechanism(
         "name = \"dumb-bell\"",
         "0 1*",
         "A | 0 1 | revolute | 0, 0, 0 | 0, 0, 1 | drive = true",
     );
-    let text = changed(&text, role, &heavy) + &format!("[workload]\ndrive_speed = {speed}\n");
+    let text = replace_once(&text, role, &heavy) + &format!("[workload]\ndrive_speed = {speed}\n");
     let m = mechanism_from_str("bell.toml", &text).unwrap();
-    let found = cycle(&m, StateId::FREE, None).unwrap();
+    let found = solve_cycle(&m, StateId::FREE, None).unwrap();
     let reaction = &solved(&found).next().unwrap().1.reactions[0];
     // r × F of both about y: z·Fx, with Fx = -m ω² a at z = b and the other way at -b.
     let couple = -2.0 * mass * speed * speed * a * b;
@@ -217,11 +217,11 @@ fn a_dumb_bell_that_leans_tugs_at_its_bearing() {
 #[test]
 fn forces_come_again_in_each_turn_in_space() {
     let mut m = built_in("slider-crank-determinate");
-    let slider = m.link("3").unwrap();
+    let slider = m.link_named("3").unwrap();
     m.loads.forces.push(ExternalForce {
         states: None,
         link: slider,
-        point: m.joints[m.joint("3-0").unwrap()].frame.point.clone(),
+        point: m.joints[m.joint_named("3-0").unwrap()].frame.point.clone(),
         force: [-100.0, 0.0, 0.0].map(expr),
         range: Some([0.3, 0.8]),
     });
@@ -234,7 +234,7 @@ fn forces_come_again_in_each_turn_in_space() {
         })
     };
     let efforts = |from| -> Vec<f64> {
-        let found = cycle(&m, StateId::FREE, stroke(from)).unwrap();
+        let found = solve_cycle(&m, StateId::FREE, stroke(from)).unwrap();
         let of = |s: &Solution| s.reactions.iter().find_map(|r| r.effort).unwrap().1;
         solved(&found).map(|(_, s)| of(s)).collect()
     };

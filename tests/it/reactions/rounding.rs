@@ -105,7 +105,7 @@ fn rounding_is_nothing_in_any_output() {
     let asked = std::env::var("OZOLS_FUZZ")
         .ok()
         .and_then(|n| n.parse().ok());
-    let (first, cases) = asked.map_or((1, 30), |n: u64| (fresh(), n));
+    let (first, cases) = asked.map_or((1, 30), |n: u64| (fresh_seed(), n));
     let folder = tempdir().unwrap();
     let path = folder.path().join("loaded.toml");
     let file = path.to_str().unwrap();
@@ -135,7 +135,7 @@ fn rounding_is_nothing_in_any_output() {
                 all.iter().all(|x| x.is_sign_positive() || *x != 0.0),
                 "seed {seed}: -0"
             );
-            for line in text(&of("text").stdout).lines() {
+            for line in utf8_text(&of("text").stdout).lines() {
                 // How far methods differ is told with one digit.
                 let words = line.split([' ', ',', ':']).filter(|w| w.contains('.'));
                 let told = ["residual", "balances", "differ"]
@@ -165,8 +165,8 @@ fn a_misalignment_is_not_passed_over() {
         let askew = format!(
             "\n[workload.stiffness.default]\nlinear = 1e7\nangular = 1e4\n[[workload.misalignment]]\njoint = {joint}\nangle = 0.001\naxis = \"x\"\n"
         );
-        let (_folder, path) = written("askew.toml", text_of.to_owned() + &askew);
-        let said = text(&run(&["statics", path]).stdout);
+        let (_folder, path) = write_temporary("askew.toml", text_of.to_owned() + &askew);
+        let said = utf8_text(&run(&["statics", path]).stdout);
         assert!(
             said.contains("states no loads but 1 misalignment"),
             "{name}: {said}"

@@ -15,7 +15,7 @@ fn a_link_is_carried_by_all_before_it() {
             10 * n
         )
     };
-    let text = file_of(
+    let text = write_mechanism(
         "name = \"arm\"\nlength_unit = \"m\"",
         "0 1 2 3*",
         &(1..4).map(joint).join("\n"),
@@ -26,10 +26,10 @@ fn a_link_is_carried_by_all_before_it() {
     let twists = geometry.link_twists(m.links.len(), &[1.0, -3.0, 5.0]);
     let (spread, at) = (geometry.size, geometry.of_file([-10.0, 0.0, 0.0]));
     for (link, turn, speed) in [("1", 1.0, -20.0), ("2", -2.0, 70.0), ("3", 3.0, -130.0)] {
-        let t = twists[m.link(link).unwrap()];
-        all_to_nine_digits([t[0], t[1], t[2]], [0.0, 0.0, turn]);
+        let t = twists[m.link_named(link).unwrap()];
+        assert_all_nine_digits([t[0], t[1], t[2]], [0.0, 0.0, turn]);
         // Velocity of the point: v + ω × p, in the size.
         let along = [t[3] - turn * at[1], t[4] + turn * at[0], t[5]];
-        all_to_nine_digits(along.map(|x| x * spread), [0.0, speed, 0.0]);
+        assert_all_nine_digits(along.map(|x| x * spread), [0.0, speed, 0.0]);
     }
 }

@@ -2,13 +2,13 @@
 
 use crate::common::*;
 use ozols::motion::pose::Pose;
-use ozols::statics::reactions::drives::driven;
+use ozols::statics::reactions::drives::driven_freedoms;
 use ozols::statics::reactions::follow::follow_to;
 use ozols::statics::reactions::geometry::Geometry;
 
 /// A crane: it turns, its boom tilts, and a hook runs along the boom, in millimetres.
 fn crane() -> String {
-    file_of(
+    write_mechanism(
         "name = \"crane\"\nlength_unit = \"mm\"",
         "ground tower boom hook*",
         "
@@ -25,14 +25,14 @@ fn drives_move_at_the_ratio_of_their_speeds() {
     m.loads.drive_speeds = vec![0.5, -0.25, 100.0];
     let pose = Pose::of_file(&m, StateId::FREE).unwrap();
     let geometry = Geometry::new(&m, StateId::FREE, &pose).unwrap();
-    let drives = driven(&m, &geometry).unwrap();
+    let drives = driven_freedoms(&m, &geometry).unwrap();
     assert_eq!(drives.len(), 3);
     let found = follow_to(&m, StateId::FREE, &drives, &[-0.3, 0.2, 0.4]).unwrap();
     assert_eq!(found.stopped, None);
     assert_eq!(found.poses.len(), 3);
     for (at, pose) in &found.poses {
         let moved = |id: &str| {
-            let joint = m.joint(id).unwrap();
+            let joint = m.joint_named(id).unwrap();
             let column = pose.columns.iter().find(|c| c.joint == joint).unwrap();
             let unit = if id == "run" { pose.length } else { 1.0 };
             column.moved * unit

@@ -18,7 +18,7 @@ fn contact<'a>(v: &'a Value, name: &str) -> &'a Value {
 
 /// A part of 1 kg between two faces of the frame, along y above and below it; gravity as asked for.
 fn between(gravity: &str) -> String {
-    let text = file_of(
+    let text = write_mechanism(
         "name = \"vice\"",
         "0 handle* part!",
         "
@@ -29,7 +29,7 @@ fn between(gravity: &str) -> String {
     );
     let heavy = "role = \"object\"\nmass = 1\ncentre = [0, 0, 0]";
     let contact = |id: &str| format!("[[workload.contact]]\njoint = \"{id}\"\nfriction = 0.2\n");
-    changed(&text, "role = \"object\"", heavy)
+    replace_once(&text, "role = \"object\"", heavy)
         + &format!(
             "[workload]\ngravity = {gravity}\n{}{}",
             contact("above"),
@@ -83,7 +83,7 @@ fn what_slips_off_is_told_and_not_solved() {
     let start = content.find("[[joint]]\nid = \"below\"").unwrap();
     let end = content.find("[workload]").unwrap();
     let content = format!("{}{}", &content[..start], &content[end..]);
-    let content = changed(
+    let content = replace_once(
         &content,
         "[[workload.contact]]\njoint = \"below\"\nfriction = 0.2\n",
         "",
@@ -100,7 +100,7 @@ fn what_slips_off_is_told_and_not_solved() {
 #[test]
 fn pressure_stays_on_the_face() {
     let content = between("[0, -9.81, 0]");
-    let content = changed(&content, "centre = [0, 0, 0]", "centre = [0.05, 0, 0]");
+    let content = replace_once(&content, "centre = [0, 0, 0]", "centre = [0.05, 0, 0]");
     let with = |radius: &str| {
         content.replace(
             "friction = 0.2",
@@ -198,16 +198,16 @@ fn what_tips_and_twists_shares_the_face() {
 /// The built-in gripper: with the forces that stand for the part left in the clamped state, its pads pulled with 54 N.
 #[test]
 fn the_gripper_no_longer_pulls_at_its_part() {
-    let text = out(&["show", "gripper-10-loaded"]);
+    let text = run_quiet(&["show", "gripper-10-loaded"]);
     let doubled = text.replace("state = \"free\"\n\n", "\n");
     assert_ne!(text, doubled);
     let (_, said, _) = statics(&doubled, &["--state", "clamped"]);
     has(&said, "NOT AS CONTACTS ACT: 4-a would pull with 53.96 N");
-    let clamped = json("statics gripper-10-loaded --state clamped --format json");
+    let clamped = run_json("statics gripper-10-loaded --state clamped --format json");
     for name in ["4-a", "a-8"] {
         assert_ne!(contact(&clamped, name)["touch"], "pulls");
     }
-    let faces = json("statics gripper-10-loaded --state clamped --unilateral --format json");
+    let faces = run_json("statics gripper-10-loaded --state clamped --unilateral --format json");
     let mut part = [0.0, 0.0, -9.81];
     for (name, sign) in [("4-a", 1.0), ("a-8", -1.0)] {
         let c = contact(&faces, name);
@@ -223,7 +223,7 @@ fn the_gripper_no_longer_pulls_at_its_part() {
     }
     // The part is in equilibrium; the free state still bears the forces that stand for it.
     part.iter().for_each(|x| near(*x, 0.0, 1e-9));
-    let free = out(&["statics", "gripper-10-loaded"]);
+    let free = run_quiet(&["statics", "gripper-10-loaded"]);
     has(&free, "Drive 0-1 holds tz: force -53.333 N");
 }
 
@@ -235,12 +235,12 @@ fn contacts_that_push_anyway_change_nothing() {
         "[workload]\n",
         "[workload]\n[[workload.force]]\nlink = \"part\"\npoint = [0, 0.05, 0]\nforce = [0, -20, 0]\nstate = [\"clamped\"]\n",
     );
-    let pressed = changed(
+    let pressed = replace_once(
         &pressed,
         "[workload]\n[[workload.force]]",
         "[[workload.force]]",
     );
-    let pressed = changed(
+    let pressed = replace_once(
         &pressed,
         "state = [\"clamped\"]\n",
         "state = [\"clamped\"]\n[workload]\n",
@@ -248,7 +248,7 @@ fn contacts_that_push_anyway_change_nothing() {
     let start = pressed.find("[[joint]]\nid = \"above\"").unwrap();
     let end = pressed.find("[[joint]]\nid = \"below\"").unwrap();
     let pressed = format!("{}{}", &pressed[..start], &pressed[end..]);
-    let pressed = changed(
+    let pressed = replace_once(
         &pressed,
         "[[workload.contact]]\njoint = \"above\"\nfriction = 0.2\n",
         "",
@@ -265,7 +265,7 @@ fn contacts_that_push_anyway_change_nothing() {
 #[test]
 fn words_that_are_no_states_or_contacts_are_refused() {
     let content = between("[0, -9.81, 0]");
-    for [from, to, part] in cases::<3>(
+    for [from, to, part] in read_cases::<3>(
         r#"
         joint = "below"\nfriction | joint = "side"\nfriction | unknown joint "side"
         friction = 0.2 | friction = -1 | a number from 0 to 10
@@ -273,11 +273,11 @@ fn words_that_are_no_states_or_contacts_are_refused() {
         [[workload.contact]] | [[workload.force]]\nlink = "part"\npoint = [0, 0, 0]\nforce = [1, 0, 0]\nstate = "closed"\n[[workload.contact]] | unknown state "closed"
 "#,
     ) {
-        let (code, _, errors) = statics(&changed(&content, from, to), &["--state", "clamped"]);
+        let (code, _, errors) = statics(&replace_once(&content, from, to), &["--state", "clamped"]);
         assert_eq!(code, Some(2), "{to}");
         assert!(errors.contains(part), "{to}: {errors}");
     }
-    let (code, _, errors) = statics(&out(&["show", "four-bar"]), &["--unilateral"]);
+    let (code, _, errors) = statics(&run_quiet(&["show", "four-bar"]), &["--unilateral"]);
     assert_eq!(code, Some(2));
     has(&errors, "--unilateral is for contacts with a clamped part");
 }
@@ -285,7 +285,7 @@ fn words_that_are_no_states_or_contacts_are_refused() {
 /// What a file says of states and contacts, its export says again.
 #[test]
 fn states_of_forces_and_contacts_are_exported() {
-    let again = out(&["export", "gripper-10-loaded", "--to", "toml"]);
+    let again = run_quiet(&["export", "gripper-10-loaded", "--to", "toml"]);
     assert_eq!(again.matches("[[workload.contact]]").count(), 2, "{again}");
     assert_eq!(again.matches("state = [\"free\"]").count(), 4);
 }

@@ -11,12 +11,12 @@ use ozols::robots::{Imported, Options, import};
 
 /// What is read of bytes under a name, with no files beside.
 pub(crate) fn read(name: &str, bytes: &[u8], options: &Options) -> Imported {
-    import(name, bytes, &crate::robots::none, options).unwrap_or_else(|e| panic!("{name}: {e}"))
+    import(name, bytes, &crate::robots::no_files, options).unwrap_or_else(|e| panic!("{name}: {e}"))
 }
 
 /// The message of bytes that are refused.
 pub(crate) fn refused(name: &str, bytes: &[u8]) -> String {
-    let e = import(name, bytes, &crate::robots::none, &Options::default()).unwrap_err();
+    let e = import(name, bytes, &crate::robots::no_files, &Options::default()).unwrap_err();
     assert!(!e.render(false).is_empty());
     e.to_string()
 }
@@ -24,7 +24,7 @@ pub(crate) fn refused(name: &str, bytes: &[u8]) -> String {
 /// W and σ, as the commands have them.
 pub(crate) fn figures(i: &Imported) -> (usize, usize) {
     let method = Method::Auto;
-    let s = &analyse(&i.mechanism, &[StateId::FREE], method).unwrap()[0];
+    let s = &analyse_states(&i.mechanism, &[StateId::FREE], method).unwrap()[0];
     assert_eq!(s.at_most(), None, "σ is one number");
     (s.mobility, s.redundant)
 }

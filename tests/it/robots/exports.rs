@@ -3,7 +3,7 @@
 use crate::common::*;
 mod physical;
 
-use crate::robots::read;
+use crate::robots::read_robot;
 use ozols::redundancy::analysis::Elimination;
 use ozols::robots::formats;
 use proptest::prelude::*;
@@ -32,7 +32,7 @@ fn toml_and_json() {
             assert_eq!(names(&back), names(&m), "{}", m.name);
             let states: Vec<StateId> = m.state_ids().collect();
             let figures = |m: &Mechanism| {
-                let all = analyse(m, &states, Method::Modular).unwrap();
+                let all = analyse_states(m, &states, Method::Modular).unwrap();
                 all.iter()
                     .map(|s| {
                         (
@@ -152,22 +152,23 @@ proptest! {
 fn searches_alike() {
     let folder = tempdir().unwrap();
     let file = folder.path().join("g.toml");
-    out(&format!(
+    run_quiet(&format!(
         "export gripper-10 --to toml -o {}",
         file.display()
     ));
-    let count = |f: &str| out(&["search", f, "--top", "3", "--format", "json"]);
+    let count = |f: &str| run_quiet(&["search", f, "--top", "3", "--format", "json"]);
     assert_eq!(count(file.to_str().unwrap()), count("gripper-10"));
 }
 
 /// W and σ of the free state by singular values.
 fn figures(m: &Mechanism) -> (usize, usize) {
-    let s = &analyse(m, &[StateId::FREE], Method::Numeric(Elimination::Svd, 1e-9)).unwrap()[0];
+    let s =
+        &analyse_states(m, &[StateId::FREE], Method::Numeric(Elimination::Svd, 1e-9)).unwrap()[0];
     (s.mobility, s.redundant)
 }
 
 fn back(name: &str, text: &str) -> Mechanism {
-    let i = read(name, text);
+    let i = read_robot(name, text);
     mechanism_from_str("x.toml", &i.toml().unwrap()).unwrap()
 }
 
@@ -246,7 +247,7 @@ fn graphs() {
         ("t.urdf", formats::write(&m, "urdf").unwrap()),
         ("t.sdf", formats::write(&m, "sdf").unwrap()),
     ] {
-        let i = read(name, &text);
+        let i = read_robot(name, &text);
         assert!(
             mechanism_from_str("t.toml", &i.toml().unwrap()).is_ok(),
             "{text}"
@@ -258,7 +259,7 @@ fn graphs() {
 fn the_command() {
     for to in ["toml", "json", "urdf", "mjcf", "sdf", "dot", "graphml"] {
         assert!(
-            out(&["export", "four-bar", "--to", to, "-q"]).len() > 200,
+            run_quiet(&["export", "four-bar", "--to", to, "-q"]).len() > 200,
             "{to}"
         );
     }
@@ -275,8 +276,8 @@ fn the_workload_survives() {
     for to in ["toml", "json"] {
         let file = folder.path().join(format!("shears.{to}"));
         let file = file.to_str().unwrap();
-        out(&["export", "parallel-shears", "--to", to, "-o", file]);
-        let statics = |f: &str| out(&["statics", f, "--format", "json"]);
+        run_quiet(&["export", "parallel-shears", "--to", to, "-o", file]);
+        let statics = |f: &str| run_quiet(&["statics", f, "--format", "json"]);
         assert_eq!(statics(file), statics("parallel-shears"));
     }
     let shears = all().find(|m| m.name == "parallel-shears").unwrap();

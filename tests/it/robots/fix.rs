@@ -10,7 +10,7 @@ pub(crate) fn gripper() -> String {
 /// W and σ that lint finds.
 fn figures(file: &str, more: &[&str]) -> (u64, u64) {
     let words = [&["lint", file, "--format", "json"], more].concat();
-    let (_, out, complaint) = ran(&words);
+    let (_, out, complaint) = run_full(&words);
     let v: Value = serde_json::from_str(&out).unwrap_or_else(|_| panic!("{file}: {complaint}"));
     let of = |key: &str| v["files"][0][key].whole();
     assert_eq!(of("redundant"), of("redundant_at_most"), "{file}");
@@ -22,7 +22,7 @@ fn figures(file: &str, more: &[&str]) -> (u64, u64) {
 fn fix_keeps_the_file() {
     let dir = tempdir().unwrap();
     let out = dir.path().join("fixed.xml").display().to_string();
-    let (_, told) = done(&["fix", &gripper(), "-o", &out]);
+    let (_, told) = run_successful(&["fix", &gripper(), "-o", &out]);
     has(&told, "before: rank 11 of 13 rows, W = 1, redundant 2");
     has(&told, "after:  rank 13 of 13 rows, W = 1, redundant 0");
     let (old, new) = (
@@ -43,14 +43,14 @@ fn fix_keeps_the_file() {
     ] {
         let file = gripper();
         let words = [&["fix", &file, "-o", &out], more].concat();
-        done(&words);
+        run_successful(&words);
         assert_eq!(figures(&out, &[]), (1, 0));
     }
     assert!(!new.contains("_between"));
     // A place that does not suffice, and one that there is not.
-    let (code, _, told) = ran(&["fix", &gripper(), "--at", "connect-1"]);
+    let (code, _, told) = run_full(&["fix", &gripper(), "--at", "connect-1"]);
     assert!(code == Some(2) && told.contains("remove 1 of 2"), "{told}");
-    let (code, _, told) = ran(&["fix", &gripper(), "--at", "nowhere"]);
+    let (code, _, told) = run_full(&["fix", &gripper(), "--at", "nowhere"]);
     assert!(code == Some(2) && told.contains("--at nowhere"), "{told}");
 }
 
@@ -104,7 +104,7 @@ fn fix_lets_go_at_each_kind_of_equality() {
         fs::write(&file, &text).unwrap();
         let (w, found) = figures(&file, &[]);
         assert_eq!(found, sigma, "{name}");
-        done(&["fix", &file, "--at", "e", "-o", &out]);
+        run_successful(&["fix", &file, "--at", "e", "-o", &out]);
         assert_eq!(figures(&out, &[]), (w, 0), "{name}");
         let new = fs::read_to_string(&out).unwrap();
         // Keyframes have the new joints' numbers where MuJoCo looks for them, and classes say nothing of these.
@@ -127,7 +127,7 @@ fn classes_that_limit_joints_do_not_limit_new_ones() {
         let text = four_bar(connect, ["", ""]).replace("range='-2 2' stiffness='3'", class);
         let (file, out) = (path("four.xml"), path("fixed.xml"));
         fs::write(&file, text).unwrap();
-        done(&["fix", &file, "-o", &out]);
+        run_successful(&["fix", &file, "-o", &out]);
         let new = fs::read_to_string(&out).unwrap();
         let taken_back = class.replace("'true'", "\"false\"");
         assert!(new.contains(&taken_back), "{new}");
@@ -151,7 +151,7 @@ fn fix_puts_links_in_between() {
     let (w, sigma) = figures(&file, &[]);
     assert_eq!((w, sigma), (1, 3));
     for at in ["j2", "j3", "j4"] {
-        done(&["fix", &file, "--at", at, "-o", &out]);
+        run_successful(&["fix", &file, "--at", at, "-o", &out]);
         assert_eq!(figures(&out, &[]), (1, 0), "{at}");
     }
     let (file, side) = (
@@ -160,13 +160,13 @@ fn fix_puts_links_in_between() {
     );
     let more = ["--loops", side.to_str().unwrap()];
     let words = [&["fix", file.to_str().unwrap(), "-o", &out], &more[..]].concat();
-    done(&words);
+    run_successful(&words);
     assert_eq!(figures(&out, &more), (3, 0));
     let out = path("fixed.sdf");
     for (file, w) in [("four_bar_loop.sdf", 1), ("four_bar_weld.sdf", 1)] {
         let file = folder().join(file);
         let words = ["fix", file.to_str().unwrap(), "--assemble", "-o", &out];
-        done(&words);
+        run_successful(&words);
         assert_eq!(figures(&out, &["--assemble"]), (w, 0), "{}", file.display());
     }
 }
@@ -200,7 +200,7 @@ fn sdf_of_two_digit_versions_has_axes_in_the_joint() {
         let (file, out) = (path("m.sdf"), path("fixed.sdf"));
         fs::write(&file, text).unwrap();
         assert_eq!(figures(&file, &[]), (1, 3), "{version}");
-        done(&["fix", &file, "-o", &out]);
+        run_successful(&["fix", &file, "-o", &out]);
         assert_eq!(figures(&out, &[]), (1, 0), "{version}");
         fs::read_to_string(out).unwrap().replace(version, "1.9")
     });
@@ -224,7 +224,7 @@ fn fix_refuses_what_it_cannot_write() {
     fs::write(&main, format!("{head}<include file='part.xml'/>{tail}")).unwrap();
     let out = dir.path().join("out.xml");
     let words = ["fix", main.to_str().unwrap(), "-o", out.to_str().unwrap()];
-    let (code, _, told) = ran(&words);
+    let (code, _, told) = run_full(&words);
     assert!(
         code == Some(2) && told.contains("in an included file"),
         "{told}"
@@ -250,7 +250,7 @@ fn searches_offer_releases_where_loops_close() {
             "search", &file, "--all", "--format", "jsonl", "--forbid", "j1", "--forbid", "j2",
             "--forbid", "j3",
         ];
-        let (found, _) = done(&words);
+        let (found, _) = run_successful(&words);
         let first = found.lines().next().unwrap();
         assert!(first.contains(name), "{first}");
         let words = [
@@ -267,7 +267,7 @@ fn searches_offer_releases_where_loops_close() {
             "-o",
             &out,
         ];
-        let (_, told) = done(&words);
+        let (_, told) = run_successful(&words);
         assert!(
             fs::read_to_string(&out).unwrap().contains("e_between"),
             "{told}"
@@ -287,7 +287,7 @@ fn nothing_redundant_is_nothing_to_mend() {
     fs::write(&file, text).unwrap();
     for more in [&[][..], &["--variant", "1"], &["--variant", "2"]] {
         let _ = fs::remove_file(&out);
-        let (_, told) = done(&[&["fix", &file, "-o", &out], more].concat());
+        let (_, told) = run_successful(&[&["fix", &file, "-o", &out], more].concat());
         has(&told, "nothing is redundant (W = 2");
         assert_eq!(fs::read_to_string(&out).unwrap(), text, "{more:?}");
     }
@@ -301,7 +301,7 @@ fn nothing_redundant_is_nothing_to_mend() {
         "-o",
         &out,
     ];
-    done(&[&asked[..], &["--allow-output-change"]].concat());
+    run_successful(&[&asked[..], &["--allow-output-change"]].concat());
     assert_eq!(figures(&out, &[]), (3, 0));
 }
 
@@ -313,7 +313,7 @@ fn the_next_command_mends() {
     fs::copy(folder().join("five_bar.urdf"), &file).unwrap();
     let side = folder().join("five_bar.yaml").display().to_string();
     let next = |words: &[&str]| {
-        let (_, out, told) = ran(words);
+        let (_, out, told) = run_full(words);
         let line = out
             .lines()
             .find(|l| l.trim_start().starts_with("ozols fix"));
@@ -334,11 +334,11 @@ fn the_next_command_mends() {
         });
         let words: Vec<String> = words.collect();
         let words: Vec<&str> = words.iter().map(String::as_str).collect();
-        let (_, told) = done(&words);
+        let (_, told) = run_successful(&words);
         has(&told, "redundant 0");
     }
     // Nothing to mend, nothing to type.
-    let (_, out, _) = ran(&[
+    let (_, out, _) = run_full(&[
         "lint",
         &dir.path().join("five bar-fixed.urdf").display().to_string(),
         "--loops",
@@ -358,13 +358,13 @@ fn joints_that_an_actuator_pulls_stay_as_they_are() {
         <actuator><general name='fingers' tendon='split'/></actuator></mujoco>";
     fs::write(&file, text.replace("</mujoco>", pulls)).unwrap();
     let out = dir.path().join("out.xml").display().to_string();
-    let (code, _, told) = ran(&["fix", &file, "-o", &out]);
+    let (code, _, told) = run_full(&["fix", &file, "-o", &out]);
     assert!(code == Some(0) && !told.contains("crank_joint"), "{told}");
     assert_eq!(figures(&out, &[]), (1, 0));
-    let (_, found, _) = ran(&["lint", &file]);
+    let (_, found, _) = run_full(&["lint", &file]);
     assert!(!found.contains("let right_crank_joint"), "{found}");
     let named = ["--at", "right_crank_joint", "--at", "left_crank_joint"];
-    let (code, _, told) = ran(&[&["fix", &file, "-o", &out][..], &named].concat());
+    let (code, _, told) = run_full(&[&["fix", &file, "-o", &out][..], &named].concat());
     assert!(
         code == Some(0) && told.contains("let left_crank_joint slide"),
         "{told}"

@@ -8,7 +8,7 @@ use crate::robots::{folder, legs};
 // Each connect of the gripper closes a planar loop of three hinges: its row across the plane is held twice.
 #[test]
 fn lint_names_each_redundant_row_with_its_line() {
-    let (code, out, _) = ran(&["lint", &gripper(), "--format", "json"]);
+    let (code, out, _) = run_full(&["lint", &gripper(), "--format", "json"]);
     assert_eq!(code, Some(1));
     let v: Value = serde_json::from_str(&out).unwrap();
     let file = &v["files"][0];
@@ -42,11 +42,11 @@ fn lint_names_each_redundant_row_with_its_line() {
 fn exit_codes_say_what_was_found() {
     // Nothing redundant: 0, and nothing is searched. Not readable: 2.
     let urdf = folder().join("mimic_gripper.urdf");
-    let (out, _) = done(&["lint", urdf.to_str().unwrap()]);
+    let (out, _) = run_successful(&["lint", urdf.to_str().unwrap()]);
     has(&out, "no redundant constraints (σ = 0, W = 1)");
-    assert_eq!(ran("lint nowhere.xml").0, Some(2));
+    assert_eq!(run_full("lint nowhere.xml").0, Some(2));
     // Mechanism files have names, too.
-    let (code, out, _) = ran("lint gripper-10");
+    let (code, out, _) = run_full("lint gripper-10");
     assert_eq!(code, Some(1));
     has(&out, "11 redundant constraints");
 }
@@ -205,7 +205,7 @@ fn lint_goes_on_over_files_that_cannot_be_looked_at() {
     };
     let (bad, welded) = (put("bad.urdf", "<robot"), put("welded.urdf", WELDED));
     let all = ["lint", &bad, "nowhere.xml", &gripper(), &welded];
-    let (code, out, err) = ran(&all);
+    let (code, out, err) = run_full(&all);
     assert_eq!(code, Some(2));
     // A colon or a gap of the line that named the file once stood alone before the reason.
     let reason = |file: &str| {
@@ -226,7 +226,7 @@ fn lint_goes_on_over_files_that_cannot_be_looked_at() {
     has(&err, "bad.urdf");
     has(&err, "nowhere.xml");
     assert!(!err.contains("welded"), "{err}");
-    let (_, out, _) = ran(&[&all[..], &["--format", "json"]].concat());
+    let (_, out, _) = run_full(&[&all[..], &["--format", "json"]].concat());
     let v: Value = serde_json::from_str(&out).unwrap();
     assert_eq!(v["files"].list().len(), 1);
     assert_eq!(v["passed_over"].list().len(), 3);
@@ -246,7 +246,7 @@ fn what_cannot_move_has_nothing_redundant() {
     let v: Value = serde_json::from_str(&out).unwrap();
     assert_eq!(v["passed_over"][0]["rigid"], true);
     // Where nothing is passed over, there is no word of it.
-    let (_, out, _) = ran(&["lint", &gripper(), "--format", "json"]);
+    let (_, out, _) = run_full(&["lint", &gripper(), "--format", "json"]);
     assert!(!out.contains("passed_over"));
 }
 
@@ -267,7 +267,7 @@ fn many_files_are_each_reported() {
         "-o",
         file,
     ];
-    let (code, out, err) = ran(&words);
+    let (code, out, err) = run_full(&words);
     assert_eq!(code, Some(2));
     has(&err, "nosuch is neither");
     has(&err, "nowhere.toml is neither");
@@ -280,7 +280,7 @@ fn many_files_are_each_reported() {
         "--format",
         "csv",
     ];
-    let (code, out, err) = ran(&words);
+    let (code, out, err) = run_full(&words);
     assert_eq!(code, Some(2));
     assert!(
         err.contains("nosuch is neither") && out.contains("four-bar-planar"),
@@ -295,7 +295,7 @@ fn many_files_are_each_reported() {
         "-o",
         merged.to_str().unwrap(),
     ];
-    let (code, out, err) = ran(&words);
+    let (code, out, err) = run_full(&words);
     assert_eq!(code, Some(2));
     assert!(
         err.contains("nowhere.db") && out.contains("1 structures added"),
@@ -312,7 +312,7 @@ fn names_of_files_may_be_no_text() {
     let name = |bytes: &[u8]| OsStr::from_bytes(bytes).to_owned();
     let (toml, urdf) = (name(b"caf\xe9.toml"), name(b"\xff.urdf"));
     let made = name(b"x\xff.toml");
-    let four_bar = text(&run_bytes(&["show".into(), "four-bar".into()], at.path()).stdout);
+    let four_bar = utf8_text(&run_bytes(&["show".into(), "four-bar".into()], at.path()).stdout);
     fs::write(at.path().join(&toml), four_bar).unwrap();
     fs::copy(folder().join("mimic_gripper.urdf"), at.path().join(&urdf)).unwrap();
     let words = |line: &str, file: &OsString| -> Vec<OsString> {
@@ -338,7 +338,7 @@ fn names_of_files_may_be_no_text() {
         ("analyze four-bar -o FILE", &toml),
     ] {
         let o = run_bytes(&words(line, file), at.path());
-        assert!(o.status.success(), "{line}: {}", text(&o.stderr));
+        assert!(o.status.success(), "{line}: {}", utf8_text(&o.stderr));
     }
 }
 

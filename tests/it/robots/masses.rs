@@ -56,8 +56,8 @@ fn what_moves_in_an_exported_urdf_weighs_something() {
     let words = ["export", "gripper-10", "--variant", "1", "--to"];
     let of = |format: &str| {
         let o = run(&[&words[..], &[format]].concat());
-        assert!(o.status.success(), "{}", text(&o.stderr));
-        text(&o.stdout)
+        assert!(o.status.success(), "{}", utf8_text(&o.stderr));
+        utf8_text(&o.stdout)
     };
     let urdf = of("urdf");
     assert!(

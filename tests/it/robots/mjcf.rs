@@ -1,18 +1,18 @@
 //! MJCF: orientations, defaults, joints in series, equalities, includes.
 
 use crate::common::*;
-use crate::robots::{figures, none, read, refused};
+use crate::robots::{message_of, no_files, numeric_figures, read_robot};
 use ozols::robots::{Options, import};
 
 // MuJoCo's values count from `ref`, where the model is as drawn; the pose is in radians whatever the file's unit.
 #[test]
 fn mjcf_reference_pose() {
     let at = |value: f64| {
-        let options = but(|o: &mut Options| o.pose = vec![("j".to_owned(), vec![value])]);
+        let options = default_with(|o: &mut Options| o.pose = vec![("j".to_owned(), vec![value])]);
         let text = mjcf(
             "<worldbody><body name='a'><joint name='j' ref='90'/><body name='b' pos='1 0 0'><joint name='k'/></body></body></worldbody>",
         );
-        import("m.xml", text.as_bytes(), &none, &options)
+        import("m.xml", text.as_bytes(), &no_files, &options)
             .unwrap()
             .toml()
             .unwrap()
@@ -24,7 +24,7 @@ fn mjcf_reference_pose() {
 // Defaults of equalities stand under <equality>, whatever their kind.
 #[test]
 fn mjcf_inactive_by_default() {
-    let i = read("m.xml", &mjcf("<default><equality active='false'/></default>
+    let i = read_robot("m.xml", &mjcf("<default><equality active='false'/></default>
         <worldbody><body name='a'><joint/></body><body name='b'><joint/></body></worldbody>
         <equality><weld body1='a' body2='b'/><connect body1='a' body2='b' anchor='0 0 0' active='true'/></equality>"));
     assert_eq!(
@@ -38,7 +38,7 @@ pub(crate) fn mjcf(body: &str) -> String {
 }
 
 pub(crate) fn toml_of(name: &str, text: &str) -> String {
-    match import(name, text.as_bytes(), &none, &Options::default()) {
+    match import(name, text.as_bytes(), &no_files, &Options::default()) {
         Ok(i) => i.toml().unwrap(),
         Err(e) => panic!("{e}\n{text}"),
     }
@@ -123,8 +123,8 @@ fn mjcf_weld_and_actuator() {
             <equality><weld body1='a' body2='b'/><weld body1='a' body2='b' active='false'/></equality>
             <actuator><motor {frame}='h'/></actuator>"
         ));
-        let i = read("m.xml", &t);
-        assert_eq!(figures(&i, 1e-9), [3, 3, 1, 2, 1, 5]);
+        let i = read_robot("m.xml", &t);
+        assert_eq!(numeric_figures(&i, 1e-9), [3, 3, 1, 2, 1, 5]);
         let toml = i.toml().unwrap();
         assert!(toml.contains("drive = true") && toml.contains("type = \"fixed\""));
     }
@@ -180,7 +180,7 @@ fn mjcf_errors() {
             "<worldbody><body name='a'>{body}</body></worldbody>"
         ))
     };
-    for [body, words] in cases::<2>(
+    for [body, words] in read_cases::<2>(
         r#"
         <joint type='screw'/> | hinge, slide, ball, free
         <joint axis='0 0 0'/> | axis
@@ -192,9 +192,9 @@ fn mjcf_errors() {
         <joint/><body quat='0 0 0 0'/> | not zero
         "#,
     ) {
-        has(&refused("m.xml", &one(body)), words);
+        has(&message_of("m.xml", &one(body)), words);
     }
-    for [text, words] in cases::<2>(
+    for [text, words] in read_cases::<2>(
         r#"
         <worldbody><joint/></worldbody> | the world cannot move
         <compiler angle='grad'/> | radian, degree
@@ -208,7 +208,7 @@ fn mjcf_errors() {
         | nothing can move
         "#,
     ) {
-        has(&refused("m.xml", &mjcf(text)), words);
+        has(&message_of("m.xml", &mjcf(text)), words);
     }
 }
 

@@ -1,14 +1,14 @@
 //! Whole models, and loop closures from files beside them.
 
 use crate::common::*;
-use crate::robots::{ARM, figures, folder, model, none, refused};
+use crate::robots::{ARM, folder, message_of, no_files, numeric_figures, read_model};
 use ozols::robots::{Options, import};
 
 // Five mimic joints follow the sixth: W = 6 of the tree of joints alone, 1 with the couplings.
 #[test]
 fn mimic_joints_are_couplings() {
-    let i = model("mimic_gripper.urdf", &Options::default());
-    assert_eq!(figures(&i, 1e-9), [7, 6, 0, 6, 1, 0]);
+    let i = read_model("mimic_gripper.urdf", &Options::default());
+    assert_eq!(numeric_figures(&i, 1e-9), [7, 6, 0, 6, 1, 0]);
     assert_eq!(
         (i.report.coupling_rows, i.report.approximated.len()),
         (0, 0)
@@ -35,7 +35,7 @@ fn nothing_moves() {
         format!("<joint name='j{i}' type='fixed'><parent link='l0'/><child link='l{i}'/></joint>")
     };
     let joints: String = (1..4).map(joint).collect();
-    let e = refused(
+    let e = message_of(
         "mesh.urdf",
         &format!("<robot name='r'>{links}{joints}</robot>"),
     );
@@ -64,8 +64,8 @@ fn figures_of_models() {
         ),
         ("leg.urdf", Some("leg.yaml"), 0, [8, 9, 2, 16, 4, 0]),
     ] {
-        let i = model(path, &with_loops(loops));
-        let found = figures(&i, 1e-9);
+        let i = read_model(path, &with_loops(loops));
+        let found = numeric_figures(&i, 1e-9);
         assert_eq!(found, wanted, "{path}");
         assert_eq!(i.report.coupling_rows, 0, "{path}");
         let w = usize::try_from(found[4]).unwrap();
@@ -79,12 +79,12 @@ fn figures_of_models() {
 // A planar four-bar in space: W = 1, σ = 3.
 #[test]
 fn four_bars() {
-    let together = but(|o: &mut Options| o.assemble = true);
-    let i = model("four_bar_loop.sdf", &together);
-    assert_eq!(figures(&i, 1e-9), [4, 4, 1, 4, 1, 3]);
-    let i = model("four_bar_weld.sdf", &together);
-    assert_eq!(figures(&i, 1e-9), [5, 5, 1, 4, 1, 3]);
-    let i = model("four_bar_loop.sdf", &Options::default());
+    let together = default_with(|o: &mut Options| o.assemble = true);
+    let i = read_model("four_bar_loop.sdf", &together);
+    assert_eq!(numeric_figures(&i, 1e-9), [4, 4, 1, 4, 1, 3]);
+    let i = read_model("four_bar_weld.sdf", &together);
+    assert_eq!(numeric_figures(&i, 1e-9), [5, 5, 1, 4, 1, 3]);
+    let i = read_model("four_bar_loop.sdf", &Options::default());
     assert_eq!(i.report.approximated.len(), 4);
     assert!(i.report.approximated[0].what.contains("`assemble`"));
     // The third is closed by a file beside it; its links are side by side, so that a revolute joint there
@@ -97,10 +97,10 @@ fn four_bars() {
             ..Options::default()
         };
         let bytes = fs::read(folder().join("four_bar_open.sdf")).unwrap();
-        import("four_bar_open.sdf", &bytes, &none, &options)
+        import("four_bar_open.sdf", &bytes, &no_files, &options)
     };
     assert_eq!(
-        figures(&closed("cylindrical").unwrap(), 1e-9),
+        numeric_figures(&closed("cylindrical").unwrap(), 1e-9),
         [4, 4, 1, 5, 1, 2]
     );
     let e = closed("revolute").unwrap_err().to_string();
@@ -115,7 +115,7 @@ fn side_files() {
             loops: Some((name.to_owned(), side.as_bytes().to_vec())),
             ..Options::default()
         };
-        import("arm.urdf", ARM.as_bytes(), &none, &options)
+        import("arm.urdf", ARM.as_bytes(), &no_files, &options)
     };
     let i = with(
         "s.toml",
@@ -123,7 +123,7 @@ fn side_files() {
     )
     .unwrap();
     // Two hinges and a slide at rest between them: rigid, σ = 3 as in any planar triangle.
-    assert_eq!(figures(&i, 1e-9), [3, 3, 1, 3, 0, 3]);
+    assert_eq!(numeric_figures(&i, 1e-9), [3, 3, 1, 3, 0, 3]);
     let bomb = "a: &a [x,x,x,x,x,x,x,x,x]\nb: &b [*a,*a,*a,*a,*a,*a,*a,*a,*a]\nc: &c [*b,*b,*b,*b,*b,*b,*b,*b,*b]\nd: &d [*c,*c,*c,*c,*c,*c,*c,*c,*c]\ne: &e [*d,*d,*d,*d,*d,*d,*d,*d,*d]\nf: &f [*e,*e,*e,*e,*e,*e,*e,*e,*e]\ng: &g [*f,*f,*f,*f,*f,*f,*f,*f,*f]\nh: [*g,*g,*g,*g,*g,*g,*g,*g,*g]\n";
     for (name, side, words) in [
         ("s.txt", "", "the ending is unknown"),
@@ -167,7 +167,7 @@ fn descriptions_as_files() {
         file.display()
     ));
     assert_eq!(o.status.code(), Some(0));
-    assert!(!text(&o.stderr).contains("coupling"));
+    assert!(!utf8_text(&o.stderr).contains("coupling"));
     let v: Value = serde_json::from_slice(&o.stdout).unwrap();
     assert_eq!(
         (&v["states"][0]["redundant"], &v["states"][0]["mobility"]),

@@ -2,7 +2,7 @@
 
 use crate::common::*;
 use crate::robots::mjcf::{mjcf, toml_of};
-use crate::robots::read;
+use crate::robots::read_robot;
 use ozols::geom::vector::Vector;
 use ozols::robots::formats;
 
@@ -56,7 +56,7 @@ fn oblique_axes_are_two_hinges() {
             "<sdf version='1.9'><model name='m'><link name='a'/><link name='b'/><joint name='j' type='universal'><parent>a</parent><child>b</child>
             <axis><xyz>1 0 0</xyz></axis><axis2><xyz>{second}</xyz></axis2></joint></model></sdf>"
         );
-        let m = read("m.sdf", &text).mechanism;
+        let m = read_robot("m.sdf", &text).mechanism;
         let own = m
             .joints
             .iter()
@@ -73,7 +73,7 @@ fn places(m: &Mechanism) -> Vec<(String, Vector)> {
         .iter()
         .filter(|j| j.joint_type.freedoms().len() == 1);
     let metres = m.length_unit.metres;
-    all.map(|j| (j.id.clone(), real(&j.frame.point).map(|x| x * metres)))
+    all.map(|j| (j.id.clone(), to_vector(&j.frame.point).map(|x| x * metres)))
         .collect()
 }
 
@@ -84,7 +84,7 @@ fn hinges_come_back_to_their_places() {
         let m = built_in(name);
         for format in ["mjcf", "urdf", "sdf"] {
             let text = formats::write(&m, format).unwrap();
-            let back = read(
+            let back = read_robot(
                 &format!("m.{}", if format == "mjcf" { "xml" } else { format }),
                 &text,
             );

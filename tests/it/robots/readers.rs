@@ -3,12 +3,12 @@
 
 use crate::common::*;
 use crate::robots::mjcf::{mjcf, toml_of};
-use crate::robots::{figures, folder, none, read, refused};
+use crate::robots::{folder, message_of, no_files, numeric_figures, read_robot};
 use ozols::robots::{Options, import};
 
 /// W and σ.
 fn w_sigma(name: &str, text: &str) -> (i64, i64) {
-    let [.., w, sigma] = figures(&read(name, text), 1e-9);
+    let [.., w, sigma] = numeric_figures(&read_robot(name, text), 1e-9);
     (w, sigma)
 }
 
@@ -23,14 +23,14 @@ fn types_of_joints_beside_the_description() {
             ..Options::default()
         };
         let bytes = fs::read(folder().join("leg.urdf")).unwrap();
-        import("leg.urdf", &bytes, &none, &options).unwrap()
+        import("leg.urdf", &bytes, &no_files, &options).unwrap()
     };
     let side = fs::read_to_string(folder().join("leg.yaml")).unwrap();
     let typed = leg(&side);
     assert_eq!(typed.report.mapped["joint type"], 3);
-    assert_eq!(figures(&typed, 1e-9)[4..], [4, 0]);
+    assert_eq!(numeric_figures(&typed, 1e-9)[4..], [4, 0]);
     let plain = leg(side.split("joint_name").next().unwrap());
-    assert_eq!(figures(&plain, 1e-9)[4..], [3, 2]);
+    assert_eq!(numeric_figures(&plain, 1e-9)[4..], [3, 2]);
     let urdf = "<robot name='r'><link name='a'/><link name='b'/><link name='c'/>
       <joint name='p' type='revolute'><parent link='a'/><child link='b'/><axis xyz='0 0 1'/></joint>
       <joint name='q' type='revolute'><parent link='b'/><child link='c'/><origin xyz='1 0 0'/></joint></robot>";
@@ -40,7 +40,7 @@ fn types_of_joints_beside_the_description() {
             loops: Some(("robot.yaml".to_owned(), side.into_bytes())),
             ..Options::default()
         };
-        import("r.urdf", urdf.as_bytes(), &none, &options)
+        import("r.urdf", urdf.as_bytes(), &no_files, &options)
             .map(|i| i.toml().unwrap())
             .map_err(|e| e.to_string())
     };
@@ -101,7 +101,7 @@ fn sdf_includes_of_models() {
         world("<uri>model://arm</uri><name>left</name><pose>0 0 2 0 0 0</pose>");
     assert_eq!(code, Some(0), "{told}");
     has(&toml, "point = [1, 0, 2]\naxis = [1, 0, 0]");
-    for [include, words] in cases::<2>(
+    for [include, words] in read_cases::<2>(
         r"
         <uri>model://none</uri> | cannot be read
         <uri>model://../secret</uri> | outside the folder
@@ -127,8 +127,8 @@ fn parts_that_nothing_holds() {
     let links = "<link name='a'/><link name='b'/><link name='c'/>";
     let joint = "<joint name='j' type='revolute'><parent>a</parent><child>b</child><axis><xyz>0 0 1</xyz></axis></joint>";
     let sdf = format!("<sdf version='1.9'><model name='m'>{links}{joint}</model></sdf>");
-    let i = read("m.sdf", &sdf);
-    assert_eq!(figures(&i, 1e-9)[4], 13);
+    let i = read_robot("m.sdf", &sdf);
+    assert_eq!(numeric_figures(&i, 1e-9)[4], 13);
     assert!(
         i.report.pose[0].contains("float freely in the world"),
         "{:?}",
@@ -137,7 +137,7 @@ fn parts_that_nothing_holds() {
     let urdf = format!(
         "<robot name='m'>{links}<joint name='j' type='continuous'><parent link='a'/><child link='b'/></joint></robot>"
     );
-    assert!(refused("m.urdf", &urdf).contains("no joint connects link \"c\""));
+    assert!(message_of("m.urdf", &urdf).contains("no joint connects link \"c\""));
 }
 
 // A weld whose turns nothing holds is a ball. Three parallel hinges and one across, at the weld: it holds all four, and two
@@ -168,7 +168,7 @@ fn joints_in_frames_and_copies() {
         ),
     );
     has(&t, "point = [0, -2, 1]\naxis = [0, -1, 0]");
-    let e = refused(
+    let e = message_of(
         "m.xml",
         &mjcf("<worldbody><frame><joint/></frame></worldbody>"),
     );
@@ -197,13 +197,13 @@ fn joints_in_frames_and_copies() {
         let text = mjcf(&format!(
             "<worldbody>\n<replicate count='{count}'><body/></replicate></worldbody>"
         ));
-        let e = refused("m.xml", &text);
+        let e = message_of("m.xml", &text);
         assert!(e.contains(words) && e.contains("m.xml:2:"), "{e}");
     }
     let bomb = (0..8).fold("<body><joint/></body>".to_owned(), |inner, _| {
         format!("<replicate count='100'>{inner}</replicate>")
     });
-    let e = refused("m.xml", &mjcf(&format!("<worldbody>{bomb}</worldbody>")));
+    let e = message_of("m.xml", &mjcf(&format!("<worldbody>{bomb}</worldbody>")));
     has(&e, "elements");
 }
 
@@ -215,11 +215,14 @@ fn joints_held_at_a_constant() {
             "<worldbody><body name='a'><joint name='j'/><body name='b' pos='1 0 0'><joint name='k'/></body></body></worldbody><equality>{equality}</equality>"
         ))
     };
-    let i = read(
+    let i = read_robot(
         "m.xml",
         &text("<joint joint1='j' polycoef='1.5707963267948966'/>"),
     );
-    assert_eq!((figures(&i, 1e-9)[4], i.report.coupling_rows), (1, 0));
+    assert_eq!(
+        (numeric_figures(&i, 1e-9)[4], i.report.coupling_rows),
+        (1, 0)
+    );
     has(&i.toml().unwrap(), "point = [0, 1, 0]");
 }
 
@@ -232,7 +235,7 @@ fn limits_without_end() {
     };
     assert_eq!(w_sigma("r.urdf", &urdf("1e+16")), (1, 0));
     assert_eq!(w_sigma("r.urdf", &urdf("inf")), (1, 0));
-    assert!(refused("r.urdf", &urdf("far")).contains("upper"));
+    assert!(message_of("r.urdf", &urdf("far")).contains("upper"));
 }
 
 // A root of the name world is the ground: a robot that floats is one that it does not hold. In SDF a link of the name is the
@@ -240,16 +243,16 @@ fn limits_without_end() {
 #[test]
 fn links_named_world() {
     let urdf = "<robot name='r'><link name='world'/><link name='b'/><joint name='j' type='continuous'><parent link='world'/><child link='b'/></joint></robot>";
-    let floating = but(|o: &mut Options| o.floating = true);
-    let i = import("r.urdf", urdf.as_bytes(), &none, &floating).unwrap();
-    assert_eq!(figures(&i, 1e-9)[4], 1);
+    let floating = default_with(|o: &mut Options| o.floating = true);
+    let i = import("r.urdf", urdf.as_bytes(), &no_files, &floating).unwrap();
+    assert_eq!(numeric_figures(&i, 1e-9)[4], 1);
     let sdf = |pose: &str| {
         format!(
             "<sdf version='1.7'><model name='m'><link name='world'>{pose}</link><link name='b'/><joint name='j' type='revolute'><parent>world</parent><child>b</child><axis/></joint></model></sdf>"
         )
     };
     assert_eq!(w_sigma("m.sdf", &sdf("")), (1, 0));
-    assert!(refused("m.sdf", &sdf("<pose>1 0 0 0 0 0</pose>")).contains("not in its place"));
+    assert!(message_of("m.sdf", &sdf("<pose>1 0 0 0 0 0</pose>")).contains("not in its place"));
 }
 
 // MJCF includes lead out of the file's folder only into a folder that is named.
@@ -290,7 +293,7 @@ fn includes_within_a_named_root() {
 #[test]
 fn outputs_are_what_users_mean() {
     let outputs = |body: &str| {
-        read("m.xml", &mjcf(&format!("<worldbody>{body}</worldbody>")))
+        read_robot("m.xml", &mjcf(&format!("<worldbody>{body}</worldbody>")))
             .report
             .outputs
             .0
@@ -307,12 +310,12 @@ fn outputs_are_what_users_mean() {
 // Joints in series are what they are, and nothing approximate; -q leaves out all but errors.
 #[test]
 fn nothing_is_said_that_need_not_be() {
-    let i = read(
+    let i = read_robot(
         "m.xml",
         &mjcf("<worldbody><body name='a'><joint/><joint type='slide'/></body></worldbody>"),
     );
     assert_eq!(
-        (i.report.approximated.len(), i.report.doubts().as_str()),
+        (i.report.approximated.len(), i.report.list_doubts().as_str()),
         (0, "")
     );
     // A loop that is open as drawn and a coupling that is a polynomial: both are told, and not told.
@@ -364,11 +367,11 @@ fn loops_that_rounding_leaves_open() {
             plain(0.299, 1.4501),
         )
     };
-    let rounded = read("m.xml", &text(3e-5));
-    assert_eq!(figures(&rounded, 1e-3)[4..], [1, 1]);
-    let doubts = rounded.report.doubts();
+    let rounded = read_robot("m.xml", &text(3e-5));
+    assert_eq!(numeric_figures(&rounded, 1e-3)[4..], [1, 1]);
+    let doubts = rounded.report.list_doubts();
     has(&doubts, "1 loop: open by");
-    assert!(refused("m.xml", &text(5e-3)).contains("the loops do not close"));
+    assert!(message_of("m.xml", &text(5e-3)).contains("the loops do not close"));
 }
 
 /// A universal joint of Drake turns about x of its first link and then about y: after a quarter turn about x that is z.
@@ -380,10 +383,11 @@ fn a_second_axis_is_carried_by_the_first() {
         (0.0, [0.0, 0.0, 1.0]),
         (std::f64::consts::FRAC_PI_2, [0.0, 1.0, 0.0]),
     ] {
-        let options = but(|o: &mut Options| o.pose = vec![("j".to_owned(), vec![first, 0.0])]);
-        let i = import("r.urdf", urdf.as_bytes(), &none, &options).unwrap();
+        let options =
+            default_with(|o: &mut Options| o.pose = vec![("j".to_owned(), vec![first, 0.0])]);
+        let i = import("r.urdf", urdf.as_bytes(), &no_files, &options).unwrap();
         let frame = &i.mechanism.joints[0].frame;
-        let normal = cross(real(&frame.axis), real(&frame.reference)).map(f64::abs);
+        let normal = cross(to_vector(&frame.axis), to_vector(&frame.reference)).map(f64::abs);
         let near = |(n, w): (&f64, f64)| (n - w).abs() < 1e-9;
         assert!(normal.iter().zip(wanted).all(near), "{normal:?}");
     }

@@ -2,7 +2,7 @@
 
 use crate::common::*;
 use crate::robots::mjcf::toml_of;
-use crate::robots::{figures, none, refused};
+use crate::robots::{message_of, no_files, numeric_figures};
 use ozols::robots::{Options, import};
 
 fn sdf(body: &str) -> String {
@@ -39,8 +39,8 @@ fn sdf_kinds() {
         let text = sdf(&format!(
             "<link name='a'/><link name='b'/><joint name='j' type='{kind}'><parent>a</parent><child>b</child>{more}</joint>"
         ));
-        let options = but(|o: &mut Options| o.frame = Some("a".to_owned()));
-        import("m.sdf", text.as_bytes(), &none, &options)
+        let options = default_with(|o: &mut Options| o.frame = Some("a".to_owned()));
+        import("m.sdf", text.as_bytes(), &no_files, &options)
     };
     let axis = "<axis><xyz>0 0 1</xyz></axis>";
     let skew = "<axis><xyz>0 0 1</xyz></axis><axis2><xyz>0 1 1</xyz></axis2>";
@@ -63,7 +63,7 @@ fn sdf_kinds() {
         ("floating", "", 6),
     ] {
         let i = with(kind, more).unwrap_or_else(|e| panic!("{e}"));
-        assert_eq!(figures(&i, 1e-9)[4], freedoms, "{kind}");
+        assert_eq!(numeric_figures(&i, 1e-9)[4], freedoms, "{kind}");
     }
     for (kind, more, words) in [
         ("gearbox", axis, "gearbox_reference_body"),
@@ -82,7 +82,7 @@ fn sdf_kinds() {
         let e = with(kind, more).unwrap_err().to_string();
         assert!(e.contains(words), "{words}: {e}");
     }
-    for [body, words] in cases::<2>(
+    for [body, words] in read_cases::<2>(
         r#"
         <link name='a'><pose relative_to='b'/></link><link name='b'><pose relative_to='a'/></link> | relative to itself
         <link name='a'/><link name='a'/> | twice
@@ -94,7 +94,7 @@ fn sdf_kinds() {
         <link name='a'/><joint name='j' type='ball'><parent>a</parent><child>b</child></joint> | "b"
 "#,
     ) {
-        let e = refused("m.sdf", &sdf(body));
+        let e = message_of("m.sdf", &sdf(body));
         assert!(e.contains(words), "{words}: {e}");
     }
 }

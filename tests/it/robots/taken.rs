@@ -62,7 +62,7 @@ fn lights_and_floors_are_no_mechanisms() {
     ] {
         let file = at.path().join("w.sdf");
         fs::write(&file, world(uri)).unwrap();
-        let (found, out, err) = ran(&["lint", file.to_str().unwrap()]);
+        let (found, out, err) = run_full(&["lint", file.to_str().unwrap()]);
         assert_eq!(found, Some(code), "{uri}: {out}{err}");
     }
 }

@@ -2,7 +2,7 @@
 
 use crate::common::*;
 use crate::robots::mjcf::mjcf;
-use crate::robots::none;
+use crate::robots::no_files;
 use ozols::robots::{Options, import};
 
 /// The exit code of `lint`, what it found in a file, and its text.
@@ -53,7 +53,7 @@ fn each_way_to_close_a_loop_is_read() {
     let cases = std::env::var("OZOLS_FUZZ")
         .ok()
         .and_then(|n| n.parse().ok());
-    let seed = fresh();
+    let seed = fresh_seed();
     for case in 0..cases.unwrap_or(6_u64) {
         let x =
             |k: u64| ((seed.wrapping_mul(7919) + 104_729 * case + 31 * k) % 1000) as f64 / 1000.0;
@@ -74,7 +74,7 @@ fn each_way_to_close_a_loop_is_read() {
                 loops: Some(("side.toml".to_owned(), side.clone().into_bytes())),
                 ..Options::default()
             };
-            let i = import("x.urdf", at("").as_bytes(), &none, &options)
+            let i = import("x.urdf", at("").as_bytes(), &no_files, &options)
                 .unwrap_or_else(|e| panic!("seed {seed}: {e}"));
             ozols::analyze(&i.mechanism).unwrap()[0].clone()
         };
@@ -89,8 +89,13 @@ fn each_way_to_close_a_loop_is_read() {
             ("twice", TWICE),
             ("detachable", LUG),
         ] {
-            let i = import("x.urdf", at(text).as_bytes(), &none, &Options::default())
-                .unwrap_or_else(|e| panic!("{name}, seed {seed} case {case}: {e}"));
+            let i = import(
+                "x.urdf",
+                at(text).as_bytes(),
+                &no_files,
+                &Options::default(),
+            )
+            .unwrap_or_else(|e| panic!("{name}, seed {seed} case {case}: {e}"));
             let found = &ozols::analyze(&i.mechanism).unwrap()[0];
             assert_eq!(
                 (found.mobility, found.redundant),
@@ -181,16 +186,16 @@ fn loops_beside_a_description_are_named() {
         ),
     );
     let side = put("robot.yaml", "closed_loop: [[tip, nowhere]]\ntype: [6d]\n");
-    done(&["lint", &urdf]);
+    run_successful(&["lint", &urdf]);
     fs::write(&side, "closed_loop: [[tip, base]]\ntype: [3d]\n").unwrap();
-    let (code, out, _) = ran(&["lint", &urdf]);
+    let (code, out, _) = run_full(&["lint", &urdf]);
     assert!(
         code == Some(1) && out.contains("give robot.yaml as `loops`") && out.contains("3 rows"),
         "{out}"
     );
     // With the file every command that takes a description reads the same.
     let with = ["--loops", &side, "--format", "json"];
-    let (code, out, err) = ran(&[&["analyze", &urdf], &with[..]].concat());
+    let (code, out, err) = run_full(&[&["analyze", &urdf], &with[..]].concat());
     let v: Value = serde_json::from_str(&out).unwrap_or_else(|_| panic!("{err}"));
     assert_eq!(
         (code, v["assumptions"].as_array().map(Vec::len)),
@@ -200,7 +205,7 @@ fn loops_beside_a_description_are_named() {
         v["states"][0]["mobility"].clone(),
         v["states"][0]["redundant"].clone(),
     );
-    let (_, out, _) = ran(&[&["lint", &urdf], &with[..]].concat());
+    let (_, out, _) = run_full(&[&["lint", &urdf], &with[..]].concat());
     let v: Value = serde_json::from_str(&out).unwrap();
     assert_eq!(
         (&v["files"][0]["mobility"], &v["files"][0]["redundant"]),
@@ -219,10 +224,10 @@ fn loops_beside_a_description_are_named() {
             .iter()
             .map(|w| if *w == "FILE" { urdf.as_str() } else { w })
             .collect();
-        let (_, err) = done(&[&words[..], &["--loops", &side]].concat());
+        let (_, err) = run_successful(&[&words[..], &["--loops", &side]].concat());
         assert!(!err.contains("robot.yaml beside"), "{words:?}: {err}");
     }
-    let (code, _, err) = ran(&["analyze", "four-bar", "--loops", &side]);
+    let (code, _, err) = run_full(&["analyze", "four-bar", "--loops", &side]);
     assert!(
         code == Some(2) && err.contains("--loops is for robot descriptions"),
         "{err}"

@@ -39,18 +39,18 @@ pub(crate) fn ladder(contours: usize, seed: u64, spatial: bool) -> String {
         format!("j{i} | {a} {b} | revolute | {x}, {y}, {z} | {u}, {v}, {w}")
     };
     let joints = joints.into_iter().enumerate().map(line).join("\n");
-    file_of(&head, &links.collect_vec().join(" "), &joints)
+    write_mechanism(&head, &links.collect_vec().join(" "), &joints)
 }
 
 pub(crate) fn search(text: &str, conditions: Conditions) -> (Search, Diagrams) {
     let m = mechanism_from_str("ladder.toml", text).unwrap();
     let search = Search::new(exact_field(&m, 0).unwrap(), m, conditions).unwrap();
-    let diagrams = search.build(&|| false, &mut |_| {});
+    let diagrams = search.build_diagrams(&|| false, &mut |_| {});
     (search, diagrams)
 }
 
 fn best(search: &Search, diagrams: &Diagrams, top: usize) -> Vec<Assignment> {
-    search.cheapest(diagrams, top).collect()
+    search.cheapest_variants(diagrams, top).collect()
 }
 
 proptest! {
@@ -73,9 +73,9 @@ proptest! {
             let (s, d) = search(&text, few);
             let (expected, found) = (best(&whole, &all, top), best(&s, &d, top));
             let Some(known) = d.known_up_to() else { continue };
-            let dearest = expected.last().map_or(i64::MAX, |v| s.steps.milli(v.key.cost()));
+            let dearest = expected.last().map_or(i64::MAX, |v| s.steps.cost_in_milli(v.key.cost()));
             let proven = |list: &[Assignment]| -> Vec<Assignment> {
-                list.iter().filter(|v| s.steps.milli(v.key.cost()) <= known).cloned().collect()
+                list.iter().filter(|v| s.steps.cost_in_milli(v.key.cost()) <= known).cloned().collect()
             };
             prop_assert_eq!(proven(&found), proven(&expected));
             // A ladder of two contours is small: all that is asked for can be proven.
@@ -96,7 +96,7 @@ fn the_best_of_a_long_ladder_are_proven_in_few_nodes() {
     let (s, d) = search(&ladder(8, 1, false), conditions);
     let list = best(&s, &d, 10);
     assert_eq!(list.len(), 10);
-    let dearest = s.steps.milli(list[9].key.cost());
+    let dearest = s.steps.cost_in_milli(list[9].key.cost());
     assert!(d.known_up_to().unwrap() >= dearest);
     let nodes = d.cheapest.as_ref().unwrap().diagram.nodes;
     assert!(nodes < 50_000, "{nodes} nodes");
@@ -113,8 +113,8 @@ fn estimates_are_near_the_count_and_right_on_average() {
         };
         let (whole, all) = search(&text, base.clone());
         let counts = [
-            whole.counts(&all.determinate, false),
-            whole.counts(&all.admissible, true),
+            whole.count_variants(&all.determinate, false),
+            whole.count_variants(&all.admissible, true),
         ];
         let counts = counts.map(|c| c.to_string().parse::<f64>().unwrap());
         let (mut sums, mut variances, mut n) = ([0.0; 2], [0.0; 2], 0.0);
@@ -140,7 +140,10 @@ fn estimates_are_near_the_count_and_right_on_average() {
                     "{e:?}"
                 );
                 // As many are drawn as tell one percent.
-                assert!(e.reach() < 0.0102 || e.drawn.of == 200_000, "{e:?}");
+                assert!(
+                    e.relative_reach() < 0.0102 || e.drawn.of == 200_000,
+                    "{e:?}"
+                );
                 sums[i] += e.mean;
                 variances[i] += e.standard_error.powi(2);
             }
@@ -158,7 +161,8 @@ fn estimates_are_near_the_count_and_right_on_average() {
 fn every_output_says_what_is_proven_and_what_is_estimated() {
     let file = ladder(6, 1, false);
     let told = |more: &str| {
-        let (code, told, said) = fed(&format!("search - --nodes 500 --top 3 {more}"), &file);
+        let (code, told, said) =
+            run_with_input(&format!("search - --nodes 500 --top 3 {more}"), &file);
         assert_eq!(code, Some(0), "{said}");
         told
     };
@@ -231,7 +235,7 @@ proptest! {
         let text = ladder(contours, seed, spatial);
         let (whole, all) = search(&text, conditions.clone());
         let (s, d) = search(&text, Conditions { nodes, estimate: Some(seed), ..conditions });
-        let counts = |s: &Search, d: &Diagrams| [s.counts(&d.determinate, false), s.counts(&d.admissible, true)];
+        let counts = |s: &Search, d: &Diagrams| [s.count_variants(&d.determinate, false), s.count_variants(&d.admissible, true)];
         let (truth, least) = (counts(&whole, &all), counts(&s, &d));
         for (i, e) in d.estimates.iter().enumerate() {
             prop_assert!(least[i].total <= truth[i].total);
@@ -254,7 +258,7 @@ fn most_variants_of_six_contours_in_space_are_counted_or_bounded() {
         ..Conditions::default()
     };
     let (s, d) = search(&ladder(6, 1, true), conditions);
-    let counted = s.counts(&d.determinate, false).total.to_string();
+    let counted = s.count_variants(&d.determinate, false).total.to_string();
     let estimate = d.estimates[0].as_ref().unwrap();
     let share = counted.parse::<f64>().unwrap() / estimate.mean;
     let most = estimate.at_most.as_ref().unwrap().to_string();
@@ -272,7 +276,7 @@ fn bounds_do_not_contradict_each_other() {
         let ladder = ladder(3, seed, spatial);
         for nodes in [1, 3, 10, 30, 60, 100, 200, 400, 800, 1600, 3200] {
             let line = format!("search - --count --check none --format json --nodes {nodes}");
-            let found: Value = serde_json::from_str(&fed(&line, &ladder).1).unwrap();
+            let found: Value = serde_json::from_str(&run_with_input(&line, &ladder).1).unwrap();
             let number = |v: &Value| v.word().parse::<u64>().unwrap();
             cut += usize::from(found["determinate_exact"] == false);
             let [all, some] = ["determinate", "admissible"].map(|k| number(&found[k]));

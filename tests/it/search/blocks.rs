@@ -67,7 +67,7 @@ impl Written {
 fn search(text: &str, conditions: Conditions) -> (Search, Diagrams) {
     let m = mechanism_from_str("blocks.toml", text).unwrap();
     let search = Search::new(exact_field(&m, 0).unwrap(), m, conditions).unwrap();
-    let diagrams = search.build(&|| false, &mut |_| {});
+    let diagrams = search.build_diagrams(&|| false, &mut |_| {});
     (search, diagrams)
 }
 
@@ -104,16 +104,16 @@ proptest! {
         let (bounded, proven) = search(&m.text(), few);
         if let Some(known) = proven.known_up_to() {
             let up_to = |s: &Search, d: &Diagrams| -> Vec<_> {
-                let milli = |key| s.steps.milli(key);
-                let all = s.cheapest(d, 6).map(|v| (milli(v.key.cost()), v.choices));
+                let milli = |key| s.steps.cost_in_milli(key);
+                let all = s.cheapest_variants(d, 6).map(|v| (milli(v.key.cost()), v.choices));
                 all.filter(|(cost, _)| *cost <= known).collect()
             };
             prop_assert_eq!(up_to(&bounded, &proven), up_to(&s, &d));
         }
         let every = every_variant(&s).unwrap();
         for (found, expected) in [
-            (s.counts(&d.determinate, false), every.determinate),
-            (s.counts(&d.admissible, true), every.admissible),
+            (s.count_variants(&d.determinate, false), every.determinate),
+            (s.count_variants(&d.admissible, true), every.admissible),
         ] {
             prop_assert_eq!(found.total, expected.total);
             prop_assert_eq!(found.by_mobility, expected.by_mobility);
@@ -126,8 +126,8 @@ fn figures((s, d): &(Search, Diagrams)) -> ([usize; 2], [BigUint; 2]) {
     (
         [d.determinate.nodes, d.admissible.nodes],
         [
-            s.counts(&d.determinate, false).total,
-            s.counts(&d.admissible, true).total,
+            s.count_variants(&d.determinate, false).total,
+            s.count_variants(&d.admissible, true).total,
         ],
     )
 }

@@ -3,7 +3,7 @@
 use crate::common::*;
 use crate::search::beyond_budget::{ladder, search};
 use crate::search::families::scissor_lift;
-use crate::search::twin::look;
+use crate::search::twin::look_at_variant;
 use ozols::search::build::Diagrams;
 use ozols::search::diagram::{Diagram, Stop};
 use ozols::search::question::Question;
@@ -13,7 +13,7 @@ use std::fmt::Write;
 
 /// Conditions within so many nodes.
 fn within(nodes: usize, keep_output: bool) -> Conditions {
-    but(|c: &mut Conditions| (c.nodes, c.keep_output) = (nodes, keep_output))
+    default_with(|c: &mut Conditions| (c.nodes, c.keep_output) = (nodes, keep_output))
 }
 
 /// Whether a diagram has no two nodes that lead on alike.
@@ -121,7 +121,7 @@ fn nodes_that_are_looked_up_meet_in_the_diagram_of_one_end() {
 fn coupled_contours_in_space_are_few_nodes() {
     let text = ladder(3, 1, true);
     let both = search(&text, within(20_000, true));
-    assert_eq!(both.1.stop(), Stop::Exhausted);
+    assert_eq!(both.1.stop_reason(), Stop::Exhausted);
     let nodes = [&both.1.determinate, &both.1.admissible].map(|d| d.nodes);
     assert_eq!(nodes, [51, 67]);
     assert!(is_minimal(&both.1.determinate) && is_minimal(&both.1.admissible));
@@ -134,7 +134,7 @@ fn the_twin_says_the_same_of_single_variants() {
     let (s, d) = search(&ladder(3, 1, true), within(20_000, true));
     let m = &s.mechanism;
     let options: Vec<usize> = m.joints.iter().map(|j| j.options.len()).collect();
-    let present = look(m, false, &vec![(0, None); options.len()]).motion;
+    let present = look_at_variant(m, false, &vec![(0, None); options.len()]).motion;
     let mut met = [0; 3];
     let mut state = 1u64;
     for _ in 0..150 {
@@ -148,16 +148,16 @@ fn the_twin_says_the_same_of_single_variants() {
             })
             .collect();
         let of_joints: Vec<(usize, Option<usize>)> = choices.iter().map(|&c| (c, None)).collect();
-        let twin = look(m, false, &of_joints);
+        let twin = look_at_variant(m, false, &of_joints);
         let determinate = twin.internal == 0;
         let admissible = determinate && twin.motion == present;
         assert_eq!(
-            d.determinate.end(&choices).is_some(),
+            d.determinate.end_of(&choices).is_some(),
             determinate,
             "{choices:?}"
         );
         assert_eq!(
-            d.admissible.end(&choices).is_some(),
+            d.admissible.end_of(&choices).is_some(),
             admissible,
             "{choices:?}"
         );
@@ -170,8 +170,11 @@ fn the_twin_says_the_same_of_single_variants() {
 #[test]
 fn four_coupled_contours_in_space_are_counted() {
     let (s, d) = search(&ladder(4, 1, true), within(100_000, false));
-    assert_eq!((d.stop(), d.determinate.nodes), (Stop::Exhausted, 72));
-    let counted = s.counts(&d.determinate, false).total;
+    assert_eq!(
+        (d.stop_reason(), d.determinate.nodes),
+        (Stop::Exhausted, 72)
+    );
+    let counted = s.count_variants(&d.determinate, false).total;
     assert_eq!(counted, BigUint::from(49_513_456u32));
 }
 
@@ -179,8 +182,11 @@ fn four_coupled_contours_in_space_are_counted() {
 #[test]
 fn five_coupled_contours_in_space_are_counted() {
     let (s, d) = search(&ladder(5, 1, true), within(1_000_000, false));
-    assert_eq!((d.stop(), d.determinate.nodes), (Stop::Exhausted, 93));
-    let counted = s.counts(&d.determinate, false).total;
+    assert_eq!(
+        (d.stop_reason(), d.determinate.nodes),
+        (Stop::Exhausted, 93)
+    );
+    let counted = s.count_variants(&d.determinate, false).total;
     assert_eq!(counted, BigUint::from(2_831_284_426u64));
 }
 
@@ -208,11 +214,11 @@ fn blocks_are_built_from_both_ends_one_after_another() {
     for keep_output in [false, true] {
         let [one, two] = [&text, &doubled(&text)].map(|t| search(t, within(20_000, keep_output)));
         assert_eq!(
-            (one.1.stop(), two.1.stop()),
+            (one.1.stop_reason(), two.1.stop_reason()),
             (Stop::Exhausted, Stop::Exhausted)
         );
         let total = |(s, d): &(Search, Diagrams), d_of: fn(&Diagrams) -> &Diagram| {
-            s.counts(d_of(d), false).total
+            s.count_variants(d_of(d), false).total
         };
         let free = total(&one, |d| &d.determinate);
         assert_eq!(total(&two, |d| &d.determinate), &free * &free);
@@ -232,8 +238,8 @@ fn a_search_of_halves_stops_when_it_is_told_to() {
     let within = |most: usize| {
         let asked = std::sync::atomic::AtomicUsize::new(0);
         let cancelled = || asked.fetch_add(1, std::sync::atomic::Ordering::Relaxed) >= most;
-        let d = search.build(&cancelled, &mut |_| {});
-        (d.stop(), asked.into_inner())
+        let d = search.build_diagrams(&cancelled, &mut |_| {});
+        (d.stop_reason(), asked.into_inner())
     };
     let (whole, all) = within(usize::MAX);
     assert!(whole == Stop::Exhausted && all > 50, "{all}");

@@ -2,14 +2,16 @@
 
 use crate::common::*;
 use ozols::search::answer::search_counts::SearchCounts;
-use ozols::search::check::second_prime::{Verdict, build_both, compare, compare_counts, primes};
+use ozols::search::check::second_prime::{
+    Verdict, build_both, compare_counts, compare_primes, primes,
+};
 use ozols::search::check::singular_values;
 use ozols::search::question::Question;
 use ozols::search::question::conditions::InState;
 
 /// The four-bar with one axis tilted out of parallel by a number that a prime near 2^61 divides.
 fn tilted() -> String {
-    let text = out(&["show", "four-bar"]);
+    let text = run_quiet(&["show", "four-bar"]);
     let at = text.find("id = \"2-3\"").unwrap();
     let axis = "axis = [\"2305843009213693973/30000000\", 0, 1]";
     format!(
@@ -33,9 +35,9 @@ fn compared([one, other]: [&str; 2]) -> Result<(Verdict, [u64; 2]), String> {
     let (first, second) = (over(one, 0), over(other, 1));
     let searches: [&Question; 2] = [&first, &second];
     let (a, b) = build_both(searches, &|| false, &mut |_| {});
-    let counts = [(&first, &a), (&second, &b)].map(|(s, d)| SearchCounts::of(s, d));
+    let counts = [(&first, &a), (&second, &b)].map(|(s, d)| SearchCounts::of_diagrams(s, d));
     let by_counts = compare_counts(searches, counts.each_ref());
-    let whole = compare(searches, [&a, &b], 10);
+    let whole = compare_primes(searches, [&a, &b], 10);
     assert_eq!(by_counts.is_ok(), whole.is_ok());
     match whole {
         Ok(v) => Ok((v, primes(searches))),
@@ -57,7 +59,7 @@ fn two_primes_agree_on_every_built_in_mechanism() {
 
 #[test]
 fn primes_that_disagree_are_told_apart() {
-    let four_bar = out(&["show", "four-bar"]);
+    let four_bar = run_quiet(&["show", "four-bar"]);
     let said = compared([&four_bar, &tilted()]).unwrap_err();
     has_all(
         &said,
@@ -68,15 +70,16 @@ fn primes_that_disagree_are_told_apart() {
 
 #[test]
 fn the_check_is_reported() {
-    let v = json(&["search", "four-bar", "--format", "json"]);
+    let v = run_json(&["search", "four-bar", "--format", "json"]);
     assert_eq!(v["check"]["agree"], true);
     assert_eq!(v["check"]["primes"].list().len(), 2);
-    let v = json(&["search", "four-bar", "--format", "json", "--check", "none"]);
+    let v = run_json(&["search", "four-bar", "--format", "json", "--check", "none"]);
     assert_eq!(v["check"], Value::Null);
-    let says = |check| out(&["search", "four-bar", "--check", check]).contains("Checked: two runs");
+    let says =
+        |check| run_quiet(&["search", "four-bar", "--check", check]).contains("Checked: two runs");
     assert!(says("prime") && says("full") && !says("none"));
     let mirror = ["search", "gripper-10", "--one-per-orbit", "--count"];
-    assert!(out(&mirror).contains("Checked: two runs"));
+    assert!(run_quiet(&mirror).contains("Checked: two runs"));
 }
 
 #[test]
@@ -98,10 +101,10 @@ fn singular_values_agree_on_the_best_of_every_built_in_mechanism() {
             if max_redundant > 0 && search.size() > 1500u32.into() {
                 continue;
             }
-            let diagrams = search.build(&|| false, &mut |_| {});
-            let mut list: Vec<_> = search.sample(&diagrams, 1).take(10).collect();
-            list.extend(search.cheapest(&diagrams, 10));
-            for c in singular_values::certify(&search, list, true, None, &|| false) {
+            let diagrams = search.build_diagrams(&|| false, &mut |_| {});
+            let mut list: Vec<_> = search.sample_variants(&diagrams, 1).take(10).collect();
+            list.extend(search.cheapest_variants(&diagrams, 10));
+            for c in singular_values::certify_variants(&search, list, true, None, &|| false) {
                 let o = *c.second.opinion().unwrap();
                 assert!(o.agree, "{name}: {c:?}");
                 assert!(o.dropped < 1e-12 && o.conditioning > 1e-6, "{name}: {o:?}");
@@ -112,9 +115,9 @@ fn singular_values_agree_on_the_best_of_every_built_in_mechanism() {
 
 #[test]
 fn a_variant_that_two_methods_see_differently_is_marked() {
-    let (_folder, path) = written("shaky.toml", shaky());
+    let (_folder, path) = write_temporary("shaky.toml", shaky());
     let said = |more: &[&str]| {
-        let (_, told, warned) = ran(&[&["search", path][..], more].concat());
+        let (_, told, warned) = run_full(&[&["search", path][..], more].concat());
         has(&warned, "nearly singular");
         told
     };
@@ -151,8 +154,8 @@ fn a_variant_that_two_methods_see_differently_is_marked() {
 
 #[test]
 fn nearly_singular_variants_are_marked() {
-    let (_folder, path) = written("near.toml", shaky().replace("1e-11", "1e-6"));
-    let text = out(&["search", path]);
+    let (_folder, path) = write_temporary("near.toml", shaky().replace("1e-11", "1e-6"));
+    let text = run_quiet(&["search", path]);
     has(&text, "nearly singular");
     has(&text, "Singular values agree");
 }
@@ -161,9 +164,9 @@ fn nearly_singular_variants_are_marked() {
 fn a_long_list_says_where_the_checking_ends() {
     let options = ["search", "gripper-10", "--options", "revolute,spherical"];
     let wide = ["--allow-output-change", "--top", "1034"];
-    let text = out(&[&options[..], &wide].concat());
+    let text = run_quiet(&[&options[..], &wide].concat());
     assert!(text.contains("agree on the first 1,000; the rest was not asked"));
-    let v = json(&[&options[..], &wide, &["--format", "json"]].concat());
+    let v = run_json(&[&options[..], &wide, &["--format", "json"]].concat());
     let variants = v["variants"].list();
     assert_eq!(
         (variants.len(), &v["variants_checked"]),
@@ -175,7 +178,7 @@ fn a_long_list_says_where_the_checking_ends() {
 /// The four-bar turned by 30 degrees about x, in floating point.
 fn turned(axis: &str) -> String {
     let (c, s) = (3f64.sqrt() / 2.0, 0.5);
-    let mut text = out(&["show", "four-bar"]);
+    let mut text = run_quiet(&["show", "four-bar"]);
     for (x, y) in [(0, 0), (0, 30), (80, 90), (120, 0)] {
         let (u, v) = (f64::from(y) * c, f64::from(y) * s);
         text = text.replace(
@@ -201,7 +204,7 @@ fn measured_coordinates_that_do_no_harm_are_warned_about() {
     assert_eq!(v["measured"]["agree"], true);
     assert_eq!(v["measured"]["states"][0]["exact"]["redundant"], 3);
     assert_eq!(v["determinate"], "34");
-    let exact = json(&["search", "four-bar", "--format", "json"]);
+    let exact = run_json(&["search", "four-bar", "--format", "json"]);
     assert_eq!(exact["measured"], Value::Null);
     assert_eq!(exact["determinate"], v["determinate"]);
 }
@@ -245,7 +248,7 @@ fn measured_coordinates_that_change_the_figures_are_searched_as_meant() {
 
 #[test]
 fn singular_values_see_a_tilted_plane_as_the_exact_ranks_do() {
-    let mut text = out(&["show", "four-bar-planar"]);
+    let mut text = run_quiet(&["show", "four-bar-planar"]);
     // Any plane will do, as long as all points are in it: here z = x + 2 y - 3 y = x - y with decimals that round.
     text = text.replace("axis = [0, 0, 1]", "axis = [\"1/7\", \"-1/7\", \"-1/7\"]");
     for (i, p) in [
@@ -265,10 +268,10 @@ fn singular_values_see_a_tilted_plane_as_the_exact_ranks_do() {
     text = text.replace("plane_normal = [0, 0, 1]", normal);
     let m = mechanism_from_str("it.toml", &text).unwrap();
     let search = Search::new(exact_field(&m, 0).unwrap(), &m, Conditions::default()).unwrap();
-    let diagrams = search.build(&|| false, &mut |_| {});
-    let list: Vec<_> = search.sample(&diagrams, 1).take(20).collect();
+    let diagrams = search.build_diagrams(&|| false, &mut |_| {});
+    let list: Vec<_> = search.sample_variants(&diagrams, 1).take(20).collect();
     assert!(!list.is_empty());
-    for c in singular_values::certify(&search, list, true, None, &|| false) {
+    for c in singular_values::certify_variants(&search, list, true, None, &|| false) {
         assert!(c.second.opinion().unwrap().agree, "{c:?}");
     }
 }

@@ -7,7 +7,11 @@ use ozols::search::question::conditions::InState;
 fn table(from: &str, to: &str) -> (tempfile::TempDir, String) {
     let folder = tempdir().unwrap();
     let path = folder.path().join("costs.toml");
-    fs::write(&path, changed(&out(&["show", "costs"]), from, to)).unwrap();
+    fs::write(
+        &path,
+        replace_once(&run_quiet(&["show", "costs"]), from, to),
+    )
+    .unwrap();
     let path = path.to_str().unwrap().to_owned();
     (folder, path)
 }
@@ -15,16 +19,19 @@ fn table(from: &str, to: &str) -> (tempfile::TempDir, String) {
 #[test]
 fn the_table_that_is_printed_changes_nothing() {
     let (_folder, path) = table("change = 1\n", "change = 1.0\n");
-    let with = out(&["search", "gripper-10", "--format", "csv", "--costs", &path]);
-    assert_eq!(with, out(&["search", "gripper-10", "--format", "csv"]));
-    assert!(!out(&["list"]).contains("\n costs "));
+    let with = run_quiet(&["search", "gripper-10", "--format", "csv", "--costs", &path]);
+    assert_eq!(
+        with,
+        run_quiet(&["search", "gripper-10", "--format", "csv"])
+    );
+    assert!(!run_quiet(&["list"]).contains("\n costs "));
 }
 
 #[test]
 fn a_type_that_is_dear_is_chosen_no_more() {
     let first = |more: &[&str]| {
         let args = ["search", "gripper-10", "--top", "1", "--format", "json"];
-        json(&[&args, more].concat())["variants"][0].clone()
+        run_json(&[&args, more].concat())["variants"][0].clone()
     };
     let has = |v: &Value, t: &str| v["changes"].to_string().contains(t);
     let before = first(&[]);
@@ -33,7 +40,7 @@ fn a_type_that_is_dear_is_chosen_no_more() {
     assert!(has(&before, "spherical") && !has(&after, "spherical"));
     assert_ne!(before["cost"], after["cost"]);
     // the page says how it was made
-    let page = out(&["report", "four-bar", "--costs", &path]);
+    let page = run_quiet(&["report", "four-bar", "--costs", &path]);
     assert!(page.contains(&format!("--costs {path}")));
 }
 
@@ -41,13 +48,13 @@ fn a_type_that_is_dear_is_chosen_no_more() {
 fn the_costs_of_a_file_stand_where_the_table_says_nothing() {
     let folder = tempdir().unwrap();
     let at = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
-    let own = out(&["show", "gripper-10"]) + "\n[search.costs]\nlink = 7\nspherical = 3\n";
+    let own = run_quiet(&["show", "gripper-10"]) + "\n[search.costs]\nlink = 7\nspherical = 3\n";
     fs::write(at("own.toml"), own).unwrap();
     fs::write(at("costs.toml"), "spherical = 2\n").unwrap();
     let cost = |more: &[&str]| {
         let allow = ["--options", "spherical", "--top", "1", "--format", "json"];
         let file = at("own.toml");
-        json(&[&["search", file.as_str()], &allow[..], more].concat())["variants"][0]["cost"]
+        run_json(&[&["search", file.as_str()], &allow[..], more].concat())["variants"][0]["cost"]
             .clone()
     };
     let costs = at("costs.toml");
@@ -57,7 +64,7 @@ fn the_costs_of_a_file_stand_where_the_table_says_nothing() {
 
 #[test]
 fn what_is_no_cost_is_refused_with_its_line_and_a_remedy() {
-    for [from, to, said] in cases::<3>(
+    for [from, to, said] in read_cases::<3>(
         r#"
         spherical = 2\n | sphericle = 2\n | unknown cost "sphericle"
         spherical = 2\n | spherical = -2\n | cost -2 must be a finite number from 0 to 1e6
@@ -68,7 +75,7 @@ fn what_is_no_cost_is_refused_with_its_line_and_a_remedy() {
     ) {
         let (_folder, path) = table(from, to);
         let o = run(&["search", "gripper-10", "--costs", &path]);
-        let err = text(&o.stderr);
+        let err = utf8_text(&o.stderr);
         assert_eq!(o.status.code(), Some(2), "{to}");
         let words = err.split_whitespace().collect_vec().join(" ");
         assert!(words.contains(said), "{to}: {err}");
@@ -82,7 +89,7 @@ fn what_is_no_cost_is_refused_with_its_line_and_a_remedy() {
     }
     let o = run(&["search", "gripper-10", "--costs", "no/such.toml"]);
     assert_eq!(o.status.code(), Some(2));
-    assert!(text(&o.stderr).contains("`ozols show costs > no/such.toml` writes one"));
+    assert!(utf8_text(&o.stderr).contains("`ozols show costs > no/such.toml` writes one"));
 }
 
 /// A joint that the file describes by its freedoms is a hinge with more of them: what it costs above a hinge does not depend on
@@ -91,7 +98,7 @@ fn what_is_no_cost_is_refused_with_its_line_and_a_remedy() {
 fn a_custom_joint_costs_a_hinge_at_the_files_price_and_more() {
     let folder = tempdir().unwrap();
     let list = |price: &str| {
-        let text = out(&["show", "four-bar"]);
+        let text = run_quiet(&["show", "four-bar"]);
         let cut = text.find("[search]").unwrap();
         let text = format!(
             "{}[search]\noptions = [\"revolute\", {{ freedoms = [\"rz\", \"rx\", \"ry\"], name = \"loose\" }}]\n[search.costs]\n\
@@ -100,7 +107,7 @@ fn a_custom_joint_costs_a_hinge_at_the_files_price_and_more() {
         );
         let path = folder.path().join(format!("{price}.toml"));
         fs::write(&path, text).unwrap();
-        let v = json(&["search", path.to_str().unwrap(), "--format", "json"]);
+        let v = run_json(&["search", path.to_str().unwrap(), "--format", "json"]);
         let all = v["variants"].list().iter();
         all.map(|v| v["cost"].real()).collect_vec()
     };
@@ -123,14 +130,14 @@ fn harm_costs_what_the_file_says_to_the_thousandth() {
             ..Conditions::default()
         };
         let s = Search::new(exact_field(&m, 0).unwrap(), &m, conditions).unwrap();
-        let diagrams = s.build(&|| false, &mut |_| {});
+        let diagrams = s.build_diagrams(&|| false, &mut |_| {});
         let mut harms = 0;
-        for v in s.cheapest(&diagrams, 300) {
+        for v in s.cheapest_variants(&diagrams, 300) {
             let choices = s.space.variables.iter().zip(&v.choices);
             let chosen: i64 = choices.map(|(x, &c)| x.choices[c].cost_milli).sum();
             let harmful = i64::from(v.key.harmful());
             assert_eq!(
-                s.steps.milli(v.key.cost()),
+                s.steps.cost_in_milli(v.key.cost()),
                 chosen + price * harmful,
                 "{name}"
             );
@@ -194,9 +201,12 @@ fn bounds_are_whole_steps_above_the_cheapest() {
     for step in [0, 1, 2, 17, 400] {
         let milli = s.steps.base_milli + i64::from(step) * s.steps.unit_milli;
         for within in [0, 1, s.steps.unit_milli - 1] {
-            assert_eq!(s.steps.above(milli + within), u64::try_from(step).unwrap());
+            assert_eq!(
+                s.steps.steps_above(milli + within),
+                u64::try_from(step).unwrap()
+            );
         }
-        assert_eq!(s.steps.milli(u64::try_from(step).unwrap()), milli);
+        assert_eq!(s.steps.cost_in_milli(u64::try_from(step).unwrap()), milli);
     }
 }
 
@@ -206,8 +216,8 @@ fn present_joints_cost_what_the_list_says() {
     let hinge = "{ type = \"revolute\", name = \"stock\", cost = 0.25 }";
     let before = ["\"prismatic\"", "\"spherical\"", "\"cylindrical\""];
     let cost = |options: &str| {
-        let text = changed(
-            &out(&["show", "four-bar"]),
+        let text = replace_once(
+            &run_quiet(&["show", "four-bar"]),
             "options = [\"revolute\", \"cylindrical\", \"universal\", \"spherical\"]",
             &format!("options = [{options}]"),
         );

@@ -9,15 +9,15 @@ use ozols::search::question::kept::Drives;
 
 /// Returns a search of a mechanism, ready to be made.
 fn search(m: &Mechanism, drives: Drives) -> Result<Search, SearchError> {
-    let conditions = but(|c: &mut Conditions| c.drives = drives);
+    let conditions = default_with(|c: &mut Conditions| c.drives = drives);
     Search::new(exact_field(m, 0).unwrap(), m, conditions)
 }
 
 /// Returns how many variants are admissible, counted on the diagram and one by one.
 fn admissible(m: &Mechanism, drives: Drives) -> u64 {
     let search = search(m, drives).unwrap();
-    let diagrams = search.build(&|| false, &mut |_| {});
-    let found = search.counts(&diagrams.admissible, true);
+    let diagrams = search.build_diagrams(&|| false, &mut |_| {});
+    let found = search.count_variants(&diagrams.admissible, true);
     if search.size() <= 4096u32.into() {
         assert_eq!(
             found.total,
@@ -62,7 +62,7 @@ fn counts_with_and_without_the_drives_are_those_of_the_trial() {
 
 /// A table on a screw: a plain bush in place of the nut lets the motor spin alone.
 fn jack() -> String {
-    file_of(
+    write_mechanism(
         "name = \"jack\"\nlength_unit = \"mm\"",
         "base screw table*",
         r#"
@@ -81,8 +81,8 @@ fn a_bush_in_place_of_a_lead_screw_is_no_redesign_and_costs_no_less_than_nothing
         [2, 1]
     );
     let search = search(&m, Drives::Kept).unwrap();
-    let diagrams = search.build(&|| false, &mut |_| {});
-    let nut = m.joint("nut").unwrap();
+    let diagrams = search.build_diagrams(&|| false, &mut |_| {});
+    let nut = m.joint_named("nut").unwrap();
     let of = |j: JointId| {
         search
             .space
@@ -91,7 +91,7 @@ fn a_bush_in_place_of_a_lead_screw_is_no_redesign_and_costs_no_less_than_nothing
             .position(|v| v.joints == [j])
             .unwrap()
     };
-    for v in search.cheapest(&diagrams, 10) {
+    for v in search.cheapest_variants(&diagrams, 10) {
         let choice = &search.space.variables[of(nut)].choices[v.choices[of(nut)]];
         assert_eq!(m.joints[nut].options[choice.option].name, "helical");
     }
@@ -102,7 +102,7 @@ fn a_bush_in_place_of_a_lead_screw_is_no_redesign_and_costs_no_less_than_nothing
 /// A beam on a pivot and a seat that two motors push along parallel rails: as built they fight. With a slide in place of the seat there is
 /// one motion for both; with a pin in a slot each motor decides its own side.
 fn gantry() -> String {
-    file_of(
+    write_mechanism(
         "name = \"gantry\"\nmode = \"planar\"",
         "base left right beam*",
         r#"
@@ -120,8 +120,8 @@ fn independent_drives_are_as_many_as_the_motions_that_they_decide() {
     // By hand: the slide keeps the one motion of the beam, the slot gives it a turn.
     for (drives, mobility) in [(Drives::Kept, 1), (Drives::Independent, 2)] {
         let search = search(&m, drives).unwrap();
-        let diagrams = search.build(&|| false, &mut |_| {});
-        let found = search.counts(&diagrams.admissible, true);
+        let diagrams = search.build_diagrams(&|| false, &mut |_| {});
+        let found = search.count_variants(&diagrams.admissible, true);
         let by_mobility: Vec<_> = found.by_mobility.into_iter().collect();
         assert_eq!(by_mobility, [(mobility, 1u8.into())]);
         assert_eq!(admissible(&m, drives), 1);
@@ -130,19 +130,19 @@ fn independent_drives_are_as_many_as_the_motions_that_they_decide() {
     let mut one = m;
     one.joints[1].drive = false;
     let search = search(&one, Drives::Independent).unwrap();
-    let diagrams = search.build(&|| false, &mut |_| {});
-    let found: Vec<_> = search.cheapest(&diagrams, 5).collect();
+    let diagrams = search.build_diagrams(&|| false, &mut |_| {});
+    let found: Vec<_> = search.cheapest_variants(&diagrams, 5).collect();
     assert_eq!((found.len(), search.mobility(found[0].key)), (1, 1));
 }
 
 /// Where no variant has as many motions as drives, that is an answer and no error.
 #[test]
 fn nothing_found_with_independent_drives_is_an_answer() {
-    let text = changed(&gantry(), "\"fixed\", \"slotted\", {", "\"fixed\", {");
+    let text = replace_once(&gantry(), "\"fixed\", \"slotted\", {", "\"fixed\", {");
     let more = ["--drives", "independent", "--format", "json", "-q"];
     let (code, said, _) = run_on("search", "gantry.toml", &text, &more);
     let found: Value = serde_json::from_str(&said).unwrap();
-    assert_eq!((code, count(&found["admissible"])), (Some(1), 0));
+    assert_eq!((code, parse_count(&found["admissible"])), (Some(1), 0));
 }
 
 #[test]
@@ -170,7 +170,7 @@ fn independent_drives_are_refused_where_they_cannot_be() {
 #[test]
 fn a_driven_joint_of_several_freedoms_drives_the_one_that_is_named() {
     let m = ozols::built_in("gripper-10").unwrap();
-    let slide = m.joint("0-1").unwrap();
+    let slide = m.joint_named("0-1").unwrap();
     let named = |freedom: Option<&str>| {
         let mut m = m.clone();
         m.joints[slide].drive_freedom =

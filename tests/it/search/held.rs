@@ -5,45 +5,45 @@ mod mirrored;
 mod relieved;
 
 /// The ten-link gripper that offers nothing but a ball pivot at each pad and four options of its hinges.
-pub(crate) fn pads() -> String {
+pub(crate) fn gripper_with_pads() -> String {
     let text = builtin::text("gripper-10").unwrap();
     let lines = text.lines().filter(|l| !l.contains("name = \"cross\""));
     let text = lines.collect_vec().join("\n");
-    let text = changed(&text, "    \"universal\",\n", "");
-    let text = changed(
+    let text = replace_once(&text, "    \"universal\",\n", "");
+    let text = replace_once(
         &text,
         "    { type = \"universal\", reference = [0, 1, 0], name = \"universal-y\" },\n",
         "",
     );
-    changed(&text, "    \"cylindrical-universal\",\n", "")
+    replace_once(&text, "    \"cylindrical-universal\",\n", "")
 }
 
 /// Output, as data, of a search that may find nothing.
-pub(crate) fn searched<L: Line + ?Sized>(path: &str, more: &L) -> Value {
+pub(crate) fn run_search<L: Line + ?Sized>(path: &str, more: &L) -> Value {
     let args = [
         &["search", path, "--format", "json", "-q"][..],
         &more.words(),
     ]
     .concat();
-    let (code, told, said) = ran(&args);
+    let (code, told, said) = run_full(&args);
     assert!(matches!(code, Some(0 | 1)), "{args:?}: {said}");
     serde_json::from_str(&told).unwrap()
 }
 
 fn said(path: &str, more: &str) -> String {
-    ran(&format!("search {path} -q {more}")).1
+    run_full(&format!("search {path} -q {more}")).1
 }
 
 /// Between two ball pivots the part turns about the line through their centres: no redundant constraint, and no grip.
 #[test]
 fn a_part_that_spins_between_two_pads_is_not_held() {
-    let (_folder, path) = written("m.toml", &pads());
+    let (_folder, path) = write_temporary("m.toml", &gripper_with_pads());
     let zero = ["--max-external", "0", "--count"];
-    assert_eq!(count(&searched(&path, &zero)["admissible"]), 0);
+    assert_eq!(parse_count(&run_search(&path, &zero)["admissible"]), 0);
     let loose = [&zero[..], &["--allow-loose-object"]].concat();
-    assert!(count(&searched(&path, &loose)["admissible"]) > 0);
+    assert!(parse_count(&run_search(&path, &loose)["admissible"]) > 0);
     // Every one of them has both pads, and none with one pad is lost.
-    let list = searched(&path, "--max-external 0 --allow-loose-object --top 20");
+    let list = run_search(&path, "--max-external 0 --allow-loose-object --top 20");
     for v in list["variants"].list() {
         let changes = v["changes"].list();
         for pad in ["4-a", "a-8"] {
@@ -52,10 +52,10 @@ fn a_part_that_spins_between_two_pads_is_not_held() {
     }
     let one = ["--max-external", "2", "--forbid", "4-a", "--count"];
     let without = [&one[..], &["--allow-loose-object"]].concat();
-    assert!(count(&searched(&path, "--max-external 2 --count")["admissible"]) > 0);
+    assert!(parse_count(&run_search(&path, "--max-external 2 --count")["admissible"]) > 0);
     assert!(
-        count(&searched(&path, &without)["admissible"])
-            > count(&searched(&path, &one)["admissible"])
+        parse_count(&run_search(&path, &without)["admissible"])
+            > parse_count(&run_search(&path, &one)["admissible"])
     );
 }
 
@@ -81,10 +81,10 @@ fn the_conditions_in_a_state_are_said() {
 /// The part is no link of the free mechanism; with one pad it is held all the same.
 #[test]
 fn an_object_is_held_by_name() {
-    let (_folder, path) = written("m.toml", &pads());
+    let (_folder, path) = write_temporary("m.toml", &gripper_with_pads());
     let count_of = |more: &[&str]| {
         let args = [&["--max-external", "2", "--count"][..], more].concat();
-        count(&searched(&path, &args)["admissible"])
+        parse_count(&run_search(&path, &args)["admissible"])
     };
     let held = count_of(&[]);
     assert!(held > 0);
@@ -92,17 +92,17 @@ fn an_object_is_held_by_name() {
     assert_eq!(count_of(&["--hold", "a", "--allow-loose-object"]), held);
     assert!(count_of(&["--allow-loose-object"]) > held);
     let hold = ["search", &path, "--hold", "a"];
-    fails(&hold, "link a");
-    fails(&hold, "in state clamped alone; add --state clamped");
+    assert_fails(&hold, "link a");
+    assert_fails(&hold, "in state clamped alone; add --state clamped");
 }
 
 /// [Pogrebnyak 2018]: of the five external constraints three are friction that both jaws supply and two demand parallel
 /// faces; with the pad two are left, and they only share the load.
 #[test]
 fn harmful_constraints_are_counted() {
-    let present = words("--max-redundant 11 --max-changes 1 --state clamped");
+    let present = split_words("--max-redundant 11 --max-changes 1 --state clamped");
     let allowed = ["--options", "revolute", "--top", "20"];
-    let v = searched("gripper-10", &[&present[..], &allowed].concat());
+    let v = run_search("gripper-10", &[&present[..], &allowed].concat());
     let list = v["variants"].list();
     let of = |joint: Option<&str>| {
         list.iter()
@@ -125,15 +125,15 @@ fn harmful_constraints_are_counted() {
     }
     // The same count as that of the analysis of the variant.
     let few = ["--max-harmful", "0", "--top", "3"];
-    let found = json(&[&["search", "gripper-10", "--format", "json"][..], &few].concat());
+    let found = run_json(&[&["search", "gripper-10", "--format", "json"][..], &few].concat());
     for v in found["variants"].list() {
         assert_eq!(v["external_harmful"], 0);
     }
-    let without = count(&searched("gripper-10", "--state clamped --count")["admissible"]);
-    assert!(count(&found["admissible"]) < without);
-    let text = out(&[&["search", "gripper-10"][..], &few].concat());
+    let without = parse_count(&run_search("gripper-10", "--state clamped --count")["admissible"]);
+    assert!(parse_count(&found["admissible"]) < without);
+    let text = run_quiet(&[&["search", "gripper-10"][..], &few].concat());
     has(&text, "harmful");
-    let csv = out(&[&["search", "gripper-10", "--format", "csv"][..], &few].concat());
+    let csv = run_quiet(&[&["search", "gripper-10", "--format", "csv"][..], &few].concat());
     let head: Vec<&str> = csv.lines().next().unwrap().split(',').collect();
     let at = head.iter().position(|h| *h == "external_harmful").unwrap();
     assert!(
@@ -148,11 +148,15 @@ fn harmful_constraints_are_counted() {
 #[test]
 fn harm_has_a_price_and_a_term() {
     let question = ["--state", "clamped", "--top", "1"];
-    let first = |path: &str| searched(path, &question)["variants"][0].clone();
-    let (_folder, path) = written("m.toml", &pads());
+    let first = |path: &str| run_search(path, &question)["variants"][0].clone();
+    let (_folder, path) = write_temporary("m.toml", &gripper_with_pads());
     assert_eq!(first(&path)["external_harmful"], 2);
-    let priced = changed(&pads(), "[search]\n", "[search]\ncosts = { harmful = 3 }\n");
-    let (_priced, priced) = written("m.toml", &priced);
+    let priced = replace_once(
+        &gripper_with_pads(),
+        "[search]\n",
+        "[search]\ncosts = { harmful = 3 }\n",
+    );
+    let (_priced, priced) = write_temporary("m.toml", &priced);
     let v = first(&priced);
     assert_eq!(v["external_harmful"], 0, "{v}");
     // Two harmful ones at 3 each cost more than a pad at 4.
@@ -163,8 +167,8 @@ fn harm_has_a_price_and_a_term() {
         "--options",
         "revolute,sphere-in-cylinder",
     ];
-    let v = searched("gripper-10-loaded", &[&question[..], &ranked].concat());
+    let v = run_search("gripper-10-loaded", &[&question[..], &ranked].concat());
     assert_eq!(v["variants"][0]["scores"]["harmful"], 0, "{v}");
     let rank = "search gripper-10-loaded --rank harmful";
-    fails(rank, "add --state, such as --state clamped");
+    assert_fails(rank, "add --state, such as --state clamped");
 }

@@ -49,8 +49,8 @@ fn cycles(m: &Mechanism) -> BTreeSet<BTreeSet<JointId>> {
 
 /// The freedoms of an option by what they are and where they point, either way.
 fn freedoms(o: &JointOption) -> Vec<(bool, [i64; 3])> {
-    let z = unit(real(&o.frame.axis));
-    let r = real(&o.frame.reference);
+    let z = unit(to_vector(&o.frame.axis));
+    let r = to_vector(&o.frame.reference);
     let along = z.iter().zip(&r).map(|(a, b)| a * b).sum::<f64>();
     let x = unit([0, 1, 2].map(|i| r[i] - along * z[i]));
     let y = cross(z, x);
@@ -66,7 +66,7 @@ fn freedoms(o: &JointOption) -> Vec<(bool, [i64; 3])> {
             #[allow(clippy::cast_possible_truncation, reason = "a unit vector")]
             let d = axis.map(|c| (c * 1e5).round() as i64);
             let back = d.iter().find(|c| **c != 0).is_some_and(|c| *c < 0);
-            (f.turns(), if back { d.map(|c| -c) } else { d })
+            (f.is_turn(), if back { d.map(|c| -c) } else { d })
         })
         .collect()
 }
@@ -99,7 +99,7 @@ impl<'o> Twin<'o> {
             let id = m.joints[j].id.as_str();
             let pair = images.iter().find(|p| p.0 == id || p.1 == id);
             let to = pair.map(|&(a, b)| if a == id { b } else { a });
-            m.joint(to.unwrap_or(id)).unwrap()
+            m.joint_named(to.unwrap_or(id)).unwrap()
         };
         let mut out = Pattern::new();
         for (variable, &choice) in self.outcome.search.space.variables.iter().zip(&v.choices) {
@@ -139,7 +139,7 @@ fn is_beyond(outcome: &Outcome, a: &Assignment, b: &Assignment) -> bool {
 /// What an engineer leaves as it is, if he can: the drive, pivots in the frame, what is no rod's end.
 fn weight(m: &Mechanism, outcome: &Outcome, v: &Assignment) -> u64 {
     let joints_at = |l| m.joints.iter().filter(move |j| j.links.contains(&l));
-    let frame = m.frame();
+    let frame = m.frame_link();
     let rod = |l| {
         let ends = joints_at(l).collect_vec();
         let inner = m.links[l].role == Role::Inner;
@@ -165,7 +165,7 @@ fn weight(m: &Mechanism, outcome: &Outcome, v: &Assignment) -> u64 {
 fn unlike(outcome: &Outcome, v: &Assignment, images: &[(&str, &str)]) -> usize {
     let m = &outcome.search.mechanism;
     let choice = |id: &str| {
-        let j = m.joint(id).unwrap();
+        let j = m.joint_named(id).unwrap();
         let at = outcome
             .search
             .space
@@ -195,7 +195,10 @@ fn agrees(m: &Mechanism, request: &Request, images: &[(&str, &str)]) {
     let outcome = search(m, request).unwrap();
     let diagrams = outcome.diagrams.as_ref().unwrap();
     let twin = Twin::new(&outcome);
-    let all = outcome.search.cheapest(diagrams, usize::MAX).collect_vec();
+    let all = outcome
+        .search
+        .cheapest_variants(diagrams, usize::MAX)
+        .collect_vec();
     assert_eq!(outcome.admissible.total, BigUint::from(all.len()));
     let minimal = all
         .iter()
@@ -216,7 +219,7 @@ fn agrees(m: &Mechanism, request: &Request, images: &[(&str, &str)]) {
             changes,
         )
     };
-    let ideas = outcome.search.ideas(diagrams, classes.len() + 3);
+    let ideas = outcome.search.list_ideas(diagrams, classes.len() + 3);
     assert_eq!(ideas.len(), classes.len());
     let mut before = None;
     for idea in &ideas {
@@ -239,7 +242,7 @@ fn agrees(m: &Mechanism, request: &Request, images: &[(&str, &str)]) {
         before = place;
     }
     for top in [1, 7] {
-        let few = outcome.search.ideas(diagrams, top);
+        let few = outcome.search.list_ideas(diagrams, top);
         let firsts = |list: &[Idea]| list.iter().map(|i| i.first.clone()).collect_vec();
         assert_eq!(firsts(&few), firsts(&ideas[..top.min(ideas.len())]));
     }
@@ -292,14 +295,14 @@ fn ideas_are_those_of_a_list_of_all_variants() {
 fn of_a_search_cut_short_ideas_are_bounds_and_none_is_proven_the_cheapest() {
     let args = ["search", "gripper-10", "--distinct", "--top", "3"];
     let with = |more: &[&'static str]| [&args[..], more].concat();
-    let short = out(&with(&["--nodes", "60"]));
+    let short = run_quiet(&with(&["--nodes", "60"]));
     has(&short, "variants are valid but may not be the cheapest");
     assert!(
         !short.contains("Proven the cheapest") && !short.contains(" minimal"),
         "{short}"
     );
-    let whole = json(&with(&["--format", "json"]));
-    let cut = json(&with(&["--nodes", "60", "--format", "json"]));
+    let whole = run_json(&with(&["--format", "json"]));
+    let cut = run_json(&with(&["--nodes", "60", "--format", "json"]));
     assert!(
         cut["variants_proven"].is_null(),
         "{}",
@@ -310,9 +313,9 @@ fn of_a_search_cut_short_ideas_are_bounds_and_none_is_proven_the_cheapest() {
         assert!(ideas.clone().all(|i| i["exact"] == exact));
         assert_eq!(ideas.count(), 3);
     }
-    assert_eq!(count(&whole["variants"][2]["idea"]["variants"]), 840);
+    assert_eq!(parse_count(&whole["variants"][2]["idea"]["variants"]), 840);
     let known = cut["variants"].list().iter();
-    let known = known.map(|v| count(&v["idea"]["variants"]));
+    let known = known.map(|v| parse_count(&v["idea"]["variants"]));
     assert!(
         known.clone().all(|n| n > 0 && short.contains("at least")),
         "{short}"
@@ -323,9 +326,11 @@ fn of_a_search_cut_short_ideas_are_bounds_and_none_is_proven_the_cheapest() {
 #[test]
 fn an_idea_says_what_is_added_where() {
     let gripper = built_in("gripper-10");
-    let request = but(|r: &mut Request| r.max_mobility = Some(1));
+    let request = default_with(|r: &mut Request| r.max_mobility = Some(1));
     let outcome = search(&gripper, &request).unwrap();
-    let ideas = outcome.search.ideas(outcome.diagrams.as_ref().unwrap(), 20);
+    let ideas = outcome
+        .search
+        .list_ideas(outcome.diagrams.as_ref().unwrap(), 20);
     // 11 redundant constraints, one of which is the turn of the slider that the rods share: 11 freedoms are added.
     for idea in &ideas {
         let added: u32 = idea.added.iter().map(|a| u32::from(a.times)).sum();
@@ -337,7 +342,7 @@ fn an_idea_says_what_is_added_where() {
     }
     // The joints of the outer rod's contour are in series; the slider's joint is in series with none.
     let series = |id: &str| {
-        let j = gripper.joint(id).unwrap();
+        let j = gripper.joint_named(id).unwrap();
         let groups = ideas.iter().flat_map(|i| &i.added);
         groups
             .filter(|a| a.joints.contains(&j))
@@ -361,7 +366,7 @@ fn people_are_told_ideas_and_programs_variants() {
         let args = ["search", "four-bar", "--quiet"];
         let o = run(&[&args, more].concat());
         assert_eq!(o.status.code(), Some(0), "{more:?}");
-        text(&o.stdout)
+        utf8_text(&o.stdout)
     };
     let plain = search(&[]);
     assert_eq!(plain, search(&["--distinct"]));
@@ -382,11 +387,11 @@ fn people_are_told_ideas_and_programs_variants() {
     // A long list is not for reading, and one cut short proves nothing of ideas.
     assert!(!search(&["--top", "101"]).contains("stands for"));
     let cut = run(&["search", "gripper-10", "--nodes", "60", "--top", "3"]);
-    assert!(!text(&cut.stdout).contains("stands for"));
+    assert!(!utf8_text(&cut.stdout).contains("stands for"));
     let exported = |which: &[&str]| {
         let o = run(&[&["export", "four-bar", "--to", "toml"], which].concat());
         assert_eq!(o.status.code(), Some(0), "{which:?}");
-        text(&o.stdout)
+        utf8_text(&o.stdout)
     };
     assert_eq!(
         exported(&["--idea", "2"]),

@@ -1,7 +1,7 @@
 //! Ways of the engine that must give the same, looked at from the inside.
 
 use crate::common::*;
-use ozols::search::build::{Diagrams, build};
+use ozols::search::build::{Diagrams, build_diagrams};
 use ozols::search::question::Question;
 use ozols::search::testing::{Walked, walked_for_ideas, walked_for_variants};
 
@@ -10,13 +10,13 @@ use ozols::search::testing::{Walked, walked_for_ideas, walked_for_variants};
 fn steps_of_a_list_grow_no_faster_than_its_length_and_its_logarithm() {
     type Walk = fn(&Question, &Diagrams, usize) -> Walked;
     let (mut seen, walks): (_, [Walk; 2]) = (0, [walked_for_variants, walked_for_ideas]);
-    for name in words(
+    for name in split_words(
         "gripper-10 gripper-10-redesign four-bar scissor-lift-3 stewart-gough gripper-slider-two-fingers",
     ) {
         let m = built_in(name);
         let exact = exact_field(&m, 0).unwrap();
         let question = Question::new(exact, &m, Conditions::default()).unwrap();
-        let found = build(&question, &|| false, &mut |_| {});
+        let found = build_diagrams(&question, &|| false, &mut |_| {});
         for walk in walks {
             let lists = [10, 100, 1_000, 10_000].map(|k| walk(&question, &found, k));
             for pair in lists.windows(2) {

@@ -61,7 +61,7 @@ fn as_many_orbits_are_proven_as_are_asked_for() {
     let search = |more: &[&str]| {
         let asked = "search gripper-10 --options revolute,spherical,cylindrical --one-per-orbit --no-distinct --top 190 --format json";
         let words: Vec<&str> = asked.split(' ').chain(more.iter().copied()).collect();
-        json(&words)
+        run_json(&words)
     };
     let costs = |found: &Value| -> Vec<Value> {
         let all = found["variants"].list();
@@ -114,7 +114,7 @@ fn the_frame_is_free_in_every_state() {
     let mut m = built_in("four-bar");
     let all: Vec<_> = m.link_ids().collect();
     assert!(all.iter().all(|&l| is_free(&m, l)));
-    let frame = m.frame();
+    let frame = m.frame_link();
     m.joints.retain(|j| !j.links.contains(&frame));
     assert!(is_free(&m, frame));
     m.joints.clear();

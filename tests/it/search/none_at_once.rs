@@ -2,7 +2,7 @@
 
 use crate::common::*;
 use num_traits::Zero;
-use ozols::search::answer::why_none::{Relaxation, hopeless, relaxations};
+use ozols::search::answer::why_none::{Relaxation, find_obstacles, find_relaxations};
 use ozols::search::diagram::Stop;
 use std::fmt::Write;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -49,7 +49,7 @@ fn mesh(rows: usize, columns: usize, seed: u64) -> (String, usize) {
 #[test]
 fn what_the_plane_decides_takes_no_step() {
     for (rows, columns) in [(3, 4), (4, 4), (4, 5)] {
-        let (text, joints) = mesh(rows, columns, fresh());
+        let (text, joints) = mesh(rows, columns, fresh_seed());
         let short = 2 * joints - 3 * (rows * columns - 1);
         let m = mechanism_from_str("mesh.toml", &text).unwrap();
         let search = Search::new(exact_field(&m, 0).unwrap(), m, Conditions::default()).unwrap();
@@ -58,18 +58,18 @@ fn what_the_plane_decides_takes_no_step() {
             asked.fetch_add(1, Ordering::Relaxed);
             false
         };
-        let found = search.build(&count, &mut |p| panic!("built {p:?}"));
-        assert_eq!(found.stop(), Stop::Exhausted);
+        let found = search.build_diagrams(&count, &mut |p| panic!("built {p:?}"));
+        assert_eq!(found.stop_reason(), Stop::Exhausted);
         for d in [&found.determinate, &found.admissible] {
-            assert!(search.counts(d, false).total.is_zero());
+            assert!(search.count_variants(d, false).total.is_zero());
         }
         assert_eq!(asked.load(Ordering::Relaxed), 0, "{text}");
         assert_eq!(
-            hopeless(&search).unwrap().least_redundant,
+            find_obstacles(&search).unwrap().least_redundant,
             Some(short),
             "{text}"
         );
-        let eased = relaxations(&search, 0, &count).unwrap();
+        let eased = find_relaxations(&search, 0, &count).unwrap();
         // What takes too many nodes with few redundant constraints takes more with many: it is tried once.
         assert!(asked.load(Ordering::Relaxed) < 12 * joints, "{text}");
         let few = |r: &Relaxation| matches!(r, Relaxation::Redundant(n) if *n as usize >= short);

@@ -30,10 +30,10 @@ fn shuffled(text: &str, random: &mut ChaCha8Rng) -> String {
 fn searched(text: &str) -> Option<([String; 2], [usize; 2])> {
     let m = mechanism_from_str("m.toml", text).unwrap();
     let search = Search::new(exact_field(&m, 0).ok()?, m, Conditions::default()).ok()?;
-    let d = search.build(&|| false, &mut |_| {});
+    let d = search.build_diagrams(&|| false, &mut |_| {});
     let counts = [
-        search.counts(&d.determinate, false),
-        search.counts(&d.admissible, true),
+        search.count_variants(&d.determinate, false),
+        search.count_variants(&d.admissible, true),
     ];
     let nodes = [d.determinate.nodes, d.admissible.nodes];
     Some((counts.map(|c| c.to_string()), nodes))

@@ -3,7 +3,7 @@
 use crate::common::*;
 /// A bar on two slides along x, at x = 0 and x = 2: size ℓ = 1, the root mean square distance of the joints.
 fn slides() -> String {
-    file_of(
+    write_mechanism(
         "name = \"two-slides\"\nmode = \"planar\"",
         "0 1*",
         "
@@ -89,7 +89,7 @@ fn planes_may_lie_anywhere() {
 /// parallel faces, which do.
 #[test]
 fn harm_is_judged_in_the_plane_too() {
-    let found = json("analyze gripper-10 --planar --state clamped --format json");
+    let found = run_json("analyze gripper-10 --planar --state clamped --format json");
     let stresses = found["states"][0]["self_stresses"].list();
     let verdicts: Vec<&str> = stresses.iter().map(|s| s["verdict"].word()).collect();
     assert_eq!(verdicts, ["harmless", "harmful"], "{stresses:?}");
@@ -107,19 +107,21 @@ fn harm_is_judged_in_the_plane_too() {
 /// The plane leaves out the slider's turn about its axis, and so does the count in it.
 #[test]
 fn planar_counting_counts_what_moves_in_the_plane() {
-    let planar = words("analyze gripper-10 --planar --state free --format json --method");
-    let counted = json(&[&planar[..], &["count-planar"]].concat());
+    let planar = split_words("analyze gripper-10 --planar --state free --format json --method");
+    let counted = run_json(&[&planar[..], &["count-planar"]].concat());
     assert_eq!(counted["states"][0]["mobility"], 1, "{counted}");
-    let modular = json(&[&planar[..], &["modular"]].concat());
+    let modular = run_json(&[&planar[..], &["modular"]].concat());
     assert_eq!(modular["states"][0]["mobility"], 1);
 }
 
 /// Every joint of every self-stress is listed with its share, and the shares add up; the text lists the same joints.
 #[test]
 fn shares_of_a_self_stress_add_up() {
-    for name in words("gripper-10 gripper-10-loaded four-bar bennett delta-parallelograms sarrus") {
-        let found = json(&["analyze", name, "--format", "json"]);
-        let text = out(&["analyze", name, "--verbose"]);
+    for name in
+        split_words("gripper-10 gripper-10-loaded four-bar bennett delta-parallelograms sarrus")
+    {
+        let found = run_json(&["analyze", name, "--format", "json"]);
+        let text = run_quiet(&["analyze", name, "--verbose"]);
         for state in found["states"].list() {
             for stress in state["self_stresses"].list() {
                 let joints = stress["joints"].list();
@@ -136,7 +138,7 @@ fn shares_of_a_self_stress_add_up() {
 /// difference of two that also load the part: it must not be counted with those.
 fn coupled() -> String {
     let ball = "unloading = [{ type = \"spherical\", point = [4, 2, 0] }]";
-    file_of(
+    write_mechanism(
         "name = \"random\"",
         "0 1* 2 3* part!",
         &format!(
@@ -161,7 +163,7 @@ fn what_a_state_adds_is_counted_without_what_is_there_already() {
     let external = stresses.iter().filter(|s| s["external"] == true).count();
     assert_eq!(clamped["external"]["redundant_by_rank"], 4);
     assert_eq!((external, stresses.len()), (4, 8), "{stresses:#?}");
-    let said = out(&["analyze", "gripper-10", "--state", "clamped"]);
+    let said = run_quiet(&["analyze", "gripper-10", "--state", "clamped"]);
     has(&said, "External: σ = ");
 }
 
@@ -171,7 +173,7 @@ fn joints_bear_what_they_can_and_links_are_in_equilibrium() {
     use ozols::geom::vector::{Vector, add};
     use ozols::model::joint_type::Freedom;
     use ozols::model::mechanism::Role;
-    use ozols::redundancy::analysis::{Method, analyse};
+    use ozols::redundancy::analysis::{Method, analyse_states};
     let mut seen = 0;
     for name in ozols::builtin::names() {
         let m = built_in(name);
@@ -179,7 +181,7 @@ fn joints_bear_what_they_can_and_links_are_in_equilibrium() {
             continue;
         }
         let states: Vec<_> = m.state_ids().collect();
-        let found = analyse(&m, &states, Method::Modular).unwrap();
+        let found = analyse_states(&m, &states, Method::Modular).unwrap();
         // What a coupling passes on is borne along a freedom.
         let all = found.iter().flat_map(|s| &s.self_stresses);
         for stress in all.filter(|s| s.couplings.is_empty()) {
@@ -187,8 +189,8 @@ fn joints_bear_what_they_can_and_links_are_in_equilibrium() {
             for at in &stress.joints {
                 let Some(borne) = at.borne else { continue };
                 let joint = &m.joints[at.joint];
-                let z = unit(real(&joint.frame.axis));
-                let reference = real(&joint.frame.reference);
+                let z = unit(to_vector(&joint.frame.axis));
+                let reference = to_vector(&joint.frame.reference);
                 let x = unit(add(reference, scale(z, -dot(reference, z))));
                 let axes = [x, cross(z, x), z];
                 let free = |f: &Freedom| match f {
@@ -209,7 +211,7 @@ fn joints_bear_what_they_can_and_links_are_in_equilibrium() {
                 assert!(named(at.moments, borne.moment), "{name} {at:?}");
                 assert!(named(at.forces, borne.force), "{name} {at:?}");
                 let moment = scale(borne.moment, stress.size);
-                let moment = add(moment, cross(real(&joint.frame.point), borne.force));
+                let moment = add(moment, cross(to_vector(&joint.frame.point), borne.force));
                 for (link, sign) in [(joint.links[0], -1.0), (joint.links[1], 1.0)] {
                     let (f, t) = &mut on_link[link];
                     *f = add(*f, scale(borne.force, sign));
@@ -217,7 +219,7 @@ fn joints_bear_what_they_can_and_links_are_in_equilibrium() {
                 }
                 seen += 1;
             }
-            let far = m.joints.iter().map(|j| length(real(&j.frame.point)));
+            let far = m.joints.iter().map(|j| length(to_vector(&j.frame.point)));
             let far = far.fold(stress.size, f64::max);
             for (l, (f, t)) in m.link_ids().zip(&on_link) {
                 if m.links[l].role != Role::Frame {

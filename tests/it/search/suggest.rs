@@ -5,7 +5,7 @@ use ozols::model::mechanism::{JointOption, Link};
 use ozols::redundancy::analysis::StateAnalysis;
 use ozols::search::answer::single_changes::{USUAL, USUAL_UNLOADING, single_changes};
 use ozols::view::analysis::Analysis;
-use ozols::view::analysis::suggestions::{Advice, concerned};
+use ozols::view::analysis::suggestions::{Advice, concerned_count};
 use proptest::prelude::*;
 
 fn read(text: &str) -> Mechanism {
@@ -17,7 +17,9 @@ fn built_in(name: &str) -> Mechanism {
 }
 
 fn look(m: &Mechanism, state: StateId) -> StateAnalysis {
-    analyse(m, &[state], Method::Modular).unwrap().remove(0)
+    analyse_states(m, &[state], Method::Modular)
+        .unwrap()
+        .remove(0)
 }
 
 /// The mechanism with one change made: the joint replaced, or a pad between it and its first link, or both.
@@ -138,7 +140,7 @@ fn quickly(m: &Mechanism, state: StateId) -> Vec<Line> {
 #[test]
 fn single_changes_are_those_of_the_slow_way() {
     let (mut with, mut usual) = (0, 0);
-    for name in words(
+    for name in split_words(
 "gripper-10 gripper-10-planar four-bar bennett lever-gripper parallelogram-3-rods sarrus door-two-hinges
             double-banana tongs",
 ) {
@@ -167,7 +169,7 @@ proptest! {
 
 #[test]
 fn the_best_single_changes_of_the_gripper() {
-    let value = json(&["analyze", "gripper-10", "--format", "json"]);
+    let value = run_json(&["analyze", "gripper-10", "--format", "json"]);
     let of = |state: usize| &value["states"][state]["suggestions"];
     let texts = |state: usize| -> Vec<String> {
         let all = of(state)["changes"].list();
@@ -198,7 +200,7 @@ fn the_best_single_changes_of_the_gripper() {
             "{j}: unloading joint in series: spherical (a ball pivot) removes 3 of 5 external"
         ))
     );
-    let text = out(&["analyze", "gripper-10"]);
+    let text = run_quiet(&["analyze", "gripper-10"]);
     assert!(text.starts_with("gripper-10, state free: 11 redundant constraints, mobility 1\n"));
     has_all(
         &text,
@@ -227,10 +229,10 @@ fn where_no_single_change_helps_it_is_said() {
     let options = toml_edit::Array::from_iter(["revolute", "slotted"]);
     copy["search"]["options"] = toml_edit::value(options);
     fs::write(&file, copy.to_string()).unwrap();
-    let text = out(&["analyze", file.to_str().unwrap()]);
+    let text = run_quiet(&["analyze", file.to_str().unwrap()]);
     has(&text, "No single change of 3 tried (the file's options)");
     has(&text, "ozols search ");
-    let value = json(&["analyze", file.to_str().unwrap(), "--format", "json"]);
+    let value = run_json(&["analyze", file.to_str().unwrap(), "--format", "json"]);
     let s = &value["states"][0]["suggestions"];
     assert_eq!(
         (s["found"].as_u64(), s["tried"].as_u64()),
@@ -240,9 +242,9 @@ fn where_no_single_change_helps_it_is_said() {
 
 #[test]
 fn a_determinate_mechanism_needs_none() {
-    let value = json(&["analyze", "stewart-gough", "--format", "json"]);
+    let value = run_json(&["analyze", "stewart-gough", "--format", "json"]);
     assert!(value["states"][0]["suggestions"].is_null());
-    let text = out(&["analyze", "stewart-gough"]);
+    let text = run_quiet(&["analyze", "stewart-gough"]);
     assert!(
         !text.contains("Single changes") && !text.contains("No single change"),
         "{text}"
@@ -256,23 +258,23 @@ fn a_determinate_mechanism_needs_none() {
 // A file with a space in its name is quoted; standard input cannot be read again.
 #[test]
 fn commands_can_be_typed() {
-    let (_folder, file) = written("my gripper.toml", builtin::text("gripper-10").unwrap());
-    let text = out(&["analyze", file]);
+    let (_folder, file) = write_temporary("my gripper.toml", builtin::text("gripper-10").unwrap());
+    let text = run_quiet(&["analyze", file]);
     has(&text, &format!("ozols search '{}'\n", file));
-    let (_, piped, _) = fed("analyze -", builtin::text("gripper-10").unwrap());
+    let (_, piped, _) = run_with_input("analyze -", builtin::text("gripper-10").unwrap());
     has(&piped, "ozols search FILE\n");
 }
 
 #[test]
 fn analyses_fit_the_terminal() {
-    for name in words("gripper-10 lever-gripper stewart-gough delta bennett") {
+    for name in split_words("gripper-10 lever-gripper stewart-gough delta bennett") {
         let m = built_in(name);
         let states: Vec<StateId> = m.state_ids().collect();
-        let found = analyse(&m, &states, Method::Auto).unwrap();
+        let found = analyse_states(&m, &states, Method::Auto).unwrap();
         let advice: Vec<Advice> = found
             .iter()
             .zip(m.state_ids())
-            .map(|(a, s)| match concerned(a) {
+            .map(|(a, s)| match concerned_count(a) {
                 0 => Advice::Nothing,
                 _ => Advice::Changes(single_changes(&m, s).unwrap()),
             })

@@ -4,7 +4,7 @@ use crate::common::*;
 /// Returns what a search of the gripper says with more flags.
 fn found(more: &[&str]) -> Value {
     let args = ["search", "gripper-10", "--format", "json"];
-    json(&[&args[..], more].concat())
+    run_json(&[&args[..], more].concat())
 }
 
 /// The redesign that the literature of the gripper would build: mirror images alike, one redundant constraint left, cost 11, one motion.
@@ -36,7 +36,7 @@ fn the_gripper_has_a_symmetric_redesign_with_one_constraint_left() {
         assert_eq!(v["changes"], first.unwrap()["changes"], "σ = {left}");
         assert_eq!(row(v), row(first.unwrap()), "σ = {left}");
     }
-    let text = out(&["search", "gripper-10"]);
+    let text = run_quiet(&["search", "gripper-10"]);
     let said = "that takes 11 more freedoms, and joints that are images of each other gain them 2 at a time";
     assert!(text.contains(said), "{text}");
     let flags = ["--symmetric", "--max-mobility", "1", "--count"];
@@ -49,7 +49,7 @@ fn the_gripper_has_a_symmetric_redesign_with_one_constraint_left() {
 fn ideas_of_a_symmetric_mechanism_say_whether_they_are_symmetric() {
     let own = |name: &str| -> Vec<(u64, Value)> {
         let args = format!("search {name} --distinct --top 60 --format json -q");
-        let list = json(&args)["variants"].take();
+        let list = run_json(&args)["variants"].take();
         let row = |v: &Value| (milli(&v["cost"]), v["idea"]["symmetric"].clone());
         list.list().iter().map(row).collect()
     };
@@ -74,7 +74,7 @@ fn milli(cost: &Value) -> u64 {
 #[test]
 fn thirds_of_a_turn_are_found() {
     for name in ["delta", "3-upu", "3-rps", "y-star"] {
-        let v = json(&format!("search {name} --format json -q --check none"));
+        let v = run_json(&format!("search {name} --format json -q --check none"));
         let best = v["symmetric"].list();
         for one in best.iter().filter(|v| v["by"] == "third of a turn") {
             let mut alike: BTreeMap<&str, usize> = BTreeMap::new();
@@ -101,7 +101,7 @@ fn mechanisms_without_symmetry_have_no_symmetric_redesigns() {
         &["search", "watt-six-bar"][..],
         &["search", "gripper-10", "--count"],
     ] {
-        let v = json(&[more, &["--format", "json"]].concat());
+        let v = run_json(&[more, &["--format", "json"]].concat());
         assert!(v["symmetric"].is_null(), "{more:?}");
     }
 }

@@ -5,15 +5,16 @@
 use crate::common::*;
 use crate::search::varied::random;
 use ozols::search::check::brute::every_variant;
-use ozols::search::check::other_poses::stroke;
-use ozols::search::check::singular_values::certify;
+use ozols::search::check::other_poses::reach_poses;
+use ozols::search::check::singular_values::certify_variants;
 use ozols::search::question::conditions::Symmetry;
 use ozols::search::question::throughout::PoseOnly;
 use proptest::prelude::*;
 
 /// Returns a search over the prime that is the `nth`, which is asked what lasts.
 fn search(m: &Mechanism, nth: usize, symmetry: Symmetry) -> Search {
-    let conditions = but(|c: &mut Conditions| (c.throughout, c.symmetry) = (true, symmetry));
+    let conditions =
+        default_with(|c: &mut Conditions| (c.throughout, c.symmetry) = (true, symmetry));
     Search::new(exact_field(m, nth).unwrap(), m, conditions).unwrap()
 }
 
@@ -22,10 +23,10 @@ fn search(m: &Mechanism, nth: usize, symmetry: Symmetry) -> Search {
 fn counted(m: &Mechanism) -> [u64; 2] {
     let both = [0, 1].map(|nth| {
         let search = search(m, nth, Symmetry::All);
-        let diagrams = search.build(&|| false, &mut |_| {});
+        let diagrams = search.build_diagrams(&|| false, &mut |_| {});
         let lasting = diagrams.lasting.as_ref().unwrap();
-        let here = search.counts(&diagrams.admissible, true);
-        let lasting = search.counts(lasting, true);
+        let here = search.count_variants(&diagrams.admissible, true);
+        let lasting = search.count_variants(lasting, true);
         if nth == 0 && search.size() <= 4096u32.into() {
             let all = every_variant(&search).unwrap();
             assert_eq!(all.admissible, here, "{}", m.name);
@@ -45,17 +46,17 @@ fn counted(m: &Mechanism) -> [u64; 2] {
 /// Asserts that just those variants last whose figures are the same in other poses.
 fn assert_as_in_poses(m: &Mechanism, poses: usize) {
     let search = search(m, 0, Symmetry::All);
-    let diagrams = search.build(&|| false, &mut |_| {});
+    let diagrams = search.build_diagrams(&|| false, &mut |_| {});
     let lasting: BTreeSet<Vec<usize>> = search
-        .cheapest(&diagrams, usize::MAX / 4)
+        .cheapest_variants(&diagrams, usize::MAX / 4)
         .map(|v| v.choices)
         .collect();
     let here = Search::new(exact_field(m, 0).unwrap(), m, Conditions::default()).unwrap();
-    let diagrams = here.build(&|| false, &mut |_| {});
-    let all = here.cheapest(&diagrams, 1000).collect();
-    let stroke = stroke(&here, poses, 1, &|| false).unwrap();
-    for v in certify(&here, all, false, Some(&stroke), &|| false) {
-        let Some(lucky) = v.stroke.and_then(|s| s.lucky()) else {
+    let diagrams = here.build_diagrams(&|| false, &mut |_| {});
+    let all = here.cheapest_variants(&diagrams, 1000).collect();
+    let stroke = reach_poses(&here, poses, 1, &|| false).unwrap();
+    for v in certify_variants(&here, all, false, Some(&stroke), &|| false) {
+        let Some(lucky) = v.stroke.and_then(|s| s.is_lucky()) else {
             continue;
         };
         let lasts = lasting.contains(&v.variant.choices);
@@ -94,7 +95,7 @@ fn counts_along_the_motion_are_those_of_the_trial() {
 
 #[test]
 fn variants_last_whose_figures_are_the_same_in_other_poses() {
-    for name in words(
+    for name in split_words(
 "watt-six-bar sarrus altmann hooke-double tripteron 4-upu exechon delta two-bennetts roberval-balance oldham
             geared-five-bar five-bar",
 ) {
@@ -105,12 +106,12 @@ fn variants_last_whose_figures_are_the_same_in_other_poses() {
 /// None of the variants of the gripper that move in one way alone loses its motion, and every symmetric count is of symmetric ones.
 #[test]
 fn the_gripper_loses_no_variant_with_one_motion() {
-    let v = json(&["search", "gripper-10", "--count", "--format", "json"]);
+    let v = run_json(&["search", "gripper-10", "--count", "--format", "json"]);
     assert_eq!(v["lasting_by_mobility"]["1"], "7150020");
     assert_eq!(v["admissible_by_mobility"]["1"], "7150020");
     let args = ["search", "gripper-10", "--count", "--format", "json"];
-    let orbits = json(&[&args[..], &["--one-per-orbit"]].concat());
-    let symmetric = json(&[&args[..], &["--symmetric"]].concat());
+    let orbits = run_json(&[&args[..], &["--one-per-orbit"]].concat());
+    let symmetric = run_json(&[&args[..], &["--symmetric"]].concat());
     let count = |v: &Value| -> u64 { v["lasting"].word().parse().unwrap() };
     assert_eq!(2 * count(&orbits), count(&v) + count(&symmetric));
 }
@@ -120,7 +121,7 @@ fn the_gripper_loses_no_variant_with_one_motion() {
 fn a_motion_that_is_not_followed_is_said_to_be() {
     let why = |name: &str, change: fn(&mut Conditions)| {
         let m = ozols::built_in(name).unwrap();
-        let mut conditions = but(|c: &mut Conditions| c.throughout = true);
+        let mut conditions = default_with(|c: &mut Conditions| c.throughout = true);
         change(&mut conditions);
         let search = Search::new(exact_field(&m, 0).unwrap(), &m, conditions).unwrap();
         search.pose_only().cloned()
@@ -148,7 +149,7 @@ fn a_motion_that_is_not_followed_is_said_to_be() {
 #[test]
 fn the_drawn_pose_alone_is_searched_where_that_is_asked() {
     let args = ["search", "sarrus", "--format", "json", "--all"];
-    let [all, pose] = [&[][..], &["--pose-only"]].map(|more| json(&[&args[..], more].concat()));
+    let [all, pose] = [&[][..], &["--pose-only"]].map(|more| run_json(&[&args[..], more].concat()));
     let given = |v: &Value| v["variants"].list().len();
     assert_eq!([given(&all), given(&pose)], [5, 6]);
     assert_eq!(all["admissible"], pose["admissible"]);

@@ -6,7 +6,7 @@ mod random;
 
 pub(crate) use self::random::random;
 use self::random::random_coupled;
-pub(crate) use crate::fuzz::readers::slow_search::{Twin, look, variants};
+pub(crate) use crate::fuzz::readers::slow_search::{Twin, all_variants, look_at_variant};
 use ozols::model::mechanism::Frame;
 use ozols::redundancy::stress::{SelfStress, StressVerdict};
 use ozols::search::check::brute::every_variant;
@@ -52,7 +52,7 @@ fn drive(m: &mut Mechanism, drives: &[[prop::sample::Index; 2]]) {
 }
 
 /// Whether a variant is what it must be in the searched state.
-pub(crate) fn suits(state: Option<InState>, t: &Twin) -> bool {
+pub(crate) fn suits_state(state: Option<InState>, t: &Twin) -> bool {
     state.is_none_or(|s| {
         s.max_external.is_none_or(|most| t.external <= most as i32)
             && s.max_harmful.is_none_or(|most| t.harmful <= most)
@@ -69,15 +69,15 @@ fn agrees(
     drives: &[[prop::sample::Index; 2]],
 ) -> Result<(), TestCaseError> {
     let mut m = mechanism_from_str("random.toml", text).unwrap();
-    let undriven = look(&m, false, &vec![(0, None); m.joints.len()]).motion;
+    let undriven = look_at_variant(&m, false, &vec![(0, None); m.joints.len()]).motion;
     drive(&mut m, drives);
     let clamped = m.states.len() > 1;
-    let all = variants(&m, clamped);
+    let all = all_variants(&m, clamped);
     // The clamped state asks for more eliminations of each.
     prop_assume!(all.len() <= if clamped { 24 } else { 64 });
-    let present = look(&m, clamped, &vec![(0, None); m.joints.len()]);
+    let present = look_at_variant(&m, clamped, &vec![(0, None); m.joints.len()]);
     let states: Vec<StateId> = m.state_ids().collect();
-    let found = analyse(&m, &states, Method::Modular).unwrap();
+    let found = analyse_states(&m, &states, Method::Modular).unwrap();
     prop_assert_eq!(found[0].redundant, present.internal as usize);
     prop_assert_eq!(found[0].mobility as i64, present.mobility);
     prop_assert_eq!(found[0].working_mobility, undriven);
@@ -104,13 +104,17 @@ fn agrees(
         ..Conditions::default()
     };
     let search = Search::new(exact_field(&m, 0).unwrap(), &m, request).unwrap();
-    let diagrams = search.build(&|| false, &mut |_| {});
-    let determinate = search.counts(&diagrams.determinate, false);
-    let admissible = search.counts(&diagrams.admissible, true);
+    let diagrams = search.build_diagrams(&|| false, &mut |_| {});
+    let determinate = search.count_variants(&diagrams.determinate, false);
+    let admissible = search.count_variants(&diagrams.admissible, true);
     prop_assert_eq!(search.size(), all.len().into());
-    let seen: Vec<Twin> = all.iter().map(|c| look(&m, clamped, c)).collect();
+    let seen: Vec<Twin> = all
+        .iter()
+        .map(|c| look_at_variant(&m, clamped, c))
+        .collect();
     let good = |t: &&Twin| t.internal <= allowed;
-    let better = |t: &&Twin| good(t) && suits(state, t) && (!keep || t.motion == present.motion);
+    let better =
+        |t: &&Twin| good(t) && suits_state(state, t) && (!keep || t.motion == present.motion);
     let tally = |list: Vec<&Twin>| {
         let mut out: BTreeMap<(i64, u32), BigUint> = BTreeMap::new();
         for t in list {
@@ -129,7 +133,9 @@ fn agrees(
     let every = every_variant(&search).unwrap();
     prop_assert!(determinate == every.determinate && admissible == every.admissible);
     // The k best: all of them, each once, cheapest first; a shorter list is a prefix of a longer one.
-    let list: Vec<_> = search.cheapest(&diagrams, usize::MAX / 4).collect();
+    let list: Vec<_> = search
+        .cheapest_variants(&diagrams, usize::MAX / 4)
+        .collect();
     prop_assert_eq!(admissible.total, list.len().into());
     let mut distinct: Vec<_> = list.iter().map(|v| v.choices.clone()).collect();
     distinct.sort();
@@ -143,14 +149,14 @@ fn agrees(
             let c = &variable.choices[c];
             choice[variable.joints[0].index()] = (c.option, c.unloading);
         }
-        let t = look(&m, clamped, &choice);
+        let t = look_at_variant(&m, clamped, &choice);
         prop_assert_eq!(
             (v.key.internal(), v.key.external()),
             (t.internal, t.external)
         );
         prop_assert_eq!(v.key.harmful(), t.harmful);
     }
-    let three: Vec<_> = search.cheapest(&diagrams, 3).collect();
+    let three: Vec<_> = search.cheapest_variants(&diagrams, 3).collect();
     prop_assert_eq!(&three[..], &list[..list.len().min(3)]);
     // The same under a ceiling of cost, with nothing counted.
     let best = Conditions {
@@ -159,16 +165,16 @@ fn agrees(
         ..search.conditions.clone()
     };
     let best = Search::new(exact_field(&m, 0).unwrap(), &m, best).unwrap();
-    let bounded = best.build(&|| false, &mut |_| {});
-    let found: Vec<_> = best.cheapest(&bounded, 3).collect();
+    let bounded = best.build_diagrams(&|| false, &mut |_| {});
+    let found: Vec<_> = best.cheapest_variants(&bounded, 3).collect();
     prop_assert_eq!(&found, &three);
     let known = bounded.known_up_to().unwrap_or(i64::MAX);
     prop_assert!(
         found
             .iter()
-            .all(|v| best.steps.milli(v.key.cost()) <= known)
+            .all(|v| best.steps.cost_in_milli(v.key.cost()) <= known)
     );
-    for v in search.sample(&diagrams, 7).take(5) {
+    for v in search.sample_variants(&diagrams, 7).take(5) {
         prop_assert!(list.contains(&v));
     }
     Ok(())
@@ -179,7 +185,7 @@ proptest! {
     #[test]
     fn adding_freedoms_never_raises_redundancy_and_the_frame_does_not_matter(text in random(), move_by in -5i32..6) {
         let m = mechanism_from_str("random.toml", &text).unwrap();
-        let before = &analyse(&m, &[StateId::FREE], Method::Modular).unwrap()[0];
+        let before = &analyse_states(&m, &[StateId::FREE], Method::Modular).unwrap()[0];
         // Turn the whole about z by a right angle and shift it.
         let mut moved = m.clone();
         let shift = Expr::from(i64::from(move_by));
@@ -199,14 +205,14 @@ proptest! {
         for j in &mut moved.joints {
             j.links.reverse();
         }
-        let after = &analyse(&moved, &[StateId::FREE], Method::Modular).unwrap()[0];
+        let after = &analyse_states(&moved, &[StateId::FREE], Method::Modular).unwrap()[0];
         prop_assert_eq!((before.redundant, before.mobility), (after.redundant, after.mobility));
         prop_assert_eq!(before.working_mobility, after.working_mobility);
         for j in m.joint_ids() {
             for option in m.joints[j].options.clone() {
                 let mut freed = m.clone();
                 (freed.joints[j].joint_type, freed.joints[j].frame) = (option.joint_type, option.frame);
-                let s = &analyse(&freed, &[StateId::FREE], Method::Modular).unwrap()[0];
+                let s = &analyse_states(&freed, &[StateId::FREE], Method::Modular).unwrap()[0];
                 prop_assert!(s.redundant <= before.redundant);
             }
         }

@@ -14,7 +14,7 @@ fn every_builtin_mechanism_is_searched() {
     let mut alone = Vec::new();
     for name in builtin::names() {
         let line = format!("search {name} --count --format json -q --nodes 2000");
-        let (found, code) = answer(&words(&line));
+        let (found, code) = answer(&split_words(&line));
         assert!(matches!(code, Some(0 | 1 | 3)), "{name}: {code:?}");
         if found["space"] == "1" {
             alone.push(name);
@@ -27,7 +27,7 @@ fn every_builtin_mechanism_is_searched() {
 #[test]
 fn usual_options_count_as_stated_ones() {
     let usual = "cylindrical,universal,spherical,cylindrical-universal,sphere-in-cylinder";
-    for name in words("jansen-leg scissor-lift-3 miura-ori roberts-cognates") {
+    for name in split_words("jansen-leg scissor-lift-3 miura-ori roberts-cognates") {
         let args = ["search", name, "--count", "--format", "json", "-q"];
         let (own, _) = answer(&args);
         let (stated, _) = answer(&[&args[..], &["--options", usual]].concat());
@@ -48,14 +48,14 @@ fn coupled_joints_keep_their_coupled_freedom() {
             o.status.code() != Some(2),
             well,
             "{kind}: {}",
-            text(&o.stderr)
+            utf8_text(&o.stderr)
         );
     }
 }
 
 /// A drawer on two pairs of hinges, each pair on one line, and a rod with balls that drives it.
 fn two_arms() -> String {
-    file_of(
+    write_mechanism(
         "name = \"two-arms\"\n[search]\noptions = [\"revolute\", \"cylindrical\"]",
         "frame arm*",
         "
@@ -69,10 +69,10 @@ fn two_arms() -> String {
 /// other the last: neither of the types that the file offers does.
 #[test]
 fn the_type_that_opens_a_search_is_named_and_does() {
-    let (_folder, file) = written("two-arms.toml", two_arms());
+    let (_folder, file) = write_temporary("two-arms.toml", two_arms());
     let o = run(&["search", file]);
     assert_eq!(o.status.code(), Some(1));
-    let said = text(&o.stdout);
+    let said = utf8_text(&o.stdout);
     let command = said.lines().find(|l| l.contains("--allow")).unwrap();
     let words = command
         .split_whitespace()
@@ -84,13 +84,13 @@ fn the_type_that_opens_a_search_is_named_and_does() {
             .collect_vec(),
     );
     assert_eq!(code, Some(0), "{command}");
-    assert!(count(&found["admissible"]) > 0);
+    assert!(parse_count(&found["admissible"]) > 0);
 }
 
 /// A hand with both rods on one pin of the slide, `apart` from each other; `more` is said of its search.
 fn hand(apart: i64, more: &str) -> String {
     let options = "options = [\"revolute\", \"cylindrical\", \"universal\", \"spherical\"]";
-    file_of(
+    write_mechanism(
         &format!("name = \"hand\"\n[search]\n{options}\n{more}"),
         "0 1 2 3 4* 5*",
         &format!(
@@ -115,7 +115,7 @@ fn symmetric_variants_of_joints_at_one_place_are_found() {
     for apart in [0, 3] {
         let mut counts = Vec::new();
         for more in ["", named] {
-            let (_folder, file) = written("hand.toml", hand(apart, more));
+            let (_folder, file) = write_temporary("hand.toml", hand(apart, more));
             for how in ["--symmetric", "--one-per-orbit"] {
                 let args = ["search", file, "--format", "json", "-q", "--top", "3", how];
                 let (found, code) = answer(&args);
@@ -133,7 +133,7 @@ fn symmetric_variants_of_joints_at_one_place_are_found() {
 /// What is not its own image is refused, and nothing is guessed.
 #[test]
 fn an_unsymmetric_mechanism_is_refused() {
-    let text = changed(&hand(3, ""), "[-20, 30, 0]", "[-21, 30, 0]");
+    let text = replace_once(&hand(3, ""), "[-20, 30, 0]", "[-21, 30, 0]");
     let (code, said, _) = run_on("search", "hand.toml", &text, &["--symmetric"]);
     assert_eq!((code, said.as_str()), (Some(2), ""));
 }
@@ -143,16 +143,16 @@ fn an_unsymmetric_mechanism_is_refused() {
 #[test]
 fn every_set_of_freedoms_is_offered_by_one_word() {
     let any = "--options any --count --format json -q";
-    let (found, _) = answer(&words(&format!(
+    let (found, _) = answer(&split_words(&format!(
         "search gripper-10 --pose-only --drives free {any}"
     )));
     assert_eq!(found["space"], 31u64.pow(12).to_string());
-    assert_eq!(count(&found["admissible"]), 91_391_212);
+    assert_eq!(parse_count(&found["admissible"]), 91_391_212);
     // In a plane a hinge may slide along either axis, and what slides along both is not there.
-    let (found, _) = answer(&words(&format!("search gripper-10-planar {any}")));
+    let (found, _) = answer(&split_words(&format!("search gripper-10-planar {any}")));
     assert_eq!(found["space"], 3u64.pow(12).to_string());
     let o = run("search four-bar --options any --no-distinct --top 3");
-    assert!(text(&o.stderr).starts_with("note: every set of freedoms"));
+    assert!(utf8_text(&o.stderr).starts_with("note: every set of freedoms"));
 }
 
 /// The sets are those of an enumeration: each subset of the six freedoms with the turn of the hinge in it, whatever is left out.
@@ -162,7 +162,7 @@ fn every_subset_of_freedoms_is_a_choice() {
         "search four-bar --options any --all --allow-output-change --max-redundant 9 --format jsonl -q --check none",
     );
     let mut at_one = BTreeSet::new();
-    for line in text(&o.stdout).lines() {
+    for line in utf8_text(&o.stdout).lines() {
         let v: Value = serde_json::from_str(line).unwrap();
         if let Some([one]) = v["changes"].as_array().map(Vec::as_slice)
             && one["joint"] == "1-2"

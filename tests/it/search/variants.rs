@@ -17,7 +17,7 @@ const LISTS: [(&str, &str, &[usize]); 7] = [
 ];
 
 fn listed(file: &str, flags: &str, k: usize) -> Value {
-    let value = json(&format!("search {file} --top {k} --format json {flags}"));
+    let value = run_json(&format!("search {file} --top {k} --format json {flags}"));
     let variant = value["variants"][k - 1].clone();
     assert_eq!(variant["position"], k);
     variant
@@ -32,10 +32,10 @@ fn an_exported_variant_has_the_figures_of_the_list() {
             let variant = listed(file, flags, k);
             let path = folder.path().join("v.toml");
             let path = path.to_str().unwrap();
-            out(&format!(
+            run_quiet(&format!(
                 "export {file} --variant {k} --to toml -o {path} {flags}"
             ));
-            let found = json(&["analyze", path, "--format", "json"]);
+            let found = run_json(&["analyze", path, "--format", "json"]);
             for key in ["mobility", "redundant"] {
                 assert_eq!(found["states"][0][key], variant[key], "{file} {flags} {k}");
             }
@@ -52,7 +52,7 @@ fn an_exported_variant_has_the_figures_of_the_list() {
                 has(head, change["joint"].word());
             }
             // What is a mechanism of its own is exported again like any other.
-            out(&["export", path, "--to", "toml"]);
+            run_quiet(&["export", path, "--to", "toml"]);
         }
     }
     assert_eq!(pads, 2);
@@ -61,16 +61,20 @@ fn an_exported_variant_has_the_figures_of_the_list() {
 #[test]
 fn variants_in_every_format_and_drawn() {
     for to in ["toml", "json", "urdf", "sdf", "dot", "graphml"] {
-        let v = out(&["export", "gripper-10", "--variant", "2", "--to", to, "-q"]);
-        assert_ne!(v, out(&["export", "gripper-10", "--to", to, "-q"]), "{to}");
+        let v = run_quiet(&["export", "gripper-10", "--variant", "2", "--to", to, "-q"]);
+        assert_ne!(
+            v,
+            run_quiet(&["export", "gripper-10", "--to", to, "-q"]),
+            "{to}"
+        );
         assert!(v.contains("gripper-10-variant-2"), "{to}: {v}");
     }
     // The ranked list, not that of cost.
     let first = listed("gripper-10-loaded", "--pool 2000", 1);
     let changed = first["changes"][0]["to"].word();
-    let drawn = out("draw gripper-10-loaded --variant 1 --pool 2000");
+    let drawn = run_quiet("draw gripper-10-loaded --variant 1 --pool 2000");
     assert!(drawn.contains(changed), "{changed}");
-    refuses(
+    assert_all_fail(
         "
         export four-bar --to dot --variant 0 | numbered from 1
         export four-bar --to dot --variant 999 | no variant 999: the search gives
@@ -80,7 +84,7 @@ fn variants_in_every_format_and_drawn() {
 
 #[test]
 fn a_search_says_what_to_do_next() {
-    let text = out("search gripper-10 --max-mobility 1 --hold 5 --top 1");
+    let text = run_quiet("search gripper-10 --max-mobility 1 --hold 5 --top 1");
     assert!(text.starts_with("gripper-10: "), "{text}");
     assert!(
         text.lines()
@@ -109,14 +113,14 @@ fn what_would_help_where_nothing_is_found() {
         "--max-external 1 --max-changes 5 --options revolute,spherical,sphere-in-cylinder",
         "--options revolute,cylindrical",
     ] {
-        let (code, told, _) = ran(&format!("search gripper-10 {q} --format json"));
+        let (code, told, _) = run_full(&format!("search gripper-10 {q} --format json"));
         assert_eq!(code, Some(1), "{q}");
         let value: Value = serde_json::from_str(&told).unwrap();
         for r in value["relaxations"].list() {
             let what = r["condition"].word();
             seen.insert(what.to_owned());
             let flag = format!("--{what}");
-            let own = words(q);
+            let own = split_words(q);
             let others = own
                 .chunks(2)
                 .filter(|pair| pair[0] != flag)
@@ -125,17 +129,17 @@ fn what_would_help_where_nothing_is_found() {
             let ask = |to: Option<i64>| {
                 let to = to.map_or(String::new(), |n| n.to_string());
                 let line = format!("search gripper-10 {others} {flag} {to} --count --format json");
-                let found: Value = serde_json::from_str(&ran(&line).1).unwrap();
-                count(&found["admissible"])
+                let found: Value = serde_json::from_str(&run_full(&line).1).unwrap();
+                parse_count(&found["admissible"])
             };
             let to = r["to"].as_i64();
-            assert_eq!(ask(to), count(&r["admissible"]), "{q} {r}");
+            assert_eq!(ask(to), parse_count(&r["admissible"]), "{q} {r}");
             assert!(ask(to) > 0);
             if let Some(n) = to.filter(|n| *n > 0) {
                 assert_eq!(ask(Some(n - 1)), 0, "{q} {r}");
             }
         }
-        let (_, text, _) = ran(&format!("search gripper-10 {q}"));
+        let (_, text, _) = run_full(&format!("search gripper-10 {q}"));
         assert!(text.starts_with("gripper-10: none of "), "{text}");
         has(&text, "Offer more options");
     }
@@ -148,7 +152,7 @@ fn what_would_help_where_nothing_is_found() {
 fn orbits_are_listed_however_few_are_asked_for_and_sampled_alike() {
     let rows = |more: &str| -> Vec<String> {
         let search = "search gripper-slider-two-fingers --one-per-orbit --check none --format csv";
-        let text = out(&format!("{search} {more}"));
+        let text = run_quiet(&format!("{search} {more}"));
         assert!(!text.contains('#'), "{text}");
         let choices = |l: &str| l.split_once(',').unwrap().1.to_owned();
         text.lines().skip(1).map(choices).collect()
@@ -171,7 +175,7 @@ fn orbits_are_listed_however_few_are_asked_for_and_sampled_alike() {
 /// A list of all variants is by cost whatever ranking a file has, and so is the command that leads on from it.
 #[test]
 fn what_follows_a_list_of_all_variants_is_of_that_list() {
-    let text = out(&["search", "lever-gripper", "--all"]);
+    let text = run_quiet(&["search", "lever-gripper", "--all"]);
     let next = text
         .lines()
         .find(|l| l.contains("ozols export lever-gripper"))
@@ -179,11 +183,11 @@ fn what_follows_a_list_of_all_variants_is_of_that_list() {
     has(next, "--rank cost --variant 1");
     let folder = tempdir().unwrap();
     let to = folder.path().join("one.toml");
-    out(&format!(
+    run_quiet(&format!(
         "export lever-gripper --rank cost --variant 1 --to toml -o {}",
         to.display()
     ));
-    let all = out(&["search", "lever-gripper", "--all", "--format", "csv"]);
+    let all = run_quiet(&["search", "lever-gripper", "--all", "--format", "csv"]);
     let mut lines = all.lines();
     let heads: Vec<&str> = lines.next().unwrap().split(',').collect();
     let first: Vec<&str> = lines.next().unwrap().split(',').collect();
@@ -195,7 +199,7 @@ fn what_follows_a_list_of_all_variants_is_of_that_list() {
         .take_while(|(head, _)| **head != "conditioning");
     let mut seen = 0;
     for (head, option) in joints {
-        let j = exported.joint(head).unwrap();
+        let j = exported.joint_named(head).unwrap();
         assert_eq!(exported.joints[j].joint_type.name(), *option, "{head}");
         seen += 1;
     }
@@ -205,8 +209,8 @@ fn what_follows_a_list_of_all_variants_is_of_that_list() {
 /// A type that one joint has already is offered at the others, as if the file listed it, and one that none is offered may be forbidden.
 #[test]
 fn a_type_that_a_joint_has_is_offered_at_the_others() {
-    let four_bar = out(&["show", "four-bar"]);
-    let text = changed(
+    let four_bar = run_quiet(&["show", "four-bar"]);
+    let text = replace_once(
         &four_bar,
         "id = \"3-0\"\nlinks = [\"3\", \"0\"]\ntype = \"revolute\"",
         "id = \"3-0\"\nlinks = [\"3\", \"0\"]\ntype = \"spherical\"",
@@ -232,7 +236,7 @@ fn a_type_that_a_joint_has_is_offered_at_the_others() {
         for key in ["space", "admissible", "determinate"] {
             assert_eq!(told[key], wanted[key], "{types} {key}");
         }
-        assert!(count(&told["determinate"]) > 0);
+        assert!(parse_count(&told["determinate"]) > 0);
     }
     let none = searched(&file, &["--forbid", "1-2=universal"]);
     assert_eq!(none["space"], searched(&file, &[])["space"]);
@@ -248,9 +252,9 @@ fn limits_in_the_file_are_those_of_the_options() {
     ] {
         let text = own.replacen("[search]\n", &format!("[search]\n{keys}\n"), 1);
         assert_ne!(text, own);
-        let (_folder, path) = written("mine.toml", &text);
+        let (_folder, path) = write_temporary("mine.toml", &text);
         let counts = |line: &str| {
-            let found = json(&format!("search {line} --count --format json"));
+            let found = run_json(&format!("search {line} --count --format json"));
             [
                 &found["admissible"],
                 &found["lasting"],
@@ -261,7 +265,7 @@ fn limits_in_the_file_are_those_of_the_options() {
         let asked = counts(&format!("lever-gripper {flags}"));
         assert_eq!(counts(path), asked, "{keys}");
         assert_ne!(counts("lever-gripper"), asked, "{keys}");
-        let kept = out(&["export", path, "--to", "toml"]);
+        let kept = run_quiet(&["export", path, "--to", "toml"]);
         has(&kept, keys);
     }
 }

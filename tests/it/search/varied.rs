@@ -2,12 +2,12 @@
 //! joints, mirror images, limits on W and on changes; and the two checks of the search on all of them.
 
 use crate::common::*;
-use crate::search::twin::{Twin, look, variants};
+use crate::search::twin::{Twin, all_variants, look_at_variant};
 use ozols::search::answer::counts::Counts;
 use ozols::search::answer::orbit_counts;
 use ozols::search::answer::search_counts::SearchCounts;
 use ozols::search::check::brute::every_variant;
-use ozols::search::check::second_prime::{Verdict, build_both, compare};
+use ozols::search::check::second_prime::{Verdict, build_both, compare_primes};
 use ozols::search::check::singular_values;
 use ozols::search::question::conditions::Symmetry;
 use proptest::prelude::*;
@@ -218,11 +218,13 @@ fn searched(
     let over = |nth| Search::new(exact_field(m, nth).unwrap(), m, request.clone()).unwrap();
     let (search, twin) = (over(0), over(1));
     let (diagrams, second) = build_both([&search, &twin], &|| false, &mut |_| {});
-    let verdict = compare([&search, &twin], [&diagrams, &second], 10);
+    let verdict = compare_primes([&search, &twin], [&diagrams, &second], 10);
     prop_assert_eq!(verdict.unwrap(), Verdict::Agree);
-    let determinate = search.counts(&diagrams.determinate, false);
-    let admissible = search.counts(&diagrams.admissible, true);
-    let list: Vec<_> = search.cheapest(&diagrams, usize::MAX / 4).collect();
+    let determinate = search.count_variants(&diagrams.determinate, false);
+    let admissible = search.count_variants(&diagrams.admissible, true);
+    let list: Vec<_> = search
+        .cheapest_variants(&diagrams, usize::MAX / 4)
+        .collect();
     let mut choices = Vec::new();
     for v in &list {
         let mut of_joints = vec![(0, None); m.joints.len()];
@@ -233,7 +235,7 @@ fn searched(
         }
         choices.push(of_joints);
     }
-    for c in singular_values::certify(&search, list, true, None, &|| false) {
+    for c in singular_values::certify_variants(&search, list, true, None, &|| false) {
         let agree = c.second.opinion().is_some_and(|o| o.agree);
         prop_assert!(agree, "{:?}", c);
     }
@@ -251,9 +253,9 @@ proptest! {
         changes in prop::option::of(0u32..4),
     ) {
         let m = mechanism_from_str("varied.toml", &text).unwrap();
-        let all = variants(&m, false);
+        let all = all_variants(&m, false);
         prop_assume!(all.len() <= 48);
-        let present = look(&m, false, &vec![(0, None); m.joints.len()]);
+        let present = look_at_variant(&m, false, &vec![(0, None); m.joints.len()]);
         let request = Conditions {
             max_redundant: allowed,
             keep_output: keep,
@@ -262,7 +264,7 @@ proptest! {
             ..Conditions::default()
         };
         let (determinate, admissible, list) = searched(&m, &request)?;
-        let seen: Vec<Twin> = all.iter().map(|c| look(&m, false, c)).collect();
+        let seen: Vec<Twin> = all.iter().map(|c| look_at_variant(&m, false, c)).collect();
         let good = |t: &&Twin| t.internal <= allowed;
         let better = |t: &&Twin| {
             good(t)
@@ -286,9 +288,9 @@ proptest! {
     #[test]
     fn mirror_images(text in mirrored(), allowed in 0u32..4, most in prop::option::of(1i64..4)) {
         let m = mechanism_from_str("mirrored.toml", &text).unwrap();
-        let all = variants(&m, false);
+        let all = all_variants(&m, false);
         prop_assume!(all.len() <= 40);
-        let present = look(&m, false, &vec![(0, None); m.joints.len()]);
+        let present = look_at_variant(&m, false, &vec![(0, None); m.joints.len()]);
         let image = |c: &Choice| {
             let mut out = c.clone();
             for &(a, b) in &m.search.mirror {
@@ -296,7 +298,7 @@ proptest! {
             }
             out
         };
-        let seen: BTreeMap<Choice, Twin> = all.iter().map(|c| (c.clone(), look(&m, false, c))).collect();
+        let seen: BTreeMap<Choice, Twin> = all.iter().map(|c| (c.clone(), look_at_variant(&m, false, c))).collect();
         for (c, t) in &seen {
             let i = &seen[&image(c)];
             prop_assert_eq!((t.internal, t.mobility, t.motion), (i.internal, i.mobility, i.motion));
@@ -335,7 +337,7 @@ proptest! {
     #[test]
     fn parts_of_a_turn(text in carried_round(), allowed in 0u32..4) {
         let m = mechanism_from_str("round.toml", &text).unwrap();
-        let all = variants(&m, false);
+        let all = all_variants(&m, false);
         let image = |c: &Choice| {
             let mut out = c.clone();
             for group in &m.search.turn {
@@ -345,7 +347,7 @@ proptest! {
             }
             out
         };
-        let seen: BTreeMap<Choice, Twin> = all.iter().map(|c| (c.clone(), look(&m, false, c))).collect();
+        let seen: BTreeMap<Choice, Twin> = all.iter().map(|c| (c.clone(), look_at_variant(&m, false, c))).collect();
         for (c, t) in &seen {
             let i = &seen[&image(c)];
             prop_assert_eq!((t.internal, t.mobility, t.motion), (i.internal, i.mobility, i.motion));

@@ -1,11 +1,11 @@
 //! `ozols statics` as its users meet it.
 
-use super::{file_with, r};
+use super::{planar_file_with, turning_joint};
 use crate::common::*;
 
 #[test]
 fn bad_loads_are_refused_at_their_line() {
-    for [from, to, line, parts] in cases::<4>(
+    for [from, to, line, parts] in read_cases::<4>(
         r#"
         mass = 1500 | mass = -1500 | -1500 | mass -1500 & from 0 to 1e12
         mass = 1500 | mass = nan | = nan | mass NaN
@@ -23,7 +23,7 @@ fn bad_loads_are_refused_at_their_line() {
         force = [0, 500000, 0] | force = [0, "5e5 N", 0] | 5e5 N |
         "#,
     ) {
-        let text = changed(super::shears(), from, to);
+        let text = replace_once(super::shears_text(), from, to);
         let (code, _, said) = run_on("statics", "bad.toml", &text, &[]);
         assert_eq!(code, Some(2), "{to}: {said}");
         has(&said, &place_of("bad.toml", &text, line));
@@ -33,7 +33,7 @@ fn bad_loads_are_refused_at_their_line() {
 
 #[test]
 fn mechanisms_without_statics_are_refused_with_a_remedy() {
-    refuses(
+    assert_all_fail(
         "
         statics bennett --method delta | out of the plane & mode = \"planar\"
         statics parallelogram-3-rods --method delta | 1 more constraints than freedoms & ozols search
@@ -51,7 +51,7 @@ fn mechanisms_without_statics_are_refused_with_a_remedy() {
 #[test]
 fn text_json_and_csv_tell_the_same() {
     let with = |more: &str| format!("statics parallel-shears --stroke 0:180deg:2 {more}");
-    let text = out(&with(""));
+    let text = run_quiet(&with(""));
     has_all(
         &text,
         &[
@@ -60,7 +60,7 @@ fn text_json_and_csv_tell_the_same() {
             "D = 3-4, F = 4-6, K = 4-7, M = 6-10, L = 7-10, guide = 0-10",
         ],
     );
-    let v = json(&with("--format json"));
+    let v = run_json(&with("--format json"));
     assert_eq!((v["class"].whole(), v["groups"].list().len()), (4, 3));
     let last = &v["positions"][2];
     near(last["drive"].real(), PI, 1e-12);
@@ -69,26 +69,26 @@ fn text_json_and_csv_tell_the_same() {
     near(d("projective") / d("delta"), 1.0, 1e-9);
     // The lower knife carries 500 kN down; D holds it up.
     assert!(d("delta") > 5e5 && d("delta") < 5.3e5);
-    let csv = out(&with("--format csv"));
+    let csv = run_quiet(&with("--format csv"));
     let mut lines = csv.lines();
     let line = lines.find(|l| l.starts_with("3.14159") && l.contains(",delta,3-4,"));
     let cell: f64 = line.unwrap().split(',').nth(8).unwrap().parse().unwrap();
     near(cell / d("delta"), 1.0, 1e-12);
     assert_eq!(csv.lines().count(), 1 + 3 * (16 + 2 * 12));
-    let one = out(&with("--format csv --method delta"));
+    let one = run_quiet(&with("--format csv --method delta"));
     assert_eq!(one.lines().count(), 1 + 3 * 12);
 }
 
 #[test]
 fn structure_under_every_drive() {
-    let text = out("statics parallel-shears --groups");
+    let text = run_quiet("statics parallel-shears --groups");
     has(&text, "class III, order 3, triad");
-    let v = json("statics parallel-shears --groups --format json");
+    let v = run_json("statics parallel-shears --groups --format json");
     let drives = v["drives"].list();
     assert_eq!(drives.len(), 16);
     assert!(drives.iter().all(|d| d["class"] == 4));
     // A spatial gripper, seen in its plane.
-    let text = out("statics gripper-10 --planar");
+    let text = run_quiet("statics gripper-10 --planar");
     has_all(
         &text,
         &["4 Assur groups driven by 0-1, class II", "no loads"],
@@ -99,16 +99,16 @@ fn structure_under_every_drive() {
 fn charts_and_stability_go_to_folders() {
     let folder = tempdir().unwrap();
     let [charts, stability] = ["charts", "stability"].map(|n| folder.path().join(n));
-    out(&format!(
+    run_quiet(&format!(
         "statics parallel-shears --stroke 0:6.28:8 --svg {}",
         charts.display()
     ));
     let names = "group-4-6-7-10.svg group-5-8-9-11.csv guide-4-6-7-10.svg group-2-3.svg drive.svg methods.svg index.html";
-    for name in words(names) {
+    for name in split_words(names) {
         assert!(charts.join(name).is_file(), "{name}");
     }
-    let text = out(&format!("statics --stability -o {}", stability.display()));
-    for name in words("parallel-rods across-guide at-delta no-guide-reaction") {
+    let text = run_quiet(&format!("statics --stability -o {}", stability.display()));
+    for name in split_words("parallel-rods across-guide at-delta no-guide-reaction") {
         has(&text, name);
         assert!(
             stability.join(format!("stability-{name}.svg")).is_file(),
@@ -121,13 +121,13 @@ fn charts_and_stability_go_to_folders() {
 #[test]
 fn a_dead_point_ends_the_cycle_with_exit_code_1() {
     let joints = [
-        r("0", "1", 0.0, 0.0),
-        r("1", "2", 0.0, 2.0),
-        r("2", "3", 2.0, 2.5),
-        r("3", "0", 3.0, 0.0),
+        turning_joint("0", "1", 0.0, 0.0),
+        turning_joint("1", "2", 0.0, 2.0),
+        turning_joint("2", "3", 2.0, 2.5),
+        turning_joint("3", "0", 3.0, 0.0),
     ];
     let mass = |l: &str| (l == "2").then_some((1.0, [1.0, 2.25], 0.1));
-    let text = file_with(&joints, &mass, "[workload]\ngravity = [0, -9.81, 0]\n");
+    let text = planar_file_with(&joints, &mass, "[workload]\ngravity = [0, -9.81, 0]\n");
     let on = |more: &[&str]| {
         let stroke = ["--stroke", "0:180deg:90"];
         let (code, said, _) = run_on("statics", "rocker.toml", &text, &[&stroke, more].concat());

@@ -1,9 +1,9 @@
 //! Positions over a cycle.
 
-use super::{file, four_bar_file, mechanism, p, r, shears};
+use super::{four_bar_file, planar_file, read_planar, shears_text, sliding_joint, turning_joint};
 use crate::common::*;
 use ozols::model::loads::Stroke;
-use ozols::statics::cycle::{Statics, statics};
+use ozols::statics::cycle::{Statics, planar_statics};
 use ozols::statics::planar::PairKind;
 use ozols::statics::pose::Pose;
 
@@ -11,8 +11,8 @@ use ozols::statics::pose::Pose;
 fn gap(s: &Statics, pose: &Pose) -> f64 {
     let of = |p: usize| {
         let pair = &s.linkage.mechanism.pairs[p];
-        let [[ax, ay], [bx, by]] = pair.bodies.map(|b| s.linkage.point(pose, b, pair.point));
-        let [u, v] = s.linkage.along(pose, p);
+        let [[ax, ay], [bx, by]] = pair.bodies.map(|b| s.linkage.point_at(pose, b, pair.point));
+        let [u, v] = s.linkage.slide_direction(pose, p);
         match pair.kind {
             PairKind::Sliding => (u * (by - ay) - v * (bx - ax)).abs(),
             PairKind::Turning | PairKind::Rigid => (bx - ax).hypot(by - ay),
@@ -23,10 +23,10 @@ fn gap(s: &Statics, pose: &Pose) -> f64 {
 }
 
 fn over(text: &str, [from, to]: [f64; 2], steps: usize, speeds: &[f64]) -> Statics {
-    let mut m = mechanism(text);
+    let mut m = read_planar(text);
     m.loads.drive_speeds = speeds.to_vec();
     let stroke = Some(Stroke { from, to, steps });
-    let found = statics(&m, StateId::FREE, stroke).unwrap();
+    let found = planar_statics(&m, StateId::FREE, stroke).unwrap();
     assert!(found.dead.is_none(), "{:?}", found.dead);
     for x in &found.moments {
         assert!(gap(&found, &x.pose) < 1e-12);
@@ -37,7 +37,7 @@ fn over(text: &str, [from, to]: [f64; 2], steps: usize, speeds: &[f64]) -> Stati
 #[test]
 fn shears_go_round_and_their_knives_meet() {
     let turn = TAU;
-    let s = over(shears(), [0.0, turn], 72, &[PI]);
+    let s = over(shears_text(), [0.0, turn], 72, &[PI]);
     // After a whole turn everything is where it was, the crank turned by 2π.
     let (first, last) = (&s.moments[0].pose, &s.moments[72].pose);
     let body = |name: &str| {
@@ -65,36 +65,36 @@ fn shears_go_round_and_their_knives_meet() {
 #[test]
 fn drives_of_every_kind_move_as_they_should() {
     let boom = [
-        p("2", "3", 1.0, 1.0, [1.0, 1.0]),
-        r("0", "1", 0.0, 1.0),
-        r("0", "2", 0.5, 0.5),
-        r("3", "1", 3.0, 2.7),
+        sliding_joint("2", "3", 1.0, 1.0, [1.0, 1.0]),
+        turning_joint("0", "1", 0.0, 1.0),
+        turning_joint("0", "2", 0.5, 0.5),
+        turning_joint("3", "1", 3.0, 2.7),
     ];
     let slider = [
-        p("0", "1", 0.0, 0.0, [1.0, 0.5]),
-        r("1", "2", 0.0, 1.0),
-        r("2", "3", 2.0, 2.5),
-        r("3", "0", 3.0, 0.0),
+        sliding_joint("0", "1", 0.0, 0.0, [1.0, 0.5]),
+        turning_joint("1", "2", 0.0, 1.0),
+        turning_joint("2", "3", 2.0, 2.5),
+        turning_joint("3", "0", 3.0, 0.0),
     ];
     let two_slides = [
-        r("0", "1", 0.0, 0.0),
-        p("1", "2", 1.0, 0.5, [1.0, 0.3]),
-        p("2", "3", 2.0, 1.0, [0.2, 1.0]),
-        r("3", "0", 3.0, 0.0),
+        turning_joint("0", "1", 0.0, 0.0),
+        sliding_joint("1", "2", 1.0, 0.5, [1.0, 0.3]),
+        sliding_joint("2", "3", 2.0, 1.0, [0.2, 1.0]),
+        turning_joint("3", "0", 3.0, 0.0),
     ];
     for joints in [&boom, &slider, &two_slides] {
-        over(&file(joints, ""), [0.1, 0.1], 1, &[1.0]);
+        over(&planar_file(joints, ""), [0.1, 0.1], 1, &[1.0]);
     }
     over(&four_bar_file(), [0.0, 1.0], 5, &[1.0]);
     let slotted = ozols::builtin::text("lever-slot-gripper").unwrap();
     over(slotted, [2.0, 4.0], 2, &[20.0]);
-    let five = file(
+    let five = planar_file(
         &[
-            r("0", "1", 0.0, 0.0),
-            r("1", "2", 0.0, 1.0),
-            r("2", "3", 2.0, 3.0),
-            r("3", "4", 4.0, 1.0),
-            r("4", "0", 4.0, 0.0),
+            turning_joint("0", "1", 0.0, 0.0),
+            turning_joint("1", "2", 0.0, 1.0),
+            turning_joint("2", "3", 2.0, 3.0),
+            turning_joint("3", "4", 4.0, 1.0),
+            turning_joint("4", "0", 4.0, 0.0),
         ],
         "",
     );
@@ -113,7 +113,7 @@ fn drives_of_every_kind_move_as_they_should() {
 #[test]
 fn drives_turn_about_the_normal() {
     let upright = four_bar_file();
-    let against = changed(&upright, "axis = [0, 0, 1]", "axis = [0, 0, -1]");
+    let against = replace_once(&upright, "axis = [0, 0, 1]", "axis = [0, 0, -1]");
     let [a, b] = [upright, against].map(|text| over(&text, [0.0, 0.5], 2, &[1.0]));
     for (x, y) in a.moments.iter().zip(&b.moments) {
         for (p, q) in x.pose.iter().flatten().zip(y.pose.iter().flatten()) {
@@ -126,16 +126,16 @@ fn drives_turn_about_the_normal() {
 #[test]
 fn at_a_dead_point_there_are_no_speeds() {
     for (beside, dead) in [(0.0, true), (1e-14, true), (0.5, false)] {
-        let text = file(
+        let text = planar_file(
             &[
-                r("0", "1", 0.0, 0.0),
-                r("1", "2", 0.0, 1.0),
-                r("2", "3", 2.0, 1.0 + beside),
-                r("3", "0", 4.0, 1.0),
+                turning_joint("0", "1", 0.0, 0.0),
+                turning_joint("1", "2", 0.0, 1.0),
+                turning_joint("2", "3", 2.0, 1.0 + beside),
+                turning_joint("3", "0", 4.0, 1.0),
             ],
             "[workload]\ndrive_speed = 1.0\n",
         );
-        let s = statics(&mechanism(&text), StateId::FREE, None).unwrap();
+        let s = planar_statics(&read_planar(&text), StateId::FREE, None).unwrap();
         assert_eq!((s.moments.is_empty(), s.dead.is_some()), (dead, dead));
         assert!(s.dead.is_none_or(|d| d.group == Some(0)), "{beside}");
     }

@@ -1,7 +1,7 @@
 //! All Assur groups of 2, 4 and 6 links, found among all ways to join that many links.
 
 use crate::common::*;
-use ozols::statics::assur::decompose;
+use ozols::statics::assur::decompose_groups;
 use ozols::statics::planar::{Body, Pair, PairKind, PlanarMechanism};
 
 /// Links 1 to n with these inner pairs, and so many pairs of each link to the frame.
@@ -84,7 +84,7 @@ fn all(n: usize) -> BTreeMap<(usize, usize), usize> {
                 if !(1..n).all(|v| key(v - 1) >= key(v)) {
                     continue;
                 }
-                let Ok(d) = decompose(&group(n, &inner, &outer), &[]) else {
+                let Ok(d) = decompose_groups(&group(n, &inner, &outer), &[]) else {
                     continue;
                 };
                 if d.groups.len() == 1 && seen.insert(canonical(n, &inner, &outer)) {

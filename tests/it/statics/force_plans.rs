@@ -16,14 +16,14 @@ fn point(position: &Value, joint: &str) -> [f64; 2] {
 }
 
 fn mass_of(m: &Mechanism, link: &str) -> f64 {
-    let link = m.link(link).unwrap();
+    let link = m.link_named(link).unwrap();
     m.links[link].mass.as_ref().unwrap().mass
 }
 
 /// Accelerations are the second differences of the places by time; inertia forces and moments are by D'Alembert.
 #[test]
 fn accelerations_are_those_of_the_places() {
-    let found = json("statics parallel-shears --stroke 0.4:0.5:100 --format json");
+    let found = run_json("statics parallel-shears --stroke 0.4:0.5:100 --format json");
     let positions = found["positions"].list();
     let shears = built_in("parallel-shears");
     let step = 0.001 / shears.loads.drive_speeds[0];
@@ -50,9 +50,9 @@ fn accelerations_are_those_of_the_places() {
 /// [Bychkov, Dvornikov & Zhukov 2018]: R46τ = (F_и6 l + G6 l)/l_FM, R47τ alike, from the moments about the rods' far ends.
 #[test]
 fn tangential_reactions_are_the_moments_over_the_rods() {
-    let found = json("statics parallel-shears --stroke 0:360deg:8 --format json");
+    let found = run_json("statics parallel-shears --stroke 0:360deg:8 --format json");
     let shears = built_in("parallel-shears");
-    let gravity = real(shears.loads.gravity.as_ref().unwrap());
+    let gravity = to_vector(shears.loads.gravity.as_ref().unwrap());
     for position in found["positions"].list() {
         let group = &position["contour_groups"][0];
         for (rod, near_end, far_end, key) in [
@@ -74,7 +74,7 @@ fn tangential_reactions_are_the_moments_over_the_rods() {
             near(told, -moment / length, 1e-9 * (1.0 + told.abs()));
         }
     }
-    let text = out(&["statics", "parallel-shears", "--stroke", "0:360deg:2"]);
+    let text = run_quiet(&["statics", "parallel-shears", "--stroke", "0:360deg:2"]);
     has_all(
         &text,
         &["R46τ", "R47τ", "R34τ", "inertia force, N", "ε, rad/s²"],
@@ -93,7 +93,7 @@ fn visible(svg: &str, name: &str) -> bool {
 fn force_plans_close_beside_those_of_the_full_solve() {
     let folder = tempdir().unwrap();
     let at = folder.path().join("plans");
-    out(&format!(
+    run_quiet(&format!(
         "statics parallel-shears --stroke 0:360deg:36 --svg {}",
         at.display()
     ));
@@ -138,9 +138,9 @@ fn force_plans_close_beside_those_of_the_full_solve() {
 fn the_force_plan_is_of_the_pose_with_most_load_from_outside() {
     use ozols::model::mechanism::StateId;
     use ozols::statics::kinetostatics::LoadSource;
-    use ozols::statics::solve::{Model, SolvedReactions, solve};
+    use ozols::statics::solve::{Model, SolvedReactions, solve_reactions};
     let m = built_in("parallel-shears");
-    let found = solve(&m, StateId::FREE, m.loads.stroke, Model::Planar).unwrap();
+    let found = solve_reactions(&m, StateId::FREE, m.loads.stroke, Model::Planar).unwrap();
     let SolvedReactions::Planar(found) = found else {
         panic!("it is planar")
     };

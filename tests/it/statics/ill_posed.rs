@@ -1,7 +1,7 @@
 //! Linkages that are no Assur groups are told by how much.
 
 use crate::common::*;
-use ozols::statics::assur::{AssurError, decompose};
+use ozols::statics::assur::{AssurError, decompose_groups};
 use ozols::statics::planar::PlanarMechanism;
 
 /// Joints of a type between links in the plane of x and y, the first of them driven.
@@ -18,8 +18,8 @@ fn refused(joints: &[(&str, &str, &str, [i32; 2])]) -> AssurError {
     }
     let m = mechanism_from_str("it.toml", &text).unwrap();
     let planar = PlanarMechanism::new(&m, StateId::FREE).unwrap();
-    let drives = planar.drives();
-    decompose(&planar, &drives).unwrap_err()
+    let drives = planar.driven_pairs();
+    decompose_groups(&planar, &drives).unwrap_err()
 }
 
 /// With its drive locked the crank is one body with the frame, and so is what is fixed to it: a hinge holds two rows again.
@@ -54,9 +54,11 @@ fn every_loose_link_of_a_chain_counts() {
 #[test]
 fn contours_of_a_group_are_counted() {
     use ozols::statics::assur_class::Kind;
-    let m = super::mechanism(super::shears());
+    let m = super::read_planar(super::shears_text());
     let planar = PlanarMechanism::new(&m, StateId::FREE).unwrap();
-    let groups = decompose(&planar, &planar.drives()).unwrap().groups;
+    let groups = decompose_groups(&planar, &planar.driven_pairs())
+        .unwrap()
+        .groups;
     let mut closed = 0;
     for group in &groups {
         let is_closed = group.class.kind == Kind::FourLinkContour;

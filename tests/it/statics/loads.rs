@@ -1,12 +1,12 @@
 //! What loads a linkage in its plane: components by hand, power, and when the plane does not do.
 
-use super::mechanism;
+use super::read_planar;
 use crate::common::*;
 use ozols::model::loads::{ExternalForce, Inertia, MassProperties};
-use ozols::statics::cycle::statics;
+use ozols::statics::cycle::planar_statics;
 use ozols::statics::kinetostatics::LoadSource;
 use ozols::statics::planar::PlanarMechanism;
-use ozols::statics::solve::{Model, SolvedReactions, solve};
+use ozols::statics::solve::{Model, SolvedReactions, solve_reactions};
 
 /// A four-bar 0-1-2-3 drawn by x and y, stood in the plane of `along` and `up`.
 fn four_bar(along: [f64; 3], up: [f64; 3]) -> Mechanism {
@@ -28,7 +28,7 @@ fn four_bar(along: [f64; 3], up: [f64; 3]) -> Mechanism {
         )
     };
     let joints = joints.into_iter().enumerate().map(line).join("\n");
-    mechanism(&file_of(
+    read_planar(&write_mechanism(
         "name = \"leans\"\nlength_unit = \"m\"",
         "0 1 2* 3",
         &joints,
@@ -56,19 +56,19 @@ fn loads_have_their_components_in_a_plane_that_leans() {
     });
     m.loads.gravity = Some(exact([1.0, 2.0, -10.0]));
     m.loads.drive_speeds = vec![2.0];
-    let found = statics(&m, StateId::FREE, None).unwrap();
+    let found = planar_statics(&m, StateId::FREE, None).unwrap();
     let moment = &found.moments[0];
     let weight = moment
         .loads
         .iter()
         .find(|l| l.source == LoadSource::Gravity);
     let g = weight.unwrap().force;
-    to_nine_digits(g[0].hypot(g[1]), 2.0 * 6.8f64.hypot(2.0));
+    assert_nine_digits(g[0].hypot(g[1]), 2.0 * 6.8f64.hypot(2.0));
     let body = &moment.links[0];
     let inertia = -body.moment / body.angular_acceleration;
-    to_nine_digits(inertia, 0.36 * 0.1 + 0.64 * 0.5);
+    assert_nine_digits(inertia, 0.36 * 0.1 + 0.64 * 0.5);
     // The centre lies in the plane, 1.5 along and 1.5 up.
-    to_nine_digits(body.centre[0].hypot(body.centre[1]), 1.5f64.hypot(1.5));
+    assert_nine_digits(body.centre[0].hypot(body.centre[1]), 1.5f64.hypot(1.5));
 }
 
 /// What acts on the frame loads nothing that moves, and is not among the loads; an inertia force acts at its moment over it.
@@ -91,7 +91,7 @@ fn the_frame_bears_its_own_and_inertia_acts_aside() {
         inertia: Some(Inertia::Plane(0.3)),
     });
     m.loads.drive_speeds = vec![2.0];
-    let found = statics(&m, StateId::FREE, None).unwrap();
+    let found = planar_statics(&m, StateId::FREE, None).unwrap();
     let moment = &found.moments[0];
     let frame = found.linkage.mechanism.frame;
     assert!(moment.loads.iter().all(|l| l.body != frame));
@@ -99,7 +99,7 @@ fn the_frame_bears_its_own_and_inertia_acts_aside() {
     let inertia = &moment.links;
     assert!(inertia[0].moment.abs() > 1e-3);
     let [x, y] = inertia[0].force;
-    to_nine_digits(inertia[0].offset() * x.hypot(y), inertia[0].moment);
+    assert_nine_digits(inertia[0].inertia_offset() * x.hypot(y), inertia[0].moment);
 }
 
 /// Two drives together do the work that the loads and the inertia of the links ask.
@@ -111,16 +111,16 @@ fn the_power_of_all_drives_balances_the_loads() {
         2-3 | 2 3 | revolute | 2, 3, 0 | 0, 0, 1
         3-4 | 3 4 | revolute | 4, 2, 0 | 0, 0, 1
         4-0 | 4 0 | revolute | 5, 0, 0 | 0, 0, 1 | drive = true";
-    let text = file_of("name = \"five\"\nmode = \"planar\"", "0 1 2* 3 4", joints);
+    let text = write_mechanism("name = \"five\"\nmode = \"planar\"", "0 1 2* 3 4", joints);
     let role = "role = \"output\"\n";
     let heavy = format!("{role}mass = 2\ncentre = [1, 2, 0]\ninertia = 0.2\n");
-    let mut m = mechanism(&changed(&text, role, &heavy));
+    let mut m = read_planar(&replace_once(&text, role, &heavy));
     m.loads.gravity = Some(exact([0.0, -10.0, 0.0]));
     m.loads.drive_speeds = vec![1.0, -0.7];
-    let found = statics(&m, StateId::FREE, None).unwrap();
+    let found = planar_statics(&m, StateId::FREE, None).unwrap();
     let now = &found.moments[0];
     assert!(now.load_power.abs() > 0.1);
-    to_nine_digits(now.drive_power, -now.load_power);
+    assert_nine_digits(now.drive_power, -now.load_power);
     let efforts = now.reactions.iter().filter_map(|r| r.effort);
     assert!(efforts.clone().count() == 2 && efforts.clone().all(|e| e.abs() > 1e-3));
 }
@@ -137,7 +137,7 @@ fn a_weight_beside_the_plane_asks_for_space() {
             inertia: None,
         });
         m.loads.gravity = Some(exact([0.0, -10.0, 0.0]));
-        let found = solve(&m, StateId::FREE, None, Model::Either).unwrap();
+        let found = solve_reactions(&m, StateId::FREE, None, Model::Either).unwrap();
         let is_planar = matches!(found, SolvedReactions::Planar(_));
         assert_eq!(is_planar, planar, "{height}");
     }
@@ -149,7 +149,7 @@ fn two_slides_span_their_plane() {
     let joints = "
         x | 0 1 | prismatic | 0, 0, 0 | 1, 0, 0 | drive = true
         z | 1 2 | prismatic | 0, 0, 0 | 0, 0, 1 | drive = true";
-    let text = &file_of("name = \"table\"", "0 1 2*", joints);
-    let planar = PlanarMechanism::new(&mechanism(text), StateId::FREE).unwrap();
+    let text = &write_mechanism("name = \"table\"", "0 1 2*", joints);
+    let planar = PlanarMechanism::new(&read_planar(text), StateId::FREE).unwrap();
     assert_eq!(planar.axes[2].map(f64::abs), [0.0, 1.0, 0.0]);
 }

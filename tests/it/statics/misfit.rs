@@ -1,7 +1,7 @@
 //! Assembly forces of inaccurate joints, against a twin by displacements: each joint is a spring in its constrained directions, and the
 //! links move to where the energy is least. The program uses self-stresses, so the two share no equations.
 
-use ozols::geom::vector::real;
+use ozols::geom::vector::to_vector;
 use ozols::model::mechanism::{Mechanism, StateId};
 use ozols::statics::reactions::misfit::{Misfit, Tolerances, misfit};
 
@@ -52,9 +52,9 @@ fn mean_forces(m: &Mechanism, samples: usize) -> Vec<f64> {
     let points: Vec<[f64; 3]> = m
         .joints
         .iter()
-        .map(|j| real(&j.frame.point).map(|x| x * metres))
+        .map(|j| to_vector(&j.frame.point).map(|x| x * metres))
         .collect();
-    let (frame, free) = (m.frame(), 6 * m.links.len());
+    let (frame, free) = (m.frame_link(), 6 * m.links.len());
     // The rows of each joint: how links displace it, turns first; the turn about z is free.
     let rows: Vec<Vec<(f64, Vec<f64>)>> = m
         .joints
@@ -161,7 +161,7 @@ fn determinate_redesigns_assemble_without_force() {
     assert!(as_built.force.mean > 10.0, "{:?}", as_built.force);
     assert!(as_built.by_hand < 1.0);
     let best = ozols::search(&m, &ozols::Request::default()).unwrap();
-    let best = best.variants().next().unwrap().mechanism();
+    let best = best.variants().next().unwrap().as_mechanism();
     let redesigned = misfit_of(&best);
     assert!(
         redesigned.force.most < 1e-6 * as_built.force.mean,

@@ -1,12 +1,12 @@
 //! The equations of [Bychkov, Dvornikov & Zhukov 2018] one by one, against reactions found in exact arithmetic.
 
-use super::{mechanism, shears};
+use super::{read_planar, shears_text};
 use crate::common::*;
 use ozols::model::loads::Stroke;
 use ozols::statics::contour_group::equilibrium;
 use ozols::statics::contour_group::pose::GroupPose;
-use ozols::statics::cycle::statics;
-use ozols::statics::pose::{cross, dot, length, minus, plus, quarter};
+use ozols::statics::cycle::planar_statics;
+use ozols::statics::pose::{cross, dot, length, minus, plus, quarter_turn};
 
 /// Moment of the loads on one link about a point: ΣF l + ΣM.
 fn moment(g: &GroupPose, link: usize, about: [f64; 2]) -> f64 {
@@ -28,11 +28,11 @@ fn each_equation_gives_its_component() {
         to: TAU,
         steps: 24,
     };
-    let s = statics(&mechanism(shears()), StateId::FREE, Some(stroke)).unwrap();
+    let s = planar_statics(&read_planar(shears_text()), StateId::FREE, Some(stroke)).unwrap();
     let mut tried = 0;
     for g in s.moments.iter().flat_map(|m| &m.groups) {
         let (p, steps) = (&g.pose, &g.steps);
-        let exact = equilibrium::exact(p).unwrap();
+        let exact = equilibrium::solve_exactly(p).unwrap();
         let greatest = [exact.d, exact.f, exact.k, exact.m, exact.l]
             .iter()
             .map(|v| length(*v))
@@ -43,10 +43,10 @@ fn each_equation_gives_its_component() {
         let (e6, e7) = (unit(minus(p.f, p.m)), unit(minus(p.k, p.l)));
         // R46^τ = (F_и6 l_и6M + G6 l_G6M)/l_FM, against the part of the reaction at F across the rod; R47^τ alike.
         let r46 = -moment(p, 1, p.m) / length(minus(p.f, p.m));
-        near(r46, dot(exact.f, quarter(e6)), "R46^τ");
+        near(r46, dot(exact.f, quarter_turn(e6)), "R46^τ");
         near(r46, steps.r46_tangential, "R46^τ");
         let r47 = -moment(p, 2, p.l) / length(minus(p.k, p.l));
-        near(r47, dot(exact.k, quarter(e7)), "R47^τ");
+        near(r47, dot(exact.k, quarter_turn(e7)), "R47^τ");
         near(r47, steps.r47_tangential, "R47^τ");
         // δ lies on both rods.
         let delta = steps.delta;
@@ -57,16 +57,16 @@ fn each_equation_gives_its_component() {
         let from_delta = minus(p.d, delta);
         let e = unit(from_delta);
         near(length(from_delta), steps.l_d_delta, "l_Dδ");
-        let r64 = quarter(e6).map(|x| -r46 * x);
-        let r74 = quarter(e7).map(|x| -r47 * x);
+        let r64 = quarter_turn(e6).map(|x| -r46 * x);
+        let r74 = quarter_turn(e7).map(|x| -r47 * x);
         let all =
             moment(p, 0, delta) + cross(minus(p.f, delta), r64) + cross(minus(p.k, delta), r74);
         let r34 = -all / length(from_delta);
-        near(r34, dot(exact.d, quarter(e)), "R34^τ");
+        near(r34, dot(exact.d, quarter_turn(e)), "R34^τ");
         near(r34, steps.r34_tangential, "R34^τ");
         // The force plan of the group: R34^n along Dδ, and R_0/10 across the guide.
         near(steps.r34_normal, dot(exact.d, e), "R34^n");
-        let across = quarter(p.guide);
+        let across = quarter_turn(p.guide);
         let sum = (0..4).fold(exact.d, |s, link| plus(s, 1.0, force(p, link)));
         near(-dot(sum, across), exact.guide, "R_0/10");
         near(dot(sum, p.guide), 0.0, "along the guide");

@@ -1,19 +1,19 @@
 //! Loads and reactions: the methods agree, and with energy.
 
-use super::{J, Mass, file_with, mechanism, p, r, shears};
+use super::{J, Mass, planar_file_with, read_planar, shears_text, sliding_joint, turning_joint};
 use crate::common::*;
 use ozols::model::loads::{Inertia, MassProperties, Stroke};
 use ozols::statics::contour_group::ContourGroup;
 use ozols::statics::contour_group::pose::{GroupPose, GroupReactions};
-use ozols::statics::cycle::{Moment, Statics, statics};
+use ozols::statics::cycle::{Moment, Statics, planar_statics};
 use ozols::statics::kinetostatics::{LoadSource, Reaction};
 use ozols::statics::planar::{BodyId, PairId};
 use ozols::statics::pose::{Linkage, cross, dot, minus};
 use proptest::prelude::*;
 
 fn over(text: &str, from: f64, to: f64, steps: usize) -> Statics {
-    statics(
-        &mechanism(text),
+    planar_statics(
+        &read_planar(text),
         StateId::FREE,
         Some(Stroke { from, to, steps }),
     )
@@ -21,7 +21,7 @@ fn over(text: &str, from: f64, to: f64, steps: usize) -> Statics {
 }
 
 fn shears_cycle() -> Statics {
-    over(shears(), 0.0, TAU, 72)
+    over(shears_text(), 0.0, TAU, 72)
 }
 
 /// Greatest force or moment by size left over on any body, about a point far from all, over the greatest load.
@@ -39,7 +39,7 @@ fn left_over(s: &Statics, m: &Moment) -> f64 {
             (0..3).for_each(|c| sum[c] += all[c]);
         }
         for r in &m.reactions {
-            let all = r.on(&s.linkage, body, about);
+            let all = r.wrench_on(&s.linkage, body, about);
             greatest = all.iter().fold(greatest, |g, c| g.max(c.abs()));
             (0..3).for_each(|c| sum[c] += all[c]);
         }
@@ -57,11 +57,11 @@ fn from_equilibrium(
 ) -> Option<GroupReactions> {
     let on = |pair: PairId, body: BodyId| {
         let r = reactions.iter().find(|r| r.pair == pair)?;
-        Some(r.on(linkage, body, pose.d))
+        Some(r.wrench_on(linkage, body, pose.d))
     };
     let force = |pair, body| on(pair, body).map(|[x, y, _]| [x, y]);
     let [gx, gy, guide_moment] = on(g.guide, g.slider)?;
-    let guide = dot([gx, gy], pose.normal());
+    let guide = dot([gx, gy], pose.guide_normal());
     Some(GroupReactions {
         d: force(g.d, g.ternary)?,
         f: force(g.f, g.rods[0])?,
@@ -88,7 +88,7 @@ fn three_methods_agree_on_the_shears_to_nine_digits() {
         cutting += usize::from(m.loads.iter().any(|l| l.source == LoadSource::External));
         for (g, (_, letters)) in m.groups.iter().zip(&s.contour_groups) {
             let (lu, worth) = g.equilibrium.unwrap();
-            let exact = ozols::statics::contour_group::equilibrium::exact(&g.pose).unwrap();
+            let exact = ozols::statics::contour_group::equilibrium::solve_exactly(&g.pose).unwrap();
             let out_of_whole =
                 from_equilibrium(&s.linkage, letters, &g.pose, &m.reactions).unwrap();
             for (name, found) in [
@@ -97,7 +97,7 @@ fn three_methods_agree_on_the_shears_to_nine_digits() {
                 ("LU", lu),
                 ("whole", out_of_whole),
             ] {
-                let away = found.distance(&exact, &g.pose);
+                let away = found.distance_to(&exact, &g.pose);
                 assert!(away < 1e-9, "{name} {away} at {}", m.drive);
                 assert!(
                     (found.arm - exact.arm).abs() < 1e-9 * (1.0 + exact.arm.abs()),
@@ -118,7 +118,7 @@ fn potential(mechanism: &Mechanism, s: &Statics, m: &Moment) -> f64 {
     let flat = |v: &[Expr; 3]| [v[0].to_f64(), v[1].to_f64()];
     let at = |link, point| {
         let body = s.linkage.mechanism.body_of(link).unwrap();
-        s.linkage.point(&m.pose, body, flat(point))
+        s.linkage.point_at(&m.pose, body, flat(point))
     };
     let gravity = flat(mechanism.loads.gravity.as_ref().unwrap());
     let masses = mechanism.links_with_ids();
@@ -136,7 +136,7 @@ fn kinetic(mechanism: &Mechanism, s: &Statics, at: usize, dt: f64) -> f64 {
     let one = |(l, mass): (LinkId, &MassProperties)| {
         let body = s.linkage.mechanism.body_of(l).unwrap();
         let centre = [mass.centre[0].to_f64(), mass.centre[1].to_f64()];
-        let place = |i: usize| s.linkage.point(&s.moments[i].pose, body, centre);
+        let place = |i: usize| s.linkage.point_at(&s.moments[i].pose, body, centre);
         let v = minus(place(at + 1), place(at - 1)).map(|x| x / (2.0 * dt));
         let turned = s.moments[at + 1].pose[body][2] - s.moments[at - 1].pose[body][2];
         let Some(Inertia::Plane(inertia)) = mass.inertia else {
@@ -153,7 +153,7 @@ fn effort(s: &Statics, m: &Moment) -> f64 {
 
 /// Effort at rest and the slope of the potential energy.
 fn at_rest(text: &str, at: f64) -> Option<[f64; 2]> {
-    let (m, h) = (mechanism(text), 1e-5);
+    let (m, h) = (read_planar(text), 1e-5);
     let s = over(text, at - h, at + h, 2);
     let v = s.moments.iter().map(|x| potential(&m, &s, x)).collect_vec();
     s.dead
@@ -163,7 +163,7 @@ fn at_rest(text: &str, at: f64) -> Option<[f64; 2]> {
 
 /// The rise of the energy by time, and the moment at `at`.
 fn in_motion(text: &str, at: f64, speed: f64) -> Option<(f64, Statics)> {
-    let (m, h) = (mechanism(text), 1e-4);
+    let (m, h) = (read_planar(text), 1e-4);
     let s = over(text, at - 2.0 * h, at + 2.0 * h, 4);
     let energy = |i: usize| kinetic(&m, &s, i, h / speed) + potential(&m, &s, &s.moments[i]);
     s.dead
@@ -207,7 +207,7 @@ impl Chain {
         let more = format!(
             "[workload]\ngravity = [{gx:?}, {gy:?}, 0]\ndrive_speed = {speed:?}\n[[workload.force]]\nlink = \"3\"\npoint = [{x:?}, {y:?}, 0]\nforce = [{fx:?}, {fy:?}, 0]\n"
         );
-        file_with(&self.joints, &mass, &more)
+        planar_file_with(&self.joints, &mass, &more)
     }
 
     /// The same turned and shifted, loads with it.
@@ -249,20 +249,20 @@ fn chains() -> impl Strategy<Value = Chain> {
         .prop_map(|(x, slider, six)| {
             let crank = 3.0 * x[0];
             let mut joints = vec![
-                r("0", "1", 0.0, 0.0),
-                r("1", "2", 0.5 * crank.cos(), 0.5 * crank.sin()),
-                r("2", "3", 2.5 + 0.5 * x[1], 2.0 + 0.5 * x[2]),
+                turning_joint("0", "1", 0.0, 0.0),
+                turning_joint("1", "2", 0.5 * crank.cos(), 0.5 * crank.sin()),
+                turning_joint("2", "3", 2.5 + 0.5 * x[1], 2.0 + 0.5 * x[2]),
             ];
             joints.push(if slider {
-                p("3", "0", 3.0, 1.0, [1.0, 0.3 * x[3]])
+                sliding_joint("3", "0", 3.0, 1.0, [1.0, 0.3 * x[3]])
             } else {
-                r("3", "0", 3.5 + 0.3 * x[3], 0.3 * x[4])
+                turning_joint("3", "0", 3.5 + 0.3 * x[3], 0.3 * x[4])
             });
             if six {
                 joints.extend([
-                    r("2", "4", 1.5 + 0.3 * x[5], 3.0 + 0.3 * x[6]),
-                    r("4", "5", 3.0 + 0.3 * x[7], 5.0 + 0.3 * x[8]),
-                    r("5", "0", 5.0 + 0.3 * x[9], 3.5),
+                    turning_joint("2", "4", 1.5 + 0.3 * x[5], 3.0 + 0.3 * x[6]),
+                    turning_joint("4", "5", 3.0 + 0.3 * x[7], 5.0 + 0.3 * x[8]),
+                    turning_joint("5", "0", 5.0 + 0.3 * x[9], 3.5),
                 ]);
             }
             let links = if six { 5 } else { 3 };
@@ -348,7 +348,7 @@ proptest! {
 #[test]
 fn a_group_without_loads_bears_nothing() {
     use ozols::statics::contour_group::{delta_point, projective};
-    let s = over(shears(), 0.0, 0.0, 1);
+    let s = over(shears_text(), 0.0, 0.0, 1);
     let mut g = s.moments[0].groups[0].pose.clone();
     g.loads.clear();
     g.push(1, g.f, [3.0, 4.0]);
@@ -356,13 +356,22 @@ fn a_group_without_loads_bears_nothing() {
     let mut h = g.clone();
     h.loads.clear();
     h.push(0, g.f, [3.0, 4.0]);
-    let (a, b) = (projective::solve(&g), projective::solve(&h));
+    let (a, b) = (
+        projective::solve_projective(&g),
+        projective::solve_projective(&h),
+    );
     assert!((a.guide - b.guide).abs() < 1e-12 && (a.guide_moment - b.guide_moment).abs() < 1e-12);
     assert!((0..2).all(|c| (a.d[c] - b.d[c]).abs() < 1e-12 && (a.m[c] - b.m[c]).abs() < 1e-12));
     g.loads.clear();
-    let nothing = projective::solve(&g);
-    assert!(nothing.forces(&g).iter().flatten().all(|c| *c == 0.0));
-    let (r, steps) = delta_point::solve(&g);
+    let nothing = projective::solve_projective(&g);
+    assert!(
+        nothing
+            .force_vectors(&g)
+            .iter()
+            .flatten()
+            .all(|c| *c == 0.0)
+    );
+    let (r, steps) = delta_point::solve_delta(&g);
     assert!(r.d == [0.0; 2] && steps.r34_tangential == 0.0 && r.arm.is_nan());
 }
 
@@ -370,10 +379,10 @@ fn a_group_without_loads_bears_nothing() {
 #[test]
 fn a_cylinder_bears_the_boom() {
     let joints = [
-        p("2", "3", 1.0, 1.0, [1.0, 0.9]),
-        r("0", "1", 0.0, 1.0),
-        r("0", "2", 0.5, 0.5),
-        r("3", "1", 3.0, 2.7),
+        sliding_joint("2", "3", 1.0, 1.0, [1.0, 0.9]),
+        turning_joint("0", "1", 0.0, 1.0),
+        turning_joint("0", "2", 0.5, 0.5),
+        turning_joint("3", "1", 3.0, 2.7),
     ];
     let mass = |l: &str| match l {
         "1" => Some((50.0, [2.5, 2.0], 4.0)),
@@ -382,7 +391,7 @@ fn a_cylinder_bears_the_boom() {
         _ => None,
     };
     let text = |speed: f64| {
-        file_with(
+        planar_file_with(
             &joints,
             &mass,
             &format!("[workload]\ngravity = [0, -9.81, 0]\ndrive_speed = {speed:?}\n"),
@@ -408,7 +417,7 @@ fn a_cylinder_bears_the_boom() {
 #[test]
 fn forces_come_again_in_each_turn() {
     let turn = TAU;
-    let s = over(shears(), -turn, 2.0 * turn, 3 * 72);
+    let s = over(shears_text(), -turn, 2.0 * turn, 3 * 72);
     let cutting = |m: &Moment| {
         m.loads
             .iter()

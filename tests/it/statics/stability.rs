@@ -1,12 +1,14 @@
 //! Accuracy near each failure of the δ-point method, against exact arithmetic.
 
-use super::{mechanism, shears};
+use super::{read_planar, shears_text};
 use crate::common::*;
 use ozols::model::loads::Stroke;
 use ozols::statics::contour_group::pose::GroupPose;
-use ozols::statics::contour_group::stability::{DistanceErrors, Failure, at_distance, samples};
+use ozols::statics::contour_group::stability::{
+    DistanceErrors, Failure, at_distance, sample_errors,
+};
 use ozols::statics::contour_group::{delta_point, equilibrium, projective};
-use ozols::statics::cycle::statics;
+use ozols::statics::cycle::planar_statics;
 
 fn base() -> GroupPose {
     let at = Stroke {
@@ -14,7 +16,7 @@ fn base() -> GroupPose {
         to: 3.1,
         steps: 1,
     };
-    statics(&mechanism(shears()), StateId::FREE, Some(at))
+    planar_statics(&read_planar(shears_text()), StateId::FREE, Some(at))
         .unwrap()
         .moments[0]
         .groups[0]
@@ -23,7 +25,7 @@ fn base() -> GroupPose {
 }
 
 fn at(failure: Failure, distances: &[f64]) -> Vec<DistanceErrors> {
-    samples(&base(), failure, distances, 5, 7)
+    sample_errors(&base(), failure, distances, 5, 7)
 }
 
 #[test]
@@ -53,11 +55,11 @@ fn parallel_rods_harm_only_the_published_form() {
     (g.f, g.m) = ([-0.5, 0.0], [-0.5, 1.0]);
     (g.k, g.l) = ([0.25, 0.0], [0.25, 1.5]);
     g.d = [0.125, -1.0];
-    let exact = equilibrium::exact(&g).unwrap();
-    assert!(projective::solve(&g).distance(&exact, &g) < 1e-14);
-    let (published, steps) = delta_point::solve(&g);
+    let exact = equilibrium::solve_exactly(&g).unwrap();
+    assert!(projective::solve_projective(&g).distance_to(&exact, &g) < 1e-14);
+    let (published, steps) = delta_point::solve_delta(&g);
     assert!(!steps.delta.iter().all(|c| c.is_finite()));
-    assert!(published.distance(&exact, &g).is_infinite());
+    assert!(published.distance_to(&exact, &g).is_infinite());
 }
 
 /// At a dead point of the group every method loses figures as the condition grows, none much more than another.
@@ -69,7 +71,9 @@ fn dead_points_harm_every_method_alike() {
             assert!(s.forces.iter().all(|e| *e < bound), "{failure:?} {s:?}");
             assert!(s.condition > 0.1 / s.distance, "{s:?}");
         }
-        assert!(equilibrium::exact(&at_distance(&base(), failure, 1e-12).unwrap()).is_some());
+        assert!(
+            equilibrium::solve_exactly(&at_distance(&base(), failure, 1e-12).unwrap()).is_some()
+        );
     }
 }
 
@@ -102,11 +106,11 @@ fn a_group_solved_by_hand() {
     (g.m, g.l) = ([-1.0, 3.0], [1.0, 3.0]);
     g.guide = [0.0, 1.0];
     g.push(3, [0.0, 4.0], [0.0, -8.0]);
-    let exact = equilibrium::exact(&g).unwrap();
+    let exact = equilibrium::solve_exactly(&g).unwrap();
     for r in [
         exact,
-        projective::solve(&g),
-        equilibrium::solve(&g).unwrap().0,
+        projective::solve_projective(&g),
+        equilibrium::solve_equilibrium(&g).unwrap().0,
     ] {
         let near = |v: [f64; 2], w: [f64; 2]| (v[0] - w[0]).abs() + (v[1] - w[1]).abs() < 1e-14;
         // D bears 8 up; each rod is pushed up by 4 at its foot, and down by 4 at its head; the guide bears nothing.

@@ -3,17 +3,19 @@
 use crate::common::*;
 mod grown;
 
-use super::{J, file, mechanism, p, pair, planar, r};
-use ozols::statics::assur::{AssurError, Decomposition, alternatives, decompose};
+use super::{
+    J, pair_named, planar_file, planar_mechanism, read_planar, sliding_joint, turning_joint,
+};
+use ozols::statics::assur::{AssurError, Decomposition, decompose_alternatives, decompose_groups};
 use ozols::statics::assur_class::Kind;
 use ozols::statics::planar::{BodyId, PlanarMechanism};
 
 fn four_bar() -> Vec<J> {
     vec![
-        r("0", "1", 0., 0.),
-        r("1", "2", 0., 1.),
-        r("2", "3", 3., 3.),
-        r("3", "0", 4., 0.),
+        turning_joint("0", "1", 0., 0.),
+        turning_joint("1", "2", 0., 1.),
+        turning_joint("2", "3", 3., 3.),
+        turning_joint("3", "0", 4., 0.),
     ]
 }
 
@@ -21,9 +23,9 @@ fn four_bar() -> Vec<J> {
 fn stephenson() -> Vec<J> {
     let mut all = four_bar();
     all.extend([
-        r("2", "4", 2., 4.),
-        r("4", "5", 6., 5.),
-        r("5", "0", 7., 0.),
+        turning_joint("2", "4", 2., 4.),
+        turning_joint("4", "5", 6., 5.),
+        turning_joint("5", "0", 7., 0.),
     ]);
     all
 }
@@ -32,9 +34,9 @@ fn stephenson() -> Vec<J> {
 fn watt() -> Vec<J> {
     let mut all = four_bar();
     all.extend([
-        r("2", "4", 2., 4.),
-        r("4", "5", 6., 5.),
-        r("5", "3", 5., 2.),
+        turning_joint("2", "4", 2., 4.),
+        turning_joint("4", "5", 6., 5.),
+        turning_joint("5", "3", 5., 2.),
     ]);
     all
 }
@@ -42,35 +44,35 @@ fn watt() -> Vec<J> {
 /// Theo Jansen's leg: crank 1, and dyads (2, 3), (4, 5), (6, 7).
 fn jansen() -> Vec<J> {
     vec![
-        r("0", "1", 0., 0.),
-        r("1", "2", 15., 0.),
-        r("2", "3", -30., 41.),
-        r("3", "0", -38., -8.),
-        r("1", "4", 15., 0.),
-        r("4", "5", -20., -45.),
-        r("5", "0", -38., -8.),
-        r("3", "6", -78., -5.),
-        r("6", "7", -62., -42.),
-        r("7", "5", -20., -45.),
+        turning_joint("0", "1", 0., 0.),
+        turning_joint("1", "2", 15., 0.),
+        turning_joint("2", "3", -30., 41.),
+        turning_joint("3", "0", -38., -8.),
+        turning_joint("1", "4", 15., 0.),
+        turning_joint("4", "5", -20., -45.),
+        turning_joint("5", "0", -38., -8.),
+        turning_joint("3", "6", -78., -5.),
+        turning_joint("6", "7", -62., -42.),
+        turning_joint("7", "5", -20., -45.),
     ]
 }
 
 /// The four-link group with a closed contour: 4 (D; F, K), rods 6 and 7, slider 10 (M, L; guide), on a crank 3.
 fn closed_contour() -> Vec<J> {
     vec![
-        r("0", "3", -2., 5.),
-        r("3", "4", 0., 5.),
-        r("4", "6", -1., 3.),
-        r("4", "7", 1., 3.),
-        r("6", "9", -0.6, 1.),
-        r("7", "9", 0.5, 1.),
-        p("0", "9", 0., 0., [0., 1.]),
+        turning_joint("0", "3", -2., 5.),
+        turning_joint("3", "4", 0., 5.),
+        turning_joint("4", "6", -1., 3.),
+        turning_joint("4", "7", 1., 3.),
+        turning_joint("6", "9", -0.6, 1.),
+        turning_joint("7", "9", 0.5, 1.),
+        sliding_joint("0", "9", 0., 0., [0., 1.]),
     ]
 }
 
 fn decomposed(joints: &[J]) -> (PlanarMechanism, Decomposition) {
-    let m = planar(joints);
-    let d = decompose(&m, &m.drives()).unwrap();
+    let m = planar_mechanism(joints);
+    let d = decompose_groups(&m, &m.driven_pairs()).unwrap();
     (m, d)
 }
 
@@ -104,7 +106,7 @@ fn laws(m: &PlanarMechanism, d: &Decomposition) {
         }
         bodies.extend(&g.bodies);
         placed.extend(&g.bodies);
-        pairs.extend(g.pairs());
+        pairs.extend(g.all_pairs());
     }
     bodies.sort_unstable();
     pairs.sort_unstable();
@@ -163,11 +165,11 @@ fn published_mechanisms_have_their_published_groups() {
             "4+5: class II, order 2, dyad RRR"
         ]
     );
-    let d = decompose(&m, &[pair(&m, "5-0")]).unwrap();
+    let d = decompose_groups(&m, &[pair_named(&m, "5-0")]).unwrap();
     assert_eq!(words(&m, &d), ["1+2+3+4: class III, order 3, triad"]);
     laws(&m, &d);
     let (m, d) = decomposed(&watt());
-    assert_eq!(d.class(), 2);
+    assert_eq!(d.highest_class(), 2);
     assert_eq!(d.groups.len(), 2);
     laws(&m, &d);
     let (m, d) = decomposed(&jansen());
@@ -195,13 +197,13 @@ fn dyads_have_their_species() {
     let dyad = |a: bool, b: bool, c: bool| {
         let joint = |x: &str, y: &str, at: (f64, f64), slide: bool, along| {
             if slide {
-                p(x, y, at.0, at.1, along)
+                sliding_joint(x, y, at.0, at.1, along)
             } else {
-                r(x, y, at.0, at.1)
+                turning_joint(x, y, at.0, at.1)
             }
         };
         vec![
-            r("0", "1", 0., 0.),
+            turning_joint("0", "1", 0., 0.),
             joint("1", "2", (0., 1.), a, [1., 0.]),
             joint("2", "3", (3., 3.), b, [1., 2.]),
             joint("3", "0", (4., 0.), c, [0., 1.]),
@@ -225,20 +227,20 @@ fn dyads_have_their_species() {
 fn groups_of_six_links_are_classified() {
     // Two bodies of three pairs joined, two leashes each: class III, order 4.
     let chain = vec![
-        r("0", "1", 0., 0.),
-        r("1", "a", 1., 0.),
-        r("a", "S", 2., 1.),
-        r("0", "b", 1., 3.),
-        r("b", "S", 2., 3.),
-        r("S", "T", 4., 2.),
-        r("T", "c", 6., 1.),
-        r("c", "0", 7., 0.),
-        r("T", "d", 6., 3.),
-        r("d", "0", 7., 4.),
+        turning_joint("0", "1", 0., 0.),
+        turning_joint("1", "a", 1., 0.),
+        turning_joint("a", "S", 2., 1.),
+        turning_joint("0", "b", 1., 3.),
+        turning_joint("b", "S", 2., 3.),
+        turning_joint("S", "T", 4., 2.),
+        turning_joint("T", "c", 6., 1.),
+        turning_joint("c", "0", 7., 0.),
+        turning_joint("T", "d", 6., 3.),
+        turning_joint("d", "0", 7., 4.),
     ];
     let (_, d) = decomposed(&chain);
     assert_eq!(
-        (d.groups.len(), d.class(), d.groups[0].class.order),
+        (d.groups.len(), d.highest_class(), d.groups[0].class.order),
         (1, 3, 4)
     );
     assert_eq!(
@@ -250,26 +252,26 @@ fn groups_of_six_links_are_classified() {
     );
     // A contour of five bodies, three of them with an outer pair and one carrying a leash ring: class V, order 3.
     let ring = vec![
-        r("0", "1", 0., 0.),
-        r("1", "a", 1., 0.),
-        r("a", "b", 2., 2.),
-        r("b", "c", 4., 3.),
-        r("c", "d", 6., 2.),
-        r("d", "e", 6., 0.),
-        r("e", "a", 3., -1.),
-        r("c", "0", 5., 5.),
-        r("d", "f", 8., 1.),
-        r("f", "0", 9., 0.),
+        turning_joint("0", "1", 0., 0.),
+        turning_joint("1", "a", 1., 0.),
+        turning_joint("a", "b", 2., 2.),
+        turning_joint("b", "c", 4., 3.),
+        turning_joint("c", "d", 6., 2.),
+        turning_joint("d", "e", 6., 0.),
+        turning_joint("e", "a", 3., -1.),
+        turning_joint("c", "0", 5., 5.),
+        turning_joint("d", "f", 8., 1.),
+        turning_joint("f", "0", 9., 0.),
     ];
     let (_, d) = decomposed(&ring);
-    assert_eq!((d.groups.len(), d.class()), (1, 5));
+    assert_eq!((d.groups.len(), d.highest_class()), (1, 5));
     assert_eq!(d.groups[0].class.order, 3);
 }
 
 #[test]
 fn the_drive_decides_the_groups() {
-    let m = planar(&stephenson());
-    let found = alternatives(&m, &m.drives());
+    let m = planar_mechanism(&stephenson());
+    let found = decompose_alternatives(&m, &m.driven_pairs());
     assert_eq!(found.len(), m.pairs.len());
     let at_frame = found
         .iter()
@@ -279,7 +281,12 @@ fn the_drive_decides_the_groups() {
     assert_eq!(at_frame, ["0-1", "3-0", "5-0"]);
     let classes: Vec<(&str, usize)> = found
         .iter()
-        .map(|(q, d)| (m.pairs[*q].name.as_str(), d.as_ref().unwrap().class()))
+        .map(|(q, d)| {
+            (
+                m.pairs[*q].name.as_str(),
+                d.as_ref().unwrap().highest_class(),
+            )
+        })
         .collect();
     assert_eq!(
         classes,
@@ -300,8 +307,8 @@ fn the_drive_decides_the_groups() {
 
 #[test]
 fn drives_that_do_not_fit_are_refused_with_names() {
-    let m = planar(&four_bar());
-    let none = decompose(&m, &[]).unwrap_err();
+    let m = planar_mechanism(&four_bar());
+    let none = decompose_groups(&m, &[]).unwrap_err();
     assert_eq!(
         none,
         AssurError::Underconstrained {
@@ -309,16 +316,16 @@ fn drives_that_do_not_fit_are_refused_with_names() {
             freedoms: 1
         }
     );
-    let two = decompose(&m, &[0, 3]).unwrap_err();
+    let two = decompose_groups(&m, &[0, 3]).unwrap_err();
     let AssurError::Overconstrained { excess: 1, bodies } = two else {
         panic!("{two}")
     };
     assert_eq!(bodies, "2");
     // A third rod on a parallelogram is redundant in the plane too.
     let text = ozols::builtin::text("parallelogram-3-rods-planar").unwrap();
-    let m = PlanarMechanism::new(&mechanism(text), StateId::FREE).unwrap();
+    let m = PlanarMechanism::new(&read_planar(text), StateId::FREE).unwrap();
     assert!(matches!(
-        decompose(&m, &m.drives()),
+        decompose_groups(&m, &m.driven_pairs()),
         Err(AssurError::Overconstrained { excess: 1, .. })
     ));
 }
@@ -326,28 +333,28 @@ fn drives_that_do_not_fit_are_refused_with_names() {
 #[test]
 fn several_drives_and_drives_between_moving_bodies() {
     // Five-bar with two cranks.
-    let mut five = planar(&[
-        r("0", "1", 0., 0.),
-        r("1", "2", 0., 1.),
-        r("2", "3", 2., 3.),
-        r("3", "4", 4., 1.),
-        r("4", "0", 4., 0.),
+    let mut five = planar_mechanism(&[
+        turning_joint("0", "1", 0., 0.),
+        turning_joint("1", "2", 0., 1.),
+        turning_joint("2", "3", 2., 3.),
+        turning_joint("3", "4", 4., 1.),
+        turning_joint("4", "0", 4., 0.),
     ]);
     five.pairs[4].drive = true;
-    let d = decompose(&five, &five.drives()).unwrap();
+    let d = decompose_groups(&five, &five.driven_pairs()).unwrap();
     assert_eq!(
         (d.driven.len(), words(&five, &d)),
         (2, vec!["2+3: class II, order 2, dyad RRR".to_owned()])
     );
     laws(&five, &d);
     // A boom raised by a cylinder: the cylinder and its rod are one block of the dyad.
-    let boom = planar(&[
-        p("2", "3", 1., 1., [1., 1.]),
-        r("0", "1", 0., 1.),
-        r("0", "2", 0.5, 0.5),
-        r("3", "1", 3., 3.),
+    let boom = planar_mechanism(&[
+        sliding_joint("2", "3", 1., 1., [1., 1.]),
+        turning_joint("0", "1", 0., 1.),
+        turning_joint("0", "2", 0.5, 0.5),
+        turning_joint("3", "1", 3., 3.),
     ]);
-    let d = decompose(&boom, &boom.drives()).unwrap();
+    let d = decompose_groups(&boom, &boom.driven_pairs()).unwrap();
     assert_eq!(d.groups[0].class.to_string(), "class II, order 2, dyad RRR");
     assert_eq!(
         (
@@ -363,12 +370,12 @@ fn several_drives_and_drives_between_moving_bodies() {
 #[test]
 fn a_pin_in_a_slot_is_a_turning_and_a_sliding_pair() {
     let m = PlanarMechanism::new(
-        &mechanism(ozols::builtin::text("lever-slot-gripper").unwrap()),
+        &read_planar(ozols::builtin::text("lever-slot-gripper").unwrap()),
         StateId::FREE,
     )
     .unwrap();
     assert_eq!(m.bodies.iter().filter(|b| b.link.is_none()).count(), 2);
-    let d = decompose(&m, &m.drives()).unwrap();
+    let d = decompose_groups(&m, &m.driven_pairs()).unwrap();
     laws(&m, &d);
     assert_eq!(
         d.groups.iter().map(|g| g.class.kind).collect_vec(),

@@ -84,7 +84,7 @@ proptest! {
     #[test]
     fn is_refused_or_can_be_undone(all in prop::collection::vec(sent(), 40)) {
         let folder = tempdir().unwrap();
-        let own = out(&["show", "gripper-10"]);
+        let own = run_quiet(&["show", "gripper-10"]);
         fs::write(folder.path().join("mine.toml"), &own).unwrap();
         let s = Served::new(folder.path(), &["mine.toml"]);
         let now = || s.status()["revision"].clone();

@@ -2,7 +2,7 @@
 
 use crate::common::*;
 use crate::fuzz::runs;
-use ozols::file::edit::{Edit, Thing, edited};
+use ozols::file::edit::{Edit, Thing, apply_edits};
 use proptest::prelude::*;
 use proptest::sample::{Index, select};
 
@@ -52,14 +52,14 @@ fn what_is_set_to_what_it_is_leaves_every_byte() {
                 }
             }
         }
-        assert_eq!(edited(text, &edits).unwrap(), text, "{name}");
+        assert_eq!(apply_edits(text, &edits).unwrap(), text, "{name}");
     }
 }
 
 #[test]
 fn one_coordinate_changes_one_line_and_keeps_the_digits_of_the_others() {
     let text = "name = \"x\" # a name\n\n# hinge\n[[joint]] # one\nid = \"a\"   # its id\npoint = [ 1.50, \"sqrt(2)\",0 ]  # where\n";
-    let to = |value| edited(text, &[set(Thing::Joint, "a", "point", value)]).unwrap();
+    let to = |value| apply_edits(text, &[set(Thing::Joint, "a", "point", value)]).unwrap();
     assert_eq!(
         to(json!([1.5, "sqrt(3)", 0])),
         text.replace("sqrt(2)", "sqrt(3)")
@@ -73,7 +73,7 @@ fn one_coordinate_changes_one_line_and_keeps_the_digits_of_the_others() {
         to(Value::Null),
         text.replace("point = [ 1.50, \"sqrt(2)\",0 ]  # where\n", "")
     );
-    let more = edited(text, &[set(Thing::Joint, "a", "axis", json!([0, 0, "1"]))]).unwrap();
+    let more = apply_edits(text, &[set(Thing::Joint, "a", "axis", json!([0, 0, "1"]))]).unwrap();
     assert_eq!(more, format!("{text}axis = [0, 0, 1]\n"));
 }
 
@@ -93,7 +93,7 @@ fn another_name_is_put_wherever_the_file_has_it() {
             id: (*id).to_owned(),
             to: format!("the {what} {id}"),
         });
-        let renamed = edited(text, &edits.collect_vec()).unwrap();
+        let renamed = apply_edits(text, &edits.collect_vec()).unwrap();
         let after = read(&renamed);
         let ids: Vec<String> = m
             .joints
@@ -117,7 +117,7 @@ fn what_names_a_thing_goes_with_it() {
             let gone = Edit::Remove {
                 items: vec![(Thing::Link, link.id.clone())],
             };
-            let rest = edited(text, &[gone]).unwrap();
+            let rest = apply_edits(text, &[gone]).unwrap();
             if let Err(e) = mechanism_from_str("rest.toml", &rest) {
                 let said = e.to_string();
                 let unknown = said.contains("unknown link") || said.contains("unknown joint");
@@ -141,7 +141,7 @@ fn what_cannot_be_done_changes_nothing_and_says_why() {
         what: Thing::Link,
         entry: json!({ "id": id }).as_object().unwrap().clone(),
     };
-    let why = |edits: &[Edit]| edited(text, edits).unwrap_err().to_string();
+    let why = |edits: &[Edit]| apply_edits(text, edits).unwrap_err().to_string();
     assert!(
         why(&[set(Thing::Joint, "no", "type", json!("fixed"))])
             .contains("the file has no joint \"no\"")
@@ -152,13 +152,13 @@ fn what_cannot_be_done_changes_nothing_and_says_why() {
             .contains("an empty value is not allowed")
     );
     assert!(
-        edited("a = [", &[entry("9")])
+        apply_edits("a = [", &[entry("9")])
             .unwrap_err()
             .to_string()
             .contains("not valid TOML")
     );
     assert!(
-        edited("link = [{ id = \"0\" }]", &[entry("9")])
+        apply_edits("link = [{ id = \"0\" }]", &[entry("9")])
             .unwrap_err()
             .to_string()
             .contains("[[link]]")
@@ -203,7 +203,7 @@ proptest! {
             // A change may make a file of it that is no mechanism; then it is undone.
             let Ok(m) = mechanism_from_str("now.toml", &now) else { break };
             let Some(edit) = chosen(&m, pick) else { continue };
-            let Ok(next) = edited(&now, &[edit]) else { continue };
+            let Ok(next) = apply_edits(&now, &[edit]) else { continue };
             prop_assert_eq!(comments(&next), comments(text));
             changes += 1;
             now = next;

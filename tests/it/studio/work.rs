@@ -7,11 +7,11 @@ use crate::common::*;
 fn the_verdict_and_the_ideas_are_those_of_the_command_line() {
     let folder = tempdir().unwrap();
     for name in ["gripper-10", "bennett"] {
-        fs::write(folder.path().join("mine.toml"), out(&["show", name])).unwrap();
+        fs::write(folder.path().join("mine.toml"), run_quiet(&["show", name])).unwrap();
         let s = Served::new(folder.path(), &["mine.toml"]);
         let mut window = s.window();
         let verdict = window.next("verdict");
-        let mut analysis = json(&["analyze", name, "--format", "json"]);
+        let mut analysis = run_json(&["analyze", name, "--format", "json"]);
         for state in analysis["states"].as_array_mut().unwrap() {
             state["suggestions"] = Value::Null;
         }
@@ -20,7 +20,7 @@ fn the_verdict_and_the_ideas_are_those_of_the_command_line() {
         }
         let motion = s.window().next("motion");
         assert!(motion["scenes"][0]["moves"][0]["poses"].list().len() > 10);
-        let mut search = json(&format!("search {name} --distinct --top 10 --format json"));
+        let mut search = run_json(&format!("search {name} --distinct --top 10 --format json"));
         search.as_object_mut().unwrap().shift_remove("seconds");
         assert_eq!(window.next("ideas")["found"], search, "{name}");
     }
@@ -35,7 +35,7 @@ fn an_idea_that_is_taken_does_what_it_says_and_keeps_the_comments() {
         ("lever-gripper", 3),
         ("parallelogram-3-rods", 3),
     ] {
-        let own = out(&["show", name]);
+        let own = run_quiet(&["show", name]);
         fs::write(folder.path().join("mine.toml"), &own).unwrap();
         let s = Served::new(folder.path(), &["mine.toml"]);
         let mut window = s.window();
@@ -69,7 +69,7 @@ fn an_idea_that_is_taken_does_what_it_says_and_keeps_the_comments() {
 #[test]
 fn a_wider_request_is_asked_for_by_its_number() {
     let folder = tempdir().unwrap();
-    let own = out(&["show", "bennett"]);
+    let own = run_quiet(&["show", "bennett"]);
     let few = own.replace(r#""cylindrical", "universal", "spherical""#, r#""slotted""#);
     assert_ne!(few, own);
     fs::write(folder.path().join("mine.toml"), few).unwrap();
@@ -100,7 +100,7 @@ fn a_search_ends_when_another_text_comes() {
     let folder = tempdir().unwrap();
     fs::write(
         folder.path().join("mine.toml"),
-        out(&["show", "gripper-10"]),
+        run_quiet(&["show", "gripper-10"]),
     )
     .unwrap();
     let s = Served::new(folder.path(), &["mine.toml"]);

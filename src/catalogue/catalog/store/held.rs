@@ -30,7 +30,7 @@ pub(super) type Stored<T> = Result<T, StoreError>;
 
 impl Store {
     /// Returns the fault of a file from SQLite's error.
-    pub(super) fn error(path: &Path, why: rusqlite::Error) -> StoreError {
+    pub(super) fn wrap_error(path: &Path, why: rusqlite::Error) -> StoreError {
         let path = path.to_owned();
         match why.sqlite_error_code() {
             Some(ErrorCode::DatabaseCorrupt) => StoreError::Damaged {
@@ -41,12 +41,12 @@ impl Store {
         }
     }
 
-    pub(super) fn wrap<T>(path: &Path, result: rusqlite::Result<T>) -> Stored<T> {
-        result.map_err(|why| Store::error(path, why))
+    pub(super) fn wrap_result<T>(path: &Path, result: rusqlite::Result<T>) -> Stored<T> {
+        result.map_err(|why| Store::wrap_error(path, why))
     }
 
-    pub(super) fn ok<T>(&self, result: rusqlite::Result<T>) -> Stored<T> {
-        Store::wrap(&self.path, result)
+    pub(super) fn check_result<T>(&self, result: rusqlite::Result<T>) -> Stored<T> {
+        Store::wrap_result(&self.path, result)
     }
 
     /// Returns the first column of an answer.
@@ -55,17 +55,17 @@ impl Store {
             let mut query = self.db.prepare(sql)?;
             query.query_map(of, |r| r.get(0))?.collect()
         };
-        self.ok(read())
+        self.check_result(read())
     }
 
     /// Returns the first value of an answer, or `None` if it has no row.
     fn value<T: FromSql>(&self, sql: &str, of: impl Params) -> Stored<Option<T>> {
-        self.ok(self.db.query_row(sql, of, |r| r.get(0)).optional())
+        self.check_result(self.db.query_row(sql, of, |r| r.get(0)).optional())
     }
 
     /// Changes the file.
     pub(super) fn change(&self, sql: &str, of: impl Params) -> Stored<()> {
-        self.ok(self.db.execute(sql, of)).map(drop)
+        self.check_result(self.db.execute(sql, of)).map(drop)
     }
 
     /// Changes the file in one transaction: all at once, or not at all.
@@ -75,10 +75,10 @@ impl Store {
     ) -> Stored<()> {
         let begun = (self.db).transaction_with_behavior(TransactionBehavior::Immediate);
         let done = begun.and_then(|t| change(&t).and_then(|()| t.commit()));
-        self.ok(done)
+        self.check_result(done)
     }
 
-    pub(super) fn meta(&self, key: &str) -> Stored<Option<String>> {
+    pub(super) fn meta_value(&self, key: &str) -> Stored<Option<String>> {
         self.value("SELECT value FROM meta WHERE key = ?1", [key])
     }
 
@@ -91,7 +91,7 @@ impl Store {
     ///
     /// # Errors
     /// Returns an error if the file cannot be read.
-    pub fn ids(&self) -> Stored<BTreeSet<String>> {
+    pub fn structure_ids(&self) -> Stored<BTreeSet<String>> {
         let all = self.column("SELECT id FROM structures", [])?;
         Ok(all.into_iter().collect())
     }
@@ -100,8 +100,11 @@ impl Store {
     ///
     /// # Errors
     /// Returns an error if the file cannot be written.
-    pub fn add(&mut self, rows: &[StructureRow]) -> Stored<()> {
-        self.transact(|t| rows.iter().try_for_each(|row| insert::row(t, row)))
+    pub fn add_rows(&mut self, rows: &[StructureRow]) -> Stored<()> {
+        self.transact(|t| {
+            rows.iter()
+                .try_for_each(|row| insert::insert_structure(t, row))
+        })
     }
 
     /// Adds structures while `make` makes and sends them, those of half a second together. If the file cannot be written, sending
@@ -124,7 +127,7 @@ impl Store {
                     };
                     let all = iter::once(first).chain(iter::from_fn(more));
                     let all: Vec<_> = all.take(WAITING).collect();
-                    self.add(&all)?;
+                    self.add_rows(&all)?;
                 }
                 Ok(())
             });
@@ -151,14 +154,14 @@ impl Store {
     /// # Errors
     /// Returns an error if the file cannot be written.
     pub fn add_drawn(&mut self, drawn: &DrawnMechanism) -> Stored<()> {
-        self.transact(|t| insert::drawn(t, drawn))
+        self.transact(|t| insert::insert_drawn(t, drawn))
     }
 
     /// Returns the whole id, given its beginning.
     ///
     /// # Errors
     /// Returns an error if there is no such id, or several.
-    pub fn find(&self, id: &str) -> Stored<String> {
+    pub fn find_id(&self, id: &str) -> Stored<String> {
         let sql = "SELECT id FROM (SELECT id, name FROM structures UNION ALL SELECT id, name FROM drawn) \
                    WHERE substr(id, 1, length(?1)) = ?1 OR name = ?1 ORDER BY id";
         let found = self.column(sql, [id])?;
@@ -179,7 +182,11 @@ impl Store {
     ///
     /// # Errors
     /// Returns an error if the question is invalid or its answer is too large.
-    pub fn query(&self, sql: &str, id: Option<&str>) -> Stored<(Vec<String>, Vec<Vec<Value>>)> {
+    pub fn query_rows(
+        &self,
+        sql: &str,
+        id: Option<&str>,
+    ) -> Stored<(Vec<String>, Vec<Vec<Value>>)> {
         let all = || -> rusqlite::Result<_> {
             let mut query = self.db.prepare(sql)?;
             let names: Vec<String> = query
@@ -190,7 +197,7 @@ impl Store {
             let (mut rows, mut bytes) = (Vec::new(), 0);
             let mut found = query.query(rusqlite::params_from_iter(id))?;
             while let Some(r) = found.next()? {
-                let row = (0..names.len()).map(|i| Ok(plain(r.get_ref(i)?)));
+                let row = (0..names.len()).map(|i| Ok(json_value(r.get_ref(i)?)));
                 let row: Vec<Value> = row.collect::<rusqlite::Result<_>>()?;
                 bytes += row.iter().map(held_by).sum::<usize>();
                 if bytes > LARGEST_ANSWER << 20 {
@@ -209,7 +216,7 @@ impl Store {
             {
                 Err(only_read())
             }
-            done => self.ok(done)?,
+            done => self.check_result(done)?,
         }
     }
 
@@ -217,7 +224,7 @@ impl Store {
     ///
     /// # Errors
     /// Returns an error if the file cannot be read.
-    pub fn mechanism(&self, id: &str) -> Stored<Option<String>> {
+    pub fn mechanism_text(&self, id: &str) -> Stored<Option<String>> {
         let sql = "SELECT mechanism FROM layouts WHERE structure = ?1 \
                    UNION ALL SELECT mechanism FROM drawn WHERE id = ?1";
         self.value(sql, [id])
@@ -227,7 +234,7 @@ impl Store {
     ///
     /// # Errors
     /// Returns an error if the file cannot be read.
-    pub fn choices(&self, id: &str, place: usize) -> Stored<Option<Vec<usize>>> {
+    pub fn idea_choices(&self, id: &str, place: usize) -> Stored<Option<Vec<usize>>> {
         let sql = "SELECT choices FROM ideas WHERE structure = ?1 AND place = ?2";
         let place = i64::try_from(place).unwrap_or(i64::MAX);
         let found = self.value::<String>(sql, params![id, place])?;
@@ -242,7 +249,7 @@ fn held_by(value: &Value) -> usize {
 }
 
 /// Converts a value of the database to JSON.
-fn plain(value: ValueRef<'_>) -> Value {
+fn json_value(value: ValueRef<'_>) -> Value {
     match value {
         ValueRef::Null => Value::Null,
         ValueRef::Integer(n) => n.into(),

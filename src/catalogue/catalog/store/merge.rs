@@ -28,18 +28,18 @@ pub struct Merged {
 impl Merged {
     /// Merges a part into the whole, and opens the whole if necessary.
     fn take_in(&mut self, path: &Path, whole: Option<Store>, part: &Path) -> Stored<Store> {
-        let from = Store::open(part)?;
-        let spec = from.meta("spec")?;
-        let is_finished = spec.is_none() || !from.parts()?.is_empty();
+        let from = Store::open_readonly(part)?;
+        let spec = from.meta_value("spec")?;
+        let is_finished = spec.is_none() || !from.finished_parts()?.is_empty();
         let whole = match (whole, spec) {
             (Some(whole), None) => whole,
             // Drawn mechanisms alone go with any.
-            (None, None) => Store::writable(path)?,
+            (None, None) => Store::open_writable(path)?,
             (whole, Some(text)) => {
                 let spec = toml::from_str::<Spec>(&text);
                 spec.map_err(|_| StoreError::Other(part.to_owned()))?;
                 match whole {
-                    Some(mut whole) if whole.meta("spec")?.is_some() => {
+                    Some(mut whole) if whole.meta_value("spec")?.is_some() => {
                         whole.be_of(&text)?;
                         whole
                     }
@@ -62,7 +62,7 @@ impl Store {
     ///
     /// # Errors
     /// Returns an error if the merged file cannot be read.
-    pub fn merge(
+    pub fn merge_parts(
         path: &Path,
         parts: &[PathBuf],
         mut refuse: impl FnMut(StoreError),
@@ -77,8 +77,8 @@ impl Store {
             }
         }
         if merged.taken > 0 {
-            let whole = whole.map_or_else(|| Store::open(path), Ok)?;
-            merged.missing = whole.missing()?;
+            let whole = whole.map_or_else(|| Store::open_readonly(path), Ok)?;
+            merged.missing = whole.missing_parts()?;
         }
         Ok(merged)
     }
@@ -94,7 +94,7 @@ impl Store {
     }
 
     /// Returns the complete parts.
-    fn parts(&self) -> Stored<Vec<Shard>> {
+    fn finished_parts(&self) -> Stored<Vec<Shard>> {
         let words = self.column("SELECT part FROM parts ORDER BY part", [])?;
         Ok(words.iter().filter_map(|w| w.parse().ok()).collect())
     }
@@ -103,16 +103,16 @@ impl Store {
     ///
     /// # Errors
     /// Returns an error if the file cannot be read.
-    pub fn missing(&self) -> Stored<Vec<Shard>> {
-        if self.meta("spec")?.is_none() {
+    pub fn missing_parts(&self) -> Stored<Vec<Shard>> {
+        if self.meta_value("spec")?.is_none() {
             return Ok(Vec::new());
         }
-        Ok(missing(&self.parts()?))
+        Ok(missing_shards(&self.finished_parts()?))
     }
 
     fn take_in(&self, part: &Path) -> Stored<usize> {
         let all = || -> rusqlite::Result<usize> {
-            self.attach(part)?;
+            self.attach_part(part)?;
             // Existing rows stay unchanged, without ideas of another search.
             self.db.execute_batch(
                 "BEGIN IMMEDIATE;
@@ -133,11 +133,11 @@ impl Store {
             )?;
             Ok(usize::try_from(added).unwrap_or(0))
         };
-        self.ok(all())
+        self.check_result(all())
     }
 
     /// Attaches a part, whose name may have any bytes.
-    fn attach(&self, part: &Path) -> rusqlite::Result<()> {
+    fn attach_part(&self, part: &Path) -> rusqlite::Result<()> {
         let name = plain_name(part);
         #[cfg(unix)]
         let name = std::os::unix::ffi::OsStrExt::as_bytes(name.as_os_str());
@@ -150,7 +150,7 @@ impl Store {
 }
 
 /// Returns the missing parts, in a partition that all given ones fit into.
-fn missing(there: &[Shard]) -> Vec<Shard> {
+fn missing_shards(there: &[Shard]) -> Vec<Shard> {
     let of = there.iter().fold(
         1,
         |all: u64, part| {
@@ -167,12 +167,15 @@ fn missing(there: &[Shard]) -> Vec<Shard> {
 
 #[cfg(test)]
 mod tests {
-    use super::missing;
+    use super::missing_shards;
     use crate::shard::Shard;
 
     fn words(there: &[&str]) -> String {
         let there: Vec<Shard> = there.iter().map(|p| p.parse().unwrap()).collect();
-        let all: Vec<String> = missing(&there).iter().map(ToString::to_string).collect();
+        let all: Vec<String> = missing_shards(&there)
+            .iter()
+            .map(ToString::to_string)
+            .collect();
         all.join(" ")
     }
 
@@ -185,11 +188,15 @@ mod tests {
         assert_eq!(words(&["1/2", "2/4"]), "4/4");
         // Every piece that is missing is in one of the parts named, and none of these is there.
         let there: Vec<Shard> = ["1/2", "3/3"].map(|p| p.parse().unwrap()).into();
-        let gone = missing(&there);
+        let gone = missing_shards(&there);
         for piece in 0..200 {
             let name = piece.to_string();
-            let is_there = there.iter().any(|p| p.has(&name));
-            assert_eq!(is_there, !gone.iter().any(|p| p.has(&name)), "{piece}");
+            let is_there = there.iter().any(|p| p.has_piece(&name));
+            assert_eq!(
+                is_there,
+                !gone.iter().any(|p| p.has_piece(&name)),
+                "{piece}"
+            );
         }
     }
 

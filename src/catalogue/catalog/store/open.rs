@@ -33,15 +33,15 @@ impl Store {
     ///
     /// # Errors
     /// Returns an error if the file is not a catalogue.
-    pub fn open(path: &Path) -> Stored<Store> {
+    pub fn open_readonly(path: &Path) -> Stored<Store> {
         let read = || {
-            let db = connect(path, OpenFlags::SQLITE_OPEN_READ_ONLY)?;
-            let kind = kind(path, &db)?;
+            let db = open_connection(path, OpenFlags::SQLITE_OPEN_READ_ONLY)?;
+            let kind = file_kind(path, &db)?;
             Ok((db, kind))
         };
         let (db, kind) = match read() {
             Err(StoreError::Database { why, .. }) if is_half_written(&why) => {
-                recover(path)?;
+                recover_file(path)?;
                 read()?
             }
             done => done?,
@@ -52,7 +52,7 @@ impl Store {
             FileKind::Catalogue(found) => check_version(path, found)?,
         }
         check_pages(path, &db)?;
-        Store::wrap(path, db.authorizer(Some(only_questions)))?;
+        Store::wrap_result(path, db.authorizer(Some(only_questions)))?;
         Ok(Store {
             path: path.to_owned(),
             db,
@@ -63,28 +63,28 @@ impl Store {
     ///
     /// # Errors
     /// Returns an error if the file is something else, or holds another catalogue.
-    pub fn create(path: &Path, spec: &Spec) -> Stored<Store> {
-        Store::writable_of(path, Some(&spec.canonical()))
+    pub fn open_or_create(path: &Path, spec: &Spec) -> Stored<Store> {
+        Store::writable_of(path, Some(&spec.to_canonical()))
     }
 
     /// Opens a catalogue for writing, or creates an empty one.
     ///
     /// # Errors
     /// Returns an error if the file is something else.
-    pub fn writable(path: &Path) -> Stored<Store> {
+    pub fn open_writable(path: &Path) -> Stored<Store> {
         Store::writable_of(path, None)
     }
 
     /// Opens or creates a catalogue, with a specification if one is given.
     pub(super) fn writable_of(path: &Path, spec: Option<&str>) -> Stored<Store> {
         let flags = OpenFlags::SQLITE_OPEN_READ_WRITE | OpenFlags::SQLITE_OPEN_CREATE;
-        let db = connect(path, flags)?;
+        let db = open_connection(path, flags)?;
         // Rolls back the remains of a killed command, and locks out others that would create the tables.
         let begun = db.execute_batch("PRAGMA page_size = 8192; BEGIN IMMEDIATE");
-        begun.map_err(|why| unreadable(path, why))?;
-        match kind(path, &db)? {
+        begun.map_err(|why| unreadable_error(path, why))?;
+        match file_kind(path, &db)? {
             FileKind::Other => return Err(StoreError::Other(path.to_owned())),
-            FileKind::Fresh => Store::wrap(path, version::make(&db))?,
+            FileKind::Fresh => Store::wrap_result(path, version::make_tables(&db))?,
             FileKind::Catalogue(found) => {
                 check_version(path, found)?;
                 check_pages(path, &db)?;
@@ -98,14 +98,14 @@ impl Store {
             store.be_of(spec)?;
         }
         let done = store.db.execute_batch("COMMIT");
-        store.ok(done)?;
+        store.check_result(done)?;
         Ok(store)
     }
 
     /// Stores the specification, or checks that it is the stored one.
     pub(super) fn be_of(&mut self, spec: &str) -> Stored<()> {
-        match self.meta("spec")? {
-            Some(there) if there != spec => Err(differs(&self.path, &there, spec)),
+        match self.meta_value("spec")? {
+            Some(there) if there != spec => Err(spec_difference(&self.path, &there, spec)),
             Some(_) => Ok(()),
             None => {
                 self.set_meta("spec", spec)?;
@@ -127,7 +127,7 @@ fn check_version(path: &Path, found: i64) -> Stored<()> {
 /// Refuses a damaged file by SQLite's quick check, which reads every page once. Rows added to a damaged file may be lost.
 fn check_pages(path: &Path, db: &Connection) -> Stored<()> {
     let found = db.query_row("PRAGMA quick_check(1)", [], |r| r.get::<_, String>(0));
-    match Store::wrap(path, found)? {
+    match Store::wrap_result(path, found)? {
         well if well == "ok" => Ok(()),
         // The first line names the database, the last one its first flaw.
         why => Err(StoreError::Damaged {
@@ -138,7 +138,7 @@ fn check_pages(path: &Path, db: &Connection) -> Stored<()> {
 }
 
 /// Opens a database. Every name is that of a file, and the schema of a foreign file is not trusted.
-fn connect(path: &Path, flags: OpenFlags) -> Stored<Connection> {
+fn open_connection(path: &Path, flags: OpenFlags) -> Stored<Connection> {
     let flags = flags | OpenFlags::SQLITE_OPEN_NO_MUTEX;
     let open = || {
         let db = Connection::open_with_flags(plain_name(path), flags)?;
@@ -146,7 +146,7 @@ fn connect(path: &Path, flags: OpenFlags) -> Stored<Connection> {
         db.pragma_update(None, "trusted_schema", false)?;
         Ok(db)
     };
-    Store::wrap(path, open())
+    Store::wrap_result(path, open())
 }
 
 /// Returns a name that SQLite reads as that of a file, such as one called `:memory:`.
@@ -158,15 +158,15 @@ pub(super) fn plain_name(path: &Path) -> PathBuf {
     }
 }
 
-fn kind(path: &Path, db: &Connection) -> Stored<FileKind> {
-    version::kind(db).map_err(|why| unreadable(path, why))
+fn file_kind(path: &Path, db: &Connection) -> Stored<FileKind> {
+    version::database_kind(db).map_err(|why| unreadable_error(path, why))
 }
 
 /// Returns the error of an unreadable file, which may not be a database.
-fn unreadable(path: &Path, why: rusqlite::Error) -> StoreError {
+fn unreadable_error(path: &Path, why: rusqlite::Error) -> StoreError {
     match why.sqlite_error_code() {
         Some(ErrorCode::NotADatabase) => StoreError::Other(path.to_owned()),
-        _ => Store::error(path, why),
+        _ => Store::wrap_error(path, why),
     }
 }
 
@@ -180,9 +180,9 @@ fn is_half_written(why: &rusqlite::Error) -> bool {
 }
 
 /// Rolls back the remains of a killed command.
-fn recover(path: &Path) -> Stored<()> {
-    let db = connect(path, OpenFlags::SQLITE_OPEN_READ_WRITE)?;
-    kind(path, &db).map(drop)
+fn recover_file(path: &Path) -> Stored<()> {
+    let db = open_connection(path, OpenFlags::SQLITE_OPEN_READ_WRITE)?;
+    file_kind(path, &db).map(drop)
 }
 
 fn only_questions(asked: AuthContext<'_>) -> Authorization {
@@ -197,7 +197,7 @@ fn only_questions(asked: AuthContext<'_>) -> Authorization {
 }
 
 /// Returns the difference of two specifications.
-fn differs(path: &Path, there: &str, asked: &str) -> StoreError {
+fn spec_difference(path: &Path, there: &str, asked: &str) -> StoreError {
     let line = |text: &str, other: &str| {
         let lines = other.lines().collect::<BTreeSet<_>>();
         let differs = text.lines().find(|l| !lines.contains(l));

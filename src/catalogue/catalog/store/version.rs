@@ -109,7 +109,7 @@ const TABLES: &str = include_str!("../tables.sql");
 /// Returns the prices of parts, as rows.
 fn price_rows() -> String {
     let row = |(part, price): &(&str, f64)| format!("('{part}', {price:?})");
-    prices().iter().map(row).join(", ")
+    part_prices().iter().map(row).join(", ")
 }
 
 /// Kind of a file.
@@ -124,7 +124,7 @@ pub(super) enum FileKind {
 }
 
 /// Returns the kind of an open database.
-pub(super) fn kind(db: &Connection) -> rusqlite::Result<FileKind> {
+pub(super) fn database_kind(db: &Connection) -> rusqlite::Result<FileKind> {
     let number = |name: &str| db.pragma_query_value(None, name, |r| r.get::<_, i64>(0));
     let (application, version) = (number("application_id")?, number("user_version")?);
     let tables: i64 = db.query_row("SELECT count(*) FROM main.sqlite_schema", [], |r| r.get(0))?;
@@ -136,7 +136,7 @@ pub(super) fn kind(db: &Connection) -> rusqlite::Result<FileKind> {
 }
 
 /// Makes the tables, in the transaction that is open.
-pub(super) fn make(db: &Connection) -> rusqlite::Result<()> {
+pub(super) fn make_tables(db: &Connection) -> rusqlite::Result<()> {
     db.execute_batch(&format!(
         "PRAGMA application_id = {APPLICATION}; PRAGMA user_version = {VERSION}; {TABLES} INSERT INTO prices VALUES {};",
         price_rows()
@@ -147,7 +147,7 @@ pub(super) fn make(db: &Connection) -> rusqlite::Result<()> {
 const TEETH_MILLI: i64 = 3000;
 
 /// The price of each part by its name.
-fn prices() -> [(&'static str, f64); 5] {
+fn part_prices() -> [(&'static str, f64); 5] {
     #[allow(clippy::cast_precision_loss, reason = "a few thousand")]
     let whole = |milli: i64| milli as f64 / 1000.0;
     let joint = |of: JointType| whole(of.default_cost_milli());

@@ -6,7 +6,7 @@
 //! vertex of four or more edges can be split in two without losing this property. Cubic graphs with k + 1 loops result from
 //! those with k by a new edge between the middles of two edges, or of one.
 
-use crate::chains::canonical::{Weighted, canonical};
+use crate::chains::canonical::{Weighted, number_graph};
 use itertools::Itertools;
 use rayon::prelude::*;
 use std::collections::BTreeSet;
@@ -38,7 +38,7 @@ pub(in crate::chains) fn is_biconnected(graph: &Weighted) -> bool {
 }
 
 /// Returns the edges, each as often as its weight.
-pub(super) fn edges(graph: &Weighted) -> Vec<(usize, usize)> {
+pub(super) fn repeated_edges(graph: &Weighted) -> Vec<(usize, usize)> {
     let pairs = (0..graph.vertices()).tuple_combinations();
     let repeated = |(u, v)| std::iter::repeat_n((u, v), graph.weight(u, v).into());
     pairs.flat_map(repeated).collect()
@@ -69,7 +69,7 @@ fn with_edge_between(graph: &Weighted, edges: [(usize, usize); 2], same: bool) -
 }
 
 /// Returns the graph with an edge contracted, its second end into the first.
-fn contracted(graph: &Weighted, into: usize, gone: usize) -> Weighted {
+fn contract_edge(graph: &Weighted, into: usize, gone: usize) -> Weighted {
     let kept: Vec<usize> = (0..graph.vertices()).filter(|&v| v != gone).collect();
     let mut out = graph.renumbered(&kept);
     let place = |v: usize| v - usize::from(v > gone);
@@ -80,8 +80,8 @@ fn contracted(graph: &Weighted, into: usize, gone: usize) -> Weighted {
     out
 }
 
-fn distinct(candidates: impl ParallelIterator<Item = Weighted>) -> BTreeSet<Weighted> {
-    candidates.map(|g| canonical(&g).graph).collect()
+fn distinct_graphs(candidates: impl ParallelIterator<Item = Weighted>) -> BTreeSet<Weighted> {
+    candidates.map(|g| number_graph(&g).graph).collect()
 }
 
 /// Returns every contracted graph with this number of loops, two or more, in canonical numbering and in order.
@@ -96,14 +96,14 @@ pub(crate) fn contracted_graphs(loops: usize) -> Vec<Weighted> {
     for _ in 2..loops {
         let list: Vec<&Weighted> = cubic.iter().collect();
         let grown = list.into_par_iter().flat_map_iter(|g| {
-            let all = edges(g);
+            let all = repeated_edges(g);
             let single = all.iter().dedup().map(|&e| ([e, e], true)).collect_vec();
             let pairs = all.iter().copied().tuple_combinations();
             let pairs = pairs.dedup().map(|(e, f)| ([e, f], false)).collect_vec();
             let both = single.into_iter().chain(pairs);
             both.map(|(e, same)| with_edge_between(g, e, same))
         });
-        cubic = distinct(grown);
+        cubic = distinct_graphs(grown);
     }
     let mut out: Vec<Weighted> = Vec::new();
     let mut level = cubic;
@@ -112,10 +112,10 @@ pub(crate) fn contracted_graphs(loops: usize) -> Vec<Weighted> {
         let smaller = list.into_par_iter().flat_map_iter(|g| {
             let pairs = (0..g.vertices()).tuple_combinations();
             let single = pairs.filter(|&(u, v)| g.weight(u, v) == 1).collect_vec();
-            let drawn = single.into_iter().map(|(u, v)| contracted(g, u, v));
+            let drawn = single.into_iter().map(|(u, v)| contract_edge(g, u, v));
             drawn.filter(|g| g.vertices() > 1 && is_biconnected(g))
         });
-        let next = distinct(smaller);
+        let next = distinct_graphs(smaller);
         out.extend(level);
         level = next;
     }

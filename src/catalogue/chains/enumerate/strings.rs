@@ -1,8 +1,8 @@
 //! The numbers of joints of each string of a chain: every distribution of joints over the edges of a contracted graph without a
 //! rigid part, once up to the graph's symmetries.
 
-use crate::chains::canonical::{Weighted, canonical};
-use crate::chains::enumerate::contracted::edges;
+use crate::chains::canonical::{Weighted, number_graph};
+use crate::chains::enumerate::contracted::repeated_edges;
 use itertools::Itertools;
 use std::collections::BTreeSet;
 
@@ -38,7 +38,7 @@ struct Shared {
 impl Strings {
     pub(super) fn new(graph: &Weighted) -> Strings {
         let n = graph.vertices();
-        let mut ends = edges(graph);
+        let mut ends = repeated_edges(graph);
         // Parts of the first few vertices are whole early.
         ends.sort_by_key(|&(u, v)| (v, u));
         let mut parts: Vec<Vec<ChainPart>> = ends.iter().map(|_| Vec::new()).collect();
@@ -66,7 +66,7 @@ impl Strings {
             let pair = (u.min(v), u.max(v));
             ends.iter().position(|&e| e == pair).unwrap_or(0)
         };
-        let automorphisms = canonical(graph).automorphisms;
+        let automorphisms = number_graph(graph).automorphisms;
         let image = |a: &Vec<usize>| {
             let to = |(i, &(u, v)): (usize, &(usize, usize))| place(a[u], a[v]) + i - place(u, v);
             ends.iter().enumerate().map(to).collect_vec()
@@ -81,7 +81,7 @@ impl Strings {
     }
 
     /// Distributes `joints`, at most `most` per string.
-    pub(super) fn share(&self, joints: usize, most: u8, visit: &mut impl FnMut(&[u8])) {
+    pub(super) fn share_joints(&self, joints: usize, most: u8, visit: &mut impl FnMut(&[u8])) {
         let mut shared = Shared {
             joints: vec![0; self.ends.len()],
             ones: 0,

@@ -81,7 +81,7 @@ pub struct Recognized {
 impl Recognized {
     /// How many sides there are: 2; 3 that are alike, of which the structure has two; or 1, with three jaws that are no such sides.
     #[must_use]
-    pub fn sides(&self) -> usize {
+    pub fn side_count(&self) -> usize {
         match self.structure.roles.jaws.len() {
             2 => self.whole.roles.jaws.len(),
             _ => 1,
@@ -90,14 +90,14 @@ impl Recognized {
 }
 
 /// The jaws, where there are two or three that are not the frame.
-pub(super) fn jaws(
+pub(super) fn jaw_links(
     m: &Mechanism,
     body: impl Fn(LinkId) -> Option<usize>,
 ) -> Result<Vec<usize>, NoStructure> {
     let outputs = m.links_with_ids().filter(|(_, l)| l.role == Role::Output);
     let jaws = outputs
         .filter_map(|(l, _)| body(l))
-        .filter(|&l| body(m.frame()) != Some(l))
+        .filter(|&l| body(m.frame_link()) != Some(l))
         .unique()
         .sorted()
         .collect_vec();

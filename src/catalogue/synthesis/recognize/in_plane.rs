@@ -1,7 +1,7 @@
 //! What joints make in their plane: links that are one there, and pairs between them.
 
 use crate::chains::PairKind;
-use crate::chains::chain::{Chain, Joint as PairJoint, MOST_LINKS, ordered};
+use crate::chains::chain::{Chain, Joint as PairJoint, MOST_LINKS, order_links};
 use crate::chains::motion::moves_throughout;
 use crate::model::joint_type::Coupling;
 use crate::model::mechanism::{Joint, Mechanism};
@@ -21,7 +21,7 @@ fn kinds_of(
     let mut merged = UnionFind::new(m.links.len());
     for &j in present {
         let joint = &m.joints[j];
-        let kind = plane.kind(joint)?;
+        let kind = plane.kind_in_plane(joint)?;
         if kind.is_none() {
             let [a, b] = joint.links.map(LinkId::index);
             merged.union(a, b);
@@ -62,7 +62,7 @@ impl PlaneLinks {
         let used = present.iter().flat_map(|&j| m.joints[j].links);
         let bodies = used.map(|l| merged.find(l.index())).unique().collect_vec();
         let body = |l: LinkId| bodies.iter().position(|&b| b == merged.find(l.index()));
-        let ends = |j: JointId| ordered(m.joints[j].links.map(|l| body(l).unwrap_or(0)));
+        let ends = |j: JointId| order_links(m.joints[j].links.map(|l| body(l).unwrap_or(0)));
         if !(3..=MOST_LINKS).contains(&bodies.len()) {
             return Err(NoStructure::Links(bodies.len()));
         }
@@ -75,12 +75,12 @@ impl PlaneLinks {
             if !coupling.ends.iter().all(|e| present.contains(&e.joint)) {
                 continue;
             }
-            let gears = geared(coupling, ends);
+            let gears = geared_links(coupling, ends);
             let gears = gears.ok_or_else(|| NoStructure::Coupling(coupling.name(m)))?;
             joints.push((gears, PairKind::Gear));
         }
         no_others_twice(&joints, &names)?;
-        let frame = body(m.frame()).unwrap_or(0);
+        let frame = body(m.frame_link()).unwrap_or(0);
         let driven = present.iter().filter(|&&j| m.joints[j].drive);
         let driven = driven.map(|&j| ends(j)).collect_vec();
         let is_guide = |links: &[usize; 2]| links.contains(&frame) || driven.contains(links);
@@ -96,7 +96,7 @@ impl PlaneLinks {
     }
 
     /// Whether it moves as structures that are counted do.
-    fn moves(&self) -> bool {
+    fn is_counted(&self) -> bool {
         let chain = Chain::new(self.names.len(), self.joints.iter().copied());
         chain.has_carriers() && moves_throughout(&chain)
     }
@@ -108,12 +108,12 @@ impl<'a> InPlane<'a> {
         m: &'a Mechanism,
         present: &'a [JointId],
     ) -> Result<InPlane<'a>, NoStructure> {
-        let (mut plane, normals) = MotionPlane::all(m, present)?;
+        let (mut plane, normals) = MotionPlane::candidate_planes(m, present)?;
         let mut found = None;
         for normal in normals {
             plane.turn_to(normal);
             let links = PlaneLinks::new(m, present, &plane);
-            if links.as_ref().is_ok_and(PlaneLinks::moves) {
+            if links.as_ref().is_ok_and(PlaneLinks::is_counted) {
                 found = Some((normal, links));
                 break;
             }
@@ -135,9 +135,9 @@ impl<'a> InPlane<'a> {
 
     /// The joint of the frame with a link, where there is one.
     pub(super) fn at_frame(&self, link: usize) -> Option<&'a Joint> {
-        let ends = |j: &Joint| ordered(j.links.map(|l| self.body(l).unwrap_or(0)));
+        let ends = |j: &Joint| order_links(j.links.map(|l| self.body(l).unwrap_or(0)));
         let all = self.present.iter().map(|&j| &self.m.joints[j]);
-        let mut all = all.filter(|j| ends(j) == ordered([self.links.frame, link]));
+        let mut all = all.filter(|j| ends(j) == order_links([self.links.frame, link]));
         all.next()
     }
 }
@@ -190,12 +190,12 @@ fn faces_as_slots(
 }
 
 /// The links that a coupling gears: those of its two joints but the one that both have.
-fn geared(coupling: &Coupling, ends: impl Fn(JointId) -> [usize; 2]) -> Option<[usize; 2]> {
+fn geared_links(coupling: &Coupling, ends: impl Fn(JointId) -> [usize; 2]) -> Option<[usize; 2]> {
     let [a, b] = [0, 1].map(|i| ends(coupling.ends[i].joint));
     let carrier = a.into_iter().find(|l| b.contains(l))?;
     let other = |links: [usize; 2]| links.into_iter().find(|l| *l != carrier);
     let (u, v) = (other(a)?, other(b)?);
-    (u != v).then(|| ordered([u, v]))
+    (u != v).then(|| order_links([u, v]))
 }
 
 fn input(joints: &[PairJoint], driven: &[[usize; 2]]) -> Result<[usize; 2], NoStructure> {

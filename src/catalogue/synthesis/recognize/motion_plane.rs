@@ -21,7 +21,7 @@ pub(super) struct MotionPlane {
 
 impl MotionPlane {
     /// The planes in which some joints may move, those first in which the most do: across the axes about which they turn.
-    pub(super) fn all(
+    pub(super) fn candidate_planes(
         m: &Mechanism,
         present: &[JointId],
     ) -> Result<(MotionPlane, Vec<[Residue; 3]>), NoStructure> {
@@ -36,8 +36,8 @@ impl MotionPlane {
             let joint = &m.joints[j];
             let frame = FrameValues::new(&exact, &joint.frame)?;
             for freedom in joint.joint_type.freedoms() {
-                let [x, y, z, a, b, c] = frame.twist(&exact, *freedom);
-                if freedom.turns() {
+                let [x, y, z, a, b, c] = frame.twist_of(&exact, *freedom);
+                if freedom.is_turn() {
                     axes.push([x, y, z]);
                 } else {
                     ways.push([a, b, c]);
@@ -61,7 +61,7 @@ impl MotionPlane {
         let mut counted = Vec::with_capacity(distinct.len());
         for normal in distinct {
             plane.normal = normal;
-            counted.push((plane.moving(m, present)?, normal));
+            counted.push((plane.moving_count(m, present)?, normal));
         }
         counted.sort_by_key(|(moving, _)| Reverse(*moving));
         Ok((plane, counted.into_iter().map(|(_, n)| n).collect()))
@@ -78,7 +78,10 @@ impl MotionPlane {
             return Ok(false);
         };
         let joints = [a, b];
-        let kinds = [self.kind(joints[0])?, self.kind(joints[1])?];
+        let kinds = [
+            self.kind_in_plane(joints[0])?,
+            self.kind_in_plane(joints[1])?,
+        ];
         let [a, b] = joints.map(|j| FrameValues::new(&self.exact, &j.frame));
         let (a, b) = (a?.point, b?.point);
         let apart = [0, 1, 2].map(|k| self.exact.field().sub(a[k], b[k]));
@@ -88,10 +91,10 @@ impl MotionPlane {
     }
 
     /// How many joints are of a kind in the plane.
-    fn moving(&self, m: &Mechanism, present: &[JointId]) -> Result<usize, NoStructure> {
+    fn moving_count(&self, m: &Mechanism, present: &[JointId]) -> Result<usize, NoStructure> {
         let mut out = 0;
         for &j in present {
-            match self.kind(&m.joints[j]) {
+            match self.kind_in_plane(&m.joints[j]) {
                 Ok(kind) => out += usize::from(kind.is_some()),
                 Err(NoStructure::Kind { .. }) => {}
                 Err(e) => return Err(e),
@@ -109,10 +112,10 @@ impl MotionPlane {
     }
 
     /// What a joint is in the plane; nothing where it does not move there.
-    pub(super) fn kind(&self, joint: &Joint) -> Result<Option<PairKind>, NoStructure> {
+    pub(super) fn kind_in_plane(&self, joint: &Joint) -> Result<Option<PairKind>, NoStructure> {
         let frame = FrameValues::new(&self.exact, &joint.frame)?;
         let freedoms = joint.joint_type.freedoms();
-        let twists = freedoms.iter().map(|&f| frame.twist(&self.exact, f));
+        let twists = freedoms.iter().map(|&f| frame.twist_of(&self.exact, f));
         let twists = twists.collect_vec();
         // How much of the joint's motions is in a space: dimensions add up to those of the sum and of what both have.
         let own = self.span(twists.iter().copied()).rank();
@@ -120,7 +123,7 @@ impl MotionPlane {
             let both = twists.iter().chain(space).copied();
             own + self.span(space.iter().copied()).rank() - self.span(both).rank()
         };
-        let slides = self.slides();
+        let slides = self.two_slides();
         let turn = {
             let [x, y, z] = self.normal;
             let p = frame.point;
@@ -144,7 +147,7 @@ impl MotionPlane {
     }
 
     /// Two slides across the normal.
-    fn slides(&self) -> [[Residue; 6]; 2] {
+    fn two_slides(&self) -> [[Residue; 6]; 2] {
         let zero = self.exact.field().zero();
         let one = self.exact.field().one();
         let units = [[one, zero, zero], [zero, one, zero], [zero, zero, one]];

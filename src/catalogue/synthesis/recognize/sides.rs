@@ -1,6 +1,6 @@
 //! Three sides that are alike, each in one plane with frame and driver or in a plane of its own: their structure is that of two of them.
 
-use crate::chains::chain::{Chain, Joint as PairJoint, ordered};
+use crate::chains::chain::{Chain, Joint as PairJoint, order_links};
 use crate::chains::classics::MadeAs;
 use crate::chains::roles::Roles;
 use crate::chains::structure::PairStructure;
@@ -26,7 +26,7 @@ pub(super) fn three_sides(m: &Mechanism) -> Result<Option<Recognized>, NoStructu
     let Some(drive) = driven.exactly_one().ok().map(|&j| &m.joints[j]) else {
         return Err(NoStructure::Jaws(3));
     };
-    let once = |l: LinkId| l == m.frame() || drive.links.contains(&l);
+    let once = |l: LinkId| l == m.frame_link() || drive.links.contains(&l);
     let mut parts = UnionFind::<usize>::new(m.links.len());
     for &j in &all {
         let [a, b] = m.joints[j].links;
@@ -58,7 +58,9 @@ pub(super) fn three_sides(m: &Mechanism) -> Result<Option<Recognized>, NoStructu
     };
     let found = jaws.iter().map(|&jaw| side(jaw));
     let found: Vec<Recognized> = found.collect::<Result<_, _>>()?;
-    let mut alike = found.iter().map(|f| (f.structure.key(), f.made_as));
+    let mut alike = found
+        .iter()
+        .map(|f| (f.structure.canonical_key(), f.made_as));
     let alike = alike.all_equal();
     Ok(found.into_iter().next().filter(|_| alike))
 }
@@ -85,7 +87,7 @@ fn one_side(
         at.map_or(l, |at| links + (copy - 1) * side.len() + at)
     };
     let carried = |(copy, j): (usize, &PairJoint)| {
-        let links = ordered(j.links.map(|l| image(l, copy)));
+        let links = order_links(j.links.map(|l| image(l, copy)));
         let pair = j.pair;
         // What joins links that stand once stands once.
         (copy == 0 || links != j.links).then_some(PairJoint { links, pair })

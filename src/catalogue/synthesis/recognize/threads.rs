@@ -13,7 +13,7 @@ use crate::model::joint_type::Freedom;
 use crate::model::mechanism::{Joint, Mechanism};
 use crate::model::{LinkId, StateId};
 use crate::rank::exact::field::exact_field;
-use crate::synthesis::recognize::found::{NoStructure, Recognized, jaws};
+use crate::synthesis::recognize::found::{NoStructure, Recognized, jaw_links};
 use itertools::Itertools;
 
 /// What stands for a screw and two nuts in the frame: frame, screw, nuts.
@@ -41,7 +41,7 @@ impl Axis {
         let frame = FrameValues::new(exact, &joint.frame)?;
         let mut freedoms = joint.joint_type.freedoms().iter().copied();
         let freedom = freedoms.find(|f| is(*f)).unwrap_or(Freedom::Rz);
-        let [x, y, z, a, b, c] = frame.twist(exact, freedom);
+        let [x, y, z, a, b, c] = frame.twist_of(exact, freedom);
         let field = exact.field();
         let along = |p: [Residue; 3], q: [Residue; 3]| {
             let terms = p.into_iter().zip(q).map(|(p, q)| field.mul(p, q));
@@ -74,14 +74,14 @@ fn go_apart(
     guides: [&Joint; 2],
 ) -> Result<bool, NoStructure> {
     let exact = exact_field(m, 0)?;
-    let screw = Axis::of(&exact, bearing, Freedom::turns)?;
+    let screw = Axis::of(&exact, bearing, Freedom::is_turn)?;
     let [a, b] = threads.map(|j| Axis::of(&exact, j, |f| f == Freedom::Screw));
     let (a, b) = (a?, b?);
     let zero = exact.field().zero();
     let opposite = a.pitch != zero && exact.field().add(a.pitch, b.pitch) == zero;
     let mut fits = opposite && a.is_on(&exact, &screw) && b.is_on(&exact, &screw);
     for guide in guides {
-        let guide = Axis::of(&exact, guide, Freedom::slides)?;
+        let guide = Axis::of(&exact, guide, Freedom::is_slide)?;
         fits &= guide.is_parallel(&exact, &screw);
     }
     Ok(fits)
@@ -108,7 +108,7 @@ pub(super) fn screw_with_nuts(m: &Mechanism) -> Result<Option<Recognized>, NoStr
             j.links[0]
         }
     });
-    let frame = m.frame();
+    let frame = m.frame_link();
     let between = |link: LinkId| {
         let own = |j: &&Joint| j.links.contains(&frame) && j.links.contains(&link);
         others.iter().copied().filter(own).exactly_one().ok()
@@ -117,8 +117,8 @@ pub(super) fn screw_with_nuts(m: &Mechanism) -> Result<Option<Recognized>, NoStr
         return Ok(None);
     };
     let guides = [one, two];
-    let is_driven = bearing.drive && has(bearing, Freedom::turns);
-    let fits = others.len() == 3 && is_driven && guides.iter().all(|j| has(j, Freedom::slides));
+    let is_driven = bearing.drive && has(bearing, Freedom::is_turn);
+    let fits = others.len() == 3 && is_driven && guides.iter().all(|j| has(j, Freedom::is_slide));
     if !fits || !go_apart(m, bearing, [a, b], guides)? {
         return Ok(None);
     }
@@ -131,7 +131,7 @@ pub(super) fn screw_with_nuts(m: &Mechanism) -> Result<Option<Recognized>, NoStr
     let roles = Roles {
         frame: 0,
         input: [0, 1],
-        jaws: jaws(m, place)?,
+        jaws: jaw_links(m, place)?,
     };
     if roles.jaws != [2, 3] {
         return Ok(None);

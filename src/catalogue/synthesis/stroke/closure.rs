@@ -4,7 +4,7 @@
 //! of sides, vectors between two points of a link that turn with it; what the sides of a tip's way add up to is where it has gone.
 
 use crate::chains::Input;
-use crate::geom::vector::{dot, quarter, sub};
+use crate::geom::vector::{dot, quarter_turn, sub};
 use crate::synthesis::elimination::SmallSystem;
 use crate::synthesis::place::Point;
 use crate::synthesis::stroke::pose::LinkPose;
@@ -123,14 +123,14 @@ impl FitEquations for Arms<'_> {
         let size = self.closure.size;
         let (last, slid) = (size - 1, x[size - 1]);
         for (turn, angle) in self.turns.iter_mut().zip(x) {
-            *turn = LinkPose::turned(*angle);
+            *turn = LinkPose::turn_by(*angle);
         }
         // A side as it has turned, and by how much it differs from what was drawn.
         let moved = |s: &SumSide, arm: Point| match s.follows {
             SumMover::Slide => ([slid, 0.0], None),
             SumMover::Turn(unknown) => {
-                let now = self.turns[unknown].direction(arm);
-                (sub(now, arm), Some((unknown, quarter(now))))
+                let now = self.turns[unknown].turned_direction(arm);
+                (sub(now, arm), Some((unknown, quarter_turn(now))))
             }
         };
         rows.clear();
@@ -139,8 +139,8 @@ impl FitEquations for Arms<'_> {
             let (by, rate) = moved(s, arm);
             let (column, rate) = rate.unwrap_or((last, [1.0, 0.0]));
             for k in 0..2 {
-                rows.add(2 * s.sum + k, column, s.sign * rate[k]);
-                rows.add(2 * s.sum + k, right, s.sign * by[k]);
+                rows.add_entry(2 * s.sum + k, column, s.sign * rate[k]);
+                rows.add_entry(2 * s.sum + k, right, s.sign * by[k]);
             }
         }
         let mut open = -wider;
@@ -148,10 +148,10 @@ impl FitEquations for Arms<'_> {
             let (by, rate) = moved(s, arm);
             let (column, rate) = rate.unwrap_or((last, [1.0, 0.0]));
             let outward = self.closure.outward[s.sum];
-            rows.add(last, column, dot(rate, outward));
+            rows.add_entry(last, column, dot(rate, outward));
             open += dot(by, outward);
         }
-        rows.add(last, right, open);
-        rows.add(last, width, 1.0);
+        rows.add_entry(last, right, open);
+        rows.add_entry(last, width, 1.0);
     }
 }

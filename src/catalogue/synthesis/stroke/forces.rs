@@ -3,7 +3,7 @@
 
 use super::pose::LinkPose;
 use crate::chains::Input;
-use crate::geom::vector::{add_scaled, cross_plane, dot, quarter, sub};
+use crate::geom::vector::{add_scaled, cross_plane, dot, quarter_turn, sub};
 use crate::synthesis::elimination::SmallSystem;
 use crate::synthesis::place::Point;
 use crate::synthesis::sketch::Sketch;
@@ -59,7 +59,7 @@ impl ForceFigures {
 
     /// The worse of both, figure by figure.
     #[must_use]
-    pub fn worse(self, other: ForceFigures) -> ForceFigures {
+    pub fn worse_of(self, other: ForceFigures) -> ForceFigures {
         ForceFigures {
             peak: self.peak.max(other.peak),
             transmission: self.transmission.min(other.transmission),
@@ -77,7 +77,7 @@ struct Wrench {
 
 impl Wrench {
     /// Adds a force, taken so many times, that acts at a place.
-    fn add(&mut self, times: f64, force: Point, place: Point) {
+    fn add_force(&mut self, times: f64, force: Point, place: Point) {
         self.force = add_scaled(self.force, times, force);
         self.moment += times * cross_plane(place, force);
     }
@@ -105,7 +105,7 @@ impl HingeForces {
     ///
     /// # Complexity
     /// O(c³ + n) for c contours and n links.
-    pub(super) fn solve(
+    pub(super) fn solve_forces(
         &mut self,
         sketch: &Sketch<'_>,
         contours: &Contours,
@@ -121,13 +121,13 @@ impl HingeForces {
             } else {
                 joint.links[1]
             };
-            self.pins[i].at = links[link].point(at[i]);
+            self.pins[i].at = links[link].moved_point(at[i]);
         }
         self.fill(sketch, contours, links, at);
-        if self.system.solve().is_none() {
+        if self.system.solve_all().is_none() {
             return false;
         }
-        self.gather(sketch, contours, links);
+        self.gather_forces(sketch, contours, links);
         true
     }
 
@@ -137,46 +137,49 @@ impl HingeForces {
         let turned = |side: &Side| {
             let arm = sub(at[side.leaves], at[side.comes]);
             let unknown = contours.unknown[side.link]?;
-            Some((unknown, quarter(links[side.link].direction(arm))))
+            Some((
+                unknown,
+                quarter_turn(links[side.link].turned_direction(arm)),
+            ))
         };
         self.system.clear();
         for (k, ways) in contours.contours.iter().enumerate() {
             for (way, sign) in ways.iter().zip([1.0, -1.0]) {
                 for (row, [x, y]) in way.iter().filter_map(turned) {
-                    self.system.add(row, 2 * k, sign * x);
-                    self.system.add(row, 2 * k + 1, sign * y);
+                    self.system.add_entry(row, 2 * k, sign * x);
+                    self.system.add_entry(row, 2 * k + 1, sign * y);
                 }
             }
         }
         for (way, inward) in contours.tips.iter().zip(&sketch.bones.inward) {
             for (row, rate) in way.iter().filter_map(turned) {
-                self.system.add(row, right, -dot(rate, *inward));
+                self.system.add_entry(row, right, -dot(rate, *inward));
             }
         }
     }
 
     /// From the forces in the cuts those in all joints, from the ends of the tree on.
-    fn gather(&mut self, sketch: &Sketch<'_>, contours: &Contours, links: &[LinkPose]) {
+    fn gather_forces(&mut self, sketch: &Sketch<'_>, contours: &Contours, links: &[LinkPose]) {
         let (bones, joints) = (&sketch.bones, &sketch.rules.joints);
         self.on_links.fill(Wrench::default());
         for (n, (&jaw, inward)) in bones.jaws.iter().zip(&bones.inward).enumerate() {
             // The part pushes outward.
-            let tip = links[jaw].point(bones.tips[n]);
-            self.on_links[jaw].add(-1.0, *inward, tip);
+            let tip = links[jaw].moved_point(bones.tips[n]);
+            self.on_links[jaw].add_force(-1.0, *inward, tip);
         }
         for (k, &cut) in contours.cuts.iter().enumerate() {
             let force = [self.system.get(2 * k, 0), self.system.get(2 * k + 1, 0)];
             let ([u, v], place) = (joints[cut].links, self.pins[cut].at);
             self.pins[cut].force = force;
-            self.on_links[u].add(-1.0, force, place);
-            self.on_links[v].add(1.0, force, place);
+            self.on_links[u].add_force(-1.0, force, place);
+            self.on_links[v].add_force(1.0, force, place);
         }
         for s in contours.tree.iter().rev() {
             let (wrench, place) = (self.on_links[s.link], self.pins[s.joint].at);
             let is_second = joints[s.joint].links[1] == s.link;
             let on_second = if is_second { -1.0 } else { 1.0 };
             self.pins[s.joint].force = wrench.force.map(|x| on_second * x);
-            self.on_links[s.from].add(1.0, wrench.force, place);
+            self.on_links[s.from].add_force(1.0, wrench.force, place);
             if s.link == contours.driver && contours.input == Input::Slide {
                 // A slide lies on the x axis: its guide presses across.
                 let guide = &mut self.pins[sketch.input];

@@ -16,7 +16,7 @@ impl Between {
     }
 
     /// The greatest over the least; 1 where nothing was taken.
-    pub(super) fn ratio(self) -> f64 {
+    pub(super) fn force_ratio(self) -> f64 {
         let [least, most] = self.0;
         if least > most {
             1.0
@@ -66,7 +66,7 @@ impl Gathered {
     }
 
     /// Nothing yet of another stroke, in the room of the last.
-    pub(super) fn begin(&mut self) {
+    pub(super) fn begin_stroke(&mut self) {
         let (mut turns, pins) = (
             std::mem::take(&mut self.turns),
             std::mem::take(&mut self.pins),

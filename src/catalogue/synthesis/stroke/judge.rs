@@ -7,7 +7,7 @@ use super::planes::{Meetings, Stacking};
 use super::pose::LinkPose;
 use super::walk::{SETTLED, StrokeEnd};
 use crate::geom::vector::{dot, length, sub};
-use crate::synthesis::layout_quality::{angle, transmission};
+use crate::synthesis::layout_quality::{angle_degrees, transmission_sine};
 use crate::synthesis::place::Point;
 use crate::synthesis::places::Places;
 use crate::synthesis::sketch::Sketch;
@@ -116,7 +116,7 @@ impl<'a> Judge<'a> {
     }
 
     /// Watches what meets on the next stroke, unless a link stands for several images of it or turns out of the plane.
-    pub fn watch(&mut self) {
+    pub fn watch_meetings(&mut self) {
         let sketch = self.motion.sketch;
         let bones = &sketch.bones;
         let each_drawn = bones.sides == bones.jaws.len();
@@ -127,10 +127,10 @@ impl<'a> Judge<'a> {
     ///
     /// # Complexity
     /// That of [`Meetings::stacking`].
-    pub fn stacking(&mut self) -> Stacking {
+    pub fn find_stacking(&mut self) -> Stacking {
         let bones = &self.motion.sketch.bones;
         let met = self.meetings.take();
-        met.map_or(Stacking::NotAsked, |m| m.stacking(bones))
+        met.map_or(Stacking::NotAsked, |m| m.fewest_planes(bones))
     }
 
     fn limits(&self) -> &Limits {
@@ -138,9 +138,9 @@ impl<'a> Judge<'a> {
     }
 
     /// Stands at the drawn pose of places; `false` where that is singular.
-    fn stand(&mut self, at: &Places) -> bool {
+    fn stand_drawn(&mut self, at: &Places) -> bool {
         self.motion.place(at);
-        self.motion.walk.stand()
+        self.motion.walk.stand_drawn()
     }
 
     /// The figures of places at some poses, as they are looked at while places are tried; `None` where the drawn pose is
@@ -148,62 +148,64 @@ impl<'a> Judge<'a> {
     ///
     /// # Complexity
     /// Some corrections of O(n³) for n links, for each of some seven poses.
-    pub fn coarse(&mut self, at: &Places, most: f64) -> Option<StrokeFigures> {
-        self.follow(at, COARSE, most)
+    pub fn coarse_figures(&mut self, at: &Places, most: f64) -> Option<StrokeFigures> {
+        self.follow_grid(at, COARSE, most)
     }
 
     /// The figures of places as they are told; `None` where the drawn pose is singular.
     ///
     /// # Complexity
     /// As [`Judge::coarse`], for some fifty poses.
-    pub fn fine(&mut self, at: &Places) -> Option<StrokeFigures> {
-        self.follow(at, FINE, f64::INFINITY)
+    pub fn fine_figures(&mut self, at: &Places) -> Option<StrokeFigures> {
+        self.follow_grid(at, FINE, f64::INFINITY)
     }
 
     /// The figures of places, at the poses of a grid; `None` where the drawn pose is singular, or where they cost more than `most`.
     ///
     /// # Complexity
     /// As [`Judge::coarse`], by the number of poses.
-    fn follow(&mut self, at: &Places, grid: Grid, most: f64) -> Option<StrokeFigures> {
+    fn follow_grid(&mut self, at: &Places, grid: Grid, most: f64) -> Option<StrokeFigures> {
         self.motion.walk.settled = grid.settled;
-        if !self.stand(at) {
+        if !self.stand_drawn(at) {
             return None;
         }
         let task = self.limits().task;
         let drawn = 2.0 * f64::from(task.half_opening());
-        let finest = grid.finest * task.span();
+        let finest = grid.finest * task.opening_span();
         // Until an end is reached, or is not, nothing is said against it.
         let mut way = ReachedStroke {
             reached: [task.narrowest, task.widest],
             drive: [0.0; 2],
             ends: [None; 2],
         };
-        self.gathered.begin();
+        self.gathered.begin_stroke();
         if task.reach > 0.0 {
             let sketch = self.motion.sketch;
-            self.gathered.reach = sketch.bones.reach(&at.points);
+            self.gathered.reach = sketch.bones.tip_reach(&at.points);
         }
         self.look(at);
         if self.is_dearer(&way, most) {
             return None;
         }
-        self.weigh(at);
+        self.weigh_forces(at);
         for (n, to) in [task.narrowest, task.widest].into_iter().enumerate() {
             if n > 0 {
-                self.motion.walk.back();
+                self.motion.walk.go_back();
             }
             let all = to - drawn;
-            let count = (all.abs() / task.span() * grid.steps).ceil().max(1.0);
+            let count = (all.abs() / task.opening_span() * grid.steps)
+                .ceil()
+                .max(1.0);
             let mut i = 0.0;
             while i < count && way.ends[n].is_none() {
                 if self.is_dearer(&way, most) {
                     return None;
                 }
                 i += 1.0;
-                way.ends[n] = self.motion.walk.advance(all * i / count, finest).err();
+                way.ends[n] = self.motion.walk.advance_to(all * i / count, finest).err();
                 self.look(at);
                 if grid.forces_everywhere || i == count || way.ends[n].is_some() {
-                    self.weigh(at);
+                    self.weigh_forces(at);
                 }
             }
             let walk = &self.motion.walk;
@@ -225,63 +227,63 @@ impl<'a> Judge<'a> {
             ends: way.ends,
             drive: way.drive,
             rates: g.rates.0,
-            force: self.motion.sketch.bones.force(g.rates.0[0]),
-            transmission: angle(g.sine).min(g.forces.transmission),
+            force: self.motion.sketch.bones.jaw_force(g.rates.0[0]),
+            transmission: angle_degrees(g.sine).min(g.forces.transmission),
             straightness: g.straightness,
-            turn: self.turns().fold(0.0, f64::max).to_degrees(),
+            turn: self.jaw_turns().fold(0.0, f64::max).to_degrees(),
             size: g.sides.map(Between::span),
             pin_distance: g.nearest.sqrt(),
             on_side: g.on_side,
-            pulled_out: g.cylinder.ratio(),
+            pulled_out: g.cylinder.force_ratio(),
             reach: g.reach,
             forces: g.forces,
         }
     }
 
     /// How far each jaw turned on the last stroke, from where it turned least to where it turned most, in rad.
-    pub fn turns(&self) -> impl Iterator<Item = f64> {
+    pub fn jaw_turns(&self) -> impl Iterator<Item = f64> {
         self.gathered.turns.iter().map(|t| t.span())
     }
 
     /// How fast the drive goes by the width at the last pose, mm or rad a millimetre: negative where it goes back as jaws open.
     #[must_use]
     pub fn drive_rate(&self) -> f64 {
-        self.motion.walk.rate()
+        self.motion.walk.drive_rate()
     }
 
     /// How much farther than the task asks the tips can come, narrower and wider, in millimetres and at most `most`; 0 where they
     /// do not come as far.
-    pub fn margin(&mut self, at: &Places, most: f64) -> [f64; 2] {
+    pub fn stroke_margin(&mut self, at: &Places, most: f64) -> [f64; 2] {
         let task = self.limits().task;
         let drawn = 2.0 * f64::from(task.half_opening());
         [(task.narrowest, -most), (task.widest, most)].map(|(end, more)| {
-            let goes = self.stand(at);
+            let goes = self.stand_drawn(at);
             let to = end - drawn;
             let walk = &mut self.motion.walk;
             // That it ends on the way is what is asked.
-            let _ = walk.advance(to + more, 1e-3);
+            let _ = walk.advance_to(to + more, 1e-3);
             let farther = (walk.wider - to) * more.signum();
             if goes { farther.max(0.0) } else { 0.0 }
         })
     }
 
     /// Takes in what the joint forces say; where they have no one solution, the worst.
-    fn weigh(&mut self, at: &Places) {
-        let here = self.motion.forces(at, &self.links);
+    fn weigh_forces(&mut self, at: &Places) {
+        let here = self.motion.force_figures(at, &self.links);
         let here = here.unwrap_or(ForceFigures::WORST);
-        self.gathered.forces = self.gathered.forces.worse(here);
+        self.gathered.forces = self.gathered.forces.worse_of(here);
     }
 
     fn look(&mut self, at: &Places) {
-        self.motion.pose(at, &mut self.links);
+        self.motion.write_pose(at, &mut self.links);
         let sketch = self.motion.sketch;
         let (bones, points) = (&sketch.bones, &at.points);
         let g = &mut self.gathered;
-        g.rates.take(self.motion.walk.rate().abs());
+        g.rates.take(self.motion.walk.drive_rate().abs());
         for &(link, ends) in &bones.rods {
             let pose = &self.links[link];
-            let ends = ends.map(|i| pose.point(points[i]));
-            g.sine = g.sine.min(transmission(&pose.velocity, ends));
+            let ends = ends.map(|i| pose.moved_point(points[i]));
+            g.sine = g.sine.min(transmission_sine(&pose.velocity, ends));
         }
         self.look_at_tips();
         self.look_at_joints(at);
@@ -292,8 +294,8 @@ impl<'a> Judge<'a> {
             let of = ends.chain(bones.jaws.iter().map(|&jaw| Some(jaw)));
             let now = of
                 .zip(points)
-                .map(|(link, &p)| link.map_or(p, |l| self.links[l].point(p)));
-            meetings.look(bones, &now.collect::<Vec<Point>>());
+                .map(|(link, &p)| link.map_or(p, |l| self.links[l].moved_point(p)));
+            meetings.take_pose(bones, &now.collect::<Vec<Point>>());
         }
     }
 
@@ -305,8 +307,8 @@ impl<'a> Judge<'a> {
         let (mut opens, mut all, mut least) = (0.0, 0.0, f64::INFINITY);
         for (n, (&jaw, inward)) in bones.jaws.iter().zip(&bones.inward).enumerate() {
             let pose = &self.links[jaw];
-            let tip = pose.point(bones.tips[n]);
-            let velocity = pose.velocity.at(tip);
+            let tip = pose.moved_point(bones.tips[n]);
+            let velocity = pose.velocity.velocity_at(tip);
             let open = -dot(velocity, *inward);
             (opens, all, least) = (opens + open, all + length(velocity), least.min(open));
             g.turns[n].take(pose.angle);
@@ -326,7 +328,7 @@ impl<'a> Judge<'a> {
         for (i, place) in points[..bones.joints.len()].iter().enumerate() {
             let apart = apart && bones.together[i].trailing_zeros() as usize == i;
             if let Some(link) = sketch.link_of(at, i) {
-                let now = self.links[link].point(*place);
+                let now = self.links[link].moved_point(*place);
                 sketch.each_copy(i, now, &mut |p| {
                     g.take(p);
                     if apart {
@@ -340,7 +342,7 @@ impl<'a> Judge<'a> {
             let Some(link) = sketch.link_of(at, centre) else {
                 return;
             };
-            let now = self.links[link].point(points[centre]);
+            let now = self.links[link].moved_point(points[centre]);
             sketch.each_copy(centre, now, &mut |p| {
                 g.take(p.map(|x| x - radius));
                 g.take(p.map(|x| x + radius));
@@ -349,7 +351,7 @@ impl<'a> Judge<'a> {
             g.take_on_side(half * now[1] - radius, half);
         });
         if let Some(ends) = bones.cylinder {
-            let [a, b] = ends.map(|(link, joint)| self.links[link].point(points[joint]));
+            let [a, b] = ends.map(|(link, joint)| self.links[link].moved_point(points[joint]));
             g.cylinder.take(length(sub(b, a)));
         }
     }

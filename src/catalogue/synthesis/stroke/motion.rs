@@ -5,12 +5,12 @@ use super::forces::{ForceFigures, HingeForces};
 use super::pose::LinkPose;
 use super::walk::{FitEquations, RADIAN, Walk};
 use crate::chains::Input;
-use crate::geom::vector::{add_scaled, quarter, sub};
+use crate::geom::vector::{add_scaled, quarter_turn, sub};
 use crate::synthesis::elimination::SmallSystem;
 use crate::synthesis::equations::{PoseEquations, place_of};
 use crate::synthesis::place::Point;
 use crate::synthesis::places::Places;
-use crate::synthesis::pose_forces::{figures, forces};
+use crate::synthesis::pose_forces::{force_figures, joint_forces};
 use crate::synthesis::sketch::Sketch;
 use crate::synthesis::velocities::{Contours, Velocity};
 
@@ -78,7 +78,7 @@ impl<'a> Motion<'a> {
     }
 
     /// Writes the poses and velocities of the links at the current pose of the walk.
-    pub(super) fn pose(&self, at: &Places, links: &mut [LinkPose]) {
+    pub(super) fn write_pose(&self, at: &Places, links: &mut [LinkPose]) {
         match &self.walk.equations {
             Equations::Turns(contours, arms, _) => {
                 self.pose_turned(contours, arms, &at.points, links)
@@ -89,7 +89,7 @@ impl<'a> Motion<'a> {
 
     fn pose_moved(&self, poses: &PoseEquations<'_>, links: &mut [LinkPose]) {
         let rates = &self.walk.rates;
-        poses.poses(&self.walk.x, links);
+        poses.unpack_poses(&self.walk.x, links);
         for (link, pose) in links.iter_mut().enumerate() {
             let Some(k) = place_of(link, self.sketch.bones.frame) else {
                 *pose = LinkPose::AT_REST;
@@ -100,7 +100,7 @@ impl<'a> Motion<'a> {
             let shift = [rates[k], rates[k + 1]];
             pose.velocity = Velocity {
                 turning,
-                shift: add_scaled(shift, -turning, quarter(pose.shift)),
+                shift: add_scaled(shift, -turning, quarter_turn(pose.shift)),
             };
         }
     }
@@ -126,28 +126,36 @@ impl<'a> Motion<'a> {
                 continue;
             }
             let unknown = unknown.unwrap_or(last);
-            let (pin, turning) = (before.point(at[s.joint]), rates[unknown]);
+            let (pin, turning) = (before.moved_point(at[s.joint]), rates[unknown]);
             let tried = &arms.turns[unknown];
             let mut here = tried.turned_to(x[unknown]);
-            here.shift = sub(pin, here.point(at[s.joint]));
+            here.shift = sub(pin, here.moved_point(at[s.joint]));
             here.velocity = Velocity {
                 turning,
-                shift: add_scaled(before.velocity.at(pin), -turning, quarter(pin)),
+                shift: add_scaled(
+                    before.velocity.velocity_at(pin),
+                    -turning,
+                    quarter_turn(pin),
+                ),
             };
             links[s.link] = here;
         }
     }
 
     /// Returns the figures of the joint forces at a pose; `None` if the forces do not have exactly one solution.
-    pub(super) fn forces(&mut self, at: &Places, links: &[LinkPose]) -> Option<ForceFigures> {
+    pub(super) fn force_figures(
+        &mut self,
+        at: &Places,
+        links: &[LinkPose],
+    ) -> Option<ForceFigures> {
         match &mut self.walk.equations {
             Equations::Turns(contours, _, hinges) => {
-                let solved = hinges.solve(self.sketch, contours, links, &at.points);
-                solved.then(|| figures(self.sketch, at, links, &hinges.pins))
+                let solved = hinges.solve_forces(self.sketch, contours, links, &at.points);
+                solved.then(|| force_figures(self.sketch, at, links, &hinges.pins))
             }
             Equations::Poses(_) => {
-                let forces = forces(self.sketch, at, links)?;
-                Some(figures(self.sketch, at, links, &forces))
+                let forces = joint_forces(self.sketch, at, links)?;
+                Some(force_figures(self.sketch, at, links, &forces))
             }
         }
     }

@@ -102,9 +102,9 @@ impl Meetings {
     ///
     /// # Complexity
     /// O(p²) for p points.
-    pub fn look(&mut self, bones: &Bones, at: &[Point]) {
+    pub fn take_pose(&mut self, bones: &Bones, at: &[Point]) {
         let mut sides = Vec::new();
-        bones.sides(at, &mut sides);
+        bones.link_sides(at, &mut sides);
         let pins = bones.joints.len();
         for (i, x) in sides.iter().enumerate() {
             for y in &sides[..i] {
@@ -156,7 +156,7 @@ impl Meetings {
     /// # Complexity
     /// O(n!) for n links at worst; mostly links find their planes one after another.
     #[must_use]
-    pub fn stacking(&self, bones: &Bones) -> Stacking {
+    pub fn fewest_planes(&self, bones: &Bones) -> Stacking {
         let links = bones.of_link.len();
         let way = |(planes, in_front)| {
             let of_link = self.in_planes(bones, planes, in_front)?;
@@ -354,7 +354,7 @@ mod tests {
             overlaps.iter().for_each(|&[l, m]| met.overlap(l, m));
             over.iter().for_each(|&(p, l)| met.over[p] |= 1 << l);
             over_tips.iter().for_each(|&(jaw, l)| met.over_tips[jaw] |= 1 << l);
-            let found = match met.stacking(&bones) {
+            let found = match met.fewest_planes(&bones) {
                 Stacking::Planes { planes, in_front, .. } => Some((planes, in_front)),
                 Stacking::Meets | Stacking::NotAsked => None,
             };

@@ -34,7 +34,7 @@ impl LinkPose {
 
     /// Turned by an angle in rad.
     #[must_use]
-    pub fn turned(angle: f64) -> LinkPose {
+    pub fn turn_by(angle: f64) -> LinkPose {
         let (sine, cosine) = angle.sin_cos();
         LinkPose {
             angle,
@@ -48,7 +48,7 @@ impl LinkPose {
     pub fn turned_to(&self, angle: f64) -> LinkPose {
         let by = angle - self.angle;
         if by.abs() > LITTLE {
-            return LinkPose::turned(angle);
+            return LinkPose::turn_by(angle);
         }
         let square = by * by;
         let sine = by * (1.0 - square / 6.0 * (1.0 - square / 20.0));
@@ -59,22 +59,22 @@ impl LinkPose {
                 turn: [cosine, sine],
                 ..*self
             }
-            .direction(self.turn),
+            .turned_direction(self.turn),
             ..LinkPose::AT_REST
         }
     }
 
     /// What has become of a direction of it.
     #[must_use]
-    pub fn direction(&self, [x, y]: Point) -> Point {
+    pub fn turned_direction(&self, [x, y]: Point) -> Point {
         let [c, s] = self.turn;
         [c * x - s * y, s * x + c * y]
     }
 
     /// Where a point of it is that was drawn there.
     #[must_use]
-    pub fn point(&self, at: Point) -> Point {
-        add(self.direction(at), self.shift)
+    pub fn moved_point(&self, at: Point) -> Point {
+        add(self.turned_direction(at), self.shift)
     }
 }
 
@@ -97,8 +97,8 @@ mod tests {
                 0.3,
             ] {
                 let [is, should] = [
-                    LinkPose::turned(angle).turned_to(angle + by),
-                    LinkPose::turned(angle + by),
+                    LinkPose::turn_by(angle).turned_to(angle + by),
+                    LinkPose::turn_by(angle + by),
                 ];
                 assert_eq!(is.angle, should.angle);
                 for (a, b) in is.turn.into_iter().zip(should.turn) {

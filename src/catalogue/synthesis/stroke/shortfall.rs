@@ -25,7 +25,7 @@ impl Limits {
     /// Returns the first requirement of the task that a stroke does not meet. `swings` says whether every jaw turns about a hinge in the
     /// frame.
     #[must_use]
-    pub fn shortfall(&self, f: &StrokeFigures, swings: bool) -> Option<Shortfall> {
+    pub fn find_shortfall(&self, f: &StrokeFigures, swings: bool) -> Option<Shortfall> {
         let task = &self.task;
         let far = [("closes", task.narrowest), ("opens", task.widest)];
         for (n, (goes, asked)) in far.into_iter().enumerate() {
@@ -49,7 +49,7 @@ impl Limits {
         let task = &self.task;
         let (ratio, turn, [width, height]) = (f.force_ratio(), f.turn, f.size);
         let room = task.room;
-        let side = 0.5 * task.distances()[0];
+        let side = 0.5 * task.wished_distances()[0];
         Some(if f.straightness <= 0.0 {
             "a jaw opens on a part of the stroke on which the jaws close".to_owned()
         } else if f.force < task.least_force {

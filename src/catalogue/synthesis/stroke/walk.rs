@@ -135,19 +135,19 @@ impl<E: FitEquations> Walk<E> {
     }
 
     /// Stands at the drawn pose; `false` where that is singular.
-    pub fn stand(&mut self) -> bool {
+    pub fn stand_drawn(&mut self) -> bool {
         self.wider = 0.0;
         self.trial.fill(0.0);
         self.sign = 0.0;
-        let stands = self.correct(0.0, f64::INFINITY);
+        let stands = self.correct_pose(0.0, f64::INFINITY);
         self.first.passed = false;
         self.drawn_rates.copy_from_slice(&self.rates);
-        self.back();
-        stands && self.rate() != 0.0
+        self.go_back();
+        stands && self.drive_rate() != 0.0
     }
 
     /// Goes back to the drawn pose.
-    pub fn back(&mut self) {
+    pub fn go_back(&mut self) {
         self.wider = 0.0;
         self.x.fill(0.0);
         self.rates.copy_from_slice(&self.drawn_rates);
@@ -158,7 +158,7 @@ impl<E: FitEquations> Walk<E> {
 
     /// How fast the drive goes by the width: mm or rad a millimetre.
     #[must_use]
-    pub fn rate(&self) -> f64 {
+    pub fn drive_rate(&self) -> f64 {
         self.rates.last().copied().unwrap_or(0.0)
     }
 
@@ -168,10 +168,10 @@ impl<E: FitEquations> Walk<E> {
     }
 
     /// Closes the contours at a width from the trial, and takes it where the first correction is at most `most`.
-    fn correct(&mut self, wider: f64, most: f64) -> bool {
+    fn correct_pose(&mut self, wider: f64, most: f64) -> bool {
         for n in 0..CORRECTIONS {
             (self.equations).fill(&self.trial, wider, &mut self.rows);
-            let Some(sign) = self.rows.solve() else {
+            let Some(sign) = self.rows.solve_all() else {
                 return false;
             };
             let correction = self.size(|i| self.rows.get(i, 0));
@@ -182,7 +182,7 @@ impl<E: FitEquations> Walk<E> {
                 self.trial[i] -= self.rows.get(i, 0);
             }
             if correction < self.settled {
-                return self.take(wider, sign);
+                return self.take_trial(wider, sign);
             }
         }
         false
@@ -190,9 +190,9 @@ impl<E: FitEquations> Walk<E> {
 
     /// Takes the trial for the pose at a width, with the rates and the sign of the determinant found there; not where one of these has
     /// changed its sign.
-    fn take(&mut self, wider: f64, sign: f64) -> bool {
+    fn take_trial(&mut self, wider: f64, sign: f64) -> bool {
         let rate = self.rows.get(self.x.len() - 1, 1);
-        let same = self.sign == 0.0 || (sign == self.sign && rate * self.rate() > 0.0);
+        let same = self.sign == 0.0 || (sign == self.sign && rate * self.drive_rate() > 0.0);
         if !same || !rate.is_finite() {
             return false;
         }
@@ -216,7 +216,7 @@ impl<E: FitEquations> Walk<E> {
     ///
     /// # Complexity
     /// O(n³) for n links, for each of some corrections a step.
-    pub fn advance(&mut self, wider: f64, finest: f64) -> Result<(), StrokeEnd> {
+    pub fn advance_to(&mut self, wider: f64, finest: f64) -> Result<(), StrokeEnd> {
         let mut step = wider - self.wider;
         while self.wider != wider {
             let left = wider - self.wider;
@@ -226,9 +226,9 @@ impl<E: FitEquations> Walk<E> {
                 self.wider + step
             };
             let by = to - self.wider;
-            self.predict(by);
+            self.predict_pose(by);
             let most = CORRECTION * self.size(|i| by * self.rates[i]);
-            if self.correct(to, most) {
+            if self.correct_pose(to, most) {
                 step *= 2.0;
                 continue;
             }
@@ -241,7 +241,7 @@ impl<E: FitEquations> Walk<E> {
     }
 
     /// Puts into the trial where the unknown are likely to be so much farther on.
-    fn predict(&mut self, by: f64) {
+    fn predict_pose(&mut self, by: f64) {
         let before = &self.before;
         for i in 0..self.trial.len() {
             let (x, rate) = (self.x[i], self.rates[i]);
@@ -259,7 +259,7 @@ impl<E: FitEquations> Walk<E> {
 
     fn end(&self) -> StrokeEnd {
         let drawn = self.drawn_rates.last().copied().unwrap_or(0.0);
-        match (self.rate() / drawn).abs() {
+        match (self.drive_rate() / drawn).abs() {
             fast if fast > FAR => StrokeEnd::JawsTurnBack,
             slow if slow < 1.0 / FAR => StrokeEnd::DeadPoint,
             _ => StrokeEnd::Singular,

@@ -1,8 +1,8 @@
 //! `ozols catalog build`.
 
-use super::chains::kind;
-use super::task::{TaskArgs, word};
-use crate::catalog::build::{build, work};
+use super::chains::parse_pair_kind;
+use super::task::{TaskArgs, parse_word};
+use crate::catalog::build::{build_rows, plan_work};
 use crate::catalog::spec::{Parallel, Spec};
 use crate::catalog::store::Store;
 use crate::chains::{Input, PairKind, Symmetry};
@@ -37,7 +37,7 @@ pub(crate) struct Build {
     /// Pairs in addition to hinges: slide, gear (or rack), slot (pin in a slot, cam, wedge), two-slots (two pins in two slots
     /// between the same links). They are used in symmetric structures of two jaws, threefold ones of three, or any with
     /// --generic-pairs; only the driver may slide otherwise.
-    #[arg(long, value_name = "KINDS", value_delimiter = ',', value_parser = kind)]
+    #[arg(long, value_name = "KINDS", value_delimiter = ',', value_parser = parse_pair_kind)]
     pairs: Vec<PairKind>,
     /// Maximum number of pairs that are not hinges; a left and a right one count once [default: 3].
     #[arg(long, value_name = "K")]
@@ -81,23 +81,23 @@ pub(crate) struct Build {
 }
 
 fn input(text: &str) -> Result<Input, String> {
-    word(text, &Input::ALL)
+    parse_word(text, &Input::ALL)
 }
 
 fn symmetry(text: &str) -> Result<Symmetry, String> {
-    word(text, &Symmetry::ALL)
+    parse_word(text, &Symmetry::ALL)
 }
 
 fn parallel(text: &str) -> Result<Parallel, String> {
-    word(text, &Parallel::ALL)
+    parse_word(text, &Parallel::ALL)
 }
 
 /// Puts given settings over others; false and empty lists are not given.
-fn overlay(under: &mut toml::Value, given: toml::Value) {
+fn put_over(under: &mut toml::Value, given: toml::Value) {
     match (under, given) {
         (toml::Value::Table(under), toml::Value::Table(given)) => {
             for (key, x) in given {
-                overlay(under.entry(key).or_insert(x.clone()), x);
+                put_over(under.entry(key).or_insert(x.clone()), x);
             }
         }
         (_, toml::Value::Boolean(false)) => {}
@@ -108,9 +108,9 @@ fn overlay(under: &mut toml::Value, given: toml::Value) {
 
 impl Build {
     /// Puts what is given in its place.
-    fn put(&self, spec: &mut Spec) -> anyhow::Result<()> {
+    fn put_options(&self, spec: &mut Spec) -> anyhow::Result<()> {
         let mut all = toml::Value::try_from(&*spec)?;
-        overlay(&mut all, toml::Value::try_from(self)?);
+        put_over(&mut all, toml::Value::try_from(self)?);
         *spec = all.try_into()?;
         if let Some([from, to]) = self.task.widths {
             (spec.task.narrowest, spec.task.widest) = (from, to);
@@ -125,7 +125,7 @@ impl Build {
     fn spec(&self, seed: u64) -> anyhow::Result<Spec> {
         let text = match &self.spec {
             None => String::new(),
-            Some(path) => disk::text(path, MAX_BYTES)
+            Some(path) => disk::read_text(path, MAX_BYTES)
                 .with_context(|| format!("cannot read {}", path.display()))?,
         };
         let file = self.spec.as_deref().map(Path::display);
@@ -134,18 +134,18 @@ impl Build {
             Some(file) => toml::from_str(&text).with_context(|| file.to_string())?,
         };
         let alone = spec.clone();
-        self.put(&mut spec)?;
+        self.put_options(&mut spec)?;
         if seed != 1 {
             spec.seed = seed;
         }
-        let Err(wrong) = spec.check() else {
+        let Err(wrong) = spec.check_all() else {
             return Ok(spec);
         };
         // Of the file, where no flag did it.
-        let file = file.filter(|_| alone.check().as_ref() == Err(&wrong));
+        let file = file.filter(|_| alone.check_all().as_ref() == Err(&wrong));
         let has = |line: &str| {
             let key = line.split('=').next().map(str::trim);
-            key.is_some() && key == wrong.key()
+            key.is_some() && key == wrong.wrong_key()
         };
         let line = text.lines().position(has).map(|n| n + 1);
         let place = file.zip(line).map(|(file, line)| format!("{file}:{line}"));
@@ -157,11 +157,11 @@ impl Build {
     }
 }
 
-pub(super) fn run(args: &Global, a: &Build) -> anyhow::Result<Done> {
+pub(super) fn run_build(args: &Global, a: &Build) -> anyhow::Result<Done> {
     let spec = a.spec(args.seed)?;
     let part = a.shard.unwrap_or(Shard::WHOLE);
-    let work = work(&spec, part)?;
-    let all = work.count();
+    let work = plan_work(&spec, part)?;
+    let all = work.structure_count();
     ensure!(
         all > 0 || part != Shard::WHOLE,
         "no structure with {} links meets the conditions: three sides need \
@@ -169,20 +169,20 @@ pub(super) fn run(args: &Global, a: &Build) -> anyhow::Result<Done> {
         gears and slots the number of links is even",
         spec.links
     );
-    let mut store = Store::create(&a.output, &spec)?;
-    let there = store.ids()?;
+    let mut store = Store::open_or_create(&a.output, &spec)?;
+    let there = store.structure_ids()?;
     interrupt::be_patient();
     let mut bar = Bar::new(args.quiet);
     let mut count = 0;
     store.add_while(|send| {
-        build(
+        build_rows(
             &spec,
             &work,
-            |id| interrupt::pending() || there.contains(id),
+            |id| interrupt::is_pending() || there.contains(id),
             |row| {
                 count += 1;
-                bar.step("structures", there.len() + count, all);
-                if send.send(row).is_err() || interrupt::pending() {
+                bar.show_step("structures", there.len() + count, all);
+                if send.send(row).is_err() || interrupt::is_pending() {
                     ControlFlow::Break(())
                 } else {
                     ControlFlow::Continue(())
@@ -191,18 +191,23 @@ pub(super) fn run(args: &Global, a: &Build) -> anyhow::Result<Done> {
         )
     })??;
     bar.clear();
-    if !interrupt::pending() {
+    if !interrupt::is_pending() {
         store.finish_part(part, all)?;
     }
-    built(&store, &a.output, count, "structures")
+    report_built(&store, &a.output, count, "structures")
 }
 
 /// Reports how much a catalogue holds after `added` entries were added, and whether it was interrupted.
-pub(super) fn built(store: &Store, path: &Path, added: usize, what: &str) -> anyhow::Result<Done> {
-    let mut text = built_text(store, path, added, what, output::width(None))?;
-    if interrupt::pending() {
+pub(super) fn report_built(
+    store: &Store,
+    path: &Path,
+    added: usize,
+    what: &str,
+) -> anyhow::Result<Done> {
+    let mut text = built_text(store, path, added, what, output::output_width(None))?;
+    if interrupt::is_pending() {
         let path = path.display();
         text += &format!("\nInterrupted: the same command continues with {path}.\n");
     }
-    output::put(None, text)
+    output::write_bytes(None, text)
 }

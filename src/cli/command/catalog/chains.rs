@@ -1,9 +1,9 @@
 //! `ozols catalog count` and `chains`, for hinges only and for other pairs.
 
-use crate::catalog::spec::range;
+use crate::catalog::spec::parse_range;
 use crate::chains::PairKind;
-use crate::chains::census::{census, pair_census};
-use crate::chains::enumerate::{ChainsError, chains, count_chains};
+use crate::chains::census::{count_hinged, pair_census};
+use crate::chains::enumerate::{ChainsError, count_chains, list_chains};
 use crate::chains::sharing::Menu;
 use crate::cli::prelude::*;
 use crate::view::catalog::counts::{
@@ -17,14 +17,14 @@ use std::ops::RangeInclusive;
 struct PairArgs {
     /// Include chains with other pairs than hinges: slide, gear (or rack), slot (pin in a slot, cam, wedge), two-slots (two pins
     /// in two slots between the same links).
-    #[arg(long, value_name = "KINDS", value_delimiter = ',', value_parser = kind)]
+    #[arg(long, value_name = "KINDS", value_delimiter = ',', value_parser = parse_pair_kind)]
     pairs: Vec<PairKind>,
     /// Maximum number of pairs that are not hinges.
     #[arg(long, value_name = "K", default_value_t = 3, requires = "pairs")]
     at_most: usize,
 }
 
-pub(super) fn kind(word: &str) -> Result<PairKind, String> {
+pub(super) fn parse_pair_kind(word: &str) -> Result<PairKind, String> {
     let others = PairKind::ALL.iter().filter(|k| k.0 != PairKind::Hinge);
     let found = others.clone().find(|k| k.1 == word).map(|k| k.0);
     found.ok_or_else(|| {
@@ -60,7 +60,7 @@ impl PairArgs {
         );
         let numbers = links.clone().enumerate();
         let steps = links.clone().count();
-        let mut step = |i, n: usize| bar.step(&format!("{n} links"), i, steps);
+        let mut step = |i, n: usize| bar.show_step(&format!("{n} links"), i, steps);
         let menu = Menu {
             kinds: &self.pairs,
             most: self.at_most,
@@ -72,7 +72,7 @@ impl PairArgs {
         }
         bar.clear();
         let rows = all.iter().flat_map(|(n, cells)| pair_rows(*n, cells));
-        listing.give(&rows.collect_vec(), |_, width| pair_text(&all, width))
+        listing.write_rows(&rows.collect_vec(), |_, width| pair_text(&all, width))
     }
 }
 
@@ -90,14 +90,14 @@ struct Listing {
 
 impl Listing {
     /// Writes what was found, one row each, or as `text` for a terminal of some width.
-    fn give(
+    fn write_rows(
         &self,
         all: &[CountRow],
         text: impl Fn(&[CountRow], Option<u16>) -> String,
     ) -> anyhow::Result<Done> {
-        self.to.put(match self.format {
+        self.to.write_all_of(match self.format {
             TextJsonOrCsv::Text => text(all, self.to.width()),
-            TextJsonOrCsv::Json => output::json(&all)?,
+            TextJsonOrCsv::Json => output::json_text(&all)?,
             TextJsonOrCsv::Csv => QueryAnswer::of(all).csv(),
         })
     }
@@ -106,7 +106,7 @@ impl Listing {
 #[derive(Debug, ClapArgs)]
 pub(crate) struct Count {
     /// Number of links, or a range such as 4..10, its end included.
-    #[arg(long, value_name = "N..M", default_value = "4..8", value_parser = links)]
+    #[arg(long, value_name = "N..M", default_value = "4..8", value_parser = parse_links)]
     links: RangeInclusive<usize>,
     /// Only the chains, not the possible roles of their links; with 16 links and more that saves most of the time.
     #[arg(long)]
@@ -131,8 +131,8 @@ const MOST_OF_GRIPPERS: usize = 12;
 /// Largest number of links for which chains are listed; beyond it the list would not fit into memory.
 const MOST_LISTED: usize = 14;
 
-fn links(text: &str) -> Result<RangeInclusive<usize>, String> {
-    let all = range(text)
+fn parse_links(text: &str) -> Result<RangeInclusive<usize>, String> {
+    let all = parse_range(text)
         .map_err(|part| format!("{part:?} is not a number of links; write 8 or 4..10"))?;
     if all.is_empty() || *all.start() < 3 || *all.end() > 18 {
         return Err(
@@ -156,11 +156,11 @@ pub(super) fn count(args: &Global, a: &Count) -> anyhow::Result<Done> {
     );
     let mut all = Vec::new();
     for (i, n) in a.links.clone().enumerate() {
-        bar.step(&format!("{n} links"), i, a.links.clone().count());
+        bar.show_step(&format!("{n} links"), i, a.links.clone().count());
         let found = if a.chains {
             count_chains(n, w).map(|chains| hinged_row(n, w, chains, None))
         } else {
-            census(n, w, n <= MOST_OF_GRIPPERS).map(|c| hinged_row(n, w, c.chains, Some(&c)))
+            count_hinged(n, w, n <= MOST_OF_GRIPPERS).map(|c| hinged_row(n, w, c.chains, Some(&c)))
         };
         match found {
             Ok(found) => all.push(found),
@@ -171,12 +171,12 @@ pub(super) fn count(args: &Global, a: &Count) -> anyhow::Result<Done> {
     }
     bar.clear();
     if all.is_empty() {
-        output::note(&format!(
+        output::print_note(&format!(
             "no chain with that number of links has the mobility {w}: 3(n - 1) - {w} must be even\n"
         ));
         return Ok(Done::Nothing);
     }
-    a.listing.give(&all, hinged_text)
+    a.listing.write_rows(&all, hinged_text)
 }
 
 pub(super) fn list(a: &Chains) -> anyhow::Result<Done> {
@@ -185,7 +185,7 @@ pub(super) fn list(a: &Chains) -> anyhow::Result<Done> {
         "chains of up to {MOST_LISTED} links are listed; use `ozols catalog count --links {}` to count these",
         a.links
     );
-    let found = chains(a.links, a.listing.mobility)?;
+    let found = list_chains(a.links, a.listing.mobility)?;
     let all: Vec<CountRow> = found.par_iter().map(chain_row).collect();
-    a.listing.give(&all, chains_text)
+    a.listing.write_rows(&all, chains_text)
 }

@@ -1,8 +1,8 @@
 //! `ozols catalog search`.
 
-use super::build::built;
+use super::build::report_built;
 use crate::builtin;
-use crate::catalog::drawn::{DrawnMechanism, drawn, id};
+use crate::catalog::drawn::{DrawnMechanism, id, search_drawn};
 use crate::catalog::spec::Spec;
 use crate::catalog::store::Store;
 use crate::cli::prelude::*;
@@ -25,7 +25,7 @@ pub(crate) struct SearchDrawn {
     output: PathBuf,
 }
 
-pub(super) fn search(args: &Global, a: &SearchDrawn) -> anyhow::Result<Done> {
+pub(super) fn run_search_drawn(args: &Global, a: &SearchDrawn) -> anyhow::Result<Done> {
     let mut files = a.files.clone();
     if a.grippers {
         files.extend(builtin::grippers().into_iter().map(Named::from));
@@ -35,20 +35,20 @@ pub(super) fn search(args: &Global, a: &SearchDrawn) -> anyhow::Result<Done> {
         "nothing to search; name a FILE, or use --grippers for all built-in grippers"
     );
     // Wrong files are told before any is searched, and the others are searched.
-    let (mechanisms, mut well) = load::each(&files, &a.loops);
+    let (mechanisms, mut well) = load::load_each(&files, &a.loops);
     if mechanisms.is_empty() {
         return Ok(Done::Partly);
     }
     let of = mechanisms.len();
-    let mut store = Store::writable(&a.output)?;
+    let mut store = Store::open_writable(&a.output)?;
     let mut added = 0;
     interrupt::be_patient();
     let mut bar = Bar::new(args.quiet);
     for (i, (file, mechanism)) in mechanisms.into_iter().enumerate() {
-        if interrupt::pending() {
+        if interrupt::is_pending() {
             break;
         }
-        match searched(&store, mechanism, a.ideas) {
+        match search_one_drawn(&store, mechanism, a.ideas) {
             Ok(None) => {}
             Ok(Some(row)) => {
                 store.add_drawn(&row)?;
@@ -56,20 +56,24 @@ pub(super) fn search(args: &Global, a: &SearchDrawn) -> anyhow::Result<Done> {
             }
             Err(e) => {
                 well = false;
-                output::complain(&e.context(file.to_string()));
+                output::print_error(&e.context(file.to_string()));
             }
         }
-        bar.step("mechanisms", i + 1, of);
+        bar.show_step("mechanisms", i + 1, of);
     }
     bar.clear();
-    let done = built(&store, &a.output, added, "mechanisms")?;
+    let done = report_built(&store, &a.output, added, "mechanisms")?;
     Ok(if well { done } else { Done::Partly })
 }
 
 /// Searches a mechanism. Returns `None` if the catalogue has it already.
-fn searched(store: &Store, m: Mechanism, ideas: usize) -> anyhow::Result<Option<DrawnMechanism>> {
+fn search_one_drawn(
+    store: &Store,
+    m: Mechanism,
+    ideas: usize,
+) -> anyhow::Result<Option<DrawnMechanism>> {
     if store.has_drawn(&id(&m)?, ideas)? {
         return Ok(None);
     }
-    Ok(Some(drawn(m, ideas, Spec::default().nodes)?))
+    Ok(Some(search_drawn(m, ideas, Spec::default().nodes)?))
 }

@@ -2,17 +2,17 @@
 
 use super::wanted::WantedGrippers;
 use crate::api::Scheme;
-use crate::catalog::find::entries;
-use crate::catalog::neighbours::neighbours;
+use crate::catalog::find::find_entries;
+use crate::catalog::neighbours::find_neighbours;
 use crate::catalog::store::Store;
 use crate::cli::prelude::*;
 use crate::format::plain;
-use crate::page::catalogue::catalogue;
+use crate::page::catalogue::catalogue_page;
 use crate::redundancy::analysis::exact_field;
 use crate::search::Search;
 use crate::search::check::variant_mechanism;
 use crate::search::question::conditions::Conditions;
-use crate::synthesis::recognize::recognize;
+use crate::synthesis::recognize::recognize_structure;
 use crate::view::catalog::find::{FoundData, InCatalogue};
 use crate::view::catalog::query::QueryAnswer;
 use crate::view::catalog::structures::StructureData;
@@ -37,19 +37,19 @@ pub(crate) struct Query {
 }
 
 /// Opens the catalogue in a file.
-pub(super) fn open(file: &Path) -> anyhow::Result<Store> {
+pub(super) fn open_catalogue(file: &Path) -> anyhow::Result<Store> {
     ensure!(
         file.exists(),
         "no file {0}; `ozols catalog build -o {0}` makes a catalogue",
         file.display()
     );
-    output::kept::keep(file);
-    Ok(Store::open(file)?)
+    output::kept::keep_file(file);
+    Ok(Store::open_readonly(file)?)
 }
 
 /// Returns the mechanism of a structure as TOML.
 fn laid_out(store: &Store, file: &Path, id: &str) -> anyhow::Result<String> {
-    store.mechanism(id)?.with_context(|| {
+    store.mechanism_text(id)?.with_context(|| {
         format!(
             "{id} has no layout; `ozols catalog show {} {id}` explains why",
             file.display()
@@ -57,21 +57,21 @@ fn laid_out(store: &Store, file: &Path, id: &str) -> anyhow::Result<String> {
     })
 }
 
-pub(super) fn query(a: &Query) -> anyhow::Result<Done> {
-    let store = open(&a.file)?;
-    let wanted = a.wanted.question();
+pub(super) fn run_query(a: &Query) -> anyhow::Result<Done> {
+    let store = open_catalogue(&a.file)?;
+    let wanted = a.wanted.sql_question();
     let asked = a.sql.as_ref().unwrap_or(&wanted);
-    let (names, rows) = store.query(asked, None)?;
+    let (names, rows) = store.query_rows(asked, None)?;
     let answer = QueryAnswer { names, rows };
     if answer.rows.is_empty() && a.wanted.is_any() {
-        output::note(&a.wanted.in_the_way(&store)?);
+        output::print_note(&a.wanted.in_the_way(&store)?);
     }
-    a.to.put(match a.format {
+    a.to.write_all_of(match a.format {
         TextJsonOrCsv::Text => answer.text(a.to.width()),
-        TextJsonOrCsv::Json => output::json(&answer)?,
+        TextJsonOrCsv::Json => output::json_text(&answer)?,
         TextJsonOrCsv::Csv => answer.csv(),
     })?;
-    Ok(Done::found(!answer.rows.is_empty()))
+    Ok(Done::found_or_nothing(!answer.rows.is_empty()))
 }
 
 #[derive(Debug, ClapArgs)]
@@ -91,28 +91,28 @@ pub(crate) struct Show {
     to: ToFile,
 }
 
-pub(super) fn show(a: &Show) -> anyhow::Result<Done> {
-    let store = open(&a.file)?;
-    let id = store.find(&a.id)?;
+pub(super) fn run_show(a: &Show) -> anyhow::Result<Done> {
+    let store = open_catalogue(&a.file)?;
+    let id = store.find_id(&a.id)?;
     if let Some(picture) = &a.svg {
         let mechanism = crate::from_toml(&laid_out(&store, &a.file, &id)?)?;
         let drawn = crate::api::draw(&mechanism, Scheme::Kinematic)?;
-        output::put(Some(picture), drawn)?;
+        output::write_bytes(Some(picture), drawn)?;
     }
-    let data = StructureData::read(&store, &id)?;
+    let data = StructureData::read_structure(&store, &id)?;
     if a.json {
-        return a.to.put(output::json(&data)?);
+        return a.to.write_all_of(output::json_text(&data)?);
     }
     let mut text = data.text(a.to.width());
     if !data.has_layout() {
-        return a.to.put(text);
+        return a.to.write_all_of(text);
     }
-    let file = plain::plain(&a.file.display().to_string()).into_owned();
+    let file = plain::escape_control(&a.file.display().to_string()).into_owned();
     let export = format!("ozols catalog export {file} {id}");
     text += &format!(
         "\nThe mechanism, and with idea 1 carried out:\n\n  {export} -o gripper.toml\n  {export} --idea 1 -o redesign.toml\n"
     );
-    a.to.put(text)
+    a.to.write_all_of(text)
 }
 
 #[derive(Debug, ClapArgs)]
@@ -132,26 +132,26 @@ pub(crate) struct Export {
     out: ToFile,
 }
 
-pub(super) fn export(a: &Export) -> anyhow::Result<Done> {
-    let store = open(&a.file)?;
-    let id = store.find(&a.id)?;
+pub(super) fn run_export(a: &Export) -> anyhow::Result<Done> {
+    let store = open_catalogue(&a.file)?;
+    let id = store.find_id(&a.id)?;
     let text = laid_out(&store, &a.file, &id)?;
     let text = match a.idea {
         None if a.to == "toml" => text,
-        None => crate::cli::command::export::text(&crate::from_toml(&text)?, &a.to, None)?,
+        None => crate::cli::command::export::export_text(&crate::from_toml(&text)?, &a.to, None)?,
         Some(k) => {
             let choices = store
-                .choices(&id, k)?
+                .idea_choices(&id, k)?
                 .with_context(|| format!("{id} has no idea {k} in {}", a.file.display()))?;
             let mechanism = crate::from_toml(&text)?;
             let field = exact_field(&mechanism, 0)?;
             let search = Search::new(field, mechanism, Conditions::default())?;
-            let mut made = variant_mechanism::realize(&search, &choices);
+            let mut made = variant_mechanism::realize_variant(&search, &choices);
             made.name = format!("{id}-idea-{k}");
-            crate::cli::command::export::text(&made, &a.to, None)?
+            crate::cli::command::export::export_text(&made, &a.to, None)?
         }
     };
-    a.out.put(text)
+    a.out.write_all_of(text)
 }
 
 #[derive(Debug, ClapArgs)]
@@ -164,10 +164,10 @@ pub(crate) struct Page {
     output: PathBuf,
 }
 
-pub(super) fn page(a: &Page) -> anyhow::Result<Done> {
-    let store = open(&a.file)?;
-    let page = catalogue(&store, &a.file.display().to_string())?;
-    output::put(Some(&a.output), page)
+pub(super) fn run_page(a: &Page) -> anyhow::Result<Done> {
+    let store = open_catalogue(&a.file)?;
+    let page = catalogue_page(&store, &a.file.display().to_string())?;
+    output::write_bytes(Some(&a.output), page)
 }
 
 #[derive(Debug, ClapArgs)]
@@ -184,34 +184,34 @@ pub(crate) struct Find {
     to: ToFile,
 }
 
-pub(super) fn find(a: &Find) -> anyhow::Result<Done> {
-    let m = load::mechanism(&a.file)?;
-    let found = recognize(&m).with_context(|| {
+pub(super) fn run_find(a: &Find) -> anyhow::Result<Done> {
+    let m = load::load_mechanism(&a.file)?;
+    let found = recognize_structure(&m).with_context(|| {
         format!(
             "{}: not a gripper structure; it needs two or three jaws, and links joined by hinges, slides, gears and slots",
             a.file.file
         )
     })?;
-    let store = a.within.as_deref().map(open).transpose()?;
+    let store = a.within.as_deref().map(open_catalogue).transpose()?;
     let part = found.structure.essential_links();
-    let essential = found.structure.part(&part);
+    let essential = found.structure.part_of(&part);
     let known = store.map(|s| -> anyhow::Result<InCatalogue> {
-        let whole = found.whole.part(&found.whole.essential_links());
+        let whole = found.whole.part_of(&found.whole.essential_links());
         Ok(InCatalogue {
-            entries: entries(&s, &whole, found.made_as)?,
+            entries: find_entries(&s, &whole, found.made_as)?,
             // Three sides that are alike are not compared.
-            neighbours: if found.sides() == 3 {
+            neighbours: if found.side_count() == 3 {
                 Vec::new()
             } else {
-                neighbours(&s, &essential)?
+                find_neighbours(&s, &essential)?
             },
         })
     });
     let data = FoundData::new(&found, &part, known.transpose()?);
-    a.to.put(if a.json {
-        output::json(&data.json())?
+    a.to.write_all_of(if a.json {
+        output::json_text(&data.json())?
     } else {
         data.text(&m.name, a.to.width())
     })?;
-    Ok(Done::found(data.is_known()))
+    Ok(Done::found_or_nothing(data.is_known()))
 }

@@ -1,6 +1,6 @@
 //! `ozols catalog merge`.
 
-use super::build::built;
+use super::build::report_built;
 use crate::catalog::store::{Merged, Store};
 use crate::cli::prelude::*;
 use crate::shard::Shard;
@@ -15,26 +15,28 @@ pub(crate) struct Merge {
     output: PathBuf,
 }
 
-pub(super) fn merge(a: &Merge) -> anyhow::Result<Done> {
-    a.parts.iter().for_each(|part| output::kept::keep(part));
+pub(super) fn run_merge(a: &Merge) -> anyhow::Result<Done> {
+    a.parts
+        .iter()
+        .for_each(|part| output::kept::keep_file(part));
     ensure!(
         !output::kept::is_kept(&a.output),
         "{} is one of the parts and the whole; choose another name for the whole",
         a.output.display()
     );
     let mut well = true;
-    let merged = Store::merge(&a.output, &a.parts, |e| {
+    let merged = Store::merge_parts(&a.output, &a.parts, |e| {
         well = false;
-        output::complain(&e.into());
+        output::print_error(&e.into());
     })?;
     if merged.taken == 0 {
         return Ok(Done::Partly);
     }
     let whole = &a.output;
-    let store = Store::open(whole)?;
-    built(&store, whole, merged.added, "structures")?;
+    let store = Store::open_readonly(whole)?;
+    report_built(&store, whole, merged.added, "structures")?;
     if !merged.missing.is_empty() {
-        output::note(&missing(&merged, whole));
+        output::print_note(&describe_missing(&merged, whole));
     }
     Ok(match merged.missing.is_empty() {
         _ if !well => Done::Partly,
@@ -47,7 +49,7 @@ pub(super) fn merge(a: &Merge) -> anyhow::Result<Done> {
 const NAMED: usize = 12;
 
 /// Lists the missing parts of the whole, and how to make them.
-fn missing(merged: &Merged, whole: &Path) -> String {
+fn describe_missing(merged: &Merged, whole: &Path) -> String {
     let mut out = String::new();
     for file in &merged.unfinished {
         out += &format!(

@@ -14,22 +14,22 @@ pub(super) struct WantedGrippers {
     #[arg(long)]
     front: bool,
     /// Minimum jaw force over the stroke, per 1 N of a sliding or 1 N·m of a rotary drive.
-    #[arg(long, value_name = "N", value_parser = finite)]
+    #[arg(long, value_name = "N", value_parser = parse_finite)]
     least_force: Option<f64>,
     /// Maximum ratio of the greatest jaw force to the least.
-    #[arg(long, value_name = "X", value_parser = finite)]
+    #[arg(long, value_name = "X", value_parser = parse_finite)]
     force_ratio: Option<f64>,
     /// Maximum rotation of the jaws over the stroke, in degrees.
-    #[arg(long, value_name = "DEGREES", value_parser = finite)]
+    #[arg(long, value_name = "DEGREES", value_parser = parse_finite)]
     turn: Option<f64>,
     /// Minimum transmission angle over the stroke, in degrees.
-    #[arg(long, value_name = "DEGREES", value_parser = finite)]
+    #[arg(long, value_name = "DEGREES", value_parser = parse_finite)]
     transmission: Option<f64>,
     /// Maximum price of all parts with the cheapest redesign, in units of one revolute joint.
-    #[arg(long, value_name = "X", value_parser = finite)]
+    #[arg(long, value_name = "X", value_parser = parse_finite)]
     price: Option<f64>,
     /// Maximum cost of its cheapest redesign.
-    #[arg(long, value_name = "X", value_parser = finite)]
+    #[arg(long, value_name = "X", value_parser = parse_finite)]
     cost: Option<f64>,
 }
 
@@ -41,7 +41,7 @@ const COLUMNS: &str = "SELECT id, links, input, symmetry AS layout, jaws, iif(re
 const DRAWN: &str = "SELECT id, links, input, name || iif(mode = 'planar', ' (planar)', ''), NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL, \
      NULL, best_cost FROM drawn";
 
-fn finite(word: &str) -> Result<f64, String> {
+fn parse_finite(word: &str) -> Result<f64, String> {
     let number = word.parse::<f64>().ok().filter(|x| x.is_finite());
     number.ok_or_else(|| "give a number, such as 0.5".to_owned())
 }
@@ -59,7 +59,7 @@ struct Filter {
 
 impl Filter {
     /// Returns the filter for a column that must be `>=` or `<=` a number.
-    fn number(option: &str, column: &str, sign: &str, x: f64) -> Filter {
+    fn with_bound(option: &str, column: &str, sign: &str, x: f64) -> Filter {
         let (function, word, way) = match sign {
             ">=" => ("max", "greatest", "DESC"),
             _ => ("min", "smallest", "ASC"),
@@ -79,7 +79,7 @@ impl Filter {
 }
 
 impl WantedGrippers {
-    fn bounds(&self) -> Vec<Filter> {
+    fn given_bounds(&self) -> Vec<Filter> {
         let reached = "reached = 1 AND shortfall IS NULL";
         let words = [
             (self.does_task, "--does-task", reached),
@@ -101,19 +101,19 @@ impl WantedGrippers {
         });
         let numbers = numbers
             .iter()
-            .filter_map(|(o, column, sign, x)| Some(Filter::number(o, column, sign, (*x)?)));
+            .filter_map(|(o, column, sign, x)| Some(Filter::with_bound(o, column, sign, (*x)?)));
         words.chain(numbers).collect()
     }
 
     /// Returns whether any filter is set.
     pub(super) fn is_any(&self) -> bool {
-        !self.bounds().is_empty()
+        !self.given_bounds().is_empty()
     }
 
     /// Returns the SQL that answers: the grippers within the bounds, what does the task first, then sorted by what is asked. Without
     /// bounds the first 25 of all, and of the drawn mechanisms.
-    pub(super) fn question(&self) -> String {
-        let bounds = self.bounds();
+    pub(super) fn sql_question(&self) -> String {
+        let bounds = self.given_bounds();
         let sorted = bounds
             .iter()
             .filter_map(|b| Some(b.best.as_ref()?[2].as_str()));
@@ -131,7 +131,7 @@ impl WantedGrippers {
 
     /// Lists the bounds that exclude every gripper: the number of grippers without each bound, and how near they come to it.
     pub(super) fn in_the_way(&self, store: &Store) -> Result<String, StoreError> {
-        let bounds = self.bounds();
+        let bounds = self.given_bounds();
         let mut out = String::from("No gripper meets all of these.\n");
         let mut found = false;
         for (i, bound) in bounds.iter().enumerate() {
@@ -140,7 +140,7 @@ impl WantedGrippers {
             let others = if others.is_empty() { "1" } else { &others };
             let best = bound.best.as_ref().map_or("NULL", |[sql, ..]| sql);
             let sql = format!("SELECT count(*), {best} FROM grippers WHERE {others}");
-            let (_, rows) = store.query(&sql, None)?;
+            let (_, rows) = store.query_rows(&sql, None)?;
             let row = rows.first().map_or(&[][..], Vec::as_slice);
             let count = row.first().and_then(Value::as_u64).unwrap_or(0);
             if count == 0 {
@@ -150,7 +150,7 @@ impl WantedGrippers {
             out += &format!("  without {}: {count}", bound.option);
             let best = row.get(1).and_then(Value::as_f64);
             if let (Some([_, name, _]), Some(best)) = (&bound.best, best) {
-                out += &format!("; {name} is {}", significant(best));
+                out += &format!("; {name} is {}", four_digits(best));
             }
             out += "\n";
         }

@@ -3,7 +3,7 @@
 use crate::cli::option::picture;
 use crate::cli::prelude::*;
 use crate::draw::{self, Size};
-use crate::format::cost;
+use crate::format::format_cost;
 use crate::model::joint_type::{Freedom, JointType};
 use crate::terms::PairWords;
 
@@ -11,26 +11,36 @@ use crate::terms::PairWords;
 const COLUMNS: u16 = 100;
 
 /// Returns the name of a joint type as files spell it.
-pub(super) fn word(typed: &str) -> String {
+pub(super) fn spelled_type(typed: &str) -> String {
     typed.trim().to_lowercase().replace(['_', ' '], "-")
 }
 
 /// Returns a table of all joint types, one row each.
-pub(super) fn all(width: Option<u16>) -> String {
+pub(super) fn table_of_types(width: Option<u16>) -> String {
     let words = PairWords::builtin();
     let rows = JointType::NAMED.iter().map(|t| {
         let freedoms = t.freedoms().iter().map(|f| f.name()).join(" ");
         let made_as = words.get(t.name()).and_then(|w| w.hardware.first());
-        let (also, cost) = (t.trade_names().join(", "), cost(t.default_cost_milli()));
+        let (also, cost) = (
+            t.trade_names().join(", "),
+            format_cost(t.default_cost_milli()),
+        );
         let made_as = made_as.map_or("", String::as_str);
-        cells([&t.name(), &also, &t.class(), &freedoms, &cost, &made_as])
+        row_cells([
+            &t.name(),
+            &also,
+            &t.class_numeral(),
+            &freedoms,
+            &cost,
+            &made_as,
+        ])
     });
     let head = "joint type | also | class | freedoms | cost | made as";
-    table(head, rows, width)
+    text_table(head, rows, width)
 }
 
 /// Explains one joint type; writes its picture to a file if one is given.
-pub(super) fn explain(of: &JointType, file: Option<&Path>) -> anyhow::Result<Done> {
+pub(super) fn explain_type(of: &JointType, file: Option<&Path>) -> anyhow::Result<Done> {
     if let Some(path) = file {
         draw_to(of, path)?;
     }
@@ -38,11 +48,14 @@ pub(super) fn explain(of: &JointType, file: Option<&Path>) -> anyhow::Result<Don
     let Some(w) = words.get(of.name()) else {
         return Ok(Done::Nothing);
     };
-    let width = usize::from(output::width(None).unwrap_or(COLUMNS).min(COLUMNS));
+    let width = usize::from(output::output_width(None).unwrap_or(COLUMNS).min(COLUMNS));
     let needs = !w.reference.starts_with("does not matter");
     let (name, about) = (of.name(), textwrap::fill(&w.about, width));
-    let figures = figures(of, w, width).join("\n");
-    let mut out = format!("{name}\n\n{about}\n\n{figures}\n\n{}\n", example(of, needs));
+    let figures = type_figures(of, w, width).join("\n");
+    let mut out = format!(
+        "{name}\n\n{about}\n\n{figures}\n\n{}\n",
+        toml_example(of, needs)
+    );
     if needs {
         let guess = "Without a reference, x is the first of the global axes that is not along z, which may not be what you want.";
         out += &format!("\n{}\n", textwrap::fill(guess, width));
@@ -50,24 +63,24 @@ pub(super) fn explain(of: &JointType, file: Option<&Path>) -> anyhow::Result<Don
     if file.is_none() {
         out += &format!("\nozols explain {name} -o {name}.svg draws it.\n");
     }
-    output::put(None, out)
+    output::write_bytes(None, out)
 }
 
 /// Writes the picture of a joint type to a file, as PNG if its name ends in .png.
 fn draw_to(of: &JointType, path: &Path) -> anyhow::Result<()> {
     let drawing = draw::joint_type(of);
     let bytes = if picture::named(Some(path)) {
-        picture::there()?;
-        picture::png(&drawing, Size::Scale(picture::SCALE))?
+        picture::ensure_png()?;
+        picture::render_png(&drawing, Size::Scale(picture::SCALE))?
     } else {
         drawing.svg.into_bytes()
     };
-    output::put(Some(path), bytes)?;
+    output::write_bytes(Some(path), bytes)?;
     Ok(())
 }
 
 /// Returns freedoms, class, axes, cost and hardware, a paragraph each.
-fn figures(of: &JointType, w: &PairWords, width: usize) -> Vec<String> {
+fn type_figures(of: &JointType, w: &PairWords, width: usize) -> Vec<String> {
     let row = |head: &str, text: &str| {
         let options = textwrap::Options::new(width)
             .initial_indent("  ")
@@ -78,14 +91,14 @@ fn figures(of: &JointType, w: &PairWords, width: usize) -> Vec<String> {
         [] => "none".to_owned(),
         list => list
             .iter()
-            .map(|f| format!("{} {}", f.name(), meaning(*f)))
+            .map(|f| format!("{} {}", f.name(), freedom_meaning(*f)))
             .join(", "),
     };
-    let constraints = plural(6 - of.freedoms().len(), "constraint");
-    let class = format!("{} ({constraints})", of.class());
+    let constraints = count_noun(6 - of.freedoms().len(), "constraint");
+    let class = format!("{} ({constraints})", of.class_numeral());
     let cost = format!(
         "{} by default, in units of one revolute joint; [search.costs] of a file or --costs sets others (`ozols show costs`)",
-        cost(of.default_cost_milli())
+        format_cost(of.default_cost_milli())
     );
     let also = of.trade_names().join(", ");
     let also = (!also.is_empty()).then(|| row("also", &also));
@@ -101,7 +114,7 @@ fn figures(of: &JointType, w: &PairWords, width: usize) -> Vec<String> {
 }
 
 /// Returns an example of the joint type as TOML.
-fn example(of: &JointType, needs_reference: bool) -> String {
+fn toml_example(of: &JointType, needs_reference: bool) -> String {
     let screws = of.freedoms().contains(&Freedom::Screw);
     let own = if screws { "\nlead = 5" } else { "" };
     let reference = if needs_reference {
@@ -116,7 +129,7 @@ fn example(of: &JointType, needs_reference: bool) -> String {
 }
 
 /// Describes a freedom in words.
-fn meaning(f: Freedom) -> &'static str {
+fn freedom_meaning(f: Freedom) -> &'static str {
     match f {
         Freedom::Rx => "(turn about x)",
         Freedom::Ry => "(turn about y)",

@@ -74,8 +74,8 @@ pub(crate) struct Statics {
 
 impl Statics {
     /// Writes a text.
-    pub(crate) fn put(&self, text: String) -> anyhow::Result<Done> {
-        output::put(self.output.as_deref(), text)
+    pub(crate) fn write_text(&self, text: String) -> anyhow::Result<Done> {
+        output::write_bytes(self.output.as_deref(), text)
     }
 
     /// Writes reactions in the format asked for; a text ends with what to do next.
@@ -84,11 +84,11 @@ impl Statics {
         shown: &ToldStatics<'_>,
         next: &[NextCommand],
     ) -> anyhow::Result<Done> {
-        let width = output::width(self.output.as_deref());
-        self.put(match self.format {
-            StaticsFormat::Json => output::json(&shown.json())?,
+        let width = output::output_width(self.output.as_deref());
+        self.write_text(match self.format {
+            StaticsFormat::Json => output::json_text(&shown.json())?,
             StaticsFormat::Csv => shown.csv(),
-            StaticsFormat::Text => shown.text(width) + &next_commands::text(next, width),
+            StaticsFormat::Text => shown.text(width) + &next_commands::steps_text(next, width),
         })
     }
 }

@@ -6,10 +6,10 @@ use std::fs::read_to_string;
 use std::path::{Path, PathBuf};
 
 /// Returns the limit in bytes. `None` if there is no limit, and off Linux.
-pub(super) fn limit() -> Option<u64> {
+pub(super) fn group_limit() -> Option<u64> {
     let own = read_to_string("/proc/self/cgroup").ok()?;
     let mounts = read_to_string("/proc/self/mountinfo").ok()?;
-    let limits = files(&own, &mounts)
+    let limits = limit_files(&own, &mounts)
         .into_iter()
         .filter_map(|f| read_to_string(f).ok())
         // "max" is none.
@@ -18,7 +18,7 @@ pub(super) fn limit() -> Option<u64> {
 }
 
 /// Returns the files that may hold a limit, those of the group itself first.
-fn files(own: &str, mounts: &str) -> Vec<PathBuf> {
+fn limit_files(own: &str, mounts: &str) -> Vec<PathBuf> {
     let mut out = Vec::new();
     for line in own.lines() {
         let mut parts = line.splitn(3, ':');
@@ -31,7 +31,7 @@ fn files(own: &str, mounts: &str) -> Vec<PathBuf> {
             c if c.split(',').any(|c| c == "memory") => ("cgroup", "memory.limit_in_bytes"),
             _ => continue,
         };
-        for mount in mounts.lines().filter_map(Mount::read) {
+        for mount in mounts.lines().filter_map(Mount::read_mount) {
             if mount.kind == kind && (kind == "cgroup2" || mount.holds_memory) {
                 let inner = Path::new(group).strip_prefix(&mount.root);
                 // A group of another namespace is not seen: the mount itself is the nearest.
@@ -57,7 +57,7 @@ struct Mount<'a> {
 
 impl<'a> Mount<'a> {
     /// Reads a line of `mountinfo`: ID, parent, device, root, place, options, ... - kind, source, options of the hierarchy.
-    fn read(line: &'a str) -> Option<Mount<'a>> {
+    fn read_mount(line: &'a str) -> Option<Mount<'a>> {
         let (first, second) = line.split_once(" - ")?;
         let mut first = first.split(' ').skip(3);
         let mut second = second.split(' ');
@@ -73,10 +73,10 @@ impl<'a> Mount<'a> {
 
 #[cfg(test)]
 mod tests {
-    use super::files;
+    use super::limit_files;
 
     fn found(own: &str, mounts: &str) -> Vec<String> {
-        let all = files(own, mounts).into_iter();
+        let all = limit_files(own, mounts).into_iter();
         all.map(|f| f.to_str().unwrap().to_owned()).collect()
     }
 

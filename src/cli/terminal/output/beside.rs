@@ -17,7 +17,7 @@ const TRIES: usize = 100;
 /// The file that is being written, which is removed if the program ends before it is complete, and the folders that were cleaned.
 static BESIDE: Mutex<(Option<PathBuf>, BTreeSet<PathBuf>)> = Mutex::new((None, BTreeSet::new()));
 
-fn beside() -> MutexGuard<'static, (Option<PathBuf>, BTreeSet<PathBuf>)> {
+fn lock_beside() -> MutexGuard<'static, (Option<PathBuf>, BTreeSet<PathBuf>)> {
     BESIDE.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
@@ -30,28 +30,28 @@ pub(crate) fn cut_short() {
 }
 
 /// Removes the file that is being written, if one is.
-pub(crate) fn abandon() {
-    if let Some(path) = beside().0.take() {
+pub(crate) fn remove_unfinished() {
+    if let Some(path) = lock_beside().0.take() {
         let _ = std::fs::remove_file(path);
     }
 }
 
 /// Begins a file in a folder, and removes those that killed runs left there.
-pub(super) fn begin(folder: &Path) -> io::Result<NamedTempFile> {
-    let mut beside = beside();
+pub(super) fn begin_file(folder: &Path) -> io::Result<NamedTempFile> {
+    let mut beside = lock_beside();
     if beside.1.insert(folder.to_owned()) {
         disk::clean_leftovers(folder, |name| {
             name.as_encoded_bytes().starts_with(PREFIX.as_bytes())
         });
     }
-    let mut file = ordinary().tempfile_in(folder)?;
+    let mut file = temporary_builder().tempfile_in(folder)?;
     for _ in 0..TRIES {
         // Held from here on. Whoever cleans up may have taken it before. Not every file system has locks.
         let _ = file.as_file().lock();
         if file.path().exists() {
             break;
         }
-        file = ordinary().tempfile_in(folder)?;
+        file = temporary_builder().tempfile_in(folder)?;
     }
     beside.0 = Some(file.path().to_path_buf());
     Ok(file)
@@ -59,15 +59,19 @@ pub(super) fn begin(folder: &Path) -> io::Result<NamedTempFile> {
 
 /// Gives the file its final name. An incomplete file does not replace an older complete one: it gets another name next to it,
 /// which is returned.
-pub(super) fn place(file: NamedTempFile, path: &Path, older: bool) -> io::Result<Option<PathBuf>> {
-    let other = (older && CUT.load(Ordering::SeqCst)).then(|| interrupted(path));
+pub(super) fn rename_file(
+    file: NamedTempFile,
+    path: &Path,
+    older: bool,
+) -> io::Result<Option<PathBuf>> {
+    let other = (older && CUT.load(Ordering::SeqCst)).then(|| interrupted_name(path));
     file.persist(other.as_deref().unwrap_or(path))?;
-    beside().0 = None;
+    lock_beside().0 = None;
     Ok(other)
 }
 
 /// Returns `page.interrupted.html` for `page.html`.
-fn interrupted(path: &Path) -> PathBuf {
+fn interrupted_name(path: &Path) -> PathBuf {
     let mut name: OsString = path.file_stem().unwrap_or_default().to_owned();
     name.push(".interrupted");
     if let Some(ending) = path.extension() {
@@ -78,7 +82,7 @@ fn interrupted(path: &Path) -> PathBuf {
 }
 
 /// Makes files that may be read by whom the umask lets: they become results.
-fn ordinary() -> tempfile::Builder<'static, 'static> {
+fn temporary_builder() -> tempfile::Builder<'static, 'static> {
     let mut builder = tempfile::Builder::new();
     builder.prefix(PREFIX);
     #[cfg(unix)]

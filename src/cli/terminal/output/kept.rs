@@ -13,19 +13,19 @@ static WRITTEN: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
 /// The first bytes of a SQLite database.
 const DATABASE: [u8; 16] = *b"SQLite format 3\0";
 
-fn written() -> MutexGuard<'static, Vec<PathBuf>> {
+fn lock_written() -> MutexGuard<'static, Vec<PathBuf>> {
     WRITTEN.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
 /// Forgets what was read and written: a command begins.
-pub(crate) fn begin() {
-    disk::forget();
-    written().clear();
+pub(crate) fn forget_files() {
+    disk::forget_read();
+    lock_written().clear();
 }
 
 /// Keeps a file that is read by others than this program's own reader.
-pub(crate) fn keep(path: &Path) {
-    disk::note(path);
+pub(crate) fn keep_file(path: &Path) {
+    disk::note_read(path);
 }
 
 /// Keeps standard input if it is a file.
@@ -33,7 +33,7 @@ pub(crate) fn keep(path: &Path) {
 /// # Errors
 /// Returns an error if standard output is the same file.
 pub(crate) fn keep_standard_input() -> anyhow::Result<()> {
-    if let Some(file) = standard(std::io::stdin()) {
+    if let Some(file) = standard_file(std::io::stdin()) {
         disk::note_open(&file);
     }
     apart_from_standard_output()
@@ -45,8 +45,8 @@ pub(crate) fn is_kept(path: &Path) -> bool {
 }
 
 /// Refuses outputs, each with the name of its option, of which one would take the place of another.
-pub(crate) fn distinct(outputs: &[(&str, PathBuf)]) -> anyhow::Result<()> {
-    let to_standard = standard(std::io::stdout());
+pub(crate) fn ensure_distinct(outputs: &[(&str, PathBuf)]) -> anyhow::Result<()> {
+    let to_standard = standard_file(std::io::stdout());
     for (option, path) in outputs {
         let shown = path.display();
         let same = to_standard
@@ -60,7 +60,7 @@ pub(crate) fn distinct(outputs: &[(&str, PathBuf)]) -> anyhow::Result<()> {
     for ((one, first), (other, second)) in outputs.iter().tuple_combinations() {
         let shown = second.display();
         ensure!(
-            is_device(first) || place(first) != place(second),
+            is_device(first) || canonical_path(first) != canonical_path(second),
             "--{one} and --{other} both write {shown}, and one would overwrite the other; name two files"
         );
     }
@@ -68,7 +68,7 @@ pub(crate) fn distinct(outputs: &[(&str, PathBuf)]) -> anyhow::Result<()> {
 }
 
 /// Returns the whole path of a file that exists or will be made, without links.
-fn place(path: &Path) -> PathBuf {
+fn canonical_path(path: &Path) -> PathBuf {
     let folder = path.parent().filter(|p| !p.as_os_str().is_empty());
     let folder = || fs::canonicalize(folder.unwrap_or(Path::new("."))).ok();
     let new = || Some(folder()?.join(path.file_name()?));
@@ -82,7 +82,7 @@ fn is_device(path: &Path) -> bool {
 }
 
 /// Refuses to write over what is kept, over a catalogue, and over what this command has written already.
-pub(crate) fn apart(path: &Path) -> anyhow::Result<()> {
+pub(crate) fn ensure_apart(path: &Path) -> anyhow::Result<()> {
     let name = path.display();
     ensure!(
         !is_kept(path),
@@ -93,7 +93,7 @@ pub(crate) fn apart(path: &Path) -> anyhow::Result<()> {
         "{name} is a catalogue or another database; name another file to write"
     );
     ensure!(
-        is_device(path) || !written().contains(&place(path)),
+        is_device(path) || !lock_written().contains(&canonical_path(path)),
         "{name} was already written by this command and would be overwritten; name two files"
     );
     Ok(())
@@ -101,12 +101,12 @@ pub(crate) fn apart(path: &Path) -> anyhow::Result<()> {
 
 /// Records that a file was written.
 pub(super) fn note_written(path: &Path) {
-    written().push(place(path));
+    lock_written().push(canonical_path(path));
 }
 
 /// Refuses to write to standard output where it is a file that is read.
 pub(super) fn apart_from_standard_output() -> anyhow::Result<()> {
-    let same = standard(std::io::stdout()).is_some_and(|file| disk::open_was_read(&file));
+    let same = standard_file(std::io::stdout()).is_some_and(|file| disk::open_was_read(&file));
     ensure!(
         !same,
         "standard output is the input file; send it to another file"
@@ -116,7 +116,7 @@ pub(super) fn apart_from_standard_output() -> anyhow::Result<()> {
 
 /// Returns the metadata of standard input or output if it is a file.
 #[cfg(unix)]
-fn standard(stream: impl std::os::fd::AsFd) -> Option<Metadata> {
+fn standard_file(stream: impl std::os::fd::AsFd) -> Option<Metadata> {
     let file = File::from(stream.as_fd().try_clone_to_owned().ok()?);
     file.metadata().ok().filter(Metadata::is_file)
 }

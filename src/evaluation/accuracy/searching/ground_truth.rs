@@ -57,9 +57,9 @@ impl Truth {
         top: usize,
         effort: TrialEffort,
     ) -> Result<Truth, RunError> {
-        let search = over(&outcome.search, PRIME)?;
+        let search = search_over_prime(&outcome.search, PRIME)?;
         let matrices = Matrices::new(&search);
-        let mut looked = variants(&search, effort.looked, request.seed);
+        let mut looked = every_or_drawn(&search, effort.looked, request.seed);
         let mut truth = Truth {
             pool: None,
             judged: Vec::new(),
@@ -73,37 +73,38 @@ impl Truth {
         };
         let (search, mut cheapest) = (&truth.search, None);
         if search.size() > BigUint::from(effort.looked) {
-            let diagrams = search.build(&|| false, &mut |_| {});
+            let diagrams = search.build_diagrams(&|| false, &mut |_| {});
             looked.truncate(effort.looked.div_ceil(2));
-            let good = search.sample(&diagrams, request.seed);
+            let good = search.sample_variants(&diagrams, request.seed);
             looked.extend(good.take(effort.looked / 2).map(|a| a.choices));
             let each = looked.len().max(1) as f64;
             truth.ratio = search.size().to_f64().unwrap_or(f64::INFINITY) / each;
-            if diagrams.stop() == Stop::Exhausted {
+            if diagrams.stop_reason() == Stop::Exhausted {
                 let both = [(false, &diagrams.determinate), (true, &diagrams.admissible)];
-                let both =
-                    both.map(|(all, d)| (all, search.counts(d, all).by_mobility_and_changes));
-                truth.cells = Some(both.into_iter().flat_map(named).collect());
-                cheapest = Some(search.cheapest(&diagrams, top).collect::<Vec<_>>());
+                let both = both
+                    .map(|(all, d)| (all, search.count_variants(d, all).by_mobility_and_changes));
+                truth.cells = Some(both.into_iter().flat_map(name_cells).collect());
+                cheapest = Some(search.cheapest_variants(&diagrams, top).collect::<Vec<_>>());
             }
         }
-        truth.judged = judge_all(&looked, |c| truth.judge(c))?;
+        truth.judged = judge_all(&looked, |c| truth.judge_variant(c))?;
         truth.looked = looked;
         if truth.is_whole() {
             truth.cells = Some(truth.cells_of(&truth.judged));
-            cheapest = Some(truth.cheapest(&truth.judged));
+            cheapest = Some(truth.cheapest_judged(&truth.judged));
         }
-        truth.best = cheapest.map(|list| list.iter().map(|a| truth.properties(a.key)).collect());
+        truth.best =
+            cheapest.map(|list| list.iter().map(|a| truth.sort_properties(a.key)).collect());
         if outcome.ranking.is_some() {
             let request = Request {
                 pool: effort.pool,
                 ..request.clone()
             };
-            let (all, list) = listed(mechanism, &request)?;
+            let (all, list) = run_and_list(mechanism, &request)?;
             truth.pool = all.ranking.as_ref().map(|r| (r.scored, r.proven));
             // A pool is no judge of itself: outside of it may be better ones.
             let proven = truth.pool.is_some_and(|(_, proven)| proven);
-            truth.best = proven.then(|| list.iter().map(ranked).collect());
+            truth.best = proven.then(|| list.iter().map(choice_key).collect());
         }
         Ok(truth)
     }
@@ -114,7 +115,7 @@ impl Truth {
     }
 
     /// Returns the numbers of determinate and of admissible variants.
-    pub(super) fn found(&self) -> Option<[BigUint; 2]> {
+    pub(super) fn true_counts(&self) -> Option<[BigUint; 2]> {
         let cells = self.cells.as_ref()?;
         let total = |which| {
             let of = cells.iter().filter(|(k, _)| k.0 == which);
@@ -123,8 +124,8 @@ impl Truth {
         Some([false, true].map(total))
     }
 
-    fn judge(&self, choices: &[usize]) -> Result<Option<Judged>, ExactError> {
-        judged(&self.search, choices, self.matrices.look(choices))
+    fn judge_variant(&self, choices: &[usize]) -> Result<Option<Judged>, ExactError> {
+        judge_seen(&self.search, choices, self.matrices.look_at(choices))
     }
 
     /// Returns how many of all counts, the true ones and those found, are equal.
@@ -141,11 +142,11 @@ impl Truth {
         let mut given = Vec::new();
         for a in list {
             given.extend(match self.pool {
-                Some(_) => Some(ranked(a)),
+                Some(_) => Some(choice_key(a)),
                 None => self
-                    .judge(&a.choices)?
+                    .judge_variant(&a.choices)?
                     .filter(|j| j.1)
-                    .map(|j| self.properties(j.0)),
+                    .map(|j| self.sort_properties(j.0)),
             });
         }
         let given = given.into_iter().counts();
@@ -177,10 +178,10 @@ impl Truth {
     }
 
     /// Returns the cheapest admissible ones of the judged variants, in the order of the program but for ties.
-    pub(super) fn cheapest(&self, judged: &[Option<Judged>]) -> Vec<Assignment> {
+    pub(super) fn cheapest_judged(&self, judged: &[Option<Judged>]) -> Vec<Assignment> {
         let all = self.looked.iter().zip(judged);
         let good = all.filter_map(|(choices, j)| Some((choices, j.filter(|j| j.1)?.0)));
-        let sorted = good.sorted_by_key(|(_, key)| self.properties(*key));
+        let sorted = good.sorted_by_key(|(_, key)| self.sort_properties(*key));
         let assignment = |(choices, key): (&Vec<usize>, Key)| Assignment {
             choices: choices.clone(),
             key,
@@ -189,26 +190,26 @@ impl Truth {
     }
 
     /// Returns cost, W and number of changes, by which a list is sorted.
-    fn properties(&self, key: Key) -> Vec<u64> {
+    fn sort_properties(&self, key: Key) -> Vec<u64> {
         let w = self.search.mobility(key).unsigned_abs();
         vec![key.cost(), w, u64::from(key.changes())]
     }
 }
 
 /// Returns what tells a ranked variant from others.
-fn ranked(a: &Assignment) -> Vec<u64> {
+fn choice_key(a: &Assignment) -> Vec<u64> {
     a.choices.iter().map(|&c| c as u64).collect()
 }
 
 /// Returns a search over another prime.
-pub(super) fn over(search: &Search, nth: usize) -> Result<Search, RunError> {
+pub(super) fn search_over_prime(search: &Search, nth: usize) -> Result<Search, RunError> {
     let field = exact_field(&search.mechanism, nth)?;
     let conditions = search.conditions.clone();
     Ok(Search::new(field, search.mechanism.clone(), conditions)?)
 }
 
 /// Searches by the diagram. Returns the list that was asked for, too.
-pub(super) fn listed(
+pub(super) fn run_and_list(
     mechanism: &Mechanism,
     request: &Request,
 ) -> Result<(Outcome, Vec<Assignment>), RunError> {
@@ -218,23 +219,23 @@ pub(super) fn listed(
 }
 
 /// Returns the judgement that follows from what was seen of a variant; `None` if it is not determinate.
-pub(super) fn judged(
+pub(super) fn judge_seen(
     search: &Search,
     choices: &[usize],
     seen: Seen,
 ) -> Result<Option<Judged>, ExactError> {
-    let judged = brute::judge(search, choices, seen)?;
-    Ok(judged.map(|(key, good)| (key, good && search.wanted(key))))
+    let judged = brute::judge_variant(search, choices, seen)?;
+    Ok(judged.map(|(key, good)| (key, good && search.is_wanted(key))))
 }
 
 /// Returns the judgement of a search's diagrams; `None` if the variant is not in that of the determinate ones.
 pub(super) fn by_diagram(outcome: &Outcome, choices: &[usize]) -> Option<Judged> {
     let (search, diagrams) = (&outcome.search, outcome.diagrams.as_ref()?);
-    let key = |redundancy| brute::key(search, choices, redundancy);
+    let key = |redundancy| brute::variant_key(search, choices, redundancy);
     // The diagram of the determinate ones does not ask what the state makes of a variant.
-    match diagrams.admissible.end(choices).map(key) {
-        Some(key) => Some((key, search.wanted(key))),
-        None => Some((diagrams.determinate.end(choices).map(key)?, false)),
+    match diagrams.admissible.end_of(choices).map(key) {
+        Some(key) => Some((key, search.is_wanted(key))),
+        None => Some((diagrams.determinate.end_of(choices).map(key)?, false)),
     }
 }
 
@@ -250,10 +251,10 @@ pub(super) fn judge_all<E: Send>(
 pub(super) fn cells_of_outcome(outcome: &Outcome) -> Cells {
     let both = [(false, &outcome.determinate), (true, &outcome.admissible)];
     let both = both.map(|(all, counts)| (all, counts.by_mobility_and_changes.clone()));
-    both.into_iter().flat_map(named).collect()
+    both.into_iter().flat_map(name_cells).collect()
 }
 
-fn named(
+fn name_cells(
     (all, counts): (bool, BTreeMap<(i64, u32), BigUint>),
 ) -> impl Iterator<Item = ((bool, i64, u32), BigUint)> {
     counts
@@ -262,7 +263,7 @@ fn named(
 }
 
 /// Returns every variant, or some drawn with equal chance if there are more than `most`.
-fn variants(search: &Search, most: usize, seed: u64) -> Vec<Vec<usize>> {
+fn every_or_drawn(search: &Search, most: usize, seed: u64) -> Vec<Vec<usize>> {
     let variables = search.space.variables.iter();
     let radix: Vec<usize> = variables.map(|v| v.choices.len()).collect();
     if search.size() <= BigUint::from(most) {

@@ -3,12 +3,12 @@
 use super::record::{Bracket, Record, Share, Trial, Way};
 use crate::accuracy::said::Tally;
 use crate::accuracy::study::{Figure, Study, View};
-use crate::format::{grouped, list};
+use crate::format::{group_thousands, join_and};
 use crate::score::request::{Check, POOL};
 
 /// Returns the studies that some trials make: all ways against the whole diagram, brackets of searches with budgets of nodes, and pools of
 /// rankings. A study without rows is omitted. `advice` is what to do for each of the three.
-pub fn studies(trials: &[Trial], advice: [&str; 3]) -> Vec<Study> {
+pub fn make_studies(trials: &[Trial], advice: [&str; 3]) -> Vec<Study> {
     let (known, missed) = ("most over least, decades", "missed of the best, %");
     let mut studies = [
         ("overview", Figure::Wrong),
@@ -20,7 +20,10 @@ pub fn studies(trials: &[Trial], advice: [&str; 3]) -> Vec<Study> {
         study.texts.advice = advice.to_owned();
     }
     for (n, trial) in trials.iter().enumerate() {
-        let stopped = |r: &Record| r.bracket.is_some_and(|b| Bracket::decades(b.certain) > 0.0);
+        let stopped = |r: &Record| {
+            r.bracket
+                .is_some_and(|b| Bracket::width_in_decades(b.certain) > 0.0)
+        };
         let stopped = trial.records.iter().any(stopped);
         for record in &trial.records {
             add_to_overview(&mut studies[0], n, trial, record);
@@ -58,8 +61,8 @@ fn add_to_overview(study: &mut Study, n: usize, trial: &Trial, record: &Record) 
         } else {
             1.0
         };
-        study.add(
-            record.way.about()[0],
+        study.add_tally(
+            record.way.kind_and_text()[0],
             n as f64,
             Tally::of_share(right, of, times),
         );
@@ -76,7 +79,7 @@ fn add_to_brackets(study: &mut Study, trial: &Trial, record: &Record) {
     // An exact count says nothing about intervals.
     let holds = bracket
         .holds
-        .filter(|_| Bracket::decades(bracket.certain) > 0.0);
+        .filter(|_| Bracket::width_in_decades(bracket.certain) > 0.0);
     let bounds = [
         ("", bracket.certain, None),
         (", 95 %", bracket.likely, holds),
@@ -88,10 +91,10 @@ fn add_to_brackets(study: &mut Study, trial: &Trial, record: &Record) {
                 Some(holds) => [usize::from(holds), 0, 0, usize::from(!holds)],
             },
             seconds: vec![time.median],
-            figure: Bracket::decades(bounds),
+            figure: Bracket::width_in_decades(bounds),
             ..Tally::default()
         };
-        study.add(&(trial.mechanism.clone() + after), nodes as f64, tally);
+        study.add_tally(&(trial.mechanism.clone() + after), nodes as f64, tally);
     }
 }
 
@@ -102,9 +105,9 @@ fn add_to_rankings(study: &mut Study, trial: &Trial, record: &Record) {
     };
     let after = if pool.is_none() { ", default" } else { "" };
     let mut tally = Tally::of_share(best.right, best.of, time.median);
-    tally.figure = tally.up(Figure::Wrong);
+    tally.figure = tally.figure_of(Figure::Wrong);
     tally.of = [0, 1, 0, 0];
-    study.add(
+    study.add_tally(
         &format!("{}{after}", trial.mechanism),
         pool.unwrap_or(POOL) as f64,
         tally,
@@ -112,8 +115,8 @@ fn add_to_rankings(study: &mut Study, trial: &Trial, record: &Record) {
 }
 
 /// Returns what a ranking is judged by.
-pub fn ranking(trial: &Trial) -> Option<String> {
-    let pool = grouped(trial.ranked_by_pool?);
+pub fn describe_ranking(trial: &Trial) -> Option<String> {
+    let pool = group_thousands(trial.ranked_by_pool?);
     Some(if trial.ranking_proven == Some(true) {
         format!(
             "The best are judged by a ranking of the {pool} cheapest variants, the best of all."
@@ -126,21 +129,21 @@ pub fn ranking(trial: &Trial) -> Option<String> {
 }
 
 /// Returns which ways judge variants wrongly, or give wrong counts, in words.
-pub fn wrong(trial: &Trial) -> String {
+pub fn describe_errors(trial: &Trial) -> String {
     let wrong = trial.records.iter().filter_map(|r| {
-        let (share, on) = if r.way.looks() {
+        let (share, on) = if r.way.examines_variants() {
             (r.variants, "variants")
         } else {
             (r.counts, "counts")
         };
         let Share { right, of } = share.filter(|s| s.right < s.of)?;
-        let [wrong, all] = [of - right, of].map(grouped);
+        let [wrong, all] = [of - right, of].map(group_thousands);
         Some(format!("{} on {wrong} of {all} {on}", r.way))
     });
     let all: Vec<String> = wrong.collect();
     if all.is_empty() {
         "No way is wrong about a variant or a count.".to_owned()
     } else {
-        format!("Wrong: {}.", list(&all))
+        format!("Wrong: {}.", join_and(&all))
     }
 }

@@ -30,7 +30,7 @@ pub enum Way {
 
 impl Way {
     /// Returns a request that searches this way.
-    pub(super) fn request(self, base: &Request) -> Request {
+    pub(super) fn apply_to(self, base: &Request) -> Request {
         let mut request = base.clone();
         match self {
             Way::Diagram(check) => request.check = check,
@@ -42,7 +42,7 @@ impl Way {
     }
 
     /// Returns the kind of way, and its description.
-    pub fn about(self) -> [&'static str; 2] {
+    pub fn kind_and_text(self) -> [&'static str; 2] {
         match self {
             Way::Diagram(Check::None) => ["whole diagram", "the diagram over one prime"],
             Way::Diagram(Check::Prime) => ["whole diagram", "the diagram over two primes"],
@@ -70,7 +70,7 @@ impl Way {
     }
 
     /// Returns whether it examines variants one by one.
-    pub fn looks(self) -> bool {
+    pub fn examines_variants(self) -> bool {
         matches!(self, Way::Pruned | Way::Brute | Way::Float(_))
     }
 }
@@ -113,7 +113,7 @@ pub struct Bracket {
 
 impl Bracket {
     /// Returns the width of some bounds in decades. A decade is a factor of ten.
-    pub fn decades([least, most]: [f64; 2]) -> f64 {
+    pub fn width_in_decades([least, most]: [f64; 2]) -> f64 {
         (most.max(1.0) / least.max(1.0)).log10()
     }
 }
@@ -196,7 +196,7 @@ impl Trial {
 }
 
 /// Returns a row for each mechanism and way. The keys are a stable contract, in this order.
-pub fn rows(trials: &[Trial]) -> Vec<Map<String, Value>> {
+pub fn trial_rows(trials: &[Trial]) -> Vec<Map<String, Value>> {
     let row = |t: &Trial, r: &Record| {
         let share = |s: Option<Share>| [s.map(|s| s.right), s.map(|s| s.of)];
         let [
@@ -208,7 +208,7 @@ pub fn rows(trials: &[Trial]) -> Vec<Map<String, Value>> {
         let (certain, likely) = (bounds(|b| b.certain), bounds(|b| b.likely));
         let percent = likely.map(|[a, b]| 200.0 * (b - a) / (a + b).max(1.0));
         let all = json!({
-            "mechanism": t.mechanism, "way": r.way.to_string(), "about": r.way.about()[1],
+            "mechanism": t.mechanism, "way": r.way.to_string(), "about": r.way.kind_and_text()[1],
             "counts_right": counts_right, "counts": counts, "best_right": best_right, "best": best,
             "variants_right": variants_right, "variants": variants,
             "median_seconds": r.counting.map(|t| t.median), "least_seconds": r.counting.map(|t| t.least),
@@ -230,8 +230,8 @@ pub fn rows(trials: &[Trial]) -> Vec<Map<String, Value>> {
 }
 
 /// Returns the rows of some trials as CSV.
-pub fn csv(trials: &[Trial]) -> String {
-    let rows = rows(trials);
+pub fn trials_csv(trials: &[Trial]) -> String {
+    let rows = trial_rows(trials);
     let heads: Vec<&str> = rows
         .first()
         .map_or_else(Vec::new, |r| r.keys().map(String::as_str).collect());
@@ -240,7 +240,7 @@ pub fn csv(trials: &[Trial]) -> String {
         Value::String(text) => text.clone(),
         other => other.to_string(),
     };
-    csv::table(
+    csv::write_table(
         &heads,
         rows.iter()
             .map(|row| row.values().map(text).collect::<Vec<_>>()),

@@ -11,7 +11,7 @@ use crate::file::text::mechanism_from_str;
 use crate::geom::Reals;
 use crate::geom::expr::Expr;
 use crate::model::mechanism::{Mechanism, StateId};
-use crate::rank::method::auto::decide;
+use crate::rank::method::auto::decide_state;
 use crate::rank::method::{MobilityMethod, registry};
 use crate::rank::numeric::Elimination;
 
@@ -51,17 +51,17 @@ impl Special {
         BUILT_IN.into_iter().filter_map(of)
     }
 
-    fn drawn(kind: SpecialKind, noise: &mut Noise) -> Option<Special> {
+    fn draw_special(kind: SpecialKind, noise: &mut Noise) -> Option<Special> {
         let (mechanism, place) = kind.with_place(noise)?;
         Some(Special {
             mechanism,
             place,
             unit: 1,
-            truth: [false, true].map(|off| kind.figures(off)),
+            truth: [false, true].map(|off| kind.true_figures(off)),
         })
     }
 
-    fn displaced(&self, exponent: i32) -> Mechanism {
+    fn displace(&self, exponent: i32) -> Mechanism {
         let mut m = self.mechanism.clone();
         let (joint, axis, coordinate) = self.place;
         if let Some(joint) = m.joints.get_mut(joint) {
@@ -79,11 +79,11 @@ impl Special {
 
 /// Returns the study of special mechanisms with one coordinate displaced exactly, by the first to the sixteenth digit. A method is right if it is
 /// right about both the special and the displaced mechanism.
-pub(super) fn distance(cases: &[Case], effort: Effort, progress: Progress<'_>) -> Study {
+pub(super) fn study_distance(cases: &[Case], effort: Effort, progress: Progress<'_>) -> Study {
     let (each, step) = if effort.quick { (1, 5) } else { (4, 1) };
     let exponents: Vec<i32> = (-16..=-1).step_by(step).collect();
     let drawn = (0..SpecialKind::ALL.len() * each).filter_map(|i| {
-        Special::drawn(SpecialKind::ALL[i / each], &mut Noise::new(effort.seed, i))
+        Special::draw_special(SpecialKind::ALL[i / each], &mut Noise::new(effort.seed, i))
     });
     let all: Vec<Special> = Special::built_in(cases).chain(drawn).collect();
     let study = Study::new(
@@ -92,9 +92,9 @@ pub(super) fn distance(cases: &[Case], effort: Effort, progress: Progress<'_>) -
         View::Regions,
     );
     let names = registry::ALL.map(MobilityMethod::name);
-    study.asked(names, all.len(), progress, |v, case| {
+    study.ask_cases(names, all.len(), progress, |v, case| {
         let special = &all[case];
-        let off = special.displaced(exponents[v]);
+        let off = special.displace(exponents[v]);
         let pair = [
             (&special.mechanism, StateId::FREE, special.truth[0]),
             (&off, StateId::FREE, special.truth[1]),
@@ -108,7 +108,7 @@ const SIZE: f64 = 2.0;
 
 /// Returns the study of special mechanisms of a given number of decimals with one joint displaced. Below half a unit of the last digit the special
 /// geometry is true, above one and a half units the offset. Between them the digits allow both.
-pub(super) fn digits(effort: Effort, progress: Progress<'_>) -> Study {
+pub(super) fn study_digits(effort: Effort, progress: Progress<'_>) -> Study {
     let (each, decimals): (usize, &[i32]) = if effort.quick {
         (1, &[4, 9])
     } else {
@@ -124,7 +124,7 @@ pub(super) fn digits(effort: Effort, progress: Progress<'_>) -> Study {
         View::Shares,
     );
     let names = decimals.iter().map(|d| format!("{d} decimals"));
-    study.asked(
+    study.ask_cases(
         names,
         SpecialKind::ALL.len() * each * 2,
         progress,
@@ -140,8 +140,8 @@ pub(super) fn digits(effort: Effort, progress: Progress<'_>) -> Study {
                 let mut noise = Noise::new(effort.seed, case);
                 let text = kind.text(units, d.unsigned_abs() as usize, turned, &mut noise);
                 let m = mechanism_from_str("offset.toml", &text).ok()?;
-                let found = decide(&m, StateId::FREE).ok();
-                let [w, finite] = Said::of_decision(found.as_ref(), kind.figures(units > 1.0));
+                let found = decide_state(&m, StateId::FREE).ok();
+                let [w, finite] = Said::of_decision(found.as_ref(), kind.true_figures(units > 1.0));
                 Some(Reply::new(w.max(finite), || text))
             };
             decimals.iter().map(ask).collect()
@@ -150,7 +150,7 @@ pub(super) fn digits(effort: Effort, progress: Progress<'_>) -> Study {
 }
 
 /// Returns the study of the ranks in floating point of the built-in mechanisms against the tolerance, by half decades.
-pub(super) fn tolerance(cases: &[Case], effort: Effort, progress: Progress<'_>) -> Study {
+pub(super) fn study_tolerance(cases: &[Case], effort: Effort, progress: Progress<'_>) -> Study {
     let step = if effort.quick { 4 } else { 1 };
     let halves = (-30..=-6).step_by(step);
     let study = Study::new(
@@ -162,7 +162,7 @@ pub(super) fn tolerance(cases: &[Case], effort: Effort, progress: Progress<'_>) 
     );
     let tolerances = study.values.clone();
     let names = Elimination::ALL.map(|method| method.name());
-    study.asked(names, cases.len(), progress, |v, n| {
+    study.ask_cases(names, cases.len(), progress, |v, n| {
         let Case {
             mechanism,
             state,
@@ -171,7 +171,7 @@ pub(super) fn tolerance(cases: &[Case], effort: Effort, progress: Progress<'_>) 
         let closure = Closure::new(&Reals, mechanism, *state).ok();
         let ask = |method: &Elimination| {
             let found = closure.as_ref()?;
-            let w = method.mobilities(found, &tolerances[v..=v])[0];
+            let w = method.mobilities_at(found, &tolerances[v..=v])[0];
             let said = Said::judge(w.is_some(), false, w == Some(truth.instantaneous));
             Some(Reply::new(said, String::new))
         };
@@ -183,7 +183,7 @@ pub(super) fn tolerance(cases: &[Case], effort: Effort, progress: Progress<'_>) 
 const TOLERANCES: [f64; 2] = [1e-9, 1e-6];
 
 /// Returns the study of every built-in mechanism, turned at random and rounded. The original mechanism is the truth.
-pub(super) fn rounded(cases: &[Case], effort: Effort, progress: Progress<'_>) -> Study {
+pub(super) fn study_rounded(cases: &[Case], effort: Effort, progress: Progress<'_>) -> Study {
     let (step, turns) = if effort.quick { (4, 1) } else { (1, 3) };
     // Finest first: the axis ascends.
     let decimals: Vec<i32> = (4..=16).rev().step_by(step).collect();
@@ -198,7 +198,7 @@ pub(super) fn rounded(cases: &[Case], effort: Effort, progress: Progress<'_>) ->
         "W by svd at 1e-9",
         "W by svd at 1e-6",
     ];
-    study.asked(names, cases.len() * turns, progress, |v, i| {
+    study.ask_cases(names, cases.len() * turns, progress, |v, i| {
         let (case, turn) = (&cases[i / turns], i % turns);
         let mut noise = Noise::new(effort.seed.wrapping_add(turn as u64), i / turns);
         let m = turned_and_rounded(
@@ -206,10 +206,10 @@ pub(super) fn rounded(cases: &[Case], effort: Effort, progress: Progress<'_>) ->
             decimals[v].unsigned_abs() as usize,
             &mut noise,
         );
-        let found = decide(&m, case.state).ok();
+        let found = decide_state(&m, case.state).ok();
         let of = Said::of_decision(found.as_ref(), case.truth);
         let closure = Closure::new(&Reals, &m, case.state).ok();
-        let svd = closure.map(|c| Elimination::Svd.mobilities(&c, &TOLERANCES));
+        let svd = closure.map(|c| Elimination::Svd.mobilities_at(&c, &TOLERANCES));
         let svd = [0, 1].map(|n| {
             let w = svd.as_ref().and_then(|w| w[n]);
             Said::judge(w.is_some(), false, w == Some(case.truth.instantaneous))

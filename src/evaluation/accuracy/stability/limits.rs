@@ -2,8 +2,8 @@
 
 use crate::accuracy::Truth;
 use crate::accuracy::cases::Case;
-use crate::accuracy::change::{Noise, resized};
-use crate::accuracy::lattice::{self, LatticeKind, toggles};
+use crate::accuracy::change::{Noise, resize};
+use crate::accuracy::lattice::{self, LatticeKind, toggle_row};
 use crate::accuracy::said::{Reply, Said};
 use crate::accuracy::study::{Effort, Progress, Study, View};
 use crate::accuracy::timing::Stopwatch;
@@ -21,7 +21,7 @@ use std::collections::HashSet;
 use std::sync::{Mutex, PoisonError};
 
 /// Returns the study of rows of four-bars and lazy tongs of 1 to 200 contours. A slow method is not asked about longer ones.
-pub(super) fn size(effort: Effort, progress: Progress<'_>) -> Study {
+pub(super) fn study_size(effort: Effort, progress: Progress<'_>) -> Study {
     const SIZES: [u32; 10] = [1, 2, 3, 5, 10, 20, 35, 60, 100, 200];
     const SHAPES: [LatticeKind; 2] = [LatticeKind::FourBars, LatticeKind::Scissors];
     let (sizes, patience) = if effort.quick {
@@ -36,8 +36,8 @@ pub(super) fn size(effort: Effort, progress: Progress<'_>) -> Study {
         View::Times,
     );
     let names = registry::ALL.map(MobilityMethod::name);
-    study.asked(names, SHAPES.len(), progress, |v, case| {
-        let m = lattice::mechanism(SHAPES[case], sizes[v] as usize);
+    study.ask_cases(names, SHAPES.len(), progress, |v, case| {
+        let m = lattice::lattice_mechanism(SHAPES[case], sizes[v] as usize);
         let mut slow = slow.lock().unwrap_or_else(PoisonError::into_inner);
         let ask = |method: &&dyn MobilityMethod| {
             if slow.contains(&(method.name(), case)) {
@@ -48,18 +48,18 @@ pub(super) fn size(effort: Effort, progress: Progress<'_>) -> Study {
                 repeat: if v < 4 { 5 } else { 1 },
             };
             let all = [(&m, StateId::FREE, Truth::new(1, 1))];
-            let (reply, time) = watch.time(|| Reply::of_method(*method, &all));
+            let (reply, time) = watch.time_repeatedly(|| Reply::of_method(*method, &all));
             if time.median > patience {
                 slow.insert((method.name(), case));
             }
-            reply.map(|reply| reply.taking(time.median))
+            reply.map(|reply| reply.with_time(time.median))
         };
         registry::ALL.iter().map(ask).collect()
     })
 }
 
 /// Returns the study of mechanisms in other units: every length times 10^-6 to 10^6.
-pub(super) fn scale(cases: &[Case], effort: Effort, progress: Progress<'_>) -> Study {
+pub(super) fn study_scale(cases: &[Case], effort: Effort, progress: Progress<'_>) -> Study {
     let step = if effort.quick { 3 } else { 1 };
     let exponents: Vec<i32> = (-6..=6).step_by(step).collect();
     let study = Study::new(
@@ -72,7 +72,7 @@ pub(super) fn scale(cases: &[Case], effort: Effort, progress: Progress<'_>) -> S
         .into_iter()
         .chain(["modular", "auto"]);
     let methods: Vec<_> = names.filter_map(registry::by_name).collect();
-    study.asked(
+    study.ask_cases(
         methods.iter().map(|m| m.name()),
         cases.len(),
         progress,
@@ -82,14 +82,14 @@ pub(super) fn scale(cases: &[Case], effort: Effort, progress: Progress<'_>) -> S
                 state,
                 truth,
             } = &cases[case];
-            let m = resized(mechanism, exponents[v]);
+            let m = resize(mechanism, exponents[v]);
             Reply::of_methods(&methods, &[(&m, *state, *truth)])
         },
     )
 }
 
 /// Returns the study of rows of toggles that have one freedom at the pose and none in truth.
-pub(super) fn shaky(effort: Effort, progress: Progress<'_>) -> Study {
+pub(super) fn study_shaky(effort: Effort, progress: Progress<'_>) -> Study {
     let (each, most) = if effort.quick { (1, 3) } else { (3, 6) };
     let study = Study::new(
         "stability-shaky",
@@ -98,8 +98,8 @@ pub(super) fn shaky(effort: Effort, progress: Progress<'_>) -> Study {
     );
     let truth = Truth::new(1, 0);
     let names = registry::ALL.map(MobilityMethod::name);
-    study.asked(names, each, progress, |v, case| {
-        let text = toggles(v + 1, &mut Noise::new(effort.seed, 100 * (v + 1) + case));
+    study.ask_cases(names, each, progress, |v, case| {
+        let text = toggle_row(v + 1, &mut Noise::new(effort.seed, 100 * (v + 1) + case));
         let m = mechanism_from_str("toggles.toml", &text).expect("a generated file is valid");
         Reply::of_methods(&registry::ALL, &[(&m, StateId::FREE, truth)])
     })
@@ -110,9 +110,9 @@ const CONTOURS: u32 = 3;
 
 /// Returns the study of the rank modulo a random prime of 8 to 61 bits, for a rigid row of four-bars with random points and for built-in mechanisms
 /// with rational coordinates. A minor of the row has degree 2 per contour in the points, which gives the bound of Schwartz and Zippel.
-pub(super) fn prime(cases: &[Case], effort: Effort, progress: Progress<'_>) -> Study {
+pub(super) fn study_prime(cases: &[Case], effort: Effort, progress: Progress<'_>) -> Study {
     const BITS: [u32; 10] = [8, 10, 12, 14, 16, 20, 24, 32, 48, 61];
-    let mut chain = lattice::mechanism(LatticeKind::FourBars, CONTOURS as usize);
+    let mut chain = lattice::lattice_mechanism(LatticeKind::FourBars, CONTOURS as usize);
     // A row whose first crank is fixed is rigid: its rank is less where a minor vanishes.
     chain.joints[JointId::new(0)].joint_type = JointType::Fixed;
     let largest = ExactField::of_prime((1 << 61) - 1);
@@ -128,7 +128,7 @@ pub(super) fn prime(cases: &[Case], effort: Effort, progress: Progress<'_>) -> S
         clock: effort.clock,
         repeat: 1,
     };
-    study.asked(
+    study.ask_cases(
         ["random points", "built-in mechanisms"],
         each,
         progress,
@@ -142,14 +142,14 @@ pub(super) fn prime(cases: &[Case], effort: Effort, progress: Progress<'_>) -> S
             };
             let exact = ExactField::of_prime(prime);
             let ask = |m: &Mechanism, state, w: i64| {
-                let (free, time) = watch.time(|| {
+                let (free, time) = watch.time_repeatedly(|| {
                     // A divisor may vanish: the program then takes another prime.
                     let closure = Closure::new(&exact, m, state).ok()?;
-                    Some(closure.columns.len() - modular::rank(&exact, &closure))
+                    Some(closure.columns.len() - modular::rank_modulo(&exact, &closure))
                 });
                 let said = Said::judge(true, true, i64::try_from(free?) == Ok(w));
                 let reply = Reply::new(said, || format!("{} modulo {prime}", m.name));
-                Some(reply.taking(time.median))
+                Some(reply.with_time(time.median))
             };
             let mut drawn = chain.clone();
             for joint in &mut drawn.joints {

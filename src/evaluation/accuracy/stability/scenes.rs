@@ -1,8 +1,8 @@
 //! The value of a smaller model of a scene, and whether the first idea stays first if costs and proportions change.
 
 use crate::accuracy::cases::Case;
-use crate::accuracy::change::{Noise, stretched};
-use crate::accuracy::lattice::{Scene, ladder};
+use crate::accuracy::change::{Noise, stretch};
+use crate::accuracy::lattice::{Scene, make_ladder};
 use crate::accuracy::said::{Reply, Said};
 use crate::accuracy::study::{Effort, Progress, Study, View};
 use crate::accuracy::timing::{Stopwatch, Timing};
@@ -23,7 +23,7 @@ const CONTOURS: [usize; 8] = [1, 2, 3, 4, 6, 9, 14, 20];
 
 /// Returns the study of the least model of a scene, the rows of the closure equations that matter. It compares the rank
 /// with that by all rows in space, which is the truth. Times are multiples of the time by all rows.
-pub(super) fn model(cases: &[Case], effort: Effort, progress: Progress<'_>) -> Study {
+pub(super) fn study_least_model(cases: &[Case], effort: Effort, progress: Progress<'_>) -> Study {
     let each = if effort.quick { 4 } else { 32 };
     let study = Study::new(
         "stability-model",
@@ -36,7 +36,7 @@ pub(super) fn model(cases: &[Case], effort: Effort, progress: Progress<'_>) -> S
         clock: effort.clock,
         repeat: 3,
     };
-    study.asked(
+    study.ask_cases(
         rows,
         Scene::ALL.len() * each + cases.len(),
         progress,
@@ -52,7 +52,7 @@ pub(super) fn model(cases: &[Case], effort: Effort, progress: Progress<'_>) -> S
                 }
                 return replies;
             };
-            let m = ladder(scene, CONTOURS[v], &mut Noise::new(effort.seed, n));
+            let m = make_ladder(scene, CONTOURS[v], &mut Noise::new(effort.seed, n));
             replies[n / each] = by_rank(&m, StateId::FREE, watch);
             replies
         },
@@ -63,22 +63,22 @@ pub(super) fn model(cases: &[Case], effort: Effort, progress: Progress<'_>) -> S
 fn by_rank(m: &Mechanism, state: StateId, watch: Stopwatch) -> Option<Reply> {
     let exact = field_of(m, state, 0).ok()?;
     let closure = Closure::new(&exact, m, state).ok()?;
-    let all = watch.time(|| modular::rank(&exact, &closure));
-    let (least, time) = watch.time(|| LeastRows::new(&exact, m, &closure));
-    Some(compared(m, all, (least.ok()?.rank(), time)))
+    let all = watch.time_repeatedly(|| modular::rank_modulo(&exact, &closure));
+    let (least, time) = watch.time_repeatedly(|| LeastRows::new(&exact, m, &closure));
+    Some(compare_answers(m, all, (least.ok()?.rank(), time)))
 }
 
 /// Returns whether two answers are the same, with the time of the second as a multiple of the time of the first.
-fn compared<T: PartialEq>(m: &Mechanism, all: (T, Timing), least: (T, Timing)) -> Reply {
+fn compare_answers<T: PartialEq>(m: &Mechanism, all: (T, Timing), least: (T, Timing)) -> Reply {
     let said = Said::judge(true, true, all.0 == least.0);
     // By a clock that stands still both take as long.
     let times = (all.1.median > 0.0).then(|| least.1.median / all.1.median);
-    Reply::new(said, || m.name.clone()).taking(times.unwrap_or(1.0))
+    Reply::new(said, || m.name.clone()).with_time(times.unwrap_or(1.0))
 }
 
 /// Returns the study of the first idea. A change of x multiplies the cost of each joint type by a random factor between 1 - x and 1 + x.
 /// Under a ranking it multiplies the coordinates along each axis instead.
-pub(super) fn first_idea(cases: &[Case], effort: Effort, progress: Progress<'_>) -> Study {
+pub(super) fn study_first_idea(cases: &[Case], effort: Effort, progress: Progress<'_>) -> Study {
     let (each, values): (usize, &[f64]) = if effort.quick {
         (1, &[0.01, 0.05])
     } else {
@@ -96,7 +96,7 @@ pub(super) fn first_idea(cases: &[Case], effort: Effort, progress: Progress<'_>)
             ..request.clone()
         };
         let found = run(m.clone(), &request, &|| false, &mut |_| {}).ok()?;
-        let ideas: Vec<Vec<Change>> = found.variants().map(|v| v.changes()).collect();
+        let ideas: Vec<Vec<Change>> = found.variants().map(|v| v.list_changes()).collect();
         (!ideas.is_empty()).then_some(ideas)
     };
     let free = cases
@@ -112,14 +112,14 @@ pub(super) fn first_idea(cases: &[Case], effort: Effort, progress: Progress<'_>)
         "among the first ten",
         "first in a ranking under loads",
     ];
-    study.asked(names, ideas.len() * each, progress, |v, n| {
+    study.ask_cases(names, ideas.len() * each, progress, |v, n| {
         let (m, before) = &ideas[n / each];
         let noise = &mut Noise::new(effort.seed, n);
         let ranked = m.ranking.is_some();
         let changed = if ranked {
-            stretched(m, values[v], noise)
+            stretch(m, values[v], noise)
         } else {
-            repriced(m, values[v], noise)
+            reprice_options(m, values[v], noise)
         };
         let now = first(&changed, 1).map(|mut ideas| ideas.swap_remove(0));
         let reply = |right: bool| Reply::new(Said::judge(true, false, right), String::new);
@@ -132,15 +132,15 @@ pub(super) fn first_idea(cases: &[Case], effort: Effort, progress: Progress<'_>)
 }
 
 /// Returns a copy in which each type of joint costs up to a share more or less.
-fn repriced(m: &Mechanism, by: f64, noise: &mut Noise) -> Mechanism {
+fn reprice_options(m: &Mechanism, by: f64, noise: &mut Noise) -> Mechanism {
     let costs = CostTable::new(&m.search.costs);
     let mut factors: BTreeMap<String, f64> = BTreeMap::new();
     let mut out = m.clone();
     for joint in &mut out.joints {
         for option in joint.options.iter_mut().chain(&mut joint.unloading) {
             let factor = factors.entry(option.name.clone());
-            let factor = factor.or_insert_with(|| 1.0 + by * noise.uniform());
-            let cost = (costs.option(option) as f64 * *factor).round() as i64;
+            let factor = factor.or_insert_with(|| 1.0 + by * noise.draw_uniform());
+            let cost = (costs.option_cost(option) as f64 * *factor).round() as i64;
             option.cost_milli = Some(cost);
         }
     }

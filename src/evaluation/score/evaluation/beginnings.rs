@@ -10,7 +10,7 @@ use crate::model::ranking::{ClearanceSum, Ranking};
 use crate::score::evaluation::elimination::Scratch;
 use crate::score::evaluation::evaluate::Evaluator;
 use crate::score::evaluation::load_limits::LoadLimits;
-use crate::score::evaluation::lower_bound::within;
+use crate::score::evaluation::lower_bound::is_in_span;
 use crate::score::evaluation::pose_tables::{PlacedJoint, PoseTable};
 use crate::score::evaluation::terms::{ErrorSum, Floor};
 use crate::search::answer::k_best::Assignment;
@@ -61,16 +61,18 @@ pub(in crate::score) struct Beginnings {
 
 impl Evaluator<'_> {
     /// Returns the pose in which the given good variant scores worst, prepared for branches of variants. Its bounds are the strongest.
-    pub(in crate::score) fn beginnings(
+    pub(in crate::score) fn beginnings_of(
         &self,
         of: &Assignment,
         ranking: &Ranking,
     ) -> Option<Beginnings> {
         let mut scratch = Scratch::default();
         let mut worst: Option<(f64, &PoseTable)> = None;
-        for table in self.tables() {
-            let scores = self.at(table, of, &mut scratch, &mut |_| {}).ok()??;
-            let sum = scores.weighted(ranking);
+        for table in self.pose_tables() {
+            let scores = self
+                .score_at_pose(table, of, &mut scratch, &mut |_| {})
+                .ok()??;
+            let sum = scores.weighted_sum(ranking);
             if worst.is_none_or(|(least, _)| sum > least) {
                 worst = Some((sum, table));
             }
@@ -88,7 +90,7 @@ impl Beginnings {
         if table.couplings > 0 {
             return None;
         }
-        let unknowns = table.unknowns();
+        let unknowns = table.count_unknowns();
         let width = unknowns + table.cases;
         let choices = table.cells.iter().map(|c| vec![Vec::new(); c.len()]);
         let mut out = Beginnings {
@@ -105,14 +107,14 @@ impl Beginnings {
             least: Vec::new(),
         };
         for place in &table.places {
-            out.add(table, place);
+            out.add_place(table, place);
         }
         for cells in &table.cells {
             let of_choice = cells.iter().map(|c| c.iter().map(LoadLimits::of).collect());
             let of_choice: Vec<Vec<LoadLimits>> = of_choice.collect();
             let least = of_choice.iter().cloned().reduce(|a, b| {
                 let both = a.iter().zip(&b);
-                both.map(|(a, b)| a.least(*b)).collect()
+                both.map(|(a, b)| a.least_of_both(*b)).collect()
             });
             out.least.push(least.unwrap_or_default());
             out.limits.push(of_choice);
@@ -121,7 +123,7 @@ impl Beginnings {
     }
 
     /// Adds a joint's place: the equations that all choices have there, and those of each choice's further freedoms.
-    fn add(&mut self, table: &PoseTable, place: &PlacedJoint) {
+    fn add_place(&mut self, table: &PoseTable, place: &PlacedJoint) {
         let (dim, unknowns, width) = (table.basis.len(), self.unknowns, self.width);
         let whole = |row: &[f64]| {
             let mut out = vec![0.0; width];
@@ -136,7 +138,7 @@ impl Beginnings {
         let cells = &table.cells[place.variable];
         let kept = |row: &&Vec<f64>| {
             let mut all = cells.iter();
-            all.all(|c| within(row, &c[place.slot].rows, dim))
+            all.all(|c| is_in_span(row, &c[place.slot].rows, dim))
         };
         let first = cells.first().map(|c| c[place.slot].rows.iter());
         let common: Vec<Vec<f64>> = first.into_iter().flatten().filter(kept).cloned().collect();
@@ -144,14 +146,14 @@ impl Beginnings {
         for (cell, further) in cells.iter().zip(&mut self.further[place.variable]) {
             let mut known = common.clone();
             for row in &cell[place.slot].rows {
-                if !within(row, &known, dim) {
+                if !is_in_span(row, &known, dim) {
                     further.push(whole(row));
                     known.push(row.clone());
                 }
             }
         }
         let pair = |w: &Six| {
-            let (f, m) = table.borne(place, w);
+            let (f, m) = table.borne_at(place, w);
             [f[0], f[1], f[2], m[0], m[1], m[2]]
         };
         self.of_variable[place.variable].push(self.places.len());
@@ -165,7 +167,7 @@ impl Beginnings {
     }
 
     /// Returns the beginning without choices.
-    pub(in crate::score) fn begin(&self) -> Begun<'_> {
+    pub(in crate::score) fn begin_empty(&self) -> Begun<'_> {
         let mut out = Begun {
             of: self,
             rows: Vec::new(),
@@ -182,7 +184,7 @@ impl Beginnings {
             row: Vec::new(),
         };
         for row in &self.common {
-            out.insert(row);
+            out.insert_equation(row);
         }
         out
     }
@@ -233,7 +235,11 @@ impl Begun<'_> {
     /// # Complexity
     /// O(unknowns · width) for each further freedom, once on the way O(unknowns²), and O(unknowns) for each from there on. If the
     /// reactions become known by it, call [`Begun::peaks`] before the next choice.
-    pub(in crate::score) fn take(&mut self, variable: usize, choice: usize) -> (TakenChoice, bool) {
+    pub(in crate::score) fn take_choice(
+        &mut self,
+        variable: usize,
+        choice: usize,
+    ) -> (TakenChoice, bool) {
         let of = self.of;
         let mut taken = TakenChoice {
             variable,
@@ -243,13 +249,13 @@ impl Begun<'_> {
         self.chosen[variable].copy_from_slice(&of.limits[variable][choice]);
         let further = &of.further[variable][choice];
         if self.known {
-            return (taken, further.iter().all(|row| self.holds(row)));
+            return (taken, further.iter().all(|row| self.is_in_equilibrium(row)));
         }
-        let held = further.iter().all(|row| self.insert(row));
+        let held = further.iter().all(|row| self.insert_equation(row));
         if held && self.is_determined() {
             (self.known, taken.tells) = (true, true);
             self.errors = false;
-            self.solve(0..1);
+            self.solve_cases(0..1);
         }
         (taken, held)
     }
@@ -266,7 +272,7 @@ impl Begun<'_> {
     }
 
     /// Whether the reactions, which are known, do no work with the loads on a motion.
-    fn holds(&self, row: &[f64]) -> bool {
+    fn is_in_equilibrium(&self, row: &[f64]) -> bool {
         let unknowns = self.of.unknowns;
         let known = self.solution.iter().step_by(self.of.sides);
         let work: f64 = row.iter().zip(known).map(|(r, x)| r * x).sum();
@@ -278,7 +284,7 @@ impl Begun<'_> {
     }
 
     /// Adds an equation, reduced by those before it. Returns false if loads do work on a motion that nothing drives.
-    fn insert(&mut self, row: &[f64]) -> bool {
+    fn insert_equation(&mut self, row: &[f64]) -> bool {
         let (width, unknowns) = (self.of.width, self.of.unknowns);
         self.row.clear();
         self.row.extend_from_slice(row);
@@ -311,7 +317,7 @@ impl Begun<'_> {
     }
 
     /// The unknowns in some load cases.
-    fn solve(&mut self, cases: std::ops::Range<usize>) {
+    fn solve_cases(&mut self, cases: std::ops::Range<usize>) {
         let (width, unknowns, sides) = (self.of.width, self.of.unknowns, self.of.sides);
         for at in (0..unknowns).rev() {
             let row = &self.rows[at * width..(at + 1) * width];
@@ -326,7 +332,7 @@ impl Begun<'_> {
     }
 
     /// Force and moment at a place in a load case.
-    fn borne(&self, place: &LoadedPlace, case: usize) -> [f64; 6] {
+    fn load_at(&self, place: &LoadedPlace, case: usize) -> [f64; 6] {
         let mut out = place.fixed[case];
         for (i, across) in place.across.iter().enumerate() {
             let at =
@@ -339,29 +345,29 @@ impl Begun<'_> {
         out
     }
 
-    fn load(&mut self, p: usize) {
-        let [fx, fy, fz, mx, my, mz] = self.borne(&self.of.places[p], 0);
+    fn update_load(&mut self, p: usize) {
+        let [fx, fy, fz, mx, my, mz] = self.load_at(&self.of.places[p], 0);
         self.forces[p] = length([fx, fy, fz]);
         self.moments[p] = length([mx, my, mz]);
     }
 
-    fn pass(&mut self) {
+    fn update_passed(&mut self) {
         let places = self.of.places.len();
         for case in 1..self.of.sides {
             for (p, place) in self.of.places.iter().enumerate() {
-                let [fx, fy, fz, ..] = self.borne(place, case);
+                let [fx, fy, fz, ..] = self.load_at(place, case);
                 self.passed[(case - 1) * places + p] = length([fx, fy, fz]);
             }
         }
     }
 
-    fn limits(&self, place: &LoadedPlace) -> LoadLimits {
+    fn limits_at(&self, place: &LoadedPlace) -> LoadLimits {
         self.chosen[place.variable][place.slot]
     }
 
     /// Bounds on the greatest force and moment over capacity, from what a choice that was just taken makes known, or those of some
     /// places that are `enough` to end the branch; `None` where reactions are not known yet.
-    pub(in crate::score) fn peaks(
+    pub(in crate::score) fn peak_bounds(
         &mut self,
         taken: &TakenChoice,
         enough: impl Fn(Floor) -> bool,
@@ -373,14 +379,14 @@ impl Begun<'_> {
         let mut out = Floor::default();
         if !taken.tells {
             for &p in &of.of_variable[taken.variable] {
-                self.raise(p, &mut out);
+                self.raise_bounds(p, &mut out);
             }
             return Some(out);
         }
         for at in 0..self.order.len() {
             let p = self.order[at];
-            self.load(p);
-            self.raise(p, &mut out);
+            self.update_load(p);
+            self.raise_bounds(p, &mut out);
             if enough(out) {
                 // It will mostly be enough for the next branch, too.
                 self.order[..=at].rotate_right(1);
@@ -391,8 +397,8 @@ impl Begun<'_> {
     }
 
     /// Raises bounds to what a place bears.
-    fn raise(&self, p: usize, bounds: &mut Floor) {
-        let limits = self.limits(&self.of.places[p]);
+    fn raise_bounds(&self, p: usize, bounds: &mut Floor) {
+        let limits = self.limits_at(&self.of.places[p]);
         bounds.force = bounds.force.max(self.forces[p] * limits.force);
         bounds.moment = bounds.moment.max(self.moments[p] * limits.moment);
     }
@@ -400,8 +406,8 @@ impl Begun<'_> {
     /// A bound on the error of the outputs `[m]`, where the reactions are known.
     pub(in crate::score) fn output_error(&mut self) -> f64 {
         if !self.errors {
-            self.solve(1..self.of.sides);
-            self.pass();
+            self.solve_cases(1..self.of.sides);
+            self.update_passed();
             self.errors = true;
         }
         let places = self.of.places.len();
@@ -410,11 +416,11 @@ impl Begun<'_> {
             let mut sum = ErrorSum::new(self.of.clearance);
             for axis in output.chunks(places) {
                 for (force, place) in axis.iter().zip(&self.of.places) {
-                    sum.joint(self.limits(place).clearance, force * force);
+                    sum.add_joint(self.limits_at(place).clearance, force * force);
                 }
                 sum.end_axis();
             }
-            worst = worst.max(sum.error());
+            worst = worst.max(sum.output_error());
         }
         worst
     }

@@ -36,7 +36,7 @@ pub(in crate::score) fn couplings_at(geometry: &Geometry, joint: JointId) -> Vec
         Some(PlacedCoupling {
             coupling,
             end,
-            beside: [c.beside(end, false), c.beside(end, true)],
+            beside: [c.bypass_wrench(end, false), c.bypass_wrench(end, true)],
         })
     });
     here.collect()

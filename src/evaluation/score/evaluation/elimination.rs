@@ -38,7 +38,7 @@ impl Scratch {
     ///
     /// # Complexity
     /// O(count · unknowns · width).
-    pub fn eliminate(&mut self, count: usize, unknowns: usize, width: usize) -> Ended {
+    pub fn solve_equations(&mut self, count: usize, unknowns: usize, width: usize) -> Ended {
         let sides = width - unknowns;
         self.order.clear();
         self.order.extend(0..count);
@@ -120,7 +120,7 @@ mod tests {
         for (n, m, sides, seed) in [(24, 24, 7, 1), (30, 24, 4, 2), (6, 3, 1, 3), (1, 1, 1, 4)] {
             let (a, x) = (numbers(seed, n * m), numbers(seed + 9, m * sides));
             let mut s = equations(&a, &x, m, sides);
-            let Ended::Solved { left } = s.eliminate(n, m, m + sides) else {
+            let Ended::Solved { left } = s.solve_equations(n, m, m + sides) else {
                 panic!("open")
             };
             assert!(left < 1e-10, "{left}");
@@ -133,22 +133,22 @@ mod tests {
     #[test]
     fn a_zero_pivot_is_swapped_away() {
         let mut s = equations(&[0.0, 1.0, 1.0, 0.0], &[3.0, 5.0], 2, 1);
-        assert_eq!(s.eliminate(2, 2, 3), Ended::Solved { left: 0.0 });
+        assert_eq!(s.solve_equations(2, 2, 3), Ended::Solved { left: 0.0 });
         assert_eq!(s.solution, [3.0, 5.0]);
     }
 
     #[test]
     fn too_few_or_dependent_equations_are_open() {
         let mut s = equations(&[1.0, 2.0], &[1.0, 1.0], 2, 1);
-        assert_eq!(s.eliminate(1, 2, 3), Ended::Open);
+        assert_eq!(s.solve_equations(1, 2, 3), Ended::Open);
         let mut s = equations(&[1.0, 2.0, 2.0, 4.0, -3.0, -6.0], &[1.0, 1.0], 2, 1);
-        assert_eq!(s.eliminate(3, 2, 3), Ended::Open);
+        assert_eq!(s.solve_equations(3, 2, 3), Ended::Open);
     }
 
     #[test]
     fn what_contradicts_is_left_over() {
         let mut s = equations(&[1.0, 0.0, 0.0, 1.0, 1.0, 1.0], &[1.0, 2.0], 2, 1);
         s.rows[8] += 0.25;
-        assert_eq!(s.eliminate(3, 2, 3), Ended::Solved { left: 0.25 });
+        assert_eq!(s.solve_equations(3, 2, 3), Ended::Solved { left: 0.25 });
     }
 }

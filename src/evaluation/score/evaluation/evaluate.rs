@@ -6,15 +6,15 @@ use crate::model::mechanism::{JointId, LinkId, StateId};
 use crate::model::ranking::ClearanceSum;
 use crate::redundancy::motion::working_mobility;
 use crate::score::evaluation::elimination::{Ended, Scratch};
-use crate::score::evaluation::load_cases::{CaseError, Cases, cases};
+use crate::score::evaluation::load_cases::{CaseError, Cases, list_cases};
 use crate::score::evaluation::pose_tables::{PlacedJoint, PoseTable};
 use crate::score::evaluation::terms::{ErrorSum, Floor, Peak, Scores, output_points};
 use crate::score::joint_types::JointTypes;
 use crate::search::Search;
 use crate::search::answer::k_best::Assignment;
 use crate::statics::reactions::Unsolved;
-use crate::statics::reactions::drives::{Driven, driven};
-use crate::statics::reactions::follow::follow;
+use crate::statics::reactions::drives::{Driven, driven_freedoms};
+use crate::statics::reactions::follow::follow_stroke;
 use crate::statics::reactions::geometry::Geometry;
 use std::sync::OnceLock;
 use thiserror::Error;
@@ -91,15 +91,15 @@ impl<'s> Evaluator<'s> {
     ) -> Result<Evaluator<'s>, ScoreError> {
         let m = &*search.mechanism;
         let types = JointTypes::of(m);
-        let start = follow(m, StateId::FREE, &[], None)?;
+        let start = follow_stroke(m, StateId::FREE, &[], None)?;
         let drives = match start.poses.first() {
-            Some((_, pose)) => driven(
+            Some((_, pose)) => driven_freedoms(
                 m,
                 &Geometry::new(m, StateId::FREE, pose).map_err(Unsolved::from)?,
             )?,
             None => Vec::new(),
         };
-        let cases = cases(m, &drives, states)?;
+        let cases = list_cases(m, &drives, states)?;
         let outputs = output_points(m, &cases);
         let tables = cases
             .list
@@ -128,7 +128,11 @@ impl<'s> Evaluator<'s> {
     ///
     /// # Complexity
     /// O((6k)²·f) for each pose, for k contours and f freedoms.
-    pub fn scores(&self, variant: &Assignment, scratch: &mut Scratch) -> Result<Scores, Unsolved> {
+    pub fn score_variant(
+        &self,
+        variant: &Assignment,
+        scratch: &mut Scratch,
+    ) -> Result<Scores, Unsolved> {
         self.scores_and_loads(variant, scratch, &mut |_| {})
     }
 
@@ -142,11 +146,11 @@ impl<'s> Evaluator<'s> {
     ) -> Result<Scores, Unsolved> {
         let mut worst: Option<Scores> = None;
         for table in &self.tables {
-            let Some(now) = self.at(table, variant, scratch, each)? else {
+            let Some(now) = self.score_at_pose(table, variant, scratch, each)? else {
                 return self.slowly_with(variant, each);
             };
             match &mut worst {
-                Some(w) => w.worse(&now),
+                Some(w) => w.take_worse(&now),
                 None => worst = Some(now),
             }
         }
@@ -154,23 +158,23 @@ impl<'s> Evaluator<'s> {
     }
 
     /// The mobility that is at work.
-    pub(in crate::score) fn working(&self) -> i64 {
+    pub(in crate::score) fn working_freedoms(&self) -> i64 {
         self.working
     }
 
-    pub(in crate::score) fn tables(&self) -> &[PoseTable] {
+    pub(in crate::score) fn pose_tables(&self) -> &[PoseTable] {
         &self.tables
     }
 
     /// What needs no equations.
-    pub(in crate::score) fn plain(&self, variant: &Assignment) -> Scores {
+    pub(in crate::score) fn unloaded_scores(&self, variant: &Assignment) -> Scores {
         Scores {
             force: Peak::NONE,
             moment: Peak::NONE,
             conditioning: 1.0,
             output_error: 0.0,
             changes: variant.key.changes(),
-            cost_milli: self.search.steps.milli(variant.key.cost()),
+            cost_milli: self.search.steps.cost_in_milli(variant.key.cost()),
             idle: self.search.mobility(variant.key) - self.working,
             harmful: variant.key.harmful(),
             minimum_norm: false,
@@ -178,7 +182,7 @@ impl<'s> Evaluator<'s> {
     }
 
     /// The scores in one pose; `None` where the fast way does not serve.
-    pub(in crate::score) fn at(
+    pub(in crate::score) fn score_at_pose(
         &self,
         table: &PoseTable,
         variant: &Assignment,
@@ -186,12 +190,12 @@ impl<'s> Evaluator<'s> {
         each: &mut dyn FnMut(PoseLoad),
     ) -> Result<Option<Scores>, Unsolved> {
         let choices = &variant.choices[..];
-        let Some(meshing) = table.meshing(|place| table.cell(choices, place)) else {
+        let Some(meshing) = table.teeth_mesh(|place| table.cell_at(choices, place)) else {
             return Ok(None);
         };
-        let unknowns = table.unknowns();
+        let unknowns = table.count_unknowns();
         let count = write_equations(table, choices, scratch);
-        match scratch.eliminate(count, unknowns, unknowns + table.cases) {
+        match scratch.solve_equations(count, unknowns, unknowns + table.cases) {
             Ended::Open => return Ok(None),
             Ended::Solved { left } if left > NO_WORK * table.scale => {
                 return Err(Unsolved::Moves {
@@ -207,27 +211,29 @@ impl<'s> Evaluator<'s> {
             solution: &scratch.solution,
             meshing: &meshing,
         };
-        let mut out = self.plain(variant);
+        let mut out = self.unloaded_scores(variant);
         solved.raise_peaks(&mut out, each);
         for output in 0..self.outputs.len() {
             let error = solved.output_error(output, self.clearance);
             out.output_error = out.output_error.max(error);
         }
-        out.conditioning = scratch.spectrum.conditioning(&mut scratch.gram, unknowns);
+        out.conditioning = scratch
+            .spectrum
+            .conditioning_of(&mut scratch.gram, unknowns);
         Ok(Some(out))
     }
 }
 
 /// Writes the equations of a variant in one pose, and the sum of their outer products; gives how many they are.
 fn write_equations(table: &PoseTable, choices: &[usize], scratch: &mut Scratch) -> usize {
-    let (dim, unknowns) = (table.basis.len(), table.unknowns());
+    let (dim, unknowns) = (table.basis.len(), table.count_unknowns());
     let width = unknowns + table.cases;
     scratch.rows.clear();
     scratch.gram.clear();
     scratch.gram.resize(unknowns * unknowns, 0.0);
     let mut count = 0;
     for place in &table.places {
-        let cell = table.cell(choices, place);
+        let cell = table.cell_at(choices, place);
         for row in &cell.rows {
             let from = count * width;
             scratch.rows.resize(from + width, 0.0);
@@ -256,17 +262,19 @@ struct SolvedPose<'p> {
 
 impl SolvedPose<'_> {
     /// Force and moment of a joint in a load case, without what its drive bears.
-    fn borne(&self, place: &PlacedJoint, case: usize) -> ([f64; 3], [f64; 3]) {
-        let wrench = self.table.wrench(place, case, self.solution, self.meshing);
-        self.table.borne(place, &wrench)
+    fn joint_load(&self, place: &PlacedJoint, case: usize) -> ([f64; 3], [f64; 3]) {
+        let wrench = self
+            .table
+            .wrench_at(place, case, self.solution, self.meshing);
+        self.table.borne_at(place, &wrench)
     }
 
     /// Raises the peaks to what each joint bears of the loads, and tells of it.
     fn raise_peaks(&self, out: &mut Scores, each: &mut dyn FnMut(PoseLoad)) {
         for place in &self.table.places {
-            let (f, m) = self.borne(place, 0);
+            let (f, m) = self.joint_load(place, 0);
             let (f, m) = (dot(f, f).sqrt(), dot(m, m).sqrt());
-            for &capacity in &self.table.cell(self.choices, place).bears {
+            for &capacity in &self.table.cell_at(self.choices, place).bears {
                 let (force, moment) = capacity;
                 each(PoseLoad {
                     joint: place.joint,
@@ -274,9 +282,9 @@ impl SolvedPose<'_> {
                     moment: m,
                     capacity,
                 });
-                out.force.raise(f, force, place.joint);
+                out.force.raise_peak(f, force, place.joint);
                 if let Some(moment) = moment {
-                    out.moment.raise(m, moment, place.joint);
+                    out.moment.raise_peak(m, moment, place.joint);
                 }
             }
         }
@@ -287,12 +295,12 @@ impl SolvedPose<'_> {
         let mut error = ErrorSum::new(clearance);
         for axis in 0..3 {
             for place in &self.table.places {
-                let (f, _) = self.borne(place, 1 + 3 * output + axis);
-                let cell = self.table.cell(self.choices, place);
-                error.joint(cell.clearance, dot(f, f));
+                let (f, _) = self.joint_load(place, 1 + 3 * output + axis);
+                let cell = self.table.cell_at(self.choices, place);
+                error.add_joint(cell.clearance, dot(f, f));
             }
             error.end_axis();
         }
-        error.error()
+        error.output_error()
     }
 }

@@ -24,7 +24,7 @@ pub struct Bearing {
 }
 
 impl Bearing {
-    fn raise(&mut self, load: &PoseLoad) {
+    fn raise_to(&mut self, load: &PoseLoad) {
         let (force, moment) = load.capacity;
         self.force = self.force.max(load.force);
         self.moment = self.moment.max(load.moment);
@@ -52,7 +52,7 @@ impl Evaluator<'_> {
     ) -> Result<(Scores, Vec<Option<Bearing>>), Unsolved> {
         let mut out: Vec<Option<Bearing>> = vec![None; self.search.mechanism.joints.len()];
         let scores = self.scores_and_loads(variant, scratch, &mut |load| {
-            out[load.joint].get_or_insert_default().raise(&load);
+            out[load.joint].get_or_insert_default().raise_to(&load);
         })?;
         Ok((scores, out))
     }

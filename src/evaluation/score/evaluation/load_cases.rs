@@ -10,7 +10,7 @@ use crate::model::mechanism::{Mechanism, StateId};
 use crate::motion::pose::Pose;
 use crate::statics::reactions::Unsolved;
 use crate::statics::reactions::drives::Driven;
-use crate::statics::reactions::follow::{follow, follow_to};
+use crate::statics::reactions::follow::{follow_stroke, follow_to};
 use itertools::Itertools;
 use thiserror::Error;
 
@@ -115,7 +115,7 @@ pub(crate) fn states_with_loads(m: &Mechanism) -> Vec<StateId> {
 ///
 /// # Complexity
 /// That of following the stroke and of the grip's study.
-pub(crate) fn cases(
+pub(crate) fn list_cases(
     m: &Mechanism,
     drives: &[Driven],
     states: &[StateId],
@@ -125,7 +125,7 @@ pub(crate) fn cases(
     let states = if states.is_empty() { &default } else { states };
     for &state in states.iter().unique() {
         if state == StateId::FREE && grip_of(m, StateId::FREE).is_none() {
-            let followed = follow(m, StateId::FREE, drives, m.loads.stroke)?;
+            let followed = follow_stroke(m, StateId::FREE, drives, m.loads.stroke)?;
             out.stopped = followed.stopped;
             out.free = followed.poses.len();
             let each = followed.poses.into_iter().map(|(drive, pose)| LoadCase {
@@ -164,12 +164,12 @@ fn grip_cases(
         lost: Vec::new(),
     };
     for row in &g.study.rows {
-        let Some(loads) = g.loads(row).filter(|_| row.holds()) else {
+        let Some(loads) = g.jaw_loads(row).filter(|_| row.is_held()) else {
             of_grip.lost.push(row.diameter);
             continue;
         };
         of_grip.held.push(row.diameter);
-        let drive = g.fit(row)?.drive;
+        let drive = g.fit_part(row)?.drive;
         let followed = follow_to(m, StateId::FREE, drives, &[drive])?;
         let Some((_, pose)) = followed.poses.into_iter().next() else {
             return Err(CaseError::OutOfReach(drive));

@@ -26,7 +26,7 @@ impl LoadLimits {
     }
 
     /// Returns the least of each limit.
-    pub(super) fn least(self, other: LoadLimits) -> LoadLimits {
+    pub(super) fn least_of_both(self, other: LoadLimits) -> LoadLimits {
         LoadLimits {
             force: self.force.min(other.force),
             moment: self.moment.min(other.moment),
@@ -51,8 +51,8 @@ mod tests {
                 moment,
                 clearance,
             });
-        assert_eq!(told(one.least(other)), [0.1, 0.3, 0.2]);
-        assert_eq!(told(other.least(one)), [0.1, 0.3, 0.2]);
+        assert_eq!(told(one.least_of_both(other)), [0.1, 0.3, 0.2]);
+        assert_eq!(told(other.least_of_both(one)), [0.1, 0.3, 0.2]);
     }
 
     /// Joints in series bear as much as the weakest of them; what bears no moment limits none.

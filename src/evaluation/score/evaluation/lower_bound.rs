@@ -42,14 +42,14 @@ impl Evaluator<'_> {
     ///
     /// # Complexity
     /// Some hundred least squares problems of 3 joints × freedoms for each pose and output, the first time.
-    pub fn floor(&self) -> Floor {
-        *self.floor.get_or_init(|| self.least())
+    pub fn least_terms(&self) -> Floor {
+        *self.floor.get_or_init(|| self.compute_floor())
     }
 
-    fn least(&self) -> Floor {
+    fn compute_floor(&self) -> Floor {
         let mut out = Floor::default();
-        for table in self.tables() {
-            let Some(common) = common(table) else {
+        for table in self.pose_tables() {
+            let Some(common) = common_equations(table) else {
                 continue;
             };
             let meshing = table.meshing_of_all();
@@ -64,22 +64,23 @@ impl Evaluator<'_> {
                 let one = |p| {
                     let limit = of(p)?;
                     let borne = |x: &[f64]| {
-                        let (force, turning) = table.borne(p, &table.wrench(p, case, x, &mesh));
+                        let (force, turning) =
+                            table.borne_at(p, &table.wrench_at(p, case, x, &mesh));
                         if moment { turning } else { force }
                     };
-                    Some(part(table, &common, case, limit, &borne))
+                    Some(affine_load(table, &common, case, limit, &borne))
                 };
                 places.filter_map(one).collect::<Vec<AffineLoads>>()
             };
-            let force = parts(&|p| capacity(table, p, |(f, _)| Some(f)), 0, false);
-            let moment = parts(&|p| capacity(table, p, |(_, m)| m), 0, true);
+            let force = parts(&|p| greatest_capacity(table, p, |(f, _)| Some(f)), 0, false);
+            let moment = parts(&|p| greatest_capacity(table, p, |(_, m)| m), 0, true);
             out.force = out.force.max(least_peak(&force));
             out.moment = out.moment.max(least_peak(&moment));
             for output in 0..table.cases / 3 {
                 let square: f64 = (0..3)
                     .map(|axis| {
                         let case = 1 + 3 * output + axis;
-                        let all = parts(&|p| Some(clearance(table, p)), case, false);
+                        let all = parts(&|p| Some(least_clearance(table, p)), case, false);
                         match self.clearance {
                             ClearanceSum::Worst => least_sum(&all).powi(2),
                             ClearanceSum::Rms => least_square(&all) / 3.0,
@@ -98,7 +99,7 @@ impl Evaluator<'_> {
 }
 
 /// The greatest capacity that a choice gives a place; `None` where a choice bears nothing of the kind that counts.
-fn capacity(
+fn greatest_capacity(
     table: &PoseTable,
     place: &PlacedJoint,
     of: impl Fn((f64, Option<f64>)) -> Option<f64>,
@@ -112,15 +113,15 @@ fn capacity(
     best
 }
 
-fn clearance(table: &PoseTable, place: &PlacedJoint) -> f64 {
+fn least_clearance(table: &PoseTable, place: &PlacedJoint) -> f64 {
     let choices = table.cells[place.variable].iter();
     let least = choices.map(|c| c[place.slot].clearance).reduce(f64::min);
     least.unwrap_or(0.0)
 }
 
 /// The equations that hold for every variant: rows in the span of those of each choice.
-fn common(table: &PoseTable) -> Option<Common> {
-    let (dim, unknowns) = (table.basis.len(), table.unknowns());
+fn common_equations(table: &PoseTable) -> Option<Common> {
+    let (dim, unknowns) = (table.basis.len(), table.count_unknowns());
     let width = dim + table.couplings;
     let mut rows: Vec<(&PlacedJoint, &Vec<f64>)> = Vec::new();
     for place in &table.places {
@@ -130,7 +131,7 @@ fn common(table: &PoseTable) -> Option<Common> {
         };
         for row in &first[place.slot].rows {
             let kept = |c: &Vec<crate::score::evaluation::pose_tables::Cell>| {
-                within(row, &c[place.slot].rows, width)
+                is_in_span(row, &c[place.slot].rows, width)
             };
             if choices.iter().all(kept) {
                 rows.push((place, row));
@@ -165,7 +166,7 @@ fn common(table: &PoseTable) -> Option<Common> {
 
 /// Returns whether a unit twist, with its entries in couplings up to the given width, is in the span of others. Its right sides are then
 /// determined, because they are linear in the twist.
-pub(in crate::score) fn within(row: &[f64], others: &[Vec<f64>], width: usize) -> bool {
+pub(in crate::score) fn is_in_span(row: &[f64], others: &[Vec<f64>], width: usize) -> bool {
     let inner = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(x, y)| x * y).sum::<f64>();
     let clear = |mut v: Vec<f64>, basis: &[Vec<f64>]| {
         // Twice is enough [Parlett 1998, 6.9].
@@ -188,7 +189,7 @@ pub(in crate::score) fn within(row: &[f64], others: &[Vec<f64>], width: usize) -
 }
 
 /// Returns the load of a place in one load case, as a function of the coordinates that the common equations leave open.
-fn part(
+fn affine_load(
     table: &PoseTable,
     common: &Common,
     case: usize,

@@ -6,7 +6,7 @@ use crate::score::evaluation::pose_tables::{Cell, PlacedJoint, PoseTable};
 impl PoseTable {
     /// By coupling, whether its teeth mesh in a variant, given the cell at each place; `None` where a joint in series is not
     /// loaded as the one that is coupled.
-    pub(in crate::score) fn meshing<'c>(
+    pub(in crate::score) fn teeth_mesh<'c>(
         &self,
         cell: impl Fn(&PlacedJoint) -> &'c Cell,
     ) -> Option<Vec<bool>> {

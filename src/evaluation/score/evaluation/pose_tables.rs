@@ -14,8 +14,10 @@ use crate::score::joint_types::JointTypes;
 use crate::search::Search;
 use crate::search::question::space::Choice;
 use crate::statics::reactions::Unsolved;
-use crate::statics::reactions::drives::{Driven, period};
-use crate::statics::reactions::geometry::{FreedomColumn, Geometry, Six, about, power, wrench};
+use crate::statics::reactions::drives::{Driven, range_period};
+use crate::statics::reactions::geometry::{
+    FreedomColumn, Geometry, Six, force_wrench, shift_wrench, wrench_power,
+};
 use crate::statics::reactions::loads::link_loads;
 
 /// The joints that a choice puts at one place.
@@ -72,7 +74,7 @@ impl PlacedJoint {
     fn of(geometry: &Geometry, drives: &[Driven], joint: JointId) -> PlacedJoint {
         let contours = geometry.contours.iter().enumerate();
         let through = contours.filter_map(|(k, contour)| {
-            let forward = contour.direction(joint)?;
+            let forward = contour.direction_of(joint)?;
             Some((k, if forward { 1.0 } else { -1.0 }))
         });
         let drive = drives.iter().find(|(j, _)| *j == joint);
@@ -93,21 +95,28 @@ impl PlacedJoint {
 }
 
 /// The wrench on every link in each load case: of the loads, then of a unit force along each axis on each output.
-fn wrenches(
+fn wrenches_at(
     m: &Mechanism,
     geometry: &Geometry,
     outputs: &[(LinkId, [f64; 3])],
     drives: &[Driven],
     LoadCase { drive, pose, loads }: &LoadCase,
 ) -> Vec<Vec<Six>> {
-    let mut out = vec![link_loads(m, loads, geometry, pose, *drive, period(drives))];
+    let mut out = vec![link_loads(
+        m,
+        loads,
+        geometry,
+        pose,
+        *drive,
+        range_period(drives),
+    )];
     for &(link, point) in outputs {
-        let at = geometry.place(pose, link, point);
+        let at = geometry.point_position(pose, link, point);
         for axis in 0..3 {
             let mut force = [0.0; 3];
             force[axis] = 1.0;
             let mut on_links = vec![[0.0; 6]; m.links.len()];
-            on_links[link] = geometry.within(&wrench(at, force, [0.0; 3]));
+            on_links[link] = geometry.carried_part(&force_wrench(at, force, [0.0; 3]));
             out.push(on_links);
         }
     }
@@ -135,7 +144,7 @@ impl PoseTable {
     ) -> Result<PoseTable, Unsolved> {
         let (m, pose) = (&*search.mechanism, &case.pose);
         let geometry = Geometry::new(m, StateId::FREE, pose)?;
-        let cases = wrenches(m, &geometry, outputs, drives, case);
+        let cases = wrenches_at(m, &geometry, outputs, drives, case);
         let along: Vec<Vec<Six>> = cases
             .iter()
             .map(|c| geometry.along_tree(m.joints.len(), c))
@@ -159,7 +168,7 @@ impl PoseTable {
                 };
                 for (choice, out) in variable.choices.iter().zip(&mut of_variable) {
                     let series = in_series(&m.joints[joint], choice);
-                    out.push(cell(m, &geometry, pose, types, drives, &place, series)?);
+                    out.push(cell_at(m, &geometry, pose, types, drives, &place, series)?);
                 }
                 places.push(place);
             }
@@ -178,18 +187,18 @@ impl PoseTable {
     }
 
     /// What choices, by variable, put at a place.
-    pub(in crate::score) fn cell(&self, choices: &[usize], place: &PlacedJoint) -> &Cell {
+    pub(in crate::score) fn cell_at(&self, choices: &[usize], place: &PlacedJoint) -> &Cell {
         &self.cells[place.variable][choices[place.variable]][place.slot]
     }
 
     /// Returns the number of unknowns of the equations: wrenches of the contours, then loads of the couplings.
-    pub(in crate::score) fn unknowns(&self) -> usize {
+    pub(in crate::score) fn count_unknowns(&self) -> usize {
         self.basis.len() * self.contours + self.couplings
     }
 
     /// Adds the outer products of the equations of a place to those of all, unknowns × unknowns; the upper triangle is enough.
     pub(in crate::score) fn add_gram(&self, place: &PlacedJoint, cell: &Cell, gram: &mut [f64]) {
-        let (dim, unknowns) = (self.basis.len(), self.unknowns());
+        let (dim, unknowns) = (self.basis.len(), self.count_unknowns());
         let (width, first) = (dim + self.couplings, dim * self.contours);
         for &(k, s) in &place.contours {
             for a in 0..dim {
@@ -220,7 +229,7 @@ impl PoseTable {
 
     /// Wrench that a place's joint bears in a load case, for the unknowns `x`, unknowns × cases, where the teeth of these
     /// couplings mesh.
-    pub(in crate::score) fn wrench(
+    pub(in crate::score) fn wrench_at(
         &self,
         place: &PlacedJoint,
         case: usize,
@@ -246,12 +255,12 @@ impl PoseTable {
     }
 
     /// Force `[N]` and moment about the place `[N·m]` of a wrench, without what a drive bears.
-    pub(in crate::score) fn borne(
+    pub(in crate::score) fn borne_at(
         &self,
         place: &PlacedJoint,
         wrench: &Six,
     ) -> ([f64; 3], [f64; 3]) {
-        let w = about(wrench, place.point);
+        let w = shift_wrench(wrench, place.point);
         let (mut f, mut m) = ([w[3], w[4], w[5]], [w[0], w[1], w[2]]);
         if let Some((axis, shift)) = place.held {
             if shift {
@@ -264,7 +273,7 @@ impl PoseTable {
     }
 }
 
-fn cell<'o>(
+fn cell_at<'o>(
     m: &Mechanism,
     geometry: &Geometry,
     pose: &Pose,
@@ -282,7 +291,7 @@ fn cell<'o>(
         coupled: Vec::new(),
     };
     for (option, present) in series {
-        let t = types.option(option);
+        let t = types.option_type(option);
         out.bears.push((t.capacity_force, t.capacity_moment));
         out.clearance += t.clearance;
         let twists: Vec<(Freedom, Six)> = if present {
@@ -292,12 +301,16 @@ fn cell<'o>(
             option_twists(m, geometry, pose, place, option)?
         };
         let first = out.bears.len() == 1;
-        out.coupled = coupled(geometry, place, &twists, first);
+        out.coupled = coupled_choice(geometry, place, &twists, first);
         for (freedom, twist) in twists {
             if first && drives.contains(&(place.joint, freedom)) {
                 continue;
             }
-            let mut own: Vec<f64> = geometry.basis.iter().map(|b| power(b, &twist)).collect();
+            let mut own: Vec<f64> = geometry
+                .basis
+                .iter()
+                .map(|b| wrench_power(b, &twist))
+                .collect();
             own.resize(width, 0.0);
             if first {
                 let joint = place.joint;
@@ -315,7 +328,7 @@ fn cell<'o>(
                     out.gram[a * width + b] += own[a] * own[b];
                 }
             }
-            let right = place.along_tree.iter().map(|w| -power(&twist, w));
+            let right = place.along_tree.iter().map(|w| -wrench_power(&twist, w));
             out.rows.push(own.iter().copied().chain(right).collect());
         }
     }
@@ -323,7 +336,7 @@ fn cell<'o>(
 }
 
 /// Returns the effect of an option with these freedoms on the couplings at its place, as the first in series or as a later one.
-fn coupled(
+fn coupled_choice(
     geometry: &Geometry,
     place: &PlacedJoint,
     twists: &[(Freedom, Six)],
@@ -366,16 +379,19 @@ fn option_twists(
     let mut second = false;
     let mut out = Vec::new();
     // As the joint built has them: the slide of a slot comes after its pin.
-    let order = option.joint_type.passed();
-    let mut motions = here.motions(&Reals, &space, option.joint_type.freedoms());
+    let order = option.joint_type.freedoms_in_series();
+    let mut motions = here.motions_in_space(&Reals, &space, option.joint_type.freedoms());
     motions.sort_by_key(|(f, _)| order.iter().position(|g| g == f));
     for (freedom, motion) in motions {
         let link = joint.links[usize::from(second)];
         second |= present.contains(&freedom);
         let carried = &pose.links[link];
-        let point = geometry.place(pose, link, frame.point);
+        let point = geometry.point_position(pose, link, frame.point);
         let [a, b, c, d, e, f] = unit_twist(motion);
-        let (turn, slide) = (carried.direction([a, b, c]), carried.direction([d, e, f]));
+        let (turn, slide) = (
+            carried.map_direction([a, b, c]),
+            carried.map_direction([d, e, f]),
+        );
         let arm = cross(point, turn);
         let at = |i: usize| arm[i] + slide[i];
         out.push((freedom, [turn[0], turn[1], turn[2], at(0), at(1), at(2)]));

@@ -15,7 +15,7 @@ use crate::statics::reactions::follow::follow_to;
 use crate::statics::reactions::{JointReaction, Reactions, Uniqueness, Unsolved};
 
 /// Returns force and moment of a joint without the part that its drive bears.
-fn borne(r: &JointReaction) -> ([f64; 3], [f64; 3]) {
+fn load_without_drive(r: &JointReaction) -> ([f64; 3], [f64; 3]) {
     let (mut f, mut m) = (r.force, r.moment);
     let held = r
         .effort
@@ -37,16 +37,16 @@ fn raise_peaks(
 ) {
     for r in reactions {
         let (at, t) = &types[r.joint];
-        let (f, moment) = borne(r);
+        let (f, moment) = load_without_drive(r);
         each(PoseLoad {
             joint: *at,
             force: length(f),
             moment: length(moment),
             capacity: (t.capacity_force, t.capacity_moment),
         });
-        scores.force.raise(length(f), t.capacity_force, *at);
+        scores.force.raise_peak(length(f), t.capacity_force, *at);
         if let Some(capacity) = t.capacity_moment {
-            scores.moment.raise(length(moment), capacity, *at);
+            scores.moment.raise_peak(length(moment), capacity, *at);
         }
     }
 }
@@ -72,7 +72,7 @@ impl Evaluator<'_> {
     ///
     /// # Errors
     /// [`Unsolved`].
-    pub fn slowly(&self, variant: &Assignment) -> Result<Scores, Unsolved> {
+    pub fn reference_scores(&self, variant: &Assignment) -> Result<Scores, Unsolved> {
         self.slowly_with(variant, &mut |_| {})
     }
 
@@ -82,7 +82,7 @@ impl Evaluator<'_> {
         variant: &Assignment,
         each: &mut dyn FnMut(PoseLoad),
     ) -> Result<Scores, Unsolved> {
-        let m = variant_mechanism::realize(self.search, &variant.choices);
+        let m = variant_mechanism::realize_variant(self.search, &variant.choices);
         let types = self.realized_types(&variant.choices);
         let mut worst: Option<Scores> = None;
         let positions: Vec<f64> = self.cases.list.iter().map(|c| c.drive).collect();
@@ -92,10 +92,11 @@ impl Evaluator<'_> {
             let Some((drive, pose)) = there else {
                 return Err(Unsolved::NoConvergence);
             };
-            let solve =
-                |loads: &Loads| Reactions::at(&m, StateId::FREE, loads, pose, *drive, &self.drives);
+            let solve = |loads: &Loads| {
+                Reactions::solve_at(&m, StateId::FREE, loads, pose, *drive, &self.drives)
+            };
             let solution = solve(&case.loads)?;
-            let mut now = self.plain(variant);
+            let mut now = self.unloaded_scores(variant);
             now.conditioning = 1.0 / solution.condition;
             now.minimum_norm = solution.choice == Uniqueness::MinimumNorm;
             raise_peaks(&mut now, &solution.reactions, &types, each);
@@ -104,15 +105,15 @@ impl Evaluator<'_> {
                 for axis in 0..3 {
                     let loads = unit_force(link, point, axis);
                     for r in &solve(&loads)?.reactions {
-                        let f = length(borne(r).0);
-                        error.joint(types[r.joint].1.clearance, f * f);
+                        let f = length(load_without_drive(r).0);
+                        error.add_joint(types[r.joint].1.clearance, f * f);
                     }
                     error.end_axis();
                 }
-                now.output_error = now.output_error.max(error.error());
+                now.output_error = now.output_error.max(error.output_error());
             }
             match &mut worst {
-                Some(w) => w.worse(&now),
+                Some(w) => w.take_worse(&now),
                 None => worst = Some(now),
             }
         }
@@ -139,7 +140,7 @@ impl Evaluator<'_> {
                     capacity_moment: None,
                     clearance: 0.0,
                 };
-                (j, o.map_or(nothing, |o| self.types.option(o)))
+                (j, o.map_or(nothing, |o| self.types.option_type(o)))
             };
             here.push(bears(joint.options.get(option)));
             if let Some(u) = unloading.and_then(|u: usize| joint.unloading.get(u)) {

@@ -20,11 +20,11 @@ impl Spectrum {
     ///
     /// # Complexity
     /// O(n³), 4/3 n³ of it additions and products.
-    pub fn conditioning(&mut self, gram: &mut [f64], n: usize) -> f64 {
+    pub fn conditioning_of(&mut self, gram: &mut [f64], n: usize) -> f64 {
         if n == 0 {
             return 1.0;
         }
-        self.tridiagonal(gram, n);
+        self.reduce_tridiagonal(gram, n);
         let (d, e) = (&self.diagonal, &self.beside);
         let bound = (0..n)
             .map(|i| d[i] + e[i].abs() + e.get(i + 1).map_or(0.0, |x| x.abs()))
@@ -32,12 +32,12 @@ impl Spectrum {
         if bound <= 0.0 {
             return 1.0;
         }
-        let [greatest, smallest] = ends(d, e, bound);
+        let [greatest, smallest] = extreme_eigenvalues(d, e, bound);
         (smallest.max(0.0) / greatest).sqrt()
     }
 
     /// Householder's reduction.
-    fn tridiagonal(&mut self, gram: &mut [f64], n: usize) {
+    fn reduce_tridiagonal(&mut self, gram: &mut [f64], n: usize) {
         self.diagonal.clear();
         self.beside.clear();
         self.beside.push(0.0);
@@ -47,7 +47,7 @@ impl Spectrum {
             let Some((&first, others)) = row[k + 1..].split_first() else {
                 break;
             };
-            let far = dot(others, others);
+            let far = dot_product(others, others);
             if far == 0.0 {
                 // Nothing to reflect.
                 self.beside.push(first);
@@ -68,10 +68,10 @@ impl Spectrum {
             for (i, row) in rest.chunks_exact(n).enumerate() {
                 let (diagonal, right) = (row[k + 1 + i], &row[k + 2 + i..]);
                 let head = v[i];
-                add(&mut p[i + 1..], head, right);
-                p[i] += diagonal * head + dot(right, &v[i + 1..]);
+                add_scaled(&mut p[i + 1..], head, right);
+                p[i] += diagonal * head + dot_product(right, &v[i + 1..]);
             }
-            let half = 0.5 * scale * scale * dot(p, v);
+            let half = 0.5 * scale * scale * dot_product(p, v);
             for (p, v) in p.iter_mut().zip(v) {
                 *p = scale * *p - half * v;
             }
@@ -87,7 +87,7 @@ impl Spectrum {
 }
 
 /// Four sums side by side, so that they do not wait for each other.
-fn dot(a: &[f64], b: &[f64]) -> f64 {
+fn dot_product(a: &[f64], b: &[f64]) -> f64 {
     let mut sums = [0.0; 4];
     let (mut left, mut right) = (a.chunks_exact(4), b.chunks_exact(4));
     for (x, y) in left.by_ref().zip(right.by_ref()) {
@@ -100,7 +100,7 @@ fn dot(a: &[f64], b: &[f64]) -> f64 {
 }
 
 /// `out += factor · row`.
-fn add(out: &mut [f64], factor: f64, row: &[f64]) {
+fn add_scaled(out: &mut [f64], factor: f64, row: &[f64]) {
     for (o, x) in out.iter_mut().zip(row) {
         *o += factor * x;
     }
@@ -108,12 +108,12 @@ fn add(out: &mut [f64], factor: f64, row: &[f64]) {
 
 /// Greatest and smallest eigenvalue of a symmetric tridiagonal matrix, not indefinite, whose eigenvalues are at most `bound`.
 /// The two are sought side by side, so that the divisions of one fill the waiting times of the other.
-fn ends(d: &[f64], e: &[f64], bound: f64) -> [f64; 2] {
+fn extreme_eigenvalues(d: &[f64], e: &[f64], bound: f64) -> [f64; 2] {
     let n = d.len() as f64;
     let mut x = [bound * (1.0 + 1e-12), -1e-17 * bound];
     let mut done = [false; 2];
     for _ in 0..ITERATIONS {
-        let (slope, bend) = logarithmic(d, e, x);
+        let (slope, bend) = logarithmic_derivatives(d, e, x);
         for l in 0..2 {
             if done[l] {
                 continue;
@@ -137,7 +137,7 @@ fn ends(d: &[f64], e: &[f64], bound: f64) -> [f64; 2] {
 
 /// First derivative of the logarithm of the characteristic polynomial at two places, and the second with its sign changed:
 /// Σ 1/(x - λ) and Σ 1/(x - λ)².
-fn logarithmic(d: &[f64], e: &[f64], x: [f64; 2]) -> ([f64; 2], [f64; 2]) {
+fn logarithmic_derivatives(d: &[f64], e: &[f64], x: [f64; 2]) -> ([f64; 2], [f64; 2]) {
     let (mut slope, mut bend) = ([0.0; 2], [0.0; 2]);
     // With q_i = d_i - x - e_i²/q_(i-1): u = q'/q and w = q''/q.
     let (mut inverse, mut u, mut w) = ([1.0; 2], [0.0; 2], [0.0; 2]);
@@ -180,7 +180,7 @@ pub(in crate::score) mod tests {
         }
         let values = Matrix::from_fn(n, m, |r, c| a[r * m + c]);
         let values = singular_values(&values).unwrap_or_default();
-        let found = Spectrum::default().conditioning(&mut gram, m);
+        let found = Spectrum::default().conditioning_of(&mut gram, m);
         (found, values[m - 1] / values[0])
     }
 
@@ -225,7 +225,7 @@ pub(in crate::score) mod tests {
         let (found, _) = both(&a, 6, 6);
         assert!(found < 1e-7, "{found}");
         let mut nothing = vec![0.0; 9];
-        assert_eq!(Spectrum::default().conditioning(&mut nothing, 3), 1.0);
-        assert_eq!(Spectrum::default().conditioning(&mut [], 0), 1.0);
+        assert_eq!(Spectrum::default().conditioning_of(&mut nothing, 3), 1.0);
+        assert_eq!(Spectrum::default().conditioning_of(&mut [], 0), 1.0);
     }
 }

@@ -24,7 +24,7 @@ impl Peak {
     };
 
     /// Raises the peak to a value, unless it is as large already.
-    pub(in crate::score) fn raise(&mut self, value: f64, capacity: f64, joint: JointId) {
+    pub(in crate::score) fn raise_peak(&mut self, value: f64, capacity: f64, joint: JointId) {
         let utilisation = value / capacity;
         if utilisation > self.utilisation {
             *self = Peak {
@@ -61,7 +61,7 @@ pub struct Scores {
 
 impl Scores {
     /// Returns the figure of a term as it is reported: utilisations, a ratio, metres, counts.
-    pub fn value(&self, term: Term) -> f64 {
+    pub fn term_value(&self, term: Term) -> f64 {
         match term {
             Term::PeakForce => self.force.utilisation,
             Term::PeakMoment => self.moment.utilisation,
@@ -75,7 +75,7 @@ impl Scores {
     }
 
     /// Returns the joint with the largest share of its capacity, if the term is a peak.
-    pub fn peak(&self, term: Term) -> Option<&Peak> {
+    pub fn term_peak(&self, term: Term) -> Option<&Peak> {
         match term {
             Term::PeakForce => Some(&self.force),
             Term::PeakMoment => Some(&self.moment),
@@ -84,8 +84,8 @@ impl Scores {
     }
 
     /// Returns the figure as text for a list: measured ones with four decimals, lengths in millimetres.
-    pub fn cell(&self, term: Term) -> String {
-        let (about, value) = (term.about(), self.value(term));
+    pub fn term_cell(&self, term: Term) -> String {
+        let (about, value) = (term.about(), self.term_value(term));
         if about.is_count {
             value.to_string()
         } else {
@@ -96,33 +96,35 @@ impl Scores {
     /// Returns the contribution of a term to a weighted sum; smaller is better. It is the figure, for conditioning minus its decimal
     /// logarithm, and for the output error millimetres. Measured figures count to eleven digits, because rounding must not sort
     /// mirror images.
-    pub fn loss(&self, term: Term) -> f64 {
+    pub fn term_loss(&self, term: Term) -> f64 {
         let coarse = |x: f64| f64::from_bits((x.to_bits() + 0x8000) & !0xffff);
         let about = term.about();
         match term {
             Term::Conditioning => coarse(-self.conditioning.max(1e-300).log10()),
-            Term::Cost => self.value(term),
-            _ if about.is_count => self.value(term),
-            _ => coarse(about.scale * self.value(term)),
+            Term::Cost => self.term_value(term),
+            _ if about.is_count => self.term_value(term),
+            _ => coarse(about.scale * self.term_value(term)),
         }
     }
 
     /// Σ weight · loss.
-    pub fn weighted(&self, ranking: &Ranking) -> f64 {
+    pub fn weighted_sum(&self, ranking: &Ranking) -> f64 {
         let terms = ranking.terms.iter();
-        terms.map(|&(term, weight)| weight * self.loss(term)).sum()
+        terms
+            .map(|&(term, weight)| weight * self.term_loss(term))
+            .sum()
     }
 
     /// Whether the figures are within all limits of a ranking.
     pub fn within_limits(&self, ranking: &Ranking) -> bool {
         ranking.limits.iter().all(|l| {
-            let x = self.value(l.term);
+            let x = self.term_value(l.term);
             l.min.is_none_or(|min| x >= min) && l.max.is_none_or(|max| x <= max)
         })
     }
 
     /// Takes the worse figures of two poses.
-    pub(in crate::score) fn worse(&mut self, other: &Scores) {
+    pub(in crate::score) fn take_worse(&mut self, other: &Scores) {
         if other.force.utilisation > self.force.utilisation {
             self.force = other.force;
         }
@@ -172,7 +174,7 @@ impl ErrorSum {
     }
 
     /// A joint's clearance `[m]` and the square of its force.
-    pub(in crate::score) fn joint(&mut self, clearance: f64, force_square: f64) {
+    pub(in crate::score) fn add_joint(&mut self, clearance: f64, force_square: f64) {
         match self.how {
             ClearanceSum::Worst => self.axis += clearance * force_square.sqrt(),
             ClearanceSum::Rms => self.axis += clearance * clearance * force_square / 3.0,
@@ -188,7 +190,7 @@ impl ErrorSum {
         self.axis = 0.0;
     }
 
-    pub(in crate::score) fn error(&self) -> f64 {
+    pub(in crate::score) fn output_error(&self) -> f64 {
         self.square.sqrt()
     }
 }
@@ -219,7 +221,7 @@ pub struct Floor {
 
 impl Floor {
     /// Σ weight · bound over the terms but cost; those without a bound are at least 0.
-    pub fn weighted(&self, ranking: &Ranking) -> f64 {
+    pub fn weighted_sum(&self, ranking: &Ranking) -> f64 {
         ranking.terms.iter().map(|&(t, w)| w * self.of(t)).sum()
     }
 

@@ -20,18 +20,21 @@ use std::fmt;
 
 impl Request {
     /// Returns how many of the cheapest variants the requested list needs; 0 if it needs all, or none.
-    pub(in crate::score) fn cheapest(&self, mechanism: &Mechanism) -> Result<usize, RequestError> {
+    pub(in crate::score) fn cheapest_needed(
+        &self,
+        mechanism: &Mechanism,
+    ) -> Result<usize, RequestError> {
         let List::Top(top) = self.list else {
             return Ok(0);
         };
-        let looked = match self.ranking(mechanism)? {
+        let looked = match self.asked_ranking(mechanism)? {
             Some(_) => self.cheapest_scored().saturating_add(1),
             None => top,
         };
         // Of a variant and its images one is kept.
         let images = match self.symmetry {
             // Images that the file does not name are looked for later, and are two or three.
-            Symmetry::OnePerOrbit => mechanism.search.order().max(3),
+            Symmetry::OnePerOrbit => mechanism.search.symmetry_order().max(3),
             Symmetry::All | Symmetry::SymmetricOnly => 1,
         };
         Ok(looked.saturating_mul(images))
@@ -48,12 +51,12 @@ impl Outcome {
     /// The same until `cancelled`.
     pub fn variants_unless<'o>(&'o self, cancelled: ShouldCancel<'o>) -> Variants<'o> {
         let request = &self.request;
-        self.listed(request.list, request.distinct, request.seed, cancelled)
+        self.make_list(request.list, request.distinct, request.seed, cancelled)
     }
 
     /// As many ideas as variants were asked for, each as its first variant, until `cancelled`.
     pub fn ideas_unless<'o>(&'o self, cancelled: ShouldCancel<'o>) -> Variants<'o> {
-        self.listed(self.request.list, true, self.request.seed, cancelled)
+        self.make_list(self.request.list, true, self.request.seed, cancelled)
     }
 
     /// Returns another list of the same variants, until `cancelled`: all of them, or a sample by another seed. The best by a ranking need
@@ -64,11 +67,11 @@ impl Outcome {
         seed: u64,
         cancelled: ShouldCancel<'o>,
     ) -> Variants<'o> {
-        self.listed(list, self.request.distinct, seed, cancelled)
+        self.make_list(list, self.request.distinct, seed, cancelled)
     }
 
     /// A list, of ideas or of all variants.
-    fn listed<'o>(
+    fn make_list<'o>(
         &'o self,
         list: List,
         distinct: bool,
@@ -100,7 +103,7 @@ impl Outcome {
             ready: Vec::new().into_iter(),
             ideas,
             distinct,
-            room: most(list),
+            room: longest_list(list),
             summary,
             interrupted: false,
             short: false,
@@ -116,7 +119,7 @@ impl Outcome {
         seed: u64,
     ) -> ListSource<'o> {
         let unranked = |v: Assignment| (v, None);
-        let sure = found.list();
+        let sure = found.list_variants();
         match list {
             List::Nothing => ListSource::of_variants(std::iter::empty()),
             List::Top(k) if distinct => {
@@ -126,7 +129,7 @@ impl Outcome {
             }
             List::Top(_) | List::All => ListSource::of_variants(sure.map(unranked)),
             List::Sample(n) => {
-                let drawn = found.drawn(seed);
+                let drawn = found.draw_variants(seed);
                 ListSource::of_variants(drawn.take(n).map(unranked))
             }
         }
@@ -148,27 +151,29 @@ impl Outcome {
                 ListSource::of_ideas(ideas, places)
             }
             (List::Top(k), None) if distinct => {
-                let ideas = self.search.ideas(d, k);
+                let ideas = self.search.list_ideas(d, k);
                 let places = vec![None; ideas.len()];
                 ListSource::of_ideas(ideas, places)
             }
             (List::Sample(n), _) => {
-                let drawn = self.search.sample(d, seed);
+                let drawn = self.search.sample_variants(d, seed);
                 ListSource::of_variants(drawn.take(n).map(unranked))
             }
             (List::Top(_), Some(ranked)) => {
                 let list = ranked.list.iter().enumerate();
                 ListSource::of_variants(list.map(|(place, r)| (r.variant.clone(), Some(place))))
             }
-            (List::Top(_) | List::All, _) => {
-                ListSource::of_variants(self.search.cheapest(d, most(list)).map(unranked))
-            }
+            (List::Top(_) | List::All, _) => ListSource::of_variants(
+                self.search
+                    .cheapest_variants(d, longest_list(list))
+                    .map(unranked),
+            ),
         }
     }
 }
 
 /// Returns the largest length of a list.
-fn most(list: List) -> usize {
+fn longest_list(list: List) -> usize {
     match list {
         List::Top(k) => k,
         List::All | List::Sample(_) => usize::MAX / 4,
@@ -242,7 +247,7 @@ impl Variants<'_> {
     }
 
     /// Whether the giving was cancelled.
-    pub fn interrupted(&self) -> bool {
+    pub fn is_interrupted(&self) -> bool {
         self.interrupted
     }
 
@@ -277,24 +282,29 @@ impl Variants<'_> {
     }
 
     /// Returns the idea of a variant, if only the first variant of each idea is listed.
-    fn idea(&self, of: &Certified) -> Option<Idea> {
+    fn idea_of(&self, of: &Certified) -> Option<Idea> {
         self.ideas.iter().find(|i| i.first == of.variant).cloned()
     }
 
     /// The next with its opinions: variants are gathered first, so that they are analysed in parallel.
-    fn certified(&mut self) -> Option<(Certified, Option<usize>)> {
+    fn next_certified(&mut self) -> Option<(Certified, Option<usize>)> {
         if let Some(next) = self.ready.next() {
             return Some(next);
         }
         if !self.opinions && self.stroke.is_none() {
             let (variant, place) = self.source.next()?;
-            return Some((Certified::unasked(variant), place));
+            return Some((Certified::without_opinion(variant), place));
         }
         let search = &self.outcome.search;
-        let size = singular_values::affordable(search);
+        let size = singular_values::affordable_count(search);
         let (block, places): (Vec<_>, Vec<_>) = self.source.by_ref().take(size).unzip();
-        let certified =
-            singular_values::certify(search, block, self.opinions, self.stroke, self.cancelled);
+        let certified = singular_values::certify_variants(
+            search,
+            block,
+            self.opinions,
+            self.stroke,
+            self.cancelled,
+        );
         self.ready = certified.into_iter().zip(places).collect_vec().into_iter();
         (self.opinions, self.stroke) = (false, None);
         self.ready.next()
@@ -310,18 +320,18 @@ impl<'o> Iterator for Variants<'o> {
                 self.interrupted = true;
                 return None;
             }
-            let Some((certified, place)) = self.certified() else {
+            let Some((certified, place)) = self.next_certified() else {
                 self.interrupted = (self.cancelled)();
                 self.short = self.is_short();
                 return None;
             };
             self.room -= 1;
-            self.summary.add(&certified);
+            self.summary.add_certified(&certified);
             let cost = self
                 .outcome
                 .search
                 .steps
-                .milli(certified.variant.key.cost());
+                .cost_in_milli(certified.variant.key.cost());
             if let Some(n) = &mut self.summary.proven
                 && self
                     .outcome
@@ -333,7 +343,7 @@ impl<'o> Iterator for Variants<'o> {
             return Some(Variant {
                 outcome: self.outcome,
                 position: self.summary.given,
-                idea: self.idea(&certified),
+                idea: self.idea_of(&certified),
                 certified,
                 place,
             });

@@ -9,7 +9,7 @@ use crate::score::evaluation::beginnings::{Beginnings, Begun, TakenChoice};
 use crate::score::evaluation::elimination::Scratch;
 use crate::score::evaluation::evaluate::Evaluator;
 use crate::score::evaluation::terms::Floor;
-use crate::score::outcome::ranking::{Ranked, RankedPool, compare};
+use crate::score::outcome::ranking::{Ranked, RankedPool, compare_ranked};
 use crate::search::Search;
 use crate::search::answer::k_best::{Assignment, least_from};
 use crate::search::answer::keys::Key;
@@ -90,7 +90,7 @@ struct Here {
 ///
 /// # Complexity
 /// O(unknowns · width) a branch, and a scoring for each variant that no bound puts behind.
-pub(in crate::score) fn prove(
+pub(in crate::score) fn prove_best(
     evaluator: &Evaluator<'_>,
     diagram: &Diagram,
     pool: &mut RankedPool,
@@ -101,7 +101,7 @@ pub(in crate::score) fn prove(
     let (search, ranking) = (evaluator.search, pool.ranking.clone());
     let weighted = ranking.order == Order::Weighted;
     let best = pool.list.first().filter(|_| weighted);
-    let begins = best.and_then(|b| evaluator.beginnings(&b.variant, &ranking));
+    let begins = best.and_then(|b| evaluator.beginnings_of(&b.variant, &ranking));
     let places = Places::new(search, diagram, search.conditions.memory / 4);
     let (Some(begins), Some(places)) = (begins, places) else {
         return;
@@ -113,13 +113,13 @@ pub(in crate::score) fn prove(
         ranking: &ranking,
         begins: &begins,
         places: &places,
-        floor: evaluator.floor(),
+        floor: evaluator.least_terms(),
         left: least_from(diagram, &search.steps),
         pooled: pool.scored,
         top,
         stop,
     };
-    let (scored, ended) = walk.all(&mut pool.list, progress);
+    let (scored, ended) = walk.search_branches(&mut pool.list, progress);
     pool.elsewhere = Some(scored);
     pool.proof = match ended {
         None => "bounds on cost and reactions put every variant that was not scored behind",
@@ -130,7 +130,7 @@ pub(in crate::score) fn prove(
     pool.proven = ended.is_none();
     pool.missing = pool.missing.take().filter(|_| !pool.proven);
     if let (Some(missing), Some(last)) = (&mut pool.missing, pool.list.last()) {
-        missing.last = last.scores.weighted(&ranking);
+        missing.last = last.scores.weighted_sum(&ranking);
     }
 }
 
@@ -141,31 +141,33 @@ fn too_long(work: usize, done: usize, all: usize) -> bool {
 
 impl<'w> BranchAndBound<'w> {
     /// Searches all branches. Returns the number of scored variants, and why the search ended early.
-    fn all(
+    fn search_branches(
         &self,
         list: &mut Vec<Ranked>,
         progress: &mut dyn FnMut(usize, usize),
     ) -> (usize, Option<Ended>) {
-        let all = self.branches();
+        let all = self.divide_branches();
         let (mut scored, mut work) = (0, 0);
         let mut ended = None;
         for (n, branches) in all.chunks(BRANCHES).enumerate() {
             progress(n * BRANCHES, all.len());
-            let found: Vec<Walker<'_>> =
-                branches.par_iter().map(|b| self.through(b, list)).collect();
+            let found: Vec<Walker<'_>> = branches
+                .par_iter()
+                .map(|b| self.search_branch(b, list))
+                .collect();
             let mut others = Vec::new();
             for walker in found {
                 scored += walker.scored;
                 work += walker.work;
                 ended = ended.or(walker.ended);
                 let new = |r: &Ranked| {
-                    list.binary_search_by(|l| compare(self.ranking, l, r))
+                    list.binary_search_by(|l| compare_ranked(self.ranking, l, r))
                         .is_err()
                 };
                 others.extend(walker.list.into_iter().filter(new));
             }
             list.extend(others);
-            list.sort_by(|a, b| compare(self.ranking, a, b));
+            list.sort_by(|a, b| compare_ranked(self.ranking, a, b));
             list.truncate(self.top);
             let done = ((n + 1) * BRANCHES).min(all.len());
             ended = ended.or_else(|| too_long(work, done, all.len()).then_some(Ended::TooLong));
@@ -178,7 +180,7 @@ impl<'w> BranchAndBound<'w> {
     }
 
     /// Returns enough beginnings that together cover all variants.
-    fn branches(&self) -> Vec<BranchStart> {
+    fn divide_branches(&self) -> Vec<BranchStart> {
         let mut out = vec![BranchStart {
             choices: Vec::new(),
             node: 0,
@@ -209,10 +211,10 @@ impl<'w> BranchAndBound<'w> {
     }
 
     /// Searches a branch, starting with a list.
-    fn through(&self, branch: &BranchStart, list: &[Ranked]) -> Walker<'_> {
+    fn search_branch(&self, branch: &BranchStart, list: &[Ranked]) -> Walker<'_> {
         let mut walker = Walker {
             walk: self,
-            begun: self.begins.begin(),
+            begun: self.begins.begin_empty(),
             scratch: Scratch::default(),
             choices: vec![0; self.search.space.variables.len()],
             list: list.to_vec(),
@@ -221,7 +223,7 @@ impl<'w> BranchAndBound<'w> {
             work: 0,
             ended: None,
         };
-        walker.listed();
+        walker.update_allowed();
         let mut here = Here {
             layer: 0,
             node: 0,
@@ -229,12 +231,12 @@ impl<'w> BranchAndBound<'w> {
             floor: self.floor,
         };
         for &choice in &branch.choices {
-            match walker.step(here, choice) {
+            match walker.take_step(here, choice) {
                 (_, Some(next)) => here = next,
                 (_, None) => return walker,
             }
         }
-        walker.walk(here);
+        walker.walk_from(here);
         walker
     }
 
@@ -243,18 +245,18 @@ impl<'w> BranchAndBound<'w> {
         let left = self.left[next.layer][next.node];
         left.is_some_and(|left| {
             let cost = next.key.cost().saturating_add(left);
-            self.sum(next.key, cost, next.floor) <= allowed
+            self.least_sum(next.key, cost, next.floor) <= allowed
         })
     }
 
     /// The least sum of terms.
-    fn sum(&self, key: Key, cost: u64, floor: Floor) -> f64 {
+    fn least_sum(&self, key: Key, cost: u64, floor: Floor) -> f64 {
         let terms = self.ranking.terms.iter().map(|&(term, weight)| {
             let least = match term {
-                Term::Cost => self.search.steps.milli(cost) as f64 / 1000.0,
+                Term::Cost => self.search.steps.cost_in_milli(cost) as f64 / 1000.0,
                 Term::Changes => f64::from(key.changes()),
                 // No variant moves less than not at all.
-                Term::Idle => -(self.evaluator.working() as f64),
+                Term::Idle => -(self.evaluator.working_freedoms() as f64),
                 _ => floor.of(term),
             };
             weight * least
@@ -265,9 +267,9 @@ impl<'w> BranchAndBound<'w> {
 
 impl Walker<'_> {
     /// Searches the variants behind a node.
-    fn walk(&mut self, here: Here) {
+    fn walk_from(&mut self, here: Here) {
         let Some(layer) = self.walk.diagram.layers.get(here.layer) else {
-            return self.score(here.node, here.key);
+            return self.score_leaf(here.node, here.key);
         };
         self.work += 1;
         if self.work.is_multiple_of(4096) && (self.walk.stop)() {
@@ -279,9 +281,9 @@ impl Walker<'_> {
             if self.ended.is_some() {
                 return;
             }
-            let (taken, next) = self.step(here, choice);
+            let (taken, next) = self.take_step(here, choice);
             if let Some(next) = next {
-                self.walk(next);
+                self.walk_from(next);
             }
             if let Some(taken) = taken {
                 self.begun.give_back(taken);
@@ -291,7 +293,7 @@ impl Walker<'_> {
 
     /// Takes a choice at a node: what is to be given back, and the node that it leads to, if a variant behind that could come
     /// before the last of the list.
-    fn step(&mut self, here: Here, choice: usize) -> (Option<TakenChoice>, Option<Here>) {
+    fn take_step(&mut self, here: Here, choice: usize) -> (Option<TakenChoice>, Option<Here>) {
         let walk = self.walk;
         let layer = &walk.diagram.layers[here.layer];
         let variable = layer.variable;
@@ -309,7 +311,7 @@ impl Walker<'_> {
             return (None, None);
         }
         self.choices[variable] = choice;
-        let (taken, held) = self.begun.take(variable, choice);
+        let (taken, held) = self.begun.take_choice(variable, choice);
         if !held {
             return (Some(taken), None);
         }
@@ -321,7 +323,7 @@ impl Walker<'_> {
             next
         };
         let ends = |peaks| !walk.may_win(&raised(peaks), allowed);
-        if let Some(peaks) = self.begun.peaks(&taken, ends) {
+        if let Some(peaks) = self.begun.peak_bounds(&taken, ends) {
             next = raised(peaks);
             if !walk.may_win(&next, allowed) {
                 return (Some(taken), None);
@@ -334,36 +336,36 @@ impl Walker<'_> {
     }
 
     /// Updates the largest sum of a variant that still enters the list.
-    fn listed(&mut self) {
+    fn update_allowed(&mut self) {
         let last = self.list.get(self.walk.top - 1);
-        let sum = last.map_or(f64::INFINITY, |r| r.scores.weighted(self.walk.ranking));
+        let sum = last.map_or(f64::INFINITY, |r| r.scores.weighted_sum(self.walk.ranking));
         self.allowed = sum + MARGIN * (1.0 + sum.abs());
     }
 
     /// Scores a variant.
-    fn score(&mut self, terminal: usize, key: Key) {
+    fn score_leaf(&mut self, terminal: usize, key: Key) {
         let walk = self.walk;
         let end = walk
             .search
             .steps
-            .redundancy(walk.diagram.terminals[terminal]);
+            .redundancy_key(walk.diagram.terminals[terminal]);
         let variant = Assignment {
             choices: self.choices.clone(),
             key: Key(key.0 + end.0),
         };
-        if !walk.search.wanted(variant.key) {
+        if !walk.search.is_wanted(variant.key) {
             return;
         }
-        let by_cost = usize::try_from(walk.places.of(&variant)).unwrap_or(usize::MAX);
+        let by_cost = usize::try_from(walk.places.place_of(&variant)).unwrap_or(usize::MAX);
         if by_cost <= walk.pooled {
             return;
         }
         self.scored += 1;
         self.work += SCORING;
-        let Ok(scores) = walk.evaluator.scores(&variant, &mut self.scratch) else {
+        let Ok(scores) = walk.evaluator.score_variant(&variant, &mut self.scratch) else {
             return;
         };
-        let total = scores.weighted(walk.ranking);
+        let total = scores.weighted_sum(walk.ranking);
         if total > self.allowed || !scores.within_limits(walk.ranking) {
             return;
         }
@@ -376,9 +378,9 @@ impl Walker<'_> {
         };
         let at = self
             .list
-            .partition_point(|r| compare(walk.ranking, r, &ranked).is_lt());
+            .partition_point(|r| compare_ranked(walk.ranking, r, &ranked).is_lt());
         self.list.insert(at, ranked);
         self.list.truncate(walk.top);
-        self.listed();
+        self.update_allowed();
     }
 }

@@ -2,7 +2,7 @@
 
 use crate::model::ranking::Ranking;
 use crate::score::evaluation::evaluate::{Evaluator, ScoreError};
-use crate::score::outcome::proof::prove;
+use crate::score::outcome::proof::prove_best;
 use crate::score::outcome::ranking::{Ranked, RankedPool, Ranker};
 use crate::score::request::{List, Request};
 use crate::search::Search;
@@ -15,7 +15,7 @@ use crate::search::question::conditions::Symmetry;
 ///
 /// # Errors
 /// Returns an error if the original mechanism cannot bear the loads of the ranking.
-pub(in crate::score) fn ranked(
+pub(in crate::score) fn rank_variants(
     search: &Search,
     diagrams: &Diagrams,
     request: &Request,
@@ -35,16 +35,16 @@ pub(in crate::score) fn ranked(
     let mut ranker = Ranker::new(&evaluator, ranking, pool, top);
     let known = diagrams.known_up_to();
     let (mut given, mut doubtful) = (0, known.is_none());
-    for v in search.cheapest(diagrams, pool + 1) {
+    for v in search.cheapest_variants(diagrams, pool + 1) {
         given += 1;
-        doubtful |= known.is_none_or(|k| search.steps.milli(v.key.cost()) > k);
-        if should_cancel() || ranker.take(v).is_break() {
+        doubtful |= known.is_none_or(|k| search.steps.cost_in_milli(v.key.cost()) > k);
+        if should_cancel() || ranker.take_variant(v).is_break() {
             break;
         }
     }
     let interrupted = should_cancel();
-    let exhausted = diagrams.stop() == Stop::Exhausted && !interrupted;
-    let mut out = ranker.finish(exhausted && given <= pool);
+    let exhausted = diagrams.stop_reason() == Stop::Exhausted && !interrupted;
+    let mut out = ranker.finish_pool(exhausted && given <= pool);
     if interrupted && !out.proven {
         (out.interrupted, out.proof, out.missing) = (true, "the ranking was interrupted", None);
     } else if doubtful {
@@ -52,9 +52,9 @@ pub(in crate::score) fn ranked(
     }
     let all = request.pool.is_none() && !out.proven && exhausted;
     if all && request.symmetry != Symmetry::OnePerOrbit {
-        prove(
+        prove_best(
             &evaluator,
-            diagrams.listed(),
+            diagrams.listed_diagram(),
             &mut out,
             top,
             should_cancel,
@@ -62,7 +62,7 @@ pub(in crate::score) fn ranked(
         );
     }
     if let Some(missing) = out.missing.as_mut().filter(|_| exhausted) {
-        let by_cost = counts::counts_by_cost(search, diagrams.listed());
+        let by_cost = counts::counts_by_cost(search, diagrams.listed_diagram());
         missing.cheaper = by_cost.map(|all| all.range(..missing.settled_at).map(|(_, n)| n).sum());
     }
     Ok(Some(out))

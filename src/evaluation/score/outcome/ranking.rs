@@ -1,6 +1,6 @@
 //! The order of a pool of variants, why it is what it is, and whether a variant outside of the pool could win.
 
-use crate::format::brief;
+use crate::format::three_digits;
 use crate::model::mechanism::{JointId, Mechanism};
 use crate::model::ranking::{Order, Ranking, Term};
 use crate::score::evaluation::elimination::Scratch;
@@ -91,16 +91,16 @@ impl Missing {
 }
 
 /// Which of two comes first, the cheaper one where the order does not say.
-pub fn compare(ranking: &Ranking, a: &Ranked, b: &Ranked) -> Ordering {
+pub fn compare_ranked(ranking: &Ranking, a: &Ranked, b: &Ranked) -> Ordering {
     let by_order = match ranking.order {
         Order::Weighted => a
             .scores
-            .weighted(ranking)
-            .total_cmp(&b.scores.weighted(ranking)),
+            .weighted_sum(ranking)
+            .total_cmp(&b.scores.weighted_sum(ranking)),
         Order::Lexicographic => ranking
             .terms
             .iter()
-            .map(|(t, _)| a.scores.loss(*t).total_cmp(&b.scores.loss(*t)))
+            .map(|(t, _)| a.scores.term_loss(*t).total_cmp(&b.scores.term_loss(*t)))
             .find(|o| o.is_ne())
             .unwrap_or(Ordering::Equal),
         Order::Pareto => a
@@ -113,7 +113,7 @@ pub fn compare(ranking: &Ranking, a: &Ranked, b: &Ranked) -> Ordering {
 
 /// Whether a variant of at least this cost, and with the other terms at least `floor`, could still come before the last of
 /// `list`: the proof where it could not.
-fn settled(
+fn settling_proof(
     ranking: &Ranking,
     list: &[Ranked],
     least_milli: i64,
@@ -124,14 +124,14 @@ fn settled(
     match ranking.order {
         Order::Weighted => {
             let weight = ranking.terms.iter().find(|(t, _)| *t == Term::Cost)?.1;
-            let behind = weight * least + floor >= last.scores.weighted(ranking);
+            let behind = weight * least + floor >= last.scores.weighted_sum(ranking);
             (weight > 0.0 && behind).then_some(
                 "cost puts every later variant behind, with the least the other terms can be",
             )
         }
         Order::Lexicographic => {
             let (first, _) = ranking.terms.first()?;
-            (*first == Term::Cost && least > last.scores.value(Term::Cost))
+            (*first == Term::Cost && least > last.scores.term_value(Term::Cost))
                 .then_some("cost comes first and every later variant costs more")
         }
         Order::Pareto => None,
@@ -141,7 +141,9 @@ fn settled(
 /// Scores a pool in parallel, in its order: the same for any number of threads.
 fn score_all(evaluator: &Evaluator<'_>, pool: &[Assignment]) -> Vec<Result<Scores, Unsolved>> {
     pool.par_iter()
-        .map_init(Scratch::default, |scratch, v| evaluator.scores(v, scratch))
+        .map_init(Scratch::default, |scratch, v| {
+            evaluator.score_variant(v, scratch)
+        })
         .collect()
 }
 
@@ -164,7 +166,7 @@ impl<'e, 's> Ranker<'e, 's> {
     /// For a pool of at most `limit` variants, of which the best `top` are wanted.
     pub fn new(evaluator: &'e Evaluator<'s>, ranking: &Ranking, limit: usize, top: usize) -> Self {
         let floor = match ranking.order {
-            Order::Weighted => evaluator.floor().weighted(ranking),
+            Order::Weighted => evaluator.least_terms().weighted_sum(ranking),
             Order::Lexicographic | Order::Pareto => 0.0,
         };
         Ranker {
@@ -196,13 +198,13 @@ impl<'e, 's> Ranker<'e, 's> {
     }
 
     /// Takes the next variant; breaks once no later one can be among the best, or the pool is full.
-    pub fn take(&mut self, variant: Assignment) -> ControlFlow<()> {
+    pub fn take_variant(&mut self, variant: Assignment) -> ControlFlow<()> {
         if self.out.proven || self.out.scored + self.block.len() >= self.out.pool {
             return ControlFlow::Break(());
         }
         self.block.push(variant);
         if self.block.len() == BLOCK {
-            self.score();
+            self.score_block();
         }
         if self.out.proven {
             return ControlFlow::Break(());
@@ -211,7 +213,7 @@ impl<'e, 's> Ranker<'e, 's> {
     }
 
     /// Scores the block in parallel and keeps what may be among the best.
-    fn score(&mut self) {
+    fn score_block(&mut self) {
         let block = std::mem::take(&mut self.block);
         let ranking = &self.out.ranking;
         for (variant, scores) in block.iter().zip(score_all(self.evaluator, &block)) {
@@ -225,7 +227,7 @@ impl<'e, 's> Ranker<'e, 's> {
                 variant: variant.clone(),
                 by_cost: self.out.scored,
                 scores,
-                total: (ranking.order == Order::Weighted).then(|| scores.weighted(ranking)),
+                total: (ranking.order == Order::Weighted).then(|| scores.weighted_sum(ranking)),
                 front: None,
             };
             if self.out.cheapest.is_none() {
@@ -241,12 +243,13 @@ impl<'e, 's> Ranker<'e, 's> {
             return;
         }
         let top = self.top.max(1);
-        self.kept.sort_by(|a, b| compare(ranking, a, b));
+        self.kept.sort_by(|a, b| compare_ranked(ranking, a, b));
         if let Some(last) = block.last() {
-            self.reached = self.evaluator.search.steps.milli(last.key.cost());
+            self.reached = self.evaluator.search.steps.cost_in_milli(last.key.cost());
         }
         if self.kept.len() >= top
-            && let Some(proof) = settled(ranking, &self.kept[..top], self.reached, self.floor)
+            && let Some(proof) =
+                settling_proof(ranking, &self.kept[..top], self.reached, self.floor)
         {
             (self.out.proven, self.out.proof) = (true, proof);
         }
@@ -255,14 +258,14 @@ impl<'e, 's> Ranker<'e, 's> {
     }
 
     /// Returns the gap to a proof.
-    fn missing(&self) -> Option<Missing> {
+    fn missing_to_proof(&self) -> Option<Missing> {
         let ranking = &self.out.ranking;
         let weight = ranking.terms.iter().find(|(t, _)| *t == Term::Cost)?.1;
         let last = self.kept.get(self.top.max(1) - 1)?;
         if ranking.order != Order::Weighted || weight <= 0.0 {
             return None;
         }
-        let last = last.scores.weighted(ranking);
+        let last = last.scores.weighted_sum(ranking);
         let (reached, settled_at) = (
             self.reached as f64 / 1000.0,
             (1000.0 * (last - self.floor) / weight).ceil() as i64,
@@ -279,27 +282,27 @@ impl<'e, 's> Ranker<'e, 's> {
     ///
     /// # Complexity
     /// One scoring a variant, in parallel, and a sort a block; for Pareto's order O(pool · front).
-    pub fn finish(mut self, all: bool) -> RankedPool {
+    pub fn finish_pool(mut self, all: bool) -> RankedPool {
         if !self.block.is_empty() {
-            self.score();
+            self.score_block();
         }
         if all && !self.out.proven {
             (self.out.proven, self.out.proof) = (true, "every admissible variant was scored");
         }
         if !self.out.proven {
-            self.out.missing = self.missing();
+            self.out.missing = self.missing_to_proof();
         }
         let ranking = &self.out.ranking;
         if ranking.order == Order::Pareto {
             let point = |r: &Ranked| -> Vec<f64> {
                 let terms = ranking.terms.iter();
-                terms.map(|(t, _)| r.scores.loss(*t)).collect()
+                terms.map(|(t, _)| r.scores.term_loss(*t)).collect()
             };
             let points: Vec<Vec<f64>> = self.kept.iter().map(point).collect();
             for (r, front) in self.kept.iter_mut().zip(fronts(&points, self.top)) {
                 r.front = front.map(|f| f + 1);
             }
-            self.kept.sort_by(|a, b| compare(ranking, a, b));
+            self.kept.sort_by(|a, b| compare_ranked(ranking, a, b));
         }
         self.kept.truncate(self.top);
         self.out.list = self.kept;
@@ -320,37 +323,37 @@ fn ordinal(n: usize) -> String {
 }
 
 /// Returns the change of a term in words.
-fn change(m: &Mechanism, term: Term, from: &Scores, to: &Scores) -> String {
+fn describe_change(m: &Mechanism, term: Term, from: &Scores, to: &Scores) -> String {
     let joint = |j: JointId| m.joints.get(j.index()).map_or("", |j| j.id.as_str());
     match term {
         Term::PeakForce => format!(
             "peak force {} N ({} of capacity, joint {}) instead of {} N ({}, joint {})",
-            brief(to.force.value),
-            brief(to.force.utilisation),
+            three_digits(to.force.value),
+            three_digits(to.force.utilisation),
             joint(to.force.joint),
-            brief(from.force.value),
-            brief(from.force.utilisation),
+            three_digits(from.force.value),
+            three_digits(from.force.utilisation),
             joint(from.force.joint)
         ),
         Term::PeakMoment => format!(
             "peak moment {} N·m ({} of capacity, joint {}) instead of {} N·m ({}, joint {})",
-            brief(to.moment.value),
-            brief(to.moment.utilisation),
+            three_digits(to.moment.value),
+            three_digits(to.moment.utilisation),
             joint(to.moment.joint),
-            brief(from.moment.value),
-            brief(from.moment.utilisation),
+            three_digits(from.moment.value),
+            three_digits(from.moment.utilisation),
             joint(from.moment.joint)
         ),
         Term::OutputError => format!(
             "output error {} mm instead of {} mm",
-            brief(1e3 * to.output_error),
-            brief(1e3 * from.output_error)
+            three_digits(1e3 * to.output_error),
+            three_digits(1e3 * from.output_error)
         ),
         _ => format!(
             "{} {} instead of {}",
             term.name(),
-            brief(to.value(term)),
-            brief(from.value(term))
+            three_digits(to.term_value(term)),
+            three_digits(from.term_value(term))
         ),
     }
 }
@@ -358,7 +361,7 @@ fn change(m: &Mechanism, term: Term, from: &Scores, to: &Scores) -> String {
 impl RankedPool {
     /// Why a variant is not where its cost would put it: the term that speaks most for it against the cheapest; `None`
     /// where its place is that by cost.
-    pub fn reason(&self, m: &Mechanism, rank: usize) -> Option<String> {
+    pub fn place_reason(&self, m: &Mechanism, rank: usize) -> Option<String> {
         let (here, cheapest) = (
             self.list.get(rank.checked_sub(1)?)?,
             self.cheapest.as_ref()?,
@@ -372,7 +375,7 @@ impl RankedPool {
             } else {
                 1.0
             };
-            let (from, to) = (cheapest.scores.loss(*t), here.scores.loss(*t));
+            let (from, to) = (cheapest.scores.term_loss(*t), here.scores.term_loss(*t));
             match self.ranking.order {
                 Order::Weighted => weight * (from - to),
                 _ => (from - to) / from.abs().max(to.abs()).max(1e-300),
@@ -391,7 +394,7 @@ impl RankedPool {
         Some(format!(
             "rank {rank} was {} by cost: {}",
             ordinal(here.by_cost),
-            change(m, term.0, &cheapest.scores, &here.scores)
+            describe_change(m, term.0, &cheapest.scores, &here.scores)
         ))
     }
 }

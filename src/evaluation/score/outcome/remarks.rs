@@ -24,14 +24,14 @@ pub struct Remarks {
 
 impl Remarks {
     /// Returns the joint types that another request offers besides those of the one that found nothing.
-    pub fn offers<'r>(&'r self, asked: &Request) -> &'r [JointOptions] {
+    pub fn offered_options<'r>(&'r self, asked: &Request) -> &'r [JointOptions] {
         let allow = self.offered.as_ref().map(|r| &r.allow[..]);
         allow.map_or(&[], |all| &all[asked.allow.len()..])
     }
 }
 
 /// Returns a request with one condition eased.
-pub fn eased(request: &Request, how: Relaxation) -> Request {
+pub fn ease_request(request: &Request, how: Relaxation) -> Request {
     let mut out = request.clone();
     match how {
         Relaxation::Redundant(n) => out.max_redundant = n,
@@ -52,12 +52,15 @@ impl Outcome {
     ///
     /// # Errors
     /// Returns an error if the geometry has no exact image.
-    pub fn remarks(&self, cancelled: &(dyn Fn() -> bool + Sync)) -> Result<Remarks, SearchError> {
+    pub fn make_remarks(
+        &self,
+        cancelled: &(dyn Fn() -> bool + Sync),
+    ) -> Result<Remarks, SearchError> {
         let none = self.admissible.total.is_zero() && !self.admissible_may_be_more();
         Ok(Remarks {
-            eased: self.relaxations(cancelled)?,
+            eased: self.list_relaxations(cancelled)?,
             offered: none.then(|| self.would_help()).flatten(),
-            hopeless: self.hopeless()?,
+            hopeless: self.why_hopeless()?,
             symmetric: self.symmetric_best(cancelled)?,
         })
     }

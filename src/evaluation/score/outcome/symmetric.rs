@@ -1,7 +1,7 @@
 //! The cheapest redesigns of a symmetric mechanism that are symmetric themselves, for each number of redundant constraints left.
 
 use crate::model::mechanism::StateId;
-use crate::redundancy::figures;
+use crate::redundancy::state_figures;
 use crate::score::outcome::Outcome;
 use crate::score::request::List;
 use crate::search::Search;
@@ -92,10 +92,10 @@ impl Outcome {
                 if left == 0 && symmetric.len() == 1 {
                     odd = odd_freedoms(&search)?;
                 }
-                let diagrams = search.build(should_cancel, &mut |_| {});
+                let diagrams = search.build_diagrams(should_cancel, &mut |_| {});
                 let just = |v: &Assignment| v.key.internal() == left;
                 let found = (diagrams.admissible.stop == Stop::Exhausted)
-                    .then(|| search.cheapest(&diagrams, LOOKED_AT).find(just));
+                    .then(|| search.cheapest_variants(&diagrams, LOOKED_AT).find(just));
                 if let Some(variant) = found.flatten() {
                     best.push(SymmetricRedesign {
                         left,
@@ -113,7 +113,7 @@ impl Outcome {
 /// Returns how many freedoms a redesign adds that leaves no redundant constraint and no further motion, where joints that are chosen
 /// alike cannot add so many because each change is made at several of them.
 fn odd_freedoms(search: &Search) -> Result<Option<OddFreedoms>, SearchError> {
-    let present = figures(&search.mechanism, StateId::FREE)?;
+    let present = state_figures(&search.mechanism, StateId::FREE)?;
     let needed = i64::try_from(present.redundant).unwrap_or(i64::MAX);
     let choices = search
         .space

@@ -1,11 +1,11 @@
 //! A variant: its place, figures, changes, opinions and scores, and the mechanism that it is.
 
 use crate::closure::Closure;
-use crate::file::read::resolve::contains;
+use crate::file::read::resolve::contains_option;
 use crate::geom::exact::ExactError;
 use crate::model::joint_type::JointType;
 use crate::model::mechanism::{Joint, JointId, Mechanism, StateId};
-use crate::redundancy::contour_shares::{ContourShare, shares};
+use crate::redundancy::contour_shares::{ContourShare, contour_shares};
 use crate::score::evaluation::terms::Scores;
 use crate::score::outcome::Outcome;
 use crate::score::outcome::ranking::Ranked;
@@ -68,7 +68,7 @@ impl<'o> Variant<'o> {
         self.outcome
             .search
             .steps
-            .milli(self.assignment().key.cost())
+            .cost_in_milli(self.assignment().key.cost())
     }
 
     /// Its cost above the present mechanism's.
@@ -104,8 +104,8 @@ impl<'o> Variant<'o> {
     }
 
     /// Returns the joints that it changes, in file order.
-    pub fn changes(&self) -> Vec<Change> {
-        changes(&self.outcome.search, self.assignment())
+    pub fn list_changes(&self) -> Vec<Change> {
+        list_changes(&self.outcome.search, self.assignment())
     }
 
     /// Returns the second opinion by singular values.
@@ -119,8 +119,8 @@ impl<'o> Variant<'o> {
     }
 
     /// Returns whether other poses were examined and give other figures.
-    pub fn lucky(&self) -> bool {
-        self.certified.lucky()
+    pub fn is_lucky(&self) -> bool {
+        self.certified.is_lucky()
     }
 
     /// Returns its entry in the ranking, if there is one.
@@ -134,9 +134,9 @@ impl<'o> Variant<'o> {
     }
 
     /// Why its place in the ranking is not that by cost.
-    pub fn reason(&self) -> Option<String> {
+    pub fn place_reason(&self) -> Option<String> {
         let pool = self.outcome.ranking.as_ref()?;
-        pool.reason(&self.outcome.search.mechanism, self.place? + 1)
+        pool.place_reason(&self.outcome.search.mechanism, self.place? + 1)
     }
 
     /// Its name: "idea 3" in a list of ideas, "variant 3" in one of all variants.
@@ -146,8 +146,8 @@ impl<'o> Variant<'o> {
     }
 
     /// Returns the variant as a mechanism, named after its place in the list.
-    pub fn mechanism(&self) -> Mechanism {
-        mechanism(&self.outcome.search, self.assignment(), &self.name())
+    pub fn as_mechanism(&self) -> Mechanism {
+        as_mechanism(&self.outcome.search, self.assignment(), &self.name())
     }
 
     /// σ of each of its contours when they are added in this order, with the range over all orders of these: of the searched state,
@@ -165,9 +165,9 @@ impl<'o> Variant<'o> {
             return Ok(Vec::new());
         }
         let state = search.conditions.state.map_or(StateId::FREE, |s| s.state);
-        let realized = variant_mechanism::realize(search, &self.assignment().choices);
+        let realized = variant_mechanism::realize_variant(search, &self.assignment().choices);
         let closure = Closure::new(search.field(), &realized, state)?;
-        let shares = shares(search.field(), &closure).into_iter();
+        let shares = contour_shares(search.field(), &closure).into_iter();
         Ok(shares.map(|s| (s.contour.name(&realized), s)).collect())
     }
 }
@@ -188,19 +188,19 @@ impl fmt::Display for Variant<'_> {
         if let Some(n) = self.external_harmful() {
             write!(f, " ({n} harmful)")?;
         }
-        let changes = in_words(&self.outcome.search, &self.changes());
+        let changes = in_words(&self.outcome.search, &self.list_changes());
         write!(f, ": {changes}")
     }
 }
 
 /// Returns a choice of options as a mechanism, named after its place in a list: "variant 3".
-pub fn mechanism(search: &Search, assignment: &Assignment, name: &str) -> Mechanism {
-    let mut out = variant_mechanism::realize(search, &assignment.choices);
+pub fn as_mechanism(search: &Search, assignment: &Assignment, name: &str) -> Mechanism {
+    let mut out = variant_mechanism::realize_variant(search, &assignment.choices);
     out.description = format!(
         "{} of {}: {}",
-        capital(name),
+        capitalize(name),
         out.name,
-        in_words(search, &changes(search, assignment))
+        in_words(search, &list_changes(search, assignment))
     );
     out.name = format!("{}-{}", out.name, name.replace(' ', "-"));
     offer_again(search, assignment, &mut out);
@@ -208,7 +208,7 @@ pub fn mechanism(search: &Search, assignment: &Assignment, name: &str) -> Mechan
 }
 
 /// The same beginning a sentence.
-fn capital(name: &str) -> String {
+fn capitalize(name: &str) -> String {
     let mut letters = name.chars();
     let first = letters.next().map(char::to_uppercase);
     first.into_iter().flatten().chain(letters).collect()
@@ -236,14 +236,14 @@ fn offer_again(search: &Search, assignment: &Assignment, out: &mut Mechanism) {
             .options
             .iter()
             .skip(1)
-            .filter(|o| o.name != present.name && contains(o, present) == Some(true));
+            .filter(|o| o.name != present.name && contains_option(o, present) == Some(true));
         out.joints[j].options = std::iter::once(present).chain(more).cloned().collect();
         if unloading.is_none() {
             out.joints[j].unloading.clone_from(&joint.unloading);
         }
     }
     let offered = |name: &str| {
-        let mut all = out.joints.iter().flat_map(Joint::offered);
+        let mut all = out.joints.iter().flat_map(Joint::offered_options);
         JointType::from_name(name).is_some() || all.any(|o| o.name == name)
     };
     let mut spec = old.search.clone();
@@ -258,7 +258,7 @@ fn offer_again(search: &Search, assignment: &Assignment, out: &mut Mechanism) {
 }
 
 /// The joints that a choice of options changes, in file order.
-pub fn changes(search: &Search, assignment: &Assignment) -> Vec<Change> {
+pub fn list_changes(search: &Search, assignment: &Assignment) -> Vec<Change> {
     let mut out = Vec::new();
     let variables = search.space.variables.iter().zip(&assignment.choices);
     for (v, &choice) in variables.filter(|(_, c)| **c != 0) {

@@ -4,13 +4,13 @@
 use crate::closure::Closure;
 use crate::closure::contour::Contour;
 use crate::geom::expr::Expr;
-use crate::geom::vector::{Vector, cross, length, real, unit};
+use crate::geom::vector::{Vector, cross, length, to_vector, unit};
 use crate::model::joint_type::{Freedom, JointType};
 use crate::model::loads::ExternalForce;
 use crate::model::mechanism::{JointId, JointOption, LinkId, Mechanism, Role, StateId};
 use crate::model::ranking::ClearanceSum;
-use crate::redundancy::contour_shares::shares;
-use crate::redundancy::release::added;
+use crate::redundancy::contour_shares::contour_shares;
+use crate::redundancy::release::added_freedoms;
 use crate::score::evaluation::elimination::Scratch;
 use crate::score::evaluation::evaluate::Evaluator;
 use crate::score::evaluation::load_cases::is_loaded;
@@ -18,7 +18,7 @@ use crate::score::evaluation::terms::Peak;
 use crate::score::outcome::Outcome;
 use crate::search::Search;
 use crate::search::answer::k_best::Assignment;
-use crate::search::check::variant_mechanism::realize;
+use crate::search::check::variant_mechanism::realize_variant;
 use crate::search::question::conditions::Conditions;
 use crate::search::question::preference::is_rod;
 use itertools::Itertools;
@@ -91,7 +91,7 @@ impl<'o> Whys<'o> {
     pub fn new(outcome: &'o Outcome) -> Whys<'o> {
         let (search, m) = (&outcome.search, &outcome.search.mechanism);
         let closure = Closure::new(search.field(), m, StateId::FREE);
-        let all = closure.map_or(Vec::new(), |c| shares(search.field(), &c));
+        let all = closure.map_or(Vec::new(), |c| contour_shares(search.field(), &c));
         let redundant = all.into_iter().filter(|s| s.redundant > 0);
         let redundant = redundant.map(|s| (s.contour, s.redundant));
         let side = (!is_loaded(m)).then(|| {
@@ -118,23 +118,23 @@ impl<'o> Whys<'o> {
     ///
     /// # Complexity
     /// That of analysing a stroke under the loads, once; then O((6k)²·f) for each redesign and pose.
-    pub fn teller(&self) -> impl FnMut(&Assignment) -> Why + '_ {
+    pub fn explain_each(&self) -> impl FnMut(&Assignment) -> Why + '_ {
         let search = self.side.as_ref().unwrap_or(&self.outcome.search);
         let evaluator = Evaluator::new(search, ClearanceSum::default()).ok();
         let mut scratch = Scratch::default();
         move |v| {
-            let scores = evaluator.as_ref().map(|e| e.scores(v, &mut scratch));
+            let scores = evaluator.as_ref().map(|e| e.score_variant(v, &mut scratch));
             let known = scores.and_then(Result::ok).filter(|s| !s.minimum_norm);
             let peaks = known.map(|s| [s.force, s.moment]);
             Why {
                 peaks,
-                ..self.unloaded(v)
+                ..self.explain_unloaded(v)
             }
         }
     }
 
     /// Returns the explanation without loads.
-    fn unloaded(&self, v: &Assignment) -> Why {
+    fn explain_unloaded(&self, v: &Assignment) -> Why {
         let search = &self.outcome.search;
         let m = &*search.mechanism;
         let chosen = || search.space.variables.iter().zip(&v.choices);
@@ -151,26 +151,26 @@ impl<'o> Whys<'o> {
         let kept: Vec<JointId> = kept.flat_map(|(v, _)| v.joints.clone()).collect();
         Why {
             lets,
-            removes: self.removes(v),
+            removes: self.removed_constraints(v),
             unchanged: kept.into_iter().sorted_unstable().collect(),
             peaks: None,
         }
     }
 
     /// Returns what a redesign removes: the difference of what contours have as built and with it.
-    fn removes(&self, v: &Assignment) -> Option<Vec<Removed>> {
+    fn removed_constraints(&self, v: &Assignment) -> Option<Vec<Removed>> {
         let search = &self.outcome.search;
         let m = &*search.mechanism;
         let mut left: Vec<(BTreeSet<JointId>, usize)> = Vec::new();
         if v.key.internal() > 0 {
-            let realized = realize(search, &v.choices);
+            let realized = realize_variant(search, &v.choices);
             let closure = Closure::new(search.field(), &realized, StateId::FREE).ok()?;
             // Joints put in series come after those of the mechanism.
             let of_mechanism = |c: &Contour| -> BTreeSet<JointId> {
                 let joints = c.joints.iter().map(|(j, _)| *j);
                 joints.filter(|j| j.index() < m.joints.len()).collect()
             };
-            let all = shares(search.field(), &closure).into_iter();
+            let all = contour_shares(search.field(), &closure).into_iter();
             left.extend(all.map(|s| (of_mechanism(&s.contour), s.redundant)));
         }
         let removed = |(contour, of): &(Contour, usize)| {
@@ -189,12 +189,14 @@ impl<'o> Whys<'o> {
         let m = &self.outcome.search.mechanism;
         let here = &m.joints[joint];
         let now = (&here.frame, &here.joint_type);
-        let mut more = added(now, (&to.frame, &to.joint_type)).unwrap_or_default();
+        let mut more = added_freedoms(now, (&to.frame, &to.joint_type)).unwrap_or_default();
         if let Some(s) = series {
             let nothing = JointType::Custom(Vec::new());
-            more.extend(added((&s.frame, &nothing), (&s.frame, &s.joint_type)).unwrap_or_default());
+            more.extend(
+                added_freedoms((&s.frame, &nothing), (&s.frame, &s.joint_type)).unwrap_or_default(),
+            );
         }
-        let axis = unit(real(&here.frame.axis));
+        let axis = unit(to_vector(&here.frame.axis));
         let along = |d: &Vector| length(cross(*d, axis)) < 1e-6;
         let count = |slides: bool, is_along: bool| {
             let some = more
@@ -205,11 +207,13 @@ impl<'o> Whys<'o> {
         let [a, b] = here.links;
         let rod = [a, b].into_iter().find(|&l| is_rod(m, l));
         let free = to.joint_type.freedoms().iter();
-        let slides = free.clone().filter(|f| f.slides()).count();
-        let turns = free.filter(|f| f.turns() || **f == Freedom::Screw).count();
+        let slides = free.clone().filter(|f| f.is_slide()).count();
+        let turns = free
+            .filter(|f| f.is_turn() || **f == Freedom::Screw)
+            .count();
         LetGo {
             joint,
-            part: rod.unwrap_or(if b == m.frame() { a } else { b }),
+            part: rod.unwrap_or(if b == m.frame_link() { a } else { b }),
             is_rod: rod.is_some(),
             tilts: count(false, false),
             turns: count(false, true) > 0,
@@ -233,9 +237,9 @@ fn pressed_aside(m: &Mechanism) -> Mechanism {
         }
         let mut hinges = own.iter().copied().chain(&joints);
         let hinge = hinges.find(|j| j.joint_type == JointType::Revolute);
-        let across = hinge.map_or([0.0, 0.0, 1.0], |j| unit(real(&j.frame.axis)));
+        let across = hinge.map_or([0.0, 0.0, 1.0], |j| unit(to_vector(&j.frame.axis)));
         let many = own.len() as f64;
-        let points = own.iter().map(|j| real(&j.frame.point));
+        let points = own.iter().map(|j| to_vector(&j.frame.point));
         let sum = points.fold([0.0; 3], |s, p| [0, 1, 2].map(|i| s[i] + p[i] / many));
         let expr = |x: f64| Expr::from_f64(x).unwrap_or_else(|_| Expr::from(0));
         out.loads.forces.push(ExternalForce {

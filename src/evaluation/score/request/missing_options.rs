@@ -1,12 +1,12 @@
 //! Joint types that would help if a search finds nothing.
 
-use crate::geom::vector::{Vector, across, cross, dot, length, real, scale, sub, unit};
+use crate::geom::vector::{Vector, across, cross, dot, length, scale, sub, to_vector, unit};
 use crate::model::joint_type::{Freedom, JointType};
 use crate::model::mechanism::{Joint, JointId, Mechanism};
 use crate::redundancy::duplicate_constraints::held_twice;
 use crate::redundancy::release::Release;
 use crate::score::outcome::Outcome;
-use crate::score::request::unlisted::{fits, types};
+use crate::score::request::unlisted::{framed_types, type_fits};
 use crate::score::request::{Check, JointOptions, List, Request};
 use crate::score::run::run;
 use itertools::Itertools;
@@ -20,8 +20,8 @@ impl Outcome {
     /// Returns the request with more joint types at some joints, if nothing was found and a search with these types finds a variant. The
     /// types are the cheapest ones with the cheapest freedoms that remove redundant constraints and add no motion.
     pub fn would_help(&self) -> Option<Request> {
-        let wider = self.widened(self.cheapest_freedoms()?);
-        self.finds(&wider).then_some(wider)
+        let wider = self.widen_request(self.cheapest_freedoms()?);
+        self.finds_variant(&wider).then_some(wider)
     }
 
     /// Returns the joint types that free the cheapest duplicate constraints.
@@ -35,7 +35,7 @@ impl Outcome {
                 direction,
             } => {
                 !m.joints[joint].drive
-                    && one(m, joint, &[FreedMotion { slides, direction }]).is_some()
+                    && cheapest_type(m, joint, &[FreedMotion { slides, direction }]).is_some()
             }
             Release::Coupling(_) => false,
         };
@@ -55,12 +55,12 @@ impl Outcome {
         of.into_group_map()
             .into_iter()
             .sorted_by_key(|(joint, _)| *joint)
-            .map(|(joint, freed)| one(m, joint, &freed))
+            .map(|(joint, freed)| cheapest_type(m, joint, &freed))
             .collect()
     }
 
     /// Returns the request with more joint types: at all joints if it names types for all, else at the given joints.
-    fn widened(&self, allow: Vec<JointOptions>) -> Request {
+    fn widen_request(&self, allow: Vec<JointOptions>) -> Request {
         let mut wider = self.request.clone();
         if wider.options.is_empty() {
             wider.allow.extend(allow);
@@ -72,7 +72,7 @@ impl Outcome {
     }
 
     /// Returns whether a wider request finds a variant.
-    fn finds(&self, wider: &Request) -> bool {
+    fn finds_variant(&self, wider: &Request) -> bool {
         // What is prepared already is not prepared again.
         let trial = Request {
             hold: Vec::new(),
@@ -101,13 +101,14 @@ struct FreedMotion {
 }
 
 /// Returns the cheapest type that has the motions that a joint needs.
-fn one(m: &Mechanism, joint: JointId, freed: &[FreedMotion]) -> Option<JointOptions> {
+fn cheapest_type(m: &Mechanism, joint: JointId, freed: &[FreedMotion]) -> Option<JointOptions> {
     let here = &m.joints[joint];
     // A contact at a point or a line has to be pressed together.
     let pressed =
         |t: &JointType| matches!(t, JointType::SphereOnPlane | JointType::CylinderOnPlane);
-    let cheap = types().sorted_by_key(|t| (pressed(t), t.default_cost_milli()));
-    let mut fits = cheap.filter(|t| freed.iter().all(|&f| has(here, t, f)) && fits(m, joint, t));
+    let cheap = framed_types().sorted_by_key(|t| (pressed(t), t.default_cost_milli()));
+    let mut fits =
+        cheap.filter(|t| freed.iter().all(|&f| has_motion(here, t, f)) && type_fits(m, joint, t));
     Some(JointOptions {
         joint: here.id.clone(),
         names: vec![fits.next()?.name().to_owned()],
@@ -115,9 +116,9 @@ fn one(m: &Mechanism, joint: JointId, freed: &[FreedMotion]) -> Option<JointOpti
 }
 
 /// Returns whether a type in a joint's frame turns about, or slides along, a direction.
-fn has(joint: &Joint, of: &JointType, freed: FreedMotion) -> bool {
-    let z = unit(real(&joint.frame.axis));
-    let x = unit(across(real(&joint.frame.reference), z));
+fn has_motion(joint: &Joint, of: &JointType, freed: FreedMotion) -> bool {
+    let z = unit(to_vector(&joint.frame.axis));
+    let x = unit(across(to_vector(&joint.frame.reference), z));
     let y = cross(z, x);
     let axes = of
         .freedoms()

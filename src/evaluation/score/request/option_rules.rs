@@ -1,7 +1,7 @@
 //! Rules of a request for single links and joints: held links, and offered, allowed and forbidden options.
 
 use crate::model::mechanism::{JointId, JointOption, Mechanism, StateId};
-use crate::score::request::unlisted::types;
+use crate::score::request::unlisted::framed_types;
 use crate::score::request::{Inserts, JointOptions, Request, RequestError};
 use itertools::Itertools;
 
@@ -21,8 +21,8 @@ impl<'m> KnownOptions<'m> {
     }
 
     /// Refuses names of a flag that no joint has and no type; a type that no joint is offered can be forbidden.
-    fn check(&self, names: &[String], flag: &'static str) -> Result<(), RequestError> {
-        let is_type = |n: &str| types().any(|t| t.name() == n);
+    fn check_names(&self, names: &[String], flag: &'static str) -> Result<(), RequestError> {
+        let is_type = |n: &str| framed_types().any(|t| t.name() == n);
         let unknown = |n: &&String| !self.names.contains(&n.as_str()) && !is_type(n);
         match names.iter().find(unknown) {
             None => Ok(()),
@@ -31,7 +31,7 @@ impl<'m> KnownOptions<'m> {
                 mechanism: self.mechanism.name.clone(),
                 option: option.clone(),
                 known: (self.names.iter().map(|k| (*k).to_owned()))
-                    .chain(types().map(|t| t.name().to_owned()))
+                    .chain(framed_types().map(|t| t.name().to_owned()))
                     .unique()
                     .collect(),
             }),
@@ -49,7 +49,7 @@ struct OptionRule<'r> {
 
 impl<'r> OptionRule<'r> {
     /// Reads the rules of one flag.
-    fn read(
+    fn read_rules(
         list: &'r [JointOptions],
         allow: bool,
         mechanism: &Mechanism,
@@ -58,15 +58,17 @@ impl<'r> OptionRule<'r> {
         let flag = if allow { "--allow" } else { "--forbid" };
         let mut rules = Vec::with_capacity(list.len());
         for JointOptions { joint: id, names } in list {
-            let joint = mechanism.joint(id).ok_or_else(|| RequestError::NoJoint {
-                flag,
-                mechanism: mechanism.name.clone(),
-                joint: id.clone(),
-            })?;
+            let joint = mechanism
+                .joint_named(id)
+                .ok_or_else(|| RequestError::NoJoint {
+                    flag,
+                    mechanism: mechanism.name.clone(),
+                    joint: id.clone(),
+                })?;
             if allow && names.is_empty() {
                 return Err(RequestError::NoNames { joint: id.clone() });
             }
-            known.check(names, flag)?;
+            known.check_names(names, flag)?;
             rules.push(OptionRule {
                 joint,
                 names,
@@ -77,27 +79,39 @@ impl<'r> OptionRule<'r> {
     }
 
     /// Whether an option is left.
-    fn leaves(&self, name: &String) -> bool {
+    fn leaves_option(&self, name: &String) -> bool {
         !self.names.is_empty() && self.names.contains(name) == self.allow
     }
 }
 
 impl Request {
     /// Holds links, and leaves the options that are allowed.
-    pub(in crate::score) fn restrict(&self, mechanism: &mut Mechanism) -> Result<(), RequestError> {
+    pub(in crate::score) fn restrict_options(
+        &self,
+        mechanism: &mut Mechanism,
+    ) -> Result<(), RequestError> {
         let mut held = Vec::with_capacity(self.hold.len());
         for link in &self.hold {
-            held.push(mechanism.link(link).ok_or_else(|| RequestError::NoLink {
-                mechanism: mechanism.name.clone(),
-                link: link.clone(),
-            })?);
+            held.push(
+                mechanism
+                    .link_named(link)
+                    .ok_or_else(|| RequestError::NoLink {
+                        mechanism: mechanism.name.clone(),
+                        link: link.clone(),
+                    })?,
+            );
         }
         let known = KnownOptions::of(mechanism);
         if !self.wants_any() {
-            known.check(&self.options, "--options")?;
+            known.check_names(&self.options, "--options")?;
         }
-        let mut rules = OptionRule::read(&self.allow, true, mechanism, &known)?;
-        rules.extend(OptionRule::read(&self.forbid, false, mechanism, &known)?);
+        let mut rules = OptionRule::read_rules(&self.allow, true, mechanism, &known)?;
+        rules.extend(OptionRule::read_rules(
+            &self.forbid,
+            false,
+            mechanism,
+            &known,
+        )?);
         for &l in &held {
             let joints = mechanism.joint_ids();
             let joints = joints.filter(|&j| mechanism.joints[j].links.contains(&l));
@@ -109,7 +123,7 @@ impl Request {
             let kept = |name: &String| {
                 let mut own = rules.iter().filter(|r| r.joint == id);
                 (self.options.is_empty() || self.wants_any() || self.options.contains(name))
-                    && own.all(|r| r.leaves(name))
+                    && own.all(|r| r.leaves_option(name))
             };
             let mut place = 0;
             joint.options.retain(|o| {
@@ -129,7 +143,7 @@ impl Request {
         joints: &[JointId],
         item: impl Fn() -> String,
     ) -> Result<(), RequestError> {
-        let searched = self.state(mechanism)?.map(|s| s.state);
+        let searched = self.searched_state(mechanism)?.map(|s| s.state);
         let there = |s: StateId| mechanism.joints_in(s).any(|j| joints.contains(&j));
         if there(StateId::FREE) || searched.is_some_and(there) {
             return Ok(());
@@ -148,8 +162,11 @@ impl Request {
     }
 
     /// Adds the unloading joints that are asked for to those of the file.
-    pub(in crate::score) fn insert(&self, mechanism: &mut Mechanism) -> Result<(), RequestError> {
-        let searched = self.state(mechanism)?.map(|s| s.state);
+    pub(in crate::score) fn insert_unloading(
+        &self,
+        mechanism: &mut Mechanism,
+    ) -> Result<(), RequestError> {
+        let searched = self.searched_state(mechanism)?.map(|s| s.state);
         for Inserts { names, joints } in &self.unloading {
             let places: Vec<JointId> = match (joints.as_slice(), searched) {
                 ([], None) => {
@@ -160,7 +177,7 @@ impl Request {
                 ([], Some(state)) => mechanism.joints_added_in(state).collect(),
                 (named, _) => {
                     let id = |joint: &String| {
-                        let id = mechanism.joint(joint);
+                        let id = mechanism.joint_named(joint);
                         let id = id.ok_or_else(|| RequestError::NoJoint {
                             flag: "--unloading",
                             mechanism: mechanism.name.clone(),
@@ -175,7 +192,7 @@ impl Request {
             };
             for j in places {
                 for name in names {
-                    offer(mechanism, j, name)?;
+                    offer_unloading(mechanism, j, name)?;
                 }
             }
         }
@@ -184,18 +201,20 @@ impl Request {
 }
 
 /// Offers an unloading joint by name: one that the file has there, now in every state, or a type in the joint's own frame.
-fn offer(mechanism: &mut Mechanism, at: JointId, name: &str) -> Result<(), RequestError> {
+fn offer_unloading(mechanism: &mut Mechanism, at: JointId, name: &str) -> Result<(), RequestError> {
     let joint = &mut mechanism.joints[at];
     if let Some(known) = joint.unloading.iter_mut().find(|u| u.name == name) {
         known.state = None;
         return Ok(());
     }
-    let Some(joint_type) = types().find(|t| t.name() == name) else {
+    let Some(joint_type) = framed_types().find(|t| t.name() == name) else {
         let named = joint.unloading.iter().map(|u| u.name.clone());
         return Err(RequestError::NoUnloading {
             joint: joint.id.clone(),
             word: name.to_owned(),
-            known: named.chain(types().map(|t| t.name().to_owned())).collect(),
+            known: named
+                .chain(framed_types().map(|t| t.name().to_owned()))
+                .collect(),
         });
     };
     joint

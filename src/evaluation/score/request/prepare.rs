@@ -2,7 +2,7 @@
 
 use crate::file::costs::costs_from_str;
 use crate::file::problem::ImportError;
-use crate::file::read::resolve::contains;
+use crate::file::read::resolve::contains_option;
 use crate::model::mechanism::{CostSpec, Joint, JointOption, Mechanism};
 use crate::model::rounded::Rounded;
 use crate::rank::numeric::DEFAULT_TOLERANCE;
@@ -38,7 +38,11 @@ pub(in crate::score) fn as_in_file(
 ) -> Written {
     let adds = |j: &Joint| {
         let present = j.options.first();
-        let wider = |p: &JointOption| j.options.iter().all(|o| contains(o, p) == Some(true));
+        let wider = |p: &JointOption| {
+            j.options
+                .iter()
+                .all(|o| contains_option(o, p) == Some(true))
+        };
         present.is_none_or(wider)
     };
     let others = settled.others.iter().map(|o| Arc::new(in_places(ready, o)));
@@ -46,7 +50,7 @@ pub(in crate::score) fn as_in_file(
         only_adds: ready.joints.iter().all(adds),
         mechanism: Arc::new(in_places(ready, file)),
         others: others.collect(),
-        digits: digits(&settled.verdicts),
+        digits: digits_of(&settled.verdicts),
     }
 }
 
@@ -80,7 +84,7 @@ pub(in crate::score) fn tell_moved(settled: &Settled, tell: &mut dyn FnMut(Strin
 }
 
 /// Returns how far the digits of a mechanism determine ranks, by the verdicts on it.
-pub(in crate::score) fn digits(verdicts: &[RankVerdict]) -> Digits {
+pub(in crate::score) fn digits_of(verdicts: &[RankVerdict]) -> Digits {
     let tolerance = |a: f64, v: &RankVerdict| a.max(v.tolerance);
     Digits {
         tolerance: verdicts.iter().fold(DEFAULT_TOLERANCE, tolerance),
@@ -90,7 +94,10 @@ pub(in crate::score) fn digits(verdicts: &[RankVerdict]) -> Digits {
 
 /// The mechanism nearest to the one that is written that has the rank meant, where a verdict found one; options that shared a
 /// joint's frame share it still.
-pub(in crate::score) fn nearest(m: &Mechanism, verdicts: &[RankVerdict]) -> Option<Mechanism> {
+pub(in crate::score) fn nearest_exact(
+    m: &Mechanism,
+    verdicts: &[RankVerdict],
+) -> Option<Mechanism> {
     let near = |v: &RankVerdict| match &v.meant {
         Meant::Near { mechanism, .. } => Some(mechanism.as_ref().clone()),
         _ => None,
@@ -109,7 +116,7 @@ pub(in crate::score) fn nearest(m: &Mechanism, verdicts: &[RankVerdict]) -> Opti
 
 impl Prepared {
     /// Why the geometry looks rounded, where that may matter; whether the file is to be taken as written is asked.
-    pub(in crate::score) fn rounded(
+    pub(in crate::score) fn looks_rounded(
         &self,
         as_written: bool,
         tell: &mut dyn FnMut(String),
@@ -127,7 +134,7 @@ impl Prepared {
             }
             return told(why.filter(|w| measured(w) || !meant));
         };
-        let differ = difference(&mechanism.name, why.as_ref(), v);
+        let differ = describe_difference(&mechanism.name, why.as_ref(), v);
         if as_written {
             tell(format!("warning: {differ}; {CURE}"));
         } else {
@@ -155,7 +162,7 @@ fn looks_measured(name: &str, w: &Rounded) -> String {
 }
 
 /// How the rank as written differs from what a verdict tells of the mechanism of this name.
-fn difference(name: &str, why: Option<&Rounded>, v: &RankVerdict) -> String {
+fn describe_difference(name: &str, why: Option<&Rounded>, v: &RankVerdict) -> String {
     let looks = why.map_or_else(
         || {
             format!(
@@ -165,7 +172,7 @@ fn difference(name: &str, why: Option<&Rounded>, v: &RankVerdict) -> String {
         },
         |w| format!("the coordinates of {name} look rounded ({w}), and that matters"),
     );
-    let [of, near] = [v.as_written, v.at_least()].map(|rank| v.figures(rank));
+    let [of, near] = [v.as_written, v.at_least()].map(|rank| v.figures_at(rank));
     let n = v.numeric.unwrap_or_default();
     let likely = if v.is_decided() {
         "is meant to have"
@@ -180,7 +187,11 @@ fn difference(name: &str, why: Option<&Rounded>, v: &RankVerdict) -> String {
 }
 
 /// Puts the costs of a file in place of those of the mechanism.
-pub(super) fn price(mechanism: &mut Mechanism, file: &str, text: &str) -> Result<(), ImportError> {
+pub(super) fn read_costs(
+    mechanism: &mut Mechanism,
+    file: &str,
+    text: &str,
+) -> Result<(), ImportError> {
     let stated = costs_from_str(file, text, mechanism)?;
     let old = std::mem::take(&mut mechanism.search.costs);
     let mut by_type_milli = stated.by_type_milli;

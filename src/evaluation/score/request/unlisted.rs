@@ -2,7 +2,7 @@
 
 use crate::closure::coupling::in_plane;
 use crate::file::read::coupling::{coupled_freedoms, keeps_coupled};
-use crate::file::read::resolve::contains;
+use crate::file::read::resolve::contains_option;
 use crate::model::joint_type::{Freedom, JointType};
 use crate::model::mechanism::{Joint, JointId, JointOption, Mechanism, StateId};
 use crate::score::request::{Request, RequestError};
@@ -10,7 +10,7 @@ use crate::search::answer::single_changes::{USUAL, USUAL_UNLOADING};
 use itertools::Itertools;
 
 /// The types that need no more than a joint's own frame: a screw needs its lead, too, and a weld leaves nothing to choose.
-pub(in crate::score) fn types() -> impl Iterator<Item = &'static JointType> {
+pub(in crate::score) fn framed_types() -> impl Iterator<Item = &'static JointType> {
     let fits = |t: &&JointType| !t.freedoms().is_empty() && !t.freedoms().contains(&Freedom::Screw);
     JointType::NAMED.iter().filter(fits)
 }
@@ -22,7 +22,7 @@ impl Request {
     /// Returns the request with the words of joint types in place of trade names that no joint has an option of; `None` if it has none.
     pub(in crate::score) fn in_words_of_types(&self, mechanism: &Mechanism) -> Option<Request> {
         let offered = |name: &String| {
-            let mut all = mechanism.joints.iter().flat_map(Joint::offered);
+            let mut all = mechanism.joints.iter().flat_map(Joint::offered_options);
             all.any(|o| o.name == *name)
         };
         let mut named = self.clone();
@@ -31,7 +31,7 @@ impl Request {
         let inserts = named.unloading.iter_mut().map(|i| &mut i.names);
         let lists = rules.map(|rule| &mut rule.names).chain(inserts);
         for name in lists.chain([&mut named.options]).flatten() {
-            let word = JointType::word(name);
+            let word = JointType::word_of_trade(name);
             if word != name && !offered(name) {
                 *name = word.to_owned();
                 found = true;
@@ -64,8 +64,8 @@ impl Request {
                     let freedoms = t.freedoms();
                     freedoms.len() == set.len() && set.iter().all(|f| freedoms.contains(f))
                 };
-                let named = types().find(alike).cloned();
-                offer(mechanism, id, &named.unwrap_or(JointType::Custom(set)));
+                let named = framed_types().find(alike).cloned();
+                offer_type(mechanism, id, &named.unwrap_or(JointType::Custom(set)));
             }
         }
     }
@@ -86,7 +86,7 @@ impl Request {
             let joint = &mut mechanism.joints[id];
             if is_changeable(joint) {
                 for t in USUAL {
-                    offer(mechanism, id, &t);
+                    offer_type(mechanism, id, &t);
                 }
             } else if !joint.is_in(StateId::FREE) {
                 joint
@@ -122,7 +122,7 @@ impl Request {
                 .flat_map(|j| j.options.iter().skip(1));
             offered.map(|o| o.name.clone()).unique().collect()
         };
-        let of_type = |name: &&String| types().find(|t| t.name() == name.as_str()).cloned();
+        let of_type = |name: &&String| framed_types().find(|t| t.name() == name.as_str()).cloned();
         let new = |name: &&String| !listed.contains(name);
         let mut wanted: Vec<(&'static str, String, JointType, Vec<JointId>)> = Vec::new();
         for name in self.options.iter().filter(new).unique() {
@@ -135,7 +135,7 @@ impl Request {
             }
         }
         for rule in &self.allow {
-            let Some(at) = mechanism.joint(&rule.joint) else {
+            let Some(at) = mechanism.joint_named(&rule.joint) else {
                 continue;
             };
             for name in &rule.names {
@@ -148,7 +148,7 @@ impl Request {
         for (flag, name, joint_type, at) in wanted {
             let mut taken = false;
             for id in at {
-                taken |= offer(mechanism, id, &joint_type);
+                taken |= offer_type(mechanism, id, &joint_type);
             }
             if !taken {
                 return Err(RequestError::LosesMotion {
@@ -157,7 +157,7 @@ impl Request {
                     option: name,
                 });
             }
-            if let Some(what) = guessed(&joint_type) {
+            if let Some(what) = guessed_direction(&joint_type) {
                 tell(format!(
                     "note: {name} is not in the file, and is taken in the joints' own frames, {what}; an option in the file may have its own"
                 ));
@@ -199,7 +199,7 @@ fn name_of_set(set: &[Freedom]) -> String {
 }
 
 /// Offers a type at a joint, if it fits there, and returns whether it is offered.
-fn offer(mechanism: &mut Mechanism, id: JointId, joint_type: &JointType) -> bool {
+fn offer_type(mechanism: &mut Mechanism, id: JointId, joint_type: &JointType) -> bool {
     let joint = &mechanism.joints[id];
     let name = match joint_type {
         JointType::Custom(set) => name_of_set(set),
@@ -209,13 +209,13 @@ fn offer(mechanism: &mut Mechanism, id: JointId, joint_type: &JointType) -> bool
     let new = JointOption::in_frame_of(joint, joint_type);
     let alike = |o: &JointOption| {
         o.name == name
-            || (contains(o, &new), contains(&new, o)) == (Some(true), Some(true))
+            || (contains_option(o, &new), contains_option(&new, o)) == (Some(true), Some(true))
                 && matches!(joint_type, JointType::Custom(_))
     };
     if joint.joint_type == *joint_type || joint.options.iter().any(alike) {
         return true;
     }
-    let fits = fits(mechanism, id, joint_type);
+    let fits = type_fits(mechanism, id, joint_type);
     if fits {
         let joint = &mut mechanism.joints[id];
         if joint.options.is_empty() {
@@ -229,16 +229,20 @@ fn offer(mechanism: &mut Mechanism, id: JointId, joint_type: &JointType) -> bool
 }
 
 /// Returns whether a type in a joint's frame allows what the joint does now and keeps the freedoms that are coupled there.
-pub(in crate::score) fn fits(mechanism: &Mechanism, id: JointId, joint_type: &JointType) -> bool {
+pub(in crate::score) fn type_fits(
+    mechanism: &Mechanism,
+    id: JointId,
+    joint_type: &JointType,
+) -> bool {
     let joint = &mechanism.joints[id];
     let [new, present] =
         [joint_type, &joint.joint_type].map(|t| JointOption::in_frame_of(joint, t));
-    contains(&new, &present) == Some(true)
+    contains_option(&new, &present) == Some(true)
         && keeps_coupled(&new, &present, &coupled_freedoms(mechanism, id))
 }
 
 /// Returns the direction of a type that a joint's frame does not determine.
-fn guessed(of: &JointType) -> Option<&'static str> {
+fn guessed_direction(of: &JointType) -> Option<&'static str> {
     match of {
         JointType::Universal | JointType::CylindricalUniversal => {
             Some("the second pin along their reference")

@@ -34,20 +34,23 @@ pub(super) fn opinion_on_diagrams(
             .map(|r| r.variant.clone())
             .take(CHECKED)
             .collect(),
-        (_, List::Top(k)) => search.cheapest(diagrams, k.min(CHECKED)).collect(),
-        (_, List::All) => search.cheapest(diagrams, CHECKED).collect(),
+        (_, List::Top(k)) => search.cheapest_variants(diagrams, k.min(CHECKED)).collect(),
+        (_, List::All) => search.cheapest_variants(diagrams, CHECKED).collect(),
         (_, List::Sample(n)) => {
-            let drawn = search.sample(diagrams, request.seed);
+            let drawn = search.sample_variants(diagrams, request.seed);
             drawn.take(n.min(CHECKED)).collect()
         }
         (_, List::Nothing) => Vec::new(),
     };
     // People are given the first of each idea.
     if let (None, List::Top(k @ 1..=IDEAS)) = (ranking, request.list) {
-        listed.extend(search.ideas(diagrams, k).into_iter().map(|i| i.first));
+        listed.extend(search.list_ideas(diagrams, k).into_iter().map(|i| i.first));
     }
     let most = second_opinion::sample_size(search);
-    let drawn = search.sample(diagrams, request.seed).take(most).collect();
+    let drawn = search
+        .sample_variants(diagrams, request.seed)
+        .take(most)
+        .collect();
     let said =
         second_opinion::second_opinion(search, written, listed, drawn, determinate, request.seed)?;
     Ok(Some(said))
@@ -72,10 +75,10 @@ pub(super) fn other_scenes(
             ..search.conditions.clone()
         };
         let other = Search::new(field, scene.clone(), conditions)?;
-        let built = other.build(should_cancel, &mut |_| {});
+        let built = other.build_diagrams(should_cancel, &mut |_| {});
         let found = (
-            other.counts(&built.determinate, false),
-            other.counts(&built.admissible, true),
+            other.count_variants(&built.determinate, false),
+            other.count_variants(&built.admissible, true),
         );
         differ |= found.0.by_mobility != determinate.by_mobility
             || found.1.by_mobility != admissible.by_mobility;

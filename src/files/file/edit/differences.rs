@@ -10,7 +10,7 @@ const KEYS: &str = "links type freedoms point axis reference lead pitch drive";
 /// Returns the changes that lead from a mechanism to a redesign of it: joints in their order, then additions. `own` is the file
 /// to change, whose joints may list options that the new ones exceed.
 #[must_use]
-pub fn differences(
+pub fn find_differences(
     before: &MechanismFile,
     after: &MechanismFile,
     own: &MechanismFile,
@@ -32,7 +32,7 @@ pub fn differences(
     for joint in after.joint.iter().skip(before.joint.len()) {
         out.push(Edit::Add {
             what: Thing::Joint,
-            entry: keys(joint),
+            entry: changed_keys(joint),
         });
     }
     out.extend(put_changes(before, after));
@@ -48,7 +48,7 @@ fn joint_changes(old: &JointEntry, new: &JointEntry, listed: bool) -> Vec<Edit> 
         value,
     };
     let mut out = Vec::new();
-    let [was, is] = [old, new].map(keys);
+    let [was, is] = [old, new].map(changed_keys);
     for key in KEYS.split(' ') {
         let [was, is] = [&was, &is].map(|k| k.get(key).cloned().unwrap_or_default());
         if was != is {
@@ -88,7 +88,7 @@ fn put_changes(before: &MechanismFile, after: &MechanismFile) -> Vec<Edit> {
 }
 
 /// Returns an entry without values that equal their default.
-fn keys(joint: &JointEntry) -> Map<String, Value> {
+fn changed_keys(joint: &JointEntry) -> Map<String, Value> {
     let value = without_nothing(serde_json::to_value(joint).unwrap_or_default());
     let map = match value {
         Value::Object(map) => map,

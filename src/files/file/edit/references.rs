@@ -54,7 +54,7 @@ pub(super) fn of_link(document: &DocumentMut, link: &str) -> Vec<(Thing, String)
 }
 
 /// Returns true if a text names an item; a freedom may follow the id of a joint.
-fn names(text: &str, id: &str) -> bool {
+fn names_item(text: &str, id: &str) -> bool {
     text == id
         || text
             .strip_prefix(id)
@@ -62,21 +62,21 @@ fn names(text: &str, id: &str) -> bool {
 }
 
 /// Puts another id in all places of the old one.
-pub(super) fn rename(root: &mut Table, what: Thing, id: &str, to: &str) {
+pub(super) fn rename_references(root: &mut Table, what: Thing, id: &str, to: &str) {
     for (path, _) in LISTS.iter().filter(|(_, of)| *of == what) {
-        at(root, path, &mut |item| rename_in(item, id, to));
+        visit_path(root, path, &mut |item| rename_in(item, id, to));
     }
     for (path, key, _) in TABLES.iter().filter(|(.., of)| *of == what) {
         let path = [*path, &["*", key]].concat();
-        at(root, &path, &mut |item| rename_in(item, id, to));
+        visit_path(root, &path, &mut |item| rename_in(item, id, to));
     }
 }
 
 fn rename_in(item: &mut Item, id: &str, to: &str) {
-    fn value(v: &mut Value, id: &str, to: &str) {
+    fn rename_in_value(v: &mut Value, id: &str, to: &str) {
         match v {
-            Value::Array(list) => list.iter_mut().for_each(|v| value(v, id, to)),
-            Value::String(s) if names(s.value(), id) => {
+            Value::Array(list) => list.iter_mut().for_each(|v| rename_in_value(v, id, to)),
+            Value::String(s) if names_item(s.value(), id) => {
                 let decor = s.decor().clone();
                 *v = Value::from(format!("{to}{}", &s.value()[id.len()..]));
                 *v.decor_mut() = decor;
@@ -85,26 +85,26 @@ fn rename_in(item: &mut Item, id: &str, to: &str) {
         }
     }
     if let Some(v) = item.as_value_mut() {
-        value(v, id, to);
+        rename_in_value(v, id, to);
     }
 }
 
 /// Takes an id out of all places where it is named.
-pub(super) fn forget(root: &mut Table, what: Thing, id: &str) {
+pub(super) fn remove_references(root: &mut Table, what: Thing, id: &str) {
     for (path, _) in LISTS
         .iter()
         .filter(|(path, of)| *of == what && path[0] == "search")
     {
-        at(root, path, &mut |item| {
+        visit_path(root, path, &mut |item| {
             if let Some(list) = item.as_array_mut() {
                 list.retain(|v| !names_it(v, id));
-                tidy(list);
+                trim_first_blank(list);
             }
         });
     }
     let single = TABLES.iter().map(|t| (t.0, t.1, t.2));
     for (path, key, _) in single.chain(TOGETHER).filter(|(.., of)| *of == what) {
-        at(root, path, &mut |item| {
+        visit_path(root, path, &mut |item| {
             if let Some(tables) = item.as_array_of_tables_mut() {
                 tables.retain(|t| {
                     let named = t.get(key).and_then(Item::as_value);
@@ -117,14 +117,14 @@ pub(super) fn forget(root: &mut Table, what: Thing, id: &str) {
 
 fn names_it(v: &Value, id: &str) -> bool {
     match v {
-        Value::String(s) => names(s.value(), id),
+        Value::String(s) => names_item(s.value(), id),
         Value::Array(list) => list.iter().any(|v| names_it(v, id)),
         _ => false,
     }
 }
 
 /// Removes blanks left over where the first item of a list was removed.
-fn tidy(list: &mut Array) {
+fn trim_first_blank(list: &mut Array) {
     if let Some(first) = list.get_mut(0)
         && first.decor().prefix().and_then(|p| p.as_str()) == Some(" ")
     {
@@ -133,7 +133,7 @@ fn tidy(list: &mut Array) {
 }
 
 /// Does something with all that is at a path.
-fn at(table: &mut Table, path: &[&str], act: &mut dyn FnMut(&mut Item)) {
+fn visit_path(table: &mut Table, path: &[&str], act: &mut dyn FnMut(&mut Item)) {
     let [key, rest @ ..] = path else { return };
     let Some(item) = table.get_mut(key) else {
         return;
@@ -141,9 +141,9 @@ fn at(table: &mut Table, path: &[&str], act: &mut dyn FnMut(&mut Item)) {
     match (rest, item) {
         ([], item) => act(item),
         (["*", rest @ ..], Item::ArrayOfTables(all)) => {
-            all.iter_mut().for_each(|t| at(t, rest, act));
+            all.iter_mut().for_each(|t| visit_path(t, rest, act));
         }
-        (rest, Item::Table(inner)) => at(inner, rest, act),
+        (rest, Item::Table(inner)) => visit_path(inner, rest, act),
         _ => {}
     }
 }

@@ -5,23 +5,23 @@ use serde_json::Value as Json;
 use toml_edit::{Array, InlineTable, Item, Table, Value};
 
 /// Gives a key a value, with the comment behind it kept; null takes the key away.
-pub(super) fn set(table: &mut Table, key: &str, to: &Json) -> Result<(), EditError> {
+pub(super) fn set_value(table: &mut Table, key: &str, to: &Json) -> Result<(), EditError> {
     if to.is_null() {
         table.remove(key);
         return Ok(());
     }
     match table.get_mut(key).and_then(Item::as_value_mut) {
-        Some(old) => *old = replaced(old, key, to)?,
+        Some(old) => *old = replace_value(old, key, to)?,
         None => {
-            table.insert(key, Item::Value(value(key, to)?));
+            table.insert(key, Item::Value(write_value(key, to)?));
         }
     }
     Ok(())
 }
 
 /// Returns a value to replace another, written like the old one where it is the same, element by element in a list.
-fn replaced(old: &Value, key: &str, to: &Json) -> Result<Value, EditError> {
-    if is(old, to) {
+fn replace_value(old: &Value, key: &str, to: &Json) -> Result<Value, EditError> {
+    if equals_json(old, to) {
         return Ok(old.clone());
     }
     let mut new = match (old, to) {
@@ -29,19 +29,19 @@ fn replaced(old: &Value, key: &str, to: &Json) -> Result<Value, EditError> {
             let mut list = a.clone();
             for (i, to) in b.iter().enumerate() {
                 if let Some(one) = list.get_mut(i) {
-                    *one = replaced(one, key, to)?;
+                    *one = replace_value(one, key, to)?;
                 }
             }
             Value::Array(list)
         }
-        _ => value(key, to)?,
+        _ => write_value(key, to)?,
     };
     *new.decor_mut() = old.decor().clone();
     Ok(new)
 }
 
 /// Returns true if two values are equal.
-fn is(old: &Value, to: &Json) -> bool {
+fn equals_json(old: &Value, to: &Json) -> bool {
     match (old, to) {
         (Value::String(s), Json::String(t)) => s.value() == t,
         // A typed text may be a number with its digits.
@@ -52,14 +52,14 @@ fn is(old: &Value, to: &Json) -> bool {
         (Value::Float(x), Json::Number(n)) => !n.is_i64() && n.as_f64() == Some(*x.value()),
         (Value::Boolean(b), Json::Bool(c)) => b.value() == c,
         (Value::Array(a), Json::Array(b)) => {
-            a.len() == b.len() && a.iter().zip(b).all(|(x, y)| is(x, y))
+            a.len() == b.len() && a.iter().zip(b).all(|(x, y)| equals_json(x, y))
         }
         _ => false,
     }
 }
 
 /// Formats a value. Texts under keys of coordinates that are numbers are written as numbers, digit by digit.
-fn value(key: &str, to: &Json) -> Result<Value, EditError> {
+fn write_value(key: &str, to: &Json) -> Result<Value, EditError> {
     let wrong = |why| EditError::NoValue {
         what: key.to_owned(),
         why,
@@ -73,20 +73,20 @@ fn value(key: &str, to: &Json) -> Result<Value, EditError> {
             _ => return Err(wrong("the number is too large")),
         },
         Json::String(s) if is_of_numbers(key) => {
-            number(s).unwrap_or_else(|| Value::from(s.as_str()))
+            parse_number(s).unwrap_or_else(|| Value::from(s.as_str()))
         }
         Json::String(s) => Value::from(s.as_str()),
         Json::Array(list) => {
             let mut out = Array::new();
             for one in list {
-                out.push(value(key, one)?);
+                out.push(write_value(key, one)?);
             }
             Value::Array(out)
         }
         Json::Object(map) => {
             let mut out = InlineTable::new();
             for (inner, one) in map {
-                out.insert(inner, value(inner, one)?);
+                out.insert(inner, write_value(inner, one)?);
             }
             Value::InlineTable(out)
         }
@@ -100,7 +100,7 @@ fn is_of_numbers(key: &str) -> bool {
 }
 
 /// Parses a typed number.
-fn number(text: &str) -> Option<Value> {
+fn parse_number(text: &str) -> Option<Value> {
     let text = text.trim();
     let plain = |c: char| c.is_ascii_digit() || matches!(c, '.' | '-' | '+' | 'e' | 'E');
     if text.is_empty() || !text.chars().all(plain) {

@@ -1,6 +1,6 @@
 //! Couplings of joints from their entries.
 
-use crate::closure::coupling::{coefficient, in_plane};
+use crate::closure::coupling::{coupling_coefficient, in_plane};
 use crate::file::problem::ProblemKind;
 use crate::file::read::resolve::contains_rates;
 use crate::file::schema::MechanismFile;
@@ -11,39 +11,41 @@ use crate::model::mechanism::{JointId, JointOption, Mechanism};
 use itertools::Itertools;
 
 /// Reads the couplings, and takes from coupled joints the options that cannot be coupled alike.
-pub(crate) fn couplings(file: &MechanismFile, mechanism: &mut Mechanism, out: &Findings) {
-    for (at, entry) in out.key("coupling").entries(&file.coupling) {
+pub(crate) fn read_couplings(file: &MechanismFile, mechanism: &mut Mechanism, out: &Findings) {
+    for (at, entry) in out.key("coupling").each_entry(&file.coupling) {
         let joints = at.key("joints");
-        let ends = joints.entries(&entry.joints);
+        let ends = joints.each_entry(&entry.joints);
         let ends = ends
-            .filter_map(|(at, word)| end(mechanism, word, &at))
+            .filter_map(|(at, word)| read_end(mechanism, word, &at))
             .collect_vec();
-        let before = out.count();
-        let ratio = at.key("ratio").number(&entry.ratio);
-        if out.count() == before && ratio.to_f64() == 0.0 {
-            at.key("ratio").add("the ratio of a coupling is zero, which would lock the second joint; give another ratio, or make that joint fixed");
+        let before = out.problem_count();
+        let ratio = at.key("ratio").read_coordinate(&entry.ratio);
+        if out.problem_count() == before && ratio.to_f64() == 0.0 {
+            at.key("ratio").add_problem("the ratio of a coupling is zero, which would lock the second joint; give another ratio, or make that joint fixed");
         }
         let &[a, b] = ends.as_slice() else { continue };
         let [first, second] = [a, b].map(|e| &mechanism.joints[e.joint].id);
         let twice = |c: &Coupling| c.ends == [a, b] || c.ends == [b, a];
         let [i, j] = [a, b].map(|e| &mechanism.joints[e.joint]);
         if a.joint == b.joint {
-            joints.add(format!(
+            joints.add_problem(format!(
                 "joint \"{first}\" is coupled with itself; name two joints (for a rotation and a translation that are coupled use a helical joint)"
             ));
         } else if i.states != j.states {
-            joints.add(format!(
+            joints.add_problem(format!(
                 "joints \"{first}\" and \"{second}\" are coupled but are not present in the same states; give both the same state"
             ));
         } else if mechanism.couplings.iter().any(twice) {
-            joints.add(format!(
+            joints.add_problem(format!(
                 "joints \"{first}\" and \"{second}\" are coupled twice; keep one of the couplings"
             ));
         } else {
             let (ends, gear) = ([a, b], entry.gear);
             let coupling = Coupling { ends, ratio, gear };
-            if ExactField::for_expressions([&coefficient(mechanism, &coupling)], 0).is_err() {
-                at.add(format!(
+            if ExactField::for_expressions([&coupling_coefficient(mechanism, &coupling)], 0)
+                .is_err()
+            {
+                at.add_problem(format!(
                     "the ratio of the axes' lengths of joints \"{first}\" and \"{second}\" has no exact value; give both an axis of length 1"
                 ));
             } else {
@@ -51,22 +53,22 @@ pub(crate) fn couplings(file: &MechanismFile, mechanism: &mut Mechanism, out: &F
             }
         }
     }
-    offered(file, mechanism, out);
+    check_options(file, mechanism, out);
 }
 
 /// Returns a freedom by the name of its joint, or joint:freedom.
-fn end(mechanism: &Mechanism, word: &str, at: &Place<'_>) -> Option<CoupledFreedom> {
-    let whole = mechanism.joint(word).map(|j| (j, None));
+fn read_end(mechanism: &Mechanism, word: &str, at: &Place<'_>) -> Option<CoupledFreedom> {
+    let whole = mechanism.joint_named(word).map(|j| (j, None));
     let parts = || {
         let (id, freedom) = word.rsplit_once(':')?;
-        Some((mechanism.joint(id)?, Some(freedom)))
+        Some((mechanism.joint_named(id)?, Some(freedom)))
     };
     let Some((joint, freedom)) = whole.or_else(parts) else {
         at.unknown_joint(mechanism, word);
         return None;
     };
     let found = freedom_of(mechanism, joint, freedom);
-    found.map_err(|problem| at.add(problem)).ok()
+    found.map_err(|problem| at.add_problem(problem)).ok()
 }
 
 /// Returns the freedom that a word names, or the only one of its joint.
@@ -83,7 +85,7 @@ fn freedom_of(
         .freedoms()
         .iter()
         .copied()
-        .filter(|&f| definite(t, f) && in_plane(mechanism, joint, f))
+        .filter(|&f| is_definite(t, f) && in_plane(mechanism, joint, f))
         .collect();
     let known = || {
         coupled
@@ -120,14 +122,14 @@ fn freedom_of(
 
 /// Returns true if a freedom has a coordinate. A spherical joint's rotation about one of its axes has none, because the three
 /// rotations do not commute.
-fn definite(t: &JointType, freedom: Freedom) -> bool {
+fn is_definite(t: &JointType, freedom: Freedom) -> bool {
     let turns = [Freedom::Rx, Freedom::Ry, Freedom::Rz];
     !turns.contains(&freedom) || !turns.iter().all(|f| t.freedoms().contains(f))
 }
 
 /// Takes options away that lack the coupled freedom, or have it about another axis. In a joint's own list that is a
 /// problem.
-fn offered(file: &MechanismFile, mechanism: &mut Mechanism, out: &Findings) {
+fn check_options(file: &MechanismFile, mechanism: &mut Mechanism, out: &Findings) {
     for j in mechanism.joint_ids() {
         let coupled = coupled_freedoms(mechanism, j);
         if coupled.is_empty() {
@@ -135,11 +137,11 @@ fn offered(file: &MechanismFile, mechanism: &mut Mechanism, out: &Findings) {
         }
         let joint = &mut mechanism.joints[j];
         let present = joint.options[0].clone();
-        let at = out.key("joint").index(j.index()).key("options");
+        let at = out.key("joint").entry_at(j.index()).key("options");
         joint.options.retain(|o| {
             let keeps = keeps_coupled(o, &present, &coupled);
             if !keeps && file.joint[j].options.is_some() {
-                at.add(format!(
+                at.add_problem(format!(
                     "option \"{}\" of joint \"{}\" does not keep the coupled freedom about the same axis; remove it",
                     o.name, joint.id
                 ));
@@ -164,7 +166,8 @@ pub fn keeps_coupled(option: &JointOption, present: &JointOption, coupled: &[Fre
     if coupled.is_empty() {
         return true;
     }
-    let has =
-        |f: &Freedom| option.joint_type.freedoms().contains(f) && definite(&option.joint_type, *f);
+    let has = |f: &Freedom| {
+        option.joint_type.freedoms().contains(f) && is_definite(&option.joint_type, *f)
+    };
     coupled.iter().all(has) && contains_rates(option, present, coupled).unwrap_or(false)
 }

@@ -2,10 +2,12 @@
 
 use crate::closure::contour::closed_walk;
 use crate::file::problem::ProblemKind;
-use crate::file::read::resolve::{frame, joint_type, lacks, motion_name, option, takes_no};
-use crate::file::read::search::options;
+use crate::file::read::resolve::{
+    check_frame, joint_type, missing_message, motion_name, read_option, takes_no,
+};
+use crate::file::read::search::read_options;
 use crate::file::read::value::LIMITS;
-use crate::file::read::workload::loads::mass;
+use crate::file::read::workload::loads::read_mass;
 use crate::file::schema::{DriveWord, JointEntry, MechanismFile, Unloading, Words};
 use crate::file::{Findings, Place};
 use crate::geom::expr::Expr;
@@ -20,9 +22,9 @@ use std::collections::BTreeSet;
 const MOST_STATES: usize = 100;
 
 /// Returns the names of the states, `free` first.
-pub(crate) fn states(file: &MechanismFile, out: &Findings) -> Vec<String> {
+pub(crate) fn read_states(file: &MechanismFile, out: &Findings) -> Vec<String> {
     let named = file.joint.iter().filter_map(|j| j.state.as_ref());
-    let named = named.flat_map(|w| w.list()).cloned();
+    let named = named.flat_map(|w| w.word_list()).cloned();
     let mut states = std::iter::once("free".to_owned())
         .chain(named)
         .unique()
@@ -33,35 +35,35 @@ pub(crate) fn states(file: &MechanismFile, out: &Findings) -> Vec<String> {
     states
 }
 
-pub(crate) fn joints(
+pub(crate) fn read_joints(
     file: &MechanismFile,
     links: &[Link],
     states: &[String],
     out: &Findings,
 ) -> Vec<Joint> {
-    let all = out.key("joint").entries(&file.joint).enumerate();
+    let all = out.key("joint").each_entry(&file.joint).enumerate();
     let all = all.filter_map(|(i, (at, entry))| {
         let twice = file.joint[..i].iter().any(|j| j.id == entry.id);
         at.check_id("joint", &entry.id, twice);
-        joint(file, entry, links, states, &at)
+        read_joint(file, entry, links, states, &at)
     });
     all.collect()
 }
 
-fn joint(
+fn read_joint(
     file: &MechanismFile,
     entry: &JointEntry,
     links: &[Link],
     states: &[String],
     at: &Place<'_>,
 ) -> Option<Joint> {
-    let ends = ends(entry, links, &at.key("links"));
+    let ends = read_ends(entry, links, &at.key("links"));
     let Some(joint_type) = joint_type(&entry.id, &entry.kind, entry.freedoms.as_ref(), at) else {
         // The rest depends on the type, but a bad point is worth telling in the same run.
-        at.key("point").vector(&entry.point);
+        at.key("point").read_vector(&entry.point);
         return None;
     };
-    let frame = place(entry, &joint_type, at);
+    let frame = read_place(entry, &joint_type, at);
     let present = JointOption {
         name: motion_name(&joint_type),
         joint_type: joint_type.clone(),
@@ -71,12 +73,12 @@ fn joint(
     };
     let state = |w: &String| states.iter().position(|s| s == w).map(StateId::new);
     let of = entry.state.as_ref();
-    let of = of.map(|w| w.list().iter().filter_map(state).collect_vec());
+    let of = of.map(|w| w.word_list().iter().filter_map(state).collect_vec());
     let in_free = of.as_ref().is_none_or(|s| s.contains(&StateId::FREE));
-    let (drive, drive_freedom) = driven(&entry.drive, &joint_type, at);
+    let (drive, drive_freedom) = read_drive(&entry.drive, &joint_type, at);
     let changeable = in_free && !drive && joint_type != JointType::Fixed;
-    let options = options(file, entry, &present, changeable, states, at);
-    let unloading = unloading(file, entry, &frame, states, at);
+    let options = read_options(file, entry, &present, changeable, states, at);
+    let unloading = read_unloading(file, entry, &frame, states, at);
     Some(Joint {
         id: entry.id.clone(),
         links: ends,
@@ -91,15 +93,15 @@ fn joint(
 }
 
 /// Returns the links that a joint joins; an unknown link is replaced by the first of the file.
-fn ends(entry: &JointEntry, links: &[Link], at: &Place<'_>) -> [LinkId; 2] {
+fn read_ends(entry: &JointEntry, links: &[Link], at: &Place<'_>) -> [LinkId; 2] {
     let end = |e: usize| {
-        at.index(e)
-            .link(links, &entry.links[e])
+        at.entry_at(e)
+            .read_link(links, &entry.links[e])
             .unwrap_or(LinkId::new(0))
     };
     let ends = [end(0), end(1)];
     if entry.links[0] == entry.links[1] {
-        at.add(format!(
+        at.add_problem(format!(
             "joint \"{}\" connects link \"{}\" to itself; name two different links",
             entry.id, entry.links[0]
         ));
@@ -108,7 +110,7 @@ fn ends(entry: &JointEntry, links: &[Link], at: &Place<'_>) -> [LinkId; 2] {
 }
 
 /// Returns whether a joint is driven, and in which freedom if the file names one.
-fn driven(word: &DriveWord, joint_type: &JointType, at: &Place<'_>) -> (bool, Option<Freedom>) {
+fn read_drive(word: &DriveWord, joint_type: &JointType, at: &Place<'_>) -> (bool, Option<Freedom>) {
     let word = match word {
         DriveWord::Driven(drive) => return (*drive, None),
         DriveWord::Freedom(word) => word,
@@ -117,13 +119,14 @@ fn driven(word: &DriveWord, joint_type: &JointType, at: &Place<'_>) -> (bool, Op
     let named = Freedom::from_name(word).filter(|f| own.contains(f));
     if named.is_none() {
         let known = own.iter().map(|f| f.name());
-        at.key("drive").unknown("freedom to drive", word, known);
+        at.key("drive")
+            .add_unknown_word("freedom to drive", word, known);
     }
     (true, named)
 }
 
 /// Returns the joints that may be inserted in series with a joint.
-fn unloading(
+fn read_unloading(
     file: &MechanismFile,
     entry: &JointEntry,
     frame: &Frame,
@@ -136,16 +139,19 @@ fn unloading(
         Some(Unloading::List(list)) => (list, at.clone()),
     };
     let from = from.key("unloading");
-    let list = from.most(LIMITS.2, list, "unloading joints in one place");
-    list.filter_map(|(at, e)| option(&entry.id, frame, e, states, &at))
+    let list = from.first_entries(LIMITS.2, list, "unloading joints in one place");
+    list.filter_map(|(at, e)| read_option(&entry.id, frame, e, states, &at))
         .collect()
 }
 
-fn place(entry: &JointEntry, joint_type: &JointType, at: &Place<'_>) -> Frame {
+fn read_place(entry: &JointEntry, joint_type: &JointType, at: &Place<'_>) -> Frame {
     let (joint, kind) = (&entry.id, &entry.kind);
-    let missing = |what| at.add(lacks(joint, kind, what));
-    let point = at.key("point").vector(&entry.point);
-    let axis = entry.axis.as_ref().map(|v| at.key("axis").direction(v));
+    let missing = |what| at.add_problem(missing_message(joint, kind, what));
+    let point = at.key("point").read_vector(&entry.point);
+    let axis = entry
+        .axis
+        .as_ref()
+        .map(|v| at.key("axis").read_direction(v));
     if axis.is_none() && !matches!(joint_type, JointType::Spherical | JointType::Fixed) {
         missing("an axis, such as axis = [0, 0, 1]");
     }
@@ -153,7 +159,7 @@ fn place(entry: &JointEntry, joint_type: &JointType, at: &Place<'_>) -> Frame {
     let reference = entry
         .reference
         .as_ref()
-        .map(|v| at.key("reference").direction(v));
+        .map(|v| at.key("reference").read_direction(v));
     let screws = joint_type.freedoms().contains(&Freedom::Screw);
     let stated = [("pitch", &entry.pitch), ("lead", &entry.lead)];
     match (stated.into_iter().find(|s| s.1.is_some()), screws) {
@@ -161,19 +167,19 @@ fn place(entry: &JointEntry, joint_type: &JointType, at: &Place<'_>) -> Frame {
             missing("a lead, the translation per turn, such as lead = 5 (or a pitch, per radian)")
         }
         (Some((what, _)), false) => {
-            at.key(what).add(takes_no(joint, kind, what));
+            at.key(what).add_problem(takes_no(joint, kind, what));
         }
         _ => {}
     }
     let pitch = at
-        .pitch(&entry.pitch, &entry.lead)
+        .read_pitch(&entry.pitch, &entry.lead)
         .unwrap_or_else(|| Expr::from(0));
-    frame(joint, point, axis, reference, pitch, at)
+    check_frame(joint, point, axis, reference, pitch, at)
 }
 
-pub(crate) fn links(file: &MechanismFile, out: &Findings) -> Vec<Link> {
+pub(crate) fn read_links(file: &MechanismFile, out: &Findings) -> Vec<Link> {
     let mut links: Vec<Link> = Vec::new();
-    for (at, entry) in out.key("link").entries(&file.link) {
+    for (at, entry) in out.key("link").each_entry(&file.link) {
         at.check_id("link", &entry.id, links.iter().any(|l| l.id == entry.id));
         let role = match entry.role.as_deref() {
             None => Role::Inner,
@@ -182,34 +188,35 @@ pub(crate) fn links(file: &MechanismFile, out: &Findings) -> Vec<Link> {
             Some("object" | "part") => Role::Object,
             Some(word) => {
                 at.key("role")
-                    .unknown("role", word, ["frame", "output", "object"]);
+                    .add_unknown_word("role", word, ["frame", "output", "object"]);
                 Role::Inner
             }
         };
         if let (Role::Frame, Some(first)) = (role, links.iter().find(|l| l.role == Role::Frame)) {
-            at.key("role").add(format!(
+            at.key("role").add_problem(format!(
                 "link \"{}\" is a second frame after \"{}\"; keep only one role = \"frame\"",
                 entry.id, first.id
             ));
         }
-        let (id, mass) = (entry.id.clone(), mass(entry, &at));
+        let (id, mass) = (entry.id.clone(), read_mass(entry, &at));
         links.push(Link { id, role, mass });
     }
     let has = |role| links.iter().any(|l| l.role == role);
     if !has(Role::Frame) {
-        out.key("link")
-            .add("no link has the role \"frame\"; mark the fixed link with role = \"frame\"");
+        out.key("link").add_problem(
+            "no link has the role \"frame\"; mark the fixed link with role = \"frame\"",
+        );
     }
     if !has(Role::Output) {
-        outputs(file, &mut links);
+        mark_outputs(file, &mut links);
     }
     links
 }
 
 /// Makes all links that move in the free state outputs if no link is marked as one. Then no motion is idle, and a search keeps
 /// all motions.
-fn outputs(file: &MechanismFile, links: &mut [Link]) {
-    let is_free = |w: &Words| w.list().iter().any(|s| s == "free");
+fn mark_outputs(file: &MechanismFile, links: &mut [Link]) {
+    let is_free = |w: &Words| w.word_list().iter().any(|s| s == "free");
     let free = file
         .joint
         .iter()
@@ -223,16 +230,16 @@ fn outputs(file: &MechanismFile, links: &mut [Link]) {
 }
 
 /// Checks that every link is connected to the frame in each state in which it has joints.
-pub(crate) fn connected(mechanism: &Mechanism, out: &Findings) {
-    let at = |l: usize| out.key("link").index(l).key("id");
+pub(crate) fn check_connected(mechanism: &Mechanism, out: &Findings) {
+    let at = |l: usize| out.key("link").entry_at(l).key("id");
     for (l, link) in mechanism.links_with_ids() {
         if !mechanism.joints.iter().any(|j| j.links.contains(&l)) {
             let link = link.id.clone();
-            at(l.index()).add(ProblemKind::Unused { link });
+            at(l.index()).add_problem(ProblemKind::Unused { link });
         }
     }
     for (s, state) in mechanism.states_with_ids() {
-        let mut reached = vec![mechanism.frame()];
+        let mut reached = vec![mechanism.frame_link()];
         let mut next = 0;
         let joints: Vec<JointId> = mechanism.joints_in(s).collect();
         while let Some(&l) = reached.get(next) {
@@ -253,22 +260,28 @@ pub(crate) fn connected(mechanism: &Mechanism, out: &Findings) {
                 .any(|&j| mechanism.joints[j].links.contains(&l));
             if here || (s == StateId::FREE && link.role == Role::Output) {
                 let (link, state) = (link.id.clone(), state.clone());
-                at(l.index()).add(ProblemKind::Disconnected { link, state });
+                at(l.index()).add_problem(ProblemKind::Disconnected { link, state });
             }
         }
     }
 }
 
-pub(crate) fn contours(file: &MechanismFile, m: &Mechanism, out: &Findings) -> Vec<Vec<JointId>> {
+pub(crate) fn read_contours(
+    file: &MechanismFile,
+    m: &Mechanism,
+    out: &Findings,
+) -> Vec<Vec<JointId>> {
     let contour = |joints: &[String], at: Place<'_>| {
-        let named = at.entries(joints).filter_map(|(at, id)| at.joint(m, id));
+        let named = at
+            .each_entry(joints)
+            .filter_map(|(at, id)| at.find_joint(m, id));
         let named: Vec<JointId> = named.collect();
         if named.len() == joints.len() && closed_walk(m, &named).is_none() {
-            at.add("the joints of this contour do not form one closed loop; list them in order around the loop");
+            at.add_problem("the joints of this contour do not form one closed loop; list them in order around the loop");
         }
         named
     };
-    let all = out.key("contour").entries(&file.contour);
+    let all = out.key("contour").each_entry(&file.contour);
     all.map(|(at, entry)| contour(&entry.joints, at.key("joints")))
         .collect()
 }

@@ -7,13 +7,13 @@ use crate::file::schema::{OptionEntry, OptionTable};
 use crate::geom::Scalars;
 use crate::geom::exact::ExactField;
 use crate::geom::expr::Expr;
-use crate::geom::vector::real;
+use crate::geom::vector::to_vector;
 use crate::linalg::echelon::Echelon;
 use crate::model::joint_type::{Freedom, JointType};
 use crate::model::mechanism::{Frame, JointOption, StateId};
 use itertools::Itertools;
 
-pub(crate) fn zero3() -> [Expr; 3] {
+pub(crate) fn zero_vector3() -> [Expr; 3] {
     [0, 0, 0].map(Expr::from)
 }
 
@@ -23,7 +23,7 @@ pub(crate) fn zero_vector(what: &str, of: &str) -> String {
 }
 
 /// Returns the message of a joint that lacks what its type needs.
-pub(crate) fn lacks(joint: &str, kind: &str, what: &str) -> String {
+pub(crate) fn missing_message(joint: &str, kind: &str, what: &str) -> String {
     format!("joint \"{joint}\" of type {kind} needs {what}")
 }
 
@@ -33,12 +33,12 @@ pub(crate) fn takes_no(joint: &str, kind: &str, what: &str) -> String {
 }
 
 fn is_zero(v: &[Expr; 3]) -> bool {
-    real(v).iter().all(|x| *x == 0.0)
+    to_vector(v).iter().all(|x| *x == 0.0)
 }
 
 /// Returns true if two directions are parallel: exactly for rationals, otherwise to 1e-12 of their lengths.
-fn parallel(a: &[Expr; 3], b: &[Expr; 3]) -> bool {
-    let (x, y) = (real(a), real(b));
+fn are_parallel(a: &[Expr; 3], b: &[Expr; 3]) -> bool {
+    let (x, y) = (to_vector(a), to_vector(b));
     let largest = |v: [f64; 3]| v.iter().map(|x| x.abs()).fold(0.0, f64::max);
     let scale = largest(x) * largest(y);
     [(1, 2), (2, 0), (0, 1)].into_iter().all(|(i, j)| {
@@ -55,7 +55,7 @@ fn parallel(a: &[Expr; 3], b: &[Expr; 3]) -> bool {
 }
 
 /// Returns the frame with these parts of a joint. Problems are reported for the keys of the table at the given place.
-pub(crate) fn frame(
+pub(crate) fn check_frame(
     joint: &str,
     point: [Expr; 3],
     axis: [Expr; 3],
@@ -65,23 +65,24 @@ pub(crate) fn frame(
 ) -> Frame {
     let mut axis = axis;
     let of_joint = format!("of joint \"{joint}\"");
-    let zero = |what: &str| at.key(what).add(zero_vector(what, &of_joint));
+    let zero = |what: &str| at.key(what).add_problem(zero_vector(what, &of_joint));
     if is_zero(&axis) {
         zero("axis");
         axis = [0, 0, 1].map(Expr::from);
     }
     let across = || {
         let mut globals = [[1, 0, 0], [0, 1, 0], [0, 0, 1]].into_iter();
-        let across = globals.find_map(|v| Some(v.map(Expr::from)).filter(|g| !parallel(g, &axis)));
-        across.unwrap_or_else(zero3)
+        let across =
+            globals.find_map(|v| Some(v.map(Expr::from)).filter(|g| !are_parallel(g, &axis)));
+        across.unwrap_or_else(zero_vector3)
     };
     let reference = match reference {
         Some(r) if is_zero(&r) => {
             zero("reference");
             across()
         }
-        Some(r) if parallel(&r, &axis) => {
-            at.key("reference").add(format!(
+        Some(r) if are_parallel(&r, &axis) => {
+            at.key("reference").add_problem(format!(
                 "the reference of joint \"{joint}\" is parallel to its axis; give another direction"
             ));
             across()
@@ -112,21 +113,22 @@ pub(crate) fn joint_type(
             return Some(JointType::Custom(list));
         }
         ("custom", None) => {
-            at.add(lacks(
+            at.add_problem(missing_message(
                 joint,
                 kind,
                 "freedoms, such as freedoms = [\"rz\", \"tx\"]",
             ));
         }
         (_, Some(_)) if known.is_some() => {
-            at.key("freedoms").add(takes_no(joint, kind, "freedoms"));
+            at.key("freedoms")
+                .add_problem(takes_no(joint, kind, "freedoms"));
         }
         _ => {
             let known = JointType::NAMED
                 .iter()
                 .map(JointType::name)
                 .chain(["custom"]);
-            at.key("type").unknown("joint type", kind, known);
+            at.key("type").add_unknown_word("joint type", kind, known);
         }
     }
     None
@@ -135,15 +137,15 @@ pub(crate) fn joint_type(
 /// Returns the freedoms that words name, each once.
 fn custom_freedoms(joint: &str, words: &[String], at: &Place<'_>) -> Vec<Freedom> {
     let mut list = Vec::new();
-    for (at, w) in at.entries(words) {
+    for (at, w) in at.each_entry(words) {
         match Freedom::from_name(w) {
             Some(f) if list.contains(&f) => {
-                at.add(format!(
+                at.add_problem(format!(
                     "joint \"{joint}\" names the freedom {w} twice; name it once"
                 ));
             }
             Some(f) => list.push(f),
-            None => at.unknown("freedom", w, Freedom::ALL.iter().map(|(_, n)| n)),
+            None => at.add_unknown_word("freedom", w, Freedom::ALL.iter().map(|(_, n)| n)),
         }
     }
     list
@@ -151,9 +153,9 @@ fn custom_freedoms(joint: &str, words: &[String], at: &Place<'_>) -> Vec<Freedom
 
 impl Place<'_> {
     /// Returns a cost in thousandths; `None` if it is out of range, which is reported.
-    pub(crate) fn cost(&self, value: f64) -> Option<i64> {
+    pub(crate) fn read_cost(&self, value: f64) -> Option<i64> {
         if !(0.0..=1e6).contains(&value) {
-            self.add(format!(
+            self.add_problem(format!(
                 "cost {value} must be a finite number from 0 to 1e6"
             ));
             return None;
@@ -172,21 +174,21 @@ pub(crate) fn motion_name(joint_type: &JointType) -> String {
 }
 
 /// Returns an option at a joint's place.
-pub(crate) fn option(
+pub(crate) fn read_option(
     joint: &str,
     present: &Frame,
     entry: &OptionEntry,
     states: &[String],
     at: &Place<'_>,
 ) -> Option<JointOption> {
-    let table = entry.table();
+    let table = entry.as_table();
     let kind = table.kind.as_deref().unwrap_or("custom");
     let joint_type = joint_type(joint, kind, table.freedoms.as_ref(), at)?;
     let frame = option_frame(joint, present, &table, at);
     let state = table.state.as_ref().and_then(|name| {
         let known = states.iter().position(|s| s == name);
         if known.is_none() {
-            at.key("state").unknown("state", name, states);
+            at.key("state").add_unknown_word("state", name, states);
         }
         known.map(StateId::new)
     });
@@ -197,27 +199,30 @@ pub(crate) fn option(
             .unwrap_or_else(|| motion_name(&joint_type)),
         joint_type,
         frame,
-        cost_milli: table.cost.and_then(|c| at.key("cost").cost(c)),
+        cost_milli: table.cost.and_then(|c| at.key("cost").read_cost(c)),
         state,
     })
 }
 
 /// Returns the frame of an option; values that its table omits are those of the joint.
 fn option_frame(joint: &str, present: &Frame, table: &OptionTable, at: &Place<'_>) -> Frame {
-    let axis = table.axis.as_ref().map(|v| at.key("axis").direction(v));
+    let axis = table
+        .axis
+        .as_ref()
+        .map(|v| at.key("axis").read_direction(v));
     let axis = axis.unwrap_or_else(|| present.axis.clone());
     let reference = table
         .reference
         .as_ref()
-        .map(|v| at.key("reference").direction(v));
-    let own = || Some(present.reference.clone()).filter(|r| !parallel(r, &axis));
+        .map(|v| at.key("reference").read_direction(v));
+    let own = || Some(present.reference.clone()).filter(|r| !are_parallel(r, &axis));
     let reference = reference.or_else(own);
-    let pitch = at.pitch(&table.pitch, &table.lead);
+    let pitch = at.read_pitch(&table.pitch, &table.lead);
     let pitch = pitch.unwrap_or_else(|| present.pitch.clone());
-    let point = table.point.as_ref().map(|p| at.key("point").vector(p));
+    let point = table.point.as_ref().map(|p| at.key("point").read_vector(p));
     let point = point.unwrap_or_else(|| present.point.clone());
     if table.axis.is_some() || table.reference.is_some() {
-        return frame(joint, point, axis, reference, pitch, at);
+        return check_frame(joint, point, axis, reference, pitch, at);
     }
     // These directions are already checked.
     let reference = present.reference.clone();
@@ -231,7 +236,7 @@ fn option_frame(joint: &str, present: &Frame, table: &OptionTable, at: &Place<'_
 
 /// Returns true if one joint allows every motion of another at the same place, computed exactly over a prime field. `None` if the
 /// geometry has no image there.
-pub fn contains(wide: &JointOption, narrow: &JointOption) -> Option<bool> {
+pub fn contains_option(wide: &JointOption, narrow: &JointOption) -> Option<bool> {
     if wide.joint_type == narrow.joint_type && wide.joint_type == JointType::Spherical {
         return Some(true);
     }

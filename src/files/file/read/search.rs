@@ -1,14 +1,14 @@
 //! The changes that a search may make: the options of each joint, and their costs.
 
 use crate::closure::isometry::Isometry;
-use crate::file::costs::costs;
+use crate::file::costs::read_costs;
 use crate::file::problem::ProblemKind;
-use crate::file::read::resolve::{contains, option};
+use crate::file::read::resolve::{contains_option, read_option};
 use crate::file::read::value::{LIMITS, used_twice};
 use crate::file::schema::{JointEntry, JointTypeEntry, MechanismFile, OptionEntry, RankingEntry};
 use crate::file::{Findings, Place};
-use crate::geom::extent::diagonal;
-use crate::geom::vector::real;
+use crate::geom::extent::box_diagonal;
+use crate::geom::vector::to_vector;
 use crate::model::joint_type::JointType;
 use crate::model::mechanism::{Frame, Joint, JointId, JointOption, Mechanism, SearchSpec, StateId};
 use crate::model::ranking::{ClearanceSum, Limit, Order, Ranking, Term, TypeOverride};
@@ -16,7 +16,7 @@ use itertools::Itertools;
 
 /// Returns the options of a joint, the original one first. Options of the joint's own list must contain the original motion;
 /// those of the common list that do not are skipped.
-pub(crate) fn options(
+pub(crate) fn read_options(
     file: &MechanismFile,
     entry: &JointEntry,
     present: &JointOption,
@@ -30,11 +30,11 @@ pub(crate) fn options(
         None => (&[][..], at.clone()),
     };
     let (mut options, mut listed) = (vec![present.clone()], false);
-    for (at, item) in from.key("options").most(LIMITS.2, list, "options") {
-        let Some(option) = allowed(entry, item, &present.frame, states, &at) else {
+    for (at, item) in from.key("options").first_entries(LIMITS.2, list, "options") {
+        let Some(option) = read_allowed_option(entry, item, &present.frame, states, &at) else {
             continue;
         };
-        let contained = contains(&option, present);
+        let contained = contains_option(&option, present);
         if option.joint_type == present.joint_type && contained == Some(true) {
             // The present joint, listed: keep its name and cost.
             if !listed {
@@ -47,7 +47,7 @@ pub(crate) fn options(
         let joint = entry.id.clone();
         match contained {
             Some(true) if options.iter().any(|o| o.name == option.name) => {
-                at.add(format!(
+                at.add_problem(format!(
                     "joint \"{joint}\" has two options named \"{}\"; rename one of them",
                     option.name
                 ));
@@ -55,7 +55,7 @@ pub(crate) fn options(
             Some(true) => options.push(option),
             Some(false) if entry.options.is_some() => {
                 let (option, present) = (option.name, present.name.clone());
-                at.add(ProblemKind::LosesMotion {
+                at.add_problem(ProblemKind::LosesMotion {
                     joint,
                     option,
                     present,
@@ -68,7 +68,7 @@ pub(crate) fn options(
 }
 
 /// Returns the option of an entry of a list; `None` if it is not valid or the joint forbids it.
-fn allowed(
+fn read_allowed_option(
     entry: &JointEntry,
     item: &OptionEntry,
     present: &Frame,
@@ -76,13 +76,13 @@ fn allowed(
     at: &Place<'_>,
 ) -> Option<JointOption> {
     // A bad entry of the common list would be reported once per joint.
-    let before = at.out.count();
-    let option = option(&entry.id, present, item, states, at)?;
-    (at.out.count() == before
+    let before = at.out.problem_count();
+    let option = read_option(&entry.id, present, item, states, at)?;
+    (at.out.problem_count() == before
         && !entry
             .forbid
             .iter()
-            .any(|f| *f == option.name || JointType::word(f) == option.name))
+            .any(|f| *f == option.name || JointType::word_of_trade(f) == option.name))
     .then_some(option)
 }
 
@@ -91,25 +91,29 @@ fn allowed(
 const NO_IMAGE: f64 = 1e-3;
 
 /// Reports pairs that are not mirror images.
-fn images(mechanism: &Mechanism, pairs: &[(JointId, JointId)], at: &Place<'_>) {
-    let planes = Isometry::mirrors(mechanism, pairs);
+fn check_images(mechanism: &Mechanism, pairs: &[(JointId, JointId)], at: &Place<'_>) {
+    let planes = Isometry::find_mirrors(mechanism, pairs);
     let Some((_, misses)) = planes.first() else {
         return;
     };
-    let points = mechanism.joints.iter().map(|j| real(&j.frame.point));
-    let size = diagonal(points);
-    for ((at, &(a, b)), miss) in at.entries(pairs).zip(misses) {
+    let points = mechanism.joints.iter().map(|j| to_vector(&j.frame.point));
+    let size = box_diagonal(points);
+    for ((at, &(a, b)), miss) in at.each_entry(pairs).zip(misses) {
         if miss.angle > NO_IMAGE || miss.distance > NO_IMAGE * size {
             let [first, second] = [a, b].map(|j| &mechanism.joints[j].id);
-            let off = miss.words(mechanism.length_unit.symbol);
-            at.add(format!(
+            let off = miss.describe_miss(mechanism.length_unit.symbol);
+            at.add_problem(format!(
                 "joints \"{first}\" and \"{second}\" are not mirror images: in the plane that fits most pairs the image of \"{first}\" is {off} from \"{second}\"; correct their points and axes, or remove the pair"
             ));
         }
     }
 }
 
-pub(crate) fn search(file: &MechanismFile, mechanism: &Mechanism, out: &Findings) -> SearchSpec {
+pub(crate) fn read_search(
+    file: &MechanismFile,
+    mechanism: &Mechanism,
+    out: &Findings,
+) -> SearchSpec {
     let at = out.key("search");
     let mut spec = SearchSpec {
         max_redundant: file.search.max_redundant.unwrap_or(0),
@@ -118,12 +122,12 @@ pub(crate) fn search(file: &MechanismFile, mechanism: &Mechanism, out: &Findings
         ..SearchSpec::default()
     };
     let hold = at.key("hold");
-    let held = hold.entries(&file.search.hold);
+    let held = hold.each_entry(&file.search.hold);
     spec.hold
-        .extend(held.filter_map(|(at, id)| at.link(&mechanism.links, id)));
+        .extend(held.filter_map(|(at, id)| at.read_link(&mechanism.links, id)));
     let mut grouped = Vec::new();
     let mut joints = |ids: &[String], under, at: &Place<'_>| {
-        let named = ids.iter().filter_map(|id| at.joint(mechanism, id));
+        let named = ids.iter().filter_map(|id| at.find_joint(mechanism, id));
         let mut named = named.collect_vec();
         // Each joint is checked once, because thousands of wrong pairs took minutes.
         named.retain(|&j| {
@@ -132,7 +136,7 @@ pub(crate) fn search(file: &MechanismFile, mechanism: &Mechanism, out: &Findings
                 grouped.push(j);
             } else {
                 let joint = &mechanism.joints[j].id;
-                at.add(format!(
+                at.add_problem(format!(
                     "joint \"{joint}\" has more than one image under {under}; name each joint once"
                 ));
             }
@@ -140,102 +144,102 @@ pub(crate) fn search(file: &MechanismFile, mechanism: &Mechanism, out: &Findings
         });
         named
     };
-    for (at, pair) in at.key("mirror").entries(&file.search.mirror) {
+    for (at, pair) in at.key("mirror").each_entry(&file.search.mirror) {
         if let [a, b] = joints(pair, "mirror", &at)[..] {
             spec.mirror.push((a, b));
         }
     }
-    for (at, group) in at.key("turn").entries(&file.search.turn) {
+    for (at, group) in at.key("turn").each_entry(&file.search.turn) {
         let found = joints(group, "turn", &at);
         let first = file.search.turn[0].len();
         if ![2, 3].contains(&group.len()) || group.len() != first {
-            at.add(format!(
+            at.add_problem(format!(
                 "a group of {} joints under turn: write pairs for half a turn, or groups of three for a third, all of one kind",
                 group.len()
             ));
         } else if !file.search.mirror.is_empty() {
-            at.add("mirror and turn exclude each other; keep one of them");
+            at.add_problem("mirror and turn exclude each other; keep one of them");
         } else if found.len() == first {
             spec.turn.push(found);
         }
     }
-    images(mechanism, &spec.mirror, &at.key("mirror"));
-    spec.costs = costs(&file.search.costs, mechanism, &at.key("costs"));
+    check_images(mechanism, &spec.mirror, &at.key("mirror"));
+    spec.costs = read_costs(&file.search.costs, mechanism, &at.key("costs"));
     spec
 }
 
 /// Most terms and limits.
 const MOST: usize = 100;
 
-fn term(word: &str, at: &Place<'_>) -> Option<Term> {
+fn read_term(word: &str, at: &Place<'_>) -> Option<Term> {
     let found = Term::from_name(word);
     if found.is_none() {
         at.key("term")
-            .unknown("term", word, Term::ALL.map(Term::name));
+            .add_unknown_word("term", word, Term::ALL.map(Term::name));
     }
     found
 }
 
 /// Returns the ranking that a file asks for, if any.
-pub(crate) fn ranking(file: &MechanismFile, m: &Mechanism, out: &Findings) -> Option<Ranking> {
+pub(crate) fn read_ranking(file: &MechanismFile, m: &Mechanism, out: &Findings) -> Option<Ranking> {
     let entry = file.ranking.as_ref()?;
     let at = &out.key("ranking");
     Some(Ranking {
-        order: at.word("order", &entry.order, &Order::ALL.map(|(o, w)| (w, o))),
-        clearance: clearance(entry, at),
-        terms: terms(entry, &at.key("terms")),
-        limits: limits(entry, &at.key("limits")),
+        order: at.read_word("order", &entry.order, &Order::ALL.map(|(o, w)| (w, o))),
+        clearance: read_clearance(entry, at),
+        terms: read_terms(entry, &at.key("terms")),
+        limits: read_limits(entry, &at.key("limits")),
         states: ranked_states(entry, m, &at.key("states")),
     })
 }
 
 /// Returns the rule for adding clearances.
-fn clearance(entry: &RankingEntry, at: &Place<'_>) -> ClearanceSum {
+fn read_clearance(entry: &RankingEntry, at: &Place<'_>) -> ClearanceSum {
     match entry.clearance.as_deref() {
         None | Some("worst") => ClearanceSum::Worst,
         Some("rms") => ClearanceSum::Rms,
         Some(word) => {
             let at = at.key("clearance");
-            at.unknown("sum of clearances", word, ["worst", "rms"]);
+            at.add_unknown_word("sum of clearances", word, ["worst", "rms"]);
             ClearanceSum::Worst
         }
     }
 }
 
 /// Returns the terms with their weights.
-fn terms(entry: &RankingEntry, at: &Place<'_>) -> Vec<(Term, f64)> {
+fn read_terms(entry: &RankingEntry, at: &Place<'_>) -> Vec<(Term, f64)> {
     let mut terms: Vec<(Term, f64)> = Vec::new();
-    for (at, t) in at.most(MOST, &entry.terms, "terms") {
+    for (at, t) in at.first_entries(MOST, &entry.terms, "terms") {
         let weight = t.weight.unwrap_or(1.0);
         if !(0.0..=1e12).contains(&weight) {
             at.key("weight")
-                .bad("weight", weight, "a number from 0 to 1e12");
+                .add_bad_value("weight", weight, "a number from 0 to 1e12");
         }
-        let Some(term) = term(&t.term, &at) else {
+        let Some(term) = read_term(&t.term, &at) else {
             continue;
         };
         if terms.iter().any(|(other, _)| *other == term) {
-            at.key("term").add(used_twice("[ranking]", &t.term));
+            at.key("term").add_problem(used_twice("[ranking]", &t.term));
         }
         terms.push((term, weight));
     }
     if entry.terms.is_empty() {
-        at.unknown("list of terms", "[]", Term::ALL.map(Term::name));
+        at.add_unknown_word("list of terms", "[]", Term::ALL.map(Term::name));
     }
     terms
 }
 
 /// Returns the bounds that variants must meet.
-fn limits(entry: &RankingEntry, at: &Place<'_>) -> Vec<Limit> {
+fn read_limits(entry: &RankingEntry, at: &Place<'_>) -> Vec<Limit> {
     let mut limits = Vec::new();
-    for (at, l) in at.most(MOST, &entry.limits, "limits") {
+    for (at, l) in at.first_entries(MOST, &entry.limits, "limits") {
         let (min, max) = (l.min, l.max);
         for (k, bound) in [("min", min), ("max", max)] {
             if let Some(x) = bound.filter(|x| !x.is_finite()) {
-                at.key(k).bad("limit", x, "a finite number");
+                at.key(k).add_bad_value("limit", x, "a finite number");
             }
         }
-        limits.extend(term(&l.term, &at).map(|term| Limit { term, min, max }));
+        limits.extend(read_term(&l.term, &at).map(|term| Limit { term, min, max }));
     }
     limits
 }
@@ -246,11 +250,11 @@ fn ranked_states(entry: &RankingEntry, m: &Mechanism, at: &Place<'_>) -> Vec<Sta
     let of_grip = grip.and_then(|c| m.joints[c[0]].states.as_ref());
     let counts = |s: &StateId| *s == StateId::FREE || of_grip.is_some_and(|all| all.contains(s));
     let mut states = Vec::new();
-    for (at, word) in at.most(MOST, &entry.states, "states") {
-        let found = m.state(word).filter(counts);
+    for (at, word) in at.first_entries(MOST, &entry.states, "states") {
+        let found = m.state_named(word).filter(counts);
         if found.is_none() {
             let what = "state to rank in (free, or one with the contacts of [workload.grip])";
-            at.unknown(
+            at.add_unknown_word(
                 what,
                 word,
                 m.state_ids().filter(counts).map(|s| &m.states[s]),
@@ -269,7 +273,7 @@ pub(crate) fn joint_types(
 ) -> (Vec<TypeOverride>, Vec<(String, i64)>) {
     let (mut found, mut costs) = (Vec::new(), Vec::new());
     let offered = |name: &str| {
-        let mut all = mechanism.joints.iter().flat_map(Joint::offered);
+        let mut all = mechanism.joints.iter().flat_map(Joint::offered_options);
         all.any(|o| o.name == name)
     };
     for (name, entry) in &file.joint_types {
@@ -277,14 +281,14 @@ pub(crate) fn joint_types(
         let name = if offered(name) {
             name
         } else {
-            JointType::word(name)
+            JointType::word_of_trade(name)
         };
         if name != "custom" && JointType::from_name(name).is_none() && !offered(name) {
             let known = JointType::NAMED.iter().map(JointType::name);
-            at.unknown("joint type", name, known.chain(["custom"]));
+            at.add_unknown_word("joint type", name, known.chain(["custom"]));
         }
         check_figures(entry, &at);
-        let milli = entry.cost.and_then(|c| at.key("cost").cost(c));
+        let milli = entry.cost.and_then(|c| at.key("cost").read_cost(c));
         costs.extend(milli.map(|milli| (name.to_owned(), milli)));
         let says = TypeOverride {
             name: name.to_owned(),
@@ -316,7 +320,7 @@ fn check_figures(entry: &JointTypeEntry, at: &Place<'_>) {
         ),
     ] {
         if let Some(x) = value.filter(|x| !(least..=1e12).contains(x)) {
-            at.key(k).bad(what, x, allowed);
+            at.key(k).add_bad_value(what, x, allowed);
         }
     }
 }

@@ -32,7 +32,8 @@ pub(crate) fn length_unit(file: &MechanismFile, out: &Findings) -> LengthUnit {
     let found = UNITS.into_iter().find(|u| u.0 == symbol);
     let (symbol, metres) = found.unwrap_or_else(|| {
         let known = UNITS.iter().map(|u| u.0);
-        out.key("length_unit").unknown("length unit", symbol, known);
+        out.key("length_unit")
+            .add_unknown_word("length unit", symbol, known);
         UNITS[0]
     });
     LengthUnit { symbol, metres }
@@ -42,7 +43,7 @@ pub(crate) fn length_unit(file: &MechanismFile, out: &Findings) -> LengthUnit {
 const MOST: usize = 64;
 
 /// Returns the parameters of a file by name.
-fn parameters(file: &MechanismFile, out: &Findings) -> BTreeMap<String, Expr> {
+fn read_parameters(file: &MechanismFile, out: &Findings) -> BTreeMap<String, Expr> {
     let at = out.key("parameter");
     if !at.count_within(MOST, file.parameter.len(), "parameters") {
         return BTreeMap::new();
@@ -53,20 +54,20 @@ fn parameters(file: &MechanismFile, out: &Findings) -> BTreeMap<String, Expr> {
         let first = name.starts_with(|c: char| c.is_ascii_alphabetic());
         let rest = name.chars().all(|c| c.is_ascii_alphanumeric() || c == '_');
         if !first || !rest || WORDS.contains(&name.as_str()) {
-            at.add(format!(
+            at.add_problem(format!(
                 "a parameter cannot be named {name:?}; use a letter followed by letters, digits or _, but not pi, deg, sqrt, cos, sin, tan or cot"
             ));
         }
-        all.insert(name.clone(), at.number(value));
+        all.insert(name.clone(), at.read_coordinate(value));
     }
     all
 }
 
 /// Returns findings that know the parameters of a file.
-pub(crate) fn knowing(file: &MechanismFile) -> Findings {
+pub(crate) fn with_parameters(file: &MechanismFile) -> Findings {
     let mut out = Findings::default();
-    let all = parameters(file, &out);
-    out.know(all);
+    let all = read_parameters(file, &out);
+    out.set_parameters(all);
     out
 }
 
@@ -75,7 +76,7 @@ const LISTED: usize = 30;
 
 impl Words {
     /// Returns the words as a list.
-    pub(crate) fn list(&self) -> &[String] {
+    pub(crate) fn word_list(&self) -> &[String] {
         match self {
             Words::One(word) => std::slice::from_ref(word),
             Words::Many(words) => words,
@@ -88,28 +89,28 @@ impl Place<'_> {
     pub(crate) fn check_id(&self, what: &str, id: &str, twice: bool) {
         let at = self.key("id");
         if id.is_empty() || id.chars().count() > 64 || id.chars().any(char::is_control) {
-            at.add(format!(
+            at.add_problem(format!(
                 "an id must have 1 to 64 characters and no control characters, not {id:?}"
             ));
         }
         if twice {
-            at.add(used_twice(what, id));
+            at.add_problem(used_twice(what, id));
         }
     }
 
     /// Returns the link with the given name; reports an unknown name.
-    pub(crate) fn link(&self, links: &[Link], id: &str) -> Option<LinkId> {
+    pub(crate) fn read_link(&self, links: &[Link], id: &str) -> Option<LinkId> {
         let found = links.iter().position(|l| l.id == *id).map(LinkId::new);
         if found.is_none() {
             let known = links.iter().take(LISTED).map(|l| l.id.as_str()).join(", ");
-            self.add(format!("unknown link \"{id}\"; known links: {known}"));
+            self.add_problem(format!("unknown link \"{id}\"; known links: {known}"));
         }
         found
     }
 
     /// Returns the joint with the given name; reports an unknown name.
-    pub(crate) fn joint(&self, mechanism: &Mechanism, id: &str) -> Option<JointId> {
-        let found = mechanism.joint(id);
+    pub(crate) fn find_joint(&self, mechanism: &Mechanism, id: &str) -> Option<JointId> {
+        let found = mechanism.joint_named(id);
         if found.is_none() {
             self.unknown_joint(mechanism, id);
         }
@@ -120,16 +121,16 @@ impl Place<'_> {
     pub(crate) fn unknown_joint(&self, mechanism: &Mechanism, id: &str) {
         let mut ids = mechanism.joints.iter().map(|j| j.id.as_str()).take(LISTED);
         let known = ids.join(", ");
-        self.add(format!("unknown joint \"{id}\"; known joints: {known}"));
+        self.add_problem(format!("unknown joint \"{id}\"; known joints: {known}"));
     }
 
     /// Returns the states that an entry names; `None` if it names none, which means all.
-    pub(crate) fn states(&self, m: &Mechanism, named: Option<&Words>) -> Option<Vec<StateId>> {
+    pub(crate) fn find_states(&self, m: &Mechanism, named: Option<&Words>) -> Option<Vec<StateId>> {
         let mut found = Vec::new();
-        for word in named?.list() {
-            match m.state(word) {
+        for word in named?.word_list() {
+            match m.state_named(word) {
                 Some(state) => found.push(state),
-                None => self.unknown("state", word, m.states.iter().take(LISTED)),
+                None => self.add_unknown_word("state", word, m.states.iter().take(LISTED)),
             }
         }
         Some(found)
@@ -148,18 +149,18 @@ const NOTHING: f64 = 1e-40;
 
 impl Place<'_> {
     /// Returns a number in the range of lengths.
-    pub(crate) fn number(&self, c: &Coordinate) -> Expr {
+    pub(crate) fn read_coordinate(&self, c: &Coordinate) -> Expr {
         self.in_range(self.read_number(c, false))
     }
 
     /// Returns three numbers in the range of lengths.
-    pub(crate) fn vector(&self, v: &[Coordinate; 3]) -> [Expr; 3] {
-        [0, 1, 2].map(|i| self.index(i).number(&v[i]))
+    pub(crate) fn read_vector(&self, v: &[Coordinate; 3]) -> [Expr; 3] {
+        [0, 1, 2].map(|i| self.entry_at(i).read_coordinate(&v[i]))
     }
 
     /// Returns a direction of any length. It is scaled by a power of ten if its numbers are outside the range of lengths.
-    pub(crate) fn direction(&self, v: &[Coordinate; 3]) -> [Expr; 3] {
-        let read = [0, 1, 2].map(|i| self.index(i).read_number(&v[i], false));
+    pub(crate) fn read_direction(&self, v: &[Coordinate; 3]) -> [Expr; 3] {
+        let read = [0, 1, 2].map(|i| self.entry_at(i).read_number(&v[i], false));
         let largest = read.iter().map(|e| e.to_f64().abs()).fold(0.0, f64::max);
         if read.iter().all(|e| is_usual(e.to_f64().abs())) {
             return read;
@@ -179,19 +180,19 @@ impl Place<'_> {
     }
 
     /// Returns the pitch of a screw per radian, from the pitch or from the lead, which is per turn; `None` if neither is given.
-    pub(crate) fn pitch(
+    pub(crate) fn read_pitch(
         &self,
         pitch: &Option<Coordinate>,
         lead: &Option<Coordinate>,
     ) -> Option<Expr> {
         if pitch.is_some() && lead.is_some() {
-            self.excludes("lead", "pitch");
+            self.add_excluded_key("lead", "pitch");
         }
         if let Some(c) = pitch {
             let at = self.key("pitch");
             return Some(at.in_range(at.read_number(c, true)));
         }
-        let lead = self.key("lead").number(lead.as_ref()?);
+        let lead = self.key("lead").read_coordinate(lead.as_ref()?);
         let turn = Expr::from(2) * Expr::pi();
         if lead.is_zero_rational() {
             return Some(lead);
@@ -207,9 +208,9 @@ impl Place<'_> {
         if is_usual(size) && !lost {
             return e;
         }
-        self.add(format!(
+        self.add_problem(format!(
             "coordinate {} is out of range; lengths may be 1e-40 to 1e12 in size; choose another length_unit",
-            short(&e)
+            shorten(&e)
         ));
         Expr::from(0)
     }
@@ -218,17 +219,17 @@ impl Place<'_> {
         let parsed = match c {
             Coordinate::Integer(i) => Ok(Expr::from(*i).written_as(WrittenNumber::Whole)),
             Coordinate::Decimal(x) => Expr::from_f64(*x),
-            Coordinate::Expression(s) => self.out.expression(s, pi_is_a_number),
+            Coordinate::Expression(s) => self.out.parse_expression(s, pi_is_a_number),
         };
         parsed.unwrap_or_else(|e| {
-            let known = self.out.names().join(", ");
+            let known = self.out.parameter_names().join(", ");
             let parameters = match e {
                 ExprError::UnknownWord { .. } if !known.is_empty() => {
                     format!(", and the parameters {known}")
                 }
                 _ => String::new(),
             };
-            self.add(format!("{e}{parameters}"));
+            self.add_problem(format!("{e}{parameters}"));
             Expr::from(0)
         })
     }
@@ -240,7 +241,7 @@ fn is_usual(size: f64) -> bool {
 }
 
 /// Formats a number as written, or shortened if it does not fit into a line.
-fn short(e: &Expr) -> String {
+fn shorten(e: &Expr) -> String {
     let text = e.to_string();
     match text.len() {
         ..=40 => text,

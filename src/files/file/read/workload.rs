@@ -7,13 +7,13 @@ pub mod motion;
 pub mod trajectory;
 
 use crate::file::problem::ImportError;
-use crate::file::read::build;
-use crate::file::read::claims;
-use crate::file::read::value::{knowing, length_unit};
-use crate::file::read::workload::drive::drive;
-use crate::file::read::workload::grip::grip;
+use crate::file::read::build_mechanism;
+use crate::file::read::read_claims;
+use crate::file::read::value::{length_unit, with_parameters};
+use crate::file::read::workload::drive::read_drive;
+use crate::file::read::workload::grip::read_grip;
 use crate::file::schema::MechanismFile;
-use crate::file::text::{read, text_of};
+use crate::file::text::{read_file, text_of};
 use crate::file::{Finding, Findings};
 use crate::model::claim::Claim;
 use crate::model::drive::DriveSpec;
@@ -44,7 +44,7 @@ pub struct WorkloadFile<T> {
 pub fn grip_from_bytes(name: &str, bytes: &[u8]) -> Result<WorkloadFile<GripSpec>, ImportError> {
     let example = ("grip", "lever-gripper");
     let text = text_of(name, bytes)?;
-    read(name, text, |file| workload(file, grip, example))
+    read_file(name, text, |file| read_workload(file, read_grip, example))
 }
 
 /// Reads `[workload.drive]`; names that end in `.json` are JSON, all others TOML.
@@ -54,7 +54,7 @@ pub fn grip_from_bytes(name: &str, bytes: &[u8]) -> Result<WorkloadFile<GripSpec
 pub fn drive_from_bytes(name: &str, bytes: &[u8]) -> Result<WorkloadFile<DriveSpec>, ImportError> {
     let example = ("drive", "torsion-module");
     let text = text_of(name, bytes)?;
-    read(name, text, |file| workload(file, drive, example))
+    read_file(name, text, |file| read_workload(file, read_drive, example))
 }
 
 /// Reads a file that has workload tables and no mechanism: its name and those of its tables; `None` for other files.
@@ -65,16 +65,16 @@ pub fn tables_alone(
     name: &str,
     bytes: &[u8],
 ) -> Result<Option<(String, Vec<&'static str>)>, ImportError> {
-    read(name, text_of(name, bytes)?, |file| {
+    read_file(name, text_of(name, bytes)?, |file| {
         let tables = workload_tables(file);
         if tables.is_empty() || !file.link.is_empty() || !file.joint.is_empty() {
             return Ok(None);
         }
-        let out = knowing(file);
+        let out = with_parameters(file);
         let unit = length_unit(file, &out).metres;
-        grip(file, unit, None, &out);
-        drive(file, unit, None, &out);
-        out.unless(Some((file.name.clone(), tables)))
+        read_grip(file, unit, None, &out);
+        read_drive(file, unit, None, &out);
+        out.finish(Some((file.name.clone(), tables)))
     })
 }
 
@@ -88,27 +88,27 @@ pub(crate) fn workload_tables(file: &MechanismFile) -> Vec<&'static str> {
     there.map(|(n, _)| n).collect()
 }
 
-fn workload<T>(
+fn read_workload<T>(
     file: &MechanismFile,
     table: impl Fn(&MechanismFile, f64, Option<&Mechanism>, &Findings) -> Option<T>,
     (name, example): (&str, &str),
 ) -> Result<WorkloadFile<T>, Vec<Finding>> {
-    let out = knowing(file);
+    let out = with_parameters(file);
     let mechanism = if file.link.is_empty() && file.joint.is_empty() {
         None
     } else {
-        Some(build(file)?)
+        Some(build_mechanism(file)?)
     };
     let length_unit = length_unit(file, &out);
     let spec = table(file, length_unit.metres, mechanism.as_ref(), &out);
-    let claims = claims(file, &out);
-    if spec.is_none() && out.count() == 0 {
-        out.key("workload").add(format!(
+    let claims = read_claims(file, &out);
+    if spec.is_none() && out.problem_count() == 0 {
+        out.key("workload").add_problem(format!(
             "the file has no [workload.{name}] table; `ozols show {example}` prints one to start from"
         ));
     }
     match spec {
-        Some(spec) if out.count() == 0 => Ok(WorkloadFile {
+        Some(spec) if out.problem_count() == 0 => Ok(WorkloadFile {
             name: file.name.clone(),
             sources: file.sources.clone(),
             claims,

@@ -1,6 +1,6 @@
 //! `[workload]` with `[workload.drive]`, and the inertia of links.
 
-use crate::format::disjunction;
+use crate::format::join_or;
 use crate::model::ranking::Term;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -371,7 +371,7 @@ pub struct RankingEntry {
 #[serde(deny_unknown_fields)]
 pub struct TermEntry {
     /// Term, one of those of [`Term`].
-    #[schemars(description = terms())]
+    #[schemars(description = list_terms())]
     #[schemars(extend("enum" = Term::ALL.map(Term::name)))]
     pub term: String,
     /// Weight of the term. Default: 1.
@@ -379,10 +379,10 @@ pub struct TermEntry {
 }
 
 /// Lists the terms with their meanings.
-fn terms() -> String {
+fn list_terms() -> String {
     let each = Term::ALL.map(Term::about);
     let each = each.map(|a| format!("{} ({})", a.word, a.meaning));
-    format!("{}.", disjunction(each.iter().map(String::as_str)))
+    format!("{}.", join_or(each.iter().map(String::as_str)))
 }
 
 /// A limit on a term.

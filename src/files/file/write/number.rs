@@ -3,9 +3,9 @@
 
 use crate::file::schema::{Coordinate, ToleranceEntry};
 use crate::geom::expr::{Digits, End, Expr, WrittenNumber, half_of};
-use crate::geom::vector::{length, real};
+use crate::geom::vector::{length, to_vector};
 use crate::model::mechanism::Mechanism;
-use crate::model::rounded::ratio::doubt;
+use crate::model::rounded::ratio::doubt_ratio;
 use crate::model::rounded::{LONG_DIRECTION, LONG_LENGTH};
 use num_bigint::BigInt;
 use num_rational::BigRational;
@@ -13,18 +13,18 @@ use num_traits::{One, Signed, ToPrimitive, Zero};
 
 /// Writes a number as a decimal if it has at most 17 digits, otherwise as an expression. An exact fraction whose decimal would
 /// look rounded, and a decimal with trailing zeros, which numbers lose, are also expressions.
-pub(super) fn coordinate(e: &Expr) -> Coordinate {
-    written(e, &|d| is_long(d, LONG_LENGTH))
+pub(super) fn write_coordinate(e: &Expr) -> Coordinate {
+    write_expression(e, &|d| is_long(d, LONG_LENGTH))
 }
 
 /// Writes a component of a direction in the same way.
-pub(super) fn component(e: &Expr) -> Coordinate {
-    written(e, &|d| is_long(d, LONG_DIRECTION))
+pub(super) fn write_component(e: &Expr) -> Coordinate {
+    write_expression(e, &|d| is_long(d, LONG_DIRECTION))
 }
 
 /// Writes the ratio of a coupling in the same way.
-pub(super) fn ratio(e: &Expr) -> Coordinate {
-    written(e, &|d| doubt(d).is_some())
+pub(super) fn write_ratio(e: &Expr) -> Coordinate {
+    write_expression(e, &|d| doubt_ratio(d).is_some())
 }
 
 fn is_long(decimal: &Expr, least: usize) -> bool {
@@ -32,7 +32,7 @@ fn is_long(decimal: &Expr, least: usize) -> bool {
 }
 
 /// Writes a number; an exact fraction is written as a fraction if its decimal is `doubtful`.
-fn written(e: &Expr, doubtful: &dyn Fn(&Expr) -> bool) -> Coordinate {
+fn write_expression(e: &Expr, doubtful: &dyn Fn(&Expr) -> bool) -> Coordinate {
     let Some(value) = e.as_rational() else {
         return Coordinate::Expression(e.to_string());
     };
@@ -43,11 +43,11 @@ fn written(e: &Expr, doubtful: &dyn Fn(&Expr) -> bool) -> Coordinate {
     }
     if value.is_integer()
         && let Ok(whole) = i64::try_from(value.numer())
-        && zeros(&value, written).is_none()
+        && with_zeros(&value, written).is_none()
     {
         return Coordinate::Integer(whole);
     }
-    if let Some(text) = zeros(&value, written) {
+    if let Some(text) = with_zeros(&value, written) {
         return Coordinate::Expression(text);
     }
     let near = e.to_f64();
@@ -71,7 +71,7 @@ fn is_chosen(value: &BigRational) -> bool {
 }
 
 /// Returns a decimal whose last digit is 0, with all its digits.
-fn zeros(value: &BigRational, written: WrittenNumber) -> Option<String> {
+fn with_zeros(value: &BigRational, written: WrittenNumber) -> Option<String> {
     let WrittenNumber::Decimal(
         digits @ Digits {
             places,
@@ -96,7 +96,7 @@ fn zeros(value: &BigRational, written: WrittenNumber) -> Option<String> {
 }
 
 /// Returns the shortest decimal that times `unit` is `value`.
-fn shortest(value: f64, unit: f64) -> Option<f64> {
+fn shortest_number(value: f64, unit: f64) -> Option<f64> {
     let near = value / unit;
     // A product rounds, so a quotient may be off by a digit in the last place.
     let digits = (0..17).filter_map(|n| format!("{near:.n$e}").parse::<f64>().ok());
@@ -108,25 +108,25 @@ fn shortest(value: f64, unit: f64) -> Option<f64> {
 }
 
 /// Writes a value in SI units for a file whose unit is `unit` of it, so that it reads back as exactly the same number.
-pub(crate) fn number(value: f64, unit: f64) -> Coordinate {
-    plain(shortest(value, unit).unwrap_or(value / unit))
+pub(crate) fn write_number(value: f64, unit: f64) -> Coordinate {
+    plain_number(shortest_number(value, unit).unwrap_or(value / unit))
 }
 
 /// Writes three values in the same way.
-pub(crate) fn numbers(values: [f64; 3], unit: f64) -> [Coordinate; 3] {
-    values.map(|x| number(x, unit))
+pub(crate) fn write_numbers(values: [f64; 3], unit: f64) -> [Coordinate; 3] {
+    values.map(|x| write_number(x, unit))
 }
 
 /// Writes an angle in degrees if that is exact, otherwise in radians.
-pub(crate) fn angle(radians: f64) -> Coordinate {
-    match shortest(radians, 1f64.to_radians()) {
-        Some(degrees) => plain(degrees),
+pub(crate) fn write_angle(radians: f64) -> Coordinate {
+    match shortest_number(radians, 1f64.to_radians()) {
+        Some(degrees) => plain_number(degrees),
         None => Coordinate::Expression(format!("{radians}rad")),
     }
 }
 
 /// Writes a number in its usual form.
-pub(crate) fn plain(x: f64) -> Coordinate {
+pub(crate) fn plain_number(x: f64) -> Coordinate {
     #[allow(clippy::cast_possible_truncation, reason = "whole and within 2^53")]
     if x.fract() == 0.0 && x.abs() < 2f64.powi(53) {
         return Coordinate::Integer(x as i64);
@@ -135,16 +135,22 @@ pub(crate) fn plain(x: f64) -> Coordinate {
 }
 
 /// Returns the tolerance of most numbers of the points, and of all of the directions.
-pub(super) fn tolerance(m: &Mechanism) -> Option<ToleranceEntry> {
+pub(super) fn file_tolerance(m: &Mechanism) -> Option<ToleranceEntry> {
     let frames = m.joints.iter().map(|j| &j.frame);
     let points = frames.clone().flat_map(|f| &f.point);
     let points = points.chain(m.points.iter().flat_map(|p| &p.point));
     let directions = frames.flat_map(|f| [&f.axis, &f.reference]);
-    let directions = directions.flat_map(|v| v.iter().map(move |e| (length(real(v)), e)));
-    let lengths = most(points.filter(|e| e.to_f64() != 0.0).map(|e| (e, stated(e))));
+    let directions = directions.flat_map(|v| v.iter().map(move |e| (length(to_vector(v)), e)));
+    let lengths = most_common_half(
+        points
+            .filter(|e| e.to_f64() != 0.0)
+            .map(|e| (e, stated_half(e))),
+    );
     let turned = directions.filter(|(_, e)| ![0.0, 1.0].contains(&e.to_f64().abs()));
-    let direction = most(turned.map(|(of, e)| (e, stated(e).map(|half| short(half / of)))));
-    let entry = |x: Option<f64>| x.map(|x| number(x, 1.0));
+    let direction = most_common_half(
+        turned.map(|(of, e)| (e, stated_half(e).map(|half| round_digits(half / of)))),
+    );
+    let entry = |x: Option<f64>| x.map(|x| write_number(x, 1.0));
     (lengths.is_some() || direction.is_some()).then(|| ToleranceEntry {
         length: entry(lengths),
         direction: entry(direction),
@@ -156,8 +162,8 @@ pub(super) fn point_tolerance(
     point: &[Expr; 3],
     file: Option<&ToleranceEntry>,
 ) -> Option<Coordinate> {
-    let halves = point.iter().filter_map(stated);
-    let half = number(halves.reduce(f64::max)?, 1.0);
+    let halves = point.iter().filter_map(stated_half);
+    let half = write_number(halves.reduce(f64::max)?, 1.0);
     let size = |c: &Coordinate| match c {
         Coordinate::Integer(x) => x.to_string(),
         Coordinate::Decimal(x) => x.to_string(),
@@ -168,11 +174,11 @@ pub(super) fn point_tolerance(
 }
 
 /// Removes errors in the last bits of a value that was multiplied by a length and divided again.
-fn short(x: f64) -> f64 {
+fn round_digits(x: f64) -> f64 {
     format!("{x:.12e}").parse().unwrap_or(x)
 }
 
-fn stated(e: &Expr) -> Option<f64> {
+fn stated_half(e: &Expr) -> Option<f64> {
     match e.written() {
         WrittenNumber::Stated(half) => Some(half),
         _ => None,
@@ -180,7 +186,7 @@ fn stated(e: &Expr) -> Option<f64> {
 }
 
 /// Returns the most common half unit. `None` if a value that would be read as a number has none.
-fn most<'e>(of: impl Iterator<Item = (&'e Expr, Option<f64>)>) -> Option<f64> {
+fn most_common_half<'e>(of: impl Iterator<Item = (&'e Expr, Option<f64>)>) -> Option<f64> {
     let mut count: Vec<(f64, usize)> = Vec::new();
     for (e, half) in of {
         match half {
@@ -213,10 +219,10 @@ mod tests {
     #[test]
     fn what_people_write_comes_back() {
         for (x, unit) in [(40.0, 1e-3), (0.1, 1e-3), (23.09, 0.0254), (7.0, 1.0)] {
-            assert_eq!(value(&number(x * unit, unit)), x);
+            assert_eq!(value(&write_number(x * unit, unit)), x);
         }
         for x in [120.0, 30.5, 0.0, 33.3] {
-            assert_eq!(value(&angle(f64::to_radians(1.0) * x)), x);
+            assert_eq!(value(&write_angle(f64::to_radians(1.0) * x)), x);
         }
     }
 
@@ -224,12 +230,12 @@ mod tests {
         #[test]
         fn numbers_read_back_exactly(x in -1e6..1e6f64, unit in prop::sample::select(vec![1.0, 1e-2, 1e-3, 1e-6, 0.0254])) {
             let value_si = x * unit;
-            prop_assert_eq!(value(&number(value_si, unit)) * unit, value_si);
+            prop_assert_eq!(value(&write_number(value_si, unit)) * unit, value_si);
         }
 
         #[test]
         fn angles_read_back_exactly(x in 0.0..7.0f64) {
-            let read = match angle(x) {
+            let read = match write_angle(x) {
                 Coordinate::Expression(t) => t.trim_end_matches("rad").parse::<f64>().unwrap(),
                 c => value(&c) * 1f64.to_radians(),
             };

@@ -1,11 +1,11 @@
 //! The tables `[workload.grip]`, `[workload.drive]`, `[ranking]` and `[joint_types]`.
 
-use crate::file::read::workload::drive::regular;
+use crate::file::read::workload::drive::regular_programme;
 use crate::file::schema::{
     Coordinate, Diameters, DriveEntry, Gravity, GripEntry, JointTypeEntry, LimitEntry,
     RankingEntry, TermEntry,
 };
-use crate::file::write::number::{angle, number, numbers};
+use crate::file::write::number::{write_angle, write_number, write_numbers};
 use crate::model::drive::{DriveSpec, ProgrammeStep};
 use crate::model::grip::{GripLoad, GripSpec, LeverDrive, PartMass, Pivots, Toward, Transmission};
 use crate::model::mechanism::Mechanism;
@@ -13,12 +13,12 @@ use crate::model::ranking::{ClearanceSum, Ranking};
 use std::collections::BTreeMap;
 
 /// Returns the entry of a gripper, with lengths in the mechanism's unit.
-pub(crate) fn grip(m: &Mechanism, spec: &GripSpec) -> GripEntry {
-    let length = |x: f64| number(x, m.length_unit.metres);
+pub(crate) fn write_grip(m: &Mechanism, spec: &GripSpec) -> GripEntry {
+    let length = |x: f64| write_number(x, m.length_unit.metres);
     let mut entry = GripEntry {
         lever_length: length(spec.lever_length),
-        prism_angle: angle(spec.prism_angle),
-        mounting_angle: angle(spec.mounting_angle),
+        prism_angle: write_angle(spec.prism_angle),
+        mounting_angle: write_angle(spec.mounting_angle),
         diameter: length(spec.diameter),
         diameters: Some(Diameters::List(
             spec.diameters.iter().map(|d| length(*d)).collect(),
@@ -49,22 +49,22 @@ pub(crate) fn grip(m: &Mechanism, spec: &GripSpec) -> GripEntry {
 
 /// Writes the load of a gripper, with lengths in units of `metres`.
 fn write_load(entry: &mut GripEntry, load: &GripLoad, metres: f64) {
-    let plain = |x: f64| -> Coordinate { number(x, 1.0) };
+    let plain = |x: f64| -> Coordinate { write_number(x, 1.0) };
     match load.mass {
         PartMass::Constant(mass) => entry.mass = Some(plain(mass)),
         PartMass::Cylinder { density, length } => {
             entry.density = Some(plain(density));
-            entry.part_length = Some(number(length, metres));
+            entry.part_length = Some(write_number(length, metres));
         }
     }
-    entry.centre_of_mass = Some(numbers(load.centre_of_mass, metres));
+    entry.centre_of_mass = Some(write_numbers(load.centre_of_mass, metres));
     entry.gravity = Some(match load.gravity {
-        Toward::Fixed(v) => Gravity::Vector(numbers(v, 1.0)),
+        Toward::Fixed(v) => Gravity::Vector(write_numbers(v, 1.0)),
         Toward::Any(_) => Gravity::Word("any".to_owned()),
     });
     for a in &load.accelerations {
         match *a {
-            Toward::Fixed(v) => entry.accelerations.push(numbers(v, 1.0)),
+            Toward::Fixed(v) => entry.accelerations.push(write_numbers(v, 1.0)),
             Toward::Any(size) => entry.any_acceleration = Some(plain(size)),
         }
     }
@@ -78,12 +78,12 @@ fn write_load(entry: &mut GripEntry, load: &GripLoad, metres: f64) {
 }
 
 /// Returns the entry of a torsional drive, with lengths in units of `metres`.
-pub(crate) fn drive(spec: &DriveSpec, metres: f64) -> DriveEntry {
-    let length = |x: f64| number(x, metres);
-    let plain = |x: f64| -> Coordinate { number(x, 1.0) };
+pub(crate) fn write_drive(spec: &DriveSpec, metres: f64) -> DriveEntry {
+    let length = |x: f64| write_number(x, metres);
+    let plain = |x: f64| -> Coordinate { write_number(x, 1.0) };
     let [first, second] = spec.inertias;
     let mut entry = DriveEntry {
-        swing_angle: angle(2.0 * spec.twist),
+        swing_angle: write_angle(2.0 * spec.twist),
         period: Some(plain(spec.period)),
         // The total inertia, which includes that of the payload.
         inertia: Some(plain(first)),
@@ -96,23 +96,23 @@ pub(crate) fn drive(spec: &DriveSpec, metres: f64) -> DriveEntry {
         torsion_length: spec.length.map(length),
         max_length: spec.max_length.map(length),
         diameters: spec.diameters.iter().map(|d| length(*d)).collect(),
-        missing_angle: spec.missing.map(angle),
+        missing_angle: spec.missing.map(write_angle),
         viscous_damping: spec.damping.map(|d| plain(d.viscous)),
         friction_moment: spec.damping.map(|d| plain(d.coulomb)),
         spring_stroke: spec.cam.map(|c| length(c.stroke)),
         mounting_coefficient: spec.cam.map(|c| plain(c.mounting)),
         cam_efficiency: spec.cam.map(|c| plain(c.efficiency)),
         feed_energy: spec.push.energy.map(plain),
-        feed_from: Some(angle(spec.push.from)),
-        latch_capture: Some(angle(spec.capture)),
+        feed_from: Some(write_angle(spec.push.from)),
+        latch_capture: Some(write_angle(spec.capture)),
         ..DriveEntry::default()
     };
-    programme(&mut entry, &spec.programme);
+    write_programme(&mut entry, &spec.programme);
     entry
 }
 
 /// Writes the programme: as a number of swings if it is regular, otherwise step by step.
-fn programme(entry: &mut DriveEntry, steps: &[ProgrammeStep]) {
+fn write_programme(entry: &mut DriveEntry, steps: &[ProgrammeStep]) {
     let swings = steps
         .iter()
         .filter(|s| matches!(s, ProgrammeStep::Swing(_)))
@@ -122,10 +122,10 @@ fn programme(entry: &mut DriveEntry, steps: &[ProgrammeStep]) {
         _ => None,
     };
     for (stepwise, word) in [(true, "stepwise"), (false, "reversing")] {
-        if regular(stepwise, swings, dwell) == steps {
+        if regular_programme(stepwise, swings, dwell) == steps {
             entry.motion = Some(word.to_owned());
             entry.swings = i64::try_from(swings).ok();
-            entry.dwell = dwell.map(|d| number(d, 1.0));
+            entry.dwell = dwell.map(|d| write_number(d, 1.0));
             return;
         }
     }
@@ -137,7 +137,7 @@ fn programme(entry: &mut DriveEntry, steps: &[ProgrammeStep]) {
 }
 
 /// Returns the entry of a ranking.
-pub(crate) fn ranking(m: &Mechanism, r: &Ranking) -> RankingEntry {
+pub(crate) fn write_ranking(m: &Mechanism, r: &Ranking) -> RankingEntry {
     let term = |&(term, weight): &(crate::model::ranking::Term, f64)| TermEntry {
         term: term.name().to_owned(),
         weight: Some(weight),

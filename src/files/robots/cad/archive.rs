@@ -21,7 +21,7 @@ pub(crate) struct Archive {
 
 impl Archive {
     /// Returns the archive in the bytes, if they are one.
-    pub(crate) fn of(name: &str, bytes: &[u8]) -> Option<Archive> {
+    pub(crate) fn find_archive(name: &str, bytes: &[u8]) -> Option<Archive> {
         let archive = || Archive {
             name: name.to_owned(),
             bytes: bytes.to_vec(),
@@ -29,25 +29,25 @@ impl Archive {
         bytes.starts_with(MAGIC).then(archive)
     }
 
-    fn fail(&self, why: &ZipError) -> ImportError {
+    fn archive_error(&self, why: &ZipError) -> ImportError {
         let message = format!("the zip archive cannot be read ({why}); {REMEDY}");
         syntax_problem(message).in_file(&self.name, "", None)
     }
 
-    fn open(&self) -> Result<ZipArchive<Cursor<&[u8]>>, ImportError> {
-        ZipArchive::new(Cursor::new(&self.bytes[..])).map_err(|e| self.fail(&e))
+    fn open_zip(&self) -> Result<ZipArchive<Cursor<&[u8]>>, ImportError> {
+        ZipArchive::new(Cursor::new(&self.bytes[..])).map_err(|e| self.archive_error(&e))
     }
 
     /// Returns the bytes of a member, or `None` if it does not exist.
     ///
     /// # Errors
     /// Returns an error if the archive is broken, or if the member is larger than a description may be.
-    pub(crate) fn member(&self, member: &str) -> Result<Option<Vec<u8>>, ImportError> {
-        let mut archive = self.open()?;
+    pub(crate) fn read_member(&self, member: &str) -> Result<Option<Vec<u8>>, ImportError> {
+        let mut archive = self.open_zip()?;
         let found = match archive.by_name(member) {
             Ok(found) => found,
             Err(ZipError::FileNotFound) => return Ok(None),
-            Err(e) => return Err(self.fail(&e)),
+            Err(e) => return Err(self.archive_error(&e)),
         };
         let mut out = Vec::new();
         // The size in a header may be wrong.
@@ -55,7 +55,7 @@ impl Archive {
         found
             .take(limit)
             .read_to_end(&mut out)
-            .map_err(|e| self.fail(&ZipError::Io(e)))?;
+            .map_err(|e| self.archive_error(&ZipError::Io(e)))?;
         if out.len() > MAX_BYTES {
             let name = format!("{}:{member}", self.name);
             return Err(too_large(out.len(), MAX_BYTES).in_file(&name, "", None));
@@ -67,15 +67,17 @@ impl Archive {
     ///
     /// # Errors
     /// Returns an error if the archive is broken.
-    pub(crate) fn with(&self, member: &str, content: &[u8]) -> Result<Vec<u8>, ImportError> {
-        let mut archive = self.open()?;
+    pub(crate) fn with_member(&self, member: &str, content: &[u8]) -> Result<Vec<u8>, ImportError> {
+        let mut archive = self.open_zip()?;
         let mut out = ZipWriter::new(Cursor::new(Vec::new()));
         out.set_raw_comment(archive.comment().into())
-            .map_err(|e| self.fail(&e))?;
+            .map_err(|e| self.archive_error(&e))?;
         for at in 0..archive.len() {
-            let old = archive.by_index_raw(at).map_err(|e| self.fail(&e))?;
-            if old.name().map_err(|e| self.fail(&e))? != member {
-                out.raw_copy_file(old).map_err(|e| self.fail(&e))?;
+            let old = archive
+                .by_index_raw(at)
+                .map_err(|e| self.archive_error(&e))?;
+            if old.name().map_err(|e| self.archive_error(&e))? != member {
+                out.raw_copy_file(old).map_err(|e| self.archive_error(&e))?;
                 continue;
             }
             let mut options =
@@ -83,11 +85,12 @@ impl Archive {
             if let Some(time) = old.last_modified() {
                 options = options.last_modified_time(time);
             }
-            out.start_file(member, options).map_err(|e| self.fail(&e))?;
+            out.start_file(member, options)
+                .map_err(|e| self.archive_error(&e))?;
             out.write_all(content)
-                .map_err(|e| self.fail(&ZipError::Io(e)))?;
+                .map_err(|e| self.archive_error(&ZipError::Io(e)))?;
         }
-        let done = out.finish().map_err(|e| self.fail(&e))?;
+        let done = out.finish().map_err(|e| self.archive_error(&e))?;
         Ok(done.into_inner())
     }
 }
@@ -104,7 +107,7 @@ impl Document {
     ) -> Read<usize> {
         let source = self.sources.len();
         let root = self.nodes.len();
-        let nodes = outline(&text, source, root, from, ends)
+        let nodes = read_lines(&text, source, root, from, ends)
             .map_err(|(problem, at)| problem.in_file(name, &text, Some(at..at)))?;
         self.nodes.extend(nodes);
         let name = name.to_owned();
@@ -116,7 +119,7 @@ impl Document {
 type Located = (ProblemKind, usize);
 
 /// Returns the lines as nodes, whose places in the arena begin at `first`.
-fn outline(
+fn read_lines(
     text: &str,
     source: usize,
     first: usize,
@@ -155,7 +158,7 @@ fn outline(
         open.truncate(depth);
         let begins = start + depth;
         let id = nodes.len();
-        nodes.push(Node::line(word, source, begins..begins + word.len()));
+        nodes.push(Node::from_line(word, source, begins..begins + word.len()));
         if let Some(&parent) = open.last() {
             nodes[parent].children.push(first + id);
         }
@@ -164,17 +167,17 @@ fn outline(
     if nodes.is_empty() {
         return Err((syntax_problem("the file is empty"), 0));
     }
-    said(&mut nodes, first);
+    collect_texts(&mut nodes, first);
     Ok(nodes)
 }
 
 /// Gives each label its text.
-fn said(nodes: &mut [Node], first: usize) {
+fn collect_texts(nodes: &mut [Node], first: usize) {
     for id in 0..nodes.len() {
         let leaves = nodes[id].children.iter().map(|c| c - first);
         let leaves = leaves.filter(|&c| nodes[c].children.is_empty());
         let lines: Vec<String> = leaves.map(|c| nodes[c].name.clone()).collect();
-        lines.iter().for_each(|l| nodes[id].say(l));
+        lines.iter().for_each(|l| nodes[id].append_line(l));
     }
 }
 
@@ -193,7 +196,7 @@ mod tests {
         assert_eq!(a.name(), "A");
         let names: Vec<&str> = a.children().map(|c| c.name()).collect();
         assert_eq!(names, ["B", "C"]);
-        assert_eq!(a.child("B").map(|b| b.text()), Some("1\t2\n3"));
+        assert_eq!(a.first_child("B").map(|b| b.text()), Some("1\t2\n3"));
     }
 
     #[test]

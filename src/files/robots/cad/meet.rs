@@ -1,6 +1,6 @@
 //! A joint of an assembly at a pose: its type, its frame as I has it and as J has it. The two differ by the misfit.
 
-use crate::geom::rigid::{RigidMotion, perpendicular, towards};
+use crate::geom::rigid::{RigidMotion, perpendicular, unit_or_z};
 use crate::geom::vector::{Vector, add, add_scaled, cross, dot, length, scale, sub};
 use crate::model::joint_type::{Freedom, JointType};
 use crate::robots::cad::holds::Holds;
@@ -24,11 +24,11 @@ pub(crate) struct Meeting {
 }
 
 /// Returns a frame at a point, with a z and an x made perpendicular to it.
-fn frame(point: Vector, z: Vector, x: Vector) -> RigidMotion {
-    let z = towards(z);
+fn make_frame(point: Vector, z: Vector, x: Vector) -> RigidMotion {
+    let z = unit_or_z(z);
     let x = sub(x, scale(z, dot(x, z)));
     let x = if length(x) > FLAT {
-        towards(x)
+        unit_or_z(x)
     } else {
         perpendicular(z)
     };
@@ -39,16 +39,16 @@ fn frame(point: Vector, z: Vector, x: Vector) -> RigidMotion {
     }
 }
 
-fn axis(m: &RigidMotion, k: usize) -> Vector {
+fn frame_axis(m: &RigidMotion, k: usize) -> Vector {
     m.rotation.map(|row| row[k])
 }
 
 /// Returns a frame rotated by the smallest angle so that its z is a given direction.
-fn leaning(m: &RigidMotion, z: Vector) -> RigidMotion {
-    let from = axis(m, 2);
+fn tilt_to(m: &RigidMotion, z: Vector) -> RigidMotion {
+    let from = frame_axis(m, 2);
     let about = cross(from, z);
     let turn = match length(about) {
-        sine if sine > 0.0 => RigidMotion::turn(about, sine.atan2(dot(from, z))),
+        sine if sine > 0.0 => RigidMotion::from_turn(about, sine.atan2(dot(from, z))),
         _ => RigidMotion::IDENTITY,
     };
     let turned = RigidMotion {
@@ -63,35 +63,35 @@ fn leaning(m: &RigidMotion, z: Vector) -> RigidMotion {
 
 /// Returns the orientation of J that is nearest to I among those along the same lines: a cosine of 0 also holds for a flipped
 /// part.
-fn nearest(i: &RigidMotion, j: &RigidMotion) -> [Vector; 3] {
+fn nearest_rotation(i: &RigidMotion, j: &RigidMotion) -> [Vector; 3] {
     let [x, y] = [0, 1].map(|k| {
-        let a = axis(j, k);
-        scale(a, dot(a, axis(i, k)).signum())
+        let a = frame_axis(j, k);
+        scale(a, dot(a, frame_axis(i, k)).signum())
     });
-    frame([0.0; 3], cross(x, y), x).rotation
+    make_frame([0.0; 3], cross(x, y), x).rotation
 }
 
 /// Returns the joint that connects two frames at their pose, given in the world.
 ///
 /// # Errors
 /// Returns the reason, in words, if it constrains nothing that can be determined at this pose.
-pub(crate) fn meeting(
+pub(crate) fn find_meeting(
     holds: Holds,
     i: &RigidMotion,
     j: &RigidMotion,
 ) -> Result<Meeting, &'static str> {
-    let (x, z) = (axis(i, 0), axis(i, 2));
+    let (x, z) = (frame_axis(i, 0), frame_axis(i, 2));
     let (oi, oj) = (i.translation, j.translation);
     let d = sub(oj, oi);
     let along = dot(d, z);
     let foot = add_scaled(d, -along, z);
     // J's z in the sense of I's.
-    let zj = axis(j, 2);
+    let zj = frame_axis(j, 2);
     let zj = scale(zj, if dot(zj, z) < 0.0 { -1.0 } else { 1.0 });
-    let at = |point| frame(point, z, x);
-    let tilted = |point| leaning(&at(point), zj);
+    let at = |point| make_frame(point, z, x);
+    let tilted = |point| tilt_to(&at(point), zj);
     let as_j = |point| RigidMotion {
-        rotation: nearest(i, j),
+        rotation: nearest_rotation(i, j),
         translation: point,
     };
     let simple = Meeting::new;
@@ -102,7 +102,7 @@ pub(crate) fn meeting(
         Holds::Cylindrical => simple(JointType::Cylindrical, at(oi), tilted(add(oi, foot))),
         Holds::Spherical => simple(JointType::Spherical, at(oi), at(oj)),
         Holds::PointInLine => simple(JointType::SphereInCylinder, at(sub(oj, foot)), at(oj)),
-        Holds::ParallelAxes => simple(parallel(), at(oi), tilted(oi)),
+        Holds::ParallelAxes => simple(parallel_joint(), at(oi), tilted(oi)),
         Holds::NoRotation => simple(three_slides(), at(oi), as_j(oi)),
         Holds::Planar(offset) => {
             let meets_at = add_scaled(oj, offset - along, z);
@@ -112,25 +112,25 @@ pub(crate) fn meeting(
             let meets_at = add_scaled(oj, offset - along, z);
             simple(JointType::SphereOnPlane, at(meets_at), at(oj))
         }
-        Holds::Universal | Holds::LineInPlane(_) => square(holds, i, j)?,
-        Holds::ConstantVelocity => bisected(i, j)?,
-        Holds::Angle(cosine) => angle(i, j, cosine)?,
+        Holds::Universal | Holds::LineInPlane(_) => square_joint(holds, i, j)?,
+        Holds::ConstantVelocity => constant_velocity_joint(i, j)?,
+        Holds::Angle(cosine) => angle_joint(i, j, cosine)?,
         Holds::PointPoint(_) | Holds::PointLine(_) | Holds::LineLine(_) | Holds::Hinges(_) => {
-            apart(holds, i, j)?
+            distance_joint(holds, i, j)?
         }
-        Holds::Gear(radii) => gear(i, j, radii)?,
+        Holds::Gear(radii) => gear_joint(i, j, radii)?,
         Holds::RackPinion(radius) => {
             // The teeth meet where the pinion's pitch circle touches the rack's line.
-            let point = add_scaled(oj, -radius, axis(i, 1));
-            let there = frame(point, x, z);
-            here(Meeting::new(JointType::SphereOnPlane, there, there))
+            let point = add_scaled(oj, -radius, frame_axis(i, 1));
+            let there = make_frame(point, x, z);
+            at_this_pose(Meeting::new(JointType::SphereOnPlane, there, there))
         }
         Holds::Screw(lead) => {
             use Freedom::{Rx, Ry, Screw, Tx, Ty};
             let kind = JointType::Custom(vec![Screw, Rx, Ry, Tx, Ty]);
             Meeting {
                 pitch: lead / std::f64::consts::TAU,
-                ..here(Meeting::new(kind, at(oj), at(oj)))
+                ..at_this_pose(Meeting::new(kind, at(oj), at(oj)))
             }
         }
     })
@@ -149,7 +149,7 @@ impl Meeting {
     }
 }
 
-fn here(m: Meeting) -> Meeting {
+fn at_this_pose(m: Meeting) -> Meeting {
     Meeting {
         here_only: true,
         ..m
@@ -157,7 +157,7 @@ fn here(m: Meeting) -> Meeting {
 }
 
 /// Returns a joint that constrains only a direction.
-pub(crate) fn parallel() -> JointType {
+pub(crate) fn parallel_joint() -> JointType {
     use Freedom::{Rz, Tx, Ty, Tz};
     JointType::Custom(vec![Rz, Tx, Ty, Tz])
 }
@@ -168,33 +168,40 @@ fn three_slides() -> JointType {
 }
 
 /// Returns the joint that keeps two z axes perpendicular and the origins together, or J's line in a plane: z is I's, x is J's z.
-fn square(holds: Holds, i: &RigidMotion, j: &RigidMotion) -> Result<Meeting, &'static str> {
-    let (z, line, oj) = (axis(i, 2), axis(j, 2), j.translation);
+fn square_joint(holds: Holds, i: &RigidMotion, j: &RigidMotion) -> Result<Meeting, &'static str> {
+    let (z, line, oj) = (frame_axis(i, 2), frame_axis(j, 2), j.translation);
     if length(cross(z, line)) < FLAT {
         return Err("its two axes are parallel, but must be at a right angle");
     }
     // J's frame has its own x, and z as near I's as that lets it be.
     let across = cross(line, cross(z, line));
-    let far = frame(oj, across, line);
+    let far = make_frame(oj, across, line);
     Ok(match holds {
         Holds::LineInPlane(offset) => {
             let gap = offset - dot(sub(oj, i.translation), z);
-            let near = frame(add_scaled(oj, gap, z), z, line);
+            let near = make_frame(add_scaled(oj, gap, z), z, line);
             Meeting::new(JointType::CylinderOnPlane, near, far)
         }
-        _ => Meeting::new(JointType::Universal, frame(i.translation, z, line), far),
+        _ => Meeting::new(
+            JointType::Universal,
+            make_frame(i.translation, z, line),
+            far,
+        ),
     })
 }
 
 /// Returns the joint that constrains the rotation about one line, Ix·Jy + Iy·Jx = 0; the line moves as the joint turns.
-fn bisected(i: &RigidMotion, j: &RigidMotion) -> Result<Meeting, &'static str> {
-    let n = add(cross(axis(j, 1), axis(i, 0)), cross(axis(j, 0), axis(i, 1)));
+fn constant_velocity_joint(i: &RigidMotion, j: &RigidMotion) -> Result<Meeting, &'static str> {
+    let n = add(
+        cross(frame_axis(j, 1), frame_axis(i, 0)),
+        cross(frame_axis(j, 0), frame_axis(i, 1)),
+    );
     if length(n) < FLAT {
         return Err("its two shafts are placed so that it constrains no rotation");
     }
-    let sum = dot(axis(i, 0), axis(j, 1)) + dot(axis(i, 1), axis(j, 0));
-    let near = frame(i.translation, n, axis(i, 0));
-    let off = RigidMotion::turn(n, sum / length(n)).then(&RigidMotion {
+    let sum = dot(frame_axis(i, 0), frame_axis(j, 1)) + dot(frame_axis(i, 1), frame_axis(j, 0));
+    let near = make_frame(i.translation, n, frame_axis(i, 0));
+    let off = RigidMotion::from_turn(n, sum / length(n)).then(&RigidMotion {
         translation: [0.0; 3],
         ..near
     });
@@ -203,13 +210,13 @@ fn bisected(i: &RigidMotion, j: &RigidMotion) -> Result<Meeting, &'static str> {
         ..off
     };
     let kind = JointType::Custom(vec![Freedom::Rx, Freedom::Ry]);
-    Ok(here(Meeting::new(kind, near, far)))
+    Ok(at_this_pose(Meeting::new(kind, near, far)))
 }
 
 /// Returns the joint that fixes the angle between two z axes: it constrains the rotation about their common normal.
-fn angle(i: &RigidMotion, j: &RigidMotion, cosine: f64) -> Result<Meeting, &'static str> {
+fn angle_joint(i: &RigidMotion, j: &RigidMotion, cosine: f64) -> Result<Meeting, &'static str> {
     use Freedom::{Rx, Ry, Tx, Ty, Tz};
-    let (a, b) = (axis(i, 2), axis(j, 2));
+    let (a, b) = (frame_axis(i, 2), frame_axis(j, 2));
     let n = cross(a, b);
     if length(n) < FLAT {
         return Err(
@@ -217,22 +224,22 @@ fn angle(i: &RigidMotion, j: &RigidMotion, cosine: f64) -> Result<Meeting, &'sta
         );
     }
     let off = length(n).atan2(dot(a, b)) - cosine.clamp(-1.0, 1.0).acos();
-    let near = frame(i.translation, n, a);
+    let near = make_frame(i.translation, n, a);
     let far = RigidMotion {
         translation: i.translation,
-        ..RigidMotion::turn(n, off).then(&RigidMotion {
+        ..RigidMotion::from_turn(n, off).then(&RigidMotion {
             translation: [0.0; 3],
             ..near
         })
     };
     let kind = JointType::Custom(vec![Rx, Ry, Tx, Ty, Tz]);
-    Ok(here(Meeting::new(kind, near, far)))
+    Ok(at_this_pose(Meeting::new(kind, near, far)))
 }
 
 /// Returns the joint that fixes a distance of points or of lines, along the direction from one to the other.
-fn apart(holds: Holds, i: &RigidMotion, j: &RigidMotion) -> Result<Meeting, &'static str> {
+fn distance_joint(holds: Holds, i: &RigidMotion, j: &RigidMotion) -> Result<Meeting, &'static str> {
     use Freedom::{Rz, Ty, Tz};
-    let (z, oj) = (axis(i, 2), j.translation);
+    let (z, oj) = (frame_axis(i, 2), j.translation);
     let d = sub(oj, i.translation);
     let along = dot(d, z);
     let (way, wanted) = match holds {
@@ -245,35 +252,35 @@ fn apart(holds: Holds, i: &RigidMotion, j: &RigidMotion) -> Result<Meeting, &'st
     if length(way) < FLAT {
         return Err("its two elements coincide, so the distance has no direction");
     }
-    let u = towards(way);
+    let u = unit_or_z(way);
     let gap = length(way) - wanted.abs();
     let point = add_scaled(oj, -gap, u);
-    let zj = axis(j, 2);
+    let zj = frame_axis(j, 2);
     let zj = scale(zj, if dot(zj, z) < 0.0 { -1.0 } else { 1.0 });
     let lines = |kind, slip: f64| {
-        let near = frame(add_scaled(point, -slip, z), z, u);
+        let near = make_frame(add_scaled(point, -slip, z), z, u);
         let far = RigidMotion {
             translation: oj,
-            ..leaning(&near, zj)
+            ..tilt_to(&near, zj)
         };
         Meeting::new(kind, near, far)
     };
-    Ok(here(match holds {
+    Ok(at_this_pose(match holds {
         Holds::LineLine(_) => lines(JointType::Custom(vec![Rz, Ty, Tz]), 0.0),
         Holds::Hinges(_) => lines(JointType::Custom(vec![Rz, Ty]), along),
         _ => Meeting::new(
             JointType::SphereOnPlane,
-            frame(point, u, z),
-            frame(oj, u, z),
+            make_frame(point, u, z),
+            make_frame(oj, u, z),
         ),
     }))
 }
 
 /// Returns the contact of two gears at the pitch point of the line of centres, where they do not slip across that line. The pitch
 /// point of a belt is outside.
-fn gear(i: &RigidMotion, j: &RigidMotion, [a, b]: [f64; 2]) -> Result<Meeting, &'static str> {
+fn gear_joint(i: &RigidMotion, j: &RigidMotion, [a, b]: [f64; 2]) -> Result<Meeting, &'static str> {
     use Freedom::{Rx, Ry, Tx, Ty, Tz};
-    let z = axis(i, 2);
+    let z = frame_axis(i, 2);
     let d = sub(j.translation, i.translation);
     let d = sub(d, scale(z, dot(d, z)));
     if length(d) < FLAT {
@@ -281,13 +288,17 @@ fn gear(i: &RigidMotion, j: &RigidMotion, [a, b]: [f64; 2]) -> Result<Meeting, &
     }
     if (a + b).abs() < FLAT * a.abs() {
         // A belt on equal wheels: both turn alike.
-        let there = frame(i.translation, z, d);
+        let there = make_frame(i.translation, z, d);
         let kind = JointType::Custom(vec![Rx, Ry, Tx, Ty, Tz]);
-        return Ok(here(Meeting::new(kind, there, there)));
+        return Ok(at_this_pose(Meeting::new(kind, there, there)));
     }
     let point = add_scaled(i.translation, a / (a + b), d);
-    let there = frame(point, cross(z, d), z);
-    Ok(here(Meeting::new(JointType::SphereOnPlane, there, there)))
+    let there = make_frame(point, cross(z, d), z);
+    Ok(at_this_pose(Meeting::new(
+        JointType::SphereOnPlane,
+        there,
+        there,
+    )))
 }
 
 /// Rates below this fraction of the other count as zero.
@@ -299,7 +310,7 @@ fn is_belt(m: &Meeting) -> bool {
 }
 
 /// Returns the constrained component of J's motion relative to I, given a velocity at the frame's origin and an angular velocity.
-fn held(m: &Meeting, velocity: Vector, turn: Vector) -> f64 {
+fn constrained_rate(m: &Meeting, velocity: Vector, turn: Vector) -> f64 {
     let z = m.near.rotation.map(|row| row[2]);
     match &m.kind {
         JointType::SphereOnPlane => dot(z, velocity),
@@ -309,18 +320,20 @@ fn held(m: &Meeting, velocity: Vector, turn: Vector) -> f64 {
 }
 
 /// Returns the rate of the constrained component if a joint moves its second link at rate 1.
-fn rate(m: &Meeting, joint: &Part, places: &[RigidMotion]) -> Option<f64> {
+fn joint_rate(m: &Meeting, joint: &Part, places: &[RigidMotion]) -> Option<f64> {
     let frame = places[joint.links[0]].then(&joint.sides[0]);
-    let d = frame.direction(joint.axis);
+    let d = frame.map_direction(joint.axis);
     Some(match joint.joint_type {
-        JointType::Revolute => held(m, cross(d, sub(m.near.translation, frame.translation)), d),
-        JointType::Prismatic => held(m, d, [0.0; 3]),
+        JointType::Revolute => {
+            constrained_rate(m, cross(d, sub(m.near.translation, frame.translation)), d)
+        }
+        JointType::Prismatic => constrained_rate(m, d, [0.0; 3]),
         _ => return None,
     })
 }
 
 /// Returns the coupling that a joint between two links represents, if any; `joints` are those that connect parts.
-pub(crate) fn coupling(
+pub(crate) fn find_coupling(
     m: &Meeting,
     [i, j]: [usize; 2],
     joints: &[Part],
@@ -334,7 +347,7 @@ pub(crate) fn coupling(
             .filter_map(move |p| {
                 let second = p.links[1] == link;
                 let other = p.links[usize::from(!second)];
-                let rate = rate(m, p, places)?;
+                let rate = joint_rate(m, p, places)?;
                 Some((p, other, if second { rate } else { -rate }))
             })
     };
@@ -371,19 +384,20 @@ mod tests {
 
     #[test]
     fn a_hinge_that_is_turned_and_flipped_still_fits() {
-        let i = RigidMotion::shift([1.0, 2.0, 3.0]);
-        let flipped = i.then(&RigidMotion::turn(X, std::f64::consts::PI));
-        let j = flipped.then(&RigidMotion::turn(Z, 0.7));
-        let m = meeting(Holds::Revolute, &i, &j).unwrap_or_else(|e| panic!("{e}"));
+        let i = RigidMotion::from_translation([1.0, 2.0, 3.0]);
+        let flipped = i.then(&RigidMotion::from_turn(X, std::f64::consts::PI));
+        let j = flipped.then(&RigidMotion::from_turn(Z, 0.7));
+        let m = find_meeting(Holds::Revolute, &i, &j).unwrap_or_else(|e| panic!("{e}"));
         assert!(misfit(&m).iter().all(|x| *x < 1e-12), "{m:?}");
         // A slider holds the turn, too: so much is it out.
-        let m = meeting(Holds::Translational, &i, &j).unwrap_or_else(|e| panic!("{e}"));
+        let m = find_meeting(Holds::Translational, &i, &j).unwrap_or_else(|e| panic!("{e}"));
         assert!((misfit(&m)[1] - 0.7).abs() < 1e-12);
     }
 
     #[test]
     fn a_tilted_hinge_is_out_by_its_tilt_and_its_way() {
-        let j = RigidMotion::shift([0.0, 0.3, 0.4]).then(&RigidMotion::turn(Y, 0.02));
+        let j =
+            RigidMotion::from_translation([0.0, 0.3, 0.4]).then(&RigidMotion::from_turn(Y, 0.02));
         for (holds, wanted) in [
             (Holds::Revolute, [0.5, 0.02]),
             (Holds::Cylindrical, [0.3, 0.02]),
@@ -396,7 +410,8 @@ mod tests {
             (Holds::LineLine(0.3), [0.0, 0.02]),
             (Holds::Hinges(0.3), [0.4, 0.02]),
         ] {
-            let m = meeting(holds, &RigidMotion::IDENTITY, &j).unwrap_or_else(|e| panic!("{e}"));
+            let m =
+                find_meeting(holds, &RigidMotion::IDENTITY, &j).unwrap_or_else(|e| panic!("{e}"));
             let found = misfit(&m);
             for k in 0..2 {
                 assert!((found[k] - wanted[k]).abs() < 1e-9, "{holds:?} {found:?}");
@@ -408,9 +423,9 @@ mod tests {
     #[test]
     fn an_angle_between_parallel_axes_holds_nothing() {
         let i = RigidMotion::IDENTITY;
-        assert!(meeting(Holds::Angle(0.9), &i, &i).is_err());
-        let j = RigidMotion::turn(Y, 0.5);
-        let m = meeting(Holds::Angle(0.3_f64.cos()), &i, &j).unwrap_or_else(|e| panic!("{e}"));
+        assert!(find_meeting(Holds::Angle(0.9), &i, &i).is_err());
+        let j = RigidMotion::from_turn(Y, 0.5);
+        let m = find_meeting(Holds::Angle(0.3_f64.cos()), &i, &j).unwrap_or_else(|e| panic!("{e}"));
         assert!((misfit(&m)[1] - 0.2).abs() < 1e-12);
     }
 }

@@ -1,7 +1,7 @@
 //! Joints of an assembly of a CAD program changed to another of its types.
 
 use crate::file::problem::ImportError;
-use crate::geom::rigid::towards;
+use crate::geom::rigid::unit_or_z;
 use crate::geom::vector::{Vector, add_scaled, cross, dot, length};
 use crate::model::joint_type::Freedom;
 use crate::model::mechanism::JointId;
@@ -11,7 +11,7 @@ use crate::robots::description::origin::Origin;
 use crate::robots::edit::Edits;
 use crate::robots::fcstd::DOCUMENT;
 use crate::robots::import::Imported;
-use crate::robots::warning::{Read, unsupported};
+use crate::robots::warning::{Read, unsupported_problem};
 use crate::robots::xml::element::Element;
 use std::collections::BTreeMap;
 
@@ -45,14 +45,14 @@ enum Left {
 }
 
 /// Returns the span of directions in addition to an axis.
-fn span(all: &[Vector], axis: Vector) -> Left {
+fn span_left(all: &[Vector], axis: Vector) -> Left {
     let mut square: Vec<Vector> = Vec::new();
     for d in all {
         let rest = square
             .iter()
-            .fold(towards(*d), |v, s| add_scaled(v, -dot(v, *s), *s));
+            .fold(unit_or_z(*d), |v, s| add_scaled(v, -dot(v, *s), *s));
         if length(rest) > SAME {
-            square.push(towards(rest));
+            square.push(unit_or_z(rest));
         }
     }
     match square[..] {
@@ -67,15 +67,15 @@ impl Origin {
     /// Returns the CAD type of a joint with additional freedoms, each a translation or a rotation and its direction. `None` if
     /// there is no such type.
     #[must_use]
-    pub fn becomes(&self, joint: JointId, more: &[(bool, Vector)]) -> Option<&'static str> {
-        becomes(self, joint, more).map(|(freecad, _)| freecad)
+    pub fn cad_type(&self, joint: JointId, more: &[(bool, Vector)]) -> Option<&'static str> {
+        simple_type(self, joint, more).map(|(freecad, _)| freecad)
     }
 
     /// Returns true if a joint can be given a freedom in its place: a translation or rotation, and its direction.
     #[must_use]
     pub fn can_be_freed(&self, joint: JointId, freedom: (bool, Vector)) -> bool {
         if self.is_assembly() {
-            becomes(self, joint, &[freedom]).is_some()
+            simple_type(self, joint, &[freedom]).is_some()
         } else {
             self.takes_joints(joint)
         }
@@ -84,34 +84,34 @@ impl Origin {
 
 /// Returns a joint with additional freedoms, each a translation or a rotation and its direction in the world. `None` if there is
 /// no such type.
-pub(crate) fn becomes(
+pub(crate) fn simple_type(
     origin: &Origin,
     joint: JointId,
     more: &[(bool, Vector)],
 ) -> Option<SimpleType> {
-    let part = origin.part(joint);
+    let part = origin.part_of(joint);
     let frame = origin.places[part.links[0]].then(&part.sides[0]);
-    let axis = frame.direction(part.axis);
+    let axis = frame.map_direction(part.axis);
     let own = part.joint_type.freedoms().iter();
     let own: Vec<(bool, Vector)> = own
         .filter(|f| **f != Freedom::Screw)
-        .map(|&f| (f.slides(), frame.direction(part.direction(f))))
+        .map(|&f| (f.is_slide(), frame.map_direction(part.direction(f))))
         .collect();
     if own.len() < part.joint_type.freedoms().len() {
         return None;
     }
     let whole: Vec<(bool, Vector)> = own.iter().chain(more).copied().collect();
     // A direction that the joint has already, but for rounding, makes it no other type.
-    let other = |then: &SimpleType| more.is_empty() || simple(&own, axis) != Some(*then);
-    simple(&whole, axis).filter(other)
+    let other = |then: &SimpleType| more.is_empty() || type_with(&own, axis) != Some(*then);
+    type_with(&whole, axis).filter(other)
 }
 
 /// Returns the type with these freedoms, each a translation or a rotation and its direction, about an axis.
-fn simple(freedoms: &[(bool, Vector)], axis: Vector) -> Option<SimpleType> {
+fn type_with(freedoms: &[(bool, Vector)], axis: Vector) -> Option<SimpleType> {
     let left = |slides: bool| {
         let all = freedoms.iter().filter(|(s, _)| *s == slides);
         let all: Vec<Vector> = all.map(|(_, d)| *d).collect();
-        span(&all, axis)
+        span_left(&all, axis)
     };
     let all = [left(false), left(true)];
     let found = SIMPLE.iter().find(|(left, _)| *left == all);
@@ -122,37 +122,37 @@ fn simple(freedoms: &[(bool, Vector)], axis: Vector) -> Option<SimpleType> {
 ///
 /// # Errors
 /// Returns an error if there is no such type, or if a coupling would have to be removed.
-pub(crate) fn retype(imported: &Imported, releases: &[(Release, String)]) -> Read<Vec<u8>> {
+pub(crate) fn retype_joints(imported: &Imported, releases: &[(Release, String)]) -> Read<Vec<u8>> {
     let origin = &imported.origin;
     let mut edits = Edits::new(origin);
     for (joint, more) in by_joint(origin, releases)? {
-        let part = origin.part(joint);
+        let part = origin.part_of(joint);
         let Some(element) = part.element.map(|e| origin.element(e)) else {
             continue;
         };
-        let Some((freecad, ondsel)) = becomes(origin, joint, &more) else {
+        let Some((freecad, ondsel)) = simple_type(origin, joint, &more) else {
             let why = format!(
                 "{} has no joint type with the required freedoms",
                 imported.format.name
             );
-            return Err(cannot(part, element, why));
+            return Err(retype_error(part, element, why));
         };
         match imported.format.word {
-            "asmt" => edits.replace(element, element.node().span.clone(), ondsel.to_owned()),
-            _ => enumerated(origin, part, element, freecad, &mut edits)?,
+            "asmt" => edits.replace_span(element, element.node().span.clone(), ondsel.to_owned()),
+            _ => set_enumeration(origin, part, element, freecad, &mut edits)?,
         }
     }
-    let text = edits.apply()?;
+    let text = edits.apply_edits()?;
     match &origin.archive {
-        Some(archive) => archive.with(DOCUMENT, text.as_bytes()),
+        Some(archive) => archive.with_member(DOCUMENT, text.as_bytes()),
         None => Ok(text.into_bytes()),
     }
 }
 
-fn cannot(part: &Part, element: Element<'_>, why: String) -> ImportError {
+fn retype_error(part: &Part, element: Element<'_>, why: String) -> ImportError {
     let joint = format!("joint \"{}\"", part.id);
-    let problem = unsupported(&joint, &why, "choose another joint");
-    element.fail(None, problem)
+    let problem = unsupported_problem(&joint, &why, "choose another joint");
+    element.error_at(None, problem)
 }
 
 /// Returns the freedoms that each joint gets.
@@ -171,9 +171,10 @@ fn by_joint(
             Release::Coupling(q) => {
                 let element = origin.element(origin.couplings[q]);
                 let remedy = "suppress the joint in the CAD program, or choose another joint";
-                return Err(
-                    element.unsupported("it couples joints, so its type cannot be changed", remedy)
-                );
+                return Err(element.unsupported_error(
+                    "it couples joints, so its type cannot be changed",
+                    remedy,
+                ));
             }
         }
     }
@@ -181,33 +182,36 @@ fn by_joint(
 }
 
 /// Returns the index of a type in the list next to it, as FreeCAD writes it.
-fn enumerated(
+fn set_enumeration(
     origin: &Origin,
     part: &Part,
     property: Element<'_>,
     word: &str,
     edits: &mut Edits<'_>,
 ) -> Read<()> {
-    let list = property.child("CustomEnumList");
-    let mut words = list.iter().flat_map(|l| l.named("Enum"));
+    let list = property.first_child("CustomEnumList");
+    let mut words = list.iter().flat_map(|l| l.children_named("Enum"));
     let place = words.position(|e| e.attribute("value") == Some(word));
-    let (Some(integer), Some(place)) = (property.child("Integer"), place) else {
+    let (Some(integer), Some(place)) = (property.first_child("Integer"), place) else {
         let why = format!("this version of FreeCAD has no joint type {word}");
-        return Err(cannot(part, property, why));
+        return Err(retype_error(part, property, why));
     };
-    edits.set(integer, "value", &place.to_string())?;
+    edits.set_attribute(integer, "value", &place.to_string())?;
     // So that FreeCAD solves the assembly anew when it opens the file.
     let root = origin.element(origin.root);
     let has = |o: &Element<'_>| {
-        let all = o.child("Properties");
+        let all = o.first_child("Properties");
         all.is_some_and(|p| p.children().any(|c| c.id == property.id))
     };
-    let data = root.child("ObjectData");
-    let name = data.and_then(|d| d.named("Object").find(has)?.attribute("name"));
-    let listed = root.child("Objects");
-    let listed = listed.and_then(|l| l.named("Object").find(|o| o.attribute("name") == name));
+    let data = root.first_child("ObjectData");
+    let name = data.and_then(|d| d.children_named("Object").find(has)?.attribute("name"));
+    let listed = root.first_child("Objects");
+    let listed = listed.and_then(|l| {
+        l.children_named("Object")
+            .find(|o| o.attribute("name") == name)
+    });
     if let Some(object) = listed.filter(|o| o.attribute("Touched") != Some("1")) {
-        edits.set(object, "Touched", "1")?;
+        edits.set_attribute(object, "Touched", "1")?;
     }
     Ok(())
 }

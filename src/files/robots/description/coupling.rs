@@ -2,11 +2,11 @@
 //! so mimic joints can only represent a tree of couplings.
 
 use crate::closure::Closure;
-use crate::closure::tree::forest;
+use crate::closure::tree::spanning_forest;
 use crate::geom::Reals;
 use crate::model::joint_type::{Coupling, Freedom};
 use crate::model::mechanism::{JointId, Mechanism, StateId};
-use crate::rank::rounded::verdict::verdict;
+use crate::rank::rounded::verdict::rank_verdict;
 use crate::robots::description::Robot;
 use crate::robots::warning::Kept;
 
@@ -28,7 +28,7 @@ pub(crate) struct Usable {
 
 /// Selects the couplings that a mechanism file can represent; the others are noted and omitted. `written` are the joints of the
 /// file.
-pub(crate) fn usable(robot: &mut Robot, written: &[usize]) -> Vec<Usable> {
+pub(crate) fn usable_couplings(robot: &mut Robot, written: &[usize]) -> Vec<Usable> {
     let mut out: Vec<Usable> = Vec::new();
     for coupling in robot.couplings.clone() {
         let found = coupling
@@ -46,7 +46,7 @@ pub(crate) fn usable(robot: &mut Robot, written: &[usize]) -> Vec<Usable> {
             [Some(a), Some(b)] => {
                 let ends = [a, b];
                 let value = robot.joints[a].values.first().copied().unwrap_or(0.0);
-                let ratio = coupling.at(value);
+                let ratio = coupling.rate_at(value);
                 let within = ends.into_iter().find(|j| !written.contains(j));
                 if a == b {
                     "a joint follows itself".to_owned()
@@ -63,7 +63,7 @@ pub(crate) fn usable(robot: &mut Robot, written: &[usize]) -> Vec<Usable> {
                         let what = format!(
                             "{follower} is a polynomial of {leader}; its rate of {ratio} at this pose is used"
                         );
-                        robot.report.approximate(&coupling.element, what);
+                        robot.report.add_approximation(&coupling.element, what);
                     }
                     let (said_by, gear) = (coupling.said_by, coupling.gear);
                     out.push(Usable {
@@ -83,7 +83,7 @@ pub(crate) fn usable(robot: &mut Robot, written: &[usize]) -> Vec<Usable> {
 }
 
 /// Returns W of a mechanism without and with its couplings. `None` if there are no couplings or its digits do not decide.
-pub(crate) fn kept(m: &Mechanism) -> Option<Kept> {
+pub(crate) fn kept_couplings(m: &Mechanism) -> Option<Kept> {
     if m.couplings.is_empty() {
         return None;
     }
@@ -93,7 +93,7 @@ pub(crate) fn kept(m: &Mechanism) -> Option<Kept> {
         if rows * columns * rows.min(columns) > LARGEST {
             return None;
         }
-        let found = verdict(m, StateId::FREE).ok()?;
+        let found = rank_verdict(m, StateId::FREE).ok()?;
         found.is_decided().then(|| columns - found.rank())
     };
     let mut without = m.clone();
@@ -115,7 +115,7 @@ pub(crate) struct Follows {
 
 /// Returns for each joint the joint it follows, and a sentence for each coupling that mimic joints cannot represent: those of
 /// joints that are not `written` as joints of one freedom, and those that close a loop of couplings.
-pub(crate) fn mimics(m: &Mechanism, written: &[bool]) -> (Vec<Option<Follows>>, Vec<String>) {
+pub(crate) fn find_mimics(m: &Mechanism, written: &[bool]) -> (Vec<Option<Follows>>, Vec<String>) {
     let mut follows = vec![None; m.joints.len()];
     let mut said = vec![false; m.couplings.len()];
     let fits = |j: JointId| written[j] && m.joints[j].joint_type.freedoms().len() == 1;
@@ -127,11 +127,11 @@ pub(crate) fn mimics(m: &Mechanism, written: &[bool]) -> (Vec<Option<Follows>>, 
         ends.map(JointId::index)
     });
     let starts = drives.chain(m.joint_ids()).map(JointId::index);
-    let (_, steps) = forest(m.joints.len(), edges, |_| false, starts);
+    let (_, steps) = spanning_forest(m.joints.len(), edges, |_| false, starts);
     for s in steps {
         let coupling = &m.couplings[s.joint];
         let unit = |e: usize| match coupling.ends[e].freedom {
-            f if f.slides() => m.length_unit.metres,
+            f if f.is_slide() => m.length_unit.metres,
             _ => 1.0,
         };
         let forward = coupling.ratio.to_f64() * unit(1) / unit(0);

@@ -18,7 +18,7 @@ const MOST: f64 = 0.09;
 ///
 /// Each place is taken to be known as well as the number that is known least, a turn moving what is as far away as the robot
 /// is large.
-pub(crate) fn tolerance(root: Element<'_>, size: f64, across: f64) -> Option<ToleranceEntry> {
+pub(crate) fn find_tolerance(root: Element<'_>, size: f64, across: f64) -> Option<ToleranceEntry> {
     let mut found = Sources::default();
     let degrees = Expr::from_f64(1f64.to_radians()).ok()?;
     let mut unit = (root.name() == "mujoco").then(|| degrees.clone());
@@ -34,15 +34,15 @@ pub(crate) fn tolerance(root: Element<'_>, size: f64, across: f64) -> Option<Tol
                 _ => {}
             }
         }
-        attributes(e, unit.as_ref(), &mut found);
-        texts(e, &degrees, &mut found);
+        collect_attributes(e, unit.as_ref(), &mut found);
+        collect_texts(e, &degrees, &mut found);
         stack.extend(e.children());
     }
     let Largest {
         length,
         direction,
         turn,
-    } = found.largest()?;
+    } = found.largest_half_units()?;
     let most = if across > 0.0 {
         MOST * across
     } else {
@@ -50,11 +50,11 @@ pub(crate) fn tolerance(root: Element<'_>, size: f64, across: f64) -> Option<Tol
     };
     let shift = length.max(turn * size).max(LEAST * size).min(most);
     let turned = direction.max(turn).min(MOST);
-    stated([shift, if turned > 0.0 { turned.max(LEAST) } else { 0.0 }])
+    stated_tolerance([shift, if turned > 0.0 { turned.max(LEAST) } else { 0.0 }])
 }
 
 /// Returns the tolerance for places known to a length and directions known to an angle in radians. `None` if both are 0.
-pub(crate) fn stated([shift, turned]: [f64; 2]) -> Option<ToleranceEntry> {
+pub(crate) fn stated_tolerance([shift, turned]: [f64; 2]) -> Option<ToleranceEntry> {
     // Two digits of an uncertainty are enough.
     let entry = |x: f64| Some(Coordinate::Decimal(format!("{x:.1e}").parse().ok()?));
     Some(ToleranceEntry {
@@ -63,8 +63,8 @@ pub(crate) fn stated([shift, turned]: [f64; 2]) -> Option<ToleranceEntry> {
     })
 }
 
-fn attributes(e: Element<'_>, unit: Option<&Expr>, out: &mut Sources) {
-    let read = |k: &str| e.attribute(k).map(words).unwrap_or_default();
+fn collect_attributes(e: Element<'_>, unit: Option<&Expr>, out: &mut Sources) {
+    let read = |k: &str| e.attribute(k).map(parse_numbers).unwrap_or_default();
     for k in ["pos", "anchor"] {
         out.lengths.extend(read(k));
     }
@@ -96,11 +96,11 @@ fn attributes(e: Element<'_>, unit: Option<&Expr>, out: &mut Sources) {
 }
 
 /// Collects the numbers of SDF between tags.
-fn texts(e: Element<'_>, degrees: &Expr, out: &mut Sources) {
+fn collect_texts(e: Element<'_>, degrees: &Expr, out: &mut Sources) {
     match e.name() {
-        "xyz" => out.directions.push(words(e.text())),
+        "xyz" => out.directions.push(parse_numbers(e.text())),
         "pose" => {
-            let mut all = words(e.text());
+            let mut all = parse_numbers(e.text());
             let turn = all.split_off(all.len().min(3));
             out.lengths.append(&mut all);
             let unit = ["true", "1"].contains(&e.attribute("degrees").unwrap_or(""));
@@ -124,7 +124,7 @@ fn in_radians(x: Expr, unit: Option<&Expr>) -> Expr {
     }
 }
 
-fn words(text: &str) -> Vec<Expr> {
+fn parse_numbers(text: &str) -> Vec<Expr> {
     let read = text.split_whitespace().map(str::parse);
     read.filter_map(Result::ok).collect()
 }

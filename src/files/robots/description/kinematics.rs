@@ -1,7 +1,7 @@
 //! The spanning tree of a robot and the places of its links.
 
-use crate::closure::tree::{TreeStep, forest};
-use crate::geom::rigid::{RigidMotion, towards};
+use crate::closure::tree::{TreeStep, spanning_forest};
+use crate::geom::rigid::{RigidMotion, unit_or_z};
 use crate::geom::vector::{Vector, scale};
 use crate::model::joint_type::Freedom;
 use crate::robots::description::{Part, Robot};
@@ -31,7 +31,7 @@ pub(crate) fn spanning_tree(robot: &Robot, frame: usize) -> Tree {
         .chain((0..n).filter(|&l| !is_child[l]))
         .chain(0..n);
     let closes = |j: usize| robot.joints[j].closes;
-    let (roots, steps) = forest(n, robot.joints.iter().map(|p| p.links), closes, starts);
+    let (roots, steps) = spanning_forest(n, robot.joints.iter().map(|p| p.links), closes, starts);
     let mut into = vec![None; n];
     let mut used = vec![false; robot.joints.len()];
     for (i, s) in steps.iter().enumerate() {
@@ -46,36 +46,36 @@ pub(crate) fn spanning_tree(robot: &Robot, frame: usize) -> Tree {
 }
 
 /// Returns the displacement of one freedom.
-fn elementary(part: &Part, freedom: Freedom, value: f64) -> RigidMotion {
-    let d = towards(part.direction(freedom));
+fn freedom_motion(part: &Part, freedom: Freedom, value: f64) -> RigidMotion {
+    let d = unit_or_z(part.direction(freedom));
     match freedom {
-        Freedom::Rx | Freedom::Ry | Freedom::Rz => RigidMotion::turn(d, value),
-        Freedom::Tx | Freedom::Ty | Freedom::Tz => RigidMotion::shift(scale(d, value)),
+        Freedom::Rx | Freedom::Ry | Freedom::Rz => RigidMotion::from_turn(d, value),
+        Freedom::Tx | Freedom::Ty | Freedom::Tz => RigidMotion::from_translation(scale(d, value)),
         Freedom::Screw => RigidMotion {
             translation: scale(d, value * part.pitch),
-            ..RigidMotion::turn(d, value)
+            ..RigidMotion::from_turn(d, value)
         },
     }
 }
 
 /// Returns the displacement of a joint: its child's side in its parent's.
-pub(crate) fn displacement(part: &Part) -> RigidMotion {
+pub(crate) fn joint_motion(part: &Part) -> RigidMotion {
     part.joint_type
         .freedoms()
         .iter()
         .zip(&part.values)
         .fold(RigidMotion::IDENTITY, |pose, (&f, &v)| {
-            pose.then(&elementary(part, f, v))
+            pose.then(&freedom_motion(part, f, v))
         })
 }
 
 /// Returns the places of all links.
-pub(crate) fn places(robot: &Robot, tree: &Tree) -> Vec<RigidMotion> {
+pub(crate) fn link_places(robot: &Robot, tree: &Tree) -> Vec<RigidMotion> {
     let mut out = robot.places.clone();
     for s in &tree.steps {
         let p = &robot.joints[s.joint];
         let across = p.sides[0]
-            .then(&displacement(p))
+            .then(&joint_motion(p))
             .then(&p.sides[1].inverse());
         out[s.link] = if s.forward {
             out[s.from].then(&across)
@@ -103,9 +103,9 @@ pub(crate) fn world_axes(part: &Part, places: &[RigidMotion]) -> Vec<WorldAxis> 
         out.push(WorldAxis {
             freedom,
             point: pose.translation,
-            direction: pose.direction(part.direction(freedom)),
+            direction: pose.map_direction(part.direction(freedom)),
         });
-        pose = pose.then(&elementary(part, freedom, value));
+        pose = pose.then(&freedom_motion(part, freedom, value));
     }
     out
 }

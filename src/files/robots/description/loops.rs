@@ -7,13 +7,15 @@
 //! - Drake's list of `ball_constraint_body_A`, `ball_constraint_p_AP`, `..._body_B`, `..._p_BQ`.
 
 use crate::file::problem::ProblemKind;
-use crate::file::text::utf8;
+use crate::file::text::decode_utf8;
 use crate::geom::rigid::RigidMotion;
 use crate::geom::vector::{Vector, X, Y, Z, length};
 use crate::model::joint_type::JointType;
 use crate::robots::description::{Part, Robot};
 use crate::robots::warning::Reader;
-use crate::robots::warning::{Read, known, syntax_problem, too_large, unknown_name, unknown_word};
+use crate::robots::warning::{
+    Read, list_known, syntax_problem, too_large, unknown_name, unknown_word,
+};
 use serde_json::{Map, Value};
 
 /// Largest file, in bytes.
@@ -21,19 +23,22 @@ const MAX_BYTES: usize = 1 << 20;
 const TYPES: &str = "revolute, prismatic, cylindrical, spherical (3d), fixed (6d)";
 
 /// Adds the closures that the file names.
-pub(crate) fn add(name: &str, bytes: &[u8], robot: &mut Robot) -> Read<()> {
+pub(crate) fn add_loops(name: &str, bytes: &[u8], robot: &mut Robot) -> Read<()> {
     let mut added = || {
         if bytes.len() > MAX_BYTES {
             return Err(too_large(bytes.len(), MAX_BYTES));
         }
-        shapes(&parse(name, utf8(bytes)?).map_err(syntax_problem)?, robot)
+        read_loops(
+            &parse_loops(name, decode_utf8(bytes)?).map_err(syntax_problem)?,
+            robot,
+        )
     };
     added().map_err(|p| p.in_file(name, "", None))
 }
 
 /// Reports a file next to a URDF that defines loops but was not asked for, and counts their rows. Such a file has the name of the
 /// description, or `robot`, as in example-parallel-robots.
-pub(crate) fn beside(name: &str, read: Reader<'_>, robot: &mut Robot) {
+pub(crate) fn report_beside(name: &str, read: Reader<'_>, robot: &mut Robot) {
     let stem = std::path::Path::new(name).file_stem();
     let stem = stem.map_or(String::new(), |s| s.to_string_lossy().into_owned());
     let endings = ["yaml", "yml", "json", "toml"];
@@ -48,7 +53,7 @@ pub(crate) fn beside(name: &str, read: Reader<'_>, robot: &mut Robot) {
             continue;
         };
         let mut closed = robot.clone();
-        let rows = match add(&file, &bytes, &mut closed) {
+        let rows = match add_loops(&file, &bytes, &mut closed) {
             Ok(()) => {
                 let held = |p: &Part| 6 - p.joint_type.freedoms().len();
                 let rows = |r: &Robot| r.joints.iter().map(held).sum::<usize>();
@@ -73,7 +78,7 @@ fn has_loops(name: &str, bytes: &[u8]) -> bool {
     let text = std::str::from_utf8(bytes)
         .ok()
         .filter(|t| t.len() <= MAX_BYTES);
-    match text.and_then(|t| parse(name, t).ok()) {
+    match text.and_then(|t| parse_loops(name, t).ok()) {
         Some(Value::Object(o)) => {
             let full = |k: &str| {
                 o.get(k)
@@ -89,7 +94,7 @@ fn has_loops(name: &str, bytes: &[u8]) -> bool {
     }
 }
 
-fn parse(name: &str, text: &str) -> Result<Value, String> {
+fn parse_loops(name: &str, text: &str) -> Result<Value, String> {
     let ending = std::path::Path::new(name)
         .extension()
         .map_or(String::new(), |e| e.to_string_lossy().to_lowercase());
@@ -101,16 +106,16 @@ fn parse(name: &str, text: &str) -> Result<Value, String> {
     }
 }
 
-fn shapes(value: &Value, robot: &mut Robot) -> Result<(), ProblemKind> {
+fn read_loops(value: &Value, robot: &mut Robot) -> Result<(), ProblemKind> {
     match value {
-        Value::Object(o) if o.contains_key("closed_loop") => pairs(o, robot),
+        Value::Object(o) if o.contains_key("closed_loop") => read_pairs(o, robot),
         Value::Object(o) if o.contains_key("loop") => {
-            let mut all = list(o, "loop")?.iter().enumerate();
-            all.try_for_each(|(i, item)| own(i, item, robot))
+            let mut all = read_list(o, "loop")?.iter().enumerate();
+            all.try_for_each(|(i, item)| read_loop(i, item, robot))
         }
         Value::Array(items) if !items.is_empty() => {
             let mut all = items.iter().enumerate();
-            all.try_for_each(|(i, item)| ball(i, item, robot))
+            all.try_for_each(|(i, item)| read_ball(i, item, robot))
         }
         _ => Err(syntax_problem(
             "no loops found; write [[loop]] tables with a, b and type, or closed_loop: [[a, b]] and type: [6d]",
@@ -118,7 +123,7 @@ fn shapes(value: &Value, robot: &mut Robot) -> Result<(), ProblemKind> {
     }
 }
 
-fn list<'a>(o: &'a Map<String, Value>, key: &str) -> Result<&'a [Value], ProblemKind> {
+fn read_list<'a>(o: &'a Map<String, Value>, key: &str) -> Result<&'a [Value], ProblemKind> {
     match o.get(key) {
         None => Ok(&[]),
         Some(Value::Array(items)) => Ok(items),
@@ -128,7 +133,7 @@ fn list<'a>(o: &'a Map<String, Value>, key: &str) -> Result<&'a [Value], Problem
     }
 }
 
-fn word<'a>(v: Option<&'a Value>, what: &str) -> Result<&'a str, ProblemKind> {
+fn read_word<'a>(v: Option<&'a Value>, what: &str) -> Result<&'a str, ProblemKind> {
     v.and_then(Value::as_str).ok_or_else(|| {
         syntax_problem(format!(
             "{what} is missing or not a word; write it in quotes"
@@ -137,12 +142,12 @@ fn word<'a>(v: Option<&'a Value>, what: &str) -> Result<&'a str, ProblemKind> {
 }
 
 /// Returns the link and place of a name: of a link or frame, or of the child's side of a joint.
-fn place(element: &str, name: &str, robot: &Robot) -> Result<End, ProblemKind> {
+fn find_place(element: &str, name: &str, robot: &Robot) -> Result<End, ProblemKind> {
     if let Some(j) = robot.joints.iter().find(|j| j.id == name) {
         return Ok((j.links[1], j.sides[1]));
     }
     robot.frame(name).ok_or_else(|| {
-        let known = known("links and frames", robot.frames.keys());
+        let known = list_known("links and frames", robot.frames.keys());
         unknown_name(element, "link, frame or joint", name, &known)
     })
 }
@@ -161,7 +166,7 @@ fn joint_type(element: &str, word: &str) -> Result<JointType, ProblemKind> {
 /// A link and a place on it.
 type End = (usize, RigidMotion);
 
-fn put(
+fn add_closure(
     element: &str,
     ends: [End; 2],
     kind: JointType,
@@ -177,14 +182,14 @@ fn put(
     let mut part = Part::new(element, links, ends.map(|e| e.1), kind);
     part.closes = true;
     part.comment = Some("closes a loop".to_owned());
-    robot.report.map("loop closure");
+    robot.report.count_mapped("loop closure");
     robot.joints.push(part);
     Ok(())
 }
 
 /// Gives the joints of `joint_name` the kinds of `joint_type`, which URDF cannot represent.
-fn retyped(o: &Map<String, Value>, robot: &mut Robot) -> Result<(), ProblemKind> {
-    let (names, types) = (list(o, "joint_name")?, list(o, "joint_type")?);
+fn retype_joints(o: &Map<String, Value>, robot: &mut Robot) -> Result<(), ProblemKind> {
+    let (names, types) = (read_list(o, "joint_name")?, read_list(o, "joint_type")?);
     if names.len() != types.len() {
         return Err(syntax_problem(format!(
             "joint_name has {} entries and joint_type {}; write one type for each joint",
@@ -194,11 +199,11 @@ fn retyped(o: &Map<String, Value>, robot: &mut Robot) -> Result<(), ProblemKind>
     }
     for (name, kind) in names.iter().zip(types) {
         let (name, kind) = (
-            word(Some(name), "joint_name")?,
-            word(Some(kind), "joint_type")?,
+            read_word(Some(name), "joint_name")?,
+            read_word(Some(kind), "joint_type")?,
         );
         let Some(joint) = robot.joints.iter_mut().find(|j| j.id == name) else {
-            let known = known("joints", robot.joints.iter().map(|j| &j.id));
+            let known = list_known("joints", robot.joints.iter().map(|j| &j.id));
             return Err(unknown_name("joint_name", "joint", name, &known));
         };
         let axis = |letter: u8| {
@@ -226,16 +231,16 @@ fn retyped(o: &Map<String, Value>, robot: &mut Robot) -> Result<(), ProblemKind>
         (joint.joint_type, joint.axis, joint.second) = (new, first, second);
         (joint.limits, joint.zero) = (None, 0.0);
         joint.comment = Some(format!("{kind} by the file of loop closures"));
-        robot.report.map("joint type");
+        robot.report.count_mapped("joint type");
     }
     Ok(())
 }
 
 /// Reads the form of example-parallel-robots.
-fn pairs(o: &Map<String, Value>, robot: &mut Robot) -> Result<(), ProblemKind> {
-    retyped(o, robot)?;
-    let types = list(o, "type")?;
-    for (i, pair) in list(o, "closed_loop")?.iter().enumerate() {
+fn read_pairs(o: &Map<String, Value>, robot: &mut Robot) -> Result<(), ProblemKind> {
+    retype_joints(o, robot)?;
+    let types = read_list(o, "type")?;
+    for (i, pair) in read_list(o, "closed_loop")?.iter().enumerate() {
         let element = format!("loop-{}", i + 1);
         let Some([a, b]) = pair.as_array().map(Vec::as_slice) else {
             return Err(syntax_problem(format!(
@@ -245,24 +250,24 @@ fn pairs(o: &Map<String, Value>, robot: &mut Robot) -> Result<(), ProblemKind> {
         };
         let kind = match types.get(i) {
             None => JointType::Fixed,
-            Some(t) => joint_type(&element, word(Some(t), "type")?)?,
+            Some(t) => joint_type(&element, read_word(Some(t), "type")?)?,
         };
-        let end = |name| place(&element, word(Some(name), "the end of a loop")?, robot);
+        let end = |name| find_place(&element, read_word(Some(name), "the end of a loop")?, robot);
         let ends = [end(a)?, end(b)?];
-        put(&element, ends, kind, robot)?;
+        add_closure(&element, ends, kind, robot)?;
     }
-    for name in list(o, "name_mot")? {
-        let name = word(Some(name), "name_mot")?;
+    for name in read_list(o, "name_mot")? {
+        let name = read_word(Some(name), "name_mot")?;
         match robot.joints.iter_mut().find(|j| j.id == name) {
             Some(j) => j.drive = true,
-            None => robot.report.drop("motor of no joint", Some(name)),
+            None => robot.report.count_dropped("motor of no joint", Some(name)),
         }
     }
     Ok(())
 }
 
 /// Reads numbers as a list, or as text with spaces as in Drake.
-fn vector(v: Option<&Value>, what: &str) -> Result<Option<Vector>, ProblemKind> {
+fn read_vector(v: Option<&Value>, what: &str) -> Result<Option<Vector>, ProblemKind> {
     let bad = || {
         syntax_problem(format!(
             "{what} is not three finite numbers; write [0, 0, 1]"
@@ -284,30 +289,35 @@ fn vector(v: Option<&Value>, what: &str) -> Result<Option<Vector>, ProblemKind> 
 }
 
 /// Reads an end of a loop: the keys of its link, frame or joint, of a point there and of an axis.
-fn end(element: &str, item: &Value, keys: [&str; 3], robot: &Robot) -> Result<End, ProblemKind> {
+fn read_end(
+    element: &str,
+    item: &Value,
+    keys: [&str; 3],
+    robot: &Robot,
+) -> Result<End, ProblemKind> {
     let [name, point, axis] = keys.map(|k| (item.get(k), format!("{k} of {element}")));
-    let (link, frame) = place(element, word(name.0, &name.1)?, robot)?;
-    let at = vector(point.0, &point.1)?.unwrap_or([0.0; 3]);
-    let direction = vector(axis.0, &axis.1)?.unwrap_or(Z);
+    let (link, frame) = find_place(element, read_word(name.0, &name.1)?, robot)?;
+    let at = read_vector(point.0, &point.1)?.unwrap_or([0.0; 3]);
+    let direction = read_vector(axis.0, &axis.1)?.unwrap_or(Z);
     if length(direction) < 1e-9 {
         return Err(syntax_problem(format!(
             "{} is zero; give a direction such as [0, 0, 1]",
             axis.1
         )));
     }
-    let side = RigidMotion::shift(at).then(&RigidMotion::z_to(direction));
+    let side = RigidMotion::from_translation(at).then(&RigidMotion::z_to(direction));
     Ok((link, frame.then(&side)))
 }
 
 /// Reads a ball constraint of Drake.
-fn ball(i: usize, item: &Value, robot: &mut Robot) -> Result<(), ProblemKind> {
+fn read_ball(i: usize, item: &Value, robot: &mut Robot) -> Result<(), ProblemKind> {
     let element = format!("ball-{}", i + 1);
-    let end = |keys| end(&element, item, keys, robot);
+    let end = |keys| read_end(&element, item, keys, robot);
     let ends = [
         end(["ball_constraint_body_A", "ball_constraint_p_AP", ""])?,
         end(["ball_constraint_body_B", "ball_constraint_p_BQ", ""])?,
     ];
-    put(&element, ends, JointType::Spherical, robot)
+    add_closure(&element, ends, JointType::Spherical, robot)
 }
 
 /// The keys of a `[[loop]]`.
@@ -316,7 +326,7 @@ const KEYS: [&str; 8] = [
 ];
 
 /// Reads a `[[loop]]`.
-fn own(i: usize, item: &Value, robot: &mut Robot) -> Result<(), ProblemKind> {
+fn read_loop(i: usize, item: &Value, robot: &mut Robot) -> Result<(), ProblemKind> {
     let element = match item.get("id").and_then(Value::as_str) {
         Some(id) => id.to_owned(),
         None => format!("loop-{}", i + 1),
@@ -330,12 +340,12 @@ fn own(i: usize, item: &Value, robot: &mut Robot) -> Result<(), ProblemKind> {
     }
     let kind = match item.get("type") {
         None => JointType::Spherical,
-        some => joint_type(&element, word(some, "type")?)?,
+        some => joint_type(&element, read_word(some, "type")?)?,
     };
-    let end = |keys| end(&element, item, keys, robot);
+    let end = |keys| read_end(&element, item, keys, robot);
     let ends = [
         end(["a", "point_a", "axis_a"])?,
         end(["b", "point_b", "axis_b"])?,
     ];
-    put(&element, ends, kind, robot)
+    add_closure(&element, ends, kind, robot)
 }

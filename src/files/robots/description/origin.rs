@@ -1,6 +1,6 @@
 //! The places of the parts of a mechanism in its description.
 
-use crate::format::brief;
+use crate::format::three_digits;
 use crate::geom::rigid::RigidMotion;
 use crate::model::mechanism::JointId;
 use crate::motion::pose::Pose;
@@ -39,7 +39,7 @@ pub struct ElementPlace {
 }
 
 impl Origin {
-    pub(in crate::robots) fn part(&self, joint: JointId) -> &Part {
+    pub(in crate::robots) fn part_of(&self, joint: JointId) -> &Part {
         &self.robot.joints[self.joints[joint.index()]]
     }
 
@@ -49,38 +49,40 @@ impl Origin {
 
     /// Returns the element of a joint. `None` if it is defined in a separate file.
     #[must_use]
-    pub fn joint(&self, joint: JointId) -> Option<ElementPlace> {
-        self.part(joint).element.map(|e| self.place(e))
+    pub fn joint_place(&self, joint: JointId) -> Option<ElementPlace> {
+        self.part_of(joint).element.map(|e| self.element_place(e))
     }
 
     /// Returns the element of a coupling, given by its index in the mechanism.
     #[must_use]
-    pub fn coupling(&self, coupling: usize) -> Option<ElementPlace> {
-        self.couplings.get(coupling).map(|&e| self.place(e))
+    pub fn coupling_place(&self, coupling: usize) -> Option<ElementPlace> {
+        self.couplings.get(coupling).map(|&e| self.element_place(e))
     }
 
     /// Returns true if a joint closes a loop according to the description.
     #[must_use]
     pub fn closes(&self, joint: JointId) -> bool {
-        self.part(joint).closes
+        self.part_of(joint).closes
     }
 
     /// Returns true if an actuator moves a joint, directly or through a tendon; such a joint should not be changed.
     #[must_use]
     pub fn is_actuated(&self, joint: JointId) -> bool {
-        self.part(joint).drive || self.part(joint).pulled
+        self.part_of(joint).drive || self.part_of(joint).pulled
     }
 
     /// Returns true if all joints of one freedom are within their limits in a pose; `metres` is the mechanism's unit of length.
     #[must_use]
     pub fn is_inside(&self, pose: &Pose, metres: f64) -> bool {
         pose.columns.iter().all(|c| {
-            let unit = if c.freedom.slides() {
+            let unit = if c.freedom.is_slide() {
                 pose.length * metres / self.robot.unit.metres()
             } else {
                 1.0
             };
-            self.part(c.joint).exceeded(c.moved * unit).is_none()
+            self.part_of(c.joint)
+                .exceeded_limits(c.moved * unit)
+                .is_none()
         })
     }
 
@@ -89,8 +91,8 @@ impl Origin {
     #[must_use]
     pub fn outside_limits(&self) -> Vec<String> {
         let words = |p: &Part| {
-            let [value, low, high] = p.exceeded(0.0)?.map(|x| brief(x + p.zero));
-            let slides = p.joint_type.freedoms().iter().any(|f| f.slides());
+            let [value, low, high] = p.exceeded_limits(0.0)?.map(|x| three_digits(x + p.zero));
+            let slides = p.joint_type.freedoms().iter().any(|f| f.is_slide());
             let unit = if slides {
                 self.robot.unit.symbol()
             } else {
@@ -120,7 +122,7 @@ impl Origin {
     /// mechanism's unit, and radians. `None` if the file places one frame only.
     #[must_use]
     pub fn misfit(&self, joint: JointId) -> Option<[f64; 2]> {
-        self.part(joint).misfit
+        self.part_of(joint).misfit
     }
 
     /// Returns the same in words, if it is more than rounding.
@@ -128,12 +130,12 @@ impl Origin {
     pub fn open_by(&self, joint: JointId) -> Option<String> {
         let misfit = self.misfit(joint)?;
         let told = misfit.iter().any(|x| *x > 1e-6);
-        told.then(|| cad::words(misfit, self.robot.unit))
+        told.then(|| cad::describe_misfit(misfit, self.robot.unit))
     }
 
     /// Returns true if more joints can be added in series with a joint.
     pub(in crate::robots) fn takes_joints(&self, joint: JointId) -> bool {
-        let Some(id) = self.part(joint).element else {
+        let Some(id) = self.part_of(joint).element else {
             return false;
         };
         let (name, root) = (self.element(id).name(), self.element(self.root));
@@ -142,7 +144,7 @@ impl Origin {
         ["joint", "connect", "weld", "loop_joint"].contains(&name) && !of_gazebo
     }
 
-    fn place(&self, id: usize) -> ElementPlace {
+    fn element_place(&self, id: usize) -> ElementPlace {
         let node = self.element(id).node();
         let source = &self.document.sources[node.source];
         let before = &source.text[..node.span.start];

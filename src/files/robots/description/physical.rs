@@ -1,9 +1,9 @@
 //! Physical data of links in robot formats, and omissions of these formats.
 
-use crate::geom::vector::{Vector, real, sub};
+use crate::geom::vector::{Vector, sub, to_vector};
 use crate::model::loads::Inertia;
 use crate::model::mechanism::{LinkId, Mechanism, Mode, StateId};
-use crate::robots::mechanism::series_of_single_joints::{comment, numbers};
+use crate::robots::mechanism::series_of_single_joints::{escape_comment, format_numbers};
 use crate::robots::xml::Document;
 use itertools::Itertools;
 
@@ -17,7 +17,7 @@ pub(crate) struct Inertial {
 }
 
 /// Returns the inertial data of a link whose mass the file gives, with its centre relative to an origin in metres.
-pub(crate) fn inertial(m: &Mechanism, link: LinkId, origin: Vector) -> Option<Inertial> {
+pub(crate) fn link_inertial(m: &Mechanism, link: LinkId, origin: Vector) -> Option<Inertial> {
     let p = m.links[link].mass.as_ref()?;
     let tensor = match p.inertia {
         None => [0.0; 6],
@@ -26,7 +26,7 @@ pub(crate) fn inertial(m: &Mechanism, link: LinkId, origin: Vector) -> Option<In
         Some(Inertia::Principal([x, y, z])) => [x, y, z, 0.0, 0.0, 0.0],
         Some(Inertia::Tensor([xx, yy, zz, xy, yz, zx])) => [xx, yy, zz, xy, zx, yz],
     };
-    let centre = real(&p.centre).map(|c| c * m.length_unit.metres);
+    let centre = to_vector(&p.centre).map(|c| c * m.length_unit.metres);
     Some(Inertial {
         mass: p.mass,
         centre: sub(centre, origin),
@@ -39,8 +39,8 @@ pub(crate) const GRAM: &str =
     "links without a mass get 1 g, because engines reject massless moving bodies";
 
 /// Returns the same for a link that moves, which engines reject without mass or inertia; 1 g if the file gives none.
-pub(crate) fn moving(m: &Mechanism, link: LinkId, origin: Vector) -> Inertial {
-    let found = inertial(m, link, origin).filter(|i| i.mass > 0.0);
+pub(crate) fn moving_inertial(m: &Mechanism, link: LinkId, origin: Vector) -> Inertial {
+    let found = link_inertial(m, link, origin).filter(|i| i.mass > 0.0);
     let mut out = found.unwrap_or(Inertial {
         mass: 1e-3,
         centre: [0.0; 3],
@@ -53,12 +53,12 @@ pub(crate) fn moving(m: &Mechanism, link: LinkId, origin: Vector) -> Inertial {
 }
 
 /// Returns comments for the head of a robot description: those of the mechanism, and notes on the conversion.
-pub(crate) fn head(m: &Mechanism, indent: &str, told: &[String]) -> String {
+pub(crate) fn write_head(m: &Mechanism, indent: &str, told: &[String]) -> String {
     let own = Some(&m.description).filter(|d| !d.is_empty());
     let plain = |s: &String| s.replace(|c: char| c.is_control(), " ");
     let lines = own.into_iter().chain(told).map(plain);
     lines
-        .map(|t| format!("{indent}<!-- {} -->\n", comment(&t)))
+        .map(|t| format!("{indent}<!-- {} -->\n", escape_comment(&t)))
         .collect()
 }
 
@@ -116,7 +116,7 @@ pub(crate) struct Light {
 
 impl Light {
     /// Returns a light body for the existing masses and moments of inertia.
-    fn beside(masses: &[f64], inertias: &[f64]) -> Light {
+    fn light_beside(masses: &[f64], inertias: &[f64]) -> Light {
         let small = |all: &[f64], which: usize| {
             let most = all.iter().copied().fold(0.0, f64::max);
             let own = all.iter().copied().filter(|x| *x > STAND_IN * most);
@@ -155,7 +155,7 @@ impl Light {
                 _ => {}
             }
         }
-        Light::beside(&masses, &inertias)
+        Light::light_beside(&masses, &inertias)
     }
 
     /// Returns a light body for the masses of the links of a mechanism.
@@ -167,18 +167,18 @@ impl Light {
             Inertia::Principal(all) => all.to_vec(),
             Inertia::Tensor(all) => all[..3].to_vec(),
         });
-        Light::beside(&masses, &inertias.collect::<Vec<f64>>())
+        Light::light_beside(&masses, &inertias.collect::<Vec<f64>>())
     }
 
     /// Writes it as MJCF, with its centre at a place in its body.
-    pub(crate) fn mjcf(self, at: Vector) -> String {
+    pub(crate) fn write_mjcf(self, at: Vector) -> String {
         let Light { mass, inertia: i } = self;
-        let at = numbers(at);
+        let at = format_numbers(at);
         format!("<inertial pos=\"{at}\" mass=\"{mass:e}\" diaginertia=\"{i:e} {i:e} {i:e}\"/>")
     }
 
     /// Writes it as URDF.
-    pub(crate) fn urdf(self) -> String {
+    pub(crate) fn write_urdf(self) -> String {
         let Light { mass, inertia: i } = self;
         format!(
             "<inertial><mass value=\"{mass:e}\"/><inertia ixx=\"{i:e}\" ixy=\"0\" ixz=\"0\" iyy=\"{i:e}\" iyz=\"0\" izz=\"{i:e}\"/></inertial>"
@@ -186,7 +186,7 @@ impl Light {
     }
 
     /// Writes it as SDF.
-    pub(crate) fn sdf(self) -> String {
+    pub(crate) fn write_sdf(self) -> String {
         let Light { mass, inertia: i } = self;
         format!(
             "<inertial><mass>{mass:e}</mass><inertia><ixx>{i:e}</ixx><iyy>{i:e}</iyy><izz>{i:e}</izz><ixy>0</ixy><ixz>0</ixz><iyz>0</iyz></inertia></inertial>"
@@ -201,7 +201,7 @@ mod tests {
     #[test]
     fn is_small_beside_what_is_there() {
         let of = |masses: &[f64], inertias: &[f64]| {
-            let Light { mass, inertia } = Light::beside(masses, inertias);
+            let Light { mass, inertia } = Light::light_beside(masses, inertias);
             [mass, inertia]
         };
         assert_eq!(of(&[], &[]), [1e-4, 1e-7]);

@@ -28,7 +28,7 @@ pub(crate) fn by_name(element: &str, object: &str) -> Option<ShapeKind> {
 }
 
 /// Returns the constraint between two kinds, at frames in the assembly and with the distance of the joint.
-pub(crate) fn distance(
+pub(crate) fn distance_constraint(
     kinds: [Option<ShapeKind>; 2],
     frames: [RigidMotion; 2],
     value: f64,
@@ -37,10 +37,12 @@ pub(crate) fn distance(
     let [a, b] = kinds.map(|k| k.unwrap_or(Surface));
     let constraint = |a: ShapeKind, b: ShapeKind, swap: bool| {
         // A distance from a plane may be on either side of it.
-        let off = |more: f64| (value.abs() + more).copysign(height(&frames, swap));
+        let off = |more: f64| (value.abs() + more).copysign(height_above_plane(&frames, swap));
         Some(match (a, b) {
             (Vertex, Vertex) => Holds::PointPoint(value),
-            (Line | Circle(_), Line | Circle(_)) => Holds::LineLine(value + radius(a) + radius(b)),
+            (Line | Circle(_), Line | Circle(_)) => {
+                Holds::LineLine(value + circle_radius(a) + circle_radius(b))
+            }
             (Plane, Plane) => Holds::Planar(off(0.0)),
             (Plane, Cylinder(r)) => Holds::LineInPlane(off(r)),
             (Plane, Line) => Holds::LineInPlane(off(0.0)),
@@ -71,12 +73,12 @@ pub(crate) fn distance(
     };
     match kinds {
         [Some(_), Some(_)] => found,
-        _ => unknown(kinds, found),
+        _ => guess_constraint(kinds, found),
     }
 }
 
 /// Returns the distance of one frame from the plane of the other, along its normal; with `swap` the plane is the second.
-fn height(frames: &[RigidMotion; 2], swap: bool) -> f64 {
+fn height_above_plane(frames: &[RigidMotion; 2], swap: bool) -> f64 {
     let [plane, other] = if swap {
         [&frames[1], &frames[0]]
     } else {
@@ -86,7 +88,7 @@ fn height(frames: &[RigidMotion; 2], swap: bool) -> f64 {
     dot(sub(other.translation, plane.translation), z)
 }
 
-fn radius(k: ShapeKind) -> f64 {
+fn circle_radius(k: ShapeKind) -> f64 {
     match k {
         ShapeKind::Circle(r) => r,
         _ => 0.0,
@@ -94,14 +96,14 @@ fn radius(k: ShapeKind) -> f64 {
 }
 
 /// Determines unknown kinds of faces from the directions of the two frames at a solved pose, as far as possible.
-fn unknown(kinds: [Option<ShapeKind>; 2], found: Held) -> Held {
+fn guess_constraint(kinds: [Option<ShapeKind>; 2], found: Held) -> Held {
     let frames = &found.frames;
     let [z, line] = frames.map(|m| m.rotation.map(|row| row[2]));
     let swap = kinds[1] == Some(ShapeKind::Plane);
     if length(cross(z, line)) > 1.0 - SINE {
         // A plane and a cylinder; the first is the plane by default.
         return Held {
-            holds: Holds::LineInPlane(height(frames, swap)),
+            holds: Holds::LineInPlane(height_above_plane(frames, swap)),
             swap,
             doubt: Some(
                 "the kinds of its faces are not known; by their directions they are treated as a plane and a cylinder",
@@ -112,7 +114,7 @@ fn unknown(kinds: [Option<ShapeKind>; 2], found: Held) -> Held {
     Held {
         doubt: Some("the kinds of its elements are not known; they are treated as planes"),
         holds: match found.holds {
-            Holds::Planar(_) => Holds::Planar(height(frames, false)),
+            Holds::Planar(_) => Holds::Planar(height_above_plane(frames, false)),
             other => other,
         },
         ..found
@@ -120,9 +122,9 @@ fn unknown(kinds: [Option<ShapeKind>; 2], found: Held) -> Held {
 }
 
 /// Returns the frame of a rack, with x along its direction of sliding and y away from the pinion.
-pub(crate) fn rack(rack: &RigidMotion, pinion: &RigidMotion, slide: [f64; 3]) -> RigidMotion {
+pub(crate) fn rack_frame(rack: &RigidMotion, pinion: &RigidMotion, slide: [f64; 3]) -> RigidMotion {
     let z = pinion.rotation.map(|row| row[2]);
-    let x = crate::geom::rigid::towards(add_scaled(slide, -dot(slide, z), z));
+    let x = crate::geom::rigid::unit_or_z(add_scaled(slide, -dot(slide, z), z));
     let y = cross(z, x);
     let to_rack = sub(rack.translation, pinion.translation);
     // The teeth are on the side of the pinion where the rack is.
@@ -156,10 +158,13 @@ pub(crate) type Slide<'a> = (Option<&'a str>, [f64; 3]);
 ///
 /// # Errors
 /// Returns an error if a number of a placement is invalid.
-pub(crate) fn frames(joint: &Object<'_>, ends: &[Reference<'_>; 2]) -> Read<[RigidMotion; 2]> {
+pub(crate) fn joint_frames(
+    joint: &Object<'_>,
+    ends: &[Reference<'_>; 2],
+) -> Read<[RigidMotion; 2]> {
     let mut out = [RigidMotion::IDENTITY; 2];
     for (i, end) in ends.iter().enumerate() {
-        let own = joint.placement(&format!("Placement{}", i + 1))?;
+        let own = joint.read_placement(&format!("Placement{}", i + 1))?;
         let own = own.unwrap_or(RigidMotion::IDENTITY);
         out[i] = end.place.then(&end.inner).then(&own);
     }
@@ -170,15 +175,15 @@ pub(crate) fn frames(joint: &Object<'_>, ends: &[Reference<'_>; 2]) -> Read<[Rig
 ///
 /// # Errors
 /// Returns an error if a figure is not a number.
-pub(crate) fn held(
+pub(crate) fn joint_constraint(
     word: &str,
     joint: &Object<'_>,
     ends: &[Reference<'_>; 2],
     slides: &[Slide<'_>],
     shapes: Shapes<'_>,
 ) -> Read<Option<Held>> {
-    let frames = frames(joint, ends)?;
-    let figure = |name: &str| -> Read<f64> { Ok(joint.number(name)?.unwrap_or(0.0)) };
+    let frames = joint_frames(joint, ends)?;
+    let figure = |name: &str| -> Read<f64> { Ok(joint.property_number(name)?.unwrap_or(0.0)) };
     let plain = |holds| Held {
         holds,
         frames,
@@ -194,7 +199,7 @@ pub(crate) fn held(
         "Parallel" => plain(Holds::ParallelAxes),
         "Perpendicular" => plain(Holds::Angle(0.0)),
         "Angle" => {
-            let degrees = match joint.property("Angle") {
+            let degrees = match joint.find_property("Angle") {
                 Some(_) => figure("Angle")?,
                 None => figure("Distance")?,
             };
@@ -206,8 +211,8 @@ pub(crate) fn held(
             }
         }
         "Distance" => {
-            let kinds = [0, 1].map(|i| of(&ends[i], shapes));
-            let found = distance(kinds, frames, figure("Distance")?);
+            let kinds = [0, 1].map(|i| kind_of(&ends[i], shapes));
+            let found = distance_constraint(kinds, frames, figure("Distance")?);
             let [a, b] = frames;
             Held {
                 holds: found.holds.settled(),
@@ -215,7 +220,7 @@ pub(crate) fn held(
                 ..found
             }
         }
-        "RackPinion" => pinion(figure("Distance")?, ends, frames, slides),
+        "RackPinion" => rack_and_pinion(figure("Distance")?, ends, frames, slides),
         "Screw" => plain(Holds::Screw(figure("Distance")?)),
         "Gears" => plain(Holds::Gear([figure("Distance")?, figure("Distance2")?])),
         "Belt" => plain(Holds::Gear([figure("Distance")?, -figure("Distance2")?])),
@@ -224,12 +229,12 @@ pub(crate) fn held(
 }
 
 /// Returns the kind of the element that a joint refers to.
-fn of(end: &Reference<'_>, shapes: Shapes<'_>) -> Option<ShapeKind> {
-    by_name(end.element, end.object).or_else(|| kind(&shapes(end.shape?)?, end.element))
+fn kind_of(end: &Reference<'_>, shapes: Shapes<'_>) -> Option<ShapeKind> {
+    by_name(end.element, end.object).or_else(|| element_kind(&shapes(end.shape?)?, end.element))
 }
 
 /// Returns the rack and pinion; the rack is the part with a slide across the pinion's axis.
-fn pinion(
+fn rack_and_pinion(
     radius: f64,
     ends: &[Reference<'_>; 2],
     frames: [RigidMotion; 2],
@@ -255,7 +260,7 @@ fn pinion(
             ),
         };
     };
-    let there = rack(&frames[i], &frames[1 - i], direction);
+    let there = rack_frame(&frames[i], &frames[1 - i], direction);
     Held {
         holds: Holds::RackPinion(radius),
         frames: [there, frames[1 - i]],
@@ -280,15 +285,15 @@ pub(crate) enum ShapeKind {
 }
 
 /// Returns the kind of an element, such as `Face3`. `None` if the shape does not define it.
-pub(crate) fn kind(shape: &str, element: &str) -> Option<ShapeKind> {
+pub(crate) fn element_kind(shape: &str, element: &str) -> Option<ShapeKind> {
     let number = |prefix: &str| element.strip_prefix(prefix)?.parse::<usize>().ok();
     let (tag, place) = match (number("Face"), number("Edge")) {
         (Some(n), _) => ("Fa", n),
         (_, Some(n)) => ("Ed", n),
         _ => return None,
     };
-    let shapes = shapes(shape)?;
-    let at = nth(&shapes, tag, place)?;
+    let shapes = read_shapes(shape)?;
+    let at = nth_shape(&shapes, tag, place)?;
     let geometry = shapes.get(at)?.geometry?;
     let section = if tag == "Fa" { "Surfaces" } else { "Curves" };
     of_geometry(section, geometry_line(shape, section, geometry)?)
@@ -302,7 +307,7 @@ struct BrepShape<'a> {
 }
 
 /// Returns the lines after a heading that gives their number.
-fn section<'a>(text: &'a str, heading: &str) -> Option<(usize, &'a str)> {
+fn find_section<'a>(text: &'a str, heading: &str) -> Option<(usize, &'a str)> {
     let mut from = 0;
     loop {
         let at = from + text.get(from..)?.find(heading)?;
@@ -318,8 +323,8 @@ fn section<'a>(text: &'a str, heading: &str) -> Option<(usize, &'a str)> {
 
 /// Returns the shapes in the order of the file: parts come before the shapes they belong to, and are referred to by their place
 /// from the end.
-fn shapes(text: &str) -> Option<Vec<BrepShape<'_>>> {
-    let (count, body) = section(text, "TShapes")?;
+fn read_shapes(text: &str) -> Option<Vec<BrepShape<'_>>> {
+    let (count, body) = find_section(text, "TShapes")?;
     // Each takes three lines at least.
     if count > body.len() / 3 {
         return None;
@@ -368,7 +373,7 @@ fn shapes(text: &str) -> Option<Vec<BrepShape<'_>>> {
 }
 
 /// Returns the place of the n-th shape of a tag, from 1, in the order of a traversal from the whole down, each counted once.
-fn nth(shapes: &[BrepShape<'_>], tag: &str, n: usize) -> Option<usize> {
+fn nth_shape(shapes: &[BrepShape<'_>], tag: &str, n: usize) -> Option<usize> {
     let mut met = vec![false; shapes.len()];
     let mut stack = vec![shapes.len().checked_sub(1)?];
     let mut left = n;
@@ -389,7 +394,7 @@ fn nth(shapes: &[BrepShape<'_>], tag: &str, n: usize) -> Option<usize> {
 
 /// Returns the line of a surface or curve of simple kind.
 fn geometry_line<'a>(text: &'a str, heading: &str, n: usize) -> Option<&'a str> {
-    let (count, body) = section(text, heading)?;
+    let (count, body) = find_section(text, heading)?;
     if n == 0 || n > count {
         return None;
     }

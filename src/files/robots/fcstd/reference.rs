@@ -14,7 +14,7 @@ pub(crate) struct Documents<'a> {
 }
 
 impl<'a> Documents<'a> {
-    fn of(&self, file: &str) -> Option<&Objects<'a>> {
+    fn document_of(&self, file: &str) -> Option<&Objects<'a>> {
         match file {
             "" => Some(&self.main),
             file => self.linked.get(file),
@@ -48,13 +48,16 @@ pub(crate) type Broken = String;
 ///
 /// # Errors
 /// Returns an error if a number of a placement is invalid. A broken reference is not an error of the file.
-pub(crate) fn reference<'a>(
+pub(crate) fn read_reference<'a>(
     joint: &Object<'a>,
     which: &str,
     assembly: &Object<'a>,
     documents: &Documents<'a>,
 ) -> Read<Result<Reference<'a>, Broken>> {
-    let Some(link) = joint.property(which).and_then(|p| p.child("XLink")) else {
+    let Some(link) = joint
+        .find_property(which)
+        .and_then(|p| p.first_child("XLink"))
+    else {
         return Ok(Err(format!("{which} is empty")));
     };
     let root = link.attribute("name").unwrap_or("");
@@ -68,21 +71,24 @@ pub(crate) fn reference<'a>(
         let what = format!("{which} is broken: there is no object {root}");
         return Ok(Err(what));
     }
-    let path = path(link, root, assembly, &documents.main);
+    let path = element_path(link, root, assembly, &documents.main);
     let Some((element, names)) = path.split_last() else {
         return Ok(Err(format!("{which} names no element")));
     };
-    follow(names, element, which, assembly, documents)
+    follow_names(names, element, which, assembly, documents)
 }
 
 /// Returns the names from below the assembly to the element, which is the last and may be empty.
-fn path<'a>(
+fn element_path<'a>(
     link: Element<'a>,
     root: &'a str,
     assembly: &Object<'a>,
     objects: &Objects<'a>,
 ) -> Vec<&'a str> {
-    let sub = link.named("Sub").next().and_then(|s| s.attribute("value"));
+    let sub = link
+        .children_named("Sub")
+        .next()
+        .and_then(|s| s.attribute("value"));
     let mut names: Vec<&str> = sub.unwrap_or("").split('.').collect();
     // FreeCAD 1.0 begins at the assembly or above, 1.1 at the part or within a group.
     if let Some(at) = names.iter().position(|n| *n == assembly.name) {
@@ -90,7 +96,10 @@ fn path<'a>(
     }
     if root != assembly.name {
         let mut above = vec![root];
-        while let Some(o) = objects.above(above[0]).filter(|o| o.name != assembly.name) {
+        while let Some(o) = objects
+            .group_of(above[0])
+            .filter(|o| o.name != assembly.name)
+        {
             if above.contains(&o.name) {
                 break;
             }
@@ -117,7 +126,7 @@ struct PartFound<'a, 'n> {
     rest: &'n [&'a str],
 }
 
-fn part<'a, 'n>(
+fn find_part<'a, 'n>(
     names: &'n [&'a str],
     which: &str,
     assembly: &Object<'a>,
@@ -141,7 +150,7 @@ fn part<'a, 'n>(
             return Ok(Ok(PartFound { part, above, rest }));
         }
         array = part.is_array();
-        above = above.then(&placed(&part)?);
+        above = above.then(&placement_of(&part)?);
     }
     Ok(Err(format!(
         "{which} names no part of {}",
@@ -150,35 +159,37 @@ fn part<'a, 'n>(
 }
 
 /// Returns the placement of an object relative to its parent.
-fn placed(o: &Object<'_>) -> Read<RigidMotion> {
-    Ok(o.placement("Placement")?.unwrap_or(RigidMotion::IDENTITY))
+fn placement_of(o: &Object<'_>) -> Read<RigidMotion> {
+    Ok(o.read_placement("Placement")?
+        .unwrap_or(RigidMotion::IDENTITY))
 }
 
 /// Returns true if a datum is attached to something.
 fn is_attached(o: &Object<'_>) -> bool {
     ["AttachmentSupport", "Support"].iter().any(|p| {
-        o.property(p)
+        o.find_property(p)
             .is_some_and(|p| p.children().any(|c| c.children().next().is_some()))
     })
 }
 
-fn follow<'a>(
+fn follow_names<'a>(
     names: &[&'a str],
     element: &'a str,
     which: &str,
     assembly: &Object<'a>,
     documents: &Documents<'a>,
 ) -> Read<Result<Reference<'a>, Broken>> {
-    let PartFound { part, above, rest } = match part(names, which, assembly, &documents.main)? {
+    let PartFound { part, above, rest } = match find_part(names, which, assembly, &documents.main)?
+    {
         Ok(found) => found,
         Err(broken) => return Ok(Err(broken)),
     };
     let mut out = Reference {
         part: Some(part.name),
-        place: above.then(&placed(&part)?),
+        place: above.then(&placement_of(&part)?),
         inner: RigidMotion::IDENTITY,
         doubt: None,
-        shape: part.shape(),
+        shape: part.shape_member(),
         object: part.kind,
         element,
     };
@@ -194,33 +205,33 @@ fn follow<'a>(
         file: "",
     };
     for &name in rest {
-        at = resolved(at, documents, &mut out)?;
-        let found = documents.of(at.file).and_then(|o| o.get(name));
+        at = resolve_link(at, documents, &mut out)?;
+        let found = documents.document_of(at.file).and_then(|o| o.get(name));
         if is_body(&at.object) || name.is_empty() {
             // Features of a body; the last that is there has the shape.
             out.shape = found
-                .and_then(Object::shape)
+                .and_then(Object::shape_member)
                 .filter(|_| at.file.is_empty())
                 .or(out.shape);
             continue;
         }
         let Some(o) = found else {
-            out.doubt = Some(unknown(name, at.file));
+            out.doubt = Some(uncertain_frame(name, at.file));
             out.shape = None;
             break;
         };
-        out.inner = out.inner.then(&placed(o)?);
-        out.shape = o.shape().filter(|_| at.file.is_empty());
+        out.inner = out.inner.then(&placement_of(o)?);
+        out.shape = o.shape_member().filter(|_| at.file.is_empty());
         out.object = o.kind;
         at.object = *o;
     }
-    if !resolved(at, documents, &mut out)?.file.is_empty() {
+    if !resolve_link(at, documents, &mut out)?.file.is_empty() {
         out.shape = None;
     }
     Ok(Ok(out))
 }
 
-fn unknown(name: &str, file: &str) -> String {
+fn uncertain_frame(name: &str, file: &str) -> String {
     let file = match file {
         "" => "which is not in the document".to_owned(),
         file => format!("which is an object of {file}, which is not read"),
@@ -239,28 +250,28 @@ struct ObjectInFile<'a> {
 }
 
 /// Returns the object that a link refers to, in its file; a link that moves its object adds to the placement.
-fn resolved<'a>(
+fn resolve_link<'a>(
     mut at: ObjectInFile<'a>,
     documents: &Documents<'a>,
     out: &mut Reference<'a>,
 ) -> Read<ObjectInFile<'a>> {
     // A chain of links is short; the limit ends a ring of them.
     for _ in 0..16 {
-        let Some((in_file, name)) = at.object.linked() else {
+        let Some((in_file, name)) = at.object.linked_object() else {
             break;
         };
         let to = if in_file.is_empty() { at.file } else { in_file };
         let turns = at.object.is_true("LinkTransform") == Some(true);
-        let Some(&target) = documents.of(to).and_then(|d| d.get(name)) else {
+        let Some(&target) = documents.document_of(to).and_then(|d| d.get(name)) else {
             if out.doubt.is_none() && !in_file.is_empty() {
                 at.file = to;
             }
             break;
         };
         if turns {
-            out.inner = out.inner.then(&placed(&target)?);
+            out.inner = out.inner.then(&placement_of(&target)?);
         }
-        out.shape = target.shape();
+        out.shape = target.shape_member();
         at = ObjectInFile {
             object: target,
             file: to,

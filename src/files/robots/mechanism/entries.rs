@@ -1,20 +1,20 @@
 //! The entries of the mechanism file of a robot.
 
-use crate::closure::tree::forest;
+use crate::closure::tree::spanning_forest;
 use crate::file::problem::ProblemKind;
 use crate::file::schema::{
     Coordinate, CouplingEntry, DriveWord, JointEntry, LinkEntry, MechanismFile, OptionEntry,
     SearchEntry,
 };
-use crate::file::write::{Comment, plain};
-use crate::geom::rigid::{RigidMotion, towards};
+use crate::file::write::{Comment, plain_number};
+use crate::geom::rigid::{RigidMotion, unit_or_z};
 use crate::geom::vector::{Vector, length};
 use crate::model::joint_type::{Freedom, JointType};
 use crate::robots::description::coupling::Usable;
 use crate::robots::description::kinematics::world_axes;
 use crate::robots::description::{Part, Robot};
 use crate::robots::mechanism::series_of_single_joints::Names;
-use crate::robots::warning::{Options, known, syntax_problem, unknown_name};
+use crate::robots::warning::{Options, list_known, syntax_problem, unknown_name};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Longest name in a mechanism file, in characters.
@@ -40,7 +40,7 @@ impl Bodies {
 }
 
 /// Returns a name that fits a mechanism file: unique, not empty, short, without control characters.
-fn fitting(names: &mut Names, wanted: &str) -> String {
+fn fitting_name(names: &mut Names, wanted: &str) -> String {
     let plain: String = wanted
         .chars()
         .filter(|c| !c.is_control())
@@ -51,7 +51,7 @@ fn fitting(names: &mut Names, wanted: &str) -> String {
     } else {
         plain
     };
-    names.unique(plain.clone(), |n| {
+    names.unique_name(plain.clone(), |n| {
         let end = format!("~{n}");
         plain.chars().take(LONGEST - end.len()).collect::<String>() + &end
     })
@@ -77,27 +77,27 @@ pub(crate) struct Content<'a> {
 
 impl Content<'_> {
     /// Returns true if the rates of a joint matter; its axis then has length 1, so that they are exact.
-    fn coupled(&self, joint: usize) -> bool {
+    fn is_coupled(&self, joint: usize) -> bool {
         self.couplings.iter().any(|u| u.ends.contains(&joint))
     }
 }
 
 /// Returns the entries of the file and the comments above them.
-pub(crate) fn entries(c: &Content<'_>) -> (MechanismFile, Vec<Comment>) {
+pub(crate) fn make_file(c: &Content<'_>) -> (MechanismFile, Vec<Comment>) {
     let mut comments = Vec::new();
-    let (links, ids) = links(c, &mut comments);
+    let (links, ids) = make_links(c, &mut comments);
     let (mut names, mut joint_ids, mut joints) = (Names::default(), BTreeMap::new(), Vec::new());
     for &j in c.joints {
-        let id = fitting(&mut names, &c.robot.joints[j].id);
+        let id = fitting_name(&mut names, &c.robot.joints[j].id);
         joint_ids.insert(j, id.clone());
         if let Some(what) = &c.robot.joints[j].comment {
             comments.push(Comment::new("joint", joints.len(), what));
         }
-        joints.push(joint(j, id, c, &ids));
+        joints.push(make_joint(j, id, c, &ids));
     }
     let coupling = |u: &Usable| CouplingEntry {
         joints: u.ends.map(|j| joint_ids[&j].clone()),
-        ratio: number(u.ratio),
+        ratio: clean_number(u.ratio),
         gear: u.gear,
     };
     let what = "Joint types that a search may use instead; edit freely.";
@@ -105,7 +105,7 @@ pub(crate) fn entries(c: &Content<'_>) -> (MechanismFile, Vec<Comment>) {
     let options = c.robot.options.iter().map(|t| t.name().to_owned());
     let file = MechanismFile {
         name: one_line(&c.robot.name),
-        description: description(c),
+        description: describe_source(c),
         length_unit: Some(c.robot.unit.symbol().to_owned()),
         link: links,
         joint: joints,
@@ -124,7 +124,7 @@ fn one_line(s: &str) -> String {
 }
 
 /// Describes the source of the mechanism, and what was omitted in the conversion.
-fn description(c: &Content<'_>) -> String {
+fn describe_source(c: &Content<'_>) -> String {
     let report = &c.robot.report;
     let left_out = match (report.coupling_rows, report.constraint_rows) {
         (0, 0) => "",
@@ -138,7 +138,7 @@ fn description(c: &Content<'_>) -> String {
 }
 
 /// Returns the links, the frame first, with the names of their bodies.
-fn links(
+fn make_links(
     c: &Content<'_>,
     comments: &mut Vec<Comment>,
 ) -> (Vec<LinkEntry>, BTreeMap<usize, String>) {
@@ -153,7 +153,7 @@ fn links(
     let order = std::iter::once(c.frame).chain(used.into_iter().filter(|&b| b != c.frame));
     let (mut names, mut ids, mut links) = (Names::default(), BTreeMap::new(), Vec::new());
     for b in order {
-        let id = fitting(&mut names, &c.robot.links[b]);
+        let id = fitting_name(&mut names, &c.robot.links[b]);
         let role = if b == c.frame {
             Some("frame")
         } else {
@@ -174,21 +174,21 @@ fn links(
 }
 
 /// Writes a number without rounding errors around multiples of 1e-9.
-fn number(x: f64) -> Coordinate {
+fn clean_number(x: f64) -> Coordinate {
     let r = (x * 1e9).round() / 1e9;
-    plain(if (r - x).abs() < 1e-12 { r } else { x })
+    plain_number(if (r - x).abs() < 1e-12 { r } else { x })
 }
 
 /// Returns a direction for the file: with its own length unless that is extreme.
-fn direction(v: Vector) -> Vector {
+fn file_direction(v: Vector) -> Vector {
     if (0.1..=10.0).contains(&length(v)) {
         v
     } else {
-        towards(v)
+        unit_or_z(v)
     }
 }
 
-fn joint(j: usize, id: String, c: &Content<'_>, ids: &BTreeMap<usize, String>) -> JointEntry {
+fn make_joint(j: usize, id: String, c: &Content<'_>, ids: &BTreeMap<usize, String>) -> JointEntry {
     let p: &Part = &c.robot.joints[j];
     let place = c.places[p.links[0]].then(&p.sides[0]);
     let axes = world_axes(p, c.places);
@@ -198,15 +198,15 @@ fn joint(j: usize, id: String, c: &Content<'_>, ids: &BTreeMap<usize, String>) -
     };
     let axis = || {
         let z = about(&[Freedom::Rz, Freedom::Tz, Freedom::Screw]);
-        let z = z.unwrap_or_else(|| place.direction(p.axis));
-        let z = if c.coupled(j) {
-            towards(z)
+        let z = z.unwrap_or_else(|| place.map_direction(p.axis));
+        let z = if c.is_coupled(j) {
+            unit_or_z(z)
         } else {
-            direction(z)
+            file_direction(z)
         };
-        z.map(number)
+        z.map(clean_number)
     };
-    let second = || Some(place.direction(p.second));
+    let second = || Some(place.map_direction(p.second));
     let ball = matches!(p.joint_type, JointType::Spherical | JointType::Fixed);
     let universal = p.joint_type == JointType::Universal;
     let screws = p.joint_type.freedoms().contains(&Freedom::Screw);
@@ -218,13 +218,13 @@ fn joint(j: usize, id: String, c: &Content<'_>, ids: &BTreeMap<usize, String>) -
             JointType::Custom(list) => Some(list.iter().map(|f| f.name().to_owned()).collect()),
             _ => None,
         },
-        point: place.translation.map(number),
+        point: place.translation.map(clean_number),
         axis: (!ball).then(axis),
         reference: about(&[Freedom::Rx])
             .filter(|_| universal)
             .or_else(|| second().filter(|_| p.joint_type.has_second_axis()))
-            .map(|x| direction(x).map(number)),
-        pitch: screws.then(|| number(p.pitch)),
+            .map(|x| file_direction(x).map(clean_number)),
+        pitch: screws.then(|| clean_number(p.pitch)),
         drive: DriveWord::Driven(p.drive),
         ..JointEntry::default()
     }
@@ -238,7 +238,7 @@ const IDLE: &str = "link body frame left right l r front rear";
 
 pub(crate) fn link_of(robot: &Robot, name: &str) -> Result<usize, ProblemKind> {
     robot.links.iter().position(|l| l == name).ok_or_else(|| {
-        let known = known("links", &robot.links);
+        let known = list_known("links", &robot.links);
         unknown_name("the command line", "link", name, &known)
     })
 }
@@ -263,14 +263,14 @@ pub(crate) fn output_links(
         out.push(b);
     }
     if out.is_empty() {
-        out = meant(robot, bodies, joints, frame);
+        out = guess_outputs(robot, bodies, joints, frame);
     }
     out.sort_unstable();
     out.dedup();
     Ok(out)
 }
 
-fn meant(robot: &Robot, bodies: &Bodies, joints: &[usize], frame: usize) -> Vec<usize> {
+fn guess_outputs(robot: &Robot, bodies: &Bodies, joints: &[usize], frame: usize) -> Vec<usize> {
     let ends = joints
         .iter()
         .map(|&j| robot.joints[j].links.map(|l| bodies.of[l]));
@@ -299,7 +299,7 @@ fn meant(robot: &Robot, bodies: &Bodies, joints: &[usize], frame: usize) -> Vec<
     if !leaves.is_empty() || !floating.is_empty() {
         return [leaves, floating].concat();
     }
-    let (_, steps) = forest(n, ends, |_| false, [frame]);
+    let (_, steps) = spanning_forest(n, ends, |_| false, [frame]);
     let mut depth = vec![0; n];
     for s in &steps {
         depth[s.link] = depth[s.from] + 1;

@@ -1,9 +1,9 @@
 //! Closing loops: damped least squares over all joint values, from the pose of the file.
 
-use crate::geom::rigid::{RigidMotion, towards};
+use crate::geom::rigid::{RigidMotion, unit_or_z};
 use crate::geom::vector::{Vector, add, cross, dot, length, scale, sub};
 use crate::model::joint_type::Freedom;
-use crate::robots::description::kinematics::{Tree, displacement, places, world_axes};
+use crate::robots::description::kinematics::{Tree, joint_motion, link_places, world_axes};
 use crate::robots::description::{Part, Robot};
 use ozols_dense::{Matrix, solve_positive};
 
@@ -31,7 +31,7 @@ pub(crate) struct Gap {
 }
 
 /// Returns the size of the robot: the largest distance between joints of one link, for weighing angles against lengths.
-pub(crate) fn size(robot: &Robot) -> f64 {
+pub(crate) fn robot_size(robot: &Robot) -> f64 {
     robot
         .joints
         .iter()
@@ -40,9 +40,9 @@ pub(crate) fn size(robot: &Robot) -> f64 {
 }
 
 /// Returns the difference between the two sides of a loop joint: a shift and a rotation vector, in the world.
-fn mismatch(robot: &Robot, places: &[RigidMotion], j: usize) -> (Vector, Vector) {
+fn loop_mismatch(robot: &Robot, places: &[RigidMotion], j: usize) -> (Vector, Vector) {
     let p = &robot.joints[j];
-    let near = places[p.links[0]].then(&p.sides[0]).then(&displacement(p));
+    let near = places[p.links[0]].then(&p.sides[0]).then(&joint_motion(p));
     let far = places[p.links[1]].then(&p.sides[1]);
     let turn = near.inverse().then(&far).rotation_vector();
     let spherical = free_turns(robot, j) == 3;
@@ -51,23 +51,23 @@ fn mismatch(robot: &Robot, places: &[RigidMotion], j: usize) -> (Vector, Vector)
         if spherical {
             [0.0; 3]
         } else {
-            near.direction(turn)
+            near.map_direction(turn)
         },
     )
 }
 
 fn free_turns(robot: &Robot, j: usize) -> usize {
     let freedoms = robot.joints[j].joint_type.freedoms().iter();
-    freedoms.filter(|f| f.turns()).count()
+    freedoms.filter(|f| f.is_turn()).count()
 }
 
 /// Returns the gaps of all loops.
-pub(crate) fn gaps(robot: &Robot, tree: &Tree) -> Vec<Gap> {
-    let places = places(robot, tree);
+pub(crate) fn loop_gaps(robot: &Robot, tree: &Tree) -> Vec<Gap> {
+    let places = link_places(robot, tree);
     tree.loops
         .iter()
         .map(|&joint| {
-            let (shift, turn) = mismatch(robot, &places, joint);
+            let (shift, turn) = loop_mismatch(robot, &places, joint);
             Gap {
                 joint,
                 shift: length(shift),
@@ -78,7 +78,7 @@ pub(crate) fn gaps(robot: &Robot, tree: &Tree) -> Vec<Gap> {
 }
 
 /// Returns the largest gap as a length.
-pub(crate) fn worst(gaps: &[Gap], size: f64) -> f64 {
+pub(crate) fn worst_gap(gaps: &[Gap], size: f64) -> f64 {
     gaps.iter()
         .map(|g| g.shift.max(g.turn * size))
         .fold(0.0, f64::max)
@@ -89,8 +89,8 @@ pub(crate) fn worst(gaps: &[Gap], size: f64) -> f64 {
 ///
 /// It tries several starts and takes the first that closes with all joints within their limits. If there is none, it takes the
 /// one that breaks the fewest limits, then the first that comes as near as rounded coordinates allow; otherwise the values stay.
-pub(crate) fn close(robot: &mut Robot, tree: &Tree) -> (f64, usize) {
-    let size = size(robot);
+pub(crate) fn close_numerically(robot: &mut Robot, tree: &Tree) -> (f64, usize) {
+    let size = robot_size(robot);
     let first: Vec<Vec<f64>> = robot.joints.iter().map(|j| j.values.clone()).collect();
     let set = |robot: &mut Robot, values: &[Vec<f64>]| {
         for (j, v) in robot.joints.iter_mut().zip(values) {
@@ -102,9 +102,9 @@ pub(crate) fn close(robot: &mut Robot, tree: &Tree) -> (f64, usize) {
     for start in 0..STARTS {
         set(robot, &first);
         if start > 0 {
-            begin(robot, start);
+            set_start(robot, start);
         }
-        let left = descend(robot, tree, size);
+        let left = minimise_gaps(robot, tree, size);
         if left > ROUNDED * size || (left > CLOSED * size && near.is_some()) {
             continue;
         }
@@ -133,7 +133,7 @@ pub(crate) fn close(robot: &mut Robot, tree: &Tree) -> (f64, usize) {
         }
         None => {
             set(robot, &first);
-            (worst(&gaps(robot, tree), size), 0)
+            (worst_gap(&loop_gaps(robot, tree), size), 0)
         }
     }
 }
@@ -143,7 +143,7 @@ fn wind_back(j: &mut Part) -> bool {
     const TURN: f64 = std::f64::consts::TAU;
     let middle = j.limits.map_or(0.0, |(low, high)| f64::midpoint(low, high));
     for (v, f) in j.values.iter_mut().zip(j.joint_type.freedoms()) {
-        if f.turns() {
+        if f.is_turn() {
             *v -= TURN * ((*v - middle) / TURN).round();
         }
     }
@@ -154,7 +154,7 @@ fn wind_back(j: &mut Part) -> bool {
 }
 
 /// Sets other values to start from: limited joints within their limits, others slightly rotated, differently each time.
-fn begin(robot: &mut Robot, start: usize) {
+fn set_start(robot: &mut Robot, start: usize) {
     let mut state = 0x9e37_79b9_7f4a_7c15_u64.wrapping_mul(start as u64);
     for j in &mut robot.joints {
         state = state
@@ -176,7 +176,7 @@ fn begin(robot: &mut Robot, start: usize) {
 }
 
 /// Minimises the gaps by Levenberg-Marquardt with the exact twists as derivatives.
-fn descend(robot: &mut Robot, tree: &Tree, size: f64) -> f64 {
+fn minimise_gaps(robot: &mut Robot, tree: &Tree, size: f64) -> f64 {
     let offsets: Vec<usize> = robot
         .joints
         .iter()
@@ -187,11 +187,11 @@ fn descend(robot: &mut Robot, tree: &Tree, size: f64) -> f64 {
         })
         .collect();
     let unknowns: usize = robot.joints.iter().map(|j| j.values.len()).sum();
-    let mut left = worst(&gaps(robot, tree), size);
+    let mut left = worst_gap(&loop_gaps(robot, tree), size);
     if unknowns == 0 || unknowns > MAX_UNKNOWNS {
         return left;
     }
-    let (mut damping, mut cost) = (1e-4, cost(robot, tree, size));
+    let (mut damping, mut cost) = (1e-4, gap_cost(robot, tree, size));
     let mut milestone = cost;
     for step in 1..=STEPS {
         // Hardly nearer for a while: a minimum that is not a closed pose.
@@ -201,7 +201,7 @@ fn descend(robot: &mut Robot, tree: &Tree, size: f64) -> f64 {
         if left <= 1e-14 * size || damping > 1e8 {
             break;
         }
-        let (jacobian, residual) = linearise(robot, tree, size, &offsets, unknowns);
+        let (jacobian, residual) = linearise_gaps(robot, tree, size, &offsets, unknowns);
         let mut normal = jacobian.transpose_times(&jacobian);
         let right = jacobian.transpose_times(&residual);
         for i in 0..unknowns {
@@ -220,13 +220,13 @@ fn descend(robot: &mut Robot, tree: &Tree, size: f64) -> f64 {
         };
         for (j, &first) in robot.joints.iter_mut().zip(&offsets) {
             for (i, (v, f)) in j.values.iter_mut().zip(j.joint_type.freedoms()).enumerate() {
-                *v += shrink * change[first + i] * if f.slides() { size } else { 1.0 };
+                *v += shrink * change[first + i] * if f.is_slide() { size } else { 1.0 };
             }
         }
-        let after = self::cost(robot, tree, size);
+        let after = self::gap_cost(robot, tree, size);
         if after < cost {
             (cost, damping) = (after, (damping / 5.0).max(1e-15));
-            left = worst(&gaps(robot, tree), size);
+            left = worst_gap(&loop_gaps(robot, tree), size);
         } else {
             for (j, v) in robot.joints.iter_mut().zip(before) {
                 j.values = v;
@@ -237,32 +237,32 @@ fn descend(robot: &mut Robot, tree: &Tree, size: f64) -> f64 {
     left
 }
 
-fn cost(robot: &Robot, tree: &Tree, size: f64) -> f64 {
-    let places = places(robot, tree);
+fn gap_cost(robot: &Robot, tree: &Tree, size: f64) -> f64 {
+    let places = link_places(robot, tree);
     let square = |v: Vector| dot(v, v);
     tree.loops
         .iter()
         .map(|&j| {
-            let (shift, turn) = mismatch(robot, &places, j);
+            let (shift, turn) = loop_mismatch(robot, &places, j);
             square(scale(shift, 1.0 / size)) + square(turn)
         })
         .sum()
 }
 
 /// Returns the derivative of "near side less far side" and the mismatch to be corrected.
-fn linearise(
+fn linearise_gaps(
     robot: &Robot,
     tree: &Tree,
     size: f64,
     offsets: &[usize],
     unknowns: usize,
 ) -> (Matrix, Matrix) {
-    let places = places(robot, tree);
+    let places = link_places(robot, tree);
     let rows = 6 * tree.loops.len();
     let mut jacobian = Matrix::zeros(rows, unknowns);
     let mut residual = Matrix::zeros(rows, 1);
     for (n, &j) in tree.loops.iter().enumerate() {
-        let (shift, turn) = mismatch(robot, &places, j);
+        let (shift, turn) = loop_mismatch(robot, &places, j);
         let turning = free_turns(robot, j) != 3;
         for i in 0..3 {
             residual[(6 * n + i, 0)] = shift[i] / size;
@@ -271,13 +271,13 @@ fn linearise(
         let p = &robot.joints[j];
         let near = places[p.links[0]]
             .then(&p.sides[0])
-            .then(&displacement(p))
+            .then(&joint_motion(p))
             .translation;
         let far = places[p.links[1]].then(&p.sides[1]).translation;
         let mut put = |joint: usize, at: Vector, sign: f64| {
             let part = &robot.joints[joint];
             for (i, a) in world_axes(part, &places).iter().enumerate() {
-                let d = towards(a.direction);
+                let d = unit_or_z(a.direction);
                 let (v, w) = match a.freedom {
                     Freedom::Rx | Freedom::Ry | Freedom::Rz => (cross(d, sub(at, a.point)), d),
                     Freedom::Tx | Freedom::Ty | Freedom::Tz => (scale(d, size), [0.0; 3]),

@@ -4,7 +4,7 @@ use crate::file::schema::{Coordinate, JointEntry, MechanismFile, OptionEntry, Op
 use crate::geom::vector::{Vector, cross, dot};
 use crate::model::joint_type::JointType;
 use crate::model::mechanism::{JointId, Mechanism, StateId};
-use crate::rank::rounded::verdict::verdict;
+use crate::rank::rounded::verdict::rank_verdict;
 use crate::redundancy::release::Release;
 use crate::redundancy::stressed::Stressed;
 use crate::robots::description::coupling::LARGEST;
@@ -15,7 +15,7 @@ pub(crate) fn at_loops(m: &Mechanism, closes: &[bool], file: &mut MechanismFile)
     if !closes.contains(&true) {
         return false;
     }
-    let Ok(found) = verdict(m, StateId::FREE) else {
+    let Ok(found) = rank_verdict(m, StateId::FREE) else {
         return false;
     };
     let rank = found.at_least();
@@ -23,8 +23,8 @@ pub(crate) fn at_loops(m: &Mechanism, closes: &[bool], file: &mut MechanismFile)
     if rank == found.rows || work > LARGEST {
         return false;
     }
-    let geometry = found.mechanism().unwrap_or(m);
-    let Ok(Some(parts)) = Stressed::parts(geometry, StateId::FREE, rank) else {
+    let geometry = found.intended_mechanism().unwrap_or(m);
+    let Ok(Some(parts)) = Stressed::stressed_parts(geometry, StateId::FREE, rank) else {
         return false;
     };
     let mut any = false;
@@ -32,8 +32,8 @@ pub(crate) fn at_loops(m: &Mechanism, closes: &[bool], file: &mut MechanismFile)
         .iter()
         .flat_map(|p| p.joints.iter().map(move |&j| (p, j)));
     for (part, j) in all.filter(|(_, j)| closes[j.index()]) {
-        let all = part.at(j);
-        let tables = tables(m, j, &all);
+        let all = part.releases_at(j);
+        let tables = option_tables(m, j, &all);
         any |= !tables.is_empty();
         if !tables.is_empty() {
             let entry: &mut JointEntry = &mut file.joint[j.index()];
@@ -46,7 +46,7 @@ pub(crate) fn at_loops(m: &Mechanism, closes: &[bool], file: &mut MechanismFile)
     any
 }
 
-fn tables(m: &Mechanism, joint: JointId, all: &[Release]) -> Vec<OptionEntry> {
+fn option_tables(m: &Mechanism, joint: JointId, all: &[Release]) -> Vec<OptionEntry> {
     let kind = &m.joints[joint].joint_type;
     if !matches!(kind, JointType::Spherical | JointType::Fixed) {
         return Vec::new();
@@ -58,15 +58,15 @@ fn tables(m: &Mechanism, joint: JointId, all: &[Release]) -> Vec<OptionEntry> {
         Release::Coupling(_) => None,
     };
     let all: Vec<(bool, Vector)> = all.iter().filter_map(single).collect();
-    let mut out: Vec<OptionEntry> = all.iter().map(|one| table(kind, &[*one])).collect();
+    let mut out: Vec<OptionEntry> = all.iter().map(|one| option_table(kind, &[*one])).collect();
     if all.len() > 1 {
-        out.push(table(kind, &all));
+        out.push(option_table(kind, &all));
     }
     out
 }
 
 /// Returns the option of a joint with more freedoms, about and along perpendicular axes.
-fn table(kind: &JointType, more: &[(bool, Vector)]) -> OptionEntry {
+fn option_table(kind: &JointType, more: &[(bool, Vector)]) -> OptionEntry {
     let z = more[0].1;
     let square = |d: &Vector| dot(*d, z).abs() < 0.5;
     let x = more.iter().map(|m| m.1).find(square);
@@ -85,7 +85,7 @@ fn table(kind: &JointType, more: &[(bool, Vector)]) -> OptionEntry {
     for &(slides, d) in more {
         freedoms.push(format!("{}{}", if slides { 't' } else { 'r' }, letter(d)));
         let word = if slides { "slide" } else { "turn" };
-        names.push(format!("{word} {}", line(d)));
+        names.push(format!("{word} {}", direction_name(d)));
     }
     let written = |d: Vector| Some(d.map(Coordinate::Decimal));
     let now = match kind {
@@ -110,7 +110,7 @@ fn table(kind: &JointType, more: &[(bool, Vector)]) -> OptionEntry {
 }
 
 /// Returns the name of a direction: "y", or "(0.60 0.80 0.00)".
-fn line(d: Vector) -> String {
+fn direction_name(d: Vector) -> String {
     let along = (0..3).find(|&i| d[i].abs() > 1.0 - 1e-9);
     match along {
         Some(i) => ["x", "y", "z"][i].to_owned(),

@@ -1,6 +1,6 @@
 //! Joints in metres and double precision, taken apart into single freedoms.
 
-use crate::geom::vector::{Vector, across, cross, real, unit};
+use crate::geom::vector::{Vector, across, cross, to_vector, unit};
 use crate::model::joint_type::{Freedom, JointType};
 use crate::model::mechanism::{Joint, Mechanism};
 use std::collections::BTreeSet;
@@ -22,20 +22,20 @@ pub(crate) enum Single {
     Screw(Vector, f64),
 }
 
-pub(crate) fn place(m: &Mechanism, j: &Joint) -> JointAxes {
+pub(crate) fn joint_axes(m: &Mechanism, j: &Joint) -> JointAxes {
     let metres = m.length_unit.metres;
-    let z = unit(real(&j.frame.axis));
-    let x = unit(across(real(&j.frame.reference), z));
+    let z = unit(to_vector(&j.frame.axis));
+    let x = unit(across(to_vector(&j.frame.reference), z));
     let y = cross(z, x);
     JointAxes {
-        point: real(&j.frame.point).map(|c| c * metres),
+        point: to_vector(&j.frame.point).map(|c| c * metres),
         axes: [x, y, z],
         pitch: j.frame.pitch.to_f64() * metres,
     }
 }
 
 /// Returns the freedoms one by one.
-pub(crate) fn singles(j: &JointType, p: &JointAxes) -> Vec<Single> {
+pub(crate) fn single_freedoms(j: &JointType, p: &JointAxes) -> Vec<Single> {
     let [x, y, z] = p.axes;
     j.freedoms()
         .iter()
@@ -52,18 +52,18 @@ pub(crate) fn singles(j: &JointType, p: &JointAxes) -> Vec<Single> {
 }
 
 /// Removes the rounding errors of scaling from a number.
-pub(crate) fn number(x: f64) -> f64 {
+pub(crate) fn clean_number(x: f64) -> f64 {
     let r = (x * 1e12).round() / 1e12;
     let y = if (r - x).abs() < 1e-15 { r } else { x };
     if y == 0.0 { 0.0 } else { y }
 }
 
 /// Formats three numbers with spaces between them.
-pub(crate) fn numbers(v: Vector) -> String {
+pub(crate) fn format_numbers(v: Vector) -> String {
     let mut out = String::new();
     for (i, x) in v.into_iter().enumerate() {
         let gap = if i == 0 { "" } else { " " };
-        let _ = write!(out, "{gap}{}", number(x));
+        let _ = write!(out, "{gap}{}", clean_number(x));
     }
     out
 }
@@ -74,13 +74,13 @@ pub(crate) struct Names(pub(in crate::robots) BTreeSet<String>);
 
 impl Names {
     /// Returns a unique name that robot formats take.
-    pub(crate) fn fit(&mut self, wanted: &str) -> String {
+    pub(crate) fn fit_name(&mut self, wanted: &str) -> String {
         let plain = wanted.replace("::", ":");
-        self.unique(plain.clone(), |n| format!("{plain}~{n}"))
+        self.unique_name(plain.clone(), |n| format!("{plain}~{n}"))
     }
 
     /// Returns a name that is not used yet, and marks it as used: the first, or the `nth` one with the smallest n from 2 on.
-    pub(crate) fn unique(&mut self, first: String, nth: impl Fn(usize) -> String) -> String {
+    pub(crate) fn unique_name(&mut self, first: String, nth: impl Fn(usize) -> String) -> String {
         let (mut name, mut n) = (first, 2);
         while !self.0.insert(name.clone()) {
             name = nth(n);
@@ -91,11 +91,11 @@ impl Names {
 }
 
 /// Escapes text for an attribute or element.
-pub(crate) fn escape(text: &str) -> String {
+pub(crate) fn escape_xml(text: &str) -> String {
     quick_xml::escape::escape(text).into_owned()
 }
 
 /// Escapes text for a comment.
-pub(crate) fn comment(text: &str) -> String {
+pub(crate) fn escape_comment(text: &str) -> String {
     text.replace("--", "- -")
 }

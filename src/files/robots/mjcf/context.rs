@@ -1,8 +1,8 @@
 //! Settings, default classes and sites that the sections of an MJCF file share.
 
-use crate::geom::rigid::{RigidMotion, towards};
+use crate::geom::rigid::{RigidMotion, unit_or_z};
 use crate::geom::vector::{Vector, X, Y, Z, cross, dot, length, scale, sub};
-use crate::robots::warning::{Read, bad_value, known, syntax_problem};
+use crate::robots::warning::{Read, bad_value, list_known, syntax_problem};
 use crate::robots::xml::element::Element;
 use std::collections::BTreeMap;
 
@@ -23,13 +23,13 @@ pub(super) struct Context<'a> {
     pub(crate) sites: BTreeMap<String, (usize, RigidMotion)>,
 }
 
-pub(super) fn compiler(root: Element<'_>) -> Read<Compiler> {
+pub(super) fn read_compiler(root: Element<'_>) -> Read<Compiler> {
     let degree = std::f64::consts::PI / 180.0;
     let mut out = Compiler {
         angle: degree,
         eulerseq: "xyz".to_owned(),
     };
-    for c in root.named("compiler") {
+    for c in root.children_named("compiler") {
         match c.attribute("angle") {
             None => {}
             Some("radian") => out.angle = 1.0,
@@ -43,7 +43,7 @@ pub(super) fn compiler(root: Element<'_>) -> Read<Compiler> {
             seq.clone_into(&mut out.eulerseq);
         }
         if c.attribute("coordinate") == Some("global") {
-            return Err(c.unsupported(
+            return Err(c.unsupported_error(
                 "global coordinates",
                 "save the model with MuJoCo 2.3 or later",
             ));
@@ -54,19 +54,19 @@ pub(super) fn compiler(root: Element<'_>) -> Read<Compiler> {
 
 impl Compiler {
     /// Returns the placement given by `pos` and one of the five forms of orientation.
-    pub(super) fn place(&self, e: Element<'_>) -> Read<RigidMotion> {
+    pub(super) fn read_place(&self, e: Element<'_>) -> Read<RigidMotion> {
         Ok(RigidMotion {
-            translation: e.vector("pos", [0.0; 3])?,
-            ..self.turned(e)?
+            translation: e.read_vector("pos", [0.0; 3])?,
+            ..self.read_rotation(e)?
         })
     }
 
     /// Returns the rotation given by one of the five forms.
-    pub(super) fn turned(&self, e: Element<'_>) -> Read<RigidMotion> {
+    pub(super) fn read_rotation(&self, e: Element<'_>) -> Read<RigidMotion> {
         let zero = |name: &str| {
             let want = "give a direction or quaternion that is not zero";
             let found = e.attribute(name).unwrap_or("");
-            e.fail(Some(name), bad_value(&e.label(), name, found, want))
+            e.error_at(Some(name), bad_value(&e.label(), name, found, want))
         };
         let ways = ["quat", "axisangle", "xyaxes", "zaxis", "euler"];
         let given: Vec<&str> = ways
@@ -75,40 +75,40 @@ impl Compiler {
             .collect();
         if given.len() > 1 {
             let why = format!("it has two orientations, {}", given.join(" and "));
-            return Err(e.unsupported(&why, "keep one"));
+            return Err(e.unsupported_error(&why, "keep one"));
         }
         let mut pose = RigidMotion::IDENTITY;
-        if let Some(q) = e.numbers::<4>("quat")? {
+        if let Some(q) = e.read_numbers::<4>("quat")? {
             if q.iter().all(|x| x.abs() < 1e-9) {
                 return Err(zero("quat"));
             }
-            pose = RigidMotion::quaternion([0.0; 3], q);
-        } else if let Some([x, y, z, angle]) = e.numbers::<4>("axisangle")? {
+            pose = RigidMotion::from_quaternion([0.0; 3], q);
+        } else if let Some([x, y, z, angle]) = e.read_numbers::<4>("axisangle")? {
             if length([x, y, z]) < 1e-9 {
                 return Err(zero("axisangle"));
             }
-            pose = pose.then(&RigidMotion::turn([x, y, z], angle * self.angle));
-        } else if let Some([a, b, c, d, f, g]) = e.numbers::<6>("xyaxes")? {
-            let x = towards([a, b, c]);
+            pose = pose.then(&RigidMotion::from_turn([x, y, z], angle * self.angle));
+        } else if let Some([a, b, c, d, f, g]) = e.read_numbers::<6>("xyaxes")? {
+            let x = unit_or_z([a, b, c]);
             let y = sub([d, f, g], scale(x, dot(x, [d, f, g])));
             if length([a, b, c]) < 1e-9 || length(y) < 1e-9 {
                 return Err(zero("xyaxes"));
             }
-            let (y, z) = (towards(y), cross(x, towards(y)));
+            let (y, z) = (unit_or_z(y), cross(x, unit_or_z(y)));
             pose.rotation = [0, 1, 2].map(|i| [x[i], y[i], z[i]]);
-        } else if let Some(z) = e.numbers::<3>("zaxis")? {
+        } else if let Some(z) = e.read_numbers::<3>("zaxis")? {
             if length(z) < 1e-9 {
                 return Err(zero("zaxis"));
             }
             pose = pose.then(&RigidMotion::z_to(z));
-        } else if let Some(angles) = e.numbers::<3>("euler")? {
-            pose = pose.then(&self.euler(angles));
+        } else if let Some(angles) = e.read_numbers::<3>("euler")? {
+            pose = pose.then(&self.euler_rotation(angles));
         }
         Ok(pose)
     }
 
     /// Returns three rotations in the order that the file asks for.
-    fn euler(&self, angles: [f64; 3]) -> RigidMotion {
+    fn euler_rotation(&self, angles: [f64; 3]) -> RigidMotion {
         let mut turn = RigidMotion::IDENTITY;
         for (axis, angle) in self.eulerseq.chars().zip(angles) {
             let about = match axis.to_ascii_lowercase() {
@@ -116,7 +116,7 @@ impl Compiler {
                 'y' => Y,
                 _ => Z,
             };
-            let step = RigidMotion::turn(about, angle * self.angle);
+            let step = RigidMotion::from_turn(about, angle * self.angle);
             // Small letters turn with the frame, capitals about the fixed axes.
             turn = if axis.is_lowercase() {
                 turn.then(&step)
@@ -144,29 +144,32 @@ impl<'a> Defaults<'a> {
     pub(crate) fn read(root: Element<'a>) -> Read<Defaults<'a>> {
         let mut classes: BTreeMap<&str, (Option<&str>, Vec<Element<'_>>)> = BTreeMap::new();
         let mut stack: Vec<(Element<'_>, Option<&str>)> =
-            root.named("default").map(|d| (d, None)).collect();
+            root.children_named("default").map(|d| (d, None)).collect();
         stack.reverse();
         while let Some((d, outer)) = stack.pop() {
             let class = match (d.attribute("class"), outer) {
                 (Some(c), _) => c,
                 (None, None) => "main",
-                (None, Some(_)) => return Err(d.missing("attribute class")),
+                (None, Some(_)) => return Err(d.missing_error("attribute class")),
             };
             let entry = classes.entry(class).or_insert((outer, Vec::new()));
             if entry.0 != outer {
                 let message =
                     format!("default class \"{class}\" is defined twice; names must be unique");
-                return Err(d.fail(Some("class"), syntax_problem(message)));
+                return Err(d.error_at(Some("class"), syntax_problem(message)));
             }
             entry.1.push(d);
-            stack.extend(d.named("default").map(|inner| (inner, Some(class))));
+            stack.extend(
+                d.children_named("default")
+                    .map(|inner| (inner, Some(class))),
+            );
         }
         Ok(Defaults { classes })
     }
 
     /// Returns the elements that hold the attributes of an element: itself, then `tag` in its class, otherwise in that of the
     /// bodies around it, otherwise in the main one.
-    pub(crate) fn of(
+    pub(crate) fn lookup(
         &self,
         e: Element<'a>,
         tag: &str,
@@ -176,7 +179,7 @@ impl<'a> Defaults<'a> {
         if let Some(c) = given
             && !self.classes.contains_key(c)
         {
-            let known = known("classes", self.classes.keys());
+            let known = list_known("classes", self.classes.keys());
             return Err(e.unknown_name("class", "default class", c, &known));
         }
         let mut places = vec![e];
@@ -192,7 +195,7 @@ impl<'a> Defaults<'a> {
             let Some((outer, elements)) = next.and_then(|c| self.classes.get(c)) else {
                 break;
             };
-            places.extend(elements.iter().rev().filter_map(|d| d.child(tag)));
+            places.extend(elements.iter().rev().filter_map(|d| d.first_child(tag)));
             next = *outer;
         }
         Ok(Lookup { places })
@@ -209,7 +212,7 @@ impl<'a> Lookup<'a> {
 
     pub(crate) fn numbers<const N: usize>(&self, name: &str) -> Read<Option<[f64; N]>> {
         match self.attribute(name) {
-            Some((e, _)) => e.numbers::<N>(name),
+            Some((e, _)) => e.read_numbers::<N>(name),
             None => Ok(None),
         }
     }

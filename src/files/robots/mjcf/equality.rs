@@ -2,59 +2,59 @@
 
 use crate::geom::rigid::RigidMotion;
 use crate::model::joint_type::JointType;
-use crate::robots::description::kinematics::displacement;
+use crate::robots::description::kinematics::joint_motion;
 use crate::robots::description::{Part, Ratio, Robot};
 use crate::robots::mjcf::context::Context;
-use crate::robots::warning::{Read, bad_value, known};
+use crate::robots::warning::{Read, bad_value, list_known};
 use crate::robots::xml::element::Element;
 use std::collections::BTreeMap;
 
-pub(crate) fn read(
+pub(crate) fn read_equalities(
     section: Element<'_>,
     root: Element<'_>,
     context: &Context<'_>,
     robot: &mut Robot,
 ) -> Read<()> {
     for (i, e) in section.children().enumerate() {
-        e.room("joints", robot.joints.len())?;
-        let look = context.defaults.of(e, "equality", None)?;
+        e.check_room("joints", robot.joints.len())?;
+        let look = context.defaults.lookup(e, "equality", None)?;
         let id = match e.attribute("name") {
             Some(n) => n.to_owned(),
             None => format!("{}-{}", e.name(), i + 1),
         };
         if look.attribute("active").is_some_and(|(_, v)| v == "false") {
-            robot.report.drop("inactive equality", Some(&id));
+            robot.report.count_dropped("inactive equality", Some(&id));
             continue;
         }
         match e.name() {
             "connect" => {
-                let ends = ends(e, context, robot)?;
-                closing(e, &id, ends, JointType::Spherical, robot)?;
+                let ends = read_ends(e, context, robot)?;
+                add_closing(e, &id, ends, JointType::Spherical, robot)?;
             }
             "weld" => {
-                let ends = ends(e, context, robot)?;
+                let ends = read_ends(e, context, robot)?;
                 let scale = look.numbers::<1>("torquescale")?;
                 if scale == Some([0.0]) {
                     // Without torque it is a ball at its anchor, which is given in the second body.
-                    let at = RigidMotion::shift(look.vector("anchor", [0.0; 3])?);
+                    let at = RigidMotion::from_translation(look.vector("anchor", [0.0; 3])?);
                     let [(one, first), (two, second)] = ends;
                     let ends = match e.attribute("site1") {
                         Some(_) => ends,
                         None => [(one, first.then(&second.inverse()).then(&at)), (two, at)],
                     };
-                    closing(e, &id, ends, JointType::Spherical, robot)?;
+                    add_closing(e, &id, ends, JointType::Spherical, robot)?;
                 } else {
-                    closing(e, &id, ends, JointType::Fixed, robot)?;
+                    add_closing(e, &id, ends, JointType::Fixed, robot)?;
                 }
             }
-            "joint" => coupling(e, robot)?,
-            "tendon" => tendons(e, root, robot)?,
+            "joint" => read_coupling(e, robot)?,
+            "tendon" => read_tendons(e, root, robot)?,
             "flex" | "flexvert" | "flexstrain" => {
                 let what = "it holds a deformable body, which is omitted";
-                robot.report.approximate(&e.label(), what);
+                robot.report.add_approximation(&e.label(), what);
             }
             "distance" => {
-                return Err(e.unsupported("it is not a joint", "remove it"));
+                return Err(e.unsupported_error("it is not a joint", "remove it"));
             }
             _ => {
                 let what = "an equality of an unknown kind; omitted";
@@ -67,12 +67,12 @@ pub(crate) fn read(
 
 type End = (usize, RigidMotion);
 
-fn ends(e: Element<'_>, context: &Context<'_>, robot: &Robot) -> Read<[End; 2]> {
+fn read_ends(e: Element<'_>, context: &Context<'_>, robot: &Robot) -> Read<[End; 2]> {
     if e.attribute("site1").is_some() || e.attribute("site2").is_some() {
         let site = |key: &'static str| {
-            let name = e.required(key)?;
+            let name = e.required_attribute(key)?;
             context.sites.get(name).copied().ok_or_else(|| {
-                let known = known("sites", context.sites.keys());
+                let known = list_known("sites", context.sites.keys());
                 e.unknown_name(key, "site", name, &known)
             })
         };
@@ -82,10 +82,10 @@ fn ends(e: Element<'_>, context: &Context<'_>, robot: &Robot) -> Read<[End; 2]> 
         let name = if key == "body2" {
             e.attribute(key).unwrap_or("world")
         } else {
-            e.required(key)?
+            e.required_attribute(key)?
         };
         robot.links.iter().position(|l| l == name).ok_or_else(|| {
-            let known = known("bodies", &robot.links);
+            let known = list_known("bodies", &robot.links);
             e.unknown_name(key, "body", name, &known)
         })
     };
@@ -96,14 +96,14 @@ fn ends(e: Element<'_>, context: &Context<'_>, robot: &Robot) -> Read<[End; 2]> 
             .then(&robot.places[one].then(&at))
     };
     if e.name() == "connect" {
-        e.required("anchor")?;
-        let at = RigidMotion::shift(e.vector("anchor", [0.0; 3])?);
+        e.required_attribute("anchor")?;
+        let at = RigidMotion::from_translation(e.read_vector("anchor", [0.0; 3])?);
         return Ok([(one, at), (two, as_drawn(at))]);
     }
     // The place of body 2 in body 1; a zero quaternion means the place in the model as drawn.
-    match e.numbers::<7>("relpose")? {
+    match e.read_numbers::<7>("relpose")? {
         Some([x, y, z, quat @ ..]) if quat != [0.0; 4] => Ok([
-            (one, RigidMotion::quaternion([x, y, z], quat)),
+            (one, RigidMotion::from_quaternion([x, y, z], quat)),
             (two, RigidMotion::IDENTITY),
         ]),
         _ => Ok([
@@ -113,42 +113,42 @@ fn ends(e: Element<'_>, context: &Context<'_>, robot: &Robot) -> Read<[End; 2]> 
     }
 }
 
-fn closing(
+fn add_closing(
     e: Element<'_>,
     id: &str,
     ends: [End; 2],
     joint_type: JointType,
     robot: &mut Robot,
 ) -> Read<()> {
-    let mut part = Part::closing(e, id, ends, joint_type)?;
+    let mut part = Part::new_closing(e, id, ends, joint_type)?;
     part.comment = Some(format!("closes a loop: <{}>", e.name()));
-    robot.report.map(e.name());
+    robot.report.count_mapped(e.name());
     robot.joints.push(part);
     Ok(())
 }
 
-fn coupling(e: Element<'_>, robot: &mut Robot) -> Read<()> {
-    let mut names = vec![e.required("joint1")?];
+fn read_coupling(e: Element<'_>, robot: &mut Robot) -> Read<()> {
+    let mut names = vec![e.required_attribute("joint1")?];
     names.extend(e.attribute("joint2"));
     for (name, key) in names.iter().zip(["joint1", "joint2"]) {
         if !robot.joints.iter().any(|j| j.id == *name) {
-            let known = known("joints", robot.joints.iter().map(|j| &j.id));
+            let known = list_known("joints", robot.joints.iter().map(|j| &j.id));
             return Err(e.unknown_name(key, "joint", name, &known));
         }
     }
     let [a, b] = names[..] else {
-        let [value, ..] = polynomial(e)?;
-        hold(e, names[0], value, robot);
+        let [value, ..] = read_polynomial(e)?;
+        hold_joint(e, names[0], value, robot);
         return Ok(());
     };
     // Value of joint 1 less its reference, as a polynomial of that of joint 2 less its own.
-    let [_, ratio, higher @ ..] = polynomial(e)?;
+    let [_, ratio, higher @ ..] = read_polynomial(e)?;
     let how = if higher == [0.0; 3] {
         format!("times {ratio}")
     } else {
         "by a polynomial".to_owned()
     };
-    comment(a, &format!("coupled to {b} {how}"), robot);
+    set_comment(a, &format!("coupled to {b} {how}"), robot);
     robot.couplings.push(Ratio {
         higher,
         ..Ratio::new([b, a], ratio, e)
@@ -157,25 +157,25 @@ fn coupling(e: Element<'_>, robot: &mut Robot) -> Read<()> {
 }
 
 /// Makes a joint rigid that an equality holds at a constant.
-fn hold(e: Element<'_>, joint: &str, value: f64, robot: &mut Robot) {
+fn hold_joint(e: Element<'_>, joint: &str, value: f64, robot: &mut Robot) {
     let one = |j: &&mut Part| j.id == joint && j.values.len() == 1;
     let Some(j) = robot.joints.iter_mut().find(one) else {
         let what = format!("{joint} can move; its equality is omitted");
         return robot.report.leave_out_coupling(&e.label(), what);
     };
     j.values = vec![value];
-    j.sides[0] = j.sides[0].then(&displacement(j));
+    j.sides[0] = j.sides[0].then(&joint_motion(j));
     (j.joint_type, j.values, j.limits) = (JointType::Fixed, Vec::new(), None);
     j.comment = Some("held at a constant by an equality".to_owned());
-    robot.report.map("joint held at a constant");
+    robot.report.count_mapped("joint held at a constant");
 }
 
 /// Reads an equality of the lengths of tendons. The length of a `<fixed>` tendon is a sum of joint values, each times a
 /// coefficient, so the equality is a linear row between these joints.
-fn tendons(e: Element<'_>, root: Element<'_>, robot: &mut Robot) -> Read<()> {
-    let first = length(e, "tendon1", root)?;
+fn read_tendons(e: Element<'_>, root: Element<'_>, robot: &mut Robot) -> Read<()> {
+    let first = tendon_length(e, "tendon1", root)?;
     let second = match e.attribute("tendon2") {
-        Some(_) => length(e, "tendon2", root)?,
+        Some(_) => tendon_length(e, "tendon2", root)?,
         None => Some(BTreeMap::new()),
     };
     let (Some(mut row), Some(second)) = (first, second) else {
@@ -184,16 +184,16 @@ fn tendons(e: Element<'_>, root: Element<'_>, robot: &mut Robot) -> Read<()> {
         return Ok(());
     };
     // Length of tendon 1 less its reference, as a polynomial of that of tendon 2 less its own.
-    let [value, ratio, higher @ ..] = polynomial(e)?;
+    let [value, ratio, higher @ ..] = read_polynomial(e)?;
     for (joint, coefficient) in second {
         *row.entry(joint).or_insert(0.0) -= ratio * coefficient;
     }
     row.retain(|_, c| *c != 0.0);
     let all: Vec<(&str, f64)> = row.into_iter().collect();
     match all[..] {
-        [(joint, c)] => hold(e, joint, value / c, robot),
+        [(joint, c)] => hold_joint(e, joint, value / c, robot),
         [(a, c), (b, d)] if higher == [0.0; 3] => {
-            comment(b, &format!("coupled to {a} by a tendon"), robot);
+            set_comment(b, &format!("coupled to {a} by a tendon"), robot);
             robot.couplings.push(Ratio::new([a, b], -c / d, e));
         }
         _ => {
@@ -205,39 +205,39 @@ fn tendons(e: Element<'_>, root: Element<'_>, robot: &mut Robot) -> Read<()> {
 }
 
 /// Returns the coefficients of the joints whose sum is the length of a tendon. `None` if it is not a `<fixed>` tendon.
-fn length<'a>(
+fn tendon_length<'a>(
     e: Element<'a>,
     key: &'static str,
     root: Element<'a>,
 ) -> Read<Option<BTreeMap<&'a str, f64>>> {
-    let name = e.required(key)?;
+    let name = e.required_attribute(key)?;
     let all = root
-        .named("tendon")
+        .children_named("tendon")
         .flat_map(|s| s.children().collect::<Vec<_>>());
     let all: Vec<Element<'a>> = all.collect();
     let Some(tendon) = all.iter().find(|t| t.attribute("name") == Some(name)) else {
-        let known = known("tendons", all.iter().filter_map(|t| t.attribute("name")));
+        let known = list_known("tendons", all.iter().filter_map(|t| t.attribute("name")));
         return Err(e.unknown_name(key, "tendon", name, &known));
     };
     if tendon.name() != "fixed" {
         return Ok(None);
     }
     let mut out = BTreeMap::new();
-    for j in tendon.named("joint") {
-        let [c] = j.numbers::<1>("coef")?.unwrap_or([1.0]);
-        *out.entry(j.required("joint")?).or_insert(0.0) += c;
+    for j in tendon.children_named("joint") {
+        let [c] = j.read_numbers::<1>("coef")?.unwrap_or([1.0]);
+        *out.entry(j.required_attribute("joint")?).or_insert(0.0) += c;
     }
     Ok(Some(out))
 }
 
-fn comment(joint: &str, what: &str, robot: &mut Robot) {
+fn set_comment(joint: &str, what: &str, robot: &mut Robot) {
     if let Some(j) = robot.joints.iter_mut().find(|j| j.id == joint) {
         j.comment = Some(what.to_owned());
     }
 }
 
 /// Returns the five coefficients of `polycoef`, lowest first; omitted ones have MuJoCo's defaults, 0 1 0 0 0.
-fn polynomial(e: Element<'_>) -> Read<[f64; 5]> {
+fn read_polynomial(e: Element<'_>) -> Read<[f64; 5]> {
     let mut out = [0.0, 1.0, 0.0, 0.0, 0.0];
     let Some(text) = e.attribute("polycoef") else {
         return Ok(out);
@@ -255,7 +255,7 @@ fn polynomial(e: Element<'_>) -> Read<[f64; 5]> {
         _ => {
             let want = "give at most 5 finite numbers";
             let problem = bad_value(&e.label(), "polycoef", text, want);
-            Err(e.fail(Some("polycoef"), problem))
+            Err(e.error_at(Some("polycoef"), problem))
         }
     }
 }

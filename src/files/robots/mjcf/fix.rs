@@ -7,9 +7,9 @@ use crate::robots::description::Part;
 use crate::robots::description::origin::Origin;
 use crate::robots::description::physical::Light;
 use crate::robots::edit::{Edits, Freed, Freeing};
-use crate::robots::mechanism::series_of_single_joints::{escape, numbers};
+use crate::robots::mechanism::series_of_single_joints::{escape_xml, format_numbers};
 use crate::robots::mjcf::context::Defaults;
-use crate::robots::mjcf::context::compiler;
+use crate::robots::mjcf::context::read_compiler;
 use crate::robots::mjcf::weights::{self, Weight};
 use crate::robots::warning::Read;
 use crate::robots::xml::element::Element;
@@ -22,14 +22,14 @@ const HEAVY: f64 = 10.0;
 const TIMES: f64 = 10.0;
 
 /// Gives joints freedoms.
-pub(crate) fn free(origin: &Origin, all: &[Freeing<'_>], edits: &mut Edits<'_>) -> Read<()> {
+pub(crate) fn free_joints(origin: &Origin, all: &[Freeing<'_>], edits: &mut Edits<'_>) -> Read<()> {
     let root = origin.element(origin.root);
     let mut file = MjcfFile {
         origin,
         defaults: Defaults::read(root)?,
-        parents: parents(origin),
+        parents: find_parents(origin),
         // Errors in shapes and masses do not matter for the kinematics.
-        weights: weights::read(root, &origin.robot).unwrap_or_default(),
+        weights: weights::read_weights(root, &origin.robot).unwrap_or_default(),
         inserted: Vec::new(),
     };
     for &(part, e, freed) in all {
@@ -37,7 +37,7 @@ pub(crate) fn free(origin: &Origin, all: &[Freeing<'_>], edits: &mut Edits<'_>) 
         let slides = freed.iter().filter(|f| f.0).count();
         if e.name() == "connect" && slides == 3 {
             let why = "ozols fix: disabled, because other joints impose the same constraints";
-            uncouple(origin, e.id, why, edits)?;
+            deactivate(origin, e.id, why, edits)?;
             continue;
         }
         match (e.name(), e.attribute("site1")) {
@@ -46,19 +46,19 @@ pub(crate) fn free(origin: &Origin, all: &[Freeing<'_>], edits: &mut Edits<'_>) 
             _ => file.in_body(e, freed, edits)?,
         }
     }
-    file.keyframes(edits)
+    file.extend_keyframes(edits)
 }
 
 /// Leaves an equality of joints out.
-pub(crate) fn uncouple(
+pub(crate) fn deactivate(
     origin: &Origin,
     element: usize,
     why: &str,
     edits: &mut Edits<'_>,
 ) -> Read<()> {
     let e = origin.element(element);
-    edits.set(e, "active", "false")?;
-    edits.after(e, &[format!("<!-- {why} -->")]);
+    edits.set_attribute(e, "active", "false")?;
+    edits.insert_after(e, &[format!("<!-- {why} -->")]);
     Ok(())
 }
 
@@ -84,13 +84,13 @@ struct MjcfFile<'a> {
 }
 
 impl<'a> MjcfFile<'a> {
-    fn parent(&self, e: Element<'a>) -> Element<'a> {
+    fn parent_of(&self, e: Element<'a>) -> Element<'a> {
         let parent = self.parents[e.id].unwrap_or(self.origin.root);
         self.origin.element(parent)
     }
 
     /// Returns the body, or world, around an element.
-    fn body(&self, id: usize) -> Element<'a> {
+    fn body_around(&self, id: usize) -> Element<'a> {
         let mut at = self.parents[id];
         while let Some(id) = at {
             if ["body", "worldbody"].contains(&self.origin.element(id).name()) {
@@ -102,13 +102,13 @@ impl<'a> MjcfFile<'a> {
     }
 
     /// Returns attributes that undo defaults of the surrounding classes for a new joint.
-    fn neutral(&self, around: Element<'a>) -> Read<String> {
+    fn neutral_attributes(&self, around: Element<'a>) -> Read<String> {
         let (mut at, mut class) = (Some(around.id), None);
         while let (Some(id), None) = (at, class) {
             class = self.origin.element(id).attribute("childclass");
             at = self.parents[id];
         }
-        let look = self.defaults.of(around, "joint", class)?;
+        let look = self.defaults.lookup(around, "joint", class)?;
         let mut out = String::new();
         let says = |set: &&str| look.attribute(set).is_some();
         for (set, back) in [
@@ -159,7 +159,7 @@ impl<'a> MjcfFile<'a> {
     }
 
     /// Writes the new joints of a joint, in a frame at a place in the world.
-    fn joints(
+    fn write_joints(
         &self,
         part: &Part,
         point: Vector,
@@ -168,7 +168,7 @@ impl<'a> MjcfFile<'a> {
         freed: Freed<'_>,
         edits: &mut Edits<'_>,
     ) -> Read<Vec<String>> {
-        let neutral = self.neutral(around)?;
+        let neutral = self.neutral_attributes(around)?;
         let (mut out, inside) = (Vec::new(), frame.inverse());
         for (slides, direction, why) in freed {
             let (kind, word) = if *slides {
@@ -181,9 +181,9 @@ impl<'a> MjcfFile<'a> {
             out.push(format!("<!-- {why} -->"));
             out.push(format!(
                 "<joint name=\"{}\" type=\"{kind}\" armature=\"{armature}\" pos=\"{}\" axis=\"{}\"{neutral}/>",
-                escape(&name),
-                numbers(inside.point(point)),
-                numbers(inside.direction(*direction)),
+                escape_xml(&name),
+                format_numbers(inside.map_point(point)),
+                format_numbers(inside.map_direction(*direction)),
             ));
         }
         Ok(out)
@@ -191,38 +191,38 @@ impl<'a> MjcfFile<'a> {
 
     /// Inserts joints after the joints of a body.
     fn in_body(&mut self, e: Element<'a>, freed: Freed<'_>, edits: &mut Edits<'_>) -> Read<()> {
-        let body = self.body(e.id);
+        let body = self.body_around(e.id);
         let own = self.origin.robot.joints.iter().rev();
         let own = own.filter_map(|p| Some((p, p.element?)));
         let last = own.into_iter().find(|&(p, id)| {
             let joint = self.origin.element(id).name() != "body";
-            joint && !p.closes && self.body(id).id == body.id
+            joint && !p.closes && self.body_around(id).id == body.id
         });
-        let (Some((link, last)), Some(part)) = (last, self.part(e.id)) else {
-            return Err(e.unsupported("it is not a joint of a body", "choose another"));
+        let (Some((link, last)), Some(part)) = (last, self.part_of(e.id)) else {
+            return Err(e.unsupported_error("it is not a joint of a body", "choose another"));
         };
         let last = self.origin.element(last);
         if self.parents[last.id] != Some(body.id) {
-            return Err(e.unsupported("its body has joints in a <frame>", "choose another"));
+            return Err(e.unsupported_error("its body has joints in a <frame>", "choose another"));
         }
         let frame = self.origin.places[link.links[1]];
         let point = self.origin.places[part.links[1]]
             .then(&part.sides[1])
             .translation;
-        let lines = self.joints(part, point, &frame, body, freed, edits)?;
-        edits.after(last, &lines);
+        let lines = self.write_joints(part, point, &frame, body, freed, edits)?;
+        edits.insert_after(last, &lines);
         self.inserted
             .push((KeyframeMark::Joint(last.id), freed.len()));
         Ok(())
     }
 
-    fn part(&self, element: usize) -> Option<&'a Part> {
+    fn part_of(&self, element: usize) -> Option<&'a Part> {
         let all = self.origin.robot.joints.iter();
         all.rev().find(|p| p.element == Some(element))
     }
 
     /// Returns the first element with the given tag and, if one is given, with the given name.
-    fn named(&self, tag: &str, name: Option<&str>) -> Option<Element<'a>> {
+    fn find_named(&self, tag: &str, name: Option<&str>) -> Option<Element<'a>> {
         let mut all = (0..self.parents.len()).map(|id| self.origin.element(id));
         all.find(|e| e.name() == tag && (name.is_none() || e.attribute("name") == name))
     }
@@ -237,19 +237,19 @@ impl<'a> MjcfFile<'a> {
     ) -> Read<()> {
         let (robot, one) = (&self.origin.robot, part.links[0]);
         let body = if robot.world == Some(one) {
-            self.named("worldbody", None)
+            self.find_named("worldbody", None)
         } else {
-            self.named("body", Some(&robot.links[one]))
+            self.find_named("body", Some(&robot.links[one]))
         };
         let body =
-            body.ok_or_else(|| e.unsupported("its first body has no name", "give it one"))?;
+            body.ok_or_else(|| e.unsupported_error("its first body has no name", "give it one"))?;
         let frame = self.origin.places[one];
         let point = frame.then(&part.sides[0]).translation;
         let between = edits.name(&format!("{}_between", part.id));
-        let inner = self.joints(part, point, &frame, body, freed, edits)?;
-        let at = frame.inverse().point(point);
-        edits.within(body, &self.whole(&between, at, inner, None));
-        edits.set(e, "body1", &between)?;
+        let inner = self.write_joints(part, point, &frame, body, freed, edits)?;
+        let at = frame.inverse().map_point(point);
+        edits.append_child(body, &self.write_body(&between, at, inner, None));
+        edits.set_attribute(e, "body1", &between)?;
         self.inserted
             .push((KeyframeMark::Within(body.id), freed.len()));
         Ok(())
@@ -264,45 +264,48 @@ impl<'a> MjcfFile<'a> {
         freed: Freed<'_>,
         edits: &mut Edits<'_>,
     ) -> Read<()> {
-        let found = self
-            .named("site", Some(site))
-            .ok_or_else(|| e.unsupported("its first site has no element", "choose another"))?;
-        let around = self.parent(found);
+        let found = self.find_named("site", Some(site)).ok_or_else(|| {
+            e.unsupported_error("its first site has no element", "choose another")
+        })?;
+        let around = self.parent_of(found);
         let root = self.origin.element(self.origin.root);
-        let own = compiler(root)?.place(found)?;
+        let own = read_compiler(root)?.read_place(found)?;
         let at = self.origin.places[part.links[0]].then(&part.sides[0]);
         let frame = at.then(&own.inverse());
         let between = edits.name(&format!("{}_between", part.id));
-        let inner = self.joints(part, at.translation, &frame, around, freed, edits)?;
+        let inner = self.write_joints(part, at.translation, &frame, around, freed, edits)?;
         let copy = edits.name(&format!("{site}_between"));
-        let raw = edits.raw(found);
+        let raw = edits.raw_text(found);
         let Some(span) = found.value_span("name") else {
-            return Err(found.unsupported(
+            return Err(found.unsupported_error(
                 "its name has character references",
                 "write it as plain text",
             ));
         };
         let start = found.node().span.start;
         let (before, after) = (&raw[..span.start - start], &raw[span.end - start..]);
-        let copied = format!("{before}{}{after}", escape(&copy));
-        let inside = frame.inverse().point(at.translation);
-        edits.after(found, &self.whole(&between, inside, inner, Some(copied)));
-        edits.set(e, "site1", &copy)?;
+        let copied = format!("{before}{}{after}", escape_xml(&copy));
+        let inside = frame.inverse().map_point(at.translation);
+        edits.insert_after(
+            found,
+            &self.write_body(&between, inside, inner, Some(copied)),
+        );
+        edits.set_attribute(e, "site1", &copy)?;
         self.inserted
             .push((KeyframeMark::Site(found.id), freed.len()));
         Ok(())
     }
 
     /// Writes the lines of an inserted body, with its mass at its joints.
-    fn whole(
+    fn write_body(
         &self,
         name: &str,
         at: Vector,
         inner: Vec<String>,
         site: Option<String>,
     ) -> Vec<String> {
-        let mut out = vec![format!("<body name=\"{}\">", escape(name))];
-        let light = Light::in_description(&self.origin.document).mjcf(at);
+        let mut out = vec![format!("<body name=\"{}\">", escape_xml(name))];
+        let light = Light::in_description(&self.origin.document).write_mjcf(at);
         let inner = std::iter::once(light).chain(inner).chain(site);
         out.extend(inner.map(|l| format!("  {l}")));
         out.push("</body>".to_owned());
@@ -310,11 +313,11 @@ impl<'a> MjcfFile<'a> {
     }
 
     /// Zeros for the new joints in the positions and speeds of keyframes.
-    fn keyframes(&self, edits: &mut Edits<'_>) -> Read<()> {
+    fn extend_keyframes(&self, edits: &mut Edits<'_>) -> Read<()> {
         let root = self.origin.element(self.origin.root);
         let keys = root
-            .named("keyframe")
-            .flat_map(|k| k.named("key").collect::<Vec<_>>());
+            .children_named("keyframe")
+            .flat_map(|k| k.children_named("key").collect::<Vec<_>>());
         let keys: Vec<Element<'a>> = keys.collect();
         if keys.is_empty() {
             return Ok(());
@@ -324,8 +327,8 @@ impl<'a> MjcfFile<'a> {
             sizes: [0, 0],
             marks: Vec::new(),
         };
-        for w in root.named("worldbody") {
-            walk.below(w);
+        for w in root.children_named("worldbody") {
+            walk.walk_below(w);
         }
         for key in keys {
             for (which, attribute) in ["qpos", "qvel"].into_iter().enumerate() {
@@ -334,15 +337,16 @@ impl<'a> MjcfFile<'a> {
                 };
                 if text.split_whitespace().count() != walk.sizes[which] {
                     let why = format!("{attribute} has not {} numbers", walk.sizes[which]);
-                    return Err(key.unsupported(&why, "correct or remove the keyframe"));
+                    return Err(key.unsupported_error(&why, "correct or remove the keyframe"));
                 }
                 let Some(span) = key.value_span(attribute) else {
-                    return Err(
-                        key.unsupported("it has character references", "write it as plain text")
-                    );
+                    return Err(key.unsupported_error(
+                        "it has character references",
+                        "write it as plain text",
+                    ));
                 };
                 let starts = word_starts(
-                    &edits.raw(key)
+                    &edits.raw_text(key)
                         [span.start - key.node().span.start..span.end - key.node().span.start],
                 );
                 for (mark, count) in &self.inserted {
@@ -352,9 +356,9 @@ impl<'a> MjcfFile<'a> {
                     match starts.get(sizes[which]) {
                         Some(at) => {
                             let at = span.start + at;
-                            edits.replace(key, at..at, format!("{} ", zeros.trim_start()));
+                            edits.replace_span(key, at..at, format!("{} ", zeros.trim_start()));
                         }
-                        None => edits.replace(key, span.end..span.end, zeros),
+                        None => edits.replace_span(key, span.end..span.end, zeros),
                     }
                 }
             }
@@ -372,7 +376,7 @@ fn word_starts(text: &str) -> Vec<usize> {
 }
 
 /// Returns the parent of each element.
-fn parents(origin: &Origin) -> Vec<Option<usize>> {
+fn find_parents(origin: &Origin) -> Vec<Option<usize>> {
     let mut out = vec![None; origin.document.nodes.len()];
     for (id, node) in origin.document.nodes.iter().enumerate() {
         for &c in &node.children {
@@ -391,14 +395,14 @@ struct Walk<'f, 'a> {
 }
 
 impl<'a> Walk<'_, 'a> {
-    fn below(&mut self, e: Element<'a>) {
+    fn walk_below(&mut self, e: Element<'a>) {
         for j in e
             .children()
             .filter(|c| ["joint", "freejoint"].contains(&c.name()))
         {
             let freedoms = self
                 .file
-                .part(j.id)
+                .part_of(j.id)
                 .map_or(0, |p| p.joint_type.freedoms().len());
             // A ball's and a free joint's turns are quaternions.
             self.sizes[0] += freedoms + usize::from(freedoms > 1);
@@ -407,7 +411,7 @@ impl<'a> Walk<'_, 'a> {
         }
         for c in e.children() {
             match c.name() {
-                "body" | "frame" => self.below(c),
+                "body" | "frame" => self.walk_below(c),
                 "site" => self.marks.push((KeyframeMark::Site(c.id), self.sizes)),
                 _ => {}
             }

@@ -1,7 +1,7 @@
 //! Includes: the children of another file's root in place of an element.
 
 use crate::robots::warning::Reader;
-use crate::robots::warning::{Read, unsupported};
+use crate::robots::warning::{Read, unsupported_problem};
 use crate::robots::xml::element::Element;
 use crate::robots::xml::{self, Document};
 use std::path::{Component, Path};
@@ -11,7 +11,7 @@ const LIMITS: (usize, usize) = (16, 1000);
 
 /// Replaces all `<include>` elements below `root` by the included files; with `outside`, files outside its folder
 /// may be read.
-pub(super) fn expand(
+pub(super) fn expand_includes(
     document: &mut Document,
     root: usize,
     read: Reader<'_>,
@@ -20,7 +20,7 @@ pub(super) fn expand(
     let mut count = 0;
     let names = vec![document.element(root).source().to_owned()];
     let files = Files { read, outside };
-    below(document, root, &names, &mut count, &files)
+    expand_below(document, root, &names, &mut count, &files)
 }
 
 /// The files that may be included.
@@ -32,7 +32,7 @@ struct Files<'r> {
 
 impl Files<'_> {
     /// Returns true if a path may be read: it leads down, or up if that is allowed.
-    fn reach(&self, file: &str) -> bool {
+    fn is_reachable(&self, file: &str) -> bool {
         let up = |c| matches!(c, Component::ParentDir);
         let plain = |c| matches!(c, Component::Normal(_) | Component::CurDir);
         let mut parts = Path::new(file).components();
@@ -40,7 +40,7 @@ impl Files<'_> {
     }
 }
 
-fn below(
+fn expand_below(
     document: &mut Document,
     root: usize,
     open: &[String],
@@ -58,10 +58,10 @@ fn below(
                 continue;
             }
             *count += 1;
-            let inner = included(document, c, open, *count, files)?;
+            let inner = read_included(document, c, open, *count, files)?;
             let mut names = open.to_vec();
             names.push(document.element(inner).source().to_owned());
-            below(document, inner, &names, count, files)?;
+            expand_below(document, inner, &names, count, files)?;
             all.append(&mut document.nodes[inner].children);
         }
         document.nodes[id].children = all;
@@ -70,7 +70,7 @@ fn below(
 }
 
 /// Reads the file that an `<include>` names; gives its root.
-fn included(
+fn read_included(
     document: &mut Document,
     id: usize,
     open: &[String],
@@ -78,10 +78,10 @@ fn included(
     files: &Files<'_>,
 ) -> Read<usize> {
     let e = document.element(id);
-    let file = e.required("file")?.to_owned();
+    let file = e.required_attribute("file")?.to_owned();
     let refuse = |e: Element<'_>, why: &str, remedy: &str| {
         let element = format!("<include file=\"{file}\">");
-        e.fail(Some("file"), unsupported(&element, why, remedy))
+        e.error_at(Some("file"), unsupported_problem(&element, why, remedy))
     };
     if open.contains(&file) || open.first().is_some_and(|main| ends_with(main, &file)) {
         let remedy = "remove one of the includes";
@@ -91,7 +91,7 @@ fn included(
         let why = format!("more than {} files deep or {} in all", LIMITS.0, LIMITS.1);
         return Err(refuse(e, &why, "merge the files"));
     }
-    if !files.reach(&file) {
+    if !files.is_reachable(&file) {
         let why = "it is outside the folder of the file";
         let remedy = "copy it there, or give a folder that contains both as `models`";
         return Err(refuse(e, why, remedy));
@@ -103,7 +103,7 @@ fn included(
     if let Err(why) = document.has_room(bytes.len()) {
         return Err(refuse(e, &why, "remove everything that is not kinematics"));
     }
-    document.read(&file, xml::utf8(&file, &bytes)?)
+    document.read(&file, xml::decode_utf8(&file, &bytes)?)
 }
 
 /// Returns true if the last part of a path is this file.

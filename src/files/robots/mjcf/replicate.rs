@@ -1,17 +1,17 @@
 //! `<replicate>`: its content, repeated, each time moved and with a number after its names.
 
 use crate::geom::rigid::RigidMotion;
-use crate::robots::mjcf::context::{Compiler, compiler};
+use crate::robots::mjcf::context::{Compiler, read_compiler};
 use crate::robots::warning::{Read, too_many};
 use crate::robots::xml::{Document, MAX_ELEMENTS};
 
 /// Puts frames with copies in place of all `<replicate>` elements below `root`, those within others first.
-pub(super) fn expand(document: &mut Document, root: usize) -> Read<()> {
+pub(super) fn expand_replicates(document: &mut Document, root: usize) -> Read<()> {
     // Wrong settings are reported where they are needed.
     if !document.nodes.iter().any(|n| n.is_called("replicate")) {
         return Ok(());
     }
-    let compiler = compiler(document.element(root))?;
+    let compiler = read_compiler(document.element(root))?;
     let (mut order, mut stack) = (Vec::new(), vec![root]);
     while let Some(id) = stack.pop() {
         order.push(id);
@@ -23,7 +23,7 @@ pub(super) fn expand(document: &mut Document, root: usize) -> Read<()> {
         let mut all = Vec::with_capacity(children.len());
         for c in children {
             if document.element(c).name() == "replicate" {
-                all.extend(copies(document, c, &compiler)?);
+                all.extend(make_copies(document, c, &compiler)?);
             } else {
                 all.push(c);
             }
@@ -33,13 +33,13 @@ pub(super) fn expand(document: &mut Document, root: usize) -> Read<()> {
     Ok(())
 }
 
-fn copies(document: &mut Document, id: usize, compiler: &Compiler) -> Read<Vec<usize>> {
+fn make_copies(document: &mut Document, id: usize, compiler: &Compiler) -> Read<Vec<usize>> {
     let e = document.element(id);
-    let count = e.numbers::<1>("count")?;
-    let [count] = count.ok_or_else(|| e.missing("attribute count"))?;
+    let count = e.read_numbers::<1>("count")?;
+    let [count] = count.ok_or_else(|| e.missing_error("attribute count"))?;
     if !(1.0..=10_000.0).contains(&count) || count.fract() != 0.0 {
         let why = format!("count is {count}");
-        return Err(e.unsupported(&why, "write a whole number from 1 to 10000"));
+        return Err(e.unsupported_error(&why, "write a whole number from 1 to 10000"));
     }
     #[allow(
         clippy::cast_possible_truncation,
@@ -48,8 +48,8 @@ fn copies(document: &mut Document, id: usize, compiler: &Compiler) -> Read<Vec<u
     )]
     let count = count as usize;
     let step = RigidMotion {
-        translation: e.vector("offset", [0.0; 3])?,
-        ..compiler.turned(e)?
+        translation: e.read_vector("offset", [0.0; 3])?,
+        ..compiler.read_rotation(e)?
     };
     let separator = e.attribute("sep").unwrap_or("").to_owned();
     let digits = (count - 1).to_string().len();
@@ -63,10 +63,10 @@ fn copies(document: &mut Document, id: usize, compiler: &Compiler) -> Read<Vec<u
         let r = place.rotation;
         let axes = [r[0][0], r[1][0], r[2][0], r[0][1], r[1][1], r[2][1]];
         let frame = document.nodes[id].as_frame(place.translation, axes);
-        let frame = push(document, id, frame)?;
+        let frame = push_node(document, id, frame)?;
         let mut children = Vec::new();
         for &c in &inner {
-            children.push(copied(document, c, &suffix)?);
+            children.push(copy_element(document, c, &suffix)?);
         }
         document.nodes[frame].children = children;
         out.push(frame);
@@ -75,24 +75,24 @@ fn copies(document: &mut Document, id: usize, compiler: &Compiler) -> Read<Vec<u
     Ok(out)
 }
 
-fn push(document: &mut Document, at: usize, node: crate::robots::xml::Node) -> Read<usize> {
+fn push_node(document: &mut Document, at: usize, node: crate::robots::xml::Node) -> Read<usize> {
     let id = document.nodes.len();
     if id >= MAX_ELEMENTS {
         let problem = too_many("elements", MAX_ELEMENTS);
-        return Err(document.element(at).fail(None, problem));
+        return Err(document.element(at).error_at(None, problem));
     }
     document.nodes.push(node);
     Ok(id)
 }
 
 /// Copies an element and its descendants, with a suffix on their names.
-fn copied(document: &mut Document, id: usize, suffix: &str) -> Read<usize> {
+fn copy_element(document: &mut Document, id: usize, suffix: &str) -> Read<usize> {
     let node = document.nodes[id].named_on(suffix);
     let children = node.children.clone();
-    let copy = push(document, id, node)?;
+    let copy = push_node(document, id, node)?;
     let mut all = Vec::with_capacity(children.len());
     for c in children {
-        all.push(copied(document, c, suffix)?);
+        all.push(copy_element(document, c, suffix)?);
     }
     document.nodes[copy].children = all;
     Ok(copy)

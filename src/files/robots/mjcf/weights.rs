@@ -10,21 +10,24 @@ use crate::robots::mjcf::Waiting;
 use crate::robots::mjcf::context::Compiler;
 use crate::robots::mjcf::context::Defaults;
 use crate::robots::mjcf::weights::weight::weight_of_shape;
-use crate::robots::mjcf::weights::weight::{Settings, together};
+use crate::robots::mjcf::weights::weight::{Settings, combine};
 use crate::robots::warning::Read;
 use crate::robots::xml::element::Element;
 use std::collections::BTreeMap;
 
 /// Returns what the links weigh, in their frames; the robot is that of the same document.
-pub(super) fn read(root: Element<'_>, robot: &Robot) -> Read<BTreeMap<usize, Weight>> {
+pub(super) fn read_weights(root: Element<'_>, robot: &Robot) -> Read<BTreeMap<usize, Weight>> {
     let defaults = Defaults::read(root)?;
-    let settings = Settings::read(root)?;
+    let settings = Settings::read_settings(root)?;
     let mut stated = BTreeMap::new();
     let mut of_shapes: BTreeMap<usize, Vec<Weight>> = BTreeMap::new();
-    let mut stack: Vec<Waiting<'_>> = root.named("worldbody").map(Waiting::world).collect();
+    let mut stack: Vec<Waiting<'_>> = root
+        .children_named("worldbody")
+        .map(Waiting::at_world)
+        .collect();
     while let Some(at) = stack.pop() {
         for e in at.element.children() {
-            let inner = |link, place| at.within(e, link, place);
+            let inner = |link, place| at.at_element(e, link, place);
             match e.name() {
                 "body" => {
                     if let Some(&link) = robot.said.get(&e.id) {
@@ -32,11 +35,11 @@ pub(super) fn read(root: Element<'_>, robot: &Robot) -> Read<BTreeMap<usize, Wei
                     }
                 }
                 "frame" => {
-                    let place = at.place.then(&settings.compiler.place(e)?);
+                    let place = at.place.then(&settings.compiler.read_place(e)?);
                     stack.push(inner(at.link, place));
                 }
                 "geom" => {
-                    let look = defaults.of(e, "geom", at.class)?;
+                    let look = defaults.lookup(e, "geom", at.class)?;
                     if let Some(w) = weight_of_shape(&look, &settings)? {
                         let place = at.place.then(&w.place);
                         let all = of_shapes.entry(at.link).or_default();
@@ -44,17 +47,17 @@ pub(super) fn read(root: Element<'_>, robot: &Robot) -> Read<BTreeMap<usize, Wei
                     }
                 }
                 "inertial" => {
-                    stated.insert(at.link, inertial(e, &settings.compiler)?);
+                    stated.insert(at.link, read_inertial(e, &settings.compiler)?);
                 }
                 _ => {}
             }
         }
     }
-    Ok(weights(robot, stated, &of_shapes, &settings))
+    Ok(combine_weights(robot, stated, &of_shapes, &settings))
 }
 
 /// Returns the weights of links: as given, or from their shapes, and at least the minimum of the file.
-fn weights(
+fn combine_weights(
     robot: &Robot,
     stated: BTreeMap<usize, Weight>,
     of_shapes: &BTreeMap<usize, Vec<Weight>>,
@@ -64,7 +67,7 @@ fn weights(
     // The world does not move and needs no weight.
     for (&link, all) in of_shapes.iter().filter(|(l, _)| **l != 0) {
         let asked = settings.from_shapes.unwrap_or(!out.contains_key(&link));
-        if let (true, Some(w)) = (asked, together(all)) {
+        if let (true, Some(w)) = (asked, combine(all)) {
             out.insert(link, w);
         }
     }
@@ -72,24 +75,24 @@ fn weights(
     for &link in robot.said.values().filter(|l| **l != 0) {
         let none = bounded.then_some(Weight::NOTHING);
         if let Some(w) = out.get(&link).copied().or(none) {
-            out.insert(link, settings.bounded(w));
+            out.insert(link, settings.bound_weight(w));
         }
     }
     out
 }
 
 /// Reads an `<inertial>`.
-fn inertial(e: Element<'_>, compiler: &Compiler) -> Read<Weight> {
+fn read_inertial(e: Element<'_>, compiler: &Compiler) -> Read<Weight> {
     let mut tensor = [0.0; 6];
-    if let Some(d) = e.numbers::<3>("diaginertia")? {
+    if let Some(d) = e.read_numbers::<3>("diaginertia")? {
         tensor[..3].copy_from_slice(&d);
     }
-    if let Some(all) = e.numbers::<6>("fullinertia")? {
+    if let Some(all) = e.read_numbers::<6>("fullinertia")? {
         tensor = all;
     }
     Ok(Weight {
-        mass: e.numbers::<1>("mass")?.map_or(0.0, |[x]| x),
-        place: compiler.place(e)?,
+        mass: e.read_numbers::<1>("mass")?.map_or(0.0, |[x]| x),
+        place: compiler.read_place(e)?,
         tensor,
     })
 }
@@ -109,7 +112,7 @@ mod tests {
         let found = import("m.xml", text.as_bytes(), &nothing, &Options::default());
         let origin = found.unwrap_or_else(|e| panic!("{e}")).origin;
         let root = origin.element(origin.root);
-        let all = read(root, &origin.robot).unwrap_or_else(|e| panic!("{e}"));
+        let all = read_weights(root, &origin.robot).unwrap_or_else(|e| panic!("{e}"));
         all.into_values().next().unwrap_or(Weight::NOTHING)
     }
 

@@ -6,14 +6,15 @@ use crate::geom::vector::{Vector, sub};
 use crate::model::joint_type::{Freedom, JointType};
 use crate::model::mechanism::{JointId, LinkId, Mechanism, Role, StateId};
 use crate::motion::pose::Pose;
-use crate::robots::description::physical::{GRAM, head, left_out, moving};
+use crate::robots::description::physical::{GRAM, left_out, moving_inertial, write_head};
 use crate::robots::formats::FormattedFile;
 use crate::robots::mechanism::series_of_single_joints::{
-    Names, Single, comment, escape, number, numbers, place, singles,
+    Names, Single, clean_number, escape_comment, escape_xml, format_numbers, joint_axes,
+    single_freedoms,
 };
 use crate::robots::warning::ExportError;
 use crate::statics::reactions::Unsolved;
-use crate::statics::reactions::drives::driven;
+use crate::statics::reactions::drives::driven_freedoms;
 use crate::statics::reactions::geometry::Geometry;
 use std::collections::BTreeMap;
 use std::fmt::Write;
@@ -22,7 +23,7 @@ use std::fmt::Write;
 ///
 /// # Errors
 /// No error is known.
-pub(crate) fn mjcf(m: &Mechanism) -> Result<FormattedFile, ExportError> {
+pub(crate) fn write_mjcf(m: &Mechanism) -> Result<FormattedFile, ExportError> {
     let mut w = MjcfWriter {
         m,
         bodies: vec![None; m.links.len()],
@@ -34,13 +35,13 @@ pub(crate) fn mjcf(m: &Mechanism) -> Result<FormattedFile, ExportError> {
         body_names: Names::default(),
         joint_names: Names::default(),
     };
-    let frame = m.frame();
-    w.bodies[frame] = Some((w.body_names.fit("world"), [0.0; 3]));
+    let frame = m.frame_link();
+    w.bodies[frame] = Some((w.body_names.fit_name("world"), [0.0; 3]));
     let mut used = vec![false; m.joints.len()];
     for s in spanning_tree(m, StateId::FREE) {
         used[s.joint] = true;
-        let at = place(m, &m.joints[s.joint]).point;
-        w.bodies[s.link] = Some((w.body_names.fit(&m.links[s.link].id), at));
+        let at = joint_axes(m, &m.joints[s.joint]).point;
+        w.bodies[s.link] = Some((w.body_names.fit_name(&m.links[s.link].id), at));
         let sign = if s.forward { 1.0 } else { -1.0 };
         w.children
             .entry(s.from)
@@ -52,7 +53,7 @@ pub(crate) fn mjcf(m: &Mechanism) -> Result<FormattedFile, ExportError> {
     let tree: Vec<(LinkId, JointId, f64)> = w.children.values().flatten().copied().collect();
     let mut own: BTreeMap<LinkId, Vec<String>> = BTreeMap::new();
     for (link, joint, sign) in tree {
-        let lines = w.joints(joint, sign, [0.0; 3]);
+        let lines = w.write_joints(joint, sign, [0.0; 3]);
         own.insert(link, lines);
     }
     let closing: Vec<JointId> = m.joints_in(StateId::FREE).filter(|&j| !used[j]).collect();
@@ -62,11 +63,11 @@ pub(crate) fn mjcf(m: &Mechanism) -> Result<FormattedFile, ExportError> {
         }
     }
     for j in closing {
-        w.closing(j);
+        w.write_closing(j);
     }
-    w.couplings();
-    w.below(frame, 2, &own, &mut bodies);
-    let mut out = format!("<mujoco model=\"{}\">\n", escape(&m.name));
+    w.write_couplings();
+    w.write_bodies(frame, 2, &own, &mut bodies);
+    let mut out = format!("<mujoco model=\"{}\">\n", escape_xml(&m.name));
     let mut told = left_out(m);
     if m.links[frame].id != "world" {
         told.push(format!("the world is {}", m.links[frame].id));
@@ -76,14 +77,14 @@ pub(crate) fn mjcf(m: &Mechanism) -> Result<FormattedFile, ExportError> {
     {
         told.push(GRAM.to_owned());
     }
-    out += &head(m, "  ", &told);
+    out += &write_head(m, "  ", &told);
     out += "  <compiler angle=\"radian\"/>\n  <worldbody>\n";
     out += &bodies;
     out += "  </worldbody>\n";
     if !w.equalities.is_empty() {
         let _ = writeln!(out, "  <equality>\n{}  </equality>", w.equalities.concat());
     }
-    let motors: String = w.motors().concat();
+    let motors: String = w.write_motors().concat();
     if !motors.is_empty() {
         let _ = writeln!(out, "  <actuator>\n{motors}  </actuator>");
     }
@@ -110,16 +111,16 @@ struct MjcfWriter<'a> {
 
 impl MjcfWriter<'_> {
     /// Returns the joints of one freedom each that represent a joint, or a ball.
-    fn joints(&mut self, j: JointId, sign: f64, pos: Vector) -> Vec<String> {
+    fn write_joints(&mut self, j: JointId, sign: f64, pos: Vector) -> Vec<String> {
         let joint = &self.m.joints[j];
-        let p = place(self.m, joint);
+        let p = joint_axes(self.m, joint);
         let coupled = self.m.couplings.iter().any(|c| c.end_at(j).is_some());
-        let pos = numbers(pos);
+        let pos = format_numbers(pos);
         if joint.joint_type == JointType::Spherical && !coupled {
-            let name = self.joint_names.fit(&joint.id);
+            let name = self.joint_names.fit_name(&joint.id);
             let line = format!(
                 "<joint name=\"{}\" type=\"ball\" pos=\"{pos}\"/>",
-                escape(&name)
+                escape_xml(&name)
             );
             if let Some(&first) = joint.joint_type.freedoms().first() {
                 self.joints.insert((j, first), name);
@@ -127,28 +128,28 @@ impl MjcfWriter<'_> {
             return vec![line];
         }
         let mut out = Vec::new();
-        let all = singles(&joint.joint_type, &p);
+        let all = single_freedoms(&joint.joint_type, &p);
         for (single, &freedom) in all.iter().zip(joint.joint_type.freedoms()) {
             let wanted = match out.len() {
                 0 => joint.id.clone(),
                 n => format!("{}~{}", joint.id, n + 1),
             };
-            let name = self.joint_names.fit(&wanted);
+            let name = self.joint_names.fit_name(&wanted);
             let mut line = |name: &str, kind: &str, d: Vector| {
                 out.push(format!(
                     "<joint name=\"{}\" type=\"{kind}\" pos=\"{pos}\" axis=\"{}\"/>",
-                    escape(name),
-                    numbers(d.map(|x| sign * x))
+                    escape_xml(name),
+                    format_numbers(d.map(|x| sign * x))
                 ));
             };
             match *single {
                 Single::Turn(d) => line(&name, "hinge", d),
                 Single::Shift(d) => line(&name, "slide", d),
                 Single::Screw(d, pitch) => {
-                    let slide = self.joint_names.fit(&format!("{wanted}~thread"));
+                    let slide = self.joint_names.fit_name(&format!("{wanted}~thread"));
                     line(&name, "hinge", d);
                     line(&slide, "slide", d);
-                    let coupling = equality(&slide, &name, pitch);
+                    let coupling = joint_equality(&slide, &name, pitch);
                     self.equalities.push(coupling);
                 }
             }
@@ -167,23 +168,29 @@ impl MjcfWriter<'_> {
     /// Returns the weight of a body that is welded to `link`, as an attribute list: an equal part of the link, so that the whole
     /// moves in the same way. MuJoCo softens a weld by the weight of its bodies, and would let the loop open at a very light one.
     /// A body welded to the frame does not move: it weighs as much as the link `other`.
-    fn weight(&self, link: LinkId, other: LinkId, at: Vector) -> String {
-        let of = if link == self.m.frame() { other } else { link };
+    fn weight_attributes(&self, link: LinkId, other: LinkId, at: Vector) -> String {
+        let of = if link == self.m.frame_link() {
+            other
+        } else {
+            link
+        };
         let parts = if of == link {
             self.parts.get(&of).copied().unwrap_or(1.0)
         } else {
             1.0
         };
-        let i = moving(self.m, of, at);
+        let i = moving_inertial(self.m, of, at);
         format!(
             "pos=\"{}\" mass=\"{}\" fullinertia=\"{}\"",
-            numbers(i.centre),
-            number(i.mass / parts),
-            i.tensor.map(|x| number(x / parts).to_string()).join(" ")
+            format_numbers(i.centre),
+            clean_number(i.mass / parts),
+            i.tensor
+                .map(|x| clean_number(x / parts).to_string())
+                .join(" ")
         )
     }
 
-    fn body(&self, link: LinkId) -> (&str, Vector) {
+    fn body_of(&self, link: LinkId) -> (&str, Vector) {
         match &self.bodies[link] {
             Some((name, at)) => (name, *at),
             None => ("world", [0.0; 3]),
@@ -191,43 +198,43 @@ impl MjcfWriter<'_> {
     }
 
     /// Writes a joint that closes a loop.
-    fn closing(&mut self, j: JointId) {
+    fn write_closing(&mut self, j: JointId) {
         let joint = &self.m.joints[j];
         let [a, b] = joint.links;
-        let at = place(self.m, joint).point;
-        let id = escape(&joint.id);
+        let at = joint_axes(self.m, joint).point;
+        let id = escape_xml(&joint.id);
         let second = |w: &Self| {
-            let (name, _) = w.body(b);
-            escape(name)
+            let (name, _) = w.body_of(b);
+            escape_xml(name)
         };
-        let (first, origin) = self.body(a);
-        let (first, from) = (escape(first), sub(at, origin));
+        let (first, origin) = self.body_of(a);
+        let (first, from) = (escape_xml(first), sub(at, origin));
         let line = match &joint.joint_type {
             JointType::Spherical if !self.closing_body(j) => format!(
                 "    <connect name=\"{id}\" body1=\"{first}\" body2=\"{}\" anchor=\"{}\"/>\n",
                 second(self),
-                numbers(from)
+                format_numbers(from)
             ),
             t if t.freedoms().is_empty() => format!(
                 "    <weld name=\"{id}\" body1=\"{first}\" body2=\"{}\"/>\n",
                 second(self)
             ),
             _ => {
-                let name = self.body_names.fit(&format!("{}~body", joint.id));
-                let inner = self.joints(j, 1.0, [0.0; 3]);
-                let weight = self.weight(b, a, at);
+                let name = self.body_names.fit_name(&format!("{}~body", joint.id));
+                let inner = self.write_joints(j, 1.0, [0.0; 3]);
+                let weight = self.weight_attributes(b, a, at);
                 let lines = self.between.entry(a).or_default();
                 lines.push(format!(
                     "<body name=\"{}\" pos=\"{}\">",
-                    escape(&name),
-                    numbers(from)
+                    escape_xml(&name),
+                    format_numbers(from)
                 ));
                 lines.push(format!("  <inertial {weight}/>"));
                 lines.extend(inner.into_iter().map(|l| format!("  {l}")));
                 lines.push("</body>".to_owned());
                 format!(
                     "    <weld name=\"{id}\" body1=\"{}\" body2=\"{}\"/>\n",
-                    escape(&name),
+                    escape_xml(&name),
                     second(self)
                 )
             }
@@ -235,30 +242,30 @@ impl MjcfWriter<'_> {
         self.equalities.push(line);
     }
 
-    fn couplings(&mut self) {
+    fn write_couplings(&mut self) {
         for c in self.m.couplings_in(StateId::FREE) {
             let name = |e: usize| {
                 let end = &c.ends[e];
                 self.joints.get(&(end.joint, end.freedom))
             };
             let unit = |e: usize| match c.ends[e].freedom {
-                f if f.slides() => self.m.length_unit.metres,
+                f if f.is_slide() => self.m.length_unit.metres,
                 _ => 1.0,
             };
             if let (Some(leads), Some(follows)) = (name(0), name(1)) {
                 let ratio = c.ratio.to_f64() * unit(1) / unit(0);
-                self.equalities.push(equality(follows, leads, ratio));
+                self.equalities.push(joint_equality(follows, leads, ratio));
             }
         }
     }
 
     /// Motors of the driven joints, each on the freedom that statics have its drive hold: a slider may turn about its guide.
-    fn motors(&self) -> Vec<String> {
+    fn write_motors(&self) -> Vec<String> {
         let (m, free) = (self.m, StateId::FREE);
         let held = Pose::of_file(m, free)
             .and_then(|pose| Geometry::new(m, free, &pose))
             .map_err(Unsolved::from)
-            .and_then(|g| driven(m, &g))
+            .and_then(|g| driven_freedoms(m, &g))
             .unwrap_or_default();
         let drives = m.joints_in(free).filter(|&j| m.joints[j].drive);
         let motors = drives.filter_map(|j| {
@@ -267,13 +274,13 @@ impl MjcfWriter<'_> {
             let name = of_drive
                 .and_then(|h| self.joints.get(h))
                 .or_else(|| self.joints.iter().find(|((k, _), _)| *k == j).map(|x| x.1))?;
-            Some(format!("    <motor joint=\"{}\"/>\n", escape(name)))
+            Some(format!("    <motor joint=\"{}\"/>\n", escape_xml(name)))
         });
         motors.collect()
     }
 
     /// Writes the bodies on a link.
-    fn below(
+    fn write_bodies(
         &self,
         link: LinkId,
         depth: usize,
@@ -281,35 +288,35 @@ impl MjcfWriter<'_> {
         out: &mut String,
     ) {
         let indent = "  ".repeat(depth);
-        let (_, from) = self.body(link);
+        let (_, from) = self.body_of(link);
         for line in self.between.get(&link).into_iter().flatten() {
             let _ = writeln!(out, "{indent}{line}");
         }
         for &(child, ..) in self.children.get(&link).into_iter().flatten() {
-            let (name, at) = self.body(child);
+            let (name, at) = self.body_of(child);
             let role = match self.m.links[child].role {
-                Role::Output => format!("  <!-- {} is an output -->", comment(name)),
+                Role::Output => format!("  <!-- {} is an output -->", escape_comment(name)),
                 _ => String::new(),
             };
-            let (name, pos) = (escape(name), numbers(sub(at, from)));
+            let (name, pos) = (escape_xml(name), format_numbers(sub(at, from)));
             let _ = writeln!(out, "{indent}<body name=\"{name}\" pos=\"{pos}\">{role}");
-            let weight = self.weight(child, child, at);
+            let weight = self.weight_attributes(child, child, at);
             let _ = writeln!(out, "{indent}  <inertial {weight}/>");
             for line in own.get(&child).into_iter().flatten() {
                 let _ = writeln!(out, "{indent}  {line}");
             }
-            self.below(child, depth + 1, own, out);
+            self.write_bodies(child, depth + 1, own, out);
             let _ = writeln!(out, "{indent}</body>");
         }
     }
 }
 
 /// Writes a joint that follows another.
-fn equality(follows: &str, leads: &str, ratio: f64) -> String {
+fn joint_equality(follows: &str, leads: &str, ratio: f64) -> String {
     format!(
         "    <joint joint1=\"{}\" joint2=\"{}\" polycoef=\"0 {} 0 0 0\"/>\n",
-        escape(follows),
-        escape(leads),
-        number(ratio)
+        escape_xml(follows),
+        escape_xml(leads),
+        clean_number(ratio)
     )
 }

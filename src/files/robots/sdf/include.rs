@@ -2,7 +2,7 @@
 
 use crate::file::problem::ImportError;
 use crate::robots::warning::Reader;
-use crate::robots::warning::{Read, unsupported};
+use crate::robots::warning::{Read, unsupported_problem};
 use crate::robots::xml::element::Element;
 use crate::robots::xml::{self, Document};
 
@@ -21,7 +21,11 @@ pub(super) struct Expanded {
 }
 
 /// Puts models in place of all `<include>` elements below `root`.
-pub(super) fn expand(document: &mut Document, root: usize, read: Reader<'_>) -> Read<Expanded> {
+pub(super) fn expand_includes(
+    document: &mut Document,
+    root: usize,
+    read: Reader<'_>,
+) -> Read<Expanded> {
     let mut old = vec![is_old(document.element(root))];
     let mut scenery = Vec::new();
     let mut count = 0;
@@ -38,7 +42,7 @@ pub(super) fn expand(document: &mut Document, root: usize, read: Reader<'_>) -> 
                 continue;
             }
             count += 1;
-            let (model, uri) = included(document, c, &open, count, read, &mut old)?;
+            let (model, uri) = read_included(document, c, &open, count, read, &mut old)?;
             let Some(model) = model else {
                 scenery.push(uri);
                 continue;
@@ -63,7 +67,7 @@ pub(crate) fn is_old(root: Element<'_>) -> bool {
 }
 
 /// Returns the model that an include names, with the settings of the include, and the name. `None` for a light or the floor.
-fn included(
+fn read_included(
     document: &mut Document,
     id: usize,
     open: &[String],
@@ -72,9 +76,9 @@ fn included(
     old: &mut Vec<bool>,
 ) -> Read<(Option<usize>, String)> {
     let e = document.element(id);
-    let uri = e.child("uri").map(|u| u.text().to_owned());
+    let uri = e.first_child("uri").map(|u| u.text().to_owned());
     let Some(uri) = uri.filter(|u| !u.is_empty()) else {
-        return Err(e.missing("<uri>"));
+        return Err(e.missing_error("<uri>"));
     };
     may_be_included(e, &uri, open, count)?;
     let bytes = match read(&uri) {
@@ -83,22 +87,22 @@ fn included(
         Err(error) => {
             let why = format!("it cannot be read ({error})");
             let remedy = "give the folder of its model as `models`";
-            return Err(refuse(e, &uri, &why, remedy));
+            return Err(include_error(e, &uri, &why, remedy));
         }
     };
     if let Err(why) = document.has_room(bytes.len()) {
-        return Err(refuse(
+        return Err(include_error(
             e,
             &uri,
             &why,
             "remove everything that is not kinematics",
         ));
     }
-    let inner = document.read(&uri, xml::utf8(&uri, &bytes)?)?;
+    let inner = document.read(&uri, xml::decode_utf8(&uri, &bytes)?)?;
     let found = document.element(inner);
     old.push(is_old(found));
-    let models: Vec<usize> = found.named("model").map(|m| m.id).collect();
-    if models.is_empty() && found.child("light").is_some() {
+    let models: Vec<usize> = found.children_named("model").map(|m| m.id).collect();
+    if models.is_empty() && found.first_child("light").is_some() {
         return Ok((None, uri));
     }
     let [model] = models[..] else {
@@ -106,15 +110,15 @@ fn included(
             document.element(id),
             "the file does not have exactly one <model>",
         );
-        return Err(refuse(e, &uri, why, "name a file with one model"));
+        return Err(include_error(e, &uri, why, "name a file with one model"));
     };
     said_by_include(document, id, model);
     Ok((Some(model), uri))
 }
 
-fn refuse(e: Element<'_>, uri: &str, why: &str, remedy: &str) -> ImportError {
+fn include_error(e: Element<'_>, uri: &str, why: &str, remedy: &str) -> ImportError {
     let element = format!("<include> of {uri}");
-    e.fail(None, unsupported(&element, why, remedy))
+    e.error_at(None, unsupported_problem(&element, why, remedy))
 }
 
 /// Checks that no file includes itself, that files are not too deep or too many, and that nothing changes the content of the
@@ -122,16 +126,18 @@ fn refuse(e: Element<'_>, uri: &str, why: &str, remedy: &str) -> ImportError {
 fn may_be_included(e: Element<'_>, uri: &str, open: &[String], count: usize) -> Read<()> {
     if open.iter().any(|o| o == uri) {
         let remedy = "remove one of the includes";
-        return Err(refuse(e, uri, "the file includes itself", remedy));
+        return Err(include_error(e, uri, "the file includes itself", remedy));
     }
     if open.len() >= LIMITS.0 || count > LIMITS.1 {
         let why = format!("more than {} files deep or {} in all", LIMITS.0, LIMITS.1);
-        return Err(refuse(e, uri, &why, "merge the files"));
+        return Err(include_error(e, uri, &why, "merge the files"));
     }
-    if e.attribute("merge").is_some_and(|m| m == "true") || e.child("placement_frame").is_some() {
+    if e.attribute("merge").is_some_and(|m| m == "true")
+        || e.first_child("placement_frame").is_some()
+    {
         let why = "it merges models or places them by a frame";
         let remedy = "expand the file first, for example with `gz sdf -p`";
-        return Err(refuse(e, uri, why, remedy));
+        return Err(include_error(e, uri, why, remedy));
     }
     Ok(())
 }
@@ -139,10 +145,10 @@ fn may_be_included(e: Element<'_>, uri: &str, open: &[String], count: usize) -> 
 /// Gives a model the pose, the name and the fixation of its include, and adds the plugins of the include.
 fn said_by_include(document: &mut Document, include: usize, model: usize) {
     let e = document.element(include);
-    let own = |tag: &str| e.child(tag).map(|c| c.id);
+    let own = |tag: &str| e.first_child(tag).map(|c| c.id);
     let placed = [("pose", own("pose")), ("static", own("static"))];
-    let name = e.child("name").map(|n| n.text().to_owned());
-    let plugins: Vec<usize> = e.named("plugin").map(|p| p.id).collect();
+    let name = e.first_child("name").map(|n| n.text().to_owned());
+    let plugins: Vec<usize> = e.children_named("plugin").map(|p| p.id).collect();
     document.nodes[model].children.extend(plugins);
     for (tag, new) in placed {
         let Some(new) = new else { continue };

@@ -1,10 +1,10 @@
 //! The joints and constraints of an SDF file.
 
-use crate::geom::rigid::{RigidMotion, towards};
+use crate::geom::rigid::{RigidMotion, unit_or_z};
 use crate::geom::vector::{Vector, Z, cross, dot, length, sub};
 use crate::model::joint_type::JointType;
-use crate::robots::description::{Part, Ratio, Robot, free, same_link};
-use crate::robots::sdf::scene::{SdfScene, absolute, end, located, of_joint};
+use crate::robots::description::{Part, Ratio, Robot, free_joint, same_link};
+use crate::robots::sdf::scene::{SdfScene, absolute_name, joint_end, locate_name, of_joint};
 use crate::robots::warning::{Read, bad_value};
 use crate::robots::xml::element::Element;
 
@@ -14,61 +14,64 @@ pub(crate) const TYPES: &str =
 pub(crate) const APART: f64 = 1e-6;
 
 /// Returns the direction of `<axis>` or `<axis2>` in the world.
-pub(crate) fn axis(
+pub(crate) fn read_axis(
     e: Element<'_>,
     tag: &str,
     scope: &str,
     scene: &SdfScene<'_>,
     at: &RigidMotion,
 ) -> Read<Vector> {
-    let Some(a) = e.child(tag) else {
-        return Err(e.missing(&format!("<{tag}>")));
+    let Some(a) = e.first_child(tag) else {
+        return Err(e.missing_error(&format!("<{tag}>")));
     };
-    let Some(xyz) = a.child("xyz") else {
-        return Ok(at.direction(Z));
+    let Some(xyz) = a.first_child("xyz") else {
+        return Ok(at.map_direction(Z));
     };
     let v = xyz.text_numbers::<3>()?;
     if length(v) < 1e-9 {
         let want = "give a direction such as 0 0 1";
-        return Err(xyz.fail(None, bad_value(&e.label(), tag, xyz.text(), want)));
+        return Err(xyz.error_at(None, bad_value(&e.label(), tag, xyz.text(), want)));
     }
     let in_model = a
-        .child("use_parent_model_frame")
+        .first_child("use_parent_model_frame")
         .is_some_and(|u| ["true", "1"].contains(&u.text()))
         || scene.old_axes.get(e.node().source) == Some(&true);
     match xyz.attribute("expressed_in").filter(|f| !f.is_empty()) {
         Some("world") => Ok(v),
-        Some(f) => Ok(located(xyz, &absolute(scope, f), scene)?.1.direction(v)),
+        Some(f) => Ok(locate_name(xyz, &absolute_name(scope, f), scene)?
+            .1
+            .map_direction(v)),
         // A joint between models is of the world.
         None if in_model && scope.is_empty() && !scene.placed.contains_key("__model__") => Ok(v),
-        None if in_model => Ok(located(xyz, &format!("{scope}__model__"), scene)?
+        None if in_model => Ok(locate_name(xyz, &format!("{scope}__model__"), scene)?
             .1
-            .direction(v)),
-        None => Ok(at.direction(v)),
+            .map_direction(v)),
+        None => Ok(at.map_direction(v)),
     }
 }
 
-pub(crate) fn joint(
+pub(crate) fn read_joint(
     e: Element<'_>,
     scope: &str,
     scene: &SdfScene<'_>,
     size: f64,
     robot: &mut Robot,
 ) -> Read<()> {
-    let name = format!("{scope}{}", e.required("name")?);
-    let word = e.required("type")?;
-    let (parent_tag, parent_name) = end(e, "parent")?;
-    let (child_tag, child_name) = end(e, "child")?;
-    let (parent, parent_world) = located(parent_tag, &absolute(scope, parent_name), scene)?;
-    let (child, _) = located(child_tag, &absolute(scope, child_name), scene)?;
+    let name = format!("{scope}{}", e.required_attribute("name")?);
+    let word = e.required_attribute("type")?;
+    let (parent_tag, parent_name) = joint_end(e, "parent")?;
+    let (child_tag, child_name) = joint_end(e, "child")?;
+    let (parent, parent_world) =
+        locate_name(parent_tag, &absolute_name(scope, parent_name), scene)?;
+    let (child, _) = locate_name(child_tag, &absolute_name(scope, child_name), scene)?;
     if parent == child {
         return Err(same_link(e));
     }
     let world = of_joint(scene, e, &name).unwrap_or(RigidMotion::IDENTITY);
-    let local = |d: Vector| world.inverse().direction(d);
+    let local = |d: Vector| world.inverse().map_direction(d);
     let joint_type = joint_type(e, word)?;
     let far = length(sub(parent_world.translation, world.translation));
-    let apart = is_frame(&absolute(scope, parent_name), scene) && far > APART * size;
+    let apart = is_frame(&absolute_name(scope, parent_name), scene) && far > APART * size;
     let on_parent = if apart && scene.assemble {
         RigidMotion {
             translation: parent_world.translation,
@@ -82,26 +85,26 @@ pub(crate) fn joint(
         robot.places[child].inverse().then(&world),
     ];
     let mut part = Part::new(&name, [parent, child], sides, joint_type).said_by(e);
-    robot.report.map(word);
+    robot.report.count_mapped(word);
     left_out(e, &name, robot);
     match word {
         "ball" | "fixed" | "floating" => {}
         "universal" | "revolute2" => {
-            mimic(e, &name, scope, robot)?;
-            let first = axis(e, "axis", scope, scene, &world)?;
-            let second = axis(e, "axis2", scope, scene, &world)?;
+            read_mimic(e, &name, scope, robot)?;
+            let first = read_axis(e, "axis", scope, scene, &world)?;
+            let second = read_axis(e, "axis2", scope, scene, &world)?;
             return two_axes(e, part, [local(first), local(second)], robot);
         }
-        _ => part = part.about(local(axis(e, "axis", scope, scene, &world)?)),
+        _ => part = part.with_axis(local(read_axis(e, "axis", scope, scene, &world)?)),
     }
     if word == "screw" {
         part.pitch = screw_pitch(e)?;
     }
-    part.limits = limits(e)?.filter(|_| ["revolute", "prismatic"].contains(&word));
+    part.limits = read_limits(e)?.filter(|_| ["revolute", "prismatic"].contains(&word));
     if apart {
         told_apart(e, far, scene.assemble, robot);
     }
-    if let Some(leader) = mimic(e, &name, scope, robot)? {
+    if let Some(leader) = read_mimic(e, &name, scope, robot)? {
         part.comment = Some(format!("mimics {leader}"));
     }
     robot.joints.push(part);
@@ -123,7 +126,7 @@ fn joint_type(e: Element<'_>, word: &str) -> Read<JointType> {
         "universal" | "revolute2" => JointType::Universal,
         "ball" => JointType::Spherical,
         "fixed" => JointType::Fixed,
-        "floating" => free(),
+        "floating" => free_joint(),
         _ => return Err(e.unknown_word("type", word, TYPES)),
     })
 }
@@ -137,7 +140,7 @@ fn left_out(e: Element<'_>, name: &str, robot: &mut Robot) {
     let axes = axes.filter(|c| ["axis", "axis2"].contains(&c.name()));
     let of_axes = axes.flat_map(Element::children);
     for c in own.chain(of_axes.filter(|c| !c.is_one_of(within))) {
-        robot.report.drop(c.name(), Some(name));
+        robot.report.count_dropped(c.name(), Some(name));
     }
 }
 
@@ -149,21 +152,21 @@ fn told_apart(e: Element<'_>, far: f64, assembled: bool, robot: &mut Robot) {
         "used as drawn, as SDF defines it (the option `assemble` moves the parts)"
     };
     let what = format!("its parent frame and the joint are {far:.3} m apart in the file; {done}");
-    robot.report.approximate(&e.label(), what);
+    robot.report.add_approximation(&e.label(), what);
 }
 
 /// Records the coupling of a joint whose axis follows that of another, and returns the name of this joint.
-fn mimic(e: Element<'_>, name: &str, scope: &str, robot: &mut Robot) -> Read<Option<String>> {
+fn read_mimic(e: Element<'_>, name: &str, scope: &str, robot: &mut Robot) -> Read<Option<String>> {
     // Drake's own has its numbers as attributes.
     let mimics = ["mimic", "drake:mimic"];
     let inside = e.children().flat_map(Element::children);
     let Some(m) = inside.into_iter().find(|m| mimics.contains(&m.name())) else {
         return Ok(None);
     };
-    let leader = absolute(scope, m.required("joint")?);
-    let ratio = match m.child("multiplier") {
+    let leader = absolute_name(scope, m.required_attribute("joint")?);
+    let ratio = match m.first_child("multiplier") {
         Some(x) => x.text_numbers::<1>()?[0],
-        None => m.numbers::<1>("multiplier")?.map_or(1.0, |[x]| x),
+        None => m.read_numbers::<1>("multiplier")?.map_or(1.0, |[x]| x),
     };
     robot.couplings.push(Ratio {
         said_by: m.id,
@@ -172,11 +175,11 @@ fn mimic(e: Element<'_>, name: &str, scope: &str, robot: &mut Robot) -> Read<Opt
     Ok(Some(leader))
 }
 
-pub(crate) fn limits(e: Element<'_>) -> Read<Option<(f64, f64)>> {
-    let Some(l) = e.child("axis").and_then(|a| a.child("limit")) else {
+pub(crate) fn read_limits(e: Element<'_>) -> Read<Option<(f64, f64)>> {
+    let Some(l) = e.first_child("axis").and_then(|a| a.first_child("limit")) else {
         return Ok(None);
     };
-    let one = |tag: &str| match l.child(tag) {
+    let one = |tag: &str| match l.first_child(tag) {
         // SDF writes 1e16 or infinity for no limit.
         Some(c) if ["inf", "-inf"].contains(&c.text()) => Ok(None),
         Some(c) => match c.text().parse::<f64>() {
@@ -192,17 +195,17 @@ pub(crate) fn limits(e: Element<'_>) -> Read<Option<(f64, f64)>> {
 
 /// Metres per radian: `screw_thread_pitch` is metres per turn, `thread_pitch` minus radians per metre.
 pub(crate) fn screw_pitch(e: Element<'_>) -> Read<f64> {
-    if let Some(p) = e.child("screw_thread_pitch") {
+    if let Some(p) = e.first_child("screw_thread_pitch") {
         return Ok(p.text_numbers::<1>()?[0] / std::f64::consts::TAU);
     }
-    let Some(p) = e.child("thread_pitch") else {
-        return Err(e.missing("<screw_thread_pitch>"));
+    let Some(p) = e.first_child("thread_pitch") else {
+        return Err(e.missing_error("<screw_thread_pitch>"));
     };
     let [radians] = p.text_numbers::<1>()?;
     if radians.abs() < 1e-9 {
         let want = "give <screw_thread_pitch>, metres per turn";
         let problem = bad_value(&e.label(), "<thread_pitch>", p.text(), want);
-        return Err(p.fail(None, problem));
+        return Err(p.error_at(None, problem));
     }
     Ok(-1.0 / radians)
 }
@@ -214,16 +217,16 @@ pub(crate) fn two_axes(
     [first, second]: [Vector; 2],
     robot: &mut Robot,
 ) -> Read<()> {
-    let (a, b) = (towards(first), towards(second));
+    let (a, b) = (unit_or_z(first), unit_or_z(second));
     if length(cross(a, b)) < 1e-9 {
-        return Err(e.unsupported("its two axes are parallel", "give two directions"));
+        return Err(e.unsupported_error("its two axes are parallel", "give two directions"));
     }
     if dot(a, b).abs() < 1e-9 {
         (part.axis, part.second) = (first, second);
         robot.joints.push(part);
         return Ok(());
     }
-    let between = robot.link(&format!("{}~1", part.id), RigidMotion::IDENTITY);
+    let between = robot.add_link(&format!("{}~1", part.id), RigidMotion::IDENTITY);
     let [parent, child] = part.links;
     let one = Part::new(
         &part.id,
@@ -238,14 +241,14 @@ pub(crate) fn two_axes(
         JointType::Revolute,
     );
     // Axes that are not square: two hinges in series are the same.
-    robot.report.map("joint of two oblique axes");
-    robot.joints.push(one.about(first).said_by(e));
-    robot.joints.push(two.about(second).said_by(e));
+    robot.report.count_mapped("joint of two oblique axes");
+    robot.joints.push(one.with_axis(first).said_by(e));
+    robot.joints.push(two.with_axis(second).said_by(e));
     Ok(())
 }
 
 /// Reads Drake's weld of two frames.
-pub(crate) fn weld(
+pub(crate) fn read_weld(
     e: Element<'_>,
     scope: &str,
     scene: &SdfScene<'_>,
@@ -253,41 +256,49 @@ pub(crate) fn weld(
 ) -> Read<()> {
     let mut ends = [(0, RigidMotion::IDENTITY); 2];
     for (x, tag) in ends.iter_mut().zip(["parent", "child"]) {
-        let (c, name) = end(e, tag)?;
-        let (link, world) = located(c, &absolute(scope, name), scene)?;
+        let (c, name) = joint_end(e, tag)?;
+        let (link, world) = locate_name(c, &absolute_name(scope, name), scene)?;
         *x = (link, robot.places[link].inverse().then(&world));
     }
-    let id = format!("weld-{}-{}", end(e, "parent")?.1, end(e, "child")?.1);
-    let mut part = Part::closing(e, &id, ends, JointType::Fixed)?;
+    let id = format!(
+        "weld-{}-{}",
+        joint_end(e, "parent")?.1,
+        joint_end(e, "child")?.1
+    );
+    let mut part = Part::new_closing(e, &id, ends, JointType::Fixed)?;
     part.comment = Some("closes a loop: <drake:weld_constraint>".to_owned());
-    robot.report.map("weld constraint");
+    robot.report.count_mapped("weld constraint");
     robot.joints.push(part);
     Ok(())
 }
 
 /// Couples the hinges of the parent and of the child on the reference body: the child turns the other way, faster by the gear
 /// ratio. If there are no such hinges, the gearbox is omitted and reported.
-pub(crate) fn gearbox(
+pub(crate) fn read_gearbox(
     e: Element<'_>,
     scope: &str,
     scene: &SdfScene<'_>,
     robot: &mut Robot,
 ) -> Read<()> {
-    let name = format!("{scope}{}", e.required("name")?);
+    let name = format!("{scope}{}", e.required_attribute("name")?);
     let world = of_joint(scene, e, &name).unwrap_or(RigidMotion::IDENTITY);
-    let times = match e.child("gearbox_ratio") {
+    let times = match e.first_child("gearbox_ratio") {
         Some(r) => r.text_numbers::<1>()?[0],
         None => 1.0,
     };
-    let (_, on) = end(e, "gearbox_reference_body")?;
-    let (on, _) = located(e, &absolute(scope, on), scene)?;
+    let (_, on) = joint_end(e, "gearbox_reference_body")?;
+    let (on, _) = locate_name(e, &absolute_name(scope, on), scene)?;
     let mut found = Vec::new();
     for (tag, way) in [("parent", "axis"), ("child", "axis2")] {
-        let (c, link) = end(e, tag)?;
-        let (link, _) = located(c, &absolute(scope, link), scene)?;
-        let way = if e.child(way).is_some() { way } else { "axis" };
-        let about = axis(e, way, scope, scene, &world)?;
-        found.extend(hinge(robot, [on, link], about));
+        let (c, link) = joint_end(e, tag)?;
+        let (link, _) = locate_name(c, &absolute_name(scope, link), scene)?;
+        let way = if e.first_child(way).is_some() {
+            way
+        } else {
+            "axis"
+        };
+        let about = read_axis(e, way, scope, scene, &world)?;
+        found.extend(find_hinge(robot, [on, link], about));
     }
     let [(leader, first), (follower, second)] = found[..] else {
         let what = "it needs a hinge of its parent and one of its child on its reference body, about its axes; its coupling (1 row) is omitted";
@@ -301,19 +312,21 @@ pub(crate) fn gearbox(
         gear: true,
         ..Ratio::new([&leads, &follows], -times * first * second, e)
     });
-    robot.report.map("gearbox");
+    robot.report.count_mapped("gearbox");
     Ok(())
 }
 
 /// Returns the hinge of a link on another about a direction, and the sign of its rotation about it.
-fn hinge(robot: &Robot, [on, link]: [usize; 2], about: [f64; 3]) -> Option<(usize, f64)> {
+fn find_hinge(robot: &Robot, [on, link]: [usize; 2], about: [f64; 3]) -> Option<(usize, f64)> {
     robot.joints.iter().enumerate().find_map(|(j, p)| {
         let sense = match p.links {
             ends if ends == [on, link] => 1.0,
             ends if ends == [link, on] => -1.0,
             _ => return None,
         };
-        let own = robot.places[p.links[0]].then(&p.sides[0]).direction(p.axis);
+        let own = robot.places[p.links[0]]
+            .then(&p.sides[0])
+            .map_direction(p.axis);
         let along = dot(own, about);
         let parallel = length(cross(own, about)) < 1e-6 * along.abs();
         let fits = p.joint_type == JointType::Revolute && parallel;

@@ -2,7 +2,7 @@
 
 use crate::file::problem::ImportError;
 use crate::geom::rigid::RigidMotion;
-use crate::robots::warning::{Read, known, unknown_name};
+use crate::robots::warning::{Read, list_known, unknown_name};
 use crate::robots::xml::element::Element;
 use std::collections::BTreeMap;
 
@@ -70,7 +70,7 @@ pub(crate) fn of_joint(scene: &SdfScene<'_>, e: Element<'_>, name: &str) -> Opti
 }
 
 /// Returns a name as seen from a scope.
-pub(crate) fn absolute(scope: &str, name: &str) -> String {
+pub(crate) fn absolute_name(scope: &str, name: &str) -> String {
     if name == "world" {
         name.to_owned()
     } else {
@@ -80,24 +80,24 @@ pub(crate) fn absolute(scope: &str, name: &str) -> String {
 
 pub(crate) fn insert<'a>(scene: &mut SdfScene<'a>, name: String, p: Placed<'a>) -> Read<()> {
     p.element
-        .room("links, frames and joints", scene.placed.len())?;
+        .check_room("links, frames and joints", scene.placed.len())?;
     if name == "world" || scene.placed.contains_key(&name) {
-        return Err(p.element.duplicate());
+        return Err(p.element.duplicate_error());
     }
     scene.placed.insert(name, p);
     Ok(())
 }
 
-pub(crate) fn unknown(e: Element<'_>, name: &str, scene: &SdfScene<'_>) -> ImportError {
-    let known = known("names", scene.placed.keys());
-    e.fail(
+pub(crate) fn unknown_name_error(e: Element<'_>, name: &str, scene: &SdfScene<'_>) -> ImportError {
+    let known = list_known("names", scene.placed.keys());
+    e.error_at(
         None,
         unknown_name(&e.label(), "link or frame", name, &known),
     )
 }
 
 /// Works out all places in the world.
-pub(crate) fn resolve(scene: &mut SdfScene<'_>) -> Read<()> {
+pub(crate) fn resolve_places(scene: &mut SdfScene<'_>) -> Read<()> {
     let names: Vec<String> = scene.placed.keys().cloned().collect();
     for name in names {
         // Down to something whose place is known, then back.
@@ -112,7 +112,7 @@ pub(crate) fn resolve(scene: &mut SdfScene<'_>) -> Read<()> {
                 let Some(e) = from else {
                     break RigidMotion::IDENTITY;
                 };
-                return Err(unknown(e, &at, scene));
+                return Err(unknown_name_error(e, &at, scene));
             };
             if let Some(w) = p.world {
                 break w;
@@ -120,7 +120,7 @@ pub(crate) fn resolve(scene: &mut SdfScene<'_>) -> Read<()> {
             if path.len() > scene.placed.len() {
                 let why = "its place is relative to itself through other elements";
                 let remedy = "change one of their relative_to";
-                return Err(p.element.unsupported(why, remedy));
+                return Err(p.element.unsupported_error(why, remedy));
             }
             let next = p.relative_to.clone();
             path.push(at);
@@ -165,14 +165,14 @@ pub(crate) fn moves_with(
     Err(None)
 }
 
-pub(crate) fn located(
+pub(crate) fn locate_name(
     e: Element<'_>,
     name: &str,
     scene: &SdfScene<'_>,
 ) -> Read<(usize, RigidMotion)> {
     moves_with(scene, name).map_err(|missing| match missing {
-        Some(n) => unknown(e, &n, scene),
-        None => e.unsupported(
+        Some(n) => unknown_name_error(e, &n, scene),
+        None => e.unsupported_error(
             &format!("{name} is attached to itself through other elements"),
             "attach it to a link",
         ),
@@ -180,12 +180,12 @@ pub(crate) fn located(
 }
 
 /// Returns the parent or child of a joint: the element and the name, which old files have as an attribute.
-pub(crate) fn end<'a>(e: Element<'a>, tag: &str) -> Read<(Element<'a>, &'a str)> {
+pub(crate) fn joint_end<'a>(e: Element<'a>, tag: &str) -> Read<(Element<'a>, &'a str)> {
     let name = |c: Element<'a>| match c.text() {
         "" => c.attribute("link").unwrap_or(""),
         text => text,
     };
-    let found = e.child(tag).map(|c| (c, name(c)));
+    let found = e.first_child(tag).map(|c| (c, name(c)));
     let found = found.filter(|(_, name)| !name.is_empty());
-    found.ok_or_else(|| e.missing(&format!("<{tag}> with the name of a link")))
+    found.ok_or_else(|| e.missing_error(&format!("<{tag}> with the name of a link")))
 }

@@ -2,12 +2,13 @@
 
 use crate::model::joint_type::JointType;
 use crate::model::mechanism::{JointId, LinkId, Mechanism, Role, StateId};
-use crate::robots::description::coupling::{Follows, mimics};
+use crate::robots::description::coupling::{Follows, find_mimics};
 use crate::robots::description::physical::Light;
-use crate::robots::description::physical::{head, left_out, moving};
+use crate::robots::description::physical::{left_out, moving_inertial, write_head};
 use crate::robots::formats::FormattedFile;
 use crate::robots::mechanism::series_of_single_joints::{
-    JointAxes, Names, Single, comment, escape, number, numbers, place, singles,
+    JointAxes, Names, Single, clean_number, escape_comment, escape_xml, format_numbers, joint_axes,
+    single_freedoms,
 };
 use std::fmt::Write;
 
@@ -29,10 +30,10 @@ const WORLD: &str = "world";
 
 /// Writes the mechanism's free state as SDF 1.9. All links have the global axes; joints of several freedoms that SDF does not
 /// have become joints in series through light links.
-pub(crate) fn sdf(m: &Mechanism) -> FormattedFile {
+pub(crate) fn write_sdf(m: &Mechanism) -> FormattedFile {
     let joints: Vec<JointId> = m.joints_in(StateId::FREE).collect();
     let written: Vec<bool> = m.joint_ids().map(|j| joints.contains(&j)).collect();
-    let (follows, unsaid) = mimics(m, &written);
+    let (follows, unsaid) = find_mimics(m, &written);
     let mut told = left_out(m);
     told.extend(unsaid);
     if m.links.iter().any(|l| l.mass.is_none()) {
@@ -44,28 +45,28 @@ pub(crate) fn sdf(m: &Mechanism) -> FormattedFile {
         links: vec![None; m.links.len()],
         ids: vec![String::new(); m.joints.len()],
         follows,
-        light: Light::in_mechanism(m).sdf(),
+        light: Light::in_mechanism(m).write_sdf(),
         head: String::new(),
         body: String::new(),
     };
     w.name_links(&joints);
     for l in m.link_ids() {
-        w.link(l);
+        w.write_link(l);
     }
     // Joints may follow later ones, so names come first.
     for &j in &joints {
-        w.ids[j] = w.names.fit(&m.joints[j].id);
+        w.ids[j] = w.names.fit_name(&m.joints[j].id);
     }
     for &j in &joints {
-        w.joint(j);
+        w.write_mechanism_joint(j);
     }
     // Mimic joints are of 1.11.
     let version = match m.couplings_in(StateId::FREE).next() {
         Some(_) => "1.11",
         None => "1.9",
     };
-    let name = escape(&m.name.replace("::", ":"));
-    let above = head(m, "    ", &told);
+    let name = escape_xml(&m.name.replace("::", ":"));
+    let above = write_head(m, "    ", &told);
     let (links, body) = (w.head, w.body);
     let text = format!(
         "<?xml version=\"1.0\"?>\n<sdf version=\"{version}\">\n  <model name=\"{name}\">\n{above}{links}{body}  </model>\n</sdf>\n"
@@ -76,47 +77,50 @@ pub(crate) fn sdf(m: &Mechanism) -> FormattedFile {
 impl SdfWriter<'_> {
     fn name_links(&mut self, joints: &[JointId]) {
         let m = self.m;
-        self.names.fit(WORLD);
+        self.names.fit_name(WORLD);
         for (l, link) in m.links_with_ids() {
             if joints.iter().any(|&j| m.joints[j].links.contains(&l)) {
                 let is_world = link.role == Role::Frame && link.id == WORLD;
                 self.links[l] = Some(if is_world {
                     WORLD.to_owned()
                 } else {
-                    self.names.fit(&link.id)
+                    self.names.fit_name(&link.id)
                 });
             }
         }
     }
 
-    fn link(&mut self, l: LinkId) {
+    fn write_link(&mut self, l: LinkId) {
         let link = &self.m.links[l];
         let Some(n) = self.links[l].clone().filter(|n| n != WORLD) else {
             return;
         };
-        let stated = link.mass.as_ref().map(|_| moving(self.m, l, [0.0; 3]));
+        let stated = link
+            .mass
+            .as_ref()
+            .map(|_| moving_inertial(self.m, l, [0.0; 3]));
         let weight = stated.map_or("/>".to_owned(), |i| {
-            let [xx, yy, zz, xy, xz, yz] = i.tensor.map(number);
+            let [xx, yy, zz, xy, xz, yz] = i.tensor.map(clean_number);
             format!(
                 "><inertial><pose>{} 0 0 0</pose><mass>{}</mass><inertia><ixx>{xx}</ixx><iyy>{yy}</iyy><izz>{zz}</izz><ixy>{xy}</ixy><ixz>{xz}</ixz><iyz>{yz}</iyz></inertia></inertial></link>",
-                numbers(i.centre),
+                format_numbers(i.centre),
                 i.mass
             )
         });
-        let _ = writeln!(self.head, "    <link name=\"{}\"{weight}", escape(&n));
+        let _ = writeln!(self.head, "    <link name=\"{}\"{weight}", escape_xml(&n));
         if link.role == Role::Frame {
-            let held = self.names.fit(&format!("world-{n}"));
+            let held = self.names.fit_name(&format!("world-{n}"));
             let ends = [WORLD, n.as_str()];
             write_joint(&mut self.body, &held, "fixed", ends, [0.0; 3], "");
         }
     }
 
-    fn joint(&mut self, j: JointId) {
+    fn write_mechanism_joint(&mut self, j: JointId) {
         let joint = &self.m.joints[j];
-        let mut p = place(self.m, joint);
+        let mut p = joint_axes(self.m, joint);
         let id = self.ids[j].clone();
         if joint.drive {
-            let _ = writeln!(self.body, "    <!-- {} is driven -->", comment(&id));
+            let _ = writeln!(self.body, "    <!-- {} is driven -->", escape_comment(&id));
         }
         let name = |l: LinkId| self.links[l].clone().unwrap_or_else(|| WORLD.to_owned());
         let [mut a, mut b] = joint.links.map(name);
@@ -126,20 +130,26 @@ impl SdfWriter<'_> {
             (a, b) = (b, a);
             p.axes = p.axes.map(|a| a.map(|x| -x));
         }
-        if let Some((kind, more)) = known(&joint.joint_type, &p, back) {
-            let more = self.following(j, more);
+        if let Some((kind, more)) = sdf_joint(&joint.joint_type, &p, back) {
+            let more = self.with_mimic(j, more);
             write_joint(&mut self.body, &id, kind, [&a, &b], p.point, &more);
             return;
         }
-        let mut all = singles(&joint.joint_type, &p);
+        let mut all = single_freedoms(&joint.joint_type, &p);
         if back {
             all.reverse();
         }
-        self.series(j, &all, [a, b], p.point);
+        self.write_series(j, &all, [a, b], p.point);
     }
 
     /// Writes freedoms in series, through light links; a fixed joint if there are none.
-    fn series(&mut self, j: JointId, all: &[Single], [mut from, end]: [String; 2], at: [f64; 3]) {
+    fn write_series(
+        &mut self,
+        j: JointId,
+        all: &[Single],
+        [mut from, end]: [String; 2],
+        at: [f64; 3],
+    ) {
         let id = self.ids[j].clone();
         if all.is_empty() {
             write_joint(&mut self.body, &id, "fixed", [&from, &end], at, "");
@@ -148,84 +158,87 @@ impl SdfWriter<'_> {
             let to = if i + 1 == all.len() {
                 end.clone()
             } else {
-                let to = self.names.fit(&format!("{id}~{}", i + 1));
+                let to = self.names.fit_name(&format!("{id}~{}", i + 1));
                 let light = &self.light;
                 let _ = writeln!(
                     self.head,
                     "    <link name=\"{}\">{light}</link>",
-                    escape(&to)
+                    escape_xml(&to)
                 );
                 to
             };
             let part = match i {
                 0 => id.clone(),
-                _ => self.names.fit(&format!("{id}~joint{}", i + 1)),
+                _ => self.names.fit_name(&format!("{id}~joint{}", i + 1)),
             };
-            let (kind, more) = elementary(*single);
-            let more = self.following(j, more);
+            let (kind, more) = single_joint(*single);
+            let more = self.with_mimic(j, more);
             write_joint(&mut self.body, &part, kind, [&from, &to], at, &more);
             from = to;
         }
     }
 
     /// Writes an axis with the joint it follows, if any.
-    fn following(&self, j: JointId, axis: String) -> String {
+    fn with_mimic(&self, j: JointId, axis: String) -> String {
         let Some(f) = self.follows[j] else {
             return axis;
         };
         let mimic = format!(
             "<mimic joint=\"{}\" axis=\"axis\"><multiplier>{}</multiplier><offset>0</offset><reference>0</reference></mimic></axis>",
-            escape(&self.ids[f.leader]),
-            number(f.ratio)
+            escape_xml(&self.ids[f.leader]),
+            clean_number(f.ratio)
         );
         axis.replacen("</axis>", &mimic, 1)
     }
 }
 
-fn axis(tag: &str, d: [f64; 3]) -> String {
+fn write_axis(tag: &str, d: [f64; 3]) -> String {
     format!(
         "      <{tag}><xyz expressed_in=\"__model__\">{}</xyz></{tag}>\n",
-        numbers(d)
+        format_numbers(d)
     )
 }
 
 /// Returns the SDF joint of a type and its content, or `None` if there is none; `back` is true if it is passed from its second
 /// link.
-fn known(t: &JointType, p: &JointAxes, back: bool) -> Option<(&'static str, String)> {
+fn sdf_joint(t: &JointType, p: &JointAxes, back: bool) -> Option<(&'static str, String)> {
     let [x, _, z] = p.axes;
     let (first, second) = if back { (x, z) } else { (z, x) };
     Some(match t {
         JointType::Revolute | JointType::Prismatic | JointType::Helical => {
-            let [single] = singles(t, p)[..] else {
+            let [single] = single_freedoms(t, p)[..] else {
                 return None;
             };
-            elementary(single)
+            single_joint(single)
         }
-        JointType::Universal => ("universal", axis("axis", first) + &axis("axis2", second)),
+        JointType::Universal => (
+            "universal",
+            write_axis("axis", first) + &write_axis("axis2", second),
+        ),
         JointType::Spherical => ("ball", String::new()),
         JointType::Fixed => ("fixed", String::new()),
         _ => return None,
     })
 }
 
-fn elementary(s: Single) -> (&'static str, String) {
+fn single_joint(s: Single) -> (&'static str, String) {
     match s {
-        Single::Turn(d) => ("revolute", axis("axis", d)),
-        Single::Shift(d) => ("prismatic", axis("axis", d)),
+        Single::Turn(d) => ("revolute", write_axis("axis", d)),
+        Single::Shift(d) => ("prismatic", write_axis("axis", d)),
         Single::Screw(d, pitch) => {
             let turn = pitch * std::f64::consts::TAU;
             let thread = format!("      <screw_thread_pitch>{turn}</screw_thread_pitch>\n");
-            ("screw", axis("axis", d) + &thread)
+            ("screw", write_axis("axis", d) + &thread)
         }
     }
 }
 
 fn write_joint(out: &mut String, id: &str, kind: &str, ends: [&str; 2], at: [f64; 3], more: &str) {
-    let [parent, child] = ends.map(escape);
+    let [parent, child] = ends.map(escape_xml);
     let _ = write!(
         out,
         "    <joint name=\"{}\" type=\"{kind}\">\n      <pose relative_to=\"__model__\">{} 0 0 0</pose>\n      <parent>{parent}</parent>\n      <child>{child}</child>\n{more}    </joint>\n",
-        escape(id),
-        numbers(at),
+        escape_xml(id),
+        format_numbers(at),
     );
 }

@@ -4,12 +4,13 @@ use crate::closure::tree::{TreeStep, spanning_tree};
 use crate::geom::vector::sub;
 use crate::model::joint_type::JointType;
 use crate::model::mechanism::{JointId, Link, LinkId, Mechanism, StateId};
-use crate::robots::description::coupling::{Follows, mimics};
+use crate::robots::description::coupling::{Follows, find_mimics};
 use crate::robots::description::physical::Light;
-use crate::robots::description::physical::{self, GRAM, inertial, left_out, moving};
+use crate::robots::description::physical::{self, GRAM, left_out, link_inertial, moving_inertial};
 use crate::robots::formats::FormattedFile;
 use crate::robots::mechanism::series_of_single_joints::{
-    Names, Single, comment, escape, number, numbers, place, singles,
+    Names, Single, clean_number, escape_comment, escape_xml, format_numbers, joint_axes,
+    single_freedoms,
 };
 use crate::robots::warning::ExportError;
 use std::fmt::Write;
@@ -35,10 +36,10 @@ struct UrdfWriter<'a> {
 ///
 /// # Errors
 /// Returns an error if a joint is helical, because URDF has no such joint.
-pub(crate) fn urdf(m: &Mechanism) -> Result<FormattedFile, ExportError> {
+pub(crate) fn write_urdf(m: &Mechanism) -> Result<FormattedFile, ExportError> {
     let mut w = UrdfWriter {
         m,
-        light: Light::in_mechanism(m).urdf(),
+        light: Light::in_mechanism(m).write_urdf(),
         links: Names::default(),
         joints: Names::default(),
         placed: vec![None; m.links.len()],
@@ -47,112 +48,112 @@ pub(crate) fn urdf(m: &Mechanism) -> Result<FormattedFile, ExportError> {
         head: String::new(),
         body: String::new(),
     };
-    w.link(m.frame(), [0.0; 3]);
+    w.write_link(m.frame_link(), [0.0; 3]);
     let tree = spanning_tree(m, StateId::FREE);
     let in_tree = |j: JointId| tree.iter().any(|s| s.joint == j);
     let closing = m.joints_in(StateId::FREE).filter(|&j| !in_tree(j));
     let closing: Vec<JointId> = closing.collect();
     // Joints may follow later ones, so names come first.
     for j in tree.iter().map(|s| s.joint).chain(closing.iter().copied()) {
-        w.ids[j] = w.joints.fit(&m.joints[j].id);
+        w.ids[j] = w.joints.fit_name(&m.joints[j].id);
     }
     let mut single = vec![false; m.joints.len()];
     for step in &tree {
-        single[step.joint] = kinds(m, step.joint, 1.0)?.len() == 1;
+        single[step.joint] = joint_kinds(m, step.joint, 1.0)?.len() == 1;
     }
-    let (follows, unsaid) = mimics(m, &single);
+    let (follows, unsaid) = find_mimics(m, &single);
     w.follows = follows;
     for step in &tree {
-        w.branch(step)?;
+        w.write_branch(step)?;
     }
     for j in closing {
-        w.closing(j)?;
+        w.write_closing(j)?;
     }
-    Ok(w.whole(unsaid))
+    Ok(w.write_file(unsaid))
 }
 
 impl UrdfWriter<'_> {
     /// Writes a link with its frame at a point, and returns its name.
-    fn link(&mut self, l: LinkId, at: [f64; 3]) -> String {
-        let name = self.links.fit(&self.m.links[l].id);
+    fn write_link(&mut self, l: LinkId, at: [f64; 3]) -> String {
+        let name = self.links.fit_name(&self.m.links[l].id);
         // A fixed link needs no mass, and some readers reject one.
-        let weight = if l == self.m.frame() {
-            inertial(self.m, l, at)
+        let weight = if l == self.m.frame_link() {
+            link_inertial(self.m, l, at)
         } else {
-            Some(moving(self.m, l, at))
+            Some(moving_inertial(self.m, l, at))
         };
         let weight = weight.map_or("/>".to_owned(), |i| {
-            let [xx, yy, zz, xy, xz, yz] = i.tensor.map(number);
+            let [xx, yy, zz, xy, xz, yz] = i.tensor.map(clean_number);
             format!(
                 "><inertial><origin xyz=\"{}\"/><mass value=\"{}\"/><inertia ixx=\"{xx}\" ixy=\"{xy}\" ixz=\"{xz}\" iyy=\"{yy}\" iyz=\"{yz}\" izz=\"{zz}\"/></inertial></link>",
-                numbers(i.centre),
+                format_numbers(i.centre),
                 i.mass
             )
         });
-        let _ = writeln!(self.head, "  <link name=\"{}\"{weight}", escape(&name));
+        let _ = writeln!(self.head, "  <link name=\"{}\"{weight}", escape_xml(&name));
         self.placed[l] = Some((name.clone(), at));
         name
     }
 
     /// Writes a light link between the freedoms of a joint, and returns its name.
-    fn between(&mut self, id: &str, place: usize) -> String {
-        let name = self.links.fit(&format!("{id}~{place}~link"));
+    fn write_between(&mut self, id: &str, place: usize) -> String {
+        let name = self.links.fit_name(&format!("{id}~{place}~link"));
         let light = &self.light;
         let _ = writeln!(
             self.head,
             "  <link name=\"{}\">{light}</link>",
-            escape(&name)
+            escape_xml(&name)
         );
         name
     }
 
-    fn driven(&mut self, j: JointId, id: &str) {
+    fn write_driven(&mut self, j: JointId, id: &str) {
         if self.m.joints[j].drive {
-            let _ = writeln!(self.body, "  <!-- {} is driven -->", comment(id));
+            let _ = writeln!(self.body, "  <!-- {} is driven -->", escape_comment(id));
         }
     }
 
     /// Writes a joint of the tree with its child link.
-    fn branch(&mut self, step: &TreeStep) -> Result<(), ExportError> {
+    fn write_branch(&mut self, step: &TreeStep) -> Result<(), ExportError> {
         let j = step.joint;
         let (mut holder, origin) = self.placed[step.from].clone().unwrap_or_default();
-        let p = place(self.m, &self.m.joints[j]);
+        let p = joint_axes(self.m, &self.m.joints[j]);
         let mut at = sub(p.point, origin);
         let id = self.ids[j].clone();
-        let child = self.link(step.link, p.point);
+        let child = self.write_link(step.link, p.point);
         // The child moves the other way where the joint is passed backwards.
         let sign = if step.forward { 1.0 } else { -1.0 };
-        let parts = kinds(self.m, j, sign)?;
+        let parts = joint_kinds(self.m, j, sign)?;
         for (i, (kind, axis)) in parts.iter().enumerate() {
             let held = if i + 1 == parts.len() {
                 child.clone()
             } else {
-                self.between(&id, i + 1)
+                self.write_between(&id, i + 1)
             };
             let part = match i {
                 0 => id.clone(),
-                _ => self.joints.fit(&format!("{id}~{}", i + 1)),
+                _ => self.joints.fit_name(&format!("{id}~{}", i + 1)),
             };
             let ends = [holder.as_str(), held.as_str()];
-            self.body += &tree_joint(&part, kind, ends, at, *axis, &self.mimic(j));
+            self.body += &tree_joint(&part, kind, ends, at, *axis, &self.write_mimic(j));
             (holder, at) = (held, [0.0; 3]);
         }
-        self.driven(j, &id);
+        self.write_driven(j, &id);
         Ok(())
     }
 
     /// Writes a joint that closes a loop: all but the last of its freedoms are joints of the tree; a ball or a rigid joint closes
     /// it directly.
-    fn closing(&mut self, j: JointId) -> Result<(), ExportError> {
+    fn write_closing(&mut self, j: JointId) -> Result<(), ExportError> {
         let joint = &self.m.joints[j];
-        let p = place(self.m, joint);
+        let p = joint_axes(self.m, joint);
         let id = self.ids[j].clone();
         let [(mut a, mut from), (b, to)] = joint
             .links
             .map(|l| self.placed[l].clone().unwrap_or_default());
         let mut parts = match joint.joint_type {
             JointType::Spherical => vec![("spherical", None)],
-            _ => kinds(self.m, j, 1.0)?,
+            _ => joint_kinds(self.m, j, 1.0)?,
         };
         let closes = parts.pop().unwrap_or(("fixed", None));
         if ["planar", "floating"].contains(&closes.0) {
@@ -164,43 +165,43 @@ impl UrdfWriter<'_> {
             });
         }
         for (i, (kind, axis)) in parts.iter().enumerate() {
-            let between = self.between(&id, i + 1);
-            let part = self.joints.fit(&format!("{id}~{}", i + 1));
+            let between = self.write_between(&id, i + 1);
+            let part = self.joints.fit_name(&format!("{id}~{}", i + 1));
             let ends = [a.as_str(), between.as_str()];
             self.body += &tree_joint(&part, kind, ends, sub(p.point, from), *axis, "");
             (a, from) = (between, p.point);
         }
         let axis = closes.1.map_or(String::new(), |d| {
-            format!("    <axis xyz=\"{}\"/>\n", numbers(d))
+            format!("    <axis xyz=\"{}\"/>\n", format_numbers(d))
         });
         let _ = write!(
             self.body,
             "  <loop_joint name=\"{}\" type=\"{}\">\n    <link1 link=\"{}\" xyz=\"{}\" rpy=\"0 0 0\"/>\n    <link2 link=\"{}\" xyz=\"{}\" rpy=\"0 0 0\"/>\n{axis}  </loop_joint>\n",
-            escape(&id),
+            escape_xml(&id),
             closes.0,
-            escape(&a),
-            numbers(sub(p.point, from)),
-            escape(&b),
-            numbers(sub(p.point, to)),
+            escape_xml(&a),
+            format_numbers(sub(p.point, from)),
+            escape_xml(&b),
+            format_numbers(sub(p.point, to)),
         );
-        self.driven(j, &id);
+        self.write_driven(j, &id);
         Ok(())
     }
 
     /// Returns the element of a joint that follows another.
-    fn mimic(&self, j: JointId) -> String {
+    fn write_mimic(&self, j: JointId) -> String {
         self.follows[j].map_or(String::new(), |f| {
-            let leader = escape(&self.ids[f.leader]);
-            let ratio = number(f.ratio);
+            let leader = escape_xml(&self.ids[f.leader]);
+            let ratio = clean_number(f.ratio);
             format!("    <mimic joint=\"{leader}\" multiplier=\"{ratio}\" offset=\"0\"/>\n")
         })
     }
 
-    fn whole(self, unsaid: Vec<String>) -> FormattedFile {
+    fn write_file(self, unsaid: Vec<String>) -> FormattedFile {
         let m = self.m;
         let mut told = left_out(m);
         told.extend(unsaid);
-        let frame = m.frame();
+        let frame = m.frame_link();
         let weightless = |(l, link): (LinkId, &Link)| l != frame && link.mass.is_none();
         if m.links_with_ids().any(weightless) {
             told.push(GRAM.to_owned());
@@ -211,7 +212,7 @@ impl UrdfWriter<'_> {
                     .to_owned(),
             );
         }
-        let (name, above) = (escape(&m.name), physical::head(m, "  ", &told));
+        let (name, above) = (escape_xml(&m.name), physical::write_head(m, "  ", &told));
         let (head, body) = (self.head, self.body);
         let text = format!(
             "<?xml version=\"1.0\"?>\n<robot name=\"{name}\">\n{above}{head}{body}</robot>\n"
@@ -226,9 +227,9 @@ const LIMIT: &str = "    <limit lower=\"-1\" upper=\"1\" effort=\"0\" velocity=\
 type Kind = (&'static str, Option<[f64; 3]>);
 
 /// Returns the joints in series that represent a joint.
-fn kinds(m: &Mechanism, j: JointId, sign: f64) -> Result<Vec<Kind>, ExportError> {
+fn joint_kinds(m: &Mechanism, j: JointId, sign: f64) -> Result<Vec<Kind>, ExportError> {
     let joint = &m.joints[j];
-    let p = place(m, joint);
+    let p = joint_axes(m, joint);
     let turned = |d: [f64; 3]| Some(d.map(|x| sign * x));
     match &joint.joint_type {
         JointType::Fixed => return Ok(vec![("fixed", None)]),
@@ -247,7 +248,7 @@ fn kinds(m: &Mechanism, j: JointId, sign: f64) -> Result<Vec<Kind>, ExportError>
             remedy: "write SDF instead",
         }),
     };
-    singles(&joint.joint_type, &p)
+    single_freedoms(&joint.joint_type, &p)
         .into_iter()
         .map(single)
         .collect()
@@ -261,9 +262,9 @@ fn tree_joint(
     axis: Option<[f64; 3]>,
     more: &str,
 ) -> String {
-    let [parent, child] = ends.map(escape);
+    let [parent, child] = ends.map(escape_xml);
     let axis = axis.map_or(String::new(), |d| {
-        format!("    <axis xyz=\"{}\"/>\n", numbers(d))
+        format!("    <axis xyz=\"{}\"/>\n", format_numbers(d))
     });
     let limit = match kind {
         "prismatic" => LIMIT,
@@ -271,7 +272,7 @@ fn tree_joint(
     };
     format!(
         "  <joint name=\"{}\" type=\"{kind}\">\n    <parent link=\"{parent}\"/>\n    <child link=\"{child}\"/>\n    <origin xyz=\"{}\"/>\n{axis}{limit}{more}  </joint>\n",
-        escape(id),
-        numbers(at),
+        escape_xml(id),
+        format_numbers(at),
     )
 }

@@ -3,7 +3,8 @@
 use crate::file::problem::{ImportError, ProblemKind};
 use crate::geom::vector::Vector;
 use crate::robots::warning::{
-    Read, bad_value, missing, syntax_problem, too_many, unknown_name, unknown_word, unsupported,
+    Read, bad_value, missing_problem, syntax_problem, too_many, unknown_name, unknown_word,
+    unsupported_problem,
 };
 use crate::robots::xml::{Document, Node};
 use std::ops::Range;
@@ -59,11 +60,11 @@ impl<'a> Element<'a> {
         all.map(move |&id| self.document.element(id))
     }
 
-    pub(crate) fn named(self, name: &str) -> impl Iterator<Item = Element<'a>> {
+    pub(crate) fn children_named(self, name: &str) -> impl Iterator<Item = Element<'a>> {
         self.children().filter(move |c| c.name() == name)
     }
 
-    pub(crate) fn child(self, name: &str) -> Option<Element<'a>> {
+    pub(crate) fn first_child(self, name: &str) -> Option<Element<'a>> {
         self.children().find(|c| c.name() == name)
     }
 
@@ -86,7 +87,7 @@ impl<'a> Element<'a> {
     }
 
     /// Returns the error for a problem with the element or with one of its attributes.
-    pub(crate) fn fail(self, attribute: Option<&str>, problem: ProblemKind) -> ImportError {
+    pub(crate) fn error_at(self, attribute: Option<&str>, problem: ProblemKind) -> ImportError {
         let node = self.node();
         let found = attribute.and_then(|name| node.find(name));
         let span = found.map_or(&node.span, |a| &a.span).clone();
@@ -95,39 +96,39 @@ impl<'a> Element<'a> {
     }
 
     /// Returns the error for an element that cannot be mapped.
-    pub(crate) fn unsupported(self, why: &str, remedy: &str) -> ImportError {
-        self.fail(None, unsupported(&self.label(), why, remedy))
+    pub(crate) fn unsupported_error(self, why: &str, remedy: &str) -> ImportError {
+        self.error_at(None, unsupported_problem(&self.label(), why, remedy))
     }
 
     /// Returns the error for an unknown word.
     pub(crate) fn unknown_word(self, what: &str, word: &str, known: &str) -> ImportError {
-        self.fail(Some(what), unknown_word(&self.label(), what, word, known))
+        self.error_at(Some(what), unknown_word(&self.label(), what, word, known))
     }
 
     /// Returns an error if there is no room for one more of `what`.
-    pub(crate) fn room(self, what: &str, count: usize) -> Read<()> {
+    pub(crate) fn check_room(self, what: &str, count: usize) -> Read<()> {
         let limit = MAX_PARTS;
         if count < limit {
             return Ok(());
         }
-        Err(self.fail(None, too_many(what, limit)))
+        Err(self.error_at(None, too_many(what, limit)))
     }
 
     /// Returns the value of an attribute, or an error if it is missing or empty.
-    pub(crate) fn required(self, name: &str) -> Read<&'a str> {
+    pub(crate) fn required_attribute(self, name: &str) -> Read<&'a str> {
         let found = self.attribute(name).filter(|v| !v.trim().is_empty());
-        found.ok_or_else(|| self.missing(&format!("attribute {name}")))
+        found.ok_or_else(|| self.missing_error(&format!("attribute {name}")))
     }
 
     /// Returns the error for something that is missing.
-    pub(crate) fn missing(self, what: &str) -> ImportError {
-        self.fail(None, missing(&self.label(), what))
+    pub(crate) fn missing_error(self, what: &str) -> ImportError {
+        self.error_at(None, missing_problem(&self.label(), what))
     }
 
     /// Returns the error for a name that two elements have.
-    pub(crate) fn duplicate(self) -> ImportError {
+    pub(crate) fn duplicate_error(self) -> ImportError {
         let message = format!("{} is defined twice; names must be unique", self.label());
-        self.fail(Some("name"), syntax_problem(message))
+        self.error_at(Some("name"), syntax_problem(message))
     }
 
     /// Returns the error for an attribute or text that names something unknown.
@@ -138,21 +139,21 @@ impl<'a> Element<'a> {
         name: &str,
         known: &str,
     ) -> ImportError {
-        self.fail(Some(key), unknown_name(&self.label(), what, name, known))
+        self.error_at(Some(key), unknown_name(&self.label(), what, name, known))
     }
 }
 
 impl Element<'_> {
     /// Returns the N numbers of an attribute; `None` if the attribute is missing.
-    pub(crate) fn numbers<const N: usize>(self, name: &str) -> Read<Option<[f64; N]>> {
+    pub(crate) fn read_numbers<const N: usize>(self, name: &str) -> Read<Option<[f64; N]>> {
         self.attribute(name)
             .map(|text| self.parse_numbers(name, text))
             .transpose()
     }
 
     /// Returns the vector of an attribute, or the default if the attribute is missing.
-    pub(crate) fn vector(self, name: &str, default: Vector) -> Read<Vector> {
-        Ok(self.numbers::<3>(name)?.unwrap_or(default))
+    pub(crate) fn read_vector(self, name: &str, default: Vector) -> Read<Vector> {
+        Ok(self.read_numbers::<3>(name)?.unwrap_or(default))
     }
 
     /// Returns the N numbers of the element's text.
@@ -168,7 +169,7 @@ impl Element<'_> {
                 n => format!("write {n} finite numbers up to 1e9 in size, with spaces between"),
             };
             let found: String = text.chars().take(60).collect();
-            self.fail(Some(what), bad_value(&self.label(), what, &found, &want))
+            self.error_at(Some(what), bad_value(&self.label(), what, &found, &want))
         };
         let mut out = [0.0; N];
         let mut words = text.split_whitespace();

@@ -5,7 +5,7 @@
 //! a couple, not by offsetting the force by h = M/F, which has no value for a link that turns about its mass centre.
 
 use crate::statics::contour_group::pose::{GroupPose, GroupReactions};
-use crate::statics::pose::{cross, dot, length, minus, plus, quarter};
+use crate::statics::pose::{cross, dot, length, minus, plus, quarter_turn};
 use serde::Serialize;
 
 /// Intermediate results of the method; lengths `[m]`, forces `[N]`.
@@ -34,7 +34,7 @@ pub struct DeltaSteps {
     pub arm: f64,
 }
 
-fn unit(v: [f64; 2]) -> [f64; 2] {
+fn unit_vector(v: [f64; 2]) -> [f64; 2] {
     let l = length(v);
     v.map(|c| c / l)
 }
@@ -52,10 +52,10 @@ fn force_plan(u: [f64; 2], v: [f64; 2], w: [f64; 2]) -> [f64; 2] {
 /// # Complexity
 /// O(number of loads).
 #[must_use]
-pub fn solve(g: &GroupPose) -> (GroupReactions, DeltaSteps) {
+pub fn solve_delta(g: &GroupPose) -> (GroupReactions, DeltaSteps) {
     // Moments of link 6 about M and of link 7 about L.
     let (to_f, to_k) = (minus(g.f, g.m), minus(g.k, g.l));
-    let (e6, e7) = (unit(to_f), unit(to_k));
+    let (e6, e7) = (unit_vector(to_f), unit_vector(to_k));
     let r46_tangential = -g.moment_on(1, g.m) / length(to_f);
     let r47_tangential = -g.moment_on(2, g.l) / length(to_k);
     // δ lies on both rods' lines.
@@ -64,25 +64,37 @@ pub fn solve(g: &GroupPose) -> (GroupReactions, DeltaSteps) {
     // Moments of link 4 about δ: the normal parts of R64 and R74 pass through it.
     let from_delta = minus(g.d, delta);
     let l_d_delta = length(from_delta);
-    let e = unit(from_delta);
+    let e = unit_vector(from_delta);
     let l_f_delta = dot(minus(g.f, delta), e6);
     let l_k_delta = dot(minus(g.k, delta), e7);
     let moment = g.moment_on(0, delta) - r46_tangential * l_f_delta - r47_tangential * l_k_delta;
     let r34_tangential = -moment / l_d_delta;
     // Force plan of the group.
     let loads = (0..4).fold([0.0; 2], |s, link| plus(s, 1.0, g.force_on(link)));
-    let known = plus(loads, r34_tangential, quarter(e));
-    let [r34_normal, guide] = force_plan(e, g.normal(), known);
-    let d = plus(quarter(e).map(|c| c * r34_tangential), r34_normal, e);
+    let known = plus(loads, r34_tangential, quarter_turn(e));
+    let [r34_normal, guide] = force_plan(e, g.guide_normal(), known);
+    let d = plus(quarter_turn(e).map(|c| c * r34_tangential), r34_normal, e);
     // Moments of the group about D.
     let about_d: f64 = (0..4).map(|link| g.moment_on(link, g.d)).sum();
     let arm = -about_d / guide;
     // Force plan of link 4.
-    let known = plus(plus(d, 1.0, g.force_on(0)), -r46_tangential, quarter(e6));
-    let known = plus(known, -r47_tangential, quarter(e7));
+    let known = plus(
+        plus(d, 1.0, g.force_on(0)),
+        -r46_tangential,
+        quarter_turn(e6),
+    );
+    let known = plus(known, -r47_tangential, quarter_turn(e7));
     let [r64_normal, r74_normal] = force_plan(e6, e7, known);
-    let f = plus(quarter(e6).map(|c| c * r46_tangential), -r64_normal, e6);
-    let k = plus(quarter(e7).map(|c| c * r47_tangential), -r74_normal, e7);
+    let f = plus(
+        quarter_turn(e6).map(|c| c * r46_tangential),
+        -r64_normal,
+        e6,
+    );
+    let k = plus(
+        quarter_turn(e7).map(|c| c * r47_tangential),
+        -r74_normal,
+        e7,
+    );
     // Force plans of links 7 and 6.
     let l = plus(g.force_on(2), 1.0, k).map(|c| -c);
     let m = plus(g.force_on(1), 1.0, f).map(|c| -c);

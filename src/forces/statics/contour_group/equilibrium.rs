@@ -3,7 +3,7 @@
 use crate::statics::contour_group::pose::{GroupPose, GroupReactions};
 use crate::statics::kinetostatics::Worth;
 use crate::statics::pose::{length, minus};
-use crate::statics::{condition, greatest};
+use crate::statics::{condition_number, greatest_abs};
 use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::{One, ToPrimitive, Zero};
@@ -21,7 +21,11 @@ const ENDS: [(usize, Option<usize>); 5] = [
 
 /// Returns the equations with moments about `origins`, in some number system: rows of 12 coefficients and the right
 /// side. The unknowns are the components at D, F, K, M, L, then the guide's reaction and its moment about D.
-fn equations<N>(g: &GroupPose, number: impl Fn(f64) -> N, origins: [[f64; 2]; 4]) -> Vec<Vec<N>>
+fn equilibrium_rows<N>(
+    g: &GroupPose,
+    number: impl Fn(f64) -> N,
+    origins: [[f64; 2]; 4],
+) -> Vec<Vec<N>>
 where
     N: Clone + Sub<Output = N> + Mul<Output = N>,
 {
@@ -45,7 +49,7 @@ where
         }
     }
     // The guide: a force at D along the normal, and a couple.
-    let [nx, ny] = vector(g.normal());
+    let [nx, ny] = vector(g.guide_normal());
     let [x, y] = arm(g.d, 3);
     rows[9][10] = nx.clone();
     rows[10][10] = ny.clone();
@@ -63,7 +67,7 @@ where
     rows
 }
 
-fn reactions(x: &[f64], arm: f64) -> GroupReactions {
+fn reactions_of(x: &[f64], arm: f64) -> GroupReactions {
     let at = |j: usize| [x[2 * j], x[2 * j + 1]];
     GroupReactions {
         d: at(0),
@@ -79,12 +83,12 @@ fn reactions(x: &[f64], arm: f64) -> GroupReactions {
 
 /// Returns the reactions by LU with partial pivoting, with their reliability, or `None` if the equations are singular.
 #[must_use]
-pub fn solve(g: &GroupPose) -> Option<(GroupReactions, Worth)> {
+pub fn solve_equilibrium(g: &GroupPose) -> Option<(GroupReactions, Worth)> {
     let size = [g.f, g.k, g.m, g.l]
         .map(|p| length(minus(p, g.d)))
         .into_iter()
         .fold(0.0, f64::max);
-    let mut rows = equations(g, |x| x, [g.d, g.m, g.l, g.m]);
+    let mut rows = equilibrium_rows(g, |x| x, [g.d, g.m, g.l, g.m]);
     for (r, row) in rows.iter_mut().enumerate() {
         // The couple is scaled to a force at the group's size, and so are moments.
         row[11] *= size;
@@ -98,19 +102,19 @@ pub fn solve(g: &GroupPose) -> Option<(GroupReactions, Worth)> {
     if !x.iter().all(|v| v.is_finite()) {
         return None;
     }
-    let found = matrix.times(&Matrix::column(&x));
+    let found = matrix.times(&Matrix::from_column(&x));
     let left: Vec<f64> = (0..12).map(|r| found[(r, 0)] - right[r]).collect();
-    let load = greatest(&right);
+    let load = greatest_abs(&right);
     x[11] *= size;
     let worth = Worth {
-        condition: condition(&matrix),
+        condition: condition_number(&matrix),
         residual: if load > 0.0 {
-            greatest(&left) / load
+            greatest_abs(&left) / load
         } else {
             0.0
         },
     };
-    Some((reactions(&x, x[11] / x[10]), worth))
+    Some((reactions_of(&x, x[11] / x[10]), worth))
 }
 
 /// Returns the reactions in rational arithmetic, with every number of the pose taken exactly, then rounded. Returns
@@ -119,7 +123,7 @@ pub fn solve(g: &GroupPose) -> Option<(GroupReactions, Worth)> {
 /// # Complexity
 /// O(12³) operations on whole numbers that grow to about a thousand bits.
 #[must_use]
-pub fn exact(g: &GroupPose) -> Option<GroupReactions> {
+pub fn solve_exactly(g: &GroupPose) -> Option<GroupReactions> {
     let numbers = g
         .loads
         .iter()
@@ -129,10 +133,10 @@ pub fn exact(g: &GroupPose) -> Option<GroupReactions> {
         return None;
     }
     let number = |x: f64| BigRational::from_float(x).unwrap_or_else(BigRational::zero);
-    let rows = equations(g, number, [[0.0; 2]; 4]);
+    let rows = equilibrium_rows(g, number, [[0.0; 2]; 4]);
     // Doubles are whole numbers over powers of two, so rows can be scaled to whole numbers. Fraction-free Gauss-Jordan
     // elimination (Bareiss) preserves this, and leaves the determinant on the diagonal.
-    let mut rows: Vec<Vec<BigInt>> = rows.iter().map(|row| whole(row)).collect();
+    let mut rows: Vec<Vec<BigInt>> = rows.iter().map(|row| whole_row(row)).collect();
     let mut last = BigInt::one();
     for c in 0..12 {
         let pivot = (c..12).filter(|&r| !rows[r][c].is_zero());
@@ -159,11 +163,11 @@ pub fn exact(g: &GroupPose) -> Option<GroupReactions> {
     } else {
         over(11, &rows[10][12])
     };
-    Some(reactions(&x, arm))
+    Some(reactions_of(&x, arm))
 }
 
 /// Returns a row of dyadic rationals times the power of two that makes it whole.
-fn whole(row: &[BigRational]) -> Vec<BigInt> {
+fn whole_row(row: &[BigRational]) -> Vec<BigInt> {
     let denominator = row.iter().map(BigRational::denom).max();
     let Some(common) = denominator else {
         return Vec::new();

@@ -4,7 +4,7 @@
 use crate::statics::contour_group::pose::GroupReactions;
 use crate::statics::contour_group::solutions::GroupSolutions;
 use crate::statics::kinetostatics::LoadSource;
-use crate::statics::pose::{length, minus, quarter};
+use crate::statics::pose::{length, minus, quarter_turn};
 
 /// A force of a plan.
 #[derive(Debug, Clone, PartialEq)]
@@ -40,7 +40,7 @@ pub struct Plan {
 /// Letters of the links, by their index in the loads.
 const LINKS: [&str; 4] = ["4", "6", "7", "10"];
 
-fn loads(g: &GroupSolutions, links: &[usize]) -> Vec<PlanForce> {
+fn link_loads(g: &GroupSolutions, links: &[usize]) -> Vec<PlanForce> {
     let own = g.pose.loads.iter().filter(|l| links.contains(&l.body));
     let named = own.filter(|l| l.force != [0.0; 2]).map(|l| PlanForce {
         name: match l.source {
@@ -57,10 +57,10 @@ fn loads(g: &GroupSolutions, links: &[usize]) -> Vec<PlanForce> {
 /// Returns the loads of the whole group, in the order of its links.
 #[must_use]
 pub fn group_loads(g: &GroupSolutions) -> Vec<PlanForce> {
-    loads(g, &[0, 1, 2, 3])
+    link_loads(g, &[0, 1, 2, 3])
 }
 
-fn reaction(name: &str, force: [f64; 2]) -> PlanForce {
+fn plan_reaction(name: &str, force: [f64; 2]) -> PlanForce {
     PlanForce {
         name: name.to_owned(),
         force,
@@ -70,7 +70,7 @@ fn reaction(name: &str, force: [f64; 2]) -> PlanForce {
 
 /// Returns a reaction as its part perpendicular to a line, `tangential` along a quarter turn of the direction from
 /// `from` to `to`, and the rest.
-fn parts(
+fn split_reaction(
     name: &str,
     whole: [f64; 2],
     tangential: f64,
@@ -78,10 +78,13 @@ fn parts(
     to: [f64; 2],
 ) -> [PlanForce; 2] {
     let along = minus(to, from);
-    let across = quarter(along).map(|c| c / length(along) * tangential);
-    let mut first = reaction(&format!("{name}τ"), across);
+    let across = quarter_turn(along).map(|c| c / length(along) * tangential);
+    let mut first = plan_reaction(&format!("{name}τ"), across);
     first.kind = PlanKind::Tangential;
-    [first, reaction(&format!("{name}n"), minus(whole, across))]
+    [
+        first,
+        plan_reaction(&format!("{name}n"), minus(whole, across)),
+    ]
 }
 
 /// A group with the reactions of one method, for drawing its forces.
@@ -94,7 +97,7 @@ struct SolvedGroup<'g> {
 
 impl SolvedGroup<'_> {
     /// Returns a reaction, complete or in its parts; see [`parts`].
-    fn drawn(
+    fn drawn_reaction(
         &self,
         name: &str,
         whole: [f64; 2],
@@ -103,16 +106,16 @@ impl SolvedGroup<'_> {
         to: [f64; 2],
     ) -> Vec<PlanForce> {
         if self.split {
-            parts(name, whole, tangential, from, to).to_vec()
+            split_reaction(name, whole, tangential, from, to).to_vec()
         } else {
-            vec![reaction(name, whole)]
+            vec![plan_reaction(name, whole)]
         }
     }
 
     fn at_d(&self) -> Vec<PlanForce> {
         let (pose, steps) = (&self.group.pose, &self.group.steps);
         let (whole, tangential) = (self.reactions.d, steps.r34_tangential);
-        self.drawn("R34", whole, tangential, steps.delta, pose.d)
+        self.drawn_reaction("R34", whole, tangential, steps.delta, pose.d)
     }
 
     /// Returns the reaction at F, or with the sign -1 its opposite on the other link.
@@ -120,7 +123,7 @@ impl SolvedGroup<'_> {
         let pose = &self.group.pose;
         let whole = self.reactions.f.map(|x| sign * x);
         let tangential = sign * self.group.steps.r46_tangential;
-        self.drawn(name, whole, tangential, pose.m, pose.f)
+        self.drawn_reaction(name, whole, tangential, pose.m, pose.f)
     }
 
     /// Returns the reaction at K, or with the sign -1 its opposite on the other link.
@@ -128,31 +131,31 @@ impl SolvedGroup<'_> {
         let pose = &self.group.pose;
         let whole = self.reactions.k.map(|x| sign * x);
         let tangential = sign * self.group.steps.r47_tangential;
-        self.drawn(name, whole, tangential, pose.l, pose.k)
+        self.drawn_reaction(name, whole, tangential, pose.l, pose.k)
     }
 
     /// Returns the plan of some links: their loads, followed by reactions.
-    fn plan(&self, of: &'static str, links: &[usize], reactions: Vec<Vec<PlanForce>>) -> Plan {
+    fn link_plan(&self, of: &'static str, links: &[usize], reactions: Vec<Vec<PlanForce>>) -> Plan {
         Plan {
             of,
-            forces: loads(self.group, links)
+            forces: link_loads(self.group, links)
                 .into_iter()
                 .chain(reactions.into_iter().flatten())
                 .collect(),
         }
     }
 
-    fn plans(&self) -> [Plan; 4] {
+    fn all_plans(&self) -> [Plan; 4] {
         let r = self.reactions;
-        let guide = self.group.pose.normal().map(|c| c * r.guide);
-        let whole = |name: &str, force| vec![reaction(name, force)];
+        let guide = self.group.pose.guide_normal().map(|c| c * r.guide);
+        let whole = |name: &str, force| vec![plan_reaction(name, force)];
         [
-            self.plan(
+            self.link_plan(
                 "group",
                 &[0, 1, 2, 3],
                 vec![self.at_d(), whole("R0/10", guide)],
             ),
-            self.plan(
+            self.link_plan(
                 "link 4",
                 &[0],
                 vec![
@@ -161,12 +164,12 @@ impl SolvedGroup<'_> {
                     self.at_k(-1.0, "R74"),
                 ],
             ),
-            self.plan(
+            self.link_plan(
                 "link 7",
                 &[2],
                 vec![self.at_k(1.0, "R47"), whole("R10/7", r.l)],
             ),
-            self.plan(
+            self.link_plan(
                 "link 6",
                 &[1],
                 vec![self.at_f(1.0, "R46"), whole("R10/6", r.m)],
@@ -190,7 +193,7 @@ pub fn force_plans(g: &GroupSolutions) -> Option<Vec<[Plan; 2]>> {
             reactions,
             split,
         };
-        solved.plans()
+        solved.all_plans()
     };
     let (delta, full) = (plans(&g.delta, true), plans(&full, false));
     Some(delta.into_iter().zip(full).map(|(a, b)| [a, b]).collect())

@@ -3,8 +3,8 @@
 use crate::statics::contour_group::ContourGroup;
 use crate::statics::kinetostatics::{Load, LoadSource};
 use crate::statics::planar::{BodyId, PairId};
-use crate::statics::pose::{Linkage, Pose, cross, dot, length, minus, quarter};
-use crate::statics::{greatest, rounding, without};
+use crate::statics::pose::{Linkage, Pose, cross, dot, length, minus, quarter_turn};
+use crate::statics::{drop_rounding, greatest_abs, rounding_size};
 use serde::Serialize;
 
 /// A group in one pose: the input of the methods.
@@ -30,7 +30,7 @@ impl GroupPose {
     /// Creates the group of a mechanism in a pose.
     #[must_use]
     pub fn new(linkage: &Linkage, g: &ContourGroup, pose: &Pose, loads: &[Load]) -> GroupPose {
-        let place = |p: PairId| linkage.place(pose, p);
+        let place = |p: PairId| linkage.pair_position(pose, p);
         let number = |b: BodyId| {
             [g.ternary, g.rods[0], g.rods[1], g.slider]
                 .iter()
@@ -48,15 +48,15 @@ impl GroupPose {
             k: place(g.k),
             m: place(g.m),
             l: place(g.l),
-            guide: linkage.along(pose, g.guide),
+            guide: linkage.slide_direction(pose, g.guide),
             loads: own.collect(),
         }
     }
 
     /// Returns the reference direction of the guide's reaction.
     #[must_use]
-    pub fn normal(&self) -> [f64; 2] {
-        quarter(self.guide)
+    pub fn guide_normal(&self) -> [f64; 2] {
+        quarter_turn(self.guide)
     }
 
     /// Returns the sum of the forces on a link `[N]`.
@@ -113,8 +113,8 @@ pub struct GroupReactions {
 impl GroupReactions {
     /// Returns the reactions at D, F, K, M, L, then that of the guide as a vector.
     #[must_use]
-    pub fn forces(&self, pose: &GroupPose) -> [[f64; 2]; 6] {
-        let guide = pose.normal().map(|c| c * self.guide);
+    pub fn force_vectors(&self, pose: &GroupPose) -> [[f64; 2]; 6] {
+        let guide = pose.guide_normal().map(|c| c * self.guide);
         [self.d, self.f, self.k, self.m, self.l, guide]
     }
 
@@ -123,10 +123,14 @@ impl GroupReactions {
     #[must_use]
     pub(crate) fn without_rounding(&self, pose: &GroupPose) -> GroupReactions {
         // Twelve unknowns in twelve equations.
-        let rounding = rounding(0.0, greatest(self.forces(pose).iter().flatten()), 12);
+        let rounding = rounding_size(
+            0.0,
+            greatest_abs(self.force_vectors(pose).iter().flatten()),
+            12,
+        );
         let size = [pose.f, pose.k, pose.m, pose.l].map(|p| length(minus(p, pose.d)));
-        let bare = |v: [f64; 2]| v.map(|x| without(rounding, x));
-        let guide = without(rounding, self.guide);
+        let bare = |v: [f64; 2]| v.map(|x| drop_rounding(rounding, x));
+        let guide = drop_rounding(rounding, self.guide);
         GroupReactions {
             d: bare(self.d),
             f: bare(self.f),
@@ -134,15 +138,15 @@ impl GroupReactions {
             m: bare(self.m),
             l: bare(self.l),
             guide,
-            guide_moment: without(rounding * greatest(&size), self.guide_moment),
+            guide_moment: drop_rounding(rounding * greatest_abs(&size), self.guide_moment),
             arm: if guide == 0.0 { f64::NAN } else { self.arm },
         }
     }
 
     /// Returns the largest difference of any force from another solution's, over the largest force of that solution.
     #[must_use]
-    pub fn distance(&self, exact: &GroupReactions, pose: &GroupPose) -> f64 {
-        let (mine, theirs) = (self.forces(pose), exact.forces(pose));
+    pub fn distance_to(&self, exact: &GroupReactions, pose: &GroupPose) -> f64 {
+        let (mine, theirs) = (self.force_vectors(pose), exact.force_vectors(pose));
         let size = |v: [f64; 2]| v[0].hypot(v[1]);
         let greatest = theirs.iter().map(|v| size(*v)).fold(0.0, f64::max);
         let mut worst = 0.0;
@@ -165,6 +169,6 @@ impl GroupReactions {
     #[must_use]
     pub fn guide_offset(&self, pose: &GroupPose, point: [f64; 2]) -> f64 {
         // A force N along the normal n at D + a has the moment a × n·N; along the guide u that is a·u N.
-        self.arm * cross(pose.guide, pose.normal()) - dot(minus(point, pose.d), pose.guide)
+        self.arm * cross(pose.guide, pose.guide_normal()) - dot(minus(point, pose.d), pose.guide)
     }
 }

@@ -58,20 +58,20 @@ impl GroupSolutions {
     /// Solves a group by every method.
     #[must_use]
     pub fn new(group: usize, pose: GroupPose) -> GroupSolutions {
-        let (delta, steps) = delta_point::solve(&pose);
+        let (delta, steps) = delta_point::solve_delta(&pose);
         GroupSolutions {
             group,
             delta,
             steps,
-            projective: projective::solve(&pose),
-            equilibrium: equilibrium::solve(&pose),
+            projective: projective::solve_projective(&pose),
+            equilibrium: equilibrium::solve_equilibrium(&pose),
             pose,
         }
     }
 
     /// Returns the reactions by a method, with 0 for rounding errors. Returns `None` if its equations are singular.
     #[must_use]
-    pub fn by(&self, method: GroupMethod) -> Option<GroupReactions> {
+    pub fn reactions_by(&self, method: GroupMethod) -> Option<GroupReactions> {
         let found = match method {
             GroupMethod::Delta => self.delta,
             GroupMethod::Projective => self.projective,
@@ -83,11 +83,14 @@ impl GroupSolutions {
     /// Returns the largest difference of any two methods' forces, over the largest force, or `None` with fewer than two
     /// methods.
     #[must_use]
-    pub fn disagreement(&self, methods: &[GroupMethod]) -> Option<f64> {
-        let found = methods.iter().filter_map(|m| self.by(*m)).collect_vec();
+    pub fn max_disagreement(&self, methods: &[GroupMethod]) -> Option<f64> {
+        let found = methods
+            .iter()
+            .filter_map(|m| self.reactions_by(*m))
+            .collect_vec();
         let pairs = found.iter().tuple_combinations();
         pairs
-            .map(|(a, b)| a.distance(b, &self.pose))
+            .map(|(a, b)| a.distance_to(b, &self.pose))
             .max_by(f64::total_cmp)
     }
 }

@@ -4,10 +4,10 @@
 //! The reference is exact: the same doubles solved in rational arithmetic. Every distance is tested on several groups
 //! that differ by small random shifts of their points, and the median error is reported.
 
-use crate::statics::contour_group::equilibrium::{exact, solve};
+use crate::statics::contour_group::equilibrium::{solve_equilibrium, solve_exactly};
 use crate::statics::contour_group::pose::{GroupPose, GroupReactions};
 use crate::statics::contour_group::{delta_point, projective};
-use crate::statics::pose::{cross, length, minus, plus, quarter};
+use crate::statics::pose::{cross, length, minus, plus, quarter_turn};
 use chacha20::ChaCha8Rng;
 use chacha20::rand_core::{Rng, SeedableRng};
 use rayon::prelude::*;
@@ -66,11 +66,11 @@ pub struct DistanceErrors {
     pub condition: f64,
 }
 
-fn turned(v: [f64; 2], angle: f64) -> [f64; 2] {
-    plus(v.map(|c| c * angle.cos()), angle.sin(), quarter(v))
+fn turn_vector(v: [f64; 2], angle: f64) -> [f64; 2] {
+    plus(v.map(|c| c * angle.cos()), angle.sin(), quarter_turn(v))
 }
 
-fn delta(g: &GroupPose) -> [f64; 2] {
+fn delta_point(g: &GroupPose) -> [f64; 2] {
     let (u, v) = (minus(g.f, g.m), minus(g.k, g.l));
     plus(g.m, cross(minus(g.l, g.m), v) / cross(u, v), u)
 }
@@ -80,18 +80,18 @@ fn delta(g: &GroupPose) -> [f64; 2] {
 #[must_use]
 pub fn at_distance(base: &GroupPose, failure: Failure, distance: f64) -> Option<GroupPose> {
     let mut g = base.clone();
-    let delta = delta(base);
+    let delta = delta_point(base);
     match failure {
         Failure::ParallelRods => {
             let (rod6, rod7) = (minus(g.m, g.f), minus(g.l, g.k));
             let sense = if cross(rod6, rod7) < 0.0 { -1.0 } else { 1.0 };
             let scale = length(rod7) / length(rod6);
-            g.l = plus(g.k, scale, turned(rod6, sense * distance));
+            g.l = plus(g.k, scale, turn_vector(rod6, sense * distance));
         }
         Failure::AcrossGuide => {
             let from = minus(g.d, delta);
             let along = plus(
-                g.normal().map(|c| c * distance.cos()),
+                g.guide_normal().map(|c| c * distance.cos()),
                 distance.sin(),
                 g.guide,
             );
@@ -99,38 +99,38 @@ pub fn at_distance(base: &GroupPose, failure: Failure, distance: f64) -> Option<
         }
         Failure::AtDelta => g.d = plus(delta, distance, minus(g.d, delta)),
         Failure::NoGuideReaction => {
-            let off = exact(base)?.guide * (1.0 - distance);
-            g.push(3, g.m, g.normal().map(|c| c * off));
+            let off = solve_exactly(base)?.guide * (1.0 - distance);
+            g.push(3, g.m, g.guide_normal().map(|c| c * off));
         }
     }
     Some(g)
 }
 
-fn relative(found: f64, exact: f64) -> f64 {
+fn relative_error(found: f64, exact: f64) -> f64 {
     let error = (found - exact).abs() / exact.abs();
     if error.is_nan() { f64::INFINITY } else { error }
 }
 
 /// Returns the errors of the three methods on one group, or `None` if its equilibrium is singular.
 #[must_use]
-fn errors(g: &GroupPose, distance: f64) -> Option<DistanceErrors> {
-    let reference = exact(g)?;
-    let by_lu = solve(g);
+fn method_errors(g: &GroupPose, distance: f64) -> Option<DistanceErrors> {
+    let reference = solve_exactly(g)?;
+    let by_lu = solve_equilibrium(g);
     let found: [Option<GroupReactions>; 3] = [
-        Some(delta_point::solve(g).0),
-        Some(projective::solve(g)),
+        Some(delta_point::solve_delta(g).0),
+        Some(projective::solve_projective(g)),
         by_lu.map(|x| x.0),
     ];
     let measure = |f: &dyn Fn(GroupReactions) -> f64| found.map(|r| r.map_or(f64::INFINITY, f));
     Some(DistanceErrors {
         distance,
-        forces: measure(&|r| r.distance(&reference, g)),
-        arm: measure(&|r| relative(r.arm, reference.arm)),
+        forces: measure(&|r| r.distance_to(&reference, g)),
+        arm: measure(&|r| relative_error(r.arm, reference.arm)),
         condition: by_lu.map_or(f64::INFINITY, |x| x.1.condition),
     })
 }
 
-fn shifted(base: &GroupPose, rng: &mut ChaCha8Rng) -> GroupPose {
+fn shift_points(base: &GroupPose, rng: &mut ChaCha8Rng) -> GroupPose {
     let size = length(minus(base.f, base.d));
     let mut g = base.clone();
     for p in [&mut g.d, &mut g.f, &mut g.k, &mut g.m, &mut g.l] {
@@ -153,7 +153,7 @@ fn median(mut values: Vec<f64>) -> f64 {
 /// # Complexity
 /// O(distances · groups) exact solutions.
 #[must_use]
-pub fn samples(
+pub fn sample_errors(
     base: &GroupPose,
     failure: Failure,
     distances: &[f64],
@@ -164,8 +164,8 @@ pub fn samples(
     for &distance in distances {
         let mut rng = ChaCha8Rng::seed_from_u64(seed);
         let all: Vec<DistanceErrors> = (0..groups)
-            .filter_map(|_| at_distance(&shifted(base, &mut rng), failure, distance))
-            .filter_map(|g| errors(&g, distance))
+            .filter_map(|_| at_distance(&shift_points(base, &mut rng), failure, distance))
+            .filter_map(|g| method_errors(&g, distance))
             .collect();
         let of = |f: &dyn Fn(&DistanceErrors) -> f64| median(all.iter().map(f).collect());
         out.push(DistanceErrors {
@@ -180,15 +180,15 @@ pub fn samples(
 
 /// Returns the median errors near every failure at distances 1 down to 1e-15, each for [`GROUPS`] groups near `base`.
 #[must_use]
-pub fn study(base: &GroupPose, seed: u64) -> Vec<(Failure, Vec<DistanceErrors>)> {
-    let distances = distances();
+pub fn study_failures(base: &GroupPose, seed: u64) -> Vec<(Failure, Vec<DistanceErrors>)> {
+    let distances = failure_distances();
     Failure::ALL
         .par_iter()
-        .map(|&f| (f, samples(base, f, &distances, GROUPS, seed)))
+        .map(|&f| (f, sample_errors(base, f, &distances, GROUPS, seed)))
         .collect()
 }
 
 /// Returns distances 1 down to 1e-15, four per decade.
-fn distances() -> Vec<f64> {
+fn failure_distances() -> Vec<f64> {
     (0..=60).map(|i| 10f64.powf(-f64::from(i) / 4.0)).collect()
 }

@@ -7,9 +7,9 @@
 use crate::geom::vector::{add_scaled, dot, sub};
 use crate::model::joint_type::JointType;
 use crate::model::mechanism::{JointId, LinkId, Mechanism, Role};
-use crate::statics::reactions::geometry::{Geometry, Six, about};
+use crate::statics::drop_rounding;
+use crate::statics::reactions::geometry::{Geometry, Six, shift_wrench};
 use crate::statics::reactions::unsolved::Unsolved;
-use crate::statics::without;
 use serde::Serialize;
 
 /// Treatment of contacts.
@@ -101,7 +101,7 @@ pub fn object_at(m: &Mechanism, joint: JointId) -> Option<LinkId> {
 ///
 /// # Errors
 /// Returns [`Unsolved::Side`] if none of these decides.
-pub fn contacts(m: &Mechanism, geometry: &Geometry) -> Result<Vec<Contact>, Unsolved> {
+pub fn find_contacts(m: &Mechanism, geometry: &Geometry) -> Result<Vec<Contact>, Unsolved> {
     let faces = geometry
         .joints
         .iter()
@@ -149,11 +149,11 @@ pub fn contacts(m: &Mechanism, geometry: &Geometry) -> Result<Vec<Contact>, Unso
 
 impl ContactForce {
     /// Returns the force with 0 for values of at most `rounding` `[N]`, with moments divided by the `size`.
-    pub(crate) fn without(self, rounding: f64, size: f64) -> ContactForce {
+    pub(crate) fn drop_rounding(self, rounding: f64, size: f64) -> ContactForce {
         ContactForce {
-            normal: without(rounding, self.normal),
-            along: without(rounding, self.along),
-            tilting: without(rounding * size, self.tilting),
+            normal: drop_rounding(rounding, self.normal),
+            along: drop_rounding(rounding, self.along),
+            tilting: drop_rounding(rounding * size, self.tilting),
             ..self
         }
     }
@@ -162,8 +162,8 @@ impl ContactForce {
 impl Contact {
     /// Returns (moments; forces) at the contact along x, y, z of its frame. A positive z is a push, and x and y are up
     /// to one sign.
-    pub(crate) fn own(&self, geometry: &Geometry, wrenches: &[Six]) -> Six {
-        let w = about(&wrenches[self.joint], geometry.points[self.joint]);
+    pub(crate) fn contact_wrench(&self, geometry: &Geometry, wrenches: &[Six]) -> Six {
+        let w = shift_wrench(&wrenches[self.joint], geometry.points[self.joint]);
         let axes = geometry.axes[self.joint];
         let along = |v: [f64; 3]| axes.map(|a| dot(a, v) * self.push);
         let ([a, b, c], [d, e, f]) = (along([w[0], w[1], w[2]]), along([w[3], w[4], w[5]]));
@@ -172,19 +172,19 @@ impl Contact {
 
     /// Returns the requirement of a solution on the contact.
     #[must_use]
-    pub fn force(&self, geometry: &Geometry, wrenches: &[Six]) -> ContactForce {
-        let w = self.own(geometry, wrenches);
+    pub fn contact_force(&self, geometry: &Geometry, wrenches: &[Six]) -> ContactForce {
+        let w = self.contact_wrench(geometry, wrenches);
         let all = geometry
             .joints
             .iter()
-            .flat_map(|&j| about(&wrenches[j], geometry.points[j]));
+            .flat_map(|&j| shift_wrench(&wrenches[j], geometry.points[j]));
         let least = NOTHING * all.fold(0.0, |a: f64, x| a.max(x.abs()));
         let (normal, along, tilting) = (w[5], w[3].hypot(w[4]), w[0].hypot(w[1]));
         let beyond =
             |value: f64, limit: Option<f64>| limit.is_some_and(|l| value > l * normal + least);
         let turn = w[2].abs();
-        let rubbing = along.hypot(self.arm().map_or(0.0, |arm| turn / arm));
-        let twisted = self.friction.zip(self.arm()).zip(self.radius);
+        let rubbing = along.hypot(self.friction_arm().map_or(0.0, |arm| turn / arm));
+        let twisted = self.friction.zip(self.friction_arm()).zip(self.radius);
         let turns = twisted.is_some_and(|((friction, arm), radius)| {
             turn * radius > friction * arm * (radius * normal - tilting) + least
         });
@@ -216,7 +216,7 @@ impl Contact {
     /// With a force along the face, the two lie on an ellipse [Howe & Cutkosky 1996]. If the centre of pressure is
     /// offset by e, the pressure is uniform on the round face of radius r - e about it. Then 2/3 μ (r N - M) is left
     /// for a tipping moment M.
-    pub(crate) fn arm(&self) -> Option<f64> {
+    pub(crate) fn friction_arm(&self) -> Option<f64> {
         self.friction?;
         Some(2.0 / 3.0 * self.radius?)
     }

@@ -15,7 +15,9 @@
 use crate::geom::vector::{across, add_scaled, cross, dot, length, scale, sub};
 use crate::model::joint_type::{CoupledFreedom, Coupling, Freedom};
 use crate::model::mechanism::{LinkId, Mechanism, StateId};
-use crate::statics::reactions::wrench::{FreedomColumn, PosedFreedoms, Six, power, within, wrench};
+use crate::statics::reactions::wrench::{
+    FreedomColumn, PosedFreedoms, Six, carried_part, force_wrench, wrench_power,
+};
 
 /// Work of teeth on another freedom of a joint, for a unit force, below which it counts as zero.
 const NO_WORK: f64 = 1e-9;
@@ -39,7 +41,7 @@ impl CouplingEquation {
     /// Returns the wrench at an end that bypasses the joint, from first link to second, for x = 1: through the teeth if
     /// these mesh.
     #[must_use]
-    pub fn beside(&self, end: usize, meshes: bool) -> Six {
+    pub fn bypass_wrench(&self, end: usize, meshes: bool) -> Six {
         match &self.teeth {
             Some(teeth) if meshes => teeth.wrenches[end],
             _ => self.along_freedoms[end],
@@ -54,21 +56,21 @@ impl CouplingEquation {
         };
         let wrench = &teeth.wrenches[end];
         let greatest = wrench.iter().fold(0.0, |a: f64, x| a.max(x.abs()));
-        others.all(|t| power(t, wrench).abs() <= NO_WORK * greatest)
+        others.all(|t| wrench_power(t, wrench).abs() <= NO_WORK * greatest)
     }
 }
 
 /// Returns the couplings of a state in a pose, in file order.
-pub(crate) fn equations(
+pub(crate) fn coupling_equations(
     m: &Mechanism,
     state: StateId,
     posed: &PosedFreedoms<'_>,
 ) -> Vec<CouplingEquation> {
     let all = m.couplings_in(state);
-    all.filter_map(|c| equation(m, posed, c)).collect()
+    all.filter_map(|c| coupling_equation(m, posed, c)).collect()
 }
 
-fn equation(
+fn coupling_equation(
     m: &Mechanism,
     posed: &PosedFreedoms<'_>,
     coupling: &Coupling,
@@ -80,12 +82,12 @@ fn equation(
     // The reader ensures that coupled freedoms exist.
     let [first, second] = coupling.ends.map(at);
     let columns = [first?, second?];
-    let entries = entries(posed, coupling);
+    let entries = coupling_entries(posed, coupling);
     let along_freedoms = [0, 1].map(|n| {
         let x = -entries[n];
-        along(posed, columns[n]).map(|w| w * x)
+        unit_wrench(posed, columns[n]).map(|w| w * x)
     });
-    let teeth = teeth(m, posed, coupling, columns, entries);
+    let teeth = find_teeth(m, posed, coupling, columns, entries);
     let mut out = CouplingEquation {
         ends: coupling.ends,
         entries,
@@ -102,9 +104,13 @@ fn equation(
 }
 
 /// Returns the entries. Ratios refer to radians and the file's unit, twists to radians and the geometry's size.
-fn entries(posed: &PosedFreedoms<'_>, coupling: &Coupling) -> [f64; 2] {
+fn coupling_entries(posed: &PosedFreedoms<'_>, coupling: &Coupling) -> [f64; 2] {
     let unit = |e: CoupledFreedom| {
-        if e.freedom.slides() { posed.size } else { 1.0 }
+        if e.freedom.is_slide() {
+            posed.size
+        } else {
+            1.0
+        }
     };
     let [a, b] = coupling.ends.map(unit);
     let first = -coupling.ratio.to_f64() * a;
@@ -113,11 +119,11 @@ fn entries(posed: &PosedFreedoms<'_>, coupling: &Coupling) -> [f64; 2] {
 }
 
 /// Returns the unit moment about the axis of a turning freedom, or the unit force along the line of a sliding one.
-fn along(posed: &PosedFreedoms<'_>, column: &FreedomColumn) -> Six {
+fn unit_wrench(posed: &PosedFreedoms<'_>, column: &FreedomColumn) -> Six {
     let t = &column.twist;
     let (turn, slide) = ([t[0], t[1], t[2]], [t[3], t[4], t[5]]);
     if turn == [0.0; 3] {
-        wrench(posed.points[column.joint], slide, [0.0; 3])
+        force_wrench(posed.points[column.joint], slide, [0.0; 3])
     } else {
         [t[0], t[1], t[2], 0.0, 0.0, 0.0]
     }
@@ -151,14 +157,14 @@ struct Wheel {
 }
 
 /// Returns the teeth of a coupling, or `None` if the file does not state that there are any, or where they are.
-pub(crate) fn teeth(
+pub(crate) fn find_teeth(
     m: &Mechanism,
     posed: &PosedFreedoms<'_>,
     coupling: &Coupling,
     columns: [&FreedomColumn; 2],
     entries: [f64; 2],
 ) -> Option<Teeth> {
-    let carrier = carrier(m, coupling).filter(|_| coupling.gear)?;
+    let carrier = wheel_carrier(m, coupling).filter(|_| coupling.gear)?;
     let wheel = |n: usize| {
         let t = &columns[n].twist;
         let turn = [t[0], t[1], t[2]];
@@ -177,17 +183,17 @@ pub(crate) fn teeth(
     };
     let [first, second] = [wheel(0), wheel(1)];
     let (point, force) = match coupling.ends.map(|e| e.freedom) {
-        [Freedom::Rz, Freedom::Rz] => gears(posed, &first, &second)?,
-        [Freedom::Rz, Freedom::Tz] => rack(&first, &second)?,
+        [Freedom::Rz, Freedom::Rz] => gear_contact(posed, &first, &second)?,
+        [Freedom::Rz, Freedom::Tz] => rack_contact(&first, &second)?,
         [Freedom::Tz, Freedom::Rz] => {
-            let (point, on_pinion) = rack(&second, &first)?;
+            let (point, on_pinion) = rack_contact(&second, &first)?;
             (point, scale(on_pinion, -1.0))
         }
         _ => return None,
     };
     let on = |w: &Wheel, sign: f64| {
         let force = scale(force, sign * w.sense);
-        within(posed.basis, &wrench(point, force, [0.0; 3]))
+        carried_part(posed.basis, &force_wrench(point, force, [0.0; 3]))
     };
     Some(Teeth {
         point,
@@ -197,7 +203,7 @@ pub(crate) fn teeth(
 }
 
 /// Returns the link that carries both wheels, if they are two other links.
-fn carrier(m: &Mechanism, coupling: &Coupling) -> Option<LinkId> {
+fn wheel_carrier(m: &Mechanism, coupling: &Coupling) -> Option<LinkId> {
     let [a, b] = coupling.ends.map(|e| m.joints[e.joint].links);
     let carrier = a.into_iter().find(|l| b.contains(l))?;
     let wheel = |links: [LinkId; 2]| links.into_iter().find(|&l| l != carrier);
@@ -205,7 +211,7 @@ fn carrier(m: &Mechanism, coupling: &Coupling) -> Option<LinkId> {
 }
 
 /// Returns the point at which two gears touch, and the force on the first.
-fn gears(posed: &PosedFreedoms<'_>, a: &Wheel, b: &Wheel) -> Option<([f64; 3], [f64; 3])> {
+fn gear_contact(posed: &PosedFreedoms<'_>, a: &Wheel, b: &Wheel) -> Option<([f64; 3], [f64; 3])> {
     let z = a.along;
     if length(cross(z, b.along)) > ALIKE {
         return None;
@@ -229,7 +235,7 @@ fn gears(posed: &PosedFreedoms<'_>, a: &Wheel, b: &Wheel) -> Option<([f64; 3], [
 }
 
 /// Returns the point at which a pinion touches its rack, and the force on the pinion.
-fn rack(pinion: &Wheel, rack: &Wheel) -> Option<([f64; 3], [f64; 3])> {
+fn rack_contact(pinion: &Wheel, rack: &Wheel) -> Option<([f64; 3], [f64; 3])> {
     let (z, u) = (pinion.along, rack.along);
     if dot(z, u).abs() > ALIKE || rack.needs.abs() < ALIKE {
         return None;

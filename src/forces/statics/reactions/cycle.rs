@@ -4,8 +4,8 @@ use crate::model::loads::Stroke;
 use crate::model::mechanism::{Mechanism, StateId};
 use crate::motion::pose::Pose;
 use crate::statics::reactions::contact::Contacts;
-use crate::statics::reactions::drives::{Driven, driven};
-use crate::statics::reactions::follow::follow;
+use crate::statics::reactions::drives::{Driven, driven_freedoms};
+use crate::statics::reactions::follow::follow_stroke;
 use crate::statics::reactions::geometry::Geometry;
 use crate::statics::reactions::loads::Borne;
 use crate::statics::reactions::solution::Solution;
@@ -30,7 +30,11 @@ pub struct Cycle {
 ///
 /// # Complexity
 /// O((6k)²·f) per pose, for k contours and f freedoms.
-pub fn cycle(m: &Mechanism, state: StateId, stroke: Option<Stroke>) -> Result<Cycle, Unsolved> {
+pub fn solve_cycle(
+    m: &Mechanism,
+    state: StateId,
+    stroke: Option<Stroke>,
+) -> Result<Cycle, Unsolved> {
     cycle_with(m, state, stroke, Contacts::AsJoints)
 }
 
@@ -45,15 +49,15 @@ pub(crate) fn cycle_with(
     contacts: Contacts,
 ) -> Result<Cycle, Unsolved> {
     let home = Pose::of_file(m, state)?;
-    let drives = driven(m, &Geometry::new(m, state, &home)?)?;
-    let followed = follow(m, state, &drives, stroke)?;
+    let drives = driven_freedoms(m, &Geometry::new(m, state, &home)?)?;
+    let followed = follow_stroke(m, state, &drives, stroke)?;
     let each = followed.poses.iter();
     let positions: Vec<_> = each
         .map(|(at, pose)| {
             (
                 *at,
                 Borne::new(m, state, pose, *at, &drives)
-                    .and_then(|borne| borne.solve(m, &drives, contacts)),
+                    .and_then(|borne| borne.solve_loads(m, &drives, contacts)),
             )
         })
         .collect();

@@ -14,14 +14,14 @@ const EQUAL: f64 = 1e-9;
 
 /// Returns true if a freedom is a translation, so that its drive's effort is a force.
 #[must_use]
-pub fn slides(freedom: Freedom) -> bool {
+pub fn is_slide(freedom: Freedom) -> bool {
     matches!(freedom, Freedom::Tx | Freedom::Ty | Freedom::Tz)
 }
 
 /// Returns the period of the first drive after which the ranges of forces repeat: one turn, if it turns.
 #[must_use]
-pub fn period(drives: &[Driven]) -> Option<f64> {
-    let first = drives.first().filter(|(_, f)| !slides(*f));
+pub fn range_period(drives: &[Driven]) -> Option<f64> {
+    let first = drives.first().filter(|(_, f)| !is_slide(*f));
     first.map(|_| std::f64::consts::TAU)
 }
 
@@ -34,10 +34,10 @@ pub fn period(drives: &[Driven]) -> Option<f64> {
 ///
 /// # Complexity
 /// O(f²·6k).
-pub fn driven(m: &Mechanism, geometry: &Geometry) -> Result<Vec<Driven>, Unsolved> {
+pub fn driven_freedoms(m: &Mechanism, geometry: &Geometry) -> Result<Vec<Driven>, Unsolved> {
     let named = |c: usize| {
         let column = &geometry.columns[c];
-        m.joints[column.joint].drives(column.freedom)
+        m.joints[column.joint].may_drive(column.freedom)
     };
     let of = |j: JointId| {
         (0..geometry.columns.len()).filter(move |&c| geometry.columns[c].joint == j && named(c))
@@ -67,7 +67,7 @@ pub fn driven(m: &Mechanism, geometry: &Geometry) -> Result<Vec<Driven>, Unsolve
         let equal = |c: &usize| share(*c) >= greatest * (1.0 - EQUAL);
         of(j)
             .filter(equal)
-            .find(|&c| slides(freedom(c)))
+            .find(|&c| is_slide(freedom(c)))
             .or(of(j).find(equal))
     };
     Ok(drives
@@ -78,7 +78,7 @@ pub fn driven(m: &Mechanism, geometry: &Geometry) -> Result<Vec<Driven>, Unsolve
 
 /// Returns the speeds of the freedoms in independent motions that move the outputs.
 fn working_motions(m: &Mechanism, geometry: &Geometry) -> Result<Vec<Vec<f64>>, Unsolved> {
-    let null = geometry.motions()?;
+    let null = geometry.free_motions()?;
     let outputs: Vec<LinkId> = m
         .link_ids()
         .filter(|&l| m.links[l].role == Role::Output)

@@ -6,9 +6,11 @@ use crate::geom::vector::{add, add_scaled, scale};
 use crate::model::loads::{Loads, Stiffness};
 use crate::model::mechanism::Mechanism;
 use crate::statics::reactions::drives::Driven;
-use crate::statics::reactions::geometry::{FreedomColumn, Geometry, Six, TOLERANCE, about, power};
+use crate::statics::reactions::geometry::{
+    FreedomColumn, Geometry, Six, TOLERANCE, shift_wrench, wrench_power,
+};
 use crate::statics::reactions::unsolved::Unsolved;
-use crate::statics::reactions::wrench::joined;
+use crate::statics::reactions::wrench::join_halves;
 use ozols_dense::{Matrix, Svd, least_squares_pivoted, svd};
 
 /// Wrenches of the joints and unknowns of the couplings.
@@ -48,11 +50,11 @@ impl Transmitted {
     }
 
     /// Returns the wrenches of the joints and their drives, without the parts of couplings that bypass them.
-    pub(crate) fn own(&self, geometry: &Geometry) -> Vec<Six> {
+    pub(crate) fn own_wrenches(&self, geometry: &Geometry) -> Vec<Six> {
         let mut out = self.joints.clone();
         for (c, x) in geometry.couplings.iter().zip(&self.couplings) {
             for (n, end) in c.ends.iter().enumerate() {
-                let beside = c.beside(n, c.meshes);
+                let beside = c.bypass_wrench(n, c.meshes);
                 out[end.joint] = add_scaled(out[end.joint], -x, beside);
             }
         }
@@ -60,17 +62,17 @@ impl Transmitted {
     }
 
     /// Returns all numbers one after another: each joint of the state about its own point, then the couplings.
-    pub(crate) fn flat(&self, geometry: &Geometry) -> Vec<f64> {
-        let own = self.own(geometry);
+    pub(crate) fn flat_values(&self, geometry: &Geometry) -> Vec<f64> {
+        let own = self.own_wrenches(geometry);
         let joints = geometry.joints.iter();
         joints
-            .flat_map(|&j| about(&own[j], geometry.points[j]))
+            .flat_map(|&j| shift_wrench(&own[j], geometry.points[j]))
             .chain(self.couplings.iter().copied())
             .collect()
     }
 
     /// Adds a multiple of other wrenches.
-    pub(crate) fn add(&mut self, factor: f64, other: &Transmitted) {
+    pub(crate) fn add_multiple(&mut self, factor: f64, other: &Transmitted) {
         for (w, o) in self.joints.iter_mut().zip(&other.joints) {
             *w = add_scaled(*w, factor, *o);
         }
@@ -80,7 +82,7 @@ impl Transmitted {
     }
 
     /// Multiplies all wrenches.
-    pub(crate) fn scale(&mut self, factor: f64) {
+    pub(crate) fn scale_by(&mut self, factor: f64) {
         let joints = self.joints.iter_mut().flatten();
         joints.chain(&mut self.couplings).for_each(|x| *x *= factor);
     }
@@ -102,10 +104,10 @@ impl<'g> System<'g> {
         let equations: Vec<usize> = (0..geometry.columns.len())
             .filter(|&c| !held(&geometry.columns[c]))
             .collect();
-        let unknowns = geometry.unknowns();
+        let unknowns = geometry.unknown_count();
         let rows: Vec<Vec<f64>> = equations
             .iter()
-            .map(|&c| geometry.row(&geometry.columns[c]))
+            .map(|&c| geometry.closure_row(&geometry.columns[c]))
             .collect();
         let a = Matrix::from_fn(rows.len(), unknowns, |r, c| rows[r][c]);
         let svd = svd(&a).ok_or(Unsolved::NoConvergence)?;
@@ -119,11 +121,11 @@ impl<'g> System<'g> {
         })
     }
 
-    pub(crate) fn undriven(&self) -> usize {
+    pub(crate) fn undriven_freedoms(&self) -> usize {
         self.equations.len() - self.rank
     }
 
-    pub(crate) fn condition(&self) -> f64 {
+    pub(crate) fn condition_number(&self) -> f64 {
         match self.rank.checked_sub(1) {
             Some(last) => self.svd.values[0] / self.svd.values[last],
             None => 1.0,
@@ -132,22 +134,22 @@ impl<'g> System<'g> {
 
     /// Returns the work of the joints' wrenches on the freedoms of the equations, without the parts that couplings
     /// transmit.
-    fn work(&self, of: &Transmitted) -> Vec<f64> {
+    fn remaining_work(&self, of: &Transmitted) -> Vec<f64> {
         let columns = self.equations.iter().map(|&c| &self.geometry.columns[c]);
         let one = |c: &FreedomColumn| {
             let coupled = self.geometry.coupling_entries(c);
             let coupled: f64 = coupled.map(|(q, e)| e * of.couplings[q]).sum();
-            power(&c.twist, &of.joints[c.joint]) + coupled
+            wrench_power(&c.twist, &of.joints[c.joint]) + coupled
         };
         columns.map(one).collect()
     }
 
     /// Adds contour wrenches and coupling unknowns so that no work is done on the freedoms, as far as possible. Returns
     /// the remaining work.
-    pub(crate) fn solve(&self, of: &mut Transmitted) -> Vec<f64> {
+    pub(crate) fn balance_work(&self, of: &mut Transmitted) -> Vec<f64> {
         // The second round removes the rounding errors of the first.
         for _ in 0..2 {
-            let work = self.work(of);
+            let work = self.remaining_work(of);
             let mut coefficients = vec![0.0; self.unknowns];
             for i in 0..self.rank {
                 let share: f64 = work.iter().zip(self.svd.u.col(i)).map(|(x, u)| u * x).sum();
@@ -158,7 +160,7 @@ impl<'g> System<'g> {
             }
             of.add_round(self.geometry, &coefficients);
         }
-        self.work(of)
+        self.remaining_work(of)
     }
 
     /// Returns independent sets of self-equilibrated wrenches, by joint, including those of couplings.
@@ -166,9 +168,9 @@ impl<'g> System<'g> {
         let one = |i: usize| {
             let mut out = Transmitted::of_joints(self.geometry, vec![[0.0; 6]; joints]);
             out.add_round(self.geometry, self.svd.v.col(i));
-            let all = out.flat(self.geometry).into_iter();
+            let all = out.flat_values(self.geometry).into_iter();
             let greatest = all.fold(0.0, |a: f64, x| a.max(x.abs()));
-            out.scale(1.0 / greatest);
+            out.scale_by(1.0 / greatest);
             out
         };
         (self.rank..self.unknowns).map(one).collect()
@@ -181,7 +183,7 @@ const RIGID: f64 = 1e-6;
 
 /// Adds self-stresses so that Σ (weight · value - aim)² is minimal, with weights and aims by value of
 /// [`Transmitted::flat`].
-fn fit(
+fn fit_stresses(
     geometry: &Geometry,
     of: &mut Transmitted,
     stresses: &[Transmitted],
@@ -191,15 +193,15 @@ fn fit(
     if stresses.is_empty() {
         return;
     }
-    let columns: Vec<Vec<f64>> = stresses.iter().map(|s| s.flat(geometry)).collect();
-    let present = of.flat(geometry);
+    let columns: Vec<Vec<f64>> = stresses.iter().map(|s| s.flat_values(geometry)).collect();
+    let present = of.flat_values(geometry);
     let a = Matrix::from_fn(weights.len(), stresses.len(), |r, c| {
         weights[r] * columns[c][r]
     });
     let left = (0..weights.len()).map(|r| aims[r] - weights[r] * present[r]);
     let b: Vec<f64> = left.collect();
     for (x, stress) in least_squares_pivoted(&a, &b).iter().zip(stresses) {
-        of.add(*x, stress);
+        of.add_multiple(*x, stress);
     }
 }
 
@@ -208,7 +210,7 @@ fn fit(
 pub(crate) fn least_norm(geometry: &Geometry, of: &mut Transmitted, stresses: &[Transmitted]) {
     // The squares of the entries of a coupling add up to 1, so x² is the sum for both ends.
     let n = 6 * geometry.joints.len() + geometry.couplings.len();
-    fit(geometry, of, stresses, &vec![1.0; n], &vec![0.0; n]);
+    fit_stresses(geometry, of, stresses, &vec![1.0; n], &vec![0.0; n]);
 }
 
 /// Returns the wrenches of elastic joints with the stated misalignments. Among all wrenches in equilibrium, they
@@ -216,7 +218,7 @@ pub(crate) fn least_norm(geometry: &Geometry, of: &mut Transmitted, stresses: &[
 ///
 /// Also returns the largest force, or moment divided by size, that a rigid joint would carry for its misalignment.
 /// Returns `None` if no stiffness is stated or nothing is left open.
-pub(crate) fn elastic(
+pub(crate) fn elastic_reactions(
     m: &Mechanism,
     geometry: &Geometry,
     loads: &Loads,
@@ -228,7 +230,7 @@ pub(crate) fn elastic(
     }
     let (mut weights, mut aims): (Vec<f64>, Vec<f64>) = (Vec::new(), Vec::new());
     for &j in &geometry.joints {
-        let s = stiffness(loads, m.joints[j].joint_type.name())?;
+        let s = joint_stiffness(loads, m.joints[j].joint_type.name())?;
         // Lengths in the size: a displacement is f/(k ℓ), a turn m ℓ/k for a moment m in N·ℓ.
         let (turn, shift) = (
             (geometry.size / s.angular).sqrt(),
@@ -239,7 +241,10 @@ pub(crate) fn elastic(
         for x in loads.misalignments.iter().filter(|x| x.joint == j) {
             for (k, axis) in geometry.axes[j].iter().enumerate() {
                 let (turned, shifted) = (x.turn[k] / turn, x.shift[k] / geometry.size / shift);
-                off = add(off, joined(scale(*axis, turned), scale(*axis, shifted)));
+                off = add(
+                    off,
+                    join_halves(scale(*axis, turned), scale(*axis, shifted)),
+                );
             }
         }
         aims.extend(off);
@@ -247,13 +252,13 @@ pub(crate) fn elastic(
     let rigid = RIGID * weights.iter().fold(0.0, |a: f64, w| a.max(*w));
     weights.resize(weights.len() + geometry.couplings.len(), rigid);
     aims.resize(weights.len(), 0.0);
-    fit(geometry, &mut of, stresses, &weights, &aims);
+    fit_stresses(geometry, &mut of, stresses, &weights, &aims);
     let strained = weights.iter().zip(&aims).map(|(w, a)| (a / w).abs());
     Some((of, strained.fold(0.0, f64::max)))
 }
 
 /// Returns the stiffness of a joint type: its own, or the default.
-fn stiffness(loads: &Loads, name: &str) -> Option<Stiffness> {
+fn joint_stiffness(loads: &Loads, name: &str) -> Option<Stiffness> {
     let find = |name: &str| loads.stiffness.iter().find(|(n, _)| n == name);
     find(name).or_else(|| find("default")).map(|(_, s)| *s)
 }

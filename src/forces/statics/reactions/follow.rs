@@ -2,7 +2,7 @@
 
 use crate::model::loads::Stroke;
 use crate::model::mechanism::{Mechanism, StateId};
-use crate::motion::follow::{Follower, slides};
+use crate::motion::follow::{Follower, column_slides};
 use crate::motion::pose::Pose;
 use crate::statics::reactions::drives::Driven;
 use crate::statics::reactions::unsolved::Unsolved;
@@ -27,7 +27,7 @@ pub struct Followed {
 ///
 /// # Complexity
 /// O((6k)²·f) per Newton step, for k contours and f freedoms.
-pub fn follow(
+pub fn follow_stroke(
     m: &Mechanism,
     state: StateId,
     drives: &[Driven],
@@ -63,14 +63,14 @@ pub fn follow_to(
         out.poses.push((0.0, start));
         return Ok(out);
     };
-    let unit = unit(&start, first);
+    let unit = column_unit(&start, first);
     let speeds = &m.loads.drive_speeds;
     let mut still = Vec::new();
     for (n, &c) in others.iter().enumerate() {
         match (speeds.first(), speeds.get(n + 1)) {
             (Some(&v), Some(&own)) if v != 0.0 && own != 0.0 => {
-                let ratio = own / v * unit / self::unit(&start, c);
-                start = start.tied(first, c, ratio);
+                let ratio = own / v * unit / self::column_unit(&start, c);
+                start = start.with_coupling(first, c, ratio);
             }
             _ => still.push(c),
         }
@@ -81,14 +81,14 @@ pub fn follow_to(
     for way in [ahead, back.into_iter().rev().collect()] {
         let mut follower = Follower::new(start.clone(), first, &still);
         for to in way {
-            if follower.advance(to / unit, |_| {}).is_err() {
+            if follower.advance_to(to / unit, |_| {}).is_err() {
                 if out.stopped.is_none() {
                     out.stopped = Some(to);
-                    out.last = Some((follower.at() * unit, follower.pose()));
+                    out.last = Some((follower.drive_position() * unit, follower.current_pose()));
                 }
                 break;
             }
-            out.poses.push((to, follower.pose()));
+            out.poses.push((to, follower.current_pose()));
         }
     }
     out.poses.sort_by(|a, b| a.0.total_cmp(&b.0));
@@ -96,8 +96,8 @@ pub fn follow_to(
 }
 
 /// Returns the number of radians, or of the file's units of length, in one unit of a column.
-fn unit(pose: &Pose, column: usize) -> f64 {
-    if slides(pose, column) {
+fn column_unit(pose: &Pose, column: usize) -> f64 {
+    if column_slides(pose, column) {
         pose.length
     } else {
         1.0

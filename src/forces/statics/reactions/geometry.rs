@@ -9,16 +9,18 @@ use crate::closure::tree::{TreeStep, spanning_tree};
 use crate::closure::twist::{FrameValues, MotionSpace};
 use crate::geom::Reals;
 use crate::geom::exact::ExactError;
-use crate::geom::rigid::halves;
+use crate::geom::rigid::split_twist;
 use crate::geom::vector::{add, add_scaled, scale, sub, unit};
 pub use crate::geom::vector::{cross, dot};
 use crate::model::mechanism::{JointId, LinkId, Mechanism, Mode, StateId};
 use crate::motion::pose::Pose;
-use crate::statics::greatest;
-use crate::statics::reactions::couplings::{CouplingEquation, equations};
+use crate::statics::greatest_abs;
+use crate::statics::reactions::couplings::{CouplingEquation, coupling_equations};
 use crate::statics::reactions::unsolved::Unsolved;
-pub use crate::statics::reactions::wrench::{FreedomColumn, Six, about, power, wrench};
-use crate::statics::reactions::wrench::{PosedFreedoms, joined, within};
+pub use crate::statics::reactions::wrench::{
+    FreedomColumn, Six, force_wrench, shift_wrench, wrench_power,
+};
+use crate::statics::reactions::wrench::{PosedFreedoms, carried_part, join_halves};
 use ozols_dense::{Matrix, svd};
 
 /// Fraction of the largest singular value below which values count as zero.
@@ -64,18 +66,18 @@ impl Geometry {
         let metres = m.length_unit.metres;
         let joints: Vec<JointId> = m.joints_in(state).collect();
         let FramesNow { mut points, axes } = FramesNow::new(m, pose)?;
-        let (mean, spread) = middle(&joints, &points, pose.length);
+        let (mean, spread) = middle_and_size(&joints, &points, pose.length);
         for &j in &joints {
             points[j] = sub(points[j], mean).map(|x| x / spread);
         }
         let shift = sub(mean, pose.middle);
         let columns = pose.columns.iter().map(|c| {
-            let (w, v) = halves(&c.twist);
+            let (w, v) = split_twist(&c.twist);
             let twist = if w == [0.0; 3] {
                 c.twist
             } else {
                 let v = add_scaled(cross(w, shift), pose.length, v);
-                joined(w, v.map(|x| x / spread))
+                join_halves(w, v.map(|x| x / spread))
             };
             FreedomColumn {
                 joint: c.joint,
@@ -83,7 +85,7 @@ impl Geometry {
                 twist,
             }
         });
-        let basis = carried(&m.mode)?;
+        let basis = wrench_basis(&m.mode)?;
         let mut out = Geometry {
             state,
             basis,
@@ -105,22 +107,22 @@ impl Geometry {
             basis: &out.basis,
             size: spread,
         };
-        out.couplings = equations(m, state, &posed);
+        out.couplings = coupling_equations(m, state, &posed);
         Ok(out)
     }
 
     /// Returns the number of unknowns of its equations: wrenches around the contours, and one for each coupling.
     #[must_use]
-    pub fn unknowns(&self) -> usize {
+    pub fn unknown_count(&self) -> usize {
         self.basis.len() * self.contours.len() + self.couplings.len()
     }
 
     /// Returns the current position of a point of a link, from the middle, in the size. `point` is in the file's unit
     /// at the pose of the file.
     #[must_use]
-    pub fn place(&self, pose: &Pose, link: LinkId, point: [f64; 3]) -> [f64; 3] {
+    pub fn point_position(&self, pose: &Pose, link: LinkId, point: [f64; 3]) -> [f64; 3] {
         let (mean, spread) = self.pose;
-        let p = moved(pose, link, point);
+        let p = moved_point(pose, link, point);
         sub(p, mean).map(|x| x / spread)
     }
 
@@ -132,7 +134,7 @@ impl Geometry {
 
     /// Returns true if a link exists in the state and is not the frame.
     #[must_use]
-    pub(crate) fn carries(&self, link: LinkId) -> bool {
+    pub(crate) fn has_link(&self, link: LinkId) -> bool {
         self.tree.iter().any(|s| s.link == link)
     }
 
@@ -145,8 +147,8 @@ impl Geometry {
 
     /// Returns the part of a wrench that the model can carry: all of it, or the part in the plane.
     #[must_use]
-    pub fn within(&self, w: &Six) -> Six {
-        within(&self.basis, w)
+    pub fn carried_part(&self, w: &Six) -> Six {
+        carried_part(&self.basis, w)
     }
 
     /// Returns the wrenches of joints on their second links if all loads go along the tree to the frame, by joint.
@@ -176,14 +178,14 @@ impl Geometry {
     /// Returns the row of the transposed closure matrix for a column: its power on a unit of each contour's wrenches,
     /// then its entries in the couplings.
     #[must_use]
-    pub fn row(&self, column: &FreedomColumn) -> Vec<f64> {
+    pub fn closure_row(&self, column: &FreedomColumn) -> Vec<f64> {
         let dim = self.basis.len();
-        let mut out = vec![0.0; self.unknowns()];
+        let mut out = vec![0.0; self.unknown_count()];
         for (k, contour) in self.contours.iter().enumerate() {
-            if let Some(forward) = contour.direction(column.joint) {
+            if let Some(forward) = contour.direction_of(column.joint) {
                 let sign = if forward { 1.0 } else { -1.0 };
                 for (o, b) in out[k * dim..].iter_mut().zip(&self.basis) {
-                    *o = sign * power(b, &column.twist);
+                    *o = sign * wrench_power(b, &column.twist);
                 }
             }
         }
@@ -195,9 +197,10 @@ impl Geometry {
     }
 
     /// Returns the closure matrix of some columns: a column for each of them, as by [`Geometry::row`].
-    pub(crate) fn closure(&self, columns: &[usize]) -> Matrix {
-        let rows: Vec<Vec<f64>> = (columns.iter().map(|&c| self.row(&self.columns[c]))).collect();
-        Matrix::from_fn(self.unknowns(), columns.len(), |r, c| rows[c][r])
+    pub(crate) fn closure_matrix(&self, columns: &[usize]) -> Matrix {
+        let rows: Vec<Vec<f64>> =
+            (columns.iter().map(|&c| self.closure_row(&self.columns[c]))).collect();
+        Matrix::from_fn(self.unknown_count(), columns.len(), |r, c| rows[c][r])
     }
 
     /// Returns the speeds of the freedoms in independent motions: an orthonormal basis of the null space of the closure
@@ -205,13 +208,13 @@ impl Geometry {
     ///
     /// # Errors
     /// Returns an error if singular values do not converge.
-    pub(crate) fn motions(&self) -> Result<Vec<Vec<f64>>, Unsolved> {
+    pub(crate) fn free_motions(&self) -> Result<Vec<Vec<f64>>, Unsolved> {
         let all: Vec<usize> = (0..self.columns.len()).collect();
-        if self.unknowns() == 0 {
+        if self.unknown_count() == 0 {
             let alone = |c: &usize| all.iter().map(|x| f64::from(u8::from(x == c))).collect();
             return Ok(all.iter().map(alone).collect());
         }
-        let svd = svd(&self.closure(&all)).ok_or(Unsolved::NoConvergence)?;
+        let svd = svd(&self.closure_matrix(&all)).ok_or(Unsolved::NoConvergence)?;
         let null = svd.null_space(svd.rank(TOLERANCE));
         Ok((0..null.ncols()).map(|i| null.col(i).to_vec()).collect())
     }
@@ -246,21 +249,21 @@ impl FramesNow {
         for joint in &m.joints {
             let frame = FrameValues::new(&Reals, &joint.frame)?;
             let carried = &pose.links[joint.links[0]];
-            points.push(moved(pose, joint.links[0], frame.point));
-            axes.push(frame.axes.map(|a| carried.direction(unit(a))));
+            points.push(moved_point(pose, joint.links[0], frame.point));
+            axes.push(frame.axes.map(|a| carried.map_direction(unit(a))));
         }
         Ok(FramesNow { points, axes })
     }
 }
 
 /// Returns the mean of the points of joints, and the root mean square distance from it, or `length` if they coincide.
-fn middle(joints: &[JointId], points: &[[f64; 3]], length: f64) -> ([f64; 3], f64) {
+fn middle_and_size(joints: &[JointId], points: &[[f64; 3]], length: f64) -> ([f64; 3], f64) {
     #[allow(clippy::cast_precision_loss, reason = "a count of joints")]
     let count = joints.len().max(1) as f64;
     let mean = [0, 1, 2].map(|i| joints.iter().map(|&j| points[j][i]).sum::<f64>() / count);
     let off = joints.iter().map(|&j| sub(points[j], mean));
     let square: f64 = off.map(|v| dot(v, v)).sum();
-    let far = greatest(&mean);
+    let far = greatest_abs(&mean);
     let spread = (square / count).sqrt();
     if spread > 1e-9 * far && spread > 1e-12 {
         (mean, spread)
@@ -270,7 +273,7 @@ fn middle(joints: &[JointId], points: &[[f64; 3]], length: f64) -> ([f64; 3], f6
 }
 
 /// Returns orthonormal wrenches that contours transmit: six, or the three of a plane.
-fn carried(mode: &Mode) -> Result<Vec<Six>, ExactError> {
+fn wrench_basis(mode: &Mode) -> Result<Vec<Six>, ExactError> {
     Ok(match MotionSpace::new(&Reals, mode)? {
         MotionSpace::Spatial => (0..6)
             .map(|i| std::array::from_fn(|k| f64::from(u8::from(i == k))))
@@ -278,14 +281,18 @@ fn carried(mode: &Mode) -> Result<Vec<Six>, ExactError> {
         MotionSpace::Planar { axes: [n, e1, e2] } => {
             let [n, e1, e2] = [unit(n), unit(e1), unit(e2)];
             let none = [0.0; 3];
-            vec![joined(n, none), joined(none, e1), joined(none, e2)]
+            vec![
+                join_halves(n, none),
+                join_halves(none, e1),
+                join_halves(none, e2),
+            ]
         }
     })
 }
 
 /// Returns the current position of a point of a link, in the file's unit.
-fn moved(pose: &Pose, link: LinkId, point: [f64; 3]) -> [f64; 3] {
+fn moved_point(pose: &Pose, link: LinkId, point: [f64; 3]) -> [f64; 3] {
     let from = sub(point, pose.middle).map(|x| x / pose.length);
-    let to = pose.links[link].point(from);
+    let to = pose.links[link].map_point(from);
     add_scaled(pose.middle, pose.length, to)
 }

@@ -1,12 +1,12 @@
 //! Loads on the links of a mechanism in a pose: weights, inertia forces, and external forces and moments.
 
-use crate::geom::vector::{add, real};
+use crate::geom::vector::{add, to_vector};
 use crate::model::loads::{ExternalForce, Loads, acts_at, acts_in};
 use crate::model::mechanism::{LinkId, Mechanism, StateId};
 use crate::motion::pose::Pose;
-use crate::statics::reactions::drives::{Driven, period};
-use crate::statics::reactions::geometry::{Geometry, Six, power, wrench};
-use crate::statics::reactions::inertia::{MovingMass, motion, moving_masses};
+use crate::statics::reactions::drives::{Driven, range_period};
+use crate::statics::reactions::geometry::{Geometry, Six, force_wrench, wrench_power};
+use crate::statics::reactions::inertia::{MovingMass, link_motions, moving_masses};
 use crate::statics::reactions::unsolved::Unsolved;
 
 /// Origin of a load.
@@ -48,14 +48,14 @@ fn loads_of_links(
     (drive, period): (f64, Option<f64>),
     masses: &[MovingMass],
 ) -> Vec<LinkLoad> {
-    let g = loads.gravity.as_ref().map_or([0.0; 3], real);
+    let g = loads.gravity.as_ref().map_or([0.0; 3], to_vector);
     let mut out = Vec::new();
     for (link, of) in m.links_with_ids() {
         let Some(mass) = &of.mass else { continue };
         let load = |source, force, moment| LinkLoad {
             link,
             source,
-            point: geometry.place(pose, link, real(&mass.centre)),
+            point: geometry.point_position(pose, link, to_vector(&mass.centre)),
             force,
             moment,
         };
@@ -76,23 +76,23 @@ fn loads_of_links(
     };
     let here = |states: Option<&Vec<StateId>>| acts_in(states, geometry.state);
     let moments = loads.moments.iter().filter(|x| here(x.states.as_ref()));
-    out.extend(moments.map(|x| outside(x.link, [0.0; 3], [0.0; 3], real(&x.moment))));
+    out.extend(moments.map(|x| outside(x.link, [0.0; 3], [0.0; 3], to_vector(&x.moment))));
     let now = |f: &&ExternalForce| here(f.states.as_ref()) && acts_at(f.range, drive, period);
     out.extend(loads.forces.iter().filter(now).map(|f| {
-        let at = geometry.place(pose, f.link, real(&f.point));
-        outside(f.link, at, real(&f.force), [0.0; 3])
+        let at = geometry.point_position(pose, f.link, to_vector(&f.point));
+        outside(f.link, at, to_vector(&f.force), [0.0; 3])
     }));
-    out.retain(|x| geometry.carries(x.link));
+    out.retain(|x| geometry.has_link(x.link));
     out
 }
 
 /// Returns the sum of the loads of each link about the geometry's middle, in planar mode without the parts out of the
 /// plane.
-fn summed(m: &Mechanism, geometry: &Geometry, loads: &[LinkLoad]) -> Vec<Six> {
+fn sum_by_link(m: &Mechanism, geometry: &Geometry, loads: &[LinkLoad]) -> Vec<Six> {
     let mut out = vec![[0.0; 6]; m.links.len()];
     for x in loads {
         let moment = x.moment.map(|v| v / geometry.size);
-        let wrench = geometry.within(&wrench(x.point, x.force, moment));
+        let wrench = geometry.carried_part(&force_wrench(x.point, x.force, moment));
         out[x.link] = add(out[x.link], wrench);
     }
     out
@@ -110,7 +110,7 @@ pub fn link_loads(
     period: Option<f64>,
 ) -> Vec<Six> {
     let all = loads_of_links(m, loads, geometry, pose, (drive, period), &[]);
-    summed(m, geometry, &all)
+    sum_by_link(m, geometry, &all)
 }
 
 /// Loads on a mechanism in a pose: those of the file, including inertia forces of the stated drive speeds.
@@ -141,12 +141,16 @@ impl Borne {
         drives: &[Driven],
     ) -> Result<Borne, Unsolved> {
         let geometry = Geometry::new(m, state, pose)?;
-        let moves = motion(m, &geometry, drives, &m.loads.drive_speeds)?;
+        let moves = link_motions(m, &geometry, drives, &m.loads.drive_speeds)?;
         let masses = moving_masses(m, &geometry, pose, &moves)?;
-        let at = (drive, period(drives));
+        let at = (drive, range_period(drives));
         let loads = loads_of_links(m, &m.loads, &geometry, pose, at, &masses);
-        let sums = summed(m, &geometry, &loads);
-        let powers = moves.velocity.iter().zip(&sums).map(|(v, w)| power(v, w));
+        let sums = sum_by_link(m, &geometry, &loads);
+        let powers = moves
+            .velocity
+            .iter()
+            .zip(&sums)
+            .map(|(v, w)| wrench_power(v, w));
         Ok(Borne {
             power: powers.sum::<f64>() * geometry.size,
             loads,

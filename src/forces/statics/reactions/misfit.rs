@@ -9,7 +9,7 @@
 use crate::model::loads::{Loads, Misalignment, Stiffness};
 use crate::model::mechanism::{JointId, Mechanism, StateId};
 use crate::motion::pose::Pose;
-use crate::statics::reactions::equations::{System, Transmitted, elastic};
+use crate::statics::reactions::equations::{System, Transmitted, elastic_reactions};
 use crate::statics::reactions::geometry::Geometry;
 use crate::statics::reactions::unsolved::Unsolved;
 use chacha20::ChaCha8Rng;
@@ -105,8 +105,8 @@ pub fn misfit(
             }
             loads.misalignments = vec![off];
             let still = Transmitted::of_joints(&geometry, vec![[0.0; 6]; m.joints.len()]);
-            if let Some((of, _)) = elastic(m, &geometry, &loads, still, &stresses) {
-                columns.push(of.flat(&geometry));
+            if let Some((of, _)) = elastic_reactions(m, &geometry, &loads, still, &stresses) {
+                columns.push(of.flat_values(&geometry));
             }
         }
     }

@@ -6,8 +6,8 @@ use crate::model::mechanism::{JointId, Mechanism};
 use crate::statics::reactions::contact::ContactForce;
 use crate::statics::reactions::couplings::CouplingEquation;
 use crate::statics::reactions::drives::Driven;
-use crate::statics::reactions::geometry::{Geometry, Six, about, dot, power};
-use crate::statics::{greatest, without};
+use crate::statics::reactions::geometry::{Geometry, Six, dot, shift_wrench, wrench_power};
+use crate::statics::{drop_rounding, greatest_abs};
 use serde::{Serialize, Serializer};
 
 /// The wrench of a joint from its first link to its second, without the parts of couplings that bypass it.
@@ -19,7 +19,7 @@ pub struct JointReaction {
     /// Its current position `[m]`, global axes.
     pub point: [f64; 3],
     /// Current unit vectors x, y, z of its frame.
-    #[serde(serialize_with = "named")]
+    #[serde(serialize_with = "serialize_axes")]
     pub axes: [[f64; 3]; 3],
     /// The force in its own frame `[N]`.
     pub force: [f64; 3],
@@ -33,7 +33,7 @@ pub struct JointReaction {
     pub rounding: [f64; 2],
 }
 
-fn named<S: Serializer>(axes: &[[f64; 3]; 3], serializer: S) -> Result<S::Ok, S::Error> {
+fn serialize_axes<S: Serializer>(axes: &[[f64; 3]; 3], serializer: S) -> Result<S::Ok, S::Error> {
     serializer.collect_map(["x", "y", "z"].into_iter().zip(axes))
 }
 
@@ -61,7 +61,7 @@ pub struct ToothForce {
 impl ToothForce {
     /// Returns the magnitude of the force `[N]`.
     #[must_use]
-    pub fn size(&self) -> f64 {
+    pub fn tooth_force_size(&self) -> f64 {
         length(self.force)
     }
 }
@@ -79,20 +79,20 @@ impl JointReaction {
         length(self.moment)
     }
 
-    fn global(&self, own: [f64; 3], rounding: f64) -> [f64; 3] {
-        [0, 1, 2].map(|i| without(rounding, (0..3).map(|k| own[k] * self.axes[k][i]).sum()))
+    fn to_global(&self, own: [f64; 3], rounding: f64) -> [f64; 3] {
+        [0, 1, 2].map(|i| drop_rounding(rounding, (0..3).map(|k| own[k] * self.axes[k][i]).sum()))
     }
 
     /// Returns the force in global axes `[N]`.
     #[must_use]
     pub fn global_force(&self) -> [f64; 3] {
-        self.global(self.force, self.rounding[0])
+        self.to_global(self.force, self.rounding[0])
     }
 
     /// Returns the moment about the joint's point in global axes `[N·m]`.
     #[must_use]
     pub fn global_moment(&self) -> [f64; 3] {
-        self.global(self.moment, self.rounding[1])
+        self.to_global(self.moment, self.rounding[1])
     }
 }
 
@@ -158,7 +158,11 @@ impl Solution {
 pub(crate) const NO_STRESS: f64 = 1e-9;
 
 /// Returns the components of joints that are nonzero in some self-stress, with moments divided by the size.
-pub(crate) fn open(joints: usize, size: f64, stresses: &[Vec<JointReaction>]) -> Vec<[bool; 6]> {
+pub(crate) fn open_components(
+    joints: usize,
+    size: f64,
+    stresses: &[Vec<JointReaction>],
+) -> Vec<[bool; 6]> {
     let mut out = vec![[false; 6]; joints];
     for stress in stresses {
         for (open, r) in out.iter_mut().zip(stress) {
@@ -198,13 +202,13 @@ pub(crate) fn left_over(
         sums[a] = sub(sums[a], wrenches[j]);
         sums[b] = add(sums[b], wrenches[j]);
     }
-    sums[m.frame()] = [0.0; 6];
-    greatest(sums.iter().flatten())
+    sums[m.frame_link()] = [0.0; 6];
+    greatest_abs(sums.iter().flatten())
 }
 
 /// Converts wrenches by joint to reactions in the joints' own frames, in SI. Values of at most `rounding` `[N]`, with
 /// moments divided by the size, become 0.
-pub(crate) fn present(
+pub(crate) fn present_reactions(
     m: &Mechanism,
     geometry: &Geometry,
     wrenches: &[Six],
@@ -213,7 +217,7 @@ pub(crate) fn present(
 ) -> Vec<JointReaction> {
     let of_moments = rounding * geometry.size;
     let each = geometry.joints.iter().map(|&j| {
-        let w = about(&wrenches[j], geometry.points[j]);
+        let w = shift_wrench(&wrenches[j], geometry.points[j]);
         let axes = geometry.axes[j];
         let own = |v: [f64; 3]| axes.map(|a| dot(a, v));
         let held = drives.iter().find(|(d, _)| *d == j && m.joints[j].drive);
@@ -224,15 +228,15 @@ pub(crate) fn present(
                 .find(|c| c.joint == j && c.freedom == freedom)?;
             let turns = column.twist[..3] != [0.0; 3];
             let unit = if turns { geometry.size } else { 1.0 };
-            let effort = without(rounding, power(&column.twist, &wrenches[j]));
+            let effort = drop_rounding(rounding, wrench_power(&column.twist, &wrenches[j]));
             Some((freedom, effort * unit))
         });
         JointReaction {
             joint: j,
             point: geometry.to_metres(geometry.points[j]),
             axes,
-            force: own([w[3], w[4], w[5]]).map(|x| without(rounding, x)),
-            moment: own([w[0], w[1], w[2]]).map(|x| without(of_moments, x * geometry.size)),
+            force: own([w[3], w[4], w[5]]).map(|x| drop_rounding(rounding, x)),
+            moment: own([w[0], w[1], w[2]]).map(|x| drop_rounding(of_moments, x * geometry.size)),
             effort,
             rounding: [rounding, of_moments],
         }
@@ -247,9 +251,9 @@ pub(crate) fn passed_by_couplings(
     rounding: f64,
 ) -> Vec<CouplingReaction> {
     let one = |(c, x): (&CouplingEquation, &f64)| {
-        let x = without(rounding, *x);
+        let x = drop_rounding(rounding, *x);
         let effort = |n: usize| {
-            let unit = if c.ends[n].freedom.slides() {
+            let unit = if c.ends[n].freedom.is_slide() {
                 1.0
             } else {
                 geometry.size
@@ -262,7 +266,7 @@ pub(crate) fn passed_by_couplings(
             efforts: [effort(0), effort(1)],
             teeth: c.teeth.filter(|_| c.meshes).map(|t| ToothForce {
                 point: geometry.to_metres(t.point),
-                force: t.force.map(|f| without(rounding, f * x)),
+                force: t.force.map(|f| drop_rounding(rounding, f * x)),
             }),
         }
     };

@@ -3,17 +3,18 @@
 use crate::model::loads::Loads;
 use crate::model::mechanism::{LinkId, Mechanism, StateId};
 use crate::motion::pose::Pose;
-use crate::statics::reactions::contact::{Contacts, contacts};
-use crate::statics::reactions::drives::{Driven, driven, period};
+use crate::statics::reactions::contact::{Contacts, find_contacts};
+use crate::statics::reactions::drives::{Driven, driven_freedoms, range_period};
 use crate::statics::reactions::equations::{self, System, Transmitted};
-use crate::statics::reactions::geometry::{Geometry, Six, power};
+use crate::statics::reactions::geometry::{Geometry, Six, wrench_power};
 use crate::statics::reactions::loads::{Borne, link_loads};
 use crate::statics::reactions::solution::{
-    NO_STRESS, Solution, Uniqueness, left_over, open, open_couplings, passed_by_couplings, present,
+    NO_STRESS, Solution, Uniqueness, left_over, open_components, open_couplings,
+    passed_by_couplings, present_reactions,
 };
-use crate::statics::reactions::unilateral::{TOLERANCE, pushing};
+use crate::statics::reactions::unilateral::{TOLERANCE, push_only};
 use crate::statics::reactions::unsolved::Unsolved;
-use crate::statics::{greatest, over_load, rounding};
+use crate::statics::{greatest_abs, over_load, rounding_size};
 
 /// Fraction of the loads below which work on undriven motions counts as zero.
 const NO_WORK: f64 = 1e-8;
@@ -27,13 +28,13 @@ impl Borne {
     ///
     /// # Errors
     /// Returns an [`Unsolved`].
-    pub(crate) fn solve(
+    pub(crate) fn solve_loads(
         &self,
         m: &Mechanism,
         drives: &[Driven],
         contacts: Contacts,
     ) -> Result<Solution, Unsolved> {
-        Reactions::bearing(m, &m.loads, &self.geometry, &self.sums, drives, contacts)
+        Reactions::solve_wrenches(m, &m.loads, &self.geometry, &self.sums, drives, contacts)
     }
 }
 
@@ -45,11 +46,15 @@ impl Reactions {
     ///
     /// # Complexity
     /// O((6k)²·f) for k contours and f freedoms.
-    pub fn solve(m: &Mechanism, state: StateId, loads: &Loads) -> Result<Solution, Unsolved> {
+    pub fn solve_at_home(
+        m: &Mechanism,
+        state: StateId,
+        loads: &Loads,
+    ) -> Result<Solution, Unsolved> {
         let pose = Pose::of_file(m, state)?;
         let geometry = Geometry::new(m, state, &pose)?;
-        let drives = driven(m, &geometry)?;
-        Self::at(m, state, loads, &pose, 0.0, &drives)
+        let drives = driven_freedoms(m, &geometry)?;
+        Self::solve_at(m, state, loads, &pose, 0.0, &drives)
     }
 
     /// Returns the reactions at any pose, with the first drive `drive` `[rad]` or file units away from the pose of the
@@ -57,7 +62,7 @@ impl Reactions {
     ///
     /// # Errors
     /// Returns an [`Unsolved`].
-    pub fn at(
+    pub fn solve_at(
         m: &Mechanism,
         state: StateId,
         loads: &Loads,
@@ -66,12 +71,12 @@ impl Reactions {
         drives: &[Driven],
     ) -> Result<Solution, Unsolved> {
         let geometry = Geometry::new(m, state, pose)?;
-        let of_links = link_loads(m, loads, &geometry, pose, drive, period(drives));
-        Self::bearing(m, loads, &geometry, &of_links, drives, Contacts::AsJoints)
+        let of_links = link_loads(m, loads, &geometry, pose, drive, range_period(drives));
+        Self::solve_wrenches(m, loads, &geometry, &of_links, drives, Contacts::AsJoints)
     }
 
     /// Returns the reactions to one wrench per link.
-    pub(crate) fn bearing(
+    pub(crate) fn solve_wrenches(
         m: &Mechanism,
         loads: &Loads,
         geometry: &Geometry,
@@ -82,71 +87,75 @@ impl Reactions {
         let system = System::new(geometry, drives)?;
         let particular = geometry.along_tree(m.joints.len(), loads_of_links);
         let mut of = Transmitted::of_joints(geometry, particular.clone());
-        let left = system.solve(&mut of);
-        let scale = greatest(particular.iter().flatten());
-        let work = greatest(&left);
+        let left = system.balance_work(&mut of);
+        let scale = greatest_abs(particular.iter().flatten());
+        let work = greatest_abs(&left);
         if work > NO_WORK * scale {
             return Err(Unsolved::Moves {
                 link: carried_most(m, geometry, &system, &left, loads_of_links),
-                mobility: system.undriven(),
+                mobility: system.undriven_freedoms(),
             });
         }
         let stresses = system.self_stresses(m.joints.len());
         let rigid = of.clone();
         equations::least_norm(geometry, &mut of, &stresses);
         let faces = match of_contacts {
-            Contacts::Pushing => contacts(m, geometry)?,
+            Contacts::Pushing => find_contacts(m, geometry)?,
             // If the side is unknown, pulling cannot be detected.
-            Contacts::AsJoints => contacts(m, geometry).unwrap_or_default(),
+            Contacts::AsJoints => find_contacts(m, geometry).unwrap_or_default(),
         };
         if of_contacts == Contacts::Pushing {
-            pushing(geometry, &faces, &mut of, &stresses)?;
+            push_only(geometry, &faces, &mut of, &stresses)?;
         }
         // Elastic joints are only solved with contacts as joints.
         let elastic = match of_contacts {
-            Contacts::AsJoints => equations::elastic(m, geometry, loads, rigid, &stresses),
+            Contacts::AsJoints => {
+                equations::elastic_reactions(m, geometry, loads, rigid, &stresses)
+            }
             Contacts::Pushing => None,
         };
         // Wrenches start as those of the loads along the tree, so their rounding is relative to these.
         let rounding = |t: &Transmitted, beside: f64| {
             let left_over = left_over(m, geometry, &t.joints, loads_of_links);
-            let all = greatest(t.joints.iter().flatten().chain(&t.couplings));
-            rounding(left_over, all.max(beside), 6 * geometry.joints.len())
+            let all = greatest_abs(t.joints.iter().flatten().chain(&t.couplings));
+            rounding_size(left_over, all.max(beside), 6 * geometry.joints.len())
         };
         let mut least = rounding(&of, scale);
         if of_contacts == Contacts::Pushing {
-            least = least.max(TOLERANCE * greatest(of.joints.iter().flatten()));
+            least = least.max(TOLERANCE * greatest_abs(of.joints.iter().flatten()));
         }
         let elastic = elastic.map(|(t, strained)| {
             let least = rounding(&t, scale.max(strained));
             (t, least)
         });
-        let load = greatest(loads_of_links.iter().flatten());
+        let load = greatest_abs(loads_of_links.iter().flatten());
         let left_over = left_over(m, geometry, &of.joints, loads_of_links);
         let present = |t: &Transmitted, rounding: f64| {
-            present(m, geometry, &t.own(geometry), drives, rounding)
+            present_reactions(m, geometry, &t.own_wrenches(geometry), drives, rounding)
         };
         let passed =
             |t: &Transmitted, rounding: f64| passed_by_couplings(geometry, &t.couplings, rounding);
         let self_stresses: Vec<_> = stresses.iter().map(|t| present(t, NO_STRESS)).collect();
         let of_couplings = stresses.iter().map(|t| &t.couplings[..]);
         Ok(Solution {
-            choice: choice(of_contacts, stresses.is_empty()),
+            choice: reaction_choice(of_contacts, stresses.is_empty()),
             contacts: {
-                let own = of.own(geometry);
-                let forces = faces.iter().map(|c| c.force(geometry, &own));
-                forces.map(|f| f.without(least, geometry.size)).collect()
+                let own = of.own_wrenches(geometry);
+                let forces = faces.iter().map(|c| c.contact_force(geometry, &own));
+                forces
+                    .map(|f| f.drop_rounding(least, geometry.size))
+                    .collect()
             },
             reactions: present(&of, least),
             couplings: passed(&of, least),
             couplings_open: open_couplings(geometry.couplings.len(), of_couplings),
             coupling_stresses: stresses.iter().map(|t| passed(t, NO_STRESS)).collect(),
-            open: open(geometry.joints.len(), geometry.size, &self_stresses),
+            open: open_components(geometry.joints.len(), geometry.size, &self_stresses),
             self_stresses,
             elastic_couplings: elastic.as_ref().map(|(t, least)| passed(t, *least)),
             elastic: elastic.as_ref().map(|(t, least)| present(t, *least)),
-            undriven: system.undriven(),
-            condition: system.condition(),
+            undriven: system.undriven_freedoms(),
+            condition: system.condition_number(),
             residual: over_load(left_over, load),
             size: geometry.size,
         })
@@ -167,13 +176,13 @@ fn carried_most(
         speeds[c] = *x;
     }
     let twists = geometry.link_twists(m.links.len(), &speeds);
-    let gain = |l: LinkId| -power(&twists[l], &loads[l]).abs();
+    let gain = |l: LinkId| -wrench_power(&twists[l], &loads[l]).abs();
     let most = m.link_ids().min_by(|&a, &b| gain(a).total_cmp(&gain(b)));
     most.map_or_else(String::new, |l| m.links[l].id.clone())
 }
 
 /// Returns how the reactions are chosen if self-stresses leave them open.
-fn choice(of_contacts: Contacts, is_unique: bool) -> Uniqueness {
+fn reaction_choice(of_contacts: Contacts, is_unique: bool) -> Uniqueness {
     match of_contacts {
         _ if is_unique => Uniqueness::Unique,
         Contacts::AsJoints => Uniqueness::MinimumNorm,

@@ -4,9 +4,9 @@ use std::collections::{BTreeMap, HashMap};
 
 use num_rational::BigRational;
 
-use super::quadratic::denested;
+use super::quadratic::denest_root;
 use super::radical::ExactError;
-use super::radical::{Radical, radical};
+use super::radical::{Radical, simplify_root};
 use crate::geom::Scalars;
 use crate::geom::expr::{Expr, Function, NodeKind, PI};
 
@@ -38,7 +38,7 @@ pub(crate) trait Target: Scalars {
 }
 
 /// Returns the value of an expression. O(nodes), each shared node once.
-pub(crate) fn eval<T: Target>(target: &T, expr: &Expr) -> Result<T::Number, ExactError> {
+pub(crate) fn eval_in<T: Target>(target: &T, expr: &Expr) -> Result<T::Number, ExactError> {
     let divides = || ExactError::DivisionByZero {
         expression: expr.to_string(),
     };
@@ -62,9 +62,11 @@ pub(crate) fn eval<T: Target>(target: &T, expr: &Expr) -> Result<T::Number, Exac
                 let power = target.power(&at(a), n.unsigned_abs()).ok_or_else(divides)?;
                 if *n < 0 { inverse(&power)? } else { power }
             }
-            NodeKind::Sqrt(a) => sqrt(target, a, &at(a))?,
+            NodeKind::Sqrt(a) => eval_sqrt(target, a, &at(a))?,
             NodeKind::Trig(function, k, n) => {
-                let [c, s] = target.twice_cos_sin(*k, *n).ok_or_else(|| outside(e))?;
+                let [c, s] = target
+                    .twice_cos_sin(*k, *n)
+                    .ok_or_else(|| not_in_field(e))?;
                 let half = || {
                     let half = BigRational::new(1.into(), 2.into());
                     target.rational(&half).ok_or_else(divides)
@@ -82,13 +84,17 @@ pub(crate) fn eval<T: Target>(target: &T, expr: &Expr) -> Result<T::Number, Exac
 }
 
 /// Returns the root of `inner`, whose value is `value`.
-fn sqrt<T: Target>(target: &T, inner: &Expr, value: &T::Number) -> Result<T::Number, ExactError> {
+fn eval_sqrt<T: Target>(
+    target: &T,
+    inner: &Expr,
+    value: &T::Number,
+) -> Result<T::Number, ExactError> {
     if let Some(r) = inner.rational_ref() {
         let made;
         let radical = match target.radicals().get(r) {
             Some(radical) => radical,
             None => {
-                made = radical(r)?;
+                made = simplify_root(r)?;
                 &made
             }
         };
@@ -98,22 +104,22 @@ fn sqrt<T: Target>(target: &T, inner: &Expr, value: &T::Number) -> Result<T::Num
                 expression: inner.to_string(),
             })?;
         return radical.primes.iter().try_fold(coef, |product, &q| {
-            let root = target.prime_root(q).ok_or_else(|| outside(inner))?;
+            let root = target.prime_root(q).ok_or_else(|| not_in_field(inner))?;
             Ok(target.mul(product, root))
         });
     }
     // Rewritten roots have rational radicands only, so this recursion ends at depth one.
-    if let Some(flat) = denested(inner) {
-        return eval(target, &flat);
+    if let Some(flat) = denest_root(inner) {
+        return eval_in(target, &flat);
     }
     if *value == T::Number::default() {
         return Ok(T::Number::default());
     }
     // Equal radicands have equal values, regardless of how they are written.
-    target.nested_root(value).ok_or_else(|| outside(inner))
+    target.nested_root(value).ok_or_else(|| not_in_field(inner))
 }
 
-fn outside(e: &Expr) -> ExactError {
+fn not_in_field(e: &Expr) -> ExactError {
     ExactError::NotInField {
         expression: e.to_string(),
     }

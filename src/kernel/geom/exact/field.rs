@@ -55,7 +55,7 @@ impl Scalars for ExactField {
     type Number = Residue;
 
     fn eval(&self, expr: &Expr) -> Result<Residue, ExactError> {
-        eval::eval(self, expr)
+        eval::eval_in(self, expr)
     }
     #[inline]
     fn add(&self, a: Residue, b: Residue) -> Residue {

@@ -8,9 +8,9 @@ use num_rational::BigRational;
 use sha2::{Digest as _, Sha256};
 
 use super::field::ExactField;
-use super::quadratic::denested;
+use super::quadratic::denest_root;
 use super::radical::ExactError;
-use super::radical::{Radical, TRIAL_LIMIT, factor, radical};
+use super::radical::{Radical, TRIAL_LIMIT, prime_factors, simplify_root};
 use crate::geom::expr::{Expr, MAX_ANGLE_DENOMINATOR, NodeKind};
 use crate::linalg::modp::{Field, Residue, is_prime};
 
@@ -47,23 +47,23 @@ impl PrimePlan {
     pub(crate) fn new(exprs: &[&Expr]) -> Result<PrimePlan, ExactError> {
         let mut plan = PrimePlan {
             order: 4,
-            seed: seed(exprs),
+            seed: hash_expressions(exprs),
             ..PrimePlan::default()
         };
         let mut candidates = Vec::new();
         for e in exprs {
-            plan.collect(e, &mut candidates)?;
+            plan.collect_roots(e, &mut candidates)?;
         }
-        plan.finish(candidates.is_empty())?;
+        plan.classify_roots(candidates.is_empty())?;
         for inner in candidates {
-            if plan.independent(&inner)? {
+            if plan.is_independent(&inner)? {
                 plan.nested.push(inner);
             }
         }
         Ok(plan)
     }
 
-    fn collect(&mut self, e: &Expr, candidates: &mut Vec<Expr>) -> Result<(), ExactError> {
+    fn collect_roots(&mut self, e: &Expr, candidates: &mut Vec<Expr>) -> Result<(), ExactError> {
         for node in e.post_order() {
             match node.kind() {
                 NodeKind::Trig(_, _, n) => {
@@ -76,10 +76,10 @@ impl PrimePlan {
                 NodeKind::Sqrt(inner) => {
                     if let Some(r) = inner.rational_ref() {
                         if !self.radicals.contains_key(r) {
-                            self.radicals.insert(r.clone(), radical(r)?);
+                            self.radicals.insert(r.clone(), simplify_root(r)?);
                         }
-                    } else if let Some(flat) = denested(inner) {
-                        self.collect(&flat, candidates)?;
+                    } else if let Some(flat) = denest_root(inner) {
+                        self.collect_roots(&flat, candidates)?;
                     } else {
                         candidates.push(inner.clone());
                     }
@@ -91,7 +91,7 @@ impl PrimePlan {
     }
 
     /// Separates the roots into those of Q(zeta_N) and the free ones, once all angles are known.
-    fn finish(&mut self, flat: bool) -> Result<(), ExactError> {
+    fn classify_roots(&mut self, flat: bool) -> Result<(), ExactError> {
         let mut primes: Vec<u64> = self
             .radicals
             .values()
@@ -99,7 +99,10 @@ impl PrimePlan {
             .collect();
         primes.sort_unstable();
         primes.dedup();
-        self.order_primes = factor(self.order).into_iter().map(|(q, _)| q).collect();
+        self.order_primes = prime_factors(self.order)
+            .into_iter()
+            .map(|(q, _)| q)
+            .collect();
         self.modulus = self.order;
         let mut rejected = 0;
         for q in primes {
@@ -138,9 +141,9 @@ impl PrimePlan {
     /// Returns true if the root of `inner` has to be adjoined, rather than being known already. On primes where all
     /// previous radicands are squares, a product of `inner` with some of them is a square if and only if `inner` is. So
     /// one test covers all products.
-    fn independent(&self, inner: &Expr) -> Result<bool, ExactError> {
+    fn is_independent(&self, inner: &Expr) -> Result<bool, ExactError> {
         let (mut squares, mut zeros, mut failures) = (0, 0, 0);
-        for field in self.fields() {
+        for field in self.suitable_fields() {
             let value = match field.eval(inner) {
                 Ok(value) => value,
                 Err(ExactError::DivisionByZero { .. }) if failures + 1 < MAX_FAILURES => {
@@ -179,16 +182,16 @@ impl PrimePlan {
     /// Returns the suitable primes between 2^61 and 2^62, starting at a position given by the expressions' hash. A
     /// written number does not know its own hash, so coordinates contain these primes as factors only by a chance of
     /// about 2^-55.
-    pub(crate) fn fields(&self) -> impl Iterator<Item = ExactField> + '_ {
+    pub(crate) fn suitable_fields(&self) -> impl Iterator<Item = ExactField> + '_ {
         let modulus = self.modulus.max(4);
         let least = (1u64 << 61) / modulus + 1;
         let all = ((1u64 << 62) - 1) / modulus - least;
         (0..all.min(MAX_CANDIDATES))
             .map(move |i| least + (self.seed % all + i) % all)
-            .filter_map(move |k| self.at(k * modulus + 1))
+            .filter_map(move |k| self.field_of_prime(k * modulus + 1))
     }
 
-    fn at(&self, p: u64) -> Option<ExactField> {
+    fn field_of_prime(&self, p: u64) -> Option<ExactField> {
         if !is_prime(p) {
             return None;
         }
@@ -251,7 +254,7 @@ pub(crate) fn root_of_unity(f: Field, order: u64, primes: &[u64]) -> Option<Resi
 }
 
 /// Returns a hash of some expressions that is the same on every machine: that of their trees, each shared node once.
-fn seed(exprs: &[&Expr]) -> u64 {
+fn hash_expressions(exprs: &[&Expr]) -> u64 {
     let mut hash = Sha256::new();
     for e in exprs {
         let mut places = HashMap::new();

@@ -7,7 +7,7 @@ use num_integer::Integer;
 use num_rational::BigRational;
 use num_traits::{One, Signed, Zero};
 
-use super::radical::radical;
+use super::radical::simplify_root;
 use crate::geom::expr::{Expr, Function, NodeKind, rational_sqrt};
 
 /// `u + v sqrt(d)` with `d` squarefree, or `d = 1` and `v = 0`.
@@ -37,8 +37,8 @@ impl Quadratic {
         Some(Quadratic { u, v, d })
     }
 
-    fn root(r: &BigRational) -> Option<Quadratic> {
-        let radical = radical(r).ok()?;
+    fn from_root(r: &BigRational) -> Option<Quadratic> {
+        let radical = simplify_root(r).ok()?;
         let d = radical
             .primes
             .iter()
@@ -46,7 +46,7 @@ impl Quadratic {
         Quadratic::new(BigRational::zero(), radical.coef, d)
     }
 
-    fn common(&self, other: &Quadratic) -> Option<BigInt> {
+    fn common_radicand(&self, other: &Quadratic) -> Option<BigInt> {
         match (self.d.is_one(), other.d.is_one()) {
             (true, _) => Some(other.d.clone()),
             (_, true) => Some(self.d.clone()),
@@ -55,7 +55,11 @@ impl Quadratic {
     }
 
     fn add(&self, other: &Quadratic) -> Option<Quadratic> {
-        Quadratic::new(&self.u + &other.u, &self.v + &other.v, self.common(other)?)
+        Quadratic::new(
+            &self.u + &other.u,
+            &self.v + &other.v,
+            self.common_radicand(other)?,
+        )
     }
 
     fn neg(&self) -> Quadratic {
@@ -67,7 +71,7 @@ impl Quadratic {
     }
 
     fn mul(&self, other: &Quadratic) -> Option<Quadratic> {
-        let d = self.common(other)?;
+        let d = self.common_radicand(other)?;
         let u = &self.u * &other.u + &self.v * &other.v * &d;
         Quadratic::new(u, &self.u * &other.v + &self.v * &other.u, d)
     }
@@ -85,15 +89,15 @@ impl Quadratic {
     }
 
     /// Returns rationals a, b and a sign with `sqrt(self) = sqrt(a) + sign sqrt(b)`.
-    fn denest(&self) -> Option<(BigRational, BigRational, bool)> {
+    fn denest_roots(&self) -> Option<(BigRational, BigRational, bool)> {
         let w = rational_sqrt(&self.norm())?;
         let half = BigRational::new(1.into(), 2.into());
         let (a, b) = ((&self.u + &w) * &half, (&self.u - &w) * &half);
         (!a.is_negative() && !b.is_negative()).then(|| (a, b, self.v.is_negative()))
     }
 
-    fn denested(&self) -> Option<Expr> {
-        let (a, b, minus) = self.denest()?;
+    fn denested_expr(&self) -> Option<Expr> {
+        let (a, b, minus) = self.denest_roots()?;
         let (a, b) = (Expr::rational(a).sqrt()?, Expr::rational(b).sqrt()?);
         Some(if minus { a - b } else { a + b })
     }
@@ -118,7 +122,7 @@ impl Quadratic {
 }
 
 /// Returns the expression as an element of a quadratic field, if every part of it is one.
-fn quadratic(expr: &Expr) -> Option<Quadratic> {
+fn as_quadratic(expr: &Expr) -> Option<Quadratic> {
     let mut memo: HashMap<usize, Quadratic> = HashMap::new();
     for e in expr.post_order() {
         let at = |c: &Expr| memo.get(&c.id());
@@ -143,8 +147,8 @@ fn quadratic(expr: &Expr) -> Option<Quadratic> {
                 product
             }
             NodeKind::Sqrt(a) => {
-                let (a, b, minus) = at(a)?.denest()?;
-                let (a, b) = (Quadratic::root(&a)?, Quadratic::root(&b)?);
+                let (a, b, minus) = at(a)?.denest_roots()?;
+                let (a, b) = (Quadratic::from_root(&a)?, Quadratic::from_root(&b)?);
                 a.add(&if minus { b.neg() } else { b })?
             }
             NodeKind::Trig(Function::Cos, k, n) => Quadratic::cos(*k, *n)?,
@@ -163,9 +167,9 @@ fn quadratic(expr: &Expr) -> Option<Quadratic> {
 
 /// Returns the positive root of `inner` in terms of roots of rationals. The half-angle cosines that a designer may
 /// write instead are also used, such as `sqrt(10-2*sqrt(5)) = 4 sin 36deg`.
-pub(crate) fn denested(inner: &Expr) -> Option<Expr> {
-    let a = quadratic(inner)?;
-    if let Some(flat) = a.denested() {
+pub(crate) fn denest_root(inner: &Expr) -> Option<Expr> {
+    let a = as_quadratic(inner)?;
+    if let Some(flat) = a.denested_expr() {
         return Some(flat);
     }
     [(1, 16), (3, 16), (1, 20), (3, 20)]
@@ -179,6 +183,9 @@ pub(crate) fn denested(inner: &Expr) -> Option<Expr> {
                 BigInt::one(),
             )?;
             let square = one.add(&Quadratic::cos(k, n / 2)?)?.mul(&half)?;
-            Some(Expr::trig(Function::Cos, k, n)? * a.mul(&square.inverse()?)?.denested()?)
+            Some(
+                Expr::trig_of_turns(Function::Cos, k, n)?
+                    * a.mul(&square.inverse()?)?.denested_expr()?,
+            )
         })
 }

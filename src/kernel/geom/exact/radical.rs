@@ -78,7 +78,7 @@ pub(crate) struct Radical {
 
 /// Returns the root of a nonnegative rational as a rational times roots of distinct primes. Prime factors up to 10^6
 /// are found by division, and those of a cofactor below 2^64 by Pollard's rho. Beyond that only squares are recognised.
-pub(crate) fn radical(r: &BigRational) -> Result<Radical, ExactError> {
+pub(crate) fn simplify_root(r: &BigRational) -> Result<Radical, ExactError> {
     let too_large = || ExactError::RadicandTooLarge {
         radicand: Expr::rational(r.clone()).to_string(),
     };
@@ -91,8 +91,8 @@ pub(crate) fn radical(r: &BigRational) -> Result<Radical, ExactError> {
     if r.is_negative() || r.numer().bits() + r.denom().bits() > 1 << 12 {
         return Err(too_large());
     }
-    let (a, mut primes) = squarefree(r.numer()).ok_or_else(too_large)?;
-    let (b, under) = squarefree(r.denom()).ok_or_else(too_large)?;
+    let (a, mut primes) = split_square(r.numer()).ok_or_else(too_large)?;
+    let (b, under) = split_square(r.denom()).ok_or_else(too_large)?;
     // sqrt(q)/q for the primes in the denominator, which are distinct from those in the numerator
     let below = under.iter().fold(b, |product, q| product * q);
     primes.extend(under);
@@ -104,7 +104,7 @@ pub(crate) fn radical(r: &BigRational) -> Result<Radical, ExactError> {
 }
 
 /// Returns `x = s^2 * product of primes` as `(s, primes)`.
-fn squarefree(x: &BigInt) -> Option<(BigInt, Vec<u64>)> {
+fn split_square(x: &BigInt) -> Option<(BigInt, Vec<u64>)> {
     let (mut rest, mut root, mut primes) = (x.clone(), BigInt::one(), Vec::new());
     let mut note = |q: u64, count: u32| {
         root *= BigInt::from(q).pow(count / 2);
@@ -123,7 +123,7 @@ fn squarefree(x: &BigInt) -> Option<(BigInt, Vec<u64>)> {
         q += if q == 2 { 1 } else { 2 };
     }
     if let Some(small) = rest.to_u64() {
-        for (q, count) in factor(small) {
+        for (q, count) in prime_factors(small) {
             note(q, count);
         }
         return Some((root, primes));
@@ -133,7 +133,7 @@ fn squarefree(x: &BigInt) -> Option<(BigInt, Vec<u64>)> {
 }
 
 /// Returns the prime factors of a number with their multiplicities, in increasing order.
-pub(crate) fn factor(mut n: u64) -> Vec<(u64, u32)> {
+pub(crate) fn prime_factors(mut n: u64) -> Vec<(u64, u32)> {
     let mut primes = Vec::new();
     let mut q = 2u64;
     while q <= 1000 && q * q <= n {
@@ -152,7 +152,7 @@ pub(crate) fn factor(mut n: u64) -> Vec<(u64, u32)> {
             primes.push(m);
             continue;
         }
-        let d = split(m);
+        let d = find_divisor(m);
         stack.extend([d, m / d]);
     }
     primes.sort_unstable();
@@ -167,7 +167,7 @@ pub(crate) fn factor(mut n: u64) -> Vec<(u64, u32)> {
 }
 
 /// Returns a proper divisor of a composite number (Pollard's rho).
-fn split(n: u64) -> u64 {
+fn find_divisor(n: u64) -> u64 {
     let root = n.isqrt();
     if root * root == n {
         return root;

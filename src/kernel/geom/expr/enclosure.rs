@@ -109,10 +109,10 @@ impl Enclosure {
             &self.hi * &other.lo,
             &self.hi * &other.hi,
         ];
-        Enclosure::hull(products.iter(), products.iter(), self.e + other.e)
+        Enclosure::interval_hull(products.iter(), products.iter(), self.e + other.e)
     }
 
-    pub(super) fn hull<'a>(
+    pub(super) fn interval_hull<'a>(
         lows: impl Iterator<Item = &'a BigInt>,
         highs: impl Iterator<Item = &'a BigInt>,
         e: i64,
@@ -141,7 +141,7 @@ impl Enclosure {
             pairs.map(|(a, b)| a.div_floor(b)),
             pairs.map(|(a, b)| ceil_div(a, b)),
         );
-        Enclosure::hull(lows.iter(), highs.iter(), self.e - other.e - shift as i64)
+        Enclosure::interval_hull(lows.iter(), highs.iter(), self.e - other.e - shift as i64)
     }
 
     pub(super) fn pow(&self, n: i64) -> Enclosure {

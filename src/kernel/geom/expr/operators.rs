@@ -9,7 +9,7 @@ use std::ops::{Add, Mul, Neg, Sub};
 impl Add for &Expr {
     type Output = Expr;
     fn add(self, other: &Expr) -> Expr {
-        if let Some(e) = Expr::combine(self, other, |a, b| a + b) {
+        if let Some(e) = Expr::fold_rationals(self, other, |a, b| a + b) {
             return e;
         }
         match (self.is_zero_rational(), other.is_zero_rational()) {
@@ -23,7 +23,7 @@ impl Add for &Expr {
 impl Sub for &Expr {
     type Output = Expr;
     fn sub(self, other: &Expr) -> Expr {
-        if let Some(e) = Expr::combine(self, other, |a, b| a - b) {
+        if let Some(e) = Expr::fold_rationals(self, other, |a, b| a - b) {
             return e;
         }
         match (self.is_zero_rational(), other.is_zero_rational()) {
@@ -37,7 +37,7 @@ impl Sub for &Expr {
 impl Mul for &Expr {
     type Output = Expr;
     fn mul(self, other: &Expr) -> Expr {
-        if let Some(e) = Expr::combine(self, other, |a, b| a * b) {
+        if let Some(e) = Expr::fold_rationals(self, other, |a, b| a * b) {
             return e;
         }
         for (a, b) in [(self, other), (other, self)] {

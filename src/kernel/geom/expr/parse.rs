@@ -3,7 +3,7 @@
 use super::error::ExprError;
 use super::node::{Digits, WrittenNumber};
 use super::node::{Expr, Function, NodeKind};
-use super::rational::{MAX_BITS, bits, decimal, fraction};
+use super::rational::{MAX_BITS, bit_size, parse_fraction, rational_from_decimal};
 use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::{ToPrimitive, Zero};
@@ -49,7 +49,7 @@ impl Expr {
         names: Names<'_>,
     ) -> Result<Expr, ExprError> {
         if text.len() > MAX_TEXT / 5
-            && let Some(e) = fraction(text)
+            && let Some(e) = parse_fraction(text)
                 .map(Expr::rational)
                 .filter(|e| e.to_f64().is_finite())
         {
@@ -66,15 +66,15 @@ impl Expr {
             pi_is_a_number,
             names: &mut |word| names(word).inspect(|_| named = true),
         };
-        if parser.peek().is_none() {
+        if parser.peek_byte().is_none() {
             return Err(ExprError::Empty);
         }
         let start = parser.pos;
         let value = parser.sum()?;
-        if parser.peek().is_some() {
-            return Err(parser.unexpected("an operator or the end"));
+        if parser.peek_byte().is_some() {
+            return Err(parser.unexpected_text("an operator or the end"));
         }
-        let read = number(value, start)?;
+        let read = expect_number(value, start)?;
         // Short texts without powers do not become much longer when written.
         if !named && (text.len() > MAX_TEXT / 5 || text.contains(['e', 'E', '^'])) {
             match read.to_string().len() {
@@ -93,16 +93,16 @@ enum Value {
     Angle(BigRational),
 }
 
-fn number(value: Value, at: usize) -> Result<Expr, ExprError> {
+fn expect_number(value: Value, at: usize) -> Result<Expr, ExprError> {
     match value {
-        Value::Number(e) => finite(e, at),
+        Value::Number(e) => check_finite(e, at),
         Value::Angle(_) => Err(ExprError::AngleOutside { at }),
     }
 }
 
 /// Returns an error for numbers beyond the range of doubles, and for fractions of such numbers. A number that is read must be readable
 /// after it is written again.
-fn finite(e: Expr, at: usize) -> Result<Expr, ExprError> {
+fn check_finite(e: Expr, at: usize) -> Result<Expr, ExprError> {
     let holds = |n: &BigInt| n.bits() < 1024 || n.to_f64().is_some_and(f64::is_finite);
     let rational = e.rational_ref();
     if e.to_f64().is_finite() && rational.is_none_or(|r| holds(r.numer()) && holds(r.denom())) {
@@ -112,8 +112,8 @@ fn finite(e: Expr, at: usize) -> Result<Expr, ExprError> {
     }
 }
 
-fn angle(turns: BigRational, at: usize) -> Result<Value, ExprError> {
-    if bits(&turns) > MAX_BITS {
+fn check_angle(turns: BigRational, at: usize) -> Result<Value, ExprError> {
+    if bit_size(&turns) > MAX_BITS {
         Err(ExprError::TooManyDigits { at })
     } else {
         Ok(Value::Angle(turns))
@@ -132,26 +132,26 @@ struct Parser<'a, 'n> {
 
 impl<'a> Parser<'a, '_> {
     /// Returns the next byte that is not white space.
-    fn peek(&mut self) -> Option<u8> {
-        while self.here().is_some_and(|b| b.is_ascii_whitespace()) {
+    fn peek_byte(&mut self) -> Option<u8> {
+        while self.byte_here().is_some_and(|b| b.is_ascii_whitespace()) {
             self.pos += 1;
         }
-        self.here()
+        self.byte_here()
     }
 
-    fn here(&self) -> Option<u8> {
+    fn byte_here(&self) -> Option<u8> {
         self.text.as_bytes().get(self.pos).copied()
     }
 
     fn take_while(&mut self, keep: impl Fn(u8) -> bool) -> &'a str {
         let start = self.pos;
-        while self.here().is_some_and(&keep) {
+        while self.byte_here().is_some_and(&keep) {
             self.pos += 1;
         }
         self.text.get(start..self.pos).unwrap_or("")
     }
 
-    fn unexpected(&self, expected: &'static str) -> ExprError {
+    fn unexpected_text(&self, expected: &'static str) -> ExprError {
         let found = match self.text.get(self.pos..).and_then(|t| t.chars().next()) {
             Some(c) => format!("`{}`", c.escape_debug()),
             None => "the end of the text".to_owned(),
@@ -163,27 +163,27 @@ impl<'a> Parser<'a, '_> {
         }
     }
 
-    fn expect(&mut self, byte: u8, expected: &'static str) -> Result<(), ExprError> {
-        if self.peek() == Some(byte) {
+    fn expect_byte(&mut self, byte: u8, expected: &'static str) -> Result<(), ExprError> {
+        if self.peek_byte() == Some(byte) {
             self.pos += 1;
             Ok(())
         } else {
-            Err(self.unexpected(expected))
+            Err(self.unexpected_text(expected))
         }
     }
 
     fn sum(&mut self) -> Result<Value, ExprError> {
         let mut left = self.product()?;
-        while let Some(op @ (b'+' | b'-')) = self.peek() {
+        while let Some(op @ (b'+' | b'-')) = self.peek_byte() {
             let at = self.pos;
             self.pos += 1;
             let right = self.product()?;
             left = match (left, right) {
                 (Value::Number(a), Value::Number(b)) => {
-                    Value::Number(finite(if op == b'+' { a + b } else { a - b }, at)?)
+                    Value::Number(check_finite(if op == b'+' { a + b } else { a - b }, at)?)
                 }
                 (Value::Angle(a), Value::Angle(b)) => {
-                    angle(if op == b'+' { a + b } else { a - b }, at)?
+                    check_angle(if op == b'+' { a + b } else { a - b }, at)?
                 }
                 _ => return Err(ExprError::AngleOutside { at }),
             };
@@ -192,17 +192,17 @@ impl<'a> Parser<'a, '_> {
     }
 
     fn product(&mut self) -> Result<Value, ExprError> {
-        let mut left = self.unary()?;
-        while let Some(op @ (b'*' | b'/')) = self.peek() {
+        let mut left = self.parse_unary()?;
+        while let Some(op @ (b'*' | b'/')) = self.peek_byte() {
             let at = self.pos;
             self.pos += 1;
-            let right = self.unary()?;
+            let right = self.parse_unary()?;
             let outside = || ExprError::AngleOutside { at };
             left = if op == b'*' {
                 match (left, right) {
-                    (Value::Number(a), Value::Number(b)) => Value::Number(finite(a * b, at)?),
+                    (Value::Number(a), Value::Number(b)) => Value::Number(check_finite(a * b, at)?),
                     (Value::Angle(a), Value::Number(b)) | (Value::Number(b), Value::Angle(a)) => {
-                        angle(a * b.rational_ref().ok_or_else(outside)?, at)?
+                        check_angle(a * b.rational_ref().ok_or_else(outside)?, at)?
                     }
                     (Value::Angle(_), Value::Angle(_)) => return Err(outside()),
                 }
@@ -214,24 +214,24 @@ impl<'a> Parser<'a, '_> {
                     return Err(ExprError::DivisionByZero { at });
                 }
                 match left {
-                    Value::Number(a) => Value::Number(finite(
+                    Value::Number(a) => Value::Number(check_finite(
                         a.div(&b).ok_or(ExprError::DivisionByZero { at })?,
                         at,
                     )?),
-                    Value::Angle(a) => angle(a / b.rational_ref().ok_or_else(outside)?, at)?,
+                    Value::Angle(a) => check_angle(a / b.rational_ref().ok_or_else(outside)?, at)?,
                 }
             };
         }
         Ok(left)
     }
 
-    fn unary(&mut self) -> Result<Value, ExprError> {
+    fn parse_unary(&mut self) -> Result<Value, ExprError> {
         let mut negative = false;
-        while let Some(sign @ (b'-' | b'+')) = self.peek() {
+        while let Some(sign @ (b'-' | b'+')) = self.peek_byte() {
             negative ^= sign == b'-';
             self.pos += 1;
         }
-        let value = self.power()?;
+        let value = self.parse_power()?;
         Ok(match value {
             Value::Number(e) if negative => Value::Number(-e),
             Value::Angle(t) if negative => Value::Angle(-t),
@@ -239,23 +239,23 @@ impl<'a> Parser<'a, '_> {
         })
     }
 
-    fn power(&mut self) -> Result<Value, ExprError> {
-        let base = self.atom()?;
-        if self.peek() != Some(b'^') {
+    fn parse_power(&mut self) -> Result<Value, ExprError> {
+        let base = self.parse_atom()?;
+        if self.peek_byte() != Some(b'^') {
             return Ok(base);
         }
         let at = self.pos;
         self.pos += 1;
-        let base = number(base, at)?;
-        let sign = match self.peek() {
+        let base = expect_number(base, at)?;
+        let sign = match self.peek_byte() {
             Some(b'-') => -1,
             _ => 1,
         };
-        if matches!(self.here(), Some(b'-' | b'+')) {
+        if matches!(self.byte_here(), Some(b'-' | b'+')) {
             self.pos += 1;
         }
-        if !self.peek().is_some_and(|b| b.is_ascii_digit()) {
-            return Err(self.unexpected("an integer power"));
+        if !self.peek_byte().is_some_and(|b| b.is_ascii_digit()) {
+            return Err(self.unexpected_text("an integer power"));
         }
         let out_of_range = ExprError::PowerOutOfRange { at };
         let n: i64 = self
@@ -265,8 +265,8 @@ impl<'a> Parser<'a, '_> {
         if n > MAX_POWER {
             return Err(out_of_range);
         }
-        if matches!(self.peek(), Some(b'^' | b'.')) {
-            return Err(self.unexpected("parentheses around the power, or an integer power"));
+        if matches!(self.peek_byte(), Some(b'^' | b'.')) {
+            return Err(self.unexpected_text("parentheses around the power, or an integer power"));
         }
         let n = sign * n;
         if n < 0 && base.0.enclosure.has_zero() {
@@ -277,29 +277,29 @@ impl<'a> Parser<'a, '_> {
             _ if n == 1 => base,
             Some(r) => {
                 // The enclosure is checked first, because the exact power of a large number is expensive.
-                finite(Expr::new(NodeKind::Pow(base.clone(), n)), at)?;
-                if bits(r).saturating_mul(n.unsigned_abs()) > MAX_BITS {
+                check_finite(Expr::new(NodeKind::Pow(base.clone(), n)), at)?;
+                if bit_size(r).saturating_mul(n.unsigned_abs()) > MAX_BITS {
                     return Err(ExprError::TooManyDigits { at });
                 }
                 Expr::rational(num_traits::Pow::pow(r, n as i32))
             }
             None => Expr::new(NodeKind::Pow(base, n)),
         };
-        Ok(Value::Number(finite(result, at)?))
+        Ok(Value::Number(check_finite(result, at)?))
     }
 
-    fn atom(&mut self) -> Result<Value, ExprError> {
-        match self.peek() {
+    fn parse_atom(&mut self) -> Result<Value, ExprError> {
+        match self.peek_byte() {
             Some(b'0'..=b'9' | b'.') => {
-                let value = self.decimal()?;
-                self.degrees(value)
+                let value = self.parse_decimal()?;
+                self.parse_degrees(value)
             }
             Some(b'(') => {
                 let at = self.pos;
-                let value = self.parentheses()?;
+                let value = self.parse_parentheses()?;
                 match value {
                     Value::Number(e) => match e.rational_ref() {
-                        Some(_) => self.degrees(e),
+                        Some(_) => self.parse_degrees(e),
                         None if self.word_is_deg() => Err(ExprError::NotAnAngle {
                             at,
                             function: "deg",
@@ -309,25 +309,25 @@ impl<'a> Parser<'a, '_> {
                     other => Ok(other),
                 }
             }
-            Some(b) if b.is_ascii_alphabetic() => self.word(),
-            _ => Err(self.unexpected("a number, a function or `(`")),
+            Some(b) if b.is_ascii_alphabetic() => self.parse_word(),
+            _ => Err(self.unexpected_text("a number, a function or `(`")),
         }
     }
 
-    fn parentheses(&mut self) -> Result<Value, ExprError> {
+    fn parse_parentheses(&mut self) -> Result<Value, ExprError> {
         if self.depth >= MAX_NESTING {
             return Err(ExprError::TooDeep { at: self.pos });
         }
         self.depth += 1;
-        self.expect(b'(', "`(`")?;
+        self.expect_byte(b'(', "`(`")?;
         let value = self.sum()?;
-        self.expect(b')', "an operator or `)`")?;
+        self.expect_byte(b')', "an operator or `)`")?;
         self.depth -= 1;
         Ok(value)
     }
 
     fn word_is_deg(&mut self) -> bool {
-        let _ = self.peek();
+        let _ = self.peek_byte();
         let rest = self.text.get(self.pos..).unwrap_or("");
         rest.starts_with("deg")
             && !rest
@@ -337,14 +337,14 @@ impl<'a> Parser<'a, '_> {
     }
 
     /// Converts a rational to an angle if the suffix `deg` follows.
-    fn degrees(&mut self, e: Expr) -> Result<Value, ExprError> {
+    fn parse_degrees(&mut self, e: Expr) -> Result<Value, ExprError> {
         if !self.word_is_deg() {
             return Ok(Value::Number(e));
         }
         let at = self.pos;
         self.pos += 3;
         match e.rational_ref() {
-            Some(r) => angle(r / BigInt::from(360), at),
+            Some(r) => check_angle(r / BigInt::from(360), at),
             None => Err(ExprError::NotAnAngle {
                 at,
                 function: "deg",
@@ -352,11 +352,11 @@ impl<'a> Parser<'a, '_> {
         }
     }
 
-    fn decimal(&mut self) -> Result<Expr, ExprError> {
+    fn parse_decimal(&mut self) -> Result<Expr, ExprError> {
         let at = self.pos;
         let whole = self.take_while(|b| b.is_ascii_digit());
         let mut fraction = "";
-        let point = self.here() == Some(b'.');
+        let point = self.byte_here() == Some(b'.');
         if point {
             self.pos += 1;
             fraction = self.take_while(|b| b.is_ascii_digit());
@@ -365,10 +365,10 @@ impl<'a> Parser<'a, '_> {
             return Err(ExprError::BadNumber { at });
         }
         let mut exponent = 0i64;
-        if let Some(b'e' | b'E') = self.here() {
+        if let Some(b'e' | b'E') = self.byte_here() {
             self.pos += 1;
-            let negative = self.here() == Some(b'-');
-            if let Some(b'-' | b'+') = self.here() {
+            let negative = self.byte_here() == Some(b'-');
+            if let Some(b'-' | b'+') = self.byte_here() {
                 self.pos += 1;
             }
             let digits = self.take_while(|b| b.is_ascii_digit());
@@ -383,20 +383,21 @@ impl<'a> Parser<'a, '_> {
                 exponent = -exponent;
             }
         }
-        let value = decimal(whole, fraction, exponent).ok_or(ExprError::BadNumber { at })?;
-        let digits = Digits::of(whole, fraction, exponent, point);
+        let value =
+            rational_from_decimal(whole, fraction, exponent).ok_or(ExprError::BadNumber { at })?;
+        let digits = Digits::from_decimal(whole, fraction, exponent, point);
         let written = digits.map_or(WrittenNumber::Whole, WrittenNumber::Decimal);
-        finite(Expr::rational(value).written_as(written), at)
+        check_finite(Expr::rational(value).written_as(written), at)
     }
 
-    fn word(&mut self) -> Result<Value, ExprError> {
+    fn parse_word(&mut self) -> Result<Value, ExprError> {
         let at = self.pos;
         let word = self.take_while(|b| b.is_ascii_alphanumeric() || b == b'_');
         let (function, name) = match word {
             "pi" if self.pi_is_a_number => return Ok(Value::Number(Expr::pi())),
             "pi" => return Ok(Value::Angle(BigRational::new(1.into(), 2.into()))),
             "sqrt" => {
-                let inner = number(self.parentheses()?, at)?;
+                let inner = expect_number(self.parse_parentheses()?, at)?;
                 return inner
                     .sqrt()
                     .map(Value::Number)
@@ -413,13 +414,13 @@ impl<'a> Parser<'a, '_> {
                 };
                 let named = (self.names)(word).ok_or_else(unknown)?;
                 return match named.rational_ref() {
-                    Some(_) => self.degrees(named),
+                    Some(_) => self.parse_degrees(named),
                     None => Ok(Value::Number(named)),
                 };
             }
         };
         let outside = std::mem::replace(&mut self.pi_is_a_number, false);
-        let argument = self.parentheses()?;
+        let argument = self.parse_parentheses()?;
         self.pi_is_a_number = outside;
         let turns = match argument {
             Value::Angle(t) => t,
@@ -439,7 +440,7 @@ impl<'a> Parser<'a, '_> {
         if n > MAX_ANGLE_DENOMINATOR {
             return Err(ExprError::AngleTooFine { at });
         }
-        Expr::trig(function, k, n)
+        Expr::trig_of_turns(function, k, n)
             .map(Value::Number)
             .ok_or(ExprError::Pole { at, function: name })
     }

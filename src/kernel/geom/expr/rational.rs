@@ -20,7 +20,7 @@ pub(crate) static PI: LazyLock<BigRational> = LazyLock::new(|| {
     BigRational::new(digits, BigInt::from(10).pow(40))
 });
 
-pub(super) fn bits(r: &BigRational) -> u64 {
+pub(super) fn bit_size(r: &BigRational) -> u64 {
     r.numer().bits() + r.denom().bits()
 }
 
@@ -34,7 +34,11 @@ pub(crate) fn rational_sqrt(r: &BigRational) -> Option<BigRational> {
 }
 
 /// Returns `whole.fraction * 10^exponent` exactly, or `None` unless both parts are digits.
-pub(super) fn decimal(whole: &str, fraction: &str, exponent: i64) -> Option<BigRational> {
+pub(super) fn rational_from_decimal(
+    whole: &str,
+    fraction: &str,
+    exponent: i64,
+) -> Option<BigRational> {
     let digits = BigInt::parse_bytes(format!("0{whole}{fraction}").as_bytes(), 10)?;
     let exponent = exponent.checked_sub(i64::try_from(fraction.len()).ok()?)?;
     let scale = BigInt::from(10).pow(u32::try_from(exponent.unsigned_abs()).ok()?);
@@ -46,7 +50,7 @@ pub(super) fn decimal(whole: &str, fraction: &str, exponent: i64) -> Option<BigR
 }
 
 /// Reads a fraction of two whole numbers and nothing else. Also returns `None` if it is wider than rationals may be.
-pub(super) fn fraction(text: &str) -> Option<BigRational> {
+pub(super) fn parse_fraction(text: &str) -> Option<BigRational> {
     let (sign, digits) = match text.strip_prefix('-') {
         Some(rest) => (-1, rest),
         None => (1, text),
@@ -63,7 +67,7 @@ pub(super) fn fraction(text: &str) -> Option<BigRational> {
     if denom.is_zero() {
         return None;
     }
-    Some(BigRational::new(numer * sign, denom)).filter(|r| bits(r) <= MAX_BITS)
+    Some(BigRational::new(numer * sign, denom)).filter(|r| bit_size(r) <= MAX_BITS)
 }
 
 #[cfg(test)]

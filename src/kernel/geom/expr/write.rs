@@ -66,7 +66,7 @@ enum Pieces<'a> {
 }
 
 /// Returns the pieces of a node, with its binding strength.
-fn pieces(kind: &NodeKind) -> (u8, Pieces<'_>) {
+fn split_node(kind: &NodeKind) -> (u8, Pieces<'_>) {
     use Task::{Power, Text, Tree};
     let (strength, parts) = match kind {
         NodeKind::Rational(r) => {
@@ -120,7 +120,7 @@ impl fmt::Display for Expr {
                 }
                 Task::Tree(e, least) => (e, least),
             };
-            let (strength, pieces) = pieces(&e.0.kind);
+            let (strength, pieces) = split_node(&e.0.kind);
             let bracketed = strength < least;
             match pieces {
                 Pieces::Whole(text) if bracketed => write!(f, "({text})")?,

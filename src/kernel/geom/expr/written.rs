@@ -19,7 +19,12 @@ impl Digits {
     }
 
     /// Returns the digits of `whole.fraction * 10^exponent`, or `None` for a whole number without a point.
-    pub(super) fn of(whole: &str, fraction: &str, exponent: i64, point: bool) -> Option<Digits> {
+    pub(super) fn from_decimal(
+        whole: &str,
+        fraction: &str,
+        exponent: i64,
+        point: bool,
+    ) -> Option<Digits> {
         if !point && exponent >= 0 {
             return None;
         }

@@ -4,7 +4,7 @@ use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::{One, Zero};
 
-use crate::geom::exact::radical::factor;
+use crate::geom::exact::radical::prime_factors;
 use crate::linalg::number_ring::Element;
 
 /// Returns the minimal polynomial of 2 cos(2π/n) for n > 2, lowest coefficient first, without the leading 1.
@@ -12,7 +12,7 @@ use crate::linalg::number_ring::Element;
 /// With h = φ(n)/2, the cyclotomic polynomial divided by x^h is a sum of terms x^k + x^-k, which are polynomials in x +
 /// 1/x.
 pub(super) fn cosine_relation(n: u64) -> Vec<Element> {
-    let cyclotomic = cyclotomic(n);
+    let cyclotomic = cyclotomic_polynomial(n);
     let h = cyclotomic.len() / 2;
     let mut sum = vec![BigInt::zero(); h + 1];
     // x^k + x^-k for k and k + 1 as polynomials in t = x + 1/x; half of the first, because the middle term is single.
@@ -34,13 +34,13 @@ pub(super) fn cosine_relation(n: u64) -> Vec<Element> {
     }
     sum.pop();
     sum.into_iter()
-        .map(|c| Element::rational(BigRational::from_integer(c)))
+        .map(|c| Element::from_rational(BigRational::from_integer(c)))
         .collect()
 }
 
 /// Returns the cyclotomic polynomial by Möbius inversion: the product of (x^d - 1)^μ(n/d) over the divisors d.
-fn cyclotomic(n: u64) -> Vec<BigInt> {
-    let primes: Vec<u64> = factor(n).into_iter().map(|(q, _)| q).collect();
+fn cyclotomic_polynomial(n: u64) -> Vec<BigInt> {
+    let primes: Vec<u64> = prime_factors(n).into_iter().map(|(q, _)| q).collect();
     let (mut over, mut under) = (Vec::new(), Vec::new());
     for subset in 0..1u32 << primes.len() {
         let chosen = |i: &usize| subset >> i & 1 == 1;

@@ -4,7 +4,7 @@ use num_integer::Integer;
 
 use super::NumberField;
 use crate::geom::exact::plan::root_of_unity;
-use crate::geom::exact::radical::factor;
+use crate::geom::exact::radical::prime_factors;
 use crate::linalg::modp::{Field, Residue, is_prime};
 
 /// Maximum number of candidates in the search for primes.
@@ -23,10 +23,10 @@ impl NumberField {
     /// Returns primes near 2^61 that split the field, with all homomorphisms. Each costs a search of 2^k primes, for k
     /// radicands whose roots reciprocity does not provide.
     pub(crate) fn splittings(&self) -> impl Iterator<Item = Splitting> + '_ {
-        primes(self.modulus).filter_map(|field| self.split(field))
+        fields_from(self.modulus).filter_map(|field| self.split_at(field))
     }
 
-    pub(super) fn split(&self, field: Field) -> Option<Splitting> {
+    pub(super) fn split_at(&self, field: Field) -> Option<Splitting> {
         let mut homomorphisms: Vec<Vec<Residue>> = vec![Vec::new()];
         if self.first_root() == 1 {
             let zeta = self.root_of_unity(field)?;
@@ -39,7 +39,7 @@ impl NumberField {
         for g in self.first_root()..self.ring.generators() {
             let mut more = Vec::with_capacity(2 * homomorphisms.len());
             for images in homomorphisms {
-                let root = field.sqrt(self.radicand(g, field, &images)?)?;
+                let root = field.sqrt(self.radicand_image(g, field, &images)?)?;
                 if root == 0 {
                     return None;
                 }
@@ -64,7 +64,7 @@ impl NumberField {
     pub fn witnesses(&self) -> Option<Vec<(u64, Vec<u64>)>> {
         let first = self.first_root();
         let mut found: Vec<Option<(u64, Vec<u64>)>> = vec![None; self.ring.generators() - first];
-        for field in primes(self.order) {
+        for field in fields_from(self.order) {
             if found.iter().all(Option::is_some) {
                 break;
             }
@@ -76,7 +76,8 @@ impl NumberField {
                 images.push(field.add(zeta, field.inv(zeta)));
             }
             for (g, witness) in (first..).zip(&mut found) {
-                let Some(radicand) = self.radicand(g, field, &images).filter(|&a| a != 0) else {
+                let Some(radicand) = self.radicand_image(g, field, &images).filter(|&a| a != 0)
+                else {
                     break;
                 };
                 let Some(root) = field.sqrt(radicand) else {
@@ -93,20 +94,28 @@ impl NumberField {
     }
 
     /// Returns the image of the number under the root of a generator.
-    fn radicand(&self, generator: usize, field: Field, images: &[Residue]) -> Option<Residue> {
+    fn radicand_image(
+        &self,
+        generator: usize,
+        field: Field,
+        images: &[Residue],
+    ) -> Option<Residue> {
         let constant = self.ring.relation(generator).first()?;
         let monomials = self.ring.monomials(field, images);
-        Some(field.neg(constant.image(field, &monomials)?))
+        Some(field.neg(constant.image_in(field, &monomials)?))
     }
 
     fn root_of_unity(&self, field: Field) -> Option<Residue> {
-        let primes: Vec<u64> = factor(self.order).into_iter().map(|(q, _)| q).collect();
+        let primes: Vec<u64> = prime_factors(self.order)
+            .into_iter()
+            .map(|(q, _)| q)
+            .collect();
         root_of_unity(field, self.order, &primes)
     }
 }
 
 /// Returns the fields of primes 1 modulo a number, from 2^61 on.
-fn primes(modulus: u64) -> impl Iterator<Item = Field> {
+fn fields_from(modulus: u64) -> impl Iterator<Item = Field> {
     let start = (1u64 << 61) / modulus + 1;
     let end = ((1u64 << 62) - 1) / modulus;
     (start..end.min(start.saturating_add(MAX_CANDIDATES)))

@@ -1,7 +1,7 @@
 //! Elements of number rings: coordinates in the basis of monomials.
 
 use crate::linalg::modp::{Field, Residue};
-use crate::linalg::{common_denominator, whole};
+use crate::linalg::{common_denominator, whole_over};
 use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::{One, Zero};
@@ -23,14 +23,14 @@ impl Element {
 
     /// Creates the element of a rational number. O(1).
     #[must_use]
-    pub fn rational(value: BigRational) -> Element {
+    pub fn from_rational(value: BigRational) -> Element {
         Element::new(vec![value])
     }
 
     /// Creates the element of a whole number. O(1).
     #[must_use]
-    pub fn integer(value: i64) -> Element {
-        Element::rational(BigRational::from_integer(BigInt::from(value)))
+    pub fn from_integer(value: i64) -> Element {
+        Element::from_rational(BigRational::from_integer(BigInt::from(value)))
     }
 
     /// Returns the coordinates, without trailing zeros. O(1).
@@ -58,7 +58,7 @@ impl Element {
     /// Returns the image under a homomorphism, from the images of the ring's monomials. Returns `None` if the prime
     /// divides a denominator, or if there are too few monomials. O(length).
     #[must_use]
-    pub fn image(&self, field: Field, monomials: &[Residue]) -> Option<Residue> {
+    pub fn image_in(&self, field: Field, monomials: &[Residue]) -> Option<Residue> {
         if self.0.len() > monomials.len() {
             return None;
         }
@@ -71,7 +71,7 @@ impl Element {
             })
     }
 
-    pub(super) fn scaled(&self, by: &BigRational) -> Element {
+    pub(super) fn scale_by(&self, by: &BigRational) -> Element {
         if by.is_zero() {
             return Element::default();
         }
@@ -96,12 +96,12 @@ impl Element {
 
     /// Returns the coordinates times a common multiple of their denominators. O(length).
     #[must_use]
-    pub fn times(&self, multiple: &BigInt) -> Vec<BigInt> {
-        self.0.iter().map(|q| whole(q, multiple)).collect()
+    pub fn integral_coordinates(&self, multiple: &BigInt) -> Vec<BigInt> {
+        self.0.iter().map(|q| whole_over(q, multiple)).collect()
     }
 
     /// Returns the element of integral coordinates over a denominator. O(length) greatest common divisors.
-    pub(super) fn over(numerators: Vec<BigInt>, denominator: &BigInt) -> Element {
+    pub(super) fn from_integral(numerators: Vec<BigInt>, denominator: &BigInt) -> Element {
         let fraction = |n: BigInt| {
             if n.is_zero() {
                 BigRational::zero()

@@ -5,9 +5,9 @@ use super::*;
 
 /// Returns all relations of points known to this error, along the frame's x.
 fn relations(points: &[Vector], error: f64) -> Vec<Relation> {
-    let [x, ..] = axes();
+    let [x, ..] = frame_axes();
     let errors = vec![error; points.len()];
-    Finder::new(points, &errors, vec![(Exact::of_axis(x), Use::Both)]).all()
+    Finder::new(points, &errors, vec![(Exact::of_axis(x), Use::Both)]).find_all()
 }
 
 fn of_kind(all: &[Relation], kind: RelationKind) -> Vec<&Relation> {

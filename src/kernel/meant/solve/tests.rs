@@ -61,7 +61,7 @@ proptest! {
         stay in prop::collection::vec(prop::bool::weighted(0.2), 3 * POINTS),
     ) {
         let value = |p: usize, k: usize| values[3 * p + k].clone();
-        let found = solve(&rows, &normals, POINTS, value, |p, k| stay[3 * p + k]);
+        let found = solve_rows(&rows, &normals, POINTS, value, |p, k| stay[3 * p + k]);
         let dense: Vec<Vec<Q>> = rows.iter().map(|r| dense(r, &normals, POINTS)).collect();
         // Fixed coordinates are known: the remainder of a row, and its constant.
         let of_free = |r: &Vec<Q>| -> Vec<Q> {
@@ -102,6 +102,6 @@ fn what_grows_too_long_is_given_up() {
     };
     let rows: Vec<PointEquation> = (0..200).map(&mut row).collect();
     let value = |p: usize, k: usize| ratio((p * 31 + k) as i64, 1000);
-    assert!(solve(&rows, &normals, 80, value, |_, _| false).is_none());
-    assert!(solve(&rows[..40], &normals, 80, value, |_, _| false).is_some());
+    assert!(solve_rows(&rows, &normals, 80, value, |_, _| false).is_none());
+    assert!(solve_rows(&rows[..40], &normals, 80, value, |_, _| false).is_some());
 }

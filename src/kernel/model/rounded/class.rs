@@ -30,7 +30,7 @@ pub(super) enum NumberKind {
 
 impl NumberKind {
     /// Returns the minimum number of significant digits of a long number.
-    fn least(self) -> usize {
+    fn least_digits(self) -> usize {
         match self {
             NumberKind::Length => LONG_LENGTH,
             NumberKind::Direction => LONG_DIRECTION,
@@ -60,8 +60,8 @@ impl NumberClass {
     }
 
     /// Adds a number.
-    pub(super) fn see(&mut self, e: &Expr, kind: NumberKind) {
-        self.see_from(e, kind.least());
+    pub(super) fn see_number(&mut self, e: &Expr, kind: NumberKind) {
+        self.see_from(e, kind.least_digits());
     }
 
     /// Adds a number that is long from `least` significant digits on.
@@ -99,17 +99,17 @@ impl NumberClass {
 
     /// Returns half the most common unit: of the long decimals, or of all if none is long. If two units are equally
     /// common, the finer one counts.
-    pub(super) fn commonest(&self) -> Option<f64> {
+    pub(super) fn commonest_half_unit(&self) -> Option<f64> {
         self.most
     }
 
     /// Returns the class after all numbers are added, with the most common unit computed.
-    pub(super) fn counted(mut self) -> NumberClass {
-        self.most = self.count();
+    pub(super) fn with_commonest(mut self) -> NumberClass {
+        self.most = self.count_units();
         self
     }
 
-    fn count(&self) -> Option<f64> {
+    fn count_units(&self) -> Option<f64> {
         let of = if self.is_long() {
             &self.long
         } else {
@@ -130,9 +130,9 @@ impl NumberClass {
 
     /// Returns half the unit of a decimal of a vector, which is that of its last digit. A short decimal was chosen, and
     /// one in a vector with a finer one may have lost zeros. These have the most common unit.
-    fn decimal(&self, digits: Digits, of: &[Expr], kind: NumberKind) -> f64 {
+    fn decimal_half_unit(&self, digits: Digits, of: &[Expr], kind: NumberKind) -> f64 {
         let (plain, factor) = (half_of(digits.places), digits.factor());
-        let Some(most) = self.commonest() else {
+        let Some(most) = self.commonest_half_unit() else {
             return if digits.end == End::Float {
                 0.0
             } else {
@@ -145,7 +145,7 @@ impl NumberClass {
         if self.zeros || plain <= most {
             return digits.half;
         }
-        let long = |d: &Digits| d.significant >= kind.least();
+        let long = |d: &Digits| d.significant >= kind.least_digits();
         let all = of.iter().filter_map(digits_of).filter(long);
         let finest = all.clone().map(|d| half_of(d.places));
         let finest = finest.fold(f64::INFINITY, f64::min);
@@ -172,12 +172,14 @@ impl NumberClass {
 
     /// Returns half the units of the coordinates of a point, or of one length. `turned` means that directions are
     /// decimals.
-    pub(super) fn lengths(&self, v: &[Expr], turned: bool) -> Vec<f64> {
-        v.iter().map(|e| self.length(e, v, turned)).collect()
+    pub(super) fn length_half_units(&self, v: &[Expr], turned: bool) -> Vec<f64> {
+        v.iter()
+            .map(|e| self.length_half_unit(e, v, turned))
+            .collect()
     }
 
-    fn length(&self, e: &Expr, of: &[Expr], turned: bool) -> f64 {
-        let whole = |factor: f64| match self.commonest() {
+    fn length_half_unit(&self, e: &Expr, of: &[Expr], turned: bool) -> f64 {
+        let whole = |factor: f64| match self.commonest_half_unit() {
             None if turned && self.whole => 0.5 * factor,
             Some(most) if e.to_f64() != 0.0 => most * factor,
             _ => 0.0,
@@ -191,28 +193,34 @@ impl NumberClass {
             {
                 whole(digits.factor())
             }
-            WrittenNumber::Decimal(digits) => self.decimal(digits, of, NumberKind::Length),
+            WrittenNumber::Decimal(digits) => {
+                self.decimal_half_unit(digits, of, NumberKind::Length)
+            }
         }
     }
 
     /// Returns half the unit of a long decimal, or 0 for a shorter one, which was chosen.
     pub(super) fn of_long(&self, e: &Expr, kind: NumberKind) -> f64 {
         match e.written() {
-            WrittenNumber::Decimal(d) if d.significant >= kind.least() && d.end != End::Float => {
-                self.decimal(d, std::slice::from_ref(e), kind)
+            WrittenNumber::Decimal(d)
+                if d.significant >= kind.least_digits() && d.end != End::Float =>
+            {
+                self.decimal_half_unit(d, std::slice::from_ref(e), kind)
             }
             _ => 0.0,
         }
     }
 
     /// Returns half the units of the components of a direction, or of a quaternion.
-    pub(super) fn direction(&self, v: &[Expr]) -> Vec<f64> {
+    pub(super) fn direction_half_units(&self, v: &[Expr]) -> Vec<f64> {
         let chosen = !self.drops_zeros() && is_chosen(v);
         let half = |e: &Expr| match e.written() {
             WrittenNumber::No | WrittenNumber::Whole => 0.0,
             WrittenNumber::Stated(half) => half,
             WrittenNumber::Decimal(_) if chosen => 0.0,
-            WrittenNumber::Decimal(digits) => self.decimal(digits, v, NumberKind::Direction),
+            WrittenNumber::Decimal(digits) => {
+                self.decimal_half_unit(digits, v, NumberKind::Direction)
+            }
         };
         v.iter().map(half).collect()
     }

@@ -26,7 +26,7 @@ pub struct Doubt {
 impl Doubt {
     /// Returns the fraction if it is not a coincidence.
     #[must_use]
-    pub fn simple(&self) -> Option<&BigRational> {
+    pub fn simple_fraction(&self) -> Option<&BigRational> {
         Some(&self.fraction).filter(|_| self.likely)
     }
 }
@@ -37,7 +37,7 @@ impl Doubt {
 /// # Complexity
 /// O(digits) divisions.
 #[must_use]
-pub fn doubt(ratio: &Expr) -> Option<Doubt> {
+pub fn doubt_ratio(ratio: &Expr) -> Option<Doubt> {
     let WrittenNumber::Decimal(digits) = ratio.written() else {
         return None;
     };
@@ -47,7 +47,7 @@ pub fn doubt(ratio: &Expr) -> Option<Doubt> {
     if !low.is_positive() {
         return None;
     }
-    let size = simplest(&low, &high);
+    let size = simplest_between(&low, &high);
     if size == value.abs() {
         return None;
     }
@@ -69,15 +69,15 @@ pub fn doubt(ratio: &Expr) -> Option<Doubt> {
 /// only if it is almost a simple fraction.
 #[must_use]
 pub fn doubt_of(coupling: &Coupling) -> Option<Doubt> {
-    let [a, b] = coupling.ends.map(|e| e.freedom.slides());
-    doubt(&coupling.ratio).filter(|d| d.likely || a == b)
+    let [a, b] = coupling.ends.map(|e| e.freedom.is_slide());
+    doubt_ratio(&coupling.ratio).filter(|d| d.likely || a == b)
 }
 
 /// Returns the fraction with the smallest denominator between one positive number and a larger one.
 ///
 /// # Sources
 /// Graham, Knuth & Patashnik, "Concrete Mathematics", 1994, 4.5: the Stern-Brocot tree, as continued fractions.
-fn simplest(low: &BigRational, high: &BigRational) -> BigRational {
+fn simplest_between(low: &BigRational, high: &BigRational) -> BigRational {
     let (mut low, mut high) = (low.clone(), high.clone());
     let mut parts: Vec<BigInt> = Vec::new();
     let last = loop {
@@ -107,7 +107,8 @@ mod tests {
 
     #[test]
     fn decimals_that_stand_for_fractions_are_doubted() {
-        let meant = |s: &str| doubt(&s.parse::<Expr>().unwrap()).map(|d| d.fraction.to_string());
+        let meant =
+            |s: &str| doubt_ratio(&s.parse::<Expr>().unwrap()).map(|d| d.fraction.to_string());
         for (text, fraction) in [
             ("-0.6667", "-2/3"),
             ("0.33", "1/3"),

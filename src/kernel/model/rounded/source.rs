@@ -29,18 +29,18 @@ pub struct Largest {
 impl Sources {
     /// Returns the largest half units of long decimals, by the rules of [`uncertainties`](super::uncertainties), or
     /// `None` if there are none.
-    pub fn largest(&self) -> Option<Largest> {
+    pub fn largest_half_units(&self) -> Option<Largest> {
         let (mut lengths, mut directions) = (NumberClass::default(), NumberClass::default());
         self.lengths
             .iter()
-            .for_each(|e| lengths.see(e, NumberKind::Length));
+            .for_each(|e| lengths.see_number(e, NumberKind::Length));
         self.directions
             .iter()
             .for_each(|v| directions.see_direction(v));
         self.angles
             .iter()
-            .for_each(|e| directions.see(e, NumberKind::Direction));
-        let [lengths, directions] = [lengths, directions].map(NumberClass::counted);
+            .for_each(|e| directions.see_number(e, NumberKind::Direction));
+        let [lengths, directions] = [lengths, directions].map(NumberClass::with_commonest);
         if !lengths.is_long() && !directions.is_long() {
             return None;
         }
@@ -49,7 +49,7 @@ impl Sources {
         let of = |v: &Vec<Expr>| {
             let real: Vec<f64> = v.iter().map(Expr::to_f64).collect();
             let norm = norm(&real);
-            let halves = directions.direction(v);
+            let halves = directions.direction_half_units(v);
             let most = halves.into_iter().fold(0.0, f64::max);
             if norm > 0.0 { most / norm } else { 0.0 }
         };

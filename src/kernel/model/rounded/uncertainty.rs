@@ -3,7 +3,7 @@
 use super::class::{NumberClass, NumberKind};
 use super::ratio::doubt_of;
 use crate::geom::expr::{End, Expr, WrittenNumber};
-use crate::geom::vector::{self, real};
+use crate::geom::vector::{self, to_vector};
 use crate::model::joint_type::Coupling;
 use crate::model::mechanism::{Frame, Joint, Mechanism, Mode};
 use std::collections::BTreeMap;
@@ -59,7 +59,7 @@ impl Uncertainties {
     /// Returns equal half units for all numbers of the joints: of lengths, and of directions of length 1.
     #[must_use]
     pub fn uniform(mechanism: &Mechanism, length: f64, direction: f64) -> Uncertainties {
-        let of = |v: &[Expr; 3]| [direction * vector::length(real(v)); 3];
+        let of = |v: &[Expr; 3]| [direction * vector::length(to_vector(v)); 3];
         let frames = mechanism.joints.iter().map(|j| FrameUncertainty {
             point: [length; 3],
             axis: of(&j.frame.axis),
@@ -74,13 +74,13 @@ impl Uncertainties {
 
     /// Returns the largest half units of points, and of directions of length 1.
     #[must_use]
-    pub fn largest(&self, mechanism: &Mechanism) -> [f64; 2] {
+    pub fn largest_half_units(&self, mechanism: &Mechanism) -> [f64; 2] {
         let most = |v: &[f64; 3]| v.iter().copied().fold(0.0, f64::max);
         let frames = mechanism.joints.iter().map(|j| &j.frame);
         let directions = frames
             .zip(&self.frames)
             .flat_map(|(f, half)| [(&f.axis, &half.axis), (&f.reference, &half.reference)]);
-        let directions = directions.map(|(v, h)| most(h) / vector::length(real(v)));
+        let directions = directions.map(|(v, h)| most(h) / vector::length(to_vector(v)));
         let points = self.frames.iter().map(|half| most(&half.point));
         [points.fold(0.0, f64::max), directions.fold(0.0, f64::max)]
     }
@@ -119,7 +119,7 @@ struct Reading {
 /// O(n log n) for n numbers.
 #[must_use]
 pub fn uncertainties(mechanism: &Mechanism) -> Option<Uncertainties> {
-    let mut reading = Reading::of(mechanism);
+    let mut reading = Reading::of_mechanism(mechanism);
     let ratio = |c: &Coupling| doubt_of(c).map_or(0.0, |d| d.half);
     let ratios: Vec<f64> = mechanism.couplings.iter().map(ratio).collect();
     if !reading.rounded && ratios.iter().all(|r| *r == 0.0) {
@@ -131,17 +131,19 @@ pub fn uncertainties(mechanism: &Mechanism) -> Option<Uncertainties> {
         ..Uncertainties::default()
     };
     for joint in &mechanism.joints {
-        let (half, numbers) = reading.frame(&joint.frame);
+        let (half, numbers) = reading.read_frame(&joint.frame);
         out.frames.push(half);
         out.numbers.push(numbers);
-        let offered = joint.offered().map(|o| reading.frame(&o.frame).0);
+        let offered = joint
+            .offered_options()
+            .map(|o| reading.read_frame(&o.frame).0);
         out.option_frames.push(offered.collect());
     }
     let points = mechanism.points.iter();
-    let points = points.map(|p| reading.vector(&p.point, NumberKind::Length).0);
+    let points = points.map(|p| reading.read_vector(&p.point, NumberKind::Length).0);
     out.points = points.collect();
     if let Mode::Planar { normal } = &mechanism.mode {
-        out.normal = reading.vector(normal, NumberKind::Direction).0;
+        out.normal = reading.read_vector(normal, NumberKind::Direction).0;
     }
     out.distinct = reading.distinct;
     Some(out)
@@ -167,19 +169,19 @@ fn is_turned(mechanism: &Mechanism) -> bool {
 }
 
 impl Reading {
-    fn of(mechanism: &Mechanism) -> Reading {
+    fn of_mechanism(mechanism: &Mechanism) -> Reading {
         let [mut lengths, mut directions] = [NumberClass::default(), NumberClass::default()];
         let mut stated = false;
         let mut see = |v: &[Expr], kind: NumberKind| {
             let says = |e: &Expr| matches!(e.written(), WrittenNumber::Stated(half) if half > 0.0);
             stated |= v.iter().any(says);
             match kind {
-                NumberKind::Length => v.iter().for_each(|e| lengths.see(e, kind)),
+                NumberKind::Length => v.iter().for_each(|e| lengths.see_number(e, kind)),
                 NumberKind::Direction => directions.see_direction(v),
             }
         };
         let own = mechanism.joints.iter().map(|j| &j.frame);
-        let offered = mechanism.joints.iter().flat_map(|j| j.offered());
+        let offered = mechanism.joints.iter().flat_map(|j| j.offered_options());
         for frame in own.chain(offered.map(|o| &o.frame)) {
             see(&frame.point, NumberKind::Length);
             see(&frame.axis, NumberKind::Direction);
@@ -194,7 +196,7 @@ impl Reading {
         if let Mode::Planar { normal } = &mechanism.mode {
             see(normal, NumberKind::Direction);
         }
-        let [lengths, directions] = [lengths, directions].map(NumberClass::counted);
+        let [lengths, directions] = [lengths, directions].map(NumberClass::with_commonest);
         let rounded = stated || lengths.is_long() || directions.is_long();
         Reading {
             turned: directions.is_long() && is_turned(mechanism),
@@ -211,19 +213,22 @@ impl Reading {
         if !self.rounded {
             return [0.0; 2];
         }
-        let lengths = self.lengths.commonest();
+        let lengths = self.lengths.commonest_half_unit();
         let whole = self.turned && self.lengths.has_whole();
         let lengths = lengths.unwrap_or(if whole { 0.5 } else { 0.0 });
-        [lengths, self.directions.commonest().unwrap_or(0.0)]
+        [
+            lengths,
+            self.directions.commonest_half_unit().unwrap_or(0.0),
+        ]
     }
 
-    fn frame(&mut self, f: &Frame) -> (FrameUncertainty, FrameNumbers) {
+    fn read_frame(&mut self, f: &Frame) -> (FrameUncertainty, FrameNumbers) {
         let [point, axis, reference] = [
             (&f.point, NumberKind::Length),
             (&f.axis, NumberKind::Direction),
             (&f.reference, NumberKind::Direction),
         ]
-        .map(|(v, kind)| self.vector(v, kind));
+        .map(|(v, kind)| self.read_vector(v, kind));
         let of = FrameUncertainty {
             point: point.0,
             axis: axis.0,
@@ -232,7 +237,7 @@ impl Reading {
             pitch: if is_whole(&f.pitch) {
                 0.0
             } else {
-                self.lengths(std::slice::from_ref(&f.pitch))[0]
+                self.length_half_units(std::slice::from_ref(&f.pitch))[0]
             },
         };
         let numbers = FrameNumbers {
@@ -243,17 +248,17 @@ impl Reading {
         (of, numbers)
     }
 
-    fn lengths(&self, v: &[Expr]) -> Vec<f64> {
+    fn length_half_units(&self, v: &[Expr]) -> Vec<f64> {
         if !self.rounded {
             return vec![0.0; v.len()];
         }
-        self.lengths.lengths(v, self.turned)
+        self.lengths.length_half_units(v, self.turned)
     }
 
-    fn vector(&mut self, v: &[Expr; 3], kind: NumberKind) -> ([f64; 3], [Option<usize>; 3]) {
+    fn read_vector(&mut self, v: &[Expr; 3], kind: NumberKind) -> ([f64; 3], [Option<usize>; 3]) {
         let halves = match kind {
-            NumberKind::Length => self.lengths(v),
-            NumberKind::Direction if self.rounded => self.directions.direction(v),
+            NumberKind::Length => self.length_half_units(v),
+            NumberKind::Direction if self.rounded => self.directions.direction_half_units(v),
             NumberKind::Direction => Vec::new(),
         };
         let halves = [0, 1, 2].map(|i| halves.get(i).copied().unwrap_or(0.0));

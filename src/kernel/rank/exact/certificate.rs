@@ -18,11 +18,11 @@
 //! ```
 
 use crate::closure::Closure;
-use crate::closure::coupling::coefficients;
+use crate::closure::coupling::coupling_coefficients;
 use crate::geom::exact::ExactError;
 use crate::geom::number_field::{NumberField, NumberFieldError};
 use crate::model::mechanism::{Mechanism, StateId};
-use crate::rank::exact::field::{coordinates, normal};
+use crate::rank::exact::field::{frame_coordinates, plane_normal};
 use crate::rank::exact::kernel::Kernel;
 pub use crate::rank::exact::kernel::{Budget, NoCertificate};
 pub use crate::verify::certificate::Certificate;
@@ -41,11 +41,11 @@ pub fn number_field(
     let frames = mechanism
         .joints_in(state)
         .map(|j| &mechanism.joints[j].frame);
-    let couplings = coefficients(mechanism, state);
+    let couplings = coupling_coefficients(mechanism, state);
     NumberField::for_expressions(
         frames
-            .flat_map(coordinates)
-            .chain(normal(mechanism))
+            .flat_map(frame_coordinates)
+            .chain(plane_normal(mechanism))
             .chain(&couplings),
     )
 }
@@ -57,13 +57,13 @@ pub fn number_field(
 ///
 /// # Complexity
 /// O(entries) operations in the field.
-pub fn matrix(
+pub fn closure_matrix(
     field: &NumberField,
     mechanism: &Mechanism,
     state: StateId,
 ) -> Result<MatrixOverRing, ExactError> {
     let closure = Closure::new(field, mechanism, state)?;
-    let columns = closure.dense(field);
+    let columns = closure.dense_columns(field);
     let size = [closure.rows(), columns.len()];
     let entries = columns.into_iter().enumerate().flat_map(|(c, column)| {
         column
@@ -85,7 +85,7 @@ pub fn matrix(
 ///
 /// # Complexity
 /// As [`certify_matrix`].
-pub fn certify(mechanism: &Mechanism, state: StateId) -> Result<Certificate, NoCertificate> {
+pub fn certify_state(mechanism: &Mechanism, state: StateId) -> Result<Certificate, NoCertificate> {
     certify_within(mechanism, state, Budget::default())
 }
 
@@ -102,7 +102,7 @@ pub(crate) fn certify_within(
     budget: Budget,
 ) -> Result<Certificate, NoCertificate> {
     let field = number_field(mechanism, state)?;
-    let matrix = matrix(&field, mechanism, state)?;
+    let matrix = closure_matrix(&field, mechanism, state)?;
     certify_matrix(&field, &matrix, &mechanism.states[state], budget)
 }
 
@@ -132,7 +132,7 @@ pub fn certify_matrix(
             .map(|(prime, images)| Witness { prime, images })
             .collect(),
     };
-    Kernel::new(field, matrix, budget).run(|minor, kernel| {
+    Kernel::new(field, matrix, budget).find_kernel(|minor, kernel| {
         let certificate = Certificate {
             state: state.to_owned(),
             rows: matrix.rows(),
@@ -142,7 +142,7 @@ pub fn certify_matrix(
             minor,
             kernel,
         };
-        match verify::check(matrix, &certificate) {
+        match verify::check_certificate(matrix, &certificate) {
             Ok(_) => Ok(Some(certificate)),
             // Some numbers were settled too early.
             Err(Flaw::NotInKernel { .. }) => Ok(None),

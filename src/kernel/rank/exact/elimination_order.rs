@@ -90,14 +90,14 @@ impl EliminationPlan {
         }
     }
 
-    pub(in crate::rank) fn passes(&self, joint: JointId) -> &[(usize, bool)] {
+    pub(in crate::rank) fn contours_through(&self, joint: JointId) -> &[(usize, bool)] {
         match self.passes_from.get(joint.index()..joint.index() + 2) {
             Some(range) => &self.passes[range[0]..range[1]],
             None => &[],
         }
     }
 
-    pub(in crate::rank) fn columns<'a>(
+    pub(in crate::rank) fn columns_of_joint<'a>(
         &self,
         closure: &'a Closure<Residue>,
         joint: JointId,

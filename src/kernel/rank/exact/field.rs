@@ -1,14 +1,14 @@
 //! The prime fields in which the coordinates of a mechanism have values.
 
 use crate::closure::Closure;
-use crate::closure::coupling::{coefficient, coefficients, length_ratio};
+use crate::closure::coupling::{coupling_coefficient, coupling_coefficients, length_ratio};
 use crate::geom::exact::{ExactError, ExactField};
 use crate::geom::expr::Expr;
 use crate::linalg::modp::Residue;
 use crate::model::mechanism::{Frame, JointOption, Mechanism, Mode, StateId};
 
 /// Returns the coordinates of a joint's frame.
-pub(in crate::rank) fn coordinates(frame: &Frame) -> impl Iterator<Item = &Expr> {
+pub(in crate::rank) fn frame_coordinates(frame: &Frame) -> impl Iterator<Item = &Expr> {
     frame
         .point
         .iter()
@@ -18,7 +18,7 @@ pub(in crate::rank) fn coordinates(frame: &Frame) -> impl Iterator<Item = &Expr>
 }
 
 /// Returns the coordinates of the plane's normal, or nothing if there is none.
-pub(in crate::rank) fn normal(mechanism: &Mechanism) -> &[Expr] {
+pub(in crate::rank) fn plane_normal(mechanism: &Mechanism) -> &[Expr] {
     match &mechanism.mode {
         Mode::Spatial => &[],
         Mode::Planar { normal } => normal,
@@ -37,9 +37,12 @@ pub fn field_of(
     let frames = mechanism
         .joints_in(state)
         .map(|j| &mechanism.joints[j].frame);
-    let couplings = coefficients(mechanism, state);
-    let of_frames = frames.flat_map(coordinates);
-    ExactField::for_expressions(of_frames.chain(normal(mechanism)).chain(&couplings), nth)
+    let couplings = coupling_coefficients(mechanism, state);
+    let of_frames = frames.flat_map(frame_coordinates);
+    ExactField::for_expressions(
+        of_frames.chain(plane_normal(mechanism)).chain(&couplings),
+        nth,
+    )
 }
 
 /// Returns the exact field of the joints present in a state, and J of the state in it.
@@ -67,8 +70,8 @@ pub fn exact_field(mechanism: &Mechanism, nth: usize) -> Result<ExactField, Exac
             .chain(j.unloading.iter().map(|o| &o.frame))
     });
     let couplings = coupling_expressions(mechanism);
-    let of_frames = frames.flat_map(coordinates);
-    let others = normal(mechanism).iter().chain(&couplings);
+    let of_frames = frames.flat_map(frame_coordinates);
+    let others = plane_normal(mechanism).iter().chain(&couplings);
     ExactField::for_expressions(of_frames.chain(others), nth)
 }
 
@@ -76,7 +79,7 @@ pub fn exact_field(mechanism: &Mechanism, nth: usize) -> Result<ExactField, Exac
 fn coupling_expressions(mechanism: &Mechanism) -> Vec<Expr> {
     let mut out = Vec::new();
     for coupling in &mechanism.couplings {
-        out.push(coefficient(mechanism, coupling));
+        out.push(coupling_coefficient(mechanism, coupling));
         for end in coupling.ends {
             let joint = &mechanism.joints[end.joint];
             let present = (&joint.frame, end.freedom);

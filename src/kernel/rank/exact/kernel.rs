@@ -148,7 +148,7 @@ impl<'a> Kernel<'a> {
 
     /// Adds primes until the kernel stops changing and `confirm` accepts it. `confirm` gets the minor and the vectors,
     /// and returns `None` if they were settled too early.
-    pub(in crate::rank) fn run<T>(
+    pub(in crate::rank) fn find_kernel<T>(
         mut self,
         mut confirm: impl FnMut(Minor, Vec<KernelVector>) -> Result<Option<T>, NoCertificate>,
     ) -> Result<T, NoCertificate> {
@@ -160,7 +160,7 @@ impl<'a> Kernel<'a> {
             if used >= self.budget.primes {
                 return Err(NoCertificate::TooManyPrimes { primes: used });
             }
-            let views = self.views(&splitting);
+            let views = self.kernel_at_prime(&splitting);
             let worse = |views: &Views| {
                 let found = self.found.as_ref();
                 found.is_some_and(|(p, _)| *p != views.pivots && views.pivots.worse_than(p))
@@ -195,12 +195,12 @@ impl<'a> Kernel<'a> {
             };
             let mut quiet = self.modulus.primes() > 0;
             for (unknown, &residue) in self.unknowns.iter_mut().zip(&views.coordinates) {
-                quiet &= unknown.see(f, residue, &self.modulus, inverse);
+                quiet &= unknown.see_residue(f, residue, &self.modulus, inverse);
             }
             self.modulus.extend(f);
             let primes = self.modulus.primes();
             if quiet {
-                let vectors = self.vectors();
+                let vectors = self.current_vectors();
                 self.operations += self.cost_of_checking(&vectors);
                 self.within_budget()?;
                 if let Some((_, minor)) = &self.found
@@ -217,7 +217,7 @@ impl<'a> Kernel<'a> {
             }
             // Reconstruction costs the square of the number of primes, so it is not tried after every prime.
             if primes >= attempt {
-                self.settle()?;
+                self.settle_numbers()?;
                 attempt = primes + 1 + primes / 8;
             }
             self.within_budget()?;
@@ -246,7 +246,7 @@ impl<'a> Kernel<'a> {
     }
 
     /// Reconstructs the open numbers, as far as the budget allows.
-    fn settle(&mut self) -> Result<(), NoCertificate> {
+    fn settle_numbers(&mut self) -> Result<(), NoCertificate> {
         let primes = self.modulus.primes() as u64;
         let pivots = self.found.as_ref().map_or(0, |(p, _)| p.columns.len());
         let of_vector = (pivots * self.field.ring().dimension()).max(1);
@@ -254,7 +254,7 @@ impl<'a> Kernel<'a> {
         for vector in self.unknowns.chunks_mut(of_vector) {
             let mut denominator = BigInt::one();
             for unknown in vector {
-                self.operations += match unknown.settle(&self.modulus, &mut denominator) {
+                self.operations += match unknown.settle_fraction(&self.modulus, &mut denominator) {
                     Settled::Before => 0,
                     Settled::Cheaply => 4 * primes * primes,
                     Settled::Newly => {
@@ -280,13 +280,13 @@ impl<'a> Kernel<'a> {
 
     /// Returns the pivots and the coordinates of the kernel at a prime. Returns `None` if its homomorphisms disagree,
     /// or if the prime divides a denominator or the discriminant.
-    fn views(&mut self, splitting: &Splitting) -> Option<Views> {
+    fn kernel_at_prime(&mut self, splitting: &Splitting) -> Option<Views> {
         let (f, ring) = (splitting.field, self.field.ring());
         let mut values: Vec<Vec<Residue>> = Vec::new();
         let mut images: Vec<Image> = Vec::new();
         for homomorphism in &splitting.homomorphisms {
             let monomials = ring.monomials(f, homomorphism);
-            let image = self.image(f, &monomials)?;
+            let image = self.kernel_image(f, &monomials)?;
             if images
                 .first()
                 .is_some_and(|first| first.pivots.columns != image.pivots.columns)
@@ -297,7 +297,7 @@ impl<'a> Kernel<'a> {
             values.push(monomials);
         }
         let degree = values.len();
-        let inverse = inverted(f, values)?;
+        let inverse = invert_matrix(f, values)?;
         let count = images.first()?.entries.len();
         let mut coordinates = vec![0; count * degree];
         for (i, out) in coordinates.chunks_mut(degree).enumerate() {
@@ -327,17 +327,17 @@ impl<'a> Kernel<'a> {
     }
 
     /// Returns the reduced kernel under one homomorphism.
-    fn image(&self, f: Field, monomials: &[Residue]) -> Option<Image> {
+    fn kernel_image(&self, f: Field, monomials: &[Residue]) -> Option<Image> {
         let width = self.matrix.columns();
         let mut rows = vec![vec![f.zero(); width]; self.matrix.rows()];
         for (row, column, entry) in self.matrix.entries() {
-            rows[row][column] = entry.image(f, monomials)?;
+            rows[row][column] = entry.image_in(f, monomials)?;
         }
         let mut echelon = Echelon::new(f);
         let independent: Vec<usize> = (0..rows.len())
             .filter(|&r| echelon.insert(&rows[r]))
             .collect();
-        let reduced = echelon.reduced();
+        let reduced = echelon.reduced_rows();
         let columns = echelon.pivots();
         let entries = free_columns(&columns, width)
             .flat_map(|free| reduced.iter().map(move |row| f.neg(row[free])))
@@ -352,7 +352,7 @@ impl<'a> Kernel<'a> {
     }
 
     /// Returns the vectors in their current state.
-    fn vectors(&self) -> Vec<KernelVector> {
+    fn current_vectors(&self) -> Vec<KernelVector> {
         let Some((pivots, _)) = &self.found else {
             return Vec::new();
         };
@@ -375,7 +375,7 @@ impl<'a> Kernel<'a> {
                     .filter(|(_, x)| !x.is_zero())
                     .collect();
                 let at = entries.partition_point(|(c, _)| *c < free);
-                entries.insert(at, (free, Element::integer(1)));
+                entries.insert(at, (free, Element::from_integer(1)));
                 KernelVector { free, entries }
             })
             .collect()
@@ -387,15 +387,15 @@ fn free_columns(pivots: &[usize], width: usize) -> impl Iterator<Item = usize> {
 }
 
 /// Inverts a square matrix, in O(n³). Returns `None` if it is singular.
-fn inverted(f: Field, m: Vec<Vec<Residue>>) -> Option<Vec<Vec<Residue>>> {
+fn invert_matrix(f: Field, m: Vec<Vec<Residue>>) -> Option<Vec<Vec<Residue>>> {
     let size = m.len();
     let beside_unit = m.into_iter().enumerate().map(|(i, mut row)| {
         row.resize(2 * size, f.zero());
         row[size + i] = f.one();
         row
     });
-    let span = Echelon::of(f, beside_unit);
+    let span = Echelon::from_vectors(f, beside_unit);
     let regular = span.pivots().into_iter().eq(0..size);
-    let rows = span.reduced().into_iter();
+    let rows = span.reduced_rows().into_iter();
     regular.then(|| rows.map(|row| row[size..].to_vec()).collect())
 }

@@ -32,7 +32,7 @@ use crate::rank::method::{About, Answer, Certainty, MobilityMethod, NoAnswer, Ra
 /// contours costs another O(k·w·k/64) operations on words. The total is never more than O(w) times the dense
 /// elimination.
 #[must_use]
-pub fn rank(exact: &ExactField, closure: &Closure<Residue>) -> usize {
+pub fn rank_modulo(exact: &ExactField, closure: &Closure<Residue>) -> usize {
     let plan = EliminationPlan::new(closure);
     let mut work = Work {
         field: exact.field(),
@@ -43,7 +43,7 @@ pub fn rank(exact: &ExactField, closure: &Closure<Residue>) -> usize {
         rank: 0,
     };
     for &c in &plan.order {
-        work.eliminate(closure, c);
+        work.eliminate_contour(closure, c);
     }
     work.rank
 }
@@ -74,7 +74,7 @@ struct Work<'a> {
 
 impl Work<'_> {
     /// Forms the front of a contour, eliminates the pivots of its rows, and passes on the remainder.
-    fn eliminate(&mut self, closure: &Closure<Residue>, c: usize) {
+    fn eliminate_contour(&mut self, closure: &Closure<Residue>, c: usize) {
         let (plan, dim) = (self.plan, closure.dim);
         self.rest[c].slot = 0;
         let mut height = dim;
@@ -102,16 +102,18 @@ impl Work<'_> {
         };
         // Columns with entries in this contour only, then those shared with others.
         for own in [true, false] {
-            for j in joints().filter(|&j| (plan.passes(j).len() == 1) == own) {
+            for j in joints().filter(|&j| (plan.contours_through(j).len() == 1) == own) {
                 // A joint enters the front of the first of its contours in the order.
                 let first = |&(i, _): &(usize, bool)| plan.place[i] >= plan.place[c];
-                if plan.passes(j).is_empty() || !plan.passes(j).iter().all(first) {
+                if plan.contours_through(j).is_empty()
+                    || !plan.contours_through(j).iter().all(first)
+                {
                     continue;
                 }
-                for (index, column) in plan.columns(closure, j) {
+                for (index, column) in plan.columns_of_joint(closure, j) {
                     let at = self.front.len();
                     self.front.resize(at + height, 0);
-                    for &(i, forward) in plan.passes(j) {
+                    for &(i, forward) in plan.contours_through(j) {
                         let block = &mut self.front[at + self.rest[i].slot..][..dim];
                         if let Some(q) = i.checked_sub(closure.contours.len()) {
                             let entries = &closure.couplings[q].entries;
@@ -139,7 +141,7 @@ impl Work<'_> {
             }
             child = self.rest[x].sibling;
         }
-        self.rank += pivots(self.field, &mut self.front, height, dim);
+        self.rank += eliminate_rows(self.field, &mut self.front, height, dim);
         let Some(parent) = next else { return };
         let from = self.left.len();
         for column in self.front.chunks_exact(height) {
@@ -149,7 +151,7 @@ impl Work<'_> {
         }
         let width = height - dim;
         if self.left.len() - from > width * width {
-            let basis = independent(self.field, &mut self.left[from..], width);
+            let basis = independent_columns(self.field, &mut self.left[from..], width);
             self.left.truncate(from);
             self.left.extend_from_slice(&basis);
         }
@@ -162,7 +164,7 @@ impl Work<'_> {
 
 /// Eliminates the first `rows` rows of a list of columns of equal height. Columns that become pivots are set to zero;
 /// the others end with zeros in those rows. Returns the number of pivots.
-fn pivots(field: Field, columns: &mut [Residue], height: usize, rows: usize) -> usize {
+fn eliminate_rows(field: Field, columns: &mut [Residue], height: usize, rows: usize) -> usize {
     let one = field.one();
     let mut found = 0;
     let mut rest = columns;
@@ -174,7 +176,7 @@ fn pivots(field: Field, columns: &mut [Residue], height: usize, rows: usize) -> 
             // Columns of this contour only are the most common, and end with its rows.
             let end = u.iter().rposition(|&x| x != 0).map_or(0, |e| e + 1);
             for v in later.chunks_exact_mut(height) {
-                combine(field, v, &u[..end], p);
+                clear_entry(field, v, &u[..end], p);
             }
             u.fill(0);
         }
@@ -185,7 +187,7 @@ fn pivots(field: Field, columns: &mut [Residue], height: usize, rows: usize) -> 
 
 /// Clears entry `p` of `v` with the column `u`, which is zero beyond its length.
 #[inline]
-fn combine(field: Field, v: &mut [Residue], u: &[Residue], p: usize) {
+fn clear_entry(field: Field, v: &mut [Residue], u: &[Residue], p: usize) {
     let (a, b) = (v[p], u[p]);
     if a == 0 {
         return;
@@ -201,7 +203,7 @@ fn combine(field: Field, v: &mut [Residue], u: &[Residue], p: usize) {
     let (near, far) = v.split_at_mut(u.len());
     for (x, &y) in near.iter_mut().zip(u) {
         if *x != 0 || y != 0 {
-            *x = field.cross(b, *x, a, y);
+            *x = field.difference_of_products(b, *x, a, y);
         }
     }
     for x in far.iter_mut().filter(|x| **x != 0) {
@@ -210,14 +212,14 @@ fn combine(field: Field, v: &mut [Residue], u: &[Residue], p: usize) {
 }
 
 /// Returns a basis of the span of columns of equal height.
-fn independent(field: Field, columns: &mut [Residue], height: usize) -> Vec<Residue> {
+fn independent_columns(field: Field, columns: &mut [Residue], height: usize) -> Vec<Residue> {
     let mut basis = Vec::with_capacity(height * height);
     let mut rest = columns;
     while rest.len() >= height {
         let (u, later) = rest.split_at_mut(height);
         if let Some(p) = u.iter().position(|&x| x != 0) {
             for v in later.chunks_exact_mut(height) {
-                combine(field, v, u, p);
+                clear_entry(field, v, u, p);
             }
             basis.extend_from_slice(u);
         }
@@ -244,7 +246,7 @@ impl MobilityMethod for Modular {
     }
     fn answer(&self, mechanism: &Mechanism, state: StateId) -> Result<Answer, NoAnswer> {
         let (exact, closure) = closure_of(mechanism, state, 0)?;
-        let (freedoms, rank) = (closure.columns.len(), rank(&exact, &closure));
+        let (freedoms, rank) = (closure.columns.len(), rank_modulo(&exact, &closure));
         Ok(Answer::at_pose(freedoms, rank, Certainty::Exact))
     }
 }

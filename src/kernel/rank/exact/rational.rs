@@ -5,7 +5,7 @@ use num_traits::Zero;
 use std::collections::BTreeMap;
 
 use crate::model::mechanism::{Mechanism, StateId};
-use crate::rank::exact::certificate::{matrix, number_field};
+use crate::rank::exact::certificate::{closure_matrix, number_field};
 use crate::rank::method::{About, Answer, Certainty, MobilityMethod, NoAnswer, RankOfJ};
 use crate::verify::matrix::MatrixOverRing;
 
@@ -16,7 +16,7 @@ use crate::verify::matrix::MatrixOverRing;
 /// # Complexity
 /// O(rank · rows · columns) operations on fractions whose length may grow in proportion to the rank.
 #[must_use]
-pub fn rank(matrix: &MatrixOverRing) -> Option<usize> {
+pub fn rational_rank(matrix: &MatrixOverRing) -> Option<usize> {
     let mut rows: Vec<BTreeMap<usize, BigRational>> = vec![BTreeMap::new(); matrix.rows()];
     for (row, column, entry) in matrix.entries() {
         rows[row].insert(column, entry.as_rational()?);
@@ -67,8 +67,9 @@ impl MobilityMethod for Rational {
     fn answer(&self, mechanism: &Mechanism, state: StateId) -> Result<Answer, NoAnswer> {
         let field = number_field(mechanism, state)
             .map_err(|_| NoAnswer::DoesNotApply("coordinates are not rational"))?;
-        let matrix = matrix(&field, mechanism, state)?;
-        let rank = rank(&matrix).ok_or(NoAnswer::DoesNotApply("coordinates are not rational"))?;
+        let matrix = closure_matrix(&field, mechanism, state)?;
+        let rank =
+            rational_rank(&matrix).ok_or(NoAnswer::DoesNotApply("coordinates are not rational"))?;
         Ok(Answer::at_pose(matrix.columns(), rank, Certainty::Exact))
     }
 }

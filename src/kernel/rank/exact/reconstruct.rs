@@ -18,7 +18,7 @@ const SPARE_BITS: u64 = 24;
 ///
 /// Runs half of Euclid's algorithm on m and x, in O(log² m) bit operations.
 #[must_use]
-pub(crate) fn rational(x: &BigInt, m: &BigInt) -> Option<BigRational> {
+pub(crate) fn reconstruct_rational(x: &BigInt, m: &BigInt) -> Option<BigRational> {
     let bound = (m / 2u32).sqrt();
     let (mut r0, mut r1) = (m.clone(), x.mod_floor(m));
     let (mut t0, mut t1) = (BigInt::zero(), BigInt::one());
@@ -88,7 +88,7 @@ impl Unknown {
     /// Adds the residue modulo one more prime. Returns false if it contradicts the settled fraction. `inverse` is the
     /// inverse of the product of the earlier primes, in the field. O(primes) if open, O(size of the fraction) if
     /// settled.
-    pub(crate) fn see(
+    pub(crate) fn see_residue(
         &mut self,
         field: Field,
         residue: Residue,
@@ -121,7 +121,11 @@ impl Unknown {
     ///
     /// `denominator` is tried first, and becomes a multiple of the one found. The numbers of a vector mostly share one,
     /// and a product is much cheaper than Euclid's algorithm. O(primes²) if open.
-    pub(crate) fn settle(&mut self, modulus: &Modulus, denominator: &mut BigInt) -> Settled {
+    pub(crate) fn settle_fraction(
+        &mut self,
+        modulus: &Modulus,
+        denominator: &mut BigInt,
+    ) -> Settled {
         let Unknown::Open(x) = self else {
             return Settled::Before;
         };
@@ -135,7 +139,7 @@ impl Unknown {
             *self = Unknown::Settled(BigRational::new(numerator, denominator.clone()));
             return Settled::Cheaply;
         }
-        match rational(x, m).filter(|q| short(q.numer(), q.denom())) {
+        match reconstruct_rational(x, m).filter(|q| short(q.numer(), q.denom())) {
             Some(q) => {
                 *denominator = denominator.lcm(q.denom());
                 *self = Unknown::Settled(q);
@@ -182,10 +186,10 @@ mod tests {
             let mut quiet = 0;
             for p in (1u64 << 61..).filter(|&p| is_prime(p)).take(12) {
                 let f = Field::new(p);
-                let agreed = unknown.see(f, f.from_rational(&q).unwrap(), &modulus, inverse_of(&modulus, f).unwrap());
+                let agreed = unknown.see_residue(f, f.from_rational(&q).unwrap(), &modulus, inverse_of(&modulus, f).unwrap());
                 quiet = if agreed { quiet + 1 } else { 0 };
                 modulus.extend(f);
-                unknown.settle(&modulus, &mut BigInt::one());
+                unknown.settle_fraction(&modulus, &mut BigInt::one());
             }
             prop_assert!(quiet > 2);
             prop_assert!(matches!(unknown, Unknown::Settled(x) if x == q));

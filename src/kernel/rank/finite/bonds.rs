@@ -15,10 +15,10 @@
 //! robot that only turns about z may be able to turn otherwise, but do not. The mobility found is then a lower bound.
 
 use crate::closure::Closure;
-use crate::closure::tree::forest;
+use crate::closure::tree::spanning_forest;
 use crate::geom::Scalars;
 use crate::geom::exact::{ExactError, ExactField};
-use crate::linalg::echelon::{Echelon, combination, rank, relations};
+use crate::linalg::echelon::{Echelon, linear_combination, linear_relations, rank_of};
 use crate::linalg::modp::Residue;
 use crate::model::mechanism::{LinkId, Mechanism, Mode};
 use crate::rank::finite::displacement_group::{is_group, passed_twists};
@@ -36,7 +36,7 @@ struct BondPart {
 
 impl BondPart {
     /// Creates a part with all displacements of a group.
-    fn group(basis: Vec<Twist>) -> BondPart {
+    fn from_group(basis: Vec<Twist>) -> BondPart {
         BondPart {
             span: basis.clone(),
             within: basis,
@@ -75,7 +75,7 @@ impl Chain {
 ///
 /// # Complexity
 /// O(p²) products of algebras for p freedoms.
-pub fn mobility(
+pub fn mobility_by_bonds(
     exact: &ExactField,
     mechanism: &Mechanism,
     closure: &Closure<Residue>,
@@ -91,7 +91,7 @@ pub fn mobility(
             ends: mechanism.joints[j].links,
             parts: passed
                 .into_iter()
-                .map(|(_, t)| BondPart::group(vec![t]))
+                .map(|(_, t)| BondPart::from_group(vec![t]))
                 .collect(),
         });
     }
@@ -101,12 +101,12 @@ pub fn mobility(
         mobility: 0,
     };
     let links: Vec<LinkId> = mechanism.link_ids().collect();
-    while bonds.join(&links)
-        || bonds.parallelogram()
-        || bonds.merge()
-        || bonds.close()
+    while bonds.join_chains(&links)
+        || bonds.replace_parallelogram()
+        || bonds.merge_neighbours()
+        || bonds.close_chain()
         || bonds.side_by_side()
-        || bonds.narrow()
+        || bonds.narrow_groups()
     {}
     Ok(bonds.chains.is_empty().then_some(bonds.mobility))
 }
@@ -120,7 +120,7 @@ struct Bonds<'a> {
 
 impl Bonds<'_> {
     /// Joins two chains that meet at a link with no other chain. A chain with a free end moves freely.
-    fn join(&mut self, links: &[LinkId]) -> bool {
+    fn join_chains(&mut self, links: &[LinkId]) -> bool {
         for &link in links {
             let at: Vec<usize> = (0..self.chains.len())
                 .filter(|&c| self.chains[c].ends.contains(&link))
@@ -153,7 +153,7 @@ impl Bonds<'_> {
 
     /// Merges neighbours whose twists span a subalgebra into one group. In a closed chain the last part is a neighbour
     /// of the first.
-    fn merge(&mut self) -> bool {
+    fn merge_neighbours(&mut self) -> bool {
         for c in 0..self.chains.len() {
             let chain = &self.chains[c];
             let (n, closed) = (chain.parts.len(), chain.is_closed());
@@ -162,12 +162,12 @@ impl Bonds<'_> {
                     let mut turned = chain.parts.clone();
                     turned.rotate_left(from);
                     let (part, rest) = turned.split_at(length);
-                    let Some(group) = self.spanned(part) else {
+                    let Some(group) = self.spanned_algebra(part) else {
                         continue;
                     };
                     let all: usize = part.iter().map(|p| p.span.len()).sum();
                     self.mobility += all - group.len();
-                    let mut parts = vec![BondPart::group(group)];
+                    let mut parts = vec![BondPart::from_group(group)];
                     parts.extend_from_slice(rest);
                     if !closed {
                         parts.rotate_right(from);
@@ -182,7 +182,7 @@ impl Bonds<'_> {
 
     /// Closes a chain on itself. A closed chain of two groups moves in their intersection; one of a single group does
     /// not move.
-    fn close(&mut self) -> bool {
+    fn close_chain(&mut self) -> bool {
         let Some(c) = self.chains.iter().position(|c| {
             c.is_closed() && c.parts.len() <= 2 && c.parts.iter().all(BondPart::is_group)
         }) else {
@@ -190,7 +190,7 @@ impl Bonds<'_> {
         };
         let chain = self.chains.remove(c);
         if let [a, b] = &chain.parts[..] {
-            self.mobility += common(self.exact, &a.span, &b.span).len();
+            self.mobility += intersect_spans(self.exact, &a.span, &b.span).len();
         }
         true
     }
@@ -208,7 +208,9 @@ impl Bonds<'_> {
                     continue;
                 }
                 let parts = match (&x.parts[..], &y.parts[..]) {
-                    ([a], [b]) => vec![BondPart::group(common(self.exact, &a.span, &b.span))],
+                    ([a], [b]) => vec![BondPart::from_group(intersect_spans(
+                        self.exact, &a.span, &b.span,
+                    ))],
                     _ => Vec::new(),
                 };
                 self.chains[a].parts = parts;
@@ -221,7 +223,7 @@ impl Bonds<'_> {
 
     /// Returns the algebra that some parts span together, if the span is an algebra and contains all their
     /// displacements.
-    fn spanned(&self, parts: &[BondPart]) -> Option<Vec<Twist>> {
+    fn spanned_algebra(&self, parts: &[BondPart]) -> Option<Vec<Twist>> {
         let mut span = Echelon::new(self.exact.field());
         let mut basis: Vec<&Twist> = Vec::new();
         for t in parts.iter().flat_map(|p| &p.span) {
@@ -236,17 +238,17 @@ impl Bonds<'_> {
 }
 
 /// Returns a basis of the intersection of two spans, each given by independent vectors.
-pub(in crate::rank) fn common(exact: &ExactField, a: &[Twist], b: &[Twist]) -> Vec<Twist> {
+pub(in crate::rank) fn intersect_spans(exact: &ExactField, a: &[Twist], b: &[Twist]) -> Vec<Twist> {
     let field = exact.field();
     let both: Vec<Twist> = a.iter().chain(b).cloned().collect();
-    let relations = relations(field, &both);
-    let of_first = |factors: &Vec<Residue>| combination(field, a, &factors[..a.len()]);
+    let relations = linear_relations(field, &both);
+    let of_first = |factors: &Vec<Residue>| linear_combination(field, a, &factors[..a.len()]);
     relations.iter().map(of_first).collect()
 }
 
 impl Bonds<'_> {
     /// Replaces two bars of a parallelogram by one part that slides on a circle.
-    fn parallelogram(&mut self) -> bool {
+    fn replace_parallelogram(&mut self) -> bool {
         for b in 0..self.chains.len() {
             for a in 0..b {
                 let other = &self.chains[b];
@@ -254,7 +256,7 @@ impl Bonds<'_> {
                     c if c.ends == self.chains[a].ends => c,
                     c => c.reversed(),
                 };
-                if let Some(part) = self.circle(&self.chains[a], &other) {
+                if let Some(part) = self.circular_slide(&self.chains[a], &other) {
                     self.chains[a].parts = vec![part];
                     self.chains.remove(b);
                     return true;
@@ -265,12 +267,12 @@ impl Bonds<'_> {
     }
 
     /// Returns the slide on a circle of two chains that are bars of a parallelogram.
-    fn circle(&self, a: &Chain, b: &Chain) -> Option<BondPart> {
+    fn circular_slide(&self, a: &Chain, b: &Chain) -> Option<BondPart> {
         if a.ends != b.ends || a.is_closed() {
             return None;
         }
-        let [near, far] = self.hinges(a)?;
-        let [near_too, far_too] = self.hinges(b)?;
+        let [near, far] = self.hinge_twists(a)?;
+        let [near_too, far_too] = self.hinge_twists(b)?;
         let field = self.exact.field();
         let difference = |x: &Twist, y: &Twist| -> Twist {
             x.iter().zip(y).map(|(&x, &y)| field.sub(x, y)).collect()
@@ -279,7 +281,7 @@ impl Bonds<'_> {
         // The axes must be parallel, the bars equal, and the points not all on a line.
         let slides = |t: &Twist| t[..3].iter().all(|&x| x == 0);
         let equal = along == difference(&near_too, &far_too);
-        let apart = rank(field, [&along[..], &across[..]]) == 2;
+        let apart = rank_of(field, [&along[..], &across[..]]) == 2;
         (slides(&along) && slides(&across) && equal && apart).then(|| BondPart {
             span: vec![along.clone()],
             within: vec![along, across],
@@ -287,7 +289,7 @@ impl Bonds<'_> {
     }
 
     /// Returns the twists of a chain of two hinges about parallel axes, with the same angular velocity.
-    fn hinges(&self, chain: &Chain) -> Option<[Twist; 2]> {
+    fn hinge_twists(&self, chain: &Chain) -> Option<[Twist; 2]> {
         let [first, second] = &chain.parts[..] else {
             return None;
         };
@@ -309,21 +311,21 @@ impl Bonds<'_> {
     }
 
     /// Restricts groups of which every instantaneous motion uses only a subgroup.
-    fn narrow(&mut self) -> bool {
-        let motions = relations(self.exact.field(), &self.columns());
+    fn narrow_groups(&mut self) -> bool {
+        let motions = linear_relations(self.exact.field(), &self.closure_columns());
         let mut narrowed = false;
         let mut at = 0;
         for c in 0..self.chains.len() {
             let mut kept = Vec::new();
             for part in self.chains[c].parts.clone() {
                 let width = part.span.len();
-                let used = self.used(&part, motions.iter().map(|m| &m[at..at + width]));
+                let used = self.used_twists(&part, motions.iter().map(|m| &m[at..at + width]));
                 at += width;
                 let fewer = used.len() < width && (part.is_group() || used.is_empty());
                 if fewer && is_group(self.exact, &used) {
                     narrowed = true;
                     if !used.is_empty() {
-                        kept.push(BondPart::group(used));
+                        kept.push(BondPart::from_group(used));
                     }
                 } else {
                     kept.push(part);
@@ -335,7 +337,7 @@ impl Bonds<'_> {
     }
 
     /// Returns a basis of the twists of a part in some motions, given by the weights of its twists.
-    fn used<'a>(
+    fn used_twists<'a>(
         &self,
         part: &BondPart,
         motions: impl Iterator<Item = &'a [Residue]>,
@@ -343,13 +345,13 @@ impl Bonds<'_> {
         let field = self.exact.field();
         let mut span = Echelon::new(field);
         motions
-            .map(|weights| combination(field, &part.span, weights))
+            .map(|weights| linear_combination(field, &part.span, weights))
             .filter(|t| span.insert(t))
             .collect()
     }
 
     /// Returns the columns of the closure matrix of the chains: six rows for each chain outside a spanning forest.
-    fn columns(&self) -> Vec<Vec<Residue>> {
+    fn closure_columns(&self) -> Vec<Vec<Residue>> {
         let field = self.exact.field();
         let links = self.chains.iter().map(|c| c.ends.map(LinkId::index));
         let nodes = links.clone().flatten().max().map_or(0, |l| l + 1);
@@ -357,7 +359,7 @@ impl Bonds<'_> {
         // For each link, the chains from a root to it, each with its direction of passage.
         let mut paths: Vec<Vec<(usize, i32)>> = vec![Vec::new(); nodes];
         let mut closing: Vec<usize> = (0..self.chains.len()).collect();
-        for step in forest(nodes, links, |_| false, starts).1 {
+        for step in spanning_forest(nodes, links, |_| false, starts).1 {
             let sign = if step.forward { 1 } else { -1 };
             paths[step.link] = [&paths[step.from][..], &[(step.joint, sign)]].concat();
             closing.retain(|&c| c != step.joint);
@@ -390,7 +392,7 @@ impl Bonds<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::model::drawn::{drawn, hinges};
+    use crate::model::drawn::{draw_mechanism, hinges};
     use crate::model::mechanism::StateId;
     use crate::rank::exact::field::field_of;
 
@@ -405,10 +407,14 @@ mod tests {
                 let high = f64::from(u8::try_from(i).unwrap());
                 (if swapped { [b, a] } else { [a, b] }, [0.0, 0.0, high])
             };
-            let m = drawn(&hinges(&(0..6).map(pair).collect::<Vec<_>>()), &[]);
+            let m = draw_mechanism(&hinges(&(0..6).map(pair).collect::<Vec<_>>()), &[]);
             let exact = field_of(&m, StateId::FREE, 0).unwrap();
             let closure = Closure::new(&exact, &m, StateId::FREE).unwrap();
-            assert_eq!(mobility(&exact, &m, &closure).unwrap(), Some(2), "{turned}");
+            assert_eq!(
+                mobility_by_bonds(&exact, &m, &closure).unwrap(),
+                Some(2),
+                "{turned}"
+            );
         }
     }
 }

@@ -14,14 +14,18 @@ use crate::closure::twist::{FrameValues, MotionSpace, joint_twists};
 use crate::closure::{Closure, Column};
 use crate::geom::Scalars;
 use crate::geom::exact::{ExactError, ExactField};
-use crate::linalg::echelon::{Echelon, combination, relations};
+use crate::linalg::echelon::{Echelon, linear_combination, linear_relations};
 use crate::linalg::modp::Residue;
 use crate::model::joint_type::Freedom;
 use crate::model::mechanism::{JointId, Mechanism, Mode, StateId};
 use itertools::Itertools;
 
 /// Returns the bracket of two twists, [ω1 × ω2; ω1 × v2 + v1 × ω2].
-pub(in crate::rank) fn bracket(exact: &ExactField, a: &[Residue], b: &[Residue]) -> Vec<Residue> {
+pub(in crate::rank) fn lie_bracket(
+    exact: &ExactField,
+    a: &[Residue],
+    b: &[Residue],
+) -> Vec<Residue> {
     let three = |t: &[Residue], at: usize| [t[at], t[at + 1], t[at + 2]];
     let (wa, va, wb, vb) = (three(a, 0), three(a, 3), three(b, 0), three(b, 3));
     let w = exact.cross(wa, wb);
@@ -36,7 +40,7 @@ pub(in crate::rank) fn is_group<T: AsRef<[Residue]>>(exact: &ExactField, twists:
     let mut span = Echelon::new(exact.field());
     let mut pairs = twists.iter().tuple_combinations();
     twists.iter().all(|t| span.insert(t.as_ref()))
-        && pairs.all(|(a, b)| span.contains(&bracket(exact, a.as_ref(), b.as_ref())))
+        && pairs.all(|(a, b)| span.contains(&lie_bracket(exact, a.as_ref(), b.as_ref())))
 }
 
 /// Returns the six-component twists of a joint's freedoms, restricted to those that planar mode keeps.
@@ -51,7 +55,7 @@ pub(in crate::rank) fn spatial_twists(
         .joint_type
         .freedoms()
         .iter()
-        .map(|&f| values.twist(exact, f).to_vec())
+        .map(|&f| values.twist_of(exact, f).to_vec())
         .collect())
 }
 
@@ -63,7 +67,7 @@ pub(in crate::rank) fn passed_twists(
 ) -> Result<Vec<(Freedom, Vec<Residue>)>, ExactError> {
     let twists = spatial_twists(exact, mechanism, joint)?;
     let joint_type = &mechanism.joints[joint].joint_type;
-    let order = joint_type.passed();
+    let order = joint_type.freedoms_in_series();
     let mut passed: Vec<_> = joint_type.freedoms().iter().copied().zip(twists).collect();
     passed.sort_by_key(|(f, _)| order.iter().position(|g| g == f));
     Ok(passed)
@@ -100,11 +104,11 @@ pub(crate) fn group_dimension(
             (_, r) => r,
         });
     }
-    Ok(algebra(exact, mechanism, contour.joints.iter().map(|&(j, _)| j))?.len())
+    Ok(generated_algebra(exact, mechanism, contour.joints.iter().map(|&(j, _)| j))?.len())
 }
 
 /// Returns a basis of the Lie algebra that the twists of some joints generate.
-fn algebra(
+fn generated_algebra(
     exact: &ExactField,
     mechanism: &Mechanism,
     joints: impl IntoIterator<Item = JointId>,
@@ -124,7 +128,7 @@ fn algebra(
     let mut next = 0;
     while next < basis.len() && basis.len() < 6 {
         for other in 0..next {
-            let t = bracket(exact, &basis[next], &basis[other]);
+            let t = lie_bracket(exact, &basis[next], &basis[other]);
             if span.insert(&t) {
                 basis.push(t);
             }
@@ -259,21 +263,21 @@ pub(in crate::rank) fn group_of(
     mechanism: &Mechanism,
     joints: impl IntoIterator<Item = JointId>,
 ) -> Result<DisplacementGroup, ExactError> {
-    let basis = algebra(exact, mechanism, joints)?;
+    let basis = generated_algebra(exact, mechanism, joints)?;
     let field = exact.field();
-    let turns = Echelon::of(field, basis.iter().map(|t| &t[..3]));
+    let turns = Echelon::from_vectors(field, basis.iter().map(|t| &t[..3]));
     // Combinations without a turn are the slides.
     let parts: Vec<Vec<Residue>> = basis.iter().map(|t| t[..3].to_vec()).collect();
-    let slides: Vec<[Residue; 3]> = relations(field, &parts)
+    let slides: Vec<[Residue; 3]> = linear_relations(field, &parts)
         .iter()
-        .map(|factors| combination(field, &basis, factors))
+        .map(|factors| linear_combination(field, &basis, factors))
         .map(|t| [t[3], t[4], t[5]])
         .collect();
     let axis = turns
-        .reduced()
+        .reduced_rows()
         .first()
         .map_or([0; 3], |t| [t[0], t[1], t[2]]);
-    let whole = Echelon::of(field, &basis);
+    let whole = Echelon::from_vectors(field, &basis);
     let across = slides.iter().all(|&v| exact.dot(v, axis) == 0);
     // Slides across the axis do not affect the slide coupled to a turn. An independent slide along the axis allows a
     // turn with any pitch.

@@ -25,7 +25,7 @@ use crate::geom::exact::{ExactError, ExactField};
 use crate::linalg::echelon::Echelon;
 use crate::linalg::modp::{Field, Residue};
 use crate::model::mechanism::Mechanism;
-use crate::motion::displacement_series::{self, Series, hat};
+use crate::motion::displacement_series::{self, Series, twist_matrix};
 use crate::motion::pose::Pose;
 use crate::rank::finite::higher_order::line::Solved;
 use crate::rank::finite::power_series::Monomials;
@@ -82,15 +82,15 @@ impl HigherOrder {
             .iter()
             .map(|c| in_space(exact, &space, &c.twist))
             .collect();
-        let walks = walks(closure, pose);
-        let span = Echelon::of(field, beside_unit(field, closure, &twists, &walks));
+        let walks = contour_walks(closure, pose);
+        let span = Echelon::from_vectors(field, beside_unit(field, closure, &twists, &walks));
         // Pivots beyond J belong to its dependent rows.
         let mut pivots = span.pivots();
         pivots.retain(|&p| p < f);
         if pivots.len() != rank {
             return Ok(None);
         }
-        let matrix = span.reduced();
+        let matrix = span.reduced_rows();
         let free = (0..f)
             .filter(|c| !pivots.contains(c))
             .map(|c| (c, (0..rank).map(|i| field.neg(matrix[i][c])).collect()))
@@ -112,19 +112,20 @@ impl HigherOrder {
     /// # Complexity
     /// At most `WORK` products and as many again for the Macaulay matrices.
     #[must_use]
-    pub fn isolated(&self, m: usize) -> Option<usize> {
+    pub fn isolating_degree(&self, m: usize) -> Option<usize> {
         if m == 1 {
-            return self.line(ORDER).stopped;
+            return self.random_line(ORDER).stopped;
         }
         let f = self.twists.len();
         let mut monomials = Monomials::new(m);
-        let mut q = self.subspace(m);
+        let mut q = self.random_subspace(m);
         let mut g: Vec<Vec<Residue>> = vec![Vec::new(); self.solve.len() - self.pivots.len()];
         let mut work = 0;
         for degree in 2..=DEGREE {
             monomials.extend(degree);
-            let terms = monomials.count();
-            let products = f * (27 + degree) * monomials.pairs() + self.solve.len().pow(2) * terms;
+            let terms = monomials.count_monomials();
+            let products =
+                f * (27 + degree) * monomials.count_pairs() + self.solve.len().pow(2) * terms;
             work += products;
             if work > WORK {
                 return None;
@@ -134,7 +135,7 @@ impl HigherOrder {
             let gaps: Vec<Vec<Residue>> = self
                 .walks
                 .iter()
-                .flat_map(|walk| gaps(self.field, &self.twists, walk, &q, &monomials))
+                .flat_map(|walk| contour_gaps(self.field, &self.twists, walk, &q, &monomials))
                 .collect();
             for t in monomials.of_degree(degree) {
                 for (i, row) in self.solve.iter().enumerate() {
@@ -160,37 +161,41 @@ impl HigherOrder {
 
     /// Expands one motion in a random direction, to a higher order than is possible for several together.
     #[must_use]
-    pub fn line(&self, order: usize) -> Line {
-        let speeds: Vec<Residue> = self.subspace(1).iter().map(|q| q[1]).collect();
-        line::line(&self.solved(), &speeds, None, order).0
+    pub fn random_line(&self, order: usize) -> Line {
+        let speeds: Vec<Residue> = self.random_subspace(1).iter().map(|q| q[1]).collect();
+        line::expand_line(&self.as_solved(), &speeds, None, order).0
     }
 
     /// Expands a motion in the direction of these weights of the free coordinates, to an order. Returns the outcome,
     /// and the coordinates of all columns as series from t¹ on.
     #[must_use]
-    pub(crate) fn motion(&self, weights: &[Residue], order: usize) -> (Line, Vec<Vec<Residue>>) {
-        line::line(&self.solved(), &self.speeds(weights), None, order)
+    pub(crate) fn motion_along(
+        &self,
+        weights: &[Residue],
+        order: usize,
+    ) -> (Line, Vec<Vec<Residue>>) {
+        line::expand_line(&self.as_solved(), &self.speeds_along(weights), None, order)
     }
 
     /// Expands a motion with free coordinates of these weights times t, and of further ones times t².
     #[must_use]
     pub(super) fn bent_line(&self, weights: &[Residue], bent: &[Residue], order: usize) -> Line {
-        let [speeds, bent] = [weights, bent].map(|w| self.speeds(w));
-        line::line(&self.solved(), &speeds, Some(&bent), order).0
+        let [speeds, bent] = [weights, bent].map(|w| self.speeds_along(w));
+        line::expand_line(&self.as_solved(), &speeds, Some(&bent), order).0
     }
 
     /// Returns the equations in the free coordinates to second order at these weights.
     #[must_use]
-    pub(super) fn second(&self, weights: &[Residue]) -> Vec<Residue> {
-        line::second(&self.solved(), &self.speeds(weights))
+    pub(super) fn second_order(&self, weights: &[Residue]) -> Vec<Residue> {
+        line::second_order(&self.as_solved(), &self.speeds_along(weights))
     }
 
     /// Returns the field and the number of free coordinates.
-    pub(crate) fn free(&self) -> (Field, usize) {
+    pub(crate) fn free_coordinates(&self) -> (Field, usize) {
         (self.field, self.free.len())
     }
 
-    fn solved(&self) -> Solved<'_> {
+    fn as_solved(&self) -> Solved<'_> {
         Solved {
             field: self.field,
             twists: &self.twists,
@@ -201,7 +206,7 @@ impl HigherOrder {
     }
 
     /// Returns the coordinates to first order, if the free ones have these weights.
-    fn speeds(&self, weights: &[Residue]) -> Vec<Residue> {
+    fn speeds_along(&self, weights: &[Residue]) -> Vec<Residue> {
         let mut q = vec![0; self.twists.len()];
         for ((c, speeds), &x) in self.free.iter().zip(weights) {
             q[*c] = x;
@@ -214,7 +219,7 @@ impl HigherOrder {
 
     /// Returns the coordinates to first order in `m` variables that span a random subspace of the instantaneous
     /// motions.
-    fn subspace(&self, m: usize) -> Vec<Vec<Residue>> {
+    fn random_subspace(&self, m: usize) -> Vec<Vec<Residue>> {
         let mut random = 0x9e37_79b9_7f4a_7c15_u64;
         let mut any = || {
             // xorshift64*: any numbers unrelated to the geometry are enough.
@@ -230,7 +235,7 @@ impl HigherOrder {
         let mut q: Vec<Vec<Residue>> = vec![vec![0]; self.twists.len()];
         for v in 0..m {
             let along: Vec<Residue> = weights.iter().map(|w| w[v]).collect();
-            let speeds = self.speeds(&along);
+            let speeds = self.speeds_along(&along);
             q.iter_mut().zip(speeds).for_each(|(q, x)| q.push(x));
         }
         q
@@ -257,7 +262,7 @@ fn in_space(exact: &ExactField, space: &MotionSpace<Residue>, twist: &[Residue])
 }
 
 /// Returns the contours as columns with their directions, within a joint in the order of the poses.
-fn walks(closure: &Closure<Residue>, pose: &Pose) -> Vec<Vec<(usize, bool)>> {
+fn contour_walks(closure: &Closure<Residue>, pose: &Pose) -> Vec<Vec<(usize, bool)>> {
     let order = |c: usize| {
         let column = &closure.columns[c];
         pose.columns
@@ -313,7 +318,7 @@ type SeriesMotion = [[Series; 4]; 3];
 
 /// Returns the six gaps of a contour, given by its columns with their directions, if the coordinates `q` of these
 /// columns are series.
-fn gaps(
+fn contour_gaps(
     f: Field,
     twists: &[Vec<Residue>],
     walk: &[(usize, bool)],
@@ -346,7 +351,7 @@ fn gaps(
 fn identity(f: Field, monomials: &Monomials) -> SeriesMotion {
     let mut out: SeriesMotion = Default::default();
     for (i, row) in out.iter_mut().enumerate() {
-        row.fill(vec![0; monomials.count()]);
+        row.fill(vec![0; monomials.count_monomials()]);
         row[i][0] = f.one();
     }
     out
@@ -356,7 +361,7 @@ fn identity(f: Field, monomials: &Monomials) -> SeriesMotion {
 /// power of the angle over its factorial.
 fn exp(f: Field, twist: &[Residue], angle: &Series, monomials: &Monomials) -> SeriesMotion {
     let mut out = identity(f, monomials);
-    let hat = hat(f, &std::array::from_fn(|i| twist[i]));
+    let hat = twist_matrix(f, &std::array::from_fn(|i| twist[i]));
     let (mut matrix, mut power) = (hat, angle.clone());
     for n in 2.. {
         let entries = out.iter_mut().flatten().zip(matrix.iter().flatten());
@@ -378,7 +383,7 @@ fn product(f: Field, a: &SeriesMotion, b: &SeriesMotion, monomials: &Monomials) 
         let shift = if j == 3 {
             a[i][3].clone()
         } else {
-            vec![0; monomials.count()]
+            vec![0; monomials.count_monomials()]
         };
         (0..3).fold(shift, |mut sum, k| {
             let more = monomials.product(f, &a[i][k], &b[k][j]);

@@ -25,21 +25,23 @@
 //! across form the group of the face, next to it. Rolling, next to the part, commutes with the slide.
 
 use crate::closure::Closure;
-use crate::closure::tree::tied;
+use crate::closure::tree::connected_sets;
 use crate::geom::exact::{ExactError, ExactField};
 use crate::linalg::echelon::Echelon;
 use crate::linalg::modp::Residue;
 use crate::model::joint_type::{Freedom, JointType};
 use crate::model::mechanism::{JointId, LinkId, Mechanism, Mode, Role, StateId};
-use crate::rank::finite::bonds::common;
-use crate::rank::finite::displacement_group::{bracket, is_group, passed_twists, spatial_twists};
+use crate::rank::finite::bonds::intersect_spans;
+use crate::rank::finite::displacement_group::{
+    is_group, lie_bracket, passed_twists, spatial_twists,
+};
 
 /// Returns the joints of each part, in file order. Joints in no contour and no coupling belong to no part.
 ///
 /// # Complexity
 /// O(n log n) for contours of n joints in all.
 #[must_use]
-pub(crate) fn parts<T>(closure: &Closure<T>) -> Vec<Vec<JointId>> {
+pub(crate) fn independent_parts<T>(closure: &Closure<T>) -> Vec<Vec<JointId>> {
     let of_contours = closure
         .contours
         .iter()
@@ -50,12 +52,12 @@ pub(crate) fn parts<T>(closure: &Closure<T>) -> Vec<Vec<JointId>> {
             .map(|&(i, _)| closure.columns[i].joint)
             .collect()
     });
-    tied(of_contours.chain(of_couplings))
+    connected_sets(of_contours.chain(of_couplings))
 }
 
 /// Returns a mechanism with only some of the joints, numbered as before. Its frame is one of their links.
 #[must_use]
-pub(crate) fn alone(mechanism: &Mechanism, joints: &[JointId]) -> Mechanism {
+pub(crate) fn with_joints_only(mechanism: &Mechanism, joints: &[JointId]) -> Mechanism {
     let mut out = mechanism.clone();
     for j in mechanism.joint_ids() {
         if !joints.contains(&j) {
@@ -68,9 +70,9 @@ pub(crate) fn alone(mechanism: &Mechanism, joints: &[JointId]) -> Mechanism {
             .any(|&j| mechanism.joints[j].links.contains(&l))
     };
     if let Some(&first) = joints.first()
-        && !touched(mechanism.frame())
+        && !touched(mechanism.frame_link())
     {
-        let frame = mechanism.frame();
+        let frame = mechanism.frame_link();
         out.links[frame].role = Role::Output;
         out.links[mechanism.joints[first].links[0]].role = Role::Frame;
     }
@@ -106,14 +108,14 @@ pub fn lock_idle(
         let Some([first, others @ ..]) = groups.as_deref() else {
             continue;
         };
-        let shared = others
-            .iter()
-            .fold(first.clone(), |so_far, group| common(exact, &so_far, group));
+        let shared = others.iter().fold(first.clone(), |so_far, group| {
+            intersect_spans(exact, &so_far, group)
+        });
         if others.is_empty() || shared.is_empty() {
             continue;
         }
         // Freedoms of the first joint that extend the common group to all of its own freedoms.
-        let mut span = Echelon::of(exact.field(), &shared);
+        let mut span = Echelon::from_vectors(exact.field(), &shared);
         let joint = &mut mechanism.joints[at[0]];
         let kept = joint.joint_type.freedoms().iter().zip(first);
         let kept = kept
@@ -143,7 +145,7 @@ fn lock_ways(
 ) -> Result<usize, ExactError> {
     let mut locked = 0;
     for link in mechanism.link_ids().collect::<Vec<_>>() {
-        while let Some((joint, kept)) = way(exact, mechanism, state, link)? {
+        while let Some((joint, kept)) = find_idle_motion(exact, mechanism, state, link)? {
             mechanism.joints[joint].joint_type = JointType::Custom(kept);
             locked += 1;
         }
@@ -153,7 +155,7 @@ fn lock_ways(
 
 /// Returns a joint of a link, and the freedoms it keeps if it blocks an idle motion of the link that all its joints
 /// allow.
-fn way(
+fn find_idle_motion(
     exact: &ExactField,
     mechanism: &Mechanism,
     state: StateId,
@@ -166,10 +168,11 @@ fn way(
     }
     let all = at
         .iter()
-        .map(|&j| outward(exact, mechanism, j, link))
+        .map(|&j| freedoms_outward(exact, mechanism, j, link))
         .collect::<Result<Vec<_>, _>>()?;
     for (_, t) in &all[0] {
-        let sharing: Vec<Vec<Freedom>> = all.iter().map(|o| sharing(exact, o, t)).collect();
+        let sharing: Vec<Vec<Freedom>> =
+            all.iter().map(|o| freedoms_sharing(exact, o, t)).collect();
         if sharing.iter().any(Vec::is_empty) {
             continue;
         }
@@ -179,8 +182,8 @@ fn way(
                 let kept = |f: &Freedom| f != held;
                 let left: Vec<Freedom> = before.freedoms().iter().copied().filter(kept).collect();
                 // The remaining freedoms must keep their order.
-                let passed = before.passed().into_iter().filter(kept);
-                if passed.eq(JointType::Custom(left.clone()).passed()) {
+                let passed = before.freedoms_in_series().into_iter().filter(kept);
+                if passed.eq(JointType::Custom(left.clone()).freedoms_in_series()) {
                     return Ok(Some((j, left)));
                 }
             }
@@ -190,7 +193,7 @@ fn way(
 }
 
 /// Returns the freedoms of a joint from a link outwards.
-fn outward(
+fn freedoms_outward(
     exact: &ExactField,
     mechanism: &Mechanism,
     joint: JointId,
@@ -205,20 +208,20 @@ fn outward(
 
 /// Returns the freedoms with a share in a twist, of a group that contains it and is followed only by freedoms that
 /// commute with it. Returns nothing if there is no such group.
-fn sharing(exact: &ExactField, outward: &[(Freedom, Twist)], t: &Twist) -> Vec<Freedom> {
+fn freedoms_sharing(exact: &ExactField, outward: &[(Freedom, Twist)], t: &Twist) -> Vec<Freedom> {
     let field = exact.field();
-    let commutes = |(_, s): &&(Freedom, Twist)| bracket(exact, s, t).iter().all(|&x| x == 0);
+    let commutes = |(_, s): &&(Freedom, Twist)| lie_bracket(exact, s, t).iter().all(|&x| x == 0);
     let commuting = outward.iter().take_while(commutes).count();
     for from in 0..=commuting {
         for to in from + 1..=outward.len() {
             let group = &outward[from..to];
             let twists: Vec<Twist> = group.iter().map(|(_, s)| s.clone()).collect();
-            if !is_group(exact, &twists) || !Echelon::of(field, &twists).contains(t) {
+            if !is_group(exact, &twists) || !Echelon::from_vectors(field, &twists).contains(t) {
                 continue;
             }
             let has_share = |i: &usize| {
                 let others = [&twists[..*i], &twists[i + 1..]].concat();
-                !Echelon::of(field, others).contains(t)
+                !Echelon::from_vectors(field, others).contains(t)
             };
             let shares = (0..twists.len()).filter(has_share);
             return shares.map(|i| group[i].0).collect();

@@ -55,13 +55,18 @@ pub struct Traced {
 /// # Complexity
 /// About W closures of O((6k)² f) each at a regular pose, and a few hundred at a singular one.
 #[must_use]
-pub fn mobility(pose: &Pose, motions: usize, shaky: bool, budget: usize) -> Option<Traced> {
+pub fn mobility_by_following(
+    pose: &Pose,
+    motions: usize,
+    shaky: bool,
+    budget: usize,
+) -> Option<Traced> {
     let mut search = DimensionSearch {
         random: ChaCha8Rng::seed_from_u64(1),
         poses: 0,
         budget,
     };
-    let found = search.dimension(pose, Some(motions), shaky, 1.0, 0)?;
+    let found = search.dimension_at(pose, Some(motions), shaky, 1.0, 0)?;
     Some(Traced {
         mobility: found.from,
         at_most: found.to,
@@ -72,7 +77,7 @@ pub fn mobility(pose: &Pose, motions: usize, shaky: bool, budget: usize) -> Opti
 
 /// Returns the null space of J at a pose: `f - rank` orthonormal columns.
 #[must_use]
-pub fn motions(pose: &Pose) -> Matrix {
+pub fn null_space_of(pose: &Pose) -> Matrix {
     Flat::new(pose, None).kernel
 }
 
@@ -113,7 +118,7 @@ struct DimensionSearch {
 
 impl DimensionSearch {
     /// Returns a random unit vector.
-    fn direction(&mut self, n: usize) -> Vec<f64> {
+    fn random_direction(&mut self, n: usize) -> Vec<f64> {
         // A sum of twelve uniform numbers is close enough to normal, and the same on every machine.
         let mut uniform = || f64::from(self.random.next_u32()) / f64::from(u32::MAX) - 0.5;
         let v: Vec<f64> = (0..n).map(|_| (0..12).map(|_| uniform()).sum()).collect();
@@ -122,7 +127,12 @@ impl DimensionSearch {
     }
 
     /// Returns coordinates near `q` that satisfy all equations best, with the remaining gap. Returns `None` if the budget is spent.
-    fn close(&mut self, pose: &Pose, q: Vec<f64>, beside: Beside<'_>) -> Option<(Vec<f64>, f64)> {
+    fn close_near(
+        &mut self,
+        pose: &Pose,
+        q: Vec<f64>,
+        beside: Beside<'_>,
+    ) -> Option<(Vec<f64>, f64)> {
         if self.poses >= self.budget {
             return None;
         }
@@ -131,11 +141,11 @@ impl DimensionSearch {
             [.., before, gap] => {
                 let earlier = gaps.len().checked_sub(11).map(|i| gaps[i]);
                 let stuck = earlier.is_some_and(|earlier| gap > 0.7 * earlier);
-                stuck || (gap < pose.closed() && gap > 0.1 * before)
+                stuck || (gap < pose.closed_tolerance() && gap > 0.1 * before)
             }
             _ => false,
         };
-        let (q, gap, _) = pose.newton(
+        let (q, gap, _) = pose.close_by_newton(
             q,
             &Newton {
                 hold: &[],
@@ -151,7 +161,7 @@ impl DimensionSearch {
 
     /// Returns whether motions in random directions of some orthonormal columns extend to a distance, or `None` if that is unclear. With
     /// `apart`, each of them has to continue, as required next to a pose where some motion is stopped.
-    fn smooth(
+    fn motions_extend(
         &mut self,
         pose: &Pose,
         span: &Matrix,
@@ -163,8 +173,12 @@ impl DimensionSearch {
         for step in STEPS.map(|s| s * scale) {
             let mut all = true;
             for _ in 0..(n + 1).min(4) {
-                let x = self.direction(n);
-                let q = span.combined(&x).into_iter().map(|v| v * step).collect();
+                let x = self.random_direction(n);
+                let q = span
+                    .combine_columns(&x)
+                    .into_iter()
+                    .map(|v| v * step)
+                    .collect();
                 let beside = |q: &[f64]| -> Vec<(f64, Vec<f64>)> {
                     (0..n)
                         .map(|c| {
@@ -173,8 +187,8 @@ impl DimensionSearch {
                         })
                         .collect()
                 };
-                let (_, gap) = self.close(pose, q, &beside)?;
-                if gap > pose.closed() {
+                let (_, gap) = self.close_near(pose, q, &beside)?;
+                if gap > pose.closed_tolerance() {
                     all = false;
                     open = Some(gap);
                     break;
@@ -182,7 +196,7 @@ impl DimensionSearch {
             }
             if all {
                 // A gap this small at the longer step can vanish at the shorter one only by a high order.
-                if open.is_some_and(|gap| gap <= 1e5 * pose.closed()) {
+                if open.is_some_and(|gap| gap <= 1e5 * pose.closed_tolerance()) {
                     return Some(Some(false));
                 }
                 // Nearby, motions that are stopped by a high order close, too.
@@ -190,7 +204,7 @@ impl DimensionSearch {
             }
         }
         Some(
-            open.is_some_and(|gap| gap > 30.0 * pose.closed())
+            open.is_some_and(|gap| gap > 30.0 * pose.closed_tolerance())
                 .then_some(false),
         )
     }
@@ -203,12 +217,17 @@ impl DimensionSearch {
             let size = norm(q).max(1e-300);
             vec![(size - radius, q.iter().map(|x| x / size).collect())]
         };
-        let (q, gap) = self.close(pose, start, &beside)?;
-        Some((gap < pose.closed()).then_some(q))
+        let (q, gap) = self.close_near(pose, start, &beside)?;
+        Some((gap < pose.closed_tolerance()).then_some(q))
     }
 
     /// Returns the branch that begins in a direction, if there is one.
-    fn branch(&mut self, pose: &Pose, direction: &[f64], scale: f64) -> Option<Option<Branch>> {
+    fn find_branch(
+        &mut self,
+        pose: &Pose,
+        direction: &[f64],
+        scale: f64,
+    ) -> Option<Option<Branch>> {
         for radius in SPHERES.map(|s| s * scale) {
             let Some(first) = self.on_sphere(pose, direction, radius)? else {
                 continue;
@@ -218,7 +237,7 @@ impl DimensionSearch {
             while r * INWARD > FOLLOWED.start * scale {
                 r *= INWARD;
                 match self.on_sphere(pose, &near, r)? {
-                    Some(next) if alike(&near, &next) => near = next,
+                    Some(next) if nearly_parallel(&near, &next) => near = next,
                     _ => {
                         joined = false;
                         break;
@@ -232,7 +251,7 @@ impl DimensionSearch {
             while r / INWARD < FOLLOWED.end * scale {
                 r /= INWARD;
                 match self.on_sphere(pose, &far, r)? {
-                    Some(next) if alike(&far, &next) => far = next,
+                    Some(next) if nearly_parallel(&far, &next) => far = next,
                     _ => break,
                 }
             }
@@ -242,7 +261,7 @@ impl DimensionSearch {
     }
 
     /// Returns the dimensions at a pose. `shaky` means that not all instantaneous motions are known to extend.
-    fn dimension(
+    fn dimension_at(
         &mut self,
         pose: &Pose,
         motions: Option<usize>,
@@ -262,7 +281,7 @@ impl DimensionSearch {
             });
         }
         if !shaky {
-            match self.smooth(pose, &flat.kernel, scale, depth > 0)? {
+            match self.motions_extend(pose, &flat.kernel, scale, depth > 0)? {
                 Some(true) => return Some(DimensionsFound::exactly(n, true)),
                 Some(false) => {}
                 None => return Some(DimensionsFound::between(0, n)),
@@ -277,16 +296,20 @@ impl DimensionSearch {
         if quadrics.is_definite() {
             return Some(DimensionsFound::exactly(0, false));
         }
-        let starts = (0..80).map(|_| self.direction(n)).collect();
-        let seeds = tangent_cone::directions(&quadrics, tangent_cone::sparse(&flat.kernel), starts);
-        let mut directions = tangent_cone::choice(&quadrics, &seeds, BRANCHES);
-        if quadrics.vanish() || directions.len() < 4 {
-            directions.extend((0..8).map(|_| self.direction(n)));
+        let starts = (0..80).map(|_| self.random_direction(n)).collect();
+        let seeds = tangent_cone::find_zeros(
+            &quadrics,
+            tangent_cone::sparse_motions(&flat.kernel),
+            starts,
+        );
+        let mut directions = tangent_cone::choose_zeros(&quadrics, &seeds, BRANCHES);
+        if quadrics.is_empty() || directions.len() < 4 {
+            directions.extend((0..8).map(|_| self.random_direction(n)));
         }
-        let sampled = if quadrics.vanish() {
+        let sampled = if quadrics.is_empty() {
             at_most
         } else {
-            quadrics.dimension(&seeds).min(at_most)
+            quadrics.cone_dimension(&seeds).min(at_most)
         };
         let from = self.along_branches(pose, &flat, &directions, scale, depth);
         let to = if self.poses < self.budget {
@@ -312,27 +335,27 @@ impl DimensionSearch {
             if best + 1 == n {
                 return best;
             }
-            let start = flat.kernel.combined(x);
+            let start = flat.kernel.combine_columns(x);
             let opposite: Vec<f64> = start.iter().map(|x| -x).collect();
-            let found = match self.branch(pose, &start, scale) {
-                Some(None) => self.branch(pose, &opposite, scale),
+            let found = match self.find_branch(pose, &start, scale) {
+                Some(None) => self.find_branch(pose, &opposite, scale),
                 found => found,
             };
             let Some(Some(branch)) = found else { continue };
             // A curve through the pose is a motion if it continues.
             if best == 0 {
-                if self.goes_on(pose, &branch.far, &branch.onward(), 1) != Some(true) {
+                if self.goes_on(pose, &branch.far, &branch.direction_onward(), 1) != Some(true) {
                     continue;
                 }
                 best = 1;
             }
-            let there = pose.moved(&branch.far);
+            let there = pose.moved_to(&branch.far);
             let motions = Flat::new(&there, None).kernel.ncols();
             if motions >= n {
                 same.push(branch);
             } else if motions > best && depth < DEPTH {
                 let distance = (norm(&branch.far) * 0.5).min(scale);
-                let found = self.dimension(&there, None, false, distance, depth + 1);
+                let found = self.dimension_at(&there, None, false, distance, depth + 1);
                 best = best.max(found.map_or(0, |f| f.from));
             }
         }
@@ -346,15 +369,18 @@ impl DimensionSearch {
         if let Some(svd) = svd(&part) {
             let d = svd.rank(SPAN);
             let reached = svd.u.cols(0..d);
-            if d < n && d > best && self.smooth(pose, &reached, scale, true) == Some(Some(true)) {
+            if d < n
+                && d > best
+                && self.motions_extend(pose, &reached, scale, true) == Some(Some(true))
+            {
                 return d;
             }
         }
         if depth < DEPTH {
             for branch in same.iter().take(3) {
                 let distance = (norm(&branch.far) * 0.5).min(scale);
-                let there = pose.moved(&branch.far);
-                let found = self.dimension(&there, None, true, distance, depth + 1);
+                let there = pose.moved_to(&branch.far);
+                let found = self.dimension_at(&there, None, true, distance, depth + 1);
                 best = best.max(found.map_or(0, |f| f.from));
             }
         }
@@ -370,19 +396,19 @@ struct Branch {
 
 impl Branch {
     /// Returns the direction from the near coordinates to the far ones.
-    fn onward(&self) -> Vec<f64> {
+    fn direction_onward(&self) -> Vec<f64> {
         difference(&self.far, &self.near)
     }
 }
 
 /// Returns true if two coordinates lie in nearly the same direction.
-fn alike(a: &[f64], b: &[f64]) -> bool {
+fn nearly_parallel(a: &[f64], b: &[f64]) -> bool {
     dot(a, b) > 0.9 * norm(a) * norm(b)
 }
 
 #[cfg(test)]
 mod tests {
-    use super::alike;
+    use super::nearly_parallel;
 
     #[test]
     fn branches_join_where_they_go_nearly_the_same_way() {
@@ -395,7 +421,7 @@ mod tests {
             ([-1.0, 0.0], false),
         ];
         for (other, joins) in cases {
-            assert_eq!(alike(&along, &other), joins, "{other:?}");
+            assert_eq!(nearly_parallel(&along, &other), joins, "{other:?}");
         }
     }
 }

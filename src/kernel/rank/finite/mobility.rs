@@ -84,7 +84,7 @@ pub enum How {
 
 impl Proof {
     /// Explains why a pose is regular, whose J has rank `dimension`.
-    fn why(self, dimension: usize) -> String {
+    fn why_regular(self, dimension: usize) -> String {
         match self {
             Proof::Groups => {
                 format!("J has the full rank {dimension} of the displacement groups of its loops")
@@ -125,12 +125,12 @@ impl Finite {
     }
 
     /// Creates the proven result for a regular pose whose J has rank `dimension`.
-    pub(super) fn regular(mobility: usize, dimension: usize, by: Proof) -> Finite {
+    pub(super) fn regular_pose(mobility: usize, dimension: usize, by: Proof) -> Finite {
         Finite::new(mobility, How::Submersion { dimension, by })
     }
 
     /// Creates the result for rounded coordinates that only give an upper bound `to` on the instantaneous mobility.
-    pub(in crate::rank) fn rounded(to: usize) -> Finite {
+    pub(in crate::rank) fn from_rounded(to: usize) -> Finite {
         Finite::new(0, How::Rounded { to })
     }
 
@@ -178,7 +178,7 @@ impl Finite {
 
     /// Returns the figure for display: a number, or a range if undecided.
     #[must_use]
-    pub fn figure(&self) -> String {
+    pub fn format_figure(&self) -> String {
         match self.at_most() {
             most if most > self.mobility => format!("{} to {most}", self.mobility),
             mobility => mobility.to_string(),
@@ -196,7 +196,7 @@ impl Finite {
             }
             How::Rigid => "nothing moves, not even instantaneously".to_owned(),
             How::Submersion { dimension, by } => {
-                format!("{}, so this pose is regular", by.why(dimension))
+                format!("{}, so this pose is regular", by.why_regular(dimension))
             }
             How::Stopped { order, motions } => {
                 let what = match (motions, motions + self.mobility) {
@@ -243,7 +243,7 @@ impl Finite {
 
     /// Returns one word for programs.
     #[must_use]
-    pub fn word(&self) -> &'static str {
+    pub fn as_word(&self) -> &'static str {
         match self.how {
             How::Rigid if self.mobility > 0 => "free",
             How::Rigid => "rigid",
@@ -263,7 +263,7 @@ impl Finite {
     }
 
     /// Adds the finite mobility of an independent part, or of the idle freedoms of a part.
-    pub(super) fn and(self, other: Finite) -> Finite {
+    pub(super) fn combine_with(self, other: Finite) -> Finite {
         use How::{Bound, Rigid, Rounded, Singular, Stopped, Submersion, Traced, Undecided};
         let from = self.mobility + other.mobility;
         let to = self.at_most() + other.at_most();
@@ -353,12 +353,12 @@ pub(super) fn by_ranks(
     if instantaneous == 0 {
         return Ok(Some(Finite::new(0, How::Rigid)));
     }
-    let dimension = dimension(exact, mechanism, closure)?;
-    Ok((rank == dimension).then_some(Finite::regular(instantaneous, rank, Proof::Groups)))
+    let dimension = group_dimensions(exact, mechanism, closure)?;
+    Ok((rank == dimension).then_some(Finite::regular_pose(instantaneous, rank, Proof::Groups)))
 }
 
 /// Returns the dimension of the groups that all contours move in, and of the couplings.
-pub(super) fn dimension(
+pub(super) fn group_dimensions(
     exact: &ExactField,
     mechanism: &Mechanism,
     closure: &Closure<Residue>,
@@ -369,7 +369,7 @@ pub(super) fn dimension(
         coupling.entries.iter().for_each(|&(c, x)| row[c] = x);
         row
     });
-    let mut dimension = Echelon::of(exact.field(), couplings).rank();
+    let mut dimension = Echelon::from_vectors(exact.field(), couplings).rank();
     for contour in &closure.contours {
         dimension += group_dimension(exact, mechanism, contour)?;
     }
@@ -378,7 +378,7 @@ pub(super) fn dimension(
 
 /// Works as [`by_ranks`], also with the freedoms locked that are at rest to first order, and with chains and legs
 /// reduced to single joints.
-pub(super) fn regular(
+pub(super) fn prove_regular(
     exact: &ExactField,
     mechanism: &Mechanism,
     closure: &Closure<Residue>,
@@ -391,23 +391,23 @@ pub(super) fn regular(
     let moving = match lock_resting(exact, mechanism, closure) {
         Some(locked) => {
             let own = Closure::new(exact, &locked, closure.state)?;
-            if let Some(found) = by_ranks(exact, &locked, &own, modular::rank(exact, &own))?
+            if let Some(found) = by_ranks(exact, &locked, &own, modular::rank_modulo(exact, &own))?
                 && let How::Submersion { dimension, .. } = found.how
                 && found.mobility == instantaneous
             {
-                return Ok(Some(Finite::regular(
+                return Ok(Some(Finite::regular_pose(
                     instantaneous,
                     dimension,
                     Proof::Resting,
                 )));
             }
-            bonds::mobility(exact, &locked, &own)?
+            bonds::mobility_by_bonds(exact, &locked, &own)?
         }
-        None => bonds::mobility(exact, mechanism, closure)?,
+        None => bonds::mobility_by_bonds(exact, mechanism, closure)?,
     };
     // The motion with freedoms locked is a lower bound, and the instantaneous motion an upper one.
     let moving = moving.filter(|&m| m == instantaneous);
-    Ok(moving.map(|m| Finite::regular(m, rank, Proof::Bonds)))
+    Ok(moving.map(|m| Finite::regular_pose(m, rank, Proof::Bonds)))
 }
 
 /// Returns the mechanism with every freedom locked that is at rest in all instantaneous motions, or `None` if there are
@@ -421,14 +421,14 @@ fn lock_resting(
     mechanism: &Mechanism,
     closure: &Closure<Residue>,
 ) -> Option<Mechanism> {
-    let rows = Echelon::of(exact.field(), transpose(&closure.dense(exact)));
+    let rows = Echelon::from_vectors(exact.field(), transpose(&closure.dense_columns(exact)));
     // A row of the reduced form with no entry other than its pivot means that this freedom has speed 0.
     let alone = |row: &Vec<Residue>| row.iter().positions(|&x| x != 0).exactly_one().ok();
     let coupled = |c: &usize| {
         let joint = closure.columns[*c].joint;
         mechanism.couplings_of(joint).next().is_some()
     };
-    let rows = rows.reduced();
+    let rows = rows.reduced_rows();
     let resting = rows.iter().filter_map(alone).filter(|c| !coupled(c));
     let resting = resting.map(|c| (closure.columns[c].joint, closure.columns[c].freedom));
     let resting: Vec<(JointId, Freedom)> = resting.collect();

@@ -38,8 +38,8 @@ use crate::motion::pose::Pose;
 use crate::rank::exact::modular;
 use crate::rank::finite::displacement_group::{group_dimension, spatial_twists};
 use crate::rank::finite::higher_order::{HigherOrder, Line, ORDER};
-use crate::rank::finite::independent_parts::alone;
-use crate::rank::finite::mobility::regular;
+use crate::rank::finite::independent_parts::with_joints_only;
+use crate::rank::finite::mobility::prove_regular;
 
 /// Number of contour orders tried.
 const ORDERS: usize = 6;
@@ -51,7 +51,7 @@ const ORDERS: usize = 6;
 ///
 /// # Complexity
 /// A few eliminations of J, and products of classes with as many terms as sets of freedoms are open at a time.
-fn bound(
+fn highest_order(
     exact: &ExactField,
     mechanism: &Mechanism,
     closure: &Closure<Residue>,
@@ -62,27 +62,33 @@ fn bound(
     if screws || !closure.couplings.is_empty() || freedoms > MOST {
         return Ok(None);
     }
-    let arcs: Vec<Arcs> = closure.contours.iter().map(|c| arcs(closure, c)).collect();
+    let arcs: Vec<Arcs> = closure
+        .contours
+        .iter()
+        .map(|c| cut_into_arcs(closure, c))
+        .collect();
     if let Some(order) = bound_of_rods(exact, mechanism, closure, instantaneous)? {
         return Ok(Some(order));
     }
     if let [alone] = &arcs[..] {
         // All equations, including those that cut further freedoms off, belong to one bundle.
-        let inside = alone.count() == freedoms;
-        let class = inside.then(|| Class::one().times_all(alone, freedoms));
-        return Ok(class.flatten().and_then(|c| c.number(freedoms, 0)));
+        let inside = alone.count_freedoms() == freedoms;
+        let class = inside.then(|| Class::unit_class().times_all(alone, freedoms));
+        return Ok(class
+            .flatten()
+            .and_then(|c| c.intersection_number(freedoms, 0)));
     }
     let mut dimensions = Vec::new();
     for contour in &closure.contours {
         dimensions.push(group_dimension(exact, mechanism, contour)?);
     }
-    let rows = transpose(&closure.dense(exact));
+    let rows = transpose(&closure.dense_columns(exact));
     let all = arcs.len();
     let mut least = None;
     for first in 0..all.min(ORDERS) {
         let order: Vec<usize> = (0..all).map(|i| (first + i) % all).collect();
         let added = added_rank(exact, closure.dim, &rows, &order);
-        let found = highest(
+        let found = highest_of_equations(
             &arcs,
             &dimensions,
             &order,
@@ -96,7 +102,7 @@ fn bound(
 }
 
 /// Cuts a contour's columns into two arcs.
-fn arcs(closure: &Closure<Residue>, contour: &Contour) -> Arcs {
+fn cut_into_arcs(closure: &Closure<Residue>, contour: &Contour) -> Arcs {
     let of = |joints: &[_]| {
         let here = |c: &usize| {
             let joint = closure.columns[*c].joint;
@@ -126,7 +132,7 @@ fn added_rank(
 
 /// Returns the highest order of an equation that is not among those taken. `cut` freedoms are cut off by equations of
 /// all t.
-fn highest(
+fn highest_of_equations(
     arcs: &[Arcs],
     dimensions: &[usize],
     order: &[usize],
@@ -137,7 +143,7 @@ fn highest(
     let left = order.iter().filter(|&&k| added[k] < dimensions[k]);
     let mut highest = Some(0);
     for &more in left {
-        let mut class = Some(Class::one());
+        let mut class = Some(Class::unit_class());
         for (at, &k) in order.iter().enumerate() {
             let later = order[at + 1..].iter().map(|&l| &arcs[l]);
             let equations = added[k] + usize::from(k == more);
@@ -145,7 +151,7 @@ fn highest(
                 .and_then(|c| c.times_all(&arcs[k], equations))
                 .map(|c| c.without_lost(later, freedoms, cut));
         }
-        let number = class.and_then(|c| c.number(freedoms, cut));
+        let number = class.and_then(|c| c.intersection_number(freedoms, cut));
         highest = highest.zip(number).map(|(a, b)| a.max(b));
     }
     highest
@@ -169,11 +175,11 @@ impl Arcs {
     }
 
     /// Returns the number of freedoms in both arcs.
-    fn count(&self) -> usize {
+    fn count_freedoms(&self) -> usize {
         self.one.len() + self.other.len()
     }
 
-    fn set(&self) -> u64 {
+    fn freedom_set(&self) -> u64 {
         let all = self.one.iter().chain(&self.other);
         all.fold(0, |set, &v| set | 1 << v)
     }
@@ -184,12 +190,12 @@ impl Arcs {
 struct Class(Vec<(u64, usize)>);
 
 impl Class {
-    fn one() -> Class {
+    fn unit_class() -> Class {
         Class(vec![(0, 1)])
     }
 
     /// Merges equal products and adds their multiplicities.
-    fn collected(mut terms: Vec<(u64, usize)>) -> Class {
+    fn collect_terms(mut terms: Vec<(u64, usize)>) -> Class {
         terms.sort_unstable_by_key(|t| t.0);
         terms.dedup_by(|next, kept| {
             let same = next.0 == kept.0;
@@ -202,13 +208,13 @@ impl Class {
     }
 
     /// Multiplies by a sum of h.
-    fn times(&self, sum: &[usize]) -> Class {
+    fn times_sum(&self, sum: &[usize]) -> Class {
         let mut terms = Vec::with_capacity(self.0.len() * sum.len());
         for &(set, often) in &self.0 {
             let others = sum.iter().filter(|&&v| set >> v & 1 == 0);
             terms.extend(others.map(|&v| (set | 1 << v, often)));
         }
-        Class::collected(terms)
+        Class::collect_terms(terms)
     }
 
     /// Multiplies by Σ S^i T^j over i + j = n, with S and T the sums over two arcs. Returns `None` if the result has
@@ -218,8 +224,8 @@ impl Class {
         let mut other = self.clone();
         let mut all = self;
         for _ in 0..n {
-            other = other.times(&arcs.other);
-            all = Class::collected([all.times(&arcs.one).0, other.0.clone()].concat());
+            other = other.times_sum(&arcs.other);
+            all = Class::collect_terms([all.times_sum(&arcs.one).0, other.0.clone()].concat());
             if all.0.len() > TERMS {
                 return None;
             }
@@ -234,16 +240,16 @@ impl Class {
         freedoms: usize,
         cut: usize,
     ) -> Class {
-        let open = later.fold(0, |set, arcs| set | arcs.set());
-        let gone = everything(freedoms) & !open;
+        let open = later.fold(0, |set, arcs| set | arcs.freedom_set());
+        let gone = all_freedoms(freedoms) & !open;
         self.0
             .retain(|(set, _)| (gone & !set).count_ones() as usize <= cut);
         self
     }
 
     /// Returns the number of points in common with `cut` general classes of all h, or `None` if it is too large.
-    fn number(&self, freedoms: usize, cut: usize) -> Option<usize> {
-        let missing = |set: u64| (everything(freedoms) & !set).count_ones() as usize;
+    fn intersection_number(&self, freedoms: usize, cut: usize) -> Option<usize> {
+        let missing = |set: u64| (all_freedoms(freedoms) & !set).count_ones() as usize;
         let terms = self.0.iter().filter(|(set, _)| missing(*set) == cut);
         let sum = terms.fold(0usize, |sum, (_, often)| sum.saturating_add(*often));
         let ways = (1..=cut).fold(sum, usize::saturating_mul);
@@ -251,7 +257,7 @@ impl Class {
     }
 }
 
-fn everything(freedoms: usize) -> u64 {
+fn all_freedoms(freedoms: usize) -> u64 {
     u64::MAX >> (64 - freedoms.max(1))
 }
 
@@ -287,12 +293,12 @@ fn is_rod(
     let mut twists = Vec::new();
     for j in joints {
         let freedoms = mechanism.joints[j].joint_type.freedoms();
-        if !freedoms.iter().all(|f| f.turns()) {
+        if !freedoms.iter().all(|f| f.is_turn()) {
             return Ok(false);
         }
         twists.extend(spatial_twists(exact, mechanism, j)?);
     }
-    Ok(twists.len() == 5 && Echelon::of(exact.field(), twists).rank() == 5)
+    Ok(twists.len() == 5 && Echelon::from_vectors(exact.field(), twists).rank() == 5)
 }
 
 /// Maximum order of the expansion of a motion.
@@ -318,10 +324,10 @@ impl Expanded {
     ) -> Result<Expanded, ExactError> {
         let series = HigherOrder::new(exact, mechanism, closure, pose, rank)?;
         let instantaneous = closure.columns.len() - rank;
-        let bound = bound(exact, mechanism, closure, instantaneous)?;
+        let bound = highest_order(exact, mechanism, closure, instantaneous)?;
         let bound = bound.filter(|&order| order <= HIGHEST);
         let order = bound.unwrap_or(0).max(ORDER);
-        let line = series.as_ref().map(|s| s.line(order));
+        let line = series.as_ref().map(|s| s.random_line(order));
         Ok(Expanded {
             series,
             line,
@@ -356,16 +362,16 @@ pub(super) fn are_apart(
     let mut each = Vec::new();
     for contour in &closure.contours {
         let joints: Vec<_> = contour.joints.iter().map(|&(j, _)| j).collect();
-        let part = alone(mechanism, &joints);
+        let part = with_joints_only(mechanism, &joints);
         let own = Closure::new(exact, &part, closure.state)?;
-        let rank = modular::rank(exact, &own);
+        let rank = modular::rank_modulo(exact, &own);
         each.push((part, own, rank));
     }
     if each.iter().map(|(_, _, rank)| rank).sum::<usize>() != rank {
         return Ok(false);
     }
     for (part, own, rank) in &each {
-        let proven = regular(exact, part, own, *rank)?.is_some()
+        let proven = prove_regular(exact, part, own, *rank)?.is_some()
             || Expanded::new(exact, part, own, &Pose::of_file(part, own.state)?, *rank)?
                 .is_never_stopped();
         if !proven {
@@ -384,14 +390,14 @@ mod tests {
     fn numbers_by_hand() {
         for (n, expected) in [(1, 1), (2, 4), (3, 36), (4, 576)] {
             let arcs = Arcs::new((0..n).collect(), (n..2 * n).collect());
-            let class = Class::one().times_all(&arcs, 2 * n).unwrap();
-            assert_eq!(class.number(2 * n, 0), Some(expected));
+            let class = Class::unit_class().times_all(&arcs, 2 * n).unwrap();
+            assert_eq!(class.intersection_number(2 * n, 0), Some(expected));
         }
         // A curve of four hinges cut by the sum of all t: (S² T + S T²)(S + T) = 2 S² T², and S² = T² = 2 of two h each.
         let arcs = Arcs::new(vec![0, 1], vec![2, 3]);
-        let class = Class::one().times_all(&arcs, 3).unwrap();
-        assert_eq!(class.number(4, 1), Some(8));
+        let class = Class::unit_class().times_all(&arcs, 3).unwrap();
+        assert_eq!(class.intersection_number(4, 1), Some(8));
         let none = class.without_lost(std::iter::empty(), 4, 0);
-        assert_eq!(none.number(4, 1), Some(0));
+        assert_eq!(none.intersection_number(4, 1), Some(0));
     }
 }

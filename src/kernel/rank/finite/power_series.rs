@@ -62,11 +62,11 @@ impl Monomials {
         self.starts.len() - 2
     }
 
-    pub(in crate::rank) fn count(&self) -> usize {
+    pub(in crate::rank) fn count_monomials(&self) -> usize {
         self.keys.len()
     }
 
-    pub(in crate::rank) fn pairs(&self) -> usize {
+    pub(in crate::rank) fn count_pairs(&self) -> usize {
         self.products.iter().map(Vec::len).sum()
     }
 
@@ -75,7 +75,7 @@ impl Monomials {
     }
 
     pub(in crate::rank) fn product(&self, f: Field, a: &[Residue], b: &[Residue]) -> Vec<Residue> {
-        let mut out = vec![0; self.count()];
+        let mut out = vec![0; self.count_monomials()];
         for (&x, products) in a.iter().zip(&self.products).filter(|(x, _)| **x != 0) {
             for (&y, &at) in b.iter().zip(products).filter(|(y, _)| **y != 0) {
                 out[at] = f.add(out[at], f.mul(x, y));
@@ -97,7 +97,7 @@ impl Monomials {
         for s in series.iter().filter(|s| s.iter().any(|&x| x != 0)) {
             independent.insert(s);
         }
-        let rows = independent.reduced();
+        let rows = independent.reduced_rows();
         let shifts = |row: &[Residue]| {
             let order = row.iter().position(|&x| x != 0).unwrap_or(0);
             let own = (0..=degree)
@@ -106,7 +106,7 @@ impl Monomials {
             self.starts[degree - own + 1]
         };
         let total: usize = rows.iter().map(|r| shifts(r)).sum();
-        if total * self.count().pow(2) > work {
+        if total * self.count_monomials().pow(2) > work {
             return None;
         }
         let top = self.of_degree(degree);
@@ -116,7 +116,7 @@ impl Monomials {
         let mut span = Echelon::new(f);
         for row in &rows {
             for i in 0..shifts(row) {
-                let mut shifted = vec![0; self.count()];
+                let mut shifted = vec![0; self.count_monomials()];
                 for (&x, &at) in row.iter().zip(&self.products[i]) {
                     shifted[at] = x;
                 }
@@ -124,7 +124,7 @@ impl Monomials {
             }
         }
         let inside = span
-            .reduced()
+            .reduced_rows()
             .iter()
             .filter(|r| {
                 r.iter()

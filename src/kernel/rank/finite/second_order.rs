@@ -20,15 +20,17 @@ use crate::closure::Closure;
 use crate::closure::twist::MotionSpace;
 use crate::geom::Reals;
 use crate::geom::exact::{ExactError, ExactField};
-use crate::linalg::echelon::{combination, relations};
+use crate::linalg::echelon::{linear_combination, linear_relations};
 use crate::linalg::modp::{Field, Residue};
 use crate::model::mechanism::{JointId, Mechanism};
 use crate::model::rounded::Uncertainties;
 use crate::motion::pose::Pose;
 use crate::rank::finite::higher_order::{HigherOrder, Line, ORDER};
-use crate::rank::finite::mobility::{Finite, How, dimension};
-use crate::rank::finite::tangent_cone::{self, Flat, Quadrics, directions, sparse, works};
-use crate::rank::rounded::{Coordinate, coordinates, frame_with, size};
+use crate::rank::finite::mobility::{Finite, How, group_dimensions};
+use crate::rank::finite::tangent_cone::{
+    self, Flat, Quadrics, find_zeros, second_order_works, sparse_motions,
+};
+use crate::rank::rounded::{Coordinate, frame_with, mechanism_size, rounded_coordinates};
 use itertools::Itertools;
 use ozols_dense::{Matrix, Svd, dot, svd};
 
@@ -58,22 +60,22 @@ pub(crate) struct Roundings {
 impl Roundings {
     /// Creates the accuracy from half units of the coordinates, which may be off by `times` of them.
     pub(crate) fn new(mechanism: &Mechanism, half: Uncertainties, times: f64) -> Roundings {
-        let [length, direction] = half.largest(mechanism);
+        let [length, direction] = half.largest_half_units(mechanism);
         Roundings {
-            unit: 2.0 * direction.max(length / size(mechanism)),
+            unit: 2.0 * direction.max(length / mechanism_size(mechanism)),
             half,
             times,
         }
     }
 
     /// Returns the coordinates of some joints that may be off and matter.
-    fn coordinates(&self, mechanism: &Mechanism, joints: &[JointId]) -> Vec<Coordinate> {
+    fn inexact_coordinates(&self, mechanism: &Mechanism, joints: &[JointId]) -> Vec<Coordinate> {
         let matters = |c: &Coordinate| match c.vector {
             0 => true,
             1 => mechanism.joints[c.joint].joint_type.is_directed(),
             _ => mechanism.joints[c.joint].joint_type.has_second_axis(),
         };
-        let mut all = coordinates(mechanism, joints.iter().copied(), &self.half);
+        let mut all = rounded_coordinates(mechanism, joints.iter().copied(), &self.half);
         all.retain(matters);
         all
     }
@@ -101,7 +103,7 @@ impl SecondOrder {
         known: &Roundings,
     ) -> Option<SecondOrder> {
         let f = pose.columns.len();
-        let here = pose.jacobian(&vec![0.0; f]);
+        let here = pose.jacobian_at(&vec![0.0; f]);
         let joints: Vec<JointId> = pose.columns.iter().map(|c| c.joint).dedup().collect();
         let matrices = 18 * joints.len() * motions * (motions + 1);
         if matrices * pose.rows() * f > LARGEST {
@@ -122,7 +124,7 @@ impl SecondOrder {
         };
         // The table with one joint displaced, and the change of J there.
         let table_at = |there: &Pose| {
-            let mut change = there.jacobian(&vec![0.0; f]);
+            let mut change = there.jacobian_at(&vec![0.0; f]);
             change.add_multiple(-1.0, &here);
             let mut flat = Flat {
                 kernel: flat.kernel.clone(),
@@ -133,14 +135,14 @@ impl SecondOrder {
             let stress = turned.least_norm(rank, &change.transpose_times(&flat.stresses));
             flat.kernel.add_multiple(-1.0, &motion);
             flat.stresses.add_multiple(-1.0, &stress);
-            (works(there, &flat), change)
+            (second_order_works(there, &flat), change)
         };
         let space = MotionSpace::new(&Reals, &mechanism.mode).ok()?;
         let (mut changes, mut moved) = (Vec::new(), 0.0);
-        for c in known.coordinates(mechanism, &joints) {
+        for c in known.inexact_coordinates(mechanism, &joints) {
             let at = |by: f64| {
                 let frame = frame_with(mechanism, &c, c.written + by);
-                table_at(&pose.reframed(mechanism, &space, c.joint, &frame))
+                table_at(&pose.with_frame(mechanism, &space, c.joint, &frame))
             };
             let step = STEP * c.scale;
             let ((mut up, mut up_by), (down, down_by)) = (at(step), at(-step));
@@ -155,7 +157,7 @@ impl SecondOrder {
         if moved.sqrt() > SMALL * least {
             return None;
         }
-        let table = works(pose, &flat);
+        let table = second_order_works(pose, &flat);
         Some(SecondOrder {
             quadrics: Quadrics::of_table(&table, motions, ZERO),
             table,
@@ -168,14 +170,17 @@ impl SecondOrder {
     /// self-stresses is definite, and one less if any work is nonzero.
     pub(super) fn at_most(&self) -> usize {
         let stresses = self.quadrics.stresses();
-        let definite = self.quadrics.definite().filter(|(weights, least)| {
-            let stress: Vec<f64> = (0..self.table.nrows())
-                .map(|r| stresses.iter().zip(weights).map(|(s, w)| s[r] * w).sum())
-                .collect();
-            *least > SAFE * self.change(&stress)
-        });
+        let definite = self
+            .quadrics
+            .definite_combination()
+            .filter(|(weights, least)| {
+                let stress: Vec<f64> = (0..self.table.nrows())
+                    .map(|r| stresses.iter().zip(weights).map(|(s, w)| s[r] * w).sum())
+                    .collect();
+                *least > SAFE * self.change_of_form(&stress)
+            });
         // As a row of the table, a form has size 1.
-        let is_there = |stress: &Vec<f64>| SAFE * self.change(stress) < 0.5;
+        let is_there = |stress: &Vec<f64>| SAFE * self.change_of_form(stress) < 0.5;
         match definite {
             Some(_) if self.motions > 0 => 0,
             _ => self.motions - usize::from(stresses.iter().any(is_there)),
@@ -183,10 +188,10 @@ impl SecondOrder {
     }
 
     /// Returns the possible effect of rounding on the form of a self-stress.
-    fn change(&self, stress: &[f64]) -> f64 {
+    fn change_of_form(&self, stress: &[f64]) -> f64 {
         let one = |change: &Matrix| {
-            let row = change.transpose_times(&Matrix::column(stress));
-            tangent_cone::form(row.col(0), self.motions).norm()
+            let row = change.transpose_times(&Matrix::from_column(stress));
+            tangent_cone::form_of_row(row.col(0), self.motions).norm()
         };
         self.changes.iter().map(one).sum()
     }
@@ -199,7 +204,7 @@ impl SecondOrder {
         (0..factors.values.len()).all(|k| {
             let (u, v) = (factors.u.col(k), factors.v.col(k));
             let one = |change: &Matrix| -> f64 {
-                dot(change.transpose_times(&Matrix::column(u)).col(0), v)
+                dot(change.transpose_times(&Matrix::from_column(u)).col(0), v)
             };
             let squares: f64 = self.changes.iter().map(|c| one(c).powi(2) / 3.0).sum();
             factors.values[k] <= ZERO.max(RARE * squares.sqrt())
@@ -215,7 +220,7 @@ impl SecondOrder {
 ///
 /// # Complexity
 /// O(n²) expansions to second order, and one of a line.
-pub(super) fn passed(
+pub(super) fn mobility_at_singular(
     exact: &ExactField,
     mechanism: &Mechanism,
     closure: &Closure<Residue>,
@@ -231,7 +236,7 @@ pub(super) fn passed(
         let (order, motions) = (2, n);
         return Ok(Some(Finite::new(0, How::Stopped { order, motions })));
     }
-    let equations = dimension(exact, mechanism, closure)? - rank;
+    let equations = group_dimensions(exact, mechanism, closure)? - rank;
     if equations == 0 || equations >= n {
         return Ok(None);
     }
@@ -244,22 +249,25 @@ pub(super) fn passed(
     {
         return Ok(through(order));
     }
-    let zeros = directions(&quadrics, sparse(&flat.kernel), starts(n));
-    let crossing = quadrics.cross(equations, &zeros) && series.isolated(equations).is_some();
+    let zeros = find_zeros(&quadrics, sparse_motions(&flat.kernel), start_directions(n));
+    let crossing =
+        quadrics.cross_at_zeros(equations, &zeros) && series.isolating_degree(equations).is_some();
     Ok(if crossing { through(2) } else { None })
 }
 
 /// Returns the order of the single equation along a line without second-order terms, bent to remove the fourth order if
 /// possible. Returns `None` if there is no such line.
 fn flat_line(series: &HigherOrder) -> Option<usize> {
-    let (field, n) = series.free();
-    let kernel = relations(field, &form(series)?);
-    let weights: Vec<Residue> = (0..kernel.len()).map(|k| any(field, k)).collect();
-    let line = combination(field, &kernel, &weights);
+    let (field, n) = series.free_coordinates();
+    let kernel = linear_relations(field, &single_form(series)?);
+    let weights: Vec<Residue> = (0..kernel.len())
+        .map(|k| unrelated_number(field, k))
+        .collect();
+    let line = linear_combination(field, &kernel, &weights);
     if line.iter().all(|&x| x == 0) {
         return None;
     }
-    let across: Vec<Residue> = (0..n).map(|k| any(field, n + k)).collect();
+    let across: Vec<Residue> = (0..n).map(|k| unrelated_number(field, n + k)).collect();
     let along = |a: Residue| {
         let bent: Vec<Residue> = across.iter().map(|&x| field.mul(a, x)).collect();
         series.bent_line(&line, &bent, ORDER)
@@ -288,13 +296,13 @@ fn flat_line(series: &HigherOrder) -> Option<usize> {
 }
 
 /// Returns twice the matrix of the quadratic form of the single equation, or `None` if it has no second-order terms.
-fn form(series: &HigherOrder) -> Option<Vec<Vec<Residue>>> {
-    let (field, n) = series.free();
+fn single_form(series: &HigherOrder) -> Option<Vec<Vec<Residue>>> {
+    let (field, n) = series.free_coordinates();
     let unit = |set: &[usize]| -> Vec<Residue> {
         let one = |i: usize| if set.contains(&i) { field.one() } else { 0 };
         (0..n).map(one).collect()
     };
-    let single: Vec<Vec<Residue>> = (0..n).map(|i| series.second(&unit(&[i]))).collect();
+    let single: Vec<Vec<Residue>> = (0..n).map(|i| series.second_order(&unit(&[i]))).collect();
     // One form for each remaining row; all are multiples of one another.
     let mut forms = vec![vec![vec![0; n]; n]; single.first()?.len()];
     for i in 0..n {
@@ -303,7 +311,7 @@ fn form(series: &HigherOrder) -> Option<Vec<Vec<Residue>>> {
                 let twice = |&x: &Residue| field.mul(field.from_i64(4), x);
                 single[i].iter().map(twice).collect()
             } else {
-                series.second(&unit(&[i, j]))
+                series.second_order(&unit(&[i, j]))
             };
             for (k, form) in forms.iter_mut().enumerate() {
                 form[i][j] = field.sub(field.sub(both[k], single[i][k]), single[j][k]);
@@ -315,12 +323,12 @@ fn form(series: &HigherOrder) -> Option<Vec<Vec<Residue>>> {
 }
 
 /// Returns numbers unrelated to the geometry.
-fn any(field: Field, k: usize) -> Residue {
+fn unrelated_number(field: Field, k: usize) -> Residue {
     field.from_i64(0x2545_f491_4f6c_dd1d_i64.wrapping_mul(2 * k as i64 + 1) >> 2)
 }
 
 /// Returns start directions for the search for zeros, spread evenly by the plastic numbers of that many dimensions.
-fn starts(n: usize) -> Vec<Vec<f64>> {
+fn start_directions(n: usize) -> Vec<Vec<f64>> {
     let share = |i: usize, k: usize| {
         let step = 1.0 / 1.220_744_084_6_f64.powi(1 + i32::try_from(k).unwrap_or(0));
         (0.5 + (i + 1) as f64 * step).fract() - 0.5

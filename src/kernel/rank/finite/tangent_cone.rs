@@ -31,7 +31,7 @@ impl Flat {
     /// Computes the flat directions, with `motions` columns if their number is known.
     pub(in crate::rank) fn new(pose: &Pose, motions: Option<usize>) -> Flat {
         let (f, rows) = (pose.columns.len(), pose.rows());
-        let Some(svd) = svd(&pose.jacobian(&vec![0.0; f])) else {
+        let Some(svd) = svd(&pose.jacobian_at(&vec![0.0; f])) else {
             return Flat {
                 kernel: Matrix::zeros(f, 0),
                 stresses: Matrix::identity(rows, rows),
@@ -69,7 +69,7 @@ impl Quadrics {
     /// Returns the independent forms of the self-stresses at a pose.
     pub(in crate::rank) fn new(pose: &Pose, flat: &Flat) -> Quadrics {
         let floor = ZERO.max(10.0 * pose.accuracy());
-        Quadrics::of_table(&works(pose, flat), flat.kernel.ncols(), floor)
+        Quadrics::of_table(&second_order_works(pose, flat), flat.kernel.ncols(), floor)
     }
 
     /// Returns the forms of a table of [`works`], without those below a floor.
@@ -77,7 +77,7 @@ impl Quadrics {
         let (mut forms, mut stresses) = (Vec::new(), Vec::new());
         if let Some(svd) = svd(table) {
             for k in (0..svd.values.len()).filter(|&k| svd.values[k] > floor) {
-                forms.push(form(svd.v.col(k), motions));
+                forms.push(form_of_row(svd.v.col(k), motions));
                 let of = svd.u.col(k).iter().map(|x| x / svd.values[k]);
                 stresses.push(of.collect());
             }
@@ -95,24 +95,28 @@ impl Quadrics {
     }
 
     /// Returns true if there are no second-order terms.
-    pub(in crate::rank) fn vanish(&self) -> bool {
+    pub(in crate::rank) fn is_empty(&self) -> bool {
         self.forms.is_empty()
     }
 
-    fn values(&self, x: &[f64]) -> Vec<f64> {
-        self.forms.iter().map(|q| dot(&q.combined(x), x)).collect()
+    fn form_values(&self, x: &[f64]) -> Vec<f64> {
+        self.forms
+            .iter()
+            .map(|q| dot(&q.combine_columns(x), x))
+            .collect()
     }
 
     /// Returns the zero of all forms near a unit vector, if there is one.
     fn zero_near(&self, mut x: Vec<f64>) -> Option<Vec<f64>> {
         let n = self.motions;
         for _ in 0..40 {
-            let values = self.values(&x);
+            let values = self.form_values(&x);
             let gap = norm(&values);
             if gap < 1e-13 {
                 break;
             }
-            let gradients: Vec<Vec<f64>> = self.forms.iter().map(|q| q.combined(&x)).collect();
+            let gradients: Vec<Vec<f64>> =
+                self.forms.iter().map(|q| q.combine_columns(&x)).collect();
             // (GᵀG + xxᵀ + λ) step = Gᵀ values, G = 2 gradients.
             let damping = gap.min(1e-2) * 1e-2 + 1e-14;
             let normal = Matrix::from_fn(n, n, |i, j| {
@@ -133,11 +137,11 @@ impl Quadrics {
             }
             x.iter_mut().for_each(|x| *x /= size);
         }
-        (norm(&self.values(&x)) < ZERO).then_some(x)
+        (norm(&self.form_values(&x)) < ZERO).then_some(x)
     }
 
     /// Returns the dimension that the cone can have at a zero: the number of directions that change no form.
-    fn nullity(&self, x: &[f64]) -> usize {
+    fn nullity_at(&self, x: &[f64]) -> usize {
         self.nullity_above(x, 1e-3)
     }
 
@@ -147,7 +151,7 @@ impl Quadrics {
         if self.forms.is_empty() {
             return n;
         }
-        let gradients: Vec<Vec<f64>> = self.forms.iter().map(|q| q.combined(x)).collect();
+        let gradients: Vec<Vec<f64>> = self.forms.iter().map(|q| q.combine_columns(x)).collect();
         let matrix = Matrix::from_fn(gradients.len(), n, |i, j| gradients[i][j]);
         let values = singular_values(&matrix).unwrap_or_default();
         n - values.iter().filter(|&&s| s > floor).count()
@@ -158,24 +162,24 @@ impl Quadrics {
     /// Then the exact forms have a nearby zero, where they are also independent [Kantorovich: the gap there is below
     /// 1e-6, and 2e-3 would be enough]. A motion of as many freedoms as are left begins in its direction [Avakov 1985;
     /// Izmailov & Tretyakov 1994, "2-regular"].
-    pub(in crate::rank) fn cross(&self, forms: usize, zeros: &[Vec<f64>]) -> bool {
+    pub(in crate::rank) fn cross_at_zeros(&self, forms: usize, zeros: &[Vec<f64>]) -> bool {
         let independent = |x: &Vec<f64>| self.motions - self.nullity_above(x, CLEAR) == forms;
         self.forms.len() == forms && zeros.iter().any(independent)
     }
 
     /// Returns the largest dimension of the cone at the zeros found.
-    pub(in crate::rank) fn dimension(&self, zeros: &[Vec<f64>]) -> usize {
-        let of = |x: &Vec<f64>| self.nullity(x);
+    pub(in crate::rank) fn cone_dimension(&self, zeros: &[Vec<f64>]) -> usize {
+        let of = |x: &Vec<f64>| self.nullity_at(x);
         zeros.iter().map(of).max().unwrap_or(0)
     }
 
     /// Returns true if some combination of the forms is definite, so that they have no common zero.
     pub(in crate::rank) fn is_definite(&self) -> bool {
-        self.definite().is_some()
+        self.definite_combination().is_some()
     }
 
     /// Returns the weights of a positive definite combination of the forms, with its smallest eigenvalue.
-    pub(in crate::rank) fn definite(&self) -> Option<(Vec<f64>, f64)> {
+    pub(in crate::rank) fn definite_combination(&self) -> Option<(Vec<f64>, f64)> {
         let n = self.motions;
         let mut sum: Matrix = Matrix::zeros(n, n);
         let mut all = Vec::new();
@@ -191,7 +195,7 @@ impl Quadrics {
             if values[0] > 1e-3 * largest {
                 return Some((all, values[0]));
             }
-            let weights = self.values(vectors.col(0));
+            let weights = self.form_values(vectors.col(0));
             let size = norm(&weights);
             if size < 1e-9 {
                 return None;
@@ -207,14 +211,14 @@ impl Quadrics {
 }
 
 /// Returns the pairs of motions of the columns of a table of [`works`].
-fn pairs(motions: usize) -> impl Iterator<Item = (usize, usize)> {
+fn motion_pairs(motions: usize) -> impl Iterator<Item = (usize, usize)> {
     (0..motions).flat_map(|i| (0..=i).map(move |j| (i, j)))
 }
 
 /// Returns the symmetric matrix of a row of a table of [`works`].
-pub(in crate::rank) fn form(row: &[f64], motions: usize) -> Matrix {
+pub(in crate::rank) fn form_of_row(row: &[f64], motions: usize) -> Matrix {
     let mut form = Matrix::zeros(motions, motions);
-    for (x, (i, j)) in row.iter().zip(pairs(motions)) {
+    for (x, (i, j)) in row.iter().zip(motion_pairs(motions)) {
         form[(i, j)] = *x;
         form[(j, i)] = *x;
     }
@@ -226,11 +230,11 @@ pub(in crate::rank) fn form(row: &[f64], motions: usize) -> Matrix {
 ///
 /// # Complexity
 /// O(n² (f + rows · stresses)) for n motions.
-pub(in crate::rank) fn works(pose: &Pose, flat: &Flat) -> Matrix {
+pub(in crate::rank) fn second_order_works(pose: &Pose, flat: &Flat) -> Matrix {
     let n = flat.kernel.ncols();
     let s = flat.stresses.ncols();
     let works = |x: &[f64]| -> Vec<f64> {
-        let bend = Matrix::column(&pose.bend(&flat.kernel.combined(x)));
+        let bend = Matrix::from_column(&pose.bend_along(&flat.kernel.combine_columns(x)));
         let work = flat.stresses.transpose_times(&bend);
         work.col(0).iter().map(|w| w / 2.0).collect()
     };
@@ -240,7 +244,7 @@ pub(in crate::rank) fn works(pose: &Pose, flat: &Flat) -> Matrix {
         works(&x)
     };
     let single: Vec<Vec<f64>> = (0..n).map(|i| unit(&[i])).collect();
-    let columns: Vec<Vec<f64>> = pairs(n)
+    let columns: Vec<Vec<f64>> = motion_pairs(n)
         .map(|(i, j)| {
             if i == j {
                 return single[i].clone();
@@ -255,12 +259,12 @@ pub(in crate::rank) fn works(pose: &Pose, flat: &Flat) -> Matrix {
 }
 
 /// Returns the zeros of all forms found from the given starts.
-pub(in crate::rank) fn directions(
+pub(in crate::rank) fn find_zeros(
     quadrics: &Quadrics,
     sparse: Vec<Vec<f64>>,
     random: Vec<Vec<f64>>,
 ) -> Vec<Vec<f64>> {
-    if quadrics.vanish() {
+    if quadrics.is_empty() {
         return Vec::new();
     }
     let mut found: Vec<Vec<f64>> = Vec::new();
@@ -276,12 +280,13 @@ pub(in crate::rank) fn directions(
 }
 
 /// Selects zeros to begin with: a few of each dimension of the cone, largest dimension first.
-pub(in crate::rank) fn choice(
+pub(in crate::rank) fn choose_zeros(
     quadrics: &Quadrics,
     zeros: &[Vec<f64>],
     most: usize,
 ) -> Vec<Vec<f64>> {
-    let mut by: Vec<(usize, &Vec<f64>)> = zeros.iter().map(|x| (quadrics.nullity(x), x)).collect();
+    let mut by: Vec<(usize, &Vec<f64>)> =
+        zeros.iter().map(|x| (quadrics.nullity_at(x), x)).collect();
     by.sort_by_key(|(n, _)| std::cmp::Reverse(*n));
     let mut kinds: Vec<usize> = by.iter().map(|(n, _)| *n).collect();
     kinds.dedup();
@@ -296,7 +301,7 @@ pub(in crate::rank) fn choice(
 }
 
 /// Returns motions of few joints: a basis of the kernel in reduced form, as weights of its columns.
-pub(in crate::rank) fn sparse(kernel: &Matrix) -> Vec<Vec<f64>> {
+pub(in crate::rank) fn sparse_motions(kernel: &Matrix) -> Vec<Vec<f64>> {
     let (f, n) = (kernel.nrows(), kernel.ncols());
     let mut rows: Vec<Vec<f64>> = (0..n).map(|c| kernel.col(c).to_vec()).collect();
     for i in 0..n {
@@ -335,7 +340,7 @@ pub(in crate::rank) fn sparse(kernel: &Matrix) -> Vec<Vec<f64>> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::model::drawn::{drawn, hinges};
+    use crate::model::drawn::{draw_mechanism, hinges};
     use crate::model::mechanism::StateId;
 
     /// A flat parallelogram, hinges at 0, 2, 5 and 3 on a line, continues as a parallelogram or crossed. By hand, for
@@ -350,16 +355,16 @@ mod tests {
             ([2, 3], at(5.0)),
             ([3, 0], at(3.0)),
         ];
-        let pose = Pose::of_file(&drawn(&hinges(&joints), &[]), StateId::FREE).unwrap();
+        let pose = Pose::of_file(&draw_mechanism(&hinges(&joints), &[]), StateId::FREE).unwrap();
         let flat = Flat::new(&pose, Some(2));
         let quadrics = Quadrics::new(&pose, &flat);
         let values = |a: f64, b: f64, c: f64| {
             // Each link relative to the one before it.
             let q = [a, b - a, c - b, -c];
-            let x = flat.kernel.transpose_times(&Matrix::column(&q));
+            let x = flat.kernel.transpose_times(&Matrix::from_column(&q));
             let gap = norm(&q).powi(2) - norm(x.col(0)).powi(2);
             assert!(gap.abs() < 1e-9, "no motion at all");
-            norm(&quadrics.values(x.col(0)))
+            norm(&quadrics.form_values(x.col(0)))
         };
         assert_eq!(quadrics.forms.len(), 1);
         assert!(values(1.0, 0.0, 1.0) < 1e-6 && values(1.0, -4.0, -5.0) < 1e-6);

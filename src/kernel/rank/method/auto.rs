@@ -5,12 +5,14 @@ use crate::model::mechanism::{Mechanism, StateId};
 use crate::rank::exact::field::closure_of;
 use crate::rank::exact::modular;
 use crate::rank::finite::second_order::Roundings;
-use crate::rank::finite::{Finite, finite, finite_known, followed, within};
+use crate::rank::finite::{
+    Finite, finite_known, finite_mobility, followed_mobility, mobility_within,
+};
 use crate::rank::method::{
-    About, Answer, Certainty, MobilityMethod, NoAnswer, Quantity, RankOfJ, int,
+    About, Answer, Certainty, MobilityMethod, NoAnswer, Quantity, RankOfJ, to_i64,
 };
 use crate::rank::numeric::Elimination;
-use crate::rank::rounded::verdict::{Meant, RankVerdict, allowed, verdict};
+use crate::rank::rounded::verdict::{Meant, RankVerdict, allowed_uncertainty, rank_verdict};
 
 /// A decision for one state.
 #[derive(Debug, Clone)]
@@ -30,18 +32,18 @@ pub struct Decision {
 ///
 /// # Complexity
 /// That of [`verdict`], and of the finite mobility.
-pub fn decide(mechanism: &Mechanism, state: StateId) -> Result<Decision, NoAnswer> {
-    let verdict = verdict(mechanism, state)?;
+pub fn decide_state(mechanism: &Mechanism, state: StateId) -> Result<Decision, NoAnswer> {
+    let verdict = rank_verdict(mechanism, state)?;
     Ok(Decision {
         finite: finite_of(mechanism, state, &verdict)?,
-        line: line(&verdict),
+        line: describe_choice(&verdict),
         verdict,
     })
 }
 
 /// Returns the finite mobility of the intended geometry.
 fn finite_of(m: &Mechanism, state: StateId, found: &RankVerdict) -> Result<Finite, NoAnswer> {
-    let half = allowed(m, found.rounded.as_ref());
+    let half = allowed_uncertainty(m, found.rounded.as_ref());
     // The moved coordinates are off by at most half a unit. The moved and the true coordinates may lie on either side
     // of the written ones.
     let times = if found.is_as_written() { 1.0 } else { 2.0 };
@@ -58,18 +60,18 @@ fn finite_of(m: &Mechanism, state: StateId, found: &RankVerdict) -> Result<Finit
         Meant::Near {
             mechanism, rank, ..
         } => {
-            let motions = found.figures(*rank).0;
+            let motions = found.figures_at(*rank).0;
             match &known {
-                Some(known) => within(mechanism, state, motions, known)?,
-                None => followed(mechanism, state, motions, 0.0)?,
+                Some(known) => mobility_within(mechanism, state, motions, known)?,
+                None => followed_mobility(mechanism, state, motions, 0.0)?,
             }
         }
-        Meant::Undecided { near } => Finite::rounded(found.figures(*near).0),
+        Meant::Undecided { near } => Finite::from_rounded(found.figures_at(*near).0),
     })
 }
 
 /// Describes the choice and the reason.
-fn line(found: &RankVerdict) -> String {
+fn describe_choice(found: &RankVerdict) -> String {
     let needed = &found.needed;
     let Some(n) = found.numeric else {
         return format!("exact geometry, so ranks over prime fields{needed}");
@@ -91,9 +93,9 @@ fn line(found: &RankVerdict) -> String {
         format!(
             "with every digit exactly as written, the rank would be {} (mobility {}) instead of {} (mobility {})",
             found.as_written,
-            found.figures(found.as_written).0,
+            found.figures_at(found.as_written).0,
             found.at_least(),
-            found.figures(found.at_least()).0
+            found.figures_at(found.at_least()).0
         )
     };
     match &found.meant {
@@ -109,14 +111,14 @@ fn line(found: &RankVerdict) -> String {
         Meant::Near { moved: units, .. } => format!(
             "{why}a geometry with that rank is within {units:.2} units of the last digits; {gap}; {both}"
         ),
-        Meant::Undecided { .. } => format!("{why}{}", found.undecided()),
+        Meant::Undecided { .. } => format!("{why}{}", found.explain_undecided()),
     }
 }
 
 /// Returns the answer of a finite mobility that is decided.
-fn answer(found: &Finite) -> Answer {
+fn finite_answer(found: &Finite) -> Answer {
     Answer {
-        mobility: int(found.mobility),
+        mobility: to_i64(found.mobility),
         quantity: Quantity::Finite,
         certainty: if found.is_proven() {
             Certainty::Exact
@@ -145,9 +147,9 @@ impl MobilityMethod for Auto {
     fn answer(&self, mechanism: &Mechanism, state: StateId) -> Result<Answer, NoAnswer> {
         let Decision {
             verdict, finite, ..
-        } = decide(mechanism, state)?;
+        } = decide_state(mechanism, state)?;
         if let Meant::Undecided { .. } = verdict.meant {
-            return Err(NoAnswer::Failed(verdict.undecided()));
+            return Err(NoAnswer::Failed(verdict.explain_undecided()));
         }
         if finite.is_undecided() {
             return Err(NoAnswer::Failed(finite.describe()));
@@ -155,10 +157,10 @@ impl MobilityMethod for Auto {
         let numeric = verdict
             .numeric
             .filter(|_| matches!(verdict.meant, Meant::Near { .. }));
-        let answer = answer(&finite);
+        let answer = finite_answer(&finite);
         Ok(match numeric {
             Some(n) => Answer {
-                certainty: Elimination::Svd.certainty(n, verdict.tolerance),
+                certainty: Elimination::Svd.certainty_of(n, verdict.tolerance),
                 ..answer
             },
             None => answer,
@@ -184,10 +186,15 @@ impl MobilityMethod for Exact {
     }
     fn answer(&self, mechanism: &Mechanism, state: StateId) -> Result<Answer, NoAnswer> {
         let (exact, closure) = closure_of(mechanism, state, 0)?;
-        let found = finite(&exact, mechanism, &closure, modular::rank(&exact, &closure))?;
+        let found = finite_mobility(
+            &exact,
+            mechanism,
+            &closure,
+            modular::rank_modulo(&exact, &closure),
+        )?;
         if found.is_undecided() {
             return Err(NoAnswer::Failed(found.describe()));
         }
-        Ok(answer(&found))
+        Ok(finite_answer(&found))
     }
 }

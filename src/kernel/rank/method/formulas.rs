@@ -4,7 +4,7 @@ use crate::linalg::echelon::Echelon;
 use crate::model::mechanism::{Mechanism, Mode, StateId};
 use crate::rank::exact::field::closure_of;
 use crate::rank::finite::displacement_group::{GroupKind, whole_group};
-use crate::rank::method::{About, Answer, Certainty, MobilityMethod, NoAnswer, RankOfJ, int};
+use crate::rank::method::{About, Answer, Certainty, MobilityMethod, NoAnswer, RankOfJ, to_i64};
 
 /// W = 6(n - 1) - Σ constraints.
 #[derive(Debug, Clone, Copy)]
@@ -15,15 +15,17 @@ pub(crate) struct Spatial;
 pub(crate) struct Planar;
 
 /// Returns `dim`·(n - 1) - Σ (`dim` - f_i) over the joints of a state, less one for each coupling. `freedoms` is Σ f_i.
-fn count(mechanism: &Mechanism, state: StateId, dim: i64, freedoms: usize) -> i64 {
+fn count_mobility(mechanism: &Mechanism, state: StateId, dim: i64, freedoms: usize) -> i64 {
     let mut links: Vec<_> = mechanism
         .joints_in(state)
         .flat_map(|j| mechanism.joints[j].links)
         .collect();
     links.sort_unstable();
     links.dedup();
-    let constraints = dim * int(mechanism.joints_in(state).count()) - int(freedoms);
-    dim * (int(links.len()).max(1) - 1) - constraints - int(mechanism.couplings_in(state).count())
+    let constraints = dim * to_i64(mechanism.joints_in(state).count()) - to_i64(freedoms);
+    dim * (to_i64(links.len()).max(1) - 1)
+        - constraints
+        - to_i64(mechanism.couplings_in(state).count())
 }
 
 impl MobilityMethod for Spatial {
@@ -44,8 +46,8 @@ impl MobilityMethod for Spatial {
         }
         let joints = mechanism.joints_in(state);
         let freedoms = joints.map(|j| mechanism.joints[j].joint_type.freedoms().len());
-        let mobility = count(mechanism, state, 6, freedoms.sum());
-        Ok(Answer::counted(mobility, Certainty::Counted))
+        let mobility = count_mobility(mechanism, state, 6, freedoms.sum());
+        Ok(Answer::from_count(mobility, Certainty::Counted))
     }
 }
 
@@ -66,8 +68,8 @@ impl MobilityMethod for Planar {
         match whole_group(&exact, mechanism, state)?.kind() {
             // Freedoms out of the plane, which planar mode omits, do not count here.
             GroupKind::Planar | GroupKind::Rotation => {
-                let mobility = count(mechanism, state, 3, closure.columns.len());
-                Ok(Answer::counted(mobility, Certainty::Counted))
+                let mobility = count_mobility(mechanism, state, 3, closure.columns.len());
+                Ok(Answer::from_count(mobility, Certainty::Counted))
             }
             _ => Err(NoAnswer::DoesNotApply(
                 "not every joint moves in one plane; use the planar mode, which omits motions out of the plane",
@@ -94,18 +96,18 @@ impl MobilityMethod for Loops {
     }
     fn answer(&self, mechanism: &Mechanism, state: StateId) -> Result<Answer, NoAnswer> {
         let (exact, closure) = closure_of(mechanism, state, 0)?;
-        let mut mobility = int(closure.columns.len());
+        let mut mobility = to_i64(closure.columns.len());
         for k in 0..closure.contours.len() {
             let passes = |c: &usize| {
                 let joint = closure.columns[*c].joint;
-                closure.contours[k].direction(joint).is_some()
+                closure.contours[k].direction_of(joint).is_some()
             };
             let columns = (0..closure.columns.len()).filter(passes);
             let columns = columns.map(|c| closure.dense_column(&exact, c, &[k]));
-            mobility -= int(Echelon::of(exact.field(), columns).rank());
+            mobility -= to_i64(Echelon::from_vectors(exact.field(), columns).rank());
         }
         // A coupling is a separate row, of rank 1.
-        mobility -= int(closure.couplings.len());
-        Ok(Answer::counted(mobility, Certainty::Exact))
+        mobility -= to_i64(closure.couplings.len());
+        Ok(Answer::from_count(mobility, Certainty::Exact))
     }
 }

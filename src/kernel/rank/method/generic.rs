@@ -5,7 +5,7 @@
 //! The pebble game decides this [Lee & Streinu 2008].
 
 use crate::model::mechanism::{LinkId, Mechanism, Mode, StateId};
-use crate::rank::method::{About, Answer, Certainty, MobilityMethod, NoAnswer, RankOfJ, int};
+use crate::rank::method::{About, Answer, Certainty, MobilityMethod, NoAnswer, RankOfJ, to_i64};
 
 /// W = D(n - 1) - the rank of the bars in general position.
 #[derive(Debug, Clone, Copy)]
@@ -21,7 +21,7 @@ struct Pebbles {
 
 impl Pebbles {
     /// Brings one more free pebble to `to` without moving those of `keep`.
-    fn gather(&mut self, to: usize, keep: usize) -> bool {
+    fn gather_pebble(&mut self, to: usize, keep: usize) -> bool {
         let mut came: Vec<Option<usize>> = vec![None; self.free.len()];
         let mut stack = vec![to];
         came[to] = Some(to);
@@ -53,14 +53,14 @@ impl Pebbles {
         false
     }
 
-    fn insert(&mut self, a: usize, b: usize, dim: usize) -> bool {
+    fn insert_bar(&mut self, a: usize, b: usize, dim: usize) -> bool {
         while self.free[a] < dim {
-            if !self.gather(a, b) {
+            if !self.gather_pebble(a, b) {
                 break;
             }
         }
         while self.free[a] + self.free[b] <= dim {
-            if !self.gather(b, a) {
+            if !self.gather_pebble(b, a) {
                 return false;
             }
         }
@@ -79,7 +79,7 @@ pub fn generic_rank(bodies: usize, bars: &[(usize, usize)], dim: usize) -> usize
         out: vec![Vec::new(); bodies],
     };
     bars.iter()
-        .filter(|&&(a, b)| a != b && game.insert(a, b, dim))
+        .filter(|&&(a, b)| a != b && game.insert_bar(a, b, dim))
         .count()
 }
 
@@ -118,7 +118,10 @@ impl MobilityMethod for Generic {
         }
         let rank = generic_rank(links.len(), &bars, dim);
         let all = dim * (links.len().max(1) - 1);
-        Ok(Answer::counted(int(all) - int(rank), Certainty::Counted))
+        Ok(Answer::from_count(
+            to_i64(all) - to_i64(rank),
+            Certainty::Counted,
+        ))
     }
 }
 

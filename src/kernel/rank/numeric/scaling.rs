@@ -7,7 +7,7 @@ use ozols_dense::{Matrix, norm};
 /// Returns the unscaled J: 6k × f, lengths in the file's unit, about the global origin.
 #[must_use]
 pub(crate) fn as_it_stands(closure: &Closure<f64>) -> Matrix {
-    let columns = closure.dense(&Reals);
+    let columns = closure.dense_columns(&Reals);
     Matrix::from_fn(closure.rows(), columns.len(), |r, c| columns[c][r])
 }
 
@@ -29,7 +29,7 @@ impl Scaling {
     /// half the diagonal of the joints' bounding box, or by the longest translation of a unit turn (such as a long
     /// pitch).
     #[must_use]
-    pub fn of(closure: &Closure<f64>) -> Scaling {
+    pub fn of_closure(closure: &Closure<f64>) -> Scaling {
         let turns = closure.dim / 2;
         let mut scaling = Scaling {
             middle: closure
@@ -44,7 +44,7 @@ impl Scaling {
             .columns
             .iter()
             .map(|c| {
-                let t = scaling.about(&c.twist);
+                let t = scaling.about_middle(&c.twist);
                 (norm(&t[..turns]), norm(&t[turns..]))
             })
             .filter(|(turn, _)| *turn > 0.0)
@@ -69,7 +69,7 @@ impl Scaling {
     }
 
     /// Returns a twist about the middle.
-    fn about(&self, twist: &[f64]) -> Vec<f64> {
+    fn about_middle(&self, twist: &[f64]) -> Vec<f64> {
         let mut t = twist.to_vec();
         if let (Some(c), [w0, w1, w2, v0, v1, v2]) = (self.middle, t.as_mut_slice()) {
             // v + ω × c
@@ -81,14 +81,14 @@ impl Scaling {
     }
 
     fn length_of(&self, twist: &[f64]) -> Vec<f64> {
-        let mut t = self.about(twist);
+        let mut t = self.about_middle(twist);
         let turns = t.len() / 2;
         t[turns..].iter_mut().for_each(|x| *x /= self.length);
         t
     }
 
     /// Scales a twist of any joint to unit length, with the numbers after it.
-    pub fn unit(&self, column: &mut [f64]) {
+    pub fn scale_to_unit(&self, column: &mut [f64]) {
         // Six components, or three in a plane; entries of couplings follow them.
         let twist = self.length_of(&column[..self.components]);
         let size = norm(&twist);
@@ -100,7 +100,7 @@ impl Scaling {
 
     /// Returns a twist of column `c`, scaled like J.
     #[must_use]
-    pub fn apply(&self, c: usize, twist: &[f64]) -> Vec<f64> {
+    pub fn scale_column(&self, c: usize, twist: &[f64]) -> Vec<f64> {
         let mut t = self.length_of(twist);
         t.iter_mut().for_each(|x| *x /= self.columns[c]);
         t
@@ -109,17 +109,17 @@ impl Scaling {
 
 /// Returns J about the middle of the mechanism, with lengths relative to its size and columns of unit length.
 #[must_use]
-pub fn scaled(closure: &Closure<f64>) -> Matrix {
-    let scaling = Scaling::of(closure);
+pub fn scaled_matrix(closure: &Closure<f64>) -> Matrix {
+    let scaling = Scaling::of_closure(closure);
     let columns: Vec<Vec<f64>> = closure
         .columns
         .iter()
         .enumerate()
-        .map(|(c, column)| scaling.apply(c, &column.twist))
+        .map(|(c, column)| scaling.scale_column(c, &column.twist))
         .collect();
     let mut matrix = Matrix::from_fn(closure.rows(), columns.len(), |r, c| {
         let contour = closure.contours.get(r / closure.dim);
-        match contour.and_then(|k| k.direction(closure.columns[c].joint)) {
+        match contour.and_then(|k| k.direction_of(closure.columns[c].joint)) {
             None => 0.0,
             Some(true) => columns[c][r % closure.dim],
             Some(false) => -columns[c][r % closure.dim],
@@ -190,7 +190,7 @@ mod tests {
             [0.0, 0.0, 1.0],
             [1.0, -2.0, 4.0],
         ] {
-            let found = scaling.about(&[w, cross(c, w)].concat());
+            let found = scaling.about_middle(&[w, cross(c, w)].concat());
             assert_eq!(found, [w, [0.0; 3]].concat());
         }
     }

@@ -3,13 +3,13 @@
 
 use crate::closure::Closure;
 use crate::geom::expr::Expr;
-use crate::geom::vector::{length as norm, real};
+use crate::geom::vector::{length as norm, to_vector};
 use crate::model::joint_type::Freedom;
 use crate::model::mechanism::{JointId, Mechanism};
 use crate::model::rounded::Uncertainties;
 use crate::rank::method::NoAnswer;
 use crate::rank::numeric::NumericError;
-use crate::rank::numeric::scaling::{NumericRank, Scaling, scaled};
+use crate::rank::numeric::scaling::{NumericRank, Scaling, scaled_matrix};
 use ozols_dense::singular_values;
 
 /// Singular values below this fraction of the largest are zero in double precision.
@@ -26,7 +26,7 @@ pub(in crate::rank) struct Values {
 }
 
 pub(in crate::rank) fn relative_values(closure: &Closure<f64>) -> Result<Option<Values>, NoAnswer> {
-    let mut relative = singular_values(&scaled(closure))
+    let mut relative = singular_values(&scaled_matrix(closure))
         .ok_or_else(|| NoAnswer::Failed(NumericError::NoConvergence.to_string()))?;
     let largest = relative.first().copied().filter(|s| *s > 0.0);
     Ok(largest.map(|largest| {
@@ -36,12 +36,12 @@ pub(in crate::rank) fn relative_values(closure: &Closure<f64>) -> Result<Option<
 }
 
 impl Values {
-    pub(in crate::rank) fn above(&self, tolerance: f64) -> usize {
+    pub(in crate::rank) fn count_above(&self, tolerance: f64) -> usize {
         self.relative.iter().filter(|v| **v > tolerance).count()
     }
 
     /// Returns the rank with the gap it is based on.
-    pub(in crate::rank) fn at(&self, rank: usize) -> NumericRank {
+    pub(in crate::rank) fn rank_at(&self, rank: usize) -> NumericRank {
         let value = |i: usize| self.relative.get(i).copied();
         NumericRank {
             rank,
@@ -51,15 +51,15 @@ impl Values {
     }
 
     /// Returns the ratio between the last value of a rank and the next one, with values below a floor raised to it.
-    pub(in crate::rank) fn gap(&self, rank: usize, floor: f64) -> f64 {
-        let found = self.at(rank);
+    pub(in crate::rank) fn gap_at(&self, rank: usize, floor: f64) -> f64 {
+        let found = self.rank_at(rank);
         found.kept.max(floor) / found.dropped.max(floor)
     }
 
     /// Returns the rank at a gap so wide, with values below it so small, that they are probably numerical residue of
     /// zero.
     pub(in crate::rank) fn left_over(&self, rank: usize) -> Option<usize> {
-        (1..rank).find(|&r| self.gap(r, ROUND_OFF) >= GAP && self.at(r).dropped < LEFT_OVER)
+        (1..rank).find(|&r| self.gap_at(r, ROUND_OFF) >= GAP && self.rank_at(r).dropped < LEFT_OVER)
     }
 }
 
@@ -69,15 +69,19 @@ impl Values {
 /// "Matrix Computations", 2013, 8.6.2). An error of its direction affects a turn directly, and also in its moment, at
 /// an arm of at most the mechanism's size. The error of the point adds to this.
 #[must_use]
-pub(in crate::rank) fn bound(m: &Mechanism, closure: &Closure<f64>, half: &Uncertainties) -> f64 {
-    let size = Scaling::of(closure).length();
+pub(in crate::rank) fn rounding_bound(
+    m: &Mechanism,
+    closure: &Closure<f64>,
+    half: &Uncertainties,
+) -> f64 {
+    let size = Scaling::of_closure(closure).length();
     let error = |freedom: Freedom, j: JointId| {
         let (joint, half) = (&m.joints[j], &half.frames[j.index()]);
         let of = &joint.joint_type;
-        let angle = |h: [f64; 3], v: &[Expr; 3]| norm(h) / norm(real(v));
+        let angle = |h: [f64; 3], v: &[Expr; 3]| norm(h) / norm(to_vector(v));
         let axis = angle(half.axis, &joint.frame.axis);
         let length = norm(half.point) / size;
-        let turns = of.freedoms().iter().filter(|f| f.turns()).count();
+        let turns = of.freedoms().iter().filter(|f| f.is_turn()).count();
         // Second axes are computed from two vectors.
         let own = match freedom {
             Freedom::Rz | Freedom::Tz | Freedom::Screw => axis,
@@ -95,7 +99,9 @@ pub(in crate::rank) fn bound(m: &Mechanism, closure: &Closure<f64>, half: &Uncer
     };
     let squares = closure.columns.iter().map(|c| {
         let passing = closure.contours.iter();
-        let passing = passing.filter(|k| k.direction(c.joint).is_some()).count();
+        let passing = passing
+            .filter(|k| k.direction_of(c.joint).is_some())
+            .count();
         #[allow(clippy::cast_precision_loss, reason = "contours are few")]
         let times = passing as f64;
         times * error(c.freedom, c.joint).powi(2)

@@ -4,7 +4,7 @@ use crate::geom::Scalars;
 use crate::geom::exact::ExactField;
 use crate::linalg::modp::{Field, Residue};
 use crate::model::mechanism::{JointId, Mechanism};
-use crate::rank::exact::reconstruct::rational;
+use crate::rank::exact::reconstruct::reconstruct_rational;
 use num_bigint::BigInt;
 use num_integer::Integer;
 use num_traits::ToPrimitive;
@@ -22,19 +22,23 @@ impl Direction {
     /// Returns the name of a direction, in either sense: in small whole numbers, or otherwise by the first joint with
     /// such an axis.
     #[must_use]
-    pub fn of(exact: &ExactField, mechanism: &Mechanism, v: [Residue; 3]) -> Option<Direction> {
+    pub fn name_direction(
+        exact: &ExactField,
+        mechanism: &Mechanism,
+        v: [Residue; 3],
+    ) -> Option<Direction> {
         let along = |j: &JointId| {
             let axis = exact.eval3(&mechanism.joints[*j].frame.axis);
             axis.is_ok_and(|axis| exact.cross(v, axis) == [0; 3])
         };
-        simple(exact.field(), v)
+        small_numbers(exact.field(), v)
             .map(Direction::Numbers)
             .or_else(|| mechanism.joint_ids().find(along).map(Direction::AxisOf))
     }
 
     /// Describes the direction, such as "z", "[1, 2, 0]" or "the axis of 1-2".
     #[must_use]
-    pub fn words(self, mechanism: &Mechanism) -> String {
+    pub fn describe_direction(self, mechanism: &Mechanism) -> String {
         match self {
             Direction::Numbers([1, 0, 0]) => "x".to_owned(),
             Direction::Numbers([0, 1, 0]) => "y".to_owned(),
@@ -49,12 +53,12 @@ impl Direction {
 const SIMPLE: i64 = 100;
 
 /// Returns a direction in small whole numbers.
-fn simple(f: Field, of: [Residue; 3]) -> Option<[i64; 3]> {
+fn small_numbers(f: Field, of: [Residue; 3]) -> Option<[i64; 3]> {
     let first = f.inv(of.into_iter().find(|&x| x != 0)?);
     let modulus = BigInt::from(f.modulus());
     let ratio = |x: Residue| {
         let x = BigInt::from(f.to_u64(f.mul(x, first)));
-        let r = rational(&x, &modulus)?;
+        let r = reconstruct_rational(&x, &modulus)?;
         let small = |n: &BigInt| n.to_i64().filter(|n| n.abs() <= SIMPLE);
         Some((small(r.numer())?, small(r.denom())?))
     };

@@ -31,7 +31,7 @@ const PLANES: usize = 8;
 ///
 /// # Errors
 /// Returns an error if a coordinate has no value in the field.
-pub(crate) fn planes(
+pub(crate) fn planes_of_joints(
     exact: &ExactField,
     mechanism: &Mechanism,
     joints: impl IntoIterator<Item = JointId>,
@@ -58,7 +58,7 @@ pub(crate) fn planes(
 impl Plane {
     /// Returns the three rows of a twist in the plane, and the three out of it. Returns `None` in the rare case that
     /// they are dependent modulo the prime.
-    pub(crate) fn rows(self, exact: &ExactField) -> Option<[Rows; 2]> {
+    pub(crate) fn split_rows(self, exact: &ExactField) -> Option<[Rows; 2]> {
         let (f, n) = (exact.field(), self.normal);
         let size = exact.dot(n, n);
         if size == 0 {
@@ -88,6 +88,6 @@ impl Plane {
 }
 
 /// Returns a twist in three rows.
-pub(crate) fn seen(f: Field, rows: &Rows, twist: &[Residue]) -> [Residue; 3] {
+pub(crate) fn twist_in_rows(f: Field, rows: &Rows, twist: &[Residue]) -> [Residue; 3] {
     rows.map(|row| f.sum_of_products(row.into_iter().zip(twist.iter().copied())))
 }

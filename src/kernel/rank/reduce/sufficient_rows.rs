@@ -13,16 +13,16 @@
 //! The result holds for the given pose and geometry. Rows without motion here may have motion in another pose.
 
 use crate::closure::{Closure, Column};
-use crate::format::plural;
+use crate::format::count_noun;
 use crate::geom::exact::{ExactError, ExactField};
 use crate::linalg::echelon::Echelon;
 use crate::linalg::modp::Residue;
 use crate::model::mechanism::{JointId, Mechanism, Mode};
 use crate::rank::exact::modular;
 use crate::rank::finite::displacement_group::{DisplacementGroup, group_of};
-use crate::rank::finite::independent_parts::parts;
+use crate::rank::finite::independent_parts::independent_parts;
 use crate::rank::reduce::axis_names::Direction;
-use crate::rank::reduce::plane::{Rows, planes, seen};
+use crate::rank::reduce::plane::{Rows, planes_of_joints, twist_in_rows};
 use itertools::Itertools;
 
 /// Motions that rows describe.
@@ -92,16 +92,16 @@ impl LeastRows {
             contours: (0..closure.contours.len()).collect(),
             parts: vec![part],
         };
-        let tied = parts(closure);
+        let tied = independent_parts(closure);
         let mut blocks = Vec::new();
         let mut spoken_for = 0;
         if let Mode::Planar { .. } = mechanism.mode {
-            blocks.push(all(BlockRows::whole(exact, closure)));
+            blocks.push(all(BlockRows::all_rows(exact, closure)));
         } else {
-            for part in closure.parts(&tied) {
+            for part in closure.split_parts(&tied) {
                 let (joints, contours) = (part.joints, part.contours);
                 spoken_for += if contours.is_empty() { 0 } else { joints.len() };
-                let parts = least(exact, mechanism, &joints, &part.closure)?;
+                let parts = least_of_block(exact, mechanism, &joints, &part.closure)?;
                 blocks.push(Block { contours, parts });
             }
             // Blocks with the same group are reported as one.
@@ -129,32 +129,32 @@ impl LeastRows {
     /// Returns the rank of J, by one prime.
     #[must_use]
     pub fn rank(&self) -> usize {
-        self.parts().map(|p| p.rank).sum()
+        self.all_parts().map(|p| p.rank).sum()
     }
 
     /// Returns the number of rows that are enough.
     #[must_use]
     pub fn rows(&self) -> usize {
-        self.parts().map(|p| p.rows).sum()
+        self.all_parts().map(|p| p.rows).sum()
     }
 
     /// Returns true if these are all rows, with a single part per block.
     #[must_use]
     pub fn is_all(&self) -> bool {
-        self.parts().all(|p| p.motions == Motions::All)
+        self.all_parts().all(|p| p.motions == Motions::All)
     }
 
-    fn parts(&self) -> impl Iterator<Item = &BlockRows> {
+    fn all_parts(&self) -> impl Iterator<Item = &BlockRows> {
         self.blocks.iter().flat_map(|b| &b.parts)
     }
 
     /// Describes the rows used, the rows omitted, and the reason. Empty if all rows are used unchanged.
     #[must_use]
-    pub fn words(&self, mechanism: &Mechanism, name: impl Fn(usize) -> String) -> String {
+    pub fn describe_rows(&self, mechanism: &Mechanism, name: impl Fn(usize) -> String) -> String {
         if self.is_all() {
             return String::new();
         }
-        let what = |b: &Block| b.words(mechanism, self.dim);
+        let what = |b: &Block| b.describe_block(mechanism, self.dim);
         let left_out = |rows, of: String| match rows {
             0 => String::new(),
             rows => format!("; omitted: {rows} of {of}, redundant in any case"),
@@ -198,24 +198,26 @@ impl LeastRows {
 }
 
 impl Block {
-    fn words(&self, mechanism: &Mechanism, dim: usize) -> String {
+    fn describe_block(&self, mechanism: &Mechanism, dim: usize) -> String {
         match self.parts.as_slice() {
             [inside, outside] => {
                 let normal = match inside.motions {
-                    Motions::InPlane(Some(d)) => format!(" with normal {}", d.words(mechanism)),
+                    Motions::InPlane(Some(d)) => {
+                        format!(" with normal {}", d.describe_direction(mechanism))
+                    }
                     _ => String::new(),
                 };
                 if inside.rows == 0 {
                     return format!(
                         "move only out of a plane{normal}, so {} per contour {}",
-                        plural(outside.per_contour, "row"),
-                        enough(outside.per_contour)
+                        count_noun(outside.per_contour, "row"),
+                        is_enough(outside.per_contour)
                     );
                 }
                 format!(
                     "move in a plane{normal} {} or out of it {}",
-                    inside.words(),
-                    outside.words()
+                    inside.describe_counts(),
+                    outside.describe_counts()
                 )
             }
             [
@@ -227,8 +229,8 @@ impl Block {
             ] => {
                 format!(
                     "move in {name}, so {} per contour {}",
-                    plural(*per_contour, "row"),
-                    enough(*per_contour)
+                    count_noun(*per_contour, "row"),
+                    is_enough(*per_contour)
                 )
             }
             _ => format!("need all {dim} rows per contour"),
@@ -245,12 +247,12 @@ impl BlockRows {
             of,
             rank: match least.rows() {
                 0 => 0,
-                _ => modular::rank(exact, least),
+                _ => modular::rank_modulo(exact, least),
             },
         }
     }
 
-    fn whole(exact: &ExactField, closure: &Closure<Residue>) -> BlockRows {
+    fn all_rows(exact: &ExactField, closure: &Closure<Residue>) -> BlockRows {
         BlockRows::new(exact, Motions::All, closure, closure.rows())
     }
 
@@ -265,35 +267,35 @@ impl BlockRows {
 
     /// Returns the number of redundant constraints of such motions, including the omitted rows.
     #[must_use]
-    pub fn redundant(&self) -> usize {
+    pub fn count_redundant(&self) -> usize {
         self.of - self.rank
     }
 
-    fn words(&self) -> String {
-        let (rows, of, rank, redundant) = (self.rows, self.of, self.rank, self.redundant());
+    fn describe_counts(&self) -> String {
+        let (rows, of, rank, redundant) = (self.rows, self.of, self.rank, self.count_redundant());
         format!("({rows} of {of} rows, rank {rank}, σ = {redundant})")
     }
 }
 
-fn enough(n: usize) -> &'static str {
+fn is_enough(n: usize) -> &'static str {
     if n == 1 { "is enough" } else { "are enough" }
 }
 
 /// Returns the smallest set of rows of a block in space.
-fn least(
+fn least_of_block(
     exact: &ExactField,
     mechanism: &Mechanism,
     joints: &[JointId],
     closure: &Closure<Residue>,
 ) -> Result<Vec<BlockRows>, ExactError> {
     if closure.contours.is_empty() {
-        return Ok(vec![BlockRows::whole(exact, closure)]);
+        return Ok(vec![BlockRows::all_rows(exact, closure)]);
     }
     let group = group_of(exact, mechanism, joints.iter().copied())?;
     // A coupling may connect motions in the plane with motions out of it.
     if closure.couplings.is_empty() && group.dimension() > 3 {
-        for plane in planes(exact, mechanism, joints.iter().copied())? {
-            let Some(rows) = plane.rows(exact) else {
+        for plane in planes_of_joints(exact, mechanism, joints.iter().copied())? {
+            let Some(rows) = plane.split_rows(exact) else {
                 continue;
             };
             let Some([inside, outside]) = fallen_apart(exact, closure, rows) else {
@@ -302,7 +304,7 @@ fn least(
             if inside.dim + outside.dim > group.dimension() {
                 break;
             }
-            let normal = Direction::of(exact, mechanism, plane.normal);
+            let normal = Direction::name_direction(exact, mechanism, plane.normal);
             let half = closure.rows() / 2;
             return Ok(vec![
                 BlockRows::new(exact, Motions::InPlane(normal), &inside, half),
@@ -313,7 +315,7 @@ fn least(
     Ok(vec![if group.dimension() < closure.dim {
         BlockRows::of_group(exact, &group, closure)
     } else {
-        BlockRows::whole(exact, closure)
+        BlockRows::all_rows(exact, closure)
     }])
 }
 
@@ -332,7 +334,7 @@ fn fallen_apart(
         for column in columns {
             whole.insert(&column.twist);
             for ((part, all), rows) in parts.iter_mut().zip(&mut all).zip(&rows) {
-                let t = seen(f, rows, &column.twist);
+                let t = twist_in_rows(f, rows, &column.twist);
                 part.insert(&t);
                 all.insert(&t);
             }
@@ -344,7 +346,7 @@ fn fallen_apart(
     let part = |i: usize| {
         let used = all[i].pivots();
         let seen = |c: &Column<Residue>| {
-            let t = seen(f, &rows[i], &c.twist);
+            let t = twist_in_rows(f, &rows[i], &c.twist);
             Column {
                 twist: used.iter().map(|&r| t[r]).collect(),
                 ..c.clone()

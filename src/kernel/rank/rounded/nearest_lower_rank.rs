@@ -10,9 +10,9 @@ use crate::geom::Reals;
 use crate::geom::expr::Expr;
 use crate::model::mechanism::{Mechanism, StateId};
 use crate::model::rounded::Uncertainties;
-use crate::rank::numeric::scaling::{Scaling, scaled};
-use crate::rank::rounded::{Coordinate, coordinates, frame_with};
-use ozols_dense::{Matrix, difference, dot, largest, svd, thin_svd};
+use crate::rank::numeric::scaling::{Scaling, scaled_matrix};
+use crate::rank::rounded::{Coordinate, frame_with, rounded_coordinates};
+use ozols_dense::{Matrix, difference, dot, largest_entry, svd, thin_svd};
 
 /// Maximum number of Newton steps.
 const STEPS: usize = 12;
@@ -46,7 +46,7 @@ pub struct Nearest {
 }
 
 /// Returns the mechanism with each coordinate moved by that many units.
-fn moved(m: &Mechanism, of: &[Coordinate], by: &[f64]) -> Option<Mechanism> {
+fn move_coordinates(m: &Mechanism, of: &[Coordinate], by: &[f64]) -> Option<Mechanism> {
     let mut out = m.clone();
     for (c, x) in of.iter().zip(by) {
         let frame = &mut out.joints[c.joint].frame;
@@ -70,13 +70,13 @@ fn moved(m: &Mechanism, of: &[Coordinate], by: &[f64]) -> Option<Mechanism> {
 /// # Complexity
 /// At most 12 decompositions of a matrix of (6k - rank)(f - rank) rows and 9p columns.
 #[must_use]
-pub fn nearest(
+pub fn nearest_of_rank(
     m: &Mechanism,
     state: StateId,
     rank: usize,
     half: &Uncertainties,
 ) -> Option<Nearest> {
-    let of = coordinates(m, m.joints_in(state), half);
+    let of = rounded_coordinates(m, m.joints_in(state), half);
     let mut closure = Closure::new(&Reals, m, state).ok()?;
     let contours = closure.contours.clone();
     let equations = (closure.rows() - rank) * (closure.columns.len() - rank);
@@ -85,11 +85,11 @@ pub fn nearest(
     }
     let (mut by, mut found, mut conditions) = (vec![0.0_f64; of.len()], m.clone(), 0);
     for _ in 0..STEPS {
-        let matrix = scaled(&closure);
+        let matrix = scaled_matrix(&closure);
         let singular = svd(&matrix)?;
         let beyond = singular.values.get(rank).copied().unwrap_or(0.0);
         if beyond <= ZERO * singular.values[0] {
-            let (most, square) = (largest(&by), dot(&by, &by));
+            let (most, square) = (largest_entry(&by), dot(&by, &by));
             let likely = most <= MOST && square <= largest_square(conditions);
             return likely.then_some(Nearest {
                 mechanism: found,
@@ -99,15 +99,15 @@ pub fn nearest(
         }
         let (left, right) = (singular.left_null_space(rank), singular.null_space(rank));
         let residue = left.transpose_times(&matrix.times(&right));
-        let change = changes(&found, &closure, &of, &by, &left, &right)?;
-        let (step, felt) = least(&change, &residue)?;
+        let change = changes_of_residue(&found, &closure, &of, &by, &left, &right)?;
+        let (step, felt) = least_step(&change, &residue)?;
         conditions = conditions.max(felt);
         by = difference(&by, &step);
         // The solution is already too far off: no step leads back within a unit.
         if by.iter().any(|x| !x.is_finite() || x.abs() > 10.0 * MOST) {
             return None;
         }
-        found = moved(m, &of, &by)?;
+        found = move_coordinates(m, &of, &by)?;
         closure = Closure::with_contours(&Reals, &found, state, contours.clone()).ok()?;
     }
     None
@@ -115,7 +115,7 @@ pub fn nearest(
 
 /// Returns the change of F with each coordinate, per unit of its last digit: one column per coordinate. Couplings are
 /// unaffected, because they are linear in the joints' own rates.
-fn changes(
+fn changes_of_residue(
     m: &Mechanism,
     closure: &Closure<f64>,
     of: &[Coordinate],
@@ -123,7 +123,7 @@ fn changes(
     left: &Matrix,
     right: &Matrix,
 ) -> Option<Matrix> {
-    let scaling = Scaling::of(closure);
+    let scaling = Scaling::of_closure(closure);
     let space = MotionSpace::new(&Reals, &m.mode).ok()?;
     let (rows, columns) = (left.ncols(), right.ncols());
     let mut out = Matrix::zeros(rows * columns, of.len());
@@ -138,16 +138,16 @@ fn changes(
                 continue;
             }
             let twist = |f: &FrameValues<f64>| {
-                let mut all = f.twists(&Reals, &space, freedoms).into_iter();
+                let mut all = f.twists_in_space(&Reals, &space, freedoms).into_iter();
                 let (_, t) = all.find(|(f, _)| *f == column.freedom)?;
-                Some(scaling.apply(n, &t))
+                Some(scaling.scale_column(n, &t))
             };
             let (a, b) = (twist(&before)?, twist(&after)?);
             let rate: Vec<f64> = (a.iter().zip(&b))
                 .map(|(a, b)| (b - a) / (2.0 * step))
                 .collect();
             for (k, contour) in closure.contours.iter().enumerate() {
-                let Some(forward) = contour.direction(c.joint) else {
+                let Some(forward) = contour.direction_of(c.joint) else {
                     continue;
                 };
                 let sign = if forward { 1.0 } else { -1.0 };
@@ -167,7 +167,7 @@ fn changes(
 
 /// Returns the smallest x with `change · x` = `residue` in the directions that matter, and the number of these
 /// directions.
-fn least(change: &Matrix, residue: &Matrix) -> Option<(Vec<f64>, usize)> {
+fn least_step(change: &Matrix, residue: &Matrix) -> Option<(Vec<f64>, usize)> {
     let columns = residue.ncols();
     let right = Matrix::from_fn(change.nrows(), 1, |r, _| {
         residue[(r / columns, r % columns)]

@@ -1,15 +1,15 @@
 //! Joints that are nearly special: axes that are almost parallel, perpendicular, coaxial or concurrent, with the
 //! relation and the deviation from it.
 
-use crate::format::significant;
+use crate::format::four_digits;
 use crate::geom::vector::{
-    Vector, X, Y, Z, across, add_scaled, cross, dot, length, real, sub, unit,
+    Vector, X, Y, Z, across, add_scaled, cross, dot, length, sub, to_vector, unit,
 };
 use crate::model::joint_type::Freedom;
 use crate::model::mechanism::{Joint, JointId, Mechanism, Mode};
 use crate::model::rounded::looks_rounded;
-use crate::rank::rounded::size;
-use crate::rank::rounded::verdict::allowed;
+use crate::rank::rounded::mechanism_size;
+use crate::rank::rounded::verdict::allowed_uncertainty;
 use itertools::Itertools;
 
 /// Minimum sine between two directions that define a plane.
@@ -72,9 +72,9 @@ pub struct NearJoint {
 impl NearJoint {
     /// Returns the deviation: "0.002 degrees and 0.13 mm".
     #[must_use]
-    pub fn far(&self, m: &Mechanism) -> String {
+    pub fn describe_deviation(&self, m: &Mechanism) -> String {
         let small = |x: f64| match x {
-            1e-4..1e4 => significant(x),
+            1e-4..1e4 => four_digits(x),
             _ => format!("{x:.1e}"),
         };
         let turn = (self.turn > 0.0).then(|| format!("{} degrees", small(self.turn.to_degrees())));
@@ -87,10 +87,10 @@ impl NearJoint {
 /// Returns how far the rounding of coordinates can have moved two joints of a mechanism apart, or `None` if its digits
 /// are exact.
 #[must_use]
-pub fn reach(mechanism: &Mechanism) -> Option<Reach> {
-    let half = allowed(mechanism, looks_rounded(mechanism).as_ref())?;
-    let [length, direction] = half.largest(mechanism).map(|h| 2.0 * h);
-    let size = size(mechanism);
+pub fn rounding_reach(mechanism: &Mechanism) -> Option<Reach> {
+    let half = allowed_uncertainty(mechanism, looks_rounded(mechanism).as_ref())?;
+    let [length, direction] = half.largest_half_units(mechanism).map(|h| 2.0 * h);
+    let size = mechanism_size(mechanism);
     Some(Reach {
         length: 2.0 * (length + size * direction),
         angle: 2.0 * direction.max(length / size),
@@ -118,29 +118,29 @@ pub fn nearly_special(mechanism: &Mechanism, reach: Reach) -> Vec<NearJoint> {
     let mut directions = Directions::new(mechanism, reach.angle);
     let mut axes: Vec<Vector> = Vec::new();
     for (joint, near) in mechanism.joints.iter().zip(&mut out) {
-        let axis = unit(real(&joint.frame.axis));
+        let axis = unit(to_vector(&joint.frame.axis));
         axes.push(if joint.joint_type.is_directed() {
-            directions.place(axis, near)
+            directions.place_direction(axis, near)
         } else {
             axis
         });
     }
     for (joint, near) in mechanism.joints.iter().zip(&mut out) {
         if joint.joint_type.has_second_axis() {
-            let axis = unit(real(&joint.frame.axis));
-            directions.place(unit(across(real(&joint.frame.reference), axis)), near);
+            let axis = unit(to_vector(&joint.frame.axis));
+            directions.place_direction(unit(across(to_vector(&joint.frame.reference), axis)), near);
         }
     }
-    let least = ROUND_OFF * size(mechanism);
+    let least = ROUND_OFF * mechanism_size(mechanism);
     let mut places: Vec<Place> = Vec::new();
     for ((joint, near), axis) in mechanism.joints.iter().zip(&mut out).zip(axes) {
-        places.extend(Place::of(joint, near.joint, axis));
+        places.extend(Place::of_joint(joint, near.joint, axis));
         let Some((own, earlier)) = places.split_last().filter(|(p, _)| p.joint == near.joint)
         else {
             continue;
         };
         let found = earlier.iter().filter_map(|other| {
-            let (relation, shift) = own.relation(other)?;
+            let (relation, shift) = own.relation_to(other)?;
             (shift <= reach.length).then_some((relation, shift, other.joint))
         });
         let strongest = found.max_by(|a, b| a.0.cmp(&b.0).then(b.1.total_cmp(&a.1)));
@@ -166,7 +166,7 @@ struct Directions {
 /// A special direction, the relation it has, and the joint it refers to.
 type Special = (Vector, Relation, Option<JointId>);
 
-fn sine(a: Vector, b: Vector) -> f64 {
+fn sine_between(a: Vector, b: Vector) -> f64 {
     length(cross(a, b))
 }
 
@@ -174,7 +174,7 @@ impl Directions {
     fn new(mechanism: &Mechanism, angle: f64) -> Directions {
         let normal = match &mechanism.mode {
             Mode::Spatial => None,
-            Mode::Planar { normal } => Some(unit(real(normal))),
+            Mode::Planar { normal } => Some(unit(to_vector(normal))),
         };
         let known = normal.into_iter().chain([X, Y, Z]);
         Directions {
@@ -185,14 +185,14 @@ impl Directions {
 
     /// Returns the special direction that a unit vector of a joint is within the angle of, or the vector itself, and
     /// records its relation and the turn.
-    fn place(&mut self, v: Vector, near: &mut NearJoint) -> Vector {
-        let parallel = self.known.iter().map(|k| (k, sine(k.0, v)));
+    fn place_direction(&mut self, v: Vector, near: &mut NearJoint) -> Vector {
+        let parallel = self.known.iter().map(|k| (k, sine_between(k.0, v)));
         let parallel = parallel.filter(|(_, s)| *s <= self.angle);
         let parallel = parallel.min_by(|a, b| a.1.total_cmp(&b.1));
         let special: Option<Special> = match parallel {
             Some((&(u, joint), _)) => Some((u, Relation::Parallel, joint)),
             None => {
-                let found = self.square(v).or_else(|| self.in_plane(v));
+                let found = self.square_to_known(v).or_else(|| self.in_plane(v));
                 let own = found.map_or(v, |(u, ..)| u);
                 self.known.push((own, Some(near.joint)));
                 found
@@ -201,7 +201,7 @@ impl Directions {
         let Some((u, relation, joint)) = special else {
             return v;
         };
-        let turn = sine(u, v).min(1.0).asin();
+        let turn = sine_between(u, v).min(1.0).asin();
         if turn > ROUND_OFF {
             near.turn = near.turn.max(turn);
             near.relations.push((relation, joint));
@@ -210,17 +210,17 @@ impl Directions {
     }
 
     /// Returns the direction perpendicular to two known directions, or to one.
-    fn square(&self, v: Vector) -> Option<Special> {
+    fn square_to_known(&self, v: Vector) -> Option<Special> {
         let square = self
             .known
             .iter()
             .filter(|k| dot(k.0, v).abs() <= self.angle);
         let square: Vec<&(Vector, Option<JointId>)> = square.collect();
         let first = square.first()?.0;
-        let second = square.iter().find(|k| sine(first, k.0) > PLANE);
+        let second = square.iter().find(|k| sine_between(first, k.0) > PLANE);
         let both = second.map(|k| unit(cross(first, k.0)));
         let special = both
-            .filter(|u| sine(*u, v) <= self.angle)
+            .filter(|u| sine_between(*u, v) <= self.angle)
             .unwrap_or_else(|| unit(across(v, first)));
         Some((special, Relation::Square, square.iter().find_map(|k| k.1)))
     }
@@ -246,8 +246,8 @@ struct Place {
 
 impl Place {
     /// Returns the place of a joint whose axis is this special direction, or `None` if the joint only slides.
-    fn of(joint: &Joint, id: JointId, axis: Vector) -> Option<Place> {
-        let turns = |f: &&Freedom| f.turns() || **f == Freedom::Screw;
+    fn of_joint(joint: &Joint, id: JointId, axis: Vector) -> Option<Place> {
+        let turns = |f: &&Freedom| f.is_turn() || **f == Freedom::Screw;
         let turning: Vec<&Freedom> = joint.joint_type.freedoms().iter().filter(turns).collect();
         let along = match turning[..] {
             [] => return None,
@@ -256,14 +256,14 @@ impl Place {
         };
         Some(Place {
             joint: id,
-            point: real(&joint.frame.point),
+            point: to_vector(&joint.frame.point),
             along,
         })
     }
 
     /// Returns the relation that this place has to another if their distance is none, and that distance. Returns
     /// `None` for parallel lines that are no longer the same, and for lines whose crossing is uncertain.
-    fn relation(&self, other: &Place) -> Option<(Relation, f64)> {
+    fn relation_to(&self, other: &Place) -> Option<(Relation, f64)> {
         let off = sub(self.point, other.point);
         let from = |u: Vector| length(add_scaled(off, -dot(off, u), u));
         Some(match (self.along, other.along) {

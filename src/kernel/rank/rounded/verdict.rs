@@ -7,17 +7,19 @@
 
 use crate::closure::Closure;
 use crate::geom::Reals;
-use crate::meant::mechanism::{Meant as Scene, meant as scene_of, moved_joints, understood};
+use crate::meant::mechanism::{
+    Meant as Scene, describe_relations, moved_joints, recover_mechanism as scene_of,
+};
 use crate::model::mechanism::{Mechanism, Mode, StateId};
 use crate::model::rounded::{Rounded, Uncertainties, looks_rounded, uncertainties};
 use crate::rank::exact::field::closure_of;
 use crate::rank::exact::modular;
 use crate::rank::method::NoAnswer;
 use crate::rank::numeric::scaling::NumericRank;
-use crate::rank::numeric::values::{ROUND_OFF, Values, bound, relative_values};
+use crate::rank::numeric::values::{ROUND_OFF, Values, relative_values, rounding_bound};
 use crate::rank::reduce::sufficient_rows::LeastRows;
-use crate::rank::rounded::nearest_lower_rank::{Nearest, nearest};
-use crate::rank::rounded::size;
+use crate::rank::rounded::mechanism_size;
+use crate::rank::rounded::nearest_lower_rank::{Nearest, nearest_of_rank};
 
 /// Minimum gap that is significant among values that rounding can have made.
 const CLEAR: f64 = 30.0;
@@ -106,7 +108,7 @@ impl RankVerdict {
 
     /// Returns (W, σ) at a rank.
     #[must_use]
-    pub fn figures(&self, rank: usize) -> (usize, usize) {
+    pub fn figures_at(&self, rank: usize) -> (usize, usize) {
         (
             self.freedoms.saturating_sub(rank),
             self.rows.saturating_sub(rank),
@@ -121,7 +123,7 @@ impl RankVerdict {
 
     /// Returns the mechanism of the verdict, if it is not the one as written.
     #[must_use]
-    pub fn mechanism(&self) -> Option<&Mechanism> {
+    pub fn intended_mechanism(&self) -> Option<&Mechanism> {
         match &self.meant {
             Meant::AsWritten | Meant::Undecided { .. } => None,
             Meant::Snapped { mechanism, .. } | Meant::Near { mechanism, .. } => Some(mechanism),
@@ -130,7 +132,7 @@ impl RankVerdict {
 
     /// Returns one word for programs.
     #[must_use]
-    pub fn word(&self) -> &'static str {
+    pub fn as_word(&self) -> &'static str {
         match self.meant {
             Meant::AsWritten => "as written",
             Meant::Snapped { .. } => "snapped",
@@ -147,15 +149,17 @@ impl RankVerdict {
 
     /// Returns true if the written and the intended mechanism have the same figures.
     #[must_use]
-    pub fn agrees(&self) -> bool {
+    pub fn agrees_as_written(&self) -> bool {
         self.is_decided() && self.rank() == self.as_written
     }
 
     /// Explains why the rank is undecided, and what to do.
     #[must_use]
-    pub fn undecided(&self) -> String {
-        let ((w, sigma), (near_w, near_sigma)) =
-            (self.figures(self.as_written), self.figures(self.at_least()));
+    pub fn explain_undecided(&self) -> String {
+        let ((w, sigma), (near_w, near_sigma)) = (
+            self.figures_at(self.as_written),
+            self.figures_at(self.at_least()),
+        );
         let gap = self.numeric.map_or_else(String::new, |n| {
             format!(
                 "; singular values: {:.1e} above the gap, {:.1e} below it",
@@ -174,14 +178,14 @@ impl RankVerdict {
 fn exact_rank(mechanism: &Mechanism, state: StateId) -> Result<(usize, String), NoAnswer> {
     let (exact, closure) = closure_of(mechanism, state, 0)?;
     let least = LeastRows::new(&exact, mechanism, &closure)?;
-    let words = least.words(mechanism, |c| closure.contours[c].name(mechanism));
+    let words = least.describe_rows(mechanism, |c| closure.contours[c].name(mechanism));
     Ok((least.rank(), words))
 }
 
 /// Returns the exact rank of J of a snapped mechanism, by one prime.
 fn rank_of(mechanism: &Mechanism, state: StateId) -> Result<usize, NoAnswer> {
     let (exact, closure) = closure_of(mechanism, state, 0)?;
-    Ok(modular::rank(&exact, &closure))
+    Ok(modular::rank_modulo(&exact, &closure))
 }
 
 /// Returns the verdict on a state.
@@ -197,13 +201,13 @@ fn rank_of(mechanism: &Mechanism, state: StateId) -> Result<usize, NoAnswer> {
 /// # Complexity
 /// The recovery of the intended scene and one modular rank. With decimals also one singular value decomposition, and
 /// [`nearest`] only if the ranks disagree.
-pub fn verdict(mechanism: &Mechanism, state: StateId) -> Result<RankVerdict, NoAnswer> {
-    let scene = resolved(mechanism);
+pub fn rank_verdict(mechanism: &Mechanism, state: StateId) -> Result<RankVerdict, NoAnswer> {
+    let scene = intended_scene(mechanism);
     verdict_on(mechanism, state, scene.as_ref())
 }
 
 /// Returns the intended scene, if the digits determine one.
-fn resolved(mechanism: &Mechanism) -> Option<Scene> {
+fn intended_scene(mechanism: &Mechanism) -> Option<Scene> {
     scene_of(mechanism).filter(|s| s.scene.moved <= FURTHEST)
 }
 
@@ -231,39 +235,39 @@ fn verdict_on(
         needed,
         rounded,
     };
-    let Some(half) = allowed(file, found.rounded.as_ref()) else {
+    let Some(half) = allowed_uncertainty(file, found.rounded.as_ref()) else {
         return Ok(found);
     };
     let Some(values) = relative_values(&real)? else {
         return Ok(found);
     };
-    found.tolerance = (bound(mechanism, &real, &half) / values.largest).max(LEAST);
-    let above = values.above(found.tolerance);
+    found.tolerance = (rounding_bound(mechanism, &real, &half) / values.largest).max(LEAST);
+    let above = values.count_above(found.tolerance);
     let scene = match scene.filter(|s| s.scene.moved > 0.0) {
         Some(s) => Some((s, rank_of(&s.mechanism, state)?)),
         None => None,
     };
     let rank = scene.map_or(as_written, |s| s.1);
     if above >= rank {
-        let (at, meant) = counted(&values, above, rank, scene);
-        (found.numeric, found.meant) = (Some(values.at(at)), meant);
+        let (at, meant) = verdict_if_counted(&values, above, rank, scene);
+        (found.numeric, found.meant) = (Some(values.rank_at(at)), meant);
         return Ok(found);
     }
     // A value below the tolerance may be zero, for any exact rank.
-    found.numeric = Some(values.at(above));
-    found.meant = if values.gap(above, ROUND_OFF) < CLEAR {
+    found.numeric = Some(values.rank_at(above));
+    found.meant = if values.gap_at(above, ROUND_OFF) < CLEAR {
         // The gaps there are too similar to choose one.
         Meant::Undecided {
             near: values.left_over(above).unwrap_or(above),
         }
     } else {
-        meant(mechanism, state, above, &half)
+        verdict_near(mechanism, state, above, &half)
     };
     Ok(found)
 }
 
 /// Returns the uncertainty of coordinates: half the units of their last digits, or `None` if every digit is exact.
-pub(in crate::rank) fn allowed(
+pub(in crate::rank) fn allowed_uncertainty(
     file: &Mechanism,
     rounded: Option<&Rounded>,
 ) -> Option<Uncertainties> {
@@ -274,7 +278,7 @@ pub(in crate::rank) fn allowed(
 
 /// Returns the verdict if no rounding can have made the singular values that the rank counts, and the rank at which to
 /// show them.
-fn counted(
+fn verdict_if_counted(
     values: &Values,
     above: usize,
     rank: usize,
@@ -284,31 +288,31 @@ fn counted(
         (Some(near), _) => (near, Meant::Undecided { near }),
         // No rounding can have made a relation that the digits establish.
         (_, Some(_)) if above > rank => (rank, Meant::Undecided { near: rank }),
-        (_, Some((s, _))) => (rank, snapped(s, rank)),
+        (_, Some((s, _))) => (rank, verdict_snapped(s, rank)),
         _ => (rank, Meant::AsWritten),
     }
 }
 
 /// Returns the verdict that a scene is intended.
-fn snapped(scene: &Scene, rank: usize) -> Meant {
+fn verdict_snapped(scene: &Scene, rank: usize) -> Meant {
     Meant::Snapped {
         mechanism: Box::new(scene.mechanism.clone()),
         rank,
         moved: moved_joints(scene).len(),
-        understood: understood(scene),
+        understood: describe_relations(scene),
     }
 }
 
 /// Returns the intended mechanism if J is to have a rank.
-fn meant(mechanism: &Mechanism, state: StateId, rank: usize, half: &Uncertainties) -> Meant {
+fn verdict_near(mechanism: &Mechanism, state: StateId, rank: usize, half: &Uncertainties) -> Meant {
     // With few digits, a geometry of that rank is close by chance, unless it requires several conditions at once.
-    let [length, direction] = half.largest(mechanism);
-    let share = (WIDE * 2.0 * direction.max(length / size(mechanism))).min(1.0);
+    let [length, direction] = half.largest_half_units(mechanism);
+    let share = (WIDE * 2.0 * direction.max(length / mechanism_size(mechanism))).min(1.0);
     let chance = |n: &Nearest| {
         let conditions = i32::try_from(n.conditions).unwrap_or(i32::MAX);
         share.powi(conditions.max(1))
     };
-    match nearest(mechanism, state, rank, half).filter(|n| chance(n) <= CHANCE) {
+    match nearest_of_rank(mechanism, state, rank, half).filter(|n| chance(n) <= CHANCE) {
         Some(Nearest {
             mechanism: m,
             moved,
@@ -344,12 +348,12 @@ pub struct Settled {
 ///
 /// # Guarantee
 /// If no verdict is open, the exact rank of J in each state is that of its verdict.
-pub fn settle(mechanism: &Mechanism, states: &[StateId]) -> Result<Settled, NoAnswer> {
+pub fn settle_states(mechanism: &Mechanism, states: &[StateId]) -> Result<Settled, NoAnswer> {
     let mut out = Settled::default();
     if looks_rounded(mechanism).is_none() {
         return Ok(out);
     }
-    let scene = resolved(mechanism);
+    let scene = intended_scene(mechanism);
     let each = |&s: &StateId| verdict_on(mechanism, s, scene.as_ref());
     out.verdicts = states.iter().map(each).collect::<Result<_, _>>()?;
     let snapped = scene.as_ref().filter(|s| s.scene.moved > 0.0);
@@ -361,7 +365,7 @@ pub fn settle(mechanism: &Mechanism, states: &[StateId]) -> Result<Settled, NoAn
         }
     }
     if let Some(s) = snapped.filter(|s| !moved_joints(s).is_empty()) {
-        out.understood = Some(understood(s));
+        out.understood = Some(describe_relations(s));
         out.snapped = Some(s.mechanism.clone());
     }
     out.others = scene.map(|s| s.others).unwrap_or_default();
@@ -371,7 +375,7 @@ pub fn settle(mechanism: &Mechanism, states: &[StateId]) -> Result<Settled, NoAn
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::model::drawn::{X, drawn, hinges};
+    use crate::model::drawn::{X, draw_mechanism, hinges};
 
     /// Two hinges of a door half a last digit apart are intended to be on one line, unless there are so few digits that
     /// any two would be.
@@ -380,9 +384,9 @@ mod tests {
         for (unit, near) in [(1e-6, true), (1e-3, false)] {
             let apart = [0.345_678 * unit, 0.0, 0.0];
             let door = hinges(&[([0, 1], [0.0; 3]), ([0, 1], apart), ([0, 2], X)]);
-            let m = drawn(&door, &[]);
+            let m = draw_mechanism(&door, &[]);
             let half = Uncertainties::uniform(&m, unit / 2.0, unit / 2.0);
-            let found = meant(&m, StateId::FREE, 2, &half);
+            let found = verdict_near(&m, StateId::FREE, 2, &half);
             assert_eq!(
                 matches!(found, Meant::Near { .. }),
                 near,

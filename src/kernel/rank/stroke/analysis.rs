@@ -7,7 +7,7 @@
 
 use crate::closure::tree::path_from_frame;
 use crate::model::mechanism::{LinkId, Mechanism, Mode, Role, StateId};
-use crate::motion::follow::{Follower, Stop, Why, positions};
+use crate::motion::follow::{Follower, Stop, Why, stroke_positions};
 use crate::motion::pose::{FLAT, Pose};
 use crate::rank::numeric::scaling::{NumericRank, rank_of_values};
 use ozols_dense::{Matrix, singular_values};
@@ -92,7 +92,7 @@ pub struct StrokeRequest<'a> {
     pub tolerance: Option<f64>,
 }
 
-fn values(matrix: &Matrix) -> Vec<f64> {
+fn values_of(matrix: &Matrix) -> Vec<f64> {
     singular_values(matrix).unwrap_or_default()
 }
 
@@ -120,7 +120,7 @@ struct PoseValues {
 impl<'a> Looker<'a> {
     fn new(request: &'a StrokeRequest<'a>, pose: &Pose) -> Looker<'a> {
         let m = request.mechanism;
-        let slides = pose.columns[request.drive].freedom.slides();
+        let slides = pose.columns[request.drive].freedom.is_slide();
         let middle = |l: LinkId| {
             let of = m.joints_at(l, request.state);
             let points: Vec<[f64; 3]> = of
@@ -150,26 +150,26 @@ impl<'a> Looker<'a> {
         }
     }
 
-    fn sample(&self, follower: &Follower) -> PoseValues {
-        let pose = follower.pose();
-        let mut all = values(&pose.jacobian(&vec![0.0; pose.columns.len()]));
+    fn sample_pose(&self, follower: &Follower) -> PoseValues {
+        let pose = follower.current_pose();
+        let mut all = values_of(&pose.jacobian_at(&vec![0.0; pose.columns.len()]));
         let rank = rank_of_values(all.clone(), self.tolerance);
         let largest = all.first().copied().unwrap_or(1.0).max(f64::MIN_POSITIVE);
         all.iter_mut().for_each(|v| *v /= largest);
         PoseValues {
             follower: follower.clone(),
-            at: follower.at(),
+            at: follower.drive_position(),
             rank,
             values: all,
         }
     }
 
-    fn figures(&self, sample: &PoseValues) -> PoseFigures {
-        let pose = sample.follower.pose();
+    fn figures_of(&self, sample: &PoseValues) -> PoseFigures {
+        let pose = sample.follower.current_pose();
         let rank = sample.rank;
         let outputs = self.outputs.iter().map(|&(link, p)| {
             let d = &pose.links[link];
-            let to = d.point(p);
+            let to = d.map_point(p);
             Output {
                 link,
                 point: [0, 1, 2].map(|i| pose.middle[i] + pose.length * to[i]),
@@ -180,9 +180,9 @@ impl<'a> Looker<'a> {
             at: sample.at * self.unit,
             rank,
             mobility: pose.columns.len() - rank.rank,
-            redundant: pose.constraints(self.dim).saturating_sub(rank.rank),
-            share: sample.follower.share(),
-            gap: sample.follower.gap(),
+            redundant: pose.constraint_rows(self.dim).saturating_sub(rank.rank),
+            share: sample.follower.drive_share(),
+            gap: sample.follower.closure_gap(),
             outputs: outputs.collect(),
         }
     }
@@ -190,12 +190,18 @@ impl<'a> Looker<'a> {
     /// Returns the sample at a position, reached from a nearby one.
     fn from(&self, near: &PoseValues, at: f64) -> Option<PoseValues> {
         let mut follower = near.follower.clone();
-        follower.advance(at, |_| {}).ok()?;
-        Some(self.sample(&follower))
+        follower.advance_to(at, |_| {}).ok()?;
+        Some(self.sample_pose(&follower))
     }
 
     /// Brackets the change between two poses of different ranks.
-    fn bisect(&self, low: &PoseValues, high: &PoseValues, width: f64, out: &mut Vec<RankChange>) {
+    fn bisect_change(
+        &self,
+        low: &PoseValues,
+        high: &PoseValues,
+        width: f64,
+        out: &mut Vec<RankChange>,
+    ) {
         let (mut low, mut high) = (low.clone(), high.clone());
         // Two such brackets and the flat interval between them form one change in one pose.
         while (high.at - low.at).abs() > width / 8.0 {
@@ -216,7 +222,7 @@ impl<'a> Looker<'a> {
 
     /// Finds the lowest kept singular value between two poses of one rank around a third, and records it if it
     /// vanishes.
-    fn lowest(&self, around: [&PoseValues; 3], width: f64, out: &mut Vec<RankChange>) {
+    fn lowest_value(&self, around: [&PoseValues; 3], width: f64, out: &mut Vec<RankChange>) {
         let rank = around[1].rank.rank;
         let Some(last) = rank.checked_sub(1) else {
             return;
@@ -249,7 +255,7 @@ impl<'a> Looker<'a> {
     }
 
     /// Returns the changes along the path.
-    fn changes(&self, way: &[PoseValues]) -> Vec<RankChange> {
+    fn rank_changes(&self, way: &[PoseValues]) -> Vec<RankChange> {
         let [from, to] = self.request.range;
         let width = BRACKET * ((to - from) / self.unit).abs();
         let last = |s: &PoseValues, rank: usize| {
@@ -258,13 +264,13 @@ impl<'a> Looker<'a> {
         let mut found = Vec::new();
         for (i, pair) in way.windows(2).enumerate() {
             if pair[0].rank.rank != pair[1].rank.rank {
-                self.bisect(&pair[0], &pair[1], width, &mut found);
+                self.bisect_change(&pair[0], &pair[1], width, &mut found);
             } else if let Some(next) = way.get(i + 2)
                 && next.rank.rank == pair[0].rank.rank
             {
                 let [a, b, c] = [&pair[0], &pair[1], next].map(|s| last(s, next.rank.rank));
                 if b < a && b <= c {
-                    self.lowest([&pair[0], &pair[1], next], width, &mut found);
+                    self.lowest_value([&pair[0], &pair[1], next], width, &mut found);
                 }
             }
         }
@@ -282,7 +288,7 @@ impl<'a> Looker<'a> {
             };
             let alike = |s: &PoseValues| s.rank.rank == from.rank.rank;
             if alike(&middle) && alike(to) {
-                self.lowest([from, &middle, to], width, &mut found);
+                self.lowest_value([from, &middle, to], width, &mut found);
             }
         }
         let along = (to - from).signum();
@@ -310,7 +316,7 @@ impl<'a> Looker<'a> {
     }
 
     /// Returns the number of output motions with all drives held.
-    fn undriven(&self, pose: &Pose) -> usize {
+    fn count_undriven(&self, pose: &Pose) -> usize {
         let m = self.request.mechanism;
         let paths: Vec<_> = self
             .outputs
@@ -322,9 +328,10 @@ impl<'a> Looker<'a> {
             .filter(|c| *c != self.request.drive && !self.request.held.contains(c))
             .collect();
         let whole = pose.jacobian_with(&paths, &[]);
-        let rank =
-            |all: &Matrix| rank_of_values(values(&all.select_columns(&free)), self.tolerance).rank;
-        rank(&whole) - rank(&pose.jacobian(&vec![0.0; f]))
+        let rank = |all: &Matrix| {
+            rank_of_values(values_of(&all.select_columns(&free)), self.tolerance).rank
+        };
+        rank(&whole) - rank(&pose.jacobian_at(&vec![0.0; f]))
     }
 }
 
@@ -333,19 +340,19 @@ impl<'a> Looker<'a> {
 /// # Complexity
 /// About ten closures and singular values of O((6k + f)³) per radian and step, and about thirty per change.
 #[must_use]
-pub fn stroke(request: &StrokeRequest<'_>, pose: &Pose) -> StrokeFigures {
+pub fn analyse_stroke(request: &StrokeRequest<'_>, pose: &Pose) -> StrokeFigures {
     let looker = Looker::new(request, pose);
     let mut follower = Follower::new(pose.clone(), request.drive, request.held);
     let range = request.range.map(|x| x / looker.unit);
     let (mut poses, mut way, mut stop) = (Vec::new(), Vec::new(), None);
-    for (i, to) in positions(range, request.steps).enumerate() {
-        let arrived = follower.advance(to, |f| {
+    for (i, to) in stroke_positions(range, request.steps).enumerate() {
+        let arrived = follower.advance_to(to, |f| {
             if i > 0 {
-                way.push(looker.sample(f));
+                way.push(looker.sample_pose(f));
             }
         });
         if i == 0 && arrived.is_ok() {
-            way.push(looker.sample(&follower));
+            way.push(looker.sample_pose(&follower));
         }
         if let Err(s) = arrived {
             stop = Some(Stop {
@@ -355,20 +362,20 @@ pub fn stroke(request: &StrokeRequest<'_>, pose: &Pose) -> StrokeFigures {
             break;
         }
         // A requested position is a pose along the path, the last one.
-        let last = way.last().filter(|s| s.at == follower.at());
+        let last = way.last().filter(|s| s.at == follower.drive_position());
         poses.push(match last {
-            Some(s) => looker.figures(s),
-            None => looker.figures(&looker.sample(&follower)),
+            Some(s) => looker.figures_of(s),
+            None => looker.figures_of(&looker.sample_pose(&follower)),
         });
     }
     StrokeFigures {
-        changes: looker.changes(&way),
+        changes: looker.rank_changes(&way),
         poses,
         stop,
         // At a crossing of branches there are several motions, and the drive does not choose one.
         undriven: match stop.map(|s| s.why) {
             Some(Why::Singular | Why::Instantaneous) => 0,
-            _ => looker.undriven(pose),
+            _ => looker.count_undriven(pose),
         },
     }
 }

@@ -4,10 +4,10 @@ use crate::geom::exact::ExactError;
 use crate::model::joint_type::Freedom;
 use crate::model::loads;
 use crate::model::mechanism::{JointId, Mechanism, StateId};
-use crate::motion::follow::{Follower, slides};
+use crate::motion::follow::{Follower, column_slides};
 use crate::motion::pose::{FLAT, Pose};
 use crate::rank::rounded::verdict::{Meant, RankVerdict};
-use crate::rank::stroke::analysis::{StrokeFigures, StrokeRequest, stroke};
+use crate::rank::stroke::analysis::{StrokeFigures, StrokeRequest, analyse_stroke};
 use itertools::Itertools;
 use thiserror::Error;
 
@@ -107,11 +107,11 @@ pub struct AskedStroke<'a> {
 fn of_ball(pose: &Pose, column: usize) -> bool {
     let of = pose.columns[column].joint;
     let own = pose.columns.iter().filter(|c| c.joint == of);
-    own.filter(|c| c.freedom.turns()).count() == 3
+    own.filter(|c| c.freedom.is_turn()).count() == 3
 }
 
 /// Returns the columns, with the names they are driven by.
-fn names(m: &Mechanism, pose: &Pose) -> Vec<(usize, String)> {
+fn column_names(m: &Mechanism, pose: &Pose) -> Vec<(usize, String)> {
     let of = |j: JointId| pose.columns.iter().filter(move |c| c.joint == j);
     let columns = pose.columns.iter().enumerate();
     columns
@@ -146,14 +146,14 @@ impl<'a> AskedStroke<'a> {
         tolerance: Option<f64>,
     ) -> Result<AskedStroke<'a>, AskedError> {
         if !verdict.is_decided() {
-            let why = verdict.undecided();
+            let why = verdict.explain_undecided();
             let name = m.name.clone();
             return Err(AskedError::Undecided { name, why });
         }
-        let m = verdict.mechanism().unwrap_or(m);
+        let m = verdict.intended_mechanism().unwrap_or(m);
         let pose = Pose::of_file(m, state)?;
-        let (drive, held) = drive(m, &pose, state, named)?;
-        let slide = slides(&pose, drive);
+        let (drive, held) = find_drive(m, &pose, state, named)?;
+        let slide = column_slides(&pose, drive);
         lengths_where_it_slides(m, slide, text)?;
         let far = 1e3 * if slide { pose.length } else { 1.0 };
         if range.steps > MOST || range.from.abs() > far || range.to.abs() > far {
@@ -179,9 +179,9 @@ impl<'a> AskedStroke<'a> {
 
     /// Returns the name of the drive, and whether it slides.
     #[must_use]
-    pub fn drive(&self) -> (String, bool) {
+    pub fn drive_name(&self) -> (String, bool) {
         let name = name_of(self.mechanism, &self.pose, self.drive);
-        (name, slides(&self.pose, self.drive))
+        (name, column_slides(&self.pose, self.drive))
     }
 
     /// Returns the start and the end.
@@ -192,7 +192,7 @@ impl<'a> AskedStroke<'a> {
 
     /// Follows the stroke.
     #[must_use]
-    pub fn follow(&self) -> StrokeFigures {
+    pub fn follow_stroke(&self) -> StrokeFigures {
         let found = self.verdict;
         // Contours with rounded coordinates close only within the rounding.
         let measured = found.rounded.as_ref().is_some_and(|r| r.digits.is_some());
@@ -214,27 +214,27 @@ impl<'a> AskedStroke<'a> {
             steps: self.range.steps,
             tolerance,
         };
-        stroke(&request, &pose)
+        analyse_stroke(&request, &pose)
     }
 }
 
 /// Splits a name such as `joint:rz` into joint and freedom. The freedom is `None` if the whole is a joint's name, or if
 /// no joint has the first part as its name.
 fn joint_and_freedom<'n>(m: &Mechanism, name: &'n str) -> (&'n str, Option<&'n str>) {
-    match (m.joint(name), name.rsplit_once(':')) {
-        (None, Some((id, freedom))) if m.joint(id).is_some() => (id, Some(freedom)),
+    match (m.joint_named(name), name.rsplit_once(':')) {
+        (None, Some((id, freedom))) if m.joint_named(id).is_some() => (id, Some(freedom)),
         _ => (name, None),
     }
 }
 
 /// Returns the column that moves and those that are held.
-fn drive(
+fn find_drive(
     m: &Mechanism,
     pose: &Pose,
     state: StateId,
     asked: Option<&str>,
 ) -> Result<(usize, Vec<usize>), AskedError> {
-    let names = names(m, pose);
+    let names = column_names(m, pose);
     let driven = |j: JointId| m.joints[j].drive;
     let column = |joint: JointId, freedom: Option<&str>| {
         let mut of: Vec<_> = names
@@ -243,7 +243,7 @@ fn drive(
             .filter(|(c, _)| freedom.is_none_or(|f| pose.columns[*c].freedom.name() == f))
             .collect();
         if of.len() > 1 {
-            of.retain(|(c, _)| moves(pose, *c));
+            of.retain(|(c, _)| column_moves(pose, *c));
         }
         match of[..] {
             [(c, _)] => Ok(*c),
@@ -251,7 +251,7 @@ fn drive(
                 joint: m.joints[joint].id.clone(),
                 freedom: freedom.map_or_else(String::new, |f| format!(" {f}")),
                 state: m.states[state].clone(),
-                could: could(m, pose, &names),
+                could: describe_choices(m, pose, &names),
             }),
             _ => Err(AskedError::Several {
                 joint: m.joints[joint].id.clone(),
@@ -262,9 +262,9 @@ fn drive(
     let chosen = match asked {
         Some(name) => {
             let (id, freedom) = joint_and_freedom(m, name);
-            let joint = m.joint(id).ok_or_else(|| AskedError::NoJoint {
+            let joint = m.joint_named(id).ok_or_else(|| AskedError::NoJoint {
                 name: name.to_owned(),
-                could: could(m, pose, &names),
+                could: describe_choices(m, pose, &names),
             })?;
             column(joint, freedom)?
         }
@@ -272,7 +272,7 @@ fn drive(
             let mut driving = m.joints_in(state).filter(|&j| driven(j));
             let joint = driving.next().ok_or_else(|| AskedError::NoDrive {
                 name: m.name.clone(),
-                could: could(m, pose, &names),
+                could: describe_choices(m, pose, &names),
             })?;
             column(joint, m.joints[joint].drive_freedom.map(Freedom::name))?
         }
@@ -281,7 +281,7 @@ fn drive(
     let held = (0..pose.columns.len())
         .filter(|&c| {
             let column = &pose.columns[c];
-            column.joint != own && m.joints[column.joint].drives(column.freedom)
+            column.joint != own && m.joints[column.joint].may_drive(column.freedom)
         })
         .filter(|_| driven(own))
         .collect();
@@ -301,13 +301,13 @@ pub fn drive_or_any(
 ) -> Result<(usize, Vec<usize>), AskedError> {
     let driven = m.joints_in(state).any(|j| m.joints[j].drive);
     if asked.is_some() || driven {
-        return drive(m, pose, state, asked);
+        return find_drive(m, pose, state, asked);
     }
     let mut columns = (0..pose.columns.len()).filter(|&c| !of_ball(pose, c));
-    let first = columns.find(|&c| moves(pose, c));
+    let first = columns.find(|&c| column_moves(pose, c));
     let first = first.ok_or_else(|| AskedError::Still {
         name: m.name.clone(),
-        could: could(m, pose, &names(m, pose)),
+        could: describe_choices(m, pose, &column_names(m, pose)),
     })?;
     Ok((first, Vec::new()))
 }
@@ -328,22 +328,25 @@ pub fn lengths_where_it_slides(m: &Mechanism, slides: bool, text: &str) -> Resul
 /// Returns the name of a column as a drive.
 #[must_use]
 pub fn name_of(m: &Mechanism, pose: &Pose, column: usize) -> String {
-    let mut names = names(m, pose).into_iter();
+    let mut names = column_names(m, pose).into_iter();
     names
         .find(|(c, _)| *c == column)
         .map_or_else(String::new, |(_, n)| n)
 }
 
 /// Returns true if a column can move in a pose.
-fn moves(pose: &Pose, column: usize) -> bool {
-    Follower::new(pose.clone(), column, &[]).share() > 1e-6
+fn column_moves(pose: &Pose, column: usize) -> bool {
+    Follower::new(pose.clone(), column, &[]).drive_share() > 1e-6
 }
 
 /// Describes the joints that could be drives in this pose, with balls last.
-fn could(m: &Mechanism, pose: &Pose, names: &[(usize, String)]) -> String {
+fn describe_choices(m: &Mechanism, pose: &Pose, names: &[(usize, String)]) -> String {
     let kinds =
         [false, true].map(|ball| names.iter().filter(move |(c, _)| of_ball(pose, *c) == ball));
-    let moving = kinds.into_iter().flatten().filter(|(c, _)| moves(pose, *c));
+    let moving = kinds
+        .into_iter()
+        .flatten()
+        .filter(|(c, _)| column_moves(pose, *c));
     let list = moving.map(|(_, n)| n).take(30).join(", ");
     if list.is_empty() {
         format!("none can move in {}", m.name)

@@ -6,48 +6,48 @@ use std::ops::AddAssign;
 /// A number of variants.
 pub(crate) trait Count: Clone + Send + Sync + for<'a> AddAssign<&'a Self> {
     /// No variant.
-    fn none() -> Self;
+    fn zero_count() -> Self;
     /// One variant.
-    fn one() -> Self;
+    fn unit_count() -> Self;
     /// Adds the product of two numbers.
     fn add_product(&mut self, a: &Self, b: &Self);
     /// As a number of any size.
-    fn big(&self) -> BigUint;
+    fn to_big_uint(&self) -> BigUint;
     /// Bytes held besides the number itself.
-    fn beside(&self) -> usize {
+    fn heap_bytes(&self) -> usize {
         0
     }
 }
 
 impl Count for u128 {
-    fn none() -> Self {
+    fn zero_count() -> Self {
         0
     }
-    fn one() -> Self {
+    fn unit_count() -> Self {
         1
     }
     fn add_product(&mut self, a: &Self, b: &Self) {
         *self += a * b;
     }
-    fn big(&self) -> BigUint {
+    fn to_big_uint(&self) -> BigUint {
         BigUint::from(*self)
     }
 }
 
 impl Count for BigUint {
-    fn none() -> Self {
+    fn zero_count() -> Self {
         BigUint::ZERO
     }
-    fn one() -> Self {
+    fn unit_count() -> Self {
         BigUint::from(1u8)
     }
     fn add_product(&mut self, a: &Self, b: &Self) {
         *self += a * b;
     }
-    fn big(&self) -> BigUint {
+    fn to_big_uint(&self) -> BigUint {
         self.clone()
     }
-    fn beside(&self) -> usize {
+    fn heap_bytes(&self) -> usize {
         // Its digits, and what an allocation takes.
         usize::try_from(self.bits() / 8).unwrap_or(usize::MAX / 4) + 32
     }
@@ -70,10 +70,10 @@ impl<const N: usize> AddAssign<&Wide<N>> for Wide<N> {
 }
 
 impl<const N: usize> Count for Wide<N> {
-    fn none() -> Self {
+    fn zero_count() -> Self {
         Wide([0; N])
     }
-    fn one() -> Self {
+    fn unit_count() -> Self {
         let mut digits = [0; N];
         digits[0] = 1;
         Wide(digits)
@@ -88,7 +88,7 @@ impl<const N: usize> Count for Wide<N> {
             debug_assert!(carried == 0, "no count exceeds that of all variants");
         }
     }
-    fn big(&self) -> BigUint {
+    fn to_big_uint(&self) -> BigUint {
         let halves = self.0.iter().flat_map(|&d| [d as u32, (d >> 32) as u32]);
         BigUint::new(halves.collect())
     }
@@ -102,13 +102,13 @@ mod tests {
     /// Three times as much again and again, then twice, up to the last bit, as numbers of any size have it.
     #[test]
     fn digits_add_as_numbers_of_any_size_do() {
-        let (mut digits, mut big) = (Wide::<4>::one(), BigUint::one());
+        let (mut digits, mut big) = (Wide::<4>::unit_count(), BigUint::unit_count());
         for _ in 0..160 {
             let once = digits.clone();
             digits += &once;
             digits += &once;
             big *= 3u8;
-            assert_eq!(digits.big(), big);
+            assert_eq!(digits.to_big_uint(), big);
         }
         assert!(big.bits() > 250, "all four digits are in use");
         while big.bits() < 256 {
@@ -116,21 +116,21 @@ mod tests {
             digits += &once;
             big *= 2u8;
         }
-        assert_eq!(digits.big(), big);
+        assert_eq!(digits.to_big_uint(), big);
     }
 
     /// Powers of a number of two digits, and what was before added, as numbers of any size have them.
     #[test]
     fn digits_multiply_as_numbers_of_any_size_do() {
-        let mut factor = Wide::<8>::one();
+        let mut factor = Wide::<8>::unit_count();
         (0..70).for_each(|_| factor += &factor.clone());
-        factor += &Wide::one();
-        let (mut digits, mut big) = (Wide::<8>::one(), BigUint::one());
+        factor += &Wide::unit_count();
+        let (mut digits, mut big) = (Wide::<8>::unit_count(), BigUint::unit_count());
         for _ in 0..7 {
             let once = digits.clone();
             digits.add_product(&once, &factor);
-            big += &big * factor.big();
-            assert_eq!(digits.big(), big);
+            big += &big * factor.to_big_uint();
+            assert_eq!(digits.to_big_uint(), big);
         }
         assert!(big.bits() > 448, "all eight digits are in use");
     }

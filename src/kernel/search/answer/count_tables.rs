@@ -28,11 +28,12 @@ impl<C: Count> Tally<C> {
         bytes: usize,
     ) -> Option<Tally<C>> {
         let mut left = bytes;
-        let (mut tables, mut numbers) = terminals(diagram, steps);
+        let (mut tables, mut numbers) = terminal_tables(diagram, steps);
         let mut out = Vec::with_capacity(diagram.layers.len() + 1);
         for l in (0..diagram.layers.len()).rev() {
             let bound = bound.map(|b| &b[l][..]);
-            let (here, named, used) = layer(diagram, steps, l, bound, &tables, &numbers, left)?;
+            let (here, named, used) =
+                layer_tables(diagram, steps, l, bound, &tables, &numbers, left)?;
             left = left.saturating_sub(used);
             out.push(std::mem::replace(&mut tables, here));
             numbers = named;
@@ -44,7 +45,7 @@ impl<C: Count> Tally<C> {
 
     /// Returns where a choice leads from a node of a layer, what is left of a key there, and how many completions have that. Returns `None`
     /// if none has.
-    pub(crate) fn follow(
+    pub(crate) fn follow_choice(
         &self,
         diagram: &Diagram,
         steps: &Steps,
@@ -62,7 +63,7 @@ impl<C: Count> Tally<C> {
 
     /// Counts of whole variants by key.
     #[must_use]
-    pub(crate) fn totals(&self) -> &[(Key, C)] {
+    pub(crate) fn total_counts(&self) -> &[(Key, C)] {
         self.tables
             .first()
             .and_then(|l| l.first())
@@ -79,18 +80,23 @@ impl<C: Count> Tally<C> {
 /// # Complexity
 /// That of [`Tally::new`] for each part, and for each a product with the table of those after it.
 #[must_use]
-pub(crate) fn totals<C: Count>(diagram: &Diagram, steps: &Steps, bytes: usize) -> Option<Table<C>> {
-    let mut whole: Table<C> = vec![(Key::default(), C::one())];
-    let (mut tables, mut numbers) = terminals(diagram, steps);
+pub(crate) fn totals_by_key<C: Count>(
+    diagram: &Diagram,
+    steps: &Steps,
+    bytes: usize,
+) -> Option<Table<C>> {
+    let mut whole: Table<C> = vec![(Key::default(), C::unit_count())];
+    let (mut tables, mut numbers) = terminal_tables(diagram, steps);
     let mut held = 0;
     for l in (0..=diagram.layers.len()).rev() {
         if l < diagram.layers.len() {
             let left = bytes.saturating_sub(held);
-            (tables, numbers, held) = layer(diagram, steps, l, None, &tables, &numbers, left)?;
+            (tables, numbers, held) =
+                layer_tables(diagram, steps, l, None, &tables, &numbers, left)?;
         }
         if let [part] = &mut tables[..] {
-            whole = product(&whole, part, bytes)?;
-            *part = vec![(Key::default(), C::one())];
+            whole = multiply_tables(&whole, part, bytes)?;
+            *part = vec![(Key::default(), C::unit_count())];
             numbers = Numbers {
                 keys: vec![Key::default()],
                 places: vec![vec![0]],
@@ -105,13 +111,13 @@ pub(crate) fn totals<C: Count>(diagram: &Diagram, steps: &Steps, bytes: usize) -
 ///
 /// # Complexity
 /// O(entries of one · entries of the other).
-fn product<C: Count>(many: &Table<C>, few: &Table<C>, bytes: usize) -> Option<Table<C>> {
+fn multiply_tables<C: Count>(many: &Table<C>, few: &Table<C>, bytes: usize) -> Option<Table<C>> {
     let [keys, by] = [many, few].map(|table| table.iter().map(|(k, _)| *k).collect::<Vec<Key>>());
     let shifts = Shifts::new(&keys, &by, u64::MAX, bytes)?;
     if shifts.keys.len() > bytes / size_of::<(Key, C)>() {
         return None;
     }
-    let mut sums = vec![C::none(); shifts.keys.len()];
+    let mut sums = vec![C::zero_count(); shifts.keys.len()];
     for (shift, (_, times)) in shifts.of_choice.iter().zip(few) {
         for (&to, (_, count)) in shifts.to[*shift].iter().zip(many) {
             sums[to as usize].add_product(count, times);
@@ -130,7 +136,7 @@ struct Numbers {
 
 impl Numbers {
     /// Returns the places among the keys that tables use. A bound leaves few keys, and unused ones would accumulate from layer to layer.
-    fn of(mut keys: Vec<Key>, mut places: Vec<Vec<u32>>) -> Numbers {
+    fn compact_keys(mut keys: Vec<Key>, mut places: Vec<Vec<u32>>) -> Numbers {
         let mut is_met = vec![false; keys.len()];
         for &place in places.iter().flatten() {
             is_met[place as usize] = true;
@@ -151,19 +157,19 @@ impl Numbers {
     }
 }
 
-fn terminals<C: Count>(diagram: &Diagram, steps: &Steps) -> (Vec<Table<C>>, Numbers) {
-    let ends = diagram.terminals.iter().map(|&r| steps.redundancy(r));
+fn terminal_tables<C: Count>(diagram: &Diagram, steps: &Steps) -> (Vec<Table<C>>, Numbers) {
+    let ends = diagram.terminals.iter().map(|&r| steps.redundancy_key(r));
     let ends: Vec<Key> = ends.collect();
     let mut keys = ends.clone();
     keys.sort_unstable();
     keys.dedup();
-    let place = |k: &Key| vec![number(keys.partition_point(|x| x < k))];
+    let place = |k: &Key| vec![key_number(keys.partition_point(|x| x < k))];
     let places = ends.iter().map(place).collect();
-    let tables = ends.iter().map(|&k| vec![(k, C::one())]).collect();
+    let tables = ends.iter().map(|&k| vec![(k, C::unit_count())]).collect();
     (tables, Numbers { keys, places })
 }
 
-fn number(place: usize) -> u32 {
+fn key_number(place: usize) -> u32 {
     u32::try_from(place).expect("tables that fit the memory have fewer keys")
 }
 
@@ -197,7 +203,7 @@ impl Shifts {
         };
         let mut ahead: Vec<Key> = different.iter().map(|&by| next(by, 0)).collect();
         while let Some(&key) = ahead.iter().min().filter(|k| **k != END) {
-            let place = number(keys.len());
+            let place = key_number(keys.len());
             for ((ahead, to), &by) in ahead.iter_mut().zip(&mut to).zip(&different) {
                 if *ahead == key {
                     to.push(place);
@@ -207,7 +213,7 @@ impl Shifts {
             keys.push(key);
         }
         // What costs too much comes after all.
-        let beyond = number(keys.len());
+        let beyond = key_number(keys.len());
         to.iter_mut().for_each(|to| to.resize(below.len(), beyond));
         let of_choice = choices.iter().map(|c| different.partition_point(|x| x < c));
         Some(Shifts {
@@ -225,12 +231,12 @@ fn put_in_order<C>(met: &mut Vec<u32>, sums: &[Option<C>]) {
     } else {
         met.clear();
         let all = sums.iter().enumerate().filter(|(_, s)| s.is_some());
-        met.extend(all.map(|(i, _)| number(i)));
+        met.extend(all.map(|(i, _)| key_number(i)));
     }
 }
 
 /// The tables of layer `l` from those of the one below and the numbers of their keys, with the bytes they take; `None` where these are too many.
-fn layer<C: Count>(
+fn layer_tables<C: Count>(
     diagram: &Diagram,
     steps: &Steps,
     l: usize,
@@ -279,19 +285,19 @@ fn layer<C: Count>(
         table.try_reserve_exact(met.len()).ok()?;
         table.extend(met.iter().filter_map(entry));
         used += table.capacity() * (size_of::<(Key, C)>() + size_of::<u32>());
-        used += table.iter().map(|(_, c)| c.beside()).sum::<usize>();
+        used += table.iter().map(|(_, c)| c.heap_bytes()).sum::<usize>();
         if used > bytes {
             return None;
         }
         here.push(table);
         places.push(std::mem::take(&mut met));
     }
-    Some((here, Numbers::of(shifts.keys, places), used))
+    Some((here, Numbers::compact_keys(shifts.keys, places), used))
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{Tally, layer, terminals, totals};
+    use super::{Tally, layer_tables, terminal_tables, totals_by_key};
     use crate::search::answer::keys::{Key, Steps};
     use crate::search::diagram::redundancy_so_far::Redundancy;
     use crate::search::diagram::{DEAD, Diagram, Layer};
@@ -309,14 +315,14 @@ mod tests {
             edges: vec![0, 0, 0, 0, DEAD, DEAD, DEAD, 1],
         };
         let layers = (0..variables).map(two).collect();
-        let diagram = Diagram::whole(layers, vec![Redundancy::default(); 2]);
+        let diagram = Diagram::from_layers(layers, vec![Redundancy::default(); 2]);
         let steps = Steps::of_keys(vec![keys.clone(); variables]);
-        let (mut tables, mut numbers) = terminals::<u128>(&diagram, &steps);
+        let (mut tables, mut numbers) = terminal_tables::<u128>(&diagram, &steps);
         for l in (0..variables).rev() {
             let bound = Some(&[1, u64::MAX][..]);
             let room = 1 << 20;
             (tables, numbers, _) =
-                layer(&diagram, &steps, l, bound, &tables, &numbers, room).unwrap();
+                layer_tables(&diagram, &steps, l, bound, &tables, &numbers, room).unwrap();
             let dearest = Key(keys[3].0 * (variables - l) as u128);
             assert_eq!(numbers.keys, [Key::default(), keys[1], dearest]);
             assert_eq!(numbers.places, [vec![0, 1], vec![2]]);
@@ -344,12 +350,12 @@ mod tests {
             internal: 3,
             ..Redundancy::default()
         };
-        let diagram = Diagram::whole(layers.collect(), vec![end]);
+        let diagram = Diagram::from_layers(layers.collect(), vec![end]);
         let steps = Steps::of_keys(vec![keys; variables]);
         let room = 1 << 20;
         let whole = Tally::<u128>::new(&diagram, &steps, None, room).unwrap();
-        let parts = totals::<u128>(&diagram, &steps, room).unwrap();
-        assert_eq!(parts, whole.totals());
+        let parts = totals_by_key::<u128>(&diagram, &steps, room).unwrap();
+        assert_eq!(parts, whole.total_counts());
         assert_eq!(parts.iter().map(|(_, n)| n).sum::<u128>(), 6u128.pow(3));
     }
 }

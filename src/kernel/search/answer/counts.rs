@@ -1,7 +1,7 @@
 //! How many variants there are of each kind.
 
 use crate::search::answer::count::{Count, Wide};
-use crate::search::answer::count_tables::totals;
+use crate::search::answer::count_tables::totals_by_key;
 use crate::search::answer::keys::{Key, Kinds};
 use crate::search::diagram::{DEAD, Diagram};
 use crate::search::question::Question;
@@ -38,12 +38,12 @@ impl fmt::Display for Counts {
 /// How many orbits there are of a symmetry that is done `order` times, 2 or 3, until all is back: from how many variants
 /// there are and how many of them it keeps (Burnside's lemma: whatever but the identity is done keeps just these).
 #[must_use]
-pub fn orbits(all: &BigUint, kept: &BigUint, order: usize) -> BigUint {
+pub fn count_orbits(all: &BigUint, kept: &BigUint, order: usize) -> BigUint {
     (all + kept * (order - 1)) / order
 }
 
 /// Raises each figure to that of some that are among these.
-fn raise<K: Ord + Copy>(all: &mut BTreeMap<K, BigUint>, some: &BTreeMap<K, BigUint>) {
+fn raise_entries<K: Ord + Copy>(all: &mut BTreeMap<K, BigUint>, some: &BTreeMap<K, BigUint>) {
     for (&key, n) in some {
         let own = all.entry(key).or_default();
         if *own < *n {
@@ -54,21 +54,21 @@ fn raise<K: Ord + Copy>(all: &mut BTreeMap<K, BigUint>, some: &BTreeMap<K, BigUi
 
 impl Counts {
     /// Raises lower bounds to those of variants that are among these.
-    pub fn raise(&mut self, some: &Counts) {
-        raise(&mut self.by_mobility, &some.by_mobility);
-        raise(&mut self.by_changes, &some.by_changes);
-        raise(
+    pub fn raise_bounds(&mut self, some: &Counts) {
+        raise_entries(&mut self.by_mobility, &some.by_mobility);
+        raise_entries(&mut self.by_changes, &some.by_changes);
+        raise_entries(
             &mut self.by_mobility_and_changes,
             &some.by_mobility_and_changes,
         );
-        raise(&mut self.by_redundant, &some.by_redundant);
-        raise(&mut self.by_freedoms, &some.by_freedoms);
+        raise_entries(&mut self.by_redundant, &some.by_redundant);
+        raise_entries(&mut self.by_freedoms, &some.by_freedoms);
         let together = self.by_mobility.values().sum();
         let total = std::mem::take(&mut self.total);
         self.total = total.max(some.total.clone()).max(together);
     }
 
-    pub(in crate::search) fn add(&mut self, mobility: i64, key: Key, count: &BigUint) {
+    pub(in crate::search) fn add_variants(&mut self, mobility: i64, key: Key, count: &BigUint) {
         self.total += count;
         *self.by_mobility.entry(mobility).or_default() += count;
         *self.by_changes.entry(key.changes()).or_default() += count;
@@ -81,8 +81,8 @@ impl Counts {
     }
 
     /// Orbits of a symmetry, from all variants and the symmetric ones, as [`orbits`] has it.
-    pub(in crate::search) fn orbits(mut self, symmetric: &Counts, order: usize) -> Counts {
-        let part = |n: &BigUint, kept: &BigUint| orbits(n, kept, order);
+    pub(in crate::search) fn to_orbits(mut self, symmetric: &Counts, order: usize) -> Counts {
+        let part = |n: &BigUint, kept: &BigUint| count_orbits(n, kept, order);
         fn each<K: Ord>(
             all: &mut BTreeMap<K, BigUint>,
             fixed: &BTreeMap<K, BigUint>,
@@ -109,7 +109,7 @@ impl Counts {
 
 /// Counts the variants of a diagram; `filter` applies the conditions on mobility and changes too.
 #[must_use]
-pub(crate) fn counts(question: &Question, diagram: &Diagram, filter: bool) -> Counts {
+pub(crate) fn count_by_kind(question: &Question, diagram: &Diagram, filter: bool) -> Counts {
     let all = Kinds {
         freedoms: true,
         changes: true,
@@ -120,14 +120,14 @@ pub(crate) fn counts(question: &Question, diagram: &Diagram, filter: bool) -> Co
     };
     let mut counts = Counts::default();
     for (key, count) in &totals {
-        counts.add(question.mobility(*key), *key, count);
+        counts.add_variants(question.mobility(*key), *key, count);
     }
     counts
 }
 
 /// Returns the counts by W and by changes, but not by both: with hundreds of joints there are thousands of each, and millions of pairs. `filter` applies the conditions on mobility and changes too.
 #[must_use]
-pub(crate) fn sums(question: &Question, diagram: &Diagram, filter: bool) -> Counts {
+pub(crate) fn count_sums(question: &Question, diagram: &Diagram, filter: bool) -> Counts {
     let of = |kinds| wanted_by(question, diagram, filter, kinds);
     let by_freedoms = of(Kinds {
         freedoms: true,
@@ -142,7 +142,7 @@ pub(crate) fn sums(question: &Question, diagram: &Diagram, filter: bool) -> Coun
     };
     let mut counts = Counts::default();
     for (key, count) in &by_freedoms {
-        counts.add(question.mobility(*key), *key, count);
+        counts.add_variants(question.mobility(*key), *key, count);
     }
     counts.by_mobility_and_changes.clear();
     counts.by_changes.clear();
@@ -156,7 +156,7 @@ pub(crate) fn sums(question: &Question, diagram: &Diagram, filter: bool) -> Coun
 fn only_total(question: &Question, diagram: &Diagram, filter: bool) -> Counts {
     Counts {
         only_total: true,
-        total: total(question, diagram, filter),
+        total: count_total(question, diagram, filter),
         ..Counts::default()
     }
 }
@@ -170,7 +170,7 @@ fn wanted_by(
     kinds: Kinds,
 ) -> Option<Vec<(Key, BigUint)>> {
     let limited = if filter {
-        limited(question)
+        limited_kinds(question)
     } else {
         Kinds::default()
     };
@@ -180,12 +180,12 @@ fn wanted_by(
         cost: kinds.cost,
     };
     let mut totals = totals_by(question, diagram, kinds)?;
-    totals.retain(|(key, _)| !filter || question.wanted(*key));
+    totals.retain(|(key, _)| !filter || question.is_wanted(*key));
     Some(totals)
 }
 
 /// Whether every count fits 128 bits.
-pub(in crate::search) fn fits(question: &Question) -> bool {
+pub(in crate::search) fn fits_u128(question: &Question) -> bool {
     question.space.size().bits() <= 127
 }
 
@@ -197,10 +197,11 @@ fn totals_by(question: &Question, diagram: &Diagram, kinds: Kinds) -> Option<Vec
         diagram: &Diagram,
         kinds: Kinds,
     ) -> Option<Vec<(Key, BigUint)>> {
-        let totals = totals::<C>(diagram, &s.steps.only(kinds), s.conditions.memory / 4)?;
-        Some(totals.iter().map(|(k, n)| (*k, n.big())).collect())
+        let totals =
+            totals_by_key::<C>(diagram, &s.steps.keep_kinds(kinds), s.conditions.memory / 4)?;
+        Some(totals.iter().map(|(k, n)| (*k, n.to_big_uint())).collect())
     }
-    let count = match bits(question, diagram) {
+    let count = match count_bits(question, diagram) {
         0..=127 => with::<u128>,
         128..=256 => with::<Wide<4>>,
         257..=512 => with::<Wide<8>>,
@@ -211,7 +212,7 @@ fn totals_by(question: &Question, diagram: &Diagram, kinds: Kinds) -> Option<Vec
 }
 
 /// Returns a number of bits that is enough for the number of variants, which no partial sum exceeds.
-fn bits(question: &Question, diagram: &Diagram) -> u64 {
+fn count_bits(question: &Question, diagram: &Diagram) -> u64 {
     let all = question.space.size().bits();
     let mut below = vec![1.0; diagram.terminals.len()];
     for layer in diagram.layers.iter().rev().filter(|_| all > 127) {
@@ -233,7 +234,7 @@ fn bits(question: &Question, diagram: &Diagram) -> u64 {
 }
 
 /// Returns the properties that decide whether a variant meets the conditions on mobility and changes.
-pub(in crate::search) fn limited(question: &Question) -> Kinds {
+pub(in crate::search) fn limited_kinds(question: &Question) -> Kinds {
     Kinds {
         freedoms: question.conditions.max_mobility.is_some(),
         changes: question.conditions.max_changes.is_some(),
@@ -243,7 +244,11 @@ pub(in crate::search) fn limited(question: &Question) -> Kinds {
 
 /// How many variants a diagram has; `filter` applies the conditions on mobility and changes too. None that the memory there
 /// is does not suffice to count.
-pub(in crate::search) fn total(question: &Question, diagram: &Diagram, filter: bool) -> BigUint {
+pub(in crate::search) fn count_total(
+    question: &Question,
+    diagram: &Diagram,
+    filter: bool,
+) -> BigUint {
     let totals = wanted_by(question, diagram, filter, Kinds::default());
     totals.into_iter().flatten().map(|(_, n)| n).sum()
 }
@@ -258,7 +263,7 @@ pub fn counts_by_cost(question: &Question, diagram: &Diagram) -> Option<BTreeMap
     };
     let mut out = BTreeMap::new();
     for (key, count) in wanted_by(question, diagram, true, kinds)? {
-        *out.entry(question.steps.milli(key.cost()))
+        *out.entry(question.steps.cost_in_milli(key.cost()))
             .or_insert_with(BigUint::zero) += count;
     }
     Some(out)
@@ -278,11 +283,11 @@ mod tests {
             ..Counts::default()
         };
         let mut all = of(&[(0, 1807), (1, 5000)]);
-        all.raise(&of(&[(0, 2306), (2, 3)]));
+        all.raise_bounds(&of(&[(0, 2306), (2, 3)]));
         assert_eq!(all, of(&[(0, 2306), (1, 5000), (2, 3)]));
         // What is known already is left as it is.
         let before = all.clone();
-        all.raise(&of(&[(0, 5), (1, 5000)]));
+        all.raise_bounds(&of(&[(0, 5), (1, 5000)]));
         assert_eq!(all, before);
     }
 }

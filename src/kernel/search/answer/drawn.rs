@@ -2,7 +2,7 @@
 
 use crate::search::answer::count::Count;
 use crate::search::answer::count_tables::Tally;
-use crate::search::answer::counts::{fits, limited};
+use crate::search::answer::counts::{fits_u128, limited_kinds};
 use crate::search::answer::k_best::Assignment;
 use crate::search::answer::keys::{Key, Kinds};
 use crate::search::diagram::Diagram;
@@ -20,7 +20,7 @@ pub(in crate::search) fn sample_of<'a>(
     seed: u64,
     filter: bool,
 ) -> Box<dyn Iterator<Item = Assignment> + 'a> {
-    if fits(question) {
+    if fits_u128(question) {
         sample_with::<u128>(question, diagram, seed, filter)
     } else {
         sample_with::<BigUint>(question, diagram, seed, filter)
@@ -35,25 +35,25 @@ fn sample_with<'a, C: Count + 'a>(
     filter: bool,
 ) -> Box<dyn Iterator<Item = Assignment> + 'a> {
     let kinds = if filter {
-        limited(question)
+        limited_kinds(question)
     } else {
         Kinds::default()
     };
-    let (all_steps, steps) = (&question.steps, question.steps.only(kinds));
+    let (all_steps, steps) = (&question.steps, question.steps.keep_kinds(kinds));
     let tally = Tally::<C>::new(diagram, &steps, None, question.conditions.memory / 4);
     let Some(tally) = tally else {
         return Box::new(std::iter::empty());
     };
-    let totals = tally.totals().iter();
-    let totals = totals.filter(|(k, _)| !filter || question.wanted(*k));
-    let totals: Vec<(Key, BigUint)> = totals.map(|(k, c)| (*k, c.big())).collect();
+    let totals = tally.total_counts().iter();
+    let totals = totals.filter(|(k, _)| !filter || question.is_wanted(*k));
+    let totals: Vec<(Key, BigUint)> = totals.map(|(k, c)| (*k, c.to_big_uint())).collect();
     let all: BigUint = totals.iter().map(|(_, c)| c).sum();
     let mut random = ChaCha8Rng::seed_from_u64(seed);
     let draw = move || {
         if all.is_zero() {
             return None;
         }
-        let mut ticket = below(&mut random, &all);
+        let mut ticket = random_below(&mut random, &all);
         let mut key = totals[0].0;
         for (k, c) in &totals {
             if ticket < *c {
@@ -66,11 +66,11 @@ fn sample_with<'a, C: Count + 'a>(
         let (mut node, mut whole) = (0, 0u128);
         for (l, layer) in diagram.layers.iter().enumerate() {
             for choice in 0..layer.choices {
-                let followed = tally.follow(diagram, &steps, (l, node), choice, key);
+                let followed = tally.follow_choice(diagram, &steps, (l, node), choice, key);
                 let Some((to, rest, count)) = followed else {
                     continue;
                 };
-                let size = count.big();
+                let size = count.to_big_uint();
                 if ticket < size {
                     choices[layer.variable] = choice;
                     whole += all_steps.keys[layer.variable][choice].0;
@@ -80,7 +80,7 @@ fn sample_with<'a, C: Count + 'a>(
                 ticket -= size;
             }
         }
-        whole += all_steps.redundancy(diagram.terminals[node as usize]).0;
+        whole += all_steps.redundancy_key(diagram.terminals[node as usize]).0;
         Some(Assignment {
             choices,
             key: Key(whole),
@@ -90,7 +90,7 @@ fn sample_with<'a, C: Count + 'a>(
 }
 
 /// A number below `n`, each with the same chance.
-fn below(random: &mut ChaCha8Rng, n: &BigUint) -> BigUint {
+fn random_below(random: &mut ChaCha8Rng, n: &BigUint) -> BigUint {
     let bits = n.bits();
     let mut bytes = vec![0u8; usize::try_from(bits.div_ceil(8)).unwrap_or(0)];
     loop {

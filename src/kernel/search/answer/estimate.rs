@@ -28,14 +28,14 @@ pub struct Estimate {
 impl Estimate {
     /// How far the interval reaches on either side, in parts of the mean.
     #[must_use]
-    pub fn reach(&self) -> f64 {
+    pub fn relative_reach(&self) -> f64 {
         let [least, most] = self.between;
         (most - least) / 2.0 / self.mean
     }
 
     /// The same, where at least so many are counted, and no more than some are possible.
     #[must_use]
-    pub(in crate::search) fn bounded(
+    pub(in crate::search) fn clamp_to_bounds(
         mut self,
         counted: &BigUint,
         possible: Option<&BigUint>,

@@ -4,7 +4,7 @@
 //! another way. Which joints share all contours does not depend on the basis of contours.
 
 use crate::closure::contour::contour_basis;
-use crate::geom::vector::{across, cross, real, unit};
+use crate::geom::vector::{across, cross, to_vector, unit};
 use crate::model::joint_type::Freedom;
 use crate::model::mechanism::{JointId, JointOption, Mechanism, StateId};
 use crate::search::answer::k_best::Assignment;
@@ -61,7 +61,10 @@ pub(in crate::search) struct Patterns {
 }
 
 impl Patterns {
-    pub(in crate::search) fn sum(&self, chosen: impl Iterator<Item = (usize, usize)>) -> Pattern {
+    pub(in crate::search) fn sum_pattern(
+        &self,
+        chosen: impl Iterator<Item = (usize, usize)>,
+    ) -> Pattern {
         let mut out = vec![0; self.items.len()];
         for (variable, choice) in chosen {
             let more = self.of[variable][choice].iter();
@@ -71,11 +74,11 @@ impl Patterns {
     }
 
     pub(in crate::search) fn of_variant(&self, v: &Assignment) -> Pattern {
-        self.sum(v.choices.iter().copied().enumerate())
+        self.sum_pattern(v.choices.iter().copied().enumerate())
     }
 
     /// Returns what a variant has in common with all of its idea: its pattern or that of an image, whichever is least.
-    pub(in crate::search) fn idea(&self, v: &Assignment) -> Pattern {
+    pub(in crate::search) fn idea_pattern(&self, v: &Assignment) -> Pattern {
         self.of_images(v).pop_first().unwrap_or_default()
     }
 
@@ -84,7 +87,7 @@ impl Patterns {
         let mut at = (0..v.choices.len()).collect_vec();
         let mut out = BTreeSet::new();
         // The last image is the variant again.
-        while out.insert(self.sum(at.iter().copied().zip(v.choices.iter().copied())))
+        while out.insert(self.sum_pattern(at.iter().copied().zip(v.choices.iter().copied())))
             && let Some(to) = &self.images
         {
             at.iter_mut().for_each(|v| *v = to[*v]);
@@ -93,7 +96,7 @@ impl Patterns {
     }
 
     /// Returns how many joints have another choice than their images.
-    pub(in crate::search) fn unlike(&self, choices: &[usize]) -> usize {
+    pub(in crate::search) fn count_unlike(&self, choices: &[usize]) -> usize {
         let images = self.images.iter().flatten();
         let unlike = images.zip(choices).filter(|(to, c)| choices[**to] != **c);
         unlike.count()
@@ -101,7 +104,9 @@ impl Patterns {
 
     /// Returns whether a variant is its own image; `None` where the mechanism has no symmetry.
     pub(in crate::search) fn is_symmetric(&self, v: &Assignment) -> Option<bool> {
-        self.images.as_ref().map(|_| self.unlike(&v.choices) == 0)
+        self.images
+            .as_ref()
+            .map(|_| self.count_unlike(&v.choices) == 0)
     }
 
     /// After each layer of a diagram, how often each freedom can still be added.
@@ -120,7 +125,7 @@ impl Patterns {
         out
     }
 
-    pub(in crate::search) fn added(&self, pattern: &Pattern) -> Vec<Added> {
+    pub(in crate::search) fn added_freedoms(&self, pattern: &Pattern) -> Vec<Added> {
         let all = self.items.iter().zip(pattern).filter(|(_, n)| **n > 0);
         all.map(|((joints, freedom), &times)| Added {
             joints: joints.clone(),
@@ -132,12 +137,12 @@ impl Patterns {
 }
 
 /// The joints of each joint's series, itself included: those on the same contours.
-fn series(m: &Mechanism, state: StateId) -> BTreeMap<JointId, Vec<JointId>> {
+fn joints_in_series(m: &Mechanism, state: StateId) -> BTreeMap<JointId, Vec<JointId>> {
     let basis = contour_basis(m, state);
     let of = |j: JointId| {
         basis
             .iter()
-            .map(move |c| c.direction(j).is_some())
+            .map(move |c| c.direction_of(j).is_some())
             .collect_vec()
     };
     let mut groups: BTreeMap<(Vec<bool>, Option<JointId>), Vec<JointId>> = BTreeMap::new();
@@ -154,9 +159,9 @@ fn series(m: &Mechanism, state: StateId) -> BTreeMap<JointId, Vec<JointId>> {
 }
 
 /// The freedoms of an option in words, by their directions.
-fn freedoms(option: &JointOption) -> Vec<String> {
-    let z = unit(real(&option.frame.axis));
-    let x = unit(across(real(&option.frame.reference), z));
+fn freedom_names(option: &JointOption) -> Vec<String> {
+    let z = unit(to_vector(&option.frame.axis));
+    let x = unit(across(to_vector(&option.frame.reference), z));
     let y = cross(z, x);
     let word = |f: &Freedom| {
         let (what, axis) = match f {
@@ -168,13 +173,13 @@ fn freedoms(option: &JointOption) -> Vec<String> {
             Freedom::Tz => ("slide along", z),
             Freedom::Screw => ("screw about", z),
         };
-        format!("{what} {}", direction(axis))
+        format!("{what} {}", direction_name(axis))
     };
     option.joint_type.freedoms().iter().map(word).collect()
 }
 
 /// A direction in words, either way along it.
-fn direction(d: [f64; 3]) -> String {
+fn direction_name(d: [f64; 3]) -> String {
     let d = d.map(|x| (x * 1e6).round() / 1e6 + 0.0);
     let sign = if d.iter().find(|x| **x != 0.0).is_some_and(|x| *x < 0.0) {
         -1.0
@@ -190,9 +195,9 @@ fn direction(d: [f64; 3]) -> String {
 
 /// Returns what an option adds to the present joint: freedoms with their directions, or the option itself if it does not contain the
 /// present freedoms one by one.
-fn added(present: &JointOption, option: &JointOption) -> Vec<String> {
-    let mut all = freedoms(option);
-    for f in freedoms(present) {
+fn freedoms_added_by(present: &JointOption, option: &JointOption) -> Vec<String> {
+    let mut all = freedom_names(option);
+    for f in freedom_names(present) {
         match all.iter().position(|a| *a == f) {
             Some(i) => {
                 all.remove(i);
@@ -203,10 +208,10 @@ fn added(present: &JointOption, option: &JointOption) -> Vec<String> {
     all
 }
 
-pub(in crate::search) fn patterns(question: &Question) -> Patterns {
+pub(in crate::search) fn freedom_patterns(question: &Question) -> Patterns {
     let m = &question.mechanism;
     let state = question.conditions.state.map_or(StateId::FREE, |s| s.state);
-    let mut series = series(m, state);
+    let mut series = joints_in_series(m, state);
     series.extend(
         m.joints_in(StateId::FREE)
             .filter(|&j| !m.joints[j].is_in(state))
@@ -220,9 +225,9 @@ pub(in crate::search) fn patterns(question: &Question) -> Patterns {
             let mut here = Vec::new();
             for &j in &v.joints {
                 let joint = &m.joints[j];
-                let mut words = added(&joint.options[0], &joint.options[choice.option]);
+                let mut words = freedoms_added_by(&joint.options[0], &joint.options[choice.option]);
                 if let Some(u) = choice.unloading {
-                    words.extend(freedoms(&joint.unloading[u]));
+                    words.extend(freedom_names(&joint.unloading[u]));
                 }
                 here.extend(words.into_iter().map(|w| (series[&j].clone(), w)));
             }
@@ -264,7 +269,7 @@ fn images_of_variables(question: &Question, to: &[JointId]) -> Option<Vec<usize>
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::model::drawn::{drawn, four_bar, hinges};
+    use crate::model::drawn::{draw_mechanism, four_bar, hinges};
 
     /// The joints of a ring are in series; those in no contour are not, not even with one another.
     #[test]
@@ -274,7 +279,7 @@ mod tests {
             ([2, 4], [3.0, 3.0, 9.0]),
             ([4, 5], [4.0, 8.0, 9.0]),
         ]));
-        let found = series(&drawn(&joints, &[5]), StateId::FREE);
+        let found = joints_in_series(&draw_mechanism(&joints, &[5]), StateId::FREE);
         let ids =
             |all: &[usize]| -> Vec<JointId> { all.iter().map(|&j| JointId::new(j)).collect() };
         for (j, with) in &found {

@@ -7,16 +7,16 @@
 
 mod preferred;
 
-use crate::search::answer::counts::limited;
-use crate::search::answer::freedom_patterns::{Added, Pattern, Patterns, patterns};
+use crate::search::answer::counts::limited_kinds;
+use crate::search::answer::freedom_patterns::{Added, Pattern, Patterns, freedom_patterns};
 use crate::search::answer::k_best::Assignment;
 use crate::search::answer::keys::{Key, Steps};
 use crate::search::answer::least_freedoms::{self, Less};
-use crate::search::answer::variants_in_order::{distinct, key};
+use crate::search::answer::variants_in_order::{variant_key, variants_within};
 use crate::search::build::Diagrams;
 use crate::search::diagram::{DEAD, Diagram};
 use crate::search::question::Question;
-use crate::search::question::preference::weights;
+use crate::search::question::preference::change_weights;
 use crate::search::question::space::{Variable, choice_name};
 use itertools::Itertools;
 use num_bigint::BigUint;
@@ -49,9 +49,9 @@ pub(in crate::search) fn idea_variants<'d>(
     question: &Question,
     diagrams: &'d Diagrams,
 ) -> Cow<'d, Diagram> {
-    match least_freedoms::diagram(question, diagrams, Less::Means) {
+    match least_freedoms::minimal_diagram(question, diagrams, Less::Means) {
         Some(least) => Cow::Owned(least),
-        None => Cow::Borrowed(diagrams.listed()),
+        None => Cow::Borrowed(diagrams.listed_diagram()),
     }
 }
 
@@ -61,9 +61,15 @@ pub(in crate::search) fn idea_variants<'d>(
 /// That of the diagram of minimal variants; of the variants up to the last idea's cost only as much of each as differs in its
 /// pattern; then a bounded search for the shown variant of each idea in the groups of the first `top`, and for each of these two passes
 /// over the part of the diagram that it uses.
-pub(crate) fn ideas(question: &Question, diagrams: &Diagrams, top: usize) -> Vec<Idea> {
+pub(crate) fn list_ideas(question: &Question, diagrams: &Diagrams, top: usize) -> Vec<Idea> {
     let variants = idea_variants(question, diagrams);
-    ideas_in_steps(question, &IdeaBasis::of(question), &variants, top, &mut 0)
+    ideas_in_steps(
+        question,
+        &IdeaBasis::of_question(question),
+        &variants,
+        top,
+        &mut 0,
+    )
 }
 
 /// What ideas depend on besides the variants that they are made of and what these cost: what each choice adds to which contours, what
@@ -77,20 +83,20 @@ pub struct IdeaBasis {
 }
 
 impl IdeaBasis {
-    pub(in crate::search) fn of(question: &Question) -> IdeaBasis {
+    pub(in crate::search) fn of_question(question: &Question) -> IdeaBasis {
         let names = |v: &Variable| {
             let name = |c| choice_name(&question.mechanism, v.joints[0], c);
             v.choices.iter().map(name).collect()
         };
         IdeaBasis {
-            patterns: patterns(question),
-            weights: weights(&question.mechanism, &question.space),
+            patterns: freedom_patterns(question),
+            weights: change_weights(&question.mechanism, &question.space),
             names: question.space.variables.iter().map(names).collect(),
         }
     }
 
     /// Returns how many kinds of joints a variant puts in.
-    fn kinds(&self, v: &Assignment) -> usize {
+    fn count_kinds(&self, v: &Assignment) -> usize {
         let chosen = self.names.iter().zip(&v.choices);
         let put = chosen.filter(|(_, c)| **c != 0);
         put.map(|(names, &c)| &names[c]).unique().count()
@@ -111,14 +117,17 @@ pub(in crate::search) fn ideas_in_steps(
     // Many weights make many kinds of each cost; then they only choose among those that stand for the same.
     let few = weights.iter().sum::<u64>() <= WEIGHED;
     let steps = if few {
-        question.steps.then(weights)
+        question.steps.with_weights(weights)
     } else {
         question.steps.clone()
     };
-    let firsts = firsts(question, diagram, patterns, &steps, top, steps_down);
+    let firsts = first_variants(question, diagram, patterns, &steps, top, steps_down);
     let shown = |(group, first)| {
-        let v = preferred::preferred(question, diagram, patterns, weights, first);
-        let order = (patterns.is_symmetric(&v) != Some(true), basis.kinds(&v));
+        let v = preferred::preferred_variant(question, diagram, patterns, weights, first);
+        let order = (
+            patterns.is_symmetric(&v) != Some(true),
+            basis.count_kinds(&v),
+        );
         ((group, order), v)
     };
     let mut shown = firsts.into_iter().map(shown).collect_vec();
@@ -126,7 +135,7 @@ pub(in crate::search) fn ideas_in_steps(
         shown.sort_by_key(|(order, _)| *order);
     }
     let listed = shown.into_iter().take(top);
-    let one = |(_, v)| idea(question, diagram, patterns, v);
+    let one = |(_, v)| make_idea(question, diagram, patterns, v);
     listed.map(one).collect()
 }
 
@@ -134,7 +143,7 @@ pub(in crate::search) fn ideas_in_steps(
 type CostGroup = (i64, usize);
 
 /// The group of an idea of a cost that comes after those found.
-fn group(cost: i64, found: &[(CostGroup, Assignment)]) -> CostGroup {
+fn cost_group(cost: i64, found: &[(CostGroup, Assignment)]) -> CostGroup {
     let before = found.iter().rev();
     let before = before.take_while(|((c, _), _)| *c == cost).count();
     (cost, before / TOGETHER)
@@ -142,7 +151,7 @@ fn group(cost: i64, found: &[(CostGroup, Assignment)]) -> CostGroup {
 
 /// Returns of each of the first ideas a variant, the cheapest and of these the one with least weight; where ideas are brought in order
 /// all of the groups that the first `top` belong to.
-fn firsts(
+fn first_variants(
     question: &Question,
     diagram: &Diagram,
     patterns: &Patterns,
@@ -162,20 +171,20 @@ fn firsts(
         let enter = |depth: usize, node: usize, rest: Key, choices: &[usize]| {
             *steps_down += 1;
             let chosen = order[..depth].iter().map(|&v| (v, choices[v]));
-            entered.insert((depth, node, rest, patterns.sum(chosen)))
+            entered.insert((depth, node, rest, patterns.sum_pattern(chosen)))
         };
         let mut seen = BTreeSet::new();
         let mut found: Vec<(CostGroup, Assignment)> = Vec::new();
-        let (list, mut ended) = distinct(question, diagram, steps, slack, Box::new(enter));
+        let (list, mut ended) = variants_within(question, diagram, steps, slack, Box::new(enter));
         for v in list {
-            if !seen.insert(patterns.idea(&v)) {
+            if !seen.insert(patterns.idea_pattern(&v)) {
                 continue;
             }
             let v = Assignment {
-                key: key(question, diagram, &v.choices),
+                key: variant_key(question, diagram, &v.choices),
                 ..v
             };
-            let group = group(question.steps.milli(v.key.cost()), &found);
+            let group = cost_group(question.steps.cost_in_milli(v.key.cost()), &found);
             if found.len() >= top && group > found[top - 1].0 {
                 ended = true;
                 break;
@@ -204,12 +213,12 @@ pub fn first_of_each<'a>(
     list: impl Iterator<Item = &'a Assignment>,
     diagrams: &Diagrams,
 ) -> Vec<(usize, Idea)> {
-    let patterns = patterns(question);
+    let patterns = freedom_patterns(question);
     let mut seen = BTreeSet::new();
     list.enumerate()
-        .filter(|(_, v)| seen.insert(patterns.idea(v)))
+        .filter(|(_, v)| seen.insert(patterns.idea_pattern(v)))
         .map(|(place, v)| {
-            let idea = idea(question, diagrams.listed(), &patterns, v.clone());
+            let idea = make_idea(question, diagrams.listed_diagram(), &patterns, v.clone());
             (place, idea)
         })
         .collect()
@@ -224,14 +233,14 @@ pub fn ideas_among(
     list: impl Iterator<Item = Assignment>,
     top: usize,
 ) -> Vec<Idea> {
-    let patterns = patterns(question);
+    let patterns = freedom_patterns(question);
     let mut at: BTreeMap<Pattern, Option<usize>> = BTreeMap::new();
     let mut out: Vec<Idea> = Vec::new();
     for v in list {
-        let place = at.entry(patterns.idea(&v)).or_insert_with(|| {
+        let place = at.entry(patterns.idea_pattern(&v)).or_insert_with(|| {
             (out.len() < top).then(|| {
                 out.push(Idea {
-                    added: patterns.added(&patterns.of_variant(&v)),
+                    added: patterns.added_freedoms(&patterns.of_variant(&v)),
                     symmetric: patterns.is_symmetric(&v),
                     variants: BigUint::from(0u8),
                     first: v.clone(),
@@ -247,11 +256,16 @@ pub fn ideas_among(
 }
 
 /// The idea of a variant, with how many of the diagram it stands for.
-fn idea(question: &Question, diagram: &Diagram, patterns: &Patterns, first: Assignment) -> Idea {
+fn make_idea(
+    question: &Question,
+    diagram: &Diagram,
+    patterns: &Patterns,
+    first: Assignment,
+) -> Idea {
     let alike = patterns.of_images(&first);
     let alike = alike.iter();
     Idea {
-        added: patterns.added(&patterns.of_variant(&first)),
+        added: patterns.added_freedoms(&patterns.of_variant(&first)),
         variants: alike
             .map(|p| with_pattern(question, diagram, patterns, p))
             .sum(),
@@ -267,7 +281,7 @@ fn with_pattern(
     patterns: &Patterns,
     pattern: &Pattern,
 ) -> BigUint {
-    let steps = question.steps.only(limited(question));
+    let steps = question.steps.keep_kinds(limited_kinds(question));
     let to_come = patterns.to_come(diagram);
     let mut here: BTreeMap<(usize, Pattern, Key), BigUint> = BTreeMap::new();
     here.insert((0, pattern.clone(), Key::default()), BigUint::from(1u8));
@@ -290,8 +304,8 @@ fn with_pattern(
         here = next;
     }
     let whole = here.into_iter().filter(|((node, left, key), _)| {
-        let key = Key(key.0 + steps.redundancy(diagram.terminals[*node]).0);
-        left.iter().all(|n| *n == 0) && question.wanted(key)
+        let key = Key(key.0 + steps.redundancy_key(diagram.terminals[*node]).0);
+        left.iter().all(|n| *n == 0) && question.is_wanted(key)
     });
     whole.map(|(_, n)| n).sum()
 }

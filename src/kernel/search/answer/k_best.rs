@@ -94,7 +94,7 @@ impl<'d, C: Count> Cheapest<'d, C> {
         bytes: usize,
         enter: Enter<'d>,
     ) -> Self {
-        let (tally, mut keys, is_all) = enough(diagram, steps, limits, wanted, bytes);
+        let (tally, mut keys, is_all) = tally_enough(diagram, steps, limits, wanted, bytes);
         keys.sort_by_key(|&k| rank(k));
         Cheapest {
             diagram,
@@ -132,7 +132,7 @@ impl<C: Count> Iterator for Cheapest<'_, C> {
             let Some(place) = self.path.last_mut() else {
                 self.key = self.keys.next()?;
                 if last == 0 {
-                    return self.found();
+                    return self.current_variant();
                 }
                 self.path.push(Place {
                     node: 0,
@@ -150,7 +150,9 @@ impl<C: Count> Iterator for Cheapest<'_, C> {
             place.next += 1;
             let from = (depth - 1, place.node);
             let (diagram, steps) = (self.diagram, self.steps);
-            let followed = self.tally.follow(diagram, steps, from, choice, place.rest);
+            let followed = self
+                .tally
+                .follow_choice(diagram, steps, from, choice, place.rest);
             let Some((node, rest, _)) = followed else {
                 continue;
             };
@@ -159,7 +161,7 @@ impl<C: Count> Iterator for Cheapest<'_, C> {
                 continue;
             }
             if depth == last {
-                return self.found();
+                return self.current_variant();
             }
             self.path.push(Place {
                 node,
@@ -171,7 +173,7 @@ impl<C: Count> Iterator for Cheapest<'_, C> {
 }
 
 impl<C> Cheapest<'_, C> {
-    fn found(&mut self) -> Option<Assignment> {
+    fn current_variant(&mut self) -> Option<Assignment> {
         self.left -= 1;
         Some(Assignment {
             choices: self.choices.clone(),
@@ -182,7 +184,7 @@ impl<C> Cheapest<'_, C> {
 
 /// A tally of the cheapest variants as far as is asked for, with their keys, and whether there are none beyond; fewer where
 /// their tables would take more than some bytes.
-fn enough<C: Count>(
+fn tally_enough<C: Count>(
     diagram: &Diagram,
     steps: &Steps,
     limits: ListLimits,
@@ -196,7 +198,7 @@ fn enough<C: Count>(
     let least = least_to(diagram, steps);
     let chosen = steps.keys.iter().flatten().map(|k| k.cost()).max();
     let ends = diagram.terminals.iter();
-    let end = ends.map(|&r| steps.redundancy(r).cost()).max();
+    let end = ends.map(|&r| steps.redundancy_key(r).cost()).max();
     let ceiling = limits.ceiling;
     let ceiling = ceiling.min(chosen.unwrap_or(0) * steps.keys.len() as u64 + end.unwrap_or(0));
     let (top, mut slack) = match limits.reach {
@@ -212,8 +214,8 @@ fn enough<C: Count>(
             found.2 = true;
             return found;
         };
-        let whole = tally.totals().iter().filter(|(k, _)| wanted(*k));
-        let count: BigUint = whole.clone().map(|(_, c)| c.big()).sum();
+        let whole = tally.total_counts().iter().filter(|(k, _)| wanted(*k));
+        let count: BigUint = whole.clone().map(|(_, c)| c.to_big_uint()).sum();
         let keys = whole.map(|(k, _)| *k).collect();
         found = (tally, keys, limit >= ceiling);
         if count >= top || found.2 {
@@ -249,7 +251,9 @@ fn least_to(diagram: &Diagram, steps: &Steps) -> LeastCosts {
 /// Least costs of the ways from each node on, with those of where they end.
 pub fn least_from(diagram: &Diagram, steps: &Steps) -> LeastCosts {
     let ends = diagram.terminals.iter();
-    let mut below: Vec<Option<u64>> = ends.map(|&r| Some(steps.redundancy(r).cost())).collect();
+    let mut below: Vec<Option<u64>> = ends
+        .map(|&r| Some(steps.redundancy_key(r).cost()))
+        .collect();
     let mut out = Vec::with_capacity(diagram.layers.len() + 1);
     for layer in diagram.layers.iter().rev() {
         let keys = &steps.keys[layer.variable];

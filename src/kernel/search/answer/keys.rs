@@ -41,33 +41,33 @@ impl Key {
     pub fn cost(self) -> u64 {
         (self.0 >> 80) as u64
     }
-    fn part(self, at: u32) -> u16 {
+    fn part_at(self, at: u32) -> u16 {
         (self.0 >> at) as u16
     }
     /// Freedoms.
     #[must_use]
     pub fn freedoms(self) -> u32 {
-        u32::from(self.part(64))
+        u32::from(self.part_at(64))
     }
     /// Changes.
     #[must_use]
     pub fn changes(self) -> u32 {
-        u32::from(self.part(48))
+        u32::from(self.part_at(48))
     }
     /// Redundant constraints within the mechanism.
     #[must_use]
     pub fn internal(self) -> u32 {
-        u32::from(self.part(32))
+        u32::from(self.part_at(32))
     }
     /// Redundant constraints that the state adds; negative if it removes joints.
     #[must_use]
     pub fn external(self) -> i32 {
-        i32::from(self.part(16).cast_signed())
+        i32::from(self.part_at(16).cast_signed())
     }
     /// Harmful ones among them.
     #[must_use]
     pub fn harmful(self) -> u32 {
-        u32::from(self.part(0))
+        u32::from(self.part_at(0))
     }
 }
 
@@ -128,14 +128,14 @@ impl Steps {
 
     /// The key of a variant's redundancy, with what it costs.
     #[must_use]
-    pub fn redundancy(&self, r: Redundancy) -> Key {
+    pub fn redundancy_key(&self, r: Redundancy) -> Key {
         let cost = self.harmful * u64::from(r.harmful);
         Key(Key::of_redundancy(r).0 | Key::new(cost, 0, 0).0)
     }
 
     /// The same with only the wanted kinds left.
     #[must_use]
-    pub(crate) fn only(&self, kinds: Kinds) -> Steps {
+    pub(crate) fn keep_kinds(&self, kinds: Kinds) -> Steps {
         let keep = |k: &Key| {
             Key::new(
                 if kinds.cost { k.cost() } else { 0 },
@@ -154,7 +154,7 @@ impl Steps {
     /// Returns steps with the weights of changed variables after the cost: among equal costs, less weight is cheaper. Costs then have their
     /// own unit.
     #[must_use]
-    pub(in crate::search) fn then(&self, weights: &[u64]) -> Steps {
+    pub(in crate::search) fn with_weights(&self, weights: &[u64]) -> Steps {
         let many = weights.iter().sum::<u64>() + 1;
         let key = |k: &Key, weight: u64| {
             let weight = if k.changes() > 0 { weight } else { 0 };
@@ -172,14 +172,14 @@ impl Steps {
 
     /// The largest cost part of a key that is no more than a cost in thousandths.
     #[must_use]
-    pub fn above(&self, milli: i64) -> u64 {
+    pub fn steps_above(&self, milli: i64) -> u64 {
         let steps = milli.saturating_sub(self.base_milli) / self.unit_milli;
         u64::try_from(steps).unwrap_or(0)
     }
 
     /// A cost in thousandths from the cost part of a key.
     #[must_use]
-    pub fn milli(&self, cost: u64) -> i64 {
+    pub fn cost_in_milli(&self, cost: u64) -> i64 {
         self.base_milli + i64::try_from(cost).unwrap_or(i64::MAX / 2) * self.unit_milli
     }
 }

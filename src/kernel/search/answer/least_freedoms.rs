@@ -9,9 +9,9 @@
 //! Integration 17 (1994); Knuth, The Art of Computer Programming 4A, section 7.1.4, "nonsub" and "nonsup".
 
 use crate::linalg::echelon::Echelon;
-use crate::search::answer::counts::total;
+use crate::search::answer::counts::count_total;
 use crate::search::build::Diagrams;
-use crate::search::diagram::minimize::minimal;
+use crate::search::diagram::minimize::minimize_diagram;
 use crate::search::diagram::{DEAD, Diagram, Layer, Stop};
 use crate::search::question::Question;
 use crate::search::question::conditions::Symmetry;
@@ -38,26 +38,26 @@ const MOST: usize = 1 << 18;
 /// # Complexity
 /// O(nodes of the diagram of minimal variants · choices²).
 #[must_use]
-pub(crate) fn count(question: &Question, diagrams: &Diagrams) -> Option<BigUint> {
+pub(crate) fn count_minimal(question: &Question, diagrams: &Diagrams) -> Option<BigUint> {
     let order = Order::new(question, Less::Freedoms);
     // Fewer freedoms by more changes may be more than there may be.
     let limited = question.conditions.max_changes.is_some() && !order.fewer_changes;
     if limited || question.conditions.symmetry == Symmetry::OnePerOrbit {
         return None;
     }
-    let least = least(question, diagrams.listed(), &order)?;
-    Some(total(question, &least, true))
+    let least = minimal_variants(question, diagrams.listed_diagram(), &order)?;
+    Some(count_total(question, &least, true))
 }
 
 /// The diagram of the minimal variants among the admissible; `None` where what is admissible is not all known, or where it takes
 /// too many nodes.
-pub(in crate::search) fn diagram(
+pub(in crate::search) fn minimal_diagram(
     question: &Question,
     diagrams: &Diagrams,
     less: Less,
 ) -> Option<Diagram> {
     let order = Order::new(question, less);
-    least(question, diagrams.listed(), &order)
+    minimal_variants(question, diagrams.listed_diagram(), &order)
 }
 
 /// Which choices of each variable have less than another.
@@ -78,7 +78,7 @@ impl Order {
             let spans = v
                 .choices
                 .iter()
-                .map(|c| spans(question, c))
+                .map(|c| choice_spans(question, c))
                 .collect::<Vec<_>>();
             let has = |a: usize, b: usize| {
                 let members = v.choices[a].spans.iter().zip(&spans[b]);
@@ -118,8 +118,8 @@ impl Order {
 }
 
 /// The motion of each joint of a choice.
-fn spans(question: &Question, choice: &Choice) -> Vec<Echelon> {
-    let span = |rows: &Vec<Vec<_>>| Echelon::of(question.exact.field(), rows);
+fn choice_spans(question: &Question, choice: &Choice) -> Vec<Echelon> {
+    let span = |rows: &Vec<Vec<_>>| Echelon::from_vectors(question.exact.field(), rows);
     choice.spans.iter().map(span).collect()
 }
 
@@ -132,7 +132,7 @@ struct Arrived {
 }
 
 /// The variants of a diagram without others that have less.
-fn least(question: &Question, diagram: &Diagram, order: &Order) -> Option<Diagram> {
+fn minimal_variants(question: &Question, diagram: &Diagram, order: &Order) -> Option<Diagram> {
     if diagram.stop != Stop::Exhausted {
         return None;
     }
@@ -151,7 +151,7 @@ fn least(question: &Question, diagram: &Diagram, order: &Order) -> Option<Diagra
         let mut edges = Vec::with_capacity(states.len() * layer.choices);
         for state in &states {
             for choice in 0..layer.choices {
-                let Some(to) = carried(layer, order, once, state, choice, last) else {
+                let Some(to) = carry_state(layer, order, once, state, choice, last) else {
                     edges.push(DEAD);
                     continue;
                 };
@@ -180,11 +180,11 @@ fn least(question: &Question, diagram: &Diagram, order: &Order) -> Option<Diagra
     let ends = states
         .iter()
         .map(|state| diagram.terminals.get(state.node as usize).copied());
-    Some(minimal(layers, ends.collect::<Option<_>>()?))
+    Some(minimize_diagram(layers, ends.collect::<Option<_>>()?))
 }
 
 /// Returns the state after a choice; `None` if a variant with less gets as far.
-fn carried(
+fn carry_state(
     layer: &Layer,
     order: &Order,
     once: bool,

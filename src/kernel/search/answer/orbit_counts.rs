@@ -1,7 +1,7 @@
 //! Counts of orbits: of each variant and its images, one.
 
 use crate::search::answer::search_counts::SearchCounts;
-use crate::search::build::build;
+use crate::search::build::build_diagrams;
 use crate::search::diagram::Stop;
 use crate::search::question::Question;
 use crate::search::question::conditions::{Conditions, SearchError, Symmetry};
@@ -26,9 +26,9 @@ pub fn orbit_counts(
         question.mechanism.clone(),
         conditions,
     )?;
-    let diagrams = build(&symmetric, cancelled, &mut |_| {});
-    let order = question.mechanism.search.order();
-    let counts = all.orbits(&SearchCounts::of(&symmetric, &diagrams), order);
+    let diagrams = build_diagrams(&symmetric, cancelled, &mut |_| {});
+    let order = question.mechanism.search.symmetry_order();
+    let counts = all.to_orbits(&SearchCounts::of_diagrams(&symmetric, &diagrams), order);
     let stops = [diagrams.determinate.stop, diagrams.admissible.stop];
     Ok((counts, stops))
 }

@@ -1,7 +1,7 @@
 //! The place of a variant in the order of cost, without the variants before it being made.
 
 use crate::search::answer::count_tables::Tally;
-use crate::search::answer::counts::fits;
+use crate::search::answer::counts::fits_u128;
 use crate::search::answer::k_best::Assignment;
 use crate::search::diagram::Diagram;
 use crate::search::question::Question;
@@ -21,7 +21,8 @@ impl<'d> Places<'d> {
     /// O(edges · kinds of completions).
     #[must_use]
     pub fn new(question: &'d Question, diagram: &'d Diagram, bytes: usize) -> Option<Places<'d>> {
-        let tally = fits(question).then(|| Tally::new(diagram, &question.steps, None, bytes))??;
+        let tally =
+            fits_u128(question).then(|| Tally::new(diagram, &question.steps, None, bytes))??;
         Some(Places {
             question,
             diagram,
@@ -34,18 +35,20 @@ impl<'d> Places<'d> {
     /// # Complexity
     /// O(kinds of variants + variables · choices).
     #[must_use]
-    pub fn of(&self, v: &Assignment) -> u128 {
-        let own = self.question.rank(v.key);
-        let earlier = self.tally.totals().iter();
-        let earlier =
-            earlier.filter(|(k, _)| self.question.wanted(*k) && self.question.rank(*k) < own);
+    pub fn place_of(&self, v: &Assignment) -> u128 {
+        let own = self.question.sort_rank(v.key);
+        let earlier = self.tally.total_counts().iter();
+        let earlier = earlier
+            .filter(|(k, _)| self.question.is_wanted(*k) && self.question.sort_rank(*k) < own);
         let mut place = 1 + earlier.map(|(_, n)| n).sum::<u128>();
         let (mut node, mut rest) = (0, v.key);
         let steps = &self.question.steps;
         for (l, layer) in self.diagram.layers.iter().enumerate() {
             for choice in 0..layer.choices {
                 let from = (l, node);
-                let followed = self.tally.follow(self.diagram, steps, from, choice, rest);
+                let followed = self
+                    .tally
+                    .follow_choice(self.diagram, steps, from, choice, rest);
                 let Some((to, left, count)) = followed else {
                     continue;
                 };

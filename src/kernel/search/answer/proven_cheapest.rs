@@ -40,7 +40,7 @@ pub(in crate::search) fn up_to(
     build: &mut dyn FnMut(&mut Ceiling<'_>) -> Diagram,
 ) -> Proof {
     let mut up_to = None;
-    let mut next = missing.root();
+    let mut next = missing.least_of_root();
     while let Some(cost) = next {
         let mut ceiling = Ceiling::new(missing, cost);
         let diagram = build(&mut ceiling);

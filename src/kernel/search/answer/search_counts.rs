@@ -1,6 +1,6 @@
 //! The counts of a search: determinate variants, admissible ones, and those that keep the motion throughout.
 
-use crate::search::answer::counts::{Counts, counts, sums};
+use crate::search::answer::counts::{Counts, count_by_kind, count_sums};
 use crate::search::build::Diagrams;
 use crate::search::diagram::Diagram;
 use crate::search::question::Question;
@@ -19,19 +19,24 @@ pub struct SearchCounts {
 impl SearchCounts {
     /// Returns the counts of the variants of some diagrams.
     #[must_use]
-    pub fn of(question: &Question, diagrams: &Diagrams) -> SearchCounts {
-        SearchCounts::by(diagrams, &|diagram, filter| {
-            counts(question, diagram, filter)
+    pub fn of_diagrams(question: &Question, diagrams: &Diagrams) -> SearchCounts {
+        SearchCounts::count_each(diagrams, &|diagram, filter| {
+            count_by_kind(question, diagram, filter)
         })
     }
 
     /// Returns the same without those by W and changes both, which take by far the longest where there are hundreds of joints.
     #[must_use]
     pub fn sums_of(question: &Question, diagrams: &Diagrams) -> SearchCounts {
-        SearchCounts::by(diagrams, &|diagram, filter| sums(question, diagram, filter))
+        SearchCounts::count_each(diagrams, &|diagram, filter| {
+            count_sums(question, diagram, filter)
+        })
     }
 
-    fn by(diagrams: &Diagrams, of: &(dyn Fn(&Diagram, bool) -> Counts + Sync)) -> SearchCounts {
+    fn count_each(
+        diagrams: &Diagrams,
+        of: &(dyn Fn(&Diagram, bool) -> Counts + Sync),
+    ) -> SearchCounts {
         let ((determinate, admissible), lasting) = rayon::join(
             || {
                 rayon::join(
@@ -49,12 +54,16 @@ impl SearchCounts {
     }
 
     /// Returns the counts of orbits of a symmetry, from all variants and the symmetric ones, by Burnside's lemma.
-    pub(in crate::search) fn orbits(self, symmetric: &SearchCounts, order: usize) -> SearchCounts {
+    pub(in crate::search) fn to_orbits(
+        self,
+        symmetric: &SearchCounts,
+        order: usize,
+    ) -> SearchCounts {
         let lasting = self.lasting.zip(symmetric.lasting.as_ref());
         SearchCounts {
-            determinate: self.determinate.orbits(&symmetric.determinate, order),
-            admissible: self.admissible.orbits(&symmetric.admissible, order),
-            lasting: lasting.map(|(all, kept)| all.orbits(kept, order)),
+            determinate: self.determinate.to_orbits(&symmetric.determinate, order),
+            admissible: self.admissible.to_orbits(&symmetric.admissible, order),
+            lasting: lasting.map(|(all, kept)| all.to_orbits(kept, order)),
         }
     }
 }

@@ -81,7 +81,7 @@ pub fn single_changes(mechanism: &Mechanism, state: StateId) -> Result<Suggestio
     };
     let offered = |j: &JointId| {
         let joint = &mechanism.joints[*j];
-        !changes(joint, &present(joint), state, false).is_empty()
+        !possible_changes(joint, &present_option(joint), state, false).is_empty()
     };
     let usual = !joints.iter().any(offered);
     let twists = |o: &JointOption| -> Result<Vec<Vec<Residue>>, ExactError> {
@@ -92,10 +92,10 @@ pub fn single_changes(mechanism: &Mechanism, state: StateId) -> Result<Suggestio
     let (mut tried, mut list) = (0, Vec::new());
     for j in joints {
         let joint = &mechanism.joints[j];
-        let present = present(joint);
+        let present = present_option(joint);
         let own = twists(&present)?;
-        let wrenches = carried.at(j);
-        for (to, unloading) in changes(joint, &present, state, usual) {
+        let wrenches = carried.wrenches_at(j);
+        for (to, unloading) in possible_changes(joint, &present, state, usual) {
             let mut columns = twists(to.as_ref().unwrap_or(&present))?;
             if !is_contained(exact.field(), &[&own, &columns]) {
                 continue;
@@ -105,9 +105,9 @@ pub fn single_changes(mechanism: &Mechanism, state: StateId) -> Result<Suggestio
             }
             tried += 1;
             let removes = columns.len() - own.len();
-            if removes > 0 && gain(exact, &wrenches, &columns) == removes {
+            if removes > 0 && power_rank(exact, &wrenches, &columns) == removes {
                 let cost_milli =
-                    costs.change(&present, joint.drive, to.as_ref(), unloading.as_ref());
+                    costs.change_cost(&present, joint.drive, to.as_ref(), unloading.as_ref());
                 list.push(Suggestion {
                     joint: j,
                     to,
@@ -130,7 +130,7 @@ pub fn single_changes(mechanism: &Mechanism, state: StateId) -> Result<Suggestio
 }
 
 /// Returns the present joint as an option.
-fn present(joint: &Joint) -> JointOption {
+fn present_option(joint: &Joint) -> JointOption {
     let own = || JointOption::in_frame_of(joint, &joint.joint_type);
     joint.options.first().cloned().unwrap_or_else(own)
 }
@@ -138,7 +138,12 @@ fn present(joint: &Joint) -> JointOption {
 type Change = (Option<JointOption>, Option<JointOption>);
 
 /// Returns the possible changes of a joint: another joint, an unloading joint, or both.
-fn changes(joint: &Joint, present: &JointOption, state: StateId, usual: bool) -> Vec<Change> {
+fn possible_changes(
+    joint: &Joint,
+    present: &JointOption,
+    state: StateId,
+    usual: bool,
+) -> Vec<Change> {
     if usual {
         let option = |t: &JointType| JointOption::in_frame_of(joint, t);
         return match (state, joint.drive, &joint.joint_type) {
@@ -165,10 +170,10 @@ fn changes(joint: &Joint, present: &JointOption, state: StateId, usual: bool) ->
 }
 
 /// The rank of the wrenches' powers on some twists.
-fn gain(exact: &ExactField, wrenches: &[Vec<Residue>], twists: &[Vec<Residue>]) -> usize {
+fn power_rank(exact: &ExactField, wrenches: &[Vec<Residue>], twists: &[Vec<Residue>]) -> usize {
     let f = exact.field();
     let powers = |t: &Vec<Residue>| wrenches.iter().map(|w| f.dot(w, t)).collect::<Vec<_>>();
-    Echelon::of(f, twists.iter().map(powers)).rank()
+    Echelon::from_vectors(f, twists.iter().map(powers)).rank()
 }
 
 /// The wrenches that each joint transmits under the self-stresses.
@@ -202,7 +207,7 @@ impl<'a> Carried<'a> {
     }
 
     /// A basis of the wrenches that a joint carries, six at most.
-    fn at(&self, joint: JointId) -> Vec<Vec<Residue>> {
+    fn wrenches_at(&self, joint: JointId) -> Vec<Vec<Residue>> {
         let (f, dim) = (self.exact.field(), self.dim);
         let mut span = Echelon::new(f);
         for stress in self.stresses {
@@ -211,10 +216,10 @@ impl<'a> Carried<'a> {
             }
             let mut wrench = vec![0; dim];
             for &(i, forward) in &self.passes[joint] {
-                f.accumulate(&mut wrench, &stress[i * dim..(i + 1) * dim], forward);
+                f.add_or_subtract(&mut wrench, &stress[i * dim..(i + 1) * dim], forward);
             }
             span.insert(&wrench);
         }
-        span.reduced()
+        span.reduced_rows()
     }
 }

@@ -1,6 +1,6 @@
 //! The admissible variants of a finished diagram: the cheapest in order, or some at random.
 
-use crate::search::answer::counts::fits;
+use crate::search::answer::counts::fits_u128;
 use crate::search::answer::drawn::sample_of;
 use crate::search::answer::k_best::{Assignment, Cheapest, Enter, ListLimits, Reach};
 use crate::search::answer::keys::{Key, Steps};
@@ -12,19 +12,19 @@ use crate::search::question::conditions::Symmetry;
 use num_bigint::BigUint;
 
 /// Refuses nothing.
-fn every<'a>() -> Enter<'a> {
+fn enter_all<'a>() -> Enter<'a> {
     Box::new(|_, _, _, _| true)
 }
 
 /// Returns at most `top` admissible variants, cheapest first, then by W, then by changes, then in the order of the diagram's variables.
-pub(crate) fn cheapest<'a>(
+pub(crate) fn cheapest_variants<'a>(
     question: &'a Question,
     diagrams: &'a Diagrams,
     top: usize,
 ) -> Box<dyn Iterator<Item = Assignment> + 'a> {
     // Of two or three images the first is kept, so that so many times more always suffice.
     let enough = match question.conditions.symmetry {
-        Symmetry::OnePerOrbit => top.saturating_mul(question.mechanism.search.order()),
+        Symmetry::OnePerOrbit => top.saturating_mul(question.mechanism.search.symmetry_order()),
         Symmetry::All | Symmetry::SymmetricOnly => top,
     };
     Box::new(in_order(question, diagrams, enough).take(top))
@@ -38,10 +38,10 @@ fn in_order<'a>(
     top: usize,
 ) -> Box<dyn Iterator<Item = Assignment> + 'a> {
     let between = move |diagram: &'a Diagram, least, most| {
-        let all = between(question, diagram, top, least, most, every());
+        let all = variants_between(question, diagram, top, least, most, enter_all());
         all.filter(move |v| is_first_image(question, diagram, v))
     };
-    let all = diagrams.listed();
+    let all = diagrams.listed_diagram();
     let Some(UpTo {
         diagram,
         cost_milli,
@@ -64,23 +64,23 @@ fn is_first_image(question: &Question, diagram: &Diagram, v: &Assignment) -> boo
         diagram.layers.iter().map(|l| choices[l.variable]).collect()
     };
     let own = by_layer(&v.choices);
-    let images = std::iter::successors(Some(question.image(&v.choices)), |c| {
-        Some(question.image(c))
+    let images = std::iter::successors(Some(question.image_of(&v.choices)), |c| {
+        Some(question.image_of(c))
     });
-    let mut others = images.take(question.mechanism.search.order() - 1);
+    let mut others = images.take(question.mechanism.search.symmetry_order() - 1);
     others.all(|image| by_layer(&image) >= own)
 }
 
 /// The admissible variants of a diagram that cost no more than `slack` above the cheapest by other steps than the question's, in
 /// the order and with keys of these, but for those whose beginnings `enter` refuses; and whether there are none that cost more.
-pub(in crate::search) fn distinct<'a>(
+pub(in crate::search) fn variants_within<'a>(
     question: &'a Question,
     diagram: &'a Diagram,
     steps: &'a Steps,
     slack: u64,
     enter: Enter<'a>,
 ) -> (Box<dyn Iterator<Item = Assignment> + 'a>, bool) {
-    let wanted = |k: Key| question.wanted(k);
+    let wanted = |k: Key| question.is_wanted(k);
     let limits = ListLimits {
         reach: Reach::Above(slack),
         ceiling: u64::MAX,
@@ -90,7 +90,7 @@ pub(in crate::search) fn distinct<'a>(
 
 /// The variants of a diagram with costs in thousandths from `least` to `most`, but for those whose beginnings `enter`
 /// refuses.
-fn between<'a>(
+fn variants_between<'a>(
     question: &'a Question,
     diagram: &'a Diagram,
     top: usize,
@@ -98,11 +98,11 @@ fn between<'a>(
     most: i64,
     enter: Enter<'a>,
 ) -> Box<dyn Iterator<Item = Assignment> + 'a> {
-    let costs = |k: Key| (least..=most).contains(&question.steps.milli(k.cost()));
-    let wanted = |k: Key| question.wanted(k) && costs(k);
+    let costs = |k: Key| (least..=most).contains(&question.steps.cost_in_milli(k.cost()));
+    let wanted = |k: Key| question.is_wanted(k) && costs(k);
     let limits = ListLimits {
         reach: Reach::Variants(top),
-        ceiling: question.steps.above(most),
+        ceiling: question.steps.steps_above(most),
     };
     in_steps(question, diagram, &question.steps, limits, wanted, enter).0
 }
@@ -124,7 +124,7 @@ pub(in crate::search) fn every_choice<'a>(
         &question.steps,
         limits,
         |_| true,
-        every(),
+        enter_all(),
     )
     .0
 }
@@ -138,9 +138,9 @@ fn in_steps<'a>(
     wanted: impl Fn(Key) -> bool,
     enter: Enter<'a>,
 ) -> (Box<dyn Iterator<Item = Assignment> + 'a>, bool) {
-    let rank = |k: Key| question.rank(k);
+    let rank = |k: Key| question.sort_rank(k);
     let room = question.conditions.memory / 4;
-    if fits(question) {
+    if fits_u128(question) {
         let all = Cheapest::<u128>::new(diagram, steps, limits, wanted, rank, room, enter);
         let is_all = all.is_all();
         (Box::new(all), is_all)
@@ -152,21 +152,25 @@ fn in_steps<'a>(
 }
 
 /// The properties of a variant of a diagram.
-pub(in crate::search) fn key(question: &Question, diagram: &Diagram, choices: &[usize]) -> Key {
+pub(in crate::search) fn variant_key(
+    question: &Question,
+    diagram: &Diagram,
+    choices: &[usize],
+) -> Key {
     let chosen = choices.iter().enumerate();
     let sum: u128 = chosen.map(|(v, &c)| question.steps.keys[v][c].0).sum();
-    let end = diagram.end(choices).unwrap_or_default();
-    Key(sum + question.steps.redundancy(end).0)
+    let end = diagram.end_of(choices).unwrap_or_default();
+    Key(sum + question.steps.redundancy_key(end).0)
 }
 
 /// Returns an endless sample of admissible variants or orbits, each with the same probability. The sample is empty if it takes more than
 /// the available memory.
-pub(crate) fn sample<'a>(
+pub(crate) fn sample_variants<'a>(
     question: &'a Question,
     diagrams: &'a Diagrams,
     seed: u64,
 ) -> Box<dyn Iterator<Item = Assignment> + 'a> {
-    let diagram = diagrams.listed();
+    let diagram = diagrams.listed_diagram();
     // Each orbit has one variant that comes first, and so the same chance.
     let all = sample_of(question, diagram, seed, true);
     Box::new(all.filter(move |v| is_first_image(question, diagram, v)))

@@ -3,10 +3,10 @@
 use crate::closure::Closure;
 use crate::geom::exact::ExactError;
 use crate::model::mechanism::{JointId, StateId};
-use crate::redundancy::motion::motions;
+use crate::redundancy::motion::motion_basis;
 use crate::search::answer::counts::Counts;
-use crate::search::answer::counts::counts;
-use crate::search::build::build;
+use crate::search::answer::counts::count_by_kind;
+use crate::search::build::build_diagrams;
 use crate::search::check::brute::Matrices;
 use crate::search::diagram::Stop;
 use crate::search::question::Question;
@@ -58,12 +58,12 @@ const MORE: usize = 4;
 ///
 /// # Errors
 /// Returns an error if a coordinate has no value in the field.
-pub fn hopeless(question: &Question) -> Result<Hopeless, ExactError> {
+pub fn find_obstacles(question: &Question) -> Result<Hopeless, ExactError> {
     let m = &*question.mechanism;
-    let (least, unchanged) = Matrices::new(question).freest();
+    let (least, unchanged) = Matrices::new(question).freest_redundancy();
     let most = usize::try_from(question.conditions.max_redundant).unwrap_or(usize::MAX);
     let closure = Closure::new(&question.exact, m, StateId::FREE)?;
-    let kernel = motions(&question.exact, &closure);
+    let kernel = motion_basis(&question.exact, &closure);
     let moves = |j: JointId| {
         let columns = closure.columns.iter().enumerate();
         let mut own = columns.filter(|(_, c)| c.joint == j);
@@ -85,7 +85,7 @@ pub fn hopeless(question: &Question) -> Result<Hopeless, ExactError> {
 ///
 /// # Complexity
 /// One search for each condition, and for redundancies one for each bit of the least that is enough, or two.
-pub fn relaxations(
+pub fn find_relaxations(
     question: &Question,
     nodes: usize,
     cancelled: &(dyn Fn() -> bool + Sync),
@@ -99,30 +99,31 @@ pub fn relaxations(
     let mut out = Vec::new();
     // Independent drives are not searched with redundant constraints left.
     if !question.mechanism.search.locks_drives {
-        out.extend(easing.redundant()?);
+        out.extend(easing.ease_redundant()?);
     }
     if let Some(state) = conditions.state {
         out.extend(easing.in_state(state)?);
     }
     if conditions.max_mobility.is_some()
-        && let Some(c) = easing.some(&|r| r.max_mobility = None)?
+        && let Some(c) = easing.count_if_any(&|r| r.max_mobility = None)?
         && let Some((least, n)) = c.by_mobility.iter().next()
     {
         out.push((Relaxation::Mobility(*least), n.clone()));
     }
     if conditions.max_changes.is_some()
-        && let Some(c) = easing.some(&|r| r.max_changes = None)?
+        && let Some(c) = easing.count_if_any(&|r| r.max_changes = None)?
         && let Some((least, n)) = c.by_changes.iter().next()
     {
         out.push((Relaxation::Changes(*least), n.clone()));
     }
     if !question.mechanism.search.drives.is_empty()
-        && let Some(c) = easing.some(&|r| r.drives = Drives::Free)?
+        && let Some(c) = easing.count_if_any(&|r| r.drives = Drives::Free)?
     {
         out.push((Relaxation::FreeDrives, c.total));
     }
     if conditions.keep_output
-        && let Some(c) = easing.some(&|r| (r.keep_output, r.drives) = (false, Drives::Free))?
+        && let Some(c) =
+            easing.count_if_any(&|r| (r.keep_output, r.drives) = (false, Drives::Free))?
     {
         out.push((Relaxation::OutputChange, c.total));
     }
@@ -139,26 +140,29 @@ struct Easing<'a> {
 
 impl Easing<'_> {
     /// Returns the counts under other conditions; `None` if it takes too many nodes.
-    fn counted(&self, change: &dyn Fn(&mut Conditions)) -> Result<Option<Counts>, SearchError> {
+    fn count_eased(&self, change: &dyn Fn(&mut Conditions)) -> Result<Option<Counts>, SearchError> {
         let question = self.question;
         let mut eased = question.conditions.clone();
         eased.nodes = eased.nodes.min(self.nodes);
         (eased.cheapest, eased.counted, eased.estimate) = (0, true, None);
         change(&mut eased);
         let other = Question::new(question.exact.clone(), question.mechanism.clone(), eased)?;
-        let built = build(&other, self.cancelled, &mut |_| {});
-        let whole = built.stop() == Stop::Exhausted;
-        Ok(whole.then(|| counts(&other, built.listed(), true)))
+        let built = build_diagrams(&other, self.cancelled, &mut |_| {});
+        let whole = built.stop_reason() == Stop::Exhausted;
+        Ok(whole.then(|| count_by_kind(&other, built.listed_diagram(), true)))
     }
 
     /// Returns the counts under other conditions; `None` if it takes too many nodes or if there are no variants.
-    fn some(&self, change: &dyn Fn(&mut Conditions)) -> Result<Option<Counts>, SearchError> {
-        Ok(self.counted(change)?.filter(|c| !c.total.is_zero()))
+    fn count_if_any(
+        &self,
+        change: &dyn Fn(&mut Conditions),
+    ) -> Result<Option<Counts>, SearchError> {
+        Ok(self.count_eased(change)?.filter(|c| !c.total.is_zero()))
     }
 
     /// Bounds beyond what is allowed. Diagrams grow with them, so a little more is tried first: twice as much more each time, until it
     /// takes too many nodes.
-    fn further(&self, allowed: u32) -> impl Iterator<Item = u32> {
+    fn further_bounds(&self, allowed: u32) -> impl Iterator<Item = u32> {
         // No variant has more redundant constraints than rows.
         let rows = u32::try_from(6 * self.question.mechanism.joints.len()).unwrap_or(u32::MAX);
         let more = std::iter::successors(Some(1u32), |m| m.checked_mul(2));
@@ -167,9 +171,9 @@ impl Easing<'_> {
     }
 
     /// More redundant constraints within the mechanism.
-    fn redundant(&self) -> Result<Option<(Relaxation, BigUint)>, SearchError> {
-        for bound in self.further(self.question.conditions.max_redundant) {
-            let Some(c) = self.counted(&|r| r.max_redundant = bound)? else {
+    fn ease_redundant(&self) -> Result<Option<(Relaxation, BigUint)>, SearchError> {
+        for bound in self.further_bounds(self.question.conditions.max_redundant) {
+            let Some(c) = self.count_eased(&|r| r.max_redundant = bound)? else {
                 break;
             };
             if let Some((least, n)) = c.by_redundant.iter().next() {
@@ -180,20 +184,20 @@ impl Easing<'_> {
     }
 
     /// Returns the least sufficient bound of the searched state, with the number of variants. The bound is doubled, then the gap is halved.
-    fn least(
+    fn least_bound(
         &self,
         allowed: u32,
         set: &dyn Fn(&mut InState, u32),
     ) -> Result<Option<(u32, BigUint)>, SearchError> {
         let with = |most: u32| {
-            self.counted(&|r: &mut Conditions| {
+            self.count_eased(&|r: &mut Conditions| {
                 if let Some(s) = &mut r.state {
                     set(s, most);
                 }
             })
         };
         let mut few = allowed;
-        for bound in self.further(allowed) {
+        for bound in self.further_bounds(allowed) {
             let Some(mut found) = with(bound)? else {
                 break;
             };
@@ -218,11 +222,11 @@ impl Easing<'_> {
     fn in_state(&self, state: InState) -> Result<Vec<(Relaxation, BigUint)>, SearchError> {
         let mut out = Vec::new();
         if let Some(allowed) = state.max_external {
-            let found = self.least(allowed, &|s, most| s.max_external = Some(most))?;
+            let found = self.least_bound(allowed, &|s, most| s.max_external = Some(most))?;
             out.extend(found.map(|(n, total)| (Relaxation::External(n), total)));
         }
         if let Some(allowed) = state.max_harmful {
-            let found = self.least(allowed, &|s, most| s.max_harmful = Some(most))?;
+            let found = self.least_bound(allowed, &|s, most| s.max_harmful = Some(most))?;
             out.extend(found.map(|(n, total)| (Relaxation::Harmful(n), total)));
         }
         let loose = |r: &mut Conditions| {
@@ -231,7 +235,7 @@ impl Easing<'_> {
             }
         };
         if state.hold_objects
-            && let Some(c) = self.some(&loose)?
+            && let Some(c) = self.count_if_any(&loose)?
         {
             out.push((Relaxation::LooseObject, c.total));
         }

@@ -2,7 +2,7 @@
 
 use super::judge::{Judged, Standing};
 use crate::search::answer::counts::Counts;
-use crate::search::answer::estimate::samples::interval;
+use crate::search::answer::estimate::samples::confidence_interval;
 use crate::search::answer::k_best::Assignment;
 use crate::search::answer::keys::Key;
 use crate::search::diagram::Stop;
@@ -62,21 +62,25 @@ impl AtTolerance {
 
     /// Returns the certainly admissible variants, cheapest first, then by W, then by changes. If the space was not examined completely,
     /// returns the first of them.
-    pub fn list(&self) -> impl Iterator<Item = Assignment> {
+    pub fn list_variants(&self) -> impl Iterator<Item = Assignment> {
         self.list.iter().cloned()
     }
 
     /// Returns an endless sample of the list, each variant with the same probability. If the space was not examined completely, these are
     /// the cheap variants.
-    pub fn drawn(&self, seed: u64) -> impl Iterator<Item = Assignment> {
+    pub fn draw_variants(&self, seed: u64) -> impl Iterator<Item = Assignment> {
         let mut random = ChaCha8Rng::seed_from_u64(seed);
-        let any = move || self.list.get(below(&mut random, self.list.len())).cloned();
+        let any = move || {
+            self.list
+                .get(random_index(&mut random, self.list.len()))
+                .cloned()
+        };
         std::iter::from_fn(any)
     }
 }
 
 /// The choices of a variant from its number: the last variable's change first.
-pub(in crate::search) fn choices(question: &Question, number: u32) -> Vec<usize> {
+pub(in crate::search) fn choices_of_number(question: &Question, number: u32) -> Vec<usize> {
     let mut rest = number as usize;
     let mut out: Vec<usize> = Vec::with_capacity(question.steps.keys.len());
     for keys in question.steps.keys.iter().rev() {
@@ -98,7 +102,7 @@ pub(super) struct Met {
 }
 
 impl Met {
-    pub(super) fn add(&mut self, judged: &Judged) {
+    pub(super) fn add_judged(&mut self, judged: &Judged) {
         self.looked += 1;
         for (standing, counts) in [
             (&judged.determinate, &mut self.determinate),
@@ -114,10 +118,10 @@ impl Met {
     }
 
     /// Brackets of the determinate and of the admissible, among `size` variants.
-    pub(super) fn brackets(&self, question: &Question, size: &BigUint) -> [Bracket; 2] {
+    pub(super) fn count_brackets(&self, question: &Question, size: &BigUint) -> [Bracket; 2] {
         let unseen = size - BigUint::from(self.looked).min(size.clone());
         [&self.determinate, &self.admissible].map(|[sure, doubtful]| {
-            let [sure, doubtful] = [sure, doubtful].map(|all| counts(question, all));
+            let [sure, doubtful] = [sure, doubtful].map(|all| counts_by_key(question, all));
             Bracket {
                 most: &sure.total + &doubtful.total + &unseen,
                 sure,
@@ -129,16 +133,17 @@ impl Met {
     pub(super) fn by_cost(&self, question: &Question) -> BTreeMap<i64, BigUint> {
         let mut out: BTreeMap<i64, BigUint> = BTreeMap::new();
         for (key, n) in &self.admissible[0] {
-            *out.entry(question.steps.milli(key.cost())).or_default() += *n;
+            *out.entry(question.steps.cost_in_milli(key.cost()))
+                .or_default() += *n;
         }
         out
     }
 }
 
-fn counts(question: &Question, all: &BTreeMap<Key, u64>) -> Counts {
+fn counts_by_key(question: &Question, all: &BTreeMap<Key, u64>) -> Counts {
     let mut out = Counts::default();
     for (key, n) in all {
-        out.add(question.mobility(*key), *key, &BigUint::from(*n));
+        out.add_variants(question.mobility(*key), *key, &BigUint::from(*n));
     }
     out
 }
@@ -157,11 +162,11 @@ pub struct Share {
 impl Share {
     /// Returns the share of those found in a sample, with its exact confidence interval.
     #[allow(clippy::cast_precision_loss, reason = "samples are small")]
-    pub(super) fn of(sure: usize, may: usize, of: usize) -> Share {
+    pub(super) fn from_sample(sure: usize, may: usize, of: usize) -> Share {
         Share {
             mean: sure as f64 / of.max(1) as f64,
-            low: interval(of, sure)[0],
-            high: interval(of, may)[1],
+            low: confidence_interval(of, sure)[0],
+            high: confidence_interval(of, may)[1],
         }
     }
 }
@@ -186,11 +191,11 @@ pub struct Sampled {
 /// The choices of a variant drawn at random, each with the same chance.
 pub(in crate::search) fn any_choices(question: &Question, random: &mut ChaCha8Rng) -> Vec<usize> {
     let all = question.steps.keys.iter();
-    all.map(|keys| below(random, keys.len())).collect()
+    all.map(|keys| random_index(random, keys.len())).collect()
 }
 
 /// A number below `n`, each with the same chance.
-pub(in crate::search) fn below(random: &mut ChaCha8Rng, n: usize) -> usize {
+pub(in crate::search) fn random_index(random: &mut ChaCha8Rng, n: usize) -> usize {
     let n = n.max(1) as u64;
     // What would favour the first numbers is drawn again.
     let fair = u64::MAX - u64::MAX % n;

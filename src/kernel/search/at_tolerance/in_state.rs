@@ -4,7 +4,7 @@ use crate::closure::Closure;
 use crate::geom::Reals;
 use crate::model::joint_type::{Freedom, JointType};
 use crate::model::mechanism::{JointId, Mechanism, StateId};
-use crate::rank::numeric::scaling::{Scaling, scaled};
+use crate::rank::numeric::scaling::{Scaling, scaled_matrix};
 use crate::search::question::Question;
 use crate::search::question::conditions::InState;
 use crate::search::question::grasp::Grasp;
@@ -29,7 +29,7 @@ impl Answer {
         }
     }
 
-    pub(super) fn and(self, other: Answer) -> Answer {
+    pub(super) fn combine_with(self, other: Answer) -> Answer {
         match (self, other) {
             (Answer::No, _) | (_, Answer::No) => Answer::No,
             (Answer::Yes, Answer::Yes) => Answer::Yes,
@@ -71,7 +71,7 @@ impl InStateSeen {
         external: [i32; 2],
         digits: Digits,
     ) -> Option<InStateSeen> {
-        let own = range(realized, state, digits)?;
+        let own = rank_range(realized, state, digits)?;
         let added: Vec<JointId> = realized.joints_added_in(state).collect();
         let fixed = |j: &JointId| realized.joints[*j].joint_type == JointType::Fixed;
         let faces: Vec<JointId> = added.iter().copied().filter(fixed).collect();
@@ -82,7 +82,7 @@ impl InStateSeen {
                     freer.joints[j].joint_type = JointType::Custom(freedoms);
                 }
             }
-            range(&freer, state, digits)
+            rank_range(&freer, state, digits)
         };
         let all = if faces.is_empty() {
             vec![with(&|_| Some(ALL.to_vec()))?]
@@ -113,7 +113,7 @@ impl InStateSeen {
         };
         let mut held = Answer::Yes;
         for grasp in &question.grasps {
-            held = held.and(holds(realized, state, grasp, own, digits)?);
+            held = held.combine_with(holds(realized, state, grasp, own, digits)?);
         }
         Some(InStateSeen {
             external,
@@ -123,15 +123,15 @@ impl InStateSeen {
     }
 
     /// Whether it is what is asked of variants in the state.
-    pub(super) fn meets(&self, asked: &InState) -> Answer {
+    pub(super) fn meets_conditions(&self, asked: &InState) -> Answer {
         let below = |[least, most]: [i64; 2], limit: Option<u32>| {
             let fits = |x: i64| limit.is_none_or(|l| x <= i64::from(l));
             // Of a range the figure itself is doubtful.
             Answer::of(least == most && fits(most), fits(least))
         };
         below(self.external.map(i64::from), asked.max_external)
-            .and(below(self.harmful.map(i64::from), asked.max_harmful))
-            .and(self.held)
+            .combine_with(below(self.harmful.map(i64::from), asked.max_harmful))
+            .combine_with(self.held)
     }
 
     /// External and harmful redundant constraints, the least there may be.
@@ -140,10 +140,10 @@ impl InStateSeen {
     }
 }
 
-fn range(m: &Mechanism, state: StateId, digits: Digits) -> Option<RankRange> {
+fn rank_range(m: &Mechanism, state: StateId, digits: Digits) -> Option<RankRange> {
     let closure = Closure::new(&Reals, m, state).ok()?;
-    let values = singular_values(&scaled(&closure))?;
-    Some(RankRange::of(&values, digits))
+    let values = singular_values(&scaled_matrix(&closure))?;
+    Some(RankRange::from_values(&values, digits))
 }
 
 /// Whether one of the links that may hold a body moves with it in every motion: rows of their relative motion add nothing to
@@ -156,7 +156,7 @@ fn holds(
     digits: Digits,
 ) -> Option<Answer> {
     let closure = Closure::new(&Reals, m, state).ok()?;
-    let (scaling, matrix) = (Scaling::of(&closure), scaled(&closure));
+    let (scaling, matrix) = (Scaling::of_closure(&closure), scaled_matrix(&closure));
     let rows = matrix.nrows();
     let of_body = closure.link_motion(&Reals, m, grasp.body);
     let mut answer = Answer::No;
@@ -164,7 +164,7 @@ fn holds(
         let of_jaw = closure.link_motion(&Reals, m, jaw);
         let relative = |(c, (a, b)): (usize, (&Vec<f64>, &Vec<f64>))| {
             let twist: Vec<f64> = a.iter().zip(b).map(|(a, b)| a - b).collect();
-            scaling.apply(c, &twist)
+            scaling.scale_column(c, &twist)
         };
         let relative: Vec<Vec<f64>> = of_body
             .iter()
@@ -178,7 +178,7 @@ fn holds(
                 None => matrix[(r, c)],
             }
         });
-        let with = RankRange::of(&singular_values(&with)?, digits);
+        let with = RankRange::from_values(&singular_values(&with)?, digits);
         let sure = own.is_decided() && with.is_decided() && own.most == with.most;
         match Answer::of(sure, with.least <= own.most) {
             Answer::Yes => return Some(Answer::Yes),

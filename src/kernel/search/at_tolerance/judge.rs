@@ -45,12 +45,12 @@ impl<'s> Judge<'s> {
     pub(super) fn new(question: &'s Question, digits: Digits) -> Result<Judge<'s>, ExactError> {
         let all = Approximate::new(question, Elimination::Svd, digits.tolerance)?;
         let nothing = vec![0; question.space.variables.len()];
-        let unknown = RankRange::of(&[], digits);
+        let unknown = RankRange::from_values(&[], digits);
         let present = all
-            .range(&nothing, RankedRows::Free, digits)
+            .rank_range(&nothing, RankedRows::Free, digits)
             .unwrap_or(unknown);
-        let kept = all.range(&nothing, RankedRows::WithKept, digits);
-        let motion = motion(present, kept.unwrap_or(unknown));
+        let kept = all.rank_range(&nothing, RankedRows::WithKept, digits);
+        let motion = motion_range(present, kept.unwrap_or(unknown));
         Ok(Judge {
             question,
             all,
@@ -64,7 +64,7 @@ impl<'s> Judge<'s> {
     }
 
     /// The dimension of the kept links' present motion, the largest it may be.
-    pub(super) fn motion(&self) -> usize {
+    pub(super) fn motion_dimension(&self) -> usize {
         self.motion[1]
     }
 
@@ -72,17 +72,17 @@ impl<'s> Judge<'s> {
     ///
     /// # Complexity
     /// One decomposition where it has too many redundant constraints, two otherwise; with a state some more.
-    pub(super) fn judge(&self, choices: &[usize]) -> Judged {
+    pub(super) fn judge_variant(&self, choices: &[usize]) -> Judged {
         let limit = self.question.conditions.max_redundant;
-        let Some(free) = self.all.range(choices, RankedRows::Free, self.digits) else {
-            let key = self.standing(choices, false, Redundancy::default());
+        let Some(free) = self.all.rank_range(choices, RankedRows::Free, self.digits) else {
+            let key = self.standing_of(choices, false, Redundancy::default());
             return Judged {
                 determinate: key,
                 admissible: key,
             };
         };
         let int = |x: usize| u32::try_from(x).unwrap_or(u32::MAX);
-        let [rows, _] = self.all.equations();
+        let [rows, _] = self.all.count_equations();
         let (least, most) = (int(rows - free.most), int(rows - free.least));
         if least > limit {
             return Judged {
@@ -96,43 +96,43 @@ impl<'s> Judge<'s> {
             ..Redundancy::default()
         };
         // Of a range the figures are doubtful too.
-        let determinate = self.standing(choices, sure && least == most, within);
+        let determinate = self.standing_of(choices, sure && least == most, within);
         let doubtful = || Judged {
             determinate,
-            admissible: self.standing(choices, false, within),
+            admissible: self.standing_of(choices, false, within),
         };
         let mut good = Answer::of(sure && least == most, true);
         if self.question.conditions.keep_output {
             let Some(keeps) = self.keeps_output(choices, free) else {
                 return doubtful();
             };
-            good = good.and(keeps);
+            good = good.combine_with(keeps);
         }
         let wanted = |internal| self.is_wanted(choices, internal);
         let mut which = least..=most.min(limit);
-        good = good.and(Answer::of(which.clone().all(wanted), which.any(wanted)));
+        good = good.combine_with(Answer::of(which.clone().all(wanted), which.any(wanted)));
         let mut found = within;
         let asked = self.question.conditions.state;
         if let Some(asked) = asked.filter(|_| good != Answer::No) {
             let Some(seen) = self.in_state(asked.state, choices, free) else {
                 return doubtful();
             };
-            good = good.and(seen.meets(&asked));
+            good = good.combine_with(seen.meets_conditions(&asked));
             (found.external, found.harmful) = seen.figures();
         }
         Judged {
             determinate,
             admissible: match good {
                 Answer::No => Standing::No,
-                Answer::Perhaps => self.standing(choices, false, found),
-                Answer::Yes => self.standing(choices, true, found),
+                Answer::Perhaps => self.standing_of(choices, false, found),
+                Answer::Yes => self.standing_of(choices, true, found),
             },
         }
     }
 
     /// How a variant with some redundancy stands that meets the conditions, for sure or perhaps.
-    fn standing(&self, choices: &[usize], sure: bool, redundancy: Redundancy) -> Standing {
-        let key = brute::key(self.question, choices, redundancy);
+    fn standing_of(&self, choices: &[usize], sure: bool, redundancy: Redundancy) -> Standing {
+        let key = brute::variant_key(self.question, choices, redundancy);
         if sure {
             Standing::Sure(key)
         } else {
@@ -142,8 +142,10 @@ impl<'s> Judge<'s> {
 
     /// Returns whether the kept links of a variant move as in the present mechanism; `None` if the singular values do not converge.
     fn keeps_output(&self, choices: &[usize], free: RankRange) -> Option<Answer> {
-        let kept = self.all.range(choices, RankedRows::WithKept, self.digits)?;
-        let [from, to] = motion(free, kept);
+        let kept = self
+            .all
+            .rank_range(choices, RankedRows::WithKept, self.digits)?;
+        let [from, to] = motion_range(free, kept);
         let [had, at_most] = self.motion;
         Some(Answer::of(
             from == to && had == at_most && from == had,
@@ -158,18 +160,20 @@ impl<'s> Judge<'s> {
             ..Redundancy::default()
         };
         self.question
-            .wanted(brute::key(self.question, choices, redundancy))
+            .is_wanted(brute::variant_key(self.question, choices, redundancy))
     }
 
     /// Returns the figures of a variant in the searched state; `None` if the singular values do not converge.
     fn in_state(&self, state: StateId, choices: &[usize], free: RankRange) -> Option<InStateSeen> {
-        let [rows, state_rows] = self.all.equations();
-        let realized = variant_mechanism::realize(self.question, choices);
-        let of_state = self.all.range(choices, RankedRows::State, self.digits)?;
-        let surplus = |rank: usize| int32(state_rows) - int32(rank);
+        let [rows, state_rows] = self.all.count_equations();
+        let realized = variant_mechanism::realize_variant(self.question, choices);
+        let of_state = self
+            .all
+            .rank_range(choices, RankedRows::State, self.digits)?;
+        let surplus = |rank: usize| to_i32(state_rows) - to_i32(rank);
         let external = [
-            surplus(of_state.most) - int32(rows) + int32(free.least),
-            surplus(of_state.least) - int32(rows) + int32(free.most),
+            surplus(of_state.most) - to_i32(rows) + to_i32(free.least),
+            surplus(of_state.least) - to_i32(rows) + to_i32(free.most),
         ];
         InStateSeen::of(self.question, &realized, state, external, self.digits)
     }
@@ -177,14 +181,14 @@ impl<'s> Judge<'s> {
 
 /// The least and the largest dimension of the kept links' motion, from the ranks of the closure equations and of these with
 /// that motion.
-fn motion(free: RankRange, kept: RankRange) -> [usize; 2] {
+fn motion_range(free: RankRange, kept: RankRange) -> [usize; 2] {
     [
         kept.least.saturating_sub(free.most),
         kept.most.saturating_sub(free.least),
     ]
 }
 
-fn int32(x: usize) -> i32 {
+fn to_i32(x: usize) -> i32 {
     i32::try_from(x).unwrap_or(i32::MAX / 4)
 }
 

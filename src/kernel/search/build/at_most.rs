@@ -5,7 +5,7 @@
 
 use crate::linalg::echelon::Echelon;
 use crate::linalg::modp::Field;
-use crate::search::build::self_stress::{Wanted, adding, space};
+use crate::search::build::self_stress::{Wanted, flat_stages, self_stress_space};
 use crate::search::diagram::between::{Between, LEVELS, Passed};
 use crate::search::diagram::reduced_rows::Arithmetic;
 use crate::search::diagram::redundancy_so_far::{Limits, Redundancy, Spent};
@@ -29,7 +29,7 @@ pub(in crate::search) struct AtMost {
 }
 
 /// Nodes of a layer: their number, bounded by memory, too.
-fn width(limits: &Limits, stages: &[Adding], choices: usize) -> usize {
+fn layer_width(limits: &Limits, stages: &[Adding], choices: usize) -> usize {
     let numbers = stages.iter().map(|s| s.columns.width).max().unwrap_or(0);
     let each = size_of::<u64>() * 2 * (numbers * numbers / 2 + numbers);
     let bytes = limits.bytes / 4 / (each * choices).max(1);
@@ -49,16 +49,16 @@ pub(in crate::search) fn at_most(
     cancelled: &(dyn Fn() -> bool + Sync),
 ) -> Option<AtMost> {
     let field = question.exact.field();
-    let space = space(question, order, wanted);
+    let space = self_stress_space(question, order, wanted);
     let spent = Spent::within_mechanism(space.lasting);
     if spent.internal() != limits.internal {
         return None;
     }
     let choices = |s: &Adding| question.space.variables[s.variable].choices.len();
-    let stages = adding(field, order, &space);
+    let stages = flat_stages(field, order, &space);
     let most = stages.iter().map(choices).max().unwrap_or(1);
-    let width = width(limits, &stages, most);
-    let bounds = bounds(&stages, &space.contours);
+    let width = layer_width(limits, &stages, most);
+    let bounds = boundary_counts(&stages, &space.contours);
     let mut nodes = vec![(Between::default(), 1.0)];
     let mut layers = Vec::with_capacity(order.len());
     for (stage, bounds) in stages.iter().zip(&bounds) {
@@ -72,8 +72,8 @@ pub(in crate::search) fn at_most(
             passed: Passed { stage, bounds },
         };
         let before = nodes.len();
-        let (next, mut edges) = layered.merged(&nodes, choices);
-        let to = narrowed(field, next, width);
+        let (next, mut edges) = layered.merge_children(&nodes, choices);
+        let to = narrow_layer(field, next, width);
         nodes = to.0;
         let alive = edges.iter_mut().filter(|e| **e != DEAD);
         alive.for_each(|e| *e = to.1[*e as usize]);
@@ -86,7 +86,7 @@ pub(in crate::search) fn at_most(
     }
     let ends: Vec<Redundancy> = nodes.iter().map(|_| spent.redundancy()).collect();
     Some(AtMost {
-        diagram: Diagram::whole(layers, ends),
+        diagram: Diagram::from_layers(layers, ends),
         field,
         order: order.to_vec(),
         space,
@@ -95,18 +95,18 @@ pub(in crate::search) fn at_most(
 
 impl AtMost {
     /// Whether a variant of the diagram is one indeed.
-    pub(in crate::search) fn has(&self, choices: &[usize]) -> bool {
+    pub(in crate::search) fn has_variant(&self, choices: &[usize]) -> bool {
         let space = &self.space;
         let contours = space.contours.len();
         let chosen = space.added.iter().zip(&self.order);
         let vectors = chosen.flat_map(|(added, &variable)| &added[choices[variable]]);
-        let pivots = Echelon::of(self.field, vectors).pivots();
+        let pivots = Echelon::from_vectors(self.field, vectors).pivots();
         pivots.len() == contours && pivots.iter().all(|&p| p < contours)
     }
 }
 
 /// For each stage, how many of its coordinates of contours there are up to each place where some end, from this stage on.
-fn bounds(stages: &[Adding], contours: &[Lifetime]) -> Vec<Vec<usize>> {
+fn boundary_counts(stages: &[Adding], contours: &[Lifetime]) -> Vec<Vec<usize>> {
     let ends: Vec<usize> = contours.iter().map(|c| c.to).dedup().collect();
     let of_stage = |(t, stage): (usize, &Adding)| {
         let to_come = ends.iter().filter(|&&end| end >= t);
@@ -131,18 +131,18 @@ struct Layered<'a> {
 
 impl Layered<'_> {
     /// The children of some nodes, equal ones together, and the edges to them.
-    fn merged(&self, nodes: &Weighed, choices: usize) -> (Weighed, Vec<u32>) {
+    fn merge_children(&self, nodes: &Weighed, choices: usize) -> (Weighed, Vec<u32>) {
         let all: Vec<Vec<Named>> = nodes
             .par_iter()
             .with_min_len(64)
             .map_init(
                 || (Worker::new(self.field), Arithmetic::new(self.field)),
                 |(worker, arithmetic), (node, _)| {
-                    let children = match node.packed() {
-                        Some(packed) => self.exact(worker, arithmetic, &packed, choices),
-                        None => node.children(arithmetic, &self.passed),
+                    let children = match node.packed_space() {
+                        Some(packed) => self.exact_children(worker, arithmetic, &packed, choices),
+                        None => node.child_nodes(arithmetic, &self.passed),
                     };
-                    let named = |child: Option<Between>| child.map(|c| (c.words(), c));
+                    let named = |child: Option<Between>| child.map(|c| (c.identity_words(), c));
                     children.into_iter().map(named).collect()
                 },
             )
@@ -168,7 +168,7 @@ impl Layered<'_> {
     }
 
     /// The children of one space, as the diagram itself has them.
-    fn exact(
+    fn exact_children(
         &self,
         worker: &mut Worker,
         arithmetic: &mut Arithmetic,
@@ -182,7 +182,7 @@ impl Layered<'_> {
         let bounds: Vec<usize> = self.passed.bounds[own..].iter().map(|b| b - gap).collect();
         let mut child = |c: Option<(u64, Spent, usize, usize)>| {
             let (_, _, start, end) = c?;
-            Some(Between::one(
+            Some(Between::from_space(
                 arithmetic,
                 stage.columns.width - gap,
                 &out.data[start..end],
@@ -197,7 +197,7 @@ impl Layered<'_> {
 }
 
 /// Returns at most `width` nodes, and the new number of each node.
-fn narrowed(field: Field, nodes: Weighed, width: usize) -> (Weighed, Vec<u32>) {
+fn narrow_layer(field: Field, nodes: Weighed, width: usize) -> (Weighed, Vec<u32>) {
     if nodes.len() <= width {
         let same = (0..nodes.len()).map(|i| u32::try_from(i).expect("layers are narrow"));
         let same = same.collect();
@@ -209,7 +209,10 @@ fn narrowed(field: Field, nodes: Weighed, width: usize) -> (Weighed, Vec<u32>) {
     let groups = (0..LEVELS).rev().map(|level| {
         let mut groups: BTreeMap<Vec<usize>, Vec<usize>> = BTreeMap::new();
         for &i in others {
-            groups.entry(nodes[i].0.kind(level)).or_default().push(i);
+            groups
+                .entry(nodes[i].0.merge_kind(level))
+                .or_default()
+                .push(i);
         }
         groups
     });
@@ -229,7 +232,7 @@ fn narrowed(field: Field, nodes: Weighed, width: usize) -> (Weighed, Vec<u32>) {
         let mut arithmetic = Arithmetic::new(field);
         let (mut whole, mut ways) = nodes[group[0]].clone();
         for &i in &group[1..] {
-            whole.join(&mut arithmetic, &nodes[i].0);
+            whole.join_node(&mut arithmetic, &nodes[i].0);
             ways += nodes[i].1;
         }
         (whole, ways)

@@ -8,31 +8,31 @@ use rayon::prelude::*;
 pub(in crate::search) type Set = Box<[u64]>;
 
 /// Whether a node is in a set.
-pub(in crate::search) fn has(set: &Set, node: usize) -> bool {
+pub(in crate::search) fn contains_node(set: &Set, node: usize) -> bool {
     set[node / 64] >> (node % 64) & 1 == 1
 }
 
 /// Returns an empty set of nodes.
-pub(in crate::search) fn none(nodes: usize) -> Set {
+pub(in crate::search) fn empty_set(nodes: usize) -> Set {
     vec![0; nodes.div_ceil(64)].into_boxed_slice()
 }
 
 /// Puts a node into a set.
-pub(in crate::search) fn put(set: &mut Set, node: usize) {
+pub(in crate::search) fn add_node(set: &mut Set, node: usize) {
     set[node / 64] |= 1 << (node % 64);
 }
 
 /// Returns the set of the nodes that pass a test.
-pub(in crate::search) fn set(nodes: usize, mut is_in: impl FnMut(usize) -> bool) -> Set {
-    let mut out = none(nodes);
+pub(in crate::search) fn collect_set(nodes: usize, mut is_in: impl FnMut(usize) -> bool) -> Set {
+    let mut out = empty_set(nodes);
     (0..nodes)
         .filter(|&n| is_in(n))
-        .for_each(|n| put(&mut out, n));
+        .for_each(|n| add_node(&mut out, n));
     out
 }
 
 /// Returns the nodes of a set in ascending order.
-pub(in crate::search) fn nodes(set: &[u64]) -> impl Iterator<Item = usize> {
+pub(in crate::search) fn nodes_in(set: &[u64]) -> impl Iterator<Item = usize> {
     set.iter().enumerate().flat_map(|(place, &word)| {
         let more = |bits: &u64| Some(bits & (bits - 1)).filter(|b| *b != 0);
         let left = std::iter::successors(Some(word).filter(|b| *b != 0), more);
@@ -49,7 +49,7 @@ pub(in crate::search) struct Numbered {
 
 impl Numbered {
     /// Returns the number of a set; [`DEAD`] of the empty one.
-    pub(in crate::search) fn of(&mut self, set: Set) -> u32 {
+    pub(in crate::search) fn number_of(&mut self, set: Set) -> u32 {
         if set.iter().all(|&w| w == 0) {
             return DEAD;
         }
@@ -64,7 +64,7 @@ impl Numbered {
 const BATCH: usize = 512;
 
 /// Returns for each node the set of nodes of the other half that complete it; `None` if cancelled.
-pub(in crate::search) fn completed(
+pub(in crate::search) fn completing_sets(
     nodes: usize,
     completing: impl Fn(usize) -> Set + Sync,
     cancelled: &(dyn Fn() -> bool + Sync),

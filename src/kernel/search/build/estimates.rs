@@ -1,6 +1,6 @@
 //! About how many variants there are, where a diagram is cut down to its limits.
 
-use crate::search::answer::counts::total;
+use crate::search::answer::counts::count_total;
 use crate::search::answer::estimate::Estimate;
 use crate::search::answer::estimate::samples::SetSamples;
 use crate::search::build::at_most::at_most;
@@ -14,7 +14,7 @@ use num_bigint::BigUint;
 /// Returns estimates of the numbers of determinate and of admissible variants if their diagrams are cut. They are made by samples of a
 /// larger set that is counted. An entry is `None` if its diagram is whole, if a state is searched, or if redundant constraints are allowed
 /// that not all variants have.
-pub(super) fn estimates(
+pub(super) fn estimate_counts(
     question: &Question,
     [determinate, admissible]: [&Diagram; 2],
     orders: &Orders,
@@ -22,7 +22,7 @@ pub(super) fn estimates(
     cancelled: &(dyn Fn() -> bool + Sync),
 ) -> [Option<Estimate>; 2] {
     let seed = match question.conditions.estimate {
-        Some(seed) if determinate.stop.or(admissible.stop).is_cut() => seed,
+        Some(seed) if determinate.stop.combine_with(admissible.stop).is_cut() => seed,
         _ => return [None, None],
     };
     let estimate = |order: &[usize], wanted, diagram: &Diagram, possible: Option<&BigUint>| {
@@ -31,14 +31,16 @@ pub(super) fn estimates(
         }
         let filter = wanted == Wanted::Admissible;
         let of = at_most(question, order, limits, wanted, cancelled)?;
-        let samples = SetSamples::begin(question, &of, seed, filter, cancelled)?;
-        let found = samples.estimate(cancelled)?;
-        Some(found.bounded(&total(question, diagram, filter), possible))
+        let samples = SetSamples::draw_pilot(question, &of, seed, filter, cancelled)?;
+        let found = samples.estimate_count(cancelled)?;
+        Some(found.clamp_to_bounds(&count_total(question, diagram, filter), possible))
     };
     let first = estimate(&orders.determinate, Wanted::Determinate, determinate, None);
     let possible = match &first {
         Some(e) => e.at_most.clone(),
-        None => (determinate.stop == Stop::Exhausted).then(|| total(question, determinate, false)),
+        None => {
+            (determinate.stop == Stop::Exhausted).then(|| count_total(question, determinate, false))
+        }
     };
     let order = &orders.admissible;
     let second = estimate(order, Wanted::Admissible, admissible, possible.as_ref());

@@ -14,8 +14,8 @@ use crate::closure::contour::{Contour, contour_basis};
 use crate::closure::tree::{path_in, spanning_tree};
 use crate::linalg::modp::{Field, Residue};
 use crate::model::mechanism::{JointId, LinkId, StateId};
-use crate::search::build::self_stress::{Wanted, nothing, space};
-use crate::search::diagram::minimize::minimal;
+use crate::search::build::self_stress::{Wanted, empty_diagram, self_stress_space};
+use crate::search::diagram::minimize::minimize_diagram;
 use crate::search::diagram::redundancy_so_far::{Limits, Role, Spent};
 use crate::search::diagram::stage::{Columns, LaneStage, Stage};
 use crate::search::diagram::transition::{Children, Worker};
@@ -39,13 +39,13 @@ pub(in crate::search) fn in_self_stress_space(
     progress: &mut (dyn FnMut(Progress) + Send),
 ) -> Diagram {
     let Lanes { stages, root } = Lanes::new(question, order, limits, wanted);
-    if !root.within(limits) {
-        return nothing(question, order);
+    if !root.is_within(limits) {
+        return empty_diagram(question, order);
     }
     let space = &question.space;
-    let built = diagram::build(space, &stages, limits, root, None, cancelled, progress);
+    let built = diagram::build_layers(space, &stages, limits, root, None, cancelled, progress);
     let stop = built.stop;
-    let smallest = minimal(built.layers, built.terminals);
+    let smallest = minimize_diagram(built.layers, built.terminals);
     Diagram { stop, ..smallest }
 }
 
@@ -77,7 +77,7 @@ impl<'a> Lanes<'a> {
         let field = question.exact.field();
         let free = Lane {
             role: Role::Free,
-            space: space(question, order, wanted),
+            space: self_stress_space(question, order, wanted),
             applies: Vec::new(),
         };
         let state = question
@@ -95,7 +95,7 @@ impl<'a> Lanes<'a> {
             0
         };
         for (i, lane) in more.iter().enumerate() {
-            root.add(1 + i, lane.space.lasting - of_free);
+            root.add_redundant(1 + i, lane.space.lasting - of_free);
             // A body that is loose with the original joints is loose in every variant.
             if matches!(lane.role, Role::Held(_)) && lane.space.moves_kept {
                 root.rule_out(1 + i);
@@ -106,7 +106,10 @@ impl<'a> Lanes<'a> {
             field,
             variable,
             choices: question.space.variables[variable].choices.len(),
-            lanes: lanes.iter().map(|lane| lane.stage(field, at)).collect(),
+            lanes: lanes
+                .iter()
+                .map(|lane| lane.lane_stage(field, at))
+                .collect(),
             ending: (at + 1 == order.len() && !roles.is_empty()).then(|| roles.clone()),
             limits,
         };
@@ -119,7 +122,7 @@ impl<'a> Lanes<'a> {
 
 impl Lane {
     /// Returns what happens in the lane at a variable, by its number in the order.
-    fn stage(&self, field: Field, at: usize) -> LaneStage {
+    fn lane_stage(&self, field: Field, at: usize) -> LaneStage {
         let SelfStressSpace {
             added,
             contours,
@@ -156,11 +159,11 @@ impl Carries for Stage<'_> {
         self.variable
     }
 
-    fn worker(&self) -> Worker {
+    fn make_worker(&self) -> Worker {
         Worker::new(self.field)
     }
 
-    fn effort(&self, bytes: usize) -> usize {
+    fn child_effort(&self, bytes: usize) -> usize {
         let widths = self.lanes.iter().map(|lane| {
             let harmless = lane.harmless.as_ref();
             lane.all.width + harmless.map_or(0, |h| h.width)
@@ -168,8 +171,14 @@ impl Carries for Stage<'_> {
         bytes / size_of::<Residue>() * widths.sum::<usize>().max(1)
     }
 
-    fn children(&self, worker: &mut Worker, matrix: &[Residue], spent: &Spent, out: &mut Children) {
-        worker.children(self, matrix, spent, out);
+    fn push_children(
+        &self,
+        worker: &mut Worker,
+        matrix: &[Residue],
+        spent: &Spent,
+        out: &mut Children,
+    ) {
+        worker.append_children(self, matrix, spent, out);
     }
 }
 
@@ -188,7 +197,7 @@ fn of_state(question: &Question, order: &[usize], searched: InState) -> Vec<Lane
         }
         path
     };
-    let faces = faces(question).into_iter().map(Role::Friction);
+    let faces = face_joints(question).into_iter().map(Role::Friction);
     let variables = &question.space.variables;
     let others = variables.iter().any(|v| v.alone).then_some(Role::Common);
     let plain = [Role::State].into_iter().chain(faces).chain(others);
@@ -206,16 +215,16 @@ fn of_state(question: &Question, order: &[usize], searched: InState) -> Vec<Lane
             role,
             has_present_joints: question.state_joins_kept_links(),
         };
-        in_state.lane(order, paths)
+        in_state.build_lane(order, paths)
     };
     plain.chain(held).map(of_role).collect()
 }
 
 /// Returns the joints that a state adds and that are faces in some choice.
-fn faces(question: &Question) -> Vec<JointId> {
+fn face_joints(question: &Question) -> Vec<JointId> {
     let is_face = |variable: &Variable, member: usize| {
         let mut choices = variable.choices.iter();
-        choices.any(|c| face(c, member).is_some())
+        choices.any(|c| face_at(c, member).is_some())
     };
     let added = question.space.variables.iter().filter(|v| v.external);
     let faces = added.flat_map(|v| {
@@ -226,7 +235,7 @@ fn faces(question: &Question) -> Vec<JointId> {
 }
 
 /// Returns the motions of a choice under friction at one of its variable's joints; `None` if the joint is not a face.
-fn face(choice: &Choice, member: usize) -> Option<&Face> {
+fn face_at(choice: &Choice, member: usize) -> Option<&Face> {
     choice.faces.get(member).and_then(Option::as_ref)
 }
 
@@ -242,7 +251,7 @@ struct StateRows<'a> {
 
 impl StateRows<'_> {
     /// Returns the lane for the variables in an order; motions over the paths are kept.
-    fn lane(&self, order: &[usize], paths: Vec<Vec<(JointId, bool)>>) -> Lane {
+    fn build_lane(&self, order: &[usize], paths: Vec<Vec<(JointId, bool)>>) -> Lane {
         let Question {
             mechanism,
             space,
@@ -254,7 +263,7 @@ impl StateRows<'_> {
         let of_variable = |variable: &Variable| -> Vec<Option<Vec<Vec<Residue>>>> {
             let choices = variable.choices.iter();
             choices
-                .map(|choice| self.columns(&rows, field, variable, choice))
+                .map(|choice| self.choice_columns(&rows, field, variable, choice))
                 .collect()
         };
         let columns: Vec<_> = space.variables.iter().map(of_variable).collect();
@@ -276,7 +285,7 @@ impl StateRows<'_> {
     }
 
     /// Returns the columns of a choice in this lane; `None` if the lane does not apply, since its joint is not a face.
-    fn columns(
+    fn choice_columns(
         &self,
         rows: &ClosingRows<'_>,
         field: Field,
@@ -297,7 +306,7 @@ impl StateRows<'_> {
             }
             let plain = &choice.spans[member];
             let every;
-            let span = match (self.role, face(choice, member)) {
+            let span = match (self.role, face_at(choice, member)) {
                 (Role::Common, _) if variable.external => {
                     let width = rows.twist_width(joint);
                     let unit = |i| {
@@ -313,7 +322,7 @@ impl StateRows<'_> {
                 (Role::Friction(own), None) if own == joint => return None,
                 _ => plain,
             };
-            out.extend(span.iter().map(|t| rows.column(field, joint, t)));
+            out.extend(span.iter().map(|t| rows.joint_column(field, joint, t)));
         }
         Some(out)
     }
@@ -321,11 +330,11 @@ impl StateRows<'_> {
 
 #[cfg(test)]
 mod tests {
-    use crate::model::drawn::{Z, drawn, hinges};
+    use crate::model::drawn::{Z, draw_mechanism, hinges};
     use crate::model::joint_type::{CoupledFreedom, Coupling, Freedom, JointType};
     use crate::model::mechanism::{JointId, Mechanism};
     use crate::rank::exact::field::exact_field;
-    use crate::search::build::build;
+    use crate::search::build::build_diagrams;
     use crate::search::question::Question;
     use crate::search::question::conditions::{Conditions, SearchError};
     use itertools::Itertools;
@@ -340,7 +349,7 @@ mod tests {
 
     /// How many ends the diagrams of determinate and of admissible variants have.
     fn ends(m: &Mechanism, max_redundant: u32) -> [usize; 2] {
-        let built = build(&question(m, max_redundant).unwrap(), &|| false, &mut |_| {});
+        let built = build_diagrams(&question(m, max_redundant).unwrap(), &|| false, &mut |_| {});
         [&built.determinate, &built.admissible].map(|d| d.terminals.len())
     }
 
@@ -360,7 +369,7 @@ mod tests {
             .cartesian_product([0, 1, 2, 3].into_iter().permutations(4))
         {
             let taken = order.iter().map(|&i: &usize| joints[i]).collect_vec();
-            let mut m = drawn(&hinges(&taken), &[2]);
+            let mut m = draw_mechanism(&hinges(&taken), &[2]);
             let place = |j: usize| order.iter().position(|&i| i == j).unwrap();
             for first in [[0, 3], [3, 0]] {
                 let end = |j: usize| CoupledFreedom {
@@ -387,7 +396,7 @@ mod tests {
             (JointType::Cylindrical, true),
             (JointType::Custom(vec![Freedom::Rx, Freedom::Tz]), false),
         ] {
-            let mut m = drawn(&[(JointType::Revolute, [0, 1], [1.0, 2.0, 0.0], Z)], &[]);
+            let mut m = draw_mechanism(&[(JointType::Revolute, [0, 1], [1.0, 2.0, 0.0], Z)], &[]);
             let mut other = m.joints[0].options[0].clone();
             other.joint_type = option.clone();
             m.joints[0].options.push(other);

@@ -5,9 +5,9 @@
 //! links must move in the same way with it. A number identifies that motion, and nodes with the same number complete each other. Nodes are
 //! therefore looked up, and not compared in pairs.
 
-use crate::linalg::echelon::{combination, relations};
+use crate::linalg::echelon::{linear_combination, linear_relations};
 use crate::linalg::modp::{Field, Residue};
-use crate::search::build::completing_sets::{Numbered, Set, none, put};
+use crate::search::build::completing_sets::{Numbered, Set, add_node, empty_set};
 use crate::search::diagram::DEAD;
 use hashbrown::HashMap;
 use rayon::prelude::*;
@@ -40,13 +40,13 @@ pub(super) struct Grouped {
 impl Grouped {
     /// Groups nodes by their rows in reduced form, which have the motion of kept links as the last number. A node that moves these and
     /// closes every contour is completed by none.
-    pub(super) fn of(nodes: impl Iterator<Item = Vec<Vec<Residue>>>) -> Grouped {
+    pub(super) fn group_nodes(nodes: impl Iterator<Item = Vec<Vec<Residue>>>) -> Grouped {
         let mut grouped = Grouped::default();
-        nodes.for_each(|rows| grouped.take(rows));
+        nodes.for_each(|rows| grouped.take_node(rows));
         grouped
     }
 
-    fn take(&mut self, mut rows: Vec<Vec<Residue>>) {
+    fn take_node(&mut self, mut rows: Vec<Vec<Residue>>) {
         let node = self.nodes;
         self.nodes += 1;
         let moved: Vec<Residue> = rows.iter_mut().filter_map(Vec::pop).collect();
@@ -67,7 +67,7 @@ impl Grouped {
 }
 
 /// Returns how many lookups it takes to match two halves.
-pub(super) fn lookups(front: &Grouped, back: &Grouped) -> usize {
+pub(super) fn count_lookups(front: &Grouped, back: &Grouped) -> usize {
     let (a, b) = (front.groups.len(), back.groups.len());
     a * b * LOOKUPS + front.nodes * b + back.nodes * a
 }
@@ -77,7 +77,7 @@ pub(super) fn lookups(front: &Grouped, back: &Grouped) -> usize {
 ///
 /// # Complexity
 /// O(a·b·w³ + (n·b + m·a)·w) field operations for n nodes of the front in a groups, m of the back in b, and w coordinates.
-pub(super) fn matched(
+pub(super) fn match_halves(
     field: Field,
     width: usize,
     [front, back]: &[Grouped; 2],
@@ -90,10 +90,10 @@ pub(super) fn matched(
         if cancelled() {
             return None;
         }
-        let completed = |group| completed(field, width, group, back);
+        let completed = |group| group_completions(field, width, group, back);
         let found: Vec<Completed> = some.par_iter().map(completed).collect();
         for (set, nodes) in found.into_iter().flatten() {
-            let number = numbered.of(set);
+            let number = numbered.number_of(set);
             nodes.iter().for_each(|&node| of_node[node] = number);
         }
         if numbered.all.len() * back.nodes / 8 > bytes {
@@ -107,14 +107,14 @@ pub(super) fn matched(
 type Completed = Vec<(Set, Vec<usize>)>;
 
 /// Returns the sets that complete the nodes of a group, each set once.
-fn completed(field: Field, width: usize, group: &Alike, back: &Grouped) -> Completed {
+fn group_completions(field: Field, width: usize, group: &Alike, back: &Grouped) -> Completed {
     // Nodes of the back that move kept links alike with what they have in common with the group, where a node of it does so, too.
     let mut alike: Vec<Vec<usize>> = Vec::new();
     let mut of_node: Vec<Vec<usize>> = vec![Vec::new(); group.nodes.len()];
     let mut numbers: Vec<(Residue, usize)> = Vec::new();
     let mut known: HashMap<Residue, Option<usize>> = HashMap::new();
     for others in &back.groups {
-        let Some(common) = common(field, width, group, others) else {
+        let Some(common) = find_intersection(field, width, group, others) else {
             continue;
         };
         let of_others = others.nodes.iter();
@@ -145,9 +145,9 @@ fn completed(field: Field, width: usize, group: &Alike, back: &Grouped) -> Compl
         same.push(*node);
     }
     let of = |found: Vec<usize>| {
-        let mut set = none(back.nodes);
+        let mut set = empty_set(back.nodes);
         let completing = found.iter().flat_map(|&number| &alike[number]);
-        completing.for_each(|&node| put(&mut set, node));
+        completing.for_each(|&node| add_node(&mut set, node));
         (set, nodes.remove(&found).unwrap_or_default())
     };
     different.into_iter().map(of).collect()
@@ -160,7 +160,7 @@ struct Common {
 }
 
 /// Returns the intersection of two groups; `None` if they do not span all coordinates together.
-fn common(field: Field, width: usize, front: &Alike, back: &Alike) -> Option<Common> {
+fn find_intersection(field: Field, width: usize, front: &Alike, back: &Alike) -> Option<Common> {
     let missing = width - front.rows.len();
     if back.rows.len() < missing {
         return None;
@@ -176,7 +176,7 @@ fn common(field: Field, width: usize, front: &Alike, back: &Alike) -> Option<Com
         row
     });
     let beside: Vec<Vec<Residue>> = beside.collect();
-    let same = relations(field, &beside);
+    let same = linear_relations(field, &beside);
     if back.rows.len() - same.len() < missing {
         return None;
     }
@@ -184,9 +184,9 @@ fn common(field: Field, width: usize, front: &Alike, back: &Alike) -> Option<Com
     let weights: Vec<Residue> = (0..same.len())
         .map(|i| field.pow(weight, i as u64))
         .collect();
-    let mut sum = combination(field, &same, &weights);
+    let mut sum = linear_combination(field, &same, &weights);
     sum.resize(back.rows.len(), 0);
-    let mut factors = combination(field, &within, &sum);
+    let mut factors = linear_combination(field, &within, &sum);
     factors.resize(front.rows.len(), 0);
     Some(Common {
         front: factors,

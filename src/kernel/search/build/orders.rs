@@ -19,9 +19,9 @@ pub struct Orders {
 
 /// Returns the orders of both diagrams. They do not depend on the prime, and a twin over another prime may be given them.
 #[must_use]
-pub(crate) fn orders(question: &Question) -> Orders {
+pub(crate) fn variable_orders(question: &Question) -> Orders {
     let (mechanism, dim) = (&question.mechanism, question.space.dim);
-    let free = |kept| ClosingRows::free(mechanism, dim, &question.contours, kept);
+    let free = |kept| ClosingRows::for_free_state(mechanism, dim, &question.contours, kept);
     let nothing_is_built = is_none_possible(question, &free(None));
     let order = |blocks: &[Block], rows: &ClosingRows<'_>, later: &[usize]| -> Vec<usize> {
         if nothing_is_built {
@@ -67,10 +67,10 @@ fn is_none_possible(question: &Question, rows: &ClosingRows<'_>) -> bool {
     let free = question.space.variables.iter().filter(|v| !v.external);
     let columns = free.flat_map(|v| {
         let choices = 0..v.choices.len();
-        choices.flat_map(|c| rows.columns(question.exact.field(), v, c))
+        choices.flat_map(|c| rows.choice_columns(question.exact.field(), v, c))
     });
-    let rank = Echelon::of(question.exact.field(), columns).rank();
-    rows.closing() - rank > question.conditions.max_redundant as usize
+    let rank = Echelon::from_vectors(question.exact.field(), columns).rank();
+    rows.count_closing() - rank > question.conditions.max_redundant as usize
 }
 
 /// Whether nothing is asked of variants but what makes them determinate.

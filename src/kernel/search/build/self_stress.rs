@@ -5,7 +5,7 @@
 //! come allows anyway are one in it.
 
 use crate::linalg::modp::{Field, Residue};
-use crate::search::diagram::minimize::minimal;
+use crate::search::diagram::minimize::minimize_diagram;
 use crate::search::diagram::redundancy_so_far::{Limits, Spent};
 use crate::search::diagram::stage::{Adding, Columns};
 use crate::search::diagram::transition::{Children, Worker};
@@ -27,7 +27,7 @@ pub(in crate::search) enum Wanted {
 }
 
 /// Returns the limits of the diagrams of a question.
-pub(in crate::search) fn limits(question: &Question) -> Limits {
+pub(in crate::search) fn diagram_limits(question: &Question) -> Limits {
     let state = question.conditions.state;
     Limits {
         layer: usize::MAX,
@@ -42,7 +42,7 @@ pub(in crate::search) fn limits(question: &Question) -> Limits {
 }
 
 /// Returns the space dual to the self-stresses of the free state for the variables of a question in an order.
-pub(in crate::search) fn space(
+pub(in crate::search) fn self_stress_space(
     question: &Question,
     order: &[usize],
     wanted: Wanted,
@@ -51,13 +51,13 @@ pub(in crate::search) fn space(
     let kept = keeps.then_some(&question.kept);
     let field = question.exact.field();
     let (mechanism, space) = (&question.mechanism, &question.space);
-    let rows = ClosingRows::free(mechanism, space.dim, &question.contours, kept);
+    let rows = ClosingRows::for_free_state(mechanism, space.dim, &question.contours, kept);
     let (times, of_choice): (usize, &dyn Fn(usize, usize) -> Vec<Vec<Residue>>) =
         match &question.throughout {
             Ok(along) if wanted == Wanted::Lasting => (ORDER, &|v, c| {
                 let freedoms = along.of_choice(v, c).iter();
                 freedoms
-                    .flat_map(|(joint, series)| rows.multiples(field, *joint, series))
+                    .flat_map(|(joint, series)| rows.series_multiples(field, *joint, series))
                     .collect()
             }),
             _ => (1, &|v, c| {
@@ -65,7 +65,7 @@ pub(in crate::search) fn space(
                 if variable.external {
                     return Vec::new();
                 }
-                rows.columns(field, variable, c)
+                rows.choice_columns(field, variable, c)
             }),
         };
     let present = |v: usize| of_choice(v, 0);
@@ -77,21 +77,27 @@ impl Carries for Adding {
         self.variable
     }
 
-    fn worker(&self) -> Worker {
+    fn make_worker(&self) -> Worker {
         Worker::new(self.field)
     }
 
-    fn effort(&self, bytes: usize) -> usize {
+    fn child_effort(&self, bytes: usize) -> usize {
         bytes / size_of::<Residue>() * self.columns.width
     }
 
-    fn children(&self, worker: &mut Worker, matrix: &[Residue], spent: &Spent, out: &mut Children) {
+    fn push_children(
+        &self,
+        worker: &mut Worker,
+        matrix: &[Residue],
+        spent: &Spent,
+        out: &mut Children,
+    ) {
         worker.flat_children(self, matrix, spent, out);
     }
 }
 
 /// Returns the stages of a space for the variables in its order, in which no motion of kept links is forgotten.
-pub(in crate::search) fn adding(
+pub(in crate::search) fn flat_stages(
     field: Field,
     order: &[usize],
     space: &SelfStressSpace,
@@ -120,7 +126,7 @@ pub(in crate::search) fn adding(
 }
 
 /// The diagram of no variant, for variables in an order.
-pub(in crate::search) fn nothing(question: &Question, order: &[usize]) -> Diagram {
+pub(in crate::search) fn empty_diagram(question: &Question, order: &[usize]) -> Diagram {
     let layer = |(t, &variable): (usize, &usize)| {
         let choices = question.space.variables[variable].choices.len();
         Layer {
@@ -130,5 +136,5 @@ pub(in crate::search) fn nothing(question: &Question, order: &[usize]) -> Diagra
             edges: vec![DEAD; choices * usize::from(t == 0)],
         }
     };
-    minimal(order.iter().enumerate().map(layer).collect(), Vec::new())
+    minimize_diagram(order.iter().enumerate().map(layer).collect(), Vec::new())
 }

@@ -5,9 +5,9 @@
 
 use crate::linalg::echelon::Echelon;
 use crate::linalg::modp::{Field, Residue};
-use crate::search::build::completing_sets::{Numbered, Set, completed};
-use crate::search::build::matching_halves::{Grouped, lookups, matched};
-use crate::search::build::self_stress::{Wanted, adding, space};
+use crate::search::build::completing_sets::{Numbered, Set, completing_sets};
+use crate::search::build::matching_halves::{Grouped, count_lookups, match_halves};
+use crate::search::build::self_stress::{Wanted, flat_stages, self_stress_space};
 use crate::search::build::spanning_pairs::Bases;
 use crate::search::diagram::layer::Nodes;
 use crate::search::diagram::reduced_rows::{Arithmetic, Rows};
@@ -49,7 +49,7 @@ impl<'a> Halves<'a> {
         wanted: Wanted,
     ) -> Option<Self> {
         let field = question.exact.field();
-        let front = known_by_one_number(field, space(question, order, wanted));
+        let front = known_by_one_number(field, self_stress_space(question, order, wanted));
         let already = front.lasting;
         if already != limits.internal {
             return None;
@@ -59,10 +59,10 @@ impl<'a> Halves<'a> {
         let mut starts: Vec<usize> = (0..all).filter(|&t| !carried(t)).collect();
         starts.push(all);
         let reversed: Vec<usize> = order.iter().rev().copied().collect();
-        let (back, turned) = turned(&front);
+        let (back, turned) = turn_space(&front);
         let stages = [
-            adding(field, order, &front),
-            adding(field, &reversed, &back),
+            flat_stages(field, order, &front),
+            flat_stages(field, &reversed, &back),
         ];
         let parts = starts.windows(2).map(|at| {
             let ranges = [at[0]..at[1], all - at[1]..all - at[0]];
@@ -84,7 +84,7 @@ impl<'a> Halves<'a> {
     ///
     /// # Complexity
     /// O(s³) field operations for each node, for s self-stresses that both halves reach.
-    pub(in crate::search) fn meeting(
+    pub(in crate::search) fn meet_halves(
         &self,
         part: usize,
         [front, back]: [&Nodes; 2],
@@ -106,16 +106,19 @@ impl<'a> Halves<'a> {
             width: live.len() + 1,
         };
         let of_back = |node| {
-            let rows = packed.of(back, node).into_iter().map(from_back);
-            Echelon::of(self.field, rows).reduced()
+            let rows = packed.unpack_node(back, node).into_iter().map(from_back);
+            Echelon::from_vectors(self.field, rows).reduced_rows()
         };
         let back: Vec<_> = (0..back.len()).map(of_back).collect();
         let pairs = front.len().saturating_mul(back.len());
         let grouped = self.keeps.then(|| {
-            let front = (0..front.len()).map(|node| packed.of(front, node));
-            [Grouped::of(front), Grouped::of(back.iter().cloned())]
+            let front = (0..front.len()).map(|node| packed.unpack_node(front, node));
+            [
+                Grouped::group_nodes(front),
+                Grouped::group_nodes(back.iter().cloned()),
+            ]
         });
-        let fewer = |[front, back]: &[Grouped; 2]| lookups(front, back) / A_PAIR < pairs;
+        let fewer = |[front, back]: &[Grouped; 2]| count_lookups(front, back) / A_PAIR < pairs;
         let nodes = match grouped.filter(fewer) {
             Some(grouped) => Compared::Grouped(grouped),
             None => Compared::Pairs(Bases::new(self.field, &back, self.keeps)),
@@ -139,7 +142,7 @@ fn known_by_one_number(field: Field, mut space: SelfStressSpace) -> SelfStressSp
             vector.truncate(contours);
             vector.push(number);
         }
-        *choice = Echelon::of(field, &*choice).reduced();
+        *choice = Echelon::from_vectors(field, &*choice).reduced_rows();
     }
     space.kept.truncate(1);
     space
@@ -147,7 +150,7 @@ fn known_by_one_number(field: Field, mut space: SelfStressSpace) -> SelfStressSp
 
 /// Returns the same space for the variables from the last to the first, and which coordinate of contours stands at each place: the first
 /// variable that reaches a coordinate is then its last one.
-fn turned(space: &SelfStressSpace) -> (SelfStressSpace, Vec<usize>) {
+fn turn_space(space: &SelfStressSpace) -> (SelfStressSpace, Vec<usize>) {
     let last = space.added.len().saturating_sub(1);
     let turn = |c: &Lifetime| Lifetime {
         from: last - c.to,
@@ -187,10 +190,10 @@ struct PackedRows {
 
 impl PackedRows {
     /// Returns the rows of a node, with a number of kept links behind the coordinates of contours: 0 if vectors have none.
-    fn of(&self, nodes: &Nodes, node: usize) -> Vec<Vec<Residue>> {
+    fn unpack_node(&self, nodes: &Nodes, node: usize) -> Vec<Vec<Residue>> {
         let packed = self.width - usize::from(!self.keeps);
         let mut rows = Rows::default();
-        rows.unpack(&mut Arithmetic::new(self.field), packed, nodes.matrix(node));
+        rows.unpack_rows(&mut Arithmetic::new(self.field), packed, nodes.matrix(node));
         let widened = rows.rows().map(|row| {
             let mut row = row.to_vec();
             row.resize(self.width, 0);
@@ -215,7 +218,7 @@ enum Compared {
 
 impl Meeting {
     /// Returns the number of pairs of nodes to compare; 0 if nodes are looked up.
-    pub(in crate::search) fn pairs(&self) -> usize {
+    pub(in crate::search) fn count_pairs(&self) -> usize {
         match self.nodes {
             Compared::Grouped(_) => 0,
             Compared::Pairs(_) => self.pairs,
@@ -229,7 +232,7 @@ impl Meeting {
     /// That of [`matched`] or that of [`Bases::completing`] for each node of the front.
     ///
     /// [`DEAD`]: crate::search::diagram::DEAD
-    pub(in crate::search) fn join(
+    pub(in crate::search) fn join_nodes(
         &self,
         front: &Nodes,
         bytes: usize,
@@ -237,16 +240,22 @@ impl Meeting {
     ) -> Option<(Vec<u32>, Vec<Set>)> {
         let PackedRows { field, width, .. } = self.packed;
         let back = match &self.nodes {
-            Compared::Grouped(nodes) => return matched(field, width - 1, nodes, bytes, cancelled),
+            Compared::Grouped(nodes) => {
+                return match_halves(field, width - 1, nodes, bytes, cancelled);
+            }
             Compared::Pairs(back) => back,
         };
         if self.pairs / 8 > bytes {
             return None;
         }
-        let of_node = |node: usize| back.completing(&self.packed.of(front, node), width);
-        let sets = completed(front.len(), of_node, cancelled)?;
+        let of_node =
+            |node: usize| back.completing_nodes(&self.packed.unpack_node(front, node), width);
+        let sets = completing_sets(front.len(), of_node, cancelled)?;
         let mut numbered = Numbered::default();
-        let of_node = sets.into_iter().map(|set| numbered.of(set)).collect();
+        let of_node = sets
+            .into_iter()
+            .map(|set| numbered.number_of(set))
+            .collect();
         Some((of_node, numbered.all))
     }
 }

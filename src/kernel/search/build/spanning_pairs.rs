@@ -8,7 +8,7 @@
 
 use crate::linalg::echelon::Echelon;
 use crate::linalg::modp::{Field, Residue};
-use crate::search::build::completing_sets::{Set, none, put};
+use crate::search::build::completing_sets::{Set, add_node, empty_set};
 use hashbrown::HashMap;
 
 /// A node of the back, with its rows as numbers of vectors.
@@ -54,9 +54,9 @@ impl Bases {
     /// # Complexity
     /// O(e·d) field operations for e different beginnings of bases and d coordinates that the node does not span; O(e·d²) where most rows
     /// are not the last ones.
-    pub(super) fn completing(&self, rows: &[Vec<Residue>], width: usize) -> Set {
-        let span = Echelon::of(self.field, rows);
-        let (rows, pivots) = (span.reduced(), span.pivots());
+    pub(super) fn completing_nodes(&self, rows: &[Vec<Residue>], width: usize) -> Set {
+        let span = Echelon::from_vectors(self.field, rows);
+        let (rows, pivots) = (span.reduced_rows(), span.pivots());
         let open: Vec<usize> = (0..width).filter(|at| !pivots.contains(at)).collect();
         let at_pivots = open
             .iter()
@@ -79,10 +79,10 @@ impl Bases {
             of: self,
             images,
             width: open.len(),
-            found: none(self.nodes.len()),
+            found: empty_set(self.nodes.len()),
         };
         for alike in self.nodes.chunk_by(|(a, _), (b, _)| a.len() == b.len()) {
-            walk.follow(alike, 0, &forms);
+            walk.follow_rows(alike, 0, &forms);
         }
         walk.found
     }
@@ -100,7 +100,7 @@ struct Walk<'a> {
 
 impl Walk<'_> {
     /// Follows bases of one length from a row on, all with the same rows before it. `forms` are those that are zero on these rows.
-    fn follow(&mut self, nodes: &[Rows], row: usize, forms: &[Residue]) {
+    fn follow_rows(&mut self, nodes: &[Rows], row: usize, forms: &[Residue]) {
         let missing = forms.len() / self.width - 1;
         let rows = nodes[0].0.len();
         if rows - row < missing {
@@ -120,19 +120,19 @@ impl Walk<'_> {
             match (0..missing).find(|&form| value(form) != 0) {
                 // Kept links would move alone.
                 None if self.of.keeps && value(missing) != 0 => {}
-                None => self.follow(alike, row + 1, forms),
+                None => self.follow_rows(alike, row + 1, forms),
                 // Nothing is left to be spanned, or to be moved by further rows.
                 Some(_) if missing == 1 && (row + 1 == rows || !self.of.keeps) => self.put(alike),
                 Some(own) => {
-                    let left = self.without(forms, own, &self.images[image]);
-                    self.follow(alike, row + 1, &left);
+                    let left = self.eliminate_form(forms, own, &self.images[image]);
+                    self.follow_rows(alike, row + 1, &left);
                 }
             }
         }
     }
 
     /// Returns the other forms, each with a multiple of one taken off so that it is zero on a vector.
-    fn without(&self, forms: &[Residue], own: usize, image: &[Residue]) -> Vec<Residue> {
+    fn eliminate_form(&self, forms: &[Residue], own: usize, image: &[Residue]) -> Vec<Residue> {
         let f = self.of.field;
         let by = &forms[own * self.width..][..self.width];
         let scale = f.dot(by, image);
@@ -155,7 +155,7 @@ impl Walk<'_> {
     /// Puts nodes to those found.
     fn put(&mut self, nodes: &[Rows]) {
         for &(_, node) in nodes {
-            put(&mut self.found, node);
+            add_node(&mut self.found, node);
         }
     }
 }

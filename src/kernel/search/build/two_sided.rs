@@ -10,13 +10,15 @@
 //! An automaton reversed, made deterministic, and that once more, is minimal: Brzozowski, "Canonical regular expressions and
 //! minimal state graphs for definite events" (1962).
 
-use crate::search::build::completing_sets::{Numbered, Set, has, nodes, none, put, set};
+use crate::search::build::completing_sets::{
+    Numbered, Set, add_node, collect_set, contains_node, empty_set, nodes_in,
+};
 use crate::search::build::spanning_halves::{Halves, Meeting};
 use crate::search::diagram::layer::{Merge, Nodes};
-use crate::search::diagram::minimize::minimal;
+use crate::search::diagram::minimize::minimize_diagram;
 use crate::search::diagram::redundancy_so_far::{Redundancy, Spent};
 use crate::search::diagram::stage::Adding;
-use crate::search::diagram::{Carries, DEAD, Diagram, Layer, Progress, Stop, next};
+use crate::search::diagram::{Carries, DEAD, Diagram, Layer, Progress, Stop, next_layer};
 use crate::search::question::space::Space;
 use rayon::prelude::*;
 
@@ -34,23 +36,23 @@ impl<'a> Side<'a> {
         Side {
             stages,
             layers: Vec::new(),
-            nodes: Nodes::root(Spent::within_mechanism(already)),
+            nodes: Nodes::root_node(Spent::within_mechanism(already)),
         }
     }
 
     /// The stage that comes next.
-    fn ahead(&self) -> &'a Adding {
+    fn next_stage(&self) -> &'a Adding {
         &self.stages[self.layers.len()]
     }
 
     /// Children that the next stage makes.
-    fn effort(&self, space: &Space) -> usize {
-        self.nodes.len() * space.variables[self.ahead().variable()].choices.len()
+    fn next_children(&self, space: &Space) -> usize {
+        self.nodes.len() * space.variables[self.next_stage().variable()].choices.len()
     }
 
-    fn bytes(&self) -> usize {
+    fn held_bytes(&self) -> usize {
         let edges: usize = self.layers.iter().map(|l| l.edges.len()).sum();
-        self.nodes.bytes() + size_of::<u32>() * edges
+        self.nodes.held_bytes() + size_of::<u32>() * edges
     }
 }
 
@@ -61,8 +63,8 @@ struct Met<'a> {
 }
 
 impl Met<'_> {
-    fn bytes(&self) -> usize {
-        self.front.bytes() + self.back.bytes()
+    fn held_bytes(&self) -> usize {
+        self.front.held_bytes() + self.back.held_bytes()
     }
 }
 
@@ -88,20 +90,20 @@ pub(in crate::search) fn two_sided(
                 ..now
             });
         };
-        let met = halves(question, space, ends, cancelled, told)?;
+        let met = build_halves(question, space, ends, cancelled, told)?;
         done += ends[0].len();
         total += met.front.nodes.len() + met.back.nodes.len();
         parts.push(met);
     }
-    let held: usize = parts.iter().map(Met::bytes).sum();
+    let held: usize = parts.iter().map(Met::held_bytes).sum();
     let left = question.limits.bytes.checked_sub(held)?;
     let met = parts.into_iter().enumerate().map(|(part, met)| {
         let nodes = [&met.front.nodes, &met.back.nodes];
-        let meeting = question.meeting(part, nodes, met.back.layers.len());
+        let meeting = question.meet_halves(part, nodes, met.back.layers.len());
         (met, meeting)
     });
     let parts: Vec<(Met<'_>, Meeting)> = met.collect();
-    let pairs = parts.iter().map(|(_, meeting)| meeting.pairs());
+    let pairs = parts.iter().map(|(_, meeting)| meeting.count_pairs());
     let pairs = pairs.fold(0, usize::saturating_add);
     if pairs / PAIRS > question.limits.nodes {
         return None;
@@ -110,7 +112,7 @@ pub(in crate::search) fn two_sided(
     let mut layers: Vec<Layer> = Vec::new();
     let mut total = 1;
     for (met, meeting) in parts {
-        let (of_front, sets) = meeting.join(&met.front.nodes, left / 4, cancelled)?;
+        let (of_front, sets) = meeting.join_nodes(&met.front.nodes, left / 4, cancelled)?;
         let (back, sets) = without_twins(met.back.layers, sets);
         let found = put_together(met.front.layers, &of_front, &back, sets, most)?;
         total += found.iter().map(|l| l.nodes).sum::<usize>();
@@ -122,11 +124,11 @@ pub(in crate::search) fn two_sided(
     let end = Spent::within_mechanism(question.already).redundancy();
     let last = layers.last().into_iter().flat_map(|l| &l.edges);
     let terminals = usize::from(last.into_iter().any(|&e| e != DEAD));
-    Some(minimal(layers, vec![end; terminals]))
+    Some(minimize_diagram(layers, vec![end; terminals]))
 }
 
 /// The halves of a part; `told` hears how far it has come.
-fn halves<'a>(
+fn build_halves<'a>(
     question: &'a Halves<'_>,
     space: &Space,
     ends: &'a [Vec<Adding>; 2],
@@ -140,22 +142,24 @@ fn halves<'a>(
     let mut total = 2;
     let of = ends[0].len();
     for done in 0..of {
-        let (side, other) = if front.effort(space) <= back.effort(space) {
+        let (side, other) = if front.next_children(space) <= back.next_children(space) {
             (&mut front, &back)
         } else {
             (&mut back, &front)
         };
         let room = limits.nodes.checked_sub(total)?;
-        let bytes = limits.bytes.checked_sub(side.bytes() + other.bytes())?;
+        let bytes = limits
+            .bytes
+            .checked_sub(side.held_bytes() + other.held_bytes())?;
         let told = &mut |layer: usize| told(Progress::in_layer(done, of, total, layer));
-        advance(space, side, room, bytes, cancelled, told)?;
+        advance_side(space, side, room, bytes, cancelled, told)?;
         total += side.nodes.len();
     }
     Some(Met { front, back })
 }
 
 /// Carries a side over its next stage, to no more than `room` nodes within so many bytes.
-fn advance(
+fn advance_side(
     space: &Space,
     side: &mut Side<'_>,
     room: usize,
@@ -163,10 +167,10 @@ fn advance(
     cancelled: &(dyn Fn() -> bool + Sync),
     told: &mut dyn FnMut(usize),
 ) -> Option<()> {
-    let stage = side.ahead();
+    let stage = side.next_stage();
     let choices = &space.variables[stage.variable()].choices;
     let edges = side.nodes.len() * choices.len();
-    let merge = next(
+    let merge = next_layer(
         stage,
         choices,
         bytes,
@@ -197,12 +201,15 @@ fn without_twins(mut back: Vec<Layer>, sets: Vec<Set>) -> (Vec<Layer>, Vec<Set>)
     };
     let alive = || last.edges.iter().filter(|e| **e != DEAD);
     let most = alive().max().map_or(0, |&e| e as usize + 1);
-    let mut completes = vec![none(sets.len()); most];
+    let mut completes = vec![empty_set(sets.len()); most];
     for (number, set) in sets.iter().enumerate() {
-        nodes(set).for_each(|node| put(&mut completes[node], number));
+        nodes_in(set).for_each(|node| add_node(&mut completes[node], number));
     }
     let mut numbered = Numbered::default();
-    let kinds: Vec<u32> = completes.into_iter().map(|set| numbered.of(set)).collect();
+    let kinds: Vec<u32> = completes
+        .into_iter()
+        .map(|set| numbered.number_of(set))
+        .collect();
     let alive = last.edges.iter_mut().filter(|e| **e != DEAD);
     alive.for_each(|e| *e = kinds[*e as usize]);
     let mut example = vec![0; numbered.all.len()];
@@ -214,10 +221,10 @@ fn without_twins(mut back: Vec<Layer>, sets: Vec<Set>) -> (Vec<Layer>, Vec<Set>)
         internal,
         ..Redundancy::default()
     };
-    let smallest = minimal(back, (0..).map(kind).take(example.len()).collect());
+    let smallest = minimize_diagram(back, (0..).map(kind).take(example.len()).collect());
     let ends = smallest.terminals.iter();
     let examples: Vec<usize> = ends.map(|kind| example[kind.internal as usize]).collect();
-    let anew = |old: &Set| set(examples.len(), |end| has(old, examples[end]));
+    let anew = |old: &Set| collect_set(examples.len(), |end| contains_node(old, examples[end]));
     (smallest.layers, sets.iter().map(anew).collect())
 }
 
@@ -235,14 +242,14 @@ fn put_together(
     for layer in back.iter().rev() {
         let completed = |by: &Set, choice: usize| {
             let to = |node: usize| layer.edges[node * layer.choices + choice];
-            set(layer.nodes, |node| {
-                to(node) != DEAD && has(by, to(node) as usize)
+            collect_set(layer.nodes, |node| {
+                to(node) != DEAD && contains_node(by, to(node) as usize)
             })
         };
         let ways = |by: &Set| (0..layer.choices).map(|c| completed(by, c)).collect();
         let ways: Vec<Vec<Set>> = sets.par_iter().map(ways).collect();
         let mut below = Numbered::default();
-        let edges = ways.into_iter().flatten().map(|set| below.of(set));
+        let edges = ways.into_iter().flatten().map(|set| below.number_of(set));
         layers.push(Layer {
             variable: layer.variable,
             nodes: sets.len(),

@@ -9,10 +9,10 @@ use crate::search::answer::counts::Counts;
 use crate::search::answer::keys::Key;
 use crate::search::answer::search_counts::SearchCounts;
 use crate::search::check::full_matrices::{RowLayout, WrittenOut};
-use crate::search::check::variant_mechanism::realize;
+use crate::search::check::variant_mechanism::realize_variant;
 use crate::search::diagram::redundancy_so_far::Redundancy;
 use crate::search::question::Question;
-use crate::search::question::grasp::loose;
+use crate::search::question::grasp::loose_bodies;
 use num_bigint::BigUint;
 use rayon::prelude::*;
 use std::collections::BTreeMap;
@@ -71,13 +71,13 @@ impl Matrices {
             let every = (0..question.space.dim).map(|c| {
                 let mut twist = vec![0; question.space.dim + rates];
                 twist[c] = f.one();
-                layout.column(question.field(), j, &twist)
+                layout.joint_column(question.field(), j, &twist)
             });
             (j, every.collect())
         });
         let present = vec![0; variables.len()];
         let along = layout.along_motion(question).map(|along| {
-            let [rank, with_kept] = ranks(f, &along, &present);
+            let [rank, with_kept] = free_and_kept_ranks(f, &along, &present);
             (along, with_kept - rank)
         });
         Matrices {
@@ -91,34 +91,34 @@ impl Matrices {
     /// The redundant constraints within the mechanism that are left with every joint at once free to do what any of its
     /// options allows, and the joints without a choice that would remove some of them.
     #[must_use]
-    pub(crate) fn freest(&self) -> (usize, Vec<JointId>) {
+    pub(crate) fn freest_redundancy(&self) -> (usize, Vec<JointId>) {
         let free = self.all.rows[0];
         let within = |c: &Vec<Residue>| c[..free].to_vec();
-        let all: Vec<Vec<Residue>> = self.all.columns().map(within).collect();
-        let rank = eliminate(self.field, all.clone()).len();
+        let all: Vec<Vec<Residue>> = self.all.all_columns().map(within).collect();
+        let rank = eliminate_pivots(self.field, all.clone()).len();
         let loaded = self.whole.iter().filter(|(_, columns)| {
             let more = columns.iter().map(within);
-            eliminate(self.field, all.iter().cloned().chain(more).collect()).len() > rank
+            eliminate_pivots(self.field, all.iter().cloned().chain(more).collect()).len() > rank
         });
         (free - rank, loaded.map(|(j, _)| *j).collect())
     }
 
     /// Looks at one variant.
     #[must_use]
-    pub fn look(&self, choices: &[usize]) -> Seen {
+    pub fn look_at(&self, choices: &[usize]) -> Seen {
         let [free, kept, state] = self.all.rows;
         let rows = |from: usize, to: usize| -> Vec<Vec<Residue>> {
-            let chosen = self.all.chosen(choices);
+            let chosen = self.all.variant_columns(choices);
             chosen.map(|c| c[from..to].to_vec()).collect()
         };
-        let [rank, with_kept] = ranks(self.field, &self.all, choices);
+        let [rank, with_kept] = free_and_kept_ranks(self.field, &self.all, choices);
         let of_state = match state {
             0 => None,
-            _ => Some(eliminate(self.field, rows(free + kept, free + kept + state)).len()),
+            _ => Some(eliminate_pivots(self.field, rows(free + kept, free + kept + state)).len()),
         };
         let along = self.along.as_ref().filter(|_| rank == free);
         let lasts = along.map(|(along, present)| {
-            let [rank, with_kept] = ranks(self.field, along, choices);
+            let [rank, with_kept] = free_and_kept_ranks(self.field, along, choices);
             rank == along.rows[0] && with_kept - rank == *present
         });
         Seen {
@@ -129,16 +129,18 @@ impl Matrices {
 }
 
 /// Returns the rank of a variant's columns in the rows of the free state, and that in these together with the kept links' motion.
-fn ranks(f: Field, of: &WrittenOut<Residue>, choices: &[usize]) -> [usize; 2] {
+fn free_and_kept_ranks(f: Field, of: &WrittenOut<Residue>, choices: &[usize]) -> [usize; 2] {
     let [free, kept, _] = of.rows;
-    let chosen = of.chosen(choices).map(|c| c[..free + kept].to_vec());
-    let pivots = eliminate(f, chosen.collect());
+    let chosen = of
+        .variant_columns(choices)
+        .map(|c| c[..free + kept].to_vec());
+    let pivots = eliminate_pivots(f, chosen.collect());
     let rank = pivots.iter().filter(|&&p| p < free).count();
     [rank, pivots.len()]
 }
 
 /// Plain Gaussian elimination of some vectors; the columns of the pivots.
-pub(super) fn eliminate(f: Field, mut vectors: Vec<Vec<Residue>>) -> Vec<usize> {
+pub(super) fn eliminate_pivots(f: Field, mut vectors: Vec<Vec<Residue>>) -> Vec<usize> {
     let width = vectors.first().map_or(0, Vec::len);
     let (mut pivots, mut done) = (Vec::new(), 0);
     for c in 0..width {
@@ -175,14 +177,16 @@ pub fn every_variant(question: &Question) -> Result<SearchCounts, ExactError> {
         lasting: matrices.along.is_some().then(Counts::default),
         ..SearchCounts::default()
     };
-    for ((key, admissible, lasts), count) in count(question, &matrices)? {
+    for ((key, admissible, lasts), count) in count_judged(question, &matrices)? {
         let count = BigUint::from(count);
         let w = question.mobility(key);
-        out.determinate.add(w, key, &count);
-        if admissible && question.wanted(key) {
-            out.admissible.add(w, key, &count);
+        out.determinate.add_variants(w, key, &count);
+        if admissible && question.is_wanted(key) {
+            out.admissible.add_variants(w, key, &count);
             let lasting = out.lasting.as_mut().filter(|_| lasts);
-            lasting.into_iter().for_each(|l| l.add(w, key, &count));
+            lasting
+                .into_iter()
+                .for_each(|l| l.add_variants(w, key, &count));
         }
     }
     Ok(out)
@@ -192,7 +196,10 @@ pub fn every_variant(question: &Question) -> Result<SearchCounts, ExactError> {
 type Judged = (Key, bool, bool);
 
 /// Counts the variants with few enough redundant constraints by their properties.
-fn count(question: &Question, matrices: &Matrices) -> Result<BTreeMap<Judged, u128>, ExactError> {
+fn count_judged(
+    question: &Question,
+    matrices: &Matrices,
+) -> Result<BTreeMap<Judged, u128>, ExactError> {
     let steps = &question.steps;
     let radix: Vec<usize> = steps.keys.iter().map(Vec::len).collect();
     let head = radix
@@ -212,8 +219,8 @@ fn count(question: &Question, matrices: &Matrices) -> Result<BTreeMap<Judged, u1
             (*c, rest) = (rest % r, rest / r);
         }
         loop {
-            let seen = matrices.look(&choices);
-            if let Some((key, admissible)) = judge(question, &choices, seen)? {
+            let seen = matrices.look_at(&choices);
+            if let Some((key, admissible)) = judge_variant(question, &choices, seen)? {
                 let lasts = seen.lasts == Some(true);
                 *counts.entry((key, admissible, lasts)).or_insert(0) += 1;
             }
@@ -238,10 +245,10 @@ fn count(question: &Question, matrices: &Matrices) -> Result<BTreeMap<Judged, u1
 
 /// The properties of a variant, from its choices and its redundant constraints.
 #[must_use]
-pub fn key(question: &Question, choices: &[usize], redundancy: Redundancy) -> Key {
+pub fn variant_key(question: &Question, choices: &[usize], redundancy: Redundancy) -> Key {
     let keys = question.steps.keys.iter().zip(choices);
     let sum: u128 = keys.map(|(keys, &c)| keys[c].0).sum();
-    Key(sum + question.steps.redundancy(redundancy).0)
+    Key(sum + question.steps.redundancy_key(redundancy).0)
 }
 
 /// Returns the properties of a variant, and whether it is admissible except for the conditions on W and changes ([`Question::wanted`]).
@@ -249,7 +256,7 @@ pub fn key(question: &Question, choices: &[usize], redundancy: Redundancy) -> Ke
 ///
 /// # Errors
 /// Returns an error if a coordinate has no value in the field.
-pub fn judge(
+pub fn judge_variant(
     question: &Question,
     choices: &[usize],
     seen: Seen,
@@ -264,14 +271,14 @@ pub fn judge(
     };
     let mut good = !question.conditions.keep_output || seen.motion == question.kept.motion.len();
     if let Some(s) = question.conditions.state.filter(|_| good) {
-        let realized = realize(question, choices);
+        let realized = realize_variant(question, choices);
         let closure = Closure::new(&question.exact, &realized, s.state)?;
         let harmful = harmful_count(&question.exact, &realized, &closure)?;
         found.harmful = u32::try_from(harmful).unwrap_or(u32::MAX);
         let beyond = |x: i64, limit: Option<u32>| limit.is_some_and(|l| x > i64::from(l));
         good = !beyond(seen.external.into(), s.max_external)
             && !beyond(found.harmful.into(), s.max_harmful)
-            && loose(&question.exact, &realized, s.state, &question.grasps)?.is_empty();
+            && loose_bodies(&question.exact, &realized, s.state, &question.grasps)?.is_empty();
     }
-    Ok(Some((key(question, choices, found), good)))
+    Ok(Some((variant_key(question, choices, found), good)))
 }

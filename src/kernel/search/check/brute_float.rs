@@ -11,7 +11,7 @@ use crate::search::check::brute::Seen;
 use crate::search::check::full_matrices::{RowLayout, Spans, WrittenOut};
 use crate::search::question::Question;
 use crate::search::question::rounded_rank::{Digits, RankRange};
-use crate::search::question::space::{Choice, columns};
+use crate::search::question::space::{Choice, option_columns};
 use ozols_dense::{Matrix, singular_values};
 
 /// The rows of a variant's matrix of which a rank is wanted.
@@ -43,7 +43,7 @@ impl Approximate {
         elimination: Elimination,
         tolerance: f64,
     ) -> Result<Approximate, ExactError> {
-        Approximate::of(question, &question.mechanism, elimination, tolerance)
+        Approximate::of_mechanism(question, &question.mechanism, elimination, tolerance)
     }
 
     /// The same of a mechanism with the links, joints and options of the searched one in other places, such as those that a
@@ -51,7 +51,7 @@ impl Approximate {
     ///
     /// # Errors
     /// Returns an error if a coordinate has no value.
-    pub fn of(
+    pub fn of_mechanism(
         question: &Question,
         mechanism: &Mechanism,
         elimination: Elimination,
@@ -60,14 +60,15 @@ impl Approximate {
         let motion = MotionSpace::new(&Reals, &mechanism.mode)?;
         let state = question.space.state.unwrap_or(StateId::FREE);
         let present = Closure::new(&Reals, mechanism, state)?;
-        let scaling = (elimination == Elimination::Svd).then(|| Scaling::of(&present));
+        let scaling = (elimination == Elimination::Svd).then(|| Scaling::of_closure(&present));
         let of_joint = |choice: &Choice, j: JointId| {
             let joint = &mechanism.joints[j];
             let option = &joint.options[choice.option];
             let inserted = choice.unloading.map(|u| &joint.unloading[u]);
-            let mut columns = columns(&Reals, &motion, mechanism, j, option, inserted)?.concat();
+            let mut columns =
+                option_columns(&Reals, &motion, mechanism, j, option, inserted)?.concat();
             if let Some(scaling) = &scaling {
-                columns.iter_mut().for_each(|c| scaling.unit(c));
+                columns.iter_mut().for_each(|c| scaling.scale_to_unit(c));
             }
             Ok(columns)
         };
@@ -93,10 +94,10 @@ impl Approximate {
     /// # Complexity
     /// Two or three decompositions.
     #[must_use]
-    pub fn look(&self, choices: &[usize]) -> Option<Seen> {
+    pub fn look_at(&self, choices: &[usize]) -> Option<Seen> {
         let [_, kept, state] = self.all.rows;
         let rank = |rows: RankedRows| {
-            let matrix = self.matrix(choices, rows);
+            let matrix = self.variant_matrix(choices, rows);
             let rank = self.elimination.rank_of(&matrix, self.tolerance);
             rank.ok().map(|r| r.rank)
         };
@@ -114,7 +115,7 @@ impl Approximate {
 
     /// How many closure equations the free state has, and how many the searched one.
     #[must_use]
-    pub fn equations(&self) -> [usize; 2] {
+    pub fn count_equations(&self) -> [usize; 2] {
         let [free, _, state] = self.all.rows;
         [free, state]
     }
@@ -124,19 +125,24 @@ impl Approximate {
     /// # Complexity
     /// One decomposition.
     #[must_use]
-    pub fn range(&self, choices: &[usize], rows: RankedRows, digits: Digits) -> Option<RankRange> {
-        let values = singular_values(&self.matrix(choices, rows))?;
-        Some(RankRange::of(&values, digits))
+    pub fn rank_range(
+        &self,
+        choices: &[usize],
+        rows: RankedRows,
+        digits: Digits,
+    ) -> Option<RankRange> {
+        let values = singular_values(&self.variant_matrix(choices, rows))?;
+        Some(RankRange::from_values(&values, digits))
     }
 
-    fn matrix(&self, choices: &[usize], rows: RankedRows) -> Matrix {
+    fn variant_matrix(&self, choices: &[usize], rows: RankedRows) -> Matrix {
         let [free, kept, state] = self.all.rows;
         let (from, to) = match rows {
             RankedRows::Free => (0, free),
             RankedRows::WithKept => (0, free + kept),
             RankedRows::State => (free + kept, free + kept + state),
         };
-        let chosen: Vec<&Vec<f64>> = self.all.chosen(choices).collect();
+        let chosen: Vec<&Vec<f64>> = self.all.variant_columns(choices).collect();
         Matrix::from_fn(to - from, chosen.len(), |r, c| chosen[c][from + r])
     }
 }

@@ -4,7 +4,7 @@ use crate::closure::contour::contour_basis;
 use crate::geom::Scalars;
 use crate::linalg::modp::Residue;
 use crate::model::mechanism::{JointId, StateId};
-use crate::motion::displacement_series::multiples;
+use crate::motion::displacement_series::shifted_multiples;
 use crate::search::question::Question;
 use crate::search::question::space::Variable;
 use crate::search::question::throughout::{ColumnSeries, ORDER};
@@ -31,16 +31,21 @@ impl RowLayout<'_> {
         };
         RowLayout {
             dim,
-            free: ClosingRows::free(mechanism, dim, &question.contours, Some(&question.kept)),
+            free: ClosingRows::for_free_state(
+                mechanism,
+                dim,
+                &question.contours,
+                Some(&question.kept),
+            ),
             state: question.space.state.map(of_state),
         }
     }
 
     /// How many rows there are of each kind.
-    fn rows(&self) -> [usize; 3] {
+    fn row_counts(&self) -> [usize; 3] {
         let state = self.state.as_ref();
-        let state = state.map_or(0, ClosingRows::closing);
-        [self.free.closing(), self.free.kept(), state]
+        let state = state.map_or(0, ClosingRows::count_closing);
+        [self.free.count_closing(), self.free.count_kept(), state]
     }
 
     /// Returns the columns of each choice along the motion times each power of t, in the rows of the free state at each power and then
@@ -50,14 +55,14 @@ impl RowLayout<'_> {
         question: &Question,
     ) -> Option<WrittenOut<Residue>> {
         let along = question.throughout.as_ref().ok()?;
-        let [free, kept, _] = self.rows();
+        let [free, kept, _] = self.row_counts();
         let multiples = |(joint, series): &(JointId, ColumnSeries)| -> Vec<Vec<Residue>> {
             let terms = series
                 .iter()
-                .map(|t| self.column(question.field(), *joint, t));
+                .map(|t| self.joint_column(question.field(), *joint, t));
             let terms: Vec<Vec<Residue>> = terms.collect();
             let part = |rows: Range<usize>| -> Vec<Vec<Residue>> {
-                multiples(&terms.iter().map(|t| &t[rows.clone()]).collect::<Vec<_>>())
+                shifted_multiples(&terms.iter().map(|t| &t[rows.clone()]).collect::<Vec<_>>())
             };
             let both = part(0..free).into_iter().zip(part(free..free + kept));
             both.map(|(a, b)| [a, b].concat()).collect()
@@ -77,17 +82,17 @@ impl RowLayout<'_> {
     }
 
     /// Returns the column of a twist at a joint, which is followed by the joint's rates.
-    pub(in crate::search) fn column<S: Scalars>(
+    pub(in crate::search) fn joint_column<S: Scalars>(
         &self,
         s: &S,
         j: JointId,
         twist: &[S::Number],
     ) -> Vec<S::Number> {
         let (twist, rates) = twist.split_at(self.dim);
-        let mut out = vec![S::Number::default(); self.rows().iter().sum()];
-        let [closing, kept, _] = self.rows();
+        let mut out = vec![S::Number::default(); self.row_counts().iter().sum()];
+        let [closing, kept, _] = self.row_counts();
         for (first, rows) in [(0, Some(&self.free)), (closing + kept, self.state.as_ref())] {
-            for (at, part) in rows.into_iter().flat_map(|rows| rows.parts(j)) {
+            for (at, part) in rows.into_iter().flat_map(|rows| rows.row_parts(j)) {
                 let out = &mut out[first + at..];
                 match part {
                     Part::Twist { forward: true } => out[..twist.len()].clone_from_slice(twist),
@@ -134,7 +139,7 @@ impl<N: Clone + Default> WrittenOut<N> {
     ) -> WrittenOut<N> {
         let of_choice = |joints: &[JointId], spans: &Spans<N>| {
             let each = spans.iter().zip(joints);
-            each.flat_map(|(span, &j)| span.iter().map(move |t| layout.column(s, j, t)))
+            each.flat_map(|(span, &j)| span.iter().map(move |t| layout.joint_column(s, j, t)))
                 .collect()
         };
         let of_variable = |(v, choices): (&Variable, &Vec<Spans<N>>)| {
@@ -143,7 +148,7 @@ impl<N: Clone + Default> WrittenOut<N> {
         };
         let variables = question.space.variables.iter();
         WrittenOut {
-            rows: layout.rows(),
+            rows: layout.row_counts(),
             columns: variables.zip(spans).map(of_variable).collect(),
         }
     }
@@ -154,17 +159,20 @@ impl<N: Clone + Default> WrittenOut<N> {
     }
 
     /// How many choices a variable has.
-    pub(in crate::search) fn choices(&self, variable: usize) -> usize {
+    pub(in crate::search) fn count_choices(&self, variable: usize) -> usize {
         self.columns[variable].len()
     }
 
     /// The columns of every choice, in one.
-    pub(in crate::search) fn columns(&self) -> impl Iterator<Item = &Vec<N>> {
+    pub(in crate::search) fn all_columns(&self) -> impl Iterator<Item = &Vec<N>> {
         self.columns.iter().flatten().flatten()
     }
 
     /// The columns of a variant.
-    pub(crate) fn chosen<'a>(&'a self, choices: &'a [usize]) -> impl Iterator<Item = &'a Vec<N>> {
+    pub(crate) fn variant_columns<'a>(
+        &'a self,
+        choices: &'a [usize],
+    ) -> impl Iterator<Item = &'a Vec<N>> {
         let chosen = choices.iter().enumerate();
         chosen.flat_map(|(v, &c)| &self.columns[v][c])
     }

@@ -14,7 +14,7 @@ use crate::geom::rigid::{RigidMotion, Twist};
 use crate::geom::vector::{add, scale, sub};
 use crate::model::mechanism::{JointId, Mechanism, StateId};
 use crate::motion::pose::{FLAT, Pose};
-use crate::rank::finite::local_dimension::motions;
+use crate::rank::finite::local_dimension::null_space_of;
 use crate::rank::numeric::scaling::rank_of_values;
 use crate::search::answer::k_best::Assignment;
 use crate::search::question::Question;
@@ -49,7 +49,7 @@ pub struct Stroke {
 impl Stroke {
     /// Poses reached.
     #[must_use]
-    pub fn reached(&self) -> usize {
+    pub fn count_reached(&self) -> usize {
         self.poses.len()
     }
 }
@@ -77,7 +77,7 @@ pub struct OverStroke {
 impl OverStroke {
     /// Whether the variant's figures hold in the file's pose only; `None` where no other pose was reached.
     #[must_use]
-    pub fn lucky(&self) -> Option<bool> {
+    pub fn is_lucky(&self) -> Option<bool> {
         (self.poses > 0).then_some(self.other.is_some())
     }
 }
@@ -90,14 +90,14 @@ impl OverStroke {
 ///
 /// # Complexity
 /// Some closings of O((6k)² f) a pose.
-pub fn stroke(
+pub fn reach_poses(
     question: &Question,
     count: usize,
     seed: u64,
     cancelled: &(dyn Fn() -> bool + Sync),
 ) -> Result<Stroke, ExactError> {
     let pose = Pose::of_file(&question.mechanism, StateId::FREE)?;
-    let span = motions(&pose);
+    let span = null_space_of(&pose);
     let here = vec![0.0; pose.columns.len()];
     let mut random = ChaCha8Rng::seed_from_u64(seed);
     let mut poses = Vec::new();
@@ -114,14 +114,16 @@ pub fn stroke(
         // There and back, a little farther each time, at odd places.
         #[allow(clippy::cast_precision_loss, reason = "a small number of poses")]
         let far = STEP * (1.0 + 0.37 * (i / 2) as f64) * if i % 2 == 0 { 1.0 } else { -1.0 };
-        if let Some(q) = pose.beside(&here, &along, far, HALVINGS) {
+        if let Some(q) = pose.closed_beside(&here, &along, far, HALVINGS) {
             let mut over = BTreeMap::new();
             for (c, &x) in pose.columns.iter().zip(&q) {
                 let at = over.entry(c.joint).or_insert(RigidMotion::IDENTITY);
                 *at = at.then(&RigidMotion::exp(&c.twist, x));
             }
-            let over = over.into_iter().map(|(j, d)| (j, scaled(&d, &pose, true)));
-            let figures = figures_at(question, &question.mechanism, &pose.moved(&q));
+            let over = over
+                .into_iter()
+                .map(|(j, d)| (j, rescale_displacement(&d, &pose, true)));
+            let figures = figures_at(question, &question.mechanism, &pose.moved_to(&q));
             poses.push((over.collect(), figures.and_then(|f| f.output)));
         }
     }
@@ -133,7 +135,7 @@ pub fn stroke(
 
 /// Looks at a variant, realized as `m`, in the poses of a stroke.
 #[must_use]
-pub(crate) fn over(
+pub(crate) fn over_stroke(
     question: &Question,
     stroke: &Stroke,
     variant: &Assignment,
@@ -147,7 +149,7 @@ pub(crate) fn over(
         return out;
     };
     for (over, output) in &stroke.poses {
-        let Some(figures) = figures(question, m, &pose, over) else {
+        let Some(figures) = figures_of_variant(question, m, &pose, over) else {
             continue;
         };
         out.poses += 1;
@@ -169,7 +171,7 @@ pub(crate) fn over(
 
 /// Returns the figures of a variant in a pose of the present mechanism, given by the displacements of its joints. Freedoms that the present
 /// joints do not need rest. Returns `None` if the variant cannot take the pose.
-fn figures(
+fn figures_of_variant(
     question: &Question,
     m: &Mechanism,
     pose: &Pose,
@@ -181,17 +183,17 @@ fn figures(
             .filter(|&c| pose.columns[c].joint == *joint)
             .collect();
         let twists: Vec<Twist> = own.iter().map(|&c| pose.columns[c].twist).collect();
-        let found = coordinates(&twists, &scaled(goal, pose, false))?;
+        let found = solve_coordinates(&twists, &rescale_displacement(goal, pose, false))?;
         own.iter().zip(found).for_each(|(&c, x)| q[c] = x);
     }
-    figures_at(question, m, &pose.moved(&q))
+    figures_at(question, m, &pose.moved_to(&q))
 }
 
 /// Returns a displacement in the file's unit about its origin, given one in the lengths of a pose about its middle, or the other way
 /// round.
-fn scaled(of: &RigidMotion, pose: &Pose, to_file: bool) -> RigidMotion {
+fn rescale_displacement(of: &RigidMotion, pose: &Pose, to_file: bool) -> RigidMotion {
     // x -> R x + t about the middle m in lengths L: t' = L t + m - R m, and back.
-    let arm = sub(pose.middle, of.direction(pose.middle));
+    let arm = sub(pose.middle, of.map_direction(pose.middle));
     let translation = if to_file {
         add(scale(of.translation, pose.length), arm)
     } else {
@@ -201,7 +203,7 @@ fn scaled(of: &RigidMotion, pose: &Pose, to_file: bool) -> RigidMotion {
 }
 
 /// Returns coordinates of freedoms in series that make a displacement, by Newton steps; `None` where they do not come to it.
-fn coordinates(twists: &[Twist], goal: &RigidMotion) -> Option<Vec<f64>> {
+fn solve_coordinates(twists: &[Twist], goal: &RigidMotion) -> Option<Vec<f64>> {
     let mut q = vec![0.0; twists.len()];
     for _ in 0..NEWTON {
         let mut at = RigidMotion::IDENTITY;
@@ -220,7 +222,7 @@ fn coordinates(twists: &[Twist], goal: &RigidMotion) -> Option<Vec<f64>> {
         let mut behind = RigidMotion::IDENTITY;
         let mut columns = vec![[0.0; 6]; twists.len()];
         for ((column, twist), &x) in columns.iter_mut().zip(twists).zip(&q).rev() {
-            *column = behind.inverse().twist(twist);
+            *column = behind.inverse().map_twist(twist);
             behind = RigidMotion::exp(twist, x).then(&behind);
         }
         let matrix = Matrix::from_fn(6, columns.len(), |r, c| columns[c][r]);
@@ -233,11 +235,11 @@ fn coordinates(twists: &[Twist], goal: &RigidMotion) -> Option<Vec<f64>> {
 /// Returns the figures of a mechanism in one of its poses.
 fn figures_at(question: &Question, m: &Mechanism, pose: &Pose) -> Option<Figures> {
     let f = pose.columns.len();
-    let jacobian = pose.jacobian(&vec![0.0; f]);
-    let rank = rank(&jacobian)?;
+    let jacobian = pose.jacobian_at(&vec![0.0; f]);
+    let rank = numeric_rank(&jacobian)?;
     let int = |x: usize| i64::try_from(x).unwrap_or(i64::MAX);
     let mobility = int(f) - int(rank);
-    let redundant = int(pose.constraints(question.space.dim)) - int(rank);
+    let redundant = int(pose.constraint_rows(question.space.dim)) - int(rank);
     if !question.conditions.keep_output {
         return Some(Figures {
             mobility,
@@ -262,7 +264,7 @@ fn figures_at(question: &Question, m: &Mechanism, pose: &Pose) -> Option<Figures
         mobility,
         redundant,
         output: Some(
-            int(crate::search::check::other_poses::rank(
+            int(crate::search::check::other_poses::numeric_rank(
                 &pose.jacobian_with(&paths, &drives),
             )?) - int(rank),
         ),
@@ -270,14 +272,14 @@ fn figures_at(question: &Question, m: &Mechanism, pose: &Pose) -> Option<Figures
 }
 
 /// Rank by singular values.
-fn rank(matrix: &Matrix) -> Option<usize> {
+fn numeric_rank(matrix: &Matrix) -> Option<usize> {
     Some(rank_of_values(singular_values(matrix)?, FLAT).rank)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::model::drawn::{Y, Z, drawn};
+    use crate::model::drawn::{Y, Z, draw_mechanism};
     use crate::model::joint_type::JointType;
     use crate::rank::exact::field::exact_field;
     use crate::search::question::conditions::Conditions;
@@ -287,7 +289,7 @@ mod tests {
     #[test]
     fn what_turns_and_slides_for_a_screw_climbs_with_it() {
         let (high, turn) = (3.0, std::f64::consts::TAU);
-        let mut m = drawn(
+        let mut m = draw_mechanism(
             &[
                 (JointType::Revolute, [0, 1], [0.0, 0.0, high], Y),
                 (JointType::Helical, [1, 2], [0.0; 3], Z),
@@ -305,10 +307,12 @@ mod tests {
             // The screw climbs along its axis, in the file's unit.
             let climbed = RigidMotion {
                 translation: [0.0, 0.0, turns * high],
-                ..RigidMotion::turn([0.0, 0.0, 1.0], turns * turn)
+                ..RigidMotion::from_turn([0.0, 0.0, 1.0], turns * turn)
             };
             let at = [(JointId::new(1), climbed)];
-            figures(&question, &m, &pose, &at).unwrap().output
+            figures_of_variant(&question, &m, &pose, &at)
+                .unwrap()
+                .output
         };
         assert_eq!([0.0, 1.0, 2.0].map(output), [Some(4), Some(3), Some(4)]);
     }

@@ -5,7 +5,7 @@
 //! eliminated, and ends where even all that the joints to come offer at once cannot raise the rank far enough.
 
 use crate::linalg::modp::{Field, Residue};
-use crate::search::check::brute::{Seen, eliminate};
+use crate::search::check::brute::{Seen, eliminate_pivots};
 use crate::search::check::full_matrices::{RowLayout, WrittenOut};
 use crate::search::question::Question;
 
@@ -31,7 +31,7 @@ struct Echelon {
 
 impl Echelon {
     /// Adds what is new in a vector.
-    fn add(&mut self, f: Field, vector: &[Residue]) {
+    fn add_vector(&mut self, f: Field, vector: &[Residue]) {
         let mut v = vector.to_vec();
         while let Some(lead) = v.iter().position(|x| *x != 0) {
             let Some((_, by)) = self.vectors.iter().find(|(l, _)| *l == lead) else {
@@ -47,7 +47,7 @@ impl Echelon {
     }
 
     /// Returns the rank of the first rows.
-    fn rank(&self, rows: usize) -> usize {
+    fn rank_of_rows(&self, rows: usize) -> usize {
         self.vectors.iter().filter(|(lead, _)| *lead < rows).count()
     }
 }
@@ -62,8 +62,8 @@ impl Pruned {
         let mut to_come = vec![Echelon::default()];
         for &v in order.iter().rev() {
             let mut here = to_come.last().cloned().unwrap_or_default();
-            for column in (0..all.choices(v)).flat_map(|c| all.of_choice(v, c)) {
-                here.add(field, &column[..free]);
+            for column in (0..all.count_choices(v)).flat_map(|c| all.of_choice(v, c)) {
+                here.add_vector(field, &column[..free]);
             }
             to_come.push(here);
         }
@@ -87,47 +87,47 @@ impl Pruned {
     ///
     /// # Complexity
     /// O(rows²) for each column of each branch that is entered, and as much for each later vector while the rank is too small.
-    pub fn visit(&self, beginning: &[usize], leaf: &mut dyn FnMut(&[usize], Seen)) {
+    pub fn visit_determinate(&self, beginning: &[usize], leaf: &mut dyn FnMut(&[usize], Seen)) {
         let mut choices = vec![0; self.order.len()];
         let mut so_far = Echelon::default();
         for (place, &c) in beginning.iter().enumerate() {
             choices[self.order[place]] = c;
-            if !self.enter(place, c, &mut so_far) {
+            if !self.enter_choice(place, c, &mut so_far) {
                 return;
             }
         }
-        self.descend(beginning.len(), &mut choices, &mut so_far, leaf);
+        self.visit_branch(beginning.len(), &mut choices, &mut so_far, leaf);
     }
 
     /// Returns the result for one variant; `None` if its branch is left out.
     #[must_use]
-    pub fn look(&self, choices: &[usize]) -> Option<Seen> {
+    pub fn look_at(&self, choices: &[usize]) -> Option<Seen> {
         let mut found = None;
         let beginning: Vec<usize> = self.order.iter().map(|&v| choices[v]).collect();
-        self.visit(&beginning, &mut |_, seen| found = Some(seen));
+        self.visit_determinate(&beginning, &mut |_, seen| found = Some(seen));
         found
     }
 
     /// Takes a choice; says whether a determinate variant may still come of it.
-    fn enter(&self, place: usize, choice: usize, so_far: &mut Echelon) -> bool {
+    fn enter_choice(&self, place: usize, choice: usize, so_far: &mut Echelon) -> bool {
         for column in self.all.of_choice(self.order[place], choice) {
-            so_far.add(self.field, &column[..self.all.rows[0] + self.all.rows[1]]);
+            so_far.add_vector(self.field, &column[..self.all.rows[0] + self.all.rows[1]]);
         }
         let free = self.all.rows[0];
         let enough = free.saturating_sub(self.allowed);
-        if so_far.rank(free) >= enough {
+        if so_far.rank_of_rows(free) >= enough {
             return true;
         }
         let mut most = Echelon::default();
         let within = so_far.vectors.iter().map(|(_, v)| &v[..free]);
         let later = self.to_come[place + 1].vectors.iter().map(|(_, v)| &v[..]);
         within.chain(later).any(|v| {
-            most.add(self.field, v);
+            most.add_vector(self.field, v);
             most.vectors.len() >= enough
         })
     }
 
-    fn descend(
+    fn visit_branch(
         &self,
         place: usize,
         choices: &mut [usize],
@@ -135,30 +135,30 @@ impl Pruned {
         leaf: &mut dyn FnMut(&[usize], Seen),
     ) {
         let Some(&v) = self.order.get(place) else {
-            leaf(choices, self.seen(choices, so_far));
+            leaf(choices, self.seen_of(choices, so_far));
             return;
         };
         let known = so_far.vectors.len();
-        for c in 0..self.all.choices(v) {
+        for c in 0..self.all.count_choices(v) {
             choices[v] = c;
-            if self.enter(place, c, so_far) {
-                self.descend(place + 1, choices, so_far, leaf);
+            if self.enter_choice(place, c, so_far) {
+                self.visit_branch(place + 1, choices, so_far, leaf);
             }
             so_far.vectors.truncate(known);
         }
     }
 
-    fn seen(&self, choices: &[usize], whole: &Echelon) -> Seen {
+    fn seen_of(&self, choices: &[usize], whole: &Echelon) -> Seen {
         let [free, kept, state] = self.all.rows;
         let of_state = (state > 0).then(|| {
-            let columns = self.all.chosen(choices);
-            eliminate(
+            let columns = self.all.variant_columns(choices);
+            eliminate_pivots(
                 self.field,
                 columns.map(|c| c[free + kept..].to_vec()).collect(),
             )
             .len()
         });
-        let ranks = [whole.rank(free), whole.vectors.len()];
+        let ranks = [whole.rank_of_rows(free), whole.vectors.len()];
         Seen::of_ranks(self.all.rows, ranks, of_state)
     }
 }

@@ -8,7 +8,7 @@ use crate::geom::exact::ExactError;
 use crate::rank::numeric::Elimination;
 use crate::search::answer::counts::Counts;
 use crate::search::answer::k_best::Assignment;
-use crate::search::at_tolerance::{any_choices, choices};
+use crate::search::at_tolerance::{any_choices, choices_of_number};
 use crate::search::check::brute::Matrices;
 use crate::search::check::brute_float::{Approximate, RankedRows};
 use crate::search::question::Question;
@@ -91,7 +91,7 @@ impl SecondOpinion {
 
     /// How many of the variants asked about are not decided.
     #[must_use]
-    pub fn undecided(&self) -> usize {
+    pub fn count_undecided(&self) -> usize {
         self.listed.undecided + self.admissible.undecided + self.all.undecided
     }
 
@@ -99,7 +99,7 @@ impl SecondOpinion {
     /// mechanism and of every variant asked about.
     #[must_use]
     pub fn confirms(&self) -> bool {
-        let decided = !self.digits.undecided && self.undecided() == 0;
+        let decided = !self.digits.undecided && self.count_undecided() == 0;
         self.agrees() && decided && self.scenes.is_none()
     }
 }
@@ -115,8 +115,8 @@ struct Expected {
 
 impl Expected {
     /// Returns the figures of a variant by exact arithmetic.
-    fn looked(question: &Question, exact: &Matrices, choices: Vec<usize>) -> Expected {
-        let seen = exact.look(&choices);
+    fn expect_looked(question: &Question, exact: &Matrices, choices: Vec<usize>) -> Expected {
+        let seen = exact.look_at(&choices);
         let of_state = i64::from(seen.external) + i64::from(seen.internal);
         let of_state = usize::try_from(of_state).ok();
         Expected {
@@ -128,7 +128,7 @@ impl Expected {
     }
 
     /// Returns the figures of a counted variant.
-    fn counted(question: &Question, v: Assignment) -> Expected {
+    fn expect_counted(question: &Question, v: Assignment) -> Expected {
         let of_state = i64::from(v.key.external()) + i64::from(v.key.internal());
         let of_state = usize::try_from(of_state).ok();
         let keep_output = question.conditions.keep_output;
@@ -149,7 +149,7 @@ struct Said {
 }
 
 impl Asked {
-    fn of(said: &[Said]) -> Asked {
+    fn count_said(said: &[Said]) -> Asked {
         Asked {
             asked: said.len(),
             undecided: said.iter().filter(|s| s.undecided).count(),
@@ -169,11 +169,13 @@ pub fn sample_size(question: &Question) -> usize {
 }
 
 /// Some of all variants, drawn from `seed`; of few all.
-fn drawn(question: &Question, seed: u64) -> Vec<Vec<usize>> {
+fn draw_variants(question: &Question, seed: u64) -> Vec<Vec<usize>> {
     let mut random = ChaCha8Rng::seed_from_u64(seed);
     let most = sample_size(question);
     match question.size().to_u32().filter(|n| *n as usize <= most) {
-        Some(n) => (0..n).map(|number| choices(question, number)).collect(),
+        Some(n) => (0..n)
+            .map(|number| choices_of_number(question, number))
+            .collect(),
         None => (0..most)
             .map(|_| any_choices(question, &mut random))
             .collect(),
@@ -197,31 +199,34 @@ pub fn second_opinion(
     seed: u64,
 ) -> Result<SecondOpinion, ExactError> {
     let digits = written.digits;
-    let of_file = Approximate::of(
+    let of_file = Approximate::of_mechanism(
         question,
         &written.mechanism,
         Elimination::Svd,
         digits.tolerance,
     )?;
     let exact = Matrices::new(question);
-    let looked = |choices: Vec<usize>| Expected::looked(question, &exact, choices);
-    let counted = |v: Assignment| Expected::counted(question, v);
+    let looked = |choices: Vec<usize>| Expected::expect_looked(question, &exact, choices);
+    let counted = |v: Assignment| Expected::expect_counted(question, v);
     let nothing = vec![0; question.space.variables.len()];
     let mut first = vec![looked(nothing.clone())];
     first.extend(listed.into_iter().map(counted));
     let kinds = [
         first,
         admissible.into_iter().map(counted).collect(),
-        drawn(question, seed).into_par_iter().map(looked).collect(),
+        draw_variants(question, seed)
+            .into_par_iter()
+            .map(looked)
+            .collect(),
     ];
     let mut narrowest = f64::INFINITY;
     let mut contradiction = None;
     let asked = kinds.map(|all| {
         let said: Vec<Said> = all
             .into_par_iter()
-            .filter_map(|e| compare(question, &of_file, e, digits))
+            .filter_map(|e| compare_variant(question, &of_file, e, digits))
             .collect();
-        let asked = Asked::of(&said);
+        let asked = Asked::count_said(&said);
         for s in said {
             narrowest = narrowest.min(s.narrowest);
             if contradiction.is_none() {
@@ -230,7 +235,7 @@ pub fn second_opinion(
         }
         asked
     });
-    let present = of_file.range(&nothing, RankedRows::Free, digits);
+    let present = of_file.rank_range(&nothing, RankedRows::Free, digits);
     let below_present = present
         .filter(|_| written.only_adds)
         .and_then(|p| less_than_present(question, p, determinate));
@@ -248,7 +253,7 @@ pub fn second_opinion(
 }
 
 /// Freedoms of a variant in the free state.
-fn freedoms(question: &Question, choices: &[usize]) -> i64 {
+fn count_freedoms(question: &Question, choices: &[usize]) -> i64 {
     let keys = question.steps.keys.iter().zip(choices);
     keys.map(|(keys, &c)| i64::from(keys[c].freedoms())).sum()
 }
@@ -260,7 +265,7 @@ fn less_than_present(
     counts: &Counts,
 ) -> Option<BelowPresent> {
     let nothing = vec![0; question.space.variables.len()];
-    let had = freedoms(question, &nothing) - int(present.most);
+    let had = count_freedoms(question, &nothing) - to_i64(present.most);
     let fewer = counts.by_mobility.range(..had).map(|(_, n)| n);
     let variants: BigUint = fewer.sum();
     (!variants.is_zero()).then_some(BelowPresent {
@@ -270,39 +275,42 @@ fn less_than_present(
 }
 
 /// What singular values say of a variant; `None` where they do not converge.
-fn compare(
+fn compare_variant(
     question: &Question,
     of_file: &Approximate,
     e: Expected,
     digits: Digits,
 ) -> Option<Said> {
-    let [rows, state_rows] = of_file.equations();
-    let free = of_file.range(&e.choices, RankedRows::Free, digits)?;
+    let [rows, state_rows] = of_file.count_equations();
+    let free = of_file.rank_range(&e.choices, RankedRows::Free, digits)?;
     let rank = rows.saturating_sub(e.internal);
     let mut all = vec![(free, rank)];
     if let Some(motion) = e.motion.filter(|_| question.conditions.keep_output) {
-        let kept = of_file.range(&e.choices, RankedRows::WithKept, digits)?;
+        let kept = of_file.rank_range(&e.choices, RankedRows::WithKept, digits)?;
         all.push((kept, rank + motion));
     }
     if let Some(redundant) = e.in_state {
-        let state = of_file.range(&e.choices, RankedRows::State, digits)?;
+        let state = of_file.rank_range(&e.choices, RankedRows::State, digits)?;
         all.push((state, state_rows.saturating_sub(redundant)));
     }
     let decided = all.iter().filter(|(r, _)| r.is_decided());
     let narrowest = decided
         .map(|(r, _)| r.kept / r.dropped)
         .fold(f64::INFINITY, f64::min);
-    let against = all.iter().find(|(r, rank)| !r.allows(*rank)).map(|(r, _)| {
-        let f = freedoms(question, &e.choices);
-        let figures = |rank: usize| (f - int(rank), int(rows) - int(rank));
-        Contradiction {
-            exact: figures(rank),
-            numeric: [figures(free.most), figures(free.least)],
-            elsewhere: free.allows(rank),
-            gap: (r.kept, r.dropped),
-            choices: e.choices.clone(),
-        }
-    });
+    let against = all
+        .iter()
+        .find(|(r, rank)| !r.allows_rank(*rank))
+        .map(|(r, _)| {
+            let f = count_freedoms(question, &e.choices);
+            let figures = |rank: usize| (f - to_i64(rank), to_i64(rows) - to_i64(rank));
+            Contradiction {
+                exact: figures(rank),
+                numeric: [figures(free.most), figures(free.least)],
+                elsewhere: free.allows_rank(rank),
+                gap: (r.kept, r.dropped),
+                choices: e.choices.clone(),
+            }
+        });
     Some(Said {
         undecided: against.is_none() && all.iter().any(|(r, _)| !r.is_decided()),
         narrowest,
@@ -310,6 +318,6 @@ fn compare(
     })
 }
 
-fn int(x: usize) -> i64 {
+fn to_i64(x: usize) -> i64 {
     i64::try_from(x).unwrap_or(i64::MAX)
 }

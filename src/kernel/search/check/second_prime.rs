@@ -7,10 +7,10 @@
 //! and every sample drawn from them is equal too.
 
 use crate::search::answer::search_counts::SearchCounts;
-use crate::search::answer::variants_in_order::cheapest;
+use crate::search::answer::variants_in_order::cheapest_variants;
 use crate::search::build::Diagrams;
 use crate::search::build::build_in;
-use crate::search::build::orders::orders;
+use crate::search::build::orders::variable_orders;
 use crate::search::diagram::{Diagram, Progress, Stop};
 use crate::search::question::Question;
 use itertools::Itertools;
@@ -67,7 +67,7 @@ pub fn build_both(
     progress: &mut (dyn FnMut(Progress) + Send),
 ) -> (Diagrams, Diagrams) {
     let [first, second] = questions;
-    let orders = orders(first);
+    let orders = variable_orders(first);
     rayon::join(
         || build_in(first, &orders, cancelled, progress),
         || build_in(second, &orders, cancelled, &mut |_| {}),
@@ -81,12 +81,15 @@ pub fn build_both(
 ///
 /// # Complexity
 /// O(edges) where the diagrams are equal, which they always were; counting both where they are not.
-pub fn compare(
+pub fn compare_primes(
     questions: [&Question; 2],
     diagrams: [&Diagrams; 2],
     top: usize,
 ) -> Result<Verdict, Box<Disagreement>> {
-    if diagrams.iter().any(|d| d.stop() == Stop::Interrupted) {
+    if diagrams
+        .iter()
+        .any(|d| d.stop_reason() == Stop::Interrupted)
+    {
         return Ok(Verdict::Interrupted);
     }
     let [a, b] = diagrams;
@@ -104,16 +107,16 @@ pub fn compare(
     if equal {
         return Ok(Verdict::Agree);
     }
-    let [first, second] = [0, 1].map(|i| SearchCounts::of(questions[i], diagrams[i]));
-    let best = |i: usize| cheapest(questions[i], diagrams[i], top).collect_vec();
+    let [first, second] = [0, 1].map(|i| SearchCounts::of_diagrams(questions[i], diagrams[i]));
+    let best = |i: usize| cheapest_variants(questions[i], diagrams[i], top).collect_vec();
     if best(0) != best(1) {
-        return Err(disagreement(questions, [&first, &second]));
+        return Err(make_disagreement(questions, [&first, &second]));
     }
     compare_counts(questions, [&first, &second])
 }
 
 /// Returns the error of two primes that differ in something.
-fn disagreement(questions: [&Question; 2], counts: [&SearchCounts; 2]) -> Box<Disagreement> {
+fn make_disagreement(questions: [&Question; 2], counts: [&SearchCounts; 2]) -> Box<Disagreement> {
     Box::new(Disagreement {
         primes: primes(questions),
         determinate: counts.map(|c| c.determinate.total.clone()),
@@ -133,7 +136,7 @@ pub fn compare_counts(
     if a == b {
         Ok(Verdict::Agree)
     } else {
-        Err(disagreement(questions, counts))
+        Err(make_disagreement(questions, counts))
     }
 }
 

@@ -13,10 +13,10 @@ use crate::rank::exact::modular;
 use crate::rank::numeric::{self, NumericRank};
 use crate::search::answer::k_best::Assignment;
 use crate::search::check::brute;
-use crate::search::check::other_poses::over;
+use crate::search::check::other_poses::over_stroke;
 use crate::search::check::other_poses::{OverStroke, Stroke};
-use crate::search::check::variant_mechanism::locked;
-use crate::search::check::variant_mechanism::realize;
+use crate::search::check::variant_mechanism::lock_links;
+use crate::search::check::variant_mechanism::realize_variant;
 use crate::search::diagram::redundancy_so_far::Redundancy;
 use crate::search::question::Question;
 use crate::search::question::kept::driven_in_variant;
@@ -33,7 +33,7 @@ const AT_LEAST: usize = 20;
 
 /// How many variants of a list get a second opinion: [`CHECKED`], and of large mechanisms fewer.
 #[must_use]
-pub fn affordable(question: &Question) -> usize {
+pub fn affordable_count(question: &Question) -> usize {
     let closure = Closure::new(&Reals, &question.mechanism, StateId::FREE);
     let work = closure.map_or(1, |c| {
         let (rows, columns) = (c.rows(), c.columns.len());
@@ -84,7 +84,7 @@ pub struct Certified {
 impl Certified {
     /// A variant that nothing more is known of.
     #[must_use]
-    pub fn unasked(variant: Assignment) -> Self {
+    pub fn without_opinion(variant: Assignment) -> Self {
         Certified {
             variant,
             second: Second::Unasked,
@@ -94,8 +94,8 @@ impl Certified {
 
     /// Returns true if other poses were examined and have other figures.
     #[must_use]
-    pub fn lucky(&self) -> bool {
-        self.stroke.is_some_and(|s| s.lucky() == Some(true))
+    pub fn is_lucky(&self) -> bool {
+        self.stroke.is_some_and(|s| s.is_lucky() == Some(true))
     }
 }
 
@@ -148,10 +148,10 @@ impl Summary {
     }
 
     /// Counts one more.
-    pub fn add(&mut self, one: &Certified) {
+    pub fn add_certified(&mut self, one: &Certified) {
         self.given += 1;
         self.posed += usize::from(one.stroke.is_some_and(|s| s.poses > 0));
-        self.lucky += usize::from(one.lucky());
+        self.lucky += usize::from(one.is_lucky());
         match &one.second {
             Second::Unasked => {}
             Second::Failed => self.failed += 1,
@@ -176,7 +176,7 @@ struct Shape {
 /// # Complexity
 /// Two or three decompositions of a 6k x f matrix a variant, and about two more for each pose.
 #[must_use]
-pub fn certify(
+pub fn certify_variants(
     question: &Question,
     variants: Vec<Assignment>,
     opinions: bool,
@@ -186,19 +186,19 @@ pub fn certify(
     let mut shapes: BTreeMap<Vec<bool>, Shape> = BTreeMap::new();
     for v in variants.iter().filter(|_| opinions) {
         shapes
-            .entry(inserted(question, &v.choices))
-            .or_insert_with(|| shape(question, &realize(question, &v.choices)));
+            .entry(inserted_joints(question, &v.choices))
+            .or_insert_with(|| contour_shape(question, &realize_variant(question, &v.choices)));
     }
     let one = |variant: Assignment| {
-        let m = realize(question, &variant.choices);
+        let m = realize_variant(question, &variant.choices);
         let second = if opinions {
-            let shape = shapes.get(&inserted(question, &variant.choices));
-            let opinion = shape.and_then(|s| opinion(question, &variant, &m, s));
+            let shape = shapes.get(&inserted_joints(question, &variant.choices));
+            let opinion = shape.and_then(|s| form_opinion(question, &variant, &m, s));
             opinion.map_or(Second::Failed, Second::Given)
         } else {
             Second::Unasked
         };
-        let stroke = stroke.map(|s| over(question, s, &variant, &m));
+        let stroke = stroke.map(|s| over_stroke(question, s, &variant, &m));
         Certified {
             variant,
             second,
@@ -212,15 +212,15 @@ pub fn certify(
 }
 
 /// At which variables an unloading joint is inserted.
-fn inserted(question: &Question, choices: &[usize]) -> Vec<bool> {
+fn inserted_joints(question: &Question, choices: &[usize]) -> Vec<bool> {
     let variables = question.space.variables.iter().zip(choices);
     variables
         .map(|(v, &c)| v.choices.get(c).is_some_and(|c| c.unloading.is_some()))
         .collect()
 }
 
-fn shape(question: &Question, realized: &Mechanism) -> Shape {
-    let lock = || contour_basis(&locked(question, realized), StateId::FREE);
+fn contour_shape(question: &Question, realized: &Mechanism) -> Shape {
+    let lock = || contour_basis(&lock_links(question, realized), StateId::FREE);
     let state = question.conditions.state.map(|s| s.state);
     Shape {
         free: contour_basis(realized, StateId::FREE),
@@ -238,13 +238,13 @@ fn shape(question: &Question, realized: &Mechanism) -> Shape {
 /// # Complexity
 /// One exact rank of each state and as many decompositions as for a variant.
 pub fn warning_of_present(question: &Question) -> Result<Option<String>, ExactError> {
-    if affordable(question) <= AT_LEAST {
+    if affordable_count(question) <= AT_LEAST {
         return Ok(None);
     }
     let redundant = |state: StateId| {
         let closure = Closure::new(&question.exact, &question.mechanism, state)?;
-        let rank = modular::rank(&question.exact, &closure);
-        Ok::<_, ExactError>(int(closure.rows()) - int(rank))
+        let rank = modular::rank_modulo(&question.exact, &closure);
+        Ok::<_, ExactError>(to_i64(closure.rows()) - to_i64(rank))
     };
     let internal = redundant(StateId::FREE)?;
     let external = match question.conditions.state {
@@ -257,10 +257,11 @@ pub fn warning_of_present(question: &Question) -> Result<Option<String>, ExactEr
         harmful: 0,
     };
     let choices = vec![0; question.space.variables.len()];
-    let key = brute::key(question, &choices, redundancy);
+    let key = brute::variant_key(question, &choices, redundancy);
     let present = Assignment { choices, key };
-    let m = realize(question, &present.choices);
-    let said = opinion(question, &present, &m, &shape(question, &m)).filter(|o| !o.agree);
+    let m = realize_variant(question, &present.choices);
+    let said =
+        form_opinion(question, &present, &m, &contour_shape(question, &m)).filter(|o| !o.agree);
     Ok(said.map(|o| {
         format!(
             "warning: of the mechanism as built singular values say W = {}, σ = {}, and exact arithmetic W = {}, σ = {internal} \
@@ -274,23 +275,23 @@ pub fn warning_of_present(question: &Question) -> Result<Option<String>, ExactEr
     }))
 }
 
-fn opinion(
+fn form_opinion(
     question: &Question,
     variant: &Assignment,
     m: &Mechanism,
     shape: &Shape,
 ) -> Option<Opinion> {
-    let (free, f) = decompose(question, m, StateId::FREE, &shape.free)?;
+    let (free, f) = decompose_state(question, m, StateId::FREE, &shape.free)?;
     let rows = |contours: &[Contour], state: StateId| {
-        int(contours.len() * question.space.dim + m.couplings_in(state).count())
+        to_i64(contours.len() * question.space.dim + m.couplings_in(state).count())
     };
-    let redundant = rows(&shape.free, StateId::FREE) - int(free.rank);
+    let redundant = rows(&shape.free, StateId::FREE) - to_i64(free.rank);
     let output = match &shape.locked {
         None => None,
         Some(contours) => {
             let drives = driven_in_variant(&question.mechanism, m)?;
-            let locked = closure(&locked(question, m), StateId::FREE, contours)?;
-            let rank = rank(question, &with_locks(locked, &drives)?)?.rank;
+            let locked = real_closure(&lock_links(question, m), StateId::FREE, contours)?;
+            let rank = numeric_rank(question, &with_locks(locked, &drives)?)?.rank;
             Some(rank.saturating_sub(free.rank))
         }
     };
@@ -298,14 +299,14 @@ fn opinion(
     let external = match &shape.state {
         None => None,
         Some((s, contours)) => {
-            let (state, _) = decompose(question, m, *s, contours)?;
+            let (state, _) = decompose_state(question, m, *s, contours)?;
             conditioning = conditioning.min(state.kept);
             dropped = dropped.max(state.dropped);
-            Some(rows(contours, *s) - int(state.rank) - redundant)
+            Some(rows(contours, *s) - to_i64(state.rank) - redundant)
         }
     };
     let key = variant.key;
-    let mobility = int(f) - int(free.rank);
+    let mobility = to_i64(f) - to_i64(free.rank);
     let agree = mobility == question.mobility(key)
         && redundant == i64::from(key.internal())
         && external.is_none_or(|e| e == i64::from(key.external()))
@@ -323,21 +324,21 @@ fn opinion(
 }
 
 /// Rank of J of a state by singular values, with the number of columns.
-fn decompose(
+fn decompose_state(
     question: &Question,
     m: &Mechanism,
     state: StateId,
     contours: &[Contour],
 ) -> Option<(NumericRank, usize)> {
-    let closure = closure(m, state, contours)?;
-    Some((rank(question, &closure)?, closure.columns.len()))
+    let closure = real_closure(m, state, contours)?;
+    Some((numeric_rank(question, &closure)?, closure.columns.len()))
 }
 
-fn closure(m: &Mechanism, state: StateId, contours: &[Contour]) -> Option<Closure<f64>> {
+fn real_closure(m: &Mechanism, state: StateId, contours: &[Contour]) -> Option<Closure<f64>> {
     Closure::with_contours(&Reals, m, state, contours.to_vec()).ok()
 }
 
-fn rank(question: &Question, closure: &Closure<f64>) -> Option<NumericRank> {
+fn numeric_rank(question: &Question, closure: &Closure<f64>) -> Option<NumericRank> {
     numeric::rank_with_tolerance(closure, question.conditions.tolerance).ok()
 }
 
@@ -353,6 +354,6 @@ fn with_locks(mut closure: Closure<f64>, drives: &[CoupledFreedom]) -> Option<Cl
     Some(closure)
 }
 
-fn int(x: usize) -> i64 {
+fn to_i64(x: usize) -> i64 {
     i64::try_from(x).unwrap_or(i64::MAX)
 }

@@ -9,7 +9,7 @@ use crate::search::question::Question;
 /// The mechanism that a variant is. Joints keep their places in the list; unloading joints and their links come
 /// after all others. An unloading joint of a contact is there in every state, as its link is.
 #[must_use]
-pub fn realize(question: &Question, choices: &[usize]) -> Mechanism {
+pub fn realize_variant(question: &Question, choices: &[usize]) -> Mechanism {
     let old = &question.mechanism;
     let mut chosen: Vec<(usize, Option<usize>, bool)> = vec![(0, None, false); old.joints.len()];
     for (variable, &choice) in question.space.variables.iter().zip(choices) {
@@ -27,7 +27,7 @@ pub fn realize(question: &Question, choices: &[usize]) -> Mechanism {
     let mut contours = old.contours.clone();
     let (mut joints, mut inserted) = (Vec::with_capacity(old.joints.len()), Vec::new());
     for (joint, &(option, unloading, external)) in old.joints.iter().zip(&chosen) {
-        let mut here = replaced(joint, joint.options.get(option));
+        let mut here = replace_joint(joint, joint.options.get(option));
         if let Some(u) = unloading.and_then(|u| joint.unloading.get(u)) {
             let pad = LinkId::new(links.len());
             // The pad stays on the mechanism when the body it held is gone.
@@ -79,7 +79,7 @@ fn in_series(
     end: usize,
     pad: LinkId,
 ) -> Joint {
-    let mut series = replaced(joint, Some(unloading));
+    let mut series = replace_joint(joint, Some(unloading));
     series.id = format!("{} unloading", joint.id);
     (series.drive, series.drive_freedom) = (false, None);
     if external {
@@ -93,14 +93,14 @@ fn in_series(
 /// A realized variant with its kept links fixed to the frame: what its contours lock beyond the variant's own is
 /// the kept links' motion.
 #[must_use]
-pub(crate) fn locked(question: &Question, realized: &Mechanism) -> Mechanism {
+pub(crate) fn lock_links(question: &Question, realized: &Mechanism) -> Mechanism {
     let mut out = realized.clone();
-    let frame = realized.frame();
+    let frame = realized.frame_link();
     let Some(any) = realized.joints.first() else {
         return out;
     };
     for &link in question.kept.links.iter().filter(|l| **l != frame) {
-        let mut lock = replaced(any, None);
+        let mut lock = replace_joint(any, None);
         lock.id = format!("lock {}", realized.links[link].id);
         lock.links = [frame, link];
         lock.joint_type = JointType::Fixed;
@@ -111,7 +111,7 @@ pub(crate) fn locked(question: &Question, realized: &Mechanism) -> Mechanism {
 }
 
 /// A joint with another type and frame, and nothing to choose.
-fn replaced(joint: &Joint, by: Option<&JointOption>) -> Joint {
+fn replace_joint(joint: &Joint, by: Option<&JointOption>) -> Joint {
     let (joint_type, frame) = match by {
         Some(o) => (o.joint_type.clone(), o.frame.clone()),
         None => (joint.joint_type.clone(), joint.frame.clone()),

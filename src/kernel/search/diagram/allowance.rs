@@ -27,30 +27,33 @@ impl<'a> Allowance<'a> {
     }
 
     /// Nodes that are left.
-    fn left(&self) -> usize {
+    fn left_nodes(&self) -> usize {
         self.limits.nodes.saturating_sub(self.nodes)
     }
 
     /// Returns the minimum number of nodes that a layer keeps.
-    fn fewest(&self) -> usize {
+    fn least_kept(&self) -> usize {
         CUT.min(self.limits.nodes)
     }
 
     /// Returns an empty layer after some nodes, for about `edges` edges.
-    pub(in crate::search) fn layer(&self, nodes: &Nodes, edges: usize, stop: Stop) -> Merge {
-        let room = self.left().min(self.limits.layer).max(self.fewest());
-        let bytes = self.bytes.saturating_sub(self.edges + nodes.bytes());
+    pub(in crate::search) fn begin_layer(&self, nodes: &Nodes, edges: usize, stop: Stop) -> Merge {
+        let room = self
+            .left_nodes()
+            .min(self.limits.layer)
+            .max(self.least_kept());
+        let bytes = self.bytes.saturating_sub(self.edges + nodes.held_bytes());
         Merge::new(room, bytes, stop, edges)
     }
 
     /// The system refused memory for a layer: lowers the limit to half of what is in use.
-    pub(in crate::search) fn lower(&mut self, nodes: &Nodes, next: &Nodes, edges: usize) {
-        let now = self.edges + nodes.bytes() + next.bytes() + size_of::<u32>() * edges;
+    pub(in crate::search) fn lower_bytes(&mut self, nodes: &Nodes, next: &Nodes, edges: usize) {
+        let now = self.edges + nodes.held_bytes() + next.held_bytes() + size_of::<u32>() * edges;
         self.bytes = self.bytes.min(now / 2);
     }
 
     /// Returns the number of nodes of a layer that are kept, if `layers` layers are to come, this one included.
-    pub(in crate::search) fn keep(
+    pub(in crate::search) fn kept_nodes(
         &self,
         next: &Nodes,
         choices: usize,
@@ -60,11 +63,13 @@ impl<'a> Allowance<'a> {
         match stop {
             Stop::Exhausted => usize::MAX,
             // It is wanted whole or not at all.
-            Stop::NodeBudget | Stop::Memory if self.limits.layer < usize::MAX => self.fewest(),
+            Stop::NodeBudget | Stop::Memory if self.limits.layer < usize::MAX => self.least_kept(),
             // Share what is left of the budget among the layers to come.
-            Stop::NodeBudget | Stop::NotCounted => (self.left() / layers).max(self.fewest()),
+            Stop::NodeBudget | Stop::NotCounted => {
+                (self.left_nodes() / layers).max(self.least_kept())
+            }
             Stop::Memory => {
-                let each = next.bytes() / next.len().max(1) + size_of::<u32>() * choices;
+                let each = next.held_bytes() / next.len().max(1) + size_of::<u32>() * choices;
                 let left = self.bytes.saturating_sub(self.edges) / layers;
                 (left / each).max(CUT)
             }
@@ -73,7 +78,7 @@ impl<'a> Allowance<'a> {
     }
 
     /// Adds a layer of some nodes and edges to what was used.
-    pub(in crate::search) fn take(&mut self, nodes: usize, edges: usize) {
+    pub(in crate::search) fn take_layer(&mut self, nodes: usize, edges: usize) {
         self.nodes += nodes;
         self.edges += size_of::<u32>() * edges;
     }

@@ -34,14 +34,14 @@ pub(in crate::search) struct Passed<'a> {
 
 impl Between {
     /// One space, with the boundaries to come.
-    pub(in crate::search) fn one(
+    pub(in crate::search) fn from_space(
         arithmetic: &mut Arithmetic,
         width: usize,
         packed: &[Residue],
         bounds: &[usize],
     ) -> Between {
         let mut all = Rows::default();
-        all.unpack(arithmetic, width, packed);
+        all.unpack_rows(arithmetic, width, packed);
         Between {
             most: bounds.iter().map(|&b| all.rank_before(b)).collect(),
             least: all.rank(),
@@ -50,28 +50,28 @@ impl Between {
         }
     }
 
-    fn any(&self) -> &Rows {
+    fn any_rows(&self) -> &Rows {
         self.any.as_ref().unwrap_or(&self.all)
     }
 
     /// The one space, packed; none of many.
-    pub(in crate::search) fn packed(&self) -> Option<Vec<Residue>> {
-        self.any.is_none().then(|| self.all.packed())
+    pub(in crate::search) fn packed_space(&self) -> Option<Vec<Residue>> {
+        self.any.is_none().then(|| self.all.to_packed())
     }
 
     /// Numbers that tell it from others.
-    pub(in crate::search) fn words(&self) -> Vec<u64> {
-        let mut out = self.all.packed();
+    pub(in crate::search) fn identity_words(&self) -> Vec<u64> {
+        let mut out = self.all.to_packed();
         if let Some(any) = &self.any {
             out.push(u64::MAX);
-            any.pack(&mut out);
+            any.pack_into(&mut out);
             out.extend(self.most.iter().chain([&self.least]).map(|&x| x as u64));
         }
         out
     }
 
     /// Returns the numbers that merged nodes must have in common; there are more of them at higher levels, of which there are [`LEVELS`].
-    pub(in crate::search) fn kind(&self, level: usize) -> Vec<usize> {
+    pub(in crate::search) fn merge_kind(&self, level: usize) -> Vec<usize> {
         let mut out = match level {
             0 => self.most.first().copied().into_iter().collect(),
             _ => self.most.clone(),
@@ -80,7 +80,7 @@ impl Between {
             out.push(self.least);
         }
         if level > 2 {
-            out.extend(&self.any().pivots);
+            out.extend(&self.any_rows().pivots);
             out.push(usize::MAX);
             out.extend(&self.all.pivots);
         }
@@ -88,15 +88,15 @@ impl Between {
     }
 
     /// Takes another in.
-    pub(in crate::search) fn join(&mut self, arithmetic: &mut Arithmetic, other: &Between) {
+    pub(in crate::search) fn join_node(&mut self, arithmetic: &mut Arithmetic, other: &Between) {
         let mut any = self.any.take().unwrap_or_else(|| self.all.clone());
         let mut row = Vec::new();
-        for v in other.any().rows() {
+        for v in other.any_rows().rows() {
             row.clear();
             row.extend_from_slice(v);
             any.insert(arithmetic, &mut row);
         }
-        self.all = self.all.meet(arithmetic, &other.all);
+        self.all = self.all.intersect_with(arithmetic, &other.all);
         self.any = Some(any);
         let most = self.most.iter_mut().zip(&other.most);
         most.for_each(|(x, &y)| *x = (*x).max(y));
@@ -104,37 +104,42 @@ impl Between {
     }
 
     /// Returns the node in the coordinates of a stage, with its own sum.
-    fn entered(&self, stage: &Adding) -> Between {
-        let widened = |rows: &Rows| rows.widened(stage.columns.width, &stage.columns.places);
+    fn enter_stage(&self, stage: &Adding) -> Between {
+        let widened = |rows: &Rows| rows.widen_to(stage.columns.width, &stage.columns.places);
         Between {
             all: widened(&self.all),
-            any: Some(widened(self.any())),
+            any: Some(widened(self.any_rows())),
             ..self.clone()
         }
     }
 
     /// Returns the children at a stage for each choice; `None` if no space of the node has a completion.
-    pub(in crate::search) fn children(
+    pub(in crate::search) fn child_nodes(
         &self,
         arithmetic: &mut Arithmetic,
         over: &Passed<'_>,
     ) -> Vec<Option<Between>> {
-        let (growth, base) = (&over.stage.columns.growth, self.entered(over.stage));
+        let (growth, base) = (&over.stage.columns.growth, self.enter_stage(over.stage));
         let mut grown: Vec<Option<Between>> = vec![None; growth.len()];
         for g in growth {
             let mut next = match g.from {
                 Some(from) => grown[from].clone().unwrap_or_default(),
                 None => base.clone(),
             };
-            next.add(arithmetic, &g.more, over.bounds);
+            next.add_vectors(arithmetic, &g.more, over.bounds);
             grown[g.choice] = Some(next);
         }
-        let ended = |b: Option<Between>| b?.ended(over);
+        let ended = |b: Option<Between>| b?.drop_ended(over);
         grown.into_iter().map(ended).collect()
     }
 
     /// Adds vectors.
-    fn add(&mut self, arithmetic: &mut Arithmetic, vectors: &[Vec<Residue>], bounds: &[usize]) {
+    fn add_vectors(
+        &mut self,
+        arithmetic: &mut Arithmetic,
+        vectors: &[Vec<Residue>],
+        bounds: &[usize],
+    ) {
         let mut any = self.any.take().unwrap_or_default();
         let before: Vec<usize> = bounds.iter().map(|&b| self.all.rank_before(b)).collect();
         let possible = any.rank();
@@ -161,7 +166,7 @@ impl Between {
     }
 
     /// Drops the coordinates that no later stage reaches. Returns `None` if a contour stays redundant, or if a kept link moves wrongly.
-    fn ended(mut self, over: &Passed<'_>) -> Option<Between> {
+    fn drop_ended(mut self, over: &Passed<'_>) -> Option<Between> {
         let (contours, gap) = (over.stage.contours.len(), over.stage.columns.closing);
         let in_contours = self.most.last().copied().unwrap_or(0);
         let goes_wrong = self.all.pivots.last().is_some_and(|&p| p >= contours);

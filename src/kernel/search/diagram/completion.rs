@@ -41,7 +41,7 @@ impl<'m> Ceiling<'m> {
         matrix: &[Residue],
         cost: i64,
     ) -> bool {
-        let Some(rest) = self.missing.least(stages, spent, matrix) else {
+        let Some(rest) = self.missing.least_cost(stages, spent, matrix) else {
             return true;
         };
         let above = cost + rest > self.cost;
@@ -85,7 +85,7 @@ impl Missing {
         for (t, (stage, columns)) in stages.iter().zip(lanes()).enumerate().rev() {
             let after: &[Option<i64>] = &least[least.len() - 1];
             let choices = &space.variables[stage.variable].choices;
-            let dimensions = columns.dimensions();
+            let dimensions = columns.added_dimensions();
             let cheapest = |r: usize| {
                 let completed = |(choice, added): (&Choice, &usize)| {
                     let left = (r + added).checked_sub(columns.closing)?;
@@ -106,12 +106,12 @@ impl Missing {
     }
 
     /// Returns the least cost in thousandths of a variant; `None` if there is no variant.
-    pub(in crate::search) fn root(&self) -> Option<i64> {
-        self.least(0, &self.root, &[])
+    pub(in crate::search) fn least_of_root(&self) -> Option<i64> {
+        self.least_cost(0, &self.root, &[])
     }
 
     /// Returns the least cost in thousandths of completing a node after so many stages; `None` where it has no completion.
-    fn least(&self, stages: usize, spent: &Spent, matrix: &[Residue]) -> Option<i64> {
+    fn least_cost(&self, stages: usize, spent: &Spent, matrix: &[Residue]) -> Option<i64> {
         // The pivots of the free state's lane stand as bits in front.
         let words = self.width[stages].div_ceil(64);
         let rows: u32 = matrix.iter().take(words).map(|w| w.count_ones()).sum();

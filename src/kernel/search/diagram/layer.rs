@@ -29,7 +29,7 @@ pub(in crate::search) struct Nodes {
 
 impl Nodes {
     /// Returns the one node before any choice.
-    pub(in crate::search) fn root(spent: Spent) -> Self {
+    pub(in crate::search) fn root_node(spent: Spent) -> Self {
         Nodes {
             spent: vec![spent],
             start: vec![0, 0],
@@ -52,7 +52,7 @@ impl Nodes {
     }
 
     /// Bytes of the nodes, with the table that finds them while they are gathered.
-    pub(in crate::search) fn bytes(&self) -> usize {
+    pub(in crate::search) fn held_bytes(&self) -> usize {
         size_of::<Residue>() * self.data.len() + NODE * self.len()
     }
 
@@ -61,7 +61,7 @@ impl Nodes {
     }
 
     /// Makes room for a node whose matrix has so many numbers.
-    fn reserve(&mut self, numbers: usize) -> Result<(), TryReserveError> {
+    fn reserve_node(&mut self, numbers: usize) -> Result<(), TryReserveError> {
         self.spent.try_reserve(1)?;
         self.start.try_reserve(1)?;
         self.least.try_reserve(1)?;
@@ -123,7 +123,7 @@ impl Merge {
     }
 
     /// Limits the layer to few nodes. If it has that many already, all other edges lead nowhere.
-    pub(in crate::search) fn interrupt(&mut self, edges: usize) {
+    pub(in crate::search) fn interrupt_merge(&mut self, edges: usize) {
         self.stop = Stop::Interrupted;
         self.room = self.room.min(CUT);
         if self.next.len() >= CUT {
@@ -133,7 +133,7 @@ impl Merge {
 
     /// Takes the children of some nodes, those of the nodes before them having been taken, but for those that are out of
     /// the question: said of what a child has spent, its matrix, and the least cost of this way to it.
-    pub(in crate::search) fn take(
+    pub(in crate::search) fn take_children(
         &mut self,
         part: &Children,
         parents: &Nodes,
@@ -143,7 +143,7 @@ impl Merge {
         let choices = part.choices;
         if part.short {
             self.refused = true;
-            self.stop = self.stop.or(Stop::Memory);
+            self.stop = self.stop.combine_with(Stop::Memory);
         }
         for child in &part.found {
             let Some((hash, ref spent, start, end)) = *child else {
@@ -159,7 +159,7 @@ impl Merge {
                 continue;
             }
             let next = &mut self.next;
-            let refused = next.reserve(matrix.len()).is_err()
+            let refused = next.reserve_node(matrix.len()).is_err()
                 || self.table.try_reserve(1, |&(h, _)| h).is_err();
             self.refused |= refused;
             let same = |&(h, i): &(u64, u32)| {
@@ -168,11 +168,11 @@ impl Merge {
             let index = match self.table.entry(hash, same, |&(h, _)| h) {
                 hashbrown::hash_table::Entry::Occupied(o) => o.get().1,
                 hashbrown::hash_table::Entry::Vacant(v) => {
-                    let taken = next.bytes() + size_of::<u32>() * self.edges.len();
+                    let taken = next.held_bytes() + size_of::<u32>() * self.edges.len();
                     let full = refused || taken >= self.bytes && next.len() >= CUT;
                     if full || next.len() >= self.room {
                         let why = if full { Stop::Memory } else { Stop::NodeBudget };
-                        self.stop = self.stop.or(why);
+                        self.stop = self.stop.combine_with(why);
                         self.edges.push(DEAD);
                         continue;
                     }

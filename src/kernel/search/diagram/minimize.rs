@@ -12,7 +12,7 @@ use hashbrown::hash_map::Entry;
 ///
 /// # Complexity
 /// O(edges).
-pub(in crate::search) fn minimal(
+pub(in crate::search) fn minimize_diagram(
     mut layers: Vec<Layer>,
     mut terminals: Vec<Redundancy>,
 ) -> Diagram {
@@ -21,7 +21,7 @@ pub(in crate::search) fn minimal(
     let mut different = Vec::new();
     let mut named: Vec<u32> = Vec::new();
     for r in terminals {
-        let number = index(different.len());
+        let number = node_index(different.len());
         named.push(*known.entry(r).or_insert_with(|| {
             different.push(r);
             number
@@ -43,14 +43,14 @@ pub(in crate::search) fn minimal(
                 Entry::Occupied(o) => *o.get(),
                 Entry::Vacant(v) => {
                     layer.edges.extend_from_slice(row);
-                    *v.insert(index(layer.edges.len() / layer.choices - 1))
+                    *v.insert(node_index(layer.edges.len() / layer.choices - 1))
                 }
             });
         }
         layer.nodes = layer.edges.len() / layer.choices;
     }
     number_from_the_root(&mut layers, &mut terminals);
-    Diagram::whole(layers, terminals)
+    Diagram::from_layers(layers, terminals)
 }
 
 /// Numbers the nodes in the order in which they are reached, and removes those that are not.
@@ -67,7 +67,7 @@ fn number_from_the_root(layers: &mut [Layer], terminals: &mut Vec<Redundancy>) {
                     DEAD => DEAD,
                     e => *names.entry(e).or_insert_with(|| {
                         below.push(e);
-                        index(below.len() - 1)
+                        node_index(below.len() - 1)
                     }),
                 });
             }
@@ -78,6 +78,6 @@ fn number_from_the_root(layers: &mut [Layer], terminals: &mut Vec<Redundancy>) {
     *terminals = met.iter().map(|&i| terminals[i as usize]).collect();
 }
 
-fn index(i: usize) -> u32 {
+fn node_index(i: usize) -> u32 {
     u32::try_from(i).expect("no more nodes than edges can name")
 }

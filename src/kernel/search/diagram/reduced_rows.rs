@@ -33,7 +33,7 @@ impl Rows {
     }
 
     /// Appends the pivots as bits, and of each row the numbers outside of pivots' columns. Different spans append different words.
-    pub(super) fn pack(&self, out: &mut Vec<Residue>) {
+    pub(super) fn pack_into(&self, out: &mut Vec<Residue>) {
         let start = out.len();
         out.resize(start + self.width.div_ceil(64), 0);
         self.pivots
@@ -51,26 +51,26 @@ impl Rows {
     }
 
     /// Returns the rows packed alone.
-    pub(in crate::search) fn packed(&self) -> Vec<Residue> {
+    pub(in crate::search) fn to_packed(&self) -> Vec<Residue> {
         let mut out = Vec::new();
-        self.pack(&mut out);
+        self.pack_into(&mut out);
         out
     }
 
     /// Takes the rows of a width that were packed.
-    pub(in crate::search) fn unpack(
+    pub(in crate::search) fn unpack_rows(
         &mut self,
         arithmetic: &mut Arithmetic,
         width: usize,
         mut packed: &[Residue],
     ) {
         let places: Vec<usize> = (0..width).collect();
-        self.spread(arithmetic, width, &places, &mut packed);
+        self.unpack_spread(arithmetic, width, &places, &mut packed);
     }
 
     /// Reads packed rows, puts each coordinate at its place among `width` ones, and advances `packed` behind them. There are no rows if
     /// nothing was packed, as before the first variable of a part.
-    pub(super) fn spread(
+    pub(super) fn unpack_spread(
         &mut self,
         arithmetic: &mut Arithmetic,
         width: usize,
@@ -138,7 +138,7 @@ impl Rows {
     }
 
     /// The rows with each coordinate at its place of those of a width, ascending, and nothing at the others.
-    pub(super) fn widened(&self, width: usize, places: &[usize]) -> Rows {
+    pub(super) fn widen_to(&self, width: usize, places: &[usize]) -> Rows {
         let mut data = vec![0; self.rank() * width];
         for (row, own) in data.chunks_exact_mut(width.max(1)).zip(self.rows()) {
             places.iter().zip(own).for_each(|(&at, &x)| row[at] = x);
@@ -155,7 +155,7 @@ impl Rows {
     /// # Sources
     /// Zassenhaus' algorithm: rows (a, a) of the first space and (b, 0) of the second one are reduced. Rows that start with zeros contain a
     /// basis of the intersection.
-    pub(super) fn meet(&self, arithmetic: &mut Arithmetic, other: &Rows) -> Rows {
+    pub(super) fn intersect_with(&self, arithmetic: &mut Arithmetic, other: &Rows) -> Rows {
         if self.pivots == other.pivots && self.data == other.data {
             return self.clone();
         }
@@ -191,7 +191,7 @@ impl Rows {
             return;
         };
         if vector[pivot] != f.one() {
-            let scale = arithmetic.inverse(vector[pivot]);
+            let scale = arithmetic.cached_inverse(vector[pivot]);
             vector[pivot..]
                 .iter_mut()
                 .filter(|x| **x != 0)
@@ -223,7 +223,7 @@ impl Arithmetic {
         }
     }
 
-    fn inverse(&mut self, a: Residue) -> Residue {
+    fn cached_inverse(&mut self, a: Residue) -> Residue {
         let slot = (a.wrapping_mul(0x9e37_79b9_7f4a_7c15) >> 54) as usize;
         if self.inverses[slot].0 != a {
             self.inverses[slot] = (a, self.field.inv(a));

@@ -69,11 +69,11 @@ impl Spent {
     }
 
     /// Adds the constraints that a variable makes redundant in a lane; lane 0 is the free state's.
-    pub(in crate::search) fn add(&mut self, lane: usize, redundant: u32) {
+    pub(in crate::search) fn add_redundant(&mut self, lane: usize, redundant: u32) {
         match lane.checked_sub(1) {
             None => self.internal += redundant,
             Some(lane) => {
-                let count = self.lane(lane);
+                let count = self.lane_count(lane);
                 if *count != RULED_OUT {
                     *count += i32::try_from(redundant).unwrap_or(i32::MAX);
                 }
@@ -83,7 +83,7 @@ impl Spent {
 
     /// Says that a lane of a searched state does not apply to these choices.
     pub(in crate::search) fn rule_out(&mut self, lane: usize) {
-        *self.lane(lane - 1) = RULED_OUT;
+        *self.lane_count(lane - 1) = RULED_OUT;
     }
 
     /// Returns whether a lane does not apply.
@@ -91,7 +91,7 @@ impl Spent {
         lane > 0 && self.lanes.get(lane - 1) == Some(&RULED_OUT)
     }
 
-    fn lane(&mut self, i: usize) -> &mut i32 {
+    fn lane_count(&mut self, i: usize) -> &mut i32 {
         if self.lanes.len() <= i {
             self.lanes.resize(i + 1, 0);
         }
@@ -112,7 +112,7 @@ impl Spent {
 
     /// Replaces the counts of the lanes by those of the variant. External redundant constraints are those that the searched state has
     /// beyond the free one. Harmful ones are those that friction does not explain if the face that explains most takes moments.
-    pub(in crate::search) fn settle(&mut self, roles: &[Role], limits: &Limits) {
+    pub(in crate::search) fn settle_counts(&mut self, roles: &[Role], limits: &Limits) {
         let free = self.counted_of_free(limits);
         let (mut state, mut common, mut harmless) = (0, free, None::<i32>);
         for (i, role) in roles
@@ -139,7 +139,7 @@ impl Spent {
 
     /// Returns whether the mechanism has no more redundant constraints than it may have, nor the searched state, whose lane is the first,
     /// more than it may add to these.
-    pub(in crate::search) fn within(&self, limits: &Limits) -> bool {
+    pub(in crate::search) fn is_within(&self, limits: &Limits) -> bool {
         let state = self.lanes.first().map_or(0, |&n| i64::from(n));
         let of_free = if limits.beside_free {
             0
@@ -179,7 +179,7 @@ impl Spent {
     }
 
     /// Returns numbers that tell it from others.
-    pub(in crate::search) fn words(&self) -> impl Iterator<Item = u64> {
+    pub(in crate::search) fn hash_words(&self) -> impl Iterator<Item = u64> {
         let lanes = self.lanes.iter().map(|&x| u64::from(x.cast_unsigned()));
         std::iter::once(u64::from(self.internal)).chain(lanes)
     }
@@ -195,13 +195,13 @@ mod tests {
         let after = |redundant: u32| {
             let mut spent = Spent::default();
             spent.rule_out(1);
-            spent.add(1, redundant);
-            spent.words().collect::<Vec<_>>()
+            spent.add_redundant(1, redundant);
+            spent.hash_words().collect::<Vec<_>>()
         };
         assert_eq!(after(0), after(3));
         // One that applies does count.
         let mut spent = Spent::default();
-        spent.add(1, 3);
+        spent.add_redundant(1, 3);
         assert_ne!(spent.lanes, Spent::default().lanes);
     }
 }

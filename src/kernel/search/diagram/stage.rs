@@ -31,10 +31,10 @@ pub(in crate::search) fn one_from_another(field: Field, spans: &[&[Vec<Residue>]
     order.sort_by_key(|&c| spans[c].len());
     let mut out: Vec<Grown> = Vec::with_capacity(spans.len());
     for (i, &choice) in order.iter().enumerate() {
-        let whole = Echelon::of(field, spans[choice]);
+        let whole = Echelon::from_vectors(field, spans[choice]);
         let contained = |c: &&usize| spans[**c].iter().all(|t| whole.contains(t));
         let from = order[..i].iter().rev().find(contained).copied();
-        let mut known = Echelon::of(field, from.into_iter().flat_map(|c| spans[c]));
+        let mut known = Echelon::from_vectors(field, from.into_iter().flat_map(|c| spans[c]));
         let new = spans[choice].iter().filter(|t| known.insert(t));
         out.push(Grown {
             choice,
@@ -88,7 +88,7 @@ impl Columns {
     }
 
     /// Returns the maximum number of dimensions that each choice adds, by number.
-    pub(in crate::search) fn dimensions(&self) -> Vec<usize> {
+    pub(in crate::search) fn added_dimensions(&self) -> Vec<usize> {
         let mut out = vec![0; self.growth.len()];
         for g in &self.growth {
             out[g.choice] = g.from.map_or(0, |from| out[from]) + g.more.len();

@@ -18,7 +18,7 @@ pub enum Stop {
 impl Stop {
     /// Returns the reason for two parts of one search: an interruption, otherwise the first that is not [`Stop::Exhausted`].
     #[must_use]
-    pub fn or(self, other: Stop) -> Stop {
+    pub fn combine_with(self, other: Stop) -> Stop {
         match (self, other) {
             (Stop::Exhausted, _) | (_, Stop::Interrupted) => other,
             _ => self,

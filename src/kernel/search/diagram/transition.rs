@@ -33,7 +33,7 @@ impl Children {
     }
 
     /// Takes a child.
-    fn take(&mut self, child: &Growing) {
+    fn take_child(&mut self, child: &Growing) {
         if !child.alive {
             self.found.push(None);
             return;
@@ -46,7 +46,7 @@ impl Children {
         }
         self.data.extend_from_slice(matrix);
         let spent = child.spent.clone();
-        let child = (hash(matrix, &spent), spent, start, self.data.len());
+        let child = (hash_child(matrix, &spent), spent, start, self.data.len());
         self.found.push(Some(child));
     }
 }
@@ -82,10 +82,10 @@ impl Worker {
     }
 
     /// Takes a subspace off a packed node and extends it by each choice; `part` says which of the two it is.
-    fn grow(&mut self, part: usize, columns: &Columns, packed: &mut &[Residue]) {
+    fn grow_choices(&mut self, part: usize, columns: &Columns, packed: &mut &[Residue]) {
         let Columns { width, places, .. } = columns;
         let base = &mut self.bases[part];
-        base.spread(&mut self.arithmetic, *width, places, packed);
+        base.unpack_spread(&mut self.arithmetic, *width, places, packed);
         let grown = &mut self.grown[part];
         grown.resize(columns.growth.len(), Rows::default());
         for g in &columns.growth {
@@ -103,21 +103,21 @@ impl Worker {
     }
 
     /// Appends all children of a node, in order of choices.
-    pub(in crate::search) fn children(
+    pub(in crate::search) fn append_children(
         &mut self,
         stage: &Stage<'_>,
         mut matrix: &[Residue],
         spent: &Spent,
         out: &mut Children,
     ) {
-        self.begin(stage.choices, spent);
+        self.begin_children(stage.choices, spent);
         for (number, lane) in stage.lanes.iter().enumerate() {
             if spent.is_ruled_out(number) {
                 continue;
             }
-            self.grow(0, &lane.all, &mut matrix);
+            self.grow_choices(0, &lane.all, &mut matrix);
             if let Some(harmless) = &lane.harmless {
-                self.grow(1, harmless, &mut matrix);
+                self.grow_choices(1, harmless, &mut matrix);
             }
             let children = self.children.iter_mut().enumerate();
             for (choice, child) in children.filter(|(_, child)| child.alive) {
@@ -140,23 +140,25 @@ impl Worker {
                 }
                 // A row that starts in the gap is a motion that the contours forbid; directions of the gap that no row has are redundant.
                 let gap = lane.all.closing;
-                child.spent.add(number, count(gap - all.rank_before(gap)));
+                child
+                    .spent
+                    .add_redundant(number, to_u32(gap - all.rank_before(gap)));
                 all.drop_first(gap);
-                all.pack(&mut child.packed);
+                all.pack_into(&mut child.packed);
                 if let Some((columns, rows)) = &mut harmless {
                     rows.drop_first(columns.closing);
-                    rows.pack(&mut child.packed);
+                    rows.pack_into(&mut child.packed);
                 }
-                child.alive = child.spent.within(stage.limits);
+                child.alive = child.spent.is_within(stage.limits);
             }
         }
         for child in &mut self.children {
             if let Some(roles) = stage.ending.as_ref().filter(|_| child.alive) {
                 child.alive = child.spent.holds_all(roles);
-                child.spent.settle(roles, stage.limits);
+                child.spent.settle_counts(roles, stage.limits);
                 child.alive &= child.spent.state_within(stage.limits);
             }
-            out.take(child);
+            out.take_child(child);
         }
     }
 
@@ -169,8 +171,8 @@ impl Worker {
         spent: &Spent,
         out: &mut Children,
     ) {
-        self.begin(stage.columns.growth.len(), spent);
-        self.grow(0, &stage.columns, &mut matrix);
+        self.begin_children(stage.columns.growth.len(), spent);
+        self.grow_choices(0, &stage.columns, &mut matrix);
         let gap = stage.columns.closing;
         for (rows, child) in self.grown[0].iter_mut().zip(&mut self.children) {
             // A pivot there is a motion that closes every contour and moves a kept link.
@@ -181,14 +183,14 @@ impl Worker {
             child.alive = !goes_wrong && rows.rank_before(gap) == gap;
             if child.alive {
                 rows.drop_first(gap);
-                rows.pack(&mut child.packed);
+                rows.pack_into(&mut child.packed);
             }
-            out.take(child);
+            out.take_child(child);
         }
     }
 
     /// Begins the children of a node.
-    fn begin(&mut self, choices: usize, spent: &Spent) {
+    fn begin_children(&mut self, choices: usize, spent: &Spent) {
         self.children.resize_with(choices, || Growing {
             spent: Spent::default(),
             packed: Vec::new(),
@@ -202,14 +204,14 @@ impl Worker {
     }
 }
 
-fn count(directions: usize) -> u32 {
+fn to_u32(directions: usize) -> u32 {
     u32::try_from(directions).unwrap_or(u32::MAX)
 }
 
 /// A fixed hash: the same on every machine and run, so that nothing depends on a random seed.
-fn hash(matrix: &[Residue], spent: &Spent) -> u64 {
+fn hash_child(matrix: &[Residue], spent: &Spent) -> u64 {
     let mut h = 0x517c_c1b7_2722_0a95_u64;
-    for x in spent.words().chain(matrix.iter().copied()) {
+    for x in spent.hash_words().chain(matrix.iter().copied()) {
         let wide = u128::from(h ^ x) * 0x9e37_79b9_7f4a_7c15_u128;
         h = (wide >> 64) as u64 ^ wide as u64;
     }

@@ -15,7 +15,7 @@ use std::collections::BTreeMap;
 ///
 /// # Complexity
 /// O(v log v) comparisons of choices, then O((v + n) log n) for each of at most n rounds of refinement.
-pub(in crate::search) fn canonical(
+pub(in crate::search) fn canonical_order(
     mechanism: &Mechanism,
     space: &Space,
     variables: &[usize],
@@ -34,7 +34,7 @@ pub(in crate::search) fn canonical(
         let joints = space.variables[v].joints.iter();
         joints.flat_map(|&j| mechanism.joints[j].links)
     };
-    let mut colour = ranks(variables.iter().map(effect));
+    let mut colour = class_ranks(variables.iter().map(effect));
     let links: Vec<LinkId> = mechanism.link_ids().collect();
     let role = |&l: &LinkId| match mechanism.links[l].role {
         Role::Frame => 0,
@@ -42,7 +42,7 @@ pub(in crate::search) fn canonical(
         Role::Object => 2,
         Role::Inner => 3,
     };
-    let mut of_link = ranks(links.iter().map(role));
+    let mut of_link = class_ranks(links.iter().map(role));
     let classes = |colours: &[usize]| colours.iter().max().map_or(0, |m| m + 1);
     loop {
         let before = classes(&colour) + classes(&of_link);
@@ -51,13 +51,13 @@ pub(in crate::search) fn canonical(
             joined(v).for_each(|l| around.entry(l).or_default().push(c));
         }
         around.values_mut().for_each(|c| c.sort_unstable());
-        of_link = ranks(links.iter().map(|l| (of_link[l.index()], around.get(l))));
+        of_link = class_ranks(links.iter().map(|l| (of_link[l.index()], around.get(l))));
         let with_links = variables.iter().zip(&colour).map(|(&v, &c)| {
             let mut ends: Vec<usize> = joined(v).map(|l| of_link[l.index()]).collect();
             ends.sort_unstable();
             (c, ends)
         });
-        colour = ranks(with_links.collect::<Vec<_>>().into_iter());
+        colour = class_ranks(with_links.collect::<Vec<_>>().into_iter());
         if classes(&colour) + classes(&of_link) == before {
             break;
         }
@@ -72,7 +72,7 @@ pub(in crate::search) fn canonical(
 }
 
 /// Returns the rank of each value among the different values.
-fn ranks<T: Ord>(values: impl Iterator<Item = T> + Clone) -> Vec<usize> {
+fn class_ranks<T: Ord>(values: impl Iterator<Item = T> + Clone) -> Vec<usize> {
     let mut sorted: Vec<T> = values.clone().collect();
     sorted.sort_unstable();
     sorted.dedup();

@@ -52,12 +52,12 @@ impl Joined {
     }
 
     /// The place of a variable in the canonical order.
-    pub(super) fn place(&self, variable: usize) -> usize {
+    pub(super) fn canonical_place(&self, variable: usize) -> usize {
         self.places[variable]
     }
 
     /// The variables of a trial, as bits by their places.
-    pub(super) fn taken(&self, trial: &Trial) -> Vec<u64> {
+    pub(super) fn taken_bits(&self, trial: &Trial) -> Vec<u64> {
         let mut taken = vec![0; self.variables.len().div_ceil(64)];
         for place in trial.order.iter().map(|&v| self.places[v]) {
             taken[place / 64] |= 1 << (place % 64);
@@ -66,11 +66,11 @@ impl Joined {
     }
 
     /// Ways to go on: ears, the shortest first, or where no contour is left the next joint; nothing more for a whole order.
-    pub(super) fn ears(&self, trial: &Trial) -> Vec<Vec<usize>> {
+    pub(super) fn find_ears(&self, trial: &Trial) -> Vec<Vec<usize>> {
         if trial.order.len() == self.variables.len() {
             return vec![Vec::new()];
         }
-        let taken = self.taken(trial);
+        let taken = self.taken_bits(trial);
         let is_left = |e: usize| {
             let place = self.places[self.edges[e].0];
             taken[place / 64] >> (place % 64) & 1 == 0
@@ -95,7 +95,7 @@ impl Joined {
                     continue;
                 }
                 let ends = |l: LinkId| if begun { is_live(l) } else { l == from };
-                if let Some(ear) = search.ear(e, to, is_left, ends)
+                if let Some(ear) = search.shortest_ear(e, to, is_left, ends)
                     && !out.contains(&ear)
                 {
                     out.push(ear);
@@ -122,7 +122,7 @@ struct BreadthFirst<'a> {
 
 impl BreadthFirst<'_> {
     /// Returns the shortest path over an edge and then over remaining edges from `to` until `ends` is true, as variables.
-    fn ear(
+    fn shortest_ear(
         &mut self,
         first: usize,
         to: LinkId,
@@ -134,7 +134,7 @@ impl BreadthFirst<'_> {
         let mut found = None;
         while let Some(at) = queue.pop_front() {
             if ends(at) {
-                found = Some(self.way(first, at));
+                found = Some(self.way_back(first, at));
                 break;
             }
             for &e in &self.of.at[at.index()] {
@@ -152,7 +152,7 @@ impl BreadthFirst<'_> {
     }
 
     /// The variables from the first edge on to a link.
-    fn way(&self, first: usize, mut link: LinkId) -> Vec<usize> {
+    fn way_back(&self, first: usize, mut link: LinkId) -> Vec<usize> {
         let mut way = Vec::new();
         while let Some(e) = self.back[link.index()] {
             let (variable, [a, b]) = self.of.edges[e];

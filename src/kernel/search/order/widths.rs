@@ -10,7 +10,7 @@
 //! Oxley, "Matroid Theory" (2011), section 2.1, for the rank of the dual; connectivity of a set and its complement: Oum & Seymour,
 //! "Approximating clique-width and branch-width", J. Combin. Theory B 96 (2006).
 
-use crate::linalg::echelon::{Echelon, relations};
+use crate::linalg::echelon::{Echelon, linear_relations};
 use crate::linalg::modp::{Field, Residue};
 use crate::search::question::space::Space;
 use crate::search::reduce::self_stress_space::ClosingRows;
@@ -58,15 +58,15 @@ impl Widths {
     ) -> Widths {
         let all = [variables, later].concat();
         let of_rows = |rows_in_use: usize| added_vectors(field, space, rows, &all, rows_in_use);
-        let closing = rows.closing();
+        let closing = rows.count_closing();
         Widths {
             field,
-            vectors: [closing, closing + rows.kept()].map(of_rows),
+            vectors: [closing, closing + rows.count_kept()].map(of_rows),
         }
     }
 
     /// Returns the order of no variable yet.
-    pub(in crate::search) fn start(&self) -> Trial {
+    pub(in crate::search) fn empty_trial(&self) -> Trial {
         let width = || Width {
             spans: [Echelon::new(self.field), Echelon::new(self.field)],
             vectors: 0,
@@ -79,7 +79,7 @@ impl Widths {
     }
 
     /// Adds a variable to an order.
-    pub(in crate::search) fn add(&self, trial: &mut Trial, variable: usize) {
+    pub(in crate::search) fn add_variable(&self, trial: &mut Trial, variable: usize) {
         let mut open = [0; 2];
         for (i, width) in trial.widths.iter_mut().enumerate() {
             for pair in self.vectors[i].get(&variable).into_iter().flatten() {
@@ -106,23 +106,23 @@ fn added_vectors(
     rows_in_use: usize,
 ) -> BTreeMap<usize, Vec<Pair>> {
     let columns = |v: usize, c: usize| {
-        let mut columns = rows.columns(field, &space.variables[v], c);
+        let mut columns = rows.choice_columns(field, &space.variables[v], c);
         columns.iter_mut().for_each(|c| c.truncate(rows_in_use));
         columns
     };
-    let original = Echelon::of(field, variables.iter().flat_map(|&v| columns(v, 0)));
+    let original = Echelon::from_vectors(field, variables.iter().flat_map(|&v| columns(v, 0)));
     let (mut of_variable, mut all) = (Vec::new(), Vec::new());
     for &v in variables {
         let mut own = Echelon::new(field);
         for mut column in (1..space.variables[v].choices.len()).flat_map(|c| columns(v, c)) {
-            original.reduce(&mut column);
+            original.reduce_vector(&mut column);
             if own.insert(&column) {
                 of_variable.push(v);
                 all.push(column);
             }
         }
     }
-    let relations = relations(field, &all);
+    let relations = linear_relations(field, &all);
     let mut vectors: BTreeMap<usize, Vec<Pair>> = BTreeMap::new();
     for (i, (v, vector)) in of_variable.into_iter().zip(all).enumerate() {
         let dual = relations.iter().map(|r| r[i]).collect();

@@ -47,7 +47,7 @@ impl CostTable {
     /// Returns the cost of a change above that of the present joint: another joint in its place, an unloading joint with its link, or both.
     /// `drive` says that the joint is driven.
     #[must_use]
-    pub fn change(
+    pub fn change_cost(
         &self,
         present: &JointOption,
         drive: bool,
@@ -55,14 +55,16 @@ impl CostTable {
         unloading: Option<&JointOption>,
     ) -> i64 {
         let change = self.change + if drive { self.driven } else { 0 };
-        let replaced = to.map_or(0, |o| self.option(o) - self.option(present) + change);
-        let inserted = unloading.map_or(0, |u| self.option(u) + self.link + self.change);
+        let replaced = to.map_or(0, |o| {
+            self.option_cost(o) - self.option_cost(present) + change
+        });
+        let inserted = unloading.map_or(0, |u| self.option_cost(u) + self.link + self.change);
         replaced.max(0) + inserted
     }
 
     /// The cost of a joint: the option's own, its name's, its type's, or by freedoms for a custom type.
     #[must_use]
-    pub fn option(&self, option: &JointOption) -> i64 {
+    pub fn option_cost(&self, option: &JointOption) -> i64 {
         let named = |n: &str| {
             let stated = self.by_type.iter().find(|(name, _)| name == n);
             let default = || JointType::from_name(n).map(|t| t.default_cost_milli());

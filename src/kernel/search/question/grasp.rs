@@ -8,7 +8,7 @@
 use crate::closure::Closure;
 use crate::geom::exact::{ExactError, ExactField};
 use crate::model::mechanism::{JointId, LinkId, Mechanism, Role, StateId};
-use crate::redundancy::motion::{motions, twist};
+use crate::redundancy::motion::{link_twist, motion_basis};
 
 /// A body to be held, with the links that may hold it.
 #[derive(Debug, Clone)]
@@ -23,12 +23,12 @@ pub(crate) struct Grasp {
 #[must_use]
 pub fn is_free(mechanism: &Mechanism, link: LinkId) -> bool {
     let mut free = mechanism.joints_in(StateId::FREE);
-    link == mechanism.frame() || free.any(|j| mechanism.joints[j].links.contains(&link))
+    link == mechanism.frame_link() || free.any(|j| mechanism.joints[j].links.contains(&link))
 }
 
 /// The links of the free mechanism that a body hangs on in a state: over joints that the state adds, and other bodies that
 /// it adds.
-fn jaws(mechanism: &Mechanism, state: StateId, body: LinkId) -> Vec<LinkId> {
+fn find_jaws(mechanism: &Mechanism, state: StateId, body: LinkId) -> Vec<LinkId> {
     let added: Vec<JointId> = mechanism.joints_added_in(state).collect();
     let (mut bodies, mut jaws) = (vec![body], Vec::new());
     let mut next = 0;
@@ -55,7 +55,7 @@ fn jaws(mechanism: &Mechanism, state: StateId, body: LinkId) -> Vec<LinkId> {
 /// Returns the bodies to be held in a state. These are the objects of the file, if `objects` is set, and the links that the search holds,
 /// if the state joins them to the mechanism.
 #[must_use]
-pub(crate) fn grasps(mechanism: &Mechanism, state: StateId, objects: bool) -> Vec<Grasp> {
+pub(crate) fn find_grasps(mechanism: &Mechanism, state: StateId, objects: bool) -> Vec<Grasp> {
     let wanted = |l: &LinkId| {
         let object = objects && mechanism.links[*l].role == Role::Object;
         object || mechanism.search.hold.contains(l) && !is_free(mechanism, *l)
@@ -63,7 +63,7 @@ pub(crate) fn grasps(mechanism: &Mechanism, state: StateId, objects: bool) -> Ve
     let links = mechanism.link_ids().filter(wanted);
     let each = links.map(|body| Grasp {
         body,
-        jaws: jaws(mechanism, state, body),
+        jaws: find_jaws(mechanism, state, body),
     });
     each.filter(|g| !g.jaws.is_empty()).collect()
 }
@@ -75,17 +75,20 @@ pub(crate) fn grasps(mechanism: &Mechanism, state: StateId, objects: bool) -> Ve
 ///
 /// # Complexity
 /// One elimination of J of the state.
-pub(crate) fn loose(
+pub(crate) fn loose_bodies(
     exact: &ExactField,
     mechanism: &Mechanism,
     state: StateId,
     grasps: &[Grasp],
 ) -> Result<Vec<LinkId>, ExactError> {
     let closure = Closure::new(exact, mechanism, state)?;
-    let kernel = motions(exact, &closure);
+    let kernel = motion_basis(exact, &closure);
     let twists = |l: LinkId| -> Vec<_> {
         let motion = closure.link_motion(exact, mechanism, l);
-        kernel.iter().map(|k| twist(exact, &motion, k)).collect()
+        kernel
+            .iter()
+            .map(|k| link_twist(exact, &motion, k))
+            .collect()
     };
     let held = |g: &Grasp| {
         let own = twists(g.body);

@@ -25,7 +25,7 @@ pub struct Kept {
 impl Kept {
     /// Returns the links, and for each kept drive the link that represents it; see [`Mechanism::drive_link`].
     #[must_use]
-    pub(in crate::search) fn bodies(&self, mechanism: &Mechanism) -> Vec<LinkId> {
+    pub(in crate::search) fn kept_bodies(&self, mechanism: &Mechanism) -> Vec<LinkId> {
         let drives = (0..mechanism.kept_drives()).map(|d| mechanism.drive_link(d));
         self.links.iter().copied().chain(drives).collect()
     }
@@ -63,7 +63,7 @@ impl Followed {
     }
 
     /// Enters them in a mechanism.
-    pub(super) fn enter(&self, mechanism: &mut Arc<Mechanism>) {
+    pub(super) fn enter_drives(&self, mechanism: &mut Arc<Mechanism>) {
         let spec = &mechanism.search;
         if (&spec.drives, spec.locks_drives) != (&self.freedoms, self.locked) {
             let spec = &mut Arc::make_mut(mechanism).search;

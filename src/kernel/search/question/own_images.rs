@@ -6,7 +6,7 @@ use crate::geom::exact::ExactField;
 use crate::geom::expr::Expr;
 use crate::geom::vector::length;
 use crate::model::mechanism::{Joint, JointId, LinkId, Mechanism, SearchSpec, StateId};
-use crate::search::question::symmetry::check;
+use crate::search::question::symmetry::check_images;
 use itertools::Itertools;
 
 /// Maximum number of mirrors and turns that are examined exactly.
@@ -29,17 +29,25 @@ pub(crate) fn own_images(
     mechanism: &Mechanism,
     state: Option<StateId>,
 ) -> Option<Vec<JointId>> {
-    let found = match mechanism.search.order() {
+    let found = match mechanism.search.symmetry_order() {
         1 => {
-            let find = |order| OwnSymmetry::find(exact, mechanism, state, order);
-            [2, 3].into_iter().find_map(find)?.of(&mechanism.search)
+            let find = |order| OwnSymmetry::find_symmetry(exact, mechanism, state, order);
+            [2, 3]
+                .into_iter()
+                .find_map(find)?
+                .apply_to(&mechanism.search)
         }
         _ => {
-            check(exact, mechanism, state).ok()?;
+            check_images(exact, mechanism, state).ok()?;
             mechanism.search.clone()
         }
     };
-    Some(mechanism.joint_ids().map(|j| found.image(j)).collect())
+    Some(
+        mechanism
+            .joint_ids()
+            .map(|j| found.image_of_joint(j))
+            .collect(),
+    )
 }
 
 /// The joints that a mirror, or part of a turn, carries to each other.
@@ -51,7 +59,7 @@ pub(in crate::search) struct OwnSymmetry {
 
 impl OwnSymmetry {
     /// Returns what is asked of a search with this symmetry in it.
-    pub(in crate::search) fn of(&self, search: &SearchSpec) -> SearchSpec {
+    pub(in crate::search) fn apply_to(&self, search: &SearchSpec) -> SearchSpec {
         let mut out = search.clone();
         if self.mirrored {
             out.mirror = self.groups.iter().map(|g| (g[0], g[1])).collect();
@@ -66,7 +74,7 @@ impl OwnSymmetry {
     /// # Complexity
     /// O(joints^order) groups that are compared, O(joints²) distances for each symmetry that they suggest, and at most a dozen exact
     /// proofs.
-    pub(in crate::search) fn find(
+    pub(in crate::search) fn find_symmetry(
         exact: &ExactField,
         mechanism: &Mechanism,
         state: Option<StateId>,
@@ -77,8 +85,8 @@ impl OwnSymmetry {
         }
         let proven = |one: &OwnSymmetry| {
             let mut symmetric = mechanism.clone();
-            symmetric.search = one.of(&mechanism.search);
-            check(exact, &symmetric, state).is_ok()
+            symmetric.search = one.apply_to(&mechanism.search);
+            check_images(exact, &symmetric, state).is_ok()
         };
         let compared = ComparedJoints::new(mechanism);
         let directions = frame_directions(mechanism);
@@ -86,8 +94,8 @@ impl OwnSymmetry {
         let groups = mechanism.joint_ids().combinations(order);
         let groups = groups.take_while(|g| g[0].index() < FIRST);
         for group in groups.filter(|g| compared.may_be_images(g)) {
-            for carrier in suggested(mechanism, &compared.spots, &directions, &group) {
-                let Some(groups) = compared.groups(mechanism, &carrier, order) else {
+            for carrier in suggest_carriers(mechanism, &compared.spots, &directions, &group) {
+                let Some(groups) = compared.image_groups(mechanism, &carrier, order) else {
                     continue;
                 };
                 let mirrored = carrier.reflects;
@@ -109,7 +117,7 @@ impl OwnSymmetry {
 }
 
 /// Returns the mirrors and turns that may carry two or three joints to each other.
-fn suggested(
+fn suggest_carriers(
     mechanism: &Mechanism,
     spots: &[Spot],
     directions: &[[[Expr; 3]; 3]],
@@ -120,7 +128,7 @@ fn suggested(
         _ => Vec::new(),
     };
     let turns = if group.len() == 3 || mechanism.joints.len() <= TURNED {
-        Isometry::turns(mechanism, directions, &[group.to_vec()])
+        Isometry::find_turns(mechanism, directions, &[group.to_vec()])
     } else {
         Vec::new()
     };
@@ -138,7 +146,7 @@ struct ComparedJoints {
 
 impl ComparedJoints {
     fn new(mechanism: &Mechanism) -> ComparedJoints {
-        let names = |j: &Joint| j.offered().map(|o| o.name.clone()).collect_vec();
+        let names = |j: &Joint| j.offered_options().map(|o| o.name.clone()).collect_vec();
         let of = |j: JointId| {
             let joint = &mechanism.joints[j];
             (&joint.joint_type, joint.drive, names(joint))
@@ -152,7 +160,7 @@ impl ComparedJoints {
         };
         let mut ids = mechanism.joint_ids();
         let first = ids.next();
-        let far = ids.filter_map(|j| Some(compared.apart(first?, j)));
+        let far = ids.filter_map(|j| Some(compared.distance_between(first?, j)));
         compared.near = NEAR * far.fold(0.0, f64::max);
         compared
     }
@@ -161,7 +169,7 @@ impl ComparedJoints {
         self.kinds[a.index()] == self.kinds[b.index()]
     }
 
-    fn apart(&self, a: JointId, b: JointId) -> f64 {
+    fn distance_between(&self, a: JointId, b: JointId) -> f64 {
         let [p, q] = [a, b].map(|j| self.spots[j.index()].point);
         length([0, 1, 2].map(|i| p[i] - q[i]))
     }
@@ -169,7 +177,7 @@ impl ComparedJoints {
     /// Returns whether two or three joints may be each other's images: they are of one kind, and equally far from each other.
     fn may_be_images(&self, group: &[JointId]) -> bool {
         let sides = || group.iter().zip(group.iter().cycle().skip(1));
-        let far = || sides().map(|(&a, &b)| self.apart(a, b));
+        let far = || sides().map(|(&a, &b)| self.distance_between(a, b));
         let (least, most) = (far().fold(f64::MAX, f64::min), far().fold(0.0, f64::max));
         sides().all(|(&a, &b)| self.are_alike(a, b))
             && least >= self.near
@@ -178,7 +186,7 @@ impl ComparedJoints {
 
     /// Returns the joints that become each other if each joint becomes one of its kind between the images of its links, and is back after
     /// `order` times. Links decide which becomes which of joints at one place, such as two rods on one pin.
-    fn groups(
+    fn image_groups(
         &self,
         mechanism: &Mechanism,
         carrier: &Isometry,
@@ -186,7 +194,7 @@ impl ComparedJoints {
     ) -> Option<Vec<Vec<JointId>>> {
         let close = |j: JointId, k: JointId| {
             let [from, to] = [j, k].map(|j| self.spots[j.index()]);
-            let miss = carrier.miss(from, &mechanism.joints[j].joint_type, to);
+            let miss = carrier.miss_of_image(from, &mechanism.joints[j].joint_type, to);
             miss.distance < self.near && miss.angle < NEAR
         };
         let near = |j: JointId| {
@@ -194,7 +202,7 @@ impl ComparedJoints {
             let near = all.filter(|&k| self.are_alike(j, k) && close(j, k));
             near.collect_vec()
         };
-        let frame = mechanism.frame().index();
+        let frame = mechanism.frame_link().index();
         let mut images = PartialImages {
             order,
             joints: vec![None; mechanism.joints.len()],
@@ -203,8 +211,8 @@ impl ComparedJoints {
         images.links[frame] = Some(frame);
         let near = mechanism.joint_ids().map(near).collect_vec();
         let mut steps = STEPS;
-        let images = images.complete(mechanism, &near, &mut steps)?;
-        let groups = mechanism.joint_ids().map(|j| images.round(j));
+        let images = images.complete_images(mechanism, &near, &mut steps)?;
+        let groups = mechanism.joint_ids().map(|j| images.orbit_of(j));
         let groups = groups.filter(|g| g.len() > 1 && g.iter().min() == g.first());
         Some(groups.collect_vec()).filter(|all| !all.is_empty())
     }
@@ -221,7 +229,7 @@ struct PartialImages {
 
 impl PartialImages {
     /// Returns a joint and what it becomes, one after another until it is back, or for as many times as the order.
-    fn round(&self, j: JointId) -> Vec<JointId> {
+    fn orbit_of(&self, j: JointId) -> Vec<JointId> {
         let next = |j: &JointId| self.joints[j.index()].map(JointId::new);
         let all = std::iter::successors(Some(j), next).take(self.order);
         let others = all.skip(1).take_while(|&k| k != j);
@@ -233,7 +241,7 @@ impl PartialImages {
     ///
     /// # Complexity
     /// O(joints²) comparisons a step; one step a joint unless several joints are at one place.
-    fn complete(
+    fn complete_images(
         self,
         mechanism: &Mechanism,
         near: &[Vec<JointId>],
@@ -245,12 +253,13 @@ impl PartialImages {
             .filter(|j| self.joints[j.index()].is_none());
         let choices = open.map(|j| {
             let near = near[j.index()].iter();
-            near.flat_map(|&k| self.with(mechanism, j, k)).collect_vec()
+            near.flat_map(|&k| self.with_image(mechanism, j, k))
+                .collect_vec()
         });
         match choices.min_by_key(Vec::len) {
             None => {
                 let is_back = |j: JointId| {
-                    let round = self.round(j);
+                    let round = self.orbit_of(j);
                     let last = round.last().and_then(|l| self.joints[l.index()]);
                     [1, self.order].contains(&round.len()) && last == Some(j.index())
                 };
@@ -258,21 +267,21 @@ impl PartialImages {
             }
             Some(choices) => choices
                 .into_iter()
-                .find_map(|images| images.complete(mechanism, near, steps)),
+                .find_map(|images| images.complete_images(mechanism, near, steps)),
         }
     }
 
     /// Returns these images with one joint becoming another, its links in either order.
-    fn with(&self, mechanism: &Mechanism, j: JointId, k: JointId) -> Vec<PartialImages> {
+    fn with_image(&self, mechanism: &Mechanism, j: JointId, k: JointId) -> Vec<PartialImages> {
         let ([u, v], [x, y]) = (mechanism.joints[j].links, mechanism.joints[k].links);
         let orders = [[(u, x), (v, y)], [(u, y), (v, x)]].into_iter().unique();
         let role = |l: LinkId| mechanism.links[l].role;
         let fitting = orders.filter_map(|links| {
             let mut out = self.clone();
-            let fits = becomes(&mut out.joints, [j.index(), k.index()], self.order)
+            let fits = set_image(&mut out.joints, [j.index(), k.index()], self.order)
                 && links.into_iter().all(|(a, b)| {
                     role(a) == role(b)
-                        && becomes(&mut out.links, [a.index(), b.index()], self.order)
+                        && set_image(&mut out.links, [a.index(), b.index()], self.order)
                 });
             fits.then_some(out)
         });
@@ -281,7 +290,7 @@ impl PartialImages {
 }
 
 /// Makes one thing become another, and the other it where the order is 2, and returns whether they can.
-fn becomes(images: &mut [Option<usize>], [a, b]: [usize; 2], order: usize) -> bool {
+fn set_image(images: &mut [Option<usize>], [a, b]: [usize; 2], order: usize) -> bool {
     let mut one = |a: usize, b: usize| {
         let others = images.iter().enumerate().filter(|(i, _)| *i != a);
         let is_free = others.into_iter().all(|(_, to)| *to != Some(b));

@@ -16,16 +16,16 @@ const PIVOT: u64 = 1;
 
 /// For each variable the weight of changing its joints, less first.
 #[must_use]
-pub(crate) fn weights(mechanism: &Mechanism, space: &Space) -> Vec<u64> {
-    let of = |&j: &JointId| weight(mechanism, j);
+pub(crate) fn change_weights(mechanism: &Mechanism, space: &Space) -> Vec<u64> {
+    let of = |&j: &JointId| change_weight(mechanism, j);
     let variables = space.variables.iter();
     variables.map(|v| v.joints.iter().map(of).sum()).collect()
 }
 
 /// The weight of changing a joint.
 #[must_use]
-pub(crate) fn weight(mechanism: &Mechanism, joint: JointId) -> u64 {
-    let (frame, here) = (mechanism.frame(), &mechanism.joints[joint]);
+pub(crate) fn change_weight(mechanism: &Mechanism, joint: JointId) -> u64 {
+    let (frame, here) = (mechanism.frame_link(), &mechanism.joints[joint]);
     let driven = if here.drive { DRIVEN } else { 0 };
     let place = match here.links {
         links if links.contains(&frame) => FRAME,
@@ -38,7 +38,7 @@ pub(crate) fn weight(mechanism: &Mechanism, joint: JointId) -> u64 {
 /// Whether a link joins two others and nothing else, neither of them the frame.
 #[must_use]
 pub fn is_rod(mechanism: &Mechanism, link: LinkId) -> bool {
-    let frame = mechanism.frame();
+    let frame = mechanism.frame_link();
     let links = mechanism
         .joints_in(StateId::FREE)
         .map(|j| mechanism.joints[j].links);

@@ -48,7 +48,7 @@ impl RankRange {
     /// # Complexity
     /// O(values).
     #[must_use]
-    pub fn of(values: &[f64], digits: Digits) -> RankRange {
+    pub fn from_values(values: &[f64], digits: Digits) -> RankRange {
         let Some(largest) = values.first().copied().filter(|s| *s > 0.0) else {
             return RankRange::NONE;
         };
@@ -82,7 +82,7 @@ impl RankRange {
 
     /// Whether it may be this rank.
     #[must_use]
-    pub(crate) fn allows(&self, rank: usize) -> bool {
+    pub(crate) fn allows_rank(&self, rank: usize) -> bool {
         (self.least..=self.most).contains(&rank)
     }
 }
@@ -96,7 +96,7 @@ mod tests {
             tolerance,
             undecided,
         };
-        let r = RankRange::of(values, digits);
+        let r = RankRange::from_values(values, digits);
         (r.least, r.most)
     }
 

@@ -1,7 +1,7 @@
 //! The space of variants: for each joint, or all that are each other's images, the choices and what they do.
 
-use crate::closure::coupling::{coefficient, length_ratio};
-use crate::closure::drive::{rate, rate_row};
+use crate::closure::coupling::{coupling_coefficient, length_ratio};
+use crate::closure::drive::{rate_of_twist, rate_row};
 use crate::closure::twist::{MotionSpace, joint_twists};
 use crate::geom::Scalars;
 use crate::geom::exact::{ExactError, ExactField};
@@ -88,7 +88,8 @@ impl Space {
             .map(|&j| (j, false))
             .chain(added.map(|j| (j, true)).collect::<Vec<_>>())
         {
-            let image = |&j: &JointId| Some(mechanism.search.image(j)).filter(|_| symmetric);
+            let image =
+                |&j: &JointId| Some(mechanism.search.image_of_joint(j)).filter(|_| symmetric);
             let mut others = std::iter::successors(image(&j), image).take_while(|&i| i != j);
             let found = others.find_map(|i| groups.iter().position(|(g, _)| g.contains(&i)));
             match found.map(|at| &mut groups[at]) {
@@ -100,7 +101,7 @@ impl Space {
         for (joints, external) in groups {
             let per_joint: Vec<Vec<Choice>> = joints
                 .iter()
-                .map(|&j| choices(exact, &motion, mechanism, j, external, state, costs))
+                .map(|&j| joint_choices(exact, &motion, mechanism, j, external, state, costs))
                 .collect::<Result<_, _>>()?;
             let mut merged = per_joint[0].clone();
             for other in &per_joint[1..] {
@@ -136,7 +137,7 @@ impl Space {
     }
 }
 
-fn choices(
+fn joint_choices(
     exact: &ExactField,
     motion: &MotionSpace<Residue>,
     mechanism: &Mechanism,
@@ -156,7 +157,8 @@ fn choices(
     for unloading in std::iter::once(None).chain(unloading.map(|(u, _)| Some(u))) {
         for (i, option) in joint.options.iter().enumerate().filter(offered) {
             let inserted = unloading.map(|u| &joint.unloading[u]);
-            let [mut columns, added] = columns(exact, motion, mechanism, id, option, inserted)?;
+            let [mut columns, added] =
+                option_columns(exact, motion, mechanism, id, option, inserted)?;
             // W is the free state's: a contact is absent there, its unloading joint is not.
             let absent = if external { columns.len() } else { 0 };
             columns.extend(added);
@@ -171,7 +173,7 @@ fn choices(
                     t.resize(t.len() + rates, 0);
                     span.insert(&t);
                 }
-                Ok(span.reduced())
+                Ok(span.reduced_rows())
             };
             let face = external && motion.dim() == 6 && option.joint_type == JointType::Fixed;
             let friction = || -> Result<Face, ExactError> {
@@ -187,7 +189,7 @@ fn choices(
                 faces: vec![face.then(friction).transpose()?],
                 freedoms,
                 changes: u32::from(i != 0) + u32::from(unloading.is_some()),
-                cost_milli: costs.change(
+                cost_milli: costs.change_cost(
                     &joint.options[0],
                     joint.drive,
                     (i != 0).then_some(option),
@@ -204,7 +206,7 @@ fn choices(
 ///
 /// # Errors
 /// Returns an error if a coordinate has no value in the number system.
-pub(in crate::search) fn columns<S: Scalars>(
+pub(in crate::search) fn option_columns<S: Scalars>(
     s: &S,
     motion: &MotionSpace<S::Number>,
     mechanism: &Mechanism,
@@ -215,11 +217,11 @@ pub(in crate::search) fn columns<S: Scalars>(
     let twists = |o: &JointOption| joint_twists(s, motion, &o.frame, &o.joint_type);
     let mut own = twists(option)?
         .into_iter()
-        .map(|(f, t)| coupled(s, mechanism, joint, option, Some(f), t))
+        .map(|(f, t)| coupled_twist(s, mechanism, joint, option, Some(f), t))
         .collect::<Result<Vec<_>, _>>()?;
     if let Some(row) = rate_row(s, motion, mechanism, joint, &option.frame)? {
         let driven = |twist: &mut Vec<S::Number>| {
-            let rate = rate(s, &row, twist);
+            let rate = rate_of_twist(s, &row, twist);
             twist.push(rate);
         };
         own.iter_mut().for_each(driven);
@@ -238,7 +240,7 @@ pub(in crate::search) fn columns<S: Scalars>(
 ///
 /// # Errors
 /// Returns an error if a coordinate has no value in the number system.
-pub(in crate::search) fn coupled<S: Scalars>(
+pub(in crate::search) fn coupled_twist<S: Scalars>(
     s: &S,
     mechanism: &Mechanism,
     joint: JointId,
@@ -256,7 +258,7 @@ pub(in crate::search) fn coupled<S: Scalars>(
         // An option may have its axis written in another length.
         let mut entry = s.eval(&length_ratio((&option.frame, freedom), (present, freedom)))?;
         if end == 0 {
-            entry = s.mul(entry, s.eval(&coefficient(mechanism, coupling))?);
+            entry = s.mul(entry, s.eval(&coupling_coefficient(mechanism, coupling))?);
         }
         twist.push(entry);
     }

@@ -93,7 +93,7 @@ pub enum MirrorError {
 /// Refuses kept drives whose images are not kept drives: of two variants that are images of each other, only one might keep the drives.
 pub(in crate::search) fn check_drives(mechanism: &Mechanism) -> Result<(), MirrorError> {
     for drive in &mechanism.search.drives {
-        let image = mechanism.search.image(drive.joint);
+        let image = mechanism.search.image_of_joint(drive.joint);
         if mechanism.kept_drive(image).is_none() {
             let [driven, image] = [drive.joint, image].map(|j| mechanism.joints[j].id.clone());
             return Err(MirrorError::UnlikeDrives { driven, image });
@@ -106,12 +106,12 @@ pub(in crate::search) fn check_drives(mechanism: &Mechanism) -> Result<(), Mirro
 ///
 /// # Errors
 /// Returns an error if they do not.
-pub(in crate::search) fn check(
+pub(in crate::search) fn check_images(
     exact: &ExactField,
     mechanism: &Mechanism,
     state: Option<StateId>,
 ) -> Result<(), MirrorError> {
-    if mechanism.search.order() == 1 {
+    if mechanism.search.symmetry_order() == 1 {
         return Err(MirrorError::NoPairs {
             mechanism: mechanism.name.clone(),
         });
@@ -124,19 +124,27 @@ pub(in crate::search) fn check(
     for &j in &joints {
         let (a, b) = (
             &mechanism.joints[j],
-            &mechanism.joints[mechanism.search.image(j)],
+            &mechanism.joints[mechanism.search.image_of_joint(j)],
         );
         let offer = |o: &JointOption| (o.name.clone(), o.cost_milli);
-        if !a.offered().map(offer).eq(b.offered().map(offer)) {
+        if !a
+            .offered_options()
+            .map(offer)
+            .eq(b.offered_options().map(offer))
+        {
             return Err(MirrorError::UnlikeOptions {
                 first: a.id.clone(),
                 second: b.id.clone(),
             });
         }
     }
-    links(mechanism, &joints)?;
-    images(exact, mechanism, &joints)?;
-    match mechanism.couplings.iter().find(|c| !coupled(mechanism, c)) {
+    check_links(mechanism, &joints)?;
+    check_joints(exact, mechanism, &joints)?;
+    match mechanism
+        .couplings
+        .iter()
+        .find(|c| !is_coupled_alike(mechanism, c))
+    {
         Some(c) => Err(MirrorError::UnlikeCoupling {
             coupling: c.name(mechanism),
         }),
@@ -145,15 +153,15 @@ pub(in crate::search) fn check(
 }
 
 /// Refuses joints that are not each other's images, option by option, in any of the planes they may be images in.
-fn images(
+fn check_joints(
     exact: &ExactField,
     mechanism: &Mechanism,
     joints: &[JointId],
 ) -> Result<(), MirrorError> {
     let mut off = None;
-    let mirrors = Isometry::mirrors(mechanism, &mechanism.search.mirror);
+    let mirrors = Isometry::find_mirrors(mechanism, &mechanism.search.mirror);
     let turns = &mechanism.search.turn;
-    let turns = Isometry::turns(mechanism, &frame_directions(mechanism), turns);
+    let turns = Isometry::find_turns(mechanism, &frame_directions(mechanism), turns);
     for carrier in mirrors.iter().map(|(mirror, _)| mirror).chain(&turns) {
         match by_carrier(exact, mechanism, joints, carrier) {
             // What is off in the likeliest plane is what a person wants to hear of.
@@ -173,9 +181,9 @@ fn by_carrier(
     for &j in joints {
         let (a, b) = (
             &mechanism.joints[j],
-            &mechanism.joints[mechanism.search.image(j)],
+            &mechanism.joints[mechanism.search.image_of_joint(j)],
         );
-        for (one, other) in a.offered().zip(b.offered()) {
+        for (one, other) in a.offered_options().zip(b.offered_options()) {
             let motion = |o: &JointOption| match o.joint_type {
                 // A face: what friction leaves free.
                 JointType::Fixed => JointType::Custom(vec![Freedom::Tz, Freedom::Rx, Freedom::Ry]),
@@ -190,14 +198,14 @@ fn by_carrier(
                 frame: &other.frame,
                 joint_type: &other_type,
             };
-            if !carrier.carries(exact, &mechanism.mode, from, to)? {
-                let (from, to) = (Spot::of(&one.frame), Spot::of(&other.frame));
-                let miss = carrier.miss(from, &one.joint_type, to);
+            if !carrier.maps_motions(exact, &mechanism.mode, from, to)? {
+                let (from, to) = (Spot::from_frame(&one.frame), Spot::from_frame(&other.frame));
+                let miss = carrier.miss_of_image(from, &one.joint_type, to);
                 return Err(MirrorError::Off {
                     first: a.id.clone(),
                     second: b.id.clone(),
                     option: one.name.clone(),
-                    off: miss.words(mechanism.length_unit.symbol),
+                    off: miss.describe_miss(mechanism.length_unit.symbol),
                 });
             }
         }
@@ -206,15 +214,15 @@ fn by_carrier(
 }
 
 /// Refuses pairs that do not map links to links: the frame is its own image, and a joint of two links maps to a joint of their images.
-fn links(mechanism: &Mechanism, joints: &[JointId]) -> Result<(), MirrorError> {
+fn check_links(mechanism: &Mechanism, joints: &[JointId]) -> Result<(), MirrorError> {
     let mut to: Vec<Option<LinkId>> = vec![None; mechanism.links.len()];
-    to[mechanism.frame().index()] = Some(mechanism.frame());
+    to[mechanism.frame_link().index()] = Some(mechanism.frame_link());
     let mut changed = true;
     while changed {
         changed = false;
         for &j in joints {
             let [u, v] = mechanism.joints[j].links;
-            let [x, y] = mechanism.joints[mechanism.search.image(j)].links;
+            let [x, y] = mechanism.joints[mechanism.search.image_of_joint(j)].links;
             for (near, far) in [(u, v), (v, u)] {
                 let goes = match to[near.index()] {
                     Some(at) if at == x => y,
@@ -229,7 +237,9 @@ fn links(mechanism: &Mechanism, joints: &[JointId]) -> Result<(), MirrorError> {
     }
     for &j in joints {
         let ends = mechanism.joints[j].links.map(|l| to[l.index()]);
-        let [x, y] = mechanism.joints[mechanism.search.image(j)].links.map(Some);
+        let [x, y] = mechanism.joints[mechanism.search.image_of_joint(j)]
+            .links
+            .map(Some);
         if ends != [x, y] && ends != [y, x] {
             return Err(MirrorError::NoImage {
                 joint: mechanism.joints[j].id.clone(),
@@ -248,11 +258,11 @@ fn links(mechanism: &Mechanism, joints: &[JointId]) -> Result<(), MirrorError> {
 }
 
 /// Whether the mirror images of two coupled joints are coupled alike, whichever way they turn.
-fn coupled(mechanism: &Mechanism, coupling: &Coupling) -> bool {
+fn is_coupled_alike(mechanism: &Mechanism, coupling: &Coupling) -> bool {
     /// Relative difference of equal ratios.
     const EQUAL: f64 = 1e-12;
     let [a, b] = coupling.ends.map(|e| CoupledFreedom {
-        joint: mechanism.search.image(e.joint),
+        joint: mechanism.search.image_of_joint(e.joint),
         ..e
     });
     let ratio = coupling.ratio.to_f64().abs();

@@ -10,7 +10,7 @@
 
 use crate::closure::Closure;
 use crate::closure::contour::Contour;
-use crate::closure::drive::{rate, rate_row};
+use crate::closure::drive::{rate_of_twist, rate_row};
 use crate::closure::tree::spanning_tree;
 use crate::closure::twist::{FrameValues, MotionSpace, Twist};
 use crate::geom::exact::{ExactError, ExactField};
@@ -18,13 +18,13 @@ use crate::linalg::echelon::Echelon;
 use crate::linalg::modp::{Field, Residue};
 use crate::model::joint_type::Freedom;
 use crate::model::mechanism::{JointId, JointOption, Mechanism, StateId};
-use crate::motion::displacement_series::{DisplacementSeries, Series, multiples};
+use crate::motion::displacement_series::{DisplacementSeries, Series, shifted_multiples};
 use crate::motion::pose::Pose;
 use crate::rank::exact::modular;
 use crate::rank::finite::higher_order::HigherOrder;
 use crate::search::question::conditions::Conditions;
 use crate::search::question::kept::Kept;
-use crate::search::question::space::{Choice, Space, choice_name, coupled};
+use crate::search::question::space::{Choice, Space, choice_name, coupled_twist};
 use crate::search::reduce::self_stress_space::ClosingRows;
 use chacha20::ChaCha8Rng;
 use chacha20::rand_core::{Rng, SeedableRng};
@@ -127,7 +127,7 @@ impl Throughout {
             for &joint in &variable.joints {
                 let mut present = Vec::new();
                 for (out, choice) in of_choices.iter_mut().zip(&variable.choices) {
-                    let own = motion.columns(exact, mechanism, joint, choice)?;
+                    let own = motion.choice_columns(exact, mechanism, joint, choice)?;
                     // The present joint comes first.
                     if present.is_empty() {
                         present = own.clone().unwrap_or_default();
@@ -145,7 +145,7 @@ impl Throughout {
             columns.push(of_choices);
         }
         let out = Throughout { columns };
-        let rows = ClosingRows::free(mechanism, space.dim, contours, Some(kept));
+        let rows = ClosingRows::for_free_state(mechanism, space.dim, contours, Some(kept));
         Ok(if out.is_regular(exact.field(), &rows) {
             Ok(out)
         } else {
@@ -167,10 +167,10 @@ impl Throughout {
         let ranks = |order: usize| -> [usize; 2] {
             let present = self.columns.iter().filter_map(|choices| choices.first());
             let all = present.flatten().flat_map(|(joint, series)| {
-                rows.multiples(f, *joint, series.get(..order).unwrap_or(series))
+                rows.series_multiples(f, *joint, series.get(..order).unwrap_or(series))
             });
-            let pivots = Echelon::of(f, all).pivots();
-            let closing = pivots.iter().filter(|p| **p < order * rows.closing());
+            let pivots = Echelon::from_vectors(f, all).pivots();
+            let closing = pivots.iter().filter(|p| **p < order * rows.count_closing());
             [closing.count(), pivots.len()]
         };
         ranks(ORDER) == ranks(1).map(|rank| ORDER * rank)
@@ -193,8 +193,8 @@ fn not_asked(conditions: &Conditions) -> Option<PoseOnly> {
 
 /// Returns whether the module of some columns has all of others.
 fn has_all(f: Field, columns: &[ColumnSeries], others: &[ColumnSeries]) -> bool {
-    let span = Echelon::of(f, columns.iter().flat_map(|c| multiples(c)));
-    let mut others = others.iter().flat_map(|c| multiples(c));
+    let span = Echelon::from_vectors(f, columns.iter().flat_map(|c| shifted_multiples(c)));
+    let mut others = others.iter().flat_map(|c| shifted_multiples(c));
     others.all(|v| span.contains(&v))
 }
 
@@ -219,18 +219,18 @@ impl Motion {
         let field = exact.field();
         let closure = Closure::new(exact, mechanism, StateId::FREE)?;
         let pose = Pose::of_file(mechanism, StateId::FREE)?;
-        let rank = modular::rank(exact, &closure);
+        let rank = modular::rank_modulo(exact, &closure);
         let Some(series) = HigherOrder::new(exact, mechanism, &closure, &pose, rank)? else {
             return Ok(Err(PoseOnly::TooLarge));
         };
-        let (_, free) = series.free();
+        let (_, free) = series.free_coordinates();
         if free == 0 {
             return Ok(Err(PoseOnly::Rests));
         }
         let mut random = ChaCha8Rng::seed_from_u64(field.modulus());
         let mut any = || field.from_i64((random.next_u64() >> 2).cast_signed());
         let weights: Vec<Residue> = (0..free).map(|_| any()).collect();
-        let (line, q) = series.motion(&weights, FOLLOWED);
+        let (line, q) = series.motion_along(&weights, FOLLOWED);
         if let Some(order) = line.stopped {
             return Ok(Err(PoseOnly::Stopped(order)));
         }
@@ -279,7 +279,7 @@ impl Motion {
     }
 
     /// Returns the columns of a choice at a joint, one for each freedom; `None` if it cannot follow the present joint.
-    fn columns(
+    fn choice_columns(
         &self,
         exact: &ExactField,
         mechanism: &Mechanism,
@@ -299,7 +299,7 @@ impl Motion {
         let Some(goal) = self.over.get(&joint) else {
             return Ok(None);
         };
-        let Some(q) = self.coordinates(&passed, goal) else {
+        let Some(q) = self.follow_coordinates(&passed, goal) else {
             return Ok(None);
         };
         let row = rate_row(exact, &self.space, mechanism, joint, &option.frame)?;
@@ -307,16 +307,17 @@ impl Motion {
         let mut before = DisplacementSeries::identity(self.field, ORDER);
         let mut out = Vec::with_capacity(passed.len());
         for ((freedom, twist), q) in passed.iter().zip(&q) {
-            let within = before.carried(twist);
-            let carried = base.then(&before).carried(twist);
+            let within = before.carry_twist(twist);
+            let carried = base.then(&before).carry_twist(twist);
             let mut column = ColumnSeries::with_capacity(ORDER);
             for (k, (here, there)) in within.iter().zip(&carried).enumerate() {
                 let components = self.space.along_axes(exact, there);
                 let coupled_by = freedom.filter(|_| k == 0);
-                let mut entry = coupled(exact, mechanism, joint, option, coupled_by, components)?;
+                let mut entry =
+                    coupled_twist(exact, mechanism, joint, option, coupled_by, components)?;
                 if let Some(row) = &row {
                     let here = self.space.along_axes(exact, here);
-                    entry.push(freedom.map_or(0, |_| rate(exact, row, &here)));
+                    entry.push(freedom.map_or(0, |_| rate_of_twist(exact, row, &here)));
                 }
                 column.push(entry);
             }
@@ -328,7 +329,11 @@ impl Motion {
 
     /// Returns the coordinates of freedoms in series that move as the present joint does, by order of t; `None` if there are none. An
     /// unloading joint rests if the others suffice.
-    fn coordinates(&self, passed: &[InSeries], goal: &DisplacementSeries) -> Option<Vec<Series>> {
+    fn follow_coordinates(
+        &self,
+        passed: &[InSeries],
+        goal: &DisplacementSeries,
+    ) -> Option<Vec<Series>> {
         let f = self.field;
         let mut q = vec![vec![0; ORDER]; passed.len()];
         // Freedoms of the joint itself come first where twists depend on each other.
@@ -339,7 +344,7 @@ impl Motion {
             for ((_, twist), q) in passed.iter().zip(&q) {
                 at = at.then(&DisplacementSeries::exp(f, twist, q));
             }
-            let gap = at.inverse().then(goal).twist(k);
+            let gap = at.inverse().then(goal).twist_of_order(k);
             let twists: Vec<&Twist<Residue>> = order.iter().map(|&i| &passed[i].1).collect();
             let more = combination(f, &twists, &gap)?;
             for (&i, x) in order.iter().zip(more) {
@@ -360,13 +365,13 @@ fn combination(f: Field, twists: &[&Twist<Residue>], sum: &Twist<Residue>) -> Op
         row.resize(6 + n, 0);
         row[6 + i] = f.neg(f.one());
         let mut left = row.clone();
-        span.reduce(&mut left);
+        span.reduce_vector(&mut left);
         if left[..6].iter().any(|&x| x != 0) {
             span.insert(&row);
         }
     }
     let mut left = sum.to_vec();
     left.resize(6 + n, 0);
-    span.reduce(&mut left);
+    span.reduce_vector(&mut left);
     left[..6].iter().all(|&x| x == 0).then(|| left.split_off(6))
 }

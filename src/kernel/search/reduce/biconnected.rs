@@ -9,7 +9,7 @@
 //! Blocks and cut vertices: Harary, "Graph Theory" (1969), chapter 3.
 
 use crate::closure::contour::Contour;
-use crate::closure::tree::tied;
+use crate::closure::tree::connected_sets;
 use crate::model::mechanism::{JointId, LinkId, Mechanism};
 use crate::search::question::space::Space;
 use std::collections::{BTreeMap, BTreeSet};
@@ -27,7 +27,7 @@ pub(in crate::search) struct Block {
 ///
 /// # Complexity
 /// O(b · n) for b blocks of n joints in all.
-pub(in crate::search) fn blocks(
+pub(in crate::search) fn find_blocks(
     mechanism: &Mechanism,
     space: &Space,
     variables: &[usize],
@@ -56,13 +56,14 @@ pub(in crate::search) fn blocks(
         let touched = joints.flat_map(|j| mechanism.joints[j].links.into_iter().chain(drive(j)));
         touched.collect()
     };
-    let mut left: Vec<(Vec<usize>, BTreeSet<LinkId>)> = tied(contours.chain(couplings).chain(each))
-        .into_iter()
-        .map(|of| {
-            let links = links(&of);
-            (of, links)
-        })
-        .collect();
+    let mut left: Vec<(Vec<usize>, BTreeSet<LinkId>)> =
+        connected_sets(contours.chain(couplings).chain(each))
+            .into_iter()
+            .map(|of| {
+                let links = links(&of);
+                (of, links)
+            })
+            .collect();
     let mut holds: BTreeMap<LinkId, usize> = pinned.iter().map(|&l| (l, 1)).collect();
     for l in left.iter().flat_map(|(_, links)| links) {
         *holds.entry(*l).or_insert(0) += 1;
@@ -70,11 +71,11 @@ pub(in crate::search) fn blocks(
     let mut out = at_one_link(&mut left, holds);
     let mut at: BTreeMap<LinkId, Vec<usize>> = BTreeMap::new();
     for (of, links) in &left {
-        let shared = links.iter().filter(|l| **l != mechanism.frame());
+        let shared = links.iter().filter(|l| **l != mechanism.frame_link());
         shared.for_each(|&l| at.entry(l).or_default().push(of[0]));
     }
     let rest = left.into_iter().map(|(of, _)| of);
-    let beside = tied(rest.chain(at.into_values()));
+    let beside = connected_sets(rest.chain(at.into_values()));
     out.extend(beside.into_iter().map(|variables| Block {
         variables,
         apart: false,
@@ -114,21 +115,21 @@ fn at_one_link(
 mod tests {
     use super::*;
     use crate::closure::contour::contour_basis;
-    use crate::model::drawn::{Drawn, drawn, four_bar};
+    use crate::model::drawn::{Drawn, draw_mechanism, four_bar};
     use crate::model::mechanism::StateId;
     use crate::rank::exact::field::exact_field;
     use crate::search::question::cost::CostTable;
 
     /// The variables of each block and whether it is apart, where the motion of the frame and of these links is asked for.
     fn found(joints: &[Drawn], pinned: &[usize]) -> Vec<(Vec<usize>, bool)> {
-        let m = drawn(joints, &[]);
+        let m = draw_mechanism(joints, &[]);
         let exact = exact_field(&m, 0).unwrap();
         let costs = CostTable::new(&m.search.costs);
         let space = Space::new(&exact, &m, None, false, &costs).unwrap();
         let all: Vec<usize> = (0..joints.len()).collect();
         let pinned: Vec<LinkId> = pinned.iter().map(|&l| LinkId::new(l)).collect();
         let contours = contour_basis(&m, StateId::FREE);
-        let found = blocks(&m, &space, &all, &pinned, &contours);
+        let found = find_blocks(&m, &space, &all, &pinned, &contours);
         found.into_iter().map(|b| (b.variables, b.apart)).collect()
     }
 

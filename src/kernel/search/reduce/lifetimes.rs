@@ -38,7 +38,7 @@ pub(super) type AddedBy<'a> = (usize, &'a mut Vec<Residue>);
 ///
 /// # Complexity
 /// O(n·c·s) field operations for n vectors, c coordinates, and s of them that have not started where a vector reaches them.
-pub(super) fn shortened(
+pub(super) fn shorten_lifetimes(
     field: Field,
     vectors: &mut [AddedBy<'_>],
     coordinates: Range<usize>,
@@ -76,8 +76,8 @@ pub(super) fn shortened(
 
 #[cfg(test)]
 mod tests {
-    use super::{Lifetime, shortened};
-    use crate::linalg::echelon::{rank, relations};
+    use super::{Lifetime, shorten_lifetimes};
+    use crate::linalg::echelon::{linear_relations, rank_of};
     use crate::linalg::modp::{Field, Residue};
     use proptest::prelude::*;
 
@@ -95,19 +95,19 @@ mod tests {
                 variable += later;
                 all.push((variable, numbers.iter().map(|&x| f.from_i64(x)).collect()));
             }
-            let rows = |of: &[(usize, Vec<Residue>)]| rank(f, of.iter().map(|(_, v)| &v[..]));
+            let rows = |of: &[(usize, Vec<Residue>)]| rank_of(f, of.iter().map(|(_, v)| &v[..]));
             // The last vectors that are new from the end are the coordinates: their own numbers are units.
             let mut basis: Vec<usize> = (0..all.len()).rev().filter(|&i| rows(&all[i..]) > rows(&all[i + 1..])).collect();
             basis.reverse();
             let columns: Vec<Vec<Residue>> = basis.iter().map(|&i| all[i].1.clone()).collect();
             let of = |v: &Vec<Residue>| {
-                let relation = relations(f, &[std::slice::from_ref(v), &columns[..]].concat());
+                let relation = linear_relations(f, &[std::slice::from_ref(v), &columns[..]].concat());
                 relation[0][1..].iter().map(|&x| f.neg(x)).collect::<Vec<Residue>>()
             };
             let mut vectors: Vec<(usize, Vec<Residue>)> = all.iter().map(|(t, v)| (*t, of(v))).collect();
             let last: Vec<usize> = basis.iter().map(|&i| all[i].0).collect();
             let mut lent: Vec<_> = vectors.iter_mut().map(|(t, v)| (*t, v)).collect();
-            let lifetimes = shortened(f, &mut lent, 0..last.len(), &last);
+            let lifetimes = shorten_lifetimes(f, &mut lent, 0..last.len(), &last);
             for t in 0..variable + 2 {
                 let at = all.partition_point(|(of, _)| *of < t);
                 let both = rows(&all[..at]) + rows(&all[at..]) - rows(&all);

@@ -13,10 +13,10 @@ use crate::closure::tree::{path_in, spanning_tree};
 use crate::linalg::echelon::Echelon;
 use crate::linalg::modp::{Field, Residue};
 use crate::model::mechanism::{JointId, Mechanism, StateId};
-use crate::motion::displacement_series::multiples;
+use crate::motion::displacement_series::shifted_multiples;
 use crate::search::question::kept::Kept;
 use crate::search::question::space::{Space, Variable};
-use crate::search::reduce::lifetimes::{AddedBy, Lifetime, shortened};
+use crate::search::reduce::lifetimes::{AddedBy, Lifetime, shorten_lifetimes};
 use std::borrow::{Borrow, Cow};
 use std::ops::Range;
 
@@ -54,7 +54,7 @@ pub(in crate::search) struct ClosingRows<'m> {
 
 impl<'m> ClosingRows<'m> {
     /// Returns the rows of the contours of the free state, and those of kept links and drives where these matter.
-    pub(in crate::search) fn free(
+    pub(in crate::search) fn for_free_state(
         mechanism: &'m Mechanism,
         dim: usize,
         contours: impl Into<Cow<'m, [Contour]>>,
@@ -100,7 +100,7 @@ impl<'m> ClosingRows<'m> {
     }
 
     /// Returns the number of rows of kept links and drives.
-    pub(in crate::search) fn kept(&self) -> usize {
+    pub(in crate::search) fn count_kept(&self) -> usize {
         let drives = if self.keeps_drives {
             self.mechanism.kept_drives()
         } else {
@@ -110,12 +110,12 @@ impl<'m> ClosingRows<'m> {
     }
 
     /// Rows of contours, couplings and locked drives.
-    pub(in crate::search) fn closing(&self) -> usize {
+    pub(in crate::search) fn count_closing(&self) -> usize {
         self.contours.len() * self.dim + self.couplings.len() + self.mechanism.locked_drives()
     }
 
     /// The columns of a choice at all joints of its variable.
-    pub(in crate::search) fn columns(
+    pub(in crate::search) fn choice_columns(
         &self,
         f: Field,
         variable: &Variable,
@@ -123,38 +123,43 @@ impl<'m> ClosingRows<'m> {
     ) -> Vec<Vec<Residue>> {
         let joints = variable.joints.iter().zip(&variable.choices[choice].spans);
         joints
-            .flat_map(|(&j, span)| span.iter().map(move |t| self.column(f, j, t)))
+            .flat_map(|(&j, span)| span.iter().map(move |t| self.joint_column(f, j, t)))
             .collect()
     }
 
     /// The columns of a freedom along the motion times each power of t, as vectors over the field: the coordinates of the contours at
     /// each power of t, then those of kept links likewise.
-    pub(in crate::search) fn multiples(
+    pub(in crate::search) fn series_multiples(
         &self,
         f: Field,
         joint: JointId,
         series: &[Vec<Residue>],
     ) -> Vec<Vec<Residue>> {
-        let terms: Vec<Vec<Residue>> = series.iter().map(|t| self.column(f, joint, t)).collect();
-        let parts = terms.iter().map(|t| t.split_at(self.closing()));
+        let terms: Vec<Vec<Residue>> = series
+            .iter()
+            .map(|t| self.joint_column(f, joint, t))
+            .collect();
+        let parts = terms.iter().map(|t| t.split_at(self.count_closing()));
         let (of_contours, of_kept): (Vec<_>, Vec<_>) = parts.unzip();
-        let both = multiples(&of_contours).into_iter().zip(multiples(&of_kept));
+        let both = shifted_multiples(&of_contours)
+            .into_iter()
+            .zip(shifted_multiples(&of_kept));
         both.map(|(a, b)| [a, b].concat()).collect()
     }
 
     /// Returns the column of a joint's twist, with its rates behind it.
-    pub(in crate::search) fn column(
+    pub(in crate::search) fn joint_column(
         &self,
         f: Field,
         joint: JointId,
         twist: &[Residue],
     ) -> Vec<Residue> {
-        let mut out = vec![0; self.closing() + self.kept()];
-        for (at, part) in self.parts(joint) {
+        let mut out = vec![0; self.count_closing() + self.count_kept()];
+        for (at, part) in self.row_parts(joint) {
             match part {
                 Part::Twist { forward } => {
                     let d = self.dim;
-                    f.accumulate(&mut out[at..at + d], &twist[..d], forward);
+                    f.add_or_subtract(&mut out[at..at + d], &twist[..d], forward);
                 }
                 Part::Rate(rate) => out[at] = f.add(out[at], twist[self.dim + rate]),
             }
@@ -163,11 +168,11 @@ impl<'m> ClosingRows<'m> {
     }
 
     /// Returns the rows that the motion of a joint goes to, each with what goes there.
-    pub(in crate::search) fn parts(&self, joint: JointId) -> Vec<(usize, Part)> {
-        let (d, closing) = (self.dim, self.closing());
+    pub(in crate::search) fn row_parts(&self, joint: JointId) -> Vec<(usize, Part)> {
+        let (d, closing) = (self.dim, self.count_closing());
         let couplings = self.contours.len() * d;
         let contours = self.contours.iter().enumerate();
-        let contours = contours.filter_map(|(i, c)| Some((i * d, c.direction(joint)?)));
+        let contours = contours.filter_map(|(i, c)| Some((i * d, c.direction_of(joint)?)));
         let paths = self.paths.iter().enumerate().filter_map(|(i, path)| {
             let (_, forward) = path.iter().find(|(j, _)| *j == joint)?;
             Some((closing + i * d, *forward))
@@ -225,10 +230,10 @@ impl Basis {
     }
 
     /// The factors of a vector of their span.
-    fn factors(&self, v: &[Residue]) -> Vec<Residue> {
+    fn factors_of(&self, v: &[Residue]) -> Vec<Residue> {
         let mut row = v.to_vec();
         row.resize(v.len() + self.size, 0);
-        self.rows.reduce(&mut row);
+        self.rows.reduce_vector(&mut row);
         debug_assert!(row[..v.len()].iter().all(|&x| x == 0), "in the span");
         row.split_off(v.len())
     }
@@ -245,7 +250,7 @@ struct BesidePresent {
 impl BesidePresent {
     /// Prepares the reduction, for vectors of a width.
     fn new(field: Field, all: impl Iterator<Item = Added>, width: usize) -> BesidePresent {
-        let present = Echelon::of(field, all);
+        let present = Echelon::from_vectors(field, all);
         let pivots = present.pivots();
         let open = (0..width).filter(|i| !pivots.contains(i)).collect();
         BesidePresent {
@@ -256,18 +261,18 @@ impl BesidePresent {
     }
 
     /// Returns the reduced unit vectors of some coordinates.
-    fn units(&self, field: Field, coordinates: Range<usize>) -> Echelon {
+    fn left_units(&self, field: Field, coordinates: Range<usize>) -> Echelon {
         let units = coordinates.map(|i| {
             let mut unit = vec![0; self.width];
             unit[i] = field.one();
-            self.left(unit)
+            self.left_of(unit)
         });
-        Echelon::of(field, units)
+        Echelon::from_vectors(field, units)
     }
 
     /// Returns a reduced vector.
-    fn left(&self, mut column: Vec<Residue>) -> Vec<Residue> {
-        self.present.reduce(&mut column);
+    fn left_of(&self, mut column: Vec<Residue>) -> Vec<Residue> {
+        self.present.reduce_vector(&mut column);
         self.open.iter().map(|&i| column[i]).collect()
     }
 }
@@ -282,7 +287,7 @@ struct Reached {
 impl Reached {
     /// Returns the vectors that choices of variables add beyond `known`, in the coordinates from `first` on. Starting at the last variable,
     /// each vector is listed with the last variable that reaches it.
-    fn last(added: &[Vec<Vec<Added>>], first: usize, mut known: Echelon) -> Reached {
+    fn last_reached(added: &[Vec<Vec<Added>>], first: usize, mut known: Echelon) -> Reached {
         let mut out = Reached::default();
         for (t, choices) in added.iter().enumerate().rev() {
             for v in choices.iter().flatten() {
@@ -291,7 +296,7 @@ impl Reached {
                 }
             }
         }
-        out.turned()
+        out.reverse_order()
     }
 
     fn push(&mut self, vector: Vec<Residue>, by: usize) {
@@ -300,7 +305,7 @@ impl Reached {
     }
 
     /// The first variable's own come first.
-    fn turned(mut self) -> Self {
+    fn reverse_order(mut self) -> Self {
         self.vectors.reverse();
         self.by.reverse();
         self
@@ -324,13 +329,13 @@ impl SelfStressSpace {
         of_choice: &dyn Fn(usize, usize) -> Vec<Vec<Residue>>,
     ) -> SelfStressSpace {
         let present = order.iter().flat_map(|&v| present(v));
-        let closing = times * rows.closing();
-        let width = closing + times * rows.kept();
+        let closing = times * rows.count_closing();
+        let width = closing + times * rows.count_kept();
         let beside = BesidePresent::new(field, present, width);
         let moves_kept = beside.present.pivots().iter().any(|&p| p >= closing);
         // Motions of the kept links, and what the choices add.
-        let links = beside.units(field, closing..width);
-        let left = |column| beside.left(column);
+        let links = beside.left_units(field, closing..width);
+        let left = |column| beside.left_of(column);
         let of_variable = |&v: &usize| -> Vec<Vec<Added>> {
             let choices = 0..space.variables[v].choices.len();
             choices
@@ -339,18 +344,18 @@ impl SelfStressSpace {
         };
         let mut added: Vec<Vec<Vec<Added>>> = order.iter().map(of_variable).collect();
         let self_stresses = beside.open.len() - links.rank();
-        let contours = Reached::last(&added, 0, links.clone());
+        let contours = Reached::last_reached(&added, 0, links.clone());
         let count = contours.vectors.len();
         let mut both = contours.vectors.clone();
-        both.extend(links.reduced());
+        both.extend(links.reduced_rows());
         let basis = Basis::new(field, &both);
         for vector in added.iter_mut().flatten().flatten() {
-            *vector = basis.factors(vector);
+            *vector = basis.factors_of(vector);
         }
-        let kept = Reached::last(&added, count, Echelon::new(field));
+        let kept = Reached::last_reached(&added, count, Echelon::new(field));
         let of_links = Basis::new(field, &kept.vectors);
         for vector in added.iter_mut().flatten().flatten() {
-            let links = of_links.factors(&vector[count..]);
+            let links = of_links.factors_of(&vector[count..]);
             vector.splice(count.., links);
         }
         let each = added.iter_mut().enumerate();
@@ -358,10 +363,10 @@ impl SelfStressSpace {
             .flat_map(|(t, choices)| choices.iter_mut().flatten().map(move |v| (t, v)))
             .collect();
         let all = count + kept.vectors.len();
-        let contours = shortened(field, &mut vectors, 0..count, &contours.by);
-        let kept = shortened(field, &mut vectors, count..all, &kept.by);
+        let contours = shorten_lifetimes(field, &mut vectors, 0..count, &contours.by);
+        let kept = shorten_lifetimes(field, &mut vectors, count..all, &kept.by);
         for choice in added.iter_mut().flatten() {
-            *choice = Echelon::of(field, &*choice).reduced();
+            *choice = Echelon::from_vectors(field, &*choice).reduced_rows();
         }
         SelfStressSpace {
             lasting: u32::try_from(self_stresses - count).unwrap_or(u32::MAX),
@@ -382,7 +387,7 @@ pub(in crate::search) fn is_contained<V: Borrow<Vec<Vec<Residue>>>>(
         return true;
     };
     others.iter().all(|span| {
-        let whole = Echelon::of(field, span.borrow());
+        let whole = Echelon::from_vectors(field, span.borrow());
         present.borrow().iter().all(|t| whole.contains(t))
     })
 }

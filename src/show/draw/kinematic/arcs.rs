@@ -2,7 +2,7 @@
 //! out to pass another.
 
 use super::Kinematic;
-use crate::draw::place::projection::places::meet;
+use crate::draw::place::projection::places::meeting_parameter;
 use crate::draw::place::projection::{Vector, add, cross, dot, norm, scale as times, sub};
 use crate::geom::vector::unit;
 use crate::svg::plane::Point;
@@ -16,7 +16,7 @@ impl Kinematic<'_> {
     /// The line of a bar that bows out, in the plane of the paper.
     pub(super) fn bowed_in_space(&self, row: usize) -> Option<Vec<Vector>> {
         let by = self.bows[row];
-        let body = self.body(row);
+        let body = self.body_at_rest(row);
         let (Some(&from), Some(&to)) = (body.points.first(), body.points.last()) else {
             return None;
         };
@@ -26,7 +26,7 @@ impl Kinematic<'_> {
         let points = self.points_in_space(row);
         let at = |p: Point| {
             let off = |q: &Vector| {
-                let q = self.projection.flat(*q);
+                let q = self.projection.flat_point(*q);
                 (q[0] - p[0]).hypot(q[1] - p[1])
             };
             points
@@ -39,7 +39,7 @@ impl Kinematic<'_> {
         let view = &self.projection.view;
         let lifted = body.points.iter().enumerate().map(|(i, p)| {
             let on = add(a, times(sub(b, a), i as f64 / last));
-            let flat = self.projection.flat(on);
+            let flat = self.projection.flat_point(on);
             let off = [p[0] - flat[0], p[1] - flat[1]].map(|x| x / self.projection.scale);
             add(on, sub(times(view.right, off[0]), times(view.up, off[1])))
         });
@@ -55,7 +55,7 @@ impl Kinematic<'_> {
             return None;
         }
         let near = MEET * norm(sub(b.point, a.point));
-        let on = meet(a.point, a.z, b.point, b.z, near)?;
+        let on = meeting_parameter(a.point, a.z, b.point, b.z, near)?;
         let centre = add(a.point, times(a.z, on));
         let [from, to] = [a, b].map(|p| sub(p.point, centre));
         let angle = norm(cross(from, to)).atan2(dot(from, to));

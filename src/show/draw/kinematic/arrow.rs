@@ -2,7 +2,7 @@
 
 use crate::draw::place::projection::{Vector, View, dot, norm as norm3};
 use crate::draw::sheet::Shape;
-use crate::svg::plane::{Point, add, norm, scale, sub, unit};
+use crate::svg::plane::{Point, add, plane_norm, scale, sub, unit};
 use std::f64::consts::{PI, TAU};
 
 /// An arrow with a greater part of it towards the reader is seen from its end.
@@ -28,9 +28,9 @@ pub(super) struct Arrow {
 }
 
 /// The shapes of an arrow that begins at a point of the paper.
-pub(super) fn shapes(at: Point, arrow: &Arrow, view: &View) -> Vec<Shape> {
+pub(super) fn arrow_outline(at: Point, arrow: &Arrow, view: &View) -> Vec<Shape> {
     let class = if arrow.turns { "moment" } else { "force" };
-    let to = view.flat(arrow.along);
+    let to = view.flat_vector(arrow.along);
     let (length, toward) = (norm3(arrow.along), dot(arrow.along, view.toward));
     if arrow.turns && toward.abs() > END_ON * length {
         let radius = ARC * length;
@@ -41,7 +41,7 @@ pub(super) fn shapes(at: Point, arrow: &Arrow, view: &View) -> Vec<Shape> {
         };
         let arc: Vec<Point> = (0..=24).map(on).collect();
         let back = unit(sub(arc[22], arc[24]));
-        let head = head(arc[24], back, (0.8 * radius).min(HEAD), class);
+        let head = arrow_head(arc[24], back, (0.8 * radius).min(HEAD), class);
         return vec![Shape::line(class, arc), head];
     }
     if toward.abs() > END_ON * length {
@@ -63,16 +63,21 @@ pub(super) fn shapes(at: Point, arrow: &Arrow, view: &View) -> Vec<Shape> {
     }
     let tip = add(at, to);
     let back = scale(unit(to), -1.0);
-    let size = (0.6 * norm(to)).min(HEAD);
+    let size = (0.6 * plane_norm(to)).min(HEAD);
     let mut out = vec![Shape::line(class, vec![at, tip])];
-    out.push(head(tip, back, size, class));
+    out.push(arrow_head(tip, back, size, class));
     if arrow.turns {
-        out.push(head(add(tip, scale(back, 0.8 * size)), back, size, class));
+        out.push(arrow_head(
+            add(tip, scale(back, 0.8 * size)),
+            back,
+            size,
+            class,
+        ));
     }
     out
 }
 
-fn head(tip: Point, back: Point, size: f64, class: &str) -> Shape {
+fn arrow_head(tip: Point, back: Point, size: f64, class: &str) -> Shape {
     let side = scale([-back[1], back[0]], 0.4 * size);
     let foot = add(tip, scale(back, size));
     let corners = vec![tip, add(foot, side), sub(foot, side)];

@@ -4,7 +4,7 @@ use super::Kinematic;
 use crate::draw::place::projection;
 use crate::draw::sheet::{Anchor, PAD, Sheet};
 use crate::svg::labels::{self, Wish};
-use crate::svg::plane::{Rect, add, norm, scale};
+use crate::svg::plane::{Rect, add, plane_norm, scale};
 
 impl Kinematic<'_> {
     /// The directions of the coordinates.
@@ -15,19 +15,19 @@ impl Kinematic<'_> {
         for axis in 0..3 {
             let mut unit = [0.0; 3];
             unit[axis] = 1.0;
-            let tip = scale(self.projection.view.flat(unit), 30.0);
-            let length = norm(tip);
+            let tip = scale(self.projection.view.flat_vector(unit), 30.0);
+            let length = plane_norm(tip);
             if length < 4.0 {
-                sheet.circle("joint", origin, 4.5);
+                sheet.draw_circle("joint", origin, 4.5);
                 if projection::dot(unit, self.projection.view.toward) > 0.0 {
-                    sheet.circle("ink", origin, 1.6);
+                    sheet.draw_circle("ink", origin, 1.6);
                 } else {
                     let d = 3.0;
-                    sheet.line("line", add(origin, [-d, -d]), add(origin, [d, d]));
-                    sheet.line("line", add(origin, [-d, d]), add(origin, [d, -d]));
+                    sheet.draw_line("line", add(origin, [-d, -d]), add(origin, [d, d]));
+                    sheet.draw_line("line", add(origin, [-d, d]), add(origin, [d, -d]));
                 }
             } else {
-                sheet.arrow("line", origin, add(origin, tip), 6.5);
+                sheet.draw_arrow("line", origin, add(origin, tip), 6.5);
                 taken.push(Rect::around(
                     add(origin, scale(tip, 0.5)),
                     tip[0].abs() + 3.0,
@@ -37,14 +37,14 @@ impl Kinematic<'_> {
             let clear = if length < 4.0 { 5.0 } else { 1.0 };
             wishes.push(Wish {
                 height: 12.0,
-                ..Wish::of("x", 12.0, add(origin, tip), clear)
+                ..Wish::for_text("x", 12.0, add(origin, tip), clear)
             });
         }
-        for (place, name) in labels::place(&wishes, &mut taken, &[])
+        for (place, name) in labels::place_labels(&wishes, &mut taken, &[])
             .iter()
             .zip(["x", "y", "z"])
         {
-            sheet.text("axis", 12.0, place.rect.middle(), Anchor::Middle, name);
+            sheet.write_text("axis", 12.0, place.rect.middle(), Anchor::Middle, name);
         }
     }
 
@@ -67,10 +67,10 @@ impl Kinematic<'_> {
             [[x, y - 4.0], [x, y + 4.0]],
             [[end, y - 4.0], [end, y + 4.0]],
         ] {
-            sheet.line("line", a, b);
+            sheet.draw_line("line", a, b);
         }
         let text = format!("{length} {unit}");
-        sheet.text("legend", 12.0, [x, y + 16.0], Anchor::Start, &text);
+        sheet.write_text("legend", 12.0, [x, y + 16.0], Anchor::Start, &text);
     }
 }
 

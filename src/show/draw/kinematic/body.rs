@@ -1,13 +1,13 @@
 //! The shape of a link: a bar where its joints are in a row, a plate where they are not; and the points of interest on links, those of
 //! the file and the faces of jaws.
 
-use crate::draw::place::projection::{Vector, real};
+use crate::draw::place::projection::{Vector, finite_vector};
 use crate::draw::sheet::Sheet;
-use crate::draw::symbol::pieces::hull;
+use crate::draw::symbol::pieces::convex_hull;
 use crate::draw::symbol::placed::one_place;
 use crate::model::mechanism::{LinkId, Mechanism, StateId};
-use crate::motion::jaws::faces;
-use crate::svg::plane::{Point, add, cross, dot, mean, norm, polyline, scale, sub, unit};
+use crate::motion::jaws::jaw_faces;
+use crate::svg::plane::{Point, add, cross, dot, mean, path_data, plane_norm, scale, sub, unit};
 
 /// A plate thinner than this, in pixels, is a bar.
 const THIN: f64 = 2.0;
@@ -40,8 +40,8 @@ impl Body {
                 plate: false,
             };
         }
-        let corners = hull(points.clone());
-        let ends = farthest(&points);
+        let corners = convex_hull(points.clone());
+        let ends = farthest_pair(&points);
         let along = unit(sub(ends[1], ends[0]));
         let off = corners.iter().map(|&p| cross(along, sub(p, ends[0])));
         let (low, high) = off.fold((0.0f64, 0.0f64), |(l, h), d| (l.min(d), h.max(d)));
@@ -53,11 +53,11 @@ impl Body {
     }
 
     /// A bar that bows out to one side in its middle.
-    pub(super) fn bowed(self, by: f64) -> Body {
+    pub(super) fn bowed_by(self, by: f64) -> Body {
         let (&[a, b], false) = (&self.points[..], self.plate || by == 0.0) else {
             return self;
         };
-        let side = across(a, b);
+        let side = left_normal(a, b);
         let points = (0..=12).map(|i| {
             let t = f64::from(i) / 12.0;
             let on = add(a, scale(sub(b, a), t));
@@ -70,14 +70,14 @@ impl Body {
     }
 
     /// The segments that it is drawn with.
-    pub(super) fn lines(&self) -> impl Iterator<Item = (Point, Point)> + '_ {
+    pub(super) fn body_lines(&self) -> impl Iterator<Item = (Point, Point)> + '_ {
         let n = self.points.len();
         let count = if self.plate { n } else { n.saturating_sub(1) };
         (0..count).map(move |i| (self.points[i], self.points[(i + 1) % n]))
     }
 
     /// Its middle: of a bar, halfway along.
-    pub(super) fn middle(&self) -> Point {
+    pub(super) fn body_middle(&self) -> Point {
         if self.plate || self.points.len() < 3 {
             return mean(self.points.iter().copied());
         }
@@ -86,13 +86,13 @@ impl Body {
 }
 
 /// How far each bar has to bow out so that none lies on another; the longer ones stay straight.
-pub(super) fn bows(bodies: &[Body]) -> Vec<f64> {
+pub(super) fn find_bows(bodies: &[Body]) -> Vec<f64> {
     let bar = |i: usize| match bodies[i].points[..] {
         [a, b] if !bodies[i].plate => Some([a, b]),
         _ => None,
     };
     let mut order: Vec<usize> = (0..bodies.len()).filter(|&i| bar(i).is_some()).collect();
-    let length = |i: usize| bar(i).map_or(0.0, |[a, b]| norm(sub(b, a)));
+    let length = |i: usize| bar(i).map_or(0.0, |[a, b]| plane_norm(sub(b, a)));
     order.sort_by(|&i, &j| length(j).total_cmp(&length(i)).then(i.cmp(&j)));
     let mut out = vec![0.0; bodies.len()];
     let mut done: Vec<usize> = Vec::new();
@@ -127,17 +127,17 @@ fn on_each_other([a, b]: [Point; 2], [c, d]: [Point; 2]) -> bool {
 }
 
 /// The unit vector to the left of a segment.
-fn across(a: Point, b: Point) -> Point {
+fn left_normal(a: Point, b: Point) -> Point {
     let along = unit(sub(b, a));
     [-along[1], along[0]]
 }
 
 /// The two points that are farthest from each other.
-fn farthest(points: &[Point]) -> [Point; 2] {
+fn farthest_pair(points: &[Point]) -> [Point; 2] {
     let mut best = ([points[0]; 2], -1.0);
     for (i, &a) in points.iter().enumerate() {
         for &b in &points[i + 1..] {
-            let d = norm(sub(a, b));
+            let d = plane_norm(sub(a, b));
             if d > best.1 {
                 best = ([a, b], d);
             }
@@ -162,12 +162,19 @@ pub(super) struct Marked {
 }
 
 /// Returns the points of the links drawn, and the gripping points of outputs on an object that is absent in this state.
-pub(super) fn marked(m: &Mechanism, state: StateId, links: &[(LinkId, Vec<usize>)]) -> Vec<Marked> {
+pub(super) fn marked_points(
+    m: &Mechanism,
+    state: StateId,
+    links: &[(LinkId, Vec<usize>)],
+) -> Vec<Marked> {
     let there = |l: LinkId| links.iter().any(|(k, _)| *k == l);
-    let own = m.points.iter().map(|p| (&p.id, p.link, real(&p.point)));
-    let held = faces(m, state).map(|(j, jaw)| {
+    let own = m
+        .points
+        .iter()
+        .map(|p| (&p.id, p.link, finite_vector(&p.point)));
+    let held = jaw_faces(m, state).map(|(j, jaw)| {
         let joint = &m.joints[j];
-        (&joint.id, jaw, real(&joint.frame.point))
+        (&joint.id, jaw, finite_vector(&joint.frame.point))
     });
     let points = own.chain(held).filter(|(_, link, _)| there(*link));
     let marked = points.map(|(id, link, place)| Marked {
@@ -180,11 +187,11 @@ pub(super) fn marked(m: &Mechanism, state: StateId, links: &[(LinkId, Vec<usize>
 }
 
 /// The corners of the mark of a point.
-pub(super) fn corners(at: Point) -> [Point; 4] {
+pub(super) fn mark_corners(at: Point) -> [Point; 4] {
     [[MARK, 0.0], [0.0, MARK], [-MARK, 0.0], [0.0, -MARK]].map(|c| add(at, c))
 }
 
 /// Draws the mark of a point.
 pub(super) fn draw_mark(sheet: &mut Sheet, at: Point) {
-    sheet.path("ink", &polyline(&corners(at), true));
+    sheet.draw_path("ink", &path_data(&mark_corners(at), true));
 }

@@ -45,7 +45,7 @@ impl Kinematic<'_> {
         let size = pairs.map(|(a, b)| apart(a, b)).fold(0.0, f64::max);
         let ends: Vec<Crease> = creases
             .iter()
-            .map(|c| crease(c, &creases, size))
+            .map(|c| find_crease(c, &creases, size))
             .collect::<Option<_>>()?;
         let mut corners: Vec<Vector> = Vec::new();
         let ends = ends.iter().flat_map(|c| c.ends);
@@ -56,7 +56,7 @@ impl Kinematic<'_> {
         }
         // Two creases meet in one corner: the one across makes the facet a parallelogram.
         if let (2, &[a, b, c]) = (creases.len(), corners.as_slice()) {
-            let at = [a, b, c].map(|p| creases.iter().filter(|x| on(x, p, size)).count());
+            let at = [a, b, c].map(|p| creases.iter().filter(|x| is_on_crease(x, p, size)).count());
             let shared = at.iter().position(|&n| n == 2)?;
             let sum = add(add(a, b), c);
             corners.push(sub(sum, times([a, b, c][shared], 2.0)));
@@ -72,7 +72,7 @@ struct Crease {
 
 /// Returns the ends of a crease: its intersections with the next creases of its plate. If one end has none, it is as
 /// far as the other. Returns `None` if a crease passes it or none meets it nearby.
-fn crease(own: &JointInSpace, all: &[&JointInSpace], size: f64) -> Option<Crease> {
+fn find_crease(own: &JointInSpace, all: &[&JointInSpace], size: f64) -> Option<Crease> {
     let mut reach = [f64::NEG_INFINITY, f64::INFINITY];
     for other in all {
         let n = cross(own.z, other.z);
@@ -104,6 +104,6 @@ fn crease(own: &JointInSpace, all: &[&JointInSpace], size: f64) -> Option<Crease
 }
 
 /// Whether a point is on a crease.
-fn on(crease: &JointInSpace, p: Vector, size: f64) -> bool {
+fn is_on_crease(crease: &JointInSpace, p: Vector, size: f64) -> bool {
     norm(cross(crease.z, sub(p, crease.point))) < 1e-3 * size
 }

@@ -21,7 +21,12 @@ impl Kinematic<'_> {
         coupling: &Coupling,
         places: &[JointInSpace],
     ) -> Vec<Vec<Point>> {
-        let flat = |circle: Vec<Vector>| circle.iter().map(|&p| self.projection.flat(p)).collect();
+        let flat = |circle: Vec<Vector>| {
+            circle
+                .iter()
+                .map(|&p| self.projection.flat_point(p))
+                .collect()
+        };
         let circles = self.pitch_circles_in_space(coupling, places).into_iter();
         circles.map(|(_, circle)| flat(circle)).collect()
     }
@@ -33,13 +38,13 @@ impl Kinematic<'_> {
         places: &[JointInSpace],
     ) -> Vec<(usize, Vec<Vector>)> {
         let circles = if coupling.gear {
-            gears(self, coupling, places)
-                .or_else(|| pinion(self, coupling, places).map(|c| vec![c]))
+            gear_circles(self, coupling, places)
+                .or_else(|| pinion_circle(self, coupling, places).map(|c| vec![c]))
         } else {
             None
         };
         let line = |(end, middle, normal, radius): Circle| {
-            let x = projection::across(normal);
+            let x = projection::unit_across(normal);
             let y = cross(normal, x);
             let point = |i: i32| {
                 let angle = TAU * f64::from(i) / 60.0;
@@ -62,7 +67,7 @@ impl Kinematic<'_> {
             .collect()
     }
 
-    fn place<'p>(
+    fn end_place<'p>(
         &self,
         coupling: &Coupling,
         end: usize,
@@ -75,7 +80,7 @@ impl Kinematic<'_> {
 }
 
 /// Two gears on one carrier whose pitch circles roll on each other.
-fn gears(
+fn gear_circles(
     drawn: &Kinematic<'_>,
     coupling: &Coupling,
     places: &[JointInSpace],
@@ -87,8 +92,8 @@ fn gears(
     let links = coupling.ends.map(|e| m.joints[e.joint].links);
     let carrier = links[0].into_iter().find(|l| links[1].contains(l))?;
     let [a, b] = [
-        drawn.place(coupling, 0, places)?,
-        drawn.place(coupling, 1, places)?,
+        drawn.end_place(coupling, 0, places)?,
+        drawn.end_place(coupling, 1, places)?,
     ];
     if norm(cross(a.z, b.z)) > 1e-6 {
         return None;
@@ -108,7 +113,11 @@ fn gears(
 }
 
 /// The pinion of a rack: one turn against one slide across its axis.
-fn pinion(drawn: &Kinematic<'_>, coupling: &Coupling, places: &[JointInSpace]) -> Option<Circle> {
+fn pinion_circle(
+    drawn: &Kinematic<'_>,
+    coupling: &Coupling,
+    places: &[JointInSpace],
+) -> Option<Circle> {
     let turn = coupling
         .ends
         .iter()
@@ -118,8 +127,8 @@ fn pinion(drawn: &Kinematic<'_>, coupling: &Coupling, places: &[JointInSpace]) -
         return None;
     }
     let [pin, rack] = [
-        drawn.place(coupling, turn, places)?,
-        drawn.place(coupling, slide, places)?,
+        drawn.end_place(coupling, turn, places)?,
+        drawn.end_place(coupling, slide, places)?,
     ];
     let ratio = coupling.ratio.to_f64().abs();
     let radius = if turn == 0 { ratio } else { 1.0 / ratio };

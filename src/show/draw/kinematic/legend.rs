@@ -9,11 +9,11 @@ use crate::model::joint_type::JointType;
 use std::fmt::Write as _;
 
 impl Kinematic<'_> {
-    pub(super) fn legend(&self) -> Vec<(Swatch, String)> {
+    pub(super) fn legend_rows(&self) -> Vec<(Swatch, String)> {
         let m = self.subject.mechanism;
         let mut out = self.joint_type_rows();
         if self.spots.iter().any(|s| s.symbol.ring.is_some()) {
-            let arrow = Swatch::Shapes(drive::round("", 9.5));
+            let arrow = Swatch::Shapes(drive::round_arrow("", 9.5));
             out.push((arrow, "driving pair".to_owned()));
         }
         if self.spots.iter().any(|s| s.symbol.slide.is_some()) {
@@ -24,7 +24,8 @@ impl Kinematic<'_> {
             out.push((Swatch::Shapes(arrow), "driven slide".to_owned()));
         }
         if !self.grounds.is_empty() {
-            let draw = |s: &mut Sheet| Ground::pivot([0.0, -7.0], [0.0, -1.0]).draw(s);
+            let draw =
+                |s: &mut Sheet| Ground::under_pivot([0.0, -7.0], [0.0, -1.0]).draw_ground_lines(s);
             out.push((Swatch::Symbol(draw), m.frame_words()));
         }
         if self.spots.iter().any(|s| self.subject.only_here(s.joint)) {
@@ -47,7 +48,7 @@ impl Kinematic<'_> {
         }
         out.extend(self.arrow_rows(&self.arrows));
         out.extend(self.subject.mark_rows());
-        out.extend(self.departures());
+        out.extend(self.departure_rows());
         out
     }
 
@@ -62,14 +63,17 @@ impl Kinematic<'_> {
             }
         }
         let row = |(t, s): (&JointType, &Spot)| {
-            let shapes = s.symbol.small();
-            (Swatch::Shapes(shapes), format!("{t}, class {}", t.class()))
+            let shapes = s.symbol.legend_shapes();
+            (
+                Swatch::Shapes(shapes),
+                format!("{t}, class {}", t.class_numeral()),
+            )
         };
         types.into_iter().map(row).collect()
     }
 
     /// Returns a row for each way in which the drawing departs from the coordinates.
-    fn departures(&self) -> impl Iterator<Item = (Swatch, String)> {
+    fn departure_rows(&self) -> impl Iterator<Item = (Swatch, String)> {
         let moved = self.places.iter().any(|p| p.moved);
         let moved = moved.then_some("joints that meet in a point stand farther along their axes");
         let bowed = self.bows.iter().any(|&b| b != 0.0);
@@ -79,9 +83,9 @@ impl Kinematic<'_> {
     }
 
     /// The drawing in words, for those who do not see it.
-    pub(super) fn description(&self) -> String {
+    pub(super) fn describe_drawing(&self) -> String {
         let m = self.subject.mechanism;
-        let mut out = self.subject.summary(&self.what());
+        let mut out = self.subject.summary_sentence(&self.view_title());
         for s in &self.spots {
             let joint = &m.joints[s.joint];
             let [a, b] = joint.links.map(|l| &m.links[l].id);

@@ -1,13 +1,13 @@
 //! The arrows of a self-stress in a kinematic scheme, each on the loaded link, near the joint.
 
 use super::Kinematic;
-use super::arrow::{Arrow, shapes};
+use super::arrow::{Arrow, arrow_outline};
 use crate::draw::place::projection::sub as sub3;
 use crate::draw::place::projection::{Vector, add as add3, along_z, norm as norm3, scale as times};
 use crate::draw::sheet::{Shape, Sheet, Swatch};
 use crate::format::decimals;
 use crate::redundancy::stress::SelfStress;
-use crate::svg::plane::{Point, Rect, bounds};
+use crate::svg::plane::{Point, Rect, bounds_of};
 
 /// The length of the greatest arrow, in pixels.
 const LONGEST: f64 = 60.0;
@@ -35,7 +35,7 @@ impl Kinematic<'_> {
                 if self.is_frame(joint.links[end]) {
                     continue;
                 }
-                let link = self.row(joint.links[end]);
+                let link = self.link_row(joint.links[end]);
                 for (what, vector, turns) in [("force", b.force, false), ("moment", b.moment, true)]
                 {
                     let along = times(vector, sign * LONGEST / greatest);
@@ -46,7 +46,7 @@ impl Kinematic<'_> {
                     let [link_id, joint_id] = [&m.links[joint.links[end]].id, &joint.id];
                     out.push(Arrow {
                         link,
-                        at: self.beside(link, self.places[i].point),
+                        at: self.beside_joint(link, self.places[i].point),
                         along,
                         turns,
                         tip: format!(
@@ -60,7 +60,7 @@ impl Kinematic<'_> {
     }
 
     /// A little from a joint towards the middle of a link.
-    fn beside(&self, link: usize, joint: Vector) -> Vector {
+    fn beside_joint(&self, link: usize, joint: Vector) -> Vector {
         let inward = sub3(self.middle_in_space(link), joint);
         let far = norm3(inward) * self.projection.scale;
         let share = if far > 0.0 {
@@ -73,22 +73,26 @@ impl Kinematic<'_> {
 
     /// Returns the shapes of an arrow on paper.
     pub(super) fn arrow_shapes(&self, arrow: &Arrow) -> Vec<Shape> {
-        shapes(self.projection.flat(arrow.at), arrow, &self.projection.view)
+        arrow_outline(
+            self.projection.flat_point(arrow.at),
+            arrow,
+            &self.projection.view,
+        )
     }
 
     /// The room of the arrows.
     pub(super) fn arrow_room(&self, arrows: &[Arrow]) -> Option<Rect> {
         let shapes = arrows.iter().flat_map(|a| self.arrow_shapes(a));
-        let points: Vec<Point> = shapes.flat_map(|s| s.points().to_vec()).collect();
-        (!points.is_empty()).then(|| bounds(&points).grown(3.0))
+        let points: Vec<Point> = shapes.flat_map(|s| s.path_points().to_vec()).collect();
+        (!points.is_empty()).then(|| bounds_of(&points).grown_by(3.0))
     }
 
     pub(super) fn draw_arrows(&self, sheet: &mut Sheet) {
         for arrow in &self.arrows {
             let id = &self.subject.mechanism.links[self.links[arrow.link].0].id;
-            sheet.group("data-load", id, [0.0; 2], |s| {
-                s.tip(&arrow.tip);
-                s.shapes(&self.arrow_shapes(arrow));
+            sheet.draw_group("data-load", id, [0.0; 2], |s| {
+                s.write_tip(&arrow.tip);
+                s.draw_shapes(&self.arrow_shapes(arrow));
             });
         }
     }
@@ -103,7 +107,7 @@ impl Kinematic<'_> {
                 tip: String::new(),
             };
             let there = arrows.iter().any(|a| a.turns == turns);
-            let drawn = shapes([-13.0, 0.0], &one, &along_z());
+            let drawn = arrow_outline([-13.0, 0.0], &one, &along_z());
             there.then(|| (Swatch::Shapes(drawn), text.to_owned()))
         };
         [

@@ -13,7 +13,7 @@ use crate::draw::symbol::placed::Symbol;
 use crate::model::joint_type::JointType;
 use crate::motion::drive_range::Way;
 use crate::motion::pose::Pose;
-use crate::svg::plane::{Rect, bounds};
+use crate::svg::plane::{Rect, bounds_of};
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
@@ -35,20 +35,20 @@ pub struct Moved<'a> {
 /// less motion, on paper and in programs that know no animation.
 #[must_use]
 pub fn kinematic_moving(subject: &Subject<'_>, sight: &Sight, moved: &Moved<'_>) -> Drawing {
-    Moving::new(Kinematic::new(subject, sight), moved).draw()
+    Moving::new(Kinematic::new(subject, sight), moved).draw_sheet()
 }
 
 /// Draws the kinematic scheme at the pose of the file, with the paths of its points over a motion.
 #[must_use]
 pub fn kinematic_along(subject: &Subject<'_>, sight: &Sight, moved: &Moved<'_>) -> Drawing {
     let mut rest = Kinematic::new(subject, sight);
-    let poses = poses(moved);
-    rest.traces = (rest.ways(&poses), moved.way.closed);
-    rest.draw()
+    let poses = poses_of(moved);
+    rest.traces = (rest.traced_ways(&poses), moved.way.closed);
+    rest.draw_sheet()
 }
 
 /// The poses of a motion, each once.
-pub(super) fn poses<'m>(moved: &Moved<'m>) -> Vec<Carried<'m>> {
+pub(super) fn poses_of<'m>(moved: &Moved<'m>) -> Vec<Carried<'m>> {
     let links = moved.way.links.iter().map(Vec::as_slice);
     let of = links.map(|links| Carried {
         pose: moved.pose,
@@ -71,11 +71,11 @@ struct Moving<'a> {
 
 impl<'a> Moving<'a> {
     fn new(mut rest: Kinematic<'a>, moved: &Moved<'a>) -> Moving<'a> {
-        let poses = poses(moved);
+        let poses = poses_of(moved);
         let lines = rest.moving_lines(&poses);
-        let frames = poses.iter().map(|c| rest.picture(Some(c), &lines));
+        let frames = poses.iter().map(|c| rest.picture_in(Some(c), &lines));
         let frames: Vec<MovingPicture> = frames.collect();
-        rest.traces = (rest.ways(&poses), moved.way.closed);
+        rest.traces = (rest.traced_ways(&poses), moved.way.closed);
         Moving {
             frames,
             words: moved.words,
@@ -85,9 +85,9 @@ impl<'a> Moving<'a> {
         }
     }
 
-    fn draw(self) -> Drawing {
+    fn draw_sheet(self) -> Drawing {
         let rest = &self.rest;
-        let mut legend = rest.legend();
+        let mut legend = rest.legend_rows();
         legend.extend(flag_row(&self.frames[self.start]));
         let words = Words {
             shows: Some(self.words.to_owned()),
@@ -96,8 +96,8 @@ impl<'a> Moving<'a> {
         };
         let area = rest.room_of(&self.frames, self.start);
         rest.on_sheet(area, words, |sheet, by| {
-            sheet.style(&self.style());
-            sheet.group("data-drawing", "", by, |s| {
+            sheet.write_style(&self.animation_style());
+            sheet.draw_group("data-drawing", "", by, |s| {
                 rest.draw_traces(s);
                 rest.draw_ground(s);
                 self.draw_frames(s);
@@ -118,7 +118,7 @@ impl<'a> Moving<'a> {
                 let of = &m.joints[spot.joint].joint_type;
                 let mut piece = Sheet::default();
                 let mark = rest.subject.joint_mark(spot.joint);
-                rest.symbol_of(i, of, place).draw(&mut piece, mark);
+                rest.symbol_of(i, of, place).draw_symbol(&mut piece, mark);
                 let next = store.len();
                 *store.entry(piece.into_text()).or_insert(next)
             });
@@ -126,12 +126,12 @@ impl<'a> Moving<'a> {
         }
         let mut symbols: Vec<(usize, String)> = store.into_iter().map(|(s, n)| (n, s)).collect();
         symbols.sort_unstable();
-        sheet.defs(symbols.iter().map(|(n, s)| (format!("m{n}"), s.as_str())));
+        sheet.write_defs(symbols.iter().map(|(n, s)| (format!("m{n}"), s.as_str())));
         for spot in &rest.spots {
-            sheet.symbol(spot.rect);
+            sheet.note_symbol(spot.rect);
         }
         for (n, (f, used)) in self.frames.iter().zip(&used).enumerate() {
-            sheet.frame(n, n == self.start, |s| {
+            sheet.draw_frame(n, n == self.start, |s| {
                 rest.draw_picture(s, f, false);
                 for &i in &order {
                     let id = &m.joints[rest.spots[i].joint].id;
@@ -142,7 +142,7 @@ impl<'a> Moving<'a> {
     }
 
     /// Each picture in its turn, there and back where the drive does not go round.
-    fn style(&self) -> String {
+    fn animation_style(&self) -> String {
         let n = self.frames.len();
         let seconds = n as f64 / RATE as f64;
         let back = if self.closed { "" } else { " alternate" };
@@ -179,17 +179,17 @@ pub(super) fn flag_row(frame: &MovingPicture) -> Option<(Swatch, String)> {
 
 impl Kinematic<'_> {
     /// Returns the name of the drawing.
-    pub(super) fn what(&self) -> String {
+    pub(super) fn view_title(&self) -> String {
         format!("Kinematic scheme {}", self.projection.view.name)
     }
 
     /// The room that pictures take, one of which has the symbols of the pose of the file.
     pub(super) fn room_of(&self, frames: &[MovingPicture], start: usize) -> Rect {
-        let mut area = bounds(&frames[start].at);
+        let mut area = bounds_of(&frames[start].at);
         for (n, frame) in frames.iter().enumerate() {
             for (spot, at) in self.spots.iter().zip(&frame.at) {
                 // a symbol may turn
-                let reach = 2.0 * spot.symbol.reach();
+                let reach = 2.0 * spot.symbol.reach_of_room();
                 let own = if n == start {
                     spot.rect
                 } else {
@@ -198,7 +198,7 @@ impl Kinematic<'_> {
                 area = area.with(&own);
             }
             for (_, body) in &frame.bodies {
-                area = area.with(&bounds(&body.points).grown(4.0));
+                area = area.with(&bounds_of(&body.points).grown_by(4.0));
             }
             let ends = frame.lines.iter().flat_map(|(_, ends)| *ends);
             for p in ends.chain(frame.circles.iter().flatten().copied()) {
@@ -206,9 +206,9 @@ impl Kinematic<'_> {
             }
         }
         for g in &self.grounds {
-            area = area.with(&g.rect());
+            area = area.with(&g.ground_room());
         }
-        for p in self.traced().chain(self.points.iter().map(|p| p.at)) {
+        for p in self.traced_points().chain(self.points.iter().map(|p| p.at)) {
             area = area.with(&Rect::around(p, 6.0, 6.0));
         }
         area
@@ -216,8 +216,8 @@ impl Kinematic<'_> {
 
     pub(super) fn draw_ground(&self, sheet: &mut Sheet) {
         for g in &self.grounds {
-            sheet.symbol(g.rect());
-            g.draw(sheet);
+            sheet.note_symbol(g.ground_room());
+            g.draw_ground_lines(sheet);
         }
     }
 

@@ -5,11 +5,11 @@ use crate::draw::sheet::SMALL;
 use crate::draw::symbol::ground::Ground;
 use crate::svg::labels::{self, AvoidedLine, CROSSED, Wish};
 use crate::svg::plane::{Point, Rect, add, scale, sub, unit};
-use crate::svg::text::{names, width};
+use crate::svg::text::{shorten_names, text_width};
 
 /// Returns a small label at least `clear` away from its anchor.
-fn small(class: String, text: String, anchor: Point, clear: f64) -> (Wish, LabelText) {
-    let wish = Wish::of(&text, SMALL, anchor, clear);
+fn small_label(class: String, text: String, anchor: Point, clear: f64) -> (Wish, LabelText) {
+    let wish = Wish::for_text(&text, SMALL, anchor, clear);
     let label = LabelText {
         class,
         size: SMALL,
@@ -25,7 +25,7 @@ impl Kinematic<'_> {
         rest: &MovingPicture,
     ) -> (Vec<labels::LabelPlace>, Vec<LabelText>) {
         let mut taken: Vec<Rect> = self.spots.iter().map(|s| s.rect).collect();
-        taken.extend(self.grounds.iter().map(Ground::rect));
+        taken.extend(self.grounds.iter().map(Ground::ground_room));
         taken.extend(self.points.iter().map(|p| Rect::around(p.at, 9.0, 9.0)));
         let lines = self.drawn_lines(rest).into_iter().map(|ends| AvoidedLine {
             ends,
@@ -34,14 +34,14 @@ impl Kinematic<'_> {
         let lines: Vec<AvoidedLine> = lines.collect();
         let named = [self.joint_names(), self.link_names(), self.point_names()].concat();
         let (wishes, texts): (Vec<Wish>, Vec<LabelText>) = named.into_iter().unzip();
-        (labels::place(&wishes, &mut taken, &lines), texts)
+        (labels::place_labels(&wishes, &mut taken, &lines), texts)
     }
 
     /// The segments of all that is drawn, which no label may lie on.
     fn drawn_lines(&self, rest: &MovingPicture) -> Vec<(Point, Point)> {
         let bodies = rest.bodies.iter();
-        let mut lines: Vec<_> = bodies.flat_map(|(_, body)| body.lines()).collect();
-        lines.extend(self.grounds.iter().filter_map(Ground::stem));
+        let mut lines: Vec<_> = bodies.flat_map(|(_, body)| body.body_lines()).collect();
+        lines.extend(self.grounds.iter().filter_map(Ground::stem_line));
         lines.extend(self.coupling_lines());
         for c in &rest.circles {
             lines.extend((0..c.len()).map(|i| (c[i], c[(i + 1) % c.len()])));
@@ -50,7 +50,7 @@ impl Kinematic<'_> {
             lines.extend(way.windows(2).map(|w| (w[0], w[1])));
         }
         for shape in self.arrows.iter().flat_map(|a| self.arrow_shapes(a)) {
-            lines.extend(shape.points().windows(2).map(|w| (w[0], w[1])));
+            lines.extend(shape.path_points().windows(2).map(|w| (w[0], w[1])));
         }
         lines
     }
@@ -63,10 +63,10 @@ impl Kinematic<'_> {
         let one = |(s, text): (&Spot, String)| {
             let half = [s.rect.right - s.rect.left, s.rect.bottom - s.rect.top];
             let clear = half[0].min(half[1]) / 2.0;
-            let mark = self.subject.joint_mark(s.joint).class();
-            small(format!("small soft{mark}"), text, s.at, clear)
+            let mark = self.subject.joint_mark(s.joint).mark_class();
+            small_label(format!("small soft{mark}"), text, s.at, clear)
         };
-        let texts = names(&ids, SMALL, 150.0);
+        let texts = shorten_names(&ids, SMALL, 150.0);
         self.spots.iter().zip(texts).map(one).collect()
     }
 
@@ -76,13 +76,13 @@ impl Kinematic<'_> {
         let links = self.links.iter();
         let ids: Vec<&str> = links.map(|(l, _)| m.links[*l].id.as_str()).collect();
         let one = |(n, text): (usize, String)| {
-            let size = [width(&text, 12.0), 13.0];
+            let size = [text_width(&text, 12.0), 13.0];
             let (anchor, first) = self.link_places(n, size);
             let wish = Wish {
                 first,
-                ..Wish::of(&text, 12.0, anchor, 2.0)
+                ..Wish::for_text(&text, 12.0, anchor, 2.0)
             };
-            let mark = self.subject.link_mark(self.links[n].0).class();
+            let mark = self.subject.link_mark(self.links[n].0).mark_class();
             let label = LabelText {
                 class: format!("name{mark}"),
                 size: 12.0,
@@ -90,17 +90,17 @@ impl Kinematic<'_> {
             };
             (wish, label)
         };
-        let texts = names(&ids, 12.0, 150.0).into_iter();
+        let texts = shorten_names(&ids, 12.0, 150.0).into_iter();
         texts.enumerate().map(one).collect()
     }
 
     /// The ids of points of interest.
     fn point_names(&self) -> Vec<(Wish, LabelText)> {
         let ids: Vec<&str> = self.points.iter().map(|p| p.id.as_str()).collect();
-        let texts = names(&ids, SMALL, 150.0);
+        let texts = shorten_names(&ids, SMALL, 150.0);
         let named = self.points.iter().zip(texts);
         named
-            .map(|(p, text)| small("small soft".to_owned(), text, p.at, 5.0))
+            .map(|(p, text)| small_label("small soft".to_owned(), text, p.at, 5.0))
             .collect()
     }
 
@@ -111,8 +111,8 @@ impl Kinematic<'_> {
             let first = self.grounds.first();
             return (first.map_or([0.0; 2], |g| g.to), Vec::new());
         }
-        let body = self.body(link);
-        let middle = body.middle();
+        let body = self.body_at_rest(link);
+        let middle = body.body_middle();
         if body.plate {
             return (middle, vec![(middle, 0.0)]);
         }

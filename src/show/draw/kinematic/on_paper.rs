@@ -1,18 +1,18 @@
 //! Placement of joints, links and grounds of a kinematic scheme on paper.
 
-use crate::draw::kinematic::body::{self, Body, marked};
+use crate::draw::kinematic::body::{self, Body, marked_points};
 use crate::draw::kinematic::{Kinematic, Spot};
 use crate::draw::place::projection::Sight;
-use crate::draw::place::projection::places::places;
+use crate::draw::place::projection::places::shown_places;
 use crate::draw::place::projection::{self, JointInSpace, Projection, ToBeSeen, Vector};
 use crate::draw::subject::{Subject, roominess};
 use crate::draw::symbol::drive::driven_slides;
-use crate::draw::symbol::ground::{Foot, grounds};
-use crate::draw::symbol::placed::{Symbol, sizes};
+use crate::draw::symbol::ground::{Foot, place_grounds};
+use crate::draw::symbol::placed::{Symbol, symbol_sizes};
 use crate::draw::symbol::symbols::side_of_slide;
 use crate::model::joint_type::Freedom;
 use crate::model::mechanism::{Joint, JointId, LinkId, Mechanism, Role};
-use crate::svg::plane::{Point, norm, unit};
+use crate::svg::plane::{Point, plane_norm, unit};
 
 /// The room for the joints.
 const ROOM: Point = [560.0, 400.0];
@@ -25,22 +25,23 @@ impl<'a> Kinematic<'a> {
         // A redesign is seen as the mechanism it came from, so that the two can be laid side by side.
         let before = subject.marks.as_ref().and_then(|m| m.before.as_ref());
         let seen = before.unwrap_or(m);
-        let places = places(seen, &joints);
-        let mut points = marked(m, subject.state, &links);
+        let places = shown_places(seen, &joints);
+        let mut points = marked_points(m, subject.state, &links);
         let more: Vec<_> = points.iter().map(|p| p.place).collect();
         let to_be_seen = ToBeSeen {
             places: &places,
             more: &more,
-            turning: &turning(seen, &joints, &places),
+            turning: &turning_axes(seen, &joints, &places),
         };
         let room = room_for(seen, &joints);
-        let projection = projection::best(to_be_seen, &links, m.frame(), room, sight);
+        let projection =
+            projection::best_projection(to_be_seen, &links, m.frame_link(), room, sight);
         for p in &mut points {
-            p.at = projection.flat(p.place);
+            p.at = projection.flat_point(p.place);
         }
         let mut out = Kinematic {
             subject,
-            spots: spots(subject, &joints, &places, &projection),
+            spots: place_spots(subject, &joints, &places, &projection),
             bows: vec![0.0; links.len()],
             facets: Vec::new(),
             links,
@@ -61,23 +62,23 @@ impl<'a> Kinematic<'a> {
     fn keep_apart(&mut self) {
         let moving = (0..self.links.len()).filter(|&l| !self.is_frame(self.links[l].0));
         let moving: Vec<usize> = moving.collect();
-        let bodies: Vec<Body> = moving.iter().map(|&l| self.body(l)).collect();
-        for (&l, bow) in moving.iter().zip(body::bows(&bodies)) {
+        let bodies: Vec<Body> = moving.iter().map(|&l| self.body_at_rest(l)).collect();
+        for (&l, bow) in moving.iter().zip(body::find_bows(&bodies)) {
             self.bows[l] = bow;
         }
-        let end = |&l: &usize| Some((self.links[l].1[0], self.loose(l)?));
+        let end = |&l: &usize| Some((self.links[l].1[0], self.loose_end(l)?));
         let loose: Vec<(usize, Point)> = moving.iter().filter_map(end).collect();
-        let feet: Vec<Foot> = (0..self.spots.len()).map(|i| self.foot(i)).collect();
-        let frame = self.subject.mechanism.frame();
-        self.grounds = grounds(&feet, &self.links, frame, &loose);
+        let feet: Vec<Foot> = (0..self.spots.len()).map(|i| self.foot_of(i)).collect();
+        let frame = self.subject.mechanism.frame_link();
+        self.grounds = place_grounds(&feet, &self.links, frame, &loose);
     }
 
     /// A joint as the ground has to know it: a block seen from the side has a rail.
-    fn foot(&self, i: usize) -> Foot {
+    fn foot_of(&self, i: usize) -> Foot {
         let spot = &self.spots[i];
         let of = &self.subject.mechanism.joints[spot.joint].joint_type;
-        let along = self.projection.view.flat(self.places[i].z);
-        let side = side_of_slide(of).filter(|_| norm(along) > 0.5);
+        let along = self.projection.view.flat_vector(self.places[i].z);
+        let side = side_of_slide(of).filter(|_| plane_norm(along) > 0.5);
         Foot {
             at: spot.at,
             room: spot.rect,
@@ -107,7 +108,7 @@ fn room_for(m: &Mechanism, joints: &[JointId]) -> Point {
 }
 
 /// The axes that outputs turn about in the frame.
-fn turning(m: &Mechanism, joints: &[JointId], places: &[JointInSpace]) -> Vec<Vector> {
+fn turning_axes(m: &Mechanism, joints: &[JointId], places: &[JointInSpace]) -> Vec<Vector> {
     let with = |j: JointId, role: Role| m.joints[j].links.iter().any(|&l| m.links[l].role == role);
     let turns = |j: JointId| m.joints[j].joint_type.freedoms().contains(&Freedom::Rz);
     let all = joints.iter().zip(places);
@@ -119,16 +120,19 @@ fn turning(m: &Mechanism, joints: &[JointId], places: &[JointInSpace]) -> Vec<Ve
 }
 
 /// The joints on paper with their symbols, which share the room where several have one place.
-fn spots(
+fn place_spots(
     subject: &Subject<'_>,
     joints: &[JointId],
     places: &[JointInSpace],
     projection: &Projection,
 ) -> Vec<Spot> {
     let m = subject.mechanism;
-    let at: Vec<Point> = places.iter().map(|p| projection.flat(p.point)).collect();
+    let at: Vec<Point> = places
+        .iter()
+        .map(|p| projection.flat_point(p.point))
+        .collect();
     let of: Vec<&Joint> = joints.iter().map(|&j| &m.joints[j]).collect();
-    let sizes = sizes(&at, &of);
+    let sizes = symbol_sizes(&at, &of);
     let driven = driven_slides(m, subject.state);
     let spots = joints.iter().zip(&at).zip(sizes);
     let spots = spots.map(|((&joint, &at), size)| {
@@ -137,7 +141,7 @@ fn spots(
             subject,
             joint,
             &of.joint_type,
-            &projection::turned(&of.frame),
+            &projection::frame_in_numbers(&of.frame),
             &projection.view,
             size,
             driven.iter().find(|(j, _)| *j == joint).map(|d| d.1),
@@ -145,7 +149,7 @@ fn spots(
         Spot {
             joint,
             at,
-            rect: symbol.room.moved(at),
+            rect: symbol.room.moved_by(at),
             symbol,
         }
     });

@@ -7,7 +7,7 @@ use crate::draw::place::projection::{Vector, add as add3, scale as times};
 use crate::draw::sheet::{Sheet, Swatch};
 use crate::draw::symbol::placed::one_place;
 use crate::model::mechanism::LinkId;
-use crate::svg::plane::{Point, polyline, sub};
+use crate::svg::plane::{Point, path_data, sub};
 
 impl Kinematic<'_> {
     /// The points of a link.
@@ -16,14 +16,14 @@ impl Kinematic<'_> {
     }
 
     /// All points of the ways.
-    pub(super) fn traced(&self) -> impl Iterator<Item = Point> + '_ {
+    pub(super) fn traced_points(&self) -> impl Iterator<Item = Point> + '_ {
         self.traces.0.iter().flatten().copied()
     }
 
     pub(super) fn draw_traces(&self, sheet: &mut Sheet) {
         let (ways, closed) = &self.traces;
         for way in ways {
-            sheet.path("trace", &polyline(way, *closed));
+            sheet.draw_path("trace", &path_data(way, *closed));
         }
     }
 
@@ -47,10 +47,10 @@ impl Kinematic<'_> {
     }
 
     /// The way of each point that is shown.
-    pub(super) fn ways(&self, poses: &[Carried<'_>]) -> Vec<Vec<Point>> {
-        let tips = self.tips().into_iter();
+    pub(super) fn traced_ways(&self, poses: &[Carried<'_>]) -> Vec<Vec<Point>> {
+        let tips = self.traced_tips().into_iter();
         let of = tips.map(|(link, tip)| {
-            let at = |c: &Carried<'_>| self.projection.flat(c.point(link, tip));
+            let at = |c: &Carried<'_>| self.projection.flat_point(c.carried_point(link, tip));
             poses.iter().map(at).collect()
         });
         of.collect()
@@ -58,7 +58,7 @@ impl Kinematic<'_> {
 
     /// Returns the points of interest. For an output link without any, returns its free end, or its joints except those
     /// on the frame.
-    pub(super) fn tips(&self) -> Vec<(LinkId, Vector)> {
+    pub(super) fn traced_tips(&self) -> Vec<(LinkId, Vector)> {
         let moving = self.points.iter().filter(|p| !self.is_frame(p.link));
         let mut out: Vec<(LinkId, Vector)> = moving.map(|p| (p.link, p.place)).collect();
         let bare = |l: LinkId| self.is_output(l) && self.points_of(l).next().is_none();
@@ -84,7 +84,7 @@ impl Kinematic<'_> {
     /// The free end of a link with one joint.
     pub(super) fn loose_in_space(&self, link: usize) -> Option<Vector> {
         let of = &self.links[link].1;
-        let off = sub(self.loose(link)?, self.spots[of[0]].at);
+        let off = sub(self.loose_end(link)?, self.spots[of[0]].at);
         let (view, scale) = (&self.projection.view, self.projection.scale);
         let across = add3(
             times(view.right, off[0] / scale),

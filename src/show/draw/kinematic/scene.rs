@@ -6,14 +6,14 @@ pub(in crate::draw::kinematic) mod part;
 mod standing;
 
 use super::arrow::Arrow;
-use super::moving::{Moved, flag_row, poses};
+use super::moving::{Moved, flag_row, poses_of};
 use super::{Kinematic, MovingPicture, Words};
 use crate::draw::kinematic::moving::sliding::Carried;
 use crate::draw::place::projection::Sight;
 use crate::draw::place::projection::{Vector, sub};
 use crate::draw::sheet::{Drawing, Swatch};
 use crate::draw::subject::Subject;
-use crate::draw::symbol::pieces::{Piece, tidy};
+use crate::draw::symbol::pieces::{Piece, round_hundredth};
 use crate::draw::symbol::placed::Swap;
 use crate::model::mechanism::LinkId;
 use crate::motion::pose::Pose;
@@ -69,21 +69,21 @@ pub struct Shown<'a> {
 #[must_use]
 pub fn kinematic_scene(subject: &Subject<'_>, sight: &Sight, shown: Shown<'_>) -> (Drawing, Scene) {
     let mut rest = Kinematic::new(subject, sight);
-    let of: Vec<Vec<Carried<'_>>> = shown.moves.iter().map(poses).collect();
-    let mut scene = rest.scene();
+    let of: Vec<Vec<Carried<'_>>> = shown.moves.iter().map(poses_of).collect();
+    let mut scene = rest.build_scene();
     scene.swaps = rest.swap_in(&mut scene, shown.swaps);
     let mut frames = Vec::new();
     for (n, (moved, poses)) in shown.moves.iter().zip(&of).enumerate() {
         let lines = rest.moving_lines(poses);
-        frames.extend(poses.iter().map(|c| rest.picture(Some(c), &lines)));
+        frames.extend(poses.iter().map(|c| rest.picture_in(Some(c), &lines)));
         for line in &lines {
-            let row = rest.row(line.link);
-            scene.wire(&rest, row, line.class, "line", &line.ends, Some(n));
+            let row = rest.link_row(line.link);
+            scene.add_wire(&rest, row, line.class, "line", &line.ends, Some(n));
         }
         scene.add_move(&rest, moved, poses);
     }
     if let (Some(first), Some(poses)) = (shown.moves.first(), of.first()) {
-        rest.traces = (rest.ways(poses), first.way.closed);
+        rest.traces = (rest.traced_ways(poses), first.way.closed);
     }
     let start = shown.moves.first().map_or(0, |m| m.way.start);
     let mut area = rest.room_of(&frames, start);
@@ -91,13 +91,13 @@ pub fn kinematic_scene(subject: &Subject<'_>, sight: &Sight, shown: Shown<'_>) -
     for (name, stress) in shown.stresses {
         let own = rest.arrows_of(stress);
         area = rest.arrow_room(&own).map_or(area, |r| area.with(&r));
-        let arrows_of: Value = own.iter().map(|a| rest.load(a)).collect();
+        let arrows_of: Value = own.iter().map(|a| rest.load_json(a)).collect();
         scene
             .stresses
             .push(json!({ "name": name, "arrows": arrows_of }));
         arrows.extend(own);
     }
-    let mut legend = rest.legend();
+    let mut legend = rest.legend_rows();
     legend.extend(frames.iter().find_map(flag_row));
     legend.extend(rest.arrow_rows(&arrows));
     let first = frames.swap_remove(start);
@@ -115,12 +115,12 @@ impl Scene {
     /// Adds a motion, with the paths of its points relative to the frame.
     fn add_move(&mut self, rest: &Kinematic<'_>, moved: &Moved<'_>, poses: &[Carried<'_>]) {
         let way = moved.way;
-        let frame = rest.row(rest.subject.mechanism.frame());
-        for (link, tip) in rest.tips() {
-            let trace: Vec<Vector> = poses.iter().map(|c| c.point(link, tip)).collect();
+        let frame = rest.link_row(rest.subject.mechanism.frame_link());
+        for (link, tip) in rest.traced_tips() {
+            let trace: Vec<Vector> = poses.iter().map(|c| c.carried_point(link, tip)).collect();
             let form = if way.closed { "loop" } else { "line" };
             let n = self.moves.len();
-            self.wire(rest, frame, "trace", form, &trace, Some(n));
+            self.add_wire(rest, frame, "trace", form, &trace, Some(n));
         }
         let carried = poses.iter().map(|c| rest.carried_in_pixels(c));
         self.moves.push(json!({
@@ -132,7 +132,7 @@ impl Scene {
         }));
     }
 
-    fn wire(
+    fn add_wire(
         &mut self,
         of: &Kinematic<'_>,
         link: usize,
@@ -145,7 +145,7 @@ impl Scene {
             "link": link,
             "class": class,
             "form": form,
-            "points": points.iter().map(|&p| pixels(of, p)).collect::<Vec<_>>(),
+            "points": points.iter().map(|&p| scene_pixels(of, p)).collect::<Vec<_>>(),
             // The motion it belongs to, where it is not there in all.
             "of": motion,
             // Whether it is there in turned views only.
@@ -154,7 +154,7 @@ impl Scene {
     }
 
     /// The number of a symbol of some pieces.
-    pub(super) fn symbol(&mut self, parts: Vec<Piece>) -> usize {
+    pub(super) fn symbol_number(&mut self, parts: Vec<Piece>) -> usize {
         let known = self.symbols.iter().position(|s| *s == parts);
         known.unwrap_or_else(|| {
             self.symbols.push(parts);
@@ -165,7 +165,7 @@ impl Scene {
 
 impl Kinematic<'_> {
     /// The place of a link among those drawn, the frame included.
-    pub(super) fn row(&self, link: LinkId) -> usize {
+    pub(super) fn link_row(&self, link: LinkId) -> usize {
         self.links
             .iter()
             .position(|(l, _)| *l == link)
@@ -178,8 +178,8 @@ impl Kinematic<'_> {
         let centre = self.projection.in_pixels(*middle);
         let one = |(link, _): &(LinkId, Vec<usize>)| {
             let turn = c.links[*link].rotation_vector();
-            let there = self.projection.in_pixels(c.point(*link, *middle));
-            let shift = sub(there, c.links[*link].direction(centre)).map(tidy);
+            let there = self.projection.in_pixels(c.carried_point(*link, *middle));
+            let shift = sub(there, c.links[*link].map_direction(centre)).map(round_hundredth);
             let six = [turn.map(|x| (x * 1e5).round() / 1e5), shift].concat();
             let rests = six.iter().all(|x| *x == 0.0);
             if rests { Vec::new() } else { six }
@@ -187,8 +187,8 @@ impl Kinematic<'_> {
         self.links.iter().map(one).collect()
     }
 
-    fn load(&self, a: &Arrow) -> Value {
-        json!({ "at": pixels(self, a.at), "along": a.along.map(tidy), "turns": a.turns, "tip": a.tip })
+    fn load_json(&self, a: &Arrow) -> Value {
+        json!({ "at": scene_pixels(self, a.at), "along": a.along.map(round_hundredth), "turns": a.turns, "tip": a.tip })
     }
 
     /// A picture of a scene in groups, which learns where on the sheet it is.
@@ -205,21 +205,21 @@ impl Kinematic<'_> {
             legend,
         };
         self.on_sheet(area, words, |sheet, by| {
-            scene.origin = by.map(tidy);
-            let area = area.moved(by);
-            scene.room = [area.left, area.top, area.right, area.bottom].map(tidy);
-            sheet.group("data-home", "ground", by, |s| self.draw_ground(s));
-            sheet.group("data-scene", "", [0.0; 2], |s| {
-                s.group("data-drawing", "", by, |s| self.draw_at_rest(s, picture));
+            scene.origin = by.map(round_hundredth);
+            let area = area.moved_by(by);
+            scene.room = [area.left, area.top, area.right, area.bottom].map(round_hundredth);
+            sheet.draw_group("data-home", "ground", by, |s| self.draw_ground(s));
+            sheet.draw_group("data-scene", "", [0.0; 2], |s| {
+                s.draw_group("data-drawing", "", by, |s| self.draw_at_rest(s, picture));
             });
         })
     }
 }
 
-pub(super) fn fine(v: Vector) -> Vector {
+pub(super) fn round_fine(v: Vector) -> Vector {
     v.map(|x| (x * 1e6).round() / 1e6)
 }
 
-fn pixels(of: &Kinematic<'_>, p: Vector) -> Vector {
-    of.projection.in_pixels(p).map(tidy)
+fn scene_pixels(of: &Kinematic<'_>, p: Vector) -> Vector {
+    of.projection.in_pixels(p).map(round_hundredth)
 }

@@ -1,7 +1,7 @@
 //! The graph of a structural scheme: links are hyperedges over the joints. If the drawn mechanism has a mirror
 //! symmetry, so has its scheme.
 
-use crate::svg::plane::{Point, cross, dot, mean, norm, sub, unit};
+use crate::svg::plane::{Point, cross, dot, mean, plane_norm, sub, unit};
 
 /// Links as lists of joints, and the contours that should be empty.
 #[derive(Debug)]
@@ -24,7 +24,7 @@ pub(in crate::draw) struct Net {
 }
 
 /// Returns the graph with a hub for each link that has more than two joints or shares a pair of joints.
-pub(in crate::draw) fn net(graph: &Graph) -> Net {
+pub(in crate::draw) fn build_net(graph: &Graph) -> Net {
     let mut edges = vec![Vec::new(); graph.joints];
     let mut hub = Vec::new();
     for (l, joints) in graph.links.iter().enumerate() {
@@ -43,7 +43,7 @@ pub(in crate::draw) fn net(graph: &Graph) -> Net {
         }
         let h = edges.len();
         edges.push(Vec::new());
-        let radius = radius(joints.len());
+        let radius = link_radius(joints.len());
         for &j in joints {
             edges[h].push((j, radius));
             edges[j].push((h, radius));
@@ -54,7 +54,7 @@ pub(in crate::draw) fn net(graph: &Graph) -> Net {
 }
 
 /// The distance of a link's joints from its middle.
-pub(in crate::draw) fn radius(joints: usize) -> f64 {
+pub(in crate::draw) fn link_radius(joints: usize) -> f64 {
     match joints {
         0 | 1 => 0.75,
         2 => 0.8,
@@ -64,20 +64,20 @@ pub(in crate::draw) fn radius(joints: usize) -> f64 {
 }
 
 /// The joints of a link in order round their middle.
-pub(in crate::draw) fn ring(of: &[usize], joints: &[Point]) -> Vec<usize> {
+pub(in crate::draw) fn joint_ring(of: &[usize], joints: &[Point]) -> Vec<usize> {
     let centre = mean(of.iter().map(|&j| joints[j]));
     let mut ring = of.to_vec();
     // in a row: there, and straight back
     let far = |from: Point| {
         let far = of.iter().map(|&j| sub(joints[j], from));
-        far.max_by(|a, b| norm(*a).total_cmp(&norm(*b)))
+        far.max_by(|a, b| plane_norm(*a).total_cmp(&plane_norm(*b)))
             .unwrap_or([0.0; 2])
     };
     let along = unit(far(centre));
     let off = of
         .iter()
         .map(|&j| cross(along, sub(joints[j], centre)).abs());
-    if off.fold(0.0, f64::max) <= 0.02 * norm(far(centre)) {
+    if off.fold(0.0, f64::max) <= 0.02 * plane_norm(far(centre)) {
         ring.sort_by(|&a, &b| dot(along, joints[a]).total_cmp(&dot(along, joints[b])));
     } else if ring.len() > 2 {
         ring.sort_by(|&a, &b| {
@@ -94,16 +94,20 @@ pub(in crate::draw) struct Mirror(Vec<usize>);
 
 impl Mirror {
     /// Returns the reflection of y that maps joints to joints and links to links, or `None` if there is none.
-    pub(in crate::draw) fn find(graph: &Graph, net: &Net, joints: &[Point]) -> Option<Mirror> {
+    pub(in crate::draw) fn find_mirror(
+        graph: &Graph,
+        net: &Net,
+        joints: &[Point],
+    ) -> Option<Mirror> {
         let middle = mean(joints.iter().copied());
         let size = joints
             .iter()
-            .map(|&p| norm(sub(p, middle)))
+            .map(|&p| plane_norm(sub(p, middle)))
             .fold(0.0, f64::max);
         let image = |j: usize| {
             let flipped = [joints[j][0], 2.0 * middle[1] - joints[j][1]];
             let mut near =
-                (0..joints.len()).filter(|&k| norm(sub(joints[k], flipped)) < 1e-4 * size);
+                (0..joints.len()).filter(|&k| plane_norm(sub(joints[k], flipped)) < 1e-4 * size);
             near.next().filter(|_| near.next().is_none())
         };
         let of: Vec<usize> = (0..joints.len()).map(image).collect::<Option<_>>()?;
@@ -128,7 +132,7 @@ impl Mirror {
     }
 
     /// Makes places symmetric about the axis of x.
-    pub(in crate::draw) fn apply(&self, at: &mut [Point]) {
+    pub(in crate::draw) fn make_symmetric(&self, at: &mut [Point]) {
         let old = at.to_vec();
         for (i, p) in at.iter_mut().enumerate() {
             let q = old[self.0[i]];
@@ -137,7 +141,7 @@ impl Mirror {
     }
 
     /// The image of a joint.
-    pub(in crate::draw) fn image(&self, joint: usize) -> usize {
+    pub(in crate::draw) fn image_of(&self, joint: usize) -> usize {
         self.0[joint]
     }
 }

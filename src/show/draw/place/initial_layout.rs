@@ -2,7 +2,7 @@
 
 use crate::draw::place::Dice;
 use crate::draw::place::graph::{Graph, Mirror, Net};
-use crate::svg::plane::{Point, add, mean, norm, scale, sub};
+use crate::svg::plane::{Point, add, mean, plane_norm, scale, sub};
 use std::f64::consts::TAU;
 
 /// Where to begin.
@@ -17,7 +17,7 @@ pub(in crate::draw) struct Start {
 }
 
 /// Every start.
-pub(in crate::draw) fn all(graph: &Graph, net: &Net, hints: &[Vec<Point>]) -> Vec<Start> {
+pub(in crate::draw) fn all_starts(graph: &Graph, net: &Net, hints: &[Vec<Point>]) -> Vec<Start> {
     let mut out = Vec::new();
     let plain = |at| Start {
         at,
@@ -25,9 +25,9 @@ pub(in crate::draw) fn all(graph: &Graph, net: &Net, hints: &[Vec<Point>]) -> Ve
         mirror: None,
     };
     for hint in hints.iter().filter(|h| h.len() == graph.joints) {
-        if let Some(fitted) = fitted(graph, hint) {
+        if let Some(fitted) = fit_hint(graph, hint) {
             let at = with_hubs(graph, net, &fitted);
-            let mirror = Mirror::find(graph, net, &fitted);
+            let mirror = Mirror::find_mirror(graph, net, &fitted);
             let mirrors = mirror.map(Some).into_iter().chain([None]);
             out.extend(mirrors.map(|mirror| Start {
                 at: at.clone(),
@@ -39,24 +39,25 @@ pub(in crate::draw) fn all(graph: &Graph, net: &Net, hints: &[Vec<Point>]) -> Ve
     let mut outer: Vec<&Vec<usize>> = graph.contours.iter().filter(|c| c.len() > 2).collect();
     outer.sort_by_key(|c| std::cmp::Reverse(c.len()));
     for contour in outer.into_iter().take(6) {
-        out.push(plain(tutte(net, contour)));
+        out.push(plain(tutte_layout(net, contour)));
     }
     let mut dice = Dice::new(7);
     for _ in 0..2 {
         let reach = (net.edges.len() as f64).sqrt();
-        let scatter = |_: &Vec<(usize, f64)>| [reach * dice.signed(), reach * dice.signed()];
+        let scatter =
+            |_: &Vec<(usize, f64)>| [reach * dice.random_signed(), reach * dice.random_signed()];
         out.push(plain(net.edges.iter().map(scatter).collect()));
     }
     out
 }
 
 /// Places scaled so that links have about the usual length; `None` where they cannot be.
-fn fitted(graph: &Graph, hint: &[Point]) -> Option<Vec<Point>> {
+fn fit_hint(graph: &Graph, hint: &[Point]) -> Option<Vec<Point>> {
     let (mut sum, mut count) = (0.0, 0.0f64);
     for of in &graph.links {
         for (i, &a) in of.iter().enumerate() {
             for &b in &of[i + 1..] {
-                sum += norm(sub(hint[a], hint[b]));
+                sum += plane_norm(sub(hint[a], hint[b]));
                 count += 1.0;
             }
         }
@@ -84,7 +85,7 @@ fn with_hubs(graph: &Graph, net: &Net, joints: &[Point]) -> Vec<Point> {
 }
 
 /// Tutte's drawing: a contour on a circle, every other node in the middle of its neighbours.
-fn tutte(net: &Net, contour: &[usize]) -> Vec<Point> {
+fn tutte_layout(net: &Net, contour: &[usize]) -> Vec<Point> {
     let n = net.edges.len();
     let radius = (n as f64).sqrt() * 0.9;
     let mut at = vec![[0.0, 0.0]; n];
@@ -123,7 +124,7 @@ fn tutte(net: &Net, contour: &[usize]) -> Vec<Point> {
 
 /// Two links above each other and legs of one kind between them, as parallel manipulators have: the legs stand side by
 /// side, the frame is below. There is nothing to search for then.
-pub(in crate::draw) fn ladder(graph: &Graph) -> Option<Vec<Point>> {
+pub(in crate::draw) fn ladder_layout(graph: &Graph) -> Option<Vec<Point>> {
     let mut branches = (0..graph.links.len()).filter(|&l| graph.links[l].len() > 2);
     let (mut above, mut below) = (branches.next()?, branches.next()?);
     if branches.next().is_some() {
@@ -135,7 +136,7 @@ pub(in crate::draw) fn ladder(graph: &Graph) -> Option<Vec<Point>> {
     let mut seen = vec![false; graph.joints];
     let legs: Vec<Vec<usize>> = graph.links[above]
         .iter()
-        .map(|&j| chain(graph, above, j, &mut seen))
+        .map(|&j| follow_chain(graph, above, j, &mut seen))
         .collect();
     let long = legs.first()?.len();
     let alike = legs.iter().all(|leg| leg.len() == long);
@@ -158,7 +159,7 @@ pub(in crate::draw) fn ladder(graph: &Graph) -> Option<Vec<Point>> {
 }
 
 /// The joints from a link on through bars.
-fn chain(graph: &Graph, from: usize, joint: usize, seen: &mut [bool]) -> Vec<usize> {
+fn follow_chain(graph: &Graph, from: usize, joint: usize, seen: &mut [bool]) -> Vec<usize> {
     let (mut at, mut j, mut out) = (from, joint, Vec::new());
     loop {
         seen[j] = true;

@@ -7,10 +7,10 @@
 //! # Sources
 //! Gansner, Koren & North, "Graph drawing by stress majorization", GD 2004. Tutte, "How to draw a graph", 1963.
 
-use crate::draw::place::graph::{Graph, Mirror, Net, net};
+use crate::draw::place::graph::{Graph, Mirror, Net, build_net};
 use crate::draw::place::initial_layout::{self, Start};
 use crate::draw::place::layout_penalty::Crowding;
-use crate::svg::plane::{Point, add, dot, mean, norm, scale, sub, unit};
+use crate::svg::plane::{Point, add, dot, mean, plane_norm, scale, sub, unit};
 
 /// A finished layout; the unit of length is about the length of a bar.
 #[derive(Debug, Clone)]
@@ -40,13 +40,13 @@ impl Candidate {
         favour: f64,
     ) -> Option<Candidate> {
         match &start.mirror {
-            Some(mirror) => mirror.apply(&mut at),
-            None => centre(&mut at),
+            Some(mirror) => mirror.make_symmetric(&mut at),
+            None => centre_layout(&mut at),
         }
         at.truncate(crowding.graph.joints);
         let favour = favour * if start.drawn { 0.85 } else { 1.0 };
         let favour = favour * if start.mirror.is_some() { 0.75 } else { 1.0 };
-        let cost = crowding.cost(&at) * favour;
+        let cost = crowding.layout_cost(&at) * favour;
         cost.is_finite().then(|| Candidate {
             cost,
             favour,
@@ -56,18 +56,18 @@ impl Candidate {
     }
 
     /// Polishes it where it is crowded.
-    fn polish(&mut self, crowding: &Crowding) {
-        if !crowding.violated(&self.joints) {
+    fn polish_layout(&mut self, crowding: &Crowding) {
+        if !crowding.is_violated(&self.joints) {
             return;
         }
-        crowding.polish(&mut self.joints, self.mirror.as_ref());
+        crowding.anneal_layout(&mut self.joints, self.mirror.as_ref());
         // a symmetric or familiar drawing is worth something, not a crossing
-        let favour = if crowding.violated(&self.joints) {
+        let favour = if crowding.is_violated(&self.joints) {
             1.0
         } else {
             self.favour
         };
-        self.cost = crowding.cost(&self.joints) * favour;
+        self.cost = crowding.layout_cost(&self.joints) * favour;
     }
 }
 
@@ -82,43 +82,43 @@ fn worth_polishing(mut candidates: Vec<Candidate>) -> Vec<Candidate> {
 }
 
 /// A layout of the graph, starting also from the places given for the joints.
-pub(in crate::draw) fn layout(graph: &Graph, hints: &[Vec<Point>]) -> Layout {
-    let net = net(graph);
-    if let Some(joints) = initial_layout::ladder(graph) {
-        let hubs = hubs(graph, &net, &joints);
+pub(in crate::draw) fn find_layout(graph: &Graph, hints: &[Vec<Point>]) -> Layout {
+    let net = build_net(graph);
+    if let Some(joints) = initial_layout::ladder_layout(graph) {
+        let hubs = place_hubs(graph, &net, &joints);
         return Layout { joints, hubs };
     }
     let crowding = Crowding { graph };
-    let far = distances(&net);
+    let far = path_lengths(&net);
     let nodes = net.edges.len();
     let rounds = (4_000_000 / (nodes * nodes).max(1)).clamp(4, 80);
     let mut candidates: Vec<Candidate> = Vec::new();
-    for start in initial_layout::all(graph, &net, hints) {
+    for start in initial_layout::all_starts(graph, &net, hints) {
         let take = |at: &[Point], favour| Candidate::new(&crowding, at.to_vec(), &start, favour);
         candidates.extend(take(&start.at, 1.0));
         let mut relaxed = start.at.clone();
         for part in 0..4 {
-            relax(&mut relaxed, &far, rounds / 4 + 1);
+            relax_stress(&mut relaxed, &far, rounds / 4 + 1);
             candidates.extend(take(&relaxed, 1.0 - 1e-3 * f64::from(part)));
         }
     }
     let polished = worth_polishing(candidates).into_iter().map(|mut c| {
-        c.polish(&crowding);
+        c.polish_layout(&crowding);
         c
     });
     let best = polished.min_by(|a, b| a.cost.total_cmp(&b.cost));
     let is_symmetric = best.as_ref().is_some_and(|c| c.mirror.is_some());
     let mut joints = best.map_or_else(|| vec![[0.0; 2]; graph.joints], |c| c.joints);
     if !is_symmetric {
-        level(graph, &mut joints);
+        level_layout(graph, &mut joints);
     }
-    let hubs = hubs(graph, &net, &joints);
+    let hubs = place_hubs(graph, &net, &joints);
     Layout { joints, hubs }
 }
 
 /// Lays the longest direction level, with the frame below; a side of the frame where no direction is longer.
-fn level(graph: &Graph, at: &mut [Point]) {
-    centre(at);
+fn level_layout(graph: &Graph, at: &mut [Point]) {
+    centre_layout(at);
     let sum = |f: &dyn Fn(&Point) -> f64| at.iter().map(f).sum::<f64>();
     let (xx, yy, xy) = (
         sum(&|p| p[0] * p[0]),
@@ -146,7 +146,7 @@ fn level(graph: &Graph, at: &mut [Point]) {
 }
 
 /// The middles of links; of bars between the same two joints, each bows its own way; loose ends point outward.
-fn hubs(graph: &Graph, net: &Net, joints: &[Point]) -> Vec<Point> {
+fn place_hubs(graph: &Graph, net: &Net, joints: &[Point]) -> Vec<Point> {
     let middle = mean(joints.iter().copied());
     let mut out: Vec<Point> = Vec::new();
     for (l, of) in graph.links.iter().enumerate() {
@@ -165,7 +165,8 @@ fn hubs(graph: &Graph, net: &Net, joints: &[Point]) -> Vec<Point> {
                 } else {
                     sub(centre, if joints.len() > 2 { middle } else { from })
                 };
-                let twin = out.iter().any(|h| norm(sub(*h, centre)) < 0.8) && joints.len() == 1;
+                let twin =
+                    out.iter().any(|h| plane_norm(sub(*h, centre)) < 0.8) && joints.len() == 1;
                 let side = if twin { -1.0 } else { 1.0 };
                 add(centre, scale(unit(away), side * 0.75))
             }
@@ -193,7 +194,7 @@ fn hubs(graph: &Graph, net: &Net, joints: &[Point]) -> Vec<Point> {
 }
 
 /// Returns the lengths of the shortest paths between nodes, or a large length if there is no path.
-fn distances(net: &Net) -> Vec<Vec<f64>> {
+fn path_lengths(net: &Net) -> Vec<Vec<f64>> {
     let n = net.edges.len();
     let apart = 3.0 + (n as f64).sqrt();
     (0..n)
@@ -217,7 +218,7 @@ fn distances(net: &Net) -> Vec<Vec<f64>> {
 }
 
 /// Stress majorization, node by node, with weights 1/d².
-fn relax(at: &mut [Point], far: &[Vec<f64>], rounds: usize) {
+fn relax_stress(at: &mut [Point], far: &[Vec<f64>], rounds: usize) {
     for _ in 0..rounds {
         for i in 0..at.len() {
             let (mut sum, mut weights) = ([0.0, 0.0], 0.0);
@@ -225,7 +226,7 @@ fn relax(at: &mut [Point], far: &[Vec<f64>], rounds: usize) {
                 let d = far[i][j].max(1e-3);
                 let w = 1.0 / (d * d);
                 let apart = sub(at[i], at[j]);
-                let length = norm(apart);
+                let length = plane_norm(apart);
                 let dir = if length > 1e-9 {
                     scale(apart, 1.0 / length)
                 } else {
@@ -244,7 +245,7 @@ fn relax(at: &mut [Point], far: &[Vec<f64>], rounds: usize) {
     }
 }
 
-fn centre(at: &mut [Point]) {
+fn centre_layout(at: &mut [Point]) {
     let middle = mean(at.iter().copied());
     at.iter_mut().for_each(|p| *p = sub(*p, middle));
 }

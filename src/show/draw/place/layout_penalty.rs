@@ -1,9 +1,10 @@
 //! How bad a layout is, and small moves that make it better.
 
 use crate::draw::place::Dice;
-use crate::draw::place::graph::{Graph, Mirror, radius, ring};
+use crate::draw::place::graph::{Graph, Mirror, joint_ring, link_radius};
 use crate::svg::plane::{
-    Point, add, apart, area, cross, inside, mean, norm, segments_cross, sub, to_segment,
+    Point, add, are_apart, cross, is_inside, mean, plane_norm, polygon_area, segments_cross, sub,
+    to_segment,
 };
 
 /// Joints nearer than this are too near.
@@ -19,39 +20,43 @@ pub(in crate::draw) struct Crowding<'a> {
 
 impl Crowding<'_> {
     /// The cost of the whole.
-    pub(in crate::draw) fn cost(&self, at: &[Point]) -> f64 {
-        let rings = self.rings(at);
+    pub(in crate::draw) fn layout_cost(&self, at: &[Point]) -> f64 {
+        let rings = self.link_rings(at);
         let links: f64 = (0..rings.len())
-            .map(|l| self.shape(&rings[l], at) + self.strangers(l, &rings, at))
+            .map(|l| self.shape_cost(&rings[l], at) + self.strangers_cost(l, &rings, at))
             .sum();
         let mut pairs = 0.0;
         for (l, m) in near_pairs(&rings, at) {
-            pairs += self.meet(&rings[l], &rings[m], at);
+            pairs += self.crossing_cost(&rings[l], &rings[m], at);
         }
         let mut joints = 0.0;
         for i in 0..at.len() {
             for j in 0..i {
-                joints += near(at[i], at[j]);
+                joints += nearness_cost(at[i], at[j]);
             }
         }
         links + pairs + joints + self.full_contours(at)
     }
 
     /// Whether something crosses or crowds.
-    pub(in crate::draw) fn violated(&self, at: &[Point]) -> bool {
-        let rings = self.rings(at);
+    pub(in crate::draw) fn is_violated(&self, at: &[Point]) -> bool {
+        let rings = self.link_rings(at);
         let mut pairs = near_pairs(&rings, at);
-        (0..rings.len()).any(|l| self.strangers(l, &rings, at) > 0.05)
-            || pairs.any(|(l, m)| self.meet(&rings[l], &rings[m], at) > 0.0)
-            || (0..at.len()).any(|i| (0..i).any(|j| near(at[i], at[j]) > 0.2))
+        (0..rings.len()).any(|l| self.strangers_cost(l, &rings, at) > 0.05)
+            || pairs.any(|(l, m)| self.crossing_cost(&rings[l], &rings[m], at) > 0.0)
+            || (0..at.len()).any(|i| (0..i).any(|j| nearness_cost(at[i], at[j]) > 0.2))
     }
 
-    fn rings(&self, at: &[Point]) -> Vec<Vec<usize>> {
-        self.graph.links.iter().map(|of| ring(of, at)).collect()
+    fn link_rings(&self, at: &[Point]) -> Vec<Vec<usize>> {
+        self.graph
+            .links
+            .iter()
+            .map(|of| joint_ring(of, at))
+            .collect()
     }
 
     /// Bars of unusual length, polygons of unusual size.
-    fn shape(&self, ring: &[usize], at: &[Point]) -> f64 {
+    fn shape_cost(&self, ring: &[usize], at: &[Point]) -> f64 {
         let m = ring.len();
         if m < 2 {
             return 0.0;
@@ -59,11 +64,11 @@ impl Crowding<'_> {
         let wish = match m {
             2 => 1.15,
             3 => 1.1,
-            m => 2.0 * radius(m) * (std::f64::consts::PI / m as f64).sin(),
+            m => 2.0 * link_radius(m) * (std::f64::consts::PI / m as f64).sin(),
         };
-        let mut sum: f64 = sides(ring)
+        let mut sum: f64 = ring_sides(ring)
             .map(|(a, b)| {
-                let off = norm(sub(at[a], at[b])) - wish;
+                let off = plane_norm(sub(at[a], at[b])) - wish;
                 0.4 * off * off * if m > 3 { 0.4 } else { 1.0 }
             })
             .sum();
@@ -82,20 +87,20 @@ impl Crowding<'_> {
     }
 
     /// Joints of others near or on a link.
-    fn strangers(&self, l: usize, rings: &[Vec<usize>], at: &[Point]) -> f64 {
+    fn strangers_cost(&self, l: usize, rings: &[Vec<usize>], at: &[Point]) -> f64 {
         let own = &self.graph.links[l];
         let polygon: Vec<Point> = rings[l].iter().map(|&j| at[j]).collect();
-        let [low, high] = span(&rings[l], at);
+        let [low, high] = ring_span(&rings[l], at);
         (0..at.len())
-            .filter(|&j| !beyond(at[j], low, high) && !own.contains(&j))
-            .map(|j| self.stranger(at[j], &rings[l], &polygon, at))
+            .filter(|&j| !is_beyond(at[j], low, high) && !own.contains(&j))
+            .map(|j| self.stranger_cost(at[j], &rings[l], &polygon, at))
             .sum()
     }
 
-    fn stranger(&self, p: Point, ring: &[usize], polygon: &[Point], at: &[Point]) -> f64 {
+    fn stranger_cost(&self, p: Point, ring: &[usize], polygon: &[Point], at: &[Point]) -> f64 {
         let mut sum = 0.0;
-        for (a, b) in sides(ring) {
-            if beyond(p, at[a], at[b]) {
+        for (a, b) in ring_sides(ring) {
+            if is_beyond(p, at[a], at[b]) {
                 continue;
             }
             let d = to_segment(p, at[a], at[b]);
@@ -103,22 +108,22 @@ impl Crowding<'_> {
                 sum += 6.0 * ((CLEAR - d) / CLEAR).powi(2);
             }
         }
-        if polygon.len() > 2 && inside(p, polygon) {
+        if polygon.len() > 2 && is_inside(p, polygon) {
             sum += 14.0;
         }
         sum
     }
 
     /// Crossings of two links.
-    fn meet(&self, one: &[usize], other: &[usize], at: &[Point]) -> f64 {
+    fn crossing_cost(&self, one: &[usize], other: &[usize], at: &[Point]) -> f64 {
         let mut sum = 0.0;
-        for (a, b) in sides(one) {
-            for (c, d) in sides(other) {
+        for (a, b) in ring_sides(one) {
+            for (c, d) in ring_sides(other) {
                 if a != c
                     && a != d
                     && b != c
                     && b != d
-                    && !apart([at[a], at[b]], [at[c], at[d]])
+                    && !are_apart([at[a], at[b]], [at[c], at[d]])
                     && segments_cross(at[a], at[b], at[c], at[d])
                 {
                     sum += 10.0;
@@ -136,19 +141,22 @@ impl Crowding<'_> {
             .map(|contour| {
                 let polygon: Vec<Point> = contour.iter().map(|&j| at[j]).collect();
                 let within = (0..at.len())
-                    .filter(|j| !contour.contains(j) && inside(at[*j], &polygon))
+                    .filter(|j| !contour.contains(j) && is_inside(at[*j], &polygon))
                     .count();
                 let c = mean(polygon.iter().copied());
-                let round: f64 = polygon.iter().map(|&p| norm(sub(p, c))).fold(0.0, f64::max);
+                let round: f64 = polygon
+                    .iter()
+                    .map(|&p| plane_norm(sub(p, c)))
+                    .fold(0.0, f64::max);
                 // a tint must be seen
-                let small = (0.6 - area(&polygon)).max(0.0);
+                let small = (0.6 - polygon_area(&polygon)).max(0.0);
                 0.5 * within as f64 + 2.0 * small + if round < 0.5 { 1.0 } else { 0.0 }
             })
             .sum()
     }
 
     /// Annealing by moves of single joints; the same for the same graph.
-    pub(in crate::draw) fn polish(&self, at: &mut Vec<Point>, mirror: Option<&Mirror>) {
+    pub(in crate::draw) fn anneal_layout(&self, at: &mut Vec<Point>, mirror: Option<&Mirror>) {
         let n = at.len();
         if n < 2 {
             return;
@@ -157,23 +165,26 @@ impl Crowding<'_> {
         let moves = (3_000_000 / (8 * (sides + n)).max(1)).clamp(200, 6000);
         let mut dice = Dice::new(n as u64);
         let mut now = at.clone();
-        let mut cost = self.cost(at);
+        let mut cost = self.layout_cost(at);
         let mut least = cost;
         for step in 0..moves {
             let cool = 1.0 - step as f64 / moves as f64;
-            let j = dice.below(n);
-            let twin = mirror.map_or(j, |m| m.image(j));
+            let j = dice.random_below(n);
+            let twin = mirror.map_or(j, |m| m.image_of(j));
             let reach = 1.6 * cool * cool + 0.05;
             let old = [now[j], now[twin]];
-            now[j] = add(now[j], [reach * dice.signed(), reach * dice.signed()]);
+            now[j] = add(
+                now[j],
+                [reach * dice.random_signed(), reach * dice.random_signed()],
+            );
             if twin != j {
                 now[twin] = [now[j][0], -now[j][1]];
             } else if mirror.is_some() {
                 now[j][1] = 0.0;
             }
-            let after = self.cost(&now);
+            let after = self.layout_cost(&now);
             let gain = cost - after;
-            if gain < 0.0 && dice.even() > (gain / (1.2 * cool * cool + 1e-9)).exp() {
+            if gain < 0.0 && dice.random_unit() > (gain / (1.2 * cool * cool + 1e-9)).exp() {
                 (now[j], now[twin]) = (old[0], old[1]);
                 continue;
             }
@@ -187,7 +198,7 @@ impl Crowding<'_> {
 }
 
 /// The sides of a polygon, or the one bar.
-fn sides(ring: &[usize]) -> impl Iterator<Item = (usize, usize)> + '_ {
+fn ring_sides(ring: &[usize]) -> impl Iterator<Item = (usize, usize)> + '_ {
     let count = if ring.len() > 2 {
         ring.len()
     } else {
@@ -197,7 +208,7 @@ fn sides(ring: &[usize]) -> impl Iterator<Item = (usize, usize)> + '_ {
 }
 
 /// The least and the greatest coordinates of a ring.
-fn span(ring: &[usize], at: &[Point]) -> [Point; 2] {
+fn ring_span(ring: &[usize], at: &[Point]) -> [Point; 2] {
     let all = ring.iter().map(|&j| at[j]);
     let none = [[f64::INFINITY; 2], [f64::NEG_INFINITY; 2]];
     all.fold(none, |[low, high], p| {
@@ -210,21 +221,21 @@ fn span(ring: &[usize], at: &[Point]) -> [Point; 2] {
 
 /// The pairs of rings that may meet, each with the one that comes before.
 fn near_pairs(rings: &[Vec<usize>], at: &[Point]) -> impl Iterator<Item = (usize, usize)> {
-    let spans: Vec<[Point; 2]> = rings.iter().map(|r| span(r, at)).collect();
+    let spans: Vec<[Point; 2]> = rings.iter().map(|r| ring_span(r, at)).collect();
     let pairs = (0..rings.len()).flat_map(|l| (0..l).map(move |m| (l, m)));
-    pairs.filter(move |&(l, m)| !apart(spans[l], spans[m]))
+    pairs.filter(move |&(l, m)| !are_apart(spans[l], spans[m]))
 }
 
 /// Whether a place is farther from a segment than what crowds it, in one coordinate already.
-fn beyond(p: Point, a: Point, b: Point) -> bool {
+fn is_beyond(p: Point, a: Point, b: Point) -> bool {
     (0..2).any(|k| p[k] < a[k].min(b[k]) - CLEAR || p[k] > a[k].max(b[k]) + CLEAR)
 }
 
-fn near(a: Point, b: Point) -> f64 {
+fn nearness_cost(a: Point, b: Point) -> f64 {
     if (0..2).any(|k| (a[k] - b[k]).abs() >= JOINTS) {
         return 0.0;
     }
-    let d = norm(sub(a, b));
+    let d = plane_norm(sub(a, b));
     if d < JOINTS {
         12.0 * ((JOINTS - d) / JOINTS).powi(2)
     } else {

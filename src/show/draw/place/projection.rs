@@ -4,10 +4,10 @@ pub(in crate::draw) mod places;
 mod view;
 
 pub use crate::draw::place::projection::view::Sight;
-use crate::draw::place::projection::view::{FLAT, face_on, unit, views};
-pub(in crate::draw) use crate::draw::place::projection::view::{View, along_z, aslant};
+use crate::draw::place::projection::view::{FLAT, all_views, face_on, unit_or};
+pub(in crate::draw) use crate::draw::place::projection::view::{View, along_z, isometric_view};
 use crate::geom::expr::Expr;
-use crate::geom::extent::diagonal;
+use crate::geom::extent::box_diagonal;
 pub(in crate::draw) use crate::geom::vector::{
     Vector, add, cross, dot, length as norm, scale, sub,
 };
@@ -15,7 +15,7 @@ use crate::geom::vector::{X, Y, Z};
 use crate::model::joint_type::JointType;
 use crate::model::mechanism::{Frame, JointId, LinkId, Mechanism};
 use crate::svg::plane::{
-    Point, Rect, apart, bounds, norm as norm2, segments_cross, sub as sub2, to_segment,
+    Point, Rect, are_apart, bounds_of, plane_norm as norm2, segments_cross, sub as sub2, to_segment,
 };
 
 /// Joints nearer than this on paper, in pixels, are in one place.
@@ -49,7 +49,7 @@ pub(in crate::draw) struct JointInSpace {
 
 impl JointInSpace {
     /// The same kind of joint at another point, with its axes turned.
-    pub(in crate::draw) fn carried(
+    pub(in crate::draw) fn carried_to(
         &self,
         point: Vector,
         turn: impl Fn(Vector) -> Vector,
@@ -66,7 +66,7 @@ impl JointInSpace {
 }
 
 /// The place of a joint, as its coordinates have it.
-fn frame(mechanism: &Mechanism, joint: JointId) -> JointInSpace {
+fn joint_frame(mechanism: &Mechanism, joint: JointId) -> JointInSpace {
     let of = &mechanism.joints[joint];
     JointInSpace {
         turn: match of.joint_type {
@@ -74,26 +74,26 @@ fn frame(mechanism: &Mechanism, joint: JointId) -> JointInSpace {
             JointType::Spherical | JointType::Fixed => Turn::Any,
             _ => Turn::Slide,
         },
-        ..turned(&of.frame)
+        ..frame_in_numbers(&of.frame)
     }
 }
 
 /// A vector in numbers; those that are none count as 0.
-pub(in crate::draw) fn real(v: &[Expr; 3]) -> Vector {
+pub(in crate::draw) fn finite_vector(v: &[Expr; 3]) -> Vector {
     let fits = |x: f64| x.is_finite() && x.abs() < 1e120;
     v.each_ref()
         .map(|e| Some(e.to_f64()).filter(|&x| fits(x)).unwrap_or_default())
 }
 
 /// A joint's frame in numbers; those that are none count as 0.
-pub(in crate::draw) fn turned(f: &Frame) -> JointInSpace {
-    let z = unit(real(&f.axis), Z);
-    let reference = real(&f.reference);
+pub(in crate::draw) fn frame_in_numbers(f: &Frame) -> JointInSpace {
+    let z = unit_or(finite_vector(&f.axis), Z);
+    let reference = finite_vector(&f.reference);
     let other = if z[0].abs() < 0.9 { X } else { Y };
     let across = |v: Vector| sub(v, scale(z, dot(v, z)));
-    let x = unit(across(reference), unit(across(other), other));
+    let x = unit_or(across(reference), unit_or(across(other), other));
     JointInSpace {
-        point: real(&f.point),
+        point: finite_vector(&f.point),
         x,
         y: cross(z, x),
         z,
@@ -120,8 +120,10 @@ impl Projection {
     }
 
     /// A point on paper.
-    pub(in crate::draw) fn flat(&self, p: Vector) -> Point {
-        self.view.flat(sub(p, self.middle)).map(|x| x * self.scale)
+    pub(in crate::draw) fn flat_point(&self, p: Vector) -> Point {
+        self.view
+            .flat_vector(sub(p, self.middle))
+            .map(|x| x * self.scale)
     }
 }
 
@@ -134,7 +136,7 @@ pub(in crate::draw) struct ToBeSeen<'a> {
 }
 
 /// The view that is asked for, or that with least overlap, for a picture of the given size.
-pub(in crate::draw) fn best(
+pub(in crate::draw) fn best_projection(
     ToBeSeen {
         places,
         more,
@@ -145,16 +147,16 @@ pub(in crate::draw) fn best(
     room: Point,
     sight: &Sight,
 ) -> Projection {
-    let middle = middle(places);
+    let middle = places_middle(places);
     let tried = views_to_try(places, sight).into_iter().map(|(view, dear)| {
-        let view = sight.turned(view);
-        let flat = |p| view.flat(sub(p, middle));
+        let view = sight.turned_view(view);
+        let flat = |p| view.flat_vector(sub(p, middle));
         let on: Vec<Point> = places.iter().map(|p| flat(p.point)).collect();
         let beside = more.iter().map(|&p| flat(p));
-        let area = bounds(&on.iter().copied().chain(beside).collect::<Vec<_>>());
+        let area = bounds_of(&on.iter().copied().chain(beside).collect::<Vec<_>>());
         let scale = to_fill(room, &area);
         let on: Vec<Point> = on.iter().map(|p| p.map(|x| x * scale)).collect();
-        let cost = dear + crowd(places, &on, links, frame) + edge_on(&view, turning);
+        let cost = dear + crowding_cost(places, &on, links, frame) + edge_on(&view, turning);
         let found = Projection {
             view,
             scale: scale * room_for_symbols(&on),
@@ -175,7 +177,7 @@ pub(in crate::draw) fn best(
 
 /// The views that there are to choose from, each with how bad it is in itself.
 fn views_to_try(places: &[JointInSpace], sight: &Sight) -> Vec<(View, f64)> {
-    match (sight.view(), planar(places)) {
+    match (sight.asked_view(), planar_normal(places)) {
         (Some(view), _) => vec![(view, 0.0)],
         (None, Some(normal)) => vec![(face_on(normal), 0.0)],
         (None, None) => {
@@ -186,9 +188,9 @@ fn views_to_try(places: &[JointInSpace], sight: &Sight) -> Vec<(View, f64)> {
                 _ => 0.4 + 0.02 * few,
             };
             // links in layers move in a plane as well
-            let layers = hinge(places).filter(|&n| moves_across(places, n));
+            let layers = first_hinge(places).filter(|&n| moves_across(places, n));
             let layers = layers.map(|n| (face_on(n), 0.0));
-            let views = views().into_iter().map(|v| (v, dear(&v)));
+            let views = all_views().into_iter().map(|v| (v, dear(&v)));
             layers.into_iter().chain(views).collect()
         }
     }
@@ -235,19 +237,19 @@ fn room_for_symbols(on: &[Point]) -> f64 {
 
 /// Returns the common normal if all points lie in one plane and the mechanism moves in it. Prefers an axis of the
 /// coordinates.
-fn planar(places: &[JointInSpace]) -> Option<Vector> {
-    let size = extent(places);
+fn planar_normal(places: &[JointInSpace]) -> Option<Vector> {
+    let size = places_extent(places);
     let first = places.first()?.point;
     // without a hinge: the plane through the points, if they are not all in a row
     let far = |of: &dyn Fn(Vector) -> Vector| {
         let all = places.iter().map(|p| of(sub(p.point, first)));
         all.max_by(|a, b| norm(*a).total_cmp(&norm(*b)))
     };
-    let along = unit(far(&|p| p)?, [0.0; 3]);
+    let along = unit_or(far(&|p| p)?, [0.0; 3]);
     let spread = far(&|p| cross(along, p))?;
-    let spanned = (norm(spread) > 1e-3 * size).then(|| unit(spread, [0.0; 3]));
+    let spanned = (norm(spread) > 1e-3 * size).then(|| unit_or(spread, [0.0; 3]));
     let axes = [Z, Y, X];
-    let normals = axes.into_iter().chain(hinge(places)).chain(spanned);
+    let normals = axes.into_iter().chain(first_hinge(places)).chain(spanned);
     let off = |p: &JointInSpace, n: Vector| dot(sub(p.point, first), n).abs();
     let flat = |n: &Vector| places.iter().all(|p| off(p, *n) <= FLAT * size);
     let flat: Vec<Vector> = normals.filter(flat).collect();
@@ -257,7 +259,7 @@ fn planar(places: &[JointInSpace]) -> Option<Vector> {
 }
 
 /// The direction of the first hinge.
-fn hinge(places: &[JointInSpace]) -> Option<Vector> {
+fn first_hinge(places: &[JointInSpace]) -> Option<Vector> {
     let mut hinges = places.iter().filter(|p| p.turn == Turn::Hinge);
     hinges.next().map(|p| p.z)
 }
@@ -289,7 +291,7 @@ fn lies_across(places: &[JointInSpace], n: Vector) -> Option<usize> {
 }
 
 /// How much joints and links lie on each other.
-fn crowd(
+fn crowding_cost(
     places: &[JointInSpace],
     on: &[Point],
     links: &[(LinkId, Vec<usize>)],
@@ -307,7 +309,7 @@ fn crowd(
         }
     }
     let moving = links.iter().filter(|(l, _)| *l != frame);
-    let moving: Vec<_> = moving.map(|(_, of)| (of, pairs(of))).collect();
+    let moving: Vec<_> = moving.map(|(_, of)| (of, side_pairs(of))).collect();
     for (n, (of, sides)) in moving.iter().enumerate() {
         for &(a, b) in sides {
             for (j, &p) in on.iter().enumerate() {
@@ -319,7 +321,8 @@ fn crowd(
             let side = [on[a], on[b]];
             for (_, others) in &moving[..n] {
                 let crossing = |&&(c, d): &&(usize, usize)| {
-                    !apart(side, [on[c], on[d]]) && segments_cross(side[0], side[1], on[c], on[d])
+                    !are_apart(side, [on[c], on[d]])
+                        && segments_cross(side[0], side[1], on[c], on[d])
                 };
                 cost += 0.12 * others.iter().filter(crossing).count() as f64;
             }
@@ -329,24 +332,24 @@ fn crowd(
 }
 
 /// The sides of a link.
-fn pairs(of: &[usize]) -> Vec<(usize, usize)> {
+fn side_pairs(of: &[usize]) -> Vec<(usize, usize)> {
     let n = of.len();
     let count = if n > 2 { n } else { n.saturating_sub(1) };
     (0..count).map(|i| (of[i], of[(i + 1) % n])).collect()
 }
 
-fn extent(places: &[JointInSpace]) -> f64 {
-    diagonal(places.iter().map(|p| p.point))
+fn places_extent(places: &[JointInSpace]) -> f64 {
+    box_diagonal(places.iter().map(|p| p.point))
 }
 
-fn middle(places: &[JointInSpace]) -> Vector {
+fn places_middle(places: &[JointInSpace]) -> Vector {
     let sum = places.iter().fold([0.0; 3], |s, p| add(s, p.point));
     scale(sum, 1.0 / places.len().max(1) as f64)
 }
 
 /// A unit vector across another.
-pub(in crate::draw) fn across(z: Vector) -> Vector {
+pub(in crate::draw) fn unit_across(z: Vector) -> Vector {
     let [a, b] = [X, Y].map(|e| sub(e, scale(z, dot(e, z))));
     let longer = if norm(a) > norm(b) { a } else { b };
-    unit(longer, X)
+    unit_or(longer, X)
 }

@@ -2,15 +2,15 @@
 
 use super::{Scheme, Share};
 use crate::draw::sheet::Sheet;
-use crate::draw::sheet::shapes::{HALF, grid, outline, rounded};
-use crate::svg::plane::{Point, area, inside, to_segment};
+use crate::draw::sheet::shapes::{HALF, grid_points, outline_sides, rounded_path};
+use crate::svg::plane::{Point, is_inside, polygon_area, to_segment};
 
 /// Half the width of the band of a contour without an area.
 const BAND: f64 = 4.0;
 
 impl Scheme<'_> {
     /// Returns the outline of a contour: its joints, and the bends of bars between them.
-    pub(super) fn round(&self, c: usize) -> Vec<Point> {
+    pub(super) fn contour_outline(&self, c: usize) -> Vec<Point> {
         let of = &self.parts.graph.contours[c];
         let mut used = Vec::new();
         let mut out = Vec::new();
@@ -20,7 +20,7 @@ impl Scheme<'_> {
             let bent = (0..self.rings.len()).find(|l| {
                 let ring = &self.rings[*l];
                 let joins = ring.len() == 2 && ring.contains(&j) && ring.contains(&next);
-                joins && j != next && !used.contains(l) && self.corners(*l).len() > 2
+                joins && j != next && !used.contains(l) && self.link_corners(*l).len() > 2
             });
             if let Some(l) = bent {
                 used.push(l);
@@ -33,7 +33,7 @@ impl Scheme<'_> {
     /// The contours, the smallest last and so on top: each stretch has the colour of the contour it is next to.
     pub(super) fn contours_by_size(&self) -> Vec<usize> {
         let mut order: Vec<usize> = (0..self.parts.contours.len()).collect();
-        let size = |c: usize| area(&self.round(c));
+        let size = |c: usize| polygon_area(&self.contour_outline(c));
         order.sort_by(|&a, &b| size(b).total_cmp(&size(a)));
         order
     }
@@ -43,21 +43,23 @@ impl Scheme<'_> {
         /// Square pixels.
         const ENOUGH: f64 = 150.0;
         const STEPS: usize = 24;
-        let polygon = self.round(c);
-        let own = area(&polygon);
+        let polygon = self.contour_outline(c);
+        let own = polygon_area(&polygon);
         let smaller: Vec<Vec<Point>> = (0..self.parts.contours.len())
-            .map(|other| self.round(other))
-            .filter(|other| area(other) < own)
+            .map(|other| self.contour_outline(other))
+            .filter(|other| polygon_area(other) < own)
             .collect();
-        let links: Vec<Vec<Point>> = (0..self.rings.len()).map(|l| self.corners(l)).collect();
-        let all = grid(&polygon, STEPS);
+        let links: Vec<Vec<Point>> = (0..self.rings.len())
+            .map(|l| self.link_corners(l))
+            .collect();
+        let all = grid_points(&polygon, STEPS);
         let cell = own / all.len().max(1) as f64;
         let covered = |p: Point| {
-            smaller.iter().any(|s| inside(p, s))
+            smaller.iter().any(|s| is_inside(p, s))
                 || links.iter().zip(&self.rings).any(|(corners, ring)| {
-                    let filled = ring.len() > 2 && inside(p, corners);
+                    let filled = ring.len() > 2 && is_inside(p, corners);
                     filled
-                        || outline(corners)
+                        || outline_sides(corners)
                             .iter()
                             .any(|&(a, b)| to_segment(p, a, b) < HALF)
                 })
@@ -67,23 +69,26 @@ impl Scheme<'_> {
     }
 
     /// Returns a contour without an area as a narrow band along it.
-    pub(super) fn band(&self, c: usize) -> String {
-        let sides = outline(&self.round(c));
-        sides.iter().map(|&(a, b)| rounded(&[a, b], BAND)).collect()
+    pub(super) fn contour_band(&self, c: usize) -> String {
+        let sides = outline_sides(&self.contour_outline(c));
+        sides
+            .iter()
+            .map(|&(a, b)| rounded_path(&[a, b], BAND))
+            .collect()
     }
 
     pub(super) fn draw_contour(&self, sheet: &mut Sheet, c: usize, d: &str) {
         let (contour, share) = &self.parts.contours[c];
         let redundant = share.map_or(0, |(r, _)| r).min(6);
-        let words = Self::words(c, &contour.name(self.subject.mechanism), *share);
+        let words = Self::contour_words(c, &contour.name(self.subject.mechanism), *share);
         let number = (c + 1).to_string();
-        sheet.group("data-contour", &number, [0.0; 2], |s| {
+        sheet.draw_group("data-contour", &number, [0.0; 2], |s| {
             s.path_with_tip(&format!("s s{redundant}"), d, &words);
         });
     }
 
     /// A contour in words.
-    pub(super) fn words(c: usize, name: &str, share: Share) -> String {
+    pub(super) fn contour_words(c: usize, name: &str, share: Share) -> String {
         match share {
             Some((r, (low, high))) if low != high => {
                 format!("contour {}: {name}, σ = {r} ({low} to {high})", c + 1)

@@ -2,25 +2,27 @@
 
 use super::Scheme;
 use crate::draw::sheet::SMALL;
-use crate::draw::sheet::shapes::{HALF, grid, outline};
+use crate::draw::sheet::shapes::{HALF, grid_points, outline_sides};
 use crate::model::mechanism::Role;
-use crate::svg::labels::{AvoidedLine, LabelPlace, Wish, place};
-use crate::svg::plane::{Point, Rect, add, area, inside, mean, norm, scale, sub, to_segment, unit};
-use crate::svg::text::{names, width};
+use crate::svg::labels::{AvoidedLine, LabelPlace, Wish, place_labels};
+use crate::svg::plane::{
+    Point, Rect, add, is_inside, mean, plane_norm, polygon_area, scale, sub, to_segment, unit,
+};
+use crate::svg::text::{shorten_names, text_width};
 
 impl Scheme<'_> {
     /// Returns the places and texts of the ids of joints and links and of the numbers of contours, in this order.
     pub(super) fn place_labels(&self) -> Vec<(LabelPlace, String)> {
         let around = |i| {
-            let side = 2.0 * self.radius(i);
+            let side = 2.0 * self.joint_radius(i);
             Rect::around(self.at.joints[i], side, side)
         };
         let mut taken: Vec<Rect> = (0..self.parts.joints.len()).map(around).collect();
         let lines = self.link_lines();
         // ids stay off links, numbers of contours off nothing but labels
-        let links = placed(self.link_wishes(), &mut taken, &[]);
-        let contours = placed(self.contour_wishes(), &mut taken, &lines);
-        let joints = placed(self.joint_wishes(), &mut taken, &lines);
+        let links = place_labelled(self.link_wishes(), &mut taken, &[]);
+        let contours = place_labelled(self.contour_wishes(), &mut taken, &lines);
+        let joints = place_labelled(self.joint_wishes(), &mut taken, &lines);
         [joints, links, contours].concat()
     }
 
@@ -28,7 +30,7 @@ impl Scheme<'_> {
     fn link_lines(&self) -> Vec<AvoidedLine> {
         let mut lines = Vec::new();
         for l in 0..self.rings.len() {
-            let corners = self.corners(l);
+            let corners = self.link_corners(l);
             let frame = self.subject.mechanism.links[self.parts.links[l]].role == Role::Frame;
             let weight = if frame || corners.len() < 3 { 2.5 } else { 0.6 };
             let hub = self.at.hubs[l];
@@ -36,13 +38,13 @@ impl Scheme<'_> {
                 ends: (hub, corner),
                 weight,
             }));
-            for (a, b) in outline(&corners) {
+            for (a, b) in outline_sides(&corners) {
                 let along = unit(sub(b, a));
                 let off = scale([-along[1], along[0]], HALF);
                 for side in [off, scale(off, -1.0)] {
                     // the inner one is no line where the link is a polygon
                     let middle = add(scale(add(a, b), 0.5), side);
-                    if corners.len() < 3 || !inside(middle, &corners) {
+                    if corners.len() < 3 || !is_inside(middle, &corners) {
                         lines.push(AvoidedLine {
                             ends: (add(a, side), add(b, side)),
                             weight: 2.0,
@@ -63,11 +65,11 @@ impl Scheme<'_> {
         let one = |(l, text): (usize, String)| {
             let wish = Wish {
                 first: self.inside_link(l),
-                ..Wish::of(&text, 12.0, self.at.hubs[l], HALF)
+                ..Wish::for_text(&text, 12.0, self.at.hubs[l], HALF)
             };
             (wish, text)
         };
-        let texts = names(&ids, 12.0, 150.0).into_iter();
+        let texts = shorten_names(&ids, 12.0, 150.0).into_iter();
         texts.enumerate().map(one).collect()
     }
 
@@ -77,7 +79,7 @@ impl Scheme<'_> {
             let text = format!("{}", c + 1);
             let middles = self.inside_contour(c);
             let wish = Wish {
-                width: width(&text, SMALL) + 8.0,
+                width: text_width(&text, SMALL) + 8.0,
                 height: 16.0,
                 anchor: middles.first().map_or([0.0, 0.0], |f| f.0),
                 clear: 0.0,
@@ -95,27 +97,27 @@ impl Scheme<'_> {
             .map(|&j| self.subject.mechanism.joints[j].id.as_str())
             .collect();
         let one = |(i, text): (usize, String)| {
-            let wish = Wish::of(&text, SMALL, self.at.joints[i], self.radius(i));
+            let wish = Wish::for_text(&text, SMALL, self.at.joints[i], self.joint_radius(i));
             (wish, text)
         };
-        let texts = names(&ids, SMALL, 150.0).into_iter();
+        let texts = shorten_names(&ids, SMALL, 150.0).into_iter();
         texts.enumerate().map(one).collect()
     }
 
     /// Middles for the id within a link, the best first.
     fn inside_link(&self, l: usize) -> Vec<(Point, f64)> {
-        let corners = self.corners(l);
+        let corners = self.link_corners(l);
         if corners.len() > 2 && self.rings[l].len() > 2 {
-            let grid = grid(&corners, 9);
+            let grid = grid_points(&corners, 9);
             let mut out: Vec<(Point, f64)> = grid
                 .into_iter()
-                .map(|p| (p, 0.3 + 0.004 * norm(sub(p, self.at.hubs[l]))))
+                .map(|p| (p, 0.3 + 0.004 * plane_norm(sub(p, self.at.hubs[l]))))
                 .collect();
             out.insert(
                 0,
                 (
                     self.at.hubs[l],
-                    if inside(self.at.hubs[l], &corners) {
+                    if is_inside(self.at.hubs[l], &corners) {
                         0.0
                     } else {
                         2.0
@@ -125,7 +127,7 @@ impl Scheme<'_> {
             return out;
         }
         let mut out = Vec::new();
-        for (a, b) in outline(&corners) {
+        for (a, b) in outline_sides(&corners) {
             for (step, t) in [0.5, 0.44, 0.56, 0.38, 0.62, 0.32, 0.68].iter().enumerate() {
                 let p = add(a, scale(sub(b, a), *t));
                 out.push((p, 0.05 * step as f64));
@@ -143,17 +145,18 @@ impl Scheme<'_> {
     /// Middles for the number within a contour, the best first.
     fn inside_contour(&self, c: usize) -> Vec<(Point, f64)> {
         let of = &self.parts.graph.contours[c];
-        let polygon = self.round(c);
+        let polygon = self.contour_outline(c);
         let covers: Vec<Vec<Point>> = (0..self.parts.contours.len())
             .filter(|&other| other != c)
-            .map(|other| self.round(other))
-            .filter(|other| area(other) < area(&polygon))
-            .chain((0..self.rings.len()).map(|l| self.corners(l)))
+            .map(|other| self.contour_outline(other))
+            .filter(|other| polygon_area(other) < polygon_area(&polygon))
+            .chain((0..self.rings.len()).map(|l| self.link_corners(l)))
             .collect();
-        let mut near: Vec<(Point, f64)> = grid(&polygon, 15)
+        let mut near: Vec<(Point, f64)> = grid_points(&polygon, 15)
             .into_iter()
             .map(|p| {
-                let edges = (0..self.rings.len()).flat_map(|l| outline(&self.corners(l)));
+                let edges =
+                    (0..self.rings.len()).flat_map(|l| outline_sides(&self.link_corners(l)));
                 let d = edges
                     .map(|(a, b)| to_segment(p, a, b))
                     .fold(f64::INFINITY, f64::min);
@@ -181,10 +184,10 @@ impl Scheme<'_> {
             .iter()
             .map(|&(p, d)| {
                 // on its own tint, if any of that can be seen
-                let hidden = covers.iter().any(|c| inside(p, c));
+                let hidden = covers.iter().any(|c| is_inside(p, c));
                 let hidden = if hidden { 6.0 } else { 0.0 };
                 let crowded = 0.02 * (40.0 - d).max(0.0);
-                (p, hidden + crowded + 0.012 * norm(sub(p, own)))
+                (p, hidden + crowded + 0.012 * plane_norm(sub(p, own)))
             })
             .collect();
         out.sort_by(|a, b| a.1.total_cmp(&b.1));
@@ -196,12 +199,12 @@ impl Scheme<'_> {
 }
 
 /// Labels at their places, which are taken from then on.
-fn placed(
+fn place_labelled(
     labels: Vec<(Wish, String)>,
     taken: &mut Vec<Rect>,
     lines: &[AvoidedLine],
 ) -> Vec<(LabelPlace, String)> {
     let (wishes, texts): (Vec<Wish>, Vec<String>) = labels.into_iter().unzip();
-    let places = place(&wishes, taken, lines);
+    let places = place_labels(&wishes, taken, lines);
     places.into_iter().zip(texts).collect()
 }

@@ -1,14 +1,14 @@
 //! Polygons and bars with round corners, their hatching, and points within them.
 
-use crate::svg::plane::{Point, add, bounds, cross, dot, inside, scale, sub, unit};
-use crate::svg::xml::number;
+use crate::svg::plane::{Point, add, bounds_of, cross, dot, is_inside, scale, sub, unit};
+use crate::svg::xml::format_number;
 use std::fmt::Write as _;
 
 /// Half the width of a bar.
 pub(in crate::draw) const HALF: f64 = 8.5;
 
 /// The sides of a polygon, or the pieces of a bar.
-pub(in crate::draw) fn outline(corners: &[Point]) -> Vec<(Point, Point)> {
+pub(in crate::draw) fn outline_sides(corners: &[Point]) -> Vec<(Point, Point)> {
     let open = corners.len() < 3;
     let count = corners.len() - usize::from(open && !corners.is_empty());
     (0..count)
@@ -17,7 +17,7 @@ pub(in crate::draw) fn outline(corners: &[Point]) -> Vec<(Point, Point)> {
 }
 
 /// The outline of a polygon or bar, `r` away from it, with round corners.
-pub(in crate::draw) fn rounded(corners: &[Point], r: f64) -> String {
+pub(in crate::draw) fn rounded_path(corners: &[Point], r: f64) -> String {
     let n = corners.len();
     let mut d = String::new();
     let turn: f64 = (0..n)
@@ -38,16 +38,16 @@ pub(in crate::draw) fn rounded(corners: &[Point], r: f64) -> String {
         if hollow {
             let miter = (1.0 + dot(before, after)).max(0.3);
             let p = add(corner, scale(add(before, after), r / miter));
-            let _ = write!(d, "{c}{} {}", number(p[0]), number(p[1]));
+            let _ = write!(d, "{c}{} {}", format_number(p[0]), format_number(p[1]));
         } else {
             let (p, q) = (add(corner, scale(before, r)), add(corner, scale(after, r)));
             let _ = write!(
                 d,
                 "{c}{} {}A{r} {r} 0 0 1 {} {}",
-                number(p[0]),
-                number(p[1]),
-                number(q[0]),
-                number(q[1])
+                format_number(p[0]),
+                format_number(p[1]),
+                format_number(q[0]),
+                format_number(q[1])
             );
         }
     }
@@ -56,14 +56,14 @@ pub(in crate::draw) fn rounded(corners: &[Point], r: f64) -> String {
 }
 
 /// Hatching within a polygon or bar.
-pub(in crate::draw) fn hatch(corners: &[Point]) -> String {
+pub(in crate::draw) fn hatch_path(corners: &[Point]) -> String {
     hatch_with(corners, HALF - 1.0, 6.5)
 }
 
 pub(in crate::draw) fn hatch_with(corners: &[Point], half: f64, step: f64) -> String {
     // a polygon that stands for the outline: arcs as short lines
     let mut area: Vec<Vec<Point>> = Vec::new();
-    for (a, b) in outline(corners) {
+    for (a, b) in outline_sides(corners) {
         let along = unit(sub(b, a));
         let start = (-along[0]).atan2(along[1]);
         let arc = |from: f64, at: Point| {
@@ -90,15 +90,15 @@ pub(in crate::draw) fn hatch_with(corners: &[Point], half: f64, step: f64) -> St
     let mut level = low + step;
     let gap = step * std::f64::consts::SQRT_2;
     while level < high && d.len() < 40_000 {
-        for (a, b) in spans(&area, level) {
+        for (a, b) in level_spans(&area, level) {
             let (x1, x2) = ((level + a) / 2.0, (level + b) / 2.0);
             let _ = write!(
                 d,
                 "M{} {}L{} {}",
-                number(x1),
-                number(level - x1),
-                number(x2),
-                number(level - x2)
+                format_number(x1),
+                format_number(level - x1),
+                format_number(x2),
+                format_number(level - x2)
             );
         }
         level += gap;
@@ -107,7 +107,7 @@ pub(in crate::draw) fn hatch_with(corners: &[Point], half: f64, step: f64) -> St
 }
 
 /// Returns the intersection of the line x + y = level with a union of polygons, as ranges of x - y.
-fn spans(area: &[Vec<Point>], level: f64) -> Vec<(f64, f64)> {
+fn level_spans(area: &[Vec<Point>], level: f64) -> Vec<(f64, f64)> {
     let mut ranges: Vec<(f64, f64)> = Vec::new();
     for polygon in area {
         let mut cuts: Vec<f64> = Vec::new();
@@ -134,12 +134,12 @@ fn spans(area: &[Vec<Point>], level: f64) -> Vec<(f64, f64)> {
 }
 
 /// Points of a grid within a polygon.
-pub(in crate::draw) fn grid(polygon: &[Point], steps: usize) -> Vec<Point> {
-    let [left, top, right, bottom] = bounds(polygon).edges();
+pub(in crate::draw) fn grid_points(polygon: &[Point], steps: usize) -> Vec<Point> {
+    let [left, top, right, bottom] = bounds_of(polygon).edges();
     let all = (0..steps).flat_map(|i| (0..steps).map(move |j| [i, j]));
     let at = |cell: [usize; 2]| {
         let [x, y] = cell.map(|k| (k as f64 + 0.5) / steps as f64);
         [left + (right - left) * x, top + (bottom - top) * y]
     };
-    all.map(at).filter(|&p| inside(p, polygon)).collect()
+    all.map(at).filter(|&p| is_inside(p, polygon)).collect()
 }

@@ -11,12 +11,12 @@ use std::f64::consts::PI;
 pub(in crate::draw) fn driven_slides(m: &Mechanism, state: StateId) -> Vec<(JointId, usize)> {
     let driven = m.joints_in(state).filter(|&j| m.joints[j].drive);
     driven
-        .filter_map(|j| Some((j, axis(driven_freedom(m, state, j)?)?)))
+        .filter_map(|j| Some((j, slide_axis_of(driven_freedom(m, state, j)?)?)))
         .collect()
 }
 
 /// The axis of a slide.
-fn axis(freedom: Freedom) -> Option<usize> {
+fn slide_axis_of(freedom: Freedom) -> Option<usize> {
     match freedom {
         Freedom::Tx => Some(0),
         Freedom::Ty => Some(1),
@@ -28,9 +28,13 @@ fn axis(freedom: Freedom) -> Option<usize> {
 /// The freedom that a drive moves; where the file leaves it open between a turn and a slide, the one that moves the mechanism.
 fn driven_freedom(m: &Mechanism, state: StateId, joint: JointId) -> Option<Freedom> {
     let of = &m.joints[joint];
-    let open = of.joint_type.freedoms().iter().filter(|f| of.drives(**f));
+    let open = of
+        .joint_type
+        .freedoms()
+        .iter()
+        .filter(|f| of.may_drive(**f));
     let open: Vec<Freedom> = open.copied().collect();
-    let slides = open.iter().filter(|f| axis(**f).is_some()).count();
+    let slides = open.iter().filter(|f| slide_axis_of(**f).is_some()).count();
     if slides == 0 || slides == open.len() {
         return open.first().copied();
     }
@@ -40,7 +44,7 @@ fn driven_freedom(m: &Mechanism, state: StateId, joint: JointId) -> Option<Freed
 }
 
 /// Returns the arrow around a driving pair that turns. It is not a full circle, because that means a second joint.
-pub(in crate::draw) fn round(mark: &str, radius: f64) -> Vec<Shape> {
+pub(in crate::draw) fn round_arrow(mark: &str, radius: f64) -> Vec<Shape> {
     const FROM: f64 = 0.25 * PI;
     const TO: f64 = 1.85 * PI;
     let on = |angle: f64, r: f64| [r * angle.cos(), r * angle.sin()];

@@ -3,7 +3,9 @@
 use crate::draw::sheet::Sheet;
 use crate::draw::symbol::placed::one_place;
 use crate::model::mechanism::LinkId;
-use crate::svg::plane::{Point, Rect, add, bounds, dot, norm, polyline, scale, sub, unit};
+use crate::svg::plane::{
+    Point, Rect, add, bounds_of, dot, path_data, plane_norm, scale, sub, unit,
+};
 use std::f64::consts::TAU;
 
 /// Half the hatched line under a pivot.
@@ -30,7 +32,7 @@ pub(in crate::draw) struct Ground {
 
 impl Ground {
     /// Under a pivot.
-    pub(in crate::draw) fn pivot(from: Point, to: Point) -> Ground {
+    pub(in crate::draw) fn under_pivot(from: Point, to: Point) -> Ground {
         Ground {
             from,
             to,
@@ -39,11 +41,11 @@ impl Ground {
     }
 
     /// Makes a rail long enough for a block that goes from `low` to `high` of where it is at rest.
-    pub(in crate::draw) fn lengthen(&mut self, low: Point, high: Point) {
+    pub(in crate::draw) fn lengthen_rail(&mut self, low: Point, high: Point) {
         if self.is_rail() {
             let by = scale(add(low, high), 0.5);
             (self.from, self.to) = (add(self.from, by), add(self.to, by));
-            self.half += norm(sub(high, low)) / 2.0;
+            self.half += plane_norm(sub(high, low)) / 2.0;
         }
     }
 
@@ -53,17 +55,17 @@ impl Ground {
     }
 
     /// Returns the line from the joint to the ground, or `None` for a rail.
-    pub(in crate::draw) fn stem(&self) -> Option<(Point, Point)> {
+    pub(in crate::draw) fn stem_line(&self) -> Option<(Point, Point)> {
         (!self.is_rail()).then_some((self.from, self.to))
     }
 
-    fn across(&self) -> (Point, Point) {
+    fn side_and_out(&self) -> (Point, Point) {
         let out = unit(sub(self.to, self.from));
         ([-out[1], out[0]], out)
     }
 
-    pub(in crate::draw) fn rect(&self) -> Rect {
-        let (side, out) = self.across();
+    pub(in crate::draw) fn ground_room(&self) -> Rect {
+        let (side, out) = self.side_and_out();
         let far = add(self.to, scale(out, 6.0));
         let corners = [
             add(self.to, scale(side, self.half)),
@@ -71,15 +73,15 @@ impl Ground {
             add(far, scale(side, self.half + 3.0)),
             sub(far, scale(side, self.half + 3.0)),
         ];
-        bounds(&corners)
+        bounds_of(&corners)
     }
 
-    pub(in crate::draw) fn draw(&self, sheet: &mut Sheet) {
-        let (side, out) = self.across();
-        if let Some((a, b)) = self.stem() {
-            sheet.line("bone", a, b);
+    pub(in crate::draw) fn draw_ground_lines(&self, sheet: &mut Sheet) {
+        let (side, out) = self.side_and_out();
+        if let Some((a, b)) = self.stem_line() {
+            sheet.draw_line("bone", a, b);
         }
-        sheet.line(
+        sheet.draw_line(
             "bone",
             add(self.to, scale(side, self.half)),
             sub(self.to, scale(side, self.half)),
@@ -89,9 +91,9 @@ impl Ground {
         for i in 0..strokes {
             let a = add(self.to, scale(side, self.half - 1.0 - 5.0 * f64::from(i)));
             let b = add(add(a, scale(out, 6.0)), scale(side, -4.0));
-            d += &polyline(&[a, b], false);
+            d += &path_data(&[a, b], false);
         }
-        sheet.path("fine", &d);
+        sheet.draw_path("fine", &d);
     }
 }
 
@@ -108,7 +110,7 @@ struct GroundSpot {
 
 impl GroundSpot {
     /// A ground in one of sixteen directions, and where that is; a rail has two.
-    fn ground(&self, step: i32) -> (Ground, Point) {
+    fn ground_at(&self, step: i32) -> (Ground, Point) {
         if let Some((along, off)) = self.rail {
             let side = [-along[1], along[0]];
             let dir = scale(side, if step % 2 == 0 { 1.0 } else { -1.0 });
@@ -123,20 +125,26 @@ impl GroundSpot {
         let reach = (right - left).min(bottom - top) / 2.0 + 9.0;
         let angle = TAU * f64::from(step) / 16.0;
         let dir = [angle.cos(), angle.sin()];
-        (Ground::pivot(self.at, add(self.at, scale(dir, reach))), dir)
+        (
+            Ground::under_pivot(self.at, add(self.at, scale(dir, reach))),
+            dir,
+        )
     }
 
     /// Returns the ground with the least cost: how far it is from upright, what it covers, and the links in its
     /// direction.
-    fn best(&self, feet: &[Foot], others: &[Ground]) -> Option<Ground> {
+    fn best_ground(&self, feet: &[Foot], others: &[Ground]) -> Option<Ground> {
         let tried = (0..16).map(|step| {
-            let (ground, dir) = self.ground(step);
+            let (ground, dir) = self.ground_at(step);
             // straight down is best, then what is clear
             let aslant = if step % 4 == 0 { 0.0 } else { 0.9 };
-            let near = ground.rect().grown(1.0);
+            let near = ground.ground_room().grown_by(1.0);
             let foreign = feet.iter().filter(|f| !one_place(f.at, self.at));
             let symbols = foreign.filter(|f| near.overlaps(&f.room)).count();
-            let grounds = others.iter().filter(|g| g.rect().overlaps(&near)).count();
+            let grounds = others
+                .iter()
+                .filter(|g| g.ground_room().overlaps(&near))
+                .count();
             let along = self.dirs.iter().map(|&link| dot(dir, unit(link)));
             let links: f64 = along.filter(|&share| share > 0.5).sum();
             let covered = 4.0 * symbols as f64 + 3.0 * grounds as f64;
@@ -168,7 +176,7 @@ fn directions_out(
 
 /// The ground at each place of the frame's joints, where there is most room; the free ends of links are given with their
 /// joints.
-pub(in crate::draw) fn grounds(
+pub(in crate::draw) fn place_grounds(
     feet: &[Foot],
     links: &[(LinkId, Vec<usize>)],
     frame: LinkId,
@@ -194,7 +202,7 @@ pub(in crate::draw) fn grounds(
             room: here.iter().fold(room, |r, &k| r.with(&feet[k].room)),
             rail: own.find_map(|&k| feet[k].slide),
         };
-        out.extend(spot.best(feet, &out));
+        out.extend(spot.best_ground(feet, &out));
     }
     out
 }

@@ -2,12 +2,12 @@
 //! frame.
 
 use crate::draw::place::projection::{self, View};
-use crate::draw::sheet::{Anchor, Caption, Drawing, Sheet, plan};
+use crate::draw::sheet::{Anchor, Caption, Drawing, Sheet, plan_sheet};
 use crate::draw::symbol::pieces::PaperPose;
 use crate::draw::symbol::symbols;
 use crate::geom::vector::{X, Y, Z};
 use crate::model::joint_type::{Freedom, JointType};
-use crate::svg::plane::{Point, Rect, add, norm, scale};
+use crate::svg::plane::{Point, Rect, add, plane_norm, scale};
 use itertools::Itertools;
 
 /// How many times the size in a scheme.
@@ -26,7 +26,7 @@ pub fn joint_type(of: &JointType) -> Drawing {
     } else {
         freedoms
     };
-    let line = format!("class {}, freedoms: {freedoms}", of.class());
+    let line = format!("class {}, freedoms: {freedoms}", of.class_numeral());
     let caption = Caption {
         title: of.name(),
         subtitle: [&line, "left aslant, right along the axis z"],
@@ -37,26 +37,26 @@ pub fn joint_type(of: &JointType) -> Drawing {
         legend: Vec::new(),
     };
     let area = Rect::new(0.0, 0.0, 2.0 * ROOM[0], ROOM[1]);
-    let plan = plan(&caption, area, 0.0);
+    let plan = plan_sheet(&caption, area, 0.0);
     let mut sheet = Sheet::new(&caption, &plan);
-    for (n, view) in [projection::aslant(), projection::along_z()]
+    for (n, view) in [projection::isometric_view(), projection::along_z()]
         .iter()
         .enumerate()
     {
         let middle = [ROOM[0] * (n as f64 + 0.5), ROOM[1] / 2.0];
         let at = add(middle, plan.shift);
-        sheet.group("data-drawing", "", at, |s| draw(s, of, view));
+        sheet.draw_group("data-drawing", "", at, |s| draw_view(s, of, view));
     }
-    sheet.finish(&caption, &plan)
+    sheet.finish_sheet(&caption, &plan)
 }
 
-fn draw(sheet: &mut Sheet, of: &JointType, view: &View) {
+fn draw_view(sheet: &mut Sheet, of: &JointType, view: &View) {
     let axes = [X, Y, Z];
-    let shapes = symbols::symbol(of, &PaperPose::of_axes(axes, view), "", LARGE);
+    let shapes = symbols::symbol_shapes(of, &PaperPose::of_axes(axes, view), "", LARGE);
     for (n, axis) in axes.into_iter().enumerate() {
-        let tip = scale(view.flat(axis), AXIS);
-        if norm(tip) > 4.0 {
-            sheet.arrow("fine", scale(tip, -0.55), tip, 8.0);
+        let tip = scale(view.flat_vector(axis), AXIS);
+        if plane_norm(tip) > 4.0 {
+            sheet.draw_arrow("fine", scale(tip, -0.55), tip, 8.0);
         }
         let name = ["x", "y", "z"][n];
         let own = of.freedoms().iter().filter(|f| axis_of(**f) == n);
@@ -67,7 +67,7 @@ fn draw(sheet: &mut Sheet, of: &JointType, view: &View) {
             format!("{name}: {own}")
         };
         let (x, y) = (tip[0], tip[1]);
-        let place = if norm(tip) > 4.0 {
+        let place = if plane_norm(tip) > 4.0 {
             let out = scale(tip, (AXIS + 4.0) / AXIS);
             [
                 out[0] + 26.0 * x.signum() * f64::from(x.abs() > 1.0),
@@ -76,10 +76,10 @@ fn draw(sheet: &mut Sheet, of: &JointType, view: &View) {
         } else {
             [-0.62 * AXIS, 0.62 * AXIS]
         };
-        sheet.text("small", 12.0, place, Anchor::Middle, &label);
+        sheet.write_text("small", 12.0, place, Anchor::Middle, &label);
     }
-    sheet.shapes(&shapes);
-    sheet.symbol(symbols::extent(&shapes));
+    sheet.draw_shapes(&shapes);
+    sheet.note_symbol(symbols::shapes_extent(&shapes));
 }
 
 /// The axis of the frame that a freedom is about or along.

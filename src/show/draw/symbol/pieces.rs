@@ -2,7 +2,7 @@
 
 use crate::draw::place::projection::{JointInSpace, Vector, View, dot};
 use crate::draw::sheet::Shape;
-use crate::svg::plane::{Point, add, cross, mean, norm, scale, sub, unit};
+use crate::svg::plane::{Point, add, cross, mean, plane_norm, scale, sub, unit};
 use serde::{Deserialize, Serialize};
 use std::f64::consts::TAU;
 
@@ -22,14 +22,14 @@ impl PaperPose {
     /// Creates the pose of a frame with these axes.
     pub(in crate::draw) fn of_axes(axes: [Vector; 3], view: &View) -> PaperPose {
         PaperPose {
-            axes: axes.map(|a| view.flat(a)),
+            axes: axes.map(|a| view.flat_vector(a)),
             toward: axes.map(|a| dot(a, view.toward)),
         }
     }
 
     /// Returns the position of a point of three numbers. A point of two numbers lies along an axis, or is fixed on
     /// paper.
-    fn at(&self, p: &[f64], along: Option<usize>) -> Point {
+    fn place_of(&self, p: &[f64], along: Option<usize>) -> Point {
         match (p, along) {
             (&[x, y], Some(axis)) => {
                 let axis = self.axes[axis];
@@ -60,7 +60,7 @@ pub(in crate::draw) struct Piece {
     #[serde(default)]
     along: Option<usize>,
     /// The range of the share of the axis z towards the reader in which the piece is visible.
-    #[serde(default = "always")]
+    #[serde(default = "always_seen")]
     seen: [f64; 2],
 }
 
@@ -80,7 +80,7 @@ pub(in crate::draw) enum Form {
     Ball,
 }
 
-fn always() -> [f64; 2] {
+fn always_seen() -> [f64; 2] {
     [0.0, 2.0]
 }
 
@@ -90,7 +90,7 @@ const END_ON: f64 = 0.9;
 const EDGE: f64 = 0.05;
 
 /// To a hundredth of a pixel.
-pub(in crate::draw) fn tidy(x: f64) -> f64 {
+pub(in crate::draw) fn round_hundredth(x: f64) -> f64 {
     (x * 100.0).round() / 100.0
 }
 
@@ -106,50 +106,55 @@ impl Piece {
                 let form = if *closed { Form::Loop } else { Form::Line };
                 (form, class, points.clone(), 0.0)
             }
-            Shape::Circle { at, radius, class } => (Form::Ball, class, vec![*at], tidy(*radius)),
+            Shape::Circle { at, radius, class } => {
+                (Form::Ball, class, vec![*at], round_hundredth(*radius))
+            }
         };
-        let points = points.iter().map(|p| p.map(tidy).to_vec()).collect();
+        let points = points
+            .iter()
+            .map(|p| p.map(round_hundredth).to_vec())
+            .collect();
         Piece {
             form,
             class: class.clone(),
             points,
             radius,
             along: None,
-            seen: always(),
+            seen: always_seen(),
         }
     }
 
     /// Returns the piece scaled; `mark` is added to the class.
-    pub(in crate::draw) fn sized(&self, mark: &str, size: f64) -> Piece {
+    pub(in crate::draw) fn sized_piece(&self, mark: &str, size: f64) -> Piece {
         let points = self.points.iter();
-        let points = points.map(|p| p.iter().map(|x| tidy(x * size)).collect());
+        let points = points.map(|p| p.iter().map(|x| round_hundredth(x * size)).collect());
         Piece {
             class: format!("{}{mark}", self.class),
             points: points.collect(),
-            radius: tidy(self.radius * size),
+            radius: round_hundredth(self.radius * size),
             ..self.clone()
         }
     }
 
     /// Returns its shape in a pose, or `None` if it is hidden.
-    pub(in crate::draw) fn shape(&self, pose: &PaperPose) -> Option<Shape> {
+    pub(in crate::draw) fn shape_seen(&self, pose: &PaperPose) -> Option<Shape> {
         let ahead = pose.toward[2].abs();
         let ended = self.along.is_some_and(|a| pose.toward[a].abs() >= END_ON);
         if ended || ahead < self.seen[0] || ahead >= self.seen[1] {
             return None;
         }
         let points = self.points.iter();
-        let points: Vec<Point> = points.map(|p| pose.at(p, self.along)).collect();
+        let points: Vec<Point> = points.map(|p| pose.place_of(p, self.along)).collect();
         let class = self.class.clone();
         Some(match self.form {
             Form::Ball => Shape::circle(class, mean(points.into_iter()), self.radius),
             Form::Line => Shape::line(class, points),
             // y goes down on paper
-            Form::Face if turning(&points) > -EDGE => return None,
+            Form::Face if twice_area(&points) > -EDGE => return None,
             Form::Face | Form::Loop => Shape::path(class, points, true),
             Form::Hull => {
-                let discs = points.into_iter().flat_map(|p| disc(p, self.radius));
-                Shape::path(class, hull(discs.collect()), true)
+                let discs = points.into_iter().flat_map(|p| disc_points(p, self.radius));
+                Shape::path(class, convex_hull(discs.collect()), true)
             }
         })
     }
@@ -163,13 +168,13 @@ fn upper_side(along: Point) -> Point {
 }
 
 /// Twice the area of a polygon, below 0 where it turns to the left on paper.
-fn turning(points: &[Point]) -> f64 {
+fn twice_area(points: &[Point]) -> f64 {
     let next = points.iter().cycle().skip(1);
     points.iter().zip(next).map(|(&a, &b)| cross(a, b)).sum()
 }
 
 /// A circle as a polygon; the point alone where the radius is 0.
-fn disc(at: Point, radius: f64) -> impl Iterator<Item = Point> {
+fn disc_points(at: Point, radius: f64) -> impl Iterator<Item = Point> {
     let corners = if radius > 0.0 { 24 } else { 1 };
     (0..corners).map(move |i| {
         let angle = TAU * f64::from(i) / 24.0;
@@ -178,7 +183,7 @@ fn disc(at: Point, radius: f64) -> impl Iterator<Item = Point> {
 }
 
 /// The convex hull, by monotone chains.
-pub(in crate::draw) fn hull(mut points: Vec<Point>) -> Vec<Point> {
+pub(in crate::draw) fn convex_hull(mut points: Vec<Point>) -> Vec<Point> {
     points.sort_by(|a, b| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
     points.dedup();
     if points.len() < 3 {
@@ -191,7 +196,7 @@ pub(in crate::draw) fn hull(mut points: Vec<Point>) -> Vec<Point> {
             while let [.., before, last] = out[from..] {
                 let (a, b) = (sub(last, before), sub(p, last));
                 // points in a row that rounding has moved are still in a row
-                if cross(a, b) > 1e-9 * norm(a) * norm(b) {
+                if cross(a, b) > 1e-9 * plane_norm(a) * plane_norm(b) {
                     break;
                 }
                 out.pop();

@@ -7,7 +7,7 @@ use crate::draw::symbol::pieces::{PaperPose, Piece};
 use crate::draw::symbol::{drive, symbols};
 use crate::model::joint_type::JointType;
 use crate::model::mechanism::{Joint, JointId, JointOption};
-use crate::svg::plane::{Point, Rect, norm, sub};
+use crate::svg::plane::{Point, Rect, plane_norm, sub};
 
 /// The symbol of a joint, at the origin.
 pub(in crate::draw) struct Symbol {
@@ -35,7 +35,7 @@ impl Symbol {
         slide: Option<usize>,
     ) -> Symbol {
         let pose = PaperPose::new(place, view);
-        let own = symbols::extent(&symbols::symbol(of, &pose, "", size));
+        let own = symbols::shapes_extent(&symbols::symbol_shapes(of, &pose, "", size));
         let reach = (own.right - own.left).max(own.bottom - own.top) / 2.0 + 3.0;
         let drive = subject.mechanism.joints[joint].drive;
         let ring = (drive && slide.is_none()).then_some(reach.min(14.0 * size));
@@ -44,9 +44,9 @@ impl Symbol {
             room = room.with(&Rect::around([0.0; 2], 2.0 * r + 5.4, 2.0 * r + 5.4));
         }
         if let Some(axis) = slide {
-            let arrow = symbols::arrow(axis).iter();
-            let arrow = arrow.filter_map(|p| p.sized("", size).shape(&pose));
-            room = room.with(&symbols::extent(&arrow.collect::<Vec<_>>()));
+            let arrow = symbols::slide_arrow(axis).iter();
+            let arrow = arrow.filter_map(|p| p.sized_piece("", size).shape_seen(&pose));
+            room = room.with(&symbols::shapes_extent(&arrow.collect::<Vec<_>>()));
         }
         Symbol {
             of: of.clone(),
@@ -60,31 +60,34 @@ impl Symbol {
     }
 
     /// Its shapes without a mark, small enough for a row of the legend.
-    pub(in crate::draw) fn small(&self) -> Vec<Shape> {
-        let usual = symbols::extent(&symbols::symbol(&self.of, &self.pose, "", 1.0));
+    pub(in crate::draw) fn legend_shapes(&self) -> Vec<Shape> {
+        let usual = symbols::shapes_extent(&symbols::symbol_shapes(&self.of, &self.pose, "", 1.0));
         let by = (ROW - 2.0) / (usual.bottom - usual.top);
-        symbols::symbol(&self.of, &self.pose, "", by.min(1.0))
+        symbols::symbol_shapes(&self.of, &self.pose, "", by.min(1.0))
     }
 
     /// How far it reaches from its middle.
-    pub(in crate::draw) fn reach(&self) -> f64 {
+    pub(in crate::draw) fn reach_of_room(&self) -> f64 {
         let [left, top, right, bottom] = self.room.edges();
         (-left).max(-top).max(right).max(bottom).max(0.0)
     }
 
-    pub(in crate::draw) fn draw(&self, sheet: &mut Sheet, mark: Mark) {
-        let pieces = self.pieces(mark).into_iter();
-        let shapes: Vec<Shape> = pieces.filter_map(|p| p.shape(&self.pose)).collect();
-        sheet.shapes(&shapes);
+    pub(in crate::draw) fn draw_symbol(&self, sheet: &mut Sheet, mark: Mark) {
+        let pieces = self.all_pieces(mark).into_iter();
+        let shapes: Vec<Shape> = pieces.filter_map(|p| p.shape_seen(&self.pose)).collect();
+        sheet.draw_shapes(&shapes);
     }
 
     /// Its pieces from the back to the front, with the ring or the arrow of a drive and the ring of a joint of this state alone.
-    pub(in crate::draw) fn pieces(&self, mark: Mark) -> Vec<Piece> {
-        let mark = mark.class();
-        let below = self.ring.map(|r| drive::round(mark, r)).unwrap_or_default();
-        let arrow = self.slide.map_or(&[][..], symbols::arrow);
-        let own = symbols::pieces(&self.of).iter().chain(arrow);
-        let own = own.map(|p| p.sized(mark, self.size));
+    pub(in crate::draw) fn all_pieces(&self, mark: Mark) -> Vec<Piece> {
+        let mark = mark.mark_class();
+        let below = self
+            .ring
+            .map(|r| drive::round_arrow(mark, r))
+            .unwrap_or_default();
+        let arrow = self.slide.map_or(&[][..], symbols::slide_arrow);
+        let own = symbols::symbol_pieces(&self.of).iter().chain(arrow);
+        let own = own.map(|p| p.sized_piece(mark, self.size));
         let radius = self.ring.unwrap_or(10.0 * self.size) + 2.5;
         let above = Shape::circle("fine dash", [0.0; 2], radius);
         let above = self.only_here.then(|| Piece::on_paper(&above));
@@ -105,7 +108,7 @@ pub struct Swap<'a> {
 }
 
 /// The mark of an unloading joint round a symbol of some reach.
-pub(in crate::draw) fn ring(reach: f64) -> Shape {
+pub(in crate::draw) fn unloading_ring(reach: f64) -> Shape {
     Shape::circle("line new", [0.0; 2], reach + 4.0)
 }
 
@@ -114,7 +117,7 @@ const STEP: f64 = 0.6;
 
 /// How many times its usual size each joint is drawn: those in one place on paper within each other, a multiple joint as concentric
 /// circles, a pin on its block.
-pub(in crate::draw) fn sizes(at: &[Point], joints: &[&Joint]) -> Vec<f64> {
+pub(in crate::draw) fn symbol_sizes(at: &[Point], joints: &[&Joint]) -> Vec<f64> {
     let mut out = vec![1.0; at.len()];
     let mut done = vec![false; at.len()];
     for i in 0..at.len() {
@@ -124,7 +127,7 @@ pub(in crate::draw) fn sizes(at: &[Point], joints: &[&Joint]) -> Vec<f64> {
         let mut here: Vec<usize> = (i..at.len())
             .filter(|&k| !done[k] && one_place(at[k], at[i]))
             .collect();
-        here.sort_by_key(|&k| (outward(&joints[k].joint_type), joints[k].drive, k));
+        here.sort_by_key(|&k| (outward_order(&joints[k].joint_type), joints[k].drive, k));
         for (level, k) in here.into_iter().enumerate() {
             done[k] = true;
             out[k] = 1.0 + STEP * level as f64;
@@ -135,11 +138,11 @@ pub(in crate::draw) fn sizes(at: &[Point], joints: &[&Joint]) -> Vec<f64> {
 
 /// Whether two points of the paper are one to the eye.
 pub(in crate::draw) fn one_place(a: Point, b: Point) -> bool {
-    norm(sub(a, b)) <= ONE_PLACE
+    plane_norm(sub(a, b)) <= ONE_PLACE
 }
 
 /// Which of several joints is nearer to the outside: pins and balls stand on blocks and plates.
-fn outward(of: &JointType) -> u8 {
+fn outward_order(of: &JointType) -> u8 {
     match of {
         JointType::Revolute | JointType::Spherical => 0,
         JointType::Cylindrical | JointType::CylindricalUniversal => 2,

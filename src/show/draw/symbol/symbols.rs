@@ -3,7 +3,7 @@
 use crate::draw::sheet::Shape;
 use crate::draw::symbol::pieces::{PaperPose, Piece};
 use crate::model::joint_type::JointType;
-use crate::svg::plane::{Rect, bounds};
+use crate::svg::plane::{Rect, bounds_of};
 use std::collections::BTreeMap;
 use std::sync::LazyLock;
 
@@ -27,30 +27,30 @@ pub(in crate::draw) fn side_of_slide(joint: &JointType) -> Option<f64> {
 }
 
 /// Returns the symbol of a joint at the origin, scaled by `size`; `mark` is added to the classes.
-pub(in crate::draw) fn symbol(
+pub(in crate::draw) fn symbol_shapes(
     joint: &JointType,
     pose: &PaperPose,
     mark: &str,
     size: f64,
 ) -> Vec<Shape> {
-    let seen = |p: &Piece| p.sized(mark, size).shape(pose);
-    pieces(joint).iter().filter_map(seen).collect()
+    let seen = |p: &Piece| p.sized_piece(mark, size).shape_seen(pose);
+    symbol_pieces(joint).iter().filter_map(seen).collect()
 }
 
 /// The pieces of a joint's symbol, from the back to the front.
-pub(in crate::draw) fn pieces(joint: &JointType) -> &'static [Piece] {
+pub(in crate::draw) fn symbol_pieces(joint: &JointType) -> &'static [Piece] {
     &SYMBOLS[joint.name()]
 }
 
 /// Returns the straight arrow of a joint that slides along one of its axes, outside the hatching of a rail.
-pub(in crate::draw) fn arrow(axis: usize) -> &'static [Piece] {
+pub(in crate::draw) fn slide_arrow(axis: usize) -> &'static [Piece] {
     &SYMBOLS[["drive x", "drive y", "drive z"][axis]]
 }
 
 /// The rectangle round some shapes.
-pub(in crate::draw) fn extent(shapes: &[Shape]) -> Rect {
+pub(in crate::draw) fn shapes_extent(shapes: &[Shape]) -> Rect {
     let own = shapes.iter().map(|s| match s {
-        Shape::Path { points, .. } => bounds(points).grown(0.7),
+        Shape::Path { points, .. } => bounds_of(points).grown_by(0.7),
         Shape::Circle { at, radius, .. } => {
             Rect::around(*at, 2.0 * radius + 1.4, 2.0 * radius + 1.4)
         }
@@ -72,13 +72,13 @@ mod tests {
             PaperPose::of_axes([X, Y, Z], &along_z),
             PaperPose::of_axes([Y, Z, X], &along_z),
             PaperPose::of_axes([Z, X, Y], &along_z),
-            PaperPose::of_axes([X, Y, Z], &projection::aslant()),
+            PaperPose::of_axes([X, Y, Z], &projection::isometric_view()),
         ] {
             let drawn = types.each_ref().map(|t| {
-                let mut shapes = symbol(t, &pose, "", 1.0);
+                let mut shapes = symbol_shapes(t, &pose, "", 1.0);
                 // what is a point on paper is not seen
                 shapes.retain(|s| {
-                    let r = extent(std::slice::from_ref(s));
+                    let r = shapes_extent(std::slice::from_ref(s));
                     (r.right - r.left).max(r.bottom - r.top) > 2.5
                 });
                 format!("{shapes:?}")

@@ -5,7 +5,7 @@ use crate::redundancy::motion::DriveFault;
 use crate::view::prelude::*;
 
 /// Returns an idle motion in words: "link 5 spins about the line through 4-5 and 5-1".
-pub(crate) fn words(mechanism: &Mechanism, motion: &Idle) -> String {
+pub(crate) fn describe_idle(mechanism: &Mechanism, motion: &Idle) -> String {
     let names = motion
         .links
         .iter()
@@ -16,9 +16,9 @@ pub(crate) fn words(mechanism: &Mechanism, motion: &Idle) -> String {
         .iter()
         .map(|&j| mechanism.joints[j].id.as_str())
         .collect_vec();
-    let along = motion
-        .direction
-        .map_or_else(String::new, |d| format!(" along {}", d.words(mechanism)));
+    let along = motion.direction.map_or_else(String::new, |d| {
+        format!(" along {}", d.describe_direction(mechanism))
+    });
     match (motion.links.len(), joints.as_slice()) {
         (1, []) if motion.turns => {
             format!("link {names} turns about a line{along}, through none of its joints")
@@ -59,7 +59,7 @@ pub fn drive_fault<'a>(
             let freedom = plural_of(&mobility.to_string(), "degree");
             let text = format!(
                 "{} for {freedom} of freedom: more drives than degrees of freedom work against each other",
-                plural(drives, "drive")
+                count_noun(drives, "drive")
             );
             ("surplus", None, text)
         }

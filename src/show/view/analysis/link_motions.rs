@@ -1,6 +1,6 @@
 //! The motions of links and the wrenches of joints, in words and as data.
 
-use crate::geom::vector::{Vector, add, cross, dot, length, real, scale, unit};
+use crate::geom::vector::{Vector, add, cross, dot, length, scale, to_vector, unit};
 use crate::redundancy::link_motion::LinkMotion;
 use crate::redundancy::stress_loads::Borne;
 use crate::view::prelude::*;
@@ -9,37 +9,43 @@ use crate::view::prelude::*;
 const ROUNDING: f64 = 1e-6;
 
 /// Returns the motion of a link relative to another one as data; the twists (ω; v) are about the origin, in the file's unit of length.
-pub(super) fn json(m: &Mechanism, of: &LinkMotion) -> Value {
+pub(super) fn motion_json(m: &Mechanism, of: &LinkMotion) -> Value {
     json!({
         "link": m.links[of.link].id,
         "relative_to": m.links[of.relative_to].id,
         "dimension": of.dimension(),
-        "text": words(m, of),
-        "twists": of.twists().into_iter().map(|t| t.map(clean)).collect::<Vec<_>>(),
+        "text": describe_motion(m, of),
+        "twists": of.motion_twists().into_iter().map(|t| t.map(round_noise)).collect::<Vec<_>>(),
     })
 }
 
 /// Returns the line about it: "p relative to 0 (in this pose): three translations".
-pub(super) fn line(m: &Mechanism, of: &LinkMotion) -> String {
+pub(super) fn motion_line(m: &Mechanism, of: &LinkMotion) -> String {
     let [link, to] = [of.link, of.relative_to].map(|l| &m.links[l].id);
-    format!("{link} relative to {to} (in this pose): {}", words(m, of))
+    format!(
+        "{link} relative to {to} (in this pose): {}",
+        describe_motion(m, of)
+    )
 }
 
 /// Returns a motion in words: "three translations and rotation about z".
-fn words(mechanism: &Mechanism, of: &LinkMotion) -> String {
+fn describe_motion(mechanism: &Mechanism, of: &LinkMotion) -> String {
     if of.dimension() == 6 {
         return "every motion".to_owned();
     }
     let slides = match of.slides[..] {
         [] => None,
-        [s] => Some(format!("translation along {}", direction(s))),
+        [s] => Some(format!("translation along {}", format_direction(s))),
         [a, b] => Some(format!(
             "two translations, square to {}",
-            direction(cross(a, b))
+            format_direction(cross(a, b))
         )),
         _ => Some("three translations".to_owned()),
     };
-    let parts: Vec<String> = slides.into_iter().chain(turns(mechanism, of)).collect();
+    let parts: Vec<String> = slides
+        .into_iter()
+        .chain(describe_turns(mechanism, of))
+        .collect();
     match parts.len() {
         0 => "none, it rests".to_owned(),
         _ => parts.join(" and "),
@@ -47,13 +53,13 @@ fn words(mechanism: &Mechanism, of: &LinkMotion) -> String {
 }
 
 /// Returns the rotations and screw motions in words.
-fn turns(mechanism: &Mechanism, of: &LinkMotion) -> Option<String> {
+fn describe_turns(mechanism: &Mechanism, of: &LinkMotion) -> Option<String> {
     let unit = mechanism.length_unit.symbol;
-    let at = |p: Vector| format!("through {} {unit}", place(p));
+    let at = |p: Vector| format!("through {} {unit}", format_point(p));
     Some(match (&of.turns[..], of.meet) {
         ([], _) => return None,
         ([t], _) => {
-            let along = direction(t.axis);
+            let along = format_direction(t.axis);
             // Translations across the axis move it anywhere.
             let somewhere = of.slides.len() >= 2;
             let place = if somewhere {
@@ -66,17 +72,17 @@ fn turns(mechanism: &Mechanism, of: &LinkMotion) -> Option<String> {
             } else {
                 format!(
                     "screw motion along {along}{place}, lead {} {unit}",
-                    number(t.lead)
+                    format_number(t.lead)
                 )
             }
         }
         ([a, b], Some(p)) => {
-            let across = direction(cross(a.axis, b.axis));
+            let across = format_direction(cross(a.axis, b.axis));
             format!("two rotations with axes {}, square to {across}", at(p))
         }
         (_, Some(p)) => format!("three rotations, all axes {}", at(p)),
         ([a, b], None) => {
-            let across = direction(cross(a.axis, b.axis));
+            let across = format_direction(cross(a.axis, b.axis));
             format!("two rotations with axes square to {across}")
         }
         _ => "three rotations".to_owned(),
@@ -86,10 +92,10 @@ fn turns(mechanism: &Mechanism, of: &LinkMotion) -> Option<String> {
 /// Returns the wrench of a joint in words, as motions are named: "moment about x", "force along z through (0, 1, 0) m", or "wrench along
 /// z, pitch 2 m". A line without a place goes through the joint's point. The moment is in units of force times `size`, a length in the
 /// file's unit.
-pub(super) fn wrench(m: &Mechanism, joint: JointId, borne: &Borne, size: f64) -> String {
+pub(super) fn describe_wrench(m: &Mechanism, joint: JointId, borne: &Borne, size: f64) -> String {
     let Borne { force, moment } = *borne;
     if length(force) < ROUNDING * length(moment) {
-        return format!("moment about {}", direction(unit(moment)));
+        return format!("moment about {}", format_direction(unit(moment)));
     }
     let axis = unit(force);
     let arm = scale(moment, size / length(force));
@@ -98,22 +104,22 @@ pub(super) fn wrench(m: &Mechanism, joint: JointId, borne: &Borne, size: f64) ->
     let place = if length(off) < ROUNDING * size {
         String::new()
     } else {
-        let point = add(real(&m.joints[joint].frame.point), off);
-        format!(" through {} {unit}", place(point))
+        let point = add(to_vector(&m.joints[joint].frame.point), off);
+        format!(" through {} {unit}", format_point(point))
     };
-    let along = direction(axis);
+    let along = format_direction(axis);
     if pitch.abs() < ROUNDING * size {
         format!("force along {along}{place}")
     } else {
         format!(
             "wrench along {along}{place}, pitch {} {unit}",
-            number(pitch)
+            format_number(pitch)
         )
     }
 }
 
 /// Returns a number without its rounding.
-fn clean(x: f64) -> f64 {
+fn round_noise(x: f64) -> f64 {
     let near = x.round();
     if (x - near).abs() < ROUNDING {
         near + 0.0
@@ -123,25 +129,25 @@ fn clean(x: f64) -> f64 {
 }
 
 /// Returns a number to four decimals, without zeros at its end.
-fn number(x: f64) -> String {
+fn format_number(x: f64) -> String {
     ((x * 1e4).round() / 1e4 + 0.0).to_string()
 }
 
 /// Returns a direction, either way along it: "z", "(0.6, 0.8, 0)".
-fn direction(d: Vector) -> String {
-    let d = d.map(clean);
+fn format_direction(d: Vector) -> String {
+    let d = d.map(round_noise);
     let first = d.iter().find(|x| **x != 0.0).copied().unwrap_or(1.0);
-    let d = d.map(|x| clean(x * first.signum()));
+    let d = d.map(|x| round_noise(x * first.signum()));
     match d {
         [1.0, 0.0, 0.0] => "x".to_owned(),
         [0.0, 1.0, 0.0] => "y".to_owned(),
         [0.0, 0.0, 1.0] => "z".to_owned(),
-        _ => place(d),
+        _ => format_point(d),
     }
 }
 
 /// Returns three numbers in brackets.
-fn place(p: Vector) -> String {
-    let [x, y, z] = p.map(number);
+fn format_point(p: Vector) -> String {
+    let [x, y, z] = p.map(format_number);
     format!("({x}, {y}, {z})")
 }

@@ -8,13 +8,18 @@ use num_bigint::BigUint;
 const SHOWN: usize = 12;
 
 /// Returns the links, joints, states, options and workload of a mechanism, a line each; `across` is its size in the file's unit.
-pub fn describe(m: &Mechanism, across: f64) -> Vec<String> {
-    let mut out = vec![links(m, across), joints(m), states(m), search(m)];
-    out.extend(workload(m));
+pub fn describe_mechanism(m: &Mechanism, across: f64) -> Vec<String> {
+    let mut out = vec![
+        describe_links(m, across),
+        describe_joints(m),
+        describe_states(m),
+        describe_search(m),
+    ];
+    out.extend(describe_workload(m));
     out
 }
 
-fn names<'a>(list: impl IntoIterator<Item = &'a str>) -> String {
+fn list_names<'a>(list: impl IntoIterator<Item = &'a str>) -> String {
     let list = list.into_iter().collect_vec();
     let more = match list.len().saturating_sub(SHOWN) {
         0 => String::new(),
@@ -23,7 +28,7 @@ fn names<'a>(list: impl IntoIterator<Item = &'a str>) -> String {
     format!("{}{more}", list.iter().take(SHOWN).format(", "))
 }
 
-fn links(m: &Mechanism, across: f64) -> String {
+fn describe_links(m: &Mechanism, across: f64) -> String {
     let of = |role| {
         let with = m.links.iter().filter(move |l| l.role == role);
         with.map(|l| l.id.as_str()).collect_vec()
@@ -33,7 +38,7 @@ fn links(m: &Mechanism, across: f64) -> String {
         let with = of(role);
         if !with.is_empty() {
             let s = if with.len() == 1 { "" } else { "s" };
-            roles.push(format!("{word}{s} {}", names(with)));
+            roles.push(format!("{word}{s} {}", list_names(with)));
         }
     }
     let mode = match m.mode {
@@ -42,42 +47,42 @@ fn links(m: &Mechanism, across: f64) -> String {
     };
     format!(
         "{} ({}), {mode}; joints {} {} across",
-        plural(m.links.len(), "link"),
+        count_noun(m.links.len(), "link"),
         roles.join("; "),
-        significant(across),
+        four_digits(across),
         m.length_unit.symbol
     )
 }
 
-fn joints(m: &Mechanism) -> String {
+fn describe_joints(m: &Mechanism) -> String {
     let types = m.joints.iter().map(|j| j.joint_type.name()).counts();
     let types = types
         .into_iter()
         .sorted_by(|a, b| b.1.cmp(&a.1).then(a.0.cmp(b.0)))
         .map(|(name, n)| format!("{n} {name}"));
     let drives = m.joints.iter().filter(|j| j.drive);
-    let drives = names(drives.map(|j| j.id.as_str()));
+    let drives = list_names(drives.map(|j| j.id.as_str()));
     let drives = match drives.as_str() {
         "" => "no drive".to_owned(),
         names => format!("driven at {names}"),
     };
     format!(
         "{}: {}; {drives}",
-        plural(m.joints.len(), "joint"),
+        count_noun(m.joints.len(), "joint"),
         types.format(", ")
     )
 }
 
-fn states(m: &Mechanism) -> String {
+fn describe_states(m: &Mechanism) -> String {
     let one = |s: StateId| {
-        let k = usize::try_from(StructureSize::of(m, s).contours).unwrap_or(0);
-        format!("{} with {}", m.states[s], plural(k, "contour"))
+        let k = usize::try_from(StructureSize::of_state(m, s).contours).unwrap_or(0);
+        format!("{} with {}", m.states[s], count_noun(k, "contour"))
     };
     let states = m.state_ids().map(one).join(", ");
-    format!("{}: {states}", plural(m.states.len(), "state"))
+    format!("{}: {states}", count_noun(m.states.len(), "state"))
 }
 
-fn search(m: &Mechanism) -> String {
+fn describe_search(m: &Mechanism) -> String {
     let options = m
         .joints_in(StateId::FREE)
         .map(|j| m.joints[j].options.len());
@@ -93,28 +98,28 @@ fn search(m: &Mechanism) -> String {
         None => "no joint to change".to_owned(),
         Some((a, b)) => format!(
             "{} with {} options",
-            plural(open.len(), "joint"),
-            span(a, b)
+            count_noun(open.len(), "joint"),
+            format_span(a, b)
         ),
     }];
     if places > 0 {
-        parts.push(plural(places, "place") + " for an unloading joint");
+        parts.push(count_noun(places, "place") + " for an unloading joint");
     }
     if !m.search.mirror.is_empty() {
-        parts.push(plural(m.search.mirror.len(), "mirror pair"));
+        parts.push(count_noun(m.search.mirror.len(), "mirror pair"));
     }
     if let Some(group) = m.search.turn.first() {
         let what = match group.len() {
             2 => "half-turn pair",
             _ => "third-turn group",
         };
-        parts.push(plural(m.search.turn.len(), what));
+        parts.push(count_noun(m.search.turn.len(), what));
     }
-    let joints = grouped(&variants);
+    let joints = group_thousands(&variants);
     format!("search: {}; {joints} choices of joints", parts.join(", "))
 }
 
-fn workload(m: &Mechanism) -> Option<String> {
+fn describe_workload(m: &Mechanism) -> Option<String> {
     let loads = &m.loads;
     let masses = m.links.iter().filter(|l| l.mass.is_some()).count();
     let counted = [
@@ -139,7 +144,7 @@ fn workload(m: &Mechanism) -> Option<String> {
         parts.push("drive speed".to_owned());
     }
     if let Some(stroke) = &loads.stroke {
-        parts.push(format!("a stroke of {}", plural(stroke.steps, "step")));
+        parts.push(format!("a stroke of {}", count_noun(stroke.steps, "step")));
     }
     if let Some(ranking) = &m.ranking {
         let terms = ranking.terms.iter().map(|(t, _)| t.name());

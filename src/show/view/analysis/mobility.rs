@@ -18,9 +18,9 @@ pub struct ByMethod<'a> {
 
 impl ByMethod<'_> {
     /// Returns the name of each state, its size, its mobility and its redundant constraints.
-    fn states(&self) -> impl Iterator<Item = (&str, StructureSize, [i64; 2])> {
+    fn state_figures(&self) -> impl Iterator<Item = (&str, StructureSize, [i64; 2])> {
         self.answers.iter().map(|(s, answer)| {
-            let size = StructureSize::of(self.mechanism, *s);
+            let size = StructureSize::of_state(self.mechanism, *s);
             let redundant = answer.mobility + size.rows - size.freedoms;
             (
                 &*self.mechanism.states[*s],
@@ -48,7 +48,7 @@ impl ByMethod<'_> {
         json!({
             "mechanism": self.mechanism.name,
             "length_unit": self.mechanism.length_unit.symbol,
-            "states": self.states().map(state).collect::<Value>(),
+            "states": self.state_figures().map(state).collect::<Value>(),
         })
     }
 
@@ -61,7 +61,7 @@ impl ByMethod<'_> {
                 about.title, size.rows
             )
         };
-        let lines: String = self.states().map(line).collect();
+        let lines: String = self.state_figures().map(line).collect();
         format!(
             "{lines}  {} ({}; {})\n",
             about.guarantee, about.source, about.complexity
@@ -86,7 +86,7 @@ pub struct StructureSize {
 
 impl StructureSize {
     /// The numbers of a state.
-    pub fn of(mechanism: &Mechanism, state: StateId) -> StructureSize {
+    pub fn of_state(mechanism: &Mechanism, state: StateId) -> StructureSize {
         let mut links: Vec<_> = mechanism
             .joints_in(state)
             .flat_map(|j| mechanism.joints[j].links)

@@ -2,9 +2,9 @@
 
 use super::State;
 use crate::search::answer::single_changes::USUAL_UNLOADING;
-use crate::view::analysis::suggestions::{Advice, concerned};
+use crate::view::analysis::suggestions::{Advice, concerned_count};
 use crate::view::prelude::*;
-use crate::view::terminal::next_commands::{NextCommand, file_name, word};
+use crate::view::terminal::next_commands::{NextCommand, file_name, shell_word};
 
 /// Returns the commands to suggest after an analysis of `file`.
 pub fn next(m: &Mechanism, states: &[State<'_>], file: &str) -> Vec<NextCommand> {
@@ -37,7 +37,7 @@ fn to_remove(s: &State<'_>, file: &str) -> Option<NextCommand> {
     let Some(Advice::Changes(found)) = s.advice else {
         return None;
     };
-    let of = concerned(s.found);
+    let of = concerned_count(s.found);
     match (found.usual, found.state) {
         (_, StateId::FREE) => Some(NextCommand::new(
             "search",
@@ -51,12 +51,12 @@ fn to_remove(s: &State<'_>, file: &str) -> Option<NextCommand> {
             let state = if n == StateId::new(1) {
                 String::new()
             } else {
-                format!(" {}", flag("state", word(&s.found.state)))
+                format!(" {}", typed_option("state", shell_word(&s.found.state)))
             };
             Some(NextCommand::new(
                 "search",
                 file,
-                &(flag("max-external", left) + &state),
+                &(typed_option("max-external", left) + &state),
                 &format!("redesigns that leave at most {left} of the {of} external, too"),
             ))
         }
@@ -68,7 +68,7 @@ fn to_remove(s: &State<'_>, file: &str) -> Option<NextCommand> {
             ),
             gives: format!(
                 "so that `ozols search` may insert it; {} asks for it",
-                flag("max-external", "N")
+                typed_option("max-external", "N")
             ),
         }),
         (true, _) => None,

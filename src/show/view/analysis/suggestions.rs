@@ -25,7 +25,7 @@ pub enum Advice {
 }
 
 /// Returns the number of redundant constraints that suggestions are about: those of the state, or those it adds.
-pub fn concerned(s: &StateAnalysis) -> usize {
+pub fn concerned_count(s: &StateAnalysis) -> usize {
     match &s.external {
         None => s.redundant,
         Some(e) => usize::try_from(e.by_rank).unwrap_or(0),
@@ -36,13 +36,13 @@ pub fn concerned(s: &StateAnalysis) -> usize {
 ///
 /// # Errors
 /// Returns an error if a geometry has no exact image.
-pub fn advise(
+pub fn advise_states(
     mechanism: &Mechanism,
     states: &[StateId],
     found: &[StateAnalysis],
 ) -> Result<Vec<Advice>, ExactError> {
     let one = |(&state, s): (&StateId, &StateAnalysis)| {
-        if concerned(s) == 0 {
+        if concerned_count(s) == 0 {
             return Ok(Advice::Nothing);
         }
         if matches!(s.certainty, Certainty::Undecided { .. }) {
@@ -63,24 +63,24 @@ pub fn advise(
 }
 
 /// Returns the advice on a state of a mechanism as data.
-pub(super) fn json(m: &Mechanism, s: &StateAnalysis, advice: &Advice) -> Value {
+pub(super) fn advice_json(m: &Mechanism, s: &StateAnalysis, advice: &Advice) -> Value {
     let found = match advice {
         Advice::Nothing => return Value::Null,
         Advice::Silent(reason) => return json!({ "reason": reason, "changes": [] }),
         Advice::Changes(found) => found,
     };
-    let (of, kind) = (concerned(s), kind(s));
+    let (of, kind) = (concerned_count(s), kind_suffix(s));
     let change = |x: &Suggestion| {
-        let (joint, removes, words) = (&m.joints[x.joint].id, x.removes, words(m, x));
+        let (joint, removes, words) = (&m.joints[x.joint].id, x.removes, describe_change(m, x));
         json!({
             "joint": joint,
-            "from": present(m, x),
+            "from": present_type(m, x),
             "to": x.to.as_ref().map(|o| &o.name),
             // The joint put in series with it, where one is.
             "unloading": x.unloading.as_ref().map(|o| &o.name),
             "removes": removes,
             "remaining": of.saturating_sub(removes),
-            "cost": cost(x.cost_milli).parse().unwrap_or(0.0),
+            "cost": format_cost(x.cost_milli).parse().unwrap_or(0.0),
             "text": format!("{joint}: {words} removes {removes} of {of}{kind}"),
         })
     };
@@ -98,16 +98,16 @@ pub(super) fn json(m: &Mechanism, s: &StateAnalysis, advice: &Advice) -> Value {
 }
 
 /// Returns what a joint is before a change.
-fn present<'a>(m: &'a Mechanism, x: &Suggestion) -> &'a str {
+fn present_type<'a>(m: &'a Mechanism, x: &Suggestion) -> &'a str {
     let joint = &m.joints[x.joint];
     let option = joint.options.first();
     option.map_or(joint.joint_type.name(), |o| &o.name)
 }
 
 /// "revolute -> spherical", "unloading joint in series: spherical (a ball pivot)".
-fn words(m: &Mechanism, x: &Suggestion) -> String {
+fn describe_change(m: &Mechanism, x: &Suggestion) -> String {
     let to = x.to.as_ref();
-    let replaced = to.map(|to| format!("{} -> {}", present(m, x), to.name));
+    let replaced = to.map(|to| format!("{} -> {}", present_type(m, x), to.name));
     let inserted = x.unloading.as_ref().map(|u| {
         let pivot = match &*u.name {
             "spherical" => " (a ball pivot)",
@@ -118,7 +118,7 @@ fn words(m: &Mechanism, x: &Suggestion) -> String {
     replaced.into_iter().chain(inserted).join(" + ")
 }
 
-fn kind(s: &StateAnalysis) -> &'static str {
+fn kind_suffix(s: &StateAnalysis) -> &'static str {
     match s.external {
         Some(_) => " external",
         None => "",
@@ -126,7 +126,7 @@ fn kind(s: &StateAnalysis) -> &'static str {
 }
 
 /// Returns the best single changes as a table, or that there are none.
-pub(super) fn text(
+pub(super) fn advice_text(
     m: &Mechanism,
     s: &StateAnalysis,
     advice: &Advice,
@@ -153,7 +153,7 @@ pub(super) fn text(
     // The list is sorted, and so are the groups by their firsts.
     let mut groups: Vec<((String, usize, i64), Vec<&str>)> = Vec::new();
     for x in &found.list {
-        let key = (words(m, x), x.removes, x.cost_milli);
+        let key = (describe_change(m, x), x.removes, x.cost_milli);
         let joint = &*m.joints[x.joint].id;
         match groups.iter_mut().find(|(k, _)| *k == key) {
             Some((_, joints)) => joints.push(joint),
@@ -162,7 +162,10 @@ pub(super) fn text(
     }
     let rest = match groups.len().saturating_sub(ROWS) {
         0 => String::new(),
-        n => format!("\n  and {n} more; {} lists them", flag("format", "json")),
+        n => format!(
+            "\n  and {n} more; {} lists them",
+            typed_option("format", "json")
+        ),
     };
     let rows = groups.iter().take(ROWS);
     let rows = rows.map(|((what, removes, milli), joints)| {
@@ -171,15 +174,15 @@ pub(super) fn text(
             n => format!(" and {n} more"),
         };
         let joints = joints.iter().take(JOINTS).join(", ") + &more;
-        let removes = format!("{removes} of {}{}", concerned(s), kind(s));
-        cells([&joints, what, &removes, &cost(*milli)])
+        let removes = format!("{removes} of {}{}", concerned_count(s), kind_suffix(s));
+        row_cells([&joints, what, &removes, &format_cost(*milli)])
     });
     let one_of = if found.list.len() == 1 {
         ""
     } else {
         " (one of)"
     };
-    let body = table(
+    let body = text_table(
         &format!("at{one_of} | change | removes | cost"),
         rows,
         width,

@@ -1,6 +1,6 @@
 //! An analysis for people: the verdict first, then where each figure comes from.
 
-use super::{Analysis, State, agrees, axes, harm};
+use super::{Analysis, State, axis_names, harm_word, ranks_agree};
 use crate::model::claim::Topic;
 use crate::redundancy::analysis::{ContourShare, CouplingShare, External};
 use crate::redundancy::stress::{JointWrench, SelfStress, StressVerdict};
@@ -21,16 +21,16 @@ impl Analysis<'_> {
             s.write(&mut out, verbose);
             let advice = s
                 .advice
-                .map(|x| suggestions::text(s.mechanism, s.found, x, width));
+                .map(|x| suggestions::advice_text(s.mechanism, s.found, x, width));
             out.text() + &advice.unwrap_or_default()
         });
-        let published = claims::about(&self.mechanism.claims, Topic::Structure);
+        let published = claims::claims_about(&self.mechanism.claims, Topic::Structure);
         let published = if verbose {
-            claims::text(&published, width)
+            claims::claims_text(&published, width)
         } else {
-            claims::counted(&published)
+            claims::count_claims(&published)
         };
-        fit(&(states.collect_vec().join("\n") + &published), width)
+        fit_lines(&(states.collect_vec().join("\n") + &published), width)
     }
 }
 
@@ -38,20 +38,20 @@ impl State<'_> {
     fn write(&self, out: &mut Report, verbose: bool) {
         let (m, s) = (self.mechanism, self.found);
         let (name, state, w) = (&m.name, &s.state, self.mobility_figure());
-        out.line(format!(
+        out.add_line(format!(
             "{name}, state {state}: {}, mobility {w}\n",
             self.verdict()
         ));
         if verbose {
             self.write_counts(out);
-        } else if s.finite.figure() != s.mobility.to_string() || !s.finite.is_proven() {
-            out.line(format!("  {}", self.finite()));
+        } else if s.finite.format_figure() != s.mobility.to_string() || !s.finite.is_proven() {
+            out.add_line(format!("  {}", self.describe_finite()));
         }
-        let motions = self.motions();
+        let motions = self.all_motions();
         let shown = motions.iter().take(MOTIONS);
-        let shown = shown.map(|of| format!("motion of {}", link_motions::line(m, of)));
+        let shown = shown.map(|of| format!("motion of {}", link_motions::motion_line(m, of)));
         let more = motions.len().saturating_sub(MOTIONS);
-        let json = flag("format", "json");
+        let json = typed_option("format", "json");
         let more = (more > 0).then(|| format!("and of {more} more outputs ({json} has all)"));
         let idle = self
             .idle_motions()
@@ -59,17 +59,21 @@ impl State<'_> {
             .map(|of| format!("idle: {of}"));
         let lines = self.drive_faults().chain(shown).chain(more).chain(idle);
         let lines = lines.chain(self.left_out()).chain([self.certainty()]);
-        lines.for_each(|line| out.line(format!("  {line}")));
+        lines.for_each(|line| out.add_line(format!("  {line}")));
         // What was done to the coordinates matters to everyone.
         if verbose || !s.snapped.is_empty() || s.as_written.is_some() || s.at_most().is_some() {
             self.method_lines()
-                .for_each(|line| out.line(format!("  {line}")));
+                .for_each(|line| out.add_line(format!("  {line}")));
         }
         self.write_shares(out);
         if let Some(e) = &s.external {
-            let disagree = if agrees(e) { "" } else { "  -- THESE DISAGREE" };
-            let (formula, sigma, rank) = (formula(e), e.redundant, e.by_rank);
-            out.line(format!(
+            let disagree = if ranks_agree(e) {
+                ""
+            } else {
+                "  -- THESE DISAGREE"
+            };
+            let (formula, sigma, rank) = (external_formula(e), e.redundant, e.by_rank);
+            out.add_line(format!(
                 "\n  External: σ = {formula} = {sigma}; by rank {rank}{disagree}"
             ));
         }
@@ -83,9 +87,9 @@ impl State<'_> {
         );
         match (all, harmless) {
             (0, _) => {}
-            (1, 0) => out.line("  It strains the joints if parts are inaccurate."),
-            (all, 0) => out.line(format!("  All {all} strain the joints if parts are inaccurate.")),
-            (all, n) => out.line(format!(
+            (1, 0) => out.add_line("  It strains the joints if parts are inaccurate."),
+            (all, 0) => out.add_line(format!("  All {all} strain the joints if parts are inaccurate.")),
+            (all, n) => out.add_line(format!(
                 "  {} of {all} strain the joints if parts are inaccurate; {n} are harmless: contacts share friction.",
                 all - n
             )),
@@ -98,27 +102,27 @@ impl State<'_> {
         let (rows, f, rank) = (s.rows, s.freedoms, s.rank);
         let couplings = match s.per_coupling.len() {
             0 => String::new(),
-            c => format!(", c = {}", plural(c, "coupling")),
+            c => format!(", c = {}", count_noun(c, "coupling")),
         };
-        let (n, p) = (plural(s.links, "link"), plural(s.joints, "joint"));
-        let (k, freedoms) = (plural(s.contours, "contour"), plural(f, "freedom"));
+        let (n, p) = (count_noun(s.links, "link"), count_noun(s.joints, "joint"));
+        let (k, freedoms) = (count_noun(s.contours, "contour"), count_noun(f, "freedom"));
         let [w, working, local] = [s.mobility, s.working_mobility, s.local_mobility];
-        out.line(format!(
+        out.add_line(format!(
             "  n = {n}, p = {p}, k = {k}, f = {freedoms}{couplings}\n  \
              rank of the {rows} x {f} closure matrix: {rank}\n  \
              W = f - rank = {w} (in this pose): working {working}, local {local}\n  \
              {}\n  \
              σ = {rows} - rank = {}  (= W + {rows} - f)",
-            self.finite(),
+            self.describe_finite(),
             s.redundant
         ));
-        if let Some([m, n, s, t]) = self.gogu() {
-            out.line(format!(
+        if let Some([m, n, s, t]) = self.gogu_symbols() {
+            out.add_line(format!(
                 "  in Gogu's symbols: M = {m}, N = {n}, S = {s}, T = {t}"
             ));
         }
         if self.counting_is_wrong() {
-            out.line(format!(
+            out.add_line(format!(
                 "  counting alone (Malyshev's formula) says {}, wrong by the redundant constraints",
                 s.formula_mobility
             ));
@@ -132,10 +136,10 @@ impl State<'_> {
                 .contour
                 .joints
                 .iter()
-                .map(|(j, _)| self.joint(*j))
+                .map(|(j, _)| self.joint_name(*j))
                 .join(", ");
             let name = c.contour.name(self.mechanism);
-            cells([
+            row_cells([
                 &name,
                 &joints,
                 &c.redundant,
@@ -144,15 +148,15 @@ impl State<'_> {
             ])
         };
         let coupling = |c: &CouplingShare| {
-            let any = span(0, c.most);
-            cells([&"coupling", &c.name, &c.redundant, &any, &any])
+            let any = format_span(0, c.most);
+            row_cells([&"coupling", &c.name, &c.redundant, &any, &any])
         };
         let (contours, couplings) = (&self.found.per_contour, &self.found.per_coupling);
         let shares = contours.iter().map(contour);
         let shares = shares.chain(couplings.iter().map(coupling)).collect_vec();
         if !shares.is_empty() {
-            out.line("");
-            out.table(
+            out.add_line("");
+            out.add_table(
                 "contour | joints | σ in this order | in any order | in any basis",
                 shares,
             );
@@ -171,21 +175,27 @@ impl State<'_> {
                 .map(String::as_str)
                 .chain(couplings)
                 .join(" + ");
-            let (joint, what) = self.simplest(t).unwrap_or_default();
-            cells([&in_contours, &joint, &what, &harm(t), &self.borne(t)])
+            let (joint, what) = self.simplest_joint(t).unwrap_or_default();
+            row_cells([
+                &in_contours,
+                &joint,
+                &what,
+                &harm_word(t),
+                &self.borne_shares(t),
+            ])
         };
-        out.line("");
-        out.table(
+        out.add_line("");
+        out.add_table(
             "self-stress in contour | simplest at | acts as |  | shared by joints, part of Σ |F|² + |M|²/ℓ²",
             stresses.iter().map(row),
         );
-        out.line("  harmful: strains the joints if parts are inaccurate; harmless: contacts share friction");
+        out.add_line("  harmful: strains the joints if parts are inaccurate; harmless: contacts share friction");
     }
 
     /// Returns W, or a range if rounded coordinates do not decide it.
     pub(crate) fn mobility_figure(&self) -> String {
         let (s, most) = (self.found, self.found.at_most());
-        span(s.mobility, most.map_or(s.mobility, |(w, _)| w))
+        format_span(s.mobility, most.map_or(s.mobility, |(w, _)| w))
     }
 
     /// Returns the answer in a few words.
@@ -196,17 +206,17 @@ impl State<'_> {
         }
         match least {
             0 => "statically determinate".to_owned(),
-            n => plural(n, "redundant constraint"),
+            n => count_noun(n, "redundant constraint"),
         }
     }
 
     /// Returns Gogu's M (mobility), N (redundant constraints), S (independent motions of the platform) and T (motions that it does not
     /// feel), where two legs at least join one output to the frame.
-    pub(super) fn gogu(&self) -> Option<[usize; 4]> {
+    pub(super) fn gogu_symbols(&self) -> Option<[usize; 4]> {
         let (m, s) = (self.mechanism, self.found);
         let mut outputs = m.link_ids().filter(|&l| m.links[l].role == Role::Output);
-        let ends = [m.frame(), outputs.next()?];
-        let state = m.state(&s.state)?;
+        let ends = [m.frame_link(), outputs.next()?];
+        let state = m.state_named(&s.state)?;
         let mut legs: Vec<BTreeSet<LinkId>> = Vec::new();
         for joint in m.joints_in(state).map(|j| &m.joints[j]) {
             let inner = joint.links.iter().copied().filter(|l| !ends.contains(l));
@@ -226,10 +236,10 @@ impl State<'_> {
     }
 
     /// Returns the finite mobility and how it is known.
-    pub fn finite(&self) -> String {
+    pub fn describe_finite(&self) -> String {
         let finite = &self.found.finite;
         let certainty = as_read(self.mechanism, finite.describe());
-        format!("finite mobility {}: {certainty}", finite.figure())
+        format!("finite mobility {}: {certainty}", finite.format_figure())
     }
 
     /// Returns true if Malyshev's formula gives another mobility than the rank.
@@ -245,7 +255,7 @@ impl State<'_> {
 
     /// Returns the idle motions in words, each text once.
     pub(crate) fn idle_motions(&self) -> Vec<String> {
-        let words = |i| idle::words(self.mechanism, i);
+        let words = |i| idle::describe_idle(self.mechanism, i);
         idle::told_once(self.found.idle.iter().map(words))
     }
 
@@ -268,38 +278,38 @@ impl State<'_> {
     /// Returns what planar mode omits: "omitted in the plane: 1 freedom of joint 3-0".
     pub(crate) fn left_out(&self) -> impl Iterator<Item = String> {
         self.found.left_out.iter().map(|&(j, freedoms)| {
-            let freedoms = plural(freedoms, "freedom");
+            let freedoms = count_noun(freedoms, "freedom");
             format!(
                 "omitted in the plane: {freedoms} of joint {}",
-                self.joint(j)
+                self.joint_name(j)
             )
         })
     }
 
     /// Returns the joint where a self-stress has the fewest components, of the contacts where they have any, since that is where external
     /// redundancy is felt, and what it carries there.
-    pub(crate) fn simplest(&self, t: &SelfStress) -> Option<(&str, String)> {
+    pub(crate) fn simplest_joint(&self, t: &SelfStress) -> Option<(&str, String)> {
         let joints = &self.mechanism.joints;
         let felt = t.joints.iter();
         let felt = felt.filter(|w| !t.external || joints[w.joint].states.is_some());
         let count = |w: &&JointWrench| w.moments.iter().chain(&w.forces).filter(|x| **x).count();
         let w = felt.min_by_key(count)?;
-        Some((self.joint(w.joint), self.wrench_words(t, w)))
+        Some((self.joint_name(w.joint), self.wrench_words(t, w)))
     }
 
     /// Returns what a joint carries of a self-stress: "force along z through (0, 1, 0) m", or where numbers are not known "moments about x
     /// and y, force along z".
     pub(super) fn wrench_words(&self, t: &SelfStress, w: &JointWrench) -> String {
         if let Some(borne) = &w.borne {
-            return link_motions::wrench(self.mechanism, w.joint, borne, t.size);
+            return link_motions::describe_wrench(self.mechanism, w.joint, borne, t.size);
         }
         let part = |noun: &str, along: &str, axes: &[&str]| {
             let s = if axes.len() == 1 { "" } else { "s" };
-            (!axes.is_empty()).then(|| format!("{noun}{s} {along} {}", list(axes)))
+            (!axes.is_empty()).then(|| format!("{noun}{s} {along} {}", join_and(axes)))
         };
         let parts = [
-            part("moment", "about", &axes(w.moments)),
-            part("force", "along", &axes(w.forces)),
+            part("moment", "about", &axis_names(w.moments)),
+            part("force", "along", &axis_names(w.forces)),
         ];
         parts.into_iter().flatten().join(", ")
     }
@@ -307,16 +317,20 @@ impl State<'_> {
     /// Returns what a self-stress is called in a drawing, counted from 0: "self-stress 1: moment about y at 0-1 (harmful)".
     pub fn name(&self, place: usize) -> String {
         let t = &self.found.self_stresses[place];
-        let (joint, what) = self.simplest(t).unwrap_or_default();
-        format!("self-stress {}: {what} at {joint} ({})", place + 1, harm(t))
+        let (joint, what) = self.simplest_joint(t).unwrap_or_default();
+        format!(
+            "self-stress {}: {what} at {joint} ({})",
+            place + 1,
+            harm_word(t)
+        )
     }
 
     /// Returns every joint that bears a self-stress with its share if that is known, the greatest first: "4-5 52 %, 5-1 48 %".
-    pub(crate) fn borne(&self, t: &SelfStress) -> String {
-        let share = |w: &JointWrench| w.borne.as_ref().map(|b| b.share());
+    pub(crate) fn borne_shares(&self, t: &SelfStress) -> String {
+        let share = |w: &JointWrench| w.borne.as_ref().map(|b| b.energy_share());
         let mut all: Vec<&JointWrench> = t.joints.iter().collect();
         all.sort_by(|a, b| share(b).unwrap_or(0.0).total_cmp(&share(a).unwrap_or(0.0)));
-        let told = |w: &JointWrench| match (self.joint(w.joint), share(w).map(|s| 100.0 * s)) {
+        let told = |w: &JointWrench| match (self.joint_name(w.joint), share(w).map(|s| 100.0 * s)) {
             (joint, None) => joint.to_owned(),
             (joint, Some(share)) if share < 1.0 => format!("{joint} <1 %"),
             (joint, Some(share)) => format!("{joint} {share:.0} %"),
@@ -327,13 +341,13 @@ impl State<'_> {
 
 /// Returns σ of a contour over all orders of these contours.
 pub(crate) fn in_any_order(c: &ContourShare) -> String {
-    span(c.range.0, c.range.1)
+    format_span(c.range.0, c.range.1)
 }
 
 /// Returns σ of a contour over all bases of contours that it is part of.
 pub(crate) fn in_any_basis(c: &ContourShare) -> String {
     let (reached, most) = c.over_bases;
-    let words = span(c.range.0, reached);
+    let words = format_span(c.range.0, reached);
     if most > reached {
         format!("{words} or more, at most {most}")
     } else {
@@ -342,7 +356,7 @@ pub(crate) fn in_any_basis(c: &ContourShare) -> String {
 }
 
 /// Returns where the σ that a state adds comes from: "12 constraints - (1 - 0) - 0 lost mobilities".
-pub(crate) fn formula(e: &External) -> String {
+pub(crate) fn external_formula(e: &External) -> String {
     let constraints = plural_of(&e.constraints.to_string(), "constraint");
     let (actual, working, lost) = (e.actual_mobility, e.working_mobility, e.lost_mobility);
     let noun = if lost == 1 { "mobility" } else { "mobilities" };

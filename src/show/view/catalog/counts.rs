@@ -4,7 +4,7 @@ use crate::chains::census::{Census, Counted, DriveKind, Grippers, Kinds};
 use crate::chains::chain::Chain;
 use crate::chains::graph6;
 use crate::chains::roles::Subject;
-use crate::view::catalog::query::bare;
+use crate::view::catalog::query::bare_value;
 use crate::view::prelude::*;
 use serde_json::Map;
 use std::collections::BTreeMap;
@@ -57,7 +57,7 @@ const THREE_JAWS: [Counted; 4] = [
 ];
 
 /// Returns the keys of counts with their names.
-fn named(text: &'static str) -> impl Iterator<Item = (&'static str, &'static str)> {
+fn keys_and_names(text: &'static str) -> impl Iterator<Item = (&'static str, &'static str)> {
     text.lines().filter_map(|line| line.split_once(": "))
 }
 
@@ -76,7 +76,7 @@ pub fn hinged_row(links: usize, mobility: usize, chains: u64, census: Option<&Ce
     };
     let counted = counted.into_iter().chain(grippers(2, &TWO_JAWS));
     let counted = counted.chain(grippers(3, &THREE_JAWS));
-    let counted = named(OF_HINGES).map(|(key, _)| key).zip(counted);
+    let counted = keys_and_names(OF_HINGES).map(|(key, _)| key).zip(counted);
     let sizes = [("links", links), ("mobility", mobility)];
     let sizes = sizes.map(|(key, n)| (key, Some(n as u64)));
     row_of(sizes.into_iter().chain(counted))
@@ -98,8 +98,8 @@ pub fn hinged_text(all: &[CountRow], width: Option<u16>) -> String {
         .iter()
         .map(|row| format!(" | {} links", row["links"]))
         .collect::<String>();
-    let cell = |n: Option<u64>| n.map_or_else(|| "-".to_owned(), grouped);
-    let rows = named(OF_HINGES).filter_map(|(key, name)| {
+    let cell = |n: Option<u64>| n.map_or_else(|| "-".to_owned(), group_thousands);
+    let rows = keys_and_names(OF_HINGES).filter_map(|(key, name)| {
         let of = all.iter().map(|row| row[key].as_u64()).collect_vec();
         let counted = of.iter().any(Option::is_some);
         let cells = of.into_iter().map(cell);
@@ -107,24 +107,28 @@ pub fn hinged_text(all: &[CountRow], width: Option<u16>) -> String {
     });
     format!(
         "{}\n\n{}",
-        table(&heads, rows, width),
-        fit(HINGED_LEGEND, width)
+        text_table(&heads, rows, width),
+        fit_lines(HINGED_LEGEND, width)
     )
 }
 
 /// Returns the row of a chain in canonical numbering. Its assortment is its links by their number of joints: "4x2 4x3".
 pub fn chain_row(chain: &Chain) -> CountRow {
     let degrees = (0..chain.links())
-        .map(|u| (0..chain.links()).filter(|&v| chain.joined(u, v)).count())
+        .map(|u| {
+            (0..chain.links())
+                .filter(|&v| chain.is_joined(u, v))
+                .count()
+        })
         .counts();
     let some = degrees.into_iter().sorted();
     let assortment = some
         .map(|(joints, links)| format!("{links}x{joints}"))
         .join(" ");
-    let automorphisms = chain.canonical().1;
+    let automorphisms = chain.canonical_form().1;
     let c = Census::of_hinges(&Subject::new(chain, &automorphisms), false);
     row_of([
-        ("code", json!(graph6::write(chain))),
+        ("code", json!(graph6::write_graph(chain))),
         ("links", json!(chain.links())),
         ("joints", json!(chain.joints().len())),
         ("mobility", json!(chain.mobility())),
@@ -150,9 +154,13 @@ pub fn chains_text(all: &[CountRow], width: Option<u16>) -> String {
     ];
     let rows = all
         .iter()
-        .map(|row| keys.iter().map(|key| bare(&row[*key])).collect());
+        .map(|row| keys.iter().map(|key| bare_value(&row[*key])).collect());
     let note = "Chain: graph6 of the canonical numbering. Links: 4x2 are four with two joints.\n";
-    format!("{}\n\n{}", table(heads, rows, width), fit(note, width))
+    format!(
+        "{}\n\n{}",
+        text_table(heads, rows, width),
+        fit_lines(note, width)
+    )
 }
 
 /// The four places of an input and the jaws, in the order of columns: at the frame or between, apart or driven.
@@ -178,7 +186,7 @@ const PAIRED: [Counted; 8] = [
     Counted::HalfTurnButInput,
 ];
 
-fn word(holds: bool, [yes, no]: [&'static str; 2]) -> &'static str {
+fn either_word(holds: bool, [yes, no]: [&'static str; 2]) -> &'static str {
     if holds { yes } else { no }
 }
 
@@ -207,14 +215,14 @@ pub fn pair_rows(links: usize, all: &BTreeMap<Kinds, Census>) -> Vec<CountRow> {
             ("inputs_between", c.inputs_between),
         ];
         let words = [
-            ("place", word(between, ["between", "frame"])),
-            ("jaws", word(jaw, ["driven", "apart"])),
-            ("input", word(slides, ["slide", "turn"])),
+            ("place", either_word(between, ["between", "frame"])),
+            ("jaws", either_word(jaw, ["driven", "apart"])),
+            ("input", either_word(slides, ["slide", "turn"])),
         ];
         let sizes = sizes.map(|(key, n)| (key, json!(n))).into_iter();
         let chains = chains.map(|(key, n)| (key, json!(n)));
         let words = words.map(|(key, word)| (key, json!(word)));
-        let grippers = named(OF_PAIRS).zip(PAIRED);
+        let grippers = keys_and_names(OF_PAIRS).zip(PAIRED);
         let grippers = grippers.map(|((key, _), of)| (key, json!(g[of])));
         row_of(sizes.chain(chains).chain(words).chain(grippers))
     };
@@ -238,30 +246,30 @@ pub fn pair_text(all: &[(usize, BTreeMap<Kinds, Census>)], width: Option<u16>) -
     for (links, cells) in all {
         let mut sum = Census::default();
         cells.values().cloned().for_each(|c| sum += c);
-        out += &fit(&headline(*links, &sum), width);
+        out += &fit_lines(&pair_headline(*links, &sum), width);
         out.push('\n');
         if !sum.grippers.is_empty() {
-            out += &format!("\n{}\n\n", grippers(&sum, width));
+            out += &format!("\n{}\n\n", gripper_table(&sum, width));
         }
     }
-    out + &fit(PAIR_LEGEND, width)
+    out + &fit_lines(PAIR_LEGEND, width)
 }
 
-fn headline(links: usize, sum: &Census) -> String {
+fn pair_headline(links: usize, sum: &Census) -> String {
     let [chains, frames, at_frame, between] = [
         sum.chains,
         sum.frames,
         sum.inputs_at_frame,
         sum.inputs_between,
     ]
-    .map(grouped);
+    .map(group_thousands);
     format!(
         "{links} links: {chains} chains, {frames} with a frame; with an input joint {at_frame} at the frame, {between} between \
          moving links."
     )
 }
 
-fn grippers(sum: &Census, width: Option<u16>) -> String {
+fn gripper_table(sum: &Census, width: Option<u16>) -> String {
     let columns = PLACES.map(|(between, jaw)| {
         let mut of = Grippers::default();
         let own = |d: &&DriveKind| (d.between, d.jaw) == (between, jaw);
@@ -270,13 +278,13 @@ fn grippers(sum: &Census, width: Option<u16>) -> String {
         of
     });
     let heads = PLACES.map(|(between, jaw)| {
-        let place = word(between, ["between", "at frame"]);
-        format!("{place}, {}", word(jaw, ["driven", "apart"]))
+        let place = either_word(between, ["between", "at frame"]);
+        format!("{place}, {}", either_word(jaw, ["driven", "apart"]))
     });
     let heads = format!("grippers of two jaws | {}", heads.join(" | "));
-    let rows = named(OF_PAIRS).zip(PAIRED).map(|((_, name), of)| {
-        let cells = columns.iter().map(|g| grouped(g[of]));
+    let rows = keys_and_names(OF_PAIRS).zip(PAIRED).map(|((_, name), of)| {
+        let cells = columns.iter().map(|g| group_thousands(g[of]));
         std::iter::once(name.to_owned()).chain(cells).collect()
     });
-    table(&heads, rows, width)
+    text_table(&heads, rows, width)
 }

@@ -43,8 +43,8 @@ impl<'a> FoundData<'a> {
         let subject = Subject::new(chain, &automorphisms);
         let moves = chain.has_carriers() && moves_throughout(chain);
         let threaded = found.made_as.threaded;
-        let symmetries = || symmetries(&subject, roles, threaded);
-        let key = found.structure.part(part).key();
+        let symmetries = || layout_symmetries(&subject, roles, threaded);
+        let key = found.structure.part_of(part).canonical_key();
         FoundData {
             motion: moves.then(|| (subject.is_translating(roles), symmetries())),
             classics: classics_of(&key, found.made_as).collect(),
@@ -69,7 +69,7 @@ impl<'a> FoundData<'a> {
             0
         };
         let kinds = Kinds::of_chain(chain).with_flat(flat);
-        let hinges = chain.count(PairKind::Hinge);
+        let hinges = chain.count_pairs(PairKind::Hinge);
         [hinges, kinds.slides, kinds.gears, kinds.slots_made()]
     }
 
@@ -90,7 +90,7 @@ impl<'a> FoundData<'a> {
         json!({
             "name": found.structure.name(),
             // 3 if three sides are alike, of which what follows has two; 1 if there are three jaws that are not.
-            "sides": found.sides(),
+            "sides": found.side_count(),
             "links": found.structure.chain.links(),
             "hinges": hinges,
             "slides": slides,
@@ -99,7 +99,7 @@ impl<'a> FoundData<'a> {
             // Whether what turns by them is a screw, and they are nuts on its threads.
             "threaded": found.made_as.threaded,
             "place": either(roles.is_driven_from_frame(), "frame", "between"),
-            "input": either(found.structure.slides(), "slide", "turn"),
+            "input": either(found.structure.input_slides(), "slide", "turn"),
             "jaws": either(roles.has_driven_jaw(), "driven", "apart"),
             "in_count": self.motion.is_some(),
             "essential": self.motion.map(|_| smaller.is_none()),
@@ -129,8 +129,8 @@ impl<'a> FoundData<'a> {
             .zip(["hinge", "slide", nut, "slot"]);
         let pairs = nouns
             .filter(|(n, _)| *n > 0)
-            .map(|(n, noun)| plural(n, noun));
-        let input = if found.structure.slides() {
+            .map(|(n, noun)| count_noun(n, noun));
+        let input = if found.structure.input_slides() {
             "slide"
         } else {
             "hinge"
@@ -146,32 +146,32 @@ impl<'a> FoundData<'a> {
             "apart from the jaws"
         };
         let mut out = Report::new(width);
-        out.line(format!(
+        out.add_line(format!(
             "{name}: {} links, {}. The input is a {input} {place}, {jaws}.",
             found.structure.chain.links(),
             pairs.format(", ")
         ));
-        match found.sides() {
-            1 => out.line("It has three jaws."),
-            3 => out.line("It has three equal sides: all this is of two of them."),
+        match found.side_count() {
+            1 => out.add_line("It has three jaws."),
+            3 => out.add_line("It has three equal sides: all this is of two of them."),
             _ => {}
         }
-        out.line(format!("Structure: {}", found.structure.name()));
-        out.line(self.motion_text());
+        out.add_line(format!("Structure: {}", found.structure.name()));
+        out.add_line(self.motion_text());
         for classic in &self.classics {
-            out.line(format!("Known as {}: {}.", classic.id, classic.about));
+            out.add_line(format!("Known as {}: {}.", classic.id, classic.about));
         }
         let Some(known) = &self.known else {
             return out.text();
         };
         if known.entries.is_empty() {
-            out.line("The catalogue does not have it.");
+            out.add_line("The catalogue does not have it.");
         }
         for entry in &known.entries {
             let (id, form) = (&entry.id, &entry.form);
-            out.line(format!("In the catalogue: {id}, laid out as {form}."));
+            out.add_line(format!("In the catalogue: {id}, laid out as {form}."));
         }
-        out.text() + &fit(&neighbours_text(&known.neighbours), width)
+        out.text() + &fit_lines(&neighbours_text(&known.neighbours), width)
     }
 
     /// Returns how it moves in nearly all places.
@@ -211,8 +211,8 @@ impl<'a> FoundData<'a> {
 }
 
 /// Returns the symmetries of a structure: a screw of both threads gives a mirror image if a pinion gives one by half a turn.
-fn symmetries(subject: &Subject<'_>, roles: &Roles, threaded: bool) -> Symmetries {
-    match subject.symmetries(roles) {
+fn layout_symmetries(subject: &Subject<'_>, roles: &Roles, threaded: bool) -> Symmetries {
+    match subject.find_symmetries(roles) {
         of_pinion if threaded => Symmetries {
             mirror: of_pinion.half_turn,
             mirror_but_input: of_pinion.half_turn_but_input,
@@ -240,17 +240,17 @@ fn neighbours_text(all: &[Neighbour]) -> String {
             "fewer-links" => format!("{} links less", n.links),
             _ => format!("{} links more", n.links),
         };
-        let better = n.better.iter().map(said).join("; ");
+        let better = n.better.iter().map(describe_better).join("; ");
         out += &format!("  {}, {}, {relation}: {better}\n", n.id, n.form);
     }
     if useful.len() > NAMED {
-        let json = flag("json", "");
+        let json = typed_option("json", "");
         out += &format!("  and {} more, which {json} has\n", useful.len() - NAMED);
     }
     out
 }
 
-fn said(better: &BetterFigure) -> String {
+fn describe_better(better: &BetterFigure) -> String {
     let known = FIGURES.iter().find(|f| f.column == better.figure);
     let (name, unit) = known.map_or((better.figure, ""), |f| (f.name, f.unit));
     let space = if unit.is_empty() || unit == "°" {
@@ -258,9 +258,9 @@ fn said(better: &BetterFigure) -> String {
     } else {
         " "
     };
-    let value = format!("{}{space}{unit}", significant(better.value));
+    let value = format!("{}{space}{unit}", four_digits(better.value));
     match better.own {
-        Some(own) => format!("{name} {value}, here {} at best", significant(own)),
+        Some(own) => format!("{name} {value}, here {} at best", four_digits(own)),
         None => format!("{name} {value}"),
     }
 }

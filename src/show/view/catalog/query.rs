@@ -1,7 +1,7 @@
 //! Answers to questions in SQL: as a table for people, whose heads have units, as JSON and as CSV.
 
 use crate::format::csv;
-use crate::format::plain::plain;
+use crate::format::plain::escape_control;
 use crate::view::prelude::*;
 use crate::view::terminal::layout::table_of;
 use serde::ser::{Serialize, SerializeMap, SerializeSeq, Serializer};
@@ -37,7 +37,7 @@ impl Serialize for QueryAnswer {
 }
 
 /// Returns a value without grouping or rounding.
-pub(super) fn bare(value: &Value) -> String {
+pub(super) fn bare_value(value: &Value) -> String {
     match value {
         Value::Null => String::new(),
         Value::String(s) => s.clone(),
@@ -46,15 +46,17 @@ pub(super) fn bare(value: &Value) -> String {
 }
 
 /// Returns a value for people.
-pub(super) fn cell(value: &Value) -> String {
+pub(super) fn format_value(value: &Value) -> String {
     match value {
         Value::Null => "-".to_owned(),
-        Value::Number(n) if n.is_f64() => significant(n.as_f64().unwrap_or(f64::NAN)),
-        Value::Number(n) => grouped(n),
+        Value::Number(n) if n.is_f64() => four_digits(n.as_f64().unwrap_or(f64::NAN)),
+        Value::Number(n) => group_thousands(n),
         // A count beyond 63 bits.
-        Value::String(s) if s.len() > 18 && s.bytes().all(|b| b.is_ascii_digit()) => grouped(s),
+        Value::String(s) if s.len() > 18 && s.bytes().all(|b| b.is_ascii_digit()) => {
+            group_thousands(s)
+        }
         // The database may be anybody's.
-        Value::String(s) => plain(s).into_owned(),
+        Value::String(s) => escape_control(s).into_owned(),
         other => other.to_string(),
     }
 }
@@ -77,8 +79,8 @@ const UNITS: [(&str, &str); 13] = [
 ];
 
 /// Returns the head of a column: its name in words, and its unit.
-fn head(name: &str) -> String {
-    let words = plain(name).replace('_', " ");
+fn column_head(name: &str) -> String {
+    let words = escape_control(name).replace('_', " ");
     let unit = UNITS.iter().find(|(column, _)| *column == name);
     let Some((_, unit)) = unit else { return words };
     let (what, _) = words.split_once(" per ").unwrap_or((&words, ""));
@@ -100,20 +102,23 @@ impl QueryAnswer {
 
     /// Returns the answer as a table for people.
     pub fn text(&self, width: Option<u16>) -> String {
-        let heads: Vec<String> = self.names.iter().map(|n| head(n)).collect();
+        let heads: Vec<String> = self.names.iter().map(|n| column_head(n)).collect();
         let heads: Vec<&str> = heads.iter().map(String::as_str).collect();
-        let rows = self.rows.iter().map(|r| r.iter().map(cell).collect());
+        let rows = self
+            .rows
+            .iter()
+            .map(|r| r.iter().map(format_value).collect());
         format!("{}\n", table_of(&heads, rows.collect(), width))
     }
 
     /// Returns the answer as CSV, with unrounded numbers.
     pub fn csv(&self) -> String {
         let heads: Vec<&str> = self.names.iter().map(String::as_str).collect();
-        csv::table(
+        csv::write_table(
             &heads,
             self.rows
                 .iter()
-                .map(|r| r.iter().map(bare).collect::<Vec<_>>()),
+                .map(|r| r.iter().map(bare_value).collect::<Vec<_>>()),
         )
     }
 }

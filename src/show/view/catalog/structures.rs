@@ -1,9 +1,9 @@
 //! Structures of a catalogue for people, and as data: the keys are the columns of the database.
 
 use crate::catalog::store::{Store, StoreError};
-use crate::format::plain::plain;
+use crate::format::plain::escape_control;
 use crate::terms::PairWords;
-use crate::view::catalog::query::{QueryAnswer, cell};
+use crate::view::catalog::query::{QueryAnswer, format_value};
 use crate::view::prelude::*;
 use serde_json::Map;
 use std::borrow::Cow;
@@ -37,7 +37,9 @@ pub struct StructureData {
 }
 
 /// Returns the usual part that is a joint of each of some types, by the names that ideas have.
-pub(crate) fn hardware<'a>(changes: impl Iterator<Item = &'a str>) -> BTreeMap<String, String> {
+pub(crate) fn usual_hardware<'a>(
+    changes: impl Iterator<Item = &'a str>,
+) -> BTreeMap<String, String> {
     let words = PairWords::builtin();
     let types = changes
         .flat_map(|c| c.split("; "))
@@ -54,9 +56,9 @@ impl StructureData {
     ///
     /// # Errors
     /// Returns an error if the database cannot be read.
-    pub fn read(store: &Store, id: &str) -> Result<StructureData, StoreError> {
+    pub fn read_structure(store: &Store, id: &str) -> Result<StructureData, StoreError> {
         let maps = |sql: &str| -> Result<Vec<Row>, StoreError> {
-            let (names, rows) = store.query(sql, Some(id))?;
+            let (names, rows) = store.query_rows(sql, Some(id))?;
             let map = |row: Vec<Value>| names.iter().cloned().zip(row).collect();
             Ok(rows.into_iter().map(map).collect())
         };
@@ -65,7 +67,7 @@ impl StructureData {
         let ideas = maps("SELECT * FROM ideas WHERE structure = ?1 ORDER BY place")?;
         let changes = ideas.iter().filter_map(|i| i.get("changes")?.as_str());
         Ok(StructureData {
-            hardware: hardware(changes),
+            hardware: usual_hardware(changes),
             structure: structure.pop().unwrap_or_default(),
             pairs: maps("SELECT * FROM pairs WHERE structure = ?1")?.pop(),
             classics: maps("SELECT * FROM classics WHERE structure = ?1 ORDER BY id")?,
@@ -79,26 +81,26 @@ impl StructureData {
 }
 
 /// Returns a value of a row for people; empty if there is none.
-fn value(row: &Row, key: &str) -> String {
-    row.get(key).map_or_else(String::new, cell)
+fn cell_of(row: &Row, key: &str) -> String {
+    row.get(key).map_or_else(String::new, format_value)
 }
 
 /// Returns a template with each `{key}` replaced by the value of a row.
-fn filled(template: &str, row: &Row) -> String {
+fn fill_template(template: &str, row: &Row) -> String {
     let mut parts = template.split('{');
     let first = parts.next().unwrap_or_default().to_owned();
     let rest = parts.filter_map(|part| part.split_once('}'));
-    rest.fold(first, |out, (key, more)| out + &value(row, key) + more)
+    rest.fold(first, |out, (key, more)| out + &cell_of(row, key) + more)
 }
 
 /// Returns true if a row has a value.
-fn has(row: &Row, key: &str) -> bool {
+fn has_value(row: &Row, key: &str) -> bool {
     row.get(key).is_some_and(|v| !v.is_null())
 }
 
 /// Returns a text of a row that says why something is not done, if there is one.
-fn reason<'a>(row: &'a Row, key: &str) -> Option<Cow<'a, str>> {
-    row.get(key).and_then(Value::as_str).map(plain)
+fn text_of<'a>(row: &'a Row, key: &str) -> Option<Cow<'a, str>> {
+    row.get(key).and_then(Value::as_str).map(escape_control)
 }
 
 const DRAWN: &str = "\
@@ -116,25 +118,30 @@ at most {pin_force} N in a joint for 1 N of each jaw, efficiency from {efficienc
 
 impl StructureData {
     /// Returns the verdict, a sentence: whether it is statically determinate as built, and whether it fulfils its task.
-    fn verdict(&self) -> String {
-        let id = value(&self.structure, "id");
+    fn verdict_line(&self) -> String {
+        let id = cell_of(&self.structure, "id");
         let row = match &self.layout {
             Some(layout) => layout,
             None if self.is_drawn() => &self.structure,
-            None => return format!("{id}: no layout, {}\n", value(&self.structure, "no_layout")),
+            None => {
+                return format!(
+                    "{id}: no layout, {}\n",
+                    cell_of(&self.structure, "no_layout")
+                );
+            }
         };
-        let sigma = match &*value(row, "redundant") {
+        let sigma = match &*cell_of(row, "redundant") {
             "0" => "statically determinate".to_owned(),
             n => plural_of(n, "redundant constraint"),
         };
-        let task = match self.stroke.as_ref().map(|s| reason(s, "shortfall")) {
+        let task = match self.stroke.as_ref().map(|s| text_of(s, "shortfall")) {
             None => "",
             Some(None) => "; it fulfils its task",
             Some(Some(_)) => "; it does not fulfil its task",
         };
         format!(
             "{id}: {sigma} as built, W = {}{task}\n",
-            value(row, "mobility")
+            cell_of(row, "mobility")
         )
     }
 
@@ -146,22 +153,22 @@ impl StructureData {
             ("CONTOURS", "contour"),
         ];
         let template = nouns.iter().fold(DRAWN.to_owned(), |text, (slot, noun)| {
-            let count = value(&self.structure, &format!("{noun}s"));
+            let count = cell_of(&self.structure, &format!("{noun}s"));
             text.replace(slot, &plural_of(&count, noun))
         });
-        filled(&template, &self.structure)
+        fill_template(&template, &self.structure)
     }
 
     /// Returns the figures of a structure with a layout, or what it is made of.
     fn structure_text(&self) -> String {
-        let known = if has(&self.structure, "jaw_c") {
+        let known = if has_value(&self.structure, "jaw_c") {
             "With two jaws known"
         } else {
             "Known"
         };
-        let classic = |c| format!("{known} as {}", filled("{id}: {about}\n", c));
+        let classic = |c| format!("{known} as {}", fill_template("{id}: {about}\n", c));
         let classics = self.classics.iter().map(classic);
-        let mut out = filled("Structure: {name}\n", &self.structure)
+        let mut out = fill_template("Structure: {name}\n", &self.structure)
             + &classics.collect::<String>()
             + &self.make_up_text();
         let Some(layout) = &self.layout else {
@@ -169,16 +176,16 @@ impl StructureData {
         };
         out += &self.motion_text(layout);
         if let Some(stroke) = &self.stroke {
-            let task = filled("Task: parts of {narrowest} to {widest} mm; ", stroke);
-            let does = reason(stroke, "shortfall").unwrap_or("does all of it".into());
-            out += &format!("{task}{does}\n{}", filled(STROKE, stroke));
+            let task = fill_template("Task: parts of {narrowest} to {widest} mm; ", stroke);
+            let does = text_of(stroke, "shortfall").unwrap_or("does all of it".into());
+            out += &format!("{task}{does}\n{}", fill_template(STROKE, stroke));
         }
         out += &match &self.planes {
             None => String::new(),
-            Some(of) if !has(of, "planes") => {
+            Some(of) if !has_value(of, "planes") => {
                 "Over the stroke something meets in whatever planes the links lie\n".to_owned()
             }
-            Some(of) => filled(
+            Some(of) => fill_template(
                 "Over the stroke nothing meets in {planes} planes, links from the back: {links}\n",
                 of,
             ),
@@ -191,9 +198,9 @@ impl StructureData {
         let Some(pairs) = &self.pairs else {
             return String::new();
         };
-        let threaded = value(&self.structure, "name").ends_with(" threaded");
+        let threaded = cell_of(&self.structure, "name").ends_with(" threaded");
         let kinds = ["slide", "gear", "slot"].into_iter();
-        let some = kinds.map(|k| (k, value(pairs, &format!("{k}s"))));
+        let some = kinds.map(|k| (k, cell_of(pairs, &format!("{k}s"))));
         let words = some.filter(|(_, n)| n != "0").map(|(kind, n)| match kind {
             "gear" if threaded => plural_of(&n, "nut"),
             _ => plural_of(&n, kind),
@@ -204,19 +211,20 @@ impl StructureData {
     /// Returns what a structure is made of, how it is driven and which links are its jaws.
     fn make_up_text(&self) -> String {
         let s = &self.structure;
-        let jaws = if has(s, "jaw_c") {
+        let jaws = if has_value(s, "jaw_c") {
             "{jaw_a}, {jaw_b} and {jaw_c} round the part"
         } else {
             "{jaw_a} and {jaw_b}"
         };
-        let [links, joints] = ["link", "joint"].map(|n| plural_of(&value(s, &format!("{n}s")), n));
+        let [links, joints] =
+            ["link", "joint"].map(|n| plural_of(&cell_of(s, &format!("{n}s")), n));
         let against = match &self.pairs {
-            Some(p) if value(p, "driven_from") != value(s, "frame") => {
-                filled(" against {driven_from}", p)
+            Some(p) if cell_of(p, "driven_from") != cell_of(s, "frame") => {
+                fill_template(" against {driven_from}", p)
             }
             _ => String::new(),
         };
-        let parallel = match &*value(s, "parallel") {
+        let parallel = match &*cell_of(s, "parallel") {
             "1" => ", jaws on parallelograms",
             _ => "",
         };
@@ -225,18 +233,18 @@ impl StructureData {
              {{jaws_at_frame}} of them at the frame; laid out {{symmetry}}{parallel}\n",
             self.pairs_text()
         );
-        filled(&template, s)
+        fill_template(&template, s)
     }
 
     /// Returns how a layout is constrained, how its jaws move and how hard they press.
     fn motion_text(&self, layout: &Row) -> String {
-        let slide = value(&self.structure, "input") == "slide";
+        let slide = cell_of(&self.structure, "input") == "slide";
         let (travel, effort) = if slide {
             ("mm", "1 N")
         } else {
             ("rad", "1 Nm")
         };
-        let jaws = if has(layout, "jaw_c_motion") {
+        let jaws = if has_value(layout, "jaw_c_motion") {
             "{jaw_a_motion}, {jaw_b_motion} and {jaw_c_motion}"
         } else {
             "{jaw_a_motion} and {jaw_b_motion}"
@@ -246,12 +254,12 @@ impl StructureData {
              Jaws: {jaws}, {{opening_min}} to {{opening_max}} mm apart for {{travel}} {travel} of the drive; they turn by {{jaw_turn}}° at most\n\
              Force of each jaw for {effort} of the drive, without friction: {{force_mean}} N ({{force_min}} to {{force_max}} over the stroke)\n"
         );
-        filled(&template, layout)
+        fill_template(&template, layout)
     }
 
     /// Returns how a layout looks, and how many redesigns it has.
     fn shape_text(&self, layout: &Row) -> String {
-        let images = match value(&self.structure, "symmetry").as_str() {
+        let images = match cell_of(&self.structure, "symmetry").as_str() {
             "generic" => String::new(),
             symmetry => format!(", {{orbits_w1}} up to {symmetry} images"),
         };
@@ -259,7 +267,7 @@ impl StructureData {
             "Drawn: links 1 : {{link_ratio}}, worst transmission angle {{transmission}}°, {{crossings}} crossings\n\
              Determinate variants ({{certainty}}): {{determinate}}, of these {{determinate_w1}} with W = 1{images}\n\n"
         );
-        filled(&template, layout)
+        fill_template(&template, layout)
     }
 
     /// Returns the ideas as a table, with their hardware.
@@ -278,15 +286,19 @@ impl StructureData {
             "{which}{found}; each represents {least}the given number of variants, and the first of these is exported:\n"
         );
         let keys = "place | cost | variants | peak_force | peak_moment | changes";
-        let row = |i: &Row| keys.split(" | ").map(|k| value(i, k)).collect();
+        let row = |i: &Row| keys.split(" | ").map(|k| cell_of(i, k)).collect();
         let heads = " | cost | variants | force | moment | changes";
-        let ideas = table(heads, self.ideas.iter().map(row), width);
+        let ideas = text_table(heads, self.ideas.iter().map(row), width);
         let mut parts = self
             .hardware
             .iter()
             .map(|(to, part)| format!("{to}: {part}"));
         let parts = format!("\nHardware: {}\n", parts.join("; "));
-        format!("{}\n{ideas}\n{}", fit(&line, width), fit(&parts, width))
+        format!(
+            "{}\n{ideas}\n{}",
+            fit_lines(&line, width),
+            fit_lines(&parts, width)
+        )
     }
 
     /// Returns true if there is a mechanism of it.
@@ -307,7 +319,7 @@ impl StructureData {
         } else {
             self.structure_text()
         };
-        let head = fit(&(self.verdict() + &figures), width);
+        let head = fit_lines(&(self.verdict_line() + &figures), width);
         if self.has_layout() {
             head + &self.ideas_text(width)
         } else {
@@ -327,7 +339,7 @@ pub fn built_text(
     what: &str,
     width: Option<u16>,
 ) -> Result<String, StoreError> {
-    let (names, rows) = store.query(
+    let (names, rows) = store.query_rows(
         "SELECT links, input, symmetry || iif(parallel, ' parallel', '') AS layout, count(*) AS structures, \
          sum(no_layout IS NULL) AS 'laid out', sum(reached AND shortfall IS NULL) AS 'do the task', \
          sum(determinate_w1) AS 'determinate, W = 1', min(best_cost) AS 'least cost' \
@@ -337,9 +349,9 @@ pub fn built_text(
         None,
     )?;
     let table = QueryAnswer { names, rows }.text(width);
-    let n = grouped(added);
+    let n = group_thousands(added);
     let path = file.display().to_string();
-    let path = plain(&path);
+    let path = escape_control(&path);
     Ok(format!(
         "{table}\n{n} {what} added to {path}. Go on with\n\n  ozols catalog query {path}\n  ozols catalog page {path} -o grippers.html\n"
     ))

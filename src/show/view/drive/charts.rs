@@ -10,11 +10,11 @@ const PER_SWING: u32 = 48;
 
 /// The payload's acceleration on the first disc over the programme, as `ozols grip --motion` takes it: a gripper that reaches
 /// outwards from the axis (its x), the part along the axis (its z).
-pub fn motion(d: &Drive<'_>) -> Option<String> {
+pub fn motion_csv(d: &Drive<'_>) -> Option<String> {
     let (found, payload) = (d.design?, d.file.spec.payload?);
     let rows = found
         .module
-        .samples(&found.run, PER_SWING)
+        .sample_run(&found.run, PER_SWING)
         .into_iter()
         .map(|s| {
             let inwards = -s.speeds[0] * s.speeds[0] * payload.radius;
@@ -23,15 +23,15 @@ pub fn motion(d: &Drive<'_>) -> Option<String> {
                 .map(|x| format!("{x:?}"))
                 .to_vec()
         });
-    Some(csv::table(&["time", "ax", "ay", "az"], rows))
+    Some(csv::write_table(&["time", "ax", "ay", "az"], rows))
 }
 
 /// Returns both charts with the names of their files. Empty without a bar.
-pub fn charts(d: &Drive<'_>) -> Vec<(String, Chart)> {
+pub fn drive_charts(d: &Drive<'_>) -> Vec<(String, Chart)> {
     let Some(found) = d.design else {
         return Vec::new();
     };
-    let samples = found.module.samples(&found.run, PER_SWING);
+    let samples = found.module.sample_run(&found.run, PER_SWING);
     let series = |name: &str, style, y: &dyn Fn(&RunMoment) -> f64| Series {
         name: name.to_owned(),
         points: samples.iter().map(|s| (s.time, y(s))).collect(),

@@ -1,14 +1,14 @@
 //! Charts of a gripper: its arms and its drive moments over its diameters, and its arms over each figure of its levers.
 
 use crate::chart::{Axis, Chart, Series, Style};
-use crate::format::significant;
+use crate::format::four_digits;
 use crate::grip::arm_curves::{Varied, arm_curve};
 use crate::grip::clamping::DiameterRow;
 use crate::grip::lever_arm::Arms;
 use crate::view::grip::GripReport;
 
 /// Every chart with the name of its file.
-pub fn charts(g: &GripReport<'_>) -> Vec<(String, Chart)> {
+pub fn grip_charts(g: &GripReport<'_>) -> Vec<(String, Chart)> {
     let (metres, symbol) = (g.file.length_unit.metres, g.file.length_unit.symbol);
     let series = |name: &str, style, y: &dyn Fn(&DiameterRow) -> Option<f64>| Series {
         name: name.to_owned(),
@@ -46,7 +46,11 @@ pub fn charts(g: &GripReport<'_>) -> Vec<(String, Chart)> {
                 subtitle: "In the hardest case of each diameter.".to_owned(),
                 x: Axis::linear(format!("D, {symbol}")),
                 y: Axis::linear("moment, N·m"),
-                series: vec![series("drive moment", Style::Line, &DiameterRow::drive)],
+                series: vec![series(
+                    "drive moment",
+                    Style::Line,
+                    &DiameterRow::drive_moment,
+                )],
             },
         ));
     }
@@ -88,7 +92,7 @@ fn arms_over(g: &GripReport<'_>, varied: Varied) -> (String, Chart) {
             // What cannot be held breaks the line.
             let y = |a: &Option<Arms>| a.as_ref().map_or(f64::NAN, |a| of(a) / unit.metres);
             series.push(Series {
-                name: format!("{arm}, D = {}", significant(diameter / unit.metres)),
+                name: format!("{arm}, D = {}", four_digits(diameter / unit.metres)),
                 points: curve.iter().map(|(x, a)| (x / scale, y(a))).collect(),
                 style,
             });

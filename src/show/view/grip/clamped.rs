@@ -5,7 +5,7 @@ use crate::grip::clamping::{DiameterRow, Hardest};
 use crate::grip::holding::ContactForce;
 use crate::grip::jaw_loads::Gripping;
 use crate::model::grip::GripLoad;
-use crate::view::grip::reasons;
+use crate::view::grip::all_reasons;
 use crate::view::grip::text::effort_of_drive;
 use crate::view::prelude::*;
 
@@ -33,23 +33,26 @@ pub struct NotHeld<'a> {
     pub reasons: Vec<String>,
 }
 
-fn load(g: &Gripping) -> Option<&GripLoad> {
+fn grip_load(g: &Gripping) -> Option<&GripLoad> {
     g.mechanism.loads.grip.as_ref()?.load.as_ref()
 }
 
-fn diameter(g: &Gripping, row: &DiameterRow) -> String {
-    format!("D = {}", g.mechanism.length_unit.words(row.diameter))
+fn diameter_words(g: &Gripping, row: &DiameterRow) -> String {
+    format!(
+        "D = {}",
+        g.mechanism.length_unit.format_metres(row.diameter)
+    )
 }
 
 /// The pose in a few words.
-pub(crate) fn pose(g: &Gripping, row: &DiameterRow) -> String {
-    format!("round a part of {}", diameter(g, row))
+pub(crate) fn pose_words(g: &Gripping, row: &DiameterRow) -> String {
+    format!("round a part of {}", diameter_words(g, row))
 }
 
 /// Every reason why a part is not held, one a line.
 pub(crate) fn not_held(g: &Gripping, row: &DiameterRow) -> String {
-    let all = reasons(row, load(g).map_or(0.0, |l| l.friction));
-    let lines = all.map(|why| format!("  {} cannot be held: {why}\n", diameter(g, row)));
+    let all = all_reasons(row, grip_load(g).map_or(0.0, |l| l.friction));
+    let lines = all.map(|why| format!("  {} cannot be held: {why}\n", diameter_words(g, row)));
     lines.collect()
 }
 
@@ -66,7 +69,7 @@ impl<'a> NotHeld<'a> {
 
     /// Why no diameter of a grip, or not the one asked for, is held.
     pub fn new(g: &'a Gripping) -> Self {
-        let lost = g.study.rows.iter().filter(|r| !r.holds());
+        let lost = g.study.rows.iter().filter(|r| !r.is_held());
         NotHeld {
             mechanism: &g.mechanism.name,
             state: &g.mechanism.states[g.state],
@@ -91,8 +94,8 @@ impl<'a> NotHeld<'a> {
 impl Clamped<'_> {
     /// Returns the contacts as joints of the mechanism: the joint, the link that touches, and the force on the part. Returns `None` if it
     /// is not held.
-    fn contacts(&self) -> Option<impl Iterator<Item = (&str, &str, &ContactForce)>> {
-        let (g, held) = (self.grip, self.row.hardest.as_ref()?.held()?);
+    fn contact_forces(&self) -> Option<impl Iterator<Item = (&str, &str, &ContactForce)>> {
+        let (g, held) = (self.grip, self.row.hardest.as_ref()?.held_forces()?);
         let each = g.contacts.iter().enumerate().zip(&held.forces);
         Some(each.map(|((i, &j), force)| {
             let jaw = &g.mechanism.links[g.levers[i / 2]].id;
@@ -103,38 +106,38 @@ impl Clamped<'_> {
     /// Returns the loads as data.
     pub(crate) fn json(&self) -> Value {
         let hardest = self.row.hardest.as_ref();
-        let held = hardest.and_then(Hardest::held);
+        let held = hardest.and_then(Hardest::held_forces);
         let contact = |(contact, jaw, force): (&str, &str, &ContactForce)| {
-            joined([json!({ "contact": contact, "jaw": jaw }), json!(force)])
+            join_objects([json!({ "contact": contact, "jaw": jaw }), json!(force)])
         };
         json!({
             "diameter": self.row.diameter,
             "case": hardest.map(|h| &h.case),
             // Gravity less acceleration in that case.
             "pull": hardest.map(|h| h.pull),
-            "safety": self.safety(),
+            "safety": self.safety_factor(),
             // Since the pose of the file: `[rad]`, or the file's unit.
             "drive_position": self.found.fit.drive,
             "drive_moment_per_lever": held.map(|h| h.drive),
             "lever_moments": held.map(|h| h.moments),
             "drive_effort": self.found.effort.map(|e| e.0),
-            "contacts": self.contacts().map(|all| all.map(contact).collect::<Value>()),
+            "contacts": self.contact_forces().map(|all| all.map(contact).collect::<Value>()),
         })
     }
 
     /// Returns the factor that the load is multiplied by.
-    fn safety(&self) -> f64 {
-        load(self.grip).map_or(1.0, |l| l.safety)
+    fn safety_factor(&self) -> f64 {
+        grip_load(self.grip).map_or(1.0, |l| l.safety)
     }
 
     /// Returns the same for people, fitted to a terminal of `width` columns if one is given; `flat` is true if forces across the
     /// plane of motion are omitted below.
     pub fn text(&self, flat: bool, width: Option<u16>) -> String {
         let (g, mut out) = (self.grip, Report::new(width));
-        if let (Some(moment), Some(contacts)) = (self.row.drive(), self.contacts()) {
+        if let (Some(moment), Some(contacts)) = (self.row.drive_moment(), self.contact_forces()) {
             self.write(&mut out, moment, &contacts.collect_vec(), flat);
         }
-        let others = g.study.rows.iter().filter(|r| !r.holds());
+        let others = g.study.rows.iter().filter(|r| !r.is_held());
         out.text() + &others.map(|other| not_held(g, other)).collect::<String>()
     }
 
@@ -146,35 +149,38 @@ impl Clamped<'_> {
         flat: bool,
     ) {
         let (g, m) = (self.grip, &self.grip.mechanism);
-        let choice = match g.study.hardest() {
+        let choice = match g.study.hardest_row() {
             Some(hardest) if hardest.diameter == self.row.diameter => "the worst case",
             _ => "the worst case of this diameter",
         };
         let (name, state) = (&m.name, &m.states[g.state]);
-        out.line(format!(
+        out.add_line(format!(
             "{name}, state {state}: the part is cut free, and the jaws bear the contact forces of {choice} (`ozols grip`):"
         ));
         let case = self.row.hardest.as_ref().map_or("", |h| &h.case);
-        let (diameter, safety) = (diameter(g, self.row), significant(self.safety()));
-        out.line(format!("{diameter}, {case}, safety factor {safety}"));
+        let (diameter, safety) = (
+            diameter_words(g, self.row),
+            four_digits(self.safety_factor()),
+        );
+        out.add_line(format!("{diameter}, {case}, safety factor {safety}"));
         let effort = self.found.effort;
         let effort = effort.map(|(x, slides)| format!(", {}", effort_of_drive(x, slides)));
-        out.line(format!(
+        out.add_line(format!(
             "The grip asks {} N·m per lever{}; its drive below bears that and the loads of the links\n",
-            significant(moment),
+            four_digits(moment),
             effort.unwrap_or_default()
         ));
         let rows = contacts.iter().map(|(contact, jaw, f)| {
-            let [normal, along, axial] = [f.normal, f.along, f.axial].map(significant);
-            cells([contact, jaw, &normal, &along, &axial])
+            let [normal, along, axial] = [f.normal, f.along, f.axial].map(four_digits);
+            row_cells([contact, jaw, &normal, &along, &axial])
         });
         let heads = "contact | jaw | normal, N | along the face, N | along the part, N";
-        out.table(heads, rows);
-        out.line("");
+        out.add_table(heads, rows);
+        out.add_line("");
         let mut each = contacts.iter();
         if flat && each.any(|(.., f)| f.axial.abs() > 1e-6 * f.normal) {
-            let spatial = flag("spatial", "");
-            out.line(format!(
+            let spatial = typed_option("spatial", "");
+            out.add_line(format!(
                 "Forces along the part are across the plane of motion and omitted below; {spatial} includes them.\n"
             ));
         }

@@ -4,7 +4,7 @@ use crate::chart::{Axis, Chart, Series, Style};
 use crate::grip::clamping::HoldVerdict;
 use crate::grip::motion::StepTaken;
 use crate::model::mechanism::LengthUnit;
-use crate::view::grip::text::number;
+use crate::view::grip::text::format_or_dash;
 use crate::view::prelude::*;
 
 /// Maximum number of rows in a text.
@@ -19,7 +19,7 @@ pub struct GripMotion {
     pub unit: LengthUnit,
 }
 
-fn word(s: &StepTaken) -> &'static str {
+fn step_word(s: &StepTaken) -> &'static str {
     match &s.verdict {
         Some(HoldVerdict::Held(_)) => "can hold",
         Some(HoldVerdict::Slips(_)) => "slips",
@@ -31,7 +31,7 @@ fn word(s: &StepTaken) -> &'static str {
 impl GripMotion {
     /// Returns whether the part can be held at every step.
     pub fn holds(&self) -> bool {
-        self.steps.iter().all(|s| s.drive().is_some())
+        self.steps.iter().all(|s| s.drive_moment().is_some())
     }
 
     /// Returns it as data.
@@ -47,8 +47,8 @@ impl GripMotion {
                 "acceleration": s.of.acceleration,
                 // Gravity less acceleration.
                 "pull": s.pull,
-                "verdict": word(s),
-                "drive_moment_per_lever": s.drive(),
+                "verdict": step_word(s),
+                "drive_moment_per_lever": s.drive_moment(),
                 "lower_bound": bound,
                 "drive_effort": s.effort.map(|e| e.0),
             })
@@ -57,25 +57,25 @@ impl GripMotion {
     }
 
     /// Whether it can hold, and with what moments.
-    fn verdict(&self) -> String {
-        let moments = self.steps.iter().filter_map(StepTaken::drive);
+    fn motion_verdict(&self) -> String {
+        let moments = self.steps.iter().filter_map(StepTaken::drive_moment);
         let least = moments.clone().fold(f64::INFINITY, f64::min);
         let most = moments.clone().fold(0.0, f64::max);
         match self.steps.len() - moments.clone().count() {
             0 => format!(
                 "can hold at every step, with {} to {} N·m per lever",
-                significant(least),
-                significant(most)
+                four_digits(least),
+                four_digits(most)
             ),
-            n => format!("CANNOT HOLD at {}", plural(n, "step")),
+            n => format!("CANNOT HOLD at {}", count_noun(n, "step")),
         }
     }
 
     /// Returns it for people, fitted to a terminal of `width` columns if one is given.
     pub fn text(&self, width: Option<u16>) -> String {
         let (mut out, all) = (Report::new(width), self.steps.len());
-        let (steps, verdict) = (plural(all, "step"), self.verdict());
-        out.line(format!("\n  Along the motion, {steps}: {verdict}\n"));
+        let (steps, verdict) = (count_noun(all, "step"), self.motion_verdict());
+        out.add_line(format!("\n  Along the motion, {steps}: {verdict}\n"));
         let turns = |s: &StepTaken| s.effort.is_some_and(|(_, slides)| !slides);
         let effort = if self.steps.iter().any(turns) {
             "N·m"
@@ -87,24 +87,25 @@ impl GripMotion {
             "step | time, s | D, {symbol} | acceleration, m/s² | moment per lever, N·m | drive, {effort} | "
         );
         let rows = self.steps.iter().take(SHOWN).enumerate().map(|(i, s)| {
-            let diameter = significant(s.diameter / self.unit.metres);
-            let acceleration = s.of.acceleration.map(significant).join(", ");
-            let [time, drive, effort] = [s.of.time, s.drive(), s.effort.map(|e| e.0)].map(number);
-            cells([
+            let diameter = four_digits(s.diameter / self.unit.metres);
+            let acceleration = s.of.acceleration.map(four_digits).join(", ");
+            let [time, drive, effort] =
+                [s.of.time, s.drive_moment(), s.effort.map(|e| e.0)].map(format_or_dash);
+            row_cells([
                 &(i + 1),
                 &time,
                 &diameter,
                 &acceleration,
                 &drive,
                 &effort,
-                &word(s),
+                &step_word(s),
             ])
         });
-        out.table(&heads, rows);
+        out.add_table(&heads, rows);
         if let left @ 1.. = all.saturating_sub(SHOWN) {
-            let left = plural(left, "step");
-            let json = flag("format", "json");
-            out.line(format!("\n  and {left} more; {json} has them all"));
+            let left = count_noun(left, "step");
+            let json = typed_option("format", "json");
+            out.add_line(format!("\n  and {left} more; {json} has them all"));
         }
         out.text()
     }
@@ -115,7 +116,7 @@ impl GripMotion {
         #[allow(clippy::cast_precision_loss, reason = "at most 1e5 steps")]
         let at = |i: usize, s: &StepTaken| s.of.time.filter(|_| timed).unwrap_or(i as f64 + 1.0);
         let points = self.steps.iter().enumerate();
-        let points = points.map(|(i, s)| (at(i, s), s.drive().unwrap_or(f64::NAN)));
+        let points = points.map(|(i, s)| (at(i, s), s.drive_moment().unwrap_or(f64::NAN)));
         Chart {
             title: format!("{mechanism}: least drive moment per lever along the motion"),
             subtitle: "Broken where the part cannot be held.".to_owned(),

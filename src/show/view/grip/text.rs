@@ -6,7 +6,7 @@ use crate::grip::holding::Holding;
 use crate::model::claim::Topic;
 use crate::model::grip::{GripLoad, LeverDrive, PartMass, Pivots, Toward};
 use crate::view::claims;
-use crate::view::grip::{GripReport, reasons};
+use crate::view::grip::{GripReport, all_reasons};
 use crate::view::prelude::*;
 
 /// Returns what one drive of both levers takes: a force if it slides, a moment if it turns.
@@ -16,12 +16,12 @@ pub(super) fn effort_of_drive(effort: f64, slides: bool) -> String {
     } else {
         ("moment", "N·m")
     };
-    format!("drive {what} {} {unit}", significant(effort))
+    format!("drive {what} {} {unit}", four_digits(effort))
 }
 
 /// Returns a number, or "-" if there is none.
-pub(super) fn number(x: Option<f64>) -> String {
-    x.map_or_else(|| "-".to_owned(), significant)
+pub(super) fn format_or_dash(x: Option<f64>) -> String {
+    x.map_or_else(|| "-".to_owned(), four_digits)
 }
 
 impl GripReport<'_> {
@@ -29,49 +29,54 @@ impl GripReport<'_> {
     pub fn text(&self, width: Option<u16>) -> String {
         let mut out = Report::new(width);
         let rows = &self.found.study.rows;
-        let (held, lost): (Vec<_>, Vec<_>) = rows.iter().partition(|d| d.holds());
-        out.line(self.verdict(&held, &lost) + "\n");
+        let (held, lost): (Vec<_>, Vec<_>) = rows.iter().partition(|d| d.is_held());
+        out.add_line(self.verdict(&held, &lost) + "\n");
         for d in &lost {
-            for reason in reasons(d, self.friction()) {
-                let at = self.length(d.diameter);
-                out.line(format!("  D = {at} cannot be held: {reason}"));
+            for reason in all_reasons(d, self.load_friction()) {
+                let at = self.format_length(d.diameter);
+                out.add_line(format!("  D = {at} cannot be held: {reason}"));
             }
         }
         if !lost.is_empty() {
-            out.line("");
+            out.add_line("");
         }
         self.write_inputs(&mut out);
-        out.line("");
+        out.add_line("");
         self.write_diameters(&mut out);
-        out.line("\n  The arms and their parts, l1 = l11 + l12 and l2 = l21 - l22:\n");
+        out.add_line("\n  The arms and their parts, l1 = l11 + l12 and l2 = l21 - l22:\n");
         self.write_arms(&mut out);
-        let hardest = self.hardest().map(|at| &rows[at]);
-        let held = hardest.and_then(|d| Some((d.hardest.as_ref()?.held()?, d.pose.as_ref()?)));
+        let hardest = self.hardest_place().map(|at| &rows[at]);
+        let held =
+            hardest.and_then(|d| Some((d.hardest.as_ref()?.held_forces()?, d.pose.as_ref()?)));
         if let Some((held, pose)) = held {
-            out.line("\n  The four contact forces in that case:\n");
-            write_contacts(&mut out, held, pose, self.friction());
+            out.add_line("\n  The four contact forces in that case:\n");
+            write_contacts(&mut out, held, pose, self.load_friction());
         }
         let motion = self.motion.as_ref().map(|m| m.text(width));
-        let claims = claims::text(&claims::about(&self.file.claims, Topic::Grip), width);
-        out.text() + &motion.unwrap_or_default() + &fit(&claims, width)
+        let claims =
+            claims::claims_text(&claims::claims_about(&self.file.claims, Topic::Grip), width);
+        out.text() + &motion.unwrap_or_default() + &fit_lines(&claims, width)
     }
 
     /// Returns a length in the file's unit, with its symbol.
-    fn length(&self, x: f64) -> String {
-        self.file.length_unit.words(x)
+    fn format_length(&self, x: f64) -> String {
+        self.file.length_unit.format_metres(x)
     }
 
     /// Returns a length in the file's unit.
-    fn short(&self, x: f64) -> String {
-        significant(x / self.file.length_unit.metres)
+    fn format_bare(&self, x: f64) -> String {
+        four_digits(x / self.file.length_unit.metres)
     }
 
-    fn range(&self, rows: &[&DiameterRow]) -> String {
+    fn diameter_range(&self, rows: &[&DiameterRow]) -> String {
         match rows {
             [] => "nothing".to_owned(),
-            [one] => format!("D = {}", self.length(one.diameter)),
+            [one] => format!("D = {}", self.format_length(one.diameter)),
             [first, .., last] => {
-                let (from, to) = (self.short(first.diameter), self.length(last.diameter));
+                let (from, to) = (
+                    self.format_bare(first.diameter),
+                    self.format_length(last.diameter),
+                );
                 format!("D = {from} to {to}")
             }
         }
@@ -87,37 +92,39 @@ impl GripReport<'_> {
             "can hold (no load stated)"
         };
         let mut out = match (held.len(), lost.is_empty()) {
-            (0, _) => format!("{name}: cannot hold {}", self.range(lost)),
-            (_, true) => format!("{name}: {verb} {}", self.range(held)),
+            (0, _) => format!("{name}: cannot hold {}", self.diameter_range(lost)),
+            (_, true) => format!("{name}: {verb} {}", self.diameter_range(held)),
             (n, false) => format!("{name}: {verb} {n} of {} diameters, not all", rows.len()),
         };
-        let Some(at) = self.hardest() else { return out };
+        let Some(at) = self.hardest_place() else {
+            return out;
+        };
         let Some(load) = &rows[at].hardest else {
             return out;
         };
-        out += &format!("; hardest at {}", self.length(rows[at].diameter));
-        if let Some(moment) = rows[at].drive().map(significant) {
+        out += &format!("; hardest at {}", self.format_length(rows[at].diameter));
+        if let Some(moment) = rows[at].drive_moment().map(four_digits) {
             out += &format!(", {}: drive moment {moment} N·m per lever", load.case);
         }
-        if let (Some(effort), Some(t)) = (self.effort(at), self.rates(at)) {
+        if let (Some(effort), Some(t)) = (self.drive_effort(at), self.rates_at(at)) {
             out += &format!(", {}", effort_of_drive(effort, t.slides));
         }
         out
     }
 
     /// Returns where the pivots are.
-    fn pivots(&self) -> String {
+    fn describe_pivots(&self) -> String {
         match (self.file.spec.pivots, self.found.study.rows.first()) {
             (Pivots::Nominal, _) | (_, None) => "pivots set for each diameter".to_owned(),
             (Pivots::Fixed(_) | Pivots::FixedForDiameter, Some(d)) => {
                 let pivot = d.gripper.pivot;
                 let nominal = self.found.study.lever.nominal_diameter(pivot);
                 let of = if nominal > 0.0 {
-                    format!("D = {}", self.length(nominal))
+                    format!("D = {}", self.format_length(nominal))
                 } else {
                     "no diameter".to_owned()
                 };
-                let at = self.length(pivot.abs());
+                let at = self.format_length(pivot.abs());
                 format!("pivots fixed at a = {at}, nominal for {of}")
             }
         }
@@ -125,10 +132,13 @@ impl GripReport<'_> {
 
     fn write_inputs(&self, out: &mut Report) {
         let spec = &self.file.spec;
-        let (l, pivots) = (self.length(spec.lever_length), self.pivots());
+        let (l, pivots) = (
+            self.format_length(spec.lever_length),
+            self.describe_pivots(),
+        );
         let angles = [spec.prism_angle, spec.mounting_angle];
-        let [prism, mounting] = angles.map(|x| significant(x.to_degrees()));
-        out.line(format!(
+        let [prism, mounting] = angles.map(|x| four_digits(x.to_degrees()));
+        out.add_line(format!(
             "  levers: L = {l}, α = {prism}°, γ = {mounting}°; {pivots}"
         ));
         if let Some(load) = &spec.load {
@@ -138,15 +148,15 @@ impl GripReport<'_> {
 
     fn write_load(&self, out: &mut Report, load: &GripLoad) {
         let mass = match load.mass {
-            PartMass::Constant(m) => format!("{} kg", significant(m)),
+            PartMass::Constant(m) => format!("{} kg", four_digits(m)),
             PartMass::Cylinder { density, length } => {
-                let (density, length) = (significant(density), self.length(length));
+                let (density, length) = (four_digits(density), self.format_length(length));
                 format!("a cylinder of {density} kg/m³, {length} long")
             }
         };
         let gravity = match load.gravity {
-            Toward::Any(g) => format!("gravity {} m/s² in any direction", significant(g)),
-            Toward::Fixed(g) => format!("gravity ({}) m/s²", g.map(significant).join(", ")),
+            Toward::Any(g) => format!("gravity {} m/s² in any direction", four_digits(g)),
+            Toward::Fixed(g) => format!("gravity ({}) m/s²", g.map(four_digits).join(", ")),
         };
         let levers = match load.levers {
             LeverDrive::Coupled => {
@@ -157,20 +167,20 @@ impl GripReport<'_> {
                 "a drive for each lever (the moment per lever is the greater of the two)"
             }
         };
-        let accelerations = plural(load.accelerations.len(), "acceleration");
-        let [friction, safety] = [load.friction, load.safety].map(significant);
-        out.line(format!(
+        let accelerations = count_noun(load.accelerations.len(), "acceleration");
+        let [friction, safety] = [load.friction, load.safety].map(four_digits);
+        out.add_line(format!(
             "  load: {mass}, {gravity}, {accelerations}, friction {friction}, safety factor {safety}"
         ));
-        out.line(format!("  drive: {levers}"));
-        out.line("  friction cones are exact; a case of any direction is the worst of 26 directions, refined");
+        out.add_line(format!("  drive: {levers}"));
+        out.add_line("  friction cones are exact; a case of any direction is the worst of 26 directions, refined");
     }
 
     fn write_diameters(&self, out: &mut Report) {
         let symbol = self.file.length_unit.symbol;
         let mut heads = format!("D, {symbol} | l1, {symbol} | l2, {symbol} | l1/l2 | turn, °");
         let load = self.file.spec.load.as_ref();
-        let one_drive = self.rates(self.hardest().unwrap_or(0)).is_some()
+        let one_drive = self.rates_at(self.hardest_place().unwrap_or(0)).is_some()
             && load.is_some_and(|l| l.levers != LeverDrive::Independent);
         heads += match (load, one_drive) {
             (None, _) => " | held",
@@ -181,24 +191,24 @@ impl GripReport<'_> {
         };
         let row = |(at, d): (usize, &DiameterRow)| {
             let lengths = [d.diameter, d.arms.l1, d.arms.l2];
-            let mut cells = lengths.map(|x| self.short(x)).to_vec();
-            cells.push(significant(d.arms.l1 / d.arms.l2));
-            cells.push(number(d.pose.as_ref().map(|p| p.turn.to_degrees())));
+            let mut cells = lengths.map(|x| self.format_bare(x)).to_vec();
+            cells.push(four_digits(d.arms.l1 / d.arms.l2));
+            cells.push(format_or_dash(d.pose.as_ref().map(|p| p.turn.to_degrees())));
             if load.is_none() {
-                cells.push(if d.holds() { "yes" } else { "no" }.to_owned());
+                cells.push(if d.is_held() { "yes" } else { "no" }.to_owned());
                 return cells;
             }
             let hardest = d.hardest.as_ref();
-            let both = hardest.and_then(|l| Some(l.held()?.moments));
-            let both = both.map_or_else(|| "-".to_owned(), |m| m.map(significant).join(", "));
-            cells.extend([significant(d.mass), number(d.drive()), both]);
+            let both = hardest.and_then(|l| Some(l.held_forces()?.moments));
+            let both = both.map_or_else(|| "-".to_owned(), |m| m.map(four_digits).join(", "));
+            cells.extend([four_digits(d.mass), format_or_dash(d.drive_moment()), both]);
             if one_drive {
-                cells.push(number(self.effort(at)));
+                cells.push(format_or_dash(self.drive_effort(at)));
             }
             cells.push(hardest.map_or("cannot be held", |l| &l.case).to_owned());
             cells
         };
-        out.table(&heads, self.found.study.rows.iter().enumerate().map(row));
+        out.add_table(&heads, self.found.study.rows.iter().enumerate().map(row));
     }
 
     /// Adds each arm as the part of the lever and the part of the prism.
@@ -208,9 +218,9 @@ impl GripReport<'_> {
         let row = |d: &DiameterRow| {
             let a = d.arms;
             let all = [d.diameter, a.l11, a.l12, a.l1, a.l21, a.l22, a.l2];
-            all.map(|x| self.short(x)).to_vec()
+            all.map(|x| self.format_bare(x)).to_vec()
         };
-        out.table(&heads.join(" | "), self.found.study.rows.iter().map(row));
+        out.add_table(&heads.join(" | "), self.found.study.rows.iter().map(row));
     }
 }
 
@@ -227,12 +237,12 @@ fn at_most(ratio: f64, limit: f64) -> String {
 
 fn write_contacts(out: &mut Report, held: &Holding, pose: &TouchingPose, limit: f64) {
     let rows = pose.contacts.iter().zip(&held.forces).map(|(c, f)| {
-        let [normal, along, axial] = [f.normal, f.along, f.axial].map(significant);
+        let [normal, along, axial] = [f.normal, f.along, f.axial].map(four_digits);
         // A face that does not press has no friction.
         let friction = (f.normal > 0.0).then(|| f.along.hypot(f.axial) / f.normal);
         let friction = friction.map_or_else(|| "-".to_owned(), |f| at_most(f, limit));
-        cells([&c.name, &normal, &along, &axial, &friction])
+        row_cells([&c.name, &normal, &along, &axial, &friction])
     });
     let heads = "contact | normal, N | along the face, N | along the part, N | friction/normal";
-    out.table(heads, rows);
+    out.add_table(heads, rows);
 }

@@ -18,7 +18,11 @@ pub struct TypeChange {
 
 impl TypeChange {
     /// Returns the type of a joint of an assembly after a release.
-    pub(super) fn of(m: &Mechanism, origin: &Origin, release: &Release) -> Option<TypeChange> {
+    pub(super) fn from_release(
+        m: &Mechanism,
+        origin: &Origin,
+        release: &Release,
+    ) -> Option<TypeChange> {
         let Release::Freedom {
             joint,
             slides,
@@ -27,11 +31,11 @@ impl TypeChange {
         else {
             return None;
         };
-        TypeChange::at(m, origin, joint, &[(slides, direction)])
+        TypeChange::at_joint(m, origin, joint, &[(slides, direction)])
     }
 
     /// Returns its type with more freedoms. Returns `None` if the file is not an assembly, or there is no such type.
-    pub fn at(
+    pub fn at_joint(
         m: &Mechanism,
         origin: &Origin,
         joint: JointId,
@@ -40,16 +44,16 @@ impl TypeChange {
         if !origin.is_assembly() {
             return None;
         }
-        let now = origin.becomes(joint, &[]);
+        let now = origin.cad_type(joint, &[]);
         Some(TypeChange {
             joint: m.joints[joint].id.clone(),
             from: now.unwrap_or(m.joints[joint].joint_type.name()).to_owned(),
-            to: origin.becomes(joint, more)?.to_owned(),
+            to: origin.cad_type(joint, more)?.to_owned(),
         })
     }
 
     /// "Hinge: Revolute -> Ball".
-    pub fn words(&self) -> String {
+    pub fn describe_change(&self) -> String {
         format!("{}: {} -> {}", self.joint, self.from, self.to)
     }
 }
@@ -64,7 +68,7 @@ pub struct Misfit {
 }
 
 /// W with other joint types in words, where it is more than it is now.
-pub(super) fn then(now: usize, then: Option<usize>) -> String {
+pub(super) fn describe_then(now: usize, then: Option<usize>) -> String {
     match then {
         Some(w) if w > now => format!(" (W = {w}: a part may turn or slide by itself)"),
         _ => String::new(),
@@ -72,7 +76,7 @@ pub(super) fn then(now: usize, then: Option<usize>) -> String {
 }
 
 /// The freedoms as a CAD program counts them, in a line, where they are others.
-pub(super) fn count(counted: Option<i64>, mobility: usize) -> String {
+pub(super) fn describe_count(counted: Option<i64>, mobility: usize) -> String {
     match counted {
         Some(n) if i64::try_from(mobility) != Ok(n) => format!(
             "  6 freedoms per part less all constraints would be {n}; the true number of freedoms is {mobility}\n"

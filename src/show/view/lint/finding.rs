@@ -1,11 +1,11 @@
 //! A redundant constraint of a robot description in words, and files that were skipped.
 
 use super::assembly::{Misfit, TypeChange};
-use crate::format::brief;
-use crate::format::plain::line;
+use crate::format::plain::escape_line;
+use crate::format::three_digits;
 use crate::geom::vector::Vector;
 use crate::redundancy::duplicate_constraints::HeldTwice;
-use crate::redundancy::release::{Duplicate, Release, becomes};
+use crate::redundancy::release::{Duplicate, Release, released_type};
 use crate::robots::{ElementPlace, Origin};
 use crate::view::lint::NONE;
 use crate::view::prelude::*;
@@ -51,7 +51,7 @@ pub(super) struct LintWords<'a> {
 }
 
 /// Returns the duplicates of a constraint in a sentence; `a_row` is empty if `row` is not of a joint.
-fn message(
+fn finding_message(
     constraint: &str,
     [a_row, row, assembly]: [&str; 3],
     duplicates: &[String],
@@ -71,41 +71,53 @@ fn message(
 }
 
 impl LintWords<'_> {
-    fn coupling(&self, q: usize) -> String {
+    fn coupling_name(&self, q: usize) -> String {
         let found = self.m.couplings_in(StateId::FREE).nth(q);
         found.map_or(String::new(), |c| c.name(self.m))
     }
 
-    fn joint(&self, j: JointId) -> &str {
+    fn joint_name(&self, j: JointId) -> &str {
         &self.m.joints[j].id
     }
 
     /// Returns the finding of a duplicate row; `lasts` is true if it is redundant over the motion.
-    pub(super) fn finding(&self, d: &Duplicate, lasts: bool, origin: Option<&Origin>) -> Finding {
-        let (constraint, [a_row, row, assembly]) = self.constraint(d.row);
-        let joints = d.by.iter().map(|&j| self.joint(j).to_owned());
+    pub(super) fn make_finding(
+        &self,
+        d: &Duplicate,
+        lasts: bool,
+        origin: Option<&Origin>,
+    ) -> Finding {
+        let (constraint, [a_row, row, assembly]) = self.describe_constraint(d.row);
+        let joints = d.by.iter().map(|&j| self.joint_name(j).to_owned());
         let itself = |q: &&usize| d.row != Release::Coupling(**q);
-        let couplings = d.couplings.iter().filter(itself).map(|&q| self.coupling(q));
+        let couplings = d
+            .couplings
+            .iter()
+            .filter(itself)
+            .map(|&q| self.coupling_name(q));
         let duplicates: Vec<String> = joints.chain(couplings).collect();
         let contours = &self.found.analysis.per_contour;
         let contours = d.contours.iter().filter_map(|&k| contours.get(k));
         // What passes as the model moves needs none.
         let remedies = d.remedies.iter().take(if lasts { REMEDIES } else { 0 });
         let (place, of_joint): (Option<ElementPlace>, _) = match d.row {
-            Release::Coupling(q) => (origin.and_then(|o| o.coupling(q)), None),
-            Release::Freedom { joint, .. } => (origin.and_then(|o| o.joint(joint)), Some(joint)),
+            Release::Coupling(q) => (origin.and_then(|o| o.coupling_place(q)), None),
+            Release::Freedom { joint, .. } => {
+                (origin.and_then(|o| o.joint_place(joint)), Some(joint))
+            }
         };
         let open = origin.and_then(|o| o.open_by(of_joint?));
         let open = open.map_or(String::new(), |o| format!("; its frames are {o} apart"));
         Finding {
-            message: message(&constraint, [&a_row, &row, &assembly], &duplicates, lasts) + &open,
-            misfit: origin.and_then(|o| self.misfit(o, of_joint?)),
+            message: finding_message(&constraint, [&a_row, &row, &assembly], &duplicates, lasts)
+                + &open,
+            misfit: origin.and_then(|o| self.find_misfit(o, of_joint?)),
             lasts,
             file: place.as_ref().map(|p| p.file.clone()),
             line: place.as_ref().map(|p| p.at[0]),
             column: place.as_ref().map(|p| p.at[1]),
             contours: contours.map(|c| c.contour.name(self.m)).collect(),
-            remedies: remedies.map(|&i| self.remedy(i, origin)).collect(),
+            remedies: remedies.map(|&i| self.describe_remedy(i, origin)).collect(),
             constraint,
             row,
             duplicates,
@@ -114,12 +126,12 @@ impl LintWords<'_> {
     }
 
     /// A row of a joint, or a coupling, in words: its name, "row " where it is of a joint, the row, and what an inexact part makes.
-    fn constraint(&self, row: Release) -> (String, [String; 3]) {
+    fn describe_constraint(&self, row: Release) -> (String, [String; 3]) {
         match row {
             Release::Coupling(q) => {
                 let assembly = "a force or moment through the coupling".to_owned();
                 (
-                    self.coupling(q),
+                    self.coupling_name(q),
                     [String::new(), "the coupling".to_owned(), assembly],
                 )
             }
@@ -128,14 +140,14 @@ impl LintWords<'_> {
                 slides,
                 direction,
             } => {
-                let line = name(direction);
+                let line = direction_name(direction);
                 let (row, assembly) = if slides {
                     (line.clone(), format!("force along {line}"))
                 } else {
                     (format!("turn about {line}"), format!("moment about {line}"))
                 };
                 (
-                    self.joint(joint).to_owned(),
+                    self.joint_name(joint).to_owned(),
                     ["row ".to_owned(), row, assembly],
                 )
             }
@@ -143,7 +155,7 @@ impl LintWords<'_> {
     }
 
     /// How far the frames of a joint are apart, in millimetres and degrees.
-    fn misfit(&self, origin: &Origin, joint: JointId) -> Option<Misfit> {
+    fn find_misfit(&self, origin: &Origin, joint: JointId) -> Option<Misfit> {
         let [shift, turn] = origin.misfit(joint)?;
         let metres = self.m.length_unit.metres;
         Some(Misfit {
@@ -153,16 +165,19 @@ impl LintWords<'_> {
     }
 
     /// "slide hinge along y: revolute -> cylindrical (cost 1.5)"; of an assembly, "hinge: Revolute -> Cylindrical (cost 1.5)".
-    pub(super) fn remedy(&self, i: usize, origin: Option<&Origin>) -> String {
+    pub(super) fn describe_remedy(&self, i: usize, origin: Option<&Origin>) -> String {
         let (milli, release) = &self.found.releases[i];
-        let other = origin.and_then(|o| TypeChange::of(self.m, o, release));
-        let words = other.map_or_else(|| words(self.m, release), |c| c.words());
-        format!("{words} (cost {})", cost(*milli))
+        let other = origin.and_then(|o| TypeChange::from_release(self.m, o, release));
+        let words = other.map_or_else(
+            || describe_release(self.m, release),
+            |c| c.describe_change(),
+        );
+        format!("{words} (cost {})", format_cost(*milli))
     }
 }
 
 /// A release in words: "let a slide along y: revolute -> cylindrical".
-pub fn words(m: &Mechanism, release: &Release) -> String {
+pub fn describe_release(m: &Mechanism, release: &Release) -> String {
     match *release {
         Release::Coupling(q) => {
             let found = m.couplings_in(StateId::FREE).nth(q);
@@ -179,21 +194,21 @@ pub fn words(m: &Mechanism, release: &Release) -> String {
             format!(
                 "let {} {does} {}: {} -> {}",
                 j.id,
-                name(direction),
+                direction_name(direction),
                 j.joint_type.name(),
-                becomes(m, joint, slides, direction)
+                released_type(m, joint, slides, direction)
             )
         }
     }
 }
 
 /// "y", or "(0.6, 0.8, 0)".
-fn name(d: Vector) -> String {
+fn direction_name(d: Vector) -> String {
     let axes = ["x", "y", "z"];
     let along = (0..3).find(|&i| d[i].abs() > 1.0 - 1e-9);
     match along {
         Some(i) => axes[i].to_owned(),
-        None => format!("({})", d.map(brief).join(", ")),
+        None => format!("({})", d.map(three_digits).join(", ")),
     }
 }
 
@@ -227,7 +242,7 @@ impl PassedOver {
 
     /// A line for people.
     pub fn text(&self) -> String {
-        let (file, why) = (line(&self.file), line(&self.why));
+        let (file, why) = (escape_line(&self.file), escape_line(&self.why));
         if self.rigid {
             format!("{file}: {NONE}: {why}\n")
         } else {

@@ -3,7 +3,7 @@
 use crate::chart::{Axis, Chart, Series, Style};
 use crate::view::prelude::*;
 use crate::view::reactions::Reactions;
-use crate::view::reactions::couplings::unit;
+use crate::view::reactions::couplings::effort_unit;
 use crate::view::reactions::stroke::ReactionsOverStroke;
 use std::collections::BTreeMap;
 
@@ -14,8 +14,8 @@ impl ReactionsOverStroke<'_> {
     /// Returns the forces in the joints of output links and objects, and what each drive and coupling does, by position of the first
     /// drive. Returns `None` if no position has reactions.
     pub fn chart(&self) -> Option<Chart> {
-        let solved = self.solved().collect_vec();
-        let lines = self.lines(&solved);
+        let solved = self.solved_positions().collect_vec();
+        let lines = self.chart_lines(&solved);
         if lines.is_empty() {
             return None;
         }
@@ -43,12 +43,15 @@ impl ReactionsOverStroke<'_> {
 
     /// Returns the values of each line by position: those in the joints of outputs and objects (true), and those of drives and
     /// couplings.
-    fn lines(&self, solved: &[(f64, Reactions<'_>)]) -> BTreeMap<(bool, String), Vec<(f64, f64)>> {
+    fn chart_lines(
+        &self,
+        solved: &[(f64, Reactions<'_>)],
+    ) -> BTreeMap<(bool, String), Vec<(f64, f64)>> {
         let m = self.of;
         let worked = |l: &LinkId| matches!(m.links[*l].role, Role::Output | Role::Object);
         let mut lines: BTreeMap<(bool, String), Vec<(f64, f64)>> = BTreeMap::new();
         for (drive, reactions) in solved {
-            let at = self.shown(*drive);
+            let at = self.shown_position(*drive);
             let mut add = |joint, name, x| lines.entry((joint, name)).or_default().push((at, x));
             for r in &reactions.found.reactions {
                 let id = &m.joints[r.joint].id;
@@ -58,12 +61,12 @@ impl ReactionsOverStroke<'_> {
                 if let Some((freedom, effort)) = r.effort {
                     add(
                         false,
-                        format!("drive {id}, {}", unit(freedom)),
+                        format!("drive {id}, {}", effort_unit(freedom)),
                         effort.abs(),
                     );
                 }
             }
-            for (name, force) in reactions.couplings().iter().map(|c| c.line()) {
+            for (name, force) in reactions.couplings().iter().map(|c| c.chart_line()) {
                 add(false, name, force);
             }
         }

@@ -2,7 +2,7 @@
 
 use crate::model::joint_type::{Coupling, Freedom};
 use crate::statics::reactions::CouplingReaction;
-use crate::statics::reactions::drives::slides;
+use crate::statics::reactions::drives::is_slide;
 use crate::view::prelude::*;
 
 /// A coupling of a state and what it passes.
@@ -14,7 +14,7 @@ pub(crate) struct Coupled<'a> {
 }
 
 /// Returns the couplings of a state.
-pub(crate) fn couplings<'a>(
+pub(crate) fn state_couplings<'a>(
     m: &'a Mechanism,
     state: StateId,
     found: &'a [CouplingReaction],
@@ -25,8 +25,8 @@ pub(crate) fn couplings<'a>(
 }
 
 /// Returns the unit of an effort along a freedom.
-pub(super) fn unit(freedom: Freedom) -> &'static str {
-    if slides(freedom) { "N" } else { "N·m" }
+pub(super) fn effort_unit(freedom: Freedom) -> &'static str {
+    if is_slide(freedom) { "N" } else { "N·m" }
 }
 
 impl Coupled<'_> {
@@ -36,19 +36,19 @@ impl Coupled<'_> {
     }
 
     /// Returns each joint with its effort, what its second link gets along the freedom tied, and the unit of that.
-    fn ends(&self) -> [(&str, f64, &'static str); 2] {
+    fn coupled_ends(&self) -> [(&str, f64, &'static str); 2] {
         [0, 1].map(|n| {
             let end = &self.found.ends[n];
             let joint = &*self.m.joints[end.joint].id;
-            (joint, self.found.efforts[n], unit(end.freedom))
+            (joint, self.found.efforts[n], effort_unit(end.freedom))
         })
     }
 
     /// Returns the name of the line in a chart, and how great the effort is: at the teeth, or else at the second joint.
-    pub(super) fn line(&self) -> (String, f64) {
-        let (name, (_, effort, unit)) = (self.name(), self.ends()[1]);
+    pub(super) fn chart_line(&self) -> (String, f64) {
+        let (name, (_, effort, unit)) = (self.name(), self.coupled_ends()[1]);
         match &self.found.teeth {
-            Some(teeth) => (format!("teeth {name}, N"), teeth.size()),
+            Some(teeth) => (format!("teeth {name}, N"), teeth.tooth_force_size()),
             None => (format!("coupling {name}, {unit}"), effort.abs()),
         }
     }
@@ -56,7 +56,7 @@ impl Coupled<'_> {
     /// Returns it as data; `open` is true if self-stresses leave it open.
     pub(super) fn json(&self, open: bool) -> Value {
         let freedoms = self.found.ends.each_ref().map(|e| e.freedom.name());
-        let ends = self.ends().into_iter().zip(freedoms);
+        let ends = self.coupled_ends().into_iter().zip(freedoms);
         let ends = ends.map(|((joint, effort, unit), freedom)| {
             json!({ "joint": joint, "freedom": freedom, "effort": effort, "unit": unit })
         });
@@ -68,31 +68,31 @@ impl Coupled<'_> {
             "gear": self.coupling.gear,
             "ends": ends.collect::<Value>(),
             // Part of the reactions of both joints; null if nothing says where they are.
-            "teeth": teeth.map(|t| joined([json!(t), json!({ "magnitude": t.size() })])),
+            "teeth": teeth.map(|t| join_objects([json!(t), json!({ "magnitude": t.tooth_force_size() })])),
             "open": open,
         })
     }
 
     /// Returns true if it passes more than a fraction of the greatest force and moment of a self-stress, 1 N.
     pub(super) fn is_loaded(&self, size: f64) -> bool {
-        let mut ends = self.ends().into_iter();
+        let mut ends = self.coupled_ends().into_iter();
         ends.any(|(_, effort, unit)| effort.abs() > 1e-9 * if unit == "N" { 1.0 } else { size })
     }
 
     /// Returns what it passes at both joints and at the teeth, in words.
-    fn words(&self) -> String {
-        let ends = self.ends().into_iter();
+    fn describe_efforts(&self) -> String {
+        let ends = self.coupled_ends().into_iter();
         let ends =
-            ends.map(|(joint, effort, unit)| format!("{} {unit} at {joint}", figure(effort)));
+            ends.map(|(joint, effort, unit)| format!("{} {unit} at {joint}", five_digits(effort)));
         let teeth = self.found.teeth.iter();
-        let teeth = teeth.map(|t| format!("{} N at the teeth", figure(t.size())));
-        list(&ends.chain(teeth).collect_vec())
+        let teeth = teeth.map(|t| format!("{} N at the teeth", five_digits(t.tooth_force_size())));
+        join_and(&ends.chain(teeth).collect_vec())
     }
 
     /// Returns its rows of CSV, one a joint, without their kind.
-    pub(super) fn rows(&self) -> Vec<Vec<String>> {
+    pub(super) fn csv_rows(&self) -> Vec<Vec<String>> {
         let teeth = self.found.teeth.as_ref();
-        let teeth = teeth.map_or_else(String::new, |t| t.size().to_string());
+        let teeth = teeth.map_or_else(String::new, |t| t.tooth_force_size().to_string());
         let row = |(joint, effort, unit): (&str, f64, &str)| {
             let mut row = vec![self.name(), format!("coupling at {joint}")];
             row.resize(5, String::new());
@@ -101,14 +101,14 @@ impl Coupled<'_> {
             row.extend([effort.to_string(), unit.to_owned()]);
             row
         };
-        self.ends().map(row).to_vec()
+        self.coupled_ends().map(row).to_vec()
     }
 }
 
 /// Says which forces of teeth the joints bear.
 fn write_teeth(out: &mut Report, all: &[Coupled<'_>]) {
     if all.iter().any(|c| c.found.teeth.is_some()) {
-        out.line(
+        out.add_line(
             "Teeth push along the pitch circles, and the joints of both gears bear it; their pressure angle and friction are omitted",
         );
     }
@@ -117,43 +117,45 @@ fn write_teeth(out: &mut Report, all: &[Coupled<'_>]) {
         .filter(|c| c.coupling.gear && c.found.teeth.is_none());
     let unplaced = unplaced.map(Coupled::name).collect_vec();
     if !unplaced.is_empty() {
-        out.line(format!(
+        out.add_line(format!(
             "The file does not determine where the teeth of {} are, so no joint bears them: gears need parallel axes with points \
              side by side on one link, a rack a slide across the axis on that link, both joints no other freedom that teeth move",
-            list(&unplaced)
+            join_and(&unplaced)
         ));
     }
 }
 
 /// Adds the couplings as a table.
-pub(super) fn write(out: &mut Report, all: &[Coupled<'_>]) {
+pub(super) fn write_couplings(out: &mut Report, all: &[Coupled<'_>]) {
     if all.is_empty() {
         return;
     }
     let rows = all.iter().map(|c| {
         let ends = c
-            .ends()
-            .map(|(_, effort, unit)| format!("{} {unit}", figure(effort)));
+            .coupled_ends()
+            .map(|(_, effort, unit)| format!("{} {unit}", five_digits(effort)));
         let teeth = c.found.teeth.as_ref();
-        let teeth = teeth.map_or_else(String::new, |t| format!("{} N", figure(t.size())));
-        cells([&c.name(), &ends[0], &ends[1], &teeth])
+        let teeth = teeth.map_or_else(String::new, |t| {
+            format!("{} N", five_digits(t.tooth_force_size()))
+        });
+        row_cells([&c.name(), &ends[0], &ends[1], &teeth])
     });
-    out.line("Couplings give the second link of each joint, along the freedom they tie\n");
-    out.table(
+    out.add_line("Couplings give the second link of each joint, along the freedom they tie\n");
+    out.add_table(
         "coupling | at the first | at the second | at the teeth",
         rows,
     );
-    out.line("");
+    out.add_line("");
     write_teeth(out, all);
 }
 
 /// Adds what couplings, which are rigid, pass if joints are elastic.
 pub(super) fn write_elastic(out: &mut Report, all: &[Coupled<'_>]) {
     for c in all {
-        out.line(format!(
+        out.add_line(format!(
             "Coupling {}, rigid, passes {}",
             c.name(),
-            c.words()
+            c.describe_efforts()
         ));
     }
 }
@@ -170,8 +172,8 @@ pub(super) fn write_greatest(
     for q in 0..first.len() {
         let size = |c: &[Coupled<'_>]| c[q].found.efforts[1].abs();
         if let Some((at, c)) = all.iter().max_by(|a, b| size(&a.1).total_cmp(&size(&b.1))) {
-            let (name, words, at) = (c[q].name(), c[q].words(), place(*at));
-            out.line(format!("Coupling {name} passes at most {words}, at {at}"));
+            let (name, words, at) = (c[q].name(), c[q].describe_efforts(), place(*at));
+            out.add_line(format!("Coupling {name} passes at most {words}, at {at}"));
         }
     }
     write_teeth(out, first);

@@ -1,12 +1,12 @@
 //! Joint reactions over a stroke.
 
-use crate::format::csv::table;
-use crate::statics::reactions::drives::slides;
+use crate::format::csv::write_table;
+use crate::statics::reactions::drives::is_slide;
 use crate::statics::reactions::{Cycle, JointReaction, NEARLY_SINGULAR};
 use crate::view::prelude::*;
-use crate::view::reactions::couplings::{unit, write_greatest};
-use crate::view::reactions::text::{ADD_LOADS, pushing};
-use crate::view::reactions::{HEADS, Reactions, holds, touch};
+use crate::view::reactions::couplings::{effort_unit, write_greatest};
+use crate::view::reactions::text::{ADD_LOADS, pushing_remedy};
+use crate::view::reactions::{HEADS, Reactions, is_possible, touch_word};
 
 /// Reactions by position of the first drive.
 #[derive(Debug)]
@@ -24,7 +24,7 @@ impl<'a> ReactionsOverStroke<'a> {
     }
 
     /// Returns the positions that have reactions.
-    pub(super) fn solved(&self) -> impl Iterator<Item = (f64, Reactions<'a>)> {
+    pub(super) fn solved_positions(&self) -> impl Iterator<Item = (f64, Reactions<'a>)> {
         let reactions = |s| Reactions::new(self.of, self.state, s);
         let positions = self.found.positions.iter();
         positions.filter_map(move |(at, s)| Some((*at, reactions(s.as_ref().ok()?))))
@@ -35,7 +35,7 @@ impl<'a> ReactionsOverStroke<'a> {
         let position = |(drive, s): &(f64, Result<_, _>)| match s {
             Ok(s) => {
                 let reactions = Reactions::new(self.of, self.state, s).json();
-                joined([reactions, json!({ "drive": drive })])
+                join_objects([reactions, json!({ "drive": drive })])
             }
             Err(e) => json!({ "drive": drive, "error": ToString::to_string(e) }),
         };
@@ -51,21 +51,21 @@ impl<'a> ReactionsOverStroke<'a> {
     /// Returns one joint and position a line.
     pub fn csv(&self) -> String {
         let heads = ["drive"].into_iter().chain(HEADS.split(',')).collect_vec();
-        let solved = self.solved().collect_vec();
+        let solved = self.solved_positions().collect_vec();
         let rows = solved.iter().flat_map(|(at, r)| {
-            r.rows()
+            r.csv_rows()
                 .map(move |row| [vec![at.to_string()], row].concat())
         });
-        table(&heads, rows)
+        write_table(&heads, rows)
     }
 
-    fn slides(&self) -> bool {
-        self.found.drives.first().is_some_and(|d| slides(d.1))
+    fn drive_slides(&self) -> bool {
+        self.found.drives.first().is_some_and(|d| is_slide(d.1))
     }
 
     /// Returns the unit of positions in texts.
     pub(super) fn unit(&self) -> &'static str {
-        if self.slides() {
+        if self.drive_slides() {
             self.of.length_unit.symbol
         } else {
             "°"
@@ -73,40 +73,44 @@ impl<'a> ReactionsOverStroke<'a> {
     }
 
     /// Returns a position in that unit.
-    pub(super) fn shown(&self, x: f64) -> f64 {
-        if self.slides() { x } else { x.to_degrees() }
+    pub(super) fn shown_position(&self, x: f64) -> f64 {
+        if self.drive_slides() {
+            x
+        } else {
+            x.to_degrees()
+        }
     }
 
     /// Returns a position with its unit.
-    fn place(&self, x: f64) -> String {
-        format!("{} {}", figure(self.shown(x)), self.unit())
+    fn format_place(&self, x: f64) -> String {
+        format!("{} {}", five_digits(self.shown_position(x)), self.unit())
     }
 
     /// Returns the report, fitted to a terminal of `width` columns if one is given.
     pub fn text(&self, width: Option<u16>) -> String {
         let mut out = Report::new(width);
-        let all = self.solved().collect_vec();
+        let all = self.solved_positions().collect_vec();
         self.write_head(&mut out, &all);
         let Some((_, first)) = all.first() else {
-            out.line("No pose was reached.");
+            out.add_line("No pose was reached.");
             return out.text();
         };
         self.write_peaks(&mut out, &all, first);
         self.write_contacts(&mut out, &all, first);
         self.write_drives(&mut out, &all, first);
         let passed = all.iter().map(|(at, r)| (*at, r.couplings())).collect_vec();
-        write_greatest(&mut out, &passed, &|x| self.place(x));
+        write_greatest(&mut out, &passed, &|x| self.format_place(x));
         self.write_equilibrium(&mut out, &all);
         for (drive, s) in &self.found.positions {
             if let Err(e) = s {
-                out.line(format!("At {}: {e}", self.place(*drive)));
+                out.add_line(format!("At {}: {e}", self.format_place(*drive)));
             }
         }
         if let Some(place) = self.found.stopped {
-            out.line(format!(
+            out.add_line(format!(
                 "The stroke could not be followed to {}; `ozols analyze {}` says why",
-                self.place(place),
-                flag("stroke", "")
+                self.format_place(place),
+                typed_option("stroke", "")
             ));
         }
         out.text()
@@ -120,11 +124,11 @@ impl<'a> ReactionsOverStroke<'a> {
             ""
         };
         let (name, state) = (&self.of.name, &self.of.states[self.state]);
-        let poses = plural(all.len(), "pose");
-        out.line(format!(
+        let poses = count_noun(all.len(), "pose");
+        out.add_line(format!(
             "{name}, state {state}: greatest joint reactions over {poses}{open}"
         ));
-        out.line(if self.of.loads.drive_speeds.iter().any(|s| *s != 0.0) {
+        out.add_line(if self.of.loads.drive_speeds.iter().any(|s| *s != 0.0) {
             "Inertia forces of the stated drive speed included; drives at constant speed\n"
         } else {
             "Drives at rest: no inertia forces; workload.drive_speed adds them\n"
@@ -146,25 +150,25 @@ impl<'a> ReactionsOverStroke<'a> {
             .iter()
             .flat_map(|(_, of)| of.map(|x| x.0))
             .fold(0.0, f64::max);
-        let (scale, prefix) = prefix(greatest);
+        let (scale, prefix) = unit_prefix(greatest);
         if greatest == 0.0 {
-            out.line(format!("The loads are nothing here: {ADD_LOADS}.\n"));
+            out.add_line(format!("The loads are nothing here: {ADD_LOADS}.\n"));
         }
         let rows = peaks.iter().map(|(joint, of)| {
             let mut row = first.joint_and_type(*joint).to_vec();
             row.extend(
                 of.iter()
-                    .flat_map(|(x, at)| [x / scale, self.shown(*at)])
-                    .map(figure),
+                    .flat_map(|(x, at)| [x / scale, self.shown_position(*at)])
+                    .map(five_digits),
             );
             row
         });
         let at = self.unit();
-        out.table(
+        out.add_table(
             &format!("joint |  | |F|, {prefix}N | at, {at} | |M|, {prefix}N·m | at, {at}"),
             rows,
         );
-        out.line("");
+        out.add_line("");
     }
 
     /// Adds contacts that would have to do what faces cannot.
@@ -176,15 +180,15 @@ impl<'a> ReactionsOverStroke<'a> {
     ) {
         for (i, contact) in first.found.contacts.iter().enumerate() {
             let touches = all.iter().map(|(at, r)| (*at, &r.found.contacts[i]));
-            let bad = touches.filter(|(_, c)| !holds(c)).collect_vec();
+            let bad = touches.filter(|(_, c)| !is_possible(c)).collect_vec();
             if let Some((from, c)) = bad.first() {
-                out.line(format!(
+                out.add_line(format!(
                     "NOT AS CONTACTS ACT: {} in {}, first at {}, where it {}; {}",
-                    first.joint(contact.joint),
-                    plural(bad.len(), "pose"),
-                    self.place(*from),
-                    touch(c),
-                    pushing()
+                    first.joint_name(contact.joint),
+                    count_noun(bad.len(), "pose"),
+                    self.format_place(*from),
+                    touch_word(c),
+                    pushing_remedy()
                 ));
             }
         }
@@ -203,11 +207,16 @@ impl<'a> ReactionsOverStroke<'a> {
             let least = each.iter().min_by(|a, b| a.0.total_cmp(&b.0));
             let most = each.iter().max_by(|a, b| a.0.total_cmp(&b.0));
             let words = |(x, at): &(f64, f64)| {
-                format!("{} {} at {}", figure(*x), unit(freedom), self.place(*at))
+                format!(
+                    "{} {} at {}",
+                    five_digits(*x),
+                    effort_unit(freedom),
+                    self.format_place(*at)
+                )
             };
             if let (Some(least), Some(most)) = (least.map(words), most.map(words)) {
-                let (id, freedom) = (first.joint(joint.joint), freedom.name());
-                out.line(format!(
+                let (id, freedom) = (first.joint_name(joint.joint), freedom.name());
+                out.add_line(format!(
                     "Drive {id} holds {freedom}: from {least} to {most}"
                 ));
             }
@@ -220,12 +229,12 @@ impl<'a> ReactionsOverStroke<'a> {
         let residual = solved.clone().map(|(_, s)| s.residual).fold(0.0, f64::max);
         let worst = solved.max_by(|a, b| a.1.condition.total_cmp(&b.1.condition));
         let Some((place, s)) = worst else { return };
-        let (condition, at) = (figure(s.condition), self.place(place));
-        out.line(format!(
+        let (condition, at) = (five_digits(s.condition), self.format_place(place));
+        out.add_line(format!(
             "Equilibrium: condition up to {condition} at {at}, residual up to {residual:.0e} of the load"
         ));
         if s.nearly_singular() {
-            out.line(format!(
+            out.add_line(format!(
                 "Warning: nearly singular there (condition above {NEARLY_SINGULAR:.0e}): small errors of manufacture change these reactions much"
             ));
         }

@@ -3,8 +3,10 @@
 use crate::statics::reactions::contact::{ContactForce, Touch};
 use crate::statics::reactions::{JointReaction, NEARLY_SINGULAR, Uniqueness};
 use crate::view::prelude::*;
-use crate::view::reactions::couplings::{couplings, unit, write, write_elastic};
-use crate::view::reactions::{Reactions, holds, open_components, touch};
+use crate::view::reactions::couplings::{
+    effort_unit, state_couplings, write_couplings, write_elastic,
+};
+use crate::view::reactions::{Reactions, is_possible, open_components, touch_word};
 
 /// The remedy for a file that states no loads.
 pub(super) const ADD_LOADS: &str =
@@ -17,16 +19,16 @@ pub(crate) const NO_STRAIN: &str = "Misalignments cause no reactions here: the m
 pub(crate) fn no_loads(misalignments: usize) -> String {
     let only = match misalignments {
         0 => String::new(),
-        n => format!(" but {}", plural(n, "misalignment")),
+        n => format!(" but {}", count_noun(n, "misalignment")),
     };
     format!("The file states no loads{only}: {ADD_LOADS}.")
 }
 
 /// Returns the remedy for contacts that would pull.
-pub(super) fn pushing() -> String {
+pub(super) fn pushing_remedy() -> String {
     format!(
         "{} solves with contacts that only push",
-        flag("unilateral", "")
+        typed_option("unilateral", "")
     )
 }
 
@@ -34,7 +36,7 @@ pub(super) fn pushing() -> String {
 const STRESSES: usize = 12;
 
 /// Returns a number of self-stresses in words.
-fn stresses(n: usize) -> String {
+fn count_stresses(n: usize) -> String {
     let many = if n == 1 { "" } else { "es" };
     format!("{n} self-stress{many}")
 }
@@ -45,27 +47,31 @@ impl Reactions<'_> {
         let (s, mut out) = (self.found, Report::new(width));
         self.write_head(&mut out, pose);
         self.write_refuted(&mut out);
-        out.line(
+        out.add_line(
             "First link on second, in the joint's own frame (z its axis), moments about its point\n",
         );
         if !self.is_unique() {
-            out.line(self.left_open() + "\n");
+            out.add_line(self.left_open() + "\n");
         }
         self.write_loads(&mut out);
         self.write_joints(&mut out, &s.reactions);
-        out.line("");
+        out.add_line("");
         if !s.contacts.is_empty() {
             self.write_contacts(&mut out);
         }
-        write(&mut out, &self.couplings());
+        write_couplings(&mut out, &self.couplings());
         for r in &s.reactions {
             let Some((freedom, effort)) = r.effort else {
                 continue;
             };
-            let unit = unit(freedom);
+            let unit = effort_unit(freedom);
             let what = if unit == "N" { "force" } else { "torque" };
-            let (id, freedom, effort) = (self.joint(r.joint), freedom.name(), figure(effort));
-            out.line(format!(
+            let (id, freedom, effort) = (
+                self.joint_name(r.joint),
+                freedom.name(),
+                five_digits(effort),
+            );
+            out.add_line(format!(
                 "Drive {id} holds {freedom}: {what} {effort} {unit}"
             ));
         }
@@ -82,32 +88,32 @@ impl Reactions<'_> {
         let each = list
             .iter()
             .map(|r| r.force_size().max(r.moment_size() / size));
-        let (unit, n) = prefix(each.fold(0.0, f64::max));
+        let (unit, n) = unit_prefix(each.fold(0.0, f64::max));
         let rows = list.iter().map(|r| {
             let mut row = self.joint_and_type(r.joint).to_vec();
             for ([x, y, z], size) in [(r.force, r.force_size()), (r.moment, r.moment_size())] {
-                row.extend([x, y, z, size].map(|x| figure(x / unit)));
+                row.extend([x, y, z, size].map(|x| five_digits(x / unit)));
             }
             row
         });
         let heads = format!("joint |  | Fx | Fy | Fz | |F|, {n}N | Mx | My | Mz | |M|, {n}N·m");
-        out.table(&heads, rows);
+        out.add_table(&heads, rows);
     }
 
     /// Adds the forces of the faces on objects.
     fn write_contacts(&self, out: &mut Report) {
         let list = &self.found.contacts;
         let greatest = list.iter().map(|c| c.normal.abs().max(c.along));
-        let (unit, n) = prefix(greatest.fold(0.0, f64::max));
-        let show = |x: f64| figure(x / unit);
-        let stated = |x: Option<f64>| x.map_or_else(|| "not stated".to_owned(), significant);
+        let (unit, n) = unit_prefix(greatest.fold(0.0, f64::max));
+        let show = |x: f64| five_digits(x / unit);
+        let stated = |x: Option<f64>| x.map_or_else(|| "not stated".to_owned(), four_digits);
         let rows = list.iter().map(|c| {
             let [normal, along, tilting] = [c.normal, c.along, c.tilting].map(show);
             let [friction, radius] = [c.friction, c.radius].map(stated);
-            let name = self.joint(c.joint);
-            cells([
+            let name = self.joint_name(c.joint);
+            row_cells([
                 &name,
-                &touch(c),
+                &touch_word(c),
                 &normal,
                 &along,
                 &friction,
@@ -115,21 +121,21 @@ impl Reactions<'_> {
                 &radius,
             ])
         });
-        out.table(
+        out.add_table(
             &format!(
                 "contact |  | normal, {n}N | along the face, {n}N | friction | tilting, {n}N·m | face radius, m"
             ),
             rows,
         );
-        out.line("");
+        out.add_line("");
     }
 
     /// Adds contacts that would have to do what faces cannot.
     fn write_refuted(&self, out: &mut Report) {
         let words = |c: &ContactForce| {
-            let (unit, prefix) = prefix(c.normal.abs().max(c.along));
-            let force = |x: f64| format!("{} {prefix}N", significant(x / unit));
-            let limit = |x: Option<f64>| x.map_or_else(String::new, significant);
+            let (unit, prefix) = unit_prefix(c.normal.abs().max(c.along));
+            let force = |x: f64| format!("{} {prefix}N", four_digits(x / unit));
+            let limit = |x: Option<f64>| x.map_or_else(String::new, four_digits);
             let (normal, along) = (force(c.normal), force(c.along));
             match c.touch {
                 Touch::Pulls => format!("would pull with {}", force(-c.normal)),
@@ -147,12 +153,12 @@ impl Reactions<'_> {
             .found
             .contacts
             .iter()
-            .filter(|c| !holds(c))
+            .filter(|c| !is_possible(c))
             .collect_vec();
         for c in &bad {
-            out.line(format!(
+            out.add_line(format!(
                 "NOT AS CONTACTS ACT: {} {}",
-                self.joint(c.joint),
+                self.joint_name(c.joint),
                 words(c)
             ));
         }
@@ -160,9 +166,9 @@ impl Reactions<'_> {
             let way = if self.is_unique() {
                 "no other reactions are in equilibrium, so the object is not held".to_owned()
             } else {
-                pushing()
+                pushing_remedy()
             };
-            out.line(format!("  contacts are taken as joints here; {way}"));
+            out.add_line(format!("  contacts are taken as joints here; {way}"));
         }
     }
 
@@ -172,19 +178,24 @@ impl Reactions<'_> {
         let joints = self.found.reactions.iter().zip(&self.found.open);
         for (r, open) in joints.filter(|(_, open)| open.contains(&true)) {
             match alike.iter_mut().find(|(known, _)| *known == open) {
-                Some((_, joints)) => joints.push(self.joint(r.joint)),
-                None => alike.push((open, vec![self.joint(r.joint)])),
+                Some((_, joints)) => joints.push(self.joint_name(r.joint)),
+                None => alike.push((open, vec![self.joint_name(r.joint)])),
             }
         }
         let each = alike.iter();
-        let each = each
-            .map(|(open, joints)| format!("{} of {}", list(&open_components(open)), list(joints)));
+        let each = each.map(|(open, joints)| {
+            format!(
+                "{} of {}",
+                join_and(&open_components(open)),
+                join_and(joints)
+            )
+        });
         let passed = self.couplings().into_iter().zip(&self.found.couplings_open);
         let passed = passed
             .filter(|(_, open)| **open)
             .map(|(c, _)| c.name())
             .collect_vec();
-        let passed = (!passed.is_empty()).then(|| format!("what {} pass", list(&passed)));
+        let passed = (!passed.is_empty()).then(|| format!("what {} pass", join_and(&passed)));
         format!(
             "Left open by the self-stresses: {}; all else is the same in the whole family",
             each.chain(passed).join("; ")
@@ -197,22 +208,23 @@ impl Reactions<'_> {
         let among = match s.choice {
             Uniqueness::Unique => None,
             Uniqueness::Pushing => Some("those in which contacts only push".to_owned()),
-            Uniqueness::MinimumNorm => {
-                Some(format!("a family with {}", stresses(s.self_stresses.len())))
-            }
+            Uniqueness::MinimumNorm => Some(format!(
+                "a family with {}",
+                count_stresses(s.self_stresses.len())
+            )),
         };
         let what = among.map_or("the only ones in equilibrium".to_owned(), |among| {
-            let size = figure(s.size);
+            let size = five_digits(s.size);
             format!("of minimum norm among {among}: Σ |F|² + |M|²/ℓ² least, ℓ = {size} m")
         });
         let (name, state) = (&self.of.name, &self.of.states[self.state]);
-        out.line(format!(
+        out.add_line(format!(
             "{name}, state {state}, {pose}: joint reactions, {what}"
         ));
         if let Some(n) = self.exact_self_stresses {
-            out.line(format!(
+            out.add_line(format!(
                 "NOT DECIDED BY NUMBERS: in exact geometry there are {}, and the difference is below what singular values tell from zero; look for points or axes that are nearly alike",
-                stresses(n)
+                count_stresses(n)
             ));
         }
     }
@@ -222,12 +234,12 @@ impl Reactions<'_> {
         let (m, loads) = (self.of, &self.of.loads);
         let moving = loads.drive_speeds.iter().any(|s| *s != 0.0);
         if moving {
-            out.line("Inertia forces of the stated drive speed included\n");
+            out.add_line("Inertia forces of the stated drive speed included\n");
         }
         let accelerated = loads.gravity.is_some() || moving;
         let no_mass = m.links.iter().all(|l| l.mass.is_none()) || !accelerated;
         if no_mass && !loads.acts_from_outside(self.state) {
-            out.line(no_loads(loads.misalignments.len()) + "\n");
+            out.add_line(no_loads(loads.misalignments.len()) + "\n");
         }
     }
 
@@ -235,17 +247,17 @@ impl Reactions<'_> {
     fn write_equilibrium(&self, out: &mut Report) {
         let s = self.found;
         if s.undriven > 0 {
-            let freedoms = plural(s.undriven, "freedom");
-            out.line(format!(
+            let freedoms = count_noun(s.undriven, "freedom");
+            out.add_line(format!(
                 "{freedoms} left with the drives held, on which the loads do no work"
             ));
         }
-        let (condition, residual) = (figure(s.condition), s.residual);
-        out.line(format!(
+        let (condition, residual) = (five_digits(s.condition), s.residual);
+        out.add_line(format!(
             "Equilibrium: condition {condition}, residual {residual:.0e} of the load"
         ));
         if s.nearly_singular() {
-            out.line(format!(
+            out.add_line(format!(
                 "Warning: nearly singular (condition above {NEARLY_SINGULAR:.0e}): small errors of manufacture change these reactions much"
             ));
         }
@@ -259,22 +271,22 @@ impl Reactions<'_> {
             Uniqueness::Pushing => " with which contacts still push",
             _ => "",
         };
-        out.line(format!(
+        out.add_line(format!(
             "\nRedundant constraints leave these reactions open: any multiples of the {} may be added{push}",
-            stresses(open)
+            count_stresses(open)
         ));
         let both = s.self_stresses.iter().zip(&s.coupling_stresses);
         for (i, (stress, coupled)) in both.take(STRESSES).enumerate() {
             let loaded = stress
                 .iter()
                 .filter(|r| r.force_size() > 1e-9 || r.moment_size() > 1e-9 * s.size);
-            let coupled = couplings(self.of, self.state, coupled).into_iter();
+            let coupled = state_couplings(self.of, self.state, coupled).into_iter();
             let coupled = coupled.filter(|c| c.is_loaded(s.size)).map(|c| c.name());
-            let joints = loaded.map(|r| self.joint(r.joint).to_owned());
-            out.line(format!("  {}: {}", i + 1, joints.chain(coupled).join(", ")));
+            let joints = loaded.map(|r| self.joint_name(r.joint).to_owned());
+            out.add_line(format!("  {}: {}", i + 1, joints.chain(coupled).join(", ")));
         }
         if open > STRESSES {
-            out.line(format!("  and {} more", open - STRESSES));
+            out.add_line(format!("  and {} more", open - STRESSES));
         }
     }
 
@@ -285,20 +297,20 @@ impl Reactions<'_> {
         if let Some(list) = &s.elastic {
             let askew = match misalignments {
                 0 => "no misalignment".to_owned(),
-                n => plural(n, "misalignment"),
+                n => count_noun(n, "misalignment"),
             };
-            out.line(format!(
+            out.add_line(format!(
                 "\nReactions of elastic joints of the stated stiffness, {askew}\n"
             ));
             self.write_joints(out, list);
             let coupled = s.elastic_couplings.as_deref().unwrap_or_default();
-            write_elastic(out, &couplings(self.of, self.state, coupled));
+            write_elastic(out, &state_couplings(self.of, self.state, coupled));
         } else if open > 0 && s.choice != Uniqueness::Pushing {
-            out.line(
+            out.add_line(
                 "State [workload.stiffness.default] linear and angular, and [[workload.misalignment]], to see which of them arises.",
             );
         } else if open == 0 && misalignments > 0 {
-            out.line(NO_STRAIN);
+            out.add_line(NO_STRAIN);
         }
     }
 }

@@ -1,6 +1,6 @@
 //! The table of costs, as a file that a search takes.
 
-use crate::format::cost;
+use crate::format::format_cost;
 use crate::model::joint_type::JointType;
 use crate::model::mechanism::CostSpec;
 use crate::search::question::cost::CostTable;
@@ -24,15 +24,16 @@ const HEAD: &str = "\
 ";
 
 /// The default costs as TOML.
-pub fn toml() -> String {
+pub fn costs_toml() -> String {
     let table = CostTable::new(&CostSpec::default());
-    let line =
-        |name: &str, milli: i64, what: &str| format!("\n# {what}\n{name} = {}\n", cost(milli));
+    let line = |name: &str, milli: i64, what: &str| {
+        format!("\n# {what}\n{name} = {}\n", format_cost(milli))
+    };
     let words = PairWords::builtin();
     let types = JointType::NAMED.iter().map(|t| {
         let about = words.get(t.name()).map_or("", |w| w.about.as_str());
         let short = about.split([':', '.']).next().unwrap_or(about);
-        let what = format!("class {}: {short}", t.class());
+        let what = format!("class {}: {short}", t.class_numeral());
         line(t.name(), t.default_cost_milli(), &what)
     });
     let others = [
@@ -50,6 +51,6 @@ pub fn toml() -> String {
         ),
     ];
     let others = others.map(|(name, milli, what)| line(name, milli, what));
-    let head = HEAD.replace("CUSTOM", &cost(JointType::CUSTOM_FREEDOM));
+    let head = HEAD.replace("CUSTOM", &format_cost(JointType::CUSTOM_FREEDOM));
     head + &others.concat() + &types.collect::<String>()
 }

@@ -19,7 +19,7 @@ pub(super) const IDEAS: &str =
     "ideas, cheapest first; an idea includes all variants that add the same freedoms";
 
 /// Returns the verdict and how it was checked; with `verbose` also which variants are minimal, and the counts by mobility.
-pub(super) fn counts(outcome: &Outcome, width: Option<u16>, verbose: bool) -> String {
+pub(super) fn counts_text(outcome: &Outcome, width: Option<u16>, verbose: bool) -> String {
     let verbose = verbose || matches!(outcome.request.list, List::Nothing | List::Top(0));
     let mut out = Report::new(width);
     write_verdict(&mut out, outcome, verbose);
@@ -30,25 +30,29 @@ pub(super) fn counts(outcome: &Outcome, width: Option<u16>, verbose: bool) -> St
         Verdict::Agree => "Checked: two runs with different primes agree",
         Verdict::Interrupted => "Not checked by a second prime: interrupted",
     });
-    let lines = minimal(outcome).filter(|_| verbose).into_iter();
+    let lines = minimal_line(outcome).filter(|_| verbose).into_iter();
     let lines = lines
-        .chain(numeric::lines(outcome))
-        .chain(second_opinion::lines(outcome));
+        .chain(numeric::numeric_lines(outcome))
+        .chain(second_opinion::opinion_lines(outcome));
     let lines = lines.chain(check.map(str::to_owned));
-    let lines = lines.chain(exact.then(|| stopped_early::stopped(outcome)).flatten());
-    let lines = lines.chain(stopped_early::estimated(outcome));
-    let lines = lines.chain(exact.then(|| stopped_early::more(outcome)).flatten());
-    lines.for_each(|line| out.line(format!("  {line}")));
+    let lines = lines.chain(
+        exact
+            .then(|| stopped_early::stopped_line(outcome))
+            .flatten(),
+    );
+    let lines = lines.chain(stopped_early::estimate_line(outcome));
+    let lines = lines.chain(exact.then(|| stopped_early::more_line(outcome)).flatten());
+    lines.for_each(|line| out.add_line(format!("  {line}")));
     let table = if verbose {
         by_mobility(outcome, width)
     } else {
         String::new()
     };
-    out.text() + &fit(&table, width)
+    out.text() + &fit_lines(&table, width)
 }
 
 /// "σ = 0", or the redundant constraints that are allowed.
-fn condition(outcome: &Outcome) -> String {
+fn redundancy_condition(outcome: &Outcome) -> String {
     match outcome.search.conditions.max_redundant {
         0 => "σ = 0".to_owned(),
         most => format!("σ ≤ {most}"),
@@ -71,7 +75,7 @@ fn write_verdict(out: &mut Report, outcome: &Outcome, verbose: bool) {
     } else {
         "at least "
     };
-    let (conditions, condition) = (&outcome.search.conditions, condition(outcome));
+    let (conditions, condition) = (&outcome.search.conditions, redundancy_condition(outcome));
     let (mechanism, size) = (&outcome.search.mechanism.name, outcome.search.size());
     let more = [
         conditions
@@ -80,7 +84,7 @@ fn write_verdict(out: &mut Report, outcome: &Outcome, verbose: bool) {
         conditions.max_mobility.map(|w| format!("have W ≤ {w}")),
         conditions
             .max_changes
-            .map(|c| format!("change at most {}", plural(c as usize, "joint"))),
+            .map(|c| format!("change at most {}", count_noun(c as usize, "joint"))),
     ];
     let told = in_state(&outcome.search, false);
     let more = more.into_iter().flatten().chain(told).collect_vec();
@@ -98,30 +102,30 @@ fn write_verdict(out: &mut Report, outcome: &Outcome, verbose: bool) {
     } else if !outcome.is_confirmed() {
         format!(
             "not exact: {least}{}",
-            grouped(&outcome.listed_counts().total)
+            group_thousands(&outcome.listed_counts().total)
         )
     } else {
         let [_, estimate] = outcome.estimates();
         let listed = &outcome.listed_counts().total;
-        stopped_early::number(listed, outcome.is_counted(), estimate)
+        stopped_early::format_count(listed, outcome.is_counted(), estimate)
     };
-    let of = plural_of(&grouped(&size), "variant");
-    out.line(format!("{mechanism}: {good} of {of} {all}"));
+    let of = plural_of(&group_thousands(&size), "variant");
+    out.add_line(format!("{mechanism}: {good} of {of} {all}"));
     if size == BigUint::from(1u8) {
-        out.line(
+        out.add_line(
             "  no joint has an option with more freedoms than it has: list some under [search], such as options = \
              [\"cylindrical\", \"spherical\"]"
         );
     }
     if let Some(line) = in_the_pose(outcome) {
-        out.line(format!("  {line}"));
+        out.add_line(format!("  {line}"));
     }
     if !more.is_empty() && (verbose || outcome.listed_counts().total.is_zero()) {
         let determinate = match &outcome.numeric {
             Some(found) => numeric::from_to(&found.determinate),
-            None => determinate(outcome),
+            None => determinate_count(outcome),
         };
-        out.line(format!(
+        out.add_line(format!(
             "  {determinate} with {condition} before the other conditions"
         ));
     }
@@ -144,8 +148,8 @@ fn in_the_pose(outcome: &Outcome) -> Option<String> {
         Ok(lasting) => {
             let lost = here - &lasting.total;
             let lose = if lost.is_one() { "loses" } else { "lose" };
-            let (here, lost) = (grouped(here), grouped(lost));
-            let all = flag("pose-only", "");
+            let (here, lost) = (group_thousands(here), group_thousands(lost));
+            let all = typed_option("pose-only", "");
             Some(format!(
                 "{here} in the drawn pose; {lost} of these {lose} the motion in other poses ({all} lists them too)"
             ))
@@ -163,11 +167,11 @@ fn in_the_pose(outcome: &Outcome) -> Option<String> {
 }
 
 /// How many variants are determinate.
-fn determinate(outcome: &Outcome) -> String {
+fn determinate_count(outcome: &Outcome) -> String {
     let [estimate, _] = outcome.estimates();
     let estimate = estimate.filter(|_| outcome.is_confirmed());
     let exact = outcome.is_determinate_counted();
-    stopped_early::number(&outcome.determinate.total, exact, estimate)
+    stopped_early::format_count(&outcome.determinate.total, exact, estimate)
 }
 
 /// Returns the counts by mobility. Empty if there are none.
@@ -175,7 +179,7 @@ fn by_mobility(outcome: &Outcome, width: Option<u16>) -> String {
     let exact = outcome.determinate.by_mobility.keys();
     let exact = exact.chain(outcome.admissible.by_mobility.keys()).copied();
     let mobilities: BTreeSet<i64> = match &outcome.numeric {
-        Some(found) => numeric::mobilities(found),
+        Some(found) => numeric::all_mobilities(found),
         None => exact.collect(),
     };
     if mobilities.is_empty() {
@@ -196,7 +200,7 @@ fn by_mobility(outcome: &Outcome, width: Option<u16>) -> String {
     let lasting = lasting.filter(|l| l.total != outcome.admissible.total);
     let row = |name: String, of: &[i64]| {
         let sum = |m: &BTreeMap<i64, BigUint>| {
-            grouped(of.iter().filter_map(|w| m.get(w)).sum::<BigUint>())
+            group_thousands(of.iter().filter_map(|w| m.get(w)).sum::<BigUint>())
         };
         let (determinate, admissible) = (&outcome.determinate, &outcome.admissible);
         if let Some(lasting) = lasting {
@@ -236,18 +240,18 @@ fn by_mobility(outcome: &Outcome, width: Option<u16>) -> String {
         Some(_) => "in the drawn pose | throughout",
         None => "admissible",
     };
-    let heads = format!("W | {} | {admissible}", condition(outcome));
-    format!("\n{}\n", table(&heads, rows, width))
+    let heads = format!("W | {} | {admissible}", redundancy_condition(outcome));
+    format!("\n{}\n", text_table(&heads, rows, width))
 }
 
 /// How many of the variants that are listed are minimal, and what the others are, said once; `None` where that was not counted.
-fn minimal(outcome: &Outcome) -> Option<String> {
-    let minimal = outcome.minimal()?;
+fn minimal_line(outcome: &Outcome) -> Option<String> {
+    let minimal = outcome.count_minimal()?;
     let rest = &outcome.listed_counts().total - &minimal;
     if outcome.listed_counts().total.is_zero() {
         return None;
     }
-    let all = grouped(&minimal);
+    let all = group_thousands(&minimal);
     if rest.is_zero() {
         return Some("all are minimal: none has all the freedoms of another".to_owned());
     }
@@ -255,7 +259,7 @@ fn minimal(outcome: &Outcome) -> Option<String> {
         0 => "idle motion",
         _ => "freedoms",
     };
-    let rest = grouped(&rest);
+    let rest = group_thousands(&rest);
     Some(format!(
         "{all} minimal; the other {rest} only add {idle} to one of these"
     ))
@@ -273,7 +277,10 @@ pub(crate) fn in_state(search: &Search, one: bool) -> Vec<String> {
         ("hold", "have")
     };
     let state = format!("in state {}", m.states[s.state]);
-    let held = search.held().map(|l| m.links[l].id.as_str()).join(", ");
+    let held = search
+        .held_bodies()
+        .map(|l| m.links[l].id.as_str())
+        .join(", ");
     let limits = [
         s.max_external.map(|n| format!("external σ ≤ {n}")),
         s.max_harmful.map(|n| format!("harmful ≤ {n}")),

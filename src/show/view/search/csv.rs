@@ -1,6 +1,6 @@
 //! The variants of a search as CSV, one a line, a column for each joint that has a choice.
 
-use crate::format::csv::encoded;
+use crate::format::csv::encode_cell;
 use crate::model::ranking::Term;
 use crate::score::outcome::listing::Variants;
 use crate::score::outcome::variant::Variant;
@@ -20,7 +20,7 @@ const OPINIONS: [&str; 3] = ["conditioning", "agree", "lucky"];
 /// Columns at the end.
 const MORE: [&str; 2] = ["external_harmful", "redundant_by_contour"];
 /// Columns of a ranking.
-fn scores() -> Vec<String> {
+fn score_heads() -> Vec<String> {
     let terms = Term::ALL.map(Term::about).into_iter().filter(|a| a.csv);
     let terms = terms.map(|a| a.key.replace('-', "_"));
     let first = iter::once("by_cost".to_owned());
@@ -32,19 +32,19 @@ fn scores() -> Vec<String> {
 ///
 /// # Errors
 /// Those of the writer.
-pub fn write(
+pub fn write_csv(
     out: &mut dyn Write,
     outcome: &Outcome,
     mut variants: Variants<'_>,
 ) -> io::Result<Option<String>> {
-    rows(out, outcome, &mut variants)?;
+    write_rows(out, outcome, &mut variants)?;
     if let Some(found) = &outcome.numeric {
         let all = numeric::from_to(&found.admissible);
-        let lines = numeric::lines(outcome).join("; ");
+        let lines = numeric::numeric_lines(outcome).join("; ");
         return Ok(Some(format!("numeric: {all} admissible variants. {lines}")));
     }
     if !outcome.is_confirmed() {
-        let lines = second_opinion::lines(outcome).join("; ");
+        let lines = second_opinion::opinion_lines(outcome).join("; ");
         return Ok(Some(format!(
             "not exact: {} admissible variants. {lines}",
             outcome.listed_counts()
@@ -69,9 +69,13 @@ pub fn write(
     )))
 }
 
-fn rows(out: &mut dyn Write, outcome: &Outcome, variants: &mut Variants<'_>) -> io::Result<()> {
+fn write_rows(
+    out: &mut dyn Write,
+    outcome: &Outcome,
+    variants: &mut Variants<'_>,
+) -> io::Result<()> {
     let search = &outcome.search;
-    let joints = columns(search);
+    let joints = joint_columns(search);
     let mut heads: Vec<&str> = FIGURES.split(',').collect();
     let names = joints
         .iter()
@@ -79,21 +83,21 @@ fn rows(out: &mut dyn Write, outcome: &Outcome, variants: &mut Variants<'_>) -> 
     heads.extend(names);
     heads.extend(OPINIONS);
     let scores = if outcome.ranking.is_some() {
-        scores()
+        score_heads()
     } else {
         Vec::new()
     };
     heads.extend(scores.iter().map(String::as_str));
     heads.extend(MORE);
-    writeln!(out, "{}", heads.into_iter().map(encoded).join(","))?;
+    writeln!(out, "{}", heads.into_iter().map(encode_cell).join(","))?;
     let mut lines = Lines {
         text: String::new(),
         chosen: cells_of(search, &joints),
-        cost: (0, cost(0)),
+        cost: (0, format_cost(0)),
         digits: itoa::Buffer::new(),
     };
     for v in variants {
-        lines.write(outcome, &v);
+        lines.write_variant(outcome, &v);
         if lines.text.len() >= ROOM {
             out.write_all(lines.text.as_bytes())?;
             lines.text.clear();
@@ -109,7 +113,7 @@ const ROOM: usize = 1 << 16;
 fn cells_of(search: &Search, joints: &[(usize, JointId)]) -> Vec<(usize, Vec<String>)> {
     let of = |&(variable, j): &(usize, JointId)| {
         let choices = search.space.variables[variable].choices.iter();
-        let name = |c| encoded(&choice_name(&search.mechanism, j, c));
+        let name = |c| encode_cell(&choice_name(&search.mechanism, j, c));
         (variable, choices.map(|c| format!(",{}", name(c))).collect())
     };
     joints.iter().map(of).collect()
@@ -126,50 +130,50 @@ struct Lines {
 }
 
 impl Lines {
-    fn write(&mut self, outcome: &Outcome, v: &Variant<'_>) {
+    fn write_variant(&mut self, outcome: &Outcome, v: &Variant<'_>) {
         self.text.push_str(self.digits.format(v.position()));
         if self.cost.0 != v.cost_milli() {
-            self.cost = (v.cost_milli(), cost(v.cost_milli()));
+            self.cost = (v.cost_milli(), format_cost(v.cost_milli()));
         }
         self.text.push(',');
         self.text.push_str(&self.cost.1);
-        self.number(v.mobility());
-        self.number(v.redundant());
-        self.some(v.external_redundant());
-        self.number(v.change_count());
+        self.push_number(v.mobility());
+        self.push_number(v.redundant());
+        self.push_some(v.external_redundant());
+        self.push_number(v.change_count());
         let choices = &v.assignment().choices;
         for (variable, cells) in &self.chosen {
             self.text.push_str(&cells[choices[*variable]]);
         }
         let opinion = v.second().opinion();
-        self.some(opinion.map(|o| format!("{:e}", o.conditioning)));
-        self.some(opinion.map(|o| o.agree));
-        self.some(v.over_stroke().and_then(OverStroke::lucky));
+        self.push_some(opinion.map(|o| format!("{:e}", o.conditioning)));
+        self.push_some(opinion.map(|o| o.agree));
+        self.push_some(v.over_stroke().and_then(OverStroke::is_lucky));
         if outcome.ranking.is_some() {
             match v.ranked() {
                 Some(r) => {
-                    self.number(r.by_cost);
+                    self.push_number(r.by_cost);
                     for term in Term::ALL.into_iter().filter(|t| t.about().csv) {
-                        self.some(Some(r.scores.value(term)));
+                        self.push_some(Some(r.scores.term_value(term)));
                     }
-                    self.some(r.total);
-                    self.some(r.front);
+                    self.push_some(r.total);
+                    self.push_some(r.front);
                 }
-                None => self.text.extend(scores().iter().map(|_| ',')),
+                None => self.text.extend(score_heads().iter().map(|_| ',')),
             }
         }
-        self.some(v.external_harmful());
+        self.push_some(v.external_harmful());
         self.text.push(',');
-        self.text.push_str(&encoded(&contours(v)));
+        self.text.push_str(&encode_cell(&contours_cell(v)));
         self.text.push('\n');
     }
 
-    fn number(&mut self, n: impl itoa::Integer) {
+    fn push_number(&mut self, n: impl itoa::Integer) {
         self.text.push(',');
         self.text.push_str(self.digits.format(n));
     }
 
-    fn some(&mut self, value: Option<impl ToString>) {
+    fn push_some(&mut self, value: Option<impl ToString>) {
         self.text.push(',');
         if let Some(x) = value {
             self.text.push_str(&x.to_string());
@@ -178,7 +182,7 @@ impl Lines {
 }
 
 /// "0-1-2-3: 1 (0 to 1); 0-1-6-7: 0 (0 to 1)": σ of the contours that may have any, in the order they are added in.
-fn contours(v: &Variant<'_>) -> String {
+fn contours_cell(v: &Variant<'_>) -> String {
     let shares = v.redundant_by_contour().into_iter().flatten();
     let some = shares.filter(|(_, s)| s.range.1 > 0);
     some.map(|(name, s)| format!("{name}: {} ({} to {})", s.redundant, s.range.0, s.range.1))
@@ -186,7 +190,7 @@ fn contours(v: &Variant<'_>) -> String {
 }
 
 /// The joints that have a choice, in file order: (variable, joint).
-fn columns(search: &Search) -> Vec<(usize, JointId)> {
+fn joint_columns(search: &Search) -> Vec<(usize, JointId)> {
     let variables = search.space.variables.iter().enumerate();
     let choosing = variables.filter(|(_, v)| v.choices.len() > 1);
     let mut out: Vec<_> = choosing

@@ -11,9 +11,9 @@ use crate::score::request::prepare::LooksRounded;
 use crate::search::answer::why_none::Relaxation;
 use crate::search::diagram::{Diagram, Stop};
 use crate::view::prelude::*;
-use crate::view::pretty;
-use crate::view::search::second_opinion::certainty;
-use crate::view::search::stopped_early::estimate;
+use crate::view::pretty_json;
+use crate::view::search::second_opinion::certainty_word;
+use crate::view::search::stopped_early::estimate_json;
 use crate::view::search::variant::VariantData;
 use crate::view::search::why::Teller;
 use crate::view::search::{numeric, ranking, second_opinion, variant};
@@ -26,16 +26,18 @@ use std::io::{self, Write};
 ///
 /// # Errors
 /// Returns an error if `tell` does.
-pub fn each<'a, E>(
+pub fn for_each_variant<'a, E>(
     outcome: &Outcome,
     mut variants: impl Iterator<Item = Variant<'a>>,
     mut tell: impl FnMut(&Variant<'a>, &VariantData<'_, 'a>) -> Result<(), E>,
 ) -> Result<(), E> {
     let whys = outcome.request.distinct.then(|| Whys::new(outcome));
-    let mut teller = whys.as_ref().map(|w| (Teller::new(outcome, w), w.teller()));
+    let mut teller = whys
+        .as_ref()
+        .map(|w| (Teller::new(outcome, w), w.explain_each()));
     variants.try_for_each(|v| {
         let why = teller.as_mut();
-        let why = why.map(|(teller, why)| teller.data(&why(v.assignment())));
+        let why = why.map(|(teller, why)| teller.why_json(&why(v.assignment())));
         tell(
             &v,
             &VariantData {
@@ -52,7 +54,7 @@ pub fn each<'a, E>(
 ///
 /// # Errors
 /// Those of the writer.
-pub fn write(
+pub fn write_json(
     out: &mut dyn Write,
     outcome: &Outcome,
     mut variants: Variants<'_>,
@@ -60,16 +62,16 @@ pub fn write(
     seconds: Option<&dyn Fn() -> f64>,
 ) -> io::Result<()> {
     // Variants stream: the closing brace of the header waits for them.
-    let text = pretty(&search(outcome))?;
+    let text = pretty_json(&search_json(outcome))?;
     let open = text.strip_suffix("\n}").unwrap_or(&text);
     write!(out, "{open},\n  \"variants\": [")?;
-    each(outcome, variants.by_ref(), |v, data| -> io::Result<()> {
+    for_each_variant(outcome, variants.by_ref(), |v, data| -> io::Result<()> {
         let comma = if v.position() == 1 { "" } else { "," };
         write!(out, "{comma}\n    ")?;
         Ok(serde_json::to_writer(&mut *out, data)?)
     })?;
     let seconds = seconds.map(|s| s());
-    let tail = tail(outcome, &variants, remarks, seconds);
+    let tail = tail_json(outcome, &variants, remarks, seconds);
     let text = serde_json::to_string_pretty(&tail)?;
     let rest = text.strip_prefix("{\n").unwrap_or(&text);
     writeln!(out, "\n  ],\n{rest}")
@@ -95,14 +97,14 @@ pub fn write_lines(
         writeln!(out)?;
     }
     if variants.stop() != Stop::Exhausted || outcome.numeric.is_some() || !outcome.is_confirmed() {
-        serde_json::to_writer(&mut *out, &end(outcome, &variants))?;
+        serde_json::to_writer(&mut *out, &last_line(outcome, &variants))?;
         writeln!(out)?;
     }
     Ok(())
 }
 
 /// Returns counts by a property.
-fn by<K: ToString>(counts: &BTreeMap<K, BigUint>) -> Value {
+fn counts_json<K: ToString>(counts: &BTreeMap<K, BigUint>) -> Value {
     let text = |(k, n): (&K, &BigUint)| (k.to_string(), n.to_string());
     counts.iter().map(text).collect()
 }
@@ -118,12 +120,12 @@ fn by_both(counts: &BTreeMap<(i64, u32), BigUint>) -> Value {
 
 /// Returns counts by cost, the cheapest first.
 fn by_cost(counts: &BTreeMap<i64, BigUint>) -> Value {
-    let text = |(c, n): (&i64, &BigUint)| (cost(*c), n.to_string());
+    let text = |(c, n): (&i64, &BigUint)| (format_cost(*c), n.to_string());
     counts.iter().map(text).collect()
 }
 
 /// Returns the size of a diagram.
-fn size(diagram: Option<&Diagram>) -> Value {
+fn diagram_size(diagram: Option<&Diagram>) -> Value {
     json!({
         "largest_layer": diagram.map(|d| d.largest_layer),
         "nodes": diagram.map(|d| d.nodes),
@@ -131,7 +133,7 @@ fn size(diagram: Option<&Diagram>) -> Value {
 }
 
 /// Returns everything but the variants.
-pub fn search(outcome: &Outcome) -> Value {
+pub fn search_json(outcome: &Outcome) -> Value {
     let (determinate, admissible) = (&outcome.determinate, &outcome.admissible);
     let diagrams = outcome.diagrams.as_ref();
     let [first, second] = [
@@ -139,7 +141,7 @@ pub fn search(outcome: &Outcome) -> Value {
         diagrams.map(|d| &d.admissible),
     ];
     let layer = |d: Option<&Diagram>| d.map(|d| d.largest_layer);
-    let estimates = outcome.estimates().map(|e| e.map(estimate));
+    let estimates = outcome.estimates().map(|e| e.map(estimate_json));
     let costs = outcome.admissible_by_cost();
     let left_out = [
         (determinate.only_total || admissible.only_total).then_some("counts by kind"),
@@ -153,46 +155,46 @@ pub fn search(outcome: &Outcome) -> Value {
         "determinate": determinate.to_string(),
         "determinate_exact": outcome.is_determinate_exact(),
         "determinate_estimate": estimates[0],
-        "by_mobility": by(&determinate.by_mobility),
+        "by_mobility": counts_json(&determinate.by_mobility),
         "by_mobility_and_changes": by_both(&determinate.by_mobility_and_changes),
-        "by_redundant": by(&determinate.by_redundant),
-        "by_changes": by(&determinate.by_changes),
-        "by_freedoms": by(&determinate.by_freedoms),
+        "by_redundant": counts_json(&determinate.by_redundant),
+        "by_changes": counts_json(&determinate.by_changes),
+        "by_freedoms": counts_json(&determinate.by_freedoms),
         "admissible": admissible.to_string(),
         "admissible_estimate": estimates[1],
-        "admissible_by_mobility": by(&admissible.by_mobility),
+        "admissible_by_mobility": counts_json(&admissible.by_mobility),
         "admissible_by_mobility_and_changes": by_both(&admissible.by_mobility_and_changes),
-        "admissible_by_redundant": by(&admissible.by_redundant),
-        "admissible_by_changes": by(&admissible.by_changes),
-        "admissible_by_freedoms": by(&admissible.by_freedoms),
+        "admissible_by_redundant": counts_json(&admissible.by_redundant),
+        "admissible_by_changes": counts_json(&admissible.by_changes),
+        "admissible_by_freedoms": counts_json(&admissible.by_freedoms),
         "admissible_by_cost": by_cost(&costs.unwrap_or_default()),
         // Those that keep the motion throughout the motion of the mechanism as built are the ones listed.
         "lasting": lasting.map(ToString::to_string),
-        "lasting_by_mobility": lasting.map(|l| by(&l.by_mobility)),
+        "lasting_by_mobility": lasting.map(|l| counts_json(&l.by_mobility)),
         "lasting_by_cost": outcome.lasting_by_cost().as_ref().map(by_cost),
         "pose_only": outcome.lasting.as_ref().err().map(ToString::to_string),
-        "minimal": outcome.minimal().map(|n| n.to_string()),
+        "minimal": outcome.count_minimal().map(|n| n.to_string()),
         "largest_layer": layer(first).max(layer(second)),
         "nodes": first.zip(second).map(|(a, b)| a.nodes + b.nodes),
         // A list of one number.
         "rows_per_contour": diagrams.map(|d| [d.rows_per_contour]),
-        "determinate_diagram": size(first),
-        "admissible_diagram": size(second),
+        "determinate_diagram": diagram_size(first),
+        "admissible_diagram": diagram_size(second),
         "stop": outcome.stop.word(),
         "check": outcome.check.map(|c| json!({
             "primes": c.primes.map(|p| p.to_string()),
             // Two primes that agree on rounded digits prove nothing.
             "agree": c.agree().filter(|_| outcome.is_confirmed()),
         })),
-        "measured": outcome.measured.as_ref().map(measured),
-        "poses": outcome.stroke.as_ref().map(|s| json!({ "asked": s.asked, "reached": s.reached() })),
-        "ranking": outcome.ranking.as_ref().map(|p| ranking::data(mechanism, p)),
+        "measured": outcome.measured.as_ref().map(measured_json),
+        "poses": outcome.stroke.as_ref().map(|s| json!({ "asked": s.asked, "reached": s.count_reached() })),
+        "ranking": outcome.ranking.as_ref().map(|p| ranking::ranking_json(mechanism, p)),
         "exact": outcome.is_exact() && mechanism.assumed.is_empty(),
         "assumptions": mechanism.assumed,
         // How sure counts are that are not exact, and not cut short.
-        "certainty": certainty(outcome),
-        "numeric": outcome.numeric.as_ref().map(numeric::data),
-        "second_opinion": second_opinion::data(outcome),
+        "certainty": certainty_word(outcome),
+        "numeric": outcome.numeric.as_ref().map(numeric::numeric_json),
+        "second_opinion": second_opinion::opinion_json(outcome),
         // Counts that would take more than the memory allowed.
         "left_out": left_out.into_iter().flatten().collect::<Vec<_>>(),
     })
@@ -200,30 +202,30 @@ pub fn search(outcome: &Outcome) -> Value {
 
 /// Returns the ranks by singular values of coordinates that look rounded; `meant` is the mechanism searched: "as written", "snapped", "near",
 /// "undecided".
-fn measured((why, verdicts): &LooksRounded) -> Value {
+fn measured_json((why, verdicts): &LooksRounded) -> Value {
     let figures = |(mobility, redundant): (usize, usize)| json!({ "mobility": mobility, "redundant": redundant });
     let state = |v: &RankVerdict| {
         json!({
             "state": v.state,
-            "exact": figures(v.figures(v.as_written)),
-            "svd": figures(v.figures(v.at_least())),
+            "exact": figures(v.figures_at(v.as_written)),
+            "svd": figures(v.figures_at(v.at_least())),
             "smallest_kept": v.numeric.unwrap_or_default().kept,
             "largest_dropped": v.numeric.unwrap_or_default().dropped,
-            "meant": v.word(),
+            "meant": v.as_word(),
         })
     };
     json!({
         "coordinates": why.coordinates,
         "example": { "place": why.place, "value": why.value },
         "tolerance": verdicts.iter().fold(0.0, |a: f64, v| a.max(v.tolerance)),
-        "agree": verdicts.iter().all(RankVerdict::agrees),
+        "agree": verdicts.iter().all(RankVerdict::agrees_as_written),
         "states": verdicts.iter().map(state).collect::<Vec<_>>(),
     })
 }
 
 /// Returns the data after the variants; `seconds` is the time of the whole run. Without any variant it has the numbers for eased
 /// conditions, and the reasons why there is none.
-pub(crate) fn tail(
+pub(crate) fn tail_json(
     outcome: &Outcome,
     variants: &Variants<'_>,
     remarks: &Remarks,
@@ -250,12 +252,12 @@ pub(crate) fn tail(
             ids.collect()
         };
         let eased = |(how, n): &(Relaxation, BigUint)| {
-            let (condition, to) = condition(*how);
+            let (condition, to) = condition_key(*how);
             let to = to.map_or(json!(true), Value::from);
             json!({ "condition": condition, "to": to, "admissible": n.to_string() })
         };
         out["relaxations"] = remarks.eased.iter().map(eased).collect();
-        let offers = remarks.offers(&outcome.request).iter();
+        let offers = remarks.offered_options(&outcome.request).iter();
         out["offers"] = offers
             .map(|o| json!({ "joint": o.joint, "options": o.names }))
             .collect();
@@ -271,20 +273,20 @@ pub(crate) fn tail(
 }
 
 /// Returns the last of some JSON lines, where the variants are not all that was asked for.
-pub(crate) fn end(outcome: &Outcome, variants: &Variants<'_>) -> Value {
+pub(crate) fn last_line(outcome: &Outcome, variants: &Variants<'_>) -> Value {
     json!({
         "stop": variants.stop().word(),
         "given": variants.summary().given,
         "proven": variants.summary().proven.unwrap_or(0),
         "admissible": outcome.admissible.to_string(),
         "admissible_exact": outcome.is_exact() && outcome.search.mechanism.assumed.is_empty(),
-        "certainty": certainty(outcome),
-        "numeric": outcome.numeric.as_ref().map(numeric::data),
+        "certainty": certainty_word(outcome),
+        "numeric": outcome.numeric.as_ref().map(numeric::numeric_json),
     })
 }
 
 /// Returns the name of a condition that was eased, and the number it is eased to.
-fn condition(how: Relaxation) -> (&'static str, Option<i64>) {
+fn condition_key(how: Relaxation) -> (&'static str, Option<i64>) {
     match how {
         Relaxation::Redundant(n) => ("max-redundant", Some(i64::from(n))),
         Relaxation::External(n) => ("max-external", Some(i64::from(n))),

@@ -1,16 +1,16 @@
 //! If nothing is found: the reasons in words, and the requests that find something.
 
-use crate::score::outcome::remarks::{Remarks, eased};
+use crate::score::outcome::remarks::{Remarks, ease_request};
 use crate::score::request::Request;
 use crate::search::answer::why_none::{Hopeless, Relaxation};
 use crate::view::prelude::*;
-use crate::view::terminal::next_commands::{NextCommand, flags};
+use crate::view::terminal::next_commands::{NextCommand, request_flags};
 
 /// Returns why no variant can be found, a sentence for each reason; empty if some may be.
-pub fn hopeless(m: &Mechanism, why: &Hopeless) -> Vec<String> {
+pub fn hopeless_reasons(m: &Mechanism, why: &Hopeless) -> Vec<String> {
     let named = |joints: &[JointId]| {
         let ids = joints.iter().map(|&j| m.joints[j].id.as_str());
-        list(&ids.collect_vec())
+        join_and(&ids.collect_vec())
     };
     let mut out = Vec::new();
     if let Some(least) = why.least_redundant {
@@ -42,9 +42,9 @@ pub fn hopeless(m: &Mechanism, why: &Hopeless) -> Vec<String> {
 }
 
 /// Returns the requests that find something if one found nothing, each with its result in words.
-pub fn wider(outcome: &Outcome, remarks: &Remarks) -> Vec<(Request, String)> {
+pub fn wider_requests(outcome: &Outcome, remarks: &Remarks) -> Vec<(Request, String)> {
     let gives = |how, n: &_| {
-        let n = plural_of(&grouped(n), "variant");
+        let n = plural_of(&group_thousands(n), "variant");
         match how {
             Relaxation::OutputChange => format!("{n}, whose outputs move in other ways than now"),
             Relaxation::FreeDrives => format!("{n}, in which a drive no longer holds"),
@@ -56,7 +56,7 @@ pub fn wider(outcome: &Outcome, remarks: &Remarks) -> Vec<(Request, String)> {
         }
     };
     let steps = remarks.eased.iter();
-    let steps = steps.map(|(how, n)| (eased(&outcome.request, *how), gives(*how, n)));
+    let steps = steps.map(|(how, n)| (ease_request(&outcome.request, *how), gives(*how, n)));
     let offered = remarks.offered.iter().map(|wider| {
         let gives = "Offer more options: with these joint types there are variants, and with others there may be";
         (wider.clone(), gives.to_owned())
@@ -79,9 +79,11 @@ pub fn wider_commands(
     file: &str,
 ) -> Vec<NextCommand> {
     let m = &outcome.search.mechanism;
-    let steps = wider(outcome, remarks)
+    let steps = wider_requests(outcome, remarks)
         .into_iter()
-        .map(|(request, gives)| NextCommand::new(command, file, &flags(m, &request), &gives));
+        .map(|(request, gives)| {
+            NextCommand::new(command, file, &request_flags(m, &request), &gives)
+        });
     let in_pose = remarks
         .eased
         .iter()
@@ -90,8 +92,8 @@ pub fn wider_commands(
         command: "Offer more options under [search], or at the joints".to_owned(),
         gives: format!(
             "the search chooses from those in the file, and from joint types named in {} and {}",
-            flag("options", ""),
-            flag("allow", "")
+            typed_option("options", ""),
+            typed_option("allow", "")
         ),
     });
     steps.chain(hint).collect()

@@ -11,16 +11,20 @@ use std::collections::BTreeSet;
 pub(crate) fn from_to(bracket: &Bracket) -> String {
     let from = &bracket.sure.total;
     if bracket.is_narrow() {
-        return grouped(from);
+        return group_thousands(from);
     }
-    format!("{} to {}", grouped(from), grouped(&bracket.most))
+    format!(
+        "{} to {}",
+        group_thousands(from),
+        group_thousands(&bracket.most)
+    )
 }
 
 /// How many admissible variants there are: "12", or "12 to 15".
-pub(crate) fn admissible(outcome: &Outcome) -> String {
+pub(crate) fn admissible_range(outcome: &Outcome) -> String {
     match &outcome.numeric {
         Some(found) => from_to(&found.admissible),
-        None => grouped(&outcome.admissible.total),
+        None => group_thousands(&outcome.admissible.total),
     }
 }
 
@@ -28,23 +32,23 @@ pub(crate) fn admissible(outcome: &Outcome) -> String {
 pub(crate) fn by_mobility(bracket: &Bracket, of: &[i64]) -> String {
     let sum = |c: &Counts| -> BigUint { of.iter().filter_map(|w| c.by_mobility.get(w)).sum() };
     let (sure, doubtful) = (sum(&bracket.sure), sum(&bracket.doubtful));
-    span(grouped(&sure), grouped(&sure + doubtful))
+    format_span(group_thousands(&sure), group_thousands(&sure + doubtful))
 }
 
 /// The mobilities that some variant has or may have.
-pub(crate) fn mobilities(found: &AtTolerance) -> BTreeSet<i64> {
+pub(crate) fn all_mobilities(found: &AtTolerance) -> BTreeSet<i64> {
     let brackets = [&found.determinate, &found.admissible];
     let counts = brackets.into_iter().flat_map(|b| [&b.sure, &b.doubtful]);
     counts.flat_map(|c| c.by_mobility.keys().copied()).collect()
 }
 
 /// Returns the remarks on a search by singular values, a sentence a line. Empty for an exact one.
-pub(crate) fn lines(outcome: &Outcome) -> Vec<String> {
+pub(crate) fn numeric_lines(outcome: &Outcome) -> Vec<String> {
     let Some(found) = &outcome.numeric else {
         return Vec::new();
     };
     let tolerance = found.digits.tolerance;
-    let looked = grouped(found.looked);
+    let looked = group_thousands(found.looked);
     let mut out = vec![format!(
         "Numeric, not exact: ranks by singular values at tolerance {tolerance:.0e}, {looked} variants examined"
     )];
@@ -55,17 +59,17 @@ pub(crate) fn lines(outcome: &Outcome) -> Vec<String> {
     if !doubtful.is_zero() {
         out.push(format!(
             "Doubtful: the digits do not decide {} of them; these are counted in the upper figures and not listed",
-            grouped(doubtful)
+            group_thousands(doubtful)
         ));
     }
     if let Some(s) = &found.sampled {
-        out.extend(sampled(s, outcome));
+        out.extend(sampled_lines(s, outcome));
     }
     out
 }
 
 #[allow(clippy::cast_precision_loss, reason = "an estimate")]
-fn sampled(s: &Sampled, outcome: &Outcome) -> Vec<String> {
+fn sampled_lines(s: &Sampled, outcome: &Outcome) -> Vec<String> {
     let size: f64 = outcome
         .search
         .size()
@@ -82,16 +86,16 @@ fn sampled(s: &Sampled, outcome: &Outcome) -> Vec<String> {
     };
     let mut out = vec![format!(
         "Estimated from {} variants drawn at random ({}), with 95 % confidence: {}, {}",
-        grouped(s.drawn),
-        flag("seed", s.seed),
+        group_thousands(s.drawn),
+        typed_option("seed", s.seed),
         said(s.admissible, "admissible"),
         said(s.determinate, "determinate")
     )];
-    let in_order = grouped(s.in_order);
+    let in_order = group_thousands(s.in_order);
     out.push(match s.all_below {
         Some(milli) => format!(
             "The list is of the {in_order} cheapest variants, which are all of a cost below {}",
-            crate::format::cost(milli)
+            crate::format::format_cost(milli)
         ),
         None => {
             "Costs differ too finely to examine variants in their order: none is listed".to_owned()
@@ -101,7 +105,7 @@ fn sampled(s: &Sampled, outcome: &Outcome) -> Vec<String> {
 }
 
 /// Returns a search by singular values as data.
-pub(crate) fn data(found: &AtTolerance) -> Value {
+pub(crate) fn numeric_json(found: &AtTolerance) -> Value {
     let bracket = |from: &BigUint, to: &BigUint, doubtful: &BigUint| json!({ "from": from.to_string(), "to": to.to_string(), "doubtful": doubtful.to_string() });
     let whole = |b: &Bracket| bracket(&b.sure.total, &b.most, &b.doubtful.total);
     let of = &found.admissible;

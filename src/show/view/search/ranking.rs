@@ -9,7 +9,7 @@ use crate::view::prelude::*;
 const REASONS: usize = 10;
 
 /// Returns the terms of a ranking, for the head of a list.
-pub(crate) fn head(p: &RankedPool) -> String {
+pub(crate) fn ranking_head(p: &RankedPool) -> String {
     let terms = match p.ranking.order {
         Order::Weighted => p
             .ranking
@@ -32,9 +32,9 @@ pub(crate) fn head(p: &RankedPool) -> String {
 }
 
 /// What loads came from the grip.
-fn gripped(m: &Mechanism, g: &Gripped) -> String {
+fn describe_grip(m: &Mechanism, g: &Gripped) -> String {
     let unit = m.length_unit;
-    let told = |d: &f64| significant(d / unit.metres);
+    let told = |d: &f64| four_digits(d / unit.metres);
     let some = |list: &[f64]| match list {
         [] => String::new(),
         [one] => told(one),
@@ -52,15 +52,15 @@ fn gripped(m: &Mechanism, g: &Gripped) -> String {
     format!(
         "Loads of state {} from the grip: contact forces of the worst case of {}, D = {} {}{lost}",
         m.states[g.state],
-        plural(g.held.len(), "part"),
+        count_noun(g.held.len(), "part"),
         some(&g.held),
         unit.symbol
     )
 }
 
 /// Returns the remarks on a list of ranked variants, a line each.
-pub(crate) fn notes(m: &Mechanism, p: &RankedPool) -> Vec<String> {
-    let n = |x: usize| grouped(x);
+pub(crate) fn ranking_notes(m: &Mechanism, p: &RankedPool) -> Vec<String> {
+    let n = |x: usize| group_thousands(x);
     let poses = match p.poses {
         0 | 1 => String::new(),
         many => format!(", each in {many} poses"),
@@ -75,20 +75,19 @@ pub(crate) fn notes(m: &Mechanism, p: &RankedPool) -> Vec<String> {
         p.proof
     )];
     if let Some(missing) = &p.missing {
-        let cheaper = missing
-            .cheaper
-            .as_ref()
-            .map_or(String::new(), |n| format!(", as {} are", grouped(n)));
+        let cheaper = missing.cheaper.as_ref().map_or(String::new(), |n| {
+            format!(", as {} are", group_thousands(n))
+        });
         out.push(format!(
             "How far from proven: a variant not scored has a sum of at least {}, the last here {}; one that could still \
              come before it costs less than {}{cheaper}",
-            significant(missing.least),
-            significant(missing.last),
-            cost(missing.settled_at)
+            four_digits(missing.least),
+            four_digits(missing.last),
+            format_cost(missing.settled_at)
         ));
     }
     if !p.proven {
-        let pool = flag("pool", "");
+        let pool = typed_option("pool", "");
         out.push(format!("{pool} widens the view (now {})", n(p.pool)));
     }
     if p.ranking
@@ -111,23 +110,23 @@ pub(crate) fn notes(m: &Mechanism, p: &RankedPool) -> Vec<String> {
     ];
     let some = left_out.iter().filter(|(count, _)| *count > 0);
     out.extend(some.map(|(count, what)| format!("{} {what}", n(*count))));
-    out.extend(p.gripped.iter().map(|g| gripped(m, g)));
+    out.extend(p.gripped.iter().map(|g| describe_grip(m, g)));
     let stopped = p.stroke_stopped;
     out.extend(stopped.map(|at| format!("The stroke could not be followed to {at}")));
     out
 }
 
 /// Why the first of a list of ranked variants are not in the order of cost, a line each.
-pub(crate) fn reasons<'a>(
+pub(crate) fn place_reasons<'a>(
     m: &'a Mechanism,
     p: &'a RankedPool,
 ) -> impl Iterator<Item = String> + 'a {
     let places = (1..=p.list.len()).take(REASONS);
-    places.filter_map(|place| p.reason(m, place))
+    places.filter_map(|place| p.place_reason(m, place))
 }
 
 /// Heads of the columns of a list.
-pub(crate) fn columns(p: &RankedPool) -> Vec<&'static str> {
+pub(crate) fn ranking_columns(p: &RankedPool) -> Vec<&'static str> {
     let terms = p.ranking.terms.iter();
     let mut out: Vec<&str> = terms.filter_map(|(t, _)| t.heading()).collect();
     match p.ranking.order {
@@ -139,11 +138,11 @@ pub(crate) fn columns(p: &RankedPool) -> Vec<&'static str> {
 }
 
 /// The cells of those columns.
-pub(crate) fn cells(p: &RankedPool, r: &Ranked) -> Vec<String> {
+pub(crate) fn ranking_cells(p: &RankedPool, r: &Ranked) -> Vec<String> {
     let terms = p.ranking.terms.iter().map(|(t, _)| *t);
     let mut out: Vec<String> = terms
         .filter(|t| t.heading().is_some())
-        .map(|t| r.scores.cell(t))
+        .map(|t| r.scores.term_cell(t))
         .collect();
     match p.ranking.order {
         Order::Weighted => out.push(r.total.map_or(String::new(), |x| format!("{x:.4}"))),
@@ -154,7 +153,7 @@ pub(crate) fn cells(p: &RankedPool, r: &Ranked) -> Vec<String> {
 }
 
 /// Returns the ranking as data. A missing proof is described by sums, a cost, and a count as text, since it may be large.
-pub(crate) fn data(m: &Mechanism, p: &RankedPool) -> Value {
+pub(crate) fn ranking_json(m: &Mechanism, p: &RankedPool) -> Value {
     let grip =
         |g: &Gripped| json!({ "state": m.states[g.state], "held": g.held, "not_held": g.lost });
     let more = json!({
@@ -175,15 +174,15 @@ pub(crate) fn data(m: &Mechanism, p: &RankedPool) -> Value {
             "cheaper": m.cheaper.as_ref().map(ToString::to_string),
         })),
     });
-    joined([json!(p.ranking), more])
+    join_objects([json!(p.ranking), more])
 }
 
 /// Returns a ranked variant's own, with the reason of its place: each term's figure (the error in m), what the most loaded joints bear
 /// (forces in N, moments in N·m), place by cost, sum, front and reason.
-pub(crate) fn scores(m: &Mechanism, r: &Ranked, reason: Option<String>) -> Value {
+pub(crate) fn scores_json(m: &Mechanism, r: &Ranked, reason: Option<String>) -> Value {
     let mut out = json!({});
     for term in Term::ALL {
-        let (key, value) = (term.about().key, r.scores.value(term));
+        let (key, value) = (term.about().key, r.scores.term_value(term));
         #[allow(clippy::cast_possible_truncation, reason = "a count")]
         let value = if term.about().is_count {
             json!(value as i64)
@@ -191,7 +190,7 @@ pub(crate) fn scores(m: &Mechanism, r: &Ranked, reason: Option<String>) -> Value
             json!(value)
         };
         out[key] = value;
-        if let Some(peak) = r.scores.peak(term) {
+        if let Some(peak) = r.scores.term_peak(term) {
             let unit = match term {
                 Term::PeakForce => "newton",
                 _ => "newton-metre",
@@ -207,5 +206,5 @@ pub(crate) fn scores(m: &Mechanism, r: &Ranked, reason: Option<String>) -> Value
         "front": r.front,
         "reason": reason,
     });
-    joined([out, more])
+    join_objects([out, more])
 }

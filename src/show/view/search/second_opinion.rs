@@ -1,6 +1,6 @@
 //! What singular values of the coordinates in a file say of the counts of a search, as text and as data.
 
-use crate::score::outcome::variant::{changes, in_words};
+use crate::score::outcome::variant::{in_words, list_changes};
 use crate::search::answer::k_best::Assignment;
 use crate::search::answer::keys::Key;
 use crate::search::check::second_opinion::{Contradiction, SecondOpinion};
@@ -8,7 +8,7 @@ use crate::view::prelude::*;
 use crate::view::{AS_READ, with_assumptions};
 
 /// How sure counts are that are not exact though no budget cut them short.
-pub(crate) fn certainty(outcome: &Outcome) -> Option<&'static str> {
+pub(crate) fn certainty_word(outcome: &Outcome) -> Option<&'static str> {
     if !outcome.search.mechanism.assumed.is_empty() {
         return Some(AS_READ);
     }
@@ -21,30 +21,30 @@ pub(crate) fn certainty(outcome: &Outcome) -> Option<&'static str> {
 }
 
 /// The changes of a variant in words.
-fn words(outcome: &Outcome, choices: &[usize]) -> String {
+fn variant_words(outcome: &Outcome, choices: &[usize]) -> String {
     let search = &outcome.search;
     let variant = Assignment {
         choices: choices.to_vec(),
         key: Key::default(),
     };
-    in_words(search, &changes(search, &variant))
+    in_words(search, &list_changes(search, &variant))
 }
 
-fn contradicted(outcome: &Outcome, c: &Contradiction) -> String {
+fn describe_contradiction(outcome: &Outcome, c: &Contradiction) -> String {
     let [least, most] = c.numeric;
     let what = if c.elsewhere {
         "other motions of the kept links, or in the searched state".to_owned()
     } else {
         format!(
             "W = {}, σ = {}",
-            span(least.0, most.0),
-            span(least.1, most.1)
+            format_span(least.0, most.0),
+            format_span(least.1, most.1)
         )
     };
     format!(
         "singular values contradict at variant ({}): {what}, where W = {}, σ = {} is counted (smallest kept {:.1e}, largest \
          dropped {:.1e})",
-        words(outcome, &c.choices),
+        variant_words(outcome, &c.choices),
         c.exact.0,
         c.exact.1,
         c.gap.0,
@@ -53,7 +53,7 @@ fn contradicted(outcome: &Outcome, c: &Contradiction) -> String {
 }
 
 /// Returns the reasons why the counts of a complete search are not exact, a sentence a line. Empty if they are.
-pub(crate) fn against(outcome: &Outcome) -> Vec<String> {
+pub(crate) fn reasons_against(outcome: &Outcome) -> Vec<String> {
     let read = with_assumptions(&outcome.search.mechanism);
     let mut out: Vec<String> = read
         .map(|r| format!("Not exact: {r}"))
@@ -65,17 +65,17 @@ pub(crate) fn against(outcome: &Outcome) -> Vec<String> {
     if let Some(c) = &said.contradiction {
         let n = said.listed.contradicted + said.admissible.contradicted + said.all.contradicted;
         let of = said.listed.asked + said.admissible.asked + said.all.asked;
-        let variant = contradicted(outcome, c);
+        let variant = describe_contradiction(outcome, c);
         out.push(format!(
             "Not exact: {variant}; {} of {} asked about are contradicted",
-            grouped(n),
-            grouped(of)
+            group_thousands(n),
+            group_thousands(of)
         ));
     }
     if let Some(b) = &said.below_present {
         out.push(format!(
             "Not exact: {} variants have W below {}, which the original mechanism has, although options only add freedoms",
-            grouped(&b.variants),
+            group_thousands(&b.variants),
             b.present
         ));
     }
@@ -83,16 +83,16 @@ pub(crate) fn against(outcome: &Outcome) -> Vec<String> {
         out.push(format!(
             "Not exact: the digits allow scenes with {} determinate and {} admissible variants; give more digits, or state \
              [tolerance]",
-            span(grouped(&least.0), grouped(&most.0)),
-            span(grouped(&least.1), grouped(&most.1))
+            format_span(group_thousands(&least.0), group_thousands(&most.0)),
+            format_span(group_thousands(&least.1), group_thousands(&most.1))
         ));
     }
     if out.is_empty() && !said.confirms() {
-        out.push(match said.undecided() {
+        out.push(match said.count_undecided() {
             0 => "Not exact: it is not decided what the digits of the file mean".to_owned(),
             n => format!(
                 "Not exact: the digits of the file do not decide {} of the variants asked about",
-                grouped(n)
+                group_thousands(n)
             ),
         });
     }
@@ -100,17 +100,17 @@ pub(crate) fn against(outcome: &Outcome) -> Vec<String> {
 }
 
 /// Returns the second opinion, a sentence a line. Empty if none was needed.
-pub(crate) fn lines(outcome: &Outcome) -> Vec<String> {
-    let mut out = against(outcome);
+pub(crate) fn opinion_lines(outcome: &Outcome) -> Vec<String> {
+    let mut out = reasons_against(outcome);
     if let Some(said) = outcome.second.as_ref().filter(|s| s.agrees()) {
-        out.push(agreed(said));
+        out.push(describe_agreement(said));
     }
     out
 }
 
-fn agreed(said: &SecondOpinion) -> String {
-    let n = |n: usize| grouped(n);
-    let open = match said.undecided() {
+fn describe_agreement(said: &SecondOpinion) -> String {
+    let n = |n: usize| group_thousands(n);
+    let open = match said.count_undecided() {
         0 => String::new(),
         many => format!("; the digits do not decide {} of them", n(many)),
     };
@@ -127,12 +127,12 @@ fn agreed(said: &SecondOpinion) -> String {
 
 /// Returns the second opinion as data; `scenes` are the least and the most (determinate, admissible) of those that the digits do not
 /// rule out, where they differ.
-pub(crate) fn data(outcome: &Outcome) -> Option<Value> {
+pub(crate) fn opinion_json(outcome: &Outcome) -> Option<Value> {
     let said = outcome.second.as_ref()?;
     let contradiction = said.contradiction.as_ref().map(|c| {
         let [least, most] = c.numeric;
         json!({
-            "changes": words(outcome, &c.choices),
+            "changes": variant_words(outcome, &c.choices),
             "mobility": c.exact.0,
             "redundant": c.exact.1,
             "svd_mobility": [least.0, most.0],
@@ -143,7 +143,7 @@ pub(crate) fn data(outcome: &Outcome) -> Option<Value> {
     });
     let scenes = said.scenes.as_ref();
     Some(json!({
-        "agree": said.agrees() && said.undecided() == 0,
+        "agree": said.agrees() && said.count_undecided() == 0,
         "undecided": said.digits.undecided,
         "tolerance": said.digits.tolerance,
         "listed": said.listed,

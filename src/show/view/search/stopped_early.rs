@@ -7,10 +7,10 @@ use crate::view::prelude::*;
 use num_bigint::BigUint;
 
 /// Why a search ended early and what its counts and its list are; nothing of one that did not.
-pub(crate) fn stopped(outcome: &Outcome) -> Option<String> {
+pub(crate) fn stopped_line(outcome: &Outcome) -> Option<String> {
     let why = match outcome.stop {
         Stop::Exhausted => return None,
-        Stop::NotCounted => format!("Not counted ({})", flag("no-count", "")),
+        Stop::NotCounted => format!("Not counted ({})", typed_option("no-count", "")),
         stop => format!("Stopped early ({})", stop.word()),
     };
     // What is proven of a list is told after it.
@@ -22,29 +22,29 @@ pub(crate) fn stopped(outcome: &Outcome) -> Option<String> {
 }
 
 /// Formats a number of variants. One that is not exact is a lower bound, with an upper bound and an estimate if they are known.
-pub(crate) fn number(counted: &BigUint, exact: bool, estimate: Option<&Estimate>) -> String {
-    let own = grouped(counted);
+pub(crate) fn format_count(counted: &BigUint, exact: bool, estimate: Option<&Estimate>) -> String {
+    let own = group_thousands(counted);
     match estimate {
         _ if exact => own,
         None => format!("at least {own}"),
         Some(e) => match &e.at_most {
             None => format!("at least {own}, about {:.3e},", e.mean),
             Some(most) if most == counted => own,
-            Some(most) => format!("{own} to {}, about {:.3e},", grouped(most), e.mean),
+            Some(most) => format!("{own} to {}, about {:.3e},", group_thousands(most), e.mean),
         },
     }
 }
 
 /// How numbers of variants are known that are not counted.
-pub(crate) fn estimated(outcome: &Outcome) -> Option<String> {
+pub(crate) fn estimate_line(outcome: &Outcome) -> Option<String> {
     let [determinate, admissible] = outcome.estimates();
     let said = |e: &Estimate, what| {
         let [low, high] = e.between;
         let Drawn { of, found } = e.drawn;
         format!(
             "{low:.3e} to {high:.3e} {what} ({} of {} samples of those not ruled out)",
-            grouped(found),
-            grouped(of)
+            group_thousands(found),
+            group_thousands(of)
         )
     };
     let first = admissible.map(|e| said(e, "admissible"));
@@ -54,29 +54,29 @@ pub(crate) fn estimated(outcome: &Outcome) -> Option<String> {
     Some(format!(
         "Estimated, not counted, with 95 % confidence: {} ({})",
         parts.join(", "),
-        flag("seed", how.seed)
+        typed_option("seed", how.seed)
     ))
 }
 
 /// Returns the price of a larger budget, if one ended the search: time and memory grow in proportion to nodes.
-pub(crate) fn more(outcome: &Outcome) -> Option<String> {
+pub(crate) fn more_line(outcome: &Outcome) -> Option<String> {
     match outcome.stop {
         Stop::NodeBudget => {
-            let nodes = flag("nodes", outcome.request.nodes.saturating_mul(10));
+            let nodes = typed_option("nodes", outcome.request.nodes.saturating_mul(10));
             Some(format!(
                 "With {nodes} more is counted, in about ten times the time and memory"
             ))
         }
         Stop::Memory => Some(format!(
             "More is counted where there is more memory ({}), not with more nodes",
-            flag("memory", "")
+            typed_option("memory", "")
         )),
         Stop::Exhausted | Stop::Interrupted | Stop::NotCounted => None,
     }
 }
 
 /// How much of a list by cost is proven, though the search ended early.
-pub(crate) fn proven(summary: &Summary) -> Option<String> {
+pub(crate) fn proven_line(summary: &Summary) -> Option<String> {
     match summary.proven? {
         0 => None,
         n if n == summary.given => Some(format!("Proven the cheapest: all {n}")),
@@ -87,7 +87,7 @@ pub(crate) fn proven(summary: &Summary) -> Option<String> {
 }
 
 /// Returns an estimate as data; `between` is the interval with a confidence of 95 %.
-pub(crate) fn estimate(e: &Estimate) -> Value {
+pub(crate) fn estimate_json(e: &Estimate) -> Value {
     let Drawn { of, found } = e.drawn;
     json!({
         "mean": e.mean,

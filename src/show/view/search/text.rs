@@ -7,8 +7,8 @@ use crate::score::outcome::variant::{Variant, in_words};
 use crate::score::request::{List, Request};
 use crate::search::check::singular_values::{NEARLY_SINGULAR, Opinion, Second, Summary};
 use crate::view::prelude::*;
-use crate::view::search::counts::counts;
-use crate::view::search::nothing_found::{hopeless, wider_commands};
+use crate::view::search::counts::counts_text;
+use crate::view::search::nothing_found::{hopeless_reasons, wider_commands};
 use crate::view::search::{counts, ranking, stopped_early, variant, why};
 use crate::view::terminal::next_commands::{self, NextCommand, file_name};
 use num_traits::Zero;
@@ -22,7 +22,7 @@ const BLOCK: usize = 1000;
 ///
 /// # Errors
 /// Those of the writer.
-pub fn write(
+pub fn write_text(
     out: &mut dyn io::Write,
     outcome: &Outcome,
     mut given: Variants<'_>,
@@ -31,12 +31,12 @@ pub fn write(
     width: Option<u16>,
     verbose: bool,
 ) -> io::Result<()> {
-    write!(out, "{}", counts(outcome, width, verbose))?;
-    let why = hopeless(&outcome.search.mechanism, &remarks.hopeless).into_iter();
+    write!(out, "{}", counts_text(outcome, width, verbose))?;
+    let why = hopeless_reasons(&outcome.search.mechanism, &remarks.hopeless).into_iter();
     let why: String = why.map(|line| format!("  {line}\n")).collect();
-    write!(out, "{}", fit(&why, width))?;
+    write!(out, "{}", fit_lines(&why, width))?;
     let sample = matches!(outcome.request.list, List::Sample(_));
-    let what = order(outcome);
+    let what = list_order(outcome);
     let (mut footnotes, mut changed) = (Vec::new(), false);
     // A table is laid out as a whole, so a long list is given as several.
     loop {
@@ -44,36 +44,40 @@ pub fn write(
         let Some(first) = block.first() else { break };
         if first.position() == 1 {
             changed = first.cost_milli() > 0;
-            write!(out, "{}", fit(&format!("\n  {what}:\n"), width))?;
+            write!(out, "{}", fit_lines(&format!("\n  {what}:\n"), width))?;
         }
-        writeln!(out, "{}", variants(outcome, &block, width))?;
+        writeln!(out, "{}", variants_table(outcome, &block, width))?;
         // Shares of contours are found in exact arithmetic.
         if outcome.numeric.is_none() && (verbose || block.iter().any(is_redundant)) {
-            write!(out, "{}", contours(&block, width))?;
+            write!(out, "{}", contours_text(&block, width))?;
         }
         if outcome.request.distinct && first.position() == 1 {
             let told = if verbose { why::TOLD } else { 1 };
             let shown = block.iter().take(told).map(Variant::assignment);
             let shown = shown.collect_vec();
-            write!(out, "{}", fit(&why::text(outcome, &shown), width))?;
+            write!(out, "{}", fit_lines(&why::why_text(outcome, &shown), width))?;
         }
-        footnotes.extend(block.iter().filter_map(note));
+        footnotes.extend(block.iter().filter_map(variant_footnote));
     }
     if let Some(symmetric) = &remarks.symmetric {
-        write!(out, "{}", fit(&variant::symmetric_text(symmetric), width))?;
+        write!(
+            out,
+            "{}",
+            fit_lines(&variant::symmetric_text(symmetric), width)
+        )?;
     }
     let summary = given.summary();
     write_notes(out, &summary, footnotes, width)?;
     if let Some(p) = &outcome.ranking {
         let m = &outcome.search.mechanism;
-        let lines = ranking::notes(m, p).into_iter();
+        let lines = ranking::ranking_notes(m, p).into_iter();
         let notes = lines
-            .chain(ranking::reasons(m, p))
+            .chain(ranking::place_reasons(m, p))
             .map(|l| format!("\n  {l}"));
-        writeln!(out, "{}", fit(&notes.collect::<String>(), width))?;
+        writeln!(out, "{}", fit_lines(&notes.collect::<String>(), width))?;
     }
     if let Some(stop) = given.cut_short() {
-        let (why, given) = (stop.word(), plural(summary.given, "variant"));
+        let (why, given) = (stop.word(), count_noun(summary.given, "variant"));
         writeln!(out, "\n  stopped early ({why}) after {given}")?;
     }
     // Numbers of a sample, or of a list with some left out, mean nothing to other commands.
@@ -88,7 +92,7 @@ pub fn write(
             next_of_none(outcome, remarks, file)
         }
     };
-    write!(out, "{}", next_commands::text(&steps, width))
+    write!(out, "{}", next_commands::steps_text(&steps, width))
 }
 
 /// Returns whether a variant leaves redundant constraints.
@@ -97,9 +101,9 @@ fn is_redundant(v: &Variant<'_>) -> bool {
 }
 
 /// Returns the order of the variants in words.
-fn order(outcome: &Outcome) -> String {
+fn list_order(outcome: &Outcome) -> String {
     match &outcome.ranking {
-        Some(p) => ranking::head(p),
+        Some(p) => ranking::ranking_head(p),
         None if matches!(outcome.request.list, List::Sample(_)) => "drawn at random".to_owned(),
         None if outcome.request.distinct => counts::IDEAS.to_owned(),
         None => "cheapest first".to_owned(),
@@ -113,18 +117,20 @@ fn write_notes(
     footnotes: Vec<String>,
     width: Option<u16>,
 ) -> io::Result<()> {
-    let lines = notes(summary).into_iter();
-    let notes = lines.chain(marked(footnotes)).map(|l| format!("  {l}\n"));
+    let lines = summary_notes(summary).into_iter();
+    let notes = lines
+        .chain(limit_footnotes(footnotes))
+        .map(|l| format!("  {l}\n"));
     let gap = if summary.is_asked() || summary.proven.is_some_and(|n| n > 0) {
         "\n"
     } else {
         ""
     };
-    write!(out, "{gap}{}", fit(&notes.collect::<String>(), width))
+    write!(out, "{gap}{}", fit_lines(&notes.collect::<String>(), width))
 }
 
 /// The footnote of a marked variant.
-pub(crate) fn note(v: &Variant<'_>) -> Option<String> {
+pub(crate) fn variant_footnote(v: &Variant<'_>) -> Option<String> {
     let position = v.position();
     if let Some((f, present)) = v.over_stroke().and_then(|s| s.other) {
         let output = match (f.output, present) {
@@ -167,13 +173,13 @@ pub(crate) fn note(v: &Variant<'_>) -> Option<String> {
 const NOTES: usize = 20;
 
 /// What second opinions and other poses say, a line each.
-pub(crate) fn notes(summary: &Summary) -> Vec<String> {
+pub(crate) fn summary_notes(summary: &Summary) -> Vec<String> {
     let mut out = Vec::new();
     if summary.is_asked() {
-        out.push(opinions(summary));
+        out.push(opinions_line(summary));
     }
-    out.extend(stopped_early::proven(summary));
-    let posed = grouped(summary.posed);
+    out.extend(stopped_early::proven_line(summary));
+    let posed = group_thousands(summary.posed);
     match (summary.posed, summary.lucky) {
         (0, _) => {}
         (_, 0) => out.push(format!("Figures the same at other poses: all {posed}")),
@@ -185,7 +191,7 @@ pub(crate) fn notes(summary: &Summary) -> Vec<String> {
 }
 
 /// The notes of marked variants, the first of them if there are many.
-fn marked(mut notes: Vec<String>) -> Vec<String> {
+fn limit_footnotes(mut notes: Vec<String>) -> Vec<String> {
     let more = notes.len().saturating_sub(NOTES);
     notes.truncate(NOTES);
     if more > 0 {
@@ -197,16 +203,17 @@ fn marked(mut notes: Vec<String>) -> Vec<String> {
 /// Returns the commands to suggest after a search that found variants. `file` is the search's own, as
 /// are the flags, so that the commands are about the same list.
 fn next_of_some(outcome: &Outcome, changed: bool, file: &str, verbose: bool) -> Vec<NextCommand> {
-    let flags = &flags(outcome);
-    let number = outcome.request.one();
-    let one = &flag(number, 1);
+    let flags = &request_flags(outcome);
+    let number = outcome.request.noun_of_one();
+    let one = &typed_option(number, 1);
     let joined = |more: &str| format!("{flags} {more}").trim().to_owned();
     let mechanism = &outcome.search.mechanism.name;
     let svg = file_name(&format!("{mechanism}-{number}-1"), "svg");
     let toml = file_name(&format!("{mechanism}-{number}-1"), "toml");
     // Whose first variant changes nothing has nothing to mend.
-    let own = (changed && is_description(file))
-        .then(|| NextCommand::mend(file, &joined(one), "the first of the list in your own file"));
+    let own = (changed && is_description(file)).then(|| {
+        NextCommand::fix_command(file, &joined(one), "the first of the list in your own file")
+    });
     let steps = [
         NextCommand::new(
             "draw",
@@ -217,24 +224,24 @@ fn next_of_some(outcome: &Outcome, changed: bool, file: &str, verbose: bool) -> 
         NextCommand::new(
             "export",
             file,
-            &joined(&format!("{one} {} -o {toml}", flag("to", "toml"))),
+            &joined(&format!("{one} {} -o {toml}", typed_option("to", "toml"))),
             "the first of the list as a separate mechanism file",
         ),
     ];
     let more = (!verbose).then(|| {
         let gives = "counts by mobility, and what each of the first three does";
-        NextCommand::new("search", file, &joined(&flag("verbose", "")), gives)
+        NextCommand::new("search", file, &joined(&typed_option("verbose", "")), gives)
     });
     own.into_iter().chain(steps).chain(more).collect()
 }
 
 /// The options that a search was asked with. `--idea` says that ideas are meant.
-fn flags(outcome: &Outcome) -> String {
+fn request_flags(outcome: &Outcome) -> String {
     let request = Request {
         distinct: false,
         ..outcome.request.clone()
     };
-    next_commands::flags(&outcome.search.mechanism, &request)
+    next_commands::request_flags(&outcome.search.mechanism, &request)
 }
 
 /// Returns what to do next where no variant is given: ask for some, or ease a condition.
@@ -245,13 +252,13 @@ fn next_of_none(outcome: &Outcome, remarks: &Remarks, file: &str) -> Vec<NextCom
     vec![NextCommand::new(
         "search",
         file,
-        format!("{} {}", flags(outcome), flag("top", 10)).trim(),
+        format!("{} {}", request_flags(outcome), typed_option("top", 10)).trim(),
         "the cheapest of them",
     )]
 }
 
-fn opinions(summary: &Summary) -> String {
-    let asked = grouped(summary.checked + summary.failed);
+fn opinions_line(summary: &Summary) -> String {
+    let asked = group_thousands(summary.checked + summary.failed);
     let which = if summary.given > summary.checked + summary.failed {
         format!("the first {asked}; the rest was not asked about")
     } else {
@@ -271,7 +278,11 @@ fn opinions(summary: &Summary) -> String {
 }
 
 /// Returns some variants as a table.
-pub(crate) fn variants(outcome: &Outcome, best: &[Variant<'_>], width: Option<u16>) -> String {
+pub(crate) fn variants_table(
+    outcome: &Outcome,
+    best: &[Variant<'_>],
+    width: Option<u16>,
+) -> String {
     let ranking = outcome.ranking.as_ref();
     let checked = best.iter().any(|v| *v.second() != Second::Unasked);
     let counted = outcome.is_counted() || outcome.is_numeric_whole();
@@ -282,8 +293,8 @@ pub(crate) fn variants(outcome: &Outcome, best: &[Variant<'_>], width: Option<u1
             None => v.redundant().to_string(),
         };
         let mut row = vec![
-            format!("{}{}", v.position(), mark(v)),
-            cost(v.cost_milli()),
+            format!("{}{}", v.position(), variant_mark(v)),
+            format_cost(v.cost_milli()),
             v.mobility().to_string(),
             sigma,
         ];
@@ -293,25 +304,28 @@ pub(crate) fn variants(outcome: &Outcome, best: &[Variant<'_>], width: Option<u1
             row.push(v.second().opinion().map_or(String::new(), of));
         }
         if let Some(p) = ranking {
-            let cells = v.ranked().map(|r| ranking::cells(p, r));
+            let cells = v.ranked().map(|r| ranking::ranking_cells(p, r));
             row.extend(cells.unwrap_or_default());
         }
-        row.extend(v.idea().map(|i| format!("{least}{}", grouped(&i.variants))));
-        row.push(in_words(&outcome.search, &v.changes()));
+        row.extend(
+            v.idea()
+                .map(|i| format!("{least}{}", group_thousands(&i.variants))),
+        );
+        row.push(in_words(&outcome.search, &v.list_changes()));
         row
     });
     let distinct = outcome.request.distinct;
     let mut heads = vec![if distinct { "idea" } else { "" }, "cost", "W", "σ"];
     heads.extend(outcome.search.conditions.state.map(|_| "harmful"));
     heads.extend(checked.then_some("cond."));
-    heads.extend(ranking.into_iter().flat_map(ranking::columns));
+    heads.extend(ranking.into_iter().flat_map(ranking::ranking_columns));
     heads.extend(distinct.then_some("stands for"));
     heads.push("changes");
-    table(&heads.join(" | "), rows, width)
+    text_table(&heads.join(" | "), rows, width)
 }
 
 /// Returns σ by contour of some variants; equal ones share a line.
-pub(crate) fn contours(best: &[Variant<'_>], width: Option<u16>) -> String {
+pub(crate) fn contours_text(best: &[Variant<'_>], width: Option<u16>) -> String {
     let mut alike: Vec<(String, Vec<usize>)> = Vec::new();
     for v in best {
         let shares = v.redundant_by_contour().into_iter().flatten();
@@ -337,13 +351,13 @@ pub(crate) fn contours(best: &[Variant<'_>], width: Option<u16>) -> String {
         "\n  σ by contour, added in this order (range over all orders of these):\n".to_owned();
     let line = |(text, places): &(String, Vec<usize>)| {
         let text = if text.is_empty() { "none" } else { text };
-        format!("  {}: {text}\n", runs(places))
+        format!("  {}: {text}\n", format_runs(places))
     };
-    fit(&alike.iter().map(line).fold(head, |all, l| all + &l), width)
+    fit_lines(&alike.iter().map(line).fold(head, |all, l| all + &l), width)
 }
 
 /// Formats places: "1, 3-5" for 1, 3, 4, 5.
-fn runs(places: &[usize]) -> String {
+fn format_runs(places: &[usize]) -> String {
     let mut runs: Vec<(usize, usize)> = Vec::new();
     for &p in places {
         match runs.last_mut() {
@@ -362,11 +376,11 @@ fn runs(places: &[usize]) -> String {
 }
 
 /// Returns the mark of a variant with a footnote.
-fn mark(v: &Variant<'_>) -> &'static str {
+fn variant_mark(v: &Variant<'_>) -> &'static str {
     match v.second() {
         Second::Failed => " ?",
         Second::Given(o) if !o.agree => " *",
-        _ if v.lucky() => " !",
+        _ if v.is_lucky() => " !",
         Second::Unasked => "",
         Second::Given(o) if o.conditioning < NEARLY_SINGULAR => " ~",
         Second::Given(_) => "",

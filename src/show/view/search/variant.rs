@@ -2,7 +2,7 @@
 
 use crate::redundancy::contour_shares::ContourShare;
 use crate::score::outcome::symmetric::{SymmetricBest, SymmetricRedesign};
-use crate::score::outcome::variant::{Change, Variant, changes, in_words};
+use crate::score::outcome::variant::{Change, Variant, in_words, list_changes};
 use crate::search::Search;
 use crate::search::answer::freedom_patterns;
 use crate::search::check::other_poses::{Figures, OverStroke};
@@ -42,22 +42,22 @@ impl Serialize for VariantData<'_, '_> {
         });
         let scores = v
             .ranked()
-            .map(|r| ranking::scores(mechanism, r, v.reason()));
+            .map(|r| ranking::scores_json(mechanism, r, v.place_reason()));
         let mut map = serializer.serialize_map(None)?;
         map.serialize_entry("position", &v.position())?;
-        map.serialize_entry("cost", &price(v.cost_milli()))?;
+        map.serialize_entry("cost", &price_json(v.cost_milli()))?;
         map.serialize_entry("mobility", &v.mobility())?;
         map.serialize_entry("redundant", &v.redundant())?;
         map.serialize_entry("external_redundant", &v.external_redundant())?;
         map.serialize_entry("external_harmful", &v.external_harmful())?;
         map.serialize_entry("per_contour", &contours.map(contour).collect::<Value>())?;
-        map.serialize_entry("changes", &changed(mechanism, v.changes()))?;
+        map.serialize_entry("changes", &changes_json(mechanism, v.list_changes()))?;
         map.serialize_entry("idea", &idea)?;
         map.serialize_entry("scores", &scores.unwrap_or(json!({})))?;
         map.serialize_entry("conditioning", &opinion.map(|o| o.conditioning))?;
         map.serialize_entry("agree", &opinion.map(|o| o.agree))?;
         map.serialize_entry("svd", &opinion)?;
-        map.serialize_entry("lucky", &v.over_stroke().and_then(OverStroke::lucky))?;
+        map.serialize_entry("lucky", &v.over_stroke().and_then(OverStroke::is_lucky))?;
         map.serialize_entry("stroke", &v.over_stroke().map(other_poses))?;
         map.end()
     }
@@ -77,7 +77,7 @@ fn other_poses(s: &OverStroke) -> Value {
 
 /// Returns a cost given in thousandths.
 #[allow(clippy::cast_precision_loss, reason = "costs are small")]
-pub(crate) fn price(milli: i64) -> Value {
+pub(crate) fn price_json(milli: i64) -> Value {
     match milli % 1000 {
         0 => json!(milli / 1000),
         _ => json!(milli as f64 / 1000.0),
@@ -85,7 +85,7 @@ pub(crate) fn price(milli: i64) -> Value {
 }
 
 /// Returns changes of a mechanism as data.
-fn changed(m: &Mechanism, changes: Vec<Change>) -> Value {
+fn changes_json(m: &Mechanism, changes: Vec<Change>) -> Value {
     let one =
         |Change { joint, from, to }| json!({ "joint": m.joints[joint].id, "from": from, "to": to });
     changes.into_iter().map(one).collect()
@@ -102,12 +102,12 @@ pub(crate) fn symmetric_text(found: &SymmetricBest) -> String {
             search,
             variant: v,
         } = one;
-        let price = cost(search.steps.milli(v.key.cost()));
+        let price = format_cost(search.steps.cost_in_milli(v.key.cost()));
         let (w, words) = (
             search.mobility(v.key),
-            in_words(search, &changes(search, v)),
+            in_words(search, &list_changes(search, v)),
         );
-        let by = symmetry(search);
+        let by = symmetry_word(search);
         let _ = writeln!(out, "    σ = {left}: cost {price}, W = {w}, {words} ({by})");
     }
     if best.is_empty() {
@@ -124,9 +124,9 @@ pub(crate) fn symmetric_text(found: &SymmetricBest) -> String {
 }
 
 /// Returns what carries a mechanism over to itself.
-fn symmetry(search: &Search) -> &'static str {
+fn symmetry_word(search: &Search) -> &'static str {
     let spec = &search.mechanism.search;
-    match (spec.mirror.is_empty(), spec.order()) {
+    match (spec.mirror.is_empty(), spec.symmetry_order()) {
         (false, _) => "mirror",
         (true, 3) => "third of a turn",
         _ => "half turn",
@@ -143,10 +143,10 @@ pub(crate) fn symmetric_data(found: &SymmetricBest) -> Value {
         } = one;
         json!({
             "redundant": left,
-            "by": symmetry(search),
-            "cost": price(search.steps.milli(v.key.cost())),
+            "by": symmetry_word(search),
+            "cost": price_json(search.steps.cost_in_milli(v.key.cost())),
             "mobility": search.mobility(v.key),
-            "changes": changed(&search.mechanism, changes(search, v)),
+            "changes": changes_json(&search.mechanism, list_changes(search, v)),
         })
     };
     found.best.iter().map(one).collect()

@@ -1,6 +1,6 @@
 //! Reasons why ideas help, in workshop terms and as data.
 
-use crate::format::brief;
+use crate::format::three_digits;
 use crate::score::evaluation::terms::Peak;
 use crate::score::outcome::why::{LetGo, Removed, SIDE_LOAD, Why, Whys};
 use crate::search::answer::k_best::Assignment;
@@ -37,13 +37,13 @@ impl<'w> Teller<'w> {
     }
 
     /// Returns why an idea helps as data: a row for each change, and the contours that had redundant constraints.
-    pub(crate) fn data(&self, w: &Why) -> Value {
+    pub(crate) fn why_json(&self, w: &Why) -> Value {
         let lets = |l: &LetGo| {
             json!({
-                "joint": self.joint(l.joint),
-                "part": self.part(l),
-                "lets": motions(l),
-                "hardware": self.hardware(l),
+                "joint": self.joint_name(l.joint),
+                "part": self.part_name(l),
+                "lets": describe_motions(l),
+                "hardware": self.usual_part(l),
                 // Directions in which they are still held.
                 "holds_forces": l.holds.0,
                 "holds_moments": l.holds.1,
@@ -52,23 +52,23 @@ impl<'w> Teller<'w> {
         let removes =
             |r: &Removed| json!({ "contour": r.contour, "redundant": r.of, "left": r.left });
         // In N or N·m, and as part of what the joint's type bears.
-        let peak = |p: Peak| json!({ "joint": self.joint(p.joint), "value": p.value, "utilisation": p.utilisation });
+        let peak = |p: Peak| json!({ "joint": self.joint_name(p.joint), "value": p.value, "utilisation": p.utilisation });
         json!({
             "lets": w.lets.iter().map(lets).collect::<Value>(),
             "removes": w.removes.iter().flatten().map(removes).collect::<Value>(),
-            "unchanged": w.unchanged.iter().map(|&j| self.joint(j)).collect::<Value>(),
+            "unchanged": w.unchanged.iter().map(|&j| self.joint_name(j)).collect::<Value>(),
             "under": w.peaks.map(|_| &self.under),
             "peak_force": w.peaks.map(|p| peak(p[0])),
             "peak_moment": w.peaks.map(|p| peak(p[1])),
         })
     }
 
-    fn joint(&self, j: JointId) -> &str {
+    fn joint_name(&self, j: JointId) -> &str {
         &self.m.joints[j].id
     }
 
     /// Returns a part such as "rod 5", or its name alone if it contains the word.
-    fn part(&self, l: &LetGo) -> String {
+    fn part_name(&self, l: &LetGo) -> String {
         let part = &self.m.links[l.part].id;
         match (l.is_rod, part.to_lowercase().contains("rod")) {
             (_, true) => part.to_owned(),
@@ -78,43 +78,52 @@ impl<'w> Teller<'w> {
     }
 
     /// The usual part that is such a joint.
-    fn hardware(&self, l: &LetGo) -> Option<&str> {
+    fn usual_part(&self, l: &LetGo) -> Option<&str> {
         let pair = self.words.get(l.to.as_ref()?.name())?;
         pair.hardware.first().map(String::as_str)
     }
 
     /// Returns the remarks on an idea as pairs of subject and text. Empty if it frees nothing.
-    fn rows(&self, w: &Why) -> Vec<(String, String)> {
+    fn why_rows(&self, w: &Why) -> Vec<(String, String)> {
         if w.lets.is_empty() {
             return Vec::new();
         }
         let lets = w.lets.iter();
         let lets = lets.map(|l| {
             (
-                motions(l),
-                format!("{} at {}", self.part(l), self.joint(l.joint)),
+                describe_motions(l),
+                format!("{} at {}", self.part_name(l), self.joint_name(l.joint)),
             )
         });
         let parts = w.lets.iter();
-        let parts = parts
-            .filter_map(|l| Some((self.hardware(l)?.to_owned(), self.joint(l.joint).to_owned())));
+        let parts = parts.filter_map(|l| {
+            Some((
+                self.usual_part(l)?.to_owned(),
+                self.joint_name(l.joint).to_owned(),
+            ))
+        });
         // What is far below the largest is rounding.
         let peaks = w.peaks.into_iter().flatten();
         let least = RESIDUAL * peaks.clone().map(|p| p.value).fold(0.0, f64::max);
         let peaks = peaks.zip(["N", "N·m"]).filter(|(p, _)| p.value > least);
-        let mut peaks =
-            peaks.map(|(p, unit)| format!("{} {unit} at {}", brief(p.value), self.joint(p.joint)));
+        let mut peaks = peaks.map(|(p, unit)| {
+            format!(
+                "{} {unit} at {}",
+                three_digits(p.value),
+                self.joint_name(p.joint)
+            )
+        });
         let under = if w.peaks.is_some() { &*self.under } else { "" };
         let rows = [
-            ("frees parts to".to_owned(), grouped(lets, ": ")),
-            ("hardware:".to_owned(), grouped(parts, " at ")),
+            ("frees parts to".to_owned(), group_rows(lets, ": ")),
+            ("hardware:".to_owned(), group_rows(parts, " at ")),
             (
                 "removes:".to_owned(),
-                removed(w.removes.as_deref().unwrap_or_default()),
+                describe_removed(w.removes.as_deref().unwrap_or_default()),
             ),
             (
                 "unchanged:".to_owned(),
-                w.unchanged.iter().map(|&j| self.joint(j)).join(", "),
+                w.unchanged.iter().map(|&j| self.joint_name(j)).join(", "),
             ),
             (
                 format!("most heavily loaded under {under}:"),
@@ -126,7 +135,7 @@ impl<'w> Teller<'w> {
 }
 
 /// Returns what is removed, contour by contour: "2 of 2 redundant constraints of loop 0-1-2-3, 1 of 3 of loop 1-2-4-5".
-fn removed(of: &[Removed]) -> String {
+fn describe_removed(of: &[Removed]) -> String {
     let one = |(i, r): (usize, &Removed)| {
         let removed = r.of.saturating_sub(r.left);
         let what = if i == 0 { " redundant constraints" } else { "" };
@@ -136,7 +145,7 @@ fn removed(of: &[Removed]) -> String {
 }
 
 /// Returns the motions that a part gains: "tilt both ways and float along its axis".
-fn motions(l: &LetGo) -> String {
+fn describe_motions(l: &LetGo) -> String {
     let many = |n: usize, one: &str, two: &str| match n {
         0 => None,
         1 => Some(one.to_owned()),
@@ -157,10 +166,10 @@ fn motions(l: &LetGo) -> String {
 }
 
 /// Returns the first ideas with the motions freed, hardware, removed constraints, unchanged joints and loads.
-pub(crate) fn text(outcome: &Outcome, ideas: &[&Assignment]) -> String {
+pub(crate) fn why_text(outcome: &Outcome, ideas: &[&Assignment]) -> String {
     let mut out = String::new();
     let first = &ideas[..ideas.len().min(TOLD)];
-    for (i, rows) in told(outcome, first).into_iter().enumerate() {
+    for (i, rows) in rows_of_ideas(outcome, first).into_iter().enumerate() {
         for (n, (what, words)) in rows.into_iter().enumerate() {
             out += &match n {
                 0 => format!("\n  idea {} {what} {words}\n", i + 1),
@@ -172,14 +181,20 @@ pub(crate) fn text(outcome: &Outcome, ideas: &[&Assignment]) -> String {
 }
 
 /// Returns the remarks on each of some ideas as pairs of subject and text.
-pub(crate) fn told(outcome: &Outcome, ideas: &[&Assignment]) -> Vec<Vec<(String, String)>> {
+pub(crate) fn rows_of_ideas(
+    outcome: &Outcome,
+    ideas: &[&Assignment],
+) -> Vec<Vec<(String, String)>> {
     let whys = Whys::new(outcome);
-    let (teller, mut why) = (Teller::new(outcome, &whys), whys.teller());
-    ideas.iter().map(|idea| teller.rows(&why(idea))).collect()
+    let (teller, mut why) = (Teller::new(outcome, &whys), whys.explain_each());
+    ideas
+        .iter()
+        .map(|idea| teller.why_rows(&why(idea)))
+        .collect()
 }
 
 /// Those of some rows that have something in common, together: "what: these, those; other: that".
-fn grouped(rows: impl Iterator<Item = (String, String)>, between: &str) -> String {
+fn group_rows(rows: impl Iterator<Item = (String, String)>, between: &str) -> String {
     let mut groups: Vec<(String, Vec<String>)> = Vec::new();
     for (what, one) in rows {
         match groups.iter_mut().find(|(w, _)| *w == what) {

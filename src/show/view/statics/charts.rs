@@ -9,7 +9,7 @@ use crate::statics::cycle::Moment;
 use crate::statics::kinetostatics::{LinkInertia, LoadSource};
 use crate::statics::planar::PairId;
 use crate::view::prelude::*;
-use crate::view::statics::{StaticsData, magnitudes, size};
+use crate::view::statics::{StaticsData, magnitudes, vector_size};
 
 /// Named figures of a group's reactions.
 type Figures<'a> = &'a dyn Fn(&Moment, &GroupSolutions, GroupReactions) -> Vec<(&'static str, f64)>;
@@ -17,7 +17,7 @@ type Figures<'a> = &'a dyn Fn(&Moment, &GroupSolutions, GroupReactions) -> Vec<(
 /// A chart with the name of its file, without the ending.
 pub type Named = (String, Chart);
 
-fn log(label: impl Into<String>) -> Axis {
+fn log_axis(label: impl Into<String>) -> Axis {
     let scale = Scale::Log;
     Axis {
         scale,
@@ -26,21 +26,21 @@ fn log(label: impl Into<String>) -> Axis {
 }
 
 /// Returns the number of forces from outside.
-fn acting(x: &Moment) -> usize {
+fn outside_forces(x: &Moment) -> usize {
     let outside = x.loads.iter().filter(|l| l.source == LoadSource::External);
     outside.count()
 }
 
 /// Returns values over the cycle, one series a name; lines are broken where forces set in or end.
-fn over(s: &StaticsData<'_>, f: impl Fn(&Moment) -> Vec<(String, f64)>) -> Vec<Series> {
+fn series_over(s: &StaticsData<'_>, f: impl Fn(&Moment) -> Vec<(String, f64)>) -> Vec<Series> {
     let mut series: Vec<Series> = Vec::new();
-    let mut before = s.found.moments.first().map_or(0, acting);
+    let mut before = s.found.moments.first().map_or(0, outside_forces);
     for x in &s.found.moments {
-        let at = s.shown(x.drive);
-        if acting(x) != before {
+        let at = s.shown_position(x.drive);
+        if outside_forces(x) != before {
             let each = series.iter_mut();
             each.for_each(|e| e.points.push((at, f64::NAN)));
-            before = acting(x);
+            before = outside_forces(x);
         }
         for (name, value) in f(x) {
             match series.iter_mut().find(|e| e.name == name) {
@@ -56,16 +56,16 @@ fn over(s: &StaticsData<'_>, f: impl Fn(&Moment) -> Vec<(String, f64)>) -> Vec<S
     series
 }
 
-fn scale(series: &mut [Series]) -> &'static str {
+fn scale_series(series: &mut [Series]) -> &'static str {
     let all = series.iter().flat_map(|e| &e.points).map(|p| p.1.abs());
-    let (unit, prefix) = prefix(all.filter(|x| x.is_finite()).fold(0.0, f64::max));
+    let (unit, prefix) = unit_prefix(all.filter(|x| x.is_finite()).fold(0.0, f64::max));
     let points = series.iter_mut().flat_map(|e| &mut e.points);
     points.for_each(|p| p.1 /= unit);
     prefix
 }
 
 /// Returns the reactions of every group, where the guides' reactions act, the drives' effort, and how far the methods differ.
-pub fn cycle(s: &StaticsData<'_>) -> Vec<Named> {
+pub fn cycle_charts(s: &StaticsData<'_>) -> Vec<Named> {
     let Some(&shown) = s.methods.last() else {
         return Vec::new();
     };
@@ -82,10 +82,10 @@ pub fn cycle(s: &StaticsData<'_>) -> Vec<Named> {
             out.other_group(index);
         }
     }
-    out.drive();
-    out.inertia();
+    out.add_drive();
+    out.add_inertia();
     if s.methods.len() > 1 && !s.found.contour_groups.is_empty() {
-        out.methods();
+        out.add_methods();
     }
     out.list
 }
@@ -99,7 +99,7 @@ struct Charts<'s, 'a> {
 }
 
 impl Charts<'_, '_> {
-    fn add(
+    fn add_chart(
         &mut self,
         file: impl Into<String>,
         [title, subtitle]: [&str; 2],
@@ -125,17 +125,17 @@ impl Charts<'_, '_> {
     }
 
     /// Returns figures of a group with a closed contour over the cycle.
-    fn solved(&self, i: usize, f: Figures<'_>) -> Vec<Series> {
-        over(self.of, |x| {
+    fn group_series(&self, i: usize, f: Figures<'_>) -> Vec<Series> {
+        series_over(self.of, |x| {
             let found = x.groups.get(i);
-            let found = found.and_then(|g| Some(f(x, g, g.by(self.shown)?)));
+            let found = found.and_then(|g| Some(f(x, g, g.reactions_by(self.shown)?)));
             let named = found.into_iter().flatten();
             named.map(|(n, v)| (n.to_owned(), v)).collect_vec()
         })
     }
 
     fn pair_name(&self, p: PairId) -> &str {
-        &self.of.planar().pairs[p].name
+        &self.of.planar_mechanism().pairs[p].name
     }
 
     /// Explains which joints the letters of a group are.
@@ -147,28 +147,28 @@ impl Charts<'_, '_> {
     }
 
     fn contour_reactions(&mut self, i: usize, title: &str, letters: &ContourGroup) {
-        let mut series = self.solved(i, &|_, g, r| magnitudes(&r, &g.pose).to_vec());
-        let y = Axis::linear(format!("reaction, {}N", scale(&mut series)));
+        let mut series = self.group_series(i, &|_, g, r| magnitudes(&r, &g.pose).to_vec());
+        let y = Axis::linear(format!("reaction, {}N", scale_series(&mut series)));
         let (key, guide) = (self.letters_key(letters), self.pair_name(letters.guide));
         let subtitle = format!("{key}; guide {guide} with its sign");
         let words = [&format!("reactions of group {title}"), &*subtitle];
-        self.add(format!("group-{title}"), words, y, series);
+        self.add_chart(format!("group-{title}"), words, y, series);
     }
 
     fn tangential_reactions(&mut self, i: usize, title: &str, letters: &ContourGroup) {
-        let mut series = self.solved(i, &|_, g, _| {
+        let mut series = self.group_series(i, &|_, g, _| {
             let s = &g.steps;
             let forces = [s.r46_tangential, s.r47_tangential, s.r34_tangential];
             ["R46τ", "R47τ", "R34τ"].into_iter().zip(forces).collect()
         });
-        let y = Axis::linear(format!("reaction, {}N", scale(&mut series)));
+        let y = Axis::linear(format!("reaction, {}N", scale_series(&mut series)));
         let key = self.letters_key(letters);
         let subtitle = format!("By the δ-point method, across the rods and across Dδ; {key}");
         let words = [
             &format!("tangential reactions of group {title}"),
             &*subtitle,
         ];
-        self.add(format!("tangential-{title}"), words, y, series);
+        self.add_chart(format!("tangential-{title}"), words, y, series);
     }
 
     /// Adds the arm of the guide's reaction, and where along the guide it acts.
@@ -177,8 +177,8 @@ impl Charts<'_, '_> {
         let far = 2.0 * linkage.size;
         // Far out the line only says that the reaction changes its sign.
         let near = |x: f64| if x.abs() <= far { x } else { f64::NAN };
-        let series = self.solved(i, &|x, g, r| {
-            let guide = linkage.place(&x.pose, letters.guide);
+        let series = self.group_series(i, &|x, g, r| {
+            let guide = linkage.pair_position(&x.pose, letters.guide);
             let offset = near(r.guide_offset(&g.pose, guide));
             vec![
                 ("arm h about D", near(r.arm)),
@@ -190,30 +190,30 @@ impl Charts<'_, '_> {
         let subtitle =
             format!("Point of application of the reaction of {guide}; broken where it vanishes");
         let words = [&format!("where the guide bears link {slider}"), &*subtitle];
-        self.add(format!("guide-{title}"), words, Axis::linear("m"), series);
+        self.add_chart(format!("guide-{title}"), words, Axis::linear("m"), series);
     }
 
     /// Adds the reactions of a group without a closed contour.
     fn other_group(&mut self, index: usize) {
         let (found, title) = (self.of.found, self.of.group_name(index));
         let g = &found.decomposition.groups[index];
-        let pairs = g.pairs();
-        let mut series = over(self.of, |x| {
+        let pairs = g.all_pairs();
+        let mut series = series_over(self.of, |x| {
             let own = x.reactions.iter().filter(|r| pairs.contains(&r.pair));
-            own.map(|r| (self.pair_name(r.pair).to_owned(), size(r.force)))
+            own.map(|r| (self.pair_name(r.pair).to_owned(), vector_size(r.force)))
                 .collect()
         });
-        let y = Axis::linear(format!("reaction, {}N", scale(&mut series)));
+        let y = Axis::linear(format!("reaction, {}N", scale_series(&mut series)));
         let words = [
             &*format!("reactions of group {title}"),
             &g.class.to_string(),
         ];
-        self.add(format!("group-{title}"), words, y, series);
+        self.add_chart(format!("group-{title}"), words, y, series);
     }
 
     /// Adds the effort of the drives.
-    fn drive(&mut self) {
-        let mut series = over(self.of, |x| {
+    fn add_drive(&mut self) {
+        let mut series = series_over(self.of, |x| {
             let drives = x.reactions.iter();
             drives
                 .filter_map(|r| Some((self.pair_name(r.pair).to_owned(), r.effort?)))
@@ -222,38 +222,38 @@ impl Charts<'_, '_> {
         if series.is_empty() {
             return;
         }
-        let prefix = scale(&mut series);
+        let prefix = scale_series(&mut series);
         let (what, unit) = if self.of.found.drive_slides() {
             ("force", "N")
         } else {
             ("torque", "N·m")
         };
         let y = Axis::linear(format!("{what}, {prefix}{unit}"));
-        self.add("drive", [&format!("{what} of the drive"), ""], y, series);
+        self.add_chart("drive", [&format!("{what} of the drive"), ""], y, series);
     }
 
     /// Adds accelerations and inertia forces, if anything moves that has a mass.
-    fn inertia(&mut self) {
+    fn add_inertia(&mut self) {
         let links = |of: &dyn Fn(&LinkInertia) -> f64| {
-            over(self.of, |x| {
-                let name = |l: &LinkInertia| self.of.planar().bodies[l.body].name.clone();
+            series_over(self.of, |x| {
+                let name = |l: &LinkInertia| self.of.planar_mechanism().bodies[l.body].name.clone();
                 x.links.iter().map(|l| (name(l), of(l))).collect()
             })
         };
-        let series = links(&|l| size(l.acceleration));
-        let mut forces = links(&|l| size(l.force));
+        let series = links(&|l| vector_size(l.acceleration));
+        let mut forces = links(&|l| vector_size(l.force));
         if series.iter().flat_map(|e| &e.points).all(|p| p.1 <= 0.0) {
             return;
         }
         let words = ["accelerations of the links' mass centres", ""];
-        self.add(
+        self.add_chart(
             "accelerations",
             words,
             Axis::linear("acceleration, m/s²"),
             series,
         );
-        let y = Axis::linear(format!("inertia force, {}N", scale(&mut forces)));
-        self.add(
+        let y = Axis::linear(format!("inertia force, {}N", scale_series(&mut forces)));
+        self.add_chart(
             "inertia-forces",
             ["inertia forces of the links", ""],
             y,
@@ -262,11 +262,11 @@ impl Charts<'_, '_> {
     }
 
     /// Adds how far the methods differ.
-    fn methods(&mut self) {
+    fn add_methods(&mut self) {
         let (s, methods) = (self.of, self.of.methods);
-        let series = over(s, |x| {
+        let series = series_over(s, |x| {
             let named = x.groups.iter().map(|g| {
-                let differ = g.disagreement(methods).unwrap_or(f64::NAN);
+                let differ = g.max_disagreement(methods).unwrap_or(f64::NAN);
                 (
                     format!("group {}", s.group_name(g.group)),
                     differ.max(1e-17),
@@ -275,13 +275,13 @@ impl Charts<'_, '_> {
             named.collect()
         });
         let names = methods.iter().map(|x| x.name()).join(", ");
-        let y = log("greatest difference over the greatest reaction");
-        self.add("methods", ["how far the methods differ", &names], y, series);
+        let y = log_axis("greatest difference over the greatest reaction");
+        self.add_chart("methods", ["how far the methods differ", &names], y, series);
     }
 }
 
 /// Returns title, subtitle and axis of a stability chart.
-fn labels(failure: Failure) -> (&'static str, &'static str, &'static str) {
+fn stability_labels(failure: Failure) -> (&'static str, &'static str, &'static str) {
     match failure {
         Failure::ParallelRods => (
             "Rods 6 and 7 nearly parallel",
@@ -307,7 +307,7 @@ fn labels(failure: Failure) -> (&'static str, &'static str, &'static str) {
 }
 
 /// Errors of the methods against the distance from a failure.
-pub fn stability(failure: Failure, samples: &[DistanceErrors]) -> Named {
+pub fn stability_chart(failure: Failure, samples: &[DistanceErrors]) -> Named {
     // What is exact to the last bit is shown at the foot.
     let shown = |x: f64| {
         if x.is_finite() {
@@ -338,12 +338,12 @@ pub fn stability(failure: Failure, samples: &[DistanceErrors]) -> Named {
             &|s| s.condition * f64::EPSILON / 2.0,
         ));
     }
-    let (title, subtitle, x) = labels(failure);
+    let (title, subtitle, x) = stability_labels(failure);
     let chart = Chart {
         title: title.to_owned(),
         subtitle: subtitle.to_owned(),
-        x: log(x),
-        y: log("relative error against exact arithmetic"),
+        x: log_axis(x),
+        y: log_axis("relative error against exact arithmetic"),
         series,
     };
     (format!("stability-{}", failure.name()), chart)

@@ -8,20 +8,20 @@ use crate::statics::contour_group::solutions::GroupSolutions;
 use crate::statics::cycle::Moment;
 use crate::statics::kinetostatics::LoadSource;
 use crate::view::prelude::*;
-use crate::view::statics::{StaticsData, size};
+use crate::view::statics::{StaticsData, vector_size};
 
 /// The drawing of each group, with the name of its file.
-pub fn plans(s: &StaticsData<'_>) -> Vec<(String, Polygons)> {
+pub fn force_plans_of(s: &StaticsData<'_>) -> Vec<(String, Polygons)> {
     let groups = 0..s.found.contour_groups.len();
-    groups.filter_map(|i| plan(s, i)).collect()
+    groups.filter_map(|i| group_plan(s, i)).collect()
 }
 
-fn plan(s: &StaticsData<'_>, i: usize) -> Option<(String, Polygons)> {
+fn group_plan(s: &StaticsData<'_>, i: usize) -> Option<(String, Polygons)> {
     let (index, letters) = &s.found.contour_groups[i];
     let outside = |x: &&Moment| -> f64 {
         let own = x.groups.get(i).into_iter().flat_map(|g| &g.pose.loads);
         let forces = own.filter(|l| l.source == LoadSource::External);
-        forces.map(|l| size(l.force)).sum()
+        forces.map(|l| vector_size(l.force)).sum()
     };
     let solved = s.found.moments.iter().filter(|x| x.groups.len() > i);
     // Of equal loads the first.
@@ -30,10 +30,10 @@ fn plan(s: &StaticsData<'_>, i: usize) -> Option<(String, Polygons)> {
         .max_by(|a, b| outside(a).total_cmp(&outside(b)))?;
     let pairs = force_plans(&heaviest.groups[i])?;
     let sizes = pairs.iter().flatten().flat_map(|p| &p.forces);
-    let (unit, prefix) = prefix(sizes.map(|f| size(f.force)).fold(0.0, f64::max));
+    let (unit, prefix) = unit_prefix(sizes.map(|f| vector_size(f.force)).fold(0.0, f64::max));
     let panel = |p: Plan, by: &str| Panel {
         title: format!("{}, {by}", p.of),
-        arrows: p.forces.iter().map(|f| arrow(f, unit)).collect(),
+        arrows: p.forces.iter().map(|f| plan_arrow(f, unit)).collect(),
     };
     let rows = pairs.into_iter().map(|[delta, full]| PanelPair {
         panels: [
@@ -45,7 +45,7 @@ fn plan(s: &StaticsData<'_>, i: usize) -> Option<(String, Polygons)> {
     let mut rows: Vec<PanelPair> = rows.collect();
     rows.push(own_loads(&heaviest.groups[i], unit));
     let name = s.group_name(*index);
-    let bodies = &s.planar().bodies;
+    let bodies = &s.planar_mechanism().bodies;
     let [a, b] = letters.rods;
     let places = [letters.ternary, a, b, letters.slider].map(|b| &bodies[b].name);
     let places = ["4", "6", "7", "10"].iter().zip(places);
@@ -54,7 +54,7 @@ fn plan(s: &StaticsData<'_>, i: usize) -> Option<(String, Polygons)> {
         title: format!("{}: force plans of group {name}", s.of.name),
         subtitle: format!(
             "At {}, where forces from outside load it most; links {}.",
-            s.place(heaviest.drive),
+            s.format_place(heaviest.drive),
             places.format(", ")
         ),
         unit: format!("{prefix}N"),
@@ -80,7 +80,7 @@ fn own_loads(g: &GroupSolutions, unit: f64) -> PanelPair {
             arrows: forces
                 .iter()
                 .chain([&back])
-                .map(|f| arrow(f, unit))
+                .map(|f| plan_arrow(f, unit))
                 .collect(),
         }
     };
@@ -97,7 +97,7 @@ fn own_loads(g: &GroupSolutions, unit: f64) -> PanelPair {
     }
 }
 
-fn arrow(f: &PlanForce, unit: f64) -> PlanArrow {
+fn plan_arrow(f: &PlanForce, unit: f64) -> PlanArrow {
     PlanArrow {
         name: f.name.clone(),
         vector: f.force.map(|x| x / unit),

@@ -1,7 +1,7 @@
 //! Statics for people: the groups, the reactions over the cycle, the greatest of each joint.
 
 use crate::statics::assur::{Decomposition, Group};
-use crate::statics::assur_class::roman;
+use crate::statics::assur_class::roman_numeral;
 use crate::statics::contour_group::ContourGroup;
 use crate::statics::contour_group::pose::GroupReactions;
 use crate::statics::contour_group::solutions::{GroupMethod, GroupSolutions};
@@ -12,7 +12,7 @@ use crate::view::claims;
 use crate::view::prelude::*;
 use crate::view::reactions::text::{NO_STRAIN, no_loads};
 use crate::view::statics::{
-    StaticsData, Structures, joints as joint_names, links, magnitudes, size,
+    StaticsData, Structures, joint_names, link_names, magnitudes, vector_size,
 };
 
 /// Condition above which a group counts as singular in the pose.
@@ -33,24 +33,24 @@ impl Structures<'_> {
             } else {
                 ""
             };
-            let links = links(m, &g.bodies).join(", ");
+            let links = link_names(m, &g.bodies).join(", ");
             format!("{links} ({}{inside}{singular})", g.class)
         };
         let row = |x: &DrivenStructure| {
             let [class, what] = match &x.found {
                 Ok((d, conditions)) => {
                     let groups = d.groups.iter().zip(conditions).map(group).join("; ");
-                    [roman(d.class()), groups]
+                    [roman_numeral(d.highest_class()), groups]
                 }
                 Err(e) => ["-".to_owned(), e.to_string()],
             };
             vec![m.pairs[x.drive].name.clone(), class, what]
         };
         let heads = "drive | class | Assur groups, in the order they are placed";
-        let table = table(heads, self.found.iter().map(row), width);
+        let table = text_table(heads, self.found.iter().map(row), width);
         let name = self.mechanism;
         let head = format!("{name}: structure under each drive, those at the frame first");
-        format!("{}\n\n{table}\n", fit(&head, width))
+        format!("{}\n\n{table}\n", fit_lines(&head, width))
     }
 }
 
@@ -59,16 +59,16 @@ impl StaticsData<'_> {
     pub fn text(&self, width: Option<u16>) -> String {
         let mut out = Report::new(width);
         let (s, d) = (self.found, &self.found.decomposition);
-        let drives = match &*joint_names(self.planar(), &d.drives) {
+        let drives = match &*joint_names(self.planar_mechanism(), &d.drives) {
             [] => "nothing".to_owned(),
             names => names.join(", "),
         };
-        out.line(format!(
+        out.add_line(format!(
             "{}: {}{} driven by {drives}, class {}\n",
             self.of.name,
-            self.verdict(),
-            plural(d.groups.len(), "Assur group"),
-            roman(d.class())
+            self.greatest_reaction(),
+            count_noun(d.groups.len(), "Assur group"),
+            roman_numeral(d.highest_class())
         ));
         if !d.groups.is_empty() {
             self.write_groups(&mut out, d);
@@ -82,55 +82,58 @@ impl StaticsData<'_> {
             self.write_summary(&mut out);
         } else {
             let misalignments = self.of.loads.misalignments.len();
-            out.line(no_loads(misalignments));
+            out.add_line(no_loads(misalignments));
             if misalignments > 0 {
-                out.line(NO_STRAIN);
+                out.add_line(NO_STRAIN);
             }
         }
         if let Some(dead) = &s.dead {
             let group = |g| format!("group {}", self.group_name(g));
             let who = dead.group.map_or_else(|| "the drives".to_owned(), group);
-            let (at, condition) = (self.place(dead.drive), figure(dead.condition));
-            out.line(format!(
+            let (at, condition) = (self.format_place(dead.drive), five_digits(dead.condition));
+            out.add_line(format!(
                 "\nThe motion stops at {at}: {who} is at a dead point (condition {condition})."
             ));
         }
-        let claims = claims::about(&self.of.claims, crate::model::claim::Topic::Statics);
-        out.text() + &fit(&claims::text(&claims, width), width)
+        let claims = claims::claims_about(&self.of.claims, crate::model::claim::Topic::Statics);
+        out.text() + &fit_lines(&claims::claims_text(&claims, width), width)
     }
 
     /// Adds the groups as a table.
     fn write_groups(&self, out: &mut Report, d: &Decomposition) {
-        let m = self.planar();
+        let m = self.planar_mechanism();
         let rows = d.groups.iter().enumerate().map(|(i, g)| {
             let [inner, outer] = [&g.inner, &g.outer].map(|list| joint_names(m, list).join(", "));
             let condition = self.found.conditions.get(i);
-            let condition = condition.map_or_else(String::new, |c| figure(*c));
-            let links = links(m, &g.bodies).join(", ");
-            cells([&(i + 1), &links, &g.class, &inner, &outer, &condition])
+            let condition = condition.map_or_else(String::new, |c| five_digits(*c));
+            let links = link_names(m, &g.bodies).join(", ");
+            row_cells([&(i + 1), &links, &g.class, &inner, &outer, &condition])
         });
-        out.table(
+        out.add_table(
             " | links | group | inner joints | outer joints | condition",
             rows,
         );
-        out.line("");
+        out.add_line("");
     }
 
     /// Returns the greatest reaction of the cycle, for the first line; empty without loads.
-    fn verdict(&self) -> String {
+    fn greatest_reaction(&self) -> String {
         let all = self.found.moments.iter().flat_map(|x| {
             let found = x.reactions.iter();
-            found.map(|r| (size(r.force), r.pair, x.drive))
+            found.map(|r| (vector_size(r.force), r.pair, x.drive))
         });
         let finite = all.filter(|(force, ..)| force.is_finite() && *force > 0.0);
         let Some((force, pair, at)) = finite.max_by(|a, b| a.0.total_cmp(&b.0)) else {
             return String::new();
         };
-        let (unit, prefix) = prefix(force);
-        let (force, joint) = (figure(force / unit), &self.planar().pairs[pair].name);
+        let (unit, prefix) = unit_prefix(force);
+        let (force, joint) = (
+            five_digits(force / unit),
+            &self.planar_mechanism().pairs[pair].name,
+        );
         format!(
             "greatest reaction {force} {prefix}N at {joint} ({}); ",
-            self.place(at)
+            self.format_place(at)
         )
     }
 
@@ -142,18 +145,18 @@ impl StaticsData<'_> {
         let (index, letters) = &self.found.contour_groups[i];
         let solved = self.found.moments.iter().filter_map(|at| {
             let group = at.groups.get(i)?;
-            let reactions = group.by(*shown)?;
+            let reactions = group.reactions_by(*shown)?;
             Some((at, group, reactions))
         });
         let solved = solved.collect_vec();
         let all = solved.iter().flat_map(|(_, g, r)| magnitudes(r, &g.pose));
         let sizes = all.map(|(_, x)| x.abs()).filter(|x| x.is_finite());
-        let (unit, prefix) = prefix(sizes.fold(0.0, f64::max));
-        out.line(format!(
+        let (unit, prefix) = unit_prefix(sizes.fold(0.0, f64::max));
+        out.add_line(format!(
             "Group {}: reactions in {prefix}N by the {} method; {}",
             self.group_name(*index),
             shown.name(),
-            self.letters(letters)
+            self.explain_letters(letters)
         ));
         let mut heads = format!("{} | D | F | K | M | L | guide | h, m | y, m", self.unit());
         if self.methods.contains(&GroupMethod::Delta) {
@@ -163,20 +166,20 @@ impl StaticsData<'_> {
             heads += " | methods differ";
         }
         let rows = solved.iter();
-        out.table(
+        out.add_table(
             &heads,
             rows.map(|(at, g, r)| self.group_row(at, g, r, letters, unit)),
         );
-        out.line("");
+        out.add_line("");
     }
 
     /// Explains the letters of a group and its further columns.
-    fn letters(&self, l: &ContourGroup) -> String {
-        let m = self.planar();
+    fn explain_letters(&self, l: &ContourGroup) -> String {
+        let m = self.planar_mechanism();
         let name = |p: PairId| m.pairs[p].name.as_str();
         let guide = name(l.guide);
         let on_the_way = if self.methods.contains(&GroupMethod::Delta) {
-            let names = links(m, &[l.ternary, l.rods[0], l.rods[1]]).join(", ");
+            let names = link_names(m, &[l.ternary, l.rods[0], l.rods[1]]).join(", ");
             format!(
                 " On the way of the δ-point method: across the rods R46τ at F and R47τ at K, across Dδ R34τ at D (4, 6, 7 = {names})."
             )
@@ -200,17 +203,17 @@ impl StaticsData<'_> {
         letters: &ContourGroup,
         unit: f64,
     ) -> Vec<String> {
-        let mut row = vec![figure(self.shown(at.drive))];
-        row.extend(magnitudes(r, &g.pose).map(|(_, v)| figure(v / unit)));
-        let guide = self.found.linkage.place(&at.pose, letters.guide);
-        row.extend([r.arm, r.guide_offset(&g.pose, guide)].map(figure));
+        let mut row = vec![five_digits(self.shown_position(at.drive))];
+        row.extend(magnitudes(r, &g.pose).map(|(_, v)| five_digits(v / unit)));
+        let guide = self.found.linkage.pair_position(&at.pose, letters.guide);
+        row.extend([r.arm, r.guide_offset(&g.pose, guide)].map(five_digits));
         if self.methods.contains(&GroupMethod::Delta) {
             let s = &g.steps;
             let on_the_way = [s.r46_tangential, s.r47_tangential, s.r34_tangential];
-            row.extend(on_the_way.map(|v| figure(v / unit)));
+            row.extend(on_the_way.map(|v| five_digits(v / unit)));
         }
         if self.methods.len() > 1 {
-            let differ = g.disagreement(self.methods);
+            let differ = g.max_disagreement(self.methods);
             row.push(differ.map_or_else(String::new, |e| format!("{e:.0e}")));
         }
         row
@@ -218,11 +221,11 @@ impl StaticsData<'_> {
 
     /// Adds the greatest reaction of every joint.
     fn write_joints(&self, out: &mut Report) {
-        let m = self.planar();
+        let m = self.planar_mechanism();
         let peak = |p: PairId| {
             let each = self.found.moments.iter().filter_map(|x| {
                 let r = x.reactions.iter().find(|r| r.pair == p)?;
-                Some((size(r.force), r.moment, x.drive))
+                Some((vector_size(r.force), r.moment, x.drive))
             });
             let all = each.collect_vec();
             let (force, _, at) = *all.iter().max_by(|a, b| a.0.total_cmp(&b.0))?;
@@ -231,23 +234,30 @@ impl StaticsData<'_> {
         };
         let peaks = (0..m.pairs.len()).filter_map(peak).collect_vec();
         if peaks.is_empty() {
-            return out
-                .line("The equilibrium has no solution here: the mechanism is at a dead point.");
+            return out.add_line(
+                "The equilibrium has no solution here: the mechanism is at a dead point.",
+            );
         }
         let each = peaks.iter().map(|(_, force, _, moment)| force.max(*moment));
-        let (unit, prefix) = prefix(each.fold(0.0, f64::max));
-        let some = |of: f64, x: f64| if of > 0.0 { figure(x) } else { String::new() };
+        let (unit, prefix) = unit_prefix(each.fold(0.0, f64::max));
+        let some = |of: f64, x: f64| {
+            if of > 0.0 {
+                five_digits(x)
+            } else {
+                String::new()
+            }
+        };
         let rows = peaks.iter().map(|&(pair, force, at, moment)| {
-            let links = links(m, &pair.bodies).join(", ");
-            let at = some(force, self.shown(at));
-            let [force, moment] = [figure(force / unit), some(moment, moment / unit)];
-            cells([&pair.name, &pair.kind, &links, &force, &at, &moment])
+            let links = link_names(m, &pair.bodies).join(", ");
+            let at = some(force, self.shown_position(at));
+            let [force, moment] = [five_digits(force / unit), some(moment, moment / unit)];
+            row_cells([&pair.name, &pair.kind, &links, &force, &at, &moment])
         });
-        out.line("Greatest reaction of each joint (equilibrium of all links)\n");
+        out.add_line("Greatest reaction of each joint (equilibrium of all links)\n");
         let (at, n) = (self.unit(), prefix);
         let heads = format!("joint |  | links | force, {n}N | at, {at} | moment, {n}N·m");
-        out.table(&heads, rows);
-        out.line("");
+        out.add_table(&heads, rows);
+        out.add_line("");
     }
 
     /// Adds the greatest acceleration and inertia force of every link, if drives have speeds.
@@ -259,12 +269,19 @@ impl StaticsData<'_> {
                 let each = moments.iter().map(|x| (of(&x.links[i]), x.drive));
                 each.max_by(|a, b| a.0.total_cmp(&b.0))
             };
-            let (acceleration, at) = most(&|l| size(l.acceleration))?;
+            let (acceleration, at) = most(&|l| vector_size(l.acceleration))?;
             let (turning, _) = most(&|l| l.angular_acceleration.abs())?;
-            let (force, _) = most(&|l| size(l.force))?;
+            let (force, _) = most(&|l| vector_size(l.force))?;
             let (moment, _) = most(&|l| l.moment.abs())?;
-            let name = &self.planar().bodies[moments.first()?.links[i].body].name;
-            let figures = [acceleration, self.shown(at), turning, force, moment].map(figure);
+            let name = &self.planar_mechanism().bodies[moments.first()?.links[i].body].name;
+            let figures = [
+                acceleration,
+                self.shown_position(at),
+                turning,
+                force,
+                moment,
+            ]
+            .map(five_digits);
             let row = [name.clone()].into_iter().chain(figures);
             (acceleration > 0.0 || turning > 0.0).then(|| row.collect_vec())
         };
@@ -272,13 +289,13 @@ impl StaticsData<'_> {
         if rows.is_empty() {
             return;
         }
-        out.line("Greatest acceleration and inertia force of each link with mass\n");
+        out.add_line("Greatest acceleration and inertia force of each link with mass\n");
         let at = self.unit();
         let heads = format!(
             "link | a of centre, m/s² | at, {at} | ε, rad/s² | inertia force, N | inertia moment, N·m"
         );
-        out.table(&heads, rows);
-        out.line("");
+        out.add_table(&heads, rows);
+        out.add_line("");
     }
 
     fn write_summary(&self, out: &mut Report) {
@@ -291,39 +308,39 @@ impl StaticsData<'_> {
             });
             let ends = efforts.minmax_by(|a, b| a.0.total_cmp(&b.0)).into_option();
             let Some((low, high)) = ends else { continue };
-            let (unit, prefix) = prefix(low.0.abs().max(high.0.abs()));
+            let (unit, prefix) = unit_prefix(low.0.abs().max(high.0.abs()));
             let at = |(effort, drive): (f64, f64)| {
                 format!(
                     "{} {prefix}{what} at {}",
-                    figure(effort / unit),
-                    self.place(drive)
+                    five_digits(effort / unit),
+                    self.format_place(drive)
                 )
             };
-            let name = &self.planar().pairs[p].name;
-            out.line(format!("Drive {name}: from {} to {}", at(low), at(high)));
+            let name = &self.planar_mechanism().pairs[p].name;
+            out.add_line(format!("Drive {name}: from {} to {}", at(low), at(high)));
         }
         let greatest = |f: &dyn Fn(&Moment) -> f64| {
             let each = found.moments.iter().map(f);
             each.filter(|x| x.is_finite()).fold(0.0, f64::max)
         };
         let of = |f: fn(&Worth) -> f64| greatest(&move |x| f(&x.worth));
-        let (condition, residual) = (figure(of(|e| e.condition)), of(|e| e.residual));
-        out.line(format!(
+        let (condition, residual) = (five_digits(of(|e| e.condition)), of(|e| e.residual));
+        out.add_line(format!(
             "Equilibrium: condition up to {condition}, residual up to {residual:.0e} of the load"
         ));
         let power = greatest(&|x| x.load_power.abs());
         if power > 0.0 {
             let balance = greatest(&|x| (x.load_power + x.drive_power).abs()) / power;
-            out.line(format!(
+            out.add_line(format!(
                 "Power of drives, loads and inertia balances to {balance:.0e}"
             ));
         }
         if methods.len() > 1 && !found.contour_groups.is_empty() {
             let names = methods.iter().map(|x| x.name()).join(", ");
             let all = found.moments.iter().flat_map(|x| &x.groups);
-            let differ = all.filter_map(|g| g.disagreement(methods));
+            let differ = all.filter_map(|g| g.max_disagreement(methods));
             let worst = differ.fold(0.0, f64::max);
-            out.line(format!("Methods {names} differ by {worst:.0e} at most"));
+            out.add_line(format!("Methods {names} differ by {worst:.0e} at most"));
         }
     }
 }

@@ -7,12 +7,12 @@ use crate::model::loads::Stroke;
 use crate::redundancy::stress::exact_self_stresses;
 use crate::statics::contour_group::solutions::GroupMethod;
 use crate::statics::solve::SolvedReactions;
-use crate::view::grip::clamped::{Clamped, pose};
+use crate::view::grip::clamped::{Clamped, pose_words};
 use crate::view::prelude::*;
 use crate::view::reactions::Reactions;
 use crate::view::reactions::stroke::ReactionsOverStroke;
 use crate::view::statics::StaticsData;
-use crate::view::statics::csv::csv;
+use crate::view::statics::csv::statics_csv;
 
 /// Reactions in a plane, in one pose, or over a stroke.
 #[derive(Debug)]
@@ -94,7 +94,7 @@ impl<'a> ToldStatics<'a> {
                 row,
                 found,
             }),
-            pose: pose(g, row),
+            pose: pose_words(g, row),
         }
     }
 
@@ -117,7 +117,7 @@ impl<'a> ToldStatics<'a> {
     /// Returns the reactions as CSV, in SI units.
     pub fn csv(&self) -> String {
         match &self.reactions {
-            ToldReactions::Planar(s) => csv(s),
+            ToldReactions::Planar(s) => statics_csv(s),
             ToldReactions::Pose(s) => s.csv(),
             ToldReactions::Stroke(s) => s.csv(),
         }

@@ -19,31 +19,31 @@ impl Report {
     }
 
     /// Adds a line, or a paragraph of several.
-    pub(crate) fn line(&mut self, line: impl AsRef<str>) {
+    pub(crate) fn add_line(&mut self, line: impl AsRef<str>) {
         self.text += line.as_ref();
         self.text.push('\n');
     }
 
     /// Adds a table.
-    pub(crate) fn table(&mut self, heads: &str, rows: impl IntoIterator<Item = Vec<String>>) {
-        self.line(table(heads, rows, self.width));
+    pub(crate) fn add_table(&mut self, heads: &str, rows: impl IntoIterator<Item = Vec<String>>) {
+        self.add_line(text_table(heads, rows, self.width));
     }
 
     /// Returns the text; lines that are too long are broken between words.
     pub(crate) fn text(self) -> String {
-        fit(&self.text, self.width)
+        fit_lines(&self.text, self.width)
     }
 }
 
 /// Returns a row of a table.
-pub fn cells<const N: usize>(of: [&dyn Display; N]) -> Vec<String> {
+pub fn row_cells<const N: usize>(of: [&dyn Display; N]) -> Vec<String> {
     of.iter().map(ToString::to_string).collect()
 }
 
 /// Returns a plain table; its heads are separated by ` | `. If the output is a terminal of `width` columns, columns of words are
 /// wrapped, and numbers and names only if one takes more than half of the width. A table that is still too wide is given in parts, one
 /// below the other, each with the first column.
-pub fn table(
+pub fn text_table(
     heads: &str,
     rows: impl IntoIterator<Item = Vec<String>>,
     width: Option<u16>,
@@ -55,12 +55,12 @@ pub fn table(
 /// Returns the same with heads that may hold any text.
 pub fn table_of(header: &[&str], rows: Vec<Vec<String>>, width: Option<u16>) -> String {
     let Some(width) = width.map(usize::from) else {
-        return render(header, rows, None);
+        return render_table(header, rows, None);
     };
     let columns: Vec<ColumnWidth> = (0..header.len())
         .map(|c| ColumnWidth::new(header[c], rows.iter().filter_map(|r| r.get(c)), width / 2))
         .collect();
-    let parts = parts(&columns, width);
+    let parts = fitting_parts(&columns, width);
     let part = |part: &Vec<usize>| {
         let header: Vec<&str> = part.iter().map(|&c| header[c]).collect();
         let rows = rows.iter().map(|r| {
@@ -68,12 +68,16 @@ pub fn table_of(header: &[&str], rows: Vec<Vec<String>>, width: Option<u16>) -> 
             cells.collect()
         });
         let of_part: Vec<&ColumnWidth> = part.iter().map(|&c| &columns[c]).collect();
-        render(&header, rows.collect(), Some(widths(&of_part, width)))
+        render_table(
+            &header,
+            rows.collect(),
+            Some(fitting_widths(&of_part, width)),
+        )
     };
     parts.iter().map(part).join("\n\n")
 }
 
-fn render(header: &[&str], rows: Vec<Vec<String>>, widths: Option<Vec<usize>>) -> String {
+fn render_table(header: &[&str], rows: Vec<Vec<String>>, widths: Option<Vec<usize>>) -> String {
     let mut table = Table::new();
     table
         .load_preset(presets::NOTHING)
@@ -83,7 +87,7 @@ fn render(header: &[&str], rows: Vec<Vec<String>>, widths: Option<Vec<usize>>) -
     table.set_header(header.to_vec());
     table.add_rows(rows);
     if let Some(widths) = widths {
-        table.set_width(u16::try_from(taken(&widths)).unwrap_or(u16::MAX));
+        table.set_width(u16::try_from(taken_width(&widths)).unwrap_or(u16::MAX));
         let cells = widths.iter().map(|w| u16::try_from(w + PADDING));
         table.set_constraints(
             cells.map(|w| ColumnConstraint::Absolute(Width::Fixed(w.unwrap_or(u16::MAX)))),
@@ -99,7 +103,7 @@ fn render(header: &[&str], rows: Vec<Vec<String>>, widths: Option<Vec<usize>>) -
 const PADDING: usize = 2;
 
 /// Returns the width of a table with such columns, a margin on the left and gaps between columns.
-fn taken(widths: &[usize]) -> usize {
+fn taken_width(widths: &[usize]) -> usize {
     widths.iter().map(|w| w + PADDING + 1).sum()
 }
 
@@ -127,12 +131,12 @@ impl ColumnWidth {
 }
 
 /// Splits the columns into parts that fit, with the first column in each.
-fn parts(columns: &[ColumnWidth], width: usize) -> Vec<Vec<usize>> {
+fn fitting_parts(columns: &[ColumnWidth], width: usize) -> Vec<Vec<usize>> {
     let mut out: Vec<Vec<usize>> = vec![Vec::new()];
     for c in 0..columns.len() {
         let last = out.len() - 1;
         let with = out[last].iter().chain([&c]).map(|&c| columns[c].least);
-        if taken(&with.collect::<Vec<_>>()) > width && out[last].len() > 1 {
+        if taken_width(&with.collect::<Vec<_>>()) > width && out[last].len() > 1 {
             out.push(vec![0, c]);
         } else {
             out[last].push(c);
@@ -142,9 +146,9 @@ fn parts(columns: &[ColumnWidth], width: usize) -> Vec<Vec<usize>> {
 }
 
 /// Returns widths such that all columns fit, if they can: the widest gives way first, none below its longest word.
-fn widths(columns: &[&ColumnWidth], width: usize) -> Vec<usize> {
+fn fitting_widths(columns: &[&ColumnWidth], width: usize) -> Vec<usize> {
     let mut widths: Vec<usize> = columns.iter().map(|c| c.most).collect();
-    while taken(&widths) > width {
+    while taken_width(&widths) > width {
         let can = (0..widths.len()).filter(|&c| widths[c] > columns[c].least);
         // Of columns alike the last, where the explanations are.
         let Some(widest) = can.max_by_key(|&c| widths[c]) else {
@@ -156,14 +160,14 @@ fn widths(columns: &[&ColumnWidth], width: usize) -> Vec<usize> {
 }
 
 /// Breaks lines that are too long between words, and indents the rest of them by two more.
-pub fn fit(text: &str, width: Option<u16>) -> String {
+pub fn fit_lines(text: &str, width: Option<u16>) -> String {
     let Some(width) = width.map(usize::from) else {
         return text.to_owned();
     };
-    text.split('\n').map(|l| wrapped(l, width)).join("\n")
+    text.split('\n').map(|l| wrap_line(l, width)).join("\n")
 }
 
-fn wrapped(line: &str, width: usize) -> String {
+fn wrap_line(line: &str, width: usize) -> String {
     if measure_text_width(line) <= width {
         return line.to_owned();
     }
@@ -195,7 +199,7 @@ fn wrapped(line: &str, width: usize) -> String {
 }
 
 /// Returns the factor to divide by and the unit prefix for values up to `greatest`.
-pub(crate) fn prefix(greatest: f64) -> (f64, &'static str) {
+pub(crate) fn unit_prefix(greatest: f64) -> (f64, &'static str) {
     match greatest {
         x if x >= 1e7 => (1e6, "M"),
         x if x >= 1e4 => (1e3, "k"),
@@ -227,12 +231,12 @@ mod tests {
             ],
         ];
         let head = " | moment | changes";
-        let text = table(head, rows.clone(), Some(40));
+        let text = text_table(head, rows.clone(), Some(40));
         assert!(widest(&text) <= 40, "{text}");
         assert!(text.contains("0.1414") && text.contains("; 5-1"), "{text}");
-        let free = table(head, rows.clone(), None);
-        assert_eq!(free, table(head, rows.clone(), Some(200)));
-        let narrow = table(head, rows, Some(20));
+        let free = text_table(head, rows.clone(), None);
+        assert_eq!(free, text_table(head, rows.clone(), Some(200)));
+        let narrow = text_table(head, rows, Some(20));
         assert!(
             widest(&narrow) <= 20 && narrow.contains("moment"),
             "{narrow}"
@@ -250,7 +254,7 @@ mod tests {
                 "12".to_owned(),
             ]
         };
-        let text = table("contour | joints | rank", [row(1), row(3)], Some(60));
+        let text = text_table("contour | joints | rank", [row(1), row(3)], Some(60));
         assert!(widest(&text) <= 60, "{text}");
         assert!(text.contains("joint4") && text.contains("12"), "{text}");
         let rule = text.lines().nth(1).unwrap().trim_start();
@@ -261,15 +265,15 @@ mod tests {
 
     #[test]
     fn long_lines_hang() {
-        let text = fit("a\n  one two three four\n  wait", Some(12));
+        let text = fit_lines("a\n  one two three four\n  wait", Some(12));
         assert_eq!(text, "a\n  one two\n    three\n    four\n  wait");
-        assert_eq!(fit("  as it is", None), "  as it is");
+        assert_eq!(fit_lines("  as it is", None), "  as it is");
     }
 
     proptest! {
         #[test]
         fn every_word_is_kept_and_every_line_fits(text in "( {0,4}([a-zσ]{1,9} {1,3}){0,12}\n){0,5}", width in 24u16..90) {
-            let fitted = fit(&text, Some(width));
+            let fitted = fit_lines(&text, Some(width));
             prop_assert!(fitted.split_whitespace().eq(text.split_whitespace()));
             let long = fitted.lines().find(|l| measure_text_width(l.trim_end()) > usize::from(width));
             prop_assert!(long.is_none(), "{fitted}");

@@ -17,9 +17,9 @@ pub struct NextCommand {
 
 impl NextCommand {
     /// Returns the command that fixes a robot description in a copy of the file.
-    pub fn mend(file: &str, more: &str, gives: &str) -> NextCommand {
+    pub fn fix_command(file: &str, more: &str, gives: &str) -> NextCommand {
         let (stem, ending) = file.rsplit_once('.').unwrap_or((file, "xml"));
-        let out = format!("-o {}", word(&format!("{stem}-fixed.{ending}")));
+        let out = format!("-o {}", shell_word(&format!("{stem}-fixed.{ending}")));
         NextCommand::new("fix", file, format!("{more} {out}").trim(), gives)
     }
 
@@ -31,7 +31,7 @@ impl NextCommand {
             format!(" {more}")
         };
         NextCommand {
-            command: format!("ozols {command} {}{more}", word(file)),
+            command: format!("ozols {command} {}{more}", shell_word(file)),
             gives: gives.to_owned(),
         }
     }
@@ -39,7 +39,7 @@ impl NextCommand {
 
 /// Returns the steps as the end of a report, fitted to a terminal of `width` columns except for the commands: a command broken in two
 /// could not be copied. Empty if there are none.
-pub fn text(steps: &[NextCommand], width: Option<u16>) -> String {
+pub fn steps_text(steps: &[NextCommand], width: Option<u16>) -> String {
     if steps.is_empty() {
         return String::new();
     }
@@ -47,21 +47,21 @@ pub fn text(steps: &[NextCommand], width: Option<u16>) -> String {
         format!(
             "    {}\n{}\n",
             s.command,
-            fit(&format!("      {}", s.gives), width)
+            fit_lines(&format!("      {}", s.gives), width)
         )
     });
     format!("\n  Next:\n{}", lines.collect_vec().concat())
 }
 
 /// Returns the options that reproduce the list of a search, as they are typed: those of `search`, `draw` and `export` are the same.
-pub fn flags(mechanism: &Mechanism, r: &Request) -> String {
+pub fn request_flags(mechanism: &Mechanism, r: &Request) -> String {
     let joints = |rule: &JointOptions| match rule.names.as_slice() {
         [] => rule.joint.clone(),
         names => format!("{}={}", rule.joint, names.join(",")),
     };
     let some = |n: u32| (n > 0).then(|| n.to_string());
     let list = |names: Vec<String>| (!names.is_empty()).then(|| names.join(","));
-    let state = r.state(mechanism).ok().flatten().is_some();
+    let state = r.searched_state(mechanism).ok().flatten().is_some();
     let state = r.state.as_ref().filter(|_| state).cloned();
     let unloading = r.unloading.iter().map(|i| match i.joints.as_slice() {
         [] => i.names.join(","),
@@ -108,18 +108,23 @@ pub fn flags(mechanism: &Mechanism, r: &Request) -> String {
         ("as-written", r.as_written),
     ];
     valued
-        .filter_map(|(option, value)| Some(flag(option, word(&value?))))
-        .chain(switches.iter().filter(|s| s.1).map(|s| flag(s.0, "")))
+        .filter_map(|(option, value)| Some(typed_option(option, shell_word(&value?))))
+        .chain(
+            switches
+                .iter()
+                .filter(|s| s.1)
+                .map(|s| typed_option(s.0, "")),
+        )
         .join(" ")
 }
 
 /// Returns an option as it is typed, with its value if it has one: everything else names options by their fields.
-pub(crate) fn flag(option: &str, value: impl Display) -> String {
+pub(crate) fn typed_option(option: &str, value: impl Display) -> String {
     format!("--{option} {value}").trim_end().to_owned()
 }
 
 /// Quotes a word for a shell; standard input cannot be read again, so it is FILE.
-pub fn word(text: &str) -> String {
+pub fn shell_word(text: &str) -> String {
     let plain = |c: char| c.is_ascii_alphanumeric() || "-_./=,+:@%".contains(c);
     match text {
         "-" => "FILE".to_owned(),
@@ -130,11 +135,11 @@ pub fn word(text: &str) -> String {
 
 /// Returns a file name for a mechanism's name.
 pub fn file_name(name: &str, ending: &str) -> String {
-    word(&format!("{}.{ending}", stem(name)))
+    shell_word(&format!("{}.{ending}", file_stem(name)))
 }
 
 /// Returns the same without its ending.
-pub fn stem(name: &str) -> String {
+pub fn file_stem(name: &str) -> String {
     let plain = |c: char| c.is_alphanumeric() || c == '-' || c == '_';
     let stem: String = name
         .chars()
@@ -150,10 +155,10 @@ mod tests {
 
     #[test]
     fn files_are_quoted_for_the_shell() {
-        assert_eq!(word("my hand.toml"), "'my hand.toml'");
-        assert_eq!(word("it's"), "'it'\\''s'");
-        assert_eq!(word("-"), "FILE");
-        assert_eq!(word("a/b-c.toml"), "a/b-c.toml");
+        assert_eq!(shell_word("my hand.toml"), "'my hand.toml'");
+        assert_eq!(shell_word("it's"), "'it'\\''s'");
+        assert_eq!(shell_word("-"), "FILE");
+        assert_eq!(shell_word("a/b-c.toml"), "a/b-c.toml");
         assert_eq!(file_name("my hand", "svg"), "my-hand.svg");
     }
 }

@@ -1,9 +1,9 @@
 //! Three jaws round the axis along which their drive slides, each in a plane of its own: wedge chucks, fingers on a piston.
 
-use super::super::carried_on::scattered;
+use super::super::carried_on::scattered_numbers;
 use super::{
-    Built, LAID, are_images, at, built, known_three, number, ok, pulls_as_its_file_says, rows,
-    scheme_in,
+    Built, LAID, are_images, built, known_three, number, path_in, pulls_as_its_file_says,
+    query_rows, scheme_in, stdout_of,
 };
 use crate::common::*;
 
@@ -27,7 +27,7 @@ fn axial() -> &'static str {
 /// them, a pin in a slot a hinge or a slide: six ways, by hand.
 #[test]
 fn sides_of_one_link_are_six() {
-    let found = rows(
+    let found = query_rows(
         axial(),
         "SELECT count(*) AS n FROM structures WHERE links = 5",
     );
@@ -37,7 +37,7 @@ fn sides_of_one_link_are_six() {
 #[test]
 fn forces_and_strokes_are_those_of_the_files_statics_in_space() {
     let folder = tempdir().unwrap();
-    let all = rows(axial(), LAID);
+    let all = query_rows(axial(), LAID);
     // All of them: where a pose is not proven to be a regular one, others are looked for.
     assert_eq!(all.len(), 46);
     for row in &all {
@@ -47,7 +47,7 @@ fn forces_and_strokes_are_those_of_the_files_statics_in_space() {
         );
     }
     let of = |i: u64| usize::try_from(i % all.len() as u64).unwrap();
-    let drawn: BTreeSet<usize> = scattered(5).take(10).map(of).collect();
+    let drawn: BTreeSet<usize> = scattered_numbers(5).take(10).map(of).collect();
     for &i in &drawn {
         pulls_as_its_file_says(axial(), &all[i], &folder);
     }
@@ -64,7 +64,7 @@ fn well_known_schemes_have_three_jaws() {
     let file = known_three();
     let sql = "SELECT c.id, s.links, s.joints, l.redundant, s.input FROM classics c JOIN structures s ON s.id = c.structure \
          JOIN layouts l ON l.structure = s.id JOIN strokes k ON k.structure = s.id WHERE shortfall IS NULL";
-    let found = rows(file, sql);
+    let found = query_rows(file, sql);
     let of = |id: &str| found.iter().find(|r| r["id"] == id).unwrap();
     // By hand, the scroll with three jaws: frame, disc and jaws; the disc turns in the frame, and each jaw slides in the frame and has
     // a slot on the disc.
@@ -84,7 +84,7 @@ fn well_known_schemes_have_three_jaws() {
     ] {
         assert_eq!(of(id)["input"], "slide", "{id}");
     }
-    let shown = ok(&["catalog", "show", file, &scheme_in(file, "wedge-hook")]);
+    let shown = stdout_of(&["catalog", "show", file, &scheme_in(file, "wedge-hook")]);
     assert!(
         shown.contains("With two jaws known as wedge-hook"),
         "{shown}"
@@ -96,16 +96,16 @@ fn well_known_schemes_have_three_jaws() {
 fn sides_of_three_jaws_are_found() {
     let folder = tempdir().unwrap();
     let file = known_three();
-    let all = rows(
+    let all = query_rows(
         file,
         "SELECT structure, group_concat(id) AS ids FROM classics GROUP BY structure",
     );
     assert_eq!(all.len(), 21);
     for row in &all {
         let id = row["structure"].as_str().unwrap();
-        let toml = at(&folder, "chuck.toml");
-        ok(&["catalog", "export", file, id, "-o", &toml]);
-        let found = ok(&["catalog", "find", &toml, "--in", file]);
+        let toml = path_in(&folder, "chuck.toml");
+        stdout_of(&["catalog", "export", file, id, "-o", &toml]);
+        let found = stdout_of(&["catalog", "find", &toml, "--in", file]);
         assert!(
             found.contains("three equal sides") && found.contains(id),
             "{id}: {found}"

@@ -2,9 +2,9 @@
 
 use super::number;
 use crate::common::*;
-use ozols::chains::classics::classics;
+use ozols::chains::classics::known_classics;
 use ozols::synthesis::direction::WholeDirection;
-use ozols::synthesis::figures::{LayoutFigures, figures};
+use ozols::synthesis::figures::{LayoutFigures, layout_figures};
 use ozols::synthesis::layout::{Layout, most_symmetric};
 use ozols::synthesis::places::{Places, Teeth};
 use ozols::synthesis::rules::Rules;
@@ -33,9 +33,9 @@ struct ByHand {
 
 impl ByHand {
     fn new(id: &str) -> ByHand {
-        let classic = classics().iter().find(|c| c.id == id).unwrap();
+        let classic = known_classics().iter().find(|c| c.id == id).unwrap();
         let paired = most_symmetric(&classic.structure).unwrap();
-        let lay = paired.lays().swap_remove(0);
+        let lay = paired.symmetry_lays().swap_remove(0);
         let rules = Rules::new(&paired, &lay).unwrap();
         let count = rules.joints.len();
         let half = 15.0;
@@ -63,45 +63,46 @@ impl ByHand {
     /// The link between two that are not joined.
     fn between(&self, a: usize, b: usize) -> usize {
         let chain = &self.paired.structure.chain;
-        let both = |l: &usize| chain.between(*l, a).is_some() && chain.between(*l, b).is_some();
+        let both =
+            |l: &usize| chain.pair_between(*l, a).is_some() && chain.pair_between(*l, b).is_some();
         (0..chain.links()).find(both).unwrap()
     }
 
     /// Puts a joint in a place, its image where that belongs.
     fn put(&mut self, joint: usize, [x, y]: [f64; 2]) {
-        let image = self.rules.images().find(|i| i.1 == joint);
+        let image = self.rules.image_pairs().find(|i| i.1 == joint);
         let (joint, y) = image.map_or((joint, y), |(of, _)| (of, -y));
         self.at.points[joint] = [x + AHEAD, y];
     }
 
     fn turn(&mut self, joint: usize, along: WholeDirection) {
-        let image = self.rules.images().find(|i| i.1 == joint);
-        let (joint, along) = image.map_or((joint, along), |(of, _)| (of, along.mirrored()));
+        let image = self.rules.image_pairs().find(|i| i.1 == joint);
+        let (joint, along) = image.map_or((joint, along), |(of, _)| (of, along.mirror_x()));
         self.at.along[joint] = along;
     }
 
     fn figures(mut self) -> LayoutFigures {
-        self.rules.settle(&mut self.at);
+        self.rules.settle_joints(&mut self.at);
         let limits = Limits {
             task: published_task(),
             ..Limits::default()
         };
         let sketch = Sketch::new(&self.paired, self.rules.clone(), limits);
         let layout = Layout {
-            looks: sketch.looks(&self.at).unwrap(),
+            looks: sketch.drawn_figures(&self.at).unwrap(),
             rules: self.rules,
             at: self.at,
             limits,
             start: 0,
         };
-        figures(&self.paired, &layout).unwrap()
+        layout_figures(&self.paired, &layout).unwrap()
     }
 }
 
 /// Force curves of `forces.json`, from closed to open in eleven steps.
 #[test]
 fn forces_are_those_published_for_four_schemes() {
-    let told: Value = serde_json::from_str(&data("forces.json")).unwrap();
+    let told: Value = serde_json::from_str(&read_data("forces.json")).unwrap();
     let check = |id: &str, f: LayoutFigures| {
         let scheme = &told[id];
         let curve = scheme["closed_to_open"].as_array().unwrap().iter();
@@ -128,7 +129,7 @@ fn forces_are_those_published_for_four_schemes() {
     let id = "piston-links-angular";
     let mut g = ByHand::new(id);
     let roles = g.paired.structure.roles.clone();
-    let (f, j, driver) = (roles.frame, roles.jaws[0], roles.drive()[1]);
+    let (f, j, driver) = (roles.frame, roles.jaws[0], roles.drive_links()[1]);
     let rod = g.between(driver, j);
     g.put(g.joint(f, j), [size(id, "hinge_x"), size(id, "hinge_y")]);
     g.put(g.joint(rod, j), [size(id, "tail_x"), size(id, "tail_y")]);
@@ -141,7 +142,7 @@ fn forces_are_those_published_for_four_schemes() {
     let id = "toggle-sliding-jaws";
     let mut g = ByHand::new(id);
     let roles = g.paired.structure.roles.clone();
-    let (f, j, driver) = (roles.frame, roles.jaws[0], roles.drive()[1]);
+    let (f, j, driver) = (roles.frame, roles.jaws[0], roles.drive_links()[1]);
     let rod = g.between(driver, j);
     g.turn(g.joint(f, j), WholeDirection::ACROSS);
     g.put(g.joint(f, j), [60.0, 10.0]);
@@ -155,7 +156,7 @@ fn forces_are_those_published_for_four_schemes() {
     let roles = g.paired.structure.roles.clone();
     let (frame, jaw, [u, v]) = (roles.frame, roles.jaws[0], roles.input);
     let chain = &g.paired.structure.chain;
-    let cylinder = if chain.between(u, jaw).is_some() {
+    let cylinder = if chain.pair_between(u, jaw).is_some() {
         u
     } else {
         v
@@ -174,14 +175,14 @@ fn forces_are_those_published_for_four_schemes() {
     let id = "rack-two-segments";
     let mut g = ByHand::new(id);
     let roles = g.paired.structure.roles.clone();
-    let (frame, jaw, driver) = (roles.frame, roles.jaws[0], roles.drive()[1]);
+    let (frame, jaw, driver) = (roles.frame, roles.jaws[0], roles.drive_links()[1]);
     g.put(
         g.joint(frame, jaw),
         [size(id, "hinge_x"), size(id, "hinge_y")],
     );
     // The pitch line is at y = 5, between the hinges at 22.5: of the two sides of a pinion the inner one.
     let mesh = g.joint(driver, jaw);
-    let image = g.rules.images().find(|i| i.1 == mesh);
+    let image = g.rules.image_pairs().find(|i| i.1 == mesh);
     let (of, inner) = image.map_or((mesh, 35), |(of, _)| (of, -35));
     g.at.teeth[of] = Teeth::Rack(inner);
     check(id, g.figures());
@@ -193,7 +194,7 @@ fn a_wedge_pulls_by_its_angle() {
     for (slot, cotangent) in [(6, 4.0 / 3.0), (5, 15.0 / 8.0), (9, 3.0 / 4.0)] {
         let mut g = ByHand::new("wedge-hook");
         let roles = g.paired.structure.roles.clone();
-        let (frame, jaw, driver) = (roles.frame, roles.jaws[0], roles.drive()[1]);
+        let (frame, jaw, driver) = (roles.frame, roles.jaws[0], roles.drive_links()[1]);
         g.turn(g.joint(frame, jaw), WholeDirection::ACROSS);
         g.put(g.joint(frame, jaw), [60.0, 30.0]);
         g.turn(g.joint(driver, jaw), WholeDirection::number(slot));

@@ -1,7 +1,7 @@
 //! Wedges with flat faces.
 
-use super::super::command::at;
-use super::{first_of, known, rows};
+use super::super::command::path_in;
+use super::{first_of, known, query_rows};
 use crate::common::*;
 
 /// A wedge with flat faces has two constraints more that are redundant than one with pins in its slots, both in the plane, and pulls by half
@@ -15,7 +15,7 @@ fn flat_faces_are_redundant_in_the_plane_already() {
              WHERE structure = '{}'",
             first_of(scheme)
         );
-        rows(known(), &sql).remove(0)
+        query_rows(known(), &sql).remove(0)
     };
     let (flat, hook) = (of("wedge-flat-faces"), of("wedge-hook"));
     let number = |row: &Value, key: &str| row[key].as_f64().unwrap();
@@ -31,14 +31,14 @@ fn flat_faces_are_redundant_in_the_plane_already() {
         let half = inclined.unwrap() / 2.0;
         assert!((number(&flat, key) / half - 1.0).abs() < 1e-3, "{flat}");
     }
-    let toml = at(&folder, "flat.toml");
+    let toml = path_in(&folder, "flat.toml");
     fs::write(&toml, flat["mechanism"].as_str().unwrap()).unwrap();
-    let tried = json(&["search", &toml, "--method", "brute", "--format", "json"]);
+    let tried = run_json(&["search", &toml, "--method", "brute", "--format", "json"]);
     assert_eq!(
         tried["determinate"].to_string(),
         format!("\"{}\"", flat["determinate"])
     );
-    let found = ok(&["catalog", "find", &toml]);
+    let found = stdout_of(&["catalog", "find", &toml]);
     assert!(
         found.contains("Known as wedge-flat-faces") && found.contains("5 slides"),
         "{found}"

@@ -1,8 +1,9 @@
 //! Ways in which structures are made: freely, as known schemes; and what they cost.
 
-use super::super::carried_on::scattered;
+use super::super::carried_on::scattered_numbers;
 use super::{
-    Built, LAID, at, built, first_of, known, known_three, number, ok, pulls_as_its_file_says, rows,
+    Built, LAID, built, first_of, known, known_three, number, path_in, pulls_as_its_file_says,
+    query_rows, stdout_of,
 };
 use crate::common::*;
 
@@ -10,7 +11,7 @@ use crate::common::*;
 fn free() -> &'static str {
     static FILE: Built = OnceLock::new();
     let line = "catalog build --pairs slide,gear,slot --generic-pairs --symmetry generic --links 4 --ideas 0 --quiet -o";
-    built(&FILE, &words(line))
+    built(&FILE, &split_words(line))
 }
 
 #[test]
@@ -18,20 +19,20 @@ fn free_structures_are_all_that_are_counted_and_pull_as_their_files_say() {
     // `counts.csv`: essential ones of four links with at most three pairs that are not hinges, any place of input and
     // jaws. Columns: links, kinds, chains and inputs, then eight for each drive, the second of which is the essential ones.
     let mut told = 0;
-    for line in data("counts.csv").lines().skip(1) {
+    for line in read_data("counts.csv").lines().skip(1) {
         let cells: Vec<u64> = line.split(',').map(|n| n.parse().unwrap_or(0)).collect();
         if cells[0] == 4 && cells[1] + cells[2] + cells[3] <= 3 {
             told += cells[9..].chunks(8).map(|drive| drive[1]).sum::<u64>();
         }
     }
     // Those of hinges are built as such.
-    let found = &rows(free(), "SELECT count(*) AS n FROM structures")[0]["n"];
+    let found = &query_rows(free(), "SELECT count(*) AS n FROM structures")[0]["n"];
     assert_eq!(found.as_u64(), Some(told));
-    let laid = rows(free(), LAID);
+    let laid = query_rows(free(), LAID);
     assert!(laid.len() > 600, "{}", laid.len());
     let folder = tempdir().unwrap();
     let of = |i: u64| usize::try_from(i % laid.len() as u64).unwrap();
-    let drawn: BTreeSet<usize> = scattered(23).take(12).map(of).collect();
+    let drawn: BTreeSet<usize> = scattered_numbers(23).take(12).map(of).collect();
     for &i in &drawn {
         assert_eq!(laid[i]["finite"], "1, proven");
         pulls_as_its_file_says(free(), &laid[i], &folder);
@@ -45,18 +46,18 @@ fn prices_and_actuators_are_as_by_hand() {
     let sql = format!(
         "SELECT g.*, s.joints FROM grippers g JOIN structures s ON s.id = g.id WHERE g.id = '{id}'"
     );
-    let row = &rows(known(), &sql)[0];
+    let row = &query_rows(known(), &sql)[0];
     let price = 4.0 + 3.0 * 2.0 + 2.0 * 1.5 + number(row, "cost");
     assert!((number(row, "price") - price).abs() < 1e-9, "{row}");
     let work = number(row, "travel") / number(row, "least_force") / number(row, "efficiency");
     assert!((number(row, "actuator") - work).abs() < 0.01, "{row}");
     // It closes 50 mm by two jaws, 25 each, and no drive does that with less work.
-    let all = rows(known(), "SELECT actuator, narrowest, widest FROM grippers");
+    let all = query_rows(known(), "SELECT actuator, narrowest, widest FROM grippers");
     assert!(
         all.iter()
             .all(|r| number(r, "actuator") > number(r, "widest") - number(r, "narrowest") - 0.01)
     );
-    let asked = ok(&[
+    let asked = stdout_of(&[
         "catalog",
         "query",
         known(),
@@ -69,9 +70,9 @@ fn prices_and_actuators_are_as_by_hand() {
 }
 
 fn exported(folder: &tempfile::TempDir, scheme: &str, more: &[&str]) -> String {
-    let toml = at(folder, "gripper.toml");
+    let toml = path_in(folder, "gripper.toml");
     let id = first_of(scheme);
-    ok(&[&["catalog", "export", known(), &id, "-o", &toml], more].concat());
+    stdout_of(&[&["catalog", "export", known(), &id, "-o", &toml], more].concat());
     toml
 }
 
@@ -85,11 +86,11 @@ fn a_screw_loses_by_its_thread_and_guides() {
         "SELECT * FROM grippers WHERE id = '{}'",
         first_of("screw-two-nuts")
     );
-    let row = &rows(known(), &told)[0];
+    let row = &query_rows(known(), &told)[0];
     // Of 25 mm each jaw, and a radian of the drive.
     let pitch = 25.0 / number(row, "travel");
     let screw = m.joints.iter().find(|j| j.drive).unwrap();
-    let arm = 120.0 - 1e3 * real(&screw.frame.point)[0];
+    let arm = 120.0 - 1e3 * to_vector(&screw.frame.point)[0];
     let thread = 0.1 * (4.0 + pitch * pitch / 4.0);
     let guide = 0.1 * 2.0 * arm / 40.0 * pitch;
     let by_hand = pitch / (pitch + thread + guide);
@@ -109,7 +110,7 @@ fn what_looks_like_a_screw_is_told_from_one() {
     let folder = tempdir().unwrap();
     let toml = exported(&folder, "screw-two-nuts", &[]);
     let text = fs::read_to_string(&toml).unwrap();
-    let other = at(&folder, "other.toml");
+    let other = path_in(&folder, "other.toml");
     let with = |change: &dyn Fn(&mut toml::Table)| {
         let mut file: toml::Table = text.parse().unwrap();
         for joint in file["joint"].as_array_mut().unwrap() {
@@ -121,7 +122,7 @@ fn what_looks_like_a_screw_is_told_from_one() {
         }
         file.remove("search");
         fs::write(&other, file.to_string()).unwrap();
-        ran(&["catalog", "find", &other])
+        run_full(&["catalog", "find", &other])
     };
     let thread = |joint: &toml::Table| joint["type"].as_str() == Some("helical");
     assert_eq!(with(&|_| ()).0, Some(0));
@@ -165,8 +166,8 @@ fn redesigns_are_found_in_their_plane() {
         for idea in 1..=4 {
             let idea = idea.to_string();
             let id = first_of(scheme);
-            let toml = at(&folder, "idea.toml");
-            if ran(&[
+            let toml = path_in(&folder, "idea.toml");
+            if run_full(&[
                 "catalog",
                 "export",
                 known(),
@@ -178,7 +179,7 @@ fn redesigns_are_found_in_their_plane() {
             ])
             .0 == Some(0)
             {
-                let found = ok(&["catalog", "find", &toml, "--in", known()]);
+                let found = stdout_of(&["catalog", "find", &toml, "--in", known()]);
                 assert!(found.contains(&id), "{scheme} {idea}: {found}");
             }
         }
@@ -189,7 +190,7 @@ fn redesigns_are_found_in_their_plane() {
 #[test]
 fn flat_faces_of_three_sides_are_slides() {
     let sql = "SELECT g.* FROM grippers g JOIN classics c ON c.structure = g.id WHERE c.id = 'wedge-flat-faces'";
-    let row = &rows(known_three(), sql)[0];
+    let row = &query_rows(known_three(), sql)[0];
     assert_eq!([number(row, "slides"), number(row, "slots")], [7.0, 0.0]);
     assert_eq!(number(row, "price"), 5.0 + 7.0 * 2.0 + number(row, "cost"));
 }

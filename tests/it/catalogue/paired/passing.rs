@@ -1,7 +1,7 @@
 //! Links that cross and pass each other in planes.
 
-use super::super::command::at;
-use super::rows;
+use super::super::command::path_in;
+use super::query_rows;
 use crate::common::*;
 
 /// Links may cross as often as they like where there are planes in which they pass each other over the whole stroke, and six times
@@ -9,10 +9,10 @@ use crate::common::*;
 #[test]
 fn what_crosses_often_passes_in_planes() {
     let folder = tempdir().unwrap();
-    let file = at(&folder, "turned.db");
+    let file = path_in(&folder, "turned.db");
     let words = "catalog build --links 6 --pairs slot --symmetry half-turn --ideas 0 --quiet -o";
-    ok(&format!("{words} {file}"));
-    let all = rows(
+    stdout_of(&format!("{words} {file}"));
+    let all = query_rows(
         &file,
         "SELECT no_layout, crossings, planes FROM structures LEFT JOIN layouts l ON l.structure = id LEFT JOIN planes p ON p.structure = id",
     );

@@ -4,9 +4,9 @@
 use super::number;
 use crate::common::*;
 use ozols::chains::PairKind;
-use ozols::chains::classics::classics;
-use ozols::synthesis::figures::figures;
-use ozols::synthesis::layout::{layout, most_symmetric};
+use ozols::chains::classics::known_classics;
+use ozols::synthesis::figures::layout_figures;
+use ozols::synthesis::layout::{lay_out, most_symmetric};
 use ozols::synthesis::task::{Aim, Limits, Task};
 
 /// The limits of `forces.json`: pins at 3 mm to 40 mm from the middle, tips 20 mm ahead of hinges and 30 mm apart when closed, each opening by
@@ -35,11 +35,11 @@ fn published_limits(transmission: f64) -> Limits {
 
 /// The least force over the stroke of the strongest layout of a scheme, which keeps the limits as drawn.
 fn strongest(id: &str, transmission: f64) -> f64 {
-    let classic = classics().iter().find(|c| c.id == id).unwrap();
+    let classic = known_classics().iter().find(|c| c.id == id).unwrap();
     let paired = most_symmetric(&classic.structure).unwrap();
     let limits = published_limits(transmission);
-    let found = layout(&paired, &limits, 1).unwrap();
-    let figures = figures(&paired, &found).unwrap();
+    let found = lay_out(&paired, &limits, 1).unwrap();
+    let figures = layout_figures(&paired, &found).unwrap();
     assert_eq!(figures.shortfall, None, "{id}");
     let joints = found.rules.joints.iter().zip(&found.at.points);
     let pins: Vec<[f64; 2]> = joints
@@ -56,7 +56,7 @@ fn strongest(id: &str, transmission: f64) -> f64 {
 }
 
 fn published(id: &str) -> f64 {
-    let told: Value = serde_json::from_str(&data("forces.json")).unwrap();
+    let told: Value = serde_json::from_str(&read_data("forces.json")).unwrap();
     number(&told[id], "least")
 }
 

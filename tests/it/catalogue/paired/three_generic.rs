@@ -3,9 +3,9 @@
 use crate::common::*;
 pub(in super::super) mod every_way;
 
-use super::super::carried_on::scattered;
-use super::super::command::{at, cards_of, lines, whole};
-use super::{Built, LAID, built, pulls_as_its_file_says, rows};
+use super::super::carried_on::scattered_numbers;
+use super::super::command::{cards_of, dump_catalogue, path_in, query_lines};
+use super::{Built, LAID, built, pulls_as_its_file_says, query_rows};
 use ozols::chains::sharing::Menu;
 use ozols::chains::{PairKind, structure::PairStructure};
 use ozols::synthesis::listed::generic_structures;
@@ -15,8 +15,8 @@ const BUILD: &str = "catalog build --jaws 3 --symmetry generic --generic-pairs -
 /// Every structure of four links with two pairs at most that are no hinges.
 pub(super) fn free() -> &'static str {
     static FILE: Built = OnceLock::new();
-    let more = words("catalog build --pairs slide,gear,slot --at-most 2 --links 4 --ideas 2");
-    built(&FILE, &[&more[..], &words(BUILD)[2..]].concat())
+    let more = split_words("catalog build --pairs slide,gear,slot --at-most 2 --links 4 --ideas 2");
+    built(&FILE, &[&more[..], &split_words(BUILD)[2..]].concat())
 }
 
 /// As many as there are by trying all, and these: every chain of labelled links, every choice of roles, up to every numbering.
@@ -45,7 +45,7 @@ fn hinges_alone_make_what_is_counted_without_pairs() {
     let kinds = &[PairKind::Slide];
     let all = generic_structures(6, 3, Menu { kinds, most: 1 });
     let hinged = all.iter().filter(|p| p.is_hinged());
-    let (slides, turns): (Vec<_>, Vec<_>) = hinged.partition(|p| p.structure.slides());
+    let (slides, turns): (Vec<_>, Vec<_>) = hinged.partition(|p| p.structure.input_slides());
     assert_eq!([slides.len(), turns.len()], [31, 31]);
 }
 
@@ -54,7 +54,10 @@ fn keys_of_three_jaws_are_read_back() {
     let kinds = &[PairKind::Slide, PairKind::Gear, PairKind::Slot];
     for paired in generic_structures(4, 3, Menu { kinds, most: 3 }) {
         let structure = &paired.structure;
-        assert_eq!(&PairStructure::of_key(&structure.key()), structure);
+        assert_eq!(
+            &PairStructure::of_key(&structure.canonical_key()),
+            structure
+        );
         assert_eq!(structure.roles.jaws.len(), 3);
     }
 }
@@ -62,14 +65,14 @@ fn keys_of_three_jaws_are_read_back() {
 #[test]
 fn forces_and_strokes_are_those_of_the_files_statics() {
     let folder = tempdir().unwrap();
-    let all = rows(free(), LAID);
+    let all = query_rows(free(), LAID);
     assert!(all.len() > 75, "{}", all.len());
     for row in &all {
         let found = (&row["finite"], &row["mobility"], &row["certainty"]);
         assert_eq!(found, (&"1, proven".into(), &1.into(), &"exact".into()));
     }
     let of = |i: u64| usize::try_from(i % all.len() as u64).unwrap();
-    let drawn: BTreeSet<usize> = scattered(3).take(12).map(of).collect();
+    let drawn: BTreeSet<usize> = scattered_numbers(3).take(12).map(of).collect();
     for &i in &drawn {
         pulls_as_its_file_says(free(), &all[i], &folder);
     }
@@ -79,7 +82,7 @@ fn forces_and_strokes_are_those_of_the_files_statics() {
 #[test]
 fn what_is_laid_out_has_an_id_of_its_own_and_is_found() {
     let folder = tempdir().unwrap();
-    let all = rows(
+    let all = query_rows(
         free(),
         "SELECT id, no_layout IS NULL AS laid FROM structures",
     );
@@ -91,9 +94,9 @@ fn what_is_laid_out_has_an_id_of_its_own_and_is_found() {
     let laid = all.iter().filter(|r| r["laid"] == 1);
     for row in laid.step_by(3) {
         let id = row["id"].as_str().unwrap();
-        let toml = at(&folder, "gripper.toml");
-        ok(&["catalog", "export", free(), id, "-o", &toml]);
-        let found = json(&["catalog", "find", &toml, "--in", free(), "--json"]);
+        let toml = path_in(&folder, "gripper.toml");
+        stdout_of(&["catalog", "export", free(), id, "-o", &toml]);
+        let found = run_json(&["catalog", "find", &toml, "--in", free(), "--json"]);
         assert_eq!(found["sides"], 1, "{found}");
         let entries = found["catalogue"].as_array().unwrap();
         let [entry] = &entries[..] else {
@@ -110,7 +113,7 @@ fn what_is_laid_out_has_an_id_of_its_own_and_is_found() {
 #[test]
 fn jaws_that_slide_in_the_frame_go_straight_to_the_part() {
     let mut seen = [0; 3];
-    for row in rows(free(), "SELECT mechanism FROM layouts") {
+    for row in query_rows(free(), "SELECT mechanism FROM layouts") {
         let m = ozols::from_toml(row["mechanism"].as_str().unwrap()).unwrap();
         for joint in &m.joints {
             let ends = joint.links.map(|l| m.links[l].id.as_str());
@@ -121,7 +124,7 @@ fn jaws_that_slide_in_the_frame_go_straight_to_the_part() {
             let Some(n) = jaw.filter(|_| guides) else {
                 continue;
             };
-            let [x, y, _] = real(&joint.frame.axis);
+            let [x, y, _] = to_vector(&joint.frame.axis);
             // Upward, and so much more of a turn to the left.
             let angle = TAU / 4.0 + n as f64 * TAU / 3.0;
             let off = (x * angle.sin() - y * angle.cos()) / x.hypot(y);
@@ -135,29 +138,29 @@ fn jaws_that_slide_in_the_frame_go_straight_to_the_part() {
 #[test]
 fn it_is_queried_shown_drawn_and_merged() {
     let folder = tempdir().unwrap();
-    let [one, merged, page] = ["one.db", "merged.db", "page.html"].map(|n| at(&folder, n));
+    let [one, merged, page] = ["one.db", "merged.db", "page.html"].map(|n| path_in(&folder, n));
     let build = |file: &str, more: &str| {
-        ok(&format!(
+        stdout_of(&format!(
             "{BUILD} {file} --pairs slide --links 4..5 --ideas 1 {more}"
         ))
     };
     has(&build(&one, ""), "22 structures added");
     has(&build(&one, "--threads 1"), "0 structures added");
     let parts = [1, 2].map(|i| {
-        let part = at(&folder, &format!("{i}.db"));
+        let part = path_in(&folder, &format!("{i}.db"));
         build(&part, &format!("--shard {i}/2"));
         part
     });
-    ok(&["catalog", "merge", &parts[0], &parts[1], "-o", &merged]);
-    assert_eq!(whole(&merged), whole(&one));
+    stdout_of(&["catalog", "merge", &parts[0], &parts[1], "-o", &merged]);
+    assert_eq!(dump_catalogue(&merged), dump_catalogue(&one));
     let sql = "SELECT id FROM structures JOIN pairs ON structure = id WHERE slides = 2 AND no_layout IS NULL LIMIT 1";
-    let id = &lines(&one, sql)[0];
-    let shown = ok(&["catalog", "show", &one, id]);
+    let id = &query_lines(&one, sql)[0];
+    let shown = stdout_of(&["catalog", "show", &one, id]);
     has_all(
         &shown,
         &["round the part", "laid out generic", "(2 slides)"],
     );
-    ok(&["catalog", "page", &one, "-o", &page]);
+    stdout_of(&["catalog", "page", &one, "-o", &page]);
     let cards = cards_of(&fs::read_to_string(&page).unwrap());
     let card = cards.iter().find(|c| c["id"] == **id).unwrap();
     assert!(card["tip_c_dx"].is_number(), "{card}");

@@ -4,8 +4,8 @@
 use crate::common::*;
 pub(in super::super) mod filed;
 
-use super::super::gauss;
-use super::{known, number, rows, some, three_generic};
+use super::super::solve_square;
+use super::{known, number, query_rows, some, three_generic};
 use filed::{FiledJoint, Gripper, Holds, Point, To, place};
 use std::array::from_fn;
 
@@ -25,7 +25,7 @@ struct Acts {
 impl Acts {
     fn about_origin(self) -> [f64; 3] {
         let [x, y] = self.force;
-        [x, y, dot(quarter(self.at), self.force) + self.moment]
+        [x, y, dot(quarter_turn(self.at), self.force) + self.moment]
     }
 }
 
@@ -60,10 +60,10 @@ impl Gripper {
                     add(i, pushes([0.0, 1.0]));
                 }
                 Holds::Slide => {
-                    add(i, pushes(quarter(self.along(x, j, 0))));
+                    add(i, pushes(quarter_turn(self.along(x, j, 0))));
                     add(i, turns);
                 }
-                Holds::Slot => add(i, pushes(quarter(self.along(x, j, 1)))),
+                Holds::Slot => add(i, pushes(quarter_turn(self.along(x, j, 1)))),
             }
             match (j.driven, j.holds) {
                 (false, _) => {}
@@ -112,7 +112,7 @@ impl Gripper {
             (0..3).for_each(|k| right[3 * self.jaws[n] + k] -= push[k]);
         }
         let mut out = vec![Acts::default(); self.joints.len() + self.teeth.len() + 1];
-        for (does, by) in units.iter().zip(gauss(&columns, &right)) {
+        for (does, by) in units.iter().zip(solve_square(&columns, &right)) {
             let (sum, unit) = (&mut out[does.of], does.acts);
             sum.at = unit.at;
             sum.moment += by * unit.moment;
@@ -144,7 +144,7 @@ impl Gripper {
         *right.last_mut().unwrap() = 1.0;
         Looked {
             of: self,
-            rates: gauss(&self.columns(&x, To::Width(self.width(&x))), &right),
+            rates: solve_square(&self.columns(&x, To::Width(self.width(&x))), &right),
             acts: self.acts(&x),
             x,
         }
@@ -164,7 +164,7 @@ impl Looked<'_> {
     pub(in super::super) fn speed(&self, link: usize, at: Point) -> Point {
         let [turning, u, v] = from_fn(|k| self.rates[3 * link + k]);
         let arm = sub(at, [self.x[3 * link + 1], self.x[3 * link + 2]]);
-        let [x, y] = scale(quarter(arm), turning);
+        let [x, y] = scale(quarter_turn(arm), turning);
         [x + u, y + v]
     }
 
@@ -369,7 +369,7 @@ fn is_as_worked_out(row: &Value) {
 }
 
 fn all_of(file: &str) -> Vec<Value> {
-    rows(
+    query_rows(
         file,
         "SELECT id, name, mechanism, narrowest, widest, efficiency, k.transmission, pin_force, k.width, k.height, shortfall \
          FROM structures JOIN layouts l ON l.structure = id JOIN strokes k ON k.structure = id WHERE reached = 1 AND name NOT LIKE '%threaded'",

@@ -4,7 +4,7 @@ use super::menu;
 use crate::common::*;
 use ozols::chains::PairKind;
 use ozols::chains::chain::Chain;
-use ozols::chains::classics::classics;
+use ozols::chains::classics::known_classics;
 use ozols::chains::motion::moves_throughout;
 use ozols::chains::roles::Subject;
 use ozols::chains::visit::visit_pair_chains;
@@ -38,7 +38,7 @@ pub(in super::super) fn schemes() -> Vec<SchemeFigures> {
             flags: cells[2..].iter().map(|c| flag(c)).collect(),
         }
     };
-    let all = data("schemes.csv")
+    let all = read_data("schemes.csv")
         .lines()
         .skip(1)
         .map(of_line)
@@ -49,9 +49,9 @@ pub(in super::super) fn schemes() -> Vec<SchemeFigures> {
 
 /// How often the count visits a chain.
 fn visits(chain: &Chain, most: usize) -> usize {
-    let (own, times) = (chain.canonical().0, AtomicUsize::new(0));
+    let (own, times) = (chain.canonical_form().0, AtomicUsize::new(0));
     visit_pair_chains(chain.links(), menu(most), &|subject| {
-        if subject.chain.canonical().0 == own {
+        if subject.chain.canonical_form().0 == own {
             times.fetch_add(1, Ordering::Relaxed);
         }
     });
@@ -63,7 +63,7 @@ fn classic_schemes_are_in_the_count() {
     let mut visited = 0;
     for scheme in schemes() {
         let id = &scheme.id;
-        let classic = classics().iter().find(|c| c.id == *id).unwrap();
+        let classic = known_classics().iter().find(|c| c.id == *id).unwrap();
         let (chain, roles) = (&classic.structure.chain, &classic.structure.roles);
         let links = chain.links();
         assert!(chain.has_carriers() && moves_throughout(chain), "{id}");
@@ -77,7 +77,7 @@ fn classic_schemes_are_in_the_count() {
             );
         }
         let subject = Subject::new(chain, &automorphisms);
-        let s = subject.symmetries(roles);
+        let s = subject.find_symmetries(roles);
         let own = [
             subject.is_essential(roles),
             subject.is_translating(roles),
@@ -93,7 +93,7 @@ fn classic_schemes_are_in_the_count() {
             );
         }
         let pairs = (0..links).tuple_combinations();
-        let kinds = pairs.filter_map(|(u, v)| chain.between(u, v));
+        let kinds = pairs.filter_map(|(u, v)| chain.pair_between(u, v));
         let most = kinds.filter(|kind| *kind != PairKind::Hinge).count();
         if links <= 5 || links == 6 && most <= 3 || most <= 1 {
             assert_eq!(visits(chain, most), 1, "{id}");
@@ -109,7 +109,7 @@ fn every_automorphism(chain: &Chain) -> Vec<Vec<usize>> {
     let all = (0..n).permutations(n);
     let keeps = |p: &Vec<usize>| {
         let mut pairs = (0..n).tuple_combinations();
-        pairs.all(|(u, v)| chain.between(u, v) == chain.between(p[u], p[v]))
+        pairs.all(|(u, v)| chain.pair_between(u, v) == chain.pair_between(p[u], p[v]))
     };
     all.filter(keeps).collect()
 }

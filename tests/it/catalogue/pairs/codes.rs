@@ -17,8 +17,8 @@ fn code(subject: &Subject<'_>, roles: &Roles, place: &[usize]) -> String {
     let letter = |(u, v)| {
         subject
             .chain
-            .between(at(u), at(v))
-            .map_or('-', PairKind::letter)
+            .pair_between(at(u), at(v))
+            .map_or('-', PairKind::code_letter)
     };
     let letters = pairs.map(letter).join("");
     let both = |[a, b]: [usize; 2]| [place[a].min(place[b]), place[a].max(place[b])];
@@ -48,7 +48,7 @@ fn words(subject: &Subject<'_>, roles: &Roles) -> String {
     } else {
         ""
     };
-    let s = subject.symmetries(roles);
+    let s = subject.find_symmetries(roles);
     let flag = |strict: bool, loose: bool, name: &str| {
         let but = if strict { "" } else { "-but-input" };
         if loose {
@@ -59,7 +59,7 @@ fn words(subject: &Subject<'_>, roles: &Roles) -> String {
     };
     format!(
         "{place}{direct} {}{}{}{}",
-        subject.chain.between(u, v).unwrap().letter(),
+        subject.chain.pair_between(u, v).unwrap().code_letter(),
         if subject.is_translating(roles) {
             " parallel"
         } else {
@@ -75,8 +75,8 @@ fn structures_of_three_and_four_links_are_those_listed() {
     for links in [3, 4] {
         let own = Mutex::new(BTreeSet::new());
         visit_pair_chains(links, menu(ANY), &|subject| {
-            for (frame, input) in subject.drives() {
-                let all = subject.grippers(frame, &input, 2).into_iter();
+            for (frame, input) in subject.list_drives() {
+                let all = subject.list_grippers(frame, &input, 2).into_iter();
                 for roles in all.filter(|r| subject.is_essential(r)) {
                     let line =
                         format!("{} {}", least_code(subject, &roles), words(subject, &roles));
@@ -85,7 +85,7 @@ fn structures_of_three_and_four_links_are_those_listed() {
             }
         });
         let own = own.into_inner().unwrap();
-        let packed = data_bytes(&format!("codes-{links}.txt.gz"));
+        let packed = read_data_bytes(&format!("codes-{links}.txt.gz"));
         let mut text = String::new();
         GzDecoder::new(&packed[..])
             .read_to_string(&mut text)

@@ -3,7 +3,7 @@
 use crate::common::*;
 #[test]
 fn place_of_the_input_and_driven_jaws_are_columns() {
-    let counted = out("catalog count --links 3..6 --pairs slide,gear,slot --at-most 3");
+    let counted = run_quiet("catalog count --links 3..6 --pairs slide,gear,slot --at-most 3");
     has(&counted, "6 links: 784 chains");
     let lines = counted.lines().filter(|l| l.contains("essential"));
     let mut numbers = lines.map(|l| {
@@ -20,7 +20,7 @@ fn place_of_the_input_and_driven_jaws_are_columns() {
 #[test]
 fn data_has_a_row_for_each_kind_of_drive() {
     let count = |more: &str| format!("catalog count --links 4 --pairs slide,gear,slot {more}");
-    let all = json(&count("--format json"));
+    let all = run_json(&count("--format json"));
     assert_eq!(all.list().len(), 9 * 8);
     let of = |place: &str, jaws: &str| {
         let own = all
@@ -31,8 +31,8 @@ fn data_has_a_row_for_each_kind_of_drive() {
     };
     assert_eq!([of("frame", "apart"), of("between", "apart")], [159, 0]);
     assert_eq!(of("frame", "driven") + of("between", "driven"), 535);
-    assert_eq!(out(&count("--format csv")).lines().count(), 9 * 8 + 1);
-    let alone = out(&count("--chains"));
+    assert_eq!(run_quiet(&count("--format csv")).lines().count(), 9 * 8 + 1);
+    let alone = run_quiet(&count("--chains"));
     assert!(
         alone.contains("32 chains") && !alone.contains("essential  "),
         "{alone}"

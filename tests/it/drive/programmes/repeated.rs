@@ -133,7 +133,7 @@ fn the_long_run_is_that_of_the_programme_as_it_is_written() {
             .map(|_| usize::from(any(0.0, 1.0) < 0.5))
             .collect_vec();
         let programme = steps(&discs);
-        let said = m.endurance(&programme).unwrap();
+        let said = m.run_endlessly(&programme).unwrap();
         let (n, missed, margin) = latched(&m, &discs, 200);
         if margin < 1e-7 {
             continue;
@@ -166,7 +166,7 @@ fn the_shortfall_of_the_long_run_is_the_largest_of_a_round() {
     ] {
         let m = drive([0.23, 0.11], 0.05, 0.0, 0.4, feed);
         let programme = steps(&discs);
-        let Endurance::Lasts { missing } = m.endurance(&programme).unwrap() else {
+        let Endurance::Lasts { missing } = m.run_endlessly(&programme).unwrap() else {
             panic!("{discs:?}")
         };
         let mut bench = Bench::new(&m);

@@ -1,7 +1,7 @@
 //! Files of certificates.
 
 use ozols::model::mechanism::StateId;
-use ozols::rank::exact::certificate::{certify, matrix, number_field};
+use ozols::rank::exact::certificate::{certify_state, closure_matrix, number_field};
 use ozols::verify;
 use ozols::verify::certificate::{CertificateFile, FORMAT};
 use ozols::verify::matrix::MatrixOverRing;
@@ -33,7 +33,7 @@ pub(crate) const WORDS: [&str; 16] = [
 static CERTIFIED: LazyLock<Vec<(MatrixOverRing, usize, String)>> = LazyLock::new(|| {
     let certified = |name: &str| {
         let m = ozols::built_in(name).unwrap();
-        let certificate = certify(&m, StateId::FREE).unwrap();
+        let certificate = certify_state(&m, StateId::FREE).unwrap();
         let rank = certificate.rank;
         let file = CertificateFile {
             format: FORMAT.to_owned(),
@@ -41,7 +41,8 @@ static CERTIFIED: LazyLock<Vec<(MatrixOverRing, usize, String)>> = LazyLock::new
             certificates: vec![certificate],
             without: Vec::new(),
         };
-        let over = matrix(&number_field(&m, StateId::FREE).unwrap(), &m, StateId::FREE).unwrap();
+        let over =
+            closure_matrix(&number_field(&m, StateId::FREE).unwrap(), &m, StateId::FREE).unwrap();
         (over, rank, serde_json::to_string_pretty(&file).unwrap())
     };
     NAMES.iter().map(|name| certified(name)).collect()
@@ -52,16 +53,16 @@ pub(crate) fn look_at(which: usize, bytes: &[u8]) -> String {
     let (over, rank, _) = &CERTIFIED[which];
     match CertificateFile::read(bytes) {
         Ok(file) => {
-            let checked = file
-                .certificates
-                .iter()
-                .map(|c| match verify::check(over, c) {
-                    Ok(accepted) => {
-                        assert_eq!(accepted, *rank);
-                        "accepted".to_owned()
-                    }
-                    Err(flaw) => flaw.to_string(),
-                });
+            let checked =
+                file.certificates
+                    .iter()
+                    .map(|c| match verify::check_certificate(over, c) {
+                        Ok(accepted) => {
+                            assert_eq!(accepted, *rank);
+                            "accepted".to_owned()
+                        }
+                        Err(flaw) => flaw.to_string(),
+                    });
             checked.collect::<Vec<_>>().join("\n")
         }
         Err(e) => {

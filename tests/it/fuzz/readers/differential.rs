@@ -1,7 +1,7 @@
 //! Small mechanisms made of bytes, searched as the program does and by looking at every variant: the counts are the same.
 
 use super::mechanism_files::told;
-use super::slow_search::{Choice, Twin, look as look_at, variants};
+use super::slow_search::{Choice, Twin, all_variants, look_at_variant as look_at};
 use crate::common::*;
 use ozols::Mechanism;
 use ozols::search::answer::counts::Counts;
@@ -196,10 +196,10 @@ pub(crate) fn look(bytes: &[u8]) -> String {
     if size.product::<usize>() > MOST {
         return "large".to_owned();
     }
-    let all = variants(&m, false);
+    let all = all_variants(&m, false);
     let seen: Vec<Twin> = all.iter().map(|v| look_at(&m, false, v)).collect();
     let present = &seen[0];
-    let found = &analyse(&m, &[StateId::FREE], Method::Modular).unwrap()[0];
+    let found = &analyse_states(&m, &[StateId::FREE], Method::Modular).unwrap()[0];
     assert_eq!(
         (
             found.mobility as i64,
@@ -234,9 +234,9 @@ fn compare(
             && asked.max_changes.is_none_or(|most| f.changes <= most)
     };
     let those = |is: &dyn Fn(&Twin) -> bool| seen.iter().filter(|f| is(f)).collect_vec();
-    let diagrams = search.build(&|| false, &mut |_| {});
-    let first = search.counts(&diagrams.determinate, false);
-    let second = search.counts(&diagrams.admissible, true);
+    let diagrams = search.build_diagrams(&|| false, &mut |_| {});
+    let first = search.count_variants(&diagrams.determinate, false);
+    let second = search.count_variants(&diagrams.admissible, true);
     let wanted = those(&admissible);
     same("determinate", &first, &those(&determinate), text);
     same("admissible", &second, &wanted, text);
@@ -247,7 +247,7 @@ fn compare(
     );
     let mut last = 0;
     let mut given = Vec::new();
-    for v in search.cheapest(&diagrams, usize::MAX / 4) {
+    for v in search.cheapest_variants(&diagrams, usize::MAX / 4) {
         assert!(v.key.cost() >= last, "{text}");
         last = v.key.cost();
         let mut choices: Vec<Choice> = vec![(0, None); m.joints.len()];

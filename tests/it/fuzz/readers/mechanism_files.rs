@@ -1,7 +1,7 @@
 //! Mechanism files in TOML and JSON, and the workloads in them.
 
 use crate::common::*;
-use ozols::file::lint::check;
+use ozols::file::lint::check_file;
 use ozols::file::problem::ImportError;
 use ozols::file::read::workload::{drive_from_bytes, grip_from_bytes, tables_alone};
 use ozols::file::text::mechanism_from_bytes;
@@ -34,7 +34,7 @@ pub(crate) const WORDS: [&str; 20] = [
 pub(crate) fn read(name: &str, bytes: &[u8]) -> String {
     match mechanism_from_bytes(name, bytes) {
         Ok(m) => {
-            let doubtful = check(name, bytes).unwrap().warnings;
+            let doubtful = check_file(name, bytes).unwrap().warnings;
             let _ = doubtful.render(true);
             let written = serde_json::to_vec(&mechanism_file(&m)).unwrap();
             let again = mechanism_from_bytes("written.json", &written).unwrap();
@@ -45,7 +45,7 @@ pub(crate) fn read(name: &str, bytes: &[u8]) -> String {
             if m.joints.len() >= 20 {
                 return "large".to_owned();
             }
-            match analyse(&m, &[StateId::FREE], Method::Auto) {
+            match analyse_states(&m, &[StateId::FREE], Method::Auto) {
                 Ok(_) => "analysed".to_owned(),
                 Err(e) => e.to_string(),
             }

@@ -3,7 +3,7 @@
 use super::mechanism_files::told;
 use crate::common::*;
 use ozols::redundancy::release::Release;
-use ozols::robots::{Imported, Options, fix, import};
+use ozols::robots::{Imported, Options, apply_releases, import};
 use std::io::{Cursor, Write};
 use zip::write::SimpleFileOptions;
 use zip::{CompressionMethod, ZipWriter};
@@ -103,7 +103,7 @@ fn let_go(i: &Imported, bits: u8) -> String {
         slides: bits & 8 != 0,
         direction,
     };
-    match fix(i, &[(release, "so".to_owned())]) {
+    match apply_releases(i, &[(release, "so".to_owned())]) {
         Ok(_) => "let go".to_owned(),
         Err(e) => told(&e),
     }

@@ -5,7 +5,7 @@ use crate::common::*;
 use ozols::Scheme;
 use ozols::file::text::mechanism_from_bytes;
 use ozols::file::write::mechanism_file;
-use ozols::rank::exact::certificate::{certify, matrix, number_field};
+use ozols::rank::exact::certificate::{certify_state, closure_matrix, number_field};
 use ozols::score::request::{Check, List};
 use ozols::score::run::run;
 use ozols::search::question::conditions::Symmetry;
@@ -73,7 +73,7 @@ pub(crate) fn look(bytes: &[u8]) -> String {
 
 /// The certificate of a mechanism, written and read, proves the rank that the analysis finds.
 fn proven(m: &Mechanism) {
-    let Ok(certificate) = certify(m, StateId::FREE) else {
+    let Ok(certificate) = certify_state(m, StateId::FREE) else {
         return;
     };
     let file = CertificateFile {
@@ -85,19 +85,19 @@ fn proven(m: &Mechanism) {
     let text = serde_json::to_vec(&file).unwrap();
     let again = CertificateFile::read(&text).unwrap();
     assert_eq!(again, file);
-    let over = matrix(&number_field(m, StateId::FREE).unwrap(), m, StateId::FREE).unwrap();
-    let rank = verify::check(&over, &again.certificates[0]).unwrap();
-    let found = analyse(m, &[StateId::FREE], Method::Modular).unwrap();
+    let over = closure_matrix(&number_field(m, StateId::FREE).unwrap(), m, StateId::FREE).unwrap();
+    let rank = verify::check_certificate(&over, &again.certificates[0]).unwrap();
+    let found = analyse_states(m, &[StateId::FREE], Method::Modular).unwrap();
     assert_eq!(rank, found[0].rank);
 }
 
 /// The outcome in every form; JSON says the same, and each variant is what it is said to be. Returns the counts.
 fn written(outcome: &Outcome) -> String {
-    let none = outcome.remarks(&|| false).unwrap_or_default();
+    let none = outcome.make_remarks(&|| false).unwrap_or_default();
     let (mut told, mut table, mut words) = (Vec::new(), Vec::new(), Vec::new());
-    json::write(&mut told, outcome, outcome.variants(), &none, None).unwrap();
-    csv::write(&mut table, outcome, outcome.variants()).unwrap();
-    text::write(
+    json::write_json(&mut told, outcome, outcome.variants(), &none, None).unwrap();
+    csv::write_csv(&mut table, outcome, outcome.variants()).unwrap();
+    text::write_text(
         &mut words,
         outcome,
         outcome.variants(),
@@ -114,14 +114,14 @@ fn written(outcome: &Outcome) -> String {
     let list: Vec<_> = outcome.variants().collect();
     assert_eq!(told["variants"].list().len(), list.len());
     for v in &list {
-        let made = v.mechanism();
+        let made = v.as_mechanism();
         let file = ozols::export(&made, "toml").unwrap();
         let again =
             mechanism_from_str("x.toml", &file).unwrap_or_else(|e| panic!("{e} in\n{file}"));
         let json = |m: &Mechanism| mechanism_file(m).json();
         assert_eq!(json(&again), json(&made));
         if outcome.numeric.is_none() {
-            let found = &analyse(&made, &[StateId::FREE], Method::Modular).unwrap()[0];
+            let found = &analyse_states(&made, &[StateId::FREE], Method::Modular).unwrap()[0];
             assert_eq!(
                 (found.mobility as i64, found.redundant),
                 (v.mobility(), v.redundant() as usize),

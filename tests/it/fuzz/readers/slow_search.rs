@@ -239,7 +239,7 @@ pub(crate) struct Twin {
 }
 
 /// Looks at one variant: `choice[j]` is (option, unloading) of joint j.
-pub(crate) fn look(m: &Mechanism, clamped: bool, choice: &[Choice]) -> Twin {
+pub(crate) fn look_at_variant(m: &Mechanism, clamped: bool, choice: &[Choice]) -> Twin {
     let outputs: Vec<LinkId> = m
         .link_ids()
         .filter(|&l| m.links[l].role == Role::Output || m.search.hold.contains(&l))
@@ -342,7 +342,7 @@ pub(crate) fn look(m: &Mechanism, clamped: bool, choice: &[Choice]) -> Twin {
         let driven: Vec<usize> = driven.filter(|_| state == StateId::FREE).collect();
         let f = figures(
             links,
-            m.frame(),
+            m.frame_link(),
             &joints,
             &coupled,
             &outputs,
@@ -387,7 +387,7 @@ pub(crate) fn look(m: &Mechanism, clamped: bool, choice: &[Choice]) -> Twin {
     }
 }
 
-pub(crate) fn variants(m: &Mechanism, clamped: bool) -> Vec<Vec<Choice>> {
+pub(crate) fn all_variants(m: &Mechanism, clamped: bool) -> Vec<Vec<Choice>> {
     let mut out = vec![Vec::new()];
     for (j, joint) in m.joints_with_ids() {
         let free = m.joints_in(StateId::FREE).any(|x: JointId| x == j);

@@ -2,11 +2,11 @@
 
 use super::mechanism_files::told;
 use crate::common::*;
-use ozols::catalog::spec::{Spec, range};
+use ozols::catalog::spec::{Spec, parse_range};
 use ozols::chains::graph6;
 use ozols::file::costs::costs_from_str;
-use ozols::file::edit::{Edit, edited};
-use ozols::file::read::workload::trajectory::trajectory;
+use ozols::file::edit::{Edit, apply_edits};
+use ozols::file::read::workload::trajectory::read_trajectory;
 use ozols::shard::Shard;
 use std::sync::LazyLock;
 
@@ -39,7 +39,7 @@ pub(crate) fn edits(bytes: &[u8]) -> String {
         Err(e) => return e.to_string(),
     };
     let text = builtin::text("gripper-10").unwrap();
-    match edited(text, &edits) {
+    match apply_edits(text, &edits) {
         Ok(after) => {
             let other = edits.iter().any(|e| matches!(e, Edit::Text { .. }));
             if let Err(e) = after.parse::<toml::Table>() {
@@ -66,7 +66,7 @@ pub(crate) fn edits_seeds() -> Vec<Vec<u8>> {
 
 /// A motion as CSV: all that is read of it is finite. Returns what was said.
 pub(crate) fn motion(bytes: &[u8]) -> String {
-    match trajectory("m.csv", bytes, 0.001) {
+    match read_trajectory("m.csv", bytes, 0.001) {
         Ok(steps) => {
             let finite = |v: &[f64; 3]| v.iter().all(|x| x.is_finite());
             assert!(steps.iter().all(|s| finite(&s.acceleration)));
@@ -91,15 +91,15 @@ pub(crate) fn spec(bytes: &[u8]) -> String {
         Ok(spec) => spec,
         Err(e) => return e.message().to_owned(),
     };
-    if let Err(e) = spec.check() {
+    if let Err(e) = spec.check_all() {
         return e.to_string();
     }
-    let written = spec.canonical();
+    let written = spec.to_canonical();
     let again: Spec = toml::from_str(&written).unwrap();
-    assert_eq!(again.canonical(), written);
-    assert_eq!(again.check(), Ok(()));
-    assert!(!again.forms().is_empty());
-    assert_eq!(again.limits(), spec.limits());
+    assert_eq!(again.to_canonical(), written);
+    assert_eq!(again.check_all(), Ok(()));
+    assert!(!again.hinged_forms().is_empty());
+    assert_eq!(again.layout_limits(), spec.layout_limits());
     "a specification".to_owned()
 }
 
@@ -111,7 +111,7 @@ pub(crate) fn spec_seeds() -> Vec<Vec<u8>> {
         ..Spec::default()
     };
     let mut out = texts(&["links = \"6\"\njaws = 2\n", ""]);
-    out.extend([Spec::default(), all].map(|s| s.canonical().into_bytes()));
+    out.extend([Spec::default(), all].map(|s| s.to_canonical().into_bytes()));
     out
 }
 
@@ -125,15 +125,21 @@ pub(crate) fn words(bytes: &[u8]) -> String {
         }
         Err(e) => e.to_string(),
     };
-    let numbers = match range(&text) {
+    let numbers = match parse_range(&text) {
         Ok(_) => "a range".to_owned(),
         Err(part) => format!("{part:?}"),
     };
-    let chain = match graph6::read(&text) {
+    let chain = match graph6::read_graph(&text) {
         Ok(chain) => {
-            assert_eq!(graph6::read(&graph6::write(&chain)).as_ref(), Ok(&chain));
-            let code = graph6::code(&chain);
-            assert_eq!(graph6::code(&graph6::read(&code).unwrap()), code);
+            assert_eq!(
+                graph6::read_graph(&graph6::write_graph(&chain)).as_ref(),
+                Ok(&chain)
+            );
+            let code = graph6::canonical_code(&chain);
+            assert_eq!(
+                graph6::canonical_code(&graph6::read_graph(&code).unwrap()),
+                code
+            );
             "a chain".to_owned()
         }
         Err(e) => e.to_string(),

@@ -9,8 +9,8 @@ use ozols::score::evaluation::evaluate::Evaluator;
 use ozols::search::answer::k_best::Assignment;
 
 fn pool(s: &Search, n: usize) -> Vec<Assignment> {
-    let d = s.build(&|| false, &mut |_| {});
-    s.cheapest(&d, n).collect()
+    let d = s.build_diagrams(&|| false, &mut |_| {});
+    s.cheapest_variants(&d, n).collect()
 }
 
 /// The slow twin builds each variant as a mechanism, follows it to every part and takes singular values.
@@ -18,20 +18,20 @@ fn pool(s: &Search, n: usize) -> Vec<Assignment> {
 fn variants_are_scored_by_the_worst_part() {
     let m = built_in();
     for redundant in [0, 1] {
-        let request = but(|c: &mut Conditions| c.max_redundant = redundant);
+        let request = default_with(|c: &mut Conditions| c.max_redundant = redundant);
         let s = Search::new(exact_field(&m, 0).unwrap(), &m, request).unwrap();
         let e = Evaluator::new(&s, ClearanceSum::Worst).unwrap();
         assert_eq!((e.cases.list.len(), e.cases.free), (5, 0));
         let mut scratch = Scratch::default();
         let mut greatest = 0.0f64;
         for v in pool(&s, 40) {
-            let (fast, slow) = (e.scores(&v, &mut scratch), e.slowly(&v));
+            let (fast, slow) = (e.score_variant(&v, &mut scratch), e.reference_scores(&v));
             let (Ok(fast), Ok(slow)) = (fast, slow) else {
                 continue;
             };
             greatest = greatest.max(fast.force.value);
             for t in Term::ALL {
-                let (a, b) = (fast.value(t), slow.value(t));
+                let (a, b) = (fast.term_value(t), slow.term_value(t));
                 let near = (a - b).abs() <= 1e-7 * a.abs().max(b.abs()).max(1e-12);
                 assert!(near, "{}: {fast:?} {slow:?}", t.name());
             }
@@ -40,7 +40,10 @@ fn variants_are_scored_by_the_worst_part() {
         // The free state has no loads.
         let free = Evaluator::in_states(&s, ClearanceSum::Worst, &[StateId::FREE]).unwrap();
         for v in pool(&s, 3) {
-            assert_eq!(free.scores(&v, &mut scratch).unwrap().force.value, 0.0);
+            assert_eq!(
+                free.score_variant(&v, &mut scratch).unwrap().force.value,
+                0.0
+            );
         }
         let both = Evaluator::in_states(
             &s,
@@ -54,11 +57,11 @@ fn variants_are_scored_by_the_worst_part() {
 
 #[test]
 fn the_ranking_states_its_states() {
-    let v = json(&["search", "lever-gripper", "--format", "json"]);
+    let v = run_json(&["search", "lever-gripper", "--format", "json"]);
     assert_eq!(v["ranking"]["grip"][0]["state"], "clamped");
     assert_eq!(v["ranking"]["grip"][0]["held"].list().len(), 5);
     assert!(v["variants"][0]["scores"]["by_cost"].whole() > 1);
-    let said = out(&["search", "lever-gripper"]);
+    let said = run_quiet(&["search", "lever-gripper"]);
     has(
         &said,
         "Loads of state clamped from the grip: contact forces of the worst case of 5 parts, D = 30 to 50 mm",

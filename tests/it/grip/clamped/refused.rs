@@ -5,9 +5,9 @@ use crate::common::*;
 
 /// Writes a file, runs commands on it, and gives exit code, output and errors.
 pub(super) fn run(text: &str, args: &[&str]) -> (Option<i32>, String, String) {
-    let (_folder, path) = written("gripper.toml", text);
+    let (_folder, path) = write_temporary("gripper.toml", text);
     let words = args.iter().map(|a| if *a == "FILE" { path } else { a });
-    ran(&words.collect_vec())
+    run_full(&words.collect_vec())
 }
 
 const STATICS: [&str; 4] = ["statics", "FILE", "--state", "clamped"];
@@ -20,7 +20,7 @@ fn impossible_grips_are_refused_or_told() {
         text().replacen(from, to, 1)
     };
     // Wrong in itself: exit code 2 from all, with the line and what to give.
-    for [from, to, line, part] in cases::<4>(
+    for [from, to, line, part] in read_cases::<4>(
         r#"
         density = 7850 | density = -7850 | density | a number above 0
         density = 7850\npart_length = 120 | mass = -1 | mass = -1 | a number above 0

@@ -5,7 +5,7 @@ use crate::common::*;
 use microlp::{ComparisonOp, OptimizationDirection, Problem};
 use ozols::geom::vector::cross_plane as cross;
 use ozols::grip::contact::{Gripper, TouchingPose};
-use ozols::grip::holding::{ContactForce, HoldingOutcome, PartWrench, Spatial, hold};
+use ozols::grip::holding::{ContactForce, HoldingOutcome, PartWrench, Spatial, find_holding};
 use ozols::model::grip::LeverDrive;
 use proptest::prelude::*;
 
@@ -113,13 +113,13 @@ proptest! {
     fn polyhedral_programmes_bracket_the_answer(
         f in direction(), m in direction(), mu in 0.1..1.0f64, d in 0.03..0.05f64, by in coupling(),
     ) {
-        let pose = Gripper::nominal(lever(0.1, 120.0, 30.0), 0.04).pose(d).unwrap();
+        let pose = Gripper::with_nominal(lever(0.1, 120.0, 30.0), 0.04).touching_pose(d).unwrap();
         let load = PartWrench { force: f.map(|x| 10.0 * x), moment: m.map(|x| 0.05 * x) };
         let (inner, outer) = (
             polyhedral(&pose, &load, mu, by, 24, false),
             polyhedral(&pose, &load, mu, by, 24, true),
         );
-        match hold(&pose, &load, mu, by).unwrap() {
+        match find_holding(&pose, &load, mu, by).unwrap() {
             HoldingOutcome::Held(h) => {
                 assert_statics(&pose, &load, mu, &h);
                 if let Some(most) = inner {
@@ -141,7 +141,7 @@ proptest! {
         let once = held(&pose(), pull(f), mu, by).drive;
         let more = held(&pose(), pull(f.map(|x| s * x)), mu, by).drive;
         prop_assert!((more - s * once).abs() <= 1e-7 * s, "{more} {once}");
-        let large = Gripper::nominal(lever(0.1 * s, 120.0, 30.0), 0.04 * s).pose(0.04 * s).unwrap();
+        let large = Gripper::with_nominal(lever(0.1 * s, 120.0, 30.0), 0.04 * s).touching_pose(0.04 * s).unwrap();
         let large = held(&large, pull(f), mu, by).drive;
         prop_assert!((large - s * once).abs() <= 1e-7 * s, "{large} {once}");
     }
@@ -171,13 +171,13 @@ proptest! {
     ) {
         let l = lever(10f64.powf(size), prism, mounting);
         let d = l.length * 10f64.powf(part);
-        let g = Gripper { may_cross: true, ..Gripper::nominal(l, d) };
-        let pose = g.pose(d * other);
-        if let (Ok(pose), true) = (pose, g.obstacles(d * other).is_empty()) {
+        let g = Gripper { may_cross: true, ..Gripper::with_nominal(l, d) };
+        let pose = g.touching_pose(d * other);
+        if let (Ok(pose), true) = (pose, g.find_obstacles(d * other).is_empty()) {
             let strength = 10f64.powf(decade);
             let load = PartWrench { force: f.map(|x| x * strength), moment: m.map(|x| x * strength * l.length) };
             let mu = friction.map_or(0.0, |e| 10f64.powf(e));
-            let outcome = hold(&pose, &load, mu, by);
+            let outcome = find_holding(&pose, &load, mu, by);
             prop_assert!(outcome.is_ok(), "{outcome:?}");
             if let Ok(HoldingOutcome::Held(h)) = outcome {
                 let mut sum = load.force;

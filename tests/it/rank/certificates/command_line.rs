@@ -6,32 +6,32 @@ fn certificates_are_written_and_confirmed_and_false_ones_rejected() {
     let folder = tempdir().unwrap();
     let path = folder.path().join("c.json");
     let path = path.to_str().unwrap();
-    let plain = out(&["analyze", "gripper-10"]);
+    let plain = run_quiet(&["analyze", "gripper-10"]);
     assert_eq!(
-        out(&["analyze", "gripper-10", "--certificate", path]),
+        run_quiet(&["analyze", "gripper-10", "--certificate", path]),
         plain
     );
-    let said = out(&["verify", "gripper-10", path]);
+    let said = run_quiet(&["verify", "gripper-10", path]);
     assert_eq!(
         said,
         "gripper-10, state free: rank 13 of the 24 x 14 closure matrix is proven\n\
          gripper-10, state clamped: rank 14 of the 30 x 14 closure matrix is proven\n"
     );
     // Of another mechanism, with the same states.
-    let (code, said, err) = ran(&["verify", "gripper-10-redesign", path]);
+    let (code, said, err) = run_full(&["verify", "gripper-10-redesign", path]);
     assert_eq!((code, err.as_str()), (Some(1), ""));
     has(
         &said,
         "state free: certificate rejected: it is for a 24 x 14 matrix",
     );
     // Of the same in a plane.
-    let (code, _, _) = ran(&["verify", "gripper-10", path, "--planar"]);
+    let (code, _, _) = run_full(&["verify", "gripper-10", path, "--planar"]);
     assert_eq!(code, Some(1));
-    out(&["analyze", "gripper-10", "--planar", "--certificate", path]);
-    out(&["verify", "gripper-10", path, "--planar"]);
+    run_quiet(&["analyze", "gripper-10", "--planar", "--certificate", path]);
+    run_quiet(&["verify", "gripper-10", path, "--planar"]);
     // Of states it has not.
-    out(&["analyze", "gripper-10", "--certificate", path]);
-    let (code, said, err) = ran(&["verify", "bennett", path]);
+    run_quiet(&["analyze", "gripper-10", "--certificate", path]);
+    let (code, said, err) = run_full(&["verify", "bennett", path]);
     assert_eq!((code, said.as_str()), (Some(2), ""));
     assert!(
         err.contains("state clamped") || err.contains("state free"),
@@ -39,11 +39,11 @@ fn certificates_are_written_and_confirmed_and_false_ones_rejected() {
     );
     for garbled in ["", "{", "[]", "{\"format\": \"x\"}", "\u{0}"] {
         fs::write(path, garbled).unwrap();
-        let (code, said, err) = ran(&["verify", "gripper-10", path]);
+        let (code, said, err) = run_full(&["verify", "gripper-10", path]);
         assert_eq!((code, said.as_str()), (Some(2), ""));
         has(&err, "not a file of certificates");
     }
-    let (code, _, err) = ran(&["verify", "gripper-10", "no-such.json"]);
+    let (code, _, err) = run_full(&["verify", "gripper-10", "no-such.json"]);
     assert_eq!(code, Some(2));
     has(&err, "cannot read no-such.json");
 }
@@ -53,7 +53,7 @@ fn a_field_that_is_too_large_is_said_and_no_error() {
     let folder = tempdir().unwrap();
     let path = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
     let (file, certificates) = (path("fine.toml"), path("c.json"));
-    let text = out(&["show", "four-bar"]);
+    let text = run_quiet(&["show", "four-bar"]);
     let at = text.find("axis = ").unwrap();
     let end = at + text[at..].find('\n').unwrap();
     let fine = format!(
@@ -62,12 +62,12 @@ fn a_field_that_is_too_large_is_said_and_no_error() {
         &text[end..]
     );
     fs::write(&file, fine).unwrap();
-    let (_, err) = done(&["analyze", &file, "--certificate", &certificates]);
+    let (_, err) = run_successful(&["analyze", &file, "--certificate", &certificates]);
     has(
         &err,
         "note: no certificate of state free: the roots and angles generate a number field of degree",
     );
-    let (code, said, _) = ran(&["verify", &file, &certificates]);
+    let (code, said, _) = run_full(&["verify", &file, &certificates]);
     assert_eq!(code, Some(1));
     has(&said, "state free: no certificate: ");
 }

@@ -9,7 +9,7 @@ use chacha20::rand_core::{Rng, SeedableRng};
 use ozols::rank::exact::field::field_of;
 use ozols::rank::finite::displacement_group::{GroupKind, whole_group};
 use ozols::rank::finite::independent_parts::lock_idle;
-use ozols::rank::finite::{Finite, How, Proof, followed};
+use ozols::rank::finite::{Finite, How, Proof, followed_mobility};
 use std::fmt::Write;
 
 fn proof(name: &str) -> Option<Proof> {
@@ -108,7 +108,7 @@ fn platforms_on_rods_are_proven_by_their_multiplicity() {
 /// Single contours of up to six hinges that counting gives no motion: not stopped up to the order beyond which nothing can.
 #[test]
 fn overconstrained_contours_are_proven_by_their_multiplicity() {
-    for name in words(
+    for name in split_words(
 "bennett goldberg-5r goldberg-6r myard-5r bricard-box bricard-line-symmetric bricard-plane-symmetric
             bricard-trihedral schatz-turbula altmann two-bennetts",
 ) {
@@ -120,7 +120,7 @@ fn overconstrained_contours_are_proven_by_their_multiplicity() {
 /// Pins in a plane beyond need, whose equal lengths no group knows of.
 #[test]
 fn redundant_rods_in_a_plane_are_proven_by_their_multiplicity() {
-    for name in words(
+    for name in split_words(
 "parallelogram-3-rods parallelogram-3-rods-planar kempe-translator roberts-cognates dixon-k33 dixon-k44
             hoberman-ring-6",
 ) {
@@ -170,7 +170,7 @@ fn between(part_has_faces: bool, edges: [(i32, [i32; 3]); 2]) -> String {
             "{jaw}-p | {ends} | cylinder-on-plane | 0, {y}, {z} | 0, 0, 1 | reference = {along:?}\n"
         );
     }
-    file_of("name = \"between\"", "f g p*", &joints)
+    write_mechanism("name = \"between\"", "f g p*", &joints)
 }
 
 /// By hand: a part with two edges along x slides along them whatever the jaws do; one with crossed edges does not, for rolling
@@ -194,7 +194,7 @@ fn ways_of_a_part_are_split_off_where_its_faces_let_it_go() {
 #[test]
 fn a_clamped_part_that_slides_is_proven_to_do_no_more() {
     let m = built_in("lever-gripper");
-    let state = m.state("clamped").unwrap();
+    let state = m.state_named("clamped").unwrap();
     let (instantaneous, found) = judged_in(&m, state);
     assert_eq!((instantaneous, found.mobility), (2, 1), "{found:?}");
     assert!(found.is_proven(), "{found:?}");
@@ -302,7 +302,7 @@ fn proofs_of_random_chains_are_not_contradicted_by_following_them() {
         if instantaneous == 0 || !found.is_proven() {
             continue;
         }
-        let by_motion = followed(&m, StateId::FREE, instantaneous, 0.0).unwrap();
+        let by_motion = followed_mobility(&m, StateId::FREE, instantaneous, 0.0).unwrap();
         assert!(
             by_motion.could_be(i64::try_from(found.mobility).unwrap()),
             "{case}: {found:?} {by_motion:?}\n{text}"
@@ -388,11 +388,11 @@ fn proofs_of_random_contours_are_not_contradicted_by_following_them() {
         if instantaneous == 0 {
             continue;
         }
-        *found_by.entry(found.word()).or_insert(0) += 1;
+        *found_by.entry(found.as_word()).or_insert(0) += 1;
         if !found.is_proven() {
             continue;
         }
-        let by_motion = followed(&m, StateId::FREE, instantaneous, 0.0).unwrap();
+        let by_motion = followed_mobility(&m, StateId::FREE, instantaneous, 0.0).unwrap();
         assert!(
             by_motion.could_be(i64::try_from(found.mobility).unwrap()),
             "{case}: {found:?} {by_motion:?}\n{text}"

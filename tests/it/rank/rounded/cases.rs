@@ -19,7 +19,7 @@ fn cases_of(file: &str, text: &str, name: impl Fn(&Mechanism, &str) -> String) -
     let mechanism = mechanism_from_str(file, text).unwrap();
     let case = |e: &Expected| Case {
         name: name(&mechanism, &e.state),
-        state: mechanism.state(&e.state).unwrap(),
+        state: mechanism.state_named(&e.state).unwrap(),
         mechanism: mechanism.clone(),
         mobility: e.mobility.unwrap(),
         finite: e.finite_mobility.unwrap(),
@@ -32,7 +32,7 @@ pub(crate) fn cases() -> Vec<Case> {
         let text = builtin::text(name).unwrap();
         cases_of("x.toml", text, |_, state| format!("{name}, {state}"))
     });
-    let known = data("mobility.jsonl");
+    let known = read_data("mobility.jsonl");
     let further = known
         .lines()
         .flat_map(|line| cases_of("x.json", line, |m, _| m.name.clone()));

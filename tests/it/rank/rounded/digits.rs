@@ -1,7 +1,7 @@
 //! Each number of a file is known to half a unit of its last digit, as it is written there.
 
 use crate::common::*;
-use crate::robots::none;
+use crate::robots::no_files;
 use ozols::model::rounded::{Uncertainties, looks_rounded, uncertainties};
 use ozols::robots::{Options, import};
 
@@ -50,7 +50,9 @@ fn a_number_knows_its_last_digit_and_arithmetic_does_not() {
     ] {
         assert_eq!(half(text), Some(expected), "{text}");
     }
-    for exact in words("12 -2/3 1001/1000 123456789/10^20 sqrt(0.5) 0.5+0.25 2*0.125 cos(36deg)") {
+    for exact in
+        split_words("12 -2/3 1001/1000 123456789/10^20 sqrt(0.5) 0.5+0.25 2*0.125 cos(36deg)")
+    {
         assert_eq!(half(exact), None, "{exact}");
     }
     let e: Expr = "0.49400".parse().unwrap();
@@ -371,7 +373,7 @@ fn urdf(first: &str, second: &str, axis: &str) -> String {
 }
 
 fn of_robot(name: &str, text: &str) -> Option<Uncertainties> {
-    let imported = import(name, text.as_bytes(), &none, &Options::default()).unwrap();
+    let imported = import(name, text.as_bytes(), &no_files, &Options::default()).unwrap();
     // What is written says the same.
     let toml = imported.toml().unwrap();
     let again = mechanism_from_str("r.toml", &toml).unwrap();

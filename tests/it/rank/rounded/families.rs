@@ -3,10 +3,10 @@
 //! A seeded part by default; `OZOLS_FUZZ=200 cargo test --test integration rounded::families -- --nocapture` takes so many of each
 //! family and number of decimals, of seeds drawn afresh, and prints a table.
 
-use super::search_numeric::request;
+use super::search_numeric::small_request;
 use crate::common::*;
 use ozols::geom::rigid::RigidMotion;
-use ozols::rank::method::auto::decide;
+use ozols::rank::method::auto::decide_state;
 use rayon::prelude::*;
 
 type Vector = [f64; 3];
@@ -16,11 +16,11 @@ type Hinge = (String, String, Vector, Vector);
 const Z: Vector = [0.0, 0.0, 1.0];
 
 fn between(noise: &mut Noise, low: f64, high: f64) -> f64 {
-    low + (high - low) * (noise.uniform() + 1.0) / 2.0
+    low + (high - low) * (noise.draw_uniform() + 1.0) / 2.0
 }
 
 fn any(noise: &mut Noise) -> Vector {
-    [(); 3].map(|()| noise.uniform())
+    [(); 3].map(|()| noise.draw_uniform())
 }
 
 /// Links one after another in a ring.
@@ -45,8 +45,8 @@ fn rods(noise: &mut Noise, longer: f64) -> Vec<Hinge> {
     let rods = [length, length, length * longer];
     let each = rods.into_iter().enumerate().flat_map(|(k, length)| {
         let x = [
-            1.1 * k as f64 + 0.2 * noise.uniform(),
-            0.5 * noise.uniform(),
+            1.1 * k as f64 + 0.2 * noise.draw_uniform(),
+            0.5 * noise.draw_uniform(),
             0.0,
         ];
         let end = [
@@ -82,10 +82,10 @@ fn bennett(noise: &mut Noise) -> Vec<Hinge> {
     let mut at = RigidMotion::IDENTITY;
     let mut lines = Vec::new();
     for (i, angle) in [first, second, -first, -second].into_iter().enumerate() {
-        lines.push((at.translation, at.direction(Z)));
-        at = at.then(&RigidMotion::turn(Z, angle));
-        at = at.then(&RigidMotion::shift([length[i % 2], 0.0, 0.0]));
-        at = at.then(&RigidMotion::turn([1.0, 0.0, 0.0], twist[i % 2]));
+        lines.push((at.translation, at.map_direction(Z)));
+        at = at.then(&RigidMotion::from_turn(Z, angle));
+        at = at.then(&RigidMotion::from_translation([length[i % 2], 0.0, 0.0]));
+        at = at.then(&RigidMotion::from_turn([1.0, 0.0, 0.0], twist[i % 2]));
     }
     ring(&lines)
 }
@@ -94,7 +94,11 @@ fn bennett(noise: &mut Noise) -> Vec<Hinge> {
 fn four_bar(noise: &mut Noise) -> Vec<Hinge> {
     let mut at = |x, y| {
         (
-            [x + 0.2 * noise.uniform(), y + 0.2 * noise.uniform(), 0.0],
+            [
+                x + 0.2 * noise.draw_uniform(),
+                y + 0.2 * noise.draw_uniform(),
+                0.0,
+            ],
             Z,
         )
     };
@@ -103,10 +107,14 @@ fn four_bar(noise: &mut Noise) -> Vec<Hinge> {
 
 /// The file of hinges, turned or not; `decimals` has those of the points and, joint by joint, of the axes.
 fn text(hinges: &[Hinge], decimals: (usize, &[usize]), turned: bool, noise: &mut Noise) -> String {
-    let angle = if turned { 3.0 * noise.uniform() } else { 0.0 };
-    let turn = RigidMotion::turn(any(noise), angle);
+    let angle = if turned {
+        3.0 * noise.draw_uniform()
+    } else {
+        0.0
+    };
+    let turn = RigidMotion::from_turn(any(noise), angle);
     let vector = |v: Vector, d: usize| {
-        let [x, y, z] = turn.direction(v);
+        let [x, y, z] = turn.map_direction(v);
         format!("{x:.d$}, {y:.d$}, {z:.d$}")
     };
     let links: BTreeSet<&str> = hinges.iter().flat_map(|h| [&*h.0, &h.1]).collect();
@@ -123,7 +131,7 @@ fn text(hinges: &[Hinge], decimals: (usize, &[usize]), turned: bool, noise: &mut
         format!("j{i} | {a} {b} | revolute | {point} | {axis}")
     };
     let joints = hinges.iter().enumerate().map(line).join("\n");
-    file_of("name = \"one of a family\"", &links, &joints)
+    write_mechanism("name = \"one of a family\"", &links, &joints)
 }
 
 /// A family: its name, what makes one, W and the finite mobility, and the decimals from which on nearly all are decided.
@@ -146,8 +154,8 @@ const FAMILIES: [Family; 6] = [
 /// What is said of a file: W and finite mobility, each with the most it can be; `None` where W is not decided.
 fn said(text: &str) -> Option<(usize, [usize; 2])> {
     let m = mechanism_from_str("it.toml", text).unwrap();
-    let found = decide(&m, StateId::FREE).unwrap();
-    let w = found.verdict.figures(found.verdict.rank()).0;
+    let found = decide_state(&m, StateId::FREE).unwrap();
+    let w = found.verdict.figures_at(found.verdict.rank()).0;
     let finite = [found.finite.mobility, found.finite.at_most()];
     found.verdict.is_decided().then_some((w, finite))
 }
@@ -157,7 +165,7 @@ fn asked(default: usize) -> (usize, u64) {
         .ok()
         .and_then(|n| n.parse().ok())
     {
-        Some(n) => (n, fresh()),
+        Some(n) => (n, fresh_seed()),
         None => (default, 1),
     }
 }
@@ -209,7 +217,7 @@ fn axes_of_mixed_digits_are_never_proven_askew() {
         .map(|i| {
             let mut noise = Noise::new(seed, i);
             let hinges = four_bar(&mut noise);
-            let digits = [(); 4].map(|()| if noise.uniform() < 0.0 { 3 } else { 6 });
+            let digits = [(); 4].map(|()| if noise.draw_uniform() < 0.0 { 3 } else { 6 });
             let text = text(&hinges, (4, &digits), true, &mut noise);
             let said = said(&text);
             assert!(
@@ -231,9 +239,9 @@ fn a_count_is_exact_only_where_all_that_is_asked_is_decided() {
     let mut undecided = 0;
     for i in 0..cases {
         let mut noise = Noise::new(seed, i);
-        let turn = RigidMotion::turn(any(&mut noise), 3.0 * noise.uniform());
+        let turn = RigidMotion::from_turn(any(&mut noise), 3.0 * noise.draw_uniform());
         let vector = |v: Vector, d: usize| {
-            let [x, y, z] = turn.direction(v);
+            let [x, y, z] = turn.map_direction(v);
             format!("[{x:.d$}, {y:.d$}, {z:.d$}]")
         };
         let mut joint = |id: &str, links: &str, kind: &str, axis: Vector, x: Vector, more: &str| {
@@ -249,10 +257,10 @@ fn a_count_is_exact_only_where_all_that_is_asked_is_decided() {
             + &joint("slide", "[\"0\", \"a\"]", "prismatic", [1.0, 0.0, 0.0], Z, "")
             + &joint("hinge", "[\"a\", \"b\"]", "revolute", Z, [1.0, 0.0, 0.0], "options = []");
         let m = mechanism_from_str("it.toml", &file).unwrap();
-        let Ok(found) = ozols::search(&m, &request()) else {
+        let Ok(found) = ozols::search(&m, &small_request()) else {
             continue;
         };
-        let open = found.second.as_ref().map_or(0, |s| s.undecided());
+        let open = found.second.as_ref().map_or(0, |s| s.count_undecided());
         assert!(open == 0 || !found.is_exact(), "seed {seed}:\n{file}");
         undecided += usize::from(open > 0);
     }

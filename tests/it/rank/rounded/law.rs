@@ -4,11 +4,11 @@
 //! A seeded part by default; `OZOLS_FUZZ=2000 cargo test --test integration rounded::law -- --nocapture` takes so many more, of
 //! seeds drawn afresh, and prints a table.
 
-use super::search_numeric::{plain, request, turned};
+use super::search_numeric::{plain_built_in, small_request, turned_bare};
 use crate::common::*;
 use ozols::accuracy::said;
 use ozols::accuracy::special::SpecialKind;
-use ozols::rank::method::auto::decide;
+use ozols::rank::method::auto::decide_state;
 use ozols::score::outcome::Outcome;
 use ozols::score::request::Request;
 use rayon::prelude::*;
@@ -20,7 +20,7 @@ const DECIMALS: [usize; 6] = [4, 5, 6, 9, 12, 15];
 fn small() -> Request {
     Request {
         nodes: 20_000,
-        ..request()
+        ..small_request()
     }
 }
 
@@ -85,7 +85,7 @@ fn turned_files_have_the_counts_of_the_exact_one_or_say_that_they_are_not_exact(
         .into_par_iter()
         .enumerate()
         .filter_map(|(n, name)| {
-            let m = plain(name);
+            let m = plain_built_in(name);
             let few = m.joints.len() <= if asked.is_some() { 40 } else { 13 };
             let truth = few.then(|| ozols::search(&m, &small()).ok())??;
             let exact = truth.is_exact() && truth.search.size() <= 2_000_000u32.into();
@@ -103,7 +103,7 @@ fn turned_files_have_the_counts_of_the_exact_one_or_say_that_they_are_not_exact(
             let (n, name, m, truth) = &exact[i % exact.len()];
             let decimals = DECIMALS[i / exact.len()];
             let seed = first.wrapping_add(turn as u64);
-            let turned = turned(m, decimals, &mut Noise::new(seed, *n));
+            let turned = turned_bare(m, decimals, &mut Noise::new(seed, *n));
             let (said, words) = counts(&turned, decimals, truth);
             (
                 decimals,
@@ -148,12 +148,15 @@ fn most_built_ins_at_six_decimals_are_decided() {
     let mut undecided = Vec::new();
     let seeded = builtin::names().into_par_iter().enumerate();
     let found = seeded.map(|(n, name)| {
-        let exact = plain(name);
-        let m = turned(&exact, 6, &mut Noise::new(11, n));
+        let exact = plain_built_in(name);
+        let m = turned_bare(&exact, 6, &mut Noise::new(11, n));
         let decided = m.state_ids().map(|state| {
-            let (found, truth) = (decide(&m, state).ok()?, decide(&exact, state).ok()?);
+            let (found, truth) = (
+                decide_state(&m, state).ok()?,
+                decide_state(&exact, state).ok()?,
+            );
             let figures = |d: &ozols::rank::method::auto::Decision| {
-                (d.verdict.figures(d.verdict.rank()), d.finite.mobility)
+                (d.verdict.figures_at(d.verdict.rank()), d.finite.mobility)
             };
             let is_decided = found.verdict.is_decided() && !found.finite.is_undecided();
             is_decided.then(|| assert_eq!(figures(&found), figures(&truth), "{name}"))
@@ -181,7 +184,11 @@ fn door(decimals: usize, along: [f64; 2], off: f64) -> Mechanism {
          high | 0 door | revolute | {u:.decimals$}, {v:.decimals$}, {:.decimals$} | 0, 0, 1",
         0.25, 2.25
     );
-    mechanism_from_str("door.toml", &file_of("name = \"door\"", "0 door*", &joints)).unwrap()
+    mechanism_from_str(
+        "door.toml",
+        &write_mechanism("name = \"door\"", "0 door*", &joints),
+    )
+    .unwrap()
 }
 
 #[test]
@@ -189,10 +196,10 @@ fn offsets_beyond_the_digits_are_kept() {
     let mut noise = Noise::new(5, 0);
     for decimals in 4..=12 {
         for off in [2.5, 4.0, 13.0, 137.0, 1000.0] {
-            let along = [noise.uniform(), noise.uniform()];
+            let along = [noise.draw_uniform(), noise.draw_uniform()];
             let m = door(decimals, along, off);
-            let d = decide(&m, StateId::FREE).unwrap();
-            let w = d.verdict.figures(d.verdict.rank()).0;
+            let d = decide_state(&m, StateId::FREE).unwrap();
+            let w = d.verdict.figures_at(d.verdict.rank()).0;
             let sure = d.verdict.is_decided() && d.finite.is_proven();
             assert!(
                 !(w == 1 && sure),
@@ -200,10 +207,10 @@ fn offsets_beyond_the_digits_are_kept() {
                 d.line
             );
         }
-        let m = door(decimals, [0.3, noise.uniform()], 0.0);
-        let d = decide(&m, StateId::FREE).unwrap();
+        let m = door(decimals, [0.3, noise.draw_uniform()], 0.0);
+        let d = decide_state(&m, StateId::FREE).unwrap();
         assert_eq!(
-            d.verdict.figures(d.verdict.rank()).0,
+            d.verdict.figures_at(d.verdict.rank()).0,
             1,
             "{decimals}: {}",
             d.line
@@ -230,8 +237,8 @@ fn offsets_near_the_end_of_doubles() {
                 let mut noise = Noise::new(3, i * SpecialKind::ALL.len() + k);
                 let text = kind.text(units, decimals, i % 2 == 1, &mut noise);
                 let m = mechanism_from_str("off.toml", &text).unwrap();
-                let found = decide(&m, StateId::FREE).ok();
-                let [w, finite] = said::Said::of_decision(found.as_ref(), kind.figures(true));
+                let found = decide_state(&m, StateId::FREE).ok();
+                let [w, finite] = said::Said::of_decision(found.as_ref(), kind.true_figures(true));
                 w.max(finite) >= said::Said::Hedged
             });
             let lost = lost.count();
@@ -263,8 +270,8 @@ fn offsets_of_a_unit_and_a_half_are_not_proven_away() {
                 }
                 let text = kind.text(units, decimals, turned, &mut Noise::new(seed, i));
                 let m = mechanism_from_str("off.toml", &text).unwrap();
-                let found = decide(&m, StateId::FREE).ok();
-                let [w, finite] = said::Said::of_decision(found.as_ref(), kind.figures(true));
+                let found = decide_state(&m, StateId::FREE).ok();
+                let [w, finite] = said::Said::of_decision(found.as_ref(), kind.true_figures(true));
                 assert!(
                     w.max(finite) != said::Said::Wrong,
                     "{units} units, {decimals} decimals:\n{text}"

@@ -2,8 +2,8 @@
 
 use crate::common::*;
 use ozols::geom::vector::{Vector, dot, unit};
+use ozols::rank::rounded::mechanism_size;
 use ozols::rank::rounded::nearly_special::{NearJoint, Reach, Relation, nearly_special};
-use ozols::rank::rounded::size;
 
 /// A chain of joints, each with its type, point and axis.
 fn chain(joints: &[(&str, Vector, Vector)]) -> Mechanism {
@@ -20,13 +20,13 @@ fn chain(joints: &[(&str, Vector, Vector)]) -> Mechanism {
     let joints = joints.iter().enumerate().map(line).join("\n");
     mechanism_from_str(
         "chain.toml",
-        &file_of("name = \"chain\"\nlength_unit = \"m\"", &links, &joints),
+        &write_mechanism("name = \"chain\"\nlength_unit = \"m\"", &links, &joints),
     )
     .unwrap()
 }
 
 fn near(m: &Mechanism, tolerance: f64) -> Vec<NearJoint> {
-    nearly_special(m, Reach::relative(tolerance, size(m)))
+    nearly_special(m, Reach::relative(tolerance, mechanism_size(m)))
 }
 
 fn relations(near: &[NearJoint], joint: usize) -> Vec<Relation> {

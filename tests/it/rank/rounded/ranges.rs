@@ -10,7 +10,7 @@ fn range(values: &[f64], tolerance: f64, undecided: bool) -> (usize, usize) {
     };
     let of = |by: f64| {
         let values: Vec<f64> = values.iter().map(|v| v * by).collect();
-        let r = RankRange::of(&values, digits);
+        let r = RankRange::from_values(&values, digits);
         assert_eq!(r.is_decided(), r.least == r.most);
         (r.least, r.most)
     };

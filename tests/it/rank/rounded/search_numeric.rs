@@ -12,7 +12,7 @@ use ozols::search::at_tolerance::WHOLE;
 use ozols::search::question::rounded_rank::Digits;
 
 /// Options that every joint may take.
-pub(super) fn request() -> Request {
+pub(super) fn small_request() -> Request {
     Request {
         options: ["revolute", "cylindrical", "spherical"]
             .map(str::to_owned)
@@ -24,7 +24,7 @@ pub(super) fn request() -> Request {
 }
 
 /// The same mechanism with its present joints as the only options.
-pub(super) fn bare(mut m: Mechanism) -> Mechanism {
+pub(super) fn without_options(mut m: Mechanism) -> Mechanism {
     for joint in &mut m.joints {
         joint.unloading.clear();
         joint.options = vec![JointOption {
@@ -39,18 +39,18 @@ pub(super) fn bare(mut m: Mechanism) -> Mechanism {
 }
 
 /// A built-in mechanism without options of its own.
-pub(super) fn plain(name: &str) -> Mechanism {
-    bare(built_in(name))
+pub(super) fn plain_built_in(name: &str) -> Mechanism {
+    without_options(built_in(name))
 }
 
 /// It turned and rounded.
-pub(super) fn turned(m: &Mechanism, decimals: usize, noise: &mut Noise) -> Mechanism {
-    bare(turned_and_rounded(m, decimals, noise))
+pub(super) fn turned_bare(m: &Mechanism, decimals: usize, noise: &mut Noise) -> Mechanism {
+    without_options(turned_and_rounded(m, decimals, noise))
 }
 
 #[test]
 fn a_bennett_linkage_from_cad_has_the_counts_of_the_exact_one() {
-    let m = turned(&plain("bennett"), 6, &mut Noise::new(11, 0));
+    let m = turned_bare(&plain_built_in("bennett"), 6, &mut Noise::new(11, 0));
     let file = ozols::export(&m, "toml").unwrap();
     let options = ["--options", "revolute,cylindrical,spherical"];
     let on = |more: &[&str]| {
@@ -93,7 +93,7 @@ fn ready(name: &str, request: &Request) -> (Search, Outcome) {
     let m = built_in(name);
     let truth = ozols::search(&m, request).unwrap();
     let prepared = request.prepare(m, &mut |_| {}).unwrap();
-    let (conditions, _) = request.conditions(&prepared, &mut |_| {}).unwrap();
+    let (conditions, _) = request.search_conditions(&prepared, &mut |_| {}).unwrap();
     let field = exact_field(&prepared.mechanism, 0).unwrap();
     let search = Search::new(field, prepared.mechanism, conditions).unwrap();
     (search, truth)
@@ -147,7 +147,7 @@ fn every_condition_means_the_same_by_singular_values() {
         assert_eq!(found.admissible.sure, truth.admissible, "{request:?}");
         assert!(found.is_whole() && found.admissible.is_narrow());
         assert_eq!(
-            found.list().count().to_string(),
+            found.list_variants().count().to_string(),
             truth.admissible.to_string()
         );
     }
@@ -182,8 +182,8 @@ fn a_large_space_is_sampled_and_its_cheapest_are_found() {
             "{share} {sample:?}"
         );
     }
-    let cost = |v: &Assignment| search.steps.milli(v.key.cost());
-    let cheapest: Vec<i64> = found.list().take(5).map(|v| cost(&v)).collect();
+    let cost = |v: &Assignment| search.steps.cost_in_milli(v.key.cost());
+    let cheapest: Vec<i64> = found.list_variants().take(5).map(|v| cost(&v)).collect();
     let exact: Vec<i64> = truth.variants().map(|v| v.cost_milli()).collect();
     assert_eq!(cheapest, exact);
     assert!(sampled.all_below.unwrap() >= cheapest[4]);

@@ -1,19 +1,19 @@
 //! Counts on rounded coordinates, and what singular values of the file say of them: no false count is called exact.
 
-use super::search_numeric::{plain, request, turned};
+use super::search_numeric::{plain_built_in, small_request, turned_bare};
 use crate::common::*;
 use ozols::score::request::Request;
 
 /// A turned gripper as it is written: planes and parallels are gone with the last digit.
 #[test]
 fn a_false_count_of_a_turned_gripper_is_not_called_exact() {
-    let m = turned(&plain("gripper-10"), 9, &mut Noise::new(3, 0));
-    let truth = ozols::search(&plain("gripper-10"), &request()).unwrap();
+    let m = turned_bare(&plain_built_in("gripper-10"), 9, &mut Noise::new(3, 0));
+    let truth = ozols::search(&plain_built_in("gripper-10"), &small_request()).unwrap();
     let found = ozols::search(
         &m,
         &Request {
             as_written: true,
-            ..request()
+            ..small_request()
         },
     )
     .unwrap();
@@ -27,7 +27,7 @@ fn a_false_count_of_a_turned_gripper_is_not_called_exact() {
 
 #[test]
 fn the_program_says_where_singular_values_contradict() {
-    let m = turned(&plain("bennett"), 9, &mut Noise::new(5, 0));
+    let m = turned_bare(&plain_built_in("bennett"), 9, &mut Noise::new(5, 0));
     let file = ozols::export(&m, "toml").unwrap();
     let options = [
         "--options",
@@ -68,7 +68,7 @@ fn the_program_says_where_singular_values_contradict() {
 #[test]
 fn exact_files_are_not_asked_about() {
     for name in ["four-bar", "bennett", "gripper-10"] {
-        let found = ozols::search(&plain(name), &request()).unwrap();
+        let found = ozols::search(&plain_built_in(name), &small_request()).unwrap();
         assert!(found.second.is_none() && found.numeric.is_none() && found.is_exact());
     }
 }

@@ -1,15 +1,15 @@
 //! Mechanisms as a CAD system writes them, turned in space and rounded: the same redesigns as of the exact ones.
 
 use super::digits::door;
-use super::search_numeric::{bare, request, turned};
+use super::search_numeric::{small_request, turned_bare, without_options};
 use crate::common::*;
 use ozols::model::rounded::uncertainties;
-use ozols::rank::method::auto::decide;
+use ozols::rank::method::auto::decide_state;
 use ozols::score::outcome::Outcome;
 use ozols::score::request::{List, Request};
 
 fn read(text: &str) -> Mechanism {
-    bare(mechanism_from_str("it.toml", text).unwrap_or_else(|e| panic!("{text}: {e}")))
+    without_options(mechanism_from_str("it.toml", text).unwrap_or_else(|e| panic!("{text}: {e}")))
 }
 
 /// A wedge chuck: a draw bar along z, three jaws that slide out at 120°, each on a wedge of the bar; `number` writes so much of
@@ -32,12 +32,12 @@ fn wedge_chuck(number: &dyn Fn(&str, f64) -> String) -> String {
             );
         }
     }
-    file_of("name = \"it\"", "0 bar jaw1 jaw2 jaw3*", &joints)
+    write_mechanism("name = \"it\"", "0 bar jaw1 jaw2 jaw3*", &joints)
 }
 
 /// A double wishbone: each arm on two bushes along a slanted line, a knuckle between two ball joints, a tie rod.
 fn double_wishbone() -> String {
-    file_of(
+    write_mechanism(
         "name = \"it\"",
         "0 lower upper tie knuckle*",
         "
@@ -55,7 +55,7 @@ fn double_wishbone() -> String {
 
 /// A tailgate: a lid on two hinges across the car, and a strut of two tubes on either side.
 fn tailgate() -> String {
-    file_of(
+    write_mechanism(
         "name = \"it\"",
         "0 tube-l rod-l tube-r rod-r lid*",
         "
@@ -75,7 +75,7 @@ fn search(m: &Mechanism, options: &[&str]) -> Outcome {
     let all = Request {
         list: List::All,
         options: options.iter().map(|&o| o.to_owned()).collect(),
-        ..request()
+        ..small_request()
     };
     ozols::search(m, &all).unwrap()
 }
@@ -95,10 +95,11 @@ const SLIDES: [&str; 2] = ["prismatic", "cylindrical"];
 
 /// Whether a file has the redesigns of the exact one; if not, it must have said that it is not exact.
 fn same(exact: &Mechanism, file: &Mechanism, options: &[&str], what: &str) -> bool {
-    let of = |m: &Mechanism| decide(m, StateId::FREE).unwrap();
+    let of = |m: &Mechanism| decide_state(m, StateId::FREE).unwrap();
     let (truth, is) = (of(exact), of(file));
-    let w = truth.verdict.figures(truth.verdict.rank()).0;
-    let [least, most] = [is.verdict.rank(), is.verdict.at_least()].map(|r| is.verdict.figures(r).0);
+    let w = truth.verdict.figures_at(truth.verdict.rank()).0;
+    let [least, most] =
+        [is.verdict.rank(), is.verdict.at_least()].map(|r| is.verdict.figures_at(r).0);
     assert!((least..=most).contains(&w), "{what}: {}", is.line);
     let finite = i64::try_from(truth.finite.mobility).unwrap();
     assert!(is.finite.could_be(finite), "{what}: {}", is.line);
@@ -116,7 +117,7 @@ fn turned_at(exact: &Mechanism, options: &[&str], decimals: &[usize], what: &str
         .iter()
         .flat_map(|&d| (0..2).map(move |seed| (d, seed)));
     all.filter(|&(d, seed)| {
-        let m = turned(exact, d, &mut Noise::new(seed, d));
+        let m = turned_bare(exact, d, &mut Noise::new(seed, d));
         same(
             exact,
             &m,
@@ -130,9 +131,9 @@ fn turned_at(exact: &Mechanism, options: &[&str], decimals: &[usize], what: &str
 #[test]
 fn a_wedge_chuck_with_slides_at_120_degrees_in_decimals_has_the_redesigns_of_the_exact_one() {
     let exact = read(&wedge_chuck(&|exact, _| exact.to_owned()));
-    let w = decide(&exact, StateId::FREE).unwrap();
+    let w = decide_state(&exact, StateId::FREE).unwrap();
     // Seven slides, two directions a contour.
-    assert_eq!(w.verdict.figures(w.verdict.rank()), (1, 12));
+    assert_eq!(w.verdict.figures_at(w.verdict.rank()), (1, 12));
     for d in [3, 4, 6, 9, 12] {
         let m = read(&wedge_chuck(&|_, x| format!("{x:.d$}")));
         assert!(same(&exact, &m, &SLIDES, "chuck"), "{d} decimals");

@@ -1,7 +1,7 @@
 //! Symmetry that a file states holds in the turned and rounded one, too: variants that are their own images, and one of each pair
 //! of images, are counted as in the exact file.
 
-use super::search_numeric::{bare, request, turned};
+use super::search_numeric::{small_request, turned_bare, without_options};
 use crate::common::*;
 use ozols::score::request::Request;
 use ozols::search::question::conditions::Symmetry;
@@ -11,7 +11,7 @@ const BOTH: [Symmetry; 2] = [Symmetry::SymmetricOnly, Symmetry::OnePerOrbit];
 fn asked(symmetry: Symmetry) -> Request {
     Request {
         symmetry,
-        ..request()
+        ..small_request()
     }
 }
 
@@ -26,7 +26,7 @@ fn two_rockers() -> Mechanism {
     }
     let turn = "turn = [[\"a\", \"a2\"], [\"b\", \"b2\"], [\"c\", \"c2\"]]";
     let head = format!("name = \"two-rockers\"\n[search]\noptions = [\"revolute\"]\n{turn}");
-    let file = file_of(&head, "0 shaft* rod rod2 rocker rocker2", &joints);
+    let file = write_mechanism(&head, "0 shaft* rod rod2 rocker rocker2", &joints);
     mechanism_from_str("x.toml", &file).unwrap()
 }
 
@@ -36,7 +36,7 @@ fn same(name: &str, exact: &Mechanism, decimals: &[usize]) -> [usize; 2] {
     for symmetry in BOTH {
         let truth = ozols::search(exact, &asked(symmetry)).unwrap();
         for (n, &d) in decimals.iter().enumerate() {
-            let m = turned(exact, d, &mut Noise::new(n as u64, d));
+            let m = turned_bare(exact, d, &mut Noise::new(n as u64, d));
             all += 1;
             let Ok(found) = ozols::search(&m, &asked(symmetry)) else {
                 continue;
@@ -53,11 +53,11 @@ fn same(name: &str, exact: &Mechanism, decimals: &[usize]) -> [usize; 2] {
 #[test]
 fn mirror_pairs_of_built_in_grippers_hold_in_turned_files() {
     let mut sum = [0, 0];
-    for name in words(
+    for name in split_words(
 "lever-gripper gripper-slider-two-fingers gripper-slider-two-fingers-balls lever-slot-gripper
             gripper-10-redesign parallelogram-gripper",
 ) {
-        let exact = bare(built_in(name));
+        let exact = without_options(built_in(name));
         let [same, all] = same(name, &exact, &[4, 6, 9, 12]);
         sum = [sum[0] + same, sum[1] + all];
     }
@@ -66,7 +66,7 @@ fn mirror_pairs_of_built_in_grippers_hold_in_turned_files() {
 
 #[test]
 fn joints_that_become_each_other_by_half_a_turn_do_so_in_turned_files() {
-    let exact = bare(two_rockers());
+    let exact = without_options(two_rockers());
     let found = ozols::search(&exact, &asked(Symmetry::OnePerOrbit)).unwrap();
     assert!(found.is_exact() && found.admissible.total > 0u32.into());
     assert_eq!(same("two rockers", &exact, &[4, 6, 9, 12, 15]), [10, 10]);
@@ -75,9 +75,9 @@ fn joints_that_become_each_other_by_half_a_turn_do_so_in_turned_files() {
 #[test]
 fn a_stated_image_that_is_off_by_more_than_the_digits_is_refused() {
     let text = builtin::text("gripper-slider-two-fingers").unwrap();
-    let exact = bare(mechanism_from_str("x.toml", text).unwrap());
+    let exact = without_options(mechanism_from_str("x.toml", text).unwrap());
     for (seed, symmetry) in [1, 2].into_iter().zip(BOTH) {
-        let mut m = turned(&exact, 6, &mut Noise::new(seed, 0));
+        let mut m = turned_bare(&exact, 6, &mut Noise::new(seed, 0));
         let joint = m.search.mirror[1].0;
         for axis in 0..3 {
             let x = &mut m.joints[joint].frame.point[axis];

@@ -4,8 +4,8 @@ use super::cases::{Case, cases};
 use crate::common::*;
 use crate::documents::figures::{between, says};
 use ozols::accuracy::change::turned_and_rounded;
-use ozols::rank::method::auto::decide;
-use ozols::rank::rounded::verdict::verdict;
+use ozols::rank::method::auto::decide_state;
+use ozols::rank::rounded::verdict::rank_verdict;
 use rayon::prelude::*;
 
 /// What an answer is worth.
@@ -106,8 +106,8 @@ fn judged(
 #[test]
 fn no_verdict_on_rounded_coordinates_is_wrong_and_sure() {
     let table = judged("W", 41, |m, case| {
-        let v = verdict(m, case.state).unwrap();
-        let [w, most] = [v.rank(), v.at_least()].map(|rank| v.figures(rank).0);
+        let v = rank_verdict(m, case.state).unwrap();
+        let [w, most] = [v.rank(), v.at_least()].map(|rank| v.figures_at(rank).0);
         // Undecided is no answer, even where its range leaves the truth out.
         let worth = if v.is_decided() {
             Worth::of((w, most), case.mobility)
@@ -117,7 +117,7 @@ fn no_verdict_on_rounded_coordinates_is_wrong_and_sure() {
         let what = format!(
             "W = {w} to {most} for {}, {}: {:?}",
             case.mobility,
-            v.word(),
+            v.as_word(),
             v.numeric
         );
         (worth, what)
@@ -133,11 +133,11 @@ fn no_verdict_on_rounded_coordinates_is_wrong_and_sure() {
 #[test]
 fn no_finite_mobility_of_rounded_coordinates_is_wrong_and_sure() {
     judged("finite mobility", 61, |m, case| {
-        let found = decide(m, case.state).unwrap();
+        let found = decide_state(m, case.state).unwrap();
         let finite = found.finite;
         let what = format!(
             "finite {} for {}: {}",
-            finite.figure(),
+            finite.format_figure(),
             case.finite,
             found.line
         );

@@ -1,20 +1,20 @@
 //! What a unit of the last digit can do, by hand; and what is told of a scene that is meant.
 
-use super::search_numeric::{plain, turned};
+use super::search_numeric::{plain_built_in, turned_bare};
 use crate::common::*;
 use ozols::geom::Reals;
-use ozols::meant::mechanism::{Meant, meant};
-use ozols::meant::mechanism::{moved_joints, understood};
+use ozols::meant::mechanism::{Meant, recover_mechanism};
+use ozols::meant::mechanism::{describe_relations, moved_joints};
 use ozols::model::rounded::uncertainties;
-use ozols::rank::numeric::scaling::{Scaling, scaled};
-use ozols::rank::rounded::nearly_special::reach;
-use ozols::rank::rounded::size;
-use ozols::rank::rounded::verdict::settle;
-use ozols::rank::rounded::verdict::verdict;
+use ozols::rank::numeric::scaling::{Scaling, scaled_matrix};
+use ozols::rank::rounded::mechanism_size;
+use ozols::rank::rounded::nearly_special::rounding_reach;
+use ozols::rank::rounded::verdict::rank_verdict;
+use ozols::rank::rounded::verdict::settle_states;
 use ozols_dense::singular_values;
 
 fn measured(name: &str, decimals: usize) -> Mechanism {
-    turned(&plain(name), decimals, &mut Noise::new(3, 0))
+    turned_bare(&plain_built_in(name), decimals, &mut Noise::new(3, 0))
 }
 
 /// Units of the last digit: of points, and of directions of unit length.
@@ -28,9 +28,9 @@ fn units(m: &Mechanism) -> [f64; 2] {
         .map(|f| largest(&f.point))
         .fold(0.0, f64::max);
     let axes = m.joints.iter().zip(&half.frames);
-    let axes = axes.map(|(j, h)| largest(&h.axis) / length(real(&j.frame.axis)));
+    let axes = axes.map(|(j, h)| largest(&h.axis) / length(to_vector(&j.frame.axis)));
     let others = m.joints.iter().zip(&half.frames);
-    let others = others.map(|(j, h)| largest(&h.reference) / length(real(&j.frame.reference)));
+    let others = others.map(|(j, h)| largest(&h.reference) / length(to_vector(&j.frame.reference)));
     [points, axes.chain(others).fold(0.0, f64::max)].map(|half| 2.0 * half)
 }
 
@@ -39,22 +39,22 @@ fn units(m: &Mechanism) -> [f64; 2] {
 /// is off by more than all of that together [Weyl].
 #[test]
 fn what_rounding_can_do_is_that_of_all_hinges_together() {
-    for name in words("bennett four-bar parallelogram-3-rods watt-six-bar") {
+    for name in split_words("bennett four-bar parallelogram-3-rods watt-six-bar") {
         let m = measured(name, 9);
         assert!(m.joints.iter().all(|j| j.joint_type == JointType::Revolute));
         let closure = Closure::new(&Reals, &m, StateId::FREE).unwrap();
         let half = uncertainties(&m).unwrap();
         let norm = |v: [f64; 3]| v.iter().map(|x| x * x).sum::<f64>().sqrt();
-        let size = Scaling::of(&closure).length();
+        let size = Scaling::of_closure(&closure).length();
         let off = |j: JointId| {
-            let axis = norm(half.frames[j.index()].axis) / norm(real(&m.joints[j].frame.axis));
+            let axis = norm(half.frames[j.index()].axis) / norm(to_vector(&m.joints[j].frame.axis));
             2.0 * axis + norm(half.frames[j.index()].point) / size
         };
         let passed = closure.contours.iter().flat_map(|c| &c.joints);
         let squares: f64 = passed.map(|&(j, _)| off(j).powi(2)).sum();
         let whole = squares.sqrt();
-        let largest = singular_values(&scaled(&closure)).unwrap()[0];
-        let found = verdict(&m, StateId::FREE).unwrap().tolerance;
+        let largest = singular_values(&scaled_matrix(&closure)).unwrap()[0];
+        let found = rank_verdict(&m, StateId::FREE).unwrap().tolerance;
         assert!(
             (found / (whole / largest) - 1.0).abs() < 1e-9,
             "{name}: {found}"
@@ -68,8 +68,8 @@ fn what_rounding_can_do_is_that_of_all_hinges_together() {
 fn joints_are_near_as_far_as_two_roundings_go() {
     for name in ["bennett", "gripper-10"] {
         let m = measured(name, 7);
-        let ([length, direction], found) = (units(&m), reach(&m).unwrap());
-        let size = size(&m);
+        let ([length, direction], found) = (units(&m), rounding_reach(&m).unwrap());
+        let size = mechanism_size(&m);
         near(
             found.length,
             2.0 * (length + size * direction),
@@ -81,7 +81,7 @@ fn joints_are_near_as_far_as_two_roundings_go() {
 }
 
 fn scene() -> Meant {
-    meant(&measured("gripper-10", 9)).unwrap()
+    recover_mechanism(&measured("gripper-10", 9)).unwrap()
 }
 
 /// What has not moved is not told, and what has is: its point, its axis or its reference.
@@ -94,7 +94,7 @@ fn moves_are_of_points_axes_and_references() {
     assert!(moved_joints(&s).is_empty());
     let (still, angle) = (s.written.clone(), 0.01f64);
     let leaned = |v: &[Expr; 3], other: &[Expr; 3]| -> [Expr; 3] {
-        let [v, other] = [v, other].map(real);
+        let [v, other] = [v, other].map(to_vector);
         let unit = |v: [f64; 3]| {
             let size = v.iter().map(|x| x * x).sum::<f64>().sqrt();
             v.map(|x| x / size)
@@ -116,31 +116,31 @@ fn what_was_understood_is_counted_in_groups_and_units() {
     s.scene.cluster = vec![0, 1, 0, 2, 0];
     s.scene.relations.clear();
     s.scene.moved = 0.84;
-    let said = understood(&s);
+    let said = describe_relations(&s);
     assert!(said.starts_with("3 axes parallel;"), "{said}");
     assert!(
         said.ends_with("by at most 0.42 units of its last digit"),
         "{said}"
     );
     s.scene.cluster = vec![0, 1, 0, 1, 0];
-    assert!(understood(&s).starts_with("3 + 2 axes parallel;"));
+    assert!(describe_relations(&s).starts_with("3 + 2 axes parallel;"));
 }
 
 /// Where nothing is open, the mechanism that a search takes has the rank of the verdict.
 #[test]
 fn what_is_settled_has_the_rank_of_its_verdict() {
     let (mut open, mut closed) = (0, 0);
-    for name in words("bennett gripper-10 parallelogram-3-rods wren-platform") {
+    for name in split_words("bennett gripper-10 parallelogram-3-rods wren-platform") {
         for decimals in [4, 6, 9] {
             let m = measured(name, decimals);
-            let found = settle(&m, &[StateId::FREE]).unwrap();
+            let found = settle_states(&m, &[StateId::FREE]).unwrap();
             if found.open.is_some() {
                 open += 1;
                 continue;
             }
             closed += 1;
             let taken = found.snapped.as_ref().unwrap_or(&m);
-            let exact = analyse(taken, &[StateId::FREE], Method::Modular).unwrap();
+            let exact = analyse_states(taken, &[StateId::FREE], Method::Modular).unwrap();
             let said = found.verdicts[0].rank();
             assert_eq!(exact[0].rank, said, "{name} {decimals}");
         }

@@ -191,7 +191,7 @@ fn taut(s: &mut Sketch, bars: usize, at: f64, prefix: &str) {
 }
 
 fn with(planar: bool, build: impl FnOnce(&mut Sketch)) -> Sketch {
-    let mut s = but(|s: &mut Sketch| s.planar = planar);
+    let mut s = default_with(|s: &mut Sketch| s.planar = planar);
     s.link("0");
     build(&mut s);
     s

@@ -37,7 +37,7 @@ fn rods(longer: &str, third: &str) -> String {
         joints += &format!("0-{rod} | 0 {rod} | revolute | \"{x}\", \"0\", 0 | 0, 0, 1\n");
         joints += &format!("{rod}-top | {rod} top | revolute | \"{x}\", \"{y}\", 0 | 0, 0, 1\n");
     }
-    file_of(
+    write_mechanism(
         "name = \"rods\"\nlength_unit = \"mm\"",
         "0 a b c top*",
         &joints,
@@ -104,7 +104,7 @@ fn both_bounds_are_told() {
 #[test]
 fn what_is_too_large_is_not_decided() {
     let (instantaneous, found) = judge(&all::large_sheet(11).text);
-    assert_eq!(found.word(), "bound");
+    assert_eq!(found.as_word(), "bound");
     assert_eq!((found.mobility, found.at_most()), (0, instantaneous));
     assert!(
         found.is_undecided() && found.describe().contains("too large"),

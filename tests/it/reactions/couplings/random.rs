@@ -120,7 +120,7 @@ pub(super) fn five_bar(random: &mut Random) -> String {
 
 /// Forces at random points of every link but the frame, and moments.
 pub(super) fn with_loads(m: &mut Mechanism, random: &mut Random) {
-    let frame = m.frame();
+    let frame = m.frame_link();
     let links: Vec<_> = m.link_ids().filter(|&l| l != frame).collect();
     for link in links {
         let mut vector = |most: i64| [0, 1, 2].map(|_| random.around(most).into());

@@ -27,8 +27,8 @@ pub(super) struct Twin {
 /// Directions of a joint's freedoms: (whether it is a slide, the direction).
 fn freedoms(m: &Mechanism, j: JointId) -> Vec<(Freedom, bool, V)> {
     let frame = &m.joints[j].frame;
-    let z = unit(real(&frame.axis));
-    let r = real(&frame.reference);
+    let z = unit(to_vector(&frame.axis));
+    let r = to_vector(&frame.reference);
     let x = unit(sub(r, scale(z, dot(r, z))));
     let y = cross(z, x);
     let one = |f: &Freedom| match f {
@@ -56,8 +56,8 @@ fn mesh(m: &Mechanism, q: usize) -> Option<(LinkId, LinkId, V, V)> {
         return None;
     }
     let metres = m.length_unit.metres;
-    let place = |j: JointId| scale(real(&m.joints[j].frame.point), metres);
-    let axis = |j: JointId| unit(real(&m.joints[j].frame.axis));
+    let place = |j: JointId| scale(to_vector(&m.joints[j].frame.point), metres);
+    let axis = |j: JointId| unit(to_vector(&m.joints[j].frame.axis));
     let forward = |l: [LinkId; 2]| if l[0] == carrier { 1.0 } else { -1.0 };
     let (za, zb) = (scale(axis(a), forward(la)), scale(axis(b), forward(lb)));
     let (pa, pb) = (place(a), place(b));
@@ -93,7 +93,7 @@ impl Twin {
     pub(super) fn new(m: &Mechanism, drives: &[(JointId, Freedom)]) -> Twin {
         let metres = m.length_unit.metres;
         let joints: Vec<JointId> = m.joints_in(StateId::FREE).collect();
-        let links: Vec<LinkId> = m.link_ids().filter(|&l| l != m.frame()).collect();
+        let links: Vec<LinkId> = m.link_ids().filter(|&l| l != m.frame_link()).collect();
         let width = 6 * joints.len() + m.couplings.len();
         let mut out = Twin {
             rows: vec![vec![0.0; width]; 6 * links.len()],
@@ -113,7 +113,7 @@ impl Twin {
         };
         let e = |i: usize| [0, 1, 2].map(|k| f64::from(u8::from(i == k)));
         for (n, &j) in joints.iter().enumerate() {
-            let at = scale(real(&m.joints[j].frame.point), metres);
+            let at = scale(to_vector(&m.joints[j].frame.point), metres);
             for i in 0..3 {
                 for (link, sign) in m.joints[j].links.into_iter().zip([-1.0, 1.0]) {
                     let force = scale(e(i), sign);
@@ -174,7 +174,7 @@ impl Twin {
                 let j = c.ends[n].joint;
                 let all = freedoms(m, j);
                 let way = all.iter().find(|f| f.0 == c.ends[n].freedom).unwrap().2;
-                let at = scale(real(&m.joints[j].frame.point), metres);
+                let at = scale(to_vector(&m.joints[j].frame.point), metres);
                 for (link, sign) in m.joints[j].links.into_iter().zip([-size, size]) {
                     let (along, none) = (scale(way, sign), [0.0; 3]);
                     let (force, moment) = if slides(n) {
@@ -197,7 +197,7 @@ impl Twin {
         }
         for f in &m.loads.forces {
             let first = row_of(f.link).unwrap();
-            let (at, force) = (scale(real(&f.point), metres), real(&f.force));
+            let (at, force) = (scale(to_vector(&f.point), metres), to_vector(&f.force));
             let turn = cross(at, force);
             for i in 0..3 {
                 out.right[first + i] -= force[i];
@@ -206,7 +206,7 @@ impl Twin {
         }
         for x in &m.loads.moments {
             let first = row_of(x.link).unwrap();
-            (0..3).for_each(|i| out.right[first + 3 + i] -= real(&x.moment)[i]);
+            (0..3).for_each(|i| out.right[first + 3 + i] -= to_vector(&x.moment)[i]);
         }
         out
     }

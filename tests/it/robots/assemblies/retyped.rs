@@ -4,7 +4,7 @@ use super::make::{HINGES, fcstd, four_bar};
 use super::{figures, read};
 use crate::common::*;
 use ozols::redundancy::release::Release;
-use ozols::robots::{Options, fix};
+use ozols::robots::{Options, apply_releases};
 use std::io::{Cursor, Read};
 use zip::ZipArchive;
 
@@ -28,7 +28,7 @@ fn fix_changes_types_and_nothing_else() {
     let path = |name: &str| dir.path().join(name).display().to_string();
     let (old, new) = (path("x.FCStd"), path("fixed.FCStd"));
     fs::write(&old, fcstd(&four_bar(HINGES))).unwrap();
-    done(&["fix", &old, "-o", &new]);
+    run_successful(&["fix", &old, "-o", &new]);
     let [before, after] = [&old, &new].map(|p| fs::read(p).unwrap());
     let i = read("fixed.FCStd", &after, &Options::default());
     assert_eq!(figures(&i), (1, 0));
@@ -42,7 +42,7 @@ fn fix_changes_types_and_nothing_else() {
     assert_eq!(is.matches(" Touched=\"1\"").count(), 2);
     assert_eq!(is.replace(" Touched=\"1\"", "").len(), was.len());
     // What is fixed is written as it is.
-    done(&["fix", &new, "-o", &path("again.FCStd")]);
+    run_successful(&["fix", &new, "-o", &path("again.FCStd")]);
     let again = fs::read(path("again.FCStd")).unwrap();
     assert_eq!(members(&again), members(&after));
 }
@@ -53,17 +53,17 @@ fn fix_keeps_to_the_joints_that_may_be_changed() {
     let path = |name: &str| dir.path().join(name).display().to_string();
     let (old, new) = (path("x.FCStd"), path("fixed.FCStd"));
     fs::write(&old, fcstd(&four_bar(HINGES))).unwrap();
-    done(&["fix", &old, "--at", "B", "--at", "C", "-o", &new]);
+    run_successful(&["fix", &old, "--at", "B", "--at", "C", "-o", &new]);
     let i = read("x", &fs::read(&new).unwrap(), &Options::default());
     assert_eq!(figures(&i), (1, 0));
     for j in &i.mechanism.joints {
         let changed = j.joint_type.name() != "revolute";
         assert_eq!(changed, ["B", "C"].contains(&j.id.as_str()), "{}", j.id);
     }
-    let (code, _, said) = ran(&["fix", &old, "--at", "B", "-o", &path("no.FCStd")]);
+    let (code, _, said) = run_full(&["fix", &old, "--at", "B", "-o", &path("no.FCStd")]);
     assert_eq!(code, Some(2));
     has(&said, "no choice of joint types");
-    let (code, _, said) = ran(&["fix", &old, "--at", "Z"]);
+    let (code, _, said) = run_full(&["fix", &old, "--at", "Z"]);
     assert_eq!(code, Some(2));
     has(&said, "no such joint");
 }
@@ -82,7 +82,7 @@ fn types_that_freecad_has_not_are_refused() {
         "--options",
         "sphere-in-cylinder",
     ];
-    let (code, _, said) = ran(&words);
+    let (code, _, said) = run_full(&words);
     assert_eq!(code, Some(2), "{said}");
     has(&said, "has no joint type");
 }
@@ -96,7 +96,7 @@ fn export_writes_the_owners_document() {
     fs::write(&old, fcstd(&four_bar(HINGES))).unwrap();
     for (more, out) in [(&["--idea", "1"][..], &new), (&[], &same)] {
         let words = [&["export", &old, "--to", "fcstd", "-o", out], more].concat();
-        done(&words);
+        run_successful(&words);
     }
     let [old_bytes, new_bytes, same_bytes] = [&old, &new, &same].map(|p| fs::read(p).unwrap());
     assert_eq!(members(&same_bytes), members(&old_bytes));
@@ -105,7 +105,7 @@ fn export_writes_the_owners_document() {
         ("gripper-10", "fcstd", "is not a file"),
         (old.as_str(), "asmt", "is not one"),
     ] {
-        let (code, _, told) = ran(&["export", file, "--to", to]);
+        let (code, _, told) = run_full(&["export", file, "--to", to]);
         assert_eq!(code, Some(2));
         assert!(told.contains(said), "{told}");
     }
@@ -124,10 +124,10 @@ fn asmt_files_get_other_labels() {
     let second = text[from..at].replace("\tJ\n", "\tK\n");
     let twice = format!("{}{second}{}", &text[..at], &text[at..]);
     fs::write(&old, &twice).unwrap();
-    let (code, out, said) = ran(&["lint", &old]);
+    let (code, out, said) = run_full(&["lint", &old]);
     assert_eq!(code, Some(1), "{said}");
     has(&out, "5 redundant constraints");
-    let (code, _, said) = ran(&["fix", &old, "-o", &path("y.asmt")]);
+    let (code, _, said) = run_full(&["fix", &old, "-o", &path("y.asmt")]);
     assert_eq!(code, Some(2));
     has(&said, "no choice of joint types");
     let i = read("x.asmt", twice.as_bytes(), &Options::default());
@@ -138,7 +138,7 @@ fn asmt_files_get_other_labels() {
             slides: true,
             direction,
         };
-        fix(&i, &[(release, String::new())])
+        apply_releases(&i, &[(release, String::new())])
     };
     let other = String::from_utf8(slide([0.0, 0.0, 1.0]).unwrap()).unwrap();
     assert_eq!(
@@ -156,11 +156,14 @@ fn a_freedom_that_a_joint_has_but_for_rounding_changes_no_type() {
     for joint in i.mechanism.joint_ids() {
         for off in [0.0, 1e-9, 3e-5] {
             let turn = (false, [0.0, off, 1.0]);
-            assert_eq!(i.origin.becomes(joint, &[turn]), None);
+            assert_eq!(i.origin.cad_type(joint, &[turn]), None);
             assert!(!i.origin.can_be_freed(joint, turn));
             let slide = (true, [0.0, off, 1.0]);
-            assert_eq!(i.origin.becomes(joint, &[turn, slide]), Some("Cylindrical"));
+            assert_eq!(
+                i.origin.cad_type(joint, &[turn, slide]),
+                Some("Cylindrical")
+            );
         }
-        assert_eq!(i.origin.becomes(joint, &[]), Some("Revolute"));
+        assert_eq!(i.origin.cad_type(joint, &[]), Some("Revolute"));
     }
 }

@@ -12,7 +12,7 @@ fn lint(objects: &[Object]) -> (Option<i32>, Value) {
     let dir = tempdir().unwrap();
     let path = dir.path().join("x.FCStd").display().to_string();
     fs::write(&path, fcstd(objects)).unwrap();
-    let (code, out, said) = ran(&["lint", &path, "--format", "json"]);
+    let (code, out, said) = run_full(&["lint", &path, "--format", "json"]);
     let v: Value = serde_json::from_str(&out).unwrap_or_else(|e| panic!("{e} {said}"));
     (code, v["files"][0].clone())
 }
@@ -64,8 +64,8 @@ fn what_is_open_is_told_in_degrees() {
         assert!((f["misfit"]["degrees"].real() - 1.2).abs() < 1e-9);
     }
     // No motion of planar hinges closes it.
-    let options = but(|o: &mut Options| o.assemble = true);
-    let e = ozols::robots::import("x.FCStd", &fcstd(&bar), &crate::robots::none, &options);
+    let options = default_with(|o: &mut Options| o.assemble = true);
+    let e = ozols::robots::import("x.FCStd", &fcstd(&bar), &crate::robots::no_files, &options);
     assert!(
         e.unwrap_err()
             .to_string()
@@ -86,7 +86,7 @@ fn assemble_closes_what_can_be_closed() {
         "{:?}",
         i.report.approximated
     );
-    let options = but(|o: &mut Options| o.assemble = true);
+    let options = default_with(|o: &mut Options| o.assemble = true);
     let i = read("x.FCStd", &bytes, &options);
     assert_eq!(figures(&i), (1, 3));
     let moved = i.report.moved.join("; ");

@@ -23,7 +23,7 @@ fn archives_that_are_broken_are_told() {
         let _ = import(
             "x.FCStd",
             &whole[..cut],
-            &crate::robots::none,
+            &crate::robots::no_files,
             &Options::default(),
         );
     }
@@ -36,7 +36,7 @@ fn archives_that_are_broken_are_told() {
         let _ = import(
             "x.FCStd",
             &spoiled,
-            &crate::robots::none,
+            &crate::robots::no_files,
             &Options::default(),
         );
     }
@@ -177,10 +177,10 @@ fn several_assemblies_and_parts_that_float() {
         &told,
         "2 part that is not connected to the ground (Nut, Bolt)",
     );
-    let options = but(|o: &mut Options| o.assembly = Some("Other".to_owned()));
+    let options = default_with(|o: &mut Options| o.assembly = Some("Other".to_owned()));
     assert_eq!(figures(&read("x.FCStd", &bytes, &options)), (1, 0));
-    let options = but(|o: &mut Options| o.assembly = Some("Third".to_owned()));
-    let e = import("x.FCStd", &bytes, &crate::robots::none, &options).unwrap_err();
+    let options = default_with(|o: &mut Options| o.assembly = Some("Third".to_owned()));
+    let e = import("x.FCStd", &bytes, &crate::robots::no_files, &options).unwrap_err();
     assert!(
         e.to_string().contains("assemblies: Other") || e.to_string().contains("Assembly"),
         "{e}"
@@ -278,7 +278,7 @@ fn asmt_files_that_are_wrong_are_told_by_line() {
         let _ = import(
             "x.asmt",
             &head.as_bytes()[..cut],
-            &crate::robots::none,
+            &crate::robots::no_files,
             &Options::default(),
         );
     }
@@ -295,7 +295,7 @@ fn bad_files_end_with_2() {
         ["fix", &path],
         ["check", &path],
     ] {
-        let (code, _, said) = ran(&command);
+        let (code, _, said) = run_full(&command);
         assert_eq!(code, Some(2), "{command:?} {said}");
         has(&said, "x.FCStd");
     }

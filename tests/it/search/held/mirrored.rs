@@ -1,6 +1,6 @@
 //! Mirror pairs that are none.
 
-use super::searched;
+use super::run_search;
 use crate::common::*;
 use ozols::search::question::conditions::Symmetry;
 
@@ -9,20 +9,20 @@ fn gripper() -> String {
 }
 
 fn refused(args: &[&str]) -> String {
-    let (code, told, said) = ran(args);
+    let (code, told, said) = run_full(args);
     assert_eq!((code, &*told), (Some(2), ""), "{args:?}");
     said
 }
 
 #[test]
 fn pairs_that_are_no_mirror_images_are_refused_with_their_distance() {
-    let wrong = changed(
+    let wrong = replace_once(
         &gripper(),
         "[\"2-3\", \"6-7\"], [\"3-0\", \"7-0\"]",
         "[\"2-3\", \"7-0\"], [\"3-0\", \"6-7\"]",
     );
     let place = place_of("m.toml", &wrong, "mirror = ");
-    let (_folder, path) = written("m.toml", &wrong);
+    let (_folder, path) = write_temporary("m.toml", &wrong);
     for command in ["check", "search", "analyze"] {
         let said = refused(&[command, &path]);
         // (3, 2.5) mirrored is (3, -2.5), and 7-0 is at (3.5, -0.5).
@@ -40,30 +40,30 @@ fn pairs_that_are_no_mirror_images_are_refused_with_their_distance() {
 /// Off by a little more than rounding of coordinates could be, the file is read, but its orbits are not counted.
 #[test]
 fn orbits_need_exact_images() {
-    let near = changed(
+    let near = replace_once(
         &gripper(),
         "point = [3, -2.5, 0]",
         "point = [3, -2.50004, 0]",
     );
-    let (_folder, path) = written("m.toml", &near);
+    let (_folder, path) = write_temporary("m.toml", &near);
     for flag in ["--symmetric", "--one-per-orbit"] {
         let said = refused(&["search", &path, flag, "--count"]);
         has(&said, "joint 2-3");
         has(&said, "4.000e-5 cm");
     }
-    assert!(count(&searched(&path, "--count")["determinate"]) > 0);
+    assert!(parse_count(&run_search(&path, "--count")["determinate"]) > 0);
 }
 
 /// Joints without a partner are their own images, or there are no orbits.
 #[test]
 fn what_has_no_image_is_told() {
-    let alone = changed(&gripper(), ", [\"4-a\", \"a-8\"]]", "]");
-    let (_folder, path) = written("m.toml", &alone);
+    let alone = replace_once(&gripper(), ", [\"4-a\", \"a-8\"]]", "]");
+    let (_folder, path) = write_temporary("m.toml", &alone);
     let orbits = ["search", &path, "--one-per-orbit", "--count"];
     let said = refused(&[&orbits[..], &["--state", "clamped"]].concat());
     has(&said, "joint 4-a has no image");
     // The free state has no contacts.
-    assert!(count(&searched(&path, &orbits[2..])["determinate"]) > 0);
+    assert!(parse_count(&run_search(&path, &orbits[2..])["determinate"]) > 0);
     let said = refused(&["search", "gripper-10", "--one-per-orbit", "--hold", "5"]);
     has(&said, "links 5 and 9 are images of each other");
 }
@@ -79,7 +79,7 @@ fn orbits_of_the_clamped_gripper() {
         "--count",
     ];
     let admissible = |more: &[&str]| {
-        count(&searched("gripper-10", &[&question[..], more].concat())["admissible"])
+        parse_count(&run_search("gripper-10", &[&question[..], more].concat())["admissible"])
     };
     let (all, own) = (admissible(&[]), admissible(&["--symmetric"]));
     assert_eq!(2 * admissible(&["--one-per-orbit"]), all + own);
@@ -110,9 +110,9 @@ fn joints_without_a_partner_and_skew_axes_say_which_plane_it_is() {
         }
         let head =
             "name = \"on the plane\"\n[search]\nmirror = [[\"u0\", \"l0\"], [\"u1\", \"l1\"]]";
-        let text = file_of(head, "f s u* l*", &joints);
+        let text = write_mechanism(head, "f s u* l*", &joints);
         let m = mechanism_from_str("on-the-plane.toml", &text).unwrap();
-        let conditions = but(|c: &mut Conditions| c.symmetry = Symmetry::SymmetricOnly);
+        let conditions = default_with(|c: &mut Conditions| c.symmetry = Symmetry::SymmetricOnly);
         let search = Search::new(exact_field(&m, 0).unwrap(), &m, conditions);
         assert!(search.is_ok(), "{axis:?}: {:?}", search.err());
     }

@@ -1,21 +1,21 @@
 //! Unloading joints anywhere, σ by contour, joints of the free state alone, and what to do where nothing is found.
 
-use super::{pads, searched};
+use super::{gripper_with_pads, run_search};
 use crate::common::*;
-use ozols::search::check::variant_mechanism::realize;
+use ozols::search::check::variant_mechanism::realize_variant;
 
 fn refused(args: &[&str]) -> String {
-    let (code, told, said) = ran(args);
+    let (code, told, said) = run_full(args);
     assert_eq!((code, &*told), (Some(2), ""), "{args:?}");
     said
 }
 
 #[test]
 fn unloading_joints_are_offered_by_name() {
-    let (_folder, path) = written("m.toml", &pads());
+    let (_folder, path) = write_temporary("m.toml", &gripper_with_pads());
     let space = |more: &[&str]| {
         let args = [&["--state", "clamped", "--count"][..], more].concat();
-        count(&searched(&path, &args)["space"])
+        parse_count(&run_search(&path, &args)["space"])
     };
     let four = 4u64.pow(12);
     assert_eq!(space(&[]), four * 2 * 2);
@@ -25,8 +25,8 @@ fn unloading_joints_are_offered_by_name() {
     let two = ["--unloading", "planar=a-8", "--unloading", "universal=1-2"];
     assert_eq!(space(&two), four * 2 * 2 * 3);
     // In the free mechanism, too.
-    let free = searched(&path, "--unloading prismatic=2-4 --count");
-    assert_eq!(count(&free["space"]), 2 * four);
+    let free = run_search(&path, "--unloading prismatic=2-4 --count");
+    assert_eq!(parse_count(&free["space"]), 2 * four);
     for (rule, parts) in [
         ("planar=4-a", &["joint 4-a", "add --state clamped"][..]),
         ("planar", &["search one with --state"]),
@@ -45,7 +45,7 @@ fn unloading_joints_are_offered_by_name() {
 fn the_gripper_offers_both_pads_and_the_jaws_joints() {
     let space = |more: &[&str]| {
         let args = [&["--count"][..], more].concat();
-        count(&searched("gripper-10", &args)["space"])
+        parse_count(&run_search("gripper-10", &args)["space"])
     };
     assert_eq!(space(&[]), 7u64.pow(12));
     let clamped = 7u64.pow(8) * 14u64.pow(4) * 4;
@@ -58,39 +58,43 @@ fn the_gripper_offers_both_pads_and_the_jaws_joints() {
 fn an_unloading_joint_has_a_place_of_its_own() {
     let place = "point = [6, -2, 0], axis = [1, 0, 0]";
     let list = format!("unloading = [{{ type = \"planar\", {place} }}]\n\n[[contour]]");
-    let text = changed(&pads(), "unloading = true\n\n[[contour]]", &list);
-    let text = changed(&text, "unloading = true", "unloading = false");
+    let text = replace_once(
+        &gripper_with_pads(),
+        "unloading = true\n\n[[contour]]",
+        &list,
+    );
+    let text = replace_once(&text, "unloading = true", "unloading = false");
     let m = mechanism_from_str("m.toml", &text).unwrap();
-    let pad = &m.joints[m.joint("a-8").unwrap()].unloading[0];
+    let pad = &m.joints[m.joint_named("a-8").unwrap()].unloading[0];
     let point = pad.frame.point.each_ref().map(Expr::to_f64);
     assert_eq!(point, [6.0, -2.0, 0.0]);
     // Written and read again it stays where it is.
-    let (_folder, path) = written("m.toml", &text);
+    let (_folder, path) = write_temporary("m.toml", &text);
     let read = |name: &str| {
-        let written = out(&["export", name, "--to", "toml"]);
+        let written = run_quiet(&["export", name, "--to", "toml"]);
         mechanism_from_str("m.toml", &written).unwrap()
     };
     let again = read(&path);
-    let again = &again.joints[again.joint("a-8").unwrap()].unloading[0];
+    let again = &again.joints[again.joint_named("a-8").unwrap()].unloading[0];
     assert_eq!(format!("{:?}", again.frame), format!("{:?}", pad.frame));
     // So does the state that an option is for.
     let again = read("gripper-10");
-    let cross = &again.joints[again.joint("2-4").unwrap()].unloading[0];
+    let cross = &again.joints[again.joint_named("2-4").unwrap()].unloading[0];
     let offered = (cross.name.as_str(), cross.state);
     assert_eq!(offered, ("cross", Some(StateId::new(1))));
     // The variant is the mechanism with the joint there.
     let to = ["--to", "toml", "--variant", "1", "--state", "clamped"];
-    let more = words("--max-external 3 --options revolute --max-redundant 11");
-    let written = out(&[&["export", path][..], &to, &more].concat());
+    let more = split_words("--max-external 3 --options revolute --max-redundant 11");
+    let written = run_quiet(&[&["export", path][..], &to, &more].concat());
     let v = mechanism_from_str("v.toml", &written).unwrap();
-    let series = &v.joints[v.joint("a-8 unloading").unwrap()];
+    let series = &v.joints[v.joint_named("a-8 unloading").unwrap()];
     assert_eq!(series.frame.point.each_ref().map(Expr::to_f64), point);
 }
 
 #[test]
 fn variants_say_where_their_redundant_constraints_are() {
-    let question = words("--max-redundant 2 --max-external 5 --max-changes 5 --top 3");
-    let found = searched("gripper-10", &question);
+    let question = split_words("--max-redundant 2 --max-external 5 --max-changes 5 --top 3");
+    let found = run_search("gripper-10", &question);
     for v in found["variants"].list() {
         let shares = v["per_contour"].list();
         let number = |c: &Value, key: &str| c[key].as_i64().unwrap();
@@ -107,7 +111,7 @@ fn variants_say_where_their_redundant_constraints_are() {
     }
     let as_written = |format: &str| {
         let head = ["search", "gripper-10", "--format", format];
-        out(&[&head[..], &question].concat())
+        run_quiet(&[&head[..], &question].concat())
     };
     let text = as_written("text");
     let head = "σ by contour, added in this order (range over all orders of these):";
@@ -119,7 +123,7 @@ fn variants_say_where_their_redundant_constraints_are() {
         "{csv}"
     );
     assert!(lines.next().unwrap().contains(" to "), "{csv}");
-    let none = out(&["search", "gripper-10", "--top", "2", "--verbose"]);
+    let none = run_quiet(&["search", "gripper-10", "--top", "2", "--verbose"]);
     has(&none, "σ by contour: 0 in each");
 }
 
@@ -128,42 +132,43 @@ fn variants_say_where_their_redundant_constraints_are() {
 fn a_joint_of_the_free_state_alone_counts_in_it_alone() {
     let rest = "[[joint]]\nid = \"rest\"\nlinks = [\"0\", \"5\"]\ntype = \"planar\"\npoint = [2, 4, 0]\n\
                 axis = [0, 0, 1]\nstate = \"free\"\n\n[[contour]]  # 0-1-2-3\n";
-    let text = changed(&pads(), "[[contour]]  # 0-1-2-3\n", rest);
+    let text = replace_once(&gripper_with_pads(), "[[contour]]  # 0-1-2-3\n", rest);
     let text = &text[..text.find("[[expected]]").unwrap()];
     let m = mechanism_from_str("m.toml", text).unwrap();
     let states = [StateId::FREE, StateId::new(1)];
-    let found = analyse(&m, &states, Method::Modular).unwrap();
+    let found = analyse_states(&m, &states, Method::Modular).unwrap();
     let e = found[1].external.unwrap();
     let sigma = |i: usize| i64::try_from(found[i].redundant).unwrap();
     let difference = sigma(1) - sigma(0);
     assert_eq!((e.redundant, e.by_rank), (difference, difference));
-    let (_folder, path) = written("m.toml", text);
-    let present = words("--options revolute --max-redundant 30 --state clamped --max-changes 0");
-    let v = searched(&path, &present)["variants"][0].clone();
+    let (_folder, path) = write_temporary("m.toml", text);
+    let present =
+        split_words("--options revolute --max-redundant 30 --state clamped --max-changes 0");
+    let v = run_search(&path, &present)["variants"][0].clone();
     assert_eq!(v["external_redundant"].as_i64(), Some(difference));
     assert_eq!(v["agree"], true);
     // The diagram, and every variant looked at.
     let small = "--options revolute,spherical --max-redundant 6 --max-external 1 --forbid 1-2 --forbid 2-3 --forbid 6-7 \
         --forbid 3-0 --forbid 5-1 --count";
     let brute = format!("{small} --method brute");
-    let (a, b) = (searched(&path, small), searched(&path, &brute));
-    for key in words("determinate admissible admissible_by_mobility_and_changes") {
+    let (a, b) = (run_search(&path, small), run_search(&path, &brute));
+    for key in split_words("determinate admissible admissible_by_mobility_and_changes") {
         assert_eq!(a[key], b[key], "{key}");
     }
-    assert!(count(&a["admissible"]) > 0, "{a}");
+    assert!(parse_count(&a["admissible"]) > 0, "{a}");
 }
 
 /// The clamped search has advice as any other.
 #[test]
 fn what_helps_a_clamped_search_is_said() {
-    let (code, text, _) = ran("search gripper-10 --max-external 0 --max-mobility 4 -q");
+    let (code, text, _) = run_full("search gripper-10 --max-external 0 --max-mobility 4 -q");
     assert_eq!(code, Some(1));
     has(&text, "--max-external 2 --max-mobility 4\n");
     // What balls alone hold turns between them, in the mechanism as it is and in every variant.
-    let loose = pads().replace("type = \"fixed\"", "type = \"spherical\"");
+    let loose = gripper_with_pads().replace("type = \"fixed\"", "type = \"spherical\"");
     let loose = &loose[..loose.find("[[expected]]").unwrap()];
-    let (_folder, path) = written("m.toml", loose);
-    let (code, text, notes) = ran(&["search", &path, "--state", "clamped"]);
+    let (_folder, path) = write_temporary("m.toml", loose);
+    let (code, text, notes) = run_full(&["search", &path, "--state", "clamped"]);
     assert_eq!(code, Some(1));
     has(&notes, "a is loose in state");
     has(&text, "--allow-loose-object\n");
@@ -172,7 +177,7 @@ fn what_helps_a_clamped_search_is_said() {
 /// Where no choice of the options offered is enough, that is said, with the drive that stays as it is.
 #[test]
 fn where_no_option_can_help_that_is_said() {
-    let (code, said, _) = ran("search four-bar --options revolute -q");
+    let (code, said, _) = run_full("search four-bar --options revolute -q");
     assert_eq!(code, Some(1));
     let part = "Even with the freest option at every joint, σ = 3 remains, so no choice of these options is enough";
     assert!(said.contains(part), "{said}");
@@ -184,18 +189,18 @@ fn where_no_option_can_help_that_is_said() {
 #[test]
 fn pads_stay_on_their_jaws_when_the_part_is_gone() {
     use ozols::model::mechanism::StateId;
-    use ozols::redundancy::analysis::{Method, analyse, exact_field};
+    use ozols::redundancy::analysis::{Method, analyse_states, exact_field};
     use ozols::search::Search;
     use ozols::search::question::conditions::{Conditions, InState};
     let m = built_in("tongs");
     let state = StateId::new(1);
-    let conditions = but(|c: &mut Conditions| c.state = Some(InState::holding(state)));
+    let conditions = default_with(|c: &mut Conditions| c.state = Some(InState::holding(state)));
     let s = Search::new(exact_field(&m, 0).unwrap(), &m, conditions).unwrap();
-    let diagrams = s.build(&|| false, &mut |_| {});
+    let diagrams = s.build_diagrams(&|| false, &mut |_| {});
     let mut padded = 0;
-    for v in s.cheapest(&diagrams, 100) {
-        let variant = realize(&s, &v.choices);
-        let found = analyse(&variant, &[StateId::FREE, state], Method::Modular).unwrap();
+    for v in s.cheapest_variants(&diagrams, 100) {
+        let variant = realize_variant(&s, &v.choices);
+        let found = analyse_states(&variant, &[StateId::FREE, state], Method::Modular).unwrap();
         let external = found[1].external.unwrap();
         assert_eq!(found[0].mobility as i64, s.mobility(v.key));
         assert_eq!(external.by_rank, i64::from(v.key.external()));

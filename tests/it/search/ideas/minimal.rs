@@ -3,7 +3,7 @@
 use crate::common::*;
 use crate::fuzz::runs;
 use crate::search::twin::less::does_with_less;
-use crate::search::twin::{look, random, suits, variants};
+use crate::search::twin::{all_variants, look_at_variant, random, suits_state};
 use ozols::model::mechanism::JointOption;
 use ozols::search::question::conditions::InState;
 use proptest::prelude::*;
@@ -12,8 +12,8 @@ use proptest::prelude::*;
 fn both(m: &Mechanism, conditions: Conditions) -> (Option<BigUint>, usize) {
     let state = conditions.state;
     let clamped = state.is_some();
-    let all = variants(m, clamped);
-    let present = look(m, clamped, &vec![(0, None); m.joints.len()]);
+    let all = all_variants(m, clamped);
+    let present = look_at_variant(m, clamped, &vec![(0, None); m.joints.len()]);
     let (most, keep, w) = (
         conditions.max_redundant,
         conditions.keep_output,
@@ -22,16 +22,19 @@ fn both(m: &Mechanism, conditions: Conditions) -> (Option<BigUint>, usize) {
     let admissible: Vec<_> = all
         .iter()
         .filter(|c| {
-            let t = look(m, clamped, c);
+            let t = look_at_variant(m, clamped, c);
             let moves = !keep || t.motion == present.motion;
-            t.internal <= most && suits(state, &t) && moves && w.is_none_or(|w| t.mobility <= w)
+            t.internal <= most
+                && suits_state(state, &t)
+                && moves
+                && w.is_none_or(|w| t.mobility <= w)
         })
         .collect();
     let beyond = |v| admissible.iter().any(|less| does_with_less(m, less, v));
     let minimal = admissible.iter().filter(|v| !beyond(v)).count();
     let search = Search::new(exact_field(m, 0).unwrap(), m, conditions).unwrap();
-    let diagrams = search.build(&|| false, &mut |_| {});
-    (search.minimal(&diagrams), minimal)
+    let diagrams = search.build_diagrams(&|| false, &mut |_| {});
+    (search.count_minimal(&diagrams), minimal)
 }
 
 proptest! {
@@ -42,7 +45,7 @@ proptest! {
     ) {
         let m = mechanism_from_str("random.toml", &text).unwrap();
         let clamped = m.states.len() > 1;
-        prop_assume!(variants(&m, clamped).len() <= if clamped { 24 } else { 64 });
+        prop_assume!(all_variants(&m, clamped).len() <= if clamped { 24 } else { 64 });
         let conditions = Conditions {
             max_redundant: most,
             keep_output: keep,
@@ -78,7 +81,8 @@ fn minimal_variants_of_built_in_mechanisms() {
                 joint.options.retain(|o| offered(&o.name));
             }
         }
-        let conditions = but(|c: &mut Conditions| (c.max_redundant, c.max_mobility) = (most, w));
+        let conditions =
+            default_with(|c: &mut Conditions| (c.max_redundant, c.max_mobility) = (most, w));
         let (counted, seen) = both(&m, conditions);
         assert_eq!(counted, Some(seen.into()), "{name}");
     }
@@ -119,14 +123,14 @@ fn equal_options_do_not_rule_each_other_out() {
 /// is minimal; that some of the rest are, too, is seen where a ball has nothing smaller in its place.
 #[test]
 fn what_moves_in_one_way_without_redundancy_is_minimal() {
-    let whole = json(&["search", "gripper-10", "--format", "json"]);
+    let whole = run_json(&["search", "gripper-10", "--format", "json"]);
     assert_eq!(whole["admissible_by_mobility"]["1"], whole["minimal"]);
-    assert_eq!(count(&whole["minimal"]), 7_150_020);
+    assert_eq!(parse_count(&whole["minimal"]), 7_150_020);
     let balls = ["--options", "spherical", "--format", "json"];
-    let balls = json(&[&["search", "gripper-10"][..], &balls].concat());
+    let balls = run_json(&[&["search", "gripper-10"][..], &balls].concat());
     assert!(balls["admissible_by_mobility"]["1"].is_null());
-    assert!(count(&balls["minimal"]) > 0);
-    let text = out(&["search", "gripper-10", "--count"]);
+    assert!(parse_count(&balls["minimal"]) > 0);
+    let text = run_quiet(&["search", "gripper-10", "--count"]);
     has(
         &text,
         "7,150,020 minimal; the other 14,667,609 only add idle motion to one of these",
@@ -134,6 +138,6 @@ fn what_moves_in_one_way_without_redundancy_is_minimal() {
     // Of what is cut short nothing is minimal for certain, and orbits are not counted so.
     for more in [&["--nodes", "60"][..], &["--one-per-orbit"]] {
         let args = [&["search", "gripper-10", "--format", "json"][..], more].concat();
-        assert!(json(&args)["minimal"].is_null(), "{more:?}");
+        assert!(run_json(&args)["minimal"].is_null(), "{more:?}");
     }
 }

@@ -5,8 +5,8 @@ use ozols::score::request::{Inserts, Request};
 use ozols::search::answer::ideas::Idea;
 
 fn named(which: &str, k: &str) -> (String, String) {
-    let export = out(&["export", "four-bar", which, k, "--to", "toml"]);
-    let draw = out(&["draw", "four-bar", which, k]);
+    let export = run_quiet(&["export", "four-bar", which, k, "--to", "toml"]);
+    let draw = run_quiet(&["draw", "four-bar", which, k]);
     (export, draw)
 }
 
@@ -27,19 +27,19 @@ fn files_names_and_titles_say_which() {
 fn what_is_not_there_is_called_what_was_asked_for() {
     for (which, one) in [("--idea", "idea"), ("--variant", "variant")] {
         let o = run(&["draw", "four-bar", which, "99"]);
-        let said = text(&o.stderr);
+        let said = utf8_text(&o.stderr);
         has(&said, &format!("four-bar has no {one} 99"));
     }
 }
 
 #[test]
 fn the_page_gives_commands_that_say_which() {
-    let page = out(&["report", "four-bar"]);
+    let page = run_quiet(&["report", "four-bar"]);
     for one in ["idea", "variant"] {
         let file = format!("--{one} {{}} -o four-bar-{one}-{{}}.svg");
         assert!(page.contains(&file), "{one}");
     }
-    let ideas = out(&["report", "four-bar", "--distinct"]);
+    let ideas = run_quiet(&["report", "four-bar", "--distinct"]);
     assert!(ideas.contains("--idea {} -o four-bar-idea-{}.svg"));
     assert!(!ideas.contains("four-bar-variant-{}"));
 }
@@ -58,7 +58,9 @@ fn freedoms_of_unloading_joints_are_named_and_counted() {
         ..Request::default()
     };
     let outcome = ozols::search(&built_in("four-bar"), &request).unwrap();
-    let ideas = outcome.search.ideas(outcome.diagrams.as_ref().unwrap(), 20);
+    let ideas = outcome
+        .search
+        .list_ideas(outcome.diagrams.as_ref().unwrap(), 20);
     assert!(!ideas.is_empty());
     for idea in &ideas {
         let added: u32 = idea.added.iter().map(|a| u32::from(a.times)).sum();
@@ -100,7 +102,7 @@ fn four_bars(places: &[[[i32; 3]; 4]], axis: [i32; 3], driven: bool) -> Mechanis
 fn ideas(m: &Mechanism) -> Vec<Idea> {
     let outcome = ozols::search(m, &Request::default()).unwrap();
     let diagrams = outcome.diagrams.as_ref().unwrap();
-    outcome.search.ideas(diagrams, 1000)
+    outcome.search.list_ideas(diagrams, 1000)
 }
 
 /// A direction and its opposite are one, and its first part that is not 0 is told as positive.
@@ -134,12 +136,14 @@ fn a_motor_tells_the_sides_apart() {
 fn the_motor_stays_where_it_can() {
     for driven in ["0-a0", "c0-0"] {
         let mut m = four_bars(&[RIGHT], [0, 0, 1], false);
-        let [motor, left_out] = [driven, "b0-c0"].map(|id| m.joint(id).unwrap());
+        let [motor, left_out] = [driven, "b0-c0"].map(|id| m.joint_named(id).unwrap());
         m.joints[left_out].options.truncate(1);
         m.joints[motor].drive = true;
         m.search.costs.driven_milli = Some(0);
         let outcome = ozols::search(&m, &Request::default()).unwrap();
-        let ideas = outcome.search.ideas(outcome.diagrams.as_ref().unwrap(), 1);
+        let ideas = outcome
+            .search
+            .list_ideas(outcome.diagrams.as_ref().unwrap(), 1);
         let variables = outcome.search.space.variables.iter();
         let chosen = variables.zip(&ideas[0].first.choices);
         let changed: Vec<_> = chosen.filter(|(_, choice)| **choice != 0).collect();

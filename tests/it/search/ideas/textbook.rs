@@ -53,12 +53,12 @@ fn linkage(shape: &str, points: &str) -> String {
     };
     let options = "[\"revolute\", \"cylindrical\", \"universal\", \"spherical\"]";
     let head = format!("name = \"linkage\"\nlength_unit = \"mm\"\n[search]\noptions = {options}");
-    file_of(&head, links, &joints)
+    write_mechanism(&head, links, &joints)
 }
 
 /// The first ideas of a file or a built-in mechanism, where none of them makes just these changes: joints and what is put there.
 fn missed(of: &str, wanted: &str) -> Option<String> {
-    let found = json(&["search", of, "--distinct", "--top", "3", "--format", "json"]);
+    let found = run_json(&["search", of, "--distinct", "--top", "3", "--format", "json"]);
     let wanted: BTreeSet<&str> = wanted.split(", ").collect();
     let changes = |v: &Value| {
         let all = v["changes"].list().iter();
@@ -74,7 +74,7 @@ fn missed(of: &str, wanted: &str) -> Option<String> {
 
 #[test]
 fn the_redesigns_of_handbooks_are_among_the_first_three_ideas() {
-    let written = cases::<3>(
+    let written = read_cases::<3>(
         "
         steering trapezoid [Reimpell] | rod | 0 0, 20 -60, 280 -60, 300 0
         drag link [Reimpell] | rod | 0 0, 0 -150, 500 -170, 520 -20
@@ -92,7 +92,7 @@ fn the_redesigns_of_handbooks_are_among_the_first_three_ideas() {
         toggle gripper [12240] | slid | 0 0, 0 8, 6 30, 30 25, 0 -8, 6 -30, 30 -25
         ",
     );
-    let built_in = cases::<3>(
+    let built_in = read_cases::<3>(
         "
         four-bar [Hartenberg] | four-bar | 1-2 spherical, 2-3 spherical
         four-bar [Reshetov] | four-bar | 1-2 cylindrical, 2-3 spherical
@@ -104,7 +104,8 @@ fn the_redesigns_of_handbooks_are_among_the_first_three_ideas() {
     );
     let mut all = Vec::new();
     for [name, shape, points] in &written {
-        let (_folder, path) = crate::common::written("linkage.toml", linkage(shape, points));
+        let (_folder, path) =
+            crate::common::write_temporary("linkage.toml", linkage(shape, points));
         let wanted = match *shape {
             "rod" | "slider" => "b spherical, c spherical",
             _ => "b1 spherical, b2 spherical, c1 spherical, c2 spherical",

@@ -31,8 +31,8 @@ pub(super) fn gripper(type_of_plunger: &str, turned: bool, options: &str) -> Str
 
 /// The changes of each idea, by joint.
 fn ideas(text: &str) -> Vec<BTreeMap<String, String>> {
-    let (_folder, path) = written("toggle.toml", text);
-    let found = json(&["search", path, "--distinct", "--format", "json"]);
+    let (_folder, path) = write_temporary("toggle.toml", text);
+    let found = run_json(&["search", path, "--distinct", "--format", "json"]);
     let word = |v: &Value| v.word().to_owned();
     let changes = |v: &Value| {
         let all = v["changes"].list().iter();

@@ -6,7 +6,7 @@ use serde_json::json as value;
 
 fn why(args: &[&str], idea: usize) -> Value {
     let more = ["--distinct", "--format", "json"];
-    let found = json(&[&["search"], args, &more].concat());
+    let found = run_json(&[&["search"], args, &more].concat());
     found["variants"][idea]["idea"]["why"].clone()
 }
 
@@ -62,7 +62,7 @@ fn each_change_says_what_it_lets_go_and_what_was_redundant_there() {
 fn what_is_left_is_not_said_to_be_removed() {
     for left in 0..3 {
         let most = left.to_string();
-        let found = json(&format!(
+        let found = run_json(&format!(
             "search gripper-10 --max-redundant {most} --distinct --top 40 --format json"
         ));
         for v in found["variants"].list() {

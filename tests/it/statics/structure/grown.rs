@@ -1,9 +1,9 @@
 //! Chains grown from Assur groups decompose into them again.
 
-use super::{J, file, mechanism, p, r};
+use super::{J, planar_file, read_planar, sliding_joint, turning_joint};
 use super::{by_brute_force, laws};
 use crate::common::*;
-use ozols::statics::assur::{alternatives, decompose};
+use ozols::statics::assur::{decompose_alternatives, decompose_groups};
 use ozols::statics::planar::{PairKind, PlanarMechanism};
 use proptest::prelude::*;
 
@@ -11,7 +11,7 @@ use proptest::prelude::*;
 fn grown() -> impl Strategy<Value = (Vec<J>, usize)> {
     let seed = proptest::collection::vec((0..4usize, any::<[u16; 4]>(), any::<[i16; 12]>()), 1..5);
     seed.prop_map(|steps| {
-        let mut joints = vec![r("0", "1", 0., 0.)];
+        let mut joints = vec![turning_joint("0", "1", 0., 0.)];
         let mut bodies = vec!["0".to_owned(), "1".to_owned()];
         for (what, on, xy) in &steps {
             let at = |i: usize| {
@@ -29,7 +29,7 @@ fn grown() -> impl Strategy<Value = (Vec<J>, usize)> {
                 }
             };
             let name = |i: usize| format!("{}", bodies.len() + i);
-            let join = |a: String, b: String, i: usize| r(&a, &b, at(i).0, at(i).1);
+            let join = |a: String, b: String, i: usize| turning_joint(&a, &b, at(i).0, at(i).1);
             let (n, new) = match what {
                 0 | 1 => (
                     2,
@@ -58,7 +58,7 @@ fn grown() -> impl Strategy<Value = (Vec<J>, usize)> {
                         join(name(0), name(2), 2),
                         join(name(3), name(1), 3),
                         join(name(3), name(2), 4),
-                        p(&base(1), &name(3), at(5).0, at(5).1, [1.0, 0.25]),
+                        sliding_joint(&base(1), &name(3), at(5).0, at(5).1, [1.0, 0.25]),
                     ],
                 ),
             };
@@ -73,7 +73,7 @@ fn grown() -> impl Strategy<Value = (Vec<J>, usize)> {
 }
 
 fn grown_mechanism(joints: &[J]) -> PlanarMechanism {
-    let text = file(joints, "");
+    let text = planar_file(joints, "");
     let mut n = 0;
     let renamed = text.split("[[joint]]\nid = \"").map(|part| {
         n += 1;
@@ -83,7 +83,7 @@ fn grown_mechanism(joints: &[J]) -> PlanarMechanism {
             format!("[[joint]]\nid = \"j{n} {part}")
         }
     });
-    PlanarMechanism::new(&mechanism(&renamed.collect::<String>()), StateId::FREE).unwrap()
+    PlanarMechanism::new(&read_planar(&renamed.collect::<String>()), StateId::FREE).unwrap()
 }
 
 proptest! {
@@ -93,7 +93,7 @@ proptest! {
     #[test]
     fn grown_chains_decompose_into_what_they_grew_from((joints, grown) in grown()) {
         let m = grown_mechanism(&joints);
-        let d = decompose(&m, &m.drives()).unwrap();
+        let d = decompose_groups(&m, &m.driven_pairs()).unwrap();
         laws(&m, &d);
         prop_assert_eq!(d.groups.len(), grown);
         if m.bodies.len() <= 14 {
@@ -107,7 +107,7 @@ proptest! {
     #[test]
     fn every_drive_obeys_the_laws((joints, _) in grown()) {
         let m = grown_mechanism(&joints);
-        for (q, d) in alternatives(&m, &m.drives()) {
+        for (q, d) in decompose_alternatives(&m, &m.driven_pairs()) {
             if let Ok(d) = d {
                 laws(&m, &d);
                 let locked = d.groups.iter().map(|g| g.locked.len()).sum::<usize>() + d.driven_pairs.len();

@@ -32,7 +32,7 @@ fn of_one_unknown(known: bool, further: [f64; 2]) -> Beginnings {
         }],
         of_variable: vec![vec![0]],
         limits: vec![vec![vec![strong], vec![loose]]],
-        least: vec![vec![strong.least(loose)]],
+        least: vec![vec![strong.least_of_both(loose)]],
     }
 }
 
@@ -46,13 +46,13 @@ fn a_motion_is_held_by_the_reactions_that_are_known() {
         ([1.0, 2.0], false),
     ] {
         let of = of_one_unknown(true, further);
-        let mut begun = of.begin();
+        let mut begun = of.begin_empty();
         // By the second choice the reactions become known; the first is then looked at by them.
-        let (taken, free) = begun.take(0, 1);
+        let (taken, free) = begun.take_choice(0, 1);
         assert!(free && taken.tells);
-        let peaks = begun.peaks(&taken, |_| false).unwrap();
+        let peaks = begun.peak_bounds(&taken, |_| false).unwrap();
         assert!((peaks.force - 3.0 * 0.4).abs() < 1e-12);
-        assert_eq!(begun.take(0, 0).1, held, "{further:?}");
+        assert_eq!(begun.take_choice(0, 0).1, held, "{further:?}");
     }
 }
 
@@ -60,16 +60,16 @@ fn a_motion_is_held_by_the_reactions_that_are_known() {
 #[test]
 fn a_choice_that_determines_the_reactions_tells_them() {
     let of = of_one_unknown(false, [4.0, 2.0]);
-    let mut begun = of.begin();
-    let (undecided, _) = begun.take(0, 1);
-    assert!(begun.peaks(&undecided, |_| false).is_none());
+    let mut begun = of.begin_empty();
+    let (undecided, _) = begun.take_choice(0, 1);
+    assert!(begun.peak_bounds(&undecided, |_| false).is_none());
     begun.give_back(undecided);
-    let (taken, held) = begun.take(0, 0);
+    let (taken, held) = begun.take_choice(0, 0);
     assert!(held);
-    assert!((begun.peaks(&taken, |_| false).unwrap().force - 0.5 * 0.1).abs() < 1e-12);
+    assert!((begun.peak_bounds(&taken, |_| false).unwrap().force - 0.5 * 0.1).abs() < 1e-12);
     begun.give_back(taken);
-    let (again, _) = begun.take(0, 1);
-    assert!(begun.peaks(&again, |_| false).is_none());
+    let (again, _) = begun.take_choice(0, 1);
+    assert!(begun.peak_bounds(&again, |_| false).is_none());
 }
 
 /// The place that ends a branch is looked at first in the next, and then the others need not be.
@@ -84,15 +84,15 @@ fn a_place_that_ended_a_branch_is_looked_at_first() {
         across: vec![[2.0, 0.0, 0.0, 0.0, 0.0, 0.0]],
     });
     of.of_variable[0].push(1);
-    let mut begun = of.begin();
+    let mut begun = of.begin_empty();
     let mut looked_at = |enough: f64| {
-        let taken = begun.take(0, 1).0;
+        let taken = begun.take_choice(0, 1).0;
         let counted = std::cell::Cell::new(0);
         let ends = |floor: Floor| {
             counted.set(counted.get() + 1);
             floor.force >= enough
         };
-        let force = begun.peaks(&taken, ends).unwrap().force;
+        let force = begun.peak_bounds(&taken, ends).unwrap().force;
         begun.give_back(taken);
         (counted.get(), force)
     };
@@ -109,8 +109,8 @@ fn a_place_that_ended_a_branch_is_looked_at_first() {
 fn the_error_is_that_of_the_output_that_is_farthest_off() {
     let of = of_one_unknown(true, [1.0, 3.0]);
     for forces in [[3.0, 4.0], [4.0, 3.0]] {
-        let mut begun = of.begin();
-        let taken = begun.take(0, 1).0;
+        let mut begun = of.begin_empty();
+        let taken = begun.take_choice(0, 1).0;
         // What a unit force along x on each output brings on the one place, and no force along y and z does.
         begun.passed = forces.iter().flat_map(|&f| [f, 0.0, 0.0]).collect();
         begun.errors = true;

@@ -73,14 +73,14 @@ fn a_guide_stays_with_the_first_link() {
     let m = two_joints("universal", "m", 1);
     let home = Pose::of_file(&m, StateId::FREE).unwrap();
     let turned = |c: usize| 0.3 + 0.4 * f64::from(u8::try_from(c).unwrap());
-    let pose = home.moved(&(0..home.columns.len()).map(turned).collect::<Vec<_>>());
+    let pose = home.moved_to(&(0..home.columns.len()).map(turned).collect::<Vec<_>>());
     let geometry = Geometry::new(&m, StateId::FREE, &pose).unwrap();
     let mut option = m.joints[1].options[0].clone();
     option.joint_type = JointType::CylindricalUniversal;
     let twists = option_twists(&m, &geometry, &pose, &behind(&geometry), &option).unwrap();
     let slide = twists.iter().find(|(f, _)| *f == Freedom::Tz).unwrap().1;
     let axis = [1.0, 2.0, 2.0].map(|x: f64| x / 3.0);
-    let [first, second] = [1, 2].map(|l| pose.links[l].direction(axis));
+    let [first, second] = [1, 2].map(|l| pose.links[l].map_direction(axis));
     assert!(length(sub(first, second)) > 0.1, "the pins have turned");
     assert_eq!(slide[..3], [0.0; 3]);
     assert!(length(sub([slide[3], slide[4], slide[5]], first)) < 1e-12);
@@ -126,15 +126,15 @@ fn as_built(stroke: &str) {
     for turned in [false, true] {
         let m = three_cranks(turned, stroke);
         let search = Search::new(exact_field(&m, 0).unwrap(), m, Conditions::default()).unwrap();
-        let diagrams = search.build(&|| false, &mut |_| {});
+        let diagrams = search.build_diagrams(&|| false, &mut |_| {});
         let evaluator = Evaluator::new(&search, ClearanceSum::Worst).unwrap();
         let mut compared = 0;
         // With a slot at both ends a crank slides as it likes, and is nowhere for certain.
         let of_one_slot = |v: &Assignment| v.key.changes() == 1;
-        for v in search.cheapest(&diagrams, 20).filter(of_one_slot) {
+        for v in search.cheapest_variants(&diagrams, 20).filter(of_one_slot) {
             let (fast, slow) = (
-                evaluator.scores(&v, &mut Scratch::default()),
-                evaluator.slowly(&v),
+                evaluator.score_variant(&v, &mut Scratch::default()),
+                evaluator.reference_scores(&v),
             );
             assert_eq!(fast.is_ok(), slow.is_ok(), "{:?}", v.choices);
             let (Ok(fast), Ok(slow)) = (fast, slow) else {
@@ -142,7 +142,7 @@ fn as_built(stroke: &str) {
             };
             compared += 1;
             for t in [Term::PeakForce, Term::Conditioning, Term::OutputError] {
-                let (a, b) = (fast.value(t), slow.value(t));
+                let (a, b) = (fast.term_value(t), slow.term_value(t));
                 let near = (a - b).abs() < 1e-6 * b;
                 assert!(near, "{turned} {:?} {}: {a} {b}", v.choices, t.name());
             }

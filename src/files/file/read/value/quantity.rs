@@ -3,8 +3,8 @@
 use crate::file::schema::{Coordinate, MechanismFile};
 use crate::file::{Findings, Place};
 use crate::geom::expr::{End, Expr, WrittenNumber};
-use crate::geom::extent::diagonal;
-use crate::geom::vector::{length, real};
+use crate::geom::extent::box_diagonal;
+use crate::geom::vector::{length, to_vector};
 use crate::model::mechanism::{Frame, Joint, Mechanism};
 use std::f64::consts::PI;
 use std::fmt::Display;
@@ -23,7 +23,7 @@ pub(crate) enum Bound {
 }
 
 impl Bound {
-    fn holds(self, x: f64) -> bool {
+    fn is_met(self, x: f64) -> bool {
         match self {
             Bound::Positive => x > 0.0,
             Bound::NotNegative => x >= 0.0,
@@ -32,7 +32,7 @@ impl Bound {
         }
     }
 
-    fn words(self) -> &'static str {
+    fn allowed_words(self) -> &'static str {
         match self {
             Bound::Positive => "a number above 0",
             Bound::NotNegative => "0 or a number above it",
@@ -44,43 +44,55 @@ impl Bound {
 
 impl Place<'_> {
     /// Returns a number times `unit`; 1 if it is not valid, which is reported.
-    pub(crate) fn value(&self, what: &'static str, c: &Coordinate, unit: f64, bound: Bound) -> f64 {
-        let before = self.out.count();
-        let value = self.number(c).to_f64();
-        if self.out.count() > before {
+    pub(crate) fn read_value(
+        &self,
+        what: &'static str,
+        c: &Coordinate,
+        unit: f64,
+        bound: Bound,
+    ) -> f64 {
+        let before = self.out.problem_count();
+        let value = self.read_coordinate(c).to_f64();
+        if self.out.problem_count() > before {
             return 1.0;
         }
-        if !bound.holds(value) {
-            self.bad(what, value, bound.words());
+        if !bound.is_met(value) {
+            self.add_bad_value(what, value, bound.allowed_words());
             return 1.0;
         }
         value * unit
     }
 
     /// Returns the number of a key of the table at this place, times `unit`.
-    pub(crate) fn figure(&self, k: &'static str, c: &Coordinate, unit: f64, bound: Bound) -> f64 {
-        self.key(k).value(k, c, unit, bound)
+    pub(crate) fn read_figure(
+        &self,
+        k: &'static str,
+        c: &Coordinate,
+        unit: f64,
+        bound: Bound,
+    ) -> f64 {
+        self.key(k).read_value(k, c, unit, bound)
     }
 
     /// Returns a number that may be missing.
-    pub(crate) fn optional(
+    pub(crate) fn read_optional(
         &self,
         k: &'static str,
         c: &Option<Coordinate>,
         unit: f64,
         bound: Bound,
     ) -> Option<f64> {
-        c.as_ref().map(|c| self.figure(k, c, unit, bound))
+        c.as_ref().map(|c| self.read_figure(k, c, unit, bound))
     }
 
     /// Returns a number above 0 that may be missing.
-    pub(crate) fn positive(
+    pub(crate) fn read_positive(
         &self,
         k: &'static str,
         c: &Option<Coordinate>,
         unit: f64,
     ) -> Option<f64> {
-        self.optional(k, c, unit, Bound::Positive)
+        self.read_optional(k, c, unit, Bound::Positive)
     }
 
     /// Returns a number of 0 or more that may be missing.
@@ -90,7 +102,7 @@ impl Place<'_> {
         c: &Option<Coordinate>,
         unit: f64,
     ) -> Option<f64> {
-        self.optional(k, c, unit, Bound::NotNegative)
+        self.read_optional(k, c, unit, Bound::NotNegative)
     }
 
     /// Returns a number of items from 1 to `most`; reports any other.
@@ -103,31 +115,31 @@ impl Place<'_> {
     ) -> Option<usize> {
         let found = count.try_into().ok().filter(|n| (1..=most).contains(n));
         if found.is_none() {
-            self.bad(what, count, allowed);
+            self.add_bad_value(what, count, allowed);
         }
         found
     }
 
     /// Returns three numbers times `unit`.
-    pub(crate) fn reals(&self, v: &[Coordinate; 3], unit: f64) -> [f64; 3] {
-        self.vector(v).map(|e| e.to_f64() * unit)
+    pub(crate) fn read_reals(&self, v: &[Coordinate; 3], unit: f64) -> [f64; 3] {
+        self.read_vector(v).map(|e| e.to_f64() * unit)
     }
 
     /// Returns an angle in radians: a number of degrees, or "120deg", "2.1rad", "pi/3", "2*pi/3".
-    pub(crate) fn angle(&self, what: &'static str, c: &Coordinate) -> f64 {
+    pub(crate) fn read_angle(&self, what: &'static str, c: &Coordinate) -> f64 {
         let (inner, unit) = match c {
             Coordinate::Expression(text) => match angle_text(text) {
                 Some(found) => found,
                 None => {
                     let allowed =
                         "degrees, or an angle such as \"120deg\", \"2.1rad\" or \"2*pi/3\"";
-                    self.bad(what, format!("{text:?}"), allowed);
+                    self.add_bad_value(what, format!("{text:?}"), allowed);
                     return 1.0;
                 }
             },
             other => (other.clone(), 1f64.to_radians()),
         };
-        self.value(what, &inner, unit, Bound::Any)
+        self.read_value(what, &inner, unit, Bound::Any)
     }
 
     /// Returns an angle in radians that must be in a range of degrees.
@@ -138,7 +150,7 @@ impl Place<'_> {
         range: [f64; 2],
         allowed: &'static str,
     ) -> f64 {
-        let found = self.key(k).angle(k, c);
+        let found = self.key(k).read_angle(k, c);
         if (range[0]..=range[1]).contains(&found.to_degrees()) {
             return found;
         }
@@ -149,11 +161,11 @@ impl Place<'_> {
     /// Reports an angle that is not allowed.
     pub(crate) fn bad_angle(&self, what: &'static str, angle: f64, allowed: &'static str) {
         let degrees = format!("{} degrees", angle.to_degrees());
-        self.bad(what, degrees, allowed);
+        self.add_bad_value(what, degrees, allowed);
     }
 
     /// Returns the meaning of a word. If no word is given, it is that of the first known one.
-    pub(crate) fn word<T: Copy>(
+    pub(crate) fn read_word<T: Copy>(
         &self,
         k: &'static str,
         given: &Option<String>,
@@ -162,7 +174,8 @@ impl Place<'_> {
         let Some(word) = given else { return known[0].1 };
         let found = known.iter().find(|(n, _)| n == word);
         if found.is_none() {
-            self.key(k).unknown(k, word, known.iter().map(|(n, _)| n));
+            self.key(k)
+                .add_unknown_word(k, word, known.iter().map(|(n, _)| n));
         }
         found.unwrap_or(&known[0]).1
     }
@@ -207,8 +220,8 @@ const MOST_TURN: f64 = 0.1;
 const MOST_SHIFT: f64 = 0.1;
 
 /// Replaces the uncertainties that follow from the digits by the stated ones.
-pub(crate) fn tolerance(file: &MechanismFile, m: &mut Mechanism, out: &Findings) {
-    let across = diagonal(m.joints.iter().map(|j| real(&j.frame.point)));
+pub(crate) fn read_tolerance(file: &MechanismFile, m: &mut Mechanism, out: &Findings) {
+    let across = box_diagonal(m.joints.iter().map(|j| to_vector(&j.frame.point)));
     // Joints that are all in one place have no size.
     let most = if across > 0.0 {
         MOST_SHIFT * across
@@ -216,7 +229,7 @@ pub(crate) fn tolerance(file: &MechanismFile, m: &mut Mechanism, out: &Findings)
         f64::INFINITY
     };
     let allowed = "0, or at most a tenth of the distance across the joints";
-    let shift = |at: Place<'_>, c: &Option<Coordinate>| at.stated(c, most, allowed);
+    let shift = |at: Place<'_>, c: &Option<Coordinate>| at.read_stated(c, most, allowed);
     let (of_file, at) = (
         file.tolerance.clone().unwrap_or_default(),
         out.key("tolerance"),
@@ -224,35 +237,35 @@ pub(crate) fn tolerance(file: &MechanismFile, m: &mut Mechanism, out: &Findings)
     let lengths = shift(at.key("length"), &of_file.length);
     let of_joints: Vec<Option<f64>> = out
         .key("joint")
-        .entries(&file.joint)
+        .each_entry(&file.joint)
         .map(|(at, j)| shift(at.key("tolerance"), &j.tolerance))
         .collect();
     let of_points: Vec<Option<f64>> = out
         .key("point")
-        .entries(&file.point)
+        .each_entry(&file.point)
         .map(|(at, p)| shift(at.key("tolerance"), &p.tolerance))
         .collect();
     let at = at.key("direction");
-    let directions = at.stated(&of_file.direction, MOST_TURN, "0, or at most 0.1 rad");
+    let directions = at.read_stated(&of_file.direction, MOST_TURN, "0, or at most 0.1 rad");
     for (joint, own) in m.joints.iter_mut().zip(of_joints) {
         joint_at(joint, lengths, directions, own);
     }
     for (point, own) in m.points.iter_mut().zip(of_points) {
-        put(&mut point.point, lengths, own);
+        set_point_half(&mut point.point, lengths, own);
     }
 }
 
 impl Place<'_> {
     /// Returns a tolerance; `None` if it is missing or not valid.
-    fn stated(&self, c: &Option<Coordinate>, most: f64, allowed: &'static str) -> Option<f64> {
-        let before = self.out.count();
-        let value = self.number(c.as_ref()?).to_f64();
-        if self.out.count() > before {
+    fn read_stated(&self, c: &Option<Coordinate>, most: f64, allowed: &'static str) -> Option<f64> {
+        let before = self.out.problem_count();
+        let value = self.read_coordinate(c.as_ref()?).to_f64();
+        if self.out.problem_count() > before {
             return None;
         }
         let fits = (0.0..=most).contains(&value);
         if !fits {
-            self.bad("tolerance", value, allowed);
+            self.add_bad_value("tolerance", value, allowed);
         }
         fits.then_some(value)
     }
@@ -265,46 +278,46 @@ fn joint_at(joint: &mut Joint, lengths: Option<f64>, directions: Option<f64>, ow
     let frames = offered.map(|o| &mut o.frame).chain([&mut joint.frame]);
     for frame in frames {
         let own = own.filter(|_| at_joint(frame));
-        put(&mut frame.point, lengths, own);
+        set_point_half(&mut frame.point, lengths, own);
         if let Some(half) = lengths {
-            pitch(&mut frame.pitch, half);
+            set_pitch_half(&mut frame.pitch, half);
         }
         if let Some(half) = directions {
-            turn(&mut frame.axis, half);
-            turn(&mut frame.reference, half);
+            set_direction_half(&mut frame.axis, half);
+            set_direction_half(&mut frame.reference, half);
         }
     }
 }
 
 /// Sets the uncertainty of a point: of all its numbers if it has its own tolerance, otherwise of those written as numbers, except
 /// whole 0.
-fn put(point: &mut [Expr; 3], of_file: Option<f64>, own: Option<f64>) {
+fn set_point_half(point: &mut [Expr; 3], of_file: Option<f64>, own: Option<f64>) {
     for e in point {
         let half =
             own.or_else(|| of_file.filter(|_| is_number(e) && !(is_whole(e) && e.to_f64() == 0.0)));
-        state(e, half);
+        set_half(e, half);
     }
 }
 
 /// Sets the uncertainty of a direction in radians: of its numbers, except whole 0 and 1.
-fn turn(v: &mut [Expr; 3], half: f64) {
-    let of_length = half * length(real(v));
+fn set_direction_half(v: &mut [Expr; 3], half: f64) {
+    let of_length = half * length(to_vector(v));
     for e in v {
         let size = e.to_f64().abs();
         let chosen = is_whole(e) && (size == 0.0 || size == 1.0);
-        state(e, Some(of_length).filter(|_| is_number(e) && !chosen));
+        set_half(e, Some(of_length).filter(|_| is_number(e) && !chosen));
     }
 }
 
 /// Sets the uncertainty of a pitch, or of the pitch that follows from a lead.
-fn pitch(e: &mut Expr, half: f64) {
+fn set_pitch_half(e: &mut Expr, half: f64) {
     let WrittenNumber::Decimal(digits) = e.written() else {
         return;
     };
-    state(e, Some(half * digits.factor()));
+    set_half(e, Some(half * digits.factor()));
 }
 
-fn state(e: &mut Expr, half: Option<f64>) {
+fn set_half(e: &mut Expr, half: Option<f64>) {
     if let Some(half) = half {
         *e = std::mem::replace(e, Expr::from(0)).with_half_unit(half);
     }

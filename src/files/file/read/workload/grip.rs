@@ -18,33 +18,34 @@ const MASS: &str = "the mass of the part: mass, or density and part_length";
 pub(super) const MECHANISM: &str = "a mechanism in the same file: links and joints";
 
 /// Returns the diameters in ascending order without duplicates; only the nominal one if they cannot be read.
-fn diameters(t: &Place<'_>, entry: &GripEntry, unit: f64, nominal: f64) -> Vec<f64> {
+fn read_diameters(t: &Place<'_>, entry: &GripEntry, unit: f64, nominal: f64) -> Vec<f64> {
     let Some(entry) = &entry.diameters else {
         return vec![nominal];
     };
-    let mut list = listed(&t.key("diameters"), entry, unit).unwrap_or(vec![nominal]);
+    let mut list = read_listed(&t.key("diameters"), entry, unit).unwrap_or(vec![nominal]);
     list.sort_by(f64::total_cmp);
     list.dedup();
     list
 }
 
 /// Returns the diameters of a list or of a range with steps; `None` if there are not 1 to 1000.
-fn listed(at: &Place<'_>, entry: &Diameters, unit: f64) -> Option<Vec<f64>> {
+fn read_listed(at: &Place<'_>, entry: &Diameters, unit: f64) -> Option<Vec<f64>> {
     let (what, allowed) = ("number of diameters", "1 to 1000");
     let s = match entry {
         Diameters::List(list) => {
             at.number_of(what, list.len(), MOST, allowed)?;
-            let each = at.entries(list);
-            let each = each.map(|(at, c)| at.value("diameter", c, unit, Bound::Positive));
+            let each = at.each_entry(list);
+            let each = each.map(|(at, c)| at.read_value("diameter", c, unit, Bound::Positive));
             return Some(each.collect());
         }
         Diameters::Steps(s) => s,
     };
-    let end = |k: &str, c| at.key(k).value("diameter", c, 1.0, Bound::Positive);
+    let end = |k: &str, c| at.key(k).read_value("diameter", c, 1.0, Bound::Positive);
     let (from, to) = (end("from", &s.from), end("to", &s.to));
     if to < from {
         let allowed = "one not below `from`";
-        at.key("to").bad("the greatest diameter", to, allowed);
+        at.key("to")
+            .add_bad_value("the greatest diameter", to, allowed);
     }
     let count = at.key("count").number_of(what, s.count, MOST, allowed)?;
     let step = (to - from) / (count.max(2) - 1) as f64;
@@ -55,9 +56,9 @@ fn listed(at: &Place<'_>, entry: &Diameters, unit: f64) -> Option<Vec<f64>> {
 
 /// Returns the mass of the part at each diameter; `None` if the file does not state it, or states it twice.
 fn part_mass(t: &Place<'_>, e: &GripEntry, unit: f64) -> Option<PartMass> {
-    let mass = t.positive("mass", &e.mass, 1.0);
-    let density = t.positive("density", &e.density, 1.0);
-    let length = t.positive("part_length", &e.part_length, unit);
+    let mass = t.read_positive("mass", &e.mass, 1.0);
+    let density = t.read_positive("density", &e.density, 1.0);
+    let length = t.read_positive("part_length", &e.part_length, unit);
     match (mass, density, length) {
         (Some(m), None, None) => return Some(PartMass::Constant(m)),
         (None, Some(density), Some(length)) => return Some(PartMass::Cylinder { density, length }),
@@ -70,23 +71,23 @@ fn part_mass(t: &Place<'_>, e: &GripEntry, unit: f64) -> Option<PartMass> {
                 ("safety", e.safety.is_some()),
             ];
             let given = loads.into_iter().filter(|(_, given)| *given);
-            given.for_each(|(k, _)| t.needs(k, MASS));
+            given.for_each(|(k, _)| t.add_missing_key(k, MASS));
         }
-        (Some(_), _, _) => t.excludes("mass", "density or part_length"),
-        (None, Some(_), None) => t.needs("density", "part_length"),
-        (None, None, Some(_)) => t.needs("part_length", "density"),
+        (Some(_), _, _) => t.add_excluded_key("mass", "density or part_length"),
+        (None, Some(_), None) => t.add_missing_key("density", "part_length"),
+        (None, None, Some(_)) => t.add_missing_key("part_length", "density"),
     }
     None
 }
 
 /// Returns gravity in the gripper's axes; down by default.
-fn gravity(t: &Place<'_>, e: &GripEntry) -> Toward {
+fn read_gravity(t: &Place<'_>, e: &GripEntry) -> Toward {
     match &e.gravity {
         None => Toward::Fixed([0.0, -GRAVITY, 0.0]),
-        Some(Gravity::Vector(v)) => Toward::Fixed(t.key("gravity").reals(v, 1.0)),
+        Some(Gravity::Vector(v)) => Toward::Fixed(t.key("gravity").read_reals(v, 1.0)),
         Some(Gravity::Word(w)) => {
             if w != "any" {
-                t.key("gravity").unknown("gravity", w, ["any"]);
+                t.key("gravity").add_unknown_word("gravity", w, ["any"]);
             }
             Toward::Any(GRAVITY)
         }
@@ -94,15 +95,15 @@ fn gravity(t: &Place<'_>, e: &GripEntry) -> Toward {
 }
 
 /// Returns the accelerations of the gripper, each a load case. Without any it is one case at rest; `None` if there are too many.
-fn accelerations(t: &Place<'_>, e: &GripEntry) -> Option<Vec<Toward>> {
+fn read_accelerations(t: &Place<'_>, e: &GripEntry) -> Option<Vec<Toward>> {
     let (at, count) = (t.key("accelerations"), e.accelerations.len());
     if count > MOST {
-        at.bad("number of accelerations", count, "at most 1000");
+        at.add_bad_value("number of accelerations", count, "at most 1000");
         return None;
     }
-    let each = at.entries(&e.accelerations);
+    let each = at.each_entry(&e.accelerations);
     let mut all = each
-        .map(|(at, v)| Toward::Fixed(at.reals(v, 1.0)))
+        .map(|(at, v)| Toward::Fixed(at.read_reals(v, 1.0)))
         .collect_vec();
     let any = t.not_negative("any_acceleration", &e.any_acceleration, 1.0);
     all.extend(any.map(Toward::Any));
@@ -113,15 +114,15 @@ fn accelerations(t: &Place<'_>, e: &GripEntry) -> Option<Vec<Toward>> {
 }
 
 /// Returns the load of the gripper, if the file gives the weight of the part.
-fn load(t: &Place<'_>, e: &GripEntry, unit: f64) -> Option<GripLoad> {
+fn read_load(t: &Place<'_>, e: &GripEntry, unit: f64) -> Option<GripLoad> {
     let mass = part_mass(t, e, unit)?;
     let Some(friction) = &e.friction else {
         let key = if e.mass.is_some() { "mass" } else { "density" };
-        t.needs(key, "friction, the coefficient between part and faces");
+        t.add_missing_key(key, "friction, the coefficient between part and faces");
         return None;
     };
-    let gravity = gravity(t, e);
-    let accelerations = accelerations(t, e)?;
+    let gravity = read_gravity(t, e);
+    let accelerations = read_accelerations(t, e)?;
     let kinds = [
         ("coupled", LeverDrive::Coupled),
         ("equal", LeverDrive::Equal),
@@ -132,32 +133,34 @@ fn load(t: &Place<'_>, e: &GripEntry, unit: f64) -> Option<GripLoad> {
     let centre = e.centre_of_mass.as_ref();
     Some(GripLoad {
         mass,
-        centre_of_mass: centre.map_or([0.0; 3], |v| t.key("centre_of_mass").reals(v, unit)),
+        centre_of_mass: centre.map_or([0.0; 3], |v| t.key("centre_of_mass").read_reals(v, unit)),
         gravity,
         accelerations,
-        friction: t.figure("friction", friction, 1.0, coefficient),
-        safety: t.optional("safety", &e.safety, 1.0, factor).unwrap_or(1.0),
-        levers: t.word("levers", &e.levers, &kinds),
+        friction: t.read_figure("friction", friction, 1.0, coefficient),
+        safety: t
+            .read_optional("safety", &e.safety, 1.0, factor)
+            .unwrap_or(1.0),
+        levers: t.read_word("levers", &e.levers, &kinds),
     })
 }
 
-fn transmission(
+fn read_transmission(
     t: &Place<'_>,
     e: &GripEntry,
     unit: f64,
     mechanism: Option<&Mechanism>,
 ) -> Transmission {
-    let arm = t.positive("drive_arm", &e.drive_arm, unit);
+    let arm = t.read_positive("drive_arm", &e.drive_arm, unit);
     match (arm, &e.lever_joints, mechanism) {
-        (Some(_), Some(_), _) => t.excludes("lever_joints", "drive_arm"),
+        (Some(_), Some(_), _) => t.add_excluded_key("lever_joints", "drive_arm"),
         (Some(arm), None, _) => return Transmission::Arm(arm),
         (None, None, _) => {}
-        (None, Some(_), None) => t.needs("lever_joints", MECHANISM),
+        (None, Some(_), None) => t.add_missing_key("lever_joints", MECHANISM),
         (None, Some(ids), Some(m)) => {
             if m.joints.iter().filter(|j| j.drive).count() != 1 {
-                t.needs("lever_joints", "one joint with drive = true");
+                t.add_missing_key("lever_joints", "one joint with drive = true");
             }
-            if let [a, b] = joints(&t.key("lever_joints"), ids, m)[..] {
+            if let [a, b] = read_joints(&t.key("lever_joints"), ids, m)[..] {
                 return Transmission::Joints([a, b]);
             }
         }
@@ -166,9 +169,9 @@ fn transmission(
 }
 
 /// Returns the joints that a list names, without unknown ones.
-fn joints(at: &Place<'_>, ids: &[String], m: &Mechanism) -> Vec<JointId> {
-    at.entries(ids)
-        .filter_map(|(at, id)| at.joint(m, id))
+fn read_joints(at: &Place<'_>, ids: &[String], m: &Mechanism) -> Vec<JointId> {
+    at.each_entry(ids)
+        .filter_map(|(at, id)| at.find_joint(m, id))
         .collect()
 }
 
@@ -176,15 +179,15 @@ fn joints(at: &Place<'_>, ids: &[String], m: &Mechanism) -> Vec<JointId> {
 fn contacts_go_with(t: &Place<'_>, spec: &GripSpec) {
     let levers = spec.load.as_ref().map(|l| l.levers);
     if levers.is_none() {
-        t.needs("contacts", MASS);
+        t.add_missing_key("contacts", MASS);
     }
     if levers == Some(LeverDrive::Independent) {
         let other = "levers = \"coupled\" or \"equal\": the mechanism has one drive for both";
-        t.needs("contacts", other);
+        t.add_missing_key("contacts", other);
     }
     if spec.pivots == Pivots::Nominal {
         let other = "pivots = \"fixed\": the pivots of the mechanism do not move";
-        t.needs("contacts", other);
+        t.add_missing_key("contacts", other);
     }
 }
 
@@ -203,11 +206,11 @@ impl Clamp<'_> {
     /// Checks that each contact is between the part and its lever, and that all act in the same states.
     fn check_contacts(&self, at: &Place<'_>) {
         let m = self.mechanism;
-        for (i, (at, &j)) in at.entries(&self.contacts).enumerate() {
+        for (i, (at, &j)) in at.each_entry(&self.contacts).enumerate() {
             let joint = &m.joints[j];
             let lever = &m.joints[self.levers[i / 2]];
             let touches = joint.links.iter().any(|&l| Some(l) == self.part);
-            let shared = |l: &LinkId| lever.links.contains(l) && *l != m.frame();
+            let shared = |l: &LinkId| lever.links.contains(l) && *l != m.frame_link();
             let allowed = if !touches || !joint.links.iter().any(shared) {
                 match i / 2 {
                     0 => {
@@ -222,17 +225,17 @@ impl Clamp<'_> {
             } else {
                 continue;
             };
-            at.bad("contact", format!("{:?}", joint.id), allowed);
+            at.add_bad_value("contact", format!("{:?}", joint.id), allowed);
         }
     }
 
     /// Checks that the levers turn on the frame.
     fn check_pivots(&self, at: &Place<'_>) {
         let m = self.mechanism;
-        for (at, &j) in at.entries(&self.levers) {
-            if !m.joints[j].links.contains(&m.frame()) {
+        for (at, &j) in at.each_entry(&self.levers) {
+            if !m.joints[j].links.contains(&m.frame_link()) {
                 let allowed = "a joint at the frame: with contacts, the pivots stand still";
-                at.bad("lever joint", format!("{:?}", m.joints[j].id), allowed);
+                at.add_bad_value("lever joint", format!("{:?}", m.joints[j].id), allowed);
             }
         }
     }
@@ -248,18 +251,23 @@ impl Clamp<'_> {
 }
 
 /// Returns the joints that represent the contacts; each joins the part to its lever.
-fn contacts(t: &Place<'_>, e: &GripEntry, spec: &GripSpec, m: &Mechanism) -> Option<[JointId; 4]> {
+fn read_contacts(
+    t: &Place<'_>,
+    e: &GripEntry,
+    spec: &GripSpec,
+    m: &Mechanism,
+) -> Option<[JointId; 4]> {
     let ids = e.contacts.as_ref()?;
     let Transmission::Joints(levers) = spec.transmission else {
         if e.lever_joints.is_none() {
             let other = "lever_joints, the joints that the two levers turn in";
-            t.needs("contacts", other);
+            t.add_missing_key("contacts", other);
         }
         return None;
     };
     contacts_go_with(t, spec);
     let at = t.key("contacts");
-    let contacts: [JointId; 4] = joints(&at, ids, m).try_into().ok()?;
+    let contacts: [JointId; 4] = read_joints(&at, ids, m).try_into().ok()?;
     let held =
         |l: &LinkId| m.links[*l].role == Role::Object && m.joints[contacts[0]].links.contains(l);
     let clamp = Clamp {
@@ -273,17 +281,17 @@ fn contacts(t: &Place<'_>, e: &GripEntry, spec: &GripSpec, m: &Mechanism) -> Opt
     if !clamp.holds_alone() {
         let allowed =
             "all four joints of the part, each once, and no other joint may hold the part";
-        at.bad("list of contacts", format!("{ids:?}"), allowed);
+        at.add_bad_value("list of contacts", format!("{ids:?}"), allowed);
     }
     Some(contacts)
 }
 
 /// Returns the positions of the pivots of the levers.
-fn pivots(t: &Place<'_>, e: &GripEntry, unit: f64) -> Pivots {
-    let fixed = t.word("pivots", &e.pivots, &[("fixed", true), ("nominal", false)]);
+fn read_pivots(t: &Place<'_>, e: &GripEntry, unit: f64) -> Pivots {
+    let fixed = t.read_word("pivots", &e.pivots, &[("fixed", true), ("nominal", false)]);
     let distance = t.not_negative("pivot_distance", &e.pivot_distance, unit);
     if distance.is_some() && !fixed {
-        t.needs("pivot_distance", "pivots = \"fixed\"");
+        t.add_missing_key("pivot_distance", "pivots = \"fixed\"");
     }
     match (fixed, distance) {
         (false, _) => Pivots::Nominal,
@@ -294,7 +302,7 @@ fn pivots(t: &Place<'_>, e: &GripEntry, unit: f64) -> Pivots {
 }
 
 /// Returns the gripper of a file, if it has one.
-pub(crate) fn grip(
+pub(crate) fn read_grip(
     file: &MechanismFile,
     unit: f64,
     mechanism: Option<&Mechanism>,
@@ -306,27 +314,27 @@ pub(crate) fn grip(
     let prism_angle = t.angle_in("prism_angle", &e.prism_angle, [1.0, 179.0], allowed);
     let allowed = "an angle from 0 to 179 degrees";
     let mounting_angle = t.angle_in("mounting_angle", &e.mounting_angle, [0.0, 179.0], allowed);
-    let diameter = t.figure("diameter", &e.diameter, unit, Bound::Positive);
-    let pivots = pivots(t, e, unit);
+    let diameter = t.read_figure("diameter", &e.diameter, unit, Bound::Positive);
+    let pivots = read_pivots(t, e, unit);
     let mut spec = GripSpec {
-        lever_length: t.figure("lever_length", &e.lever_length, unit, Bound::Positive),
+        lever_length: t.read_figure("lever_length", &e.lever_length, unit, Bound::Positive),
         prism_angle,
         mounting_angle,
         diameter,
-        diameters: diameters(t, e, unit, diameter),
+        diameters: read_diameters(t, e, unit, diameter),
         pivots,
-        face_length: t.positive("face_length", &e.face_length, unit),
+        face_length: t.read_positive("face_length", &e.face_length, unit),
         lever_width: t
             .not_negative("lever_width", &e.lever_width, unit)
             .unwrap_or(0.0),
         may_cross: e.levers_cross,
-        load: load(t, e, unit),
-        transmission: transmission(t, e, unit, mechanism),
+        load: read_load(t, e, unit),
+        transmission: read_transmission(t, e, unit, mechanism),
         contacts: None,
     };
     match mechanism {
-        Some(m) => spec.contacts = contacts(t, e, &spec, m),
-        None if e.contacts.is_some() => t.needs("contacts", MECHANISM),
+        Some(m) => spec.contacts = read_contacts(t, e, &spec, m),
+        None if e.contacts.is_some() => t.add_missing_key("contacts", MECHANISM),
         None => {}
     }
     Some(spec)

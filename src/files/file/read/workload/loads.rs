@@ -19,39 +19,42 @@ use crate::statics::reactions::contact::object_at;
 const NOT_NEGATIVE: &str = "a number from 0 to 1e12";
 
 /// Returns true if a mass or an inertia is in range.
-fn fits(x: f64) -> bool {
+fn is_in_range(x: f64) -> bool {
     (0.0..=LARGEST).contains(&x)
 }
 
 /// Returns the inertia about the centre of mass, if an entry gives one that is in range.
-fn inertia(entry: Option<&InertiaEntry>, at: &Place<'_>) -> Option<Inertia> {
+fn read_inertia(entry: Option<&InertiaEntry>, at: &Place<'_>) -> Option<Inertia> {
     let list = match entry? {
-        InertiaEntry::Plane(x) if fits(*x) => return Some(Inertia::Plane(*x)),
+        InertiaEntry::Plane(x) if is_in_range(*x) => return Some(Inertia::Plane(*x)),
         InertiaEntry::Plane(x) => {
-            at.bad("inertia", x, NOT_NEGATIVE);
+            at.add_bad_value("inertia", x, NOT_NEGATIVE);
             return None;
         }
         InertiaEntry::List(list) => list,
     };
-    let diagonal = list.iter().take(3).all(|x| fits(*x));
+    let diagonal = list.iter().take(3).all(|x| is_in_range(*x));
     let finite = list.iter().all(|x| x.abs() <= LARGEST);
     match list[..] {
         [a, b, c] if diagonal => Some(Inertia::Principal([a, b, c])),
         [a, b, c, d, e, f] if diagonal && finite => Some(Inertia::Tensor([a, b, c, d, e, f])),
         _ => {
             let allowed = "one number, 3 about the axes or 6 of a tensor, those on the diagonal from 0 to 1e12";
-            at.bad("inertia", format!("{list:?}"), allowed);
+            at.add_bad_value("inertia", format!("{list:?}"), allowed);
             None
         }
     }
 }
 
 /// Returns the mass of a link, if its entry gives one.
-pub(crate) fn mass(entry: &LinkEntry, at: &Place<'_>) -> Option<MassProperties> {
-    let centre = entry.centre.as_ref().map(|c| at.key("centre").vector(c));
-    let inertia = inertia(entry.inertia.as_ref(), &at.key("inertia"));
-    if let Some(x) = entry.mass.filter(|&x| !fits(x)) {
-        at.key("mass").bad("mass", x, NOT_NEGATIVE);
+pub(crate) fn read_mass(entry: &LinkEntry, at: &Place<'_>) -> Option<MassProperties> {
+    let centre = entry
+        .centre
+        .as_ref()
+        .map(|c| at.key("centre").read_vector(c));
+    let inertia = read_inertia(entry.inertia.as_ref(), &at.key("inertia"));
+    if let Some(x) = entry.mass.filter(|&x| !is_in_range(x)) {
+        at.key("mass").add_bad_value("mass", x, NOT_NEGATIVE);
     }
     let what = match (entry.mass, centre) {
         (Some(mass), Some(centre)) => {
@@ -66,35 +69,41 @@ pub(crate) fn mass(entry: &LinkEntry, at: &Place<'_>) -> Option<MassProperties> 
         (None, _) => "mass, in kg",
     };
     let link = &entry.id;
-    at.add(format!(
+    at.add_problem(format!(
         "link \"{link}\" has incomplete mass data; add {what}"
     ));
     None
 }
 
 /// Reads the `[workload]` table.
-pub(crate) fn loads(file: &MechanismFile, mechanism: &Mechanism, out: &Findings) -> Loads {
+pub(crate) fn read_loads(file: &MechanismFile, mechanism: &Mechanism, out: &Findings) -> Loads {
     let (at, entry) = (&out.key("workload"), &file.workload);
     let forces = at.key("force");
-    let forces = forces.most(MAX_FORCES, &entry.force, "forces");
+    let forces = forces.first_entries(MAX_FORCES, &entry.force, "forces");
     let forces = forces
-        .filter_map(|(at, f)| force(f, mechanism, &at))
+        .filter_map(|(at, f)| read_force(f, mechanism, &at))
         .collect();
-    let moments = moments(entry, mechanism, &at.key("moment"));
-    let stiffness = stiffness(entry, &at.key("stiffness"));
-    let faces = faces(entry, mechanism, &at.key("contact"));
-    let misalignments = misalignments(entry, mechanism, &at.key("misalignment"));
+    let moments = read_moments(entry, mechanism, &at.key("moment"));
+    let stiffness = read_stiffness(entry, &at.key("stiffness"));
+    let faces = read_faces(entry, mechanism, &at.key("contact"));
+    let misalignments = read_misalignments(entry, mechanism, &at.key("misalignment"));
     let speeds = entry.drive_speed.as_ref();
     let drive_speeds = drive_speeds(speeds, mechanism, &at.key("drive_speed"));
     Loads {
-        gravity: entry.gravity.as_ref().map(|g| at.key("gravity").vector(g)),
+        gravity: entry
+            .gravity
+            .as_ref()
+            .map(|g| at.key("gravity").read_vector(g)),
         forces,
         moments,
         faces,
         stiffness,
         misalignments,
         drive_speeds,
-        stroke: entry.stroke.as_ref().map(|s| stroke(s, &at.key("stroke"))),
+        stroke: entry
+            .stroke
+            .as_ref()
+            .map(|s| read_stroke(s, &at.key("stroke"))),
         // These name joints and links; they are read once all of those are.
         grip: None,
         drive: None,
@@ -102,19 +111,19 @@ pub(crate) fn loads(file: &MechanismFile, mechanism: &Mechanism, out: &Findings)
 }
 
 /// Returns an external force, if its link is known.
-fn force(f: &ForceEntry, mechanism: &Mechanism, at: &Place<'_>) -> Option<ExternalForce> {
-    let point = at.key("point").vector(&f.point);
-    let force = at.key("force").vector(&f.force);
-    let end = |q: &Option<Quantity>, k: &str| q.as_ref().map(|q| at.key(k).position(q));
+fn read_force(f: &ForceEntry, mechanism: &Mechanism, at: &Place<'_>) -> Option<ExternalForce> {
+    let point = at.key("point").read_vector(&f.point);
+    let force = at.key("force").read_vector(&f.force);
+    let end = |q: &Option<Quantity>, k: &str| q.as_ref().map(|q| at.key(k).read_position(q));
     let from = end(&f.from, "from").unwrap_or(f64::NEG_INFINITY);
     let to = end(&f.to, "to").unwrap_or(f64::INFINITY);
     if from > to {
         at.key("to")
-            .bad("end of the range", to, "at or after its beginning");
+            .add_bad_value("end of the range", to, "at or after its beginning");
     }
-    let states = at.key("state").states(mechanism, f.state.as_ref());
+    let states = at.key("state").find_states(mechanism, f.state.as_ref());
     Some(ExternalForce {
-        link: at.key("link").link(&mechanism.links, &f.link)?,
+        link: at.key("link").read_link(&mechanism.links, &f.link)?,
         point,
         force,
         range: (f.from.is_some() || f.to.is_some()).then_some([from, to]),
@@ -126,17 +135,20 @@ fn force(f: &ForceEntry, mechanism: &Mechanism, at: &Place<'_>) -> Option<Extern
 fn drive_speeds(entry: Option<&Quantities>, mechanism: &Mechanism, at: &Place<'_>) -> Vec<f64> {
     let speeds = match entry {
         None => Vec::new(),
-        Some(Quantities::One(q)) => vec![at.speed(q)],
-        Some(Quantities::Many(list)) => at.entries(list).map(|(at, q)| at.speed(q)).collect(),
+        Some(Quantities::One(q)) => vec![at.read_speed(q)],
+        Some(Quantities::Many(list)) => at
+            .each_entry(list)
+            .map(|(at, q)| at.read_speed(q))
+            .collect(),
     };
     let drives = mechanism.joints.iter().filter(|j| j.drive).count();
     at.count_within(drives, speeds.len(), "drive speeds");
     speeds
 }
 
-fn stroke(s: &StrokeEntry, at: &Place<'_>) -> Stroke {
-    let from = at.key("from").position(&s.from);
-    let to = at.key("to").position(&s.to);
+fn read_stroke(s: &StrokeEntry, at: &Place<'_>) -> Stroke {
+    let from = at.key("from").read_position(&s.from);
+    let to = at.key("to").read_position(&s.to);
     let allowed = "a whole number from 1 to 100000";
     let at = at.key("steps");
     let steps = at.number_of("number of steps", s.steps, MAX_STEPS, allowed);
@@ -148,12 +160,16 @@ fn stroke(s: &StrokeEntry, at: &Place<'_>) -> Stroke {
 }
 
 /// Returns the external moments.
-pub(crate) fn moments(entry: &WorkloadEntry, m: &Mechanism, at: &Place<'_>) -> Vec<ExternalMoment> {
+pub(crate) fn read_moments(
+    entry: &WorkloadEntry,
+    m: &Mechanism,
+    at: &Place<'_>,
+) -> Vec<ExternalMoment> {
     let mut found = Vec::new();
-    for (at, e) in at.most(MAX_FORCES, &entry.moment, "moments") {
-        let moment = at.key("moment").vector(&e.moment);
-        let link = at.key("link").link(&m.links, &e.link);
-        let states = at.key("state").states(m, e.state.as_ref());
+    for (at, e) in at.first_entries(MAX_FORCES, &entry.moment, "moments") {
+        let moment = at.key("moment").read_vector(&e.moment);
+        let link = at.key("link").read_link(&m.links, &e.link);
+        let states = at.key("state").find_states(m, e.state.as_ref());
         found.extend(link.map(|link| ExternalMoment {
             link,
             moment,
@@ -164,45 +180,45 @@ pub(crate) fn moments(entry: &WorkloadEntry, m: &Mechanism, at: &Place<'_>) -> V
 }
 
 /// Returns the faces of contacts.
-pub(crate) fn faces(entry: &WorkloadEntry, m: &Mechanism, at: &Place<'_>) -> Vec<Face> {
+pub(crate) fn read_faces(entry: &WorkloadEntry, m: &Mechanism, at: &Place<'_>) -> Vec<Face> {
     let mut found = Vec::new();
-    for (at, e) in at.most(MAX_FORCES, &entry.contact, "contacts") {
-        let Some(joint) = at.key("joint").joint(m, &e.joint) else {
+    for (at, e) in at.first_entries(MAX_FORCES, &entry.contact, "contacts") {
+        let Some(joint) = at.key("joint").find_joint(m, &e.joint) else {
             continue;
         };
         if object_at(m, joint).is_none() {
             let faces = m.joint_ids().filter(|&j| object_at(m, j).is_some());
             let what = "contact (a fixed or planar joint, or one on a plane, with a link of the role object)";
             at.key("joint")
-                .unknown(what, &e.joint, faces.map(|j| &m.joints[j].id));
+                .add_unknown_word(what, &e.joint, faces.map(|j| &m.joints[j].id));
         }
         let range = Bound::Range(0.0, 10.0, "a number from 0 to 10");
         found.push(Face {
             joint,
-            friction: at.optional("friction", &e.friction, 1.0, range),
-            radius: at.positive("radius", &e.radius, 1.0),
+            friction: at.read_optional("friction", &e.friction, 1.0, range),
+            radius: at.read_positive("radius", &e.radius, 1.0),
         });
     }
     found
 }
 
 /// Returns the stiffness by joint type.
-pub(crate) fn stiffness(entry: &WorkloadEntry, at: &Place<'_>) -> Vec<(String, Stiffness)> {
+pub(crate) fn read_stiffness(entry: &WorkloadEntry, at: &Place<'_>) -> Vec<(String, Stiffness)> {
     let each = entry.stiffness.iter().map(|(name, s)| {
         let at = at.key(name);
         let (linear, angular) = (s.linear, s.angular);
         for (k, value) in [("linear", linear), ("angular", angular)] {
             if !(value > 0.0 && value <= 1e18) {
                 at.key(k)
-                    .bad("stiffness", value, "a number above 0, up to 1e18");
+                    .add_bad_value("stiffness", value, "a number above 0, up to 1e18");
             }
         }
         if name != "default" && name != "custom" && JointType::from_name(name).is_none() {
             let types = JointType::NAMED.iter().map(JointType::name);
-            at.unknown("joint type", name, types.chain(["custom", "default"]));
+            at.add_unknown_word("joint type", name, types.chain(["custom", "default"]));
         }
         (
-            JointType::word(name).to_owned(),
+            JointType::word_of_trade(name).to_owned(),
             Stiffness { linear, angular },
         )
     });
@@ -210,22 +226,26 @@ pub(crate) fn stiffness(entry: &WorkloadEntry, at: &Place<'_>) -> Vec<(String, S
 }
 
 /// Returns the misaligned joints.
-pub(crate) fn misalignments(
+pub(crate) fn read_misalignments(
     entry: &WorkloadEntry,
     m: &Mechanism,
     at: &Place<'_>,
 ) -> Vec<Misalignment> {
     let mut found = Vec::new();
-    for (at, e) in at.most(MAX_FORCES, &entry.misalignment, "misalignments") {
-        let angle = e.angle.as_ref().map(|angle| at.key("angle").turn(angle));
+    for (at, e) in at.first_entries(MAX_FORCES, &entry.misalignment, "misalignments") {
+        let angle = e
+            .angle
+            .as_ref()
+            .map(|angle| at.key("angle").read_turn(angle));
         if angle.is_some() == e.length.is_some() {
-            at.bad("misalignment", &e.joint, "either an angle or a length");
+            at.add_bad_value("misalignment", &e.joint, "either an angle or a length");
         }
         let axis = ["x", "y", "z"].iter().position(|a| *a == e.axis);
         if axis.is_none() {
-            at.key("axis").unknown("axis", &e.axis, ["x", "y", "z"]);
+            at.key("axis")
+                .add_unknown_word("axis", &e.axis, ["x", "y", "z"]);
         }
-        let joint = at.key("joint").joint(m, &e.joint);
+        let joint = at.key("joint").find_joint(m, &e.joint);
         if let (Some(joint), Some(axis)) = (joint, axis) {
             let along = |size: Option<f64>| {
                 let mut of = [0.0; 3];

@@ -13,12 +13,12 @@ pub(crate) const MAX_STEPS: usize = 100_000;
 pub(in crate::file::read) const LARGEST: f64 = 1e12;
 
 /// Parses a drive position in radians or the file's length unit: "1.5", "1.5rad", "360deg".
-fn position(text: &str) -> Option<f64> {
+fn parse_position(text: &str) -> Option<f64> {
     with_units(text, &[("deg", 1f64.to_radians()), ("rad", 1.0)])
 }
 
 /// Parses a drive speed in rad/s or the file's length unit per second: "6.28", "60rpm", "30deg/s".
-fn speed(text: &str) -> Option<f64> {
+fn parse_speed(text: &str) -> Option<f64> {
     let rpm = std::f64::consts::TAU / 60.0;
     let units = [("rpm", rpm), ("deg/s", 1f64.to_radians()), ("rad/s", 1.0)];
     with_units(text, &units)
@@ -33,11 +33,11 @@ pub struct NoStroke(String);
 ///
 /// # Errors
 /// Returns an error if the text is not a stroke.
-pub fn stroke(text: &str) -> Result<Stroke, NoStroke> {
+pub fn parse_stroke(text: &str) -> Result<Stroke, NoStroke> {
     let parts: Vec<&str> = text.split(':').collect();
     let parsed = match parts[..] {
-        [from, to, steps] => position(from)
-            .zip(position(to))
+        [from, to, steps] => parse_position(from)
+            .zip(parse_position(to))
             .zip(steps.parse::<usize>().ok()),
         _ => None,
     };
@@ -61,7 +61,7 @@ fn with_units(text: &str, units: &[(&str, f64)]) -> Option<f64> {
 
 impl Place<'_> {
     /// Returns a number with a unit; 0 if it is not valid, which is reported.
-    fn quantity(
+    fn read_quantity(
         &self,
         q: &Quantity,
         parse: fn(&str) -> Option<f64>,
@@ -73,27 +73,27 @@ impl Place<'_> {
             Quantity::Text(t) => (parse(t), format!("{t:?}")),
         };
         if value.is_none() {
-            self.bad(what, shown, allowed);
+            self.add_bad_value(what, shown, allowed);
         }
         value.unwrap_or(0.0)
     }
 
     /// Returns a position of a drive.
-    pub(crate) fn position(&self, q: &Quantity) -> f64 {
+    pub(crate) fn read_position(&self, q: &Quantity) -> f64 {
         let allowed =
             "a number of radians or length units such as 1.5, or an angle such as \"90deg\"";
-        self.quantity(q, position, "drive position", allowed)
+        self.read_quantity(q, parse_position, "drive position", allowed)
     }
 
     /// Returns a speed of a drive.
-    pub(crate) fn speed(&self, q: &Quantity) -> f64 {
+    pub(crate) fn read_speed(&self, q: &Quantity) -> f64 {
         let allowed = "a number of rad/s or length units per second, or a speed such as \"60rpm\" or \"30deg/s\"";
-        self.quantity(q, speed, "drive speed", allowed)
+        self.read_quantity(q, parse_speed, "drive speed", allowed)
     }
 
     /// Returns a small angle.
-    pub(crate) fn turn(&self, q: &Quantity) -> f64 {
+    pub(crate) fn read_turn(&self, q: &Quantity) -> f64 {
         let allowed = "a number of radians, or an angle such as \"0.1deg\"";
-        self.quantity(q, position, "angle", allowed)
+        self.read_quantity(q, parse_position, "angle", allowed)
     }
 }

@@ -31,7 +31,7 @@ fn check_names(names: &StringRecord) -> Result<(), String> {
 }
 
 /// Returns the step in a line, or describes what is wrong with it.
-fn step(names: &StringRecord, record: &StringRecord, unit: f64) -> Result<MotionStep, String> {
+fn read_step(names: &StringRecord, record: &StringRecord, unit: f64) -> Result<MotionStep, String> {
     let number = |column: &str, least: f64| {
         let Some(at) = names.iter().position(|n| n == column) else {
             return Ok(None);
@@ -61,7 +61,11 @@ fn step(names: &StringRecord, record: &StringRecord, unit: f64) -> Result<Motion
 ///
 /// # Errors
 /// Returns a [`TrajectoryError`].
-pub fn trajectory(file: &str, bytes: &[u8], unit: f64) -> Result<Vec<MotionStep>, TrajectoryError> {
+pub fn read_trajectory(
+    file: &str,
+    bytes: &[u8],
+    unit: f64,
+) -> Result<Vec<MotionStep>, TrajectoryError> {
     let mut reader = csv::ReaderBuilder::new()
         .trim(csv::Trim::All)
         .comment(Some(b'#'))
@@ -83,7 +87,7 @@ pub fn trajectory(file: &str, bytes: &[u8], unit: f64) -> Result<Vec<MotionStep>
         let line = record
             .position()
             .and_then(|p| usize::try_from(p.line()).ok());
-        let step = step(&names, &record, unit);
+        let step = read_step(&names, &record, unit);
         out.push(step.map_err(|what| at(line.unwrap_or(i + 2), what))?);
     }
     match out.len() {

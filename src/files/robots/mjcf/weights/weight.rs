@@ -2,7 +2,7 @@
 
 use crate::geom::rigid::RigidMotion;
 use crate::geom::vector::{Vector, add, dot, length, scale, sub};
-use crate::robots::mjcf::context::{Compiler, Lookup, compiler};
+use crate::robots::mjcf::context::{Compiler, Lookup, read_compiler};
 use crate::robots::warning::Read;
 use crate::robots::xml::element::Element;
 use std::f64::consts::PI;
@@ -27,15 +27,15 @@ impl Weight {
 }
 
 /// Returns a tensor as a matrix, by rows.
-fn matrix([xx, yy, zz, xy, xz, yz]: [f64; 6]) -> [Vector; 3] {
+fn tensor_matrix([xx, yy, zz, xy, xz, yz]: [f64; 6]) -> [Vector; 3] {
     [[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]]
 }
 
 /// Returns a tensor in the axes that a place has, seen from outside.
-fn turned(tensor: [f64; 6], place: &RigidMotion) -> [f64; 6] {
+fn rotate_tensor(tensor: [f64; 6], place: &RigidMotion) -> [f64; 6] {
     let r = &place.rotation;
     let half = r.map(|row| {
-        let m = matrix(tensor);
+        let m = tensor_matrix(tensor);
         [0, 1, 2].map(|j| dot(row, m.map(|line| line[j])))
     });
     let at = |i: usize, j: usize| dot(half[i], r[j]);
@@ -43,7 +43,7 @@ fn turned(tensor: [f64; 6], place: &RigidMotion) -> [f64; 6] {
 }
 
 /// Returns several weights as one, in the axes of the frame that they are given in; none of nothing.
-pub(super) fn together(all: &[Weight]) -> Option<Weight> {
+pub(super) fn combine(all: &[Weight]) -> Option<Weight> {
     let mass: f64 = all.iter().map(|w| w.mass).sum();
     if mass <= 0.0 {
         return None;
@@ -58,7 +58,7 @@ pub(super) fn together(all: &[Weight]) -> Option<Weight> {
     let mut tensor = [0.0; 6];
     for w in all {
         let [x, y, z] = sub(w.place.translation, centre);
-        let own = turned(w.tensor, &w.place);
+        let own = rotate_tensor(w.tensor, &w.place);
         let far = [
             y * y + z * z,
             x * x + z * z,
@@ -71,7 +71,7 @@ pub(super) fn together(all: &[Weight]) -> Option<Weight> {
             *t += o + w.mass * f;
         }
     }
-    let place = RigidMotion::shift(centre);
+    let place = RigidMotion::from_translation(centre);
     Some(Weight {
         mass,
         place,
@@ -94,31 +94,33 @@ pub(super) struct Settings {
 
 impl Settings {
     /// Returns the settings of a file.
-    pub(super) fn read(root: Element<'_>) -> Read<Settings> {
+    pub(super) fn read_settings(root: Element<'_>) -> Read<Settings> {
         let mut out = Settings {
-            compiler: compiler(root)?,
+            compiler: read_compiler(root)?,
             least: [0.0; 2],
             balance: false,
             from_shapes: None,
             groups: [0.0, 5.0],
         };
-        for c in root.named("compiler") {
+        for c in root.children_named("compiler") {
             out.balance |= c.attribute("balanceinertia") == Some("true");
             for (x, key) in out.least.iter_mut().zip(["boundmass", "boundinertia"]) {
-                *x = c.numbers::<1>(key)?.map_or(*x, |[x]| x);
+                *x = c.read_numbers::<1>(key)?.map_or(*x, |[x]| x);
             }
             match c.attribute("inertiafromgeom") {
                 Some("true") => out.from_shapes = Some(true),
                 Some("false") => out.from_shapes = Some(false),
                 _ => {}
             }
-            out.groups = c.numbers::<2>("inertiagrouprange")?.unwrap_or(out.groups);
+            out.groups = c
+                .read_numbers::<2>("inertiagrouprange")?
+                .unwrap_or(out.groups);
         }
         Ok(out)
     }
 
     /// Returns a weight that is at least the minimum of the file.
-    pub(super) fn bounded(&self, weight: Weight) -> Weight {
+    pub(super) fn bound_weight(&self, weight: Weight) -> Weight {
         let mut out = weight;
         let [mass, inertia] = self.least;
         out.mass = out.mass.max(mass);
@@ -135,16 +137,16 @@ impl Settings {
 const WATER: f64 = 1000.0;
 
 /// Returns the numbers of `size`; 0 where there are fewer than three.
-fn sizes(look: &Lookup<'_>) -> Read<[f64; 3]> {
+fn read_sizes(look: &Lookup<'_>) -> Read<[f64; 3]> {
     let Some((e, text)) = look.attribute("size") else {
         return Ok([0.0; 3]);
     };
     let mut out = [0.0; 3];
     match text.split_whitespace().count() {
         0 => {}
-        1 => out[..1].copy_from_slice(&e.numbers::<1>("size")?.unwrap_or_default()),
-        2 => out[..2].copy_from_slice(&e.numbers::<2>("size")?.unwrap_or_default()),
-        _ => out = e.numbers::<3>("size")?.unwrap_or_default(),
+        1 => out[..1].copy_from_slice(&e.read_numbers::<1>("size")?.unwrap_or_default()),
+        2 => out[..2].copy_from_slice(&e.read_numbers::<2>("size")?.unwrap_or_default()),
+        _ => out = e.read_numbers::<3>("size")?.unwrap_or_default(),
     }
     Ok(out)
 }
@@ -163,8 +165,8 @@ struct Measures {
 
 impl Measures {
     /// Returns those of a shape.
-    fn of(look: &Lookup<'_>, compiler: &Compiler) -> Read<Measures> {
-        let sizes = sizes(look)?;
+    fn read_measures(look: &Lookup<'_>, compiler: &Compiler) -> Read<Measures> {
+        let sizes = read_sizes(look)?;
         let mut out = Measures {
             sizes,
             half: sizes[1],
@@ -172,7 +174,7 @@ impl Measures {
             long: sizes[2],
             place: RigidMotion {
                 translation: look.vector("pos", [0.0; 3])?,
-                ..orientation(look, compiler)?
+                ..read_orientation(look, compiler)?
             },
         };
         // Between two points a shape is round, or as deep as it is wide, and as long as they are apart.
@@ -191,7 +193,7 @@ impl Measures {
 
 /// Returns what a shape weighs on its body or frame, where it weighs something.
 pub(super) fn weight_of_shape(look: &Lookup<'_>, settings: &Settings) -> Read<Option<Weight>> {
-    let measures = Measures::of(look, &settings.compiler)?;
+    let measures = Measures::read_measures(look, &settings.compiler)?;
     let [group] = look.numbers::<1>("group")?.unwrap_or_default();
     let stated = look.numbers::<1>("mass")?.map(|[m]| m);
     let [density] = look.numbers::<1>("density")?.unwrap_or([WATER]);
@@ -203,7 +205,7 @@ pub(super) fn weight_of_shape(look: &Lookup<'_>, settings: &Settings) -> Read<Op
         None if look.attribute("mesh").is_some() => "mesh",
         None => "sphere",
     };
-    let Some((volume, moments)) = filled(kind, &measures) else {
+    let Some((volume, moments)) = volume_and_moments(kind, &measures) else {
         return Ok(None);
     };
     let mass = stated.unwrap_or(density * volume);
@@ -217,17 +219,17 @@ pub(super) fn weight_of_shape(look: &Lookup<'_>, settings: &Settings) -> Read<Op
 }
 
 /// Returns the rotation of an element or of its class, given in one of five forms.
-fn orientation(look: &Lookup<'_>, compiler: &Compiler) -> Read<RigidMotion> {
+fn read_orientation(look: &Lookup<'_>, compiler: &Compiler) -> Read<RigidMotion> {
     let ways = ["quat", "axisangle", "xyaxes", "zaxis", "euler"];
     match ways.iter().find_map(|w| look.attribute(w)) {
-        Some((e, _)) => compiler.turned(e),
+        Some((e, _)) => compiler.read_rotation(e),
         None => Ok(RigidMotion::IDENTITY),
     }
 }
 
 /// Returns the volume in m³ of a shape, and its moments of inertia about x, y and z with an even mass of 1 kg. Returns `None` for a
 /// plane, which is infinite, and for a mesh or another kind, whose file is not read.
-fn filled(kind: &str, measures: &Measures) -> Option<(f64, Vector)> {
+fn volume_and_moments(kind: &str, measures: &Measures) -> Option<(f64, Vector)> {
     let &Measures { deep, long, .. } = measures;
     let (r, l) = (measures.sizes[0], 2.0 * measures.half);
     // The moments of a cylinder, across its axis and along it.
@@ -264,17 +266,17 @@ mod tests {
     fn weights_add_up() {
         let end = |x: f64| Weight {
             mass: 1.0,
-            place: RigidMotion::shift([x, 0.0, 0.0]).then(&RigidMotion::turn(Z, x)),
+            place: RigidMotion::from_translation([x, 0.0, 0.0]).then(&RigidMotion::from_turn(Z, x)),
             tensor: [0.0; 6],
         };
-        let whole = together(&[end(0.0), end(1.0)]);
+        let whole = combine(&[end(0.0), end(1.0)]);
         let found = whole.map(|w| (w.mass, w.place.translation, w.tensor));
         let tensor = [0.0, 0.5, 0.5, 0.0, 0.0, 0.0];
         assert_eq!(found, Some((2.0, [0.5, 0.0, 0.0], tensor)));
-        let quarter = RigidMotion::turn(X, std::f64::consts::FRAC_PI_2);
-        let turned = turned([1.0, 2.0, 3.0, 0.0, 0.0, 0.0], &quarter);
+        let quarter = RigidMotion::from_turn(X, std::f64::consts::FRAC_PI_2);
+        let turned = rotate_tensor([1.0, 2.0, 3.0, 0.0, 0.0, 0.0], &quarter);
         assert_eq!(turned, [1.0, 3.0, 2.0, 0.0, 0.0, 0.0]);
-        assert_eq!(together(&[]), None);
+        assert_eq!(combine(&[]), None);
     }
 }
 
@@ -340,7 +342,7 @@ mod tests_of_shape {
                 long: sizes[2],
                 place: RigidMotion::IDENTITY,
             };
-            let (volume, moments) = filled(kind, &measures).unwrap();
+            let (volume, moments) = volume_and_moments(kind, &measures).unwrap();
             let (slow, added) = added_up(inside);
             assert!(
                 (volume / slow - 1.0).abs() < 0.02,

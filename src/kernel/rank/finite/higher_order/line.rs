@@ -75,7 +75,7 @@ impl FreedomPassed {
     }
 
     /// Records the displacement before it, of the next order.
-    fn enter(&mut self, f: Field, before: &SeriesTerm) {
+    fn enter_freedom(&mut self, f: Field, before: &SeriesTerm) {
         for (i, row) in before.turn.iter().enumerate() {
             for (series, &x) in self.turn[i].iter_mut().zip(row) {
                 series.push(x);
@@ -87,12 +87,12 @@ impl FreedomPassed {
 
     /// Adds the effect of this freedom at order `d` to the displacement before it, with `x` as the coefficient of its
     /// angle.
-    fn pass(&mut self, f: Field, d: usize, x: Residue, at: &mut SeriesTerm) {
+    fn pass_freedom(&mut self, f: Field, d: usize, x: Residue, at: &mut SeriesTerm) {
         let x = if self.forward { x } else { f.neg(x) };
         let turns = self.twist[0] != [0; 3];
         // From the derivatives: (sin θ)' = cos θ θ', (1 - cos θ)' = sin θ θ', (θ - sin θ)' = (1 - cos θ) θ'.
         let part = f.inv(f.from_i64(d as i64));
-        let rates = |of: &[Residue]| f.mul(part, convolved(f, &self.speed, &of[1..d]));
+        let rates = |of: &[Residue]| f.mul(part, last_coefficient(f, &self.speed, &of[1..d]));
         let (sine, cosine, rest) = if turns {
             let bent = f.mul(self.square, rates(&self.cosine));
             (f.sub(x, bent), rates(&self.sine), rates(&self.cosine))
@@ -104,7 +104,7 @@ impl FreedomPassed {
         self.sine.push(sine);
         self.cosine.push(cosine);
         self.rest.push(rest);
-        let of = |a: &[Residue], b: &[Residue]| convolved(f, &a[1..], &b[..d]);
+        let of = |a: &[Residue], b: &[Residue]| last_coefficient(f, &a[1..], &b[..d]);
         let [w, _, once, _] = self.twist;
         for i in 0..3 {
             let mut moved = of(&self.angle, &self.along[0][i]);
@@ -125,7 +125,7 @@ impl FreedomPassed {
     }
 
     /// Adds the effect of a coefficient of order `d` that was first assumed to be 0, here and in all later terms.
-    fn mend(&mut self, f: Field, d: usize, x: Residue, at: &mut SeriesTerm) {
+    fn correct_order(&mut self, f: Field, d: usize, x: Residue, at: &mut SeriesTerm) {
         let x = if self.forward { x } else { f.neg(x) };
         for (i, row) in at.turn.iter().enumerate() {
             for (series, &more) in self.turn[i].iter_mut().zip(row) {
@@ -159,7 +159,7 @@ impl SeriesTerm {
     };
 
     /// Returns the six gaps.
-    fn gaps(&self, f: Field) -> [Residue; 6] {
+    fn closure_gaps(&self, f: Field) -> [Residue; 6] {
         let half = f.inv(f.from_i64(2));
         let skew = |i: usize, j: usize| f.mul(half, f.sub(self.turn[i][j], self.turn[j][i]));
         let [x, y, z] = self.shift;
@@ -188,7 +188,7 @@ pub struct Line {
 ///
 /// # Complexity
 /// 12 D² products for each freedom that a contour passes, up to order D.
-pub(super) fn line(
+pub(super) fn expand_line(
     of: &Solved<'_>,
     speeds: &[Residue],
     bent: Option<&[Residue]>,
@@ -217,7 +217,7 @@ pub(super) fn line(
             (2, Some(bent)) => bent[c],
             _ => 0,
         };
-        let gaps = pass(f, &mut walks, d, given);
+        let gaps = pass_contours(f, &mut walks, d, given);
         if d == 1 {
             let all = coordinates.iter_mut().zip(speeds);
             all.for_each(|(series, &x)| series.push(x));
@@ -249,7 +249,7 @@ pub(super) fn line(
         for walk in &mut walks {
             let mut at = SeriesTerm::ZERO;
             for step in walk {
-                step.mend(f, d, more[step.column], &mut at);
+                step.correct_order(f, d, more[step.column], &mut at);
             }
         }
     }
@@ -257,11 +257,11 @@ pub(super) fn line(
 }
 
 /// Returns the equations that J does not solve to second order, for a motion that begins with these speeds.
-pub(super) fn second(of: &Solved<'_>, speeds: &[Residue]) -> Vec<Residue> {
+pub(super) fn second_order(of: &Solved<'_>, speeds: &[Residue]) -> Vec<Residue> {
     let f = of.field;
     let mut walks = at_rest(of);
-    pass(f, &mut walks, 1, |c| speeds[c]);
-    let gaps = pass(f, &mut walks, 2, |_| 0);
+    pass_contours(f, &mut walks, 1, |c| speeds[c]);
+    let gaps = pass_contours(f, &mut walks, 2, |_| 0);
     let left = of.solve[of.pivots.len()..].iter();
     left.map(|row| f.dot(row, &gaps)).collect()
 }
@@ -273,7 +273,7 @@ fn at_rest(of: &Solved<'_>) -> Vec<Vec<FreedomPassed>> {
     (0..3).for_each(|i| at.turn[i][i] = f.one());
     let step = |&(c, forward): &(usize, bool)| {
         let mut step = FreedomPassed::new(f, &of.twists[c], c, forward);
-        step.enter(f, &at);
+        step.enter_freedom(f, &at);
         step
     };
     let walks = of.walks.iter();
@@ -281,7 +281,7 @@ fn at_rest(of: &Solved<'_>) -> Vec<Vec<FreedomPassed>> {
 }
 
 /// Returns the gaps of order `d`, six per contour, with these coefficients of the coordinates.
-fn pass(
+fn pass_contours(
     f: Field,
     walks: &mut [Vec<FreedomPassed>],
     d: usize,
@@ -291,10 +291,10 @@ fn pass(
     for walk in walks {
         let mut at = SeriesTerm::ZERO;
         for step in walk {
-            step.enter(f, &at);
-            step.pass(f, d, given(step.column), &mut at);
+            step.enter_freedom(f, &at);
+            step.pass_freedom(f, d, given(step.column), &mut at);
         }
-        gaps.extend(at.gaps(f));
+        gaps.extend(at.closure_gaps(f));
     }
     gaps
 }
@@ -310,6 +310,6 @@ fn dot(f: Field, a: Three, b: Three) -> Residue {
 }
 
 /// Returns the last coefficient of a product of two series of equal length, by convolution.
-fn convolved(f: Field, a: &[Residue], b: &[Residue]) -> Residue {
+fn last_coefficient(f: Field, a: &[Residue], b: &[Residue]) -> Residue {
     f.sum_of_products(a.iter().copied().zip(b.iter().rev().copied()))
 }

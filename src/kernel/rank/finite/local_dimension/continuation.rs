@@ -19,7 +19,7 @@ use crate::model::joint_type::Freedom;
 use crate::model::mechanism::{JointId, Mechanism, StateId};
 use crate::motion::pose::{FLAT, Pose};
 use crate::rank::finite::local_dimension::DimensionSearch;
-use ozols_dense::{Matrix, add_scaled, difference, dot, largest, norm, svd};
+use ozols_dense::{Matrix, add_scaled, difference, dot, largest_entry, norm, svd};
 
 /// Distance that a motion must cover, by the coordinate that moves most from step to step: radians, or fractions of the
 /// size.
@@ -46,7 +46,7 @@ impl DimensionSearch {
         }
         let here = vec![0.0; span.nrows()];
         for _ in 0..TRIES {
-            let direction = span.combined(&self.direction(n));
+            let direction = span.combine_columns(&self.random_direction(n));
             if self.goes_on(pose, &here, &direction, n)? {
                 return Some(true);
             }
@@ -62,7 +62,7 @@ impl DimensionSearch {
         let here = vec![0.0; span.nrows()];
         let mut ends: Vec<Vec<f64>> = Vec::new();
         for _ in 0..TRIES * n {
-            let direction = span.combined(&self.direction(n));
+            let direction = span.combine_columns(&self.random_direction(n));
             let Some(end) = self.end_of(pose, &here, &direction, n)? else {
                 continue;
             };
@@ -103,7 +103,7 @@ impl DimensionSearch {
         let (mut q, mut onward) = (from.to_vec(), direction.to_vec());
         let (mut way, mut step) = (0.0, LONGEST);
         while way < REACH {
-            let Some(tangent) = tangent(pose, &q, &onward, least) else {
+            let Some(tangent) = nearest_motion(pose, &q, &onward, least) else {
                 return Some(None);
             };
             let next = loop {
@@ -113,9 +113,10 @@ impl DimensionSearch {
                 let size = norm(&tangent);
                 let row: Vec<f64> = tangent.iter().map(|t| t / size).collect();
                 let beside = |x: &[f64]| vec![(dot(&difference(x, &guess), &row), row.clone())];
-                let (closed, gap) = self.close(pose, guess.clone(), &beside)?;
+                let (closed, gap) = self.close_near(pose, guess.clone(), &beside)?;
                 let corrected = difference(&closed, &guess);
-                if gap <= pose.closed() && largest(&corrected) <= CORRECTION * step {
+                if gap <= pose.closed_tolerance() && largest_entry(&corrected) <= CORRECTION * step
+                {
                     break closed;
                 }
                 step /= 2.0;
@@ -128,14 +129,14 @@ impl DimensionSearch {
             step = (1.5 * step).min(LONGEST);
             q = next;
         }
-        Some(tangent(pose, &q, &onward, least).map(|_| q))
+        Some(nearest_motion(pose, &q, &onward, least).map(|_| q))
     }
 }
 
 /// Returns the motion at some coordinates that is nearest to a direction, scaled to a largest coordinate of 1. Returns
 /// `None` if J leaves fewer than `least` motions.
-fn tangent(pose: &Pose, q: &[f64], onward: &[f64], least: usize) -> Option<Vec<f64>> {
-    let svd = svd(&pose.jacobian(q))?;
+fn nearest_motion(pose: &Pose, q: &[f64], onward: &[f64], least: usize) -> Option<Vec<f64>> {
+    let svd = svd(&pose.jacobian_at(q))?;
     let scale = svd.values.first().map_or(1.0, |s| s.max(1.0));
     let flat = FLAT.max(10.0 * pose.accuracy()) * scale;
     let kernel = svd.null_space(svd.values.iter().filter(|&&s| s > flat).count());
@@ -145,8 +146,8 @@ fn tangent(pose: &Pose, q: &[f64], onward: &[f64], least: usize) -> Option<Vec<f
     let weights: Vec<f64> = (0..kernel.ncols())
         .map(|c| dot(kernel.col(c), onward))
         .collect();
-    let tangent = kernel.combined(&weights);
-    let size = largest(&tangent);
+    let tangent = kernel.combine_columns(&weights);
+    let size = largest_entry(&tangent);
     (norm(&weights) > 0.0 && size > 0.0).then(|| tangent.iter().map(|t| t / size).collect())
 }
 
@@ -167,14 +168,14 @@ pub(in crate::rank::finite) fn lengths_are_alike(
         .joints_in(state)
         .filter(|&j| {
             let mut freedoms = mechanism.joints[j].joint_type.freedoms().iter();
-            freedoms.any(|f| !f.slides())
+            freedoms.any(|f| !f.is_slide())
         })
         .collect();
     let all = mechanism.joints_in(state);
     let frames = |j: JointId| FrameValues::new(&Reals, &mechanism.joints[j].frame);
     let residues = |j: JointId| FrameValues::new(exact, &mechanism.joints[j].frame);
     let points = all.map(|j| frames(j).map(|f| f.point));
-    let size = Extent::of(&points.collect::<Result<Vec<_>, _>>()?).length;
+    let size = Extent::from_points(&points.collect::<Result<Vec<_>, _>>()?).length;
     let seen = |x: f64| x.abs() >= FINEST * size;
     for (i, &a) in turning.iter().enumerate() {
         let (of, frame, exactly) = (&mechanism.joints[a], frames(a)?, residues(a)?);
@@ -190,7 +191,7 @@ pub(in crate::rank::finite) fn lengths_are_alike(
             let (to, there) = (frames(b)?, residues(b)?);
             let apart = sub(to.point, frame.point);
             // The position of the points along parallel axes does not matter.
-            let distance = match separation(exact, &exactly, &there) {
+            let distance = match separation_of(exact, &exactly, &there) {
                 Separation::None => continue,
                 Separation::OfParallelAxes => length(across(apart, unit(frame.axes[2]))),
                 Separation::OfPoints => length(apart),
@@ -202,7 +203,7 @@ pub(in crate::rank::finite) fn lengths_are_alike(
     }
     Ok(mechanism.couplings_in(state).all(|c| {
         let ratio = c.ratio.to_f64();
-        match c.ends.map(|e| e.freedom.slides()) {
+        match c.ends.map(|e| e.freedom.is_slide()) {
             [false, true] => seen(ratio),
             [true, false] => seen(1.0 / ratio),
             _ => (FINEST..1.0 / FINEST).contains(&ratio.abs()),
@@ -219,7 +220,7 @@ enum Separation {
 }
 
 /// Returns the separation of two joints, by exact arithmetic. Doubles cannot distinguish a small length from zero.
-fn separation(
+fn separation_of(
     exact: &ExactField,
     a: &FrameValues<Residue>,
     b: &FrameValues<Residue>,

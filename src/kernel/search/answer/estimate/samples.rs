@@ -7,7 +7,7 @@
 //! # Sources
 //! Clopper & Pearson, "The use of confidence or fiducial limits illustrated in the case of the binomial", Biometrika 26 (1934).
 
-use crate::search::answer::counts::total;
+use crate::search::answer::counts::count_total;
 use crate::search::answer::drawn::sample_of;
 use crate::search::answer::estimate::{Drawn, Estimate, WITHIN};
 use crate::search::answer::k_best::Assignment;
@@ -48,14 +48,14 @@ impl<'a> SetSamples<'a> {
     ///
     /// # Complexity
     /// O(samples · n · s²) field operations for n added freedoms and s self-stresses.
-    pub(in crate::search) fn begin(
+    pub(in crate::search) fn draw_pilot(
         question: &'a Question,
         of: &'a AtMost,
         seed: u64,
         filter: bool,
         cancelled: &(dyn Fn() -> bool + Sync),
     ) -> Option<Self> {
-        let at_most = total(question, &of.diagram, filter);
+        let at_most = count_total(question, &of.diagram, filter);
         let all = at_most.to_f64().filter(|x| x.is_finite())?;
         let variants = sample_of(question, &of.diagram, seed, filter);
         let mut out = SetSamples {
@@ -66,15 +66,15 @@ impl<'a> SetSamples<'a> {
             seed,
             odds: 0.0,
         };
-        let (drawn, found) = out.draw(PILOT, cancelled)?;
+        let (drawn, found) = out.draw_samples(PILOT, cancelled)?;
         if drawn > 0 {
-            out.odds = number(drawn - found) / number(found);
+            out.odds = as_float(drawn - found) / as_float(found);
         }
         Some(out)
     }
 
     /// Draws samples. Returns how many were drawn and how many of them are wanted; none are drawn from an empty set.
-    fn draw(
+    fn draw_samples(
         &mut self,
         wanted: usize,
         cancelled: &(dyn Fn() -> bool + Sync),
@@ -88,13 +88,16 @@ impl<'a> SetSamples<'a> {
             }
             drawn += batch.len();
             let of = self.of;
-            found += batch.par_iter().filter(|v| of.has(&v.choices)).count();
+            found += batch
+                .par_iter()
+                .filter(|v| of.has_variant(&v.choices))
+                .count();
         }
         Some((drawn, found))
     }
 
     /// How many more samples are needed, as far as the first tell.
-    fn needed(&self) -> usize {
+    fn needed_samples(&self) -> usize {
         let needed = (NORMAL / WITHIN).powi(2) * self.odds * MARGIN;
         #[allow(
             clippy::cast_possible_truncation,
@@ -106,17 +109,17 @@ impl<'a> SetSamples<'a> {
     }
 
     /// Estimates the number of variants from new samples, as many as the pilot requires. Returns `None` if cancelled.
-    pub(in crate::search) fn estimate(
+    pub(in crate::search) fn estimate_count(
         mut self,
         cancelled: &(dyn Fn() -> bool + Sync),
     ) -> Option<Estimate> {
-        let (drawn, found) = self.draw(self.needed(), cancelled)?;
-        let share = number(found) / number(drawn.max(1));
-        let deviation = (share * (1.0 - share) / number(drawn.max(1))).sqrt();
+        let (drawn, found) = self.draw_samples(self.needed_samples(), cancelled)?;
+        let share = as_float(found) / as_float(drawn.max(1));
+        let deviation = (share * (1.0 - share) / as_float(drawn.max(1))).sqrt();
         Some(Estimate {
             mean: self.all * share,
             standard_error: self.all * deviation,
-            between: interval(drawn, found).map(|x| self.all * x),
+            between: confidence_interval(drawn, found).map(|x| self.all * x),
             at_most: Some(self.at_most),
             drawn: Drawn { of: drawn, found },
             seed: self.seed,
@@ -125,25 +128,25 @@ impl<'a> SetSamples<'a> {
 }
 
 #[allow(clippy::cast_precision_loss, reason = "samples are few")]
-fn number(of: usize) -> f64 {
+fn as_float(of: usize) -> f64 {
     of as f64
 }
 
 /// Returns the smallest and the largest probability for which the number found, or a more extreme one, is not rarer than [`TAIL`].
-pub(in crate::search) fn interval(samples: usize, found: usize) -> [f64; 2] {
+pub(in crate::search) fn confidence_interval(samples: usize, found: usize) -> [f64; 2] {
     let low = match found {
         0 => 0.0,
-        _ => bisected(|p| 1.0 - up_to(samples, found - 1, p) < TAIL),
+        _ => bisect_chance(|p| 1.0 - up_to(samples, found - 1, p) < TAIL),
     };
     let high = match samples - found {
         0 => 1.0,
-        _ => bisected(|p| up_to(samples, found, p) > TAIL),
+        _ => bisect_chance(|p| up_to(samples, found, p) > TAIL),
     };
     [low, high]
 }
 
 /// Returns the point where a test that holds at 0 and not at 1 changes.
-fn bisected(holds: impl Fn(f64) -> bool) -> f64 {
+fn bisect_chance(holds: impl Fn(f64) -> bool) -> f64 {
     let (mut low, mut high) = (0.0, 1.0);
     for _ in 0..60 {
         let middle = f64::midpoint(low, high);
@@ -158,11 +161,11 @@ fn bisected(holds: impl Fn(f64) -> bool) -> f64 {
 
 /// The chance that no more than `most` of some samples are found where each is with the chance `p`, which is neither 0 nor 1.
 fn up_to(samples: usize, most: usize, p: f64) -> f64 {
-    let (n, odds) = (number(samples), p.ln() - (-p).ln_1p());
+    let (n, odds) = (as_float(samples), p.ln() - (-p).ln_1p());
     let mut term = n * (-p).ln_1p();
     let mut sum = term.exp();
     for k in 1..=most {
-        let k = number(k);
+        let k = as_float(k);
         term += ((n - k + 1.0) / k).ln() + odds;
         sum += term.exp();
     }
@@ -171,7 +174,7 @@ fn up_to(samples: usize, most: usize, p: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::interval;
+    use super::confidence_interval;
 
     /// `scipy.stats.binomtest(k, n).proportion_ci(0.95, "exact")`.
     #[test]
@@ -183,7 +186,7 @@ mod tests {
             (4000, 3968, [0.988_725_00, 0.994_521_76]),
         ];
         for (samples, found, expected) in known {
-            let own = interval(samples, found);
+            let own = confidence_interval(samples, found);
             for (x, y) in own.iter().zip(expected) {
                 assert!((x - y).abs() < 1e-7, "{samples} {found}: {own:?}");
             }

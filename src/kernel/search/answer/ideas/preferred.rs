@@ -18,7 +18,7 @@ const LOOKED: usize = 1 << 16;
 ///
 /// # Complexity
 /// O(nodes that the idea's variants use · ways of sharing out its freedoms), bounded.
-pub(super) fn preferred(
+pub(super) fn preferred_variant(
     question: &Question,
     diagram: &Diagram,
     patterns: &Patterns,
@@ -33,7 +33,7 @@ pub(super) fn preferred(
         takes: patterns
             .of
             .iter()
-            .map(|v| v.iter().map(some).collect())
+            .map(|v| v.iter().map(nonzero_entries).collect())
             .collect(),
         to_come: patterns.to_come(diagram),
         least: HashMap::new(),
@@ -45,8 +45,8 @@ pub(super) fn preferred(
         found: 0,
         looked: 0,
     };
-    members.collect(0, 0, first.key.cost());
-    let own = members.rank(&first.choices, first.key);
+    members.visit_variants(0, 0, first.key.cost());
+    let own = members.preference_rank(&first.choices, first.key);
     // Where several are alike in this, the first in the order of the diagram's variables.
     match members.best {
         Some((rank, best)) if rank < own => best,
@@ -58,7 +58,7 @@ pub(super) fn preferred(
 type Rank = (usize, u64, i64, u32);
 
 /// Returns the nonzero entries of a choice's pattern.
-fn some(takes: &Pattern) -> Vec<(usize, u8)> {
+fn nonzero_entries(takes: &Pattern) -> Vec<(usize, u8)> {
     let all = takes.iter().copied().enumerate();
     all.filter(|(_, n)| *n > 0).collect()
 }
@@ -88,11 +88,11 @@ struct Members<'a> {
 
 impl Members<'_> {
     /// Returns the properties by which variants are compared; less is preferred.
-    fn rank(&self, choices: &[usize], key: Key) -> Rank {
+    fn preference_rank(&self, choices: &[usize], key: Key) -> Rank {
         let changed = choices.iter().zip(self.weights).filter(|(c, _)| **c != 0);
         let weight = changed.map(|(_, weight)| weight).sum();
         (
-            self.patterns.unlike(choices),
+            self.patterns.count_unlike(choices),
             weight,
             self.question.mobility(key),
             key.changes(),
@@ -101,7 +101,7 @@ impl Members<'_> {
 
     /// Takes a choice at a node and subtracts its freedoms from the rest of the pattern. Returns the next node and the cost, or `None` if
     /// the choice does not fit or later choices cannot add the rest.
-    fn enter(&mut self, depth: usize, node: u32, choice: usize) -> Option<(u32, u64)> {
+    fn take_choice(&mut self, depth: usize, node: u32, choice: usize) -> Option<(u32, u64)> {
         let layer = &self.diagram.layers[depth];
         let to = layer.edges[node as usize * layer.choices + choice];
         let takes = &self.takes[layer.variable][choice];
@@ -113,24 +113,24 @@ impl Members<'_> {
         }
         let mut left = self.left.iter().zip(&self.to_come[depth]);
         if left.any(|(left, most)| left > most) {
-            self.leave(depth, choice);
+            self.return_choice(depth, choice);
             return None;
         }
         Some((to, self.question.steps.keys[layer.variable][choice].cost()))
     }
 
     /// Gives the share of a choice back.
-    fn leave(&mut self, depth: usize, choice: usize) {
+    fn return_choice(&mut self, depth: usize, choice: usize) {
         for &(i, n) in &self.takes[self.diagram.layers[depth].variable][choice] {
             self.left[i] += n;
         }
     }
 
     /// The least cost of a way from a node to the end that adds just what is left of the pattern.
-    fn least(&mut self, depth: usize, node: u32) -> Option<u64> {
+    fn least_cost(&mut self, depth: usize, node: u32) -> Option<u64> {
         if depth == self.diagram.layers.len() {
             let end = *self.diagram.terminals.get(node as usize)?;
-            let cost = self.question.steps.redundancy(end).cost();
+            let cost = self.question.steps.redundancy_key(end).cost();
             return self.left.iter().all(|n| *n == 0).then_some(cost);
         }
         let known = self.least.get(&(depth, node));
@@ -142,12 +142,12 @@ impl Members<'_> {
         }
         let mut least: Option<u64> = None;
         for choice in 0..self.diagram.layers[depth].choices {
-            let Some((to, cost)) = self.enter(depth, node, choice) else {
+            let Some((to, cost)) = self.take_choice(depth, node, choice) else {
                 continue;
             };
-            let here = self.least(depth + 1, to).map(|l| l + cost);
+            let here = self.least_cost(depth + 1, to).map(|l| l + cost);
             least = least.into_iter().chain(here).min();
-            self.leave(depth, choice);
+            self.return_choice(depth, choice);
         }
         let of = self.least.entry((depth, node)).or_default();
         of.insert(self.left.clone(), least);
@@ -156,43 +156,43 @@ impl Members<'_> {
     }
 
     /// Looks at the variants that end with just so much cost.
-    fn collect(&mut self, depth: usize, node: u32, cost: u64) {
+    fn visit_variants(&mut self, depth: usize, node: u32, cost: u64) {
         self.looked += 1;
         let enough = self.found >= COMPARED || self.looked > LOOKED;
-        let least = self.least(depth, node);
+        let least = self.least_cost(depth, node);
         if enough || least.is_none_or(|l| l > cost) {
             return;
         }
         if depth == self.diagram.layers.len() {
             if least == Some(cost) {
-                self.compare(self.diagram.terminals[node as usize]);
+                self.compare_best(self.diagram.terminals[node as usize]);
             }
             return;
         }
         let variable = self.diagram.layers[depth].variable;
         for choice in 0..self.diagram.layers[depth].choices {
-            let Some((to, here)) = self.enter(depth, node, choice) else {
+            let Some((to, here)) = self.take_choice(depth, node, choice) else {
                 continue;
             };
             if let Some(cost) = cost.checked_sub(here) {
                 let before = self.sum;
                 self.sum = Key(before.0 + self.question.steps.keys[variable][choice].0);
                 self.choices[variable] = choice;
-                self.collect(depth + 1, to, cost);
+                self.visit_variants(depth + 1, to, cost);
                 self.sum = before;
             }
-            self.leave(depth, choice);
+            self.return_choice(depth, choice);
         }
     }
 
     /// Compares the variant that is chosen now, which ends so.
-    fn compare(&mut self, end: Redundancy) {
+    fn compare_best(&mut self, end: Redundancy) {
         self.found += 1;
-        let key = Key(self.sum.0 + self.question.steps.redundancy(end).0);
-        if !self.question.wanted(key) {
+        let key = Key(self.sum.0 + self.question.steps.redundancy_key(end).0);
+        if !self.question.is_wanted(key) {
             return;
         }
-        let rank = self.rank(&self.choices, key);
+        let rank = self.preference_rank(&self.choices, key);
         if self.best.as_ref().is_none_or(|(best, _)| rank < *best) {
             let choices = self.choices.clone();
             self.best = Some((rank, Assignment { key, choices }));

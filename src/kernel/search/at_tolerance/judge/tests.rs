@@ -1,7 +1,7 @@
 //! Mechanisms that a millionth makes others: of digits that do not tell them apart nothing is sure that holds of one of them only.
 
 use super::*;
-use crate::model::drawn::{Drawn, X, Y, Z, drawn, hinges};
+use crate::model::drawn::{Drawn, X, Y, Z, draw_mechanism, hinges};
 use crate::model::joint_type::JointType;
 use crate::model::mechanism::{Mechanism, StateId};
 use crate::rank::exact::field::exact_field;
@@ -24,7 +24,9 @@ const LITTLE: f64 = 1e-6;
 fn judged(m: &Mechanism, conditions: Conditions, digits: Digits, choices: &[usize]) -> [String; 2] {
     let exact = exact_field(m, 0).unwrap();
     let question = Question::new(exact, m, conditions).unwrap();
-    let found = Judge::new(&question, digits).unwrap().judge(choices);
+    let found = Judge::new(&question, digits)
+        .unwrap()
+        .judge_variant(choices);
     let word = |s| match s {
         Standing::No => "no",
         Standing::Sure(_) => "sure",
@@ -52,7 +54,12 @@ fn redundant_constraints_are_sure_where_their_number_is() {
                 keep_output: false,
                 ..Conditions::default()
             };
-            let [determinate, _] = judged(&drawn(&door(apart), &[]), conditions, digits, &[0; 3]);
+            let [determinate, _] = judged(
+                &draw_mechanism(&door(apart), &[]),
+                conditions,
+                digits,
+                &[0; 3],
+            );
             determinate
         });
         assert_eq!(found, wanted, "{apart} {digits:?}");
@@ -70,7 +77,7 @@ fn a_kept_motion_is_sure_where_its_dimension_is() {
     ] {
         let mut joints = hinges(&[([0, 1], [0.0; 3]), ([0, 3], X)]);
         joints.push((JointType::Prismatic, [1, 2], [apart, 0.0, 0.0], Z));
-        let mut m = drawn(&joints, &[2]);
+        let mut m = draw_mechanism(&joints, &[2]);
         let mut turns = m.joints[2].options[0].clone();
         turns.joint_type = JointType::Cylindrical;
         turns.name = turns.joint_type.name().to_owned();
@@ -91,7 +98,7 @@ fn external_constraints_are_sure_where_their_number_is() {
     ] {
         let mut joints = door(apart);
         joints.push((JointType::SphereOnPlane, [0, 1], X, Y));
-        let mut m = drawn(&joints, &[]);
+        let mut m = draw_mechanism(&joints, &[]);
         m.states.push("stopped".to_owned());
         let stopped = StateId::new(1);
         m.joints[3].states = Some(vec![stopped]);

@@ -9,7 +9,7 @@ use crate::draw::place::projection::{
 use crate::draw::sheet::Sheet;
 use crate::geom::vector::{dot, unit};
 use crate::model::mechanism::LinkId;
-use crate::svg::plane::{Point, polyline};
+use crate::svg::plane::{Point, path_data};
 
 /// The length of a flag, in pixels.
 const FLAG: f64 = 26.0;
@@ -46,18 +46,18 @@ impl Kinematic<'_> {
         &mut self,
         poses: &[Carried<'_>],
     ) -> Vec<LinkLine> {
-        let slides = self.slides(poses);
+        let slides = self.slide_ranges(poses);
         self.lengthen_rails(&slides);
-        let mut lines = self.guides(&slides);
-        lines.extend(self.flags(poses));
+        let mut lines = self.guide_lines(&slides);
+        lines.extend(self.flag_lines(poses));
         lines
     }
 
     /// What blocks slide along, on links that move.
-    fn guides(&self, slides: &[Option<[f64; 2]>]) -> Vec<LinkLine> {
+    fn guide_lines(&self, slides: &[Option<[f64; 2]>]) -> Vec<LinkLine> {
         let one = |(i, range): (usize, &Option<[f64; 2]>)| {
             let (range, axis) = ((*range)?, self.slide_axis(i)?);
-            let (_, link) = self.carriers(i);
+            let (_, link) = self.carrier_links(i);
             let ends = range.map(|x| add3(self.places[i].point, times(axis, x)));
             let class = "guide";
             let there = !self.is_frame(link) && range[1] > range[0];
@@ -67,11 +67,11 @@ impl Kinematic<'_> {
     }
 
     /// A flag on each link that turns while nothing that is drawn of it moves: a rod about itself, a gear about its axle.
-    fn flags(&self, poses: &[Carried<'_>]) -> Vec<LinkLine> {
+    fn flag_lines(&self, poses: &[Carried<'_>]) -> Vec<LinkLine> {
         let one = |row: usize| {
             let link = self.links[row].0;
             let points = self.points_in_space(row);
-            let far = |c: &Carried<'_>, p: Vector| norm(sub(c.point(link, p), p));
+            let far = |c: &Carried<'_>, p: Vector| norm(sub(c.carried_point(link, p), p));
             let moves = |&p: &Vector| {
                 let scale = self.projection.scale;
                 poses.iter().any(|c| far(c, p) * scale > STILL)
@@ -102,13 +102,13 @@ impl Kinematic<'_> {
     }
 
     /// The shape of a link at the pose of the file.
-    pub(in crate::draw::kinematic) fn body(&self, row: usize) -> Body {
+    pub(in crate::draw::kinematic) fn body_at_rest(&self, row: usize) -> Body {
         self.body_in(row, |p| p)
     }
 
     /// The shape of a link where a pose has carried it.
     fn body_in(&self, row: usize, carried: impl Fn(Vector) -> Vector) -> Body {
-        let flat = |p| self.projection.flat(carried(p));
+        let flat = |p| self.projection.flat_point(carried(p));
         if let Some(arc) = self.arc_in_space(row) {
             return Body {
                 points: arc.into_iter().map(flat).collect(),
@@ -118,20 +118,20 @@ impl Kinematic<'_> {
         let facet = self.facets.get(row).cloned().flatten();
         let corners = facet.unwrap_or_else(|| self.points_in_space(row));
         let flat: Vec<Point> = corners.into_iter().map(flat).collect();
-        Body::new(&flat).bowed(self.bows[row])
+        Body::new(&flat).bowed_by(self.bows[row])
     }
 
     /// Returns the picture of a pose, or of the pose of the file.
-    pub(in crate::draw::kinematic) fn picture(
+    pub(in crate::draw::kinematic) fn picture_in(
         &self,
         pose: Option<&Carried<'_>>,
         lines: &[LinkLine],
     ) -> MovingPicture {
-        let carried = |link, p| pose.map_or(p, |c| c.point(link, p));
-        let flat = |link, p| self.projection.flat(carried(link, p));
+        let carried = |link, p| pose.map_or(p, |c| c.carried_point(link, p));
+        let flat = |link, p| self.projection.flat_point(carried(link, p));
         let place = |(i, own): (usize, &JointInSpace)| {
-            let (rides, guides) = self.carriers(i);
-            pose.map_or_else(|| own.clone(), |c| c.place(rides, guides, own))
+            let (rides, guides) = self.carrier_links(i);
+            pose.map_or_else(|| own.clone(), |c| c.carried_place(rides, guides, own))
         };
         let places: Vec<JointInSpace> = self.places.iter().enumerate().map(place).collect();
         let moving = (0..self.links.len()).filter(|&l| !self.is_frame(self.links[l].0));
@@ -142,7 +142,7 @@ impl Kinematic<'_> {
             points: self.points.iter().map(|p| flat(p.link, p.place)).collect(),
             at: places
                 .iter()
-                .map(|p| self.projection.flat(p.point))
+                .map(|p| self.projection.flat_point(p.point))
                 .collect(),
             bodies: moving.map(body).collect(),
             lines: lines.iter().map(on_paper).collect(),
@@ -161,25 +161,28 @@ impl Kinematic<'_> {
         named: bool,
     ) {
         for (l, body) in &picture.bodies {
-            let (look, d) = (self.look(*l, body), polyline(&body.points, body.plate));
+            let (look, d) = (
+                self.link_classes(*l, body),
+                path_data(&body.points, body.plate),
+            );
             let id = &self.subject.mechanism.links[self.links[*l].0].id;
             match body.points.len() {
                 0 | 1 => {}
-                _ if named => sheet.group("data-link", id, [0.0; 2], |s| {
+                _ if named => sheet.draw_group("data-link", id, [0.0; 2], |s| {
                     s.path_with_tip(&look, &d, &format!("link {id}"));
                 }),
-                _ => sheet.path(&look, &d),
+                _ => sheet.draw_path(&look, &d),
             }
         }
         for &(class, [a, b]) in &picture.lines {
-            sheet.line(class, a, b);
+            sheet.draw_line(class, a, b);
         }
         for c in &picture.circles {
-            sheet.path("fine pitch", &polyline(c, true));
+            sheet.draw_path("fine pitch", &path_data(c, true));
         }
         for (marked, &p) in self.points.iter().zip(&picture.points) {
             if named {
-                sheet.group("data-point", &marked.id, [0.0; 2], |s| draw_mark(s, p));
+                sheet.draw_group("data-point", &marked.id, [0.0; 2], |s| draw_mark(s, p));
             } else {
                 draw_mark(sheet, p);
             }

@@ -15,34 +15,37 @@ pub(in crate::draw::kinematic) struct Carried<'p> {
 }
 
 impl Carried<'_> {
-    pub(in crate::draw::kinematic) fn point(&self, link: LinkId, p: Vector) -> Vector {
-        self.pose.carried(self.links, link, p)
+    pub(in crate::draw::kinematic) fn carried_point(&self, link: LinkId, p: Vector) -> Vector {
+        self.pose.carry_point(self.links, link, p)
     }
 
-    pub(in crate::draw::kinematic) fn place(
+    pub(in crate::draw::kinematic) fn carried_place(
         &self,
         link: LinkId,
         frame: LinkId,
         place: &JointInSpace,
     ) -> JointInSpace {
-        let turn = |v| self.links[frame].direction(v);
-        place.carried(self.point(link, place.point), turn)
+        let turn = |v| self.links[frame].map_direction(v);
+        place.carried_to(self.carried_point(link, place.point), turn)
     }
 }
 
 impl Kinematic<'_> {
     /// How far along its axis each joint slides from where it is at rest, over all poses; nothing for those that do not.
-    pub(in crate::draw::kinematic) fn slides(
+    pub(in crate::draw::kinematic) fn slide_ranges(
         &self,
         poses: &[Carried<'_>],
     ) -> Vec<Option<[f64; 2]>> {
         let one = |i: usize| {
             let along = self.slide_axis(i)?;
-            let (rides, guides) = self.carriers(i);
+            let (rides, guides) = self.carrier_links(i);
             let place = &self.places[i];
             let of = poses.iter().map(|c| {
-                let apart = sub3(c.point(rides, place.point), c.point(guides, place.point));
-                dot(apart, c.links[guides].direction(along))
+                let apart = sub3(
+                    c.carried_point(rides, place.point),
+                    c.carried_point(guides, place.point),
+                );
+                dot(apart, c.links[guides].map_direction(along))
             });
             Some(of.fold([0.0f64, 0.0], |[l, h], x| [l.min(x), h.max(x)]))
         };
@@ -67,7 +70,7 @@ impl Kinematic<'_> {
 
     /// The link that the symbol of a joint rides on, and the one that it slides along: a block rides on the link that is
     /// nothing else, and on any rather than on the frame; a slot is the second link's, the pin in it the first's.
-    pub(in crate::draw::kinematic) fn carriers(&self, i: usize) -> (LinkId, LinkId) {
+    pub(in crate::draw::kinematic) fn carrier_links(&self, i: usize) -> (LinkId, LinkId) {
         let joint = &self.subject.mechanism.joints[self.spots[i].joint];
         let [a, b] = joint.links;
         if joint.joint_type.freedoms().contains(&Freedom::Tx) {
@@ -97,17 +100,17 @@ impl Kinematic<'_> {
             let (Some(range), Some(axis)) = (range, self.slide_axis(i)) else {
                 continue;
             };
-            if !self.is_frame(self.carriers(i).1) {
+            if !self.is_frame(self.carrier_links(i).1) {
                 continue;
             }
             let [low, high] = range.map(|x| {
-                let flat = self.projection.view.flat(times(axis, x));
+                let flat = self.projection.view.flat_vector(times(axis, x));
                 flat.map(|c| c * self.projection.scale)
             });
             let at = self.spots[i].at;
             let rail = self.grounds.iter_mut().find(|g| one_place(g.from, at));
             if let Some(g) = rail {
-                g.lengthen(low, high);
+                g.lengthen_rail(low, high);
             }
         }
     }

@@ -7,7 +7,7 @@ use crate::model::mechanism::JointId;
 use serde_json::{Value, json};
 
 /// The ground below a joint.
-pub(in crate::draw::kinematic) fn below(reach: f64) -> Vec<Shape> {
+pub(in crate::draw::kinematic) fn ground_below(reach: f64) -> Vec<Shape> {
     let strokes = (0..5).map(|i| {
         let x = 10.0 - 5.0 * f64::from(i);
         Shape::line("fine", vec![[x, reach], [x - 4.0, reach + 6.0]])
@@ -20,7 +20,7 @@ pub(in crate::draw::kinematic) fn below(reach: f64) -> Vec<Shape> {
 impl Kinematic<'_> {
     /// Returns what a type leaves free at a joint: its freedoms in order, where slides go along axes of the second link where turns come
     /// before them.
-    pub(in crate::draw::kinematic) fn pair(&self, i: usize, of: &JointType) -> Value {
+    pub(in crate::draw::kinematic) fn pair_json(&self, i: usize, of: &JointType) -> Value {
         let joint = &self.subject.mechanism.joints[self.spots[i].joint];
         let free = of.freedoms();
         let screws = free.contains(&Freedom::Screw);
@@ -32,7 +32,7 @@ impl Kinematic<'_> {
         json!({
             "free": free.iter().map(|f| f.name()).collect::<Vec<_>>(),
             // Whether the first of the scene's two links is the joint's second.
-            "swapped": self.carriers(i).0 != joint.links[0],
+            "swapped": self.carrier_links(i).0 != joint.links[0],
             // Pixels along z for each radian about it, of a screw.
             "pitch": pitch * self.projection.scale,
         })
@@ -40,14 +40,14 @@ impl Kinematic<'_> {
 
     /// Returns a coupling between joints of a scene, in radians and pixels: the changes of the two freedoms times their
     /// factors add up to 0. Returns `None` if a joint is not drawn.
-    pub(in crate::draw::kinematic) fn tie(
+    pub(in crate::draw::kinematic) fn tie_json(
         &self,
         coupling: &Coupling,
         row: impl Fn(JointId) -> Option<usize>,
     ) -> Option<Value> {
         let [a, b] = coupling.ends;
         let unit = |f: Freedom| {
-            if f.slides() {
+            if f.is_slide() {
                 self.projection.scale
             } else {
                 1.0

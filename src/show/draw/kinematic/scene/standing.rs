@@ -1,7 +1,7 @@
 //! The symbols and shapes on the links of a scene, and the symbols of redesigns.
 
-use crate::draw::kinematic::scene::part::below;
-use crate::draw::kinematic::scene::{Scene, fine, pixels};
+use crate::draw::kinematic::scene::part::ground_below;
+use crate::draw::kinematic::scene::{Scene, round_fine, scene_pixels};
 use crate::draw::kinematic::{Kinematic, body};
 use crate::draw::place::projection::{
     self, JointInSpace, Vector, View, add, cross, dot, norm, scale, sub,
@@ -20,7 +20,7 @@ const HALF_GUIDE: f64 = 34.0;
 
 impl Kinematic<'_> {
     /// Returns a scene with everything that is fixed to links.
-    pub(super) fn scene(&self) -> Scene {
+    pub(super) fn build_scene(&self) -> Scene {
         let mut out = self.bare_scene();
         self.add_links(&mut out);
         self.add_pitch_circles(&mut out);
@@ -39,8 +39,8 @@ impl Kinematic<'_> {
         let view = &self.projection.view;
         let m = self.subject.mechanism;
         Scene {
-            view: [view.right, view.up, view.toward].map(fine),
-            upright: fine(upright(view)),
+            view: [view.right, view.up, view.toward].map(round_fine),
+            upright: round_fine(upright_axis(view)),
             origin: [0.0; 2],
             room: [0.0; 4],
             scale: self.projection.scale,
@@ -50,7 +50,7 @@ impl Kinematic<'_> {
                 .iter()
                 .map(|(l, _)| m.links[*l].id.clone())
                 .collect(),
-            frame: self.row(m.frame()),
+            frame: self.link_row(m.frame_link()),
             symbols: Vec::new(),
             joints: Vec::new(),
             couplings: Vec::new(),
@@ -67,14 +67,14 @@ impl Kinematic<'_> {
             if self.is_frame(self.links[row].0) {
                 continue;
             }
-            let body = self.body(row);
-            let class = self.look(row, &body);
+            let body = self.body_at_rest(row);
+            let class = self.link_classes(row, &body);
             match self.arc_in_space(row).or_else(|| self.bowed_in_space(row)) {
-                Some(points) => out.wire(self, row, &class, "line", &points, None),
+                Some(points) => out.add_wire(self, row, &class, "line", &points, None),
                 None => {
                     let facet = self.facets[row].clone();
                     let points = facet.unwrap_or_else(|| self.points_in_space(row));
-                    out.wire(self, row, &class, "hull", &points, None);
+                    out.add_wire(self, row, &class, "hull", &points, None);
                 }
             }
         }
@@ -87,9 +87,9 @@ impl Kinematic<'_> {
             for (end, circle) in self.pitch_circles_in_space(coupling, &self.places) {
                 let [a, b] = m.joints[coupling.ends[end].joint]
                     .links
-                    .map(|l| self.row(l));
+                    .map(|l| self.link_row(l));
                 let link = if self.is_frame(self.links[a].0) { b } else { a };
-                out.wire(self, link, "fine pitch", "loop", &circle, None);
+                out.add_wire(self, link, "fine pitch", "loop", &circle, None);
             }
         }
     }
@@ -97,11 +97,11 @@ impl Kinematic<'_> {
     /// The points of interest, which come before the joints.
     fn add_points(&self, out: &mut Scene) {
         for p in &self.points {
-            let corners = body::corners([0.0; 2]);
+            let corners = body::mark_corners([0.0; 2]);
             let mark = Shape::path("ink", corners.to_vec(), true);
-            let symbol = out.symbol(vec![Piece::on_paper(&mark)]);
-            let row = self.row(p.link);
-            let mut point = self.standing(p.place, [row; 2], symbol);
+            let symbol = out.symbol_number(vec![Piece::on_paper(&mark)]);
+            let row = self.link_row(p.link);
+            let mut point = self.standing_json(p.place, [row; 2], symbol);
             point["id"] = json!(p.id);
             out.joints.push(point);
         }
@@ -113,13 +113,13 @@ impl Kinematic<'_> {
             let spot = &self.spots[i];
             let mark = self.subject.joint_mark(spot.joint);
             let of = &m.joints[spot.joint].joint_type;
-            let symbol = out.symbol(spot.symbol.pieces(mark));
-            let (rides, guides) = self.carriers(i);
+            let symbol = out.symbol_number(spot.symbol.all_pieces(mark));
+            let (rides, guides) = self.carrier_links(i);
             let place = &self.places[i];
-            let links = [rides, guides].map(|l| self.row(l));
-            let mut joint = self.standing(place.point, links, symbol);
-            joint["axes"] = json!([place.x, place.y, place.z].map(fine));
-            joint["pair"] = self.pair(i, of);
+            let links = [rides, guides].map(|l| self.link_row(l));
+            let mut joint = self.standing_json(place.point, links, symbol);
+            joint["axes"] = json!([place.x, place.y, place.z].map(round_fine));
+            joint["pair"] = self.pair_json(i, of);
             joint["id"] = json!(m.joints[spot.joint].id);
             out.joints.push(joint);
         }
@@ -131,7 +131,7 @@ impl Kinematic<'_> {
             at.map(|n| self.points.len() + n)
         };
         let couplings = self.subject.mechanism.couplings_in(self.subject.state);
-        out.couplings = couplings.filter_map(|c| self.tie(c, row)).collect();
+        out.couplings = couplings.filter_map(|c| self.tie_json(c, row)).collect();
     }
 
     /// The ground of a joint in turned views: straight below whatever the view, with the guide of what slides in it.
@@ -140,17 +140,17 @@ impl Kinematic<'_> {
         let Some(i) = (0..self.spots.len()).find(there) else {
             return;
         };
-        let frame = self.row(self.subject.mechanism.frame());
+        let frame = self.link_row(self.subject.mechanism.frame_link());
         let place = self.places[i].point;
-        let shapes = below(self.spots[i].symbol.reach() + 6.0);
-        let symbol = out.symbol(shapes.iter().map(Piece::on_paper).collect());
-        let mut below = self.standing(place, [frame; 2], symbol);
+        let shapes = ground_below(self.spots[i].symbol.reach_of_room() + 6.0);
+        let symbol = out.symbol_number(shapes.iter().map(Piece::on_paper).collect());
+        let mut below = self.standing_json(place, [frame; 2], symbol);
         below["turned"] = json!(true);
         out.joints.push(below);
         if let Some(axis) = self.slide_axis(i) {
             let half = scale(axis, HALF_GUIDE / self.projection.scale);
             let ends = [sub(place, half), add(place, half)];
-            out.wire(self, frame, "guide", "line", &ends, None);
+            out.add_wire(self, frame, "guide", "line", &ends, None);
             if let Some(guide) = out.wires.last_mut() {
                 guide["turned"] = json!(true);
             }
@@ -158,9 +158,9 @@ impl Kinematic<'_> {
     }
 
     /// A symbol with the axes of the file, in every view.
-    fn standing(&self, at: Vector, links: [usize; 2], symbol: usize) -> Value {
+    fn standing_json(&self, at: Vector, links: [usize; 2], symbol: usize) -> Value {
         json!({
-            "at": pixels(self, at),
+            "at": scene_pixels(self, at),
             "axes": [X, Y, Z],
             // The link that carries its place, and the one that carries its axes.
             "links": links,
@@ -181,11 +181,11 @@ impl Kinematic<'_> {
         swap: &Swap<'_>,
     ) -> Option<(usize, Symbol, JointInSpace)> {
         let i = self.spots.iter().position(|s| s.joint == swap.joint)?;
-        let place = projection::turned(&swap.option.frame);
+        let place = projection::frame_in_numbers(&swap.option.frame);
         let of = &swap.option.joint_type;
         let symbol = self.symbol_of(i, of, &place);
         let spot = &mut self.spots[i];
-        spot.rect = spot.rect.with(&symbol.room.moved(spot.at));
+        spot.rect = spot.rect.with(&symbol.room.moved_by(spot.at));
         Some((i, symbol, place))
     }
 
@@ -201,16 +201,18 @@ impl Kinematic<'_> {
             let Some((i, symbol, place)) = self.make_room(swap) else {
                 continue;
             };
-            let mut parts = symbol.pieces(Mark::Changed);
+            let mut parts = symbol.all_pieces(Mark::Changed);
             if swap.unloading {
-                parts.push(Piece::on_paper(&placed::ring(symbol.reach())));
+                parts.push(Piece::on_paper(&placed::unloading_ring(
+                    symbol.reach_of_room(),
+                )));
             }
             let n = order.iter().position(|&k| k == i).unwrap_or_default();
-            let axes = [place.x, place.y, place.z].map(fine);
+            let axes = [place.x, place.y, place.z].map(round_fine);
             out.push(json!({
                 "joint": self.points.len() + n,
                 "axes": axes,
-                "symbol": scene.symbol(parts),
+                "symbol": scene.symbol_number(parts),
             }));
         }
         out
@@ -218,7 +220,7 @@ impl Kinematic<'_> {
 }
 
 /// Returns the upright axis of all views: z, or the upward direction on paper if z is not upright in this view.
-fn upright(view: &View) -> Vector {
+fn upright_axis(view: &View) -> Vector {
     let level = dot(view.right, Z).abs() < 1e-6 && norm(cross(view.toward, Z)) > 1e-3;
     let upside = dot(view.up, Z) < 0.0;
     match (level, upside) {

@@ -1,24 +1,24 @@
 //! Where joints are drawn on their axes: those that meet in a point with axes of different directions stand apart.
 
-use super::{JointInSpace, extent, frame, middle, planar};
+use super::{JointInSpace, joint_frame, places_extent, places_middle, planar_normal};
 use crate::geom::vector::{Vector, add, cross, dot, length as norm, scale, sub};
 use crate::model::joint_type::{Freedom, JointType};
 use crate::model::mechanism::{JointId, Mechanism};
 
 /// Joints as they are shown: those that meet in a point with axes of different directions are moved along them.
-pub(crate) fn places(mechanism: &Mechanism, joints: &[JointId]) -> Vec<JointInSpace> {
-    let mut out: Vec<JointInSpace> = joints.iter().map(|&j| frame(mechanism, j)).collect();
-    if planar(&out).is_some() {
+pub(crate) fn shown_places(mechanism: &Mechanism, joints: &[JointId]) -> Vec<JointInSpace> {
+    let mut out: Vec<JointInSpace> = joints.iter().map(|&j| joint_frame(mechanism, j)).collect();
+    if planar_normal(&out).is_some() {
         return out;
     }
     let crowd = CloseJoints {
         mechanism,
         joints,
-        size: extent(&out),
+        size: places_extent(&out),
         old: out.clone(),
     };
     for (i, place) in out.iter_mut().enumerate() {
-        if let Some(point) = crowd.moved(i) {
+        if let Some(point) = crowd.moved_point(i) {
             (place.point, place.moved) = (point, true);
         }
     }
@@ -35,7 +35,7 @@ struct CloseJoints<'a> {
 
 impl CloseJoints<'_> {
     /// Returns the place at which a joint is shown, or `None` if it is not moved.
-    fn moved(&self, i: usize) -> Option<Vector> {
+    fn moved_point(&self, i: usize) -> Option<Vector> {
         let (old, size) = (&self.old, self.size);
         let near = |a: Vector, b: Vector| norm(sub(a, b)) <= 1e-6 * size;
         let group: Vec<usize> = (0..old.len())
@@ -47,7 +47,7 @@ impl CloseJoints<'_> {
         let joint = &self.mechanism.joints[self.joints[i]];
         let (p, z) = (old[i].point, old[i].z);
         if matches!(joint.joint_type, JointType::Prismatic)
-            && let Some(middle) = between(self.mechanism, self.joints, old, i)
+            && let Some(middle) = middle_between(self.mechanism, self.joints, old, i)
             && !near(middle, p)
         {
             return Some(middle);
@@ -77,7 +77,7 @@ impl CloseJoints<'_> {
         // where the axes of joints on the same links meet this one
         let mut meets: Vec<f64> = (0..old.len())
             .filter(|&k| k != i && links(k).iter().any(|l| links(i).contains(l)))
-            .filter_map(|k| meet(p, z, old[k].point, old[k].z, 1e-5 * size.max(1e-12)))
+            .filter_map(|k| meeting_parameter(p, z, old[k].point, old[k].z, 1e-5 * size.max(1e-12)))
             .collect();
         meets.sort_by(f64::total_cmp);
         let (low, high) = match (meets.first(), meets.last()) {
@@ -88,13 +88,13 @@ impl CloseJoints<'_> {
             return (low + high) / 2.0;
         }
         let step = if size > 0.0 { 0.2 * size } else { 1.0 };
-        let outward = dot(sub(add(p, scale(z, low)), middle(old)), z);
+        let outward = dot(sub(add(p, scale(z, low)), places_middle(old)), z);
         low + if outward < -1e-9 * size { -step } else { step }
     }
 }
 
 /// The middle between the other joints of the two bars that a sliding pair joins.
-fn between(
+fn middle_between(
     mechanism: &Mechanism,
     joints: &[JointId],
     at: &[JointInSpace],
@@ -111,7 +111,13 @@ fn between(
 }
 
 /// Where on the line p + t·z the line q + s·w meets it.
-pub(in crate::draw) fn meet(p: Vector, z: Vector, q: Vector, w: Vector, near: f64) -> Option<f64> {
+pub(in crate::draw) fn meeting_parameter(
+    p: Vector,
+    z: Vector,
+    q: Vector,
+    w: Vector,
+    near: f64,
+) -> Option<f64> {
     let n = cross(z, w);
     let nn = dot(n, n);
     if nn < 1e-12 {

@@ -33,35 +33,35 @@ pub(crate) struct View {
 
 impl View {
     /// A vector on paper, where y goes down.
-    pub(crate) fn flat(&self, v: Vector) -> Point {
+    pub(crate) fn flat_vector(&self, v: Vector) -> Point {
         [dot(self.right, v), -dot(self.up, v)]
     }
 }
 
 impl Sight {
     /// The view that is asked for, if one is.
-    pub(super) fn view(&self) -> Option<View> {
-        let toward = unit(self.toward?, [0.0, 0.0, 1.0]);
-        let mut all = views().into_iter();
+    pub(super) fn asked_view(&self) -> Option<View> {
+        let toward = unit_or(self.toward?, [0.0, 0.0, 1.0]);
+        let mut all = all_views().into_iter();
         if let Some(view) = all.find(|v| norm(sub(v.toward, toward)) < FLAT) {
-            return Some(self.turned(view));
+            return Some(self.turned_view(view));
         }
         let equal = |x: &f64| (x.abs() - toward[0].abs()).abs() < FLAT;
         let name = match toward.iter().all(equal) {
             true => "isometric",
             false => "seen from the side asked for",
         };
-        Some(self.turned(upright(toward, name)))
+        Some(self.turned_view(upright_view(toward, name)))
     }
 
     /// A view with what goes up as it is asked for.
-    pub(super) fn turned(&self, view: View) -> View {
+    pub(super) fn turned_view(&self, view: View) -> View {
         let Some(up) = self.up else { return view };
         let right = cross(up, view.toward);
         if norm(right) <= FLAT * norm(up) {
             return view;
         }
-        let right = unit(right, view.right);
+        let right = unit_or(right, view.right);
         View {
             right,
             up: cross(view.toward, right),
@@ -71,7 +71,7 @@ impl Sight {
 }
 
 /// The views to choose from.
-pub(super) fn views() -> Vec<View> {
+pub(super) fn all_views() -> Vec<View> {
     let axes = [
         ("seen along z", X, Y, Z),
         ("seen along y", X, Z, scale(Y, -1.0)),
@@ -93,24 +93,24 @@ pub(super) fn views() -> Vec<View> {
         let (a, h): (f64, f64) = (f64::to_radians(azimuth), f64::to_radians(height));
         let toward = [a.cos() * h.cos(), a.sin() * h.cos(), h.sin()];
         let name = if n < 4 { "isometric" } else { "seen aslant" };
-        out.push(upright(toward, name));
+        out.push(upright_view(toward, name));
     }
     out
 }
 
 /// The first isometric view.
-pub(crate) fn aslant() -> View {
-    upright([1.0, 1.0, 1.0].map(|x: f64| x / 3f64.sqrt()), "isometric")
+pub(crate) fn isometric_view() -> View {
+    upright_view([1.0, 1.0, 1.0].map(|x: f64| x / 3f64.sqrt()), "isometric")
 }
 
 /// The view along z.
 pub(crate) fn along_z() -> View {
-    views()[0]
+    all_views()[0]
 }
 
 /// Towards a direction, with z going up, or y where the direction is z.
-fn upright(toward: Vector, name: &'static str) -> View {
-    let right = unit(cross(Z, toward), scale(X, toward[2].signum()));
+fn upright_view(toward: Vector, name: &'static str) -> View {
+    let right = unit_or(cross(Z, toward), scale(X, toward[2].signum()));
     View {
         right,
         up: cross(toward, right),
@@ -122,15 +122,15 @@ fn upright(toward: Vector, name: &'static str) -> View {
 
 /// Along a normal, from the side that the isometric views are on.
 pub(super) fn face_on(normal: Vector) -> View {
-    let mut all = views().into_iter();
+    let mut all = all_views().into_iter();
     if let Some(view) = all.find(|v| v.axis && norm(cross(v.toward, normal)) < FLAT) {
         return view;
     }
     let side = dot(normal, [1.0, -1.1, 1.2]);
-    upright(scale(normal, side.signum()), "seen face-on")
+    upright_view(scale(normal, side.signum()), "seen face-on")
 }
 
-pub(super) fn unit(a: Vector, or: Vector) -> Vector {
+pub(super) fn unit_or(a: Vector, or: Vector) -> Vector {
     let length = norm(a);
     if length > 1e-300 && length.is_finite() {
         scale(a, 1.0 / length)

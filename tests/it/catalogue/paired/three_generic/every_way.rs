@@ -36,7 +36,11 @@ fn least(joined: &[char], frame: usize, input: &[usize], jaws: &[usize], links: 
 pub(in super::super::super) fn code(s: &PairStructure) -> Code {
     let n = s.chain.links();
     let pairs = (0..n).flat_map(|v| (0..v).map(move |u| (u, v)));
-    let letter = |(u, v)| s.chain.between(u, v).map_or('-', PairKind::letter);
+    let letter = |(u, v)| {
+        s.chain
+            .pair_between(u, v)
+            .map_or('-', PairKind::code_letter)
+    };
     let joined = pairs.map(letter).collect_vec();
     least(&joined, s.roles.frame, &s.roles.input, &s.roles.jaws, n)
 }
@@ -133,7 +137,7 @@ pub(in super::super::super) fn grippers(
 ) -> BTreeSet<Code> {
     let letters = ['-', 'R']
         .into_iter()
-        .chain(kinds.iter().map(|k| k.letter()));
+        .chain(kinds.iter().map(|k| k.code_letter()));
     let letters = letters.collect_vec();
     let all = (0..links).collect_vec();
     let ways = (0..links * (links - 1) / 2).map(|_| letters.iter().copied());

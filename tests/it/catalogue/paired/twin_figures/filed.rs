@@ -1,6 +1,6 @@
 //! A gripper as its file has it, moved: places and turns of all links by Newton's method with difference quotients.
 
-use super::super::super::gauss;
+use super::super::super::solve_square;
 use crate::common::*;
 use std::array::from_fn;
 use toml::Table;
@@ -192,10 +192,10 @@ impl Gripper {
             match j.holds {
                 Holds::Hinge => out.extend(apart),
                 Holds::Slide => {
-                    out.push(dot(quarter(self.along(x, j, 0)), apart));
+                    out.push(dot(quarter_turn(self.along(x, j, 0)), apart));
                     out.push(ARM * (x[3 * j.links[1]] - x[3 * j.links[0]]));
                 }
-                Holds::Slot => out.push(dot(quarter(self.along(x, j, 1)), apart)),
+                Holds::Slot => out.push(dot(quarter_turn(self.along(x, j, 1)), apart)),
             }
         }
         for t in &self.teeth {
@@ -231,7 +231,7 @@ impl Gripper {
             if off.iter().all(|m| m.abs() < 1e-9) {
                 return true;
             }
-            let by = gauss(&self.columns(x, to), &off);
+            let by = solve_square(&self.columns(x, to), &off);
             x.iter_mut().zip(by).for_each(|(x, d)| *x -= d);
         }
         false
@@ -277,12 +277,12 @@ impl Gripper {
         if b.holds == Holds::Slide {
             let along = self.along(x, b, 0);
             // An arm of the pinion goes a quarter of a turn ahead of where it points.
-            let arm = scale(quarter(along), -ratio);
+            let arm = scale(quarter_turn(along), -ratio);
             return [from_fn(|k| centres[0][k] + arm[k]), along];
         }
         let apart = sub(centres[1], centres[0]);
         let share = ratio / (ratio - 1.0);
         let touch = from_fn(|k| centres[0][k] + share * apart[k]);
-        [touch, scale(quarter(apart), 1.0 / length(apart))]
+        [touch, scale(quarter_turn(apart), 1.0 / length(apart))]
     }
 }
