@@ -395,11 +395,8 @@ fn coupling_factors(
     scale: &OwnScale,
 ) -> Option<[(usize, f64); 2]> {
     let [a, b] = coupling.ends;
-    let at = |e: CoupledFreedom| {
-        columns
-            .iter()
-            .position(|c| (c.joint, c.freedom) == (e.joint, e.freedom))
-    };
+    let is_end = |c: &PoseColumn, e: CoupledFreedom| (c.joint, c.freedom) == (e.joint, e.freedom);
+    let at = |e| columns.iter().position(|c| is_end(c, e));
     let rate = match [a, b].map(|e| e.freedom.is_slide()) {
         [false, true] => scale.relative_length(&coupling.ratio),
         [true, false] => scale.scaled_rate(&coupling.ratio),
@@ -447,7 +444,6 @@ fn meeting_point(w0: [f64; 3], v0: [f64; 3], w1: [f64; 3], v1: [f64; 3]) -> [f64
     let (p0, p1) = (cross(w0, v0), cross(w1, v1));
     let d = sub(p1, p0);
     let (c, a, b) = (dot(w0, w1), dot(d, w0), dot(d, w1));
-    let s = 1.0 - c * c;
-    let (t0, t1) = ((a - c * b) / s, (c * a - b) / s);
+    let [t0, t1] = [a - c * b, c * a - b].map(|x| x / (1.0 - c * c));
     [0, 1, 2].map(|i| f64::midpoint(p0[i] + t0 * w0[i], p1[i] + t1 * w1[i]))
 }

@@ -2,6 +2,8 @@
 
 pub(in crate::draw) mod shapes;
 
+pub(super) use shapes::Shape;
+
 use crate::svg::plane::{Point, Rect, add, path_data, plane_norm, scale, sub};
 use crate::svg::text::{cut_text, text_width};
 use crate::svg::xml::{Xml, format_number};
@@ -64,53 +66,6 @@ impl Swatch {
     pub(super) fn line(class: &str) -> Swatch {
         let line = Shape::line(class, vec![[-9.0, 0.0], [9.0, 0.0]]);
         Swatch::Shapes(vec![line])
-    }
-}
-
-/// A finished piece of drawing.
-#[derive(Debug, Clone)]
-pub(super) enum Shape {
-    /// A path.
-    Path {
-        class: String,
-        points: Vec<Point>,
-        closed: bool,
-    },
-    /// A circle.
-    Circle {
-        at: Point,
-        radius: f64,
-        class: String,
-    },
-}
-
-impl Shape {
-    /// The points of a path; none of a circle.
-    pub(super) fn path_points(&self) -> &[Point] {
-        match self {
-            Shape::Path { points, .. } => points,
-            Shape::Circle { .. } => &[],
-        }
-    }
-
-    /// A path.
-    pub(super) fn path(class: impl Into<String>, points: Vec<Point>, closed: bool) -> Shape {
-        Shape::Path {
-            class: class.into(),
-            points,
-            closed,
-        }
-    }
-
-    /// An open path.
-    pub(super) fn line(class: impl Into<String>, points: Vec<Point>) -> Shape {
-        Shape::path(class, points, false)
-    }
-
-    /// A circle.
-    pub(super) fn circle(class: impl Into<String>, at: Point, radius: f64) -> Shape {
-        let class = class.into();
-        Shape::Circle { at, radius, class }
     }
 }
 

@@ -58,8 +58,12 @@ pub(super) fn dump_catalogue(file: &str) -> String {
         "counts ORDER BY structure, mobility, changes",
         "ideas ORDER BY structure, place",
     ]
-    .map(|t| query_lines(file, &format!("SELECT * FROM {t}")).join("\n"))
-    .join("\n\n")
+    .map(|t| {
+        // A table without rows is nothing found.
+        let sql = format!("SELECT * FROM {t}");
+        utf8_text(&run(&["catalog", "query", file, &sql, "--format", "csv"]).stdout)
+    })
+    .join("\n")
 }
 
 /// Small enough for a test without optimisation: structures of six links that are symmetric, and their ideas.

@@ -410,12 +410,10 @@ pub(super) fn prove_regular(
     Ok(moving.map(|m| Finite::regular_pose(m, rank, Proof::Bonds)))
 }
 
-/// Returns the mechanism with every freedom locked that is at rest in all instantaneous motions, or `None` if there are
-/// none.
+/// Returns the mechanism with every freedom locked that rests in all instantaneous motions, or `None` if none does.
 ///
 /// # Complexity
 /// One elimination of J by rows, O((6k)² f).
-#[must_use]
 fn lock_resting(
     exact: &ExactField,
     mechanism: &Mechanism,
@@ -437,10 +435,9 @@ fn lock_resting(
     }
     let mut out = mechanism.clone();
     for (j, joint) in mechanism.joint_ids().zip(&mut out.joints) {
-        let all = joint.joint_type.freedoms();
-        let kept = all.iter().copied().filter(|&f| !resting.contains(&(j, f)));
-        let kept: Vec<Freedom> = kept.collect();
-        if kept.len() < all.len() {
+        let mut kept = joint.joint_type.freedoms().to_vec();
+        kept.retain(|&f| !resting.contains(&(j, f)));
+        if kept.len() < joint.joint_type.freedoms().len() {
             joint.joint_type = JointType::Custom(kept);
         }
     }
@@ -448,9 +445,6 @@ fn lock_resting(
 }
 
 fn in_words(order: usize) -> String {
-    match order {
-        2 => "second order".to_owned(),
-        3 => "third order".to_owned(),
-        n => format!("order {n}"),
-    }
+    let words = ["second order", "third order"].get(order.wrapping_sub(2));
+    words.map_or_else(|| format!("order {order}"), |w| (*w).to_owned())
 }

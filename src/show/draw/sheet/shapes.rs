@@ -1,8 +1,59 @@
-//! Polygons and bars with round corners, their hatching, and points within them.
+//! Shapes of a drawing: paths and circles; polygons and bars with round corners, their hatching, and points within them.
 
 use crate::svg::plane::{Point, add, bounds_of, cross, dot, is_inside, scale, sub, unit};
 use crate::svg::xml::format_number;
 use std::fmt::Write as _;
+
+/// A finished piece of drawing.
+#[derive(Debug, Clone)]
+pub(in crate::draw) enum Shape {
+    /// A path.
+    Path {
+        class: String,
+        points: Vec<Point>,
+        closed: bool,
+    },
+    /// A circle.
+    Circle {
+        at: Point,
+        radius: f64,
+        class: String,
+    },
+}
+
+impl Shape {
+    /// The points of a path; none of a circle.
+    pub(in crate::draw) fn path_points(&self) -> &[Point] {
+        match self {
+            Shape::Path { points, .. } => points,
+            Shape::Circle { .. } => &[],
+        }
+    }
+
+    /// A path.
+    pub(in crate::draw) fn path(
+        class: impl Into<String>,
+        points: Vec<Point>,
+        closed: bool,
+    ) -> Shape {
+        Shape::Path {
+            class: class.into(),
+            points,
+            closed,
+        }
+    }
+
+    /// An open path.
+    pub(in crate::draw) fn line(class: impl Into<String>, points: Vec<Point>) -> Shape {
+        Shape::path(class, points, false)
+    }
+
+    /// A circle.
+    pub(in crate::draw) fn circle(class: impl Into<String>, at: Point, radius: f64) -> Shape {
+        let class = class.into();
+        Shape::Circle { at, radius, class }
+    }
+}
 
 /// Half the width of a bar.
 pub(in crate::draw) const HALF: f64 = 8.5;
