@@ -13,8 +13,10 @@ use crate::statics::contour_group::stability::{GROUPS, study_failures};
 use crate::statics::cycle;
 use crate::statics::reactions::Unsolved;
 use crate::statics::reactions::contact::object_at;
+use crate::statics::reactions::misfit::{Tolerances, misfit};
 use crate::statics::solve::{Model, SolvedReactions, StaticsError, solve_reactions};
 use crate::view::grip::clamped::NotHeld;
+use crate::view::reactions::misfit::MisfitView;
 use crate::view::statics::force_plans::force_plans_of;
 use crate::view::statics::told::{ToldReactions, ToldStatics};
 use crate::view::statics::{Structures, charts as drawn};
@@ -50,6 +52,9 @@ pub(crate) fn run_statics(args: &Global, a: &Statics) -> anyhow::Result<Done> {
     if a.groups {
         return run_groups(&m, state, a);
     }
+    if let Some(tolerances) = a.misfit {
+        return run_misfit(&m, state, tolerances, a, args.seed);
+    }
     let stroke = match &a.stroke {
         Some(text) => Some(parse_stroke(text)?),
         None => m.loads.stroke,
@@ -83,6 +88,33 @@ pub(crate) fn run_statics(args: &Global, a: &Statics) -> anyhow::Result<Done> {
     write(&m, &ToldStatics::new(&m, state, stroke, &found, methods), a)?;
     // A stroke that could not be finished is no success.
     Ok(Done::found_or_nothing(found.is_complete()))
+}
+
+/// Prints the assembly forces of inaccurate joints.
+fn run_misfit(
+    m: &Mechanism,
+    state: StateId,
+    tolerances: Tolerances,
+    a: &Statics,
+    seed: u64,
+) -> anyhow::Result<Done> {
+    ensure!(
+        a.hand_force >= 0.0 && a.hand_force.is_finite(),
+        "--hand-force must be a force in N, at least 0"
+    );
+    let view = MisfitView {
+        mechanism: m,
+        state,
+        tolerances,
+        hand: a.hand_force,
+        found: &misfit(m, state, tolerances, a.hand_force, seed)?,
+    };
+    a.write_text(match a.format {
+        StaticsFormat::Text => view.text(output::output_width(a.output.as_deref())),
+        StaticsFormat::Json => output::json_text(&view.json())?,
+        StaticsFormat::Csv => bail!("assembly forces have no CSV; use --format json"),
+    })?;
+    Ok(Done::Found)
 }
 
 /// Returns the model that the options ask for; `own` is true if the method solves groups in the plane by itself.

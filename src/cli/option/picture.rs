@@ -25,7 +25,7 @@ pub(crate) fn ensure_png() -> anyhow::Result<()> {
 
 /// Renders a drawing as PNG; reports characters that no font has.
 #[cfg(feature = "png")]
-pub(crate) fn png(drawing: &Drawing, size: Size) -> anyhow::Result<Vec<u8>> {
+pub(crate) fn render_png(drawing: &Drawing, size: Size) -> anyhow::Result<Vec<u8>> {
     let picture = crate::draw::png::png(drawing, size)?;
     if !picture.missing.is_empty() {
         let missing: String = picture.missing.iter().collect();

@@ -3,6 +3,7 @@
 
 pub(crate) mod chart;
 pub(crate) mod couplings;
+pub mod misfit;
 pub mod stroke;
 pub mod text;
 

@@ -211,7 +211,7 @@ joint = [
         for t in JointType::NAMED {
             let path = dir.path().join(format!("{t}.png"));
             let done = run(&["explain", t.name(), "-o", path.to_str().unwrap()]);
-            let said = String::from_utf8_lossy(&run_successful.stderr);
+            let said = String::from_utf8_lossy(&done.stderr);
             assert!(done.status.success(), "{t}: {said}");
             let picture = Pixmap::decode_png(&fs::read(&path).unwrap()).unwrap();
             let dark = picture.pixels().iter().filter(|p| p.red() < 150).count();
