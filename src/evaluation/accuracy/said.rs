@@ -1,6 +1,5 @@
 //! Judgement of answers against the true figures of a mechanism: right, undecided, wrong but reported as not exact, or wrong and sure.
 
-use super::study::Figure;
 use super::timing::quantile;
 use super::{AnswerVerdict, Truth};
 use crate::model::mechanism::{Mechanism, StateId};
@@ -184,4 +183,15 @@ impl Tally {
             Figure::Own(..) => self.figure,
         }
     }
+}
+
+/// The figure that is drawn against the time.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Figure {
+    /// The share of right answers, with the front of what is fastest and most often right.
+    Right,
+    /// The share of wrong answers.
+    Wrong,
+    /// The figures of the replies themselves, with what they are and the power of ten below which they count as zero.
+    Own(&'static str, i32),
 }

@@ -8,6 +8,7 @@
 mod ground_truth;
 pub mod pictures;
 pub mod record;
+pub use record::TrialEffort;
 
 use super::timing::Stopwatch;
 use crate::model::mechanism::Mechanism;
@@ -37,17 +38,6 @@ pub const MECHANISMS: [&str; 6] = [
 
 /// The budgets of nodes that are compared.
 const BUDGETS: [usize; 5] = [1_000, 10_000, 100_000, 1_000_000, 10_000_000];
-
-/// How much to do.
-#[derive(Debug, Clone, Copy)]
-pub struct TrialEffort {
-    /// Variants that brute force examines. A larger space is sampled. If 0, only budgets of nodes are compared.
-    pub looked: usize,
-    /// The pool that a ranking is judged by; `None` to go through all that could be among the best.
-    pub pool: Option<usize>,
-    /// Seconds after which no larger budget of nodes is tried.
-    pub patience: f64,
-}
 
 /// Receives the current way, the number of finished ways and their number.
 pub type Progress<'a> = &'a mut dyn FnMut(Way, usize, usize);

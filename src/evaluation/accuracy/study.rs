@@ -3,6 +3,7 @@
 
 mod conclusion;
 
+pub use super::said::Figure;
 use super::said::{Reply, Said, Tally};
 use super::timing::Clock;
 use crate::chart::{Axis, Band, Bands, Chart, Scale, Series, Style, VerdictKind, page};
@@ -45,17 +46,6 @@ pub enum View {
     Errors(u32),
     /// A point for each value of a row: a figure against its median time.
     Against(Figure),
-}
-
-/// The figure that is drawn against the time.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Figure {
-    /// The share of right answers, with the front of what is fastest and most often right.
-    Right,
-    /// The share of wrong answers.
-    Wrong,
-    /// The figures of the replies themselves, with what they are and the power of ten below which they count as zero.
-    Own(&'static str, i32),
 }
 
 /// The name of a row, with its tally at each of its values.

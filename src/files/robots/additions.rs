@@ -8,9 +8,8 @@ use crate::model::joint_type::JointType;
 use crate::robots::description::kinematics::{link_places, spanning_tree};
 use crate::robots::description::{Part, Ratio, Robot};
 use crate::robots::sdf::joints::read_joint;
-use crate::robots::sdf::named_place;
 use crate::robots::sdf::scene::{
-    Placed, SdfScene, absolute_name, insert, joint_end, moves_with, resolve_places,
+    Placed, SdfScene, absolute_name, insert, joint_end, moves_with, named_place, resolve_places,
 };
 use crate::robots::warning::{Read, list_known, unknown_name};
 use crate::robots::xml::element::Element;

@@ -7,7 +7,7 @@ pub(super) mod scene;
 pub(super) mod write;
 
 use crate::geom::rigid::RigidMotion;
-use crate::geom::vector::{length, scale};
+use crate::geom::vector::length;
 use crate::model::joint_type::JointType;
 use crate::robots::additions::{ball_constraint, leave_out, read_plugin};
 use crate::robots::description::{Part, Robot};
@@ -15,7 +15,7 @@ use crate::robots::sdf::include::Expanded;
 use crate::robots::sdf::joints::read_gearbox;
 use crate::robots::sdf::joints::{read_joint, read_weld};
 use crate::robots::sdf::scene::{
-    BESIDE, Placed, SdfScene, absolute_name, insert, joint_end, moves_with, resolve_places,
+    Placed, SdfScene, absolute_name, insert, moves_with, named_place, read_pose, resolve_places,
 };
 use crate::robots::warning::Read;
 use crate::robots::warning::{Options, Reader};
@@ -168,40 +168,6 @@ fn read_joints(mut scene: SdfScene<'_>, robot: &mut Robot) -> Read<()> {
     Ok(())
 }
 
-/// Reads the pose child: its numbers, its reference frame, and its unit.
-pub(crate) fn read_pose(e: Element<'_>) -> Read<(RigidMotion, Option<&str>)> {
-    let Some(p) = e.first_child("pose") else {
-        return Ok((RigidMotion::IDENTITY, None));
-    };
-    let relative = p
-        .attribute("relative_to")
-        .or(p.attribute("frame"))
-        .filter(|r| !r.is_empty());
-    if p.text().is_empty() {
-        return Ok((RigidMotion::IDENTITY, relative));
-    }
-    if p.attribute("rotation_format") == Some("quat_xyzw") {
-        let [a, b, c, x, y, z, w] = p.text_numbers::<7>()?;
-        return Ok((
-            RigidMotion::from_quaternion([a, b, c], [w, x, y, z]),
-            relative,
-        ));
-    }
-    let [x, y, z, roll, pitch, yaw] = p.text_numbers::<6>()?;
-    let degrees = p
-        .attribute("degrees")
-        .is_some_and(|d| ["true", "1"].contains(&d));
-    let turn = scale(
-        [roll, pitch, yaw],
-        if degrees {
-            std::f64::consts::PI / 180.0
-        } else {
-            1.0
-        },
-    );
-    Ok((RigidMotion::roll_pitch_yaw([x, y, z], turn), relative))
-}
-
 /// Takes in what a model holds; places are worked out afterwards.
 fn read_model<'a>(
     m: Element<'a>,
@@ -308,29 +274,4 @@ fn read_link<'a>(
         scene.fixed.push(link);
     }
     Ok(())
-}
-
-/// Adds a frame or joint, whose place is relative to `own` by default; a joint that shares its name has its own frame.
-pub(crate) fn named_place<'a>(
-    e: Element<'a>,
-    scope: &str,
-    own: &str,
-    shared: bool,
-    scene: &mut SdfScene<'a>,
-) -> Read<()> {
-    let mut name = format!("{scope}{}", e.required_attribute("name")?);
-    let (raw, relative) = read_pose(e)?;
-    let attached_to = if e.name() == "joint" {
-        e.check_room("joints", scene.joints.len())?;
-        scene.joints.push((e, scope.to_owned()));
-        if shared {
-            name += BESIDE;
-        }
-        absolute_name(scope, joint_end(e, "child")?.1)
-    } else {
-        let to = e.attribute("attached_to").filter(|a| !a.is_empty());
-        to.map_or_else(|| own.to_owned(), |a| absolute_name(scope, a))
-    };
-    let relative_to = relative.map_or_else(|| attached_to.clone(), |r| absolute_name(scope, r));
-    insert(scene, name, Placed::new(e, relative_to, raw, attached_to))
 }

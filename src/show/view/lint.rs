@@ -14,9 +14,8 @@ use crate::view::prelude::*;
 use crate::view::with_assumptions;
 use assembly::{describe_count, describe_then};
 use finding::LintWords;
+pub use finding::NONE;
 
-/// The verdict on a file without redundant constraints.
-pub const NONE: &str = "no redundant constraints";
 /// Notes told of how a file was read.
 const NOTES: usize = 6;
 

@@ -233,7 +233,7 @@ fn a_task_is_a_table_and_options() {
     );
     for [text, says] in read_cases::<2>(
         r#"
-        [task]\nnarrowest = 60 | task.toml:2: narrowest must be less
+        [task]\nnarrowest = 60 | task.toml:2: narrowest must be at least a millimetre less
         [task]\nwidest = 500 | task.toml:2: widest must be from 1 to 200
         [task]\nforce_ratio = 0.5 | force_ratio must be from 1
         [task]\ngrip = "above" | line 2

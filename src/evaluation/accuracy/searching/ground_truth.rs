@@ -1,7 +1,6 @@
 //! What ways of searching are judged by: a search over a prime that none of them uses, and variants examined one by one.
 
-use super::TrialEffort;
-use super::record::Share;
+use super::record::{Share, TrialEffort};
 use crate::geom::exact::ExactError;
 use crate::model::mechanism::Mechanism;
 use crate::rank::exact::field::exact_field;

@@ -246,3 +246,14 @@ pub fn trials_csv(trials: &[Trial]) -> String {
             .map(|row| row.values().map(text).collect::<Vec<_>>()),
     )
 }
+
+/// How much to do.
+#[derive(Debug, Clone, Copy)]
+pub struct TrialEffort {
+    /// Variants that brute force examines. A larger space is sampled. If 0, only budgets of nodes are compared.
+    pub looked: usize,
+    /// The pool that a ranking is judged by; `None` to go through all that could be among the best.
+    pub pool: Option<usize>,
+    /// Seconds after which no larger budget of nodes is tried.
+    pub patience: f64,
+}

@@ -2,6 +2,7 @@
 
 use crate::file::problem::ImportError;
 use crate::geom::rigid::RigidMotion;
+use crate::geom::vector::scale;
 use crate::robots::warning::{Read, list_known, unknown_name};
 use crate::robots::xml::element::Element;
 use std::collections::BTreeMap;
@@ -188,4 +189,63 @@ pub(crate) fn joint_end<'a>(e: Element<'a>, tag: &str) -> Read<(Element<'a>, &'a
     let found = e.first_child(tag).map(|c| (c, name(c)));
     let found = found.filter(|(_, name)| !name.is_empty());
     found.ok_or_else(|| e.missing_error(&format!("<{tag}> with the name of a link")))
+}
+
+/// Adds a frame or joint, whose place is relative to `own` by default; a joint that shares its name has its own frame.
+pub(crate) fn named_place<'a>(
+    e: Element<'a>,
+    scope: &str,
+    own: &str,
+    shared: bool,
+    scene: &mut SdfScene<'a>,
+) -> Read<()> {
+    let mut name = format!("{scope}{}", e.required_attribute("name")?);
+    let (raw, relative) = read_pose(e)?;
+    let attached_to = if e.name() == "joint" {
+        e.check_room("joints", scene.joints.len())?;
+        scene.joints.push((e, scope.to_owned()));
+        if shared {
+            name += BESIDE;
+        }
+        absolute_name(scope, joint_end(e, "child")?.1)
+    } else {
+        let to = e.attribute("attached_to").filter(|a| !a.is_empty());
+        to.map_or_else(|| own.to_owned(), |a| absolute_name(scope, a))
+    };
+    let relative_to = relative.map_or_else(|| attached_to.clone(), |r| absolute_name(scope, r));
+    insert(scene, name, Placed::new(e, relative_to, raw, attached_to))
+}
+
+/// Reads the pose child: its numbers, its reference frame, and its unit.
+pub(crate) fn read_pose(e: Element<'_>) -> Read<(RigidMotion, Option<&str>)> {
+    let Some(p) = e.first_child("pose") else {
+        return Ok((RigidMotion::IDENTITY, None));
+    };
+    let relative = p
+        .attribute("relative_to")
+        .or(p.attribute("frame"))
+        .filter(|r| !r.is_empty());
+    if p.text().is_empty() {
+        return Ok((RigidMotion::IDENTITY, relative));
+    }
+    if p.attribute("rotation_format") == Some("quat_xyzw") {
+        let [a, b, c, x, y, z, w] = p.text_numbers::<7>()?;
+        return Ok((
+            RigidMotion::from_quaternion([a, b, c], [w, x, y, z]),
+            relative,
+        ));
+    }
+    let [x, y, z, roll, pitch, yaw] = p.text_numbers::<6>()?;
+    let degrees = p
+        .attribute("degrees")
+        .is_some_and(|d| ["true", "1"].contains(&d));
+    let turn = scale(
+        [roll, pitch, yaw],
+        if degrees {
+            std::f64::consts::PI / 180.0
+        } else {
+            1.0
+        },
+    );
+    Ok((RigidMotion::roll_pitch_yaw([x, y, z], turn), relative))
 }

@@ -4,7 +4,6 @@ use crate::chart::{Axis, Chart, Series, Style};
 use crate::grip::clamping::HoldVerdict;
 use crate::grip::motion::StepTaken;
 use crate::model::mechanism::LengthUnit;
-use crate::view::grip::text::format_or_dash;
 use crate::view::prelude::*;
 
 /// Maximum number of rows in a text.
@@ -129,4 +128,9 @@ impl GripMotion {
             }],
         }
     }
+}
+
+/// Returns a number, or "-" if there is none.
+pub(super) fn format_or_dash(x: Option<f64>) -> String {
+    x.map_or_else(|| "-".to_owned(), four_digits)
 }

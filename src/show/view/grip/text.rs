@@ -6,6 +6,7 @@ use crate::grip::holding::Holding;
 use crate::model::claim::Topic;
 use crate::model::grip::{GripLoad, LeverDrive, PartMass, Pivots, Toward};
 use crate::view::claims;
+use crate::view::grip::motion::format_or_dash;
 use crate::view::grip::{GripReport, all_reasons};
 use crate::view::prelude::*;
 
@@ -17,11 +18,6 @@ pub(super) fn effort_of_drive(effort: f64, slides: bool) -> String {
         ("moment", "N·m")
     };
     format!("drive {what} {} {unit}", four_digits(effort))
-}
-
-/// Returns a number, or "-" if there is none.
-pub(super) fn format_or_dash(x: Option<f64>) -> String {
-    x.map_or_else(|| "-".to_owned(), four_digits)
 }
 
 impl GripReport<'_> {

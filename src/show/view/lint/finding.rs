@@ -7,8 +7,10 @@ use crate::geom::vector::Vector;
 use crate::redundancy::duplicate_constraints::HeldTwice;
 use crate::redundancy::release::{Duplicate, Release, released_type};
 use crate::robots::{ElementPlace, Origin};
-use crate::view::lint::NONE;
 use crate::view::prelude::*;
+
+/// The verdict on a file without redundant constraints.
+pub const NONE: &str = "no redundant constraints";
 
 /// Remedies told of each finding.
 const REMEDIES: usize = 3;
