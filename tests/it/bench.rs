@@ -275,7 +275,8 @@ fn studied(trials: &[Trial]) -> Vec<(String, String)> {
 #[test]
 fn charts_show_every_kind_of_way_the_brackets_and_the_pools() {
     let lift = tried(&make_lift(6), &Request::default(), EFFORT);
-    let trials = [trial_of("gripper-10"), trial_of("lever-gripper"), lift];
+    let named = ["gripper-10", "lever-gripper", "four-bar"].map(trial_of);
+    let trials = [&named[..], &[lift]].concat();
     let files = studied(&trials);
     assert_eq!(files, studied(&trials));
     let names: Vec<&str> = files.iter().map(|f| f.0.as_str()).collect();

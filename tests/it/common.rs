@@ -174,8 +174,8 @@ pub(crate) fn assert_all_nine_digits(found: [f64; 3], wanted: [f64; 3]) {
 /// Returns the place of the first line that contains this text, as errors name it: `FILE:LINE:`.
 #[track_caller]
 pub(crate) fn place_of(file: &str, content: &str, line_with: &str) -> String {
-    let line = content.lines().position(|l| l.contains(line_with)).unwrap();
-    format!("{file}:{}:", line + 1)
+    let at = content.find(line_with).unwrap();
+    format!("{file}:{}:", content[..at].matches('\n').count() + 1)
 }
 
 /// Returns a text with the first occurrence of a part replaced. The part must be there.

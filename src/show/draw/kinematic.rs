@@ -213,11 +213,12 @@ impl Kinematic<'_> {
     fn draw_at_rest(&self, sheet: &mut Sheet, picture: &MovingPicture) {
         self.draw_traces(sheet);
         self.draw_picture(sheet, picture, true);
-        for s in self.outer_first().into_iter().map(|i| &self.spots[i]) {
-            sheet.note_symbol(s.rect);
+        for i in self.outer_first() {
+            let (s, at) = (&self.spots[i], picture.at[i]);
+            sheet.note_symbol(s.rect.moved_by(sub(at, s.at)));
             let mark = self.subject.joint_mark(s.joint);
             let id = &self.subject.mechanism.joints[s.joint].id;
-            sheet.draw_group("data-joint", id, s.at, |sheet| {
+            sheet.draw_group("data-joint", id, at, |sheet| {
                 s.symbol.draw_symbol(sheet, mark);
             });
         }
