@@ -55,8 +55,8 @@ pub enum RowError {
     },
 }
 
-/// The search that a catalogue makes of each mechanism. Variants of W = 1 move as the mechanism does, so that nothing more need
-/// be asked of their outputs.
+/// Returns the search that a catalogue makes of each mechanism. Variants of W = 1 move like the mechanism, so no further condition on their
+/// outputs is needed.
 #[must_use]
 pub fn search_request(spec: &Spec) -> Request {
     Request {
@@ -69,7 +69,7 @@ pub fn search_request(spec: &Spec) -> Request {
     }
 }
 
-/// The mechanism of a file that the program made of a structure of this name.
+/// Builds the mechanism of a file that the program made of a structure with this name.
 pub(crate) fn built_mechanism(name: &str, file: &MechanismFile) -> Result<Mechanism, RowError> {
     build_mechanism(file).map_err(|found| RowError::File {
         structure: name.to_owned(),
@@ -77,7 +77,7 @@ pub(crate) fn built_mechanism(name: &str, file: &MechanismFile) -> Result<Mechan
     })
 }
 
-/// The search of a mechanism over the prime field of a number, ready to be made.
+/// Prepares the search of a mechanism over the prime field with this number.
 pub(crate) fn prepare_search(
     mechanism: Mechanism,
     spec: &Spec,

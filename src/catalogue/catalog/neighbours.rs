@@ -91,15 +91,15 @@ const FIRST_FIGURE: usize = 11;
 
 /// Returns the structures of a catalogue that are next to a structure and have as many jaws.
 ///
-/// Structures of the same chain with other roles are next to it. So are structures with two or four links less or more, if one of
-/// both is left when the other loses pairs of links in a row (`without_two_links`). Four links count only for symmetric layouts.
-/// Each half loses two links then.
+/// Structures of the same chain with other roles are next to it. So are structures with two or four links more or less. One of both is left
+/// when the other loses pairs of links in a row (`without_two_links`). Four links count only for symmetric layouts, in which each half
+/// loses two links.
 ///
 /// # Errors
 /// Returns an error if the database cannot be read.
 ///
 /// # Complexity
-/// A few canonical numberings for each layout of up to four links less or more; some fifty for symmetric ones of four more.
+/// A few canonical numberings for each layout of up to four links more or less; some fifty for symmetric ones of four more.
 pub fn find_neighbours(
     store: &Store,
     structure: &PairStructure,
@@ -220,7 +220,7 @@ impl Own {
     }
 }
 
-/// The chain in canonical numbering, its input a hinge: forms differ in how the input moves.
+/// Returns the chain in canonical numbering with a hinge as its input: forms differ in the motion of the input.
 fn hinged_chain(structure: &PairStructure) -> Chain {
     let chain = structure.chain.clone();
     chain

@@ -349,8 +349,8 @@ fn changed_types(search: &Search, idea: &Idea) -> Types {
     types.sorted().collect()
 }
 
-/// Returns the first `top` ideas that differ in what is changed, an idea and its images by the symmetry of the layout being one: those
-/// that are their own images first, then the cheapest. The cheapest of all is always among them.
+/// Returns the first `top` ideas with different changes. An idea and its images by the symmetry of the layout count as one. Ideas that are
+/// their own images come first, then the cheapest. The cheapest of all is always among them.
 fn distinct_ideas(search: &Search, ideas: Vec<Idea>, top: usize) -> Vec<Idea> {
     let spec = &search.mechanism.search;
     let image = |of: &Types| -> Option<Types> {

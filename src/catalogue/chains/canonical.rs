@@ -86,7 +86,7 @@ pub struct Canonical {
     pub automorphisms: Vec<Vec<usize>>,
 }
 
-/// Numbers a graph.
+/// Returns the canonical numbering of a graph.
 ///
 /// # Complexity
 /// One refinement for each leaf of the search; at least as many leaves as automorphisms.

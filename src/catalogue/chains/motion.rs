@@ -314,8 +314,8 @@ pub(crate) fn motions_in_way(
 /// A way in which joints that are their own images may lie, and the motion of the chain then.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct SymmetricWay {
-    /// A bit for each slide and slot that is its own mirror image, in the order of the joints: 1 for a slide across the line, or a
-    /// line of action across it.
+    /// A bit for each slide and slot that is its own mirror image, in the order of the joints. The bit is 1 for a slide or a line of action
+    /// normal to the line of symmetry.
     pub bits: u32,
     /// The motion, the frame at rest.
     pub motion: Vec<Velocity>,

@@ -249,8 +249,8 @@ impl<'a> Subject<'a> {
         self.iter_swaps(roles).next().is_some()
     }
 
-    /// Returns the automorphisms that keep frame and input joint, carry each jaw to the next, and carry every link back after as many
-    /// steps as there are jaws.
+    /// Returns the automorphisms that keep frame and input joint and carry each jaw to the next. After as many steps as there are jaws,
+    /// every link is carried back.
     pub fn iter_swaps<'b>(&'b self, roles: &'b Roles) -> impl Iterator<Item = &'b Vec<usize>> {
         let all = self.automorphisms.iter().copied();
         all.filter(|s| {

@@ -165,7 +165,7 @@ impl<'a> DrawnJoints<'a> {
         }
         let thirds = at.thirds;
         let turn = |d: &[Coordinate; 3]| direction_turned(d, self.pivot, thirds);
-        // What a third of a turn carries to each other has options that it carries to each other.
+        // Joints that are images by a third of a turn have options that are images, too.
         let hinge = kind == "revolute";
         let ahead = (hinge && thirds > 0).then(|| [1, 0, 0].map(Coordinate::Integer));
         let in_series = joint.pair == PairKind::Hinge && !input && !menu.unloading.is_empty();

@@ -233,7 +233,7 @@ impl Rules {
                 ..Place::of_point(points[of])
             },
             _ if self.hinges => Place::of_point(points[joint]),
-            // Pitch points are not whole, but no joint of the file is there.
+            // Pitch points are not whole, but the file has no joint at them.
             _ => Place::of_point(points[joint].map(f64::round)),
         }
     }

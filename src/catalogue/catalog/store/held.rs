@@ -63,12 +63,12 @@ impl Store {
         self.check_result(self.db.query_row(sql, of, |r| r.get(0)).optional())
     }
 
-    /// Changes the file.
+    /// Executes a statement that modifies the file.
     pub(super) fn change(&self, sql: &str, of: impl Params) -> Stored<()> {
         self.check_result(self.db.execute(sql, of)).map(drop)
     }
 
-    /// Changes the file in one transaction: all at once, or not at all.
+    /// Modifies the file in one transaction: completely, or not at all.
     fn transact(
         &mut self,
         change: impl FnOnce(&Transaction<'_>) -> rusqlite::Result<()>,

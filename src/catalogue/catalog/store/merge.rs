@@ -68,7 +68,7 @@ impl Store {
         mut refuse: impl FnMut(StoreError),
     ) -> Stored<Merged> {
         let mut merged = Merged::default();
-        // It is opened once, as opening looks at all of it, and anew after a part was refused.
+        // The file is opened once, since opening reads all of it, and again after a part was refused.
         let mut whole: Option<Store> = None;
         for part in parts {
             match merged.take_in(path, whole.take(), part) {
@@ -83,7 +83,7 @@ impl Store {
         Ok(merged)
     }
 
-    /// Marks a part as complete, with its number of structures.
+    /// Records that a part is complete, with its number of structures.
     ///
     /// # Errors
     /// Returns an error if the file cannot be written.
@@ -186,7 +186,7 @@ mod tests {
         assert_eq!(words(&["1/3", "3/3"]), "2/3");
         assert_eq!(words(&["1/2", "2/4", "4/4"]), "");
         assert_eq!(words(&["1/2", "2/4"]), "4/4");
-        // Every piece that is missing is in one of the parts named, and none of these is there.
+        // Every missing piece is in one of the named parts, none of which is in the file.
         let there: Vec<Shard> = ["1/2", "3/3"].map(|p| p.parse().unwrap()).into();
         let gone = missing_shards(&there);
         for piece in 0..200 {

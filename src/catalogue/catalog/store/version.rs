@@ -146,7 +146,7 @@ pub(super) fn make_tables(db: &Connection) -> rusqlite::Result<()> {
 /// A gear pair, or a rack and its pinion, in thousandths: two parts with teeth, and their distance is to be kept.
 const TEETH_MILLI: i64 = 3000;
 
-/// The price of each part by its name.
+/// Returns the price of each part by its name.
 fn part_prices() -> [(&'static str, f64); 5] {
     #[allow(clippy::cast_precision_loss, reason = "a few thousand")]
     let whole = |milli: i64| milli as f64 / 1000.0;

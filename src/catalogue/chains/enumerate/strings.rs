@@ -1,5 +1,5 @@
-//! The numbers of joints of each string of a chain: every distribution of joints over the edges of a contracted graph without a
-//! rigid part, once up to the graph's symmetries.
+//! The numbers of joints of each string of a chain. These are all distributions of joints over the edges of a contracted graph without a
+//! rigid part, each once up to the graph's symmetries.
 
 use crate::chains::canonical::{Weighted, number_graph};
 use crate::chains::enumerate::contracted::repeated_edges;
