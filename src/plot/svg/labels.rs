@@ -59,7 +59,7 @@ const GAP: f64 = 2.0;
 const NEAR: f64 = 9.0;
 const ANGLES: usize = 24;
 
-/// Places the labels one by one; none touches what is taken or one placed before. Each joins what is taken.
+/// Finds a place for each label in turn. A label overlaps neither the boxes in `taken` nor earlier labels, and is added to `taken`.
 pub fn place_labels(
     wishes: &[Wish],
     taken: &mut Vec<Rect>,
@@ -130,7 +130,7 @@ fn best_place(wish: &Wish, taken: &[Rect], lines: &[AvoidedLine]) -> LabelPlace 
     best.map_or_else(outside, |(_, place)| place)
 }
 
-/// The box whose distance from the anchor is `away`, in a direction.
+/// Returns the box whose distance from the anchor is `away`, in a direction.
 fn beside_anchor(wish: &Wish, angle: f64, away: f64) -> Rect {
     let (w, h) = (wish.width / 2.0, wish.height / 2.0);
     let (x, y) = (angle.cos(), angle.sin());
@@ -164,7 +164,7 @@ fn crossed_weight(rect: &Rect, lines: &[AvoidedLine]) -> f64 {
     on.map(|l| l.weight).sum()
 }
 
-/// How bad a leader is for what it crosses.
+/// Returns the cost of a leader that crosses boxes and lines.
 fn leader_cost(a: Point, b: Point, anchor: Point, taken: &[Rect], lines: &[AvoidedLine]) -> f64 {
     let boxes = taken
         .iter()
