@@ -1,5 +1,5 @@
-//! Mechanism files: one schema for TOML and JSON, read into a validated mechanism with every problem pointed at, written
-//! back, looked over, changed with their comments kept, and made into templates.
+//! Mechanism files: one schema for TOML and JSON. Files are read into a validated mechanism, with the place of every problem. They can be
+//! written back, checked, changed with their comments kept, and made into templates.
 
 pub mod costs;
 mod digits;

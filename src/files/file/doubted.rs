@@ -1,5 +1,5 @@
-//! Doubtful values of a file: ratios and pitches that are written as decimals and are nearly fractions, and directions of options
-//! that are not given and default to the joint's own, where they have another meaning.
+//! Doubtful values of a file: ratios and pitches that are written as decimals and are nearly fractions. Also directions of options that are
+//! omitted and default to the joint's own, if they have another meaning there.
 
 use crate::file::locate::DocumentPath;
 use crate::file::problem::{Found, WarningKind, first_of};

@@ -113,8 +113,8 @@ fn weld_links(e: Element<'_>, names: &[String; 2], scene: &SdfScene<'_>, robot: 
     robot.joints.push(part);
 }
 
-/// Omits an element of unknown meaning. It is counted if it could close a loop or couple joints: if its name suggests it, or if
-/// it names several links or joints of the robot. `own` is its parent joint, which it may name.
+/// Omits an element of unknown meaning. It is counted if its name suggests that it closes a loop or couples joints, or if it names several
+/// links or joints of the robot. `own` is its parent joint, which it may name.
 pub(crate) fn leave_out(e: Element<'_>, own: Option<&str>, robot: &mut Robot) {
     let kind = kind_of(e);
     let has = |words: &str| words.split(' ').any(|w| kind.contains(w));

@@ -171,7 +171,7 @@ pub(crate) fn end_of(e: Element<'_>) -> usize {
 pub(crate) fn free_urdf(origin: &Origin, all: &[Freeing<'_>], edits: &mut Edits<'_>) -> Read<()> {
     let light = Light::in_description(&origin.document).write_urdf();
     for &(part, e, freed) in all {
-        // A loop's first link has the place of the loop in its own attributes, a joint in an element of its own.
+        // The first link of a loop states its place in its own attributes, a joint in a separate element.
         let (tag, at) = match e.name() {
             "joint" => ("parent", e.first_child("origin")),
             _ => ("link1", e.first_child("link1")),

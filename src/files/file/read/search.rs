@@ -86,8 +86,8 @@ fn read_allowed_option(
     .then_some(option)
 }
 
-/// Joints that are off by more than this, as an angle and as a fraction of the mechanism's size, are not mirror images,
-/// regardless of the rounding of their coordinates.
+/// Joints that differ by more than this are not mirror images, regardless of the rounding of their coordinates. As an angle in radians, and
+/// as a fraction of the mechanism's size.
 const NO_IMAGE: f64 = 1e-3;
 
 /// Reports pairs that are not mirror images.

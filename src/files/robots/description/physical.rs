@@ -121,7 +121,7 @@ impl Light {
             let most = all.iter().copied().fold(0.0, f64::max);
             let own = all.iter().copied().filter(|x| *x > STAND_IN * most);
             let least = own.fold(f64::INFINITY, f64::min);
-            // A power of ten reads well, and nobody takes it for a measured mass.
+            // A power of ten is easy to read, and cannot be mistaken for a measured mass.
             let thousandth = format!("1e{}", (least / 1000.0).log10().floor());
             let thousandth = thousandth.parse().unwrap_or(MOST[which]);
             thousandth.clamp(LEAST[which], MOST[which])

@@ -208,7 +208,7 @@ fn follow_names<'a>(
         at = resolve_link(at, documents, &mut out)?;
         let found = documents.document_of(at.file).and_then(|o| o.get(name));
         if is_body(&at.object) || name.is_empty() {
-            // Features of a body; the last that is there has the shape.
+            // Features of a body; the last existing one has the shape.
             out.shape = found
                 .and_then(Object::shape_member)
                 .filter(|_| at.file.is_empty())

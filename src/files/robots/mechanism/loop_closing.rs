@@ -9,8 +9,8 @@ use ozols_dense::{Matrix, solve_positive};
 
 /// A loop that is open by less than this fraction of the robot's size counts as closed: coordinates are rounded.
 pub(crate) const CLOSED: f64 = 1e-6;
-/// A loop that no motion of the joints closes further, and that is open by less than this fraction, also counts as closed: if
-/// constraints are redundant, rounded coordinates contradict each other in their last digit. It is reported.
+/// A loop that is open by less than this fraction also counts as closed if no motion of the joints closes it further. With redundant
+/// constraints, rounded coordinates contradict each other in their last digit. It is reported.
 pub(crate) const ROUNDED: f64 = 5e-4;
 /// Most unknowns; beyond them a pose has to be given.
 const MAX_UNKNOWNS: usize = 600;

@@ -92,7 +92,7 @@ fn option_table(kind: &JointType, more: &[(bool, Vector)]) -> OptionEntry {
         JointType::Fixed => String::new(),
         t => format!("{} + ", t.name()),
     };
-    // With one more freedom it has a name of its own.
+    // With one more freedom it has a separate name.
     let named = match (kind, more) {
         (JointType::Spherical, [(true, _)]) => Some(JointType::SphereInCylinder),
         (JointType::Fixed, [(true, _)]) => Some(JointType::Prismatic),

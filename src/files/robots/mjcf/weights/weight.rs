@@ -261,7 +261,7 @@ mod tests {
     use super::*;
     use crate::geom::vector::{X, Z};
 
-    // Two points of 1 kg on x, a metre apart, each in axes of its own: as one they resist about y and z alone.
+    // Two points of 1 kg on x, a metre apart, each in its own axes: together they have inertia about y and z only.
     #[test]
     fn weights_add_up() {
         let end = |x: f64| Weight {
