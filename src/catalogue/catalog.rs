@@ -29,7 +29,7 @@ use itertools::Itertools;
 use std::sync::Arc;
 use thiserror::Error;
 
-/// Why there is no row, through no fault of the structure.
+/// Why there is no row, for a reason that is not a property of the structure.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum RowError {

@@ -102,7 +102,7 @@ fn paired_work(spec: &Spec) -> Result<Vec<Structure>, BuildError> {
     Ok(all.filter(|p| !p.is_hinged()).collect())
 }
 
-/// What structures of pairs are made of.
+/// Components of structures of pairs.
 struct Pairs {
     kinds: Vec<PairKind>,
     most: usize,

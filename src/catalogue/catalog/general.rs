@@ -175,7 +175,7 @@ impl General {
     /// All layouts of the pair must be asked for equally many.
     ///
     /// # Complexity
-    /// That of looking for them, once for each way in which the links of the pair are frame, jaws and rods.
+    /// That of a search for ideas, once for each way in which the links of the pair are frame, jaws and rods.
     pub(super) fn cached_ideas(&self, search: &Search, top: usize) -> Vec<Idea> {
         let basis = search.idea_basis();
         // An entry of a thread that panicked is complete.

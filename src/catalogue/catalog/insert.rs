@@ -191,7 +191,7 @@ fn insert_stroke(t: &Transaction<'_>, id: &str, laid: &Laid) -> rusqlite::Result
     )
 }
 
-/// Enters the planes in which the links pass each other, where they were looked for.
+/// Inserts the layers in which the links pass each other, if they were searched for.
 fn insert_planes(t: &Transaction<'_>, id: &str, stacking: &Stacking) -> rusqlite::Result<()> {
     let (planes, links) = match stacking {
         Stacking::NotAsked => return Ok(()),

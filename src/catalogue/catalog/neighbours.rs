@@ -178,7 +178,7 @@ impl Figure {
     }
 }
 
-/// A structure, and the keys of what is left of it without two links and without four.
+/// A structure, and the keys of the structures that remain without two links and without four.
 struct Own {
     links: usize,
     chain: Chain,

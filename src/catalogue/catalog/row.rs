@@ -39,7 +39,7 @@ pub struct StructureRow {
     pub structure: Structure,
     /// Number of jaws that are joined to the frame.
     pub jaws_at_frame: usize,
-    /// Whether it makes a truss with a part hinged to both jaws, where there are two and all its joints are hinges but the input.
+    /// Whether it makes a truss with a part hinged to both jaws. Only for two jaws, if all joints except for the input are hinges.
     pub truss: bool,
     /// Whether its graph is symmetric, jaw for jaw.
     pub graph_symmetric: bool,
@@ -333,10 +333,10 @@ pub(super) fn ideas_of(outcome: &Outcome, top: usize) -> Vec<IdeaRow> {
 /// Number of ideas examined per idea kept: many differ only in directions, or are not symmetric.
 const SEEN: usize = 5;
 
-/// The joints that an idea changes, each with the type that is put there and what is put in series with it.
+/// The joints that an idea changes, each with its new type, and the joint put in series with it.
 type Types = Vec<(JointId, &'static str, Option<usize>)>;
 
-/// Returns what an idea changes, without the directions of joints.
+/// Returns the changes of an idea, without the directions of joints.
 fn changed_types(search: &Search, idea: &Idea) -> Types {
     let chosen = search.space.variables.iter().zip(&idea.first.choices);
     let types = chosen.filter(|(_, c)| **c != 0).flat_map(|(v, &c)| {

@@ -6,9 +6,8 @@
 //! A hinge is two rows at a point. A slide means equal turns and no motion across a direction. A gear pair or a slot is one
 //! row, a line of action. Two slots are two such rows, equivalent to two at the point where these lines meet.
 //!
-//! If a symmetry carries a joint to itself, its place is special. A hinge lies on the mirror line. A slide goes along it or
-//! across, and a line of action lies on it or goes across. Gears are swapped, and their pitch point lies on it. Two slots are
-//! never their own image.
+//! If a symmetry maps a joint to itself, its place is special. A hinge lies on the mirror line. A slide is along the line or normal to it,
+//! and so is a line of action. Gears are swapped, and their pitch point lies on the line. Two slots are never their own image.
 
 use crate::chains::chain::{Chain, Joint, carry_links};
 use crate::chains::{PairKind, Symmetry};
@@ -342,7 +341,7 @@ pub(crate) fn symmetric_ways(chain: &Chain, symmetry: Swap<'_>, frame: usize) ->
 /// Returns the motions of [`symmetric_ways`].
 ///
 /// # Complexity
-/// As there.
+/// As [`symmetric_ways`].
 #[must_use]
 pub(crate) fn symmetric_motions(
     chain: &Chain,

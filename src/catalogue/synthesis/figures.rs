@@ -23,7 +23,7 @@ pub enum JawMotion {
     Parallel,
     /// It turns about a hinge in the frame.
     Swinging,
-    /// It turns, and no point of it stands still.
+    /// It turns, and no point of it is fixed.
     Floating,
 }
 

@@ -232,7 +232,7 @@ impl Bones {
         let even = (fastest / slowest.max(1e-9 * fastest)).max(1.0).ln();
         out.penalty +=
             8.0 * beyond_limit(0.8 - straightness, 0.8) + 0.5 * beyond_limit(even - 0.5, 1.0);
-        // The drive: a millimetre for half to four millimetres of closing, a radian for 15 to 120; less where the force asks for it.
+        // The drive: a millimetre for half to four millimetres of closing, a radian for 15 to 120; less if the force requires it.
         let unit = if self.turns { 30.0 } else { 1.0 };
         let wanted = match least_force {
             0.0 => 1.5,

@@ -21,7 +21,7 @@ use crate::synthesis::velocities::Contours;
 pub struct Sketch<'a> {
     /// The structure.
     pub structure: &'a Structure,
-    /// Which joints may be placed.
+    /// The rules for the places of joints.
     pub rules: Rules,
     /// The points of its links.
     pub bones: Bones,
@@ -107,16 +107,16 @@ impl<'a> Sketch<'a> {
     }
 }
 
-/// The radius of the largest wheel that costs nothing, in millimetres.
+/// The radius of the largest wheel without a cost, in millimetres.
 const LARGE: f64 = 25.0;
-/// The radius of the smallest pinion that costs nothing, in millimetres.
+/// The radius of the smallest pinion without a cost, in millimetres.
 const SMALL: f64 = 8.0;
 
 impl Sketch<'_> {
     /// Returns the cost of places. `None` if it is more than `most`, or if motion is included and the pose is singular.
     ///
     /// # Complexity
-    /// That of the crossings that are new, and with motion an elimination.
+    /// That of the new crossings, and with motion an elimination.
     #[must_use]
     pub fn place_penalty(
         &self,

@@ -57,8 +57,8 @@ impl Merged {
 }
 
 impl Store {
-    /// Adds the missing structures from other catalogues of the same specification. A part that cannot be merged goes to `refuse`
-    /// and does not affect the others.
+    /// Adds the missing structures from other catalogues of the same specification. A part that cannot be merged is passed to `refuse` and
+    /// does not affect the others.
     ///
     /// # Errors
     /// Returns an error if the merged file cannot be read.

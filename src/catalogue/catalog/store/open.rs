@@ -62,7 +62,7 @@ impl Store {
     /// Opens a catalogue of a specification to continue it, or creates it.
     ///
     /// # Errors
-    /// Returns an error if the file is something else, or holds another catalogue.
+    /// Returns an error if the file is not a catalogue, or holds another one.
     pub fn open_or_create(path: &Path, spec: &Spec) -> Stored<Store> {
         Store::writable_of(path, Some(&spec.to_canonical()))
     }
@@ -70,7 +70,7 @@ impl Store {
     /// Opens a catalogue for writing, or creates an empty one.
     ///
     /// # Errors
-    /// Returns an error if the file is something else.
+    /// Returns an error if the file is not a catalogue.
     pub fn open_writable(path: &Path) -> Stored<Store> {
         Store::writable_of(path, None)
     }

@@ -24,7 +24,7 @@ pub(super) struct Strings {
     images: Vec<Vec<usize>>,
 }
 
-/// Joints that a loop takes away: a part with J joints and k loops has the mobility J - 3k, which must be at least 1.
+/// Mobility that a loop removes: a part with J joints and k loops has the mobility J - 3k, which must be at least 1.
 const LOOP: usize = 3;
 
 /// The joints given to strings so far.

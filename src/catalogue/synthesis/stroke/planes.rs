@@ -4,7 +4,6 @@
 //! The frame is a plate behind all links, or one behind and one in front. A link is the hull of its points: a bar or a plate with room for
 //! a pin all around. Wheels and the flanks of slots are omitted. If a link lies over a tip, pads in front of all layers hold the part, and
 //! nothing may be in front of the pads.
-//! all, by pads that nothing is in front of.
 
 use crate::geom::vector::{length, sub};
 use crate::synthesis::bones::Bones;
