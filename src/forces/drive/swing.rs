@@ -24,7 +24,7 @@ pub struct Disc {
 pub struct Feed {
     /// Its work. `[J]`
     pub energy: f64,
-    /// The position where it begins. `[rad]`
+    /// The position at its beginning. `[rad]`
     pub from: f64,
 }
 
@@ -54,7 +54,7 @@ pub struct Latch {
 /// End of a swing.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum End {
-    /// At the latch, where the remaining speed is lost. `[J]`
+    /// At the latch, which stops the remaining speed. `[J]`
     Latched {
         /// Kinetic energy on arrival.
         impact: f64,

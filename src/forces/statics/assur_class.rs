@@ -18,7 +18,7 @@ pub enum Kind {
     /// Two bodies with three pairs and two with two between them, in a closed contour: `[Bychkov, Dvornikov & Zhukov
     /// 2018]`.
     FourLinkContour,
-    /// Anything else.
+    /// Any other group.
     Other,
 }
 

@@ -93,7 +93,7 @@ pub struct Statics {
     pub loaded: bool,
     /// Results position by position.
     pub moments: Vec<Moment>,
-    /// Position where the motion ended early, if it did.
+    /// Position at which the motion ended early, if it did.
     pub dead: Option<DeadPoint>,
 }
 

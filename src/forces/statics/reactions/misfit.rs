@@ -1,5 +1,4 @@
-//! What inaccurate joints cost in assembly: the forces that close the loops of a redundant mechanism whose joints are made and
-//! mounted within tolerances.
+//! Assembly forces of inaccurate joints. They close the loops of a redundant mechanism whose joints are made and mounted within tolerances.
 //!
 //! Each joint has a random shift and turn. Reactions of elastic joints are linear in them, r = R·e, so one solution for each component of e
 //! gives the matrix R. For independent errors with variances Σ, the covariance of the reactions is R·Σ·Rᵀ. Without redundant constraints R
