@@ -65,7 +65,7 @@ fn too_long(limit: usize) -> io::Error {
     )
 }
 
-/// A file, identified independently of its name where possible.
+/// A file, identified independently of its name if possible.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
 enum FileId {
     /// Its device and inode number, which only Unix systems report.

@@ -56,7 +56,7 @@ const SHOWN: usize = 8;
 /// A guessed direction of an option at a joint: the direction, what it is taken along, and the key that would set it.
 type Guess = (&'static str, &'static str, &'static str);
 
-/// Lists each option with guessed directions once, with the joints where it has them.
+/// Lists each option with guessed directions once, with the joints that have it.
 pub(crate) fn find_guessed(file: &MechanismFile, m: &Mechanism) -> Found {
     let mut found: Vec<(DocumentPath, String, Guess, Vec<&str>)> = Vec::new();
     for (i, (entry, joint)) in file.joint.iter().zip(&m.joints).enumerate() {

@@ -88,7 +88,7 @@ pub fn mechanism_file(m: &Mechanism) -> MechanismFile {
 pub struct Comment {
     /// The table's name, such as "joint".
     table: &'static str,
-    /// Which of the tables of that name.
+    /// Its index among the tables of that name.
     index: usize,
     /// The words.
     text: String,

@@ -53,8 +53,7 @@ pub(crate) fn add_coupling(e: Element<'_>, joints: [&str; 2], ratio: f64, robot:
     robot.couplings.push(Ratio::new(joints, ratio, e));
 }
 
-/// Reads a plugin: one that makes a joint follow another couples them, and one that joins links until it is told to detach welds
-/// them.
+/// Reads a plugin. A plugin that makes a joint follow another couples them. One that joins links until they are detached welds them.
 ///
 /// # Errors
 /// Returns an error if a multiplier is not a number.
@@ -89,7 +88,7 @@ pub(crate) fn read_plugin(
     Ok(())
 }
 
-/// Welds two links where they are drawn. A weld of a missing link is omitted and counted.
+/// Welds two links in their drawn places. A weld of a missing link is omitted and counted.
 fn weld_links(e: Element<'_>, names: &[String; 2], scene: &SdfScene<'_>, robot: &mut Robot) {
     let [Ok((a, at)), Ok((b, _))] = names.each_ref().map(|n| moves_with(scene, n)) else {
         let [a, b] = names;
@@ -239,7 +238,7 @@ fn names_world(joint: Element<'_>) -> bool {
         .any(|t| joint_end(joint, t).is_ok_and(|(_, name)| name == "world"))
 }
 
-/// Returns the links where they are drawn.
+/// Returns the links in their drawn places.
 fn place_links<'a>(root: Element<'a>, robot: &Robot) -> Read<SdfScene<'a>> {
     let mut scene = SdfScene::default();
     scene.world = robot.links.iter().position(|l| l == "world").unwrap_or(0);

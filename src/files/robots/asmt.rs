@@ -18,9 +18,9 @@ const HEADS: [(&str, Unit); 2] = [
     ("OndselSolver", Unit::Millimetre),
     ("freeCAD: 3D CAD", Unit::Metre),
 ];
-/// Rows of results, behind all that is read.
+/// Rows of results, after all rows that are read.
 const RESULTS: &str = "TimeSeries";
-/// Labels of joints that contacts have, which hold nothing until parts touch.
+/// Labels of the joints of contacts, which constrain nothing until parts touch.
 const CONTACT: &str = "Contact";
 
 /// Returns true if a text is an assembly of OndselSolver, judged by its first line.

@@ -16,9 +16,9 @@ use crate::robots::cad::meet::{Meeting, find_meeting};
 use crate::robots::description::{Part, Robot, Unit, free_joint};
 use crate::robots::warning::{CadCount, Options};
 
-/// Frames that are apart by less than this, as a share of the assembly's size and in radians, meet: solvers leave so much.
+/// Frames meet if they are apart by less than this, as a share of the assembly's size and in radians: solvers are as accurate as this.
 const MEET: f64 = 1e-4;
-/// Less than this is rounding of the last digits.
+/// Smaller values are rounding errors of the last digits.
 const ROUNDED: f64 = 1e-9;
 /// Joint types that a search may use instead of a joint: those of CAD programs.
 const OPTIONS: [JointType; 3] = [

@@ -14,16 +14,16 @@ use crate::robots::xml::element::Element;
 use std::collections::BTreeMap;
 use std::ops::Range;
 
-/// The freedoms that a joint gets: whether each slides, its direction in the world, and why, in words.
+/// The freedoms that a joint gets: whether each slides, its direction in the world, and the reason, in words.
 pub(crate) type Freed<'a> = &'a [(bool, Vector, String)];
 
-/// A joint that gets freedoms, and the element that it is.
+/// A joint that gets freedoms, and its element.
 pub(crate) type Freeing<'a> = (&'a Part, Element<'a>, Freed<'a>);
 
 /// Changes to the text of a description.
 pub(crate) struct Edits<'a> {
     origin: &'a Origin,
-    /// File, what is replaced there, and by what.
+    /// File, replaced range, and replacement.
     list: Vec<(usize, Range<usize>, String)>,
     /// Lines to insert as the last children of an element.
     children: BTreeMap<usize, Vec<String>>,

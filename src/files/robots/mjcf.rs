@@ -21,7 +21,7 @@ use crate::robots::xml::Document;
 use crate::robots::xml::element::Element;
 use std::collections::BTreeMap;
 
-/// Sections that hold nothing together: what equalities take of them is looked up there.
+/// Sections without constraints; equalities look up in them what they use.
 const SECTIONS: &str = "asset contact custom extension keyframe option sensor size statistic \
     tendon visual";
 

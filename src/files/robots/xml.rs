@@ -12,11 +12,11 @@ use std::ops::Range;
 
 /// Largest file, in bytes.
 pub(crate) const MAX_BYTES: usize = 64 << 20;
-/// Deepest nesting.
+/// Maximum nesting depth.
 pub(crate) const MAX_DEPTH: usize = 4000;
-/// Most elements.
+/// Maximum number of elements.
 pub(crate) const MAX_ELEMENTS: usize = 500_000;
-/// Most attributes of one element, and of all together.
+/// Maximum number of attributes of one element, and of all together.
 const MAX_ATTRIBUTES: (usize, usize) = (256, 1_000_000);
 
 /// A file's name and text.
@@ -185,7 +185,7 @@ fn no_control(text: &str, layout: &[char]) -> Result<(), Located> {
     })
 }
 
-/// Refuses one more element so deep, behind so many, or behind so many attributes.
+/// Checks that one more element keeps the limits of depth, of elements and of attributes.
 fn few_enough(depth: usize, elements: usize, attributes: usize) -> Result<(), ProblemKind> {
     if depth >= MAX_DEPTH {
         return Err(too_deep(MAX_DEPTH));

@@ -18,7 +18,7 @@ use crate::model::mechanism::{
 use itertools::Itertools;
 use std::collections::BTreeSet;
 
-/// Most states of a mechanism.
+/// Maximum number of states of a mechanism.
 const MOST_STATES: usize = 100;
 
 /// Returns the names of the states, `free` first.

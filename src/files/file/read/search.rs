@@ -168,7 +168,7 @@ pub(crate) fn read_search(
     spec
 }
 
-/// Most terms and limits.
+/// Maximum number of terms, and of limits.
 const MOST: usize = 100;
 
 fn read_term(word: &str, at: &Place<'_>) -> Option<Term> {

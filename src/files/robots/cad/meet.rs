@@ -276,8 +276,8 @@ fn distance_joint(holds: Holds, i: &RigidMotion, j: &RigidMotion) -> Result<Meet
     }))
 }
 
-/// Returns the contact of two gears at the pitch point of the line of centres, where they do not slip across that line. The pitch
-/// point of a belt is outside.
+/// Returns the contact of two gears at the pitch point on the line of centres. They do not slip normal to that line. The pitch point of a
+/// belt is outside.
 fn gear_joint(i: &RigidMotion, j: &RigidMotion, [a, b]: [f64; 2]) -> Result<Meeting, &'static str> {
     use Freedom::{Rx, Ry, Tx, Ty, Tz};
     let z = frame_axis(i, 2);

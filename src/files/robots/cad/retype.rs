@@ -35,7 +35,7 @@ const SIMPLE: [([Left; 2], SimpleType); 6] = [
     ([Left::Along, Left::All], ("Parallel", "ParallelAxesJoint")),
 ];
 
-/// Which turns, or which slides, a joint leaves.
+/// The turns, or the slides, that a joint allows.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Left {
     None,

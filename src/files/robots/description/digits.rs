@@ -1,4 +1,4 @@
-//! How well the places of a robot are known: by the digits of the numbers that they are calculated from.
+//! Accuracy of the places of a robot, by the digits of the numbers from which they are calculated.
 
 use crate::file::schema::{Coordinate, ToleranceEntry};
 use crate::geom::expr::Expr;

@@ -134,7 +134,7 @@ pub(crate) struct Defaults<'a> {
     classes: BTreeMap<&'a str, (Option<&'a str>, Vec<Element<'a>>)>,
 }
 
-/// The places where an element's attributes are looked up: itself, then its classes from the innermost out.
+/// The elements in which an element's attributes are looked up: itself, then its classes from the innermost out.
 #[derive(Debug)]
 pub(crate) struct Lookup<'a> {
     places: Vec<Element<'a>>,

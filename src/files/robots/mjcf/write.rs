@@ -100,7 +100,7 @@ struct MjcfWriter<'a> {
     between: BTreeMap<LinkId, Vec<String>>,
     /// The children of a link, each with its joint and the sense in which it is passed.
     children: BTreeMap<LinkId, Vec<(LinkId, JointId, f64)>>,
-    /// In how many bodies a link is written, where it is more than one: its own, and one on each joint that closes a loop there.
+    /// Number of bodies of a link, if it is more than one: its own, and one on each joint that closes a loop there.
     parts: BTreeMap<LinkId, f64>,
     /// Names of the joints that are one freedom.
     joints: BTreeMap<(JointId, Freedom), String>,

@@ -6,12 +6,12 @@ use crate::robots::warning::{Read, list_known, unknown_name};
 use crate::robots::xml::element::Element;
 use std::collections::BTreeMap;
 
-/// Something that has a place: a model, link, frame or joint.
+/// An element with a place: a model, link, frame or joint.
 pub(crate) struct Placed<'a> {
     pub(super) element: Element<'a>,
-    /// The name of the thing its place is relative to.
+    /// The name of the element that its place is relative to.
     pub(super) relative_to: String,
-    /// Place in that.
+    /// Place relative to that element.
     pub(super) raw: RigidMotion,
     /// The element it moves with: itself for links, another name for frames, the child for joints.
     pub(super) attached_to: String,

@@ -199,7 +199,7 @@ fn write_axis(tag: &str, d: [f64; 3]) -> String {
     )
 }
 
-/// Returns the SDF joint of a type and its content, or `None` if there is none; `back` is true if it is passed from its second
+/// Returns the SDF joint of a type and its content, or `None` if SDF has no such joint. `back` is true if it is passed from its second
 /// link.
 fn sdf_joint(t: &JointType, p: &JointAxes, back: bool) -> Option<(&'static str, String)> {
     let [x, _, z] = p.axes;

@@ -22,7 +22,7 @@ struct UrdfWriter<'a> {
     light: String,
     links: Names,
     joints: Names,
-    /// Name of each link that is written, and where its frame is.
+    /// Name of each written link, and the place of its frame.
     placed: Vec<Option<(String, [f64; 3])>>,
     /// Names of the joints.
     ids: Vec<String>,

@@ -9,9 +9,9 @@ use crate::robots::warning::{
 use crate::robots::xml::{Document, Node};
 use std::ops::Range;
 
-/// Most links, and most joints, of a robot.
+/// Maximum number of links, and of joints, of a robot.
 const MAX_PARTS: usize = 10_000;
-/// Largest size of a number; the mechanism file takes lengths up to 1e12.
+/// Maximum absolute value of a number; the mechanism file takes lengths up to 1e12.
 const MAX_NUMBER: f64 = 1e9;
 
 /// An element.

@@ -5,9 +5,9 @@ use crate::file::schema::Quantity;
 use crate::model::loads::Stroke;
 use thiserror::Error;
 
-/// Most forces, moments or misalignments.
+/// Maximum number of forces, moments or misalignments.
 pub(in crate::file::read) const MAX_FORCES: usize = 10_000;
-/// Most steps of a stroke.
+/// Maximum number of steps of a stroke.
 pub(crate) const MAX_STEPS: usize = 100_000;
 /// Largest mass, inertia or speed.
 pub(in crate::file::read) const LARGEST: f64 = 1e12;
