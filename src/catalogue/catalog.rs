@@ -1,5 +1,5 @@
-//! Catalogues: every structure of a range of chains laid out, searched and scored, in a database that people can query. This file has
-//! the searches that a catalogue makes of its mechanisms.
+//! Catalogues: every structure of a range of chains laid out, searched and scored, in a database for queries. This file has the searches
+//! that a catalogue makes of its mechanisms.
 
 pub mod build;
 pub mod drawn;
@@ -45,12 +45,12 @@ pub enum RowError {
     /// The mechanism cannot be searched.
     #[error(transparent)]
     Search(#[from] RunError),
-    /// The file of the layout is refused: a fault of the program.
+    /// The program itself wrote a wrong file for the layout.
     #[error("{structure}: its own file is refused: {why}")]
     File {
         /// The structure.
         structure: String,
-        /// Why.
+        /// The reason.
         why: String,
     },
 }

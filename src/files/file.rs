@@ -107,7 +107,7 @@ impl Findings {
         told
     }
 
-    /// Returns what was made of the file, or the problems if there are any.
+    /// Returns the result for the file, or the problems if there are any.
     pub(crate) fn finish<T>(self, made: T) -> Result<T, Vec<Finding>> {
         if self.problem_count() == 0 {
             Ok(made)

@@ -1,4 +1,4 @@
-//! A row as entries of the tables.
+//! Insertion of a row into the tables.
 
 use crate::catalog::drawn::{DrawnMechanism, mobility_words};
 use crate::catalog::row::{IdeaRow, Laid, StructureRow, Symmetric};
@@ -96,7 +96,7 @@ fn count_value(n: &BigUint) -> ToSqlOutput<'static> {
     }
 }
 
-/// Enters a row of a table, each value by the name of its column.
+/// Inserts a row into a table, each value under the name of its column.
 fn insert_row(
     t: &Transaction<'_>,
     table: &str,
@@ -166,7 +166,7 @@ fn insert_layout(t: &Transaction<'_>, id: &str, laid: &Laid) -> rusqlite::Result
     insert_found(t, id, &laid.counts, &laid.symmetric, &laid.ideas)
 }
 
-/// Enters what a layout does of its task.
+/// Inserts the figures of a layout for its task.
 fn insert_stroke(t: &Transaction<'_>, id: &str, laid: &Laid) -> rusqlite::Result<()> {
     let (task, f) = (&laid.layout.limits.task, &laid.figures);
     let reached = !f.shortfall.as_ref().is_some_and(|s| s.is_of_reach);
@@ -205,7 +205,7 @@ fn insert_planes(t: &Transaction<'_>, id: &str, stacking: &Stacking) -> rusqlite
     )
 }
 
-/// Enters a drawn mechanism.
+/// Inserts a drawn mechanism.
 pub(super) fn insert_drawn(t: &Transaction<'_>, d: &DrawnMechanism) -> rusqlite::Result<()> {
     let all: BigUint = d.counts.values().sum();
     insert_row(
@@ -245,7 +245,7 @@ fn certainty_word(exact: bool) -> &'static str {
     if exact { "exact" } else { "at least" }
 }
 
-/// Enters what a search has found.
+/// Inserts the results of a search.
 fn insert_found(
     t: &Transaction<'_>,
     id: &str,

@@ -89,7 +89,7 @@ const LAYOUTS: &str = "SELECT s.id, concat_ws(' ', s.input, s.symmetry, iif(s.pa
 /// Index of the first figure in a row.
 const FIRST_FIGURE: usize = 11;
 
-/// Returns the structures of a catalogue that are next to a structure and have as many jaws.
+/// Returns the structures of a catalogue that are next to a structure and have the same number of jaws.
 ///
 /// Structures of the same chain with other roles are next to it. So are structures with two or four links more or less. One of both is left
 /// when the other loses pairs of links in a row (`without_two_links`). Four links count only for symmetric layouts, in which each half
@@ -196,7 +196,7 @@ impl Own {
         }
     }
 
-    /// Returns how another structure, with its key, is next to it: the place of the relation in the list, and by how many links.
+    /// Returns the relation of another structure, with its key, to this one: its index in the list, and the difference in links.
     fn relation_to(
         &self,
         other: &PairStructure,
@@ -229,7 +229,7 @@ fn hinged_chain(structure: &PairStructure) -> Chain {
         .0
 }
 
-/// Returns the keys of the structures that are left without two links, or without four.
+/// Returns the keys of the structures that remain without two links, or without four.
 fn keys_without(structure: &PairStructure, links: usize) -> HashSet<Weighted> {
     let mut left = structure.without_two_links();
     if links == 4 {

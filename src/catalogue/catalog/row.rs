@@ -377,7 +377,7 @@ fn distinct_ideas(search: &Search, ideas: Vec<Idea>, top: usize) -> Vec<Idea> {
     all.map(|(_, (_, idea))| idea).collect()
 }
 
-/// Returns those of the ideas of a search that are kept, each with the scores of its first variant.
+/// Returns the ideas of a search that are kept, each with the scores of its first variant.
 fn idea_rows(search: &Search, ideas: Vec<Idea>, top: usize) -> Vec<IdeaRow> {
     if ideas.is_empty() {
         return Vec::new();

@@ -197,7 +197,7 @@ impl Default for Spec {
     }
 }
 
-/// Options that a hinge may be replaced by.
+/// Joint types that may replace a hinge.
 const OPTIONS: [&str; 8] = [
     "cylindrical",
     "universal",
@@ -254,7 +254,7 @@ impl Spec {
         some.then_some(all).ok_or_else(wrong)
     }
 
-    /// Returns those of some forms that are asked for.
+    /// Returns the requested ones of some forms.
     fn asked_forms(&self, forms: impl Iterator<Item = (Input, Form)>) -> Vec<(Input, Form)> {
         let asked = |(input, form): &(Input, Form)| {
             self.inputs.contains(input)
@@ -264,7 +264,7 @@ impl Spec {
         forms.filter(asked).collect()
     }
 
-    /// Returns those of the forms asked for in which structures with pairs are laid out.
+    /// Returns the requested forms in which structures with pairs are laid out.
     #[must_use]
     pub(crate) fn paired_forms(&self) -> Vec<(Input, Form)> {
         if self.pairs.is_empty() {

@@ -7,7 +7,7 @@ use petgraph::unionfind::UnionFind;
 /// Maximum number of links of a chain of pairs. Every set of its links is examined, as the bits of a word.
 pub(crate) const MOST_LINKS: usize = 12;
 
-/// A chain: which links are joined, and by what.
+/// A chain: its links, and the joints between them.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Chain {
     pairs: Weighted,

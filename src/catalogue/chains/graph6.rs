@@ -27,9 +27,9 @@ pub enum Graph6Error {
     Length {
         /// Vertices.
         links: usize,
-        /// Characters wanted.
+        /// Expected number of characters.
         wanted: usize,
-        /// Characters found.
+        /// Number of characters found.
         found: usize,
     },
 }

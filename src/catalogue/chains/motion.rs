@@ -20,14 +20,14 @@ use itertools::Itertools;
 /// 2^61 - 1.
 const PRIME: u64 = (1 << 61) - 1;
 
-/// A velocity of a link: its turning, and the velocity of its point at the origin.
+/// A velocity of a link: its angular velocity, and the velocity of its point at the origin.
 pub type Velocity = [Residue; 3];
 
-/// Constraints of a joint: rows of (turning, velocity of the point at the origin) of one link against the other.
+/// Constraints of a joint: rows of (angular velocity, velocity of the point at the origin) of one link relative to the other.
 #[derive(Debug, Clone, Copy)]
 enum PairRows {
     Hinge([Residue; 2]),
-    /// The direction across it.
+    /// The direction normal to it.
     Slide([Residue; 2]),
     /// Moment, and direction of the line of action.
     Line([Residue; 3]),

@@ -16,14 +16,14 @@ use crate::robots::warning::{Read, list_known, unknown_name};
 use crate::robots::xml::element::Element;
 use std::collections::BTreeSet;
 
-/// Rows that an element of unknown meaning may hold: all that two links can be held by.
+/// Rows that an element of unknown meaning may constrain: all freedoms between two links.
 const MOST_ROWS: usize = 6;
 
-/// Parts of words for what holds links together or couples joints.
+/// Parts of words for elements that constrain links or couple joints.
 const HOLDS: &str = "mimic constraint attach detach weld loop closed closing closure linkage \
     fourbar four_bar coupl gearbox grasp tendon equality bushing underactuated parallel pulley";
 
-/// Parts of words for what may name many links and joints and holds none of them.
+/// Parts of words for elements that may name many links and joints, and constrain none of them.
 const HARMLESS: &str = "publish camera sensor imu lidar laser gps control drive odom contact \
     collision visual material light friction gravity wind thrust buoyan hydro battery logger \
     broadcast torque bumper sonar depth wheel scene physics steer vehicle track trajector group \

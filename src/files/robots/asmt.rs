@@ -127,7 +127,7 @@ fn read_pose(e: Element<'_>) -> Read<RigidMotion> {
         rotation,
         translation,
     };
-    // Digits may be few, but it is to be a turn.
+    // The numbers may have few digits, but must give a rotation.
     let product = m.inverse().then(&m);
     let off = (0..3).flat_map(|i| (0..3).map(move |k| (i, k)));
     let off = off.map(|(i, k)| (product.rotation[i][k] - f64::from(u8::from(i == k))).abs());

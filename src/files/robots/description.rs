@@ -214,7 +214,7 @@ pub(crate) struct Robot {
     pub(in crate::robots) assembly: bool,
     /// Joint types that a search may use instead of a joint.
     pub(in crate::robots) options: &'static [JointType],
-    /// The links that elements are.
+    /// The links of elements.
     pub(in crate::robots) said: BTreeMap<usize, usize>,
     pub(in crate::robots) report: Report,
 }

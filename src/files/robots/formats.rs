@@ -1,4 +1,4 @@
-//! The formats of files: which are read, which are written, and by what.
+//! The formats of files, with their readers and writers.
 
 use crate::file::problem::ImportError;
 use crate::file::write::{self, mechanism_file};
@@ -300,7 +300,7 @@ static FOREIGN: [Foreign; 38] = [
     ),
 ];
 
-/// Refuses a file of a format that is not read, by its first bytes or by its ending, which no mechanism file has.
+/// Rejects a file of a format that is not read, by its first bytes or by its ending, which no mechanism file has.
 ///
 /// # Errors
 /// Returns the name of the format and the remedy.

@@ -29,7 +29,7 @@ use crate::robots::warning::{Options, Reader, Report};
 use crate::robots::xml::element::Element;
 use crate::robots::xml::{self, Document};
 
-/// A mechanism and how it came about.
+/// A mechanism and its origin.
 #[derive(Debug, Clone)]
 pub struct Imported {
     /// The mechanism.
@@ -179,7 +179,7 @@ fn read_described(
     Ok((format, robot))
 }
 
-/// Refuses a template whose macros are not expanded, because no element contains their content.
+/// Rejects a template whose macros are not expanded, because no element contains their content.
 fn check_expanded(document: &Document) -> Result<(), ImportError> {
     let all = (0..document.nodes.len()).map(|id| document.element(id));
     let is_macro = |e: &Element<'_>| {

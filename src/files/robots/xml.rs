@@ -172,7 +172,7 @@ fn xml_problem(message: impl std::fmt::Display) -> ProblemKind {
     syntax_problem(format!("{message}; the file is not well-formed XML"))
 }
 
-/// Refuses control characters, which could control a terminal, except those that lay out the text.
+/// Rejects control characters, which could control a terminal, except those that lay out the text.
 fn no_control(text: &str, layout: &[char]) -> Result<(), Located> {
     let found = text.char_indices();
     let mut found = found.filter(|(_, c)| c.is_control() && !layout.contains(c));
@@ -295,7 +295,7 @@ fn read_node(
             let message = format!("the attribute {name} is given twice");
             return Err((xml_problem(message), span.start));
         }
-        // The value is borrowed from the text where the reader could.
+        // The value is borrowed from the text if the reader could do so.
         let at = (found.value.as_ptr() as usize).wrapping_sub(start);
         let here = Some(at..at.saturating_add(found.value.len()));
         let here = here.filter(|here| text.get(here.clone()).is_some());

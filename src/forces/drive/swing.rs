@@ -35,7 +35,7 @@ impl Feed {
         from: 0.0,
     };
 
-    /// Returns the moment up to a latch, or `None` if nothing is fed before it. `[N·m]`
+    /// Returns the moment up to a latch, or `None` if no work is fed before it. `[N·m]`
     #[must_use]
     pub fn push_moment(&self, latch: f64) -> Option<f64> {
         (self.energy > 0.0 && self.from < latch).then(|| self.energy / (latch - self.from))

@@ -19,7 +19,7 @@ pub struct Merged {
     pub taken: usize,
     /// Number of structures and drawn mechanisms added.
     pub added: usize,
-    /// Missing parts. Empty if all structures are there.
+    /// Missing parts. Empty if all structures exist.
     pub missing: Vec<Shard>,
     /// Files whose part was not completed.
     pub unfinished: Vec<PathBuf>,
@@ -33,7 +33,7 @@ impl Merged {
         let is_finished = spec.is_none() || !from.finished_parts()?.is_empty();
         let whole = match (whole, spec) {
             (Some(whole), None) => whole,
-            // Drawn mechanisms alone go with any.
+            // A file with only drawn mechanisms can be merged with any catalogue.
             (None, None) => Store::open_writable(path)?,
             (whole, Some(text)) => {
                 let spec = toml::from_str::<Spec>(&text);
@@ -149,7 +149,7 @@ impl Store {
     }
 }
 
-/// Returns the missing parts, in a partition that all given ones fit into.
+/// Returns the missing parts, in a partition that contains all given ones.
 fn missing_shards(there: &[Shard]) -> Vec<Shard> {
     let of = there.iter().fold(
         1,

@@ -1,6 +1,6 @@
-//! The version of the tables, the faults of a catalogue, and the prices of parts.
+//! The version of the tables, the errors of a catalogue, and the prices of parts.
 //!
-//! A catalogue of another version is refused. Prices are in revolute joints, with bought parts and their fitting.
+//! A catalogue of another version is rejected. Prices are in revolute joints, with bought parts and their fitting.
 
 use crate::model::joint_type::JointType;
 use crate::model::mechanism::CostSpec;
@@ -9,7 +9,7 @@ use rusqlite::Connection;
 use std::path::PathBuf;
 use thiserror::Error;
 
-/// Maximum size of an answer `[MiB]`. It is kept whole, since columns are as wide as their widest value.
+/// Maximum size of an answer `[MiB]`. It is kept completely, since columns are as wide as their widest value.
 pub(crate) const LARGEST_ANSWER: usize = 256;
 
 /// Error of a catalogue file.
@@ -143,7 +143,7 @@ pub(super) fn make_tables(db: &Connection) -> rusqlite::Result<()> {
     ))
 }
 
-/// A gear pair, or a rack and its pinion, in thousandths: two parts with teeth, and their distance is to be kept.
+/// A gear pair, or a rack and its pinion, in thousandths: two parts with teeth that must keep their distance.
 const TEETH_MILLI: i64 = 3000;
 
 /// Returns the price of each part by its name.

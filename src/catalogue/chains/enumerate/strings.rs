@@ -105,7 +105,7 @@ impl Strings {
             return;
         }
         let after = self.ends.len() - at - 1;
-        // Strings between the same links: the longest first.
+        // The longest of the strings between the same links comes first.
         let alike = at > 0 && self.ends[at - 1] == self.ends[at];
         let most_here = if alike { shared.joints[at - 1] } else { most };
         let (ones, twos) = (shared.ones, shared.twos);

@@ -61,7 +61,7 @@ fn names_item(text: &str, id: &str) -> bool {
             .is_some_and(|rest| rest.starts_with(':'))
 }
 
-/// Puts another id in all places of the old one.
+/// Replaces an id in all its places.
 pub(super) fn rename_references(root: &mut Table, what: Thing, id: &str, to: &str) {
     for (path, _) in LISTS.iter().filter(|(_, of)| *of == what) {
         visit_path(root, path, &mut |item| rename_in(item, id, to));
@@ -132,7 +132,7 @@ fn trim_first_blank(list: &mut Array) {
     }
 }
 
-/// Does something with all that is at a path.
+/// Applies a function to all items at a path.
 fn visit_path(table: &mut Table, path: &[&str], act: &mut dyn FnMut(&mut Item)) {
     let [key, rest @ ..] = path else { return };
     let Some(item) = table.get_mut(key) else {

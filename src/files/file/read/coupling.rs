@@ -127,8 +127,7 @@ fn is_definite(t: &JointType, freedom: Freedom) -> bool {
     !turns.contains(&freedom) || !turns.iter().all(|f| t.freedoms().contains(f))
 }
 
-/// Takes options away that lack the coupled freedom, or have it about another axis. In a joint's own list that is a
-/// problem.
+/// Removes options that lack the coupled freedom, or have it about another axis. In a joint's own list that is a problem.
 fn check_options(file: &MechanismFile, mechanism: &mut Mechanism, out: &Findings) {
     for j in mechanism.joint_ids() {
         let coupled = coupled_freedoms(mechanism, j);

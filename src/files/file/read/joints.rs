@@ -59,7 +59,7 @@ fn read_joint(
 ) -> Option<Joint> {
     let ends = read_ends(entry, links, &at.key("links"));
     let Some(joint_type) = joint_type(&entry.id, &entry.kind, entry.freedoms.as_ref(), at) else {
-        // The rest depends on the type, but a bad point is worth telling in the same run.
+        // The rest depends on the type, but a wrong point is worth reporting in the same run.
         at.key("point").read_vector(&entry.point);
         return None;
     };

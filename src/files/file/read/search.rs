@@ -36,7 +36,7 @@ pub(crate) fn read_options(
         };
         let contained = contains_option(&option, present);
         if option.joint_type == present.joint_type && contained == Some(true) {
-            // The present joint, listed: keep its name and cost.
+            // The original joint is listed: keep its name and cost.
             if !listed {
                 options[0].name = option.name;
                 options[0].cost_milli = option.cost_milli.or(options[0].cost_milli);

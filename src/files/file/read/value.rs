@@ -144,7 +144,7 @@ pub(crate) fn used_twice(what: &str, id: &str) -> String {
 
 /// Smallest nonzero and largest size of a coordinate.
 const RANGE: (f64, f64) = (1e-40, 1e12);
-/// A component of a direction that is a smaller part of the largest one is what a program makes of 0.
+/// A component of a direction that is a smaller part of the largest one is probably a rounded 0.
 const NOTHING: f64 = 1e-40;
 
 impl Place<'_> {
@@ -203,7 +203,7 @@ impl Place<'_> {
 
     fn in_range(&self, e: Expr) -> Expr {
         let size = e.to_f64().abs();
-        // An irrational expression may cancel to zero, and is then zero; a number that is too small for doubles is not.
+        // An irrational expression may cancel to zero, and is then zero; a number too small for doubles is not.
         let lost = size == 0.0 && e.as_rational().is_some() && !e.is_zero_rational();
         if is_usual(size) && !lost {
             return e;

@@ -16,7 +16,7 @@ pub(crate) const LARGEST: usize = 2_000_000_000;
 /// A coupling that a mechanism file can represent.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Usable {
-    /// The joints that lead and follow, by their places in the robot.
+    /// The leading and the following joint, by their indices in the robot.
     pub(in crate::robots) ends: [usize; 2],
     /// The rate of the follower over the leader's.
     pub(in crate::robots) ratio: f64,

@@ -33,7 +33,7 @@ pub(crate) fn free_joints(origin: &Origin, all: &[Freeing<'_>], edits: &mut Edit
         inserted: Vec::new(),
     };
     for &(part, e, freed) in all {
-        // A connect that may slide in three ways holds nothing.
+        // A connect that may slide in three directions has no constraints.
         let slides = freed.iter().filter(|f| f.0).count();
         if e.name() == "connect" && slides == 3 {
             let why = "ozols fix: disabled, because other joints impose the same constraints";
@@ -49,7 +49,7 @@ pub(crate) fn free_joints(origin: &Origin, all: &[Freeing<'_>], edits: &mut Edit
     file.extend_keyframes(edits)
 }
 
-/// Leaves an equality of joints out.
+/// Removes an equality of joints.
 pub(crate) fn deactivate(
     origin: &Origin,
     element: usize,
@@ -67,7 +67,7 @@ pub(crate) fn deactivate(
 enum KeyframeMark {
     /// Behind a joint.
     Joint(usize),
-    /// Behind all that is within a body or the world.
+    /// Behind all elements within a body or the world.
     Within(usize),
     /// Behind a site.
     Site(usize),
@@ -79,7 +79,7 @@ struct MjcfFile<'a> {
     parents: Vec<Option<usize>>,
     /// The weights of the links, in their frames.
     weights: BTreeMap<usize, Weight>,
-    /// Joints put in.
+    /// Inserted joints.
     inserted: Vec<(KeyframeMark, usize)>,
 }
 
@@ -152,7 +152,7 @@ impl<'a> MjcfFile<'a> {
                 .map(|(&l, w)| felt((l, w)))
                 .fold(0.0, f64::max)
         };
-        // Two digits are enough; more than is there does no harm.
+        // Two digits are enough; a larger value does no harm.
         let most = [joined, all(), HEAVY].into_iter().find(|x| *x > 0.0);
         let rounded = format!("{:.1e}", TIMES * most.unwrap_or(HEAVY)).parse::<f64>();
         rounded.unwrap_or(HEAVY).to_string()

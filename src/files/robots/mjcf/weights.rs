@@ -15,7 +15,7 @@ use crate::robots::warning::Read;
 use crate::robots::xml::element::Element;
 use std::collections::BTreeMap;
 
-/// Returns what the links weigh, in their frames; the robot is that of the same document.
+/// Returns the weights of the links, in their frames; the robot is that of the same document.
 pub(super) fn read_weights(root: Element<'_>, robot: &Robot) -> Read<BTreeMap<usize, Weight>> {
     let defaults = Defaults::read(root)?;
     let settings = Settings::read_settings(root)?;

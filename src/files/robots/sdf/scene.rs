@@ -100,7 +100,7 @@ pub(crate) fn unknown_name_error(e: Element<'_>, name: &str, scene: &SdfScene<'_
 pub(crate) fn resolve_places(scene: &mut SdfScene<'_>) -> Read<()> {
     let names: Vec<String> = scene.placed.keys().cloned().collect();
     for name in names {
-        // Down to something whose place is known, then back.
+        // Down to an element whose place is known, then back.
         let mut path: Vec<String> = Vec::new();
         let mut at = name;
         let mut base = loop {

@@ -124,7 +124,7 @@ impl SdfWriter<'_> {
         }
         let name = |l: LinkId| self.links[l].clone().unwrap_or_else(|| WORLD.to_owned());
         let [mut a, mut b] = joint.links.map(name);
-        // The world is nobody's child: passed from the other end, a joint moves the other way about what comes last.
+        // The world is not a child of any joint. Passed from the other end, a joint moves in the opposite direction, last axis first.
         let back = b == WORLD;
         if back {
             (a, b) = (b, a);

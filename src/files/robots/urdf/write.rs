@@ -121,7 +121,7 @@ impl UrdfWriter<'_> {
         let mut at = sub(p.point, origin);
         let id = self.ids[j].clone();
         let child = self.write_link(step.link, p.point);
-        // The child moves the other way where the joint is passed backwards.
+        // The child moves in the opposite direction if the joint is passed backwards.
         let sign = if step.forward { 1.0 } else { -1.0 };
         let parts = joint_kinds(self.m, j, sign)?;
         for (i, (kind, axis)) in parts.iter().enumerate() {

@@ -120,7 +120,7 @@ impl<'a> Element<'a> {
         found.ok_or_else(|| self.missing_error(&format!("attribute {name}")))
     }
 
-    /// Returns the error for something that is missing.
+    /// Returns the error for a missing item.
     pub(crate) fn missing_error(self, what: &str) -> ImportError {
         self.error_at(None, missing_problem(&self.label(), what))
     }

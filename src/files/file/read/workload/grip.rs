@@ -175,7 +175,7 @@ fn read_joints(at: &Place<'_>, ids: &[String], m: &Mechanism) -> Vec<JointId> {
         .collect()
 }
 
-/// Reports what contacts need of the rest of the table.
+/// Reports conditions of contacts that the rest of the table does not meet.
 fn contacts_go_with(t: &Place<'_>, spec: &GripSpec) {
     let levers = spec.load.as_ref().map(|l| l.levers);
     if levers.is_none() {

@@ -24,7 +24,7 @@ fn parse_speed(text: &str) -> Option<f64> {
     with_units(text, &units)
 }
 
-/// A stroke that is not written as one.
+/// A text that is not a valid stroke.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[error("stroke {0:?} is not FROM:TO:STEPS, such as 0:360deg:72 with 1 to {MAX_STEPS} steps")]
 pub struct NoStroke(String);

@@ -88,7 +88,7 @@ pub(super) struct Settings {
     pub(super) balance: bool,
     /// Whether shapes define the weights of bodies. `None` if they do so for bodies without `<inertial>` only.
     pub(super) from_shapes: Option<bool>,
-    /// The groups of shapes that weigh anything, from the first to the last.
+    /// The groups of shapes that have weight, from the first to the last.
     pub(super) groups: [f64; 2],
 }
 
@@ -164,7 +164,7 @@ struct Measures {
 }
 
 impl Measures {
-    /// Returns those of a shape.
+    /// Returns the sizes of a shape.
     fn read_measures(look: &Lookup<'_>, compiler: &Compiler) -> Read<Measures> {
         let sizes = read_sizes(look)?;
         let mut out = Measures {
