@@ -5,7 +5,7 @@
 //! or more has a mobility of at least 1. Any other chain counts if, in nearly all places of its joints, its mobility is 1
 //! and every two links move against each other. For hinges and pairs of two freedoms, a count of every part decides
 //! this. With slides the rank decides it (loops of slides only, hinges locked by slides), see [`motion`].
-//! Of several chains that differ only in numbering, one is listed.
+//! If chains differ only in numbering, one of them is listed.
 //!
 //! Conventions: two links have at most one pair, and every link has two or more. No hinge joins three links. A gear pair needs
 //! a carrier: a link that is hinged to both gears, or that is hinged to the pinion and slides on the rack. The input is a hinge or a

@@ -146,13 +146,13 @@ pub struct IdeaRow {
     pub scores: Option<Scores>,
 }
 
-/// Returns the row of one structure. [`build`](crate::catalog::build::build) shares the searches that rows have in common.
+/// Returns the row of one structure. [`build_rows`](crate::catalog::build::build_rows) shares the searches that rows have in common.
 ///
 /// # Errors
 /// Returns an error if the program fails. A structure without a layout is a row, too.
 ///
 /// # Complexity
-/// A search for places, one of the variants, and what [`General::of`] takes.
+/// A search for places, one of the variants, and what [`General::search_general`] takes.
 pub fn structure_row(structure: &Structure, spec: &Spec) -> Result<StructureRow, RowError> {
     let general = General::search_general(structure, spec)?;
     row_of_pair(structure, spec, general.as_ref())
@@ -161,7 +161,7 @@ pub fn structure_row(structure: &Structure, spec: &Spec) -> Result<StructureRow,
 /// Returns the row of a structure, given the search of its chain and input if there is one.
 ///
 /// # Errors
-/// Returns an error in the same cases as [`row`].
+/// Returns an error in the same cases as [`structure_row`].
 ///
 /// # Complexity
 /// A search for places, and a diagram of the variants for each place tried.

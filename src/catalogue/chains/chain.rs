@@ -229,7 +229,7 @@ impl Chain {
     /// Returns the automorphisms as images of the links, including the identity.
     ///
     /// # Complexity
-    /// As of [`canonical`].
+    /// As of [`number_graph`].
     #[must_use]
     pub fn automorphisms(&self) -> Vec<Vec<usize>> {
         number_graph(&self.pairs).automorphisms
@@ -238,7 +238,7 @@ impl Chain {
     /// Returns the chain in its canonical numbering, with its automorphisms. Two chains are equal then exactly if they are isomorphic.
     ///
     /// # Complexity
-    /// As of [`canonical`].
+    /// As of [`number_graph`].
     #[must_use]
     pub fn canonical_form(&self) -> (Chain, Vec<Vec<usize>>) {
         let Canonical {

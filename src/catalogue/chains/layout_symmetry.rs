@@ -76,7 +76,7 @@ fn check_motion(
 /// Returns the reason why the last of them fails.
 ///
 /// # Complexity
-/// As `moves` for each.
+/// As of `check_motion`, for each automorphism.
 pub fn working_swap(
     subject: &Subject<'_>,
     roles: &Roles,

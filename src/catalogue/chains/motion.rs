@@ -6,8 +6,8 @@
 //! A hinge is two rows at a point. A slide means equal turns and no motion across a direction. A gear pair or a slot is one
 //! row, a line of action. Two slots are two such rows, equivalent to two at the point where these lines meet.
 //!
-//! If a symmetry maps a joint to itself, its place is special. A hinge lies on the mirror line. A slide is along the line or normal to it,
-//! and so is a line of action. Gears are swapped, and their pitch point lies on the line. Two slots are never their own image.
+//! If a symmetry maps a joint to itself, its place is special. A hinge lies on the mirror line. Slides and lines of action are along the
+//! line or normal to it. Gears are swapped, and their pitch point lies on the line. Two slots are never their own image.
 
 use crate::chains::chain::{Chain, Joint, carry_links};
 use crate::chains::{PairKind, Symmetry};
@@ -192,7 +192,7 @@ pub fn single_motion(chain: &Chain) -> Option<Vec<Velocity>> {
 /// Returns true if a chain has one motion in nearly all places, in which every two links move against each other.
 ///
 /// # Complexity
-/// As [`motion`].
+/// As [`single_motion`].
 #[must_use]
 pub fn moves_throughout(chain: &Chain) -> bool {
     single_motion(chain).is_some_and(|m| m.iter().all_unique())

@@ -243,7 +243,7 @@ impl<'a> Subject<'a> {
     }
 
     /// Returns whether there is an automorphism that keeps frame and input joint and carries each jaw to the next: one of
-    /// [`Subject::swaps`].
+    /// [`Subject::iter_swaps`].
     #[must_use]
     pub fn is_graph_symmetric(&self, roles: &Roles) -> bool {
         self.iter_swaps(roles).next().is_some()

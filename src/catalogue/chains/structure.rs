@@ -25,7 +25,7 @@ impl PairStructure {
     /// structures have equal keys exactly if they are the same.
     ///
     /// # Complexity
-    /// As of [`canonical`].
+    /// As of [`number_graph`].
     #[must_use]
     pub fn canonical_key(&self) -> Weighted {
         number_graph(&self.weighted_graph()).graph

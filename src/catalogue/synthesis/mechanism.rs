@@ -1,5 +1,5 @@
-//! A layout as a mechanism file: hinges square to the plane, guides and slots in it, gears as couplings, the driver's joint, the outputs, and
-//! a workload. If there are three sides, links and joints of one side are repeated on the others after thirds of a turn.
+//! A layout as a mechanism file: hinges normal to the plane, guides and slots in it, gears as couplings, the driver's joint, the outputs,
+//! and a workload. If there are three sides, links and joints of one side are repeated on the others after thirds of a turn.
 
 use crate::chains::{PairKind, Symmetry};
 use crate::file::schema::{

@@ -228,7 +228,7 @@ mod tests {
     use crate::synthesis::seen_sides::SeenSides;
     use crate::synthesis::sketch::each_classic;
 
-    /// Places that cost more than is wanted have no cost, whatever of it makes them dear: pitch circles, too.
+    /// Places that cost more than the bound have no cost, whether joints or pitch circles cause it.
     #[test]
     fn places_are_never_dearer_than_is_wanted() {
         let mut geared = 0;

@@ -233,7 +233,7 @@ mod tests {
     use crate::synthesis::sketch::each_classic;
     use crate::synthesis::{random_below, random_for};
 
-    /// Tries that are taken and refused in any order: what is looked at again is what has moved, and all else is known still.
+    /// Moves accepted and rejected in any order give the same result as a new evaluation: only moved points are evaluated again.
     #[test]
     fn what_was_seen_of_other_places_is_what_is_seen_afresh() {
         each_classic(|name, sketch| {

@@ -347,7 +347,7 @@ impl Structure {
     }
 
     /// Returns whether there is an automorphism that keeps frame and input joint and carries each jaw to the next: one of
-    /// [`Subject::swaps`].
+    /// [`Subject::iter_swaps`].
     #[must_use]
     pub fn is_graph_symmetric(&self) -> bool {
         let chain = &self.structure.chain;

@@ -74,7 +74,7 @@ enum FileId {
     Path(PathBuf),
 }
 
-/// The files that were read since [`forget`].
+/// The files that were read since [`forget_read`].
 static READ: Mutex<BTreeSet<FileId>> = Mutex::new(BTreeSet::new());
 
 fn files_read() -> MutexGuard<'static, BTreeSet<FileId>> {

@@ -145,7 +145,7 @@ pub fn writable_formats() -> impl Iterator<Item = &'static Format> {
     FORMATS.iter().filter(|f| f.write.is_some())
 }
 
-/// Writes a mechanism in the format of the given name, one of those of [`written`].
+/// Writes a mechanism in the format of the given name, one of those of [`writable_formats`].
 ///
 /// # Errors
 /// Returns an error if there is no such format, or if it cannot represent the mechanism.

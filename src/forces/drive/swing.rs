@@ -339,7 +339,7 @@ impl Disc {
     /// rest. Returns `None` if no work is enough, because the disc is stuck or stops before the push begins. `[J]`
     ///
     /// # Errors
-    /// Returns an error in the same cases as [`Disc::swing`].
+    /// Returns an error in the same cases as [`Disc::swing_from`].
     pub fn needed_feed(&self, latch: Latch, from: f64) -> Result<Option<f64>, SwingError> {
         let arrives = |energy: f64| -> Result<bool, SwingError> {
             let swing = self.swing_from(latch.at, latch, Feed { energy, from })?;

@@ -232,7 +232,7 @@ pub fn planar_statics(
 /// Solves the statics at positions of the first drive in any order, `[rad]` or the file's unit.
 ///
 /// # Errors
-/// Returns an error in the same cases as [`statics`].
+/// Returns an error in the same cases as [`planar_statics`].
 pub(crate) fn statics_at(
     mechanism: &Mechanism,
     state: StateId,

@@ -296,7 +296,7 @@ mod tests {
         Bones::new(5, plan, |_| true)
     }
 
-    /// The fewest planes by trying all, frame's plates included: a front plate counts only where some pin needs it.
+    /// Finds the fewest layers by trying all, including those of the frame. A front plate counts only if some pin needs it.
     fn by_trying(
         overlaps: &[[usize; 2]],
         over: &[(usize, usize)],

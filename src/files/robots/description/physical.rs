@@ -100,7 +100,8 @@ pub(crate) fn left_out(m: &Mechanism) -> Vec<String> {
     out
 }
 
-/// Maximum of the mass, and of the moment of inertia about every axis. A link of the robot with less than a thousand times as much lowers it.
+/// Maximum of the mass, and of the moment of inertia about every axis. A link of the robot with less than a thousand times as much lowers
+/// it.
 const MOST: [f64; 2] = [1e-4, 1e-7];
 /// Minimum of both: sdformat treats a mass of 1e-6 as none and drops the link, and MuJoCo treats 1e-15 as zero.
 const LEAST: [f64; 2] = [1e-5, 1e-12];

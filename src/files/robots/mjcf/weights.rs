@@ -124,8 +124,8 @@ mod tests {
         );
     }
 
-    /// Masses of 3 and 1 kg at (0, 0, 0) and (0.2, 0.1, 0.4) have their middle a quarter of the way, and, beside what each is
-    /// itself, the inertia of 3/4 kg so far apart.
+    /// Masses of 3 and 1 kg at (0, 0, 0) and (0.2, 0.1, 0.4) have their centre a quarter of the way. Their inertia is that of each, and
+    /// that of 3/4 kg at their distance.
     #[test]
     fn shapes_apart_weigh_together() {
         let w = weighed(

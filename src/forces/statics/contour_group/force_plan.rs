@@ -96,7 +96,7 @@ struct SolvedGroup<'g> {
 }
 
 impl SolvedGroup<'_> {
-    /// Returns a reaction, complete or in its parts; see [`parts`].
+    /// Returns a reaction, complete or in its parts; see [`split_reaction`].
     fn drawn_reaction(
         &self,
         name: &str,

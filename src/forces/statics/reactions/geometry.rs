@@ -195,7 +195,7 @@ impl Geometry {
         out
     }
 
-    /// Returns the closure matrix of some columns: a column for each of them, as by [`Geometry::row`].
+    /// Returns the closure matrix of some columns: a column for each of them, as by [`Geometry::closure_row`].
     pub(crate) fn closure_matrix(&self, columns: &[usize]) -> Matrix {
         let rows: Vec<Vec<f64>> =
             (columns.iter().map(|&c| self.closure_row(&self.columns[c]))).collect();
