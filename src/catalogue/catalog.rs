@@ -1,5 +1,5 @@
-//! Catalogues: every structure of a range of chains laid out, searched and scored, in a database that people can query. This file has
-//! the searches that a catalogue makes of its mechanisms.
+//! Catalogues: every structure of a range of chains laid out, searched and scored, in a database for queries. This file has the searches
+//! that a catalogue makes of its mechanisms.
 
 pub mod build;
 pub mod drawn;
@@ -29,7 +29,7 @@ use itertools::Itertools;
 use std::sync::Arc;
 use thiserror::Error;
 
-/// Why there is no row, through no fault of the structure.
+/// Why there is no row, for a reason that is not a property of the structure.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum RowError {
@@ -45,18 +45,18 @@ pub enum RowError {
     /// The mechanism cannot be searched.
     #[error(transparent)]
     Search(#[from] RunError),
-    /// The file of the layout is refused: a fault of the program.
+    /// The program itself wrote a wrong file for the layout.
     #[error("{structure}: its own file is refused: {why}")]
     File {
         /// The structure.
         structure: String,
-        /// Why.
+        /// The reason.
         why: String,
     },
 }
 
-/// The search that a catalogue makes of each mechanism. Variants of W = 1 move as the mechanism does, so that nothing more need
-/// be asked of their outputs.
+/// Returns the search that a catalogue makes of each mechanism. Variants of W = 1 move like the mechanism, so no further condition on their
+/// outputs is needed.
 #[must_use]
 pub fn search_request(spec: &Spec) -> Request {
     Request {
@@ -69,7 +69,7 @@ pub fn search_request(spec: &Spec) -> Request {
     }
 }
 
-/// The mechanism of a file that the program made of a structure of this name.
+/// Builds the mechanism of a file that the program made of a structure with this name.
 pub(crate) fn built_mechanism(name: &str, file: &MechanismFile) -> Result<Mechanism, RowError> {
     build_mechanism(file).map_err(|found| RowError::File {
         structure: name.to_owned(),
@@ -77,7 +77,7 @@ pub(crate) fn built_mechanism(name: &str, file: &MechanismFile) -> Result<Mechan
     })
 }
 
-/// The search of a mechanism over the prime field of a number, ready to be made.
+/// Prepares the search of a mechanism over the prime field with this number.
 pub(crate) fn prepare_search(
     mechanism: Mechanism,
     spec: &Spec,

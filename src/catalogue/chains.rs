@@ -5,7 +5,7 @@
 //! or more has a mobility of at least 1. Any other chain counts if, in nearly all places of its joints, its mobility is 1
 //! and every two links move against each other. For hinges and pairs of two freedoms, a count of every part decides
 //! this. With slides the rank decides it (loops of slides only, hinges locked by slides), see [`motion`].
-//! Of chains that differ only in numbering, one is listed.
+//! If chains differ only in numbering, one of them is listed.
 //!
 //! Conventions: two links have at most one pair, and every link has two or more. No hinge joins three links. A gear pair needs
 //! a carrier: a link that is hinged to both gears, or that is hinged to the pinion and slides on the rack. The input is a hinge or a
@@ -39,7 +39,7 @@ pub enum PairKind {
     Gear,
     /// A pin in a slot, a cam and its follower, a wedge: they touch along a line of action.
     Slot,
-    /// Two pins in two slots: they turn about the point where the lines of action meet. This point moves as they do.
+    /// Two pins in two slots: they turn about the intersection of the lines of action, which moves with them.
     TwoSlots,
 }
 
@@ -143,7 +143,7 @@ impl Symmetry {
     }
 }
 
-/// How the driver moves in the frame.
+/// Motion of the driver in the frame.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Input {

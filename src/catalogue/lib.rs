@@ -1,4 +1,4 @@
-//! Catalogues of grippers: chains up to isomorphism, places for their joints, and rows of what was found in a database.
+//! Catalogues of grippers: chains up to isomorphism, places for their joints, and rows of results in a database.
 
 use ozols_evaluation::score;
 use ozols_files::{file, robots};

@@ -1,9 +1,9 @@
 //! Synthesis: from a kinematic chain to grippers that have a place for every joint.
 //!
-//! A structure is a chain with its roles, the way its driver moves, and the symmetry it is to have. A layout gives its
-//! pins places in the plane: symmetric exactly, regular, moving as a gripper does, and as well proportioned as a search
-//! finds. Places are whole millimetres, thousandths beside them where those are special by chance, or what a third of a turn makes
-//! of whole ones. The random numbers that a search for places takes stand here.
+//! A structure is a chain with the roles of its links, the motion of its driver, and its symmetry. A layout places its pins in the plane.
+//! It is exactly symmetric and regular, and it moves as a gripper does. A search optimises its proportions. Coordinates are whole
+//! millimetres, or thousandths of a millimetre if whole ones give a special pose by chance. Turns of whole coordinates by 120° are exact,
+//! too. This module also makes the random numbers for the search.
 
 mod annealing;
 pub(crate) mod beside;
@@ -47,13 +47,13 @@ pub(crate) fn random_of(text: &str) -> ChaCha8Rng {
     ChaCha8Rng::from_seed(Sha256::digest(text).into())
 }
 
-/// From 0 to 1.
+/// Returns a random number from 0 to 1.
 #[allow(clippy::cast_precision_loss, reason = "53 bits")]
 pub(crate) fn random_unit(random: &mut ChaCha8Rng) -> f64 {
     (random.next_u64() >> 11) as f64 / (1u64 << 53) as f64
 }
 
-/// Roughly normal, of variance 1: the sum of four even ones of 16 bits, each of variance 1/12.
+/// Returns a roughly normal random number of variance 1: the sum of four uniform numbers of 16 bits, each of variance 1/12.
 pub(crate) fn random_normal(random: &mut ChaCha8Rng) -> f64 {
     let bits = random.next_u64();
     let sum: u64 = [0, 16, 32, 48].map(|at| bits >> at & 0xffff).iter().sum();
@@ -62,7 +62,7 @@ pub(crate) fn random_normal(random: &mut ChaCha8Rng) -> f64 {
     (even - 2.0) * 3.0_f64.sqrt()
 }
 
-/// A number below another.
+/// Returns a random number below `n`.
 #[allow(clippy::cast_possible_truncation, reason = "the remainder is an index")]
 pub(crate) fn random_below(n: usize, random: &mut ChaCha8Rng) -> usize {
     (random.next_u64() % n as u64) as usize

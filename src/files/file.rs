@@ -1,5 +1,5 @@
-//! Mechanism files: one schema for TOML and JSON, read into a validated mechanism with every problem pointed at, written
-//! back, looked over, changed with their comments kept, and made into templates.
+//! Mechanism files: one schema for TOML and JSON. Files are read into a validated mechanism, with the place of every problem. They can be
+//! written back, checked, changed with their comments kept, and made into templates.
 
 pub mod costs;
 mod digits;
@@ -107,7 +107,7 @@ impl Findings {
         told
     }
 
-    /// Returns what was made of the file, or the problems if there are any.
+    /// Returns the result for the file, or the problems if there are any.
     pub(crate) fn finish<T>(self, made: T) -> Result<T, Vec<Finding>> {
         if self.problem_count() == 0 {
             Ok(made)

@@ -1,4 +1,4 @@
-//! What mechanisms are read from and written to: mechanism files, robot descriptions, CAD assemblies.
+//! Input and output of mechanisms: mechanism files, robot descriptions, CAD assemblies.
 
 use ozols_forces::statics;
 use ozols_kernel::{closure, format, geom, linalg, model, motion, rank, redundancy};

@@ -1,6 +1,6 @@
 //! A torsional drive of two discs: its bar, a swing, a programme of swings, and its design.
 //!
-//! [`driving::drive`] does all of it.
+//! [`driving::design_drive`] combines all of it.
 
 pub mod cam;
 pub mod driving;

@@ -1,8 +1,8 @@
 //! Holding capacity of a two-lever gripper: its arms, contacts and drive moments, and the loads of a grip on its
 //! mechanism.
 //!
-//! [`grip`] studies a gripper over its diameters with its drive: its holding capacity, and the required effort of the
-//! one drive of both levers. [`clamped::clamped`] solves for the joints of a mechanism around a part.
+//! [`analyse_grip`] studies a gripper over its diameters with its drive: its holding capacity, and the required effort of the
+//! one drive of both levers. [`clamped::clamped_reactions`] solves for the joints of a mechanism around a part.
 
 pub mod arm_curves;
 pub mod clamped;
@@ -66,7 +66,7 @@ pub fn drive_effort(levers: LeverDrive, h: &Holding, drive: &Rates) -> Option<f6
 /// SI, radians.
 ///
 /// # Guarantee
-/// As [`study`].
+/// As [`study_diameters`].
 ///
 /// # Errors
 /// Returns an error if figures are out of range, or if a mechanism does not agree with them.

@@ -1,7 +1,7 @@
 //! Statics of mechanisms: Assur groups and their kinetostatics, and joint reactions of any mechanism, planar or
 //! spatial. This module uses geometry and motion, and is independent of files, searches and reports.
 //!
-//! [`solve::solve`] takes a mechanism to its reactions: in its plane ([`cycle`]) if that determines them, otherwise in
+//! [`solve::solve_reactions`] takes a mechanism to its reactions: in its plane ([`cycle`]) if that determines them, otherwise in
 //! space ([`reactions`]).
 
 pub mod assur;

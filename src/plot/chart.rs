@@ -4,9 +4,9 @@
 //! both light and dark. poloto has no log axis. charming runs V8. None of them keeps names at line ends apart. The
 //! `svg` crate puts spaces before superscripts and lets control characters through.
 //!
-//! Every picture has its own style sheet with a light and a dark look, and needs no script and no font file. It is byte
-//! for byte the same for the same input. A point that cannot be shown is omitted and breaks its line: a point that is
-//! not finite, beyond 1e300 on a linear axis, or not positive on a log axis.
+//! Every picture has its own style sheet with a light and a dark look, and needs no script and no font file. It is byte for byte the same
+//! for the same input. A point that cannot be shown is omitted and breaks its line. Such points are not finite, beyond 1e300 on a linear
+//! axis, or not positive on a log axis.
 
 mod axes;
 mod axis;

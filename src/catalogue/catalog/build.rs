@@ -102,11 +102,11 @@ fn paired_work(spec: &Spec) -> Result<Vec<Structure>, BuildError> {
     Ok(all.filter(|p| !p.is_hinged()).collect())
 }
 
-/// What structures of pairs are made of.
+/// Components of structures of pairs.
 struct Pairs {
     kinds: Vec<PairKind>,
     most: usize,
-    /// Whether no pairs are asked for except a drive that slides.
+    /// Whether a sliding drive is the only pair that is asked for besides hinges.
     hinged: bool,
 }
 
@@ -143,7 +143,7 @@ impl Pairs {
     }
 }
 
-/// Returns the structures of three jaws that have the numbers of links asked for and are made of structures of two jaws.
+/// Returns the structures of three jaws with the requested numbers of links that are made of structures of two jaws.
 fn threefold_work(spec: &Spec) -> Result<Vec<Structure>, BuildError> {
     let forms = spec.threefold_forms();
     if forms.is_empty() {
@@ -185,7 +185,7 @@ pub fn build_rows<B: Send>(
     done: impl FnMut(StructureRow) -> ControlFlow<B> + Send,
 ) -> Result<Option<B>, BuildError> {
     let done = Mutex::new(done);
-    // An end before all is built: what `done` breaks with, or a failure.
+    // An end before all rows are built: a break of `done`, or a failure.
     type End<B> = Result<B, BuildError>;
     let failed = |e: RowError| -> End<B> { Err(e.into()) };
     let one = |structure: &Structure, general: Option<&General>| -> Result<(), End<B>> {

@@ -1,4 +1,4 @@
-//! A mechanism that somebody drew, as a row of a catalogue.
+//! A drawn mechanism as a row of a catalogue.
 
 use crate::catalog::RowError;
 use crate::catalog::row::{IdeaRow, Symmetric, ideas_of};
@@ -43,13 +43,13 @@ pub struct DrawnMechanism {
     pub admissible: BigUint,
     /// Whether every count is exact; lower bounds otherwise.
     pub exact: bool,
-    /// The number of ideas asked for.
+    /// Requested number of ideas.
     pub ideas_asked: usize,
-    /// The best ideas among these, cheapest first.
+    /// The best of these ideas, cheapest first.
     pub ideas: Vec<IdeaRow>,
 }
 
-/// Returns the mobility with the weakest word that is true of it.
+/// Returns the mobility with the weakest word that applies to it.
 pub(super) fn mobility_words(finite: &Finite) -> String {
     let word = match finite.how {
         _ if finite.numeric => "numeric",

@@ -1,4 +1,4 @@
-//! The structures of a catalogue that are a given one.
+//! The entries of a catalogue for a given structure.
 
 use crate::catalog::store::{Store, StoreError};
 use crate::chains::chain::{Chain, order_links};
@@ -24,13 +24,13 @@ pub struct Entry {
     pub form: String,
 }
 
-/// Returns the entries of a catalogue that are a structure, in any form, symmetric ones first.
+/// Returns the entries of a catalogue for a structure, in any form, symmetric ones first.
 ///
 /// # Errors
 /// Returns an error if the database cannot be read.
 ///
 /// # Complexity
-/// One canonical numbering for each structure of as many links.
+/// One canonical numbering for each structure with the same number of links.
 pub fn find_entries(
     store: &Store,
     structure: &PairStructure,

@@ -54,7 +54,7 @@ pub struct InputPair {
 }
 
 impl InputPair {
-    /// Returns the pair of a structure. `None` if its layouts are special on purpose, or if it has other pairs than hinges.
+    /// Returns the pair of a structure. `None` if its layouts are special by design, or if it has other pairs than hinges.
     #[must_use]
     pub fn of_structure(structure: &Structure) -> Option<InputPair> {
         let form = structure.form;
@@ -66,7 +66,7 @@ impl InputPair {
         })
     }
 
-    /// Returns a structure that represents the pair, independent of the structures asked for.
+    /// Returns a structure that represents the pair, independent of the requested structures.
     fn pair_structure(self, form: Form) -> Structure {
         let jaws = (0..self.chain.links()).filter(|l| !self.input.contains(l));
         let roles = Roles {
@@ -84,7 +84,7 @@ fn at_random(structure: &Structure, spec: &Spec, number: usize) -> Result<Mechan
     let PairStructure { chain, roles } = &structure.structure;
     let [u, v] = roles.input;
     let mut random = random_of(&format!("{} {u}-{v} {number}", graph6::write_graph(chain)));
-    // Halved, so that differences of places are as small.
+    // Halved, so that differences of places are equally small.
     let mut coordinate = || f64::from(random.next_u32().cast_signed() / 2);
     let swap = (0..chain.links()).collect();
     let rules = Rules::new(structure, &Lay { swap, bits: 0 }).map_err(|why| RowError::File {
@@ -171,11 +171,11 @@ impl General {
         Ok(has_all.then_some(search))
     }
 
-    /// Returns at most `top` first ideas of a certified layout. They are those of an earlier layout if they depend on the same.
-    /// All layouts of the pair must be asked for equally many.
+    /// Returns at most `top` first ideas of a certified layout. They are those of an earlier layout if they depend on the same data. `top`
+    /// must be the same for all layouts of the pair.
     ///
     /// # Complexity
-    /// That of looking for them, once for each way in which the links of the pair are frame, jaws and rods.
+    /// That of a search for ideas, once for each way in which the links of the pair are frame, jaws and rods.
     pub(super) fn cached_ideas(&self, search: &Search, top: usize) -> Vec<Idea> {
         let basis = search.idea_basis();
         // An entry of a thread that panicked is complete.

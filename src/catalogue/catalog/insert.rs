@@ -1,4 +1,4 @@
-//! A row as entries of the tables.
+//! Insertion of a row into the tables.
 
 use crate::catalog::drawn::{DrawnMechanism, mobility_words};
 use crate::catalog::row::{IdeaRow, Laid, StructureRow, Symmetric};
@@ -88,7 +88,7 @@ fn to_integer(n: usize) -> i64 {
     i64::try_from(n).unwrap_or(i64::MAX)
 }
 
-/// A count of any size: a number where it fits, otherwise its digits.
+/// Returns a count of any size: as a number if it fits, otherwise as its digits.
 fn count_value(n: &BigUint) -> ToSqlOutput<'static> {
     match i64::try_from(n) {
         Ok(small) => small.into(),
@@ -96,7 +96,7 @@ fn count_value(n: &BigUint) -> ToSqlOutput<'static> {
     }
 }
 
-/// Enters a row of a table, each value by the name of its column.
+/// Inserts a row into a table, each value under the name of its column.
 fn insert_row(
     t: &Transaction<'_>,
     table: &str,
@@ -110,7 +110,7 @@ fn insert_row(
     Ok(())
 }
 
-/// Rounded to what the figure is worth, so that the file does not depend on the last bits.
+/// Returns a figure rounded to its accuracy, so that the file does not depend on the last bits.
 fn rounded_figure(x: f64) -> f64 {
     format::round_digits(if x.abs() < 1e-9 { 0.0 } else { x }, 4)
 }
@@ -118,7 +118,7 @@ fn rounded_figure(x: f64) -> f64 {
 fn insert_layout(t: &Transaction<'_>, id: &str, laid: &Laid) -> rusqlite::Result<()> {
     let (l, f) = (&laid.layout.looks, &laid.figures);
     let end = |w: Option<StrokeEnd>| w.map(StrokeEnd::word);
-    // Tips and drive as they grip: as they open, in a hole.
+    // Tips and drive as the jaws grip: in a hole, as they open.
     let grips = laid.layout.limits.task.grip.grip_sign();
     let tip = |n: usize, k: usize| l.tips.get(n).map(|t| rounded_figure(grips * t[k]));
     let turn = f.turns.iter().fold(0.0, |m: f64, t| m.max(*t));
@@ -166,7 +166,7 @@ fn insert_layout(t: &Transaction<'_>, id: &str, laid: &Laid) -> rusqlite::Result
     insert_found(t, id, &laid.counts, &laid.symmetric, &laid.ideas)
 }
 
-/// Enters what a layout does of its task.
+/// Inserts the figures of a layout for its task.
 fn insert_stroke(t: &Transaction<'_>, id: &str, laid: &Laid) -> rusqlite::Result<()> {
     let (task, f) = (&laid.layout.limits.task, &laid.figures);
     let reached = !f.shortfall.as_ref().is_some_and(|s| s.is_of_reach);
@@ -191,7 +191,7 @@ fn insert_stroke(t: &Transaction<'_>, id: &str, laid: &Laid) -> rusqlite::Result
     )
 }
 
-/// Enters the planes in which the links pass each other, where they were looked for.
+/// Inserts the layers in which the links pass each other, if they were searched for.
 fn insert_planes(t: &Transaction<'_>, id: &str, stacking: &Stacking) -> rusqlite::Result<()> {
     let (planes, links) = match stacking {
         Stacking::NotAsked => return Ok(()),
@@ -205,7 +205,7 @@ fn insert_planes(t: &Transaction<'_>, id: &str, stacking: &Stacking) -> rusqlite
     )
 }
 
-/// Enters a drawn mechanism.
+/// Inserts a drawn mechanism.
 pub(super) fn insert_drawn(t: &Transaction<'_>, d: &DrawnMechanism) -> rusqlite::Result<()> {
     let all: BigUint = d.counts.values().sum();
     insert_row(
@@ -245,7 +245,7 @@ fn certainty_word(exact: bool) -> &'static str {
     if exact { "exact" } else { "at least" }
 }
 
-/// Enters what a search has found.
+/// Inserts the results of a search.
 fn insert_found(
     t: &Transaction<'_>,
     id: &str,
@@ -312,7 +312,7 @@ fn from_milli(cost: i64) -> f64 {
     cost as f64 / 1000.0
 }
 
-/// Area of the box round joints and tips, in square millimetres.
+/// Returns the area of the box around joints and tips, in square millimetres.
 fn box_area(laid: &Laid) -> f64 {
     let [width, height] = box_sides(&laid.layout.at.points);
     width * height

@@ -89,17 +89,17 @@ const LAYOUTS: &str = "SELECT s.id, concat_ws(' ', s.input, s.symmetry, iif(s.pa
 /// Index of the first figure in a row.
 const FIRST_FIGURE: usize = 11;
 
-/// Returns the structures of a catalogue that are next to a structure and have as many jaws.
+/// Returns the structures of a catalogue that are next to a structure and have the same number of jaws.
 ///
-/// Structures of the same chain with other roles are next to it. So are structures with two or four links less or more, if one of
-/// both is left when the other loses pairs of links in a row (`without_two_links`). Four links count only for symmetric layouts.
-/// Each half loses two links then.
+/// Structures of the same chain with other roles are next to it. So are structures with two or four links more or less. One of both is left
+/// when the other loses pairs of links in a row (`without_two_links`). Four links count only for symmetric layouts, in which each half
+/// loses two links.
 ///
 /// # Errors
 /// Returns an error if the database cannot be read.
 ///
 /// # Complexity
-/// A few canonical numberings for each layout of up to four links less or more; some fifty for symmetric ones of four more.
+/// A few canonical numberings for each layout of up to four links more or less; some fifty for symmetric ones of four more.
 pub fn find_neighbours(
     store: &Store,
     structure: &PairStructure,
@@ -178,7 +178,7 @@ impl Figure {
     }
 }
 
-/// A structure, and the keys of what is left of it without two links and without four.
+/// A structure, and the keys of the structures that remain without two links and without four.
 struct Own {
     links: usize,
     chain: Chain,
@@ -196,7 +196,7 @@ impl Own {
         }
     }
 
-    /// Returns how another structure, with its key, is next to it: the place of the relation in the list, and by how many links.
+    /// Returns the relation of another structure, with its key, to this one: its index in the list, and the difference in links.
     fn relation_to(
         &self,
         other: &PairStructure,
@@ -220,7 +220,7 @@ impl Own {
     }
 }
 
-/// The chain in canonical numbering, its input a hinge: forms differ in how the input moves.
+/// Returns the chain in canonical numbering with a hinge as its input: forms differ in the motion of the input.
 fn hinged_chain(structure: &PairStructure) -> Chain {
     let chain = structure.chain.clone();
     chain
@@ -229,7 +229,7 @@ fn hinged_chain(structure: &PairStructure) -> Chain {
         .0
 }
 
-/// Returns the keys of the structures that are left without two links, or without four.
+/// Returns the keys of the structures that remain without two links, or without four.
 fn keys_without(structure: &PairStructure, links: usize) -> HashSet<Weighted> {
     let mut left = structure.without_two_links();
     if links == 4 {

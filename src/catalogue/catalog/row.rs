@@ -39,7 +39,7 @@ pub struct StructureRow {
     pub structure: Structure,
     /// Number of jaws that are joined to the frame.
     pub jaws_at_frame: usize,
-    /// Whether it makes a truss with a part hinged to both jaws, where there are two and all its joints are hinges but the input.
+    /// Whether it makes a truss with a part hinged to both jaws. Only for two jaws, if all joints except for the input are hinges.
     pub truss: bool,
     /// Whether its graph is symmetric, jaw for jaw.
     pub graph_symmetric: bool,
@@ -146,13 +146,13 @@ pub struct IdeaRow {
     pub scores: Option<Scores>,
 }
 
-/// Returns the row of one structure. [`build`](crate::catalog::build::build) shares the searches that rows have in common.
+/// Returns the row of one structure. [`build_rows`](crate::catalog::build::build_rows) shares the searches that rows have in common.
 ///
 /// # Errors
 /// Returns an error if the program fails. A structure without a layout is a row, too.
 ///
 /// # Complexity
-/// A search for places, one of the variants, and what [`General::of`] takes.
+/// A search for places, one of the variants, and what [`General::search_general`] takes.
 pub fn structure_row(structure: &Structure, spec: &Spec) -> Result<StructureRow, RowError> {
     let general = General::search_general(structure, spec)?;
     row_of_pair(structure, spec, general.as_ref())
@@ -161,7 +161,7 @@ pub fn structure_row(structure: &Structure, spec: &Spec) -> Result<StructureRow,
 /// Returns the row of a structure, given the search of its chain and input if there is one.
 ///
 /// # Errors
-/// Returns an error in the same cases as [`row`].
+/// Returns an error in the same cases as [`structure_row`].
 ///
 /// # Complexity
 /// A search for places, and a diagram of the variants for each place tried.
@@ -333,10 +333,10 @@ pub(super) fn ideas_of(outcome: &Outcome, top: usize) -> Vec<IdeaRow> {
 /// Number of ideas examined per idea kept: many differ only in directions, or are not symmetric.
 const SEEN: usize = 5;
 
-/// The joints that an idea changes, each with the type that is put there and what is put in series with it.
+/// The joints that an idea changes, each with its new type, and the joint put in series with it.
 type Types = Vec<(JointId, &'static str, Option<usize>)>;
 
-/// Returns what an idea changes, without the directions of joints.
+/// Returns the changes of an idea, without the directions of joints.
 fn changed_types(search: &Search, idea: &Idea) -> Types {
     let chosen = search.space.variables.iter().zip(&idea.first.choices);
     let types = chosen.filter(|(_, c)| **c != 0).flat_map(|(v, &c)| {
@@ -349,8 +349,8 @@ fn changed_types(search: &Search, idea: &Idea) -> Types {
     types.sorted().collect()
 }
 
-/// Returns the first `top` ideas that differ in what is changed, an idea and its images by the symmetry of the layout being one: those
-/// that are their own images first, then the cheapest. The cheapest of all is always among them.
+/// Returns the first `top` ideas with different changes. An idea and its images by the symmetry of the layout count as one. Ideas that are
+/// their own images come first, then the cheapest. The cheapest of all is always among them.
 fn distinct_ideas(search: &Search, ideas: Vec<Idea>, top: usize) -> Vec<Idea> {
     let spec = &search.mechanism.search;
     let image = |of: &Types| -> Option<Types> {
@@ -377,7 +377,7 @@ fn distinct_ideas(search: &Search, ideas: Vec<Idea>, top: usize) -> Vec<Idea> {
     all.map(|(_, (_, idea))| idea).collect()
 }
 
-/// Returns those of the ideas of a search that are kept, each with the scores of its first variant.
+/// Returns the ideas of a search that are kept, each with the scores of its first variant.
 fn idea_rows(search: &Search, ideas: Vec<Idea>, top: usize) -> Vec<IdeaRow> {
     if ideas.is_empty() {
         return Vec::new();

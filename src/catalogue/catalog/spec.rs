@@ -17,10 +17,10 @@ pub(crate) const MOST_LINKS: usize = 12;
 /// Maximum number of links of a structure with pairs.
 pub(crate) const MOST_PAIRED: usize = 8;
 
-/// Width of the widest part of a task, in mm: pins stand within some 100 mm of each other.
+/// Maximum width of the widest part of a task, in mm: pins are within some 100 mm of each other.
 const WIDEST: i64 = 200;
 
-/// Fault of a specification.
+/// Error of a specification.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[non_exhaustive]
 pub enum SpecError {
@@ -63,20 +63,20 @@ pub enum SpecError {
     Range {
         /// The key.
         what: &'static str,
-        /// The least.
+        /// The lower bound.
         from: i64,
-        /// The greatest.
+        /// The upper bound.
         to: i64,
     },
-    /// Nothing to score ideas under.
+    /// No load under which ideas could be scored.
     #[error(
         "workload: nothing acts on the gripper; give closing, or gravity with part or link_mass"
     )]
     NoLoad,
-    /// A part that is wider than the widest.
+    /// The narrowest part is wider than the widest.
     #[error("narrowest must be at least a millimetre less than widest")]
     Widths,
-    /// No form is left.
+    /// No form remains.
     #[error(
         "no layout is asked for: with two jaws a mirror image needs a slide and half a turn a turning input; three jaws are \
          generic or threefold, and stand on parallelograms where each side is in a plane of its own, threefold with a slide"
@@ -197,7 +197,7 @@ impl Default for Spec {
     }
 }
 
-/// Options that a hinge may be replaced by.
+/// Joint types that may replace a hinge.
 const OPTIONS: [&str; 8] = [
     "cylindrical",
     "universal",
@@ -254,7 +254,7 @@ impl Spec {
         some.then_some(all).ok_or_else(wrong)
     }
 
-    /// Returns those of some forms that are asked for.
+    /// Returns the requested ones of some forms.
     fn asked_forms(&self, forms: impl Iterator<Item = (Input, Form)>) -> Vec<(Input, Form)> {
         let asked = |(input, form): &(Input, Form)| {
             self.inputs.contains(input)
@@ -264,7 +264,7 @@ impl Spec {
         forms.filter(asked).collect()
     }
 
-    /// Returns those of the forms asked for in which structures with pairs are laid out.
+    /// Returns the requested forms in which structures with pairs are laid out.
     #[must_use]
     pub(crate) fn paired_forms(&self) -> Vec<(Input, Form)> {
         if self.pairs.is_empty() {
@@ -411,7 +411,7 @@ impl Spec {
         check_range("guide", t.friction.guide, 1, 10_000)
     }
 
-    /// Returns the specification as TOML: the same for the same catalogue, whatever the order of its words.
+    /// Returns the specification as TOML. It is the same for the same catalogue, for any order of its words.
     #[must_use]
     pub fn to_canonical(&self) -> String {
         fn sort_list<T: Ord>(list: &mut Vec<T>) {

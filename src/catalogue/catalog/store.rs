@@ -1,5 +1,5 @@
-//! The file of a catalogue: an SQLite database, a structure a transaction, so that it can be ended at any moment and
-//! carried on.
+//! The file of a catalogue: an SQLite database with one transaction per structure, so that a build can be stopped at any moment and
+//! continued.
 
 mod held;
 mod merge;

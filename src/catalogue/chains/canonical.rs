@@ -78,7 +78,7 @@ impl Weighted {
 /// A canonical numbering and the automorphisms.
 #[derive(Debug, Clone)]
 pub struct Canonical {
-    /// The graph so numbered: equal for two graphs exactly where they are isomorphic.
+    /// The renumbered graph. It is equal for two graphs exactly if they are isomorphic.
     pub graph: Weighted,
     /// The vertex at each place.
     pub order: Vec<usize>,
@@ -86,7 +86,7 @@ pub struct Canonical {
     pub automorphisms: Vec<Vec<usize>>,
 }
 
-/// Numbers a graph.
+/// Returns the canonical numbering of a graph.
 ///
 /// # Complexity
 /// One refinement for each leaf of the search; at least as many leaves as automorphisms.

@@ -1,4 +1,4 @@
-//! How many chains there are, and in how many ways their links make grippers.
+//! Number of chains, and number of grippers that their links make.
 
 use crate::chains::chain::Chain;
 use crate::chains::enumerate::{ChainsError, visit_chains};
@@ -53,12 +53,12 @@ impl Kinds {
     }
 }
 
-/// A property by which grippers are counted. Each but the first is counted of essential grippers only.
+/// A property by which grippers are counted. All but the first count essential grippers only.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Counted {
-    /// All.
+    /// All grippers.
     All,
-    /// Those of which no smaller moving part holds all roles.
+    /// Essential grippers: no smaller moving part holds all roles.
     Essential,
     /// No jaw is joined to the frame.
     Floating,
@@ -72,15 +72,15 @@ pub enum Counted {
     Translating,
     /// An automorphism keeps frame and input joint, and swaps two jaws or carries three around.
     GraphSymmetric,
-    /// They move symmetrically in places that mirror each other. Grippers of hinges are counted with a slide as their input.
+    /// They move symmetrically in places that are mirror images. Grippers of hinges are counted with a slide as their input.
     Mirror,
-    /// The same without the demand on the input joint.
+    /// The same without the condition on the input joint.
     MirrorButInput,
-    /// They move symmetrically in places that half a turn carries to each other.
+    /// They move symmetrically in places that half a turn maps to each other.
     HalfTurn,
-    /// The same without the demand on the input joint.
+    /// The same without the condition on the input joint.
     HalfTurnButInput,
-    /// They move symmetrically in places that a third of a turn carries to each other.
+    /// They move symmetrically in places that a third of a turn maps to each other.
     Threefold,
 }
 

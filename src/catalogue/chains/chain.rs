@@ -7,7 +7,7 @@ use petgraph::unionfind::UnionFind;
 /// Maximum number of links of a chain of pairs. Every set of its links is examined, as the bits of a word.
 pub(crate) const MOST_LINKS: usize = 12;
 
-/// A chain: which links are joined, and by what.
+/// A chain: its links, and the joints between them.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Chain {
     pairs: Weighted,
@@ -229,7 +229,7 @@ impl Chain {
     /// Returns the automorphisms as images of the links, including the identity.
     ///
     /// # Complexity
-    /// As of [`canonical`].
+    /// As of [`number_graph`].
     #[must_use]
     pub fn automorphisms(&self) -> Vec<Vec<usize>> {
         number_graph(&self.pairs).automorphisms
@@ -238,7 +238,7 @@ impl Chain {
     /// Returns the chain in its canonical numbering, with its automorphisms. Two chains are equal then exactly if they are isomorphic.
     ///
     /// # Complexity
-    /// As of [`canonical`].
+    /// As of [`number_graph`].
     #[must_use]
     pub fn canonical_form(&self) -> (Chain, Vec<Vec<usize>>) {
         let Canonical {

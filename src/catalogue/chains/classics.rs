@@ -1,4 +1,4 @@
-//! Gripper schemes that are well known, as structures.
+//! Well-known gripper schemes, as structures.
 
 use crate::chains::PairKind;
 use crate::chains::canonical::Weighted;
@@ -12,7 +12,7 @@ use std::sync::LazyLock;
 
 const TEXT: &str = include_str!("classics.toml");
 
-/// A scheme that is well known.
+/// A well-known scheme.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct Classic {
     /// Its id.
@@ -34,7 +34,7 @@ pub struct MadeAs {
     pub flat: bool,
     /// Its jaws turn in the frame on one pin.
     pub jaws_on_one_pin: bool,
-    /// Its pinion is a screw, its racks are nuts: in the plane these do the same.
+    /// Its pinion is a screw, and its racks are nuts; in the plane these are equivalent.
     pub threaded: bool,
 }
 

@@ -67,7 +67,7 @@ pub fn visit_chains(
         return Ok(());
     };
     let joints = twice / 2;
-    // A chain is connected, and a string has at most three joints more than the mobility it takes away.
+    // A chain is connected, and a string has at most three joints more than the mobility it removes.
     let Some(loops) = (joints + 1).checked_sub(links).filter(|l| *l > 0) else {
         return Ok(());
     };

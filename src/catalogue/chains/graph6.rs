@@ -1,5 +1,5 @@
-//! Chains in graph6, the usual text of small graphs: the number of vertices and the columns of the upper half of the
-//! adjacency matrix, six bits a character.
+//! Chains in graph6, the usual text form of small graphs. It has the number of vertices and the columns of the upper half of the adjacency
+//! matrix, six bits per character.
 
 use crate::chains::chain::Chain;
 use thiserror::Error;
@@ -27,9 +27,9 @@ pub enum Graph6Error {
     Length {
         /// Vertices.
         links: usize,
-        /// Characters wanted.
+        /// Expected number of characters.
         wanted: usize,
-        /// Characters found.
+        /// Number of characters found.
         found: usize,
     },
 }

@@ -12,7 +12,7 @@ use thiserror::Error;
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
 #[non_exhaustive]
 pub enum NoGripper {
-    /// No automorphism of the chain keeps frame and driver and carries the jaws to each other.
+    /// No automorphism of the chain keeps frame and driver and swaps the jaws.
     #[error("nothing of the chain carries the jaws to each other")]
     Unsymmetric,
     /// More than one motion.
@@ -21,7 +21,7 @@ pub enum NoGripper {
     /// The drive cannot move.
     #[error("the drive cannot move")]
     DeadDrive,
-    /// A jaw stands still.
+    /// A jaw does not move.
     #[error("a jaw stands still")]
     DeadJaw,
     /// The jaws move as one body.
@@ -76,7 +76,7 @@ fn check_motion(
 /// Returns the reason why the last of them fails.
 ///
 /// # Complexity
-/// As `moves` for each.
+/// As of `check_motion`, for each automorphism.
 pub fn working_swap(
     subject: &Subject<'_>,
     roles: &Roles,

@@ -6,9 +6,8 @@
 //! A hinge is two rows at a point. A slide means equal turns and no motion across a direction. A gear pair or a slot is one
 //! row, a line of action. Two slots are two such rows, equivalent to two at the point where these lines meet.
 //!
-//! If a symmetry carries a joint to itself, its place is special. A hinge lies on the mirror line. A slide goes along it or
-//! across, and a line of action lies on it or goes across. Gears are swapped, and their pitch point lies on it. Two slots are
-//! never their own image.
+//! If a symmetry maps a joint to itself, its place is special. A hinge lies on the mirror line. Slides and lines of action are along the
+//! line or normal to it. Gears are swapped, and their pitch point lies on the line. Two slots are never their own image.
 
 use crate::chains::chain::{Chain, Joint, carry_links};
 use crate::chains::{PairKind, Symmetry};
@@ -21,14 +20,14 @@ use itertools::Itertools;
 /// 2^61 - 1.
 const PRIME: u64 = (1 << 61) - 1;
 
-/// A velocity of a link: its turning, and the velocity of its point at the origin.
+/// A velocity of a link: its angular velocity, and the velocity of its point at the origin.
 pub type Velocity = [Residue; 3];
 
-/// Constraints of a joint: rows of (turning, velocity of the point at the origin) of one link against the other.
+/// Constraints of a joint: rows of (angular velocity, velocity of the point at the origin) of one link relative to the other.
 #[derive(Debug, Clone, Copy)]
 enum PairRows {
     Hinge([Residue; 2]),
-    /// The direction across it.
+    /// The direction normal to it.
     Slide([Residue; 2]),
     /// Moment, and direction of the line of action.
     Line([Residue; 3]),
@@ -193,7 +192,7 @@ pub fn single_motion(chain: &Chain) -> Option<Vec<Velocity>> {
 /// Returns true if a chain has one motion in nearly all places, in which every two links move against each other.
 ///
 /// # Complexity
-/// As [`motion`].
+/// As [`single_motion`].
 #[must_use]
 pub fn moves_throughout(chain: &Chain) -> bool {
     single_motion(chain).is_some_and(|m| m.iter().all_unique())
@@ -314,8 +313,8 @@ pub(crate) fn motions_in_way(
 /// A way in which joints that are their own images may lie, and the motion of the chain then.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct SymmetricWay {
-    /// A bit for each slide and slot that is its own mirror image, in the order of the joints: 1 for a slide across the line, or a
-    /// line of action across it.
+    /// A bit for each slide and slot that is its own mirror image, in the order of the joints. The bit is 1 for a slide or a line of action
+    /// normal to the line of symmetry.
     pub bits: u32,
     /// The motion, the frame at rest.
     pub motion: Vec<Velocity>,
@@ -342,7 +341,7 @@ pub(crate) fn symmetric_ways(chain: &Chain, symmetry: Swap<'_>, frame: usize) ->
 /// Returns the motions of [`symmetric_ways`].
 ///
 /// # Complexity
-/// As there.
+/// As [`symmetric_ways`].
 #[must_use]
 pub(crate) fn symmetric_motions(
     chain: &Chain,

@@ -9,9 +9,9 @@ use std::cell::OnceCell;
 /// Frame, input joint and jaws of a gripper.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Roles {
-    /// The link that stands still.
+    /// The fixed link.
     pub frame: usize,
-    /// The links of the driven joint, the lesser first.
+    /// The links of the driven joint, in order of their numbers.
     pub input: [usize; 2],
     /// The jaws, two or three, in order of their numbers.
     pub jaws: Vec<usize>,
@@ -73,18 +73,18 @@ impl Roles {
     }
 }
 
-/// How a gripper is symmetric.
+/// Symmetries of a gripper.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Symmetries {
     /// Whether an automorphism of order two keeps the frame and the input joint and swaps the jaws.
     pub graph: bool,
-    /// Whether it moves symmetrically in places that mirror each other.
+    /// Whether it moves symmetrically in places that are mirror images.
     pub mirror: bool,
-    /// The same without the demand on the input joint.
+    /// The same without the condition on the input joint.
     pub mirror_but_input: bool,
-    /// Whether it moves symmetrically in places that half a turn carries to each other.
+    /// Whether it moves symmetrically in places that half a turn maps to each other.
     pub half_turn: bool,
-    /// The same without the demand on the input joint.
+    /// The same without the condition on the input joint.
     pub half_turn_but_input: bool,
 }
 
@@ -243,14 +243,14 @@ impl<'a> Subject<'a> {
     }
 
     /// Returns whether there is an automorphism that keeps frame and input joint and carries each jaw to the next: one of
-    /// [`Subject::swaps`].
+    /// [`Subject::iter_swaps`].
     #[must_use]
     pub fn is_graph_symmetric(&self, roles: &Roles) -> bool {
         self.iter_swaps(roles).next().is_some()
     }
 
-    /// Returns the automorphisms that keep frame and input joint, carry each jaw to the next, and carry every link back after as many
-    /// steps as there are jaws.
+    /// Returns the automorphisms that keep frame and input joint and carry each jaw to the next. After as many steps as there are jaws,
+    /// every link is carried back.
     pub fn iter_swaps<'b>(&'b self, roles: &'b Roles) -> impl Iterator<Item = &'b Vec<usize>> {
         let all = self.automorphisms.iter().copied();
         all.filter(|s| {
@@ -266,7 +266,7 @@ impl<'a> Subject<'a> {
         roles.jaws.iter().filter(joined).count()
     }
 
-    /// Returns whether a part hinged to both jaws makes a truss with them: nothing moves any more, and no smaller part is rigid.
+    /// Returns whether a part hinged to both jaws makes a truss with them: the whole is rigid, and no smaller part is.
     #[must_use]
     pub fn is_truss(&self, roles: &Roles) -> bool {
         let &[a, b] = &roles.jaws[..] else {

@@ -1,5 +1,5 @@
-//! A gripper as a structure: a chain of pairs with its roles, under a name that does not depend on numbers; its parts, and what is left
-//! of it without two of its links.
+//! A gripper as a structure: a chain of pairs with its roles, under a name that does not depend on numbers. Also its parts, and the
+//! structure that remains without two of its links.
 
 use crate::chains::PairKind;
 use crate::chains::canonical::{Weighted, number_graph};
@@ -25,7 +25,7 @@ impl PairStructure {
     /// structures have equal keys exactly if they are the same.
     ///
     /// # Complexity
-    /// As of [`canonical`].
+    /// As of [`number_graph`].
     #[must_use]
     pub fn canonical_key(&self) -> Weighted {
         number_graph(&self.weighted_graph()).graph
@@ -81,9 +81,9 @@ impl PairStructure {
         format!("{} f{} i{i}-{k} j{jaws}", chain.pair_code(), roles.frame)
     }
 
-    /// Returns the links of the smallest moving part that contains all roles. These are all links if the structure is essential.
-    /// They are also all links if in nearly all places there is no single motion in which every two links move, because then
-    /// counting says nothing about parts.
+    /// Returns the links of the smallest moving part that contains all roles. These are all links if the structure is essential. They are
+    /// also all links if in nearly all places there is no single motion in which every two links move. In that case a count does not
+    /// determine the parts.
     ///
     /// # Complexity
     /// A step for each set of links.
@@ -116,9 +116,9 @@ impl PairStructure {
         }
     }
 
-    /// Returns the grippers with two links less: two joined links that carry nothing else are removed. A jaw among them becomes
-    /// a neighbour of the two. An input among them becomes the joint of both neighbours, if these are joined. The mobility by
-    /// counting is unchanged; the motion of every two links is not checked.
+    /// Returns the grippers with two links less: two joined links that carry no others are removed. A jaw among them becomes a neighbour of
+    /// the two. An input among them becomes the joint of both neighbours, if these are joined. The mobility by counting is unchanged; the
+    /// motion of every two links is not checked.
     ///
     /// # Complexity
     /// A few steps for each two joined links.
@@ -166,7 +166,7 @@ impl PairStructure {
     }
 }
 
-/// Two joined links that carry nothing else, and their two neighbours.
+/// Two joined links that carry no others, and their two neighbours.
 struct Row {
     links: [usize; 2],
     ends: [usize; 2],

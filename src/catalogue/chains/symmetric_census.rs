@@ -129,8 +129,8 @@ fn is_joined(marked: &Weighted, u: usize, v: usize) -> bool {
     marked.weight(u, v) & !SWAPPED > 0
 }
 
-/// Returns the graphs with one more orbit of joints: between existing vertices, or from one of them to a new vertex or to two
-/// new ones that change places.
+/// Returns the graphs with one more orbit of joints. It is between existing vertices, or from one of them to a new vertex or to two new
+/// ones that change places.
 fn grow_orbit(marked: &Weighted, most: usize, most_twos: usize) -> Vec<Weighted> {
     let (n, swap) = (marked.vertices(), marked_swap(marked));
     let with_orbit = |graph: &Weighted, joint: [usize; 2], image: [usize; 2]| {
@@ -174,8 +174,8 @@ fn lacking_joints(marked: &Weighted, vertices: usize) -> usize {
     ends.div_ceil(2) + vertices - n
 }
 
-/// Returns every graph with this number of vertices and at most `most_edges` edges that stays connected without any one of its
-/// vertices, with each involution that moves at least two vertices and keeps one.
+/// Returns every graph with this number of vertices and at most `most_edges` edges that stays connected without any one vertex. Each comes
+/// with every involution that moves at least two vertices and keeps one.
 ///
 /// # Complexity
 /// One canonical numbering for each orbit that each graph with one orbit fewer may get.

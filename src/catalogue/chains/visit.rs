@@ -28,9 +28,9 @@ fn ring_graph(vertices: usize) -> Weighted {
 /// The graphs that stay connected without any one of their vertices, each once. They have a given number of loops, and are
 /// listed by number of vertices up to a maximum.
 ///
-/// Every such graph with one more loop results from a smaller one by an ear, a path between two of its vertices that passes
-/// only through new ones [Whitney 1932]. A chain of mobility 1 in which every two links move is such a graph. If one link held
-/// two parts together, the mobility would be the sum of theirs.
+/// Every such graph with one more loop results from a smaller one by an ear [Whitney 1932]. An ear is a path between two vertices that
+/// passes only through new ones. A chain of mobility 1 in which every two links move is such a graph. If one link held two parts together,
+/// the mobility would be the sum of theirs.
 struct Level {
     most: usize,
     graphs: BTreeMap<usize, BTreeSet<Weighted>>,

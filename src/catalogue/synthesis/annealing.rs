@@ -1,4 +1,4 @@
-//! A place for every joint, found by simulated annealing. [Kirkpatrick, Gelatt & Vecchi 1983]
+//! Search for a place for every joint by simulated annealing. [Kirkpatrick, Gelatt & Vecchi 1983]
 
 use crate::synthesis::layout_quality::Looks;
 use crate::synthesis::places::Places;
@@ -13,56 +13,55 @@ use std::cmp::Ordering;
 
 /// Places at the end of a start.
 pub(super) struct FoundPlaces {
-    /// Whether the drawing keeps the limits, or links that cross pass each other in planes of their own.
+    /// Whether the drawing keeps the limits, or links that cross pass each other in separate layers.
     pub(super) within: bool,
-    /// Whether the stroke does what the task asks.
+    /// Whether the stroke fulfils the task.
     does: bool,
-    /// Whether links meet in whatever planes.
+    /// Whether links collide in every assignment of layers.
     meets: bool,
     pub(super) looks: Looks,
-    /// What drawn pose and stroke cost.
+    /// Cost of the drawn pose and the stroke.
     pub(super) cost: f64,
     pub(super) at: Places,
     pub(super) start: u32,
-    /// Whether the search was given up before its end.
+    /// Whether the search was abandoned before its end.
     given_up: bool,
 }
 
 impl FoundPlaces {
-    /// Whether they are worth no other start but for what they cost.
+    /// Returns true if only a lower cost could justify another start.
     fn will_do(&self) -> bool {
         self.within && self.does && !self.meets
     }
 
-    /// Limits first, then the task, then whether it can be built, then what all costs.
+    /// Compares by limits first, then by task, then by collisions, then by cost.
     fn compare_places(&self, other: &FoundPlaces) -> Ordering {
         let misses = |of: &FoundPlaces| (!of.within, !of.does, of.meets);
         let cost = || self.cost.total_cmp(&other.cost);
         misses(self).cmp(&misses(other)).then_with(cost)
     }
 
-    /// Whether no better ones need be looked for.
+    /// Returns true if no better places need be searched for.
     pub(super) fn are_good(&self, sketch: &Sketch<'_>) -> bool {
         let enough = sketch.limits.task.aim == Aim::Balanced && self.cost < sketch.good_cost();
         self.will_do() && enough
     }
 
-    /// Whether they are better than others, where there are any.
+    /// Returns true if they are better than `best`, or if `best` is `None`.
     pub(super) fn is_better_than(&self, best: Option<&FoundPlaces>) -> bool {
         best.is_none_or(|b| self.compare_places(b).is_lt())
     }
 }
 
-/// Starts of a search for places at most, for each way of lying.
+/// Maximum number of starts of a search for places, for each lay.
 pub(super) const STARTS: u32 = 12;
-/// Of the starts none of which becomes good so many, the best, are taken to their ends; more where none of these keeps the limits of the
-/// drawing.
+/// Number of best starts that are completed if none becomes good. More are completed if none of these keeps the limits of the drawing.
 const TO_THE_END: usize = 4;
 
-/// The best places of some starts of a structure of this name, the first good ones being enough; `None` where all end in singular poses.
+/// Returns the best places of some starts of a structure of this name; `None` if all end in singular poses.
 ///
-/// Starts that lag behind are given up. Where none becomes good, the best are taken to their ends until one does the task and can
-/// be built.
+/// The first good places are enough. Starts that lag behind are abandoned. If none becomes good, the best are completed until one fulfils
+/// the task and can be built.
 pub(super) fn best_of_starts<'a>(
     sketch: &Sketch<'a>,
     judge: &mut Judge<'a>,
@@ -107,14 +106,14 @@ pub(super) fn best_of_starts<'a>(
     best
 }
 
-/// Whether starts that lag behind are given up.
+/// Whether starts that lag behind are abandoned.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Patience {
     Racing,
     Whole,
 }
 
-/// What a search for places from one start ends with; `None` where that is a singular pose.
+/// Searches for places from one start; `None` if the search ends in a singular pose.
 fn search_from<'a>(
     sketch: &Sketch<'a>,
     judge: &mut Judge<'a>,
@@ -124,7 +123,7 @@ fn search_from<'a>(
 ) -> Option<FoundPlaces> {
     let (at, given_up) = anneal_start(sketch, judge, random, start, patience);
     let looks = sketch.drawn_figures(&at)?;
-    // Of what is given up some poses say enough, and whether it can be built is not asked.
+    // An abandoned start is judged by some poses only, and its layers are not checked.
     let stroke = if given_up {
         judge.coarse_figures(&at, f64::INFINITY)
     } else {
@@ -153,24 +152,24 @@ fn search_from<'a>(
     })
 }
 
-/// What is looked at in a part of a search for places.
+/// Subject of the evaluation in a phase of the search.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Look {
     Places,
     Motion,
     Stroke,
-    /// The force, limits being so many times as wide as usual.
+    /// The force, with limits this many times as wide as usual.
     Force(f64),
 }
 
-/// A part of a search: how many moves, and how warm it is at the beginning and at the end.
+/// Phase of a search: number of moves, and temperature at the beginning and at the end.
 struct Phase {
     look: Look,
     moves: usize,
     warmth: [f64; 2],
 }
 
-/// Places alone, which is cheap; then the motion of the drawn pose, too; then the whole stroke, warmed up again a little.
+/// Places only, which is cheap; then also the motion of the drawn pose; then the whole stroke, slightly reheated.
 const PHASES: [Phase; 3] = [
     Phase {
         look: Look::Places,
@@ -189,14 +188,14 @@ const PHASES: [Phase; 3] = [
     },
 ];
 
-/// Starts of which few become good: after so many moves that look at strokes the cheapest costs so many times what good places do. Of
-/// those of hinged structures one in twelve.
+/// Thresholds for abandoning a start: a number of moves that evaluate strokes, and the lowest cost after them over the cost of good places.
+/// Few starts beyond a threshold become good: one in twelve for hinged structures.
 const LAGGING: [(usize, f64); 4] = [(50, 7.0), (100, 4.0), (150, 3.0), (200, 2.0)];
 
-/// How wide limits are within which places are taken.
+/// Width of the limits within which places are accepted, as a multiple of the usual width.
 const WITHIN: f64 = 1.0;
 
-/// Of what does the task, the strongest: beyond the limits first, then within.
+/// Search for the greatest force among places that fulfil the task: beyond the limits first, then within them.
 const FOR_FORCE: [Phase; 2] = [
     Phase {
         look: Look::Force(6.0),
@@ -210,17 +209,17 @@ const FOR_FORCE: [Phase; 2] = [
     },
 ];
 
-/// A search for places from one start.
+/// Search for places from one start.
 struct Annealing<'s, 'j, 'a> {
     sketch: &'s Sketch<'a>,
     judge: &'j mut Judge<'a>,
     random: ChaCha8Rng,
-    /// The places, what they cost, and those before the last move.
+    /// The current places, their cost, and the places before the last move.
     at: Places,
     now: f64,
     before: Places,
     seen: SeenSides,
-    /// The cheapest of the phase.
+    /// The cheapest places of the phase.
     best: (f64, Places),
     given_up: bool,
 }
@@ -241,14 +240,14 @@ impl<'s, 'j, 'a> Annealing<'s, 'j, 'a> {
         }
     }
 
-    /// What the places cost; `None` where that is more than `most`, or the pose is singular.
+    /// Returns the cost of the places; `None` if it is more than `most`, or if the pose is singular.
     fn place_cost(&mut self, look: Look, most: f64) -> Option<f64> {
         if let Look::Force(slack) = look {
             let drawn = self.sketch.broken_cost(&self.at, &mut self.seen);
             let limits = self.sketch.limits;
             let stroke = self.judge.coarse_figures(&self.at, f64::INFINITY)?;
             let mut all = drawn + limits.force_cost(&stroke, slack);
-            // What seems good enough at some poses is looked at between them, too.
+            // Places that seem good enough at some poses are also checked between them.
             if all <= most && slack <= WITHIN {
                 all = drawn + limits.force_cost(&self.judge.fine_figures(&self.at)?, slack);
             }
@@ -264,8 +263,8 @@ impl<'s, 'j, 'a> Annealing<'s, 'j, 'a> {
         (all <= most).then_some(all)
     }
 
-    /// Whether the places, the cheapest so far, cost so little by their stroke and do what the task asks at all its poses, so that the
-    /// search may end.
+    /// Returns true if the search may end with these places. They are the cheapest so far, their stroke costs little, and they fulfil the
+    /// task at all its poses.
     fn is_good(&mut self, look: Look) -> bool {
         if look != Look::Stroke || self.now >= self.sketch.good_cost() {
             return false;
@@ -275,14 +274,14 @@ impl<'s, 'j, 'a> Annealing<'s, 'j, 'a> {
         stroke.is_some_and(|f| self.sketch.limits.find_shortfall(&f, swings).is_none())
     }
 
-    /// Whether so many moves that look at strokes have led to so little that the start is given up.
+    /// Returns true if the start is abandoned after this many moves that evaluate strokes, because its lowest cost is still too high.
     fn is_lagging(&self, moves: usize) -> bool {
         let bound = LAGGING.iter().find(|(after, _)| *after == moves);
         bound.is_some_and(|(_, times)| self.best.0 > times * self.sketch.good_cost())
     }
 
     fn phase(&mut self, phase: &Phase, patience: Patience) {
-        // A stroke is judged from the best of what was drawn.
+        // The stroke phases begin with the best places of the drawing phases.
         if matches!(phase.look, Look::Stroke | Look::Force(_)) {
             self.at.clone_from(&self.best.1);
         }
@@ -308,7 +307,7 @@ impl<'s, 'j, 'a> Annealing<'s, 'j, 'a> {
                 return;
             }
         }
-        // Of those that cost more as drawn than good places do with their stroke one in twenty becomes good.
+        // Of starts whose drawing costs more than good places with their stroke, one in twenty becomes good.
         let drawn = matches!(phase.look, Look::Places | Look::Motion);
         let races = patience == Patience::Racing && drawn;
         self.given_up = races && self.best.0 > self.sketch.good_cost();
@@ -319,7 +318,7 @@ impl<'s, 'j, 'a> Annealing<'s, 'j, 'a> {
         let heat = 2.0 * warmth * warmth;
         self.before.clone_from(&self.at);
         if let Look::Force(_) = look {
-            // Limits meet in corners: from one to another several joints go, near or far.
+            // Limits meet in corners: a step from one corner to another moves several joints, near or far.
             for _ in 0..=random_below(3, &mut self.random) {
                 let far = random_unit(&mut self.random).powi(2);
                 self.sketch
@@ -329,7 +328,7 @@ impl<'s, 'j, 'a> Annealing<'s, 'j, 'a> {
             self.sketch
                 .change_places(&mut self.at, warmth, &mut self.random);
         }
-        // Taken where exp((now - then) / heat) is above a random number: what is too dear is not looked at to the end.
+        // Accepted if exp((now - then) / heat) is above a random number. The evaluation stops as soon as the cost is too high.
         let most = self.now - heat * random_unit(&mut self.random).ln();
         match self.place_cost(look, most) {
             Some(then) => {
@@ -344,7 +343,7 @@ impl<'s, 'j, 'a> Annealing<'s, 'j, 'a> {
     }
 }
 
-/// The places at the end of one search.
+/// Returns the places at the end of one search, and whether it was abandoned.
 fn anneal_start<'a>(
     sketch: &Sketch<'a>,
     judge: &mut Judge<'a>,
@@ -355,7 +354,7 @@ fn anneal_start<'a>(
     let mut search = Annealing::new(sketch, judge, random);
     let phases: &[&[Phase]] = match sketch.limits.task.aim {
         Aim::Balanced => &[&PHASES],
-        // What looks good is not what pulls best: every other start does without.
+        // Good looks do not imply a high force, so every other start skips the drawing phases.
         Aim::Force if start.is_multiple_of(2) => &[&PHASES, &FOR_FORCE],
         Aim::Force => &[&FOR_FORCE],
     };

@@ -1,4 +1,4 @@
-//! Places beside those of a layout: whole millimetres are few, so that pins are often in special places by chance.
+//! Places near those of a layout: whole millimetres are coarse, so that pins are often in special places by chance.
 
 use crate::chains::Input;
 use crate::synthesis::figures::layout_figures;
@@ -9,12 +9,13 @@ use crate::synthesis::sketch::Sketch;
 use crate::synthesis::structure::Structure;
 use chacha20::rand_core::Rng;
 
-/// The layout with its pins moved by less than half a millimetre each, to thousandths; the same for the same seed and number.
-/// `None` where it no longer keeps the limits, does not do the task that it did, or has no planes where it had. What slides stays on its
-/// line.
+/// Returns the layout with its pins moved by less than half a millimetre each, to thousandths. The result is the same for the same seed and
+/// number. Sliding pins stay on their line.
+///
+/// `None` if the new layout breaks the limits, loses the task that the old one fulfils, or loses its assignment of layers.
 ///
 /// # Complexity
-/// That of the figures of a stroke, twice at most.
+/// At most twice that of the figures of a stroke.
 #[must_use]
 pub(crate) fn nearby_layout(
     structure: &Structure,
@@ -41,7 +42,7 @@ pub(crate) fn nearby_layout(
     };
     let now = layout_figures(structure, &moved)?;
     let (does, passes) = (now.shortfall.is_none(), now.stacking.is_known());
-    // What it does not it may not have done before.
+    // Faults that the original layout has are accepted.
     let no_less = || {
         layout_figures(structure, layout).is_some_and(|before| {
             (does || before.shortfall.is_some()) && (passes || !before.stacking.is_known())

@@ -1,4 +1,4 @@
-//! What layouts of all kinds have in common: the points of each link, and what the links are for.
+//! Common data of all kinds of layouts: the points of each link, and the roles of the links.
 
 use crate::chains::chain::order_links;
 use crate::closure::tree::spanning_forest;
@@ -8,53 +8,53 @@ use crate::synthesis::random_normal;
 use chacha20::ChaCha8Rng;
 use itertools::Itertools;
 
-/// The points of a gripper's links. Points are numbered: those of the joints in their order, then the tips.
+/// The points of a gripper's links. Points are numbered: joints in their order, then tips.
 #[derive(Debug, Clone)]
 pub struct Bones {
-    /// The link that stands still.
+    /// The fixed link.
     pub frame: usize,
-    /// The link that is driven.
+    /// The driven link.
     pub driver: usize,
     /// The jaws.
     pub jaws: Vec<usize>,
-    /// Points of each link: its joints, and of a jaw its tip.
+    /// Points of each link: its joints, and for a jaw its tip.
     pub of_link: Vec<Vec<usize>>,
-    /// The same as bits.
+    /// Points of each link as bits.
     pub members: Vec<u32>,
-    /// The points of all links but the frame that have more than three, as bits: which are at their corners depends on where they are.
+    /// Points of all moving links with more than three points, as bits. Their places decide which of them are corners of the hull.
     pub hulled: u32,
-    /// The links of each joint that has a point on both, that with the block of a slide first.
+    /// The links of each joint that has a point on both. For a slide, the link with the block comes first.
     pub joints: Vec<Option<[usize; 2]>>,
-    /// Joints that have no point on their links, where pitch circles touch, as bits.
+    /// Joints without a point on their links, where pitch circles touch, as bits.
     pub touching: u32,
-    /// Of each point those that are on one axis with it by rule, itself among them, as bits: they are not near to each other.
+    /// For each point, the points on one axis with it by rule, itself included, as bits. They do not count as too near to each other.
     pub together: Vec<u32>,
-    /// Joints that are where others have them.
+    /// Whether a joint takes its place from other joints.
     pub follows: Vec<bool>,
-    /// Where the tips of the jaws are.
+    /// Places of the tips of the jaws.
     pub tips: Vec<Point>,
-    /// Which way each tip closes, of length 1.
+    /// Closing direction of each tip, of length 1.
     pub inward: Vec<Point>,
-    /// Links that only push and pull: of two pins, neither frame nor driver nor jaw.
+    /// Links that only push and pull: links of two pins that are neither frame nor driver nor jaw.
     pub rods: Vec<(usize, [usize; 2])>,
     /// Whether the drive turns.
     pub turns: bool,
     /// Whether each jaw turns about a hinge in the frame.
     pub hinged: Vec<bool>,
-    /// Of a gripper that is all round the part: how near to the middle of it joints may be.
+    /// For a gripper all around the part: minimum distance of joints from its middle.
     pub round: Option<f64>,
-    /// How far apart joints are wished at least, and how far behind the tips, in mm.
+    /// Desired minimum distance between joints, and from the joints to the tips ahead of them, in mm.
     pub wished: [f64; 2],
-    /// On which side of the middle, by its sign, the half of the jaw is that each joint belongs to; 0 where it belongs to none, or the
-    /// jaws are not on both sides.
+    /// The side of the middle, by its sign, of the half of the jaw that each joint belongs to. 0 if it belongs to no half, or if the jaws
+    /// are not on both sides.
     pub halves: Vec<f64>,
-    /// Of a drive that slides between two links which have one other joint each, a cylinder: these links with their other joints.
+    /// For a drive that slides between two links with one other joint each, a cylinder: these links with their other joints.
     pub cylinder: Option<[(usize, usize); 2]>,
-    /// Jaws in all, those included that are images of these.
+    /// Number of jaws, including those that are images of others.
     pub sides: usize,
 }
 
-/// What links do, and how joints are placed.
+/// Input for [`Bones`]: the roles of the links, and rules for the places of the joints.
 #[derive(Debug, Clone)]
 pub(super) struct BonePlan<'a> {
     pub(super) frame: usize,
@@ -70,11 +70,11 @@ pub(super) struct BonePlan<'a> {
     pub(super) wished: [f64; 2],
     /// Sets of joints that are on one axis, as bits.
     pub(super) together: Vec<u32>,
-    /// The links of a drive that slides between two moving ones.
+    /// The links of a drive that slides between two moving links.
     pub(super) cylinder: Option<[usize; 2]>,
 }
 
-/// How many joints are on a shortest way from a link to each; beyond all bounds where there is none.
+/// Returns the number of joints on a shortest path from a link to every link; infinite if there is no path.
 fn joints_away(
     links: usize,
     joints: impl IntoIterator<Item = [usize; 2]>,
@@ -89,7 +89,7 @@ fn joints_away(
     away
 }
 
-/// The side of each joint's jaw: of the jaw that is nearer by way of links other than frame and driver.
+/// Returns the side of each joint's jaw. This is the jaw that is nearer on paths without frame and driver.
 fn joint_halves(links: usize, plan: &BonePlan<'_>) -> Vec<f64> {
     let ([a, b], None) = (plan.jaws, plan.round) else {
         return vec![0.0; plan.joints.len()];
@@ -111,7 +111,7 @@ fn joint_halves(links: usize, plan: &BonePlan<'_>) -> Vec<f64> {
         }
     };
     let halves = plan.joints.iter().map(half).enumerate();
-    // What is on one axis with its image is on no side.
+    // A joint on one axis with its image is on no side.
     let shared = |i: usize| plan.together.iter().any(|set| set >> i & 1 == 1);
     halves
         .map(|(i, half)| if shared(i) { 0.0 } else { half })
@@ -119,7 +119,7 @@ fn joint_halves(links: usize, plan: &BonePlan<'_>) -> Vec<f64> {
 }
 
 impl Bones {
-    /// Of so many links, of which those may be rods that `pinned` says.
+    /// Creates the points of `links` links. Links for which `pinned` returns true can be rods.
     pub(super) fn new(links: usize, plan: BonePlan<'_>, pinned: impl Fn(usize) -> bool) -> Bones {
         let mut of_link = vec![Vec::new(); links];
         for (i, ends) in plan.joints.iter().enumerate() {
@@ -180,7 +180,8 @@ impl Bones {
         }
     }
 
-    /// Away from the part at each jaw, over the number of pairs of jaws: by this the tips' ways add up to the opening.
+    /// Returns the unit vector away from the part at each jaw, divided by the number of pairs of jaws. The displacements of the tips along
+    /// these vectors add up to the opening.
     #[must_use]
     pub(super) fn apart_vectors(&self) -> Vec<Point> {
         #[allow(clippy::cast_precision_loss, reason = "two or three")]
@@ -189,8 +190,8 @@ impl Bones {
         inward.map(|i| i.map(|x| -x / pairs)).collect()
     }
 
-    /// The force of each jaw where the drive goes so far for a millimetre of the opening, by work: N for 1 N of the drive, or for 1 Nm
-    /// where it turns.
+    /// Returns the force of each jaw by virtual work, if the drive moves by `rate` for a millimetre of the opening. In N for 1 N of the
+    /// drive, or for 1 Nm if it turns.
     #[must_use]
     pub fn jaw_force(&self, rate: f64) -> f64 {
         #[allow(clippy::cast_precision_loss, reason = "two or three")]
@@ -200,13 +201,14 @@ impl Bones {
         metre * rate / pairs
     }
 
-    /// Whether every jaw turns about a hinge in the frame.
+    /// Returns true if every jaw turns about a hinge in the frame.
     #[must_use]
     pub fn all_swing(&self) -> bool {
         self.hinged.iter().all(|h| *h)
     }
 
-    /// Links between frame and jaws as far ahead as they are joints away, each joint between its two links; the tips after them.
+    /// Returns random places to begin with: each joint between its two links, then the tips. Each link is ahead in proportion to its
+    /// distance in joints from frame and jaws.
     pub(super) fn first_places(
         &self,
         joints: Vec<[usize; 2]>,
@@ -220,7 +222,7 @@ impl Bones {
             let away = || jaws.iter().map(|j| j[l]);
             let near = away().fold(f64::INFINITY, f64::min);
             let ahead = frame[l] / (frame[l] + near).max(1.0);
-            // The nearer jaws draw a link to their side.
+            // A link is drawn towards the side of the nearer jaws.
             let all = away().sum::<f64>();
             #[allow(clippy::cast_precision_loss, reason = "two or three")]
             let mean = all / jaws.len() as f64;

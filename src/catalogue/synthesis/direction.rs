@@ -2,7 +2,7 @@
 
 use crate::synthesis::place::{Place, Point, third};
 
-/// Of the first quarter, from along x to nearly along y, evenly about its middle.
+/// Directions of the first quadrant, from along x to nearly along y, symmetric about its middle.
 const QUARTER: [[i32; 3]; 15] = [
     [1, 0, 1],
     [60, 11, 61],
@@ -21,15 +21,15 @@ const QUARTER: [[i32; 3]; 15] = [
     [11, 60, 61],
 ];
 
-/// How many there are.
+/// Number of directions in one turn.
 pub(super) const ALL: usize = 4 * QUARTER.len();
 
-/// A direction whose coordinates and length are whole: the sides of a right triangle; or one that thirds of a turn make of it.
+/// Direction whose coordinates and length are whole: the sides of a right triangle. It may be turned by thirds of a turn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct WholeDirection {
-    /// Which of one turn of them it is.
+    /// Its number among the directions of one turn.
     number: usize,
-    /// How often it is turned by 120°: 0, 1 or 2.
+    /// Number of turns by 120°: 0, 1 or 2.
     thirds: u8,
 }
 
@@ -43,19 +43,19 @@ impl WholeDirection {
         WholeDirection { number, thirds }
     }
 
-    /// The direction of a number: one turn of them.
+    /// Returns the direction of this number, modulo one turn.
     #[must_use]
     pub fn number(n: usize) -> WholeDirection {
         WholeDirection::of(n % ALL, 0)
     }
 
-    /// The same so many thirds of a turn on, left round.
+    /// Returns the direction turned counterclockwise by this many thirds of a turn.
     #[must_use]
     pub(super) fn turned_by_thirds(self, by: u8) -> WholeDirection {
         WholeDirection::of(self.number, (self.thirds + by) % 3)
     }
 
-    /// The next but so many, left round where positive.
+    /// Returns the direction this many steps on, counterclockwise if positive.
     #[must_use]
     pub fn turn_by(self, by: isize) -> WholeDirection {
         let all = ALL.cast_signed();
@@ -63,19 +63,19 @@ impl WholeDirection {
         WholeDirection::of(number.cast_unsigned(), self.thirds)
     }
 
-    /// Its image across the x axis.
+    /// Returns its mirror image in the x axis.
     #[must_use]
     pub fn mirror_x(self) -> WholeDirection {
         WholeDirection::of((ALL - self.number) % ALL, (3 - self.thirds) % 3)
     }
 
-    /// The opposite one.
+    /// Returns the opposite direction.
     #[must_use]
     pub fn reverse_direction(self) -> WholeDirection {
         WholeDirection::of((self.number + ALL / 2) % ALL, self.thirds)
     }
 
-    /// Its coordinates before it is turned.
+    /// Returns its coordinates before the turn by thirds.
     fn whole_coordinates(self) -> [i32; 2] {
         let [x, y, _] = QUARTER[self.number % QUARTER.len()];
         match self.number / QUARTER.len() {
@@ -86,7 +86,7 @@ impl WholeDirection {
         }
     }
 
-    /// A place that is that way from the origin, exactly.
+    /// Returns the exact place in this direction from the origin.
     #[must_use]
     pub(crate) fn place_along(self) -> Place {
         Place {
@@ -96,7 +96,7 @@ impl WholeDirection {
         }
     }
 
-    /// Of length 1, in double precision.
+    /// Returns the vector of length 1, in double precision.
     #[must_use]
     pub fn real(self) -> Point {
         let length = QUARTER[self.number % QUARTER.len()][2];

@@ -1,20 +1,20 @@
 //! Small systems of equations solved in place, without a new matrix for each.
 
-/// Entries that are worked on at once.
+/// Number of entries that are processed at once.
 const LANES: usize = 4;
 
-/// A square matrix and, beside it, right sides.
+/// A square matrix with right sides.
 #[derive(Debug, Clone, Default)]
 pub struct SmallSystem {
     size: usize,
     sides: usize,
-    /// From row to row: a multiple of the entries that are worked on at once, the rest zero.
+    /// Row stride: a multiple of [`LANES`], padded with zeros.
     width: usize,
     entries: Vec<f64>,
 }
 
 impl SmallSystem {
-    /// All zero: `size` unknown, and so many right sides.
+    /// Creates a system of `size` unknowns and `sides` right sides, all zero.
     #[must_use]
     pub fn new(size: usize, sides: usize) -> SmallSystem {
         let width = (size + sides).next_multiple_of(LANES);
@@ -26,23 +26,23 @@ impl SmallSystem {
         }
     }
 
-    /// Makes all zero.
+    /// Sets all entries to zero.
     pub fn clear(&mut self) {
         self.entries.fill(0.0);
     }
 
-    /// Adds to an entry; right sides are the columns after the unknown.
+    /// Adds to an entry. The columns of the right sides follow those of the unknowns.
     pub fn add_entry(&mut self, row: usize, column: usize, value: f64) {
         self.entries[row * self.width + column] += value;
     }
 
-    /// The value of an unknown for a right side, once solved; before that what is in that row of the side.
+    /// Returns the value of an unknown for a right side. Before the system is solved, returns the entry of the right side in that row.
     #[must_use]
     pub fn get(&self, unknown: usize, side: usize) -> f64 {
         self.entries[unknown * self.width + self.size + side]
     }
 
-    /// The largest entry, by its size.
+    /// Returns the largest absolute value of an entry.
     fn largest_entry(&self) -> f64 {
         let mut most = [0.0_f64; LANES];
         let (all, _) = self.entries.as_chunks::<LANES>();
@@ -54,17 +54,17 @@ impl SmallSystem {
         most.into_iter().fold(0.0, f64::max)
     }
 
-    /// Solves for all right sides, by elimination with the largest of each column as pivot; the sign of the determinant, or
-    /// `None` where a pivot is nothing beside the largest entry.
+    /// Solves for all right sides by elimination with partial pivoting, and returns the sign of the determinant. `None` if a pivot is
+    /// negligible compared with the largest entry.
     ///
     /// # Complexity
-    /// O(n³) for n unknown.
+    /// O(n³) for n unknowns.
     pub fn solve_all(&mut self) -> Option<f64> {
         let (n, w) = (self.size, self.width);
         let least = 1e-12 * self.largest_entry();
         let mut sign = 1.0;
         for c in 0..n {
-            // Sizes are in the order of their bits.
+            // For non-negative numbers the order of the bits is the order of the values.
             let bits = |r: &usize| self.entries[r * w + c].abs().to_bits();
             let pivot = (c..n).max_by_key(bits)?;
             let size = self.entries[pivot * w + c].abs();
@@ -79,7 +79,7 @@ impl SmallSystem {
             let (above, below) = self.entries.split_at_mut((c + 1) * w);
             let own = &above[c * w..];
             sign *= own[c].signum();
-            // What stands before the next column is not looked at again, and may change with its neighbours.
+            // Entries before the next column are not read again, and may change with their neighbours.
             let begin = (c + 1) / LANES * LANES;
             let inverse = 1.0 / own[c];
             let (lanes, _) = own[begin..].as_chunks::<LANES>();

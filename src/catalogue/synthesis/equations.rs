@@ -10,13 +10,13 @@ use crate::synthesis::stroke::pose::LinkPose;
 use crate::synthesis::stroke::walk::{FitEquations, RADIAN};
 use crate::synthesis::velocities::Velocity;
 
-/// Where a link's unknown stand: two of its shift and one of its turn. The frame has none.
+/// Returns the first column of a link's unknowns: two of its shift and one of its turn. `None` for the frame.
 pub(super) fn place_of(link: usize, frame: usize) -> Option<usize> {
     (link != frame).then(|| 3 * (link - usize::from(link > frame)))
 }
 
-/// Puts the terms of a row into a system; velocities of links are those of the points that `about` says, and a turning is one of
-/// the arm [`RADIAN`].
+/// Adds the terms of a row to a system. Link velocities are those of the points that `about` returns, and turns are scaled by the arm
+/// [`RADIAN`].
 pub(super) fn put_row(
     system: &mut SmallSystem,
     row: usize,
@@ -34,7 +34,7 @@ pub(super) fn put_row(
     }
 }
 
-/// Velocities of all links for a unit speed of the driver, as drawn; `None` in a singular pose.
+/// Solves the velocities of all links for a unit speed of the driver, as drawn; `None` in a singular pose.
 ///
 /// # Complexity
 /// O(n³) for n links.
@@ -67,7 +67,7 @@ pub(super) fn solve_velocities(sketch: &Sketch<'_>, at: &Places) -> Option<Vec<V
     Some((0..links.len()).map(velocity).collect())
 }
 
-/// The equations of a stroke: shift and turn of every moving link, the turn as millimetres at an arm of 50, and the drive.
+/// Equations of a stroke. The unknowns are the drive, and shift and turn of every moving link, with turns as millimetres at an arm of 50.
 #[derive(Debug, Clone)]
 pub(crate) struct PoseEquations<'a> {
     sketch: &'a Sketch<'a>,
@@ -76,7 +76,7 @@ pub(crate) struct PoseEquations<'a> {
 }
 
 impl<'a> PoseEquations<'a> {
-    /// Room for those of a sketch.
+    /// Creates the equations of a sketch.
     #[must_use]
     pub(crate) fn new(sketch: &'a Sketch<'a>) -> PoseEquations<'a> {
         PoseEquations {
@@ -86,7 +86,7 @@ impl<'a> PoseEquations<'a> {
         }
     }
 
-    /// The poses that the unknown say.
+    /// Writes the poses of the links for the unknowns `x`.
     pub(super) fn unpack_poses(&self, x: &[f64], links: &mut [LinkPose]) {
         for (link, pose) in links.iter_mut().enumerate() {
             if let Some(k) = place_of(link, self.sketch.bones.frame) {
@@ -129,7 +129,7 @@ impl FitEquations for PoseEquations<'_> {
                 rows.add_entry(row, size, off);
                 row += 1;
             });
-            // What the drive has gone is what its links have.
+            // The travel of the drive is the relative motion of its links.
             let (gone, terms) = all.drive_row(sketch.input, sketch.drive);
             put_row(rows, row, &terms, bones.frame, shift);
             rows.add_entry(row, last, -1.0);

@@ -1,4 +1,4 @@
-//! What a laid-out gripper does over its stroke: how far it opens, with what force it closes, how the jaws move.
+//! Figures of a laid-out gripper over its stroke: its opening, its closing force, and the motion of its jaws.
 
 use crate::synthesis::layout::Layout;
 use crate::synthesis::places::Places;
@@ -11,9 +11,9 @@ use crate::synthesis::stroke::walk::StrokeEnd;
 use crate::synthesis::structure::Structure;
 use crate::synthesis::threefold::SIDES;
 
-/// A jaw that turns by less than this over the stroke keeps its attitude: what is left is the error of closing. In rad.
+/// A jaw that turns by less than this over the stroke counts as parallel: the rest is the error of loop closure. In rad.
 const STILL: f64 = 1e-6;
-/// How far beyond the task's ends the jaws are followed, over the task's stroke.
+/// How far beyond the ends of the task the jaws are followed, as a fraction of the task's stroke.
 const BEYOND: f64 = 0.2;
 
 /// How a jaw moves.
@@ -23,12 +23,12 @@ pub enum JawMotion {
     Parallel,
     /// It turns about a hinge in the frame.
     Swinging,
-    /// It turns, and no point of it stands still.
+    /// It turns, and no point of it is fixed.
     Floating,
 }
 
 impl JawMotion {
-    /// The word used for it.
+    /// Returns the name of the motion.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -39,40 +39,41 @@ impl JawMotion {
     }
 }
 
-/// Figures over the stroke of the task, or over what is reached of it.
+/// Figures over the stroke of the task, or over its reachable part.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LayoutFigures {
-    /// The least and the greatest opening reached, in millimetres: no farther than the task asks.
+    /// The least and the greatest opening reached, in millimetres, within the range that the task asks for.
     pub openings: [f64; 2],
-    /// Which way the drive goes as the jaws close: 1, or -1 where its coordinate falls.
+    /// Direction of the drive as the jaws close: 1, or -1 if its coordinate falls.
     pub closes: f64,
-    /// Travel of the drive between them: millimetres, or radians.
+    /// Travel of the drive over the stroke, in millimetres or radians.
     pub travel: f64,
-    /// Force of each jaw over the force of the drive, without friction: the least, the mean over the opening and the greatest.
-    /// Where the drive turns, newtons for a newton metre.
+    /// Force of each jaw over the force of the drive, without friction: least, mean over the opening, and greatest. If the drive turns, in
+    /// newtons per newton metre.
     pub force: [f64; 3],
     /// How each jaw moves.
     pub jaws: Vec<JawMotion>,
-    /// How far each jaw turns over the stroke, in rad.
+    /// Angle by which each jaw turns over the stroke, in rad.
     pub turns: Vec<f64>,
-    /// Why the stroke ends before the jaws have closed, and before they have opened so far; always where they have not.
+    /// Why the stroke ends before the jaws have closed, and before they have opened as far as the task asks. `None` if they have.
     pub ends: [Option<StrokeEnd>; 2],
     /// The least transmission angle over the stroke, of rods and by joint forces at driver and jaws, in degrees.
     pub transmission: f64,
-    /// What the joint forces say.
+    /// Figures of the joint forces.
     pub forces: ForceFigures,
-    /// Width and height of the box round pins, tips and pitch circles over the stroke, in millimetres.
+    /// Width and height of the box around pins, tips and pitch circles over the stroke, in millimetres.
     pub size: [f64; 2],
-    /// How much farther than the task asks the jaws could close, and open, before a dead point or the like: millimetres, at most
-    /// a fifth of the task's stroke; 0 where they do not come as far as it asks.
+    /// Distance that the jaws could close, and open, beyond the task before a dead point or a similar end. In millimetres, at most a fifth
+    /// of the task's stroke; 0 if they do not reach the end of the task.
     pub margin: [f64; 2],
-    /// The planes in which the links pass each other over the stroke.
+    /// The layers in which the links pass each other over the stroke.
     pub stacking: Stacking,
-    /// What the stroke lacks of the task; nothing where it does all of it.
+    /// The requirement of the task that the stroke misses; `None` if it meets all.
     pub shortfall: Option<Shortfall>,
 }
 
-/// Returns the figures of a laid-out gripper; `None` if it is drawn in a singular pose. Each of three sides has the figures of one of two.
+/// Returns the figures of a laid-out gripper; `None` if it is drawn in a singular pose. Each jaw of three has the figures of a
+/// jaw of two.
 ///
 /// # Complexity
 /// Some dozen poses, each of O(n³) for n links.

@@ -1,5 +1,5 @@
-//! Layouts: a place for every joint of a structure, searched from seeds that follow from its name. Moves go to whole millimetres, so that
-//! the places found are exact. Well-known schemes are laid out in their most symmetric forms.
+//! Layouts: a place for every joint of a structure, searched from seeds that follow from its name. Moves go to whole millimetres, so the
+//! places found are exact. Well-known schemes are laid out in their most symmetric forms.
 
 use crate::chains::Symmetry;
 use crate::chains::classics::{Classic, known_classics};
@@ -36,7 +36,7 @@ pub(crate) fn known_schemes() -> Vec<Structure> {
 /// Returns a structure in the most symmetric form that it can have; `None` if it can have no form.
 ///
 /// # Complexity
-/// As [`Structure::lays`], for each form.
+/// As [`Structure::symmetry_lays`], for each form.
 #[must_use]
 pub fn most_symmetric(structure: &PairStructure) -> Option<Structure> {
     let symmetric = [Symmetry::Mirror, Symmetry::HalfTurn];
@@ -64,11 +64,11 @@ pub struct Layout {
     pub rules: Rules,
     /// Their places.
     pub at: Places,
-    /// The figures it was taken for.
+    /// The figures of the drawn pose for which it was chosen.
     pub looks: Looks,
-    /// What it was made for.
+    /// The limits that it was made for.
     pub limits: Limits,
-    /// The start it was found from.
+    /// The start in which it was found.
     pub start: u32,
 }
 
@@ -87,7 +87,7 @@ impl Layout {
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
 #[non_exhaustive]
 pub enum NoLayout {
-    /// In nearly all places it moves otherwise, or not at all.
+    /// In nearly all places it moves in another way, or not at all.
     #[error("{0}")]
     Motion(#[from] NoGripper),
     /// No places of its joints have the symmetry and the form.
@@ -96,7 +96,7 @@ pub enum NoLayout {
     /// The pose is not proven to be a regular one of mobility 1.
     #[error("the places found are not proven to leave one finite motion")]
     NotRegular,
-    /// No places were found that keep the limits; those of the best are told.
+    /// No places were found that keep the limits. The error holds the figures of the best.
     #[error(
         "no places found within the limits: the best have links of 1 : {ratio:.1} and {crossings} crossings"
     )]
@@ -109,7 +109,7 @@ pub enum NoLayout {
 }
 
 impl NoLayout {
-    /// That places have these figures at best.
+    /// Creates the error for the figures of the best places.
     fn limits(looks: &Looks) -> NoLayout {
         NoLayout::Limits {
             ratio: looks.ratio,
@@ -127,7 +127,7 @@ impl NoLayout {
 /// Returns an error if there is no layout.
 ///
 /// # Complexity
-/// Some thousand looks at places for each way to lay it out. Some hundred of these look at a whole stroke.
+/// Some thousand evaluations of places for each lay. Some hundred of these evaluate a whole stroke.
 pub fn lay_out(structure: &Structure, limits: &Limits, seed: u64) -> Result<Layout, NoLayout> {
     let mut best: Option<(FoundPlaces, Rules)> = None;
     let mut why = NoLayout::Pairs(NoRules::Still);

@@ -1,4 +1,4 @@
-//! What a layout looks like, and how well it moves: the figures by which it is judged.
+//! Figures by which a layout is judged: its drawing and its motion.
 
 use crate::geom::vector::{cross_plane, dot, length, sub};
 use crate::synthesis::bones::Bones;
@@ -7,28 +7,28 @@ use crate::synthesis::seen_sides::{LinkSide, SeenSides};
 use crate::synthesis::task::{Limits, beyond_limit};
 use crate::synthesis::velocities::Velocity;
 
-/// What a limit costs that is broken, where nothing but limits and one figure count.
+/// Cost of a broken limit, if only limits and one figure count.
 pub(super) const DEAR: f64 = 50.0;
-/// Links longer than this are long, and shorter ones than this short.
+/// Links longer than this are long, and links shorter than `SHORT` are short. In millimetres.
 const LONG: f64 = 75.0;
 const SHORT: f64 = 18.0;
 /// Figures of a layout at the pose it is drawn in.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Looks {
-    /// Crossings of links, and pins on links that they are no part of.
+    /// Number of crossings of links, and of pins on links that they do not belong to.
     pub crossings: usize,
-    /// The longest distance of two pins of a link over the shortest, the frame left out.
+    /// Ratio of the longest to the shortest distance of two pins of a link, without the frame.
     pub ratio: f64,
-    /// How fast the opening shrinks for a unit of the drive: millimetres a millimetre or a radian.
+    /// Speed at which the opening shrinks for a unit of the drive: millimetres per millimetre or radian.
     pub closing: f64,
-    /// How the tips move as they close, for a unit of the drive.
+    /// Velocity of each tip as the jaws close, for a unit of the drive.
     pub tips: Vec<Point>,
-    /// What the places cost, 0 at best.
+    /// Cost of the places, 0 at best.
     pub penalty: f64,
 }
 
 impl Looks {
-    /// Whether the drawing keeps the limits; with more crossings where the links pass each other in planes of their own.
+    /// Returns true if the drawing keeps the limits. More crossings are accepted if the links pass each other in separate layers.
     pub(super) fn keep_limits(&self, limits: &Limits, passes: bool) -> bool {
         self.ratio <= limits.ratio && (self.crossings <= limits.crossings || passes)
     }
@@ -37,17 +37,17 @@ impl Looks {
 /// Pins whose coordinates differ by less than this are nearly in line.
 const ALIGNED: f64 = 2.5;
 
-/// What velocities say of a layout.
+/// Figures of the motion of a layout.
 pub(super) struct LayoutMotion {
     closing: f64,
     tips: Vec<Point>,
     pub(super) penalty: f64,
 }
 
-/// The figures of points: pins, then tips.
+/// Figures of points: pins, then tips.
 impl Bones {
-    /// What places cost, and what they do besides, such as how they move; `None` where that is more than `most`, or the pose is singular.
-    /// Every part of it only adds, so that what is too dear is known early: what takes longest comes last.
+    /// Returns the cost of places, including the `besides` cost, such as that of their motion. `None` if it is more than `most`, or if the
+    /// pose is singular. Every part only adds to the cost, so the slowest part comes last.
     ///
     /// # Complexity
     /// O(p²) for p points.
@@ -65,10 +65,10 @@ impl Bones {
         cheap(sum + seen.crossing_cost(self, at).1)
     }
 
-    /// All figures.
+    /// Returns all figures of the drawn pose.
     ///
     /// # Complexity
-    /// As [`Bones::penalty`].
+    /// As [`Bones::place_penalty`].
     pub(super) fn drawn_figures(&self, at: &[Point], motion: LayoutMotion) -> Option<Looks> {
         let mut seen = SeenSides::default();
         Some(Looks {
@@ -80,7 +80,7 @@ impl Bones {
         })
     }
 
-    /// Points that run into each other, and pins in line.
+    /// Returns the cost of points that are too near to each other, and of pins in line.
     fn spacing_cost(&self, at: &[Point]) -> f64 {
         let [near, _] = self.wished;
         let mut penalty = 0.0;
@@ -91,8 +91,7 @@ impl Bones {
                 if square < near * near && !self.are_together(i, j) {
                     penalty += 4.0 * beyond_limit(near - square.sqrt(), near);
                 }
-                // Pins level with each other, or square above each other, have an axis in common: a special place that costs
-                // redesigns.
+                // Pins level with each other, or right above each other, have an axis in common. This special place costs redesigns.
                 if i < self.joints.len() && !self.follows[i] && !self.follows[j] {
                     penalty += apart
                         .iter()
@@ -104,12 +103,12 @@ impl Bones {
         penalty
     }
 
-    /// Whether two points are on one axis by rule.
+    /// Returns true if two points are on one axis by rule.
     fn are_together(&self, i: usize, j: usize) -> bool {
         self.together[i] >> j & 1 == 1
     }
 
-    /// The longest link over the shortest, and what long and short ones cost.
+    /// Returns the ratio of the longest to the shortest link, and the cost of long and short links.
     fn length_cost(&self, at: &[Point]) -> (f64, f64) {
         let (mut longest, mut shortest, mut penalty) = (0.0_f64, f64::INFINITY, 0.0);
         let moving = self.of_link.iter().enumerate();
@@ -125,7 +124,7 @@ impl Bones {
         (longest / shortest, penalty)
     }
 
-    /// Gives the sides of the links but the frame, link by link.
+    /// Writes the sides of all moving links to `out`, link by link.
     pub(super) fn link_sides(&self, at: &[Point], out: &mut Vec<LinkSide>) {
         out.clear();
         let moving = self.of_link.iter().enumerate();
@@ -139,7 +138,7 @@ impl Bones {
         }
     }
 
-    /// The frame behind, the jaws in front, pins beside the middle; or all of it round the part.
+    /// Returns the cost of the positions: frame behind, jaws in front, pins next to the middle; or all of them around the part.
     fn places(&self, at: &[Point]) -> f64 {
         let (pins, tips) = at.split_at(self.joints.len());
         if let Some(within) = self.round {
@@ -155,7 +154,7 @@ impl Bones {
         }
         let foremost = self.front_distance() - self.wished[1];
         for [x, y] in pins {
-            // Nothing but the tips is where the part is.
+            // Only the tips may be in the region of the part.
             penalty += beyond_limit(x - foremost, 10.0);
             penalty += beyond_limit(y.abs() - 60.0, 25.0) + beyond_limit(-x, 25.0);
         }
@@ -169,13 +168,13 @@ impl Bones {
         penalty
     }
 
-    /// How far ahead the tips are drawn.
+    /// Returns how far ahead the tips are drawn.
     fn front_distance(&self) -> f64 {
         let tips = self.tips.iter().map(|t| t[0]);
         tips.fold(f64::INFINITY, f64::min)
     }
 
-    /// How far the tips are drawn ahead of all joints; beyond all bounds where the part is not ahead.
+    /// Returns how far the tips are drawn ahead of all joints; infinite if the part is not ahead.
     pub(super) fn tip_reach(&self, at: &[Point]) -> f64 {
         if self.round.is_some() {
             return f64::INFINITY;
@@ -185,10 +184,10 @@ impl Bones {
         self.front_distance() - ahead.fold(f64::NEG_INFINITY, f64::max)
     }
 
-    /// What breaks the limits as drawn, each break dear; wishes do not count.
+    /// Returns the cost of the limits that are broken as drawn, with a high cost for each; wishes do not count.
     ///
     /// # Complexity
-    /// As [`Bones::penalty`].
+    /// As [`Bones::place_penalty`].
     pub(super) fn broken_limits(&self, at: &[Point], limits: &Limits, seen: &mut SeenSides) -> f64 {
         let (ratio, _) = self.length_cost(at);
         let (count, crossings) = seen.crossing_cost(self, at);
@@ -198,7 +197,7 @@ impl Bones {
         DEAR * (beyond_limit((ratio / limits.ratio).ln(), 0.1) + over) + 0.01 * crossings
     }
 
-    /// The figures of the motion for a unit speed of the driver, and what they cost where each jaw is to have a force.
+    /// Returns the figures of the motion for a unit speed of the driver, with their cost if each jaw needs a least force.
     pub(super) fn motion_cost(
         &self,
         at: &[Point],
@@ -216,7 +215,7 @@ impl Bones {
         );
         let slowest = closing.clone().map(f64::abs).fold(f64::INFINITY, f64::min);
         let fastest = closing.clone().map(f64::abs).fold(0.0, f64::max);
-        // Where one opens, it runs before the other.
+        // If one jaw opens, it moves ahead of the other.
         let closes = closing.clone().all(|c| c * sum > 0.0);
         #[allow(clippy::cast_precision_loss, reason = "two or three")]
         let pairs = tips.len() as f64 / 2.0;
@@ -233,7 +232,7 @@ impl Bones {
         let even = (fastest / slowest.max(1e-9 * fastest)).max(1.0).ln();
         out.penalty +=
             8.0 * beyond_limit(0.8 - straightness, 0.8) + 0.5 * beyond_limit(even - 0.5, 1.0);
-        // The drive: a millimetre for half to four millimetres of closing, a radian for 15 to 120; less where the force asks for it.
+        // The drive: a millimetre for half to four millimetres of closing, a radian for 15 to 120; less if the force requires it.
         let unit = if self.turns { 30.0 } else { 1.0 };
         let wanted = match least_force {
             0.0 => 1.5,
@@ -251,17 +250,17 @@ impl Bones {
     }
 }
 
-/// An angle of up to 90° by its sine, in degrees.
+/// Returns the angle of up to 90° with this sine, in degrees.
 pub(super) fn angle_degrees(sine: f64) -> f64 {
     sine.asin().to_degrees()
 }
 
-/// The sine of the transmission angle of a rod: between it and the motion across it at its faster end.
+/// Returns the sine of the transmission angle of a rod: between the rod and the normal to the velocity of its faster end.
 pub(super) fn transmission_sine(velocity: &Velocity, [a, b]: [Point; 2]) -> f64 {
     let along = sub(b, a);
     let (va, vb) = (velocity.velocity_at(a), velocity.velocity_at(b));
     let speed = length(va).max(length(vb));
-    // Along the rod both ends are equally fast. A rod from the frame pulls nothing: its end goes across it.
+    // Along the rod both ends are equally fast. A rod from the frame does not pull: its end moves across it.
     let least = length(va).min(length(vb));
     if least < 1e-6 * speed.max(1e-9) {
         return 1.0;
@@ -270,13 +269,13 @@ pub(super) fn transmission_sine(velocity: &Velocity, [a, b]: [Point; 2]) -> f64 
     sine.min(1.0)
 }
 
-/// The edges of the convex hull of points, by their numbers.
+/// Returns the edges of the convex hull of points, by their numbers.
 fn convex_hull<'a>(points: &'a [usize], at: &'a [Point]) -> impl Iterator<Item = [usize; 2]> + 'a {
     let pairs = points.iter().flat_map(move |&a| {
         let others = points.iter().filter(move |&&b| b != a);
         others.map(move |&b| [a, b])
     });
-    // All others on the left: an edge of the hull, once round.
+    // All other points are on the left: an edge of the hull, counterclockwise.
     pairs.filter(move |&[a, b]| {
         let left = |c: usize| cross_plane(sub(at[b], at[a]), sub(at[c], at[a])) > 0.0;
         points.iter().all(|&c| c == a || c == b || left(c))

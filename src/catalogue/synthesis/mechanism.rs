@@ -1,5 +1,5 @@
-//! A layout as a mechanism file: hinges square to the plane, guides and slots in it, gears as couplings, the driver's joint, the outputs, and
-//! a workload. If there are three sides, links and joints of one side are repeated on the others after thirds of a turn.
+//! A layout as a mechanism file: hinges normal to the plane, guides and slots in it, gears as couplings, the driver's joint, the outputs,
+//! and a workload. If there are three sides, links and joints of one side are repeated on the others after thirds of a turn.
 
 use crate::chains::{PairKind, Symmetry};
 use crate::file::schema::{
@@ -165,7 +165,7 @@ impl<'a> DrawnJoints<'a> {
         }
         let thirds = at.thirds;
         let turn = |d: &[Coordinate; 3]| direction_turned(d, self.pivot, thirds);
-        // What a third of a turn carries to each other has options that it carries to each other.
+        // Joints that are images by a third of a turn have options that are images, too.
         let hinge = kind == "revolute";
         let ahead = (hinge && thirds > 0).then(|| [1, 0, 0].map(Coordinate::Integer));
         let in_series = joint.pair == PairKind::Hinge && !input && !menu.unloading.is_empty();

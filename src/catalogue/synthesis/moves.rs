@@ -1,4 +1,4 @@
-//! Places of a structure to begin with, other places next to them, and the motion that they give.
+//! First places of a structure, other places next to them, and the resulting motion.
 
 use crate::chains::PairKind;
 use crate::geom::vector::{length, sub};
@@ -16,7 +16,7 @@ use chacha20::ChaCha8Rng;
 use std::borrow::Cow;
 use std::ops::RangeInclusive;
 
-/// A layout that costs less than this is taken without looking for a better one.
+/// A layout that costs less than this is accepted without a search for a better one.
 const GOOD: f64 = 1.0;
 /// The same bound for structures that have only hinges.
 const GOOD_HINGES: f64 = 4.0;
@@ -38,8 +38,8 @@ const LEADS: [i32; 6] = [4, 5, 6, 8, 10, 12];
 const DIAMETERS: RangeInclusive<i32> = 10..=80;
 
 impl Sketch<'_> {
-    /// The jaw that a joint guides in the frame, by its place among the jaws: such jaws slide straight to the part, as those do that
-    /// are made.
+    /// Returns the jaw that a joint guides in the frame, by its index among the jaws. Such jaws slide straight to the part, as real ones
+    /// do.
     fn guided_jaw(&self, joint: usize) -> Option<usize> {
         let joint = &self.rules.joints[joint];
         if joint.pair != PairKind::Slide || !joint.is_at(self.bones.frame) {
@@ -77,7 +77,7 @@ impl Sketch<'_> {
         }
     }
 
-    /// Changes the teeth of a gear pair.
+    /// Tries other teeth of a gear pair.
     fn change_teeth(teeth: &mut Teeth, warmth: f64, random: &mut ChaCha8Rng) {
         *teeth = match *teeth {
             Teeth::Gears(_) => Teeth::Gears(RATIOS[random_below(RATIOS.len(), random)]),
@@ -108,8 +108,8 @@ impl Sketch<'_> {
         }
     }
 
-    /// Calls `take` with every pitch circle: the joint at its centre, its radius in mm, and whether its gear meshes with one that does not
-    /// belong to the half of the other jaw.
+    /// Calls `take` with every pitch circle: the joint at its centre, its radius in mm, and a flag. The flag is false if its gear meshes
+    /// with one in the half of the other jaw.
     pub(super) fn each_circle(&self, at: &Places, take: &mut dyn FnMut(usize, f64, bool)) {
         let meshes = self.rules.meshes.iter().enumerate();
         if self.rules.threaded {
@@ -228,7 +228,7 @@ mod tests {
     use crate::synthesis::seen_sides::SeenSides;
     use crate::synthesis::sketch::each_classic;
 
-    /// Places that cost more than is wanted have no cost, whatever of it makes them dear: pitch circles, too.
+    /// Places that cost more than the bound have no cost, whether joints or pitch circles cause it.
     #[test]
     fn places_are_never_dearer_than_is_wanted() {
         let mut geared = 0;

@@ -1,10 +1,10 @@
-//! Places that are exact: whole millimetres, thousandths beside them, or whole ones after a third of a turn, whose coordinates
-//! have a √3 in them; with points of the plane in double precision, and as a mechanism file writes them.
+//! Exact places: whole millimetres, with or without thousandths, or whole millimetres turned by thirds of a turn, whose coordinates contain
+//! √3. Also points of the plane in double precision, and their form in a mechanism file.
 
 use crate::file::schema::Coordinate;
 use crate::geom::vector::add_scaled;
 
-/// Thousandths of a millimetre in one.
+/// Thousandths of a millimetre in a millimetre.
 pub(super) const FINE: i32 = 1000;
 
 /// A place in the plane.
@@ -12,9 +12,9 @@ pub(super) const FINE: i32 = 1000;
 pub struct Place {
     /// Whole millimetres.
     pub whole: [i32; 2],
-    /// Thousandths of a millimetre beside them; none where it is turned.
+    /// Additional thousandths of a millimetre; 0 if the place is turned.
     pub fine: [i32; 2],
-    /// How often these are turned by 120° about the origin: 0, 1 or 2.
+    /// Number of turns by 120° about the origin: 0, 1 or 2.
     pub thirds: u8,
 }
 
@@ -44,21 +44,21 @@ impl Place {
         }
     }
 
-    /// Where it is before it is turned: of doubles the one nearest to the decimal.
+    /// Returns its coordinates before the turn, as the doubles nearest to the decimals.
     fn unturned(self) -> [f64; 2] {
         let thousandths =
             |k: usize| f64::from(self.whole[k]) * f64::from(FINE) + f64::from(self.fine[k]);
         [0, 1].map(|k| thousandths(k) / f64::from(FINE))
     }
 
-    /// In double precision.
+    /// Returns the place in double precision.
     #[must_use]
     pub fn real(self) -> [f64; 2] {
         (0..self.thirds).fold(self.unturned(), |p, _| third(p))
     }
 }
 
-/// A point after a turn of 120° about the origin.
+/// Returns a point turned by 120° about the origin.
 #[must_use]
 pub(crate) fn third([x, y]: [f64; 2]) -> [f64; 2] {
     let half_root = 3.0_f64.sqrt() / 2.0;
@@ -68,7 +68,7 @@ pub(crate) fn third([x, y]: [f64; 2]) -> [f64; 2] {
 /// A point of the plane, in millimetres.
 pub type Point = [f64; 2];
 
-/// The middle of points.
+/// Returns the mean of points.
 #[must_use]
 pub(crate) fn middle_of<const N: usize>(points: &[[f64; N]]) -> [f64; N] {
     #[allow(clippy::cast_precision_loss, reason = "a few")]
@@ -78,7 +78,7 @@ pub(crate) fn middle_of<const N: usize>(points: &[[f64; N]]) -> [f64; N] {
         .fold([0.0; N], |m, p| add_scaled(m, 1.0 / n, *p))
 }
 
-/// A number, without a point where it is whole.
+/// Returns a number as a coordinate, as an integer if it is whole.
 pub(super) fn number_words(x: f64) -> Coordinate {
     #[allow(clippy::cast_possible_truncation, reason = "whole and small")]
     if x.fract() == 0.0 && x.abs() < 1e15 {
@@ -88,7 +88,7 @@ pub(super) fn number_words(x: f64) -> Coordinate {
     }
 }
 
-/// A vector after so many thirds of a turn, exactly.
+/// Returns a vector turned by thirds of a turn, exactly.
 fn turned([x, y]: [f64; 2], thirds: u8) -> [Coordinate; 2] {
     // (a + b √3) / 2.
     let surd = |a: f64, b: f64| {
@@ -110,17 +110,17 @@ pub(super) fn point(place: Place) -> [Coordinate; 3] {
     Pivot::Normal.point(place)
 }
 
-/// What thirds of a turn go round.
+/// Axis of the turns by thirds.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Pivot {
     /// The normal of the plane at the origin: all sides are in one plane.
     Normal,
-    /// The x axis: each side is in a plane of its own.
+    /// The x axis: each side is in a separate plane.
     Ahead,
 }
 
 impl Pivot {
-    /// A vector after so many thirds of a turn, exactly.
+    /// Returns a vector turned by thirds of a turn, exactly.
     pub(super) fn turned(self, [x, y, z]: [f64; 3], thirds: u8) -> [Coordinate; 3] {
         match self {
             Pivot::Normal => {
@@ -134,13 +134,13 @@ impl Pivot {
         }
     }
 
-    /// A place, turned as often as it says.
+    /// Returns a place with its turn, exactly.
     pub(super) fn point(self, place: Place) -> [Coordinate; 3] {
         let [x, y] = place.unturned();
         self.turned([x, y, 0.0], place.thirds)
     }
 
-    /// The same in double precision.
+    /// Returns a place with its turn, in double precision.
     pub(super) fn real(self, place: Place) -> [f64; 3] {
         let [x, y] = place.unturned();
         let turned = |p: [f64; 2]| (0..place.thirds).fold(p, |p, _| third(p));

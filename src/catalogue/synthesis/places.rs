@@ -6,11 +6,11 @@ use crate::synthesis::direction::WholeDirection;
 use crate::synthesis::place::Point;
 use std::f64::consts::TAU;
 
-/// Where all joints are, by their places in the chain's list.
+/// Places of all joints, by their indices in the chain's list.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Places {
-    /// A point of each joint, in millimetres, and the tips after them: the pin of a hinge or a slot, a point of a guide, the point
-    /// where pitch circles touch.
+    /// A point of each joint, in millimetres, followed by the tips. The point is the pin of a hinge or a slot, a point of a guide, or the
+    /// contact point of pitch circles.
     pub points: Vec<Point>,
     /// The direction of each slide, and of each slot.
     pub along: Vec<WholeDirection>,
@@ -34,19 +34,19 @@ impl Places {
     }
 }
 
-/// How fast teeth go.
+/// Transmission ratio of teeth.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Teeth {
-    /// Of two gears outside each other: pitch radii in this ratio.
+    /// Two external gears: pitch radii in this ratio.
     Gears([i32; 2]),
-    /// Of a pinion with a rack: the pitch diameter in whole millimetres, negative where the rack is on the other side of it.
+    /// A pinion with a rack: the pitch diameter in whole millimetres, negative if the rack is on the other side of the pinion.
     Rack(i32),
-    /// Of a screw and its nut: millimetres a turn.
+    /// A screw with its nut: millimetres per turn.
     Thread(i32),
 }
 
 impl Teeth {
-    /// How fast the second gear turns by the first, or the rack goes by the pinion: millimetres a radian.
+    /// Returns the ratio of the second gear's speed to the first's. For a rack or nut, millimetres per radian of the pinion or screw.
     #[must_use]
     pub fn gear_ratio(self) -> f64 {
         match self {
@@ -56,7 +56,8 @@ impl Teeth {
         }
     }
 
-    /// Where pitch circles about these centres touch; of a rack, whose guide goes that way, about the first; of a nut the screw's axis.
+    /// Returns the contact point of pitch circles with these centres. For a rack with a guide in the direction `along`, it is on the circle
+    /// about the first; for a nut, on the screw's axis.
     pub(crate) fn pitch_point(self, [a, b]: [Point; 2], along: Point) -> Point {
         match self {
             Teeth::Gears([r, s]) => add_scaled(a, f64::from(r) / f64::from(r + s), sub(b, a)),

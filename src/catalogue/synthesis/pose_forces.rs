@@ -1,5 +1,4 @@
-//! Forces in the joints of a gripper at a pose of the stroke, the jaws each holding the part with a newton, without
-//! friction, and what they say of it.
+//! Joint forces of a gripper at a pose of the stroke, and their figures. Each jaw holds the part with 1 N, without friction.
 
 use crate::chains::PairKind;
 use crate::geom::vector::{add_scaled, dot, length, sub};
@@ -12,8 +11,8 @@ use crate::synthesis::stroke::forces::{ForceFigures, JointForce};
 use crate::synthesis::stroke::pose::LinkPose;
 use crate::synthesis::stroke::walk::RADIAN;
 
-/// What each joint does by the equilibrium of every moving link, with the links at these poses; `None` where there is no one
-/// solution.
+/// Solves the action of each joint from the equilibrium of every moving link, with the links at these poses. `None` if there is not exactly
+/// one solution.
 ///
 /// # Complexity
 /// O(n³) for n links.
@@ -29,7 +28,7 @@ pub(super) fn joint_forces(
         system: SmallSystem::new(size, 1),
         frame: bones.frame,
     };
-    // A column for each row of the joints: what it does to the links for a newton of it.
+    // A column for each row of the joints: its action on the links for 1 N.
     let mut own: Vec<(usize, usize, JointForce)> = Vec::with_capacity(size);
     let mut column = 0;
     for (joint, j) in rules.joints.iter().enumerate() {
@@ -48,7 +47,7 @@ pub(super) fn joint_forces(
     let (_, drive) = rows.drive_row(sketch.input, sketch.drive);
     balance.add_row(column, &drive);
     for (n, &jaw) in bones.jaws.iter().enumerate() {
-        // The part pushes outward; what the joints do makes up for it.
+        // The part pushes outward, and the joint forces balance it.
         let tip = links[jaw].moved_point(bones.tips[n]);
         balance.add_row(size, &[Term::force(jaw, bones.inward[n], tip)]);
     }
@@ -65,14 +64,14 @@ pub(super) fn joint_forces(
     Some(joints)
 }
 
-/// Forces and moments on every moving link, a column for each that is unknown, and one for those that are not.
+/// Equilibrium of every moving link: a column for each unknown force or moment, and one for the known ones.
 struct Equilibrium {
     system: SmallSystem,
     frame: usize,
 }
 
 impl Equilibrium {
-    /// Adds what a row does to its links; moments are forces at the arm [`RADIAN`].
+    /// Adds the action of a row on its links; moments are forces at the arm [`RADIAN`].
     fn add_row(&mut self, column: usize, terms: &[Term]) {
         for term in terms {
             let Some(row) = place_of(term.link, self.frame) else {
@@ -85,7 +84,7 @@ impl Equilibrium {
     }
 }
 
-/// What forces say, with the links moving as they do for a millimetre of the width.
+/// Returns the figures of the joint forces, with the velocities of the links for a millimetre of the width.
 pub(super) fn force_figures(
     sketch: &Sketch<'_>,
     at: &Places,
@@ -105,12 +104,12 @@ pub(super) fn force_figures(
         lost += friction.coefficient
             * match joint.pair {
                 PairKind::Hinge => friction.pin_radius * force * (u.turning - v.turning).abs(),
-                // Pressed on at both ends of the guide.
+                // The block presses at both ends of the guide.
                 PairKind::Slide => force.max(2.0 * f.moment.abs() / friction.guide) * slid(),
                 PairKind::Slot => force * rows.sliding_speed(i).abs(),
-                // Where pitch circles touch they roll.
+                // Pitch circles roll at their contact point.
                 PairKind::Gear if rules.threaded => {
-                    // Flanks press and slide aslant, by the angle of the thread.
+                    // Flanks press and slide at the lead angle of the thread.
                     let round = friction.pin_radius * (u.turning - v.turning).abs();
                     force * (round + slid() * slid() / round.max(1e-9))
                 }
@@ -132,8 +131,8 @@ pub(super) fn force_figures(
     out
 }
 
-/// The angle whose sine is the work of a link over what the forces at its moving joints could do at their speeds; what holds it in
-/// the frame passes nothing on.
+/// Returns the angle whose sine is the work of a link over the greatest work of the forces at its moving joints at their speeds. Joints to
+/// the frame are left aside, since they transmit no work.
 fn passed_angle(
     sketch: &Sketch<'_>,
     links: &[LinkPose],
@@ -152,7 +151,7 @@ fn passed_angle(
 }
 
 impl PoseRows<'_> {
-    /// How fast a pin goes along its slot.
+    /// Returns the speed of a pin along its slot.
     fn sliding_speed(&self, joint: usize) -> f64 {
         let [pinned, slotted] = self.pin_and_slot(joint);
         let pin = self.links[pinned].moved_point(self.at.points[joint]);

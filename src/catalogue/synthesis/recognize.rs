@@ -1,7 +1,7 @@
-//! A drawn mechanism as a structure: the chain of pairs that its joints are in their plane, with the roles of its links.
+//! Recognition of a drawn mechanism as a structure: the chain of pairs that its joints form in their plane, with the roles of its links.
 //!
-//! What a joint does in the plane is what of its motions lies there: a ball is a hinge, a pin with play along its axis is one,
-//! too. So a gripper and its redesign have the same structure.
+//! Only the in-plane motions of a joint count: a ball counts as a hinge, and a pin with play along its axis does, too. So a gripper and its
+//! redesign have the same structure.
 
 mod found;
 mod in_plane;
@@ -23,10 +23,10 @@ use itertools::Itertools;
 use sides::three_sides;
 use threads::{is_thread, screw_with_nuts};
 
-/// The structure of a mechanism in its free state.
+/// Returns the structure of a mechanism in its free state.
 ///
 /// # Errors
-/// Why it has none.
+/// Returns an error if it has no structure.
 ///
 /// # Complexity
 /// A few eliminations of six columns for each joint and each axis.
@@ -41,12 +41,12 @@ pub fn recognize_structure(m: &Mechanism) -> Result<Recognized, NoStructure> {
     match three_sides(m) {
         Ok(Some(found)) => Ok(found),
         Ok(None) => in_a_plane(m),
-        // Three jaws that are no sides may be all in one plane.
+        // Three jaws that are not on three equal sides may be all in one plane.
         Err(why) => in_a_plane(m).map_err(|_| why),
     }
 }
 
-/// The structure of what moves in a plane.
+/// Returns the structure of a mechanism that moves in a plane.
 fn in_a_plane(m: &Mechanism) -> Result<Recognized, NoStructure> {
     let present = m.joints_in(StateId::FREE).collect_vec();
     let found = InPlane::new(m, &present)?;

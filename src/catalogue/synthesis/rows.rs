@@ -1,7 +1,7 @@
-//! What each joint of a paired gripper demands of its links at a pose: rows, each a wrench that does no work.
+//! Constraint rows of each joint of a paired gripper at a pose. Each row is a wrench that does no work.
 //!
-//! A row adds up forces times the velocities of points, and moments times turnings; the same numbers are the forces by which the
-//! joint acts. A hinge has two, a slide two, a slot and a gear pair one, and the drive one.
+//! A row is a sum of forces times point velocities, and moments times angular velocities. The same numbers are the forces by which the
+//! joint acts. A hinge or a slide has two rows; a slot, a gear pair or the drive has one.
 
 use crate::chains::PairKind;
 use crate::geom::vector::{cross_plane, dot, quarter_turn, scale, sub, unit};
@@ -11,14 +11,14 @@ use crate::synthesis::rules::{Mesh, Rules};
 use crate::synthesis::stroke::pose::LinkPose;
 use crate::synthesis::stroke::walk::RADIAN;
 
-/// What a row has to do with a link.
+/// Term of a row for a link.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Term {
     pub(super) link: usize,
-    /// A force on the link, and where it acts.
+    /// A force on the link, and its point of action.
     pub(super) force: Point,
     pub(super) at: Point,
-    /// A moment on it, a force at the arm of [`RADIAN`].
+    /// A moment on the link, as a force at the arm of [`RADIAN`].
     pub(super) moment: f64,
 }
 
@@ -32,7 +32,7 @@ impl Term {
         }
     }
 
-    /// Its force, and its moment about a point, a force at the arm of [`RADIAN`].
+    /// Returns its force, and its moment about a point as a force at the arm of [`RADIAN`].
     pub(super) fn force_about(&self, point: Point) -> [f64; 3] {
         let moment = cross_plane(sub(self.at, point), self.force);
         [self.force[0], self.force[1], moment / RADIAN + self.moment]
@@ -48,16 +48,16 @@ impl Term {
     }
 }
 
-/// How teeth are seen.
+/// Form of the row of teeth.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum TeethSeen {
-    /// As a ratio of turns on the carrier, which holds over any way.
+    /// A ratio of turns relative to the carrier, which holds over any travel.
     Ratio,
-    /// As a force where the pitch circles touch, which is what the hinges feel.
+    /// A force at the contact point of the pitch circles, as it loads the hinges.
     Force,
 }
 
-/// The rows of all joints, drawn at places, with their links at poses.
+/// The rows of all joints at places, with the links at poses.
 #[derive(Clone, Copy)]
 pub(super) struct PoseRows<'a> {
     pub(super) rules: &'a Rules,
@@ -65,7 +65,7 @@ pub(super) struct PoseRows<'a> {
     pub(super) links: &'a [LinkPose],
 }
 
-/// A row: by how much it misses, in millimetres, and its terms.
+/// Visitor of a row: its error in millimetres, and its terms.
 type Visit<'v> = &'v mut dyn FnMut(f64, &[Term]);
 
 impl PoseRows<'_> {
@@ -73,24 +73,24 @@ impl PoseRows<'_> {
         self.links[link].moved_point(self.at.points[joint])
     }
 
-    /// The direction of a slide or a slot, as it is fixed to a link.
+    /// Returns the direction of a slide or a slot that is fixed to a link.
     pub(super) fn line_direction(&self, link: usize, joint: usize) -> Point {
         self.links[link].turned_direction(self.at.along[joint].real())
     }
 
-    /// How far a link has turned against another.
+    /// Returns the turn of a link relative to another.
     fn relative_turn(&self, [of, against]: [usize; 2]) -> f64 {
         self.links[of].angle - self.links[against].angle
     }
 
-    /// Every joint's rows, in order.
+    /// Visits the rows of every joint, in order.
     pub(super) fn each_joint(&self, seen: TeethSeen, visit: Visit<'_>) {
         for joint in 0..self.rules.joints.len() {
             self.joint_rows(joint, seen, visit);
         }
     }
 
-    /// The rows of a joint.
+    /// Visits the rows of a joint.
     pub(super) fn joint_rows(&self, joint: usize, seen: TeethSeen, visit: Visit<'_>) {
         let [u, v] = self.rules.joints[joint].links;
         match (self.rules.joints[joint].pair, self.rules.meshes[joint]) {
@@ -120,23 +120,23 @@ impl PoseRows<'_> {
         }
     }
 
-    /// The link that has the block of a slide, and the one that has the guide.
+    /// Returns the link with the block of a slide, and the link with the guide.
     fn block_and_guide(&self, joint: usize) -> [usize; 2] {
         self.with_other(joint, self.rules.blocks[joint])
     }
 
-    /// The link that has the pin of a slot, and the one that has the slot.
+    /// Returns the link with the pin of a slot, and the link with the slot.
     pub(super) fn pin_and_slot(&self, joint: usize) -> [usize; 2] {
         self.with_other(joint, self.at.pinned[joint])
     }
 
-    /// A link of a joint, then the other.
+    /// Returns a link of a joint, then the other.
     fn with_other(&self, joint: usize, link: usize) -> [usize; 2] {
         let [u, v] = self.rules.joints[joint].links;
         [link, if link == u { v } else { u }]
     }
 
-    /// A point of the first link stays on a line of the second.
+    /// Visits the row that keeps a point of the first link on a line of the second.
     fn line_row(&self, [pinned, slotted]: [usize; 2], joint: usize, visit: Visit<'_>) {
         let normal = quarter_turn(self.line_direction(slotted, joint));
         let pin = self.on(pinned, joint);
@@ -183,7 +183,7 @@ impl PoseRows<'_> {
         }
     }
 
-    /// Where the pitch circles of a gear pair touch, and which way their teeth press.
+    /// Returns the contact point of the pitch circles of a gear pair, and the direction of the force between the teeth.
     fn pitch_contact(&self, joint: usize, mesh: &Mesh) -> [Point; 2] {
         let centres @ [a, b] = mesh.held.map(|j| self.on(mesh.carrier, j));
         let along = self.line_direction(mesh.carrier, mesh.held[1]);
@@ -210,7 +210,7 @@ impl PoseRows<'_> {
         }
     }
 
-    /// How far the drive has gone, in mm or in rad, and the row of its speed.
+    /// Returns the travel of the drive, in mm or rad, and the row of its speed.
     pub(super) fn drive_row(&self, joint: usize, [base, driver]: [usize; 2]) -> (f64, [Term; 2]) {
         if self.rules.joints[joint].pair == PairKind::Slide {
             let along = self.line_direction(base, joint);

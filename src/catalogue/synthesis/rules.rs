@@ -1,4 +1,4 @@
-//! Which places of a gripper's joints are free, and which follow from them.
+//! Rules for the places of a gripper's joints: places are free, or follow from others.
 
 use crate::chains::chain::{Chain, Joint, carry_links, order_links};
 use crate::chains::{Input, PairKind, Symmetry};
@@ -68,19 +68,19 @@ pub enum NoRules {
         "a pin in a slot, or a flat face, between links that change places is not its own image as it moves"
     )]
     SwappedSlot,
-    /// A slot that half a turn carries to itself.
+    /// A slot that half a turn maps to itself.
     #[error("a pin at the centre of half a turn moves in no slot")]
     CentralSlot,
-    /// Gears that change places, on a carrier that does so, too.
+    /// Gears that change places, on a carrier that changes places, too.
     #[error("gears that change places need a carrier that does not")]
     SwappedCarrier,
     /// The parallelograms of the jaws are not compatible with the symmetry.
     #[error("the parallelograms do not go with the symmetry")]
     Parallelograms,
-    /// A joint is to be on one pin with its image, but no link of it is kept by the symmetry.
+    /// A joint should be on one pin with its image, but the symmetry keeps none of its links.
     #[error("joints that are not images of each other are to be on one pin")]
     OnePin,
-    /// The structure does not move in any way in which the symmetry may carry it to itself.
+    /// The structure does not move in any way in which the symmetry may map it to itself.
     #[error("in no symmetric places do its jaws move against each other")]
     Still,
 }
@@ -108,7 +108,7 @@ pub struct Rules {
 }
 
 impl Rules {
-    /// Returns the rules of a structure whose symmetry carries its links as `lay` says.
+    /// Returns the rules of a structure whose symmetry maps its links by `lay`.
     ///
     /// # Errors
     /// Returns an error if the structure cannot be laid out in this way.
@@ -233,7 +233,7 @@ impl Rules {
                 ..Place::of_point(points[of])
             },
             _ if self.hinges => Place::of_point(points[joint]),
-            // Pitch points are not whole, but no joint of the file is there.
+            // Pitch points are not whole, but the file has no joint at them.
             _ => Place::of_point(points[joint].map(f64::round)),
         }
     }
@@ -302,7 +302,7 @@ impl Rules {
         }
     }
 
-    /// Returns the point where the pitch circles of a gear pair touch.
+    /// Returns the contact point of the pitch circles of a gear pair.
     fn pitch_point(&self, at: &Places, i: usize) -> Option<Point> {
         let mesh = self.meshes[i]?;
         let centres = mesh.held.map(|j| at.points[j]);

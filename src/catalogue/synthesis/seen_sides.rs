@@ -1,5 +1,5 @@
-//! Sides of links, and what lies on them or crosses them. Crossings of links, and pins on links that they are no part of, while places are
-//! tried: only what has moved is looked at again.
+//! Sides of links, their crossings, and pins on links that they do not belong to. The search evaluates these for many places, and only
+//! moved points are evaluated again.
 
 use crate::geom::vector::{cross_plane, dot, length, sub};
 use crate::synthesis::bones::Bones;
@@ -7,7 +7,7 @@ use crate::synthesis::place::Point;
 use crate::synthesis::task::beyond_limit;
 use itertools::Itertools;
 
-/// A pin nearer than this to a link that it is no part of lies on it.
+/// A pin nearer than this to a foreign link lies on it, in mm.
 pub(crate) const ON: f64 = 6.0;
 
 /// The additional cost of a crossing between plates of two jaws, which no designer would build.
@@ -33,13 +33,13 @@ pub(crate) struct LinkSide {
 }
 
 impl LinkSide {
-    /// Where its ends are.
+    /// Returns the places of its ends.
     pub(crate) fn of(&self, at: &[Point]) -> [Point; 2] {
         self.ends.map(|i| at[i])
     }
 }
 
-/// Whether a link of these sides, a bar or a plate, lies over a point.
+/// Returns true if a link with these sides, a bar or a plate, lies over a point.
 pub(crate) fn lies_over(sides: &[LinkSide], at: &[Point], point: Point) -> bool {
     let near = |side: &LinkSide| side_distance(point, side.of(at)) < ON;
     let left = |side: &LinkSide| {
@@ -50,21 +50,21 @@ pub(crate) fn lies_over(sides: &[LinkSide], at: &[Point], point: Point) -> bool 
     within || sides.iter().any(near)
 }
 
-/// A side as the points lie about it, a bit for each.
+/// A side with the positions of all points relative to it, a bit for each.
 #[derive(Debug, Clone, Copy)]
 struct SideSeen {
     side: LinkSide,
     ends: u32,
-    /// Those on one axis with its ends, these among them.
+    /// Points on one axis with its ends, including the ends.
     at_ends: u32,
-    /// Those on its left.
+    /// Points on its left.
     left: u32,
-    /// Those on it, besides those at its ends.
+    /// Points on it, except for those at its ends.
     near: u32,
-    /// Of these those that are no part of the link, how many, and what all cost.
+    /// Number of these points that do not belong to the link, and the cost of all of them.
     foreign: u32,
     penalty: f64,
-    /// The sides that it crosses, as bits: the links of 32 points have no more than 64 in all.
+    /// The sides that it crosses, as bits: the links of 32 points have at most 64 sides.
     crossed: u64,
 }
 
@@ -82,11 +82,11 @@ impl SideSeen {
         }
     }
 
-    /// Looks at some points again.
+    /// Evaluates some points again.
     fn look_again(&mut self, bones: &Bones, at: &[Point], moved: impl Iterator<Item = usize>) {
         let [a, b] = self.side.of(at);
         let along = sub(b, a);
-        // So far from the line through both, by the area of the triangle.
+        // Squared distance from the line through both ends, by the area of the triangle.
         let strip = ON * ON * dot(along, along).max(1e-9);
         let (mut looked_at, was_near) = (0, self.near);
         for p in moved {
@@ -101,7 +101,8 @@ impl SideSeen {
             self.near ^= u32::from(side_distance(at[p], [a, b]) >= ON) << p;
         }
         if (self.near | was_near) & looked_at != 0 {
-            // Where pitch circles touch is on no link; a point of the link itself makes it a splinter, which is no crossing.
+            // The contact point of pitch circles is on no link. A point of the link itself makes the link a splinter, which does not count
+            // as a crossing.
             let near = self.near & !bones.touching;
             self.foreign = (near & !bones.members[self.side.link]).count_ones();
             let cost = |p: usize| beyond_limit(ON - side_distance(at[p], [a, b]), ON);
@@ -109,16 +110,16 @@ impl SideSeen {
         }
     }
 
-    /// Whether two sides of different links cross that end at no place in common.
+    /// Returns true if two sides of different links cross without a common end.
     fn crosses(&self, other: &SideSeen) -> bool {
         let parts = |left: u32, ends: u32| (left & ends != 0) & (left & ends != ends);
         let apart = (self.side.link != other.side.link) & (self.at_ends & other.ends == 0);
-        // All is looked at, which takes less than to choose.
+        // Evaluating all conditions is faster than branching.
         apart & parts(self.left, other.ends) & parts(other.left, self.ends)
     }
 }
 
-/// Places that were looked at, with the sides of their links.
+/// Evaluated places with the sides of their links.
 #[derive(Debug, Default)]
 struct SeenPlaces {
     at: Vec<Point>,
@@ -126,7 +127,7 @@ struct SeenPlaces {
 }
 
 impl SeenPlaces {
-    /// The points that are elsewhere now, as bits.
+    /// Returns the points that have moved, as bits.
     fn moved_points(&self, at: &[Point]) -> u32 {
         if self.at.len() != at.len() {
             return u32::MAX;
@@ -135,7 +136,7 @@ impl SeenPlaces {
         both.fold(0, |bits, (p, (was, is))| bits | u32::from(was != is) << p)
     }
 
-    /// What is seen of other places than those before, from which so many points have moved.
+    /// Updates the sides for new places, from which the points in `moved` differ.
     fn look(&mut self, bones: &Bones, at: &[Point], moved: u32) {
         let mut again = 0_u64;
         for (i, seen) in self.sides.iter_mut().enumerate() {
@@ -146,7 +147,7 @@ impl SeenPlaces {
                 again |= 1 << i;
             }
         }
-        // Two sides cross as they did where neither has moved.
+        // If neither of two sides has moved, their crossing is unchanged.
         while again != 0 {
             let i = again.trailing_zeros() as usize;
             again &= again - 1;
@@ -165,7 +166,7 @@ impl SeenPlaces {
     }
 }
 
-/// The places that were looked at last, and those before them: where a try is refused, the next begins from these.
+/// The last two evaluated places. If a move is rejected, the next one starts from the earlier places.
 #[derive(Debug, Default)]
 pub struct SeenSides {
     seen: [SeenPlaces; 2],
@@ -173,7 +174,7 @@ pub struct SeenSides {
 }
 
 impl SeenSides {
-    /// Crossings of links and pins on links that they are no part of, and what they and splinters cost.
+    /// Returns the number of crossings of links and of pins on foreign links, and their cost together with that of splinters.
     ///
     /// # Complexity
     /// O(s·(c + m) + p·c) for s sides, of which c have moved, and p points, of which m have.
@@ -182,7 +183,7 @@ impl SeenSides {
         let nearer = usize::from(moved[1].count_ones() < moved[0].count_ones());
         self.seen.swap(1, nearer);
         let (moved, [now, known]) = (moved[nearer], &mut self.seen);
-        // Which are the sides of links of many points depends on where these are.
+        // The sides of links with many points depend on the places of these.
         let mut same = moved & bones.hulled == 0 && !known.sides.is_empty();
         if !same {
             bones.link_sides(at, &mut self.sides);
@@ -202,7 +203,7 @@ impl SeenSides {
         let sides = now.sides.iter();
         let crossed: u32 = sides.clone().map(|s| s.crossed.count_ones()).sum();
         let foreign: u32 = sides.clone().map(|s| s.foreign).sum();
-        // Each of both sides crosses the other.
+        // Both sides record a crossing.
         let count = crossed / 2 + foreign;
         let penalty: f64 = sides.clone().map(|s| s.penalty).sum();
         let is_of_jaw = |s: &SideSeen| bones.jaws.contains(&s.side.link);
@@ -217,7 +218,7 @@ impl SeenSides {
     }
 }
 
-/// The places of the bits that are set.
+/// Returns the indices of the bits that are set.
 fn set_bits(mut set: u32) -> impl Iterator<Item = usize> {
     std::iter::from_fn(move || {
         let first = (set != 0).then(|| set.trailing_zeros() as usize);
@@ -232,7 +233,7 @@ mod tests {
     use crate::synthesis::sketch::each_classic;
     use crate::synthesis::{random_below, random_for};
 
-    /// Tries that are taken and refused in any order: what is looked at again is what has moved, and all else is known still.
+    /// Moves accepted and rejected in any order give the same result as a new evaluation: only moved points are evaluated again.
     #[test]
     fn what_was_seen_of_other_places_is_what_is_seen_afresh() {
         each_classic(|name, sketch| {

@@ -1,5 +1,5 @@
-//! Sketches: the properties of a structure that do not depend on the places of its joints, gathered once for the many places that are
-//! tried. A sketch also says what places cost.
+//! Sketches: the properties of a structure that do not depend on the places of its joints, gathered once for many trials of places. A
+//! sketch also computes the cost of places.
 
 use crate::chains::chain::Joint;
 use crate::chains::{Input, PairKind, Symmetry};
@@ -21,7 +21,7 @@ use crate::synthesis::velocities::Contours;
 pub struct Sketch<'a> {
     /// The structure.
     pub structure: &'a Structure,
-    /// Which joints may be placed.
+    /// The rules for the places of joints.
     pub rules: Rules,
     /// The points of its links.
     pub bones: Bones,
@@ -29,14 +29,14 @@ pub struct Sketch<'a> {
     pub input: usize,
     /// The link against which the driver moves, and the driver.
     pub drive: [usize; 2],
-    /// What it is to be like and to do.
+    /// Limits and task of the layout.
     pub limits: Limits,
     /// Contours, and their closure, if the structure has only hinges: turns are the only unknowns then.
     pub(super) contours: Option<Contours>,
     pub(super) closure: Option<Closure>,
     /// All sides, if there are three in one plane.
     pub(super) around: Option<Around>,
-    /// Which way each tip opens, as [`Bones::apart`].
+    /// Opening direction of each tip, as [`Bones::apart_vectors`].
     pub(super) apart: Vec<Point>,
     /// All links as drawn.
     pub(super) at_rest: Vec<LinkPose>,
@@ -107,16 +107,16 @@ impl<'a> Sketch<'a> {
     }
 }
 
-/// The radius of the largest wheel that costs nothing, in millimetres.
+/// The radius of the largest wheel without a cost, in millimetres.
 const LARGE: f64 = 25.0;
-/// The radius of the smallest pinion that costs nothing, in millimetres.
+/// The radius of the smallest pinion without a cost, in millimetres.
 const SMALL: f64 = 8.0;
 
 impl Sketch<'_> {
     /// Returns the cost of places. `None` if it is more than `most`, or if motion is included and the pose is singular.
     ///
     /// # Complexity
-    /// That of the crossings that are new, and with motion an elimination.
+    /// That of the new crossings, and with motion an elimination.
     #[must_use]
     pub fn place_penalty(
         &self,

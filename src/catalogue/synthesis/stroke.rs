@@ -1,6 +1,6 @@
-//! The whole stroke of places that are tried: from the narrowest part of the task to the widest, as fast as places are tried.
+//! Fast evaluation of the whole stroke while places are tried, from the narrowest part of the task to the widest.
 //!
-//! The parameter is the part's width, so that every pose is one that the task asks for, and the rate of the drive by it is the
+//! The parameter is the width of the part, so that every pose is one that the task asks for. The rate of the drive over the width is the
 //! force of the jaws: work in is work out.
 
 pub mod closure;
@@ -19,7 +19,7 @@ use crate::synthesis::stroke::shortfall::NOISE;
 use crate::synthesis::task::{AskedMotion, Limits, PARALLEL, Task, beyond_limit};
 
 impl Task {
-    /// Distances that are asked for at least, each with that of a stroke, in millimetres.
+    /// Returns the minimum distances that are asked for, each with that of a stroke, in millimetres.
     fn least_distances(&self, f: &StrokeFigures) -> impl Iterator<Item = (f64, f64)> {
         let side = if self.own_sides {
             0.5 * self.wished_distances()[0]
@@ -35,12 +35,12 @@ impl Task {
     }
 }
 
-/// The cost of a stroke on which a jaw opens while the others close: more than the smallest transmission angle costs, since a
-/// gripper with a small angle is of more use than one that does not close.
+/// Cost of a stroke on which a jaw opens while the others close. It exceeds the cost of the smallest transmission angle, since a gripper
+/// with a small angle is of more use than one that does not close.
 const OPENS: f64 = 60.0;
 
 impl Limits {
-    /// What a stroke costs, 0 at best. First that both ends are reached, then what the task and the limits ask.
+    /// Returns the cost of a stroke, 0 at best. Its largest part is for ends that are not reached; the rest is for the task and the limits.
     #[must_use]
     pub fn stroke_cost(&self, f: &StrokeFigures) -> f64 {
         let task = &self.task;
@@ -87,8 +87,8 @@ impl Limits {
         cost
     }
 
-    /// What a stroke costs where the force alone counts: less than nothing for a great one, and much for each limit that is broken, by so
-    /// many times the usual width.
+    /// Returns the cost of a stroke if only the force counts. A great force has a negative cost. Each broken limit has a high cost, with
+    /// `slack` times the usual width.
     #[must_use]
     pub fn force_cost(&self, f: &StrokeFigures, slack: f64) -> f64 {
         let task = &self.task;
@@ -97,7 +97,7 @@ impl Limits {
         let unreached: f64 = missing.map(|m| 1.0 + 10.0 * m / task.opening_span()).sum();
         let over = |value: f64, most: f64| (value / most).max(1e-12).ln();
         let mut broken = 0.0;
-        // However little a limit is broken, it is.
+        // Even a tiny breach of a limit has a cost.
         let mut limit = |over: f64, width: f64| {
             if over > NOISE {
                 broken += 0.02 + beyond_limit(over, slack * width);

@@ -1,4 +1,4 @@
-//! Structures: a gripper's chain and roles with the symmetry it is to have, and how it is laid out.
+//! Structures: a gripper's chain and roles with its symmetry, and its form.
 
 use crate::chains::chain::{Joint, carry_links, order_links};
 use crate::chains::classics::MadeAs;
@@ -41,7 +41,8 @@ pub struct Structure {
 pub struct Form {
     /// Mirror image, half turn or generic.
     pub symmetry: Symmetry,
-    /// Whether it has only hinges except for the input, a hinge or a slide along the x axis at the frame. Its name begins with its graph then.
+    /// Whether it has only hinges except for the input, a hinge or a slide along the x axis at the frame. Its name then begins with its
+    /// graph.
     pub hinges: bool,
     /// Whether the symmetry carries the input joint elsewhere, so that it drives only one side.
     pub one_sided: bool,
@@ -87,8 +88,8 @@ impl Form {
         })
     }
 
-    /// Returns whether a gripper of N jaws can be laid out in this form in a plane. Three jaws are never on parallelograms: that takes many
-    /// links.
+    /// Returns whether a gripper of N jaws can be laid out in this form in a plane. Three jaws are never on parallelograms, which would
+    /// take many links.
     #[must_use]
     pub fn suits_jaws(self, jaws: usize) -> bool {
         self.symmetry.jaw_count().is_none_or(|n| n == jaws) && (jaws == 2 || !self.parallel)
@@ -196,7 +197,7 @@ impl Structure {
     /// such pins.
     ///
     /// # Complexity
-    /// As [`Structure::lays`].
+    /// As [`Structure::symmetry_lays`].
     pub(crate) fn with_one_pins(self) -> impl Iterator<Item = Structure> {
         let joints = self.structure.chain.joints_made();
         let mirror = self.form.symmetry == Symmetry::Mirror;
@@ -226,7 +227,7 @@ impl Structure {
         })
     }
 
-    /// A short name that a shell takes as it is: the number of links, and the beginning of the SHA-256 of the whole name.
+    /// Returns a short name that needs no quoting in a shell: the number of links, and the beginning of the SHA-256 of the full name.
     #[must_use]
     pub fn id(&self) -> String {
         let mut id = format!("{}-", self.link_count());
@@ -302,7 +303,7 @@ impl Structure {
         swaps.into_iter().flat_map(of)
     }
 
-    /// Returns the first of the ways of [`Structure::lays`] for a structure of hinges.
+    /// Returns the first of [`Structure::symmetry_lays`] for a structure of hinges.
     ///
     /// # Errors
     /// Returns an error if there is no such way.
@@ -325,8 +326,8 @@ impl Structure {
         Ok(Lay { swap, bits: 0 })
     }
 
-    /// Returns the joints of a parallelogram for each jaw, or `None` if a jaw has none: those of two rods at the base, then those at the jaw
-    /// in the same order.
+    /// Returns the joints of a parallelogram for each jaw, or `None` if a jaw has none. The joints of two rods at the base come first, then
+    /// those at the jaw in the same order.
     #[must_use]
     pub fn parallelogram_rings(&self) -> Option<Vec<[[usize; 2]; 4]>> {
         let (chain, roles) = (&self.structure.chain, &self.structure.roles);
@@ -346,7 +347,7 @@ impl Structure {
     }
 
     /// Returns whether there is an automorphism that keeps frame and input joint and carries each jaw to the next: one of
-    /// [`Subject::swaps`].
+    /// [`Subject::iter_swaps`].
     #[must_use]
     pub fn is_graph_symmetric(&self) -> bool {
         let chain = &self.structure.chain;

@@ -1,5 +1,5 @@
-//! What a gripper is to do: which parts it takes and how, how its jaws may move, and the room there is; what a layout must be like to be
-//! taken; and where the tips of two or three jaws are drawn, whatever joins the links behind them.
+//! Task of a gripper: the parts it takes and how, the motion of its jaws, and the available room. Also the limits for layouts, and the
+//! drawn places of the tips of two or three jaws, which do not depend on the links behind them.
 
 use crate::chains::Symmetry;
 use crate::synthesis::place::Place;
@@ -23,7 +23,7 @@ pub(super) fn exact_list<'de, const N: usize, D: Deserializer<'de>>(
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum HeldFrom {
-    /// Round it: the jaws hold as they close.
+    /// Around it: the jaws hold as they close.
     Outside,
     /// In a hole of it: the jaws hold as they open.
     Inside,
@@ -34,7 +34,7 @@ impl HeldFrom {
     pub const ALL: [(HeldFrom, &'static str); 2] =
         [(HeldFrom::Outside, "outside"), (HeldFrom::Inside, "inside")];
 
-    /// 1 where the jaws hold as they close, -1 where they do as they open.
+    /// Returns 1 if the jaws hold as they close, -1 if they hold as they open.
     #[must_use]
     pub fn grip_sign(self) -> f64 {
         match self {
@@ -44,11 +44,11 @@ impl HeldFrom {
     }
 }
 
-/// How the jaws are to move.
+/// Motion of the jaws that is asked for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum AskedMotion {
-    /// As they like.
+    /// Any motion.
     Any,
     /// Without turning.
     Parallel,
@@ -65,13 +65,13 @@ impl AskedMotion {
     ];
 }
 
-/// What layouts that do their task are chosen for.
+/// Aim of the choice among layouts that fulfil their task.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Aim {
-    /// A little of all: few crossings, links neither long nor short, rods that pull well, even forces.
+    /// A balance: few crossings, links neither long nor short, good transmission angles of rods, even forces.
     Balanced,
-    /// The least force of a jaw over the stroke, as great as the limits let it be.
+    /// The greatest possible least force of a jaw over the stroke, within the limits.
     Force,
 }
 
@@ -80,45 +80,43 @@ impl Aim {
     pub const ALL: [(Aim, &'static str); 2] = [(Aim::Balanced, "balanced"), (Aim::Force, "force")];
 }
 
-/// What every gripper of a catalogue is to do, alike.
+/// Task of every gripper of a catalogue.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Task {
-    /// The width of the narrowest part, in mm: so near the tips come to each other.
+    /// The width of the narrowest part, in mm: the smallest distance of the tips.
     pub narrowest: f64,
     /// The width of the widest part, in mm.
     pub widest: f64,
     /// From which side parts are held.
     pub grip: HeldFrom,
-    /// How the jaws are to move.
+    /// Motion of the jaws that is asked for.
     pub motion: AskedMotion,
-    /// The least force of a jaw over the stroke, at least: N for 1 N of a sliding drive, or for 1 Nm of a turning one; 0 where any
-    /// will do.
+    /// Minimum of the least force of a jaw over the stroke: N for 1 N of a sliding drive, or for 1 Nm of a turning one; 0 for no limit.
     pub least_force: f64,
-    /// The greatest force of a jaw over the least, over the stroke, at most.
+    /// Maximum ratio of the greatest to the least force of a jaw over the stroke.
     pub force_ratio: f64,
-    /// The transmission angle over the stroke at least, of rods and by joint forces at driver and jaws, in degrees.
+    /// Minimum transmission angle over the stroke, of rods and by joint forces at driver and jaws, in degrees.
     pub transmission: f64,
-    /// The greatest joint force over the stroke at most, in N for 1 N of each jaw; 0 where any will do.
+    /// Maximum joint force over the stroke, in N for 1 N of each jaw; 0 for no limit.
     pub pin_force: f64,
-    /// The efficiency over the stroke at least; 0 where any will do.
+    /// Minimum efficiency over the stroke; 0 for no limit.
     pub efficiency: f64,
-    /// Width and height of the box round pins, tips and pitch circles over the stroke at most, in mm; 0 where it may be of any size.
+    /// Maximum width and height of the box around pins, tips and pitch circles over the stroke, in mm; 0 for no limit.
     #[serde(deserialize_with = "exact_list")]
     pub room: [f64; 2],
-    /// How far pins are apart over the stroke at least, in mm, from middle to middle; 0 where no more than 14 as drawn is wished.
+    /// Minimum distance of pins over the stroke, in mm, from centre to centre; 0 for only the usual wish of 14 as drawn.
     pub pin_distance: f64,
-    /// How far the tips are drawn ahead of all pins at least, in mm, of a gripper that has the part ahead; 0 where no more than 25 is
-    /// wished.
+    /// Minimum distance of the drawn tips ahead of all pins, in mm, if the part is ahead of the gripper; 0 for only the usual wish of 25.
     pub reach: f64,
-    /// Whether pins and pitch circles of each jaw's half are to keep on its side of the middle, by half of the pins' distance, where
-    /// the part is ahead.
+    /// Whether pins and pitch circles of each jaw's half must keep to its side of the middle, by half of the distance of pins, if the part
+    /// is ahead.
     pub own_sides: bool,
-    /// How long a cylinder between two links is pulled out, from pin to pin, over pushed in, at most; 0 where any will do.
+    /// Maximum ratio of the longest to the shortest length of a cylinder between two links, from pin to pin; 0 for no limit.
     pub pulled_out: f64,
-    /// What layouts are chosen for.
+    /// Aim of the choice among layouts.
     pub aim: Aim,
-    /// What efficiencies are reckoned with.
+    /// Friction for efficiencies.
     pub friction: Friction,
 }
 
@@ -135,7 +133,7 @@ pub struct Friction {
 }
 
 impl Default for Friction {
-    /// Greased steel: 0.1; pins of 8 mm, a guide of 40 mm.
+    /// Returns the values of greased steel: a coefficient of 0.1, pins of 8 mm, and a guide of 40 mm.
     fn default() -> Friction {
         Friction {
             coefficient: 0.1,
@@ -146,8 +144,8 @@ impl Default for Friction {
 }
 
 impl Default for Task {
-    /// Parts of up to 50 mm, from outside, with a force that is at most three times the least, a transmission angle of 25° at least,
-    /// joint forces of 10 N for 1 N of each jaw at most, and an efficiency of a half at least.
+    /// Returns the usual task: parts of up to 50 mm, held from outside. The force of a jaw is at most three times the least, and the
+    /// transmission angle at least 25°. Joint forces are at most 10 N for 1 N of each jaw, and the efficiency is at least a half.
     fn default() -> Task {
         Task {
             narrowest: 0.0,
@@ -170,17 +168,17 @@ impl Default for Task {
     }
 }
 
-/// Half of what a gripper is drawn open by where the task has room for it, in millimetres.
+/// Half the drawn opening if the task has room for it, in millimetres.
 const HALF_OPENING: i32 = 15;
-/// Joints nearer to each other than this run into each other, in mm.
+/// Joints nearer to each other than this collide, in mm.
 const NEAR: f64 = 14.0;
-/// Joints nearer to the tips than this are where the part is, in mm.
+/// Joints nearer to the tips than this are in the region of the part, in mm.
 const BEHIND: f64 = 25.0;
-/// A jaw that is to be parallel turns by this at most over the stroke, in degrees.
+/// Maximum turn of a parallel jaw over the stroke, in degrees.
 pub(super) const PARALLEL: f64 = 1.0;
 
 impl Task {
-    /// Half the distance of the tips as a gripper is drawn, in whole millimetres: within the stroke, and not nothing.
+    /// Returns half the distance of the tips in the drawn pose, in whole millimetres: within the stroke, and not 0.
     #[must_use]
     pub fn half_opening(&self) -> i32 {
         let drawn = f64::from(2 * HALF_OPENING);
@@ -192,28 +190,27 @@ impl Task {
         half.max(1)
     }
 
-    /// How far apart joints are wished at least, and how far behind the tips: as asked, or as is usual. In mm.
+    /// Returns the desired minimum distance between joints, and from the joints to the tips: as asked, or as usual. In mm.
     pub(super) fn wished_distances(&self) -> [f64; 2] {
         let asked = [(self.pin_distance, NEAR), (self.reach, BEHIND)];
         asked.map(|(asked, usual)| if asked > 0.0 { asked } else { usual })
     }
 
-    /// By how much the tips go apart over the stroke, in millimetres.
+    /// Returns the change of the distance between the tips over the stroke, in millimetres.
     #[must_use]
     pub fn opening_span(&self) -> f64 {
         self.widest - self.narrowest
     }
 }
 
-/// What a layout must be like to be taken.
+/// Limits for layouts.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Limits {
-    /// The longest link over the shortest, the frame left out.
+    /// Maximum ratio of the longest link to the shortest, without the frame.
     pub ratio: f64,
-    /// Crossings of links, and pins that lie on links that they are no part of, where no planes are known in which links pass each
-    /// other.
+    /// Maximum number of crossings of links, and of pins on foreign links, if no layers are known in which links pass each other.
     pub crossings: usize,
-    /// What it is to do.
+    /// The task.
     pub task: Task,
 }
 
@@ -227,20 +224,20 @@ impl Default for Limits {
     }
 }
 
-/// How far a number is beyond a limit, squared, in units of a width.
+/// Returns the excess over a limit, squared, in units of a width.
 pub(crate) fn beyond_limit(over: f64, width: f64) -> f64 {
     (over.max(0.0) / width).powi(2)
 }
 
-/// How far ahead the tips of jaws in front are, in millimetres.
+/// How far ahead the tips are drawn if the jaws are in front, in millimetres.
 const REACH: i32 = 120;
-/// A pin nearer than this to the middle of the part that is held is in its way.
+/// A pin nearer than this to the middle of the held part is in its way, in mm.
 const PART: f64 = 25.0;
 
-/// What each jaw is called, the first first.
+/// Names of the jaws, in order.
 pub(crate) const JAW_NAMES: [&str; 3] = ["jaw-a", "jaw-b", "jaw-c"];
 
-/// What is so long and points from the part to each of so many jaws: opposite ways for two, at 120° for three.
+/// Returns the vector of this length from the part to each jaw: opposite directions for two, at 120° for three.
 #[must_use]
 pub(crate) fn outward_vectors(jaws: usize, length: i32) -> Vec<Place> {
     match jaws {
@@ -255,12 +252,12 @@ pub(crate) fn outward_vectors(jaws: usize, length: i32) -> Vec<Place> {
     }
 }
 
-/// Of jaws that close on a part over the centre, all of the gripper round it, how near to the middle pins may be, in millimetres; `None`
-/// where the jaws are in front.
+/// Returns the minimum distance of pins from the middle, in millimetres, for jaws that close on a part over the centre, with the gripper
+/// around it. `None` if the jaws are in front.
 #[must_use]
 pub(crate) fn room_round_part(jaws: usize, symmetry: Symmetry) -> Option<f64> {
     let is_round = symmetry == Symmetry::HalfTurn || jaws > 2;
-    // Pins where the part is are in its way, but for those of a drive behind it.
+    // Pins in the region of the part are in its way, except for those of a drive behind it.
     let near = match symmetry {
         Symmetry::Generic => PART,
         _ => 0.0,
@@ -268,13 +265,13 @@ pub(crate) fn room_round_part(jaws: usize, symmetry: Symmetry) -> Option<f64> {
     is_round.then_some(near)
 }
 
-/// Where the tips of so many jaws are drawn for a task, in millimetres: ahead, or round the middle.
+/// Returns the drawn places of the tips for a task, in millimetres: ahead, or around the middle.
 #[must_use]
 pub(crate) fn draw_tips(jaws: usize, symmetry: Symmetry, task: &Task) -> Vec<Place> {
     let is_round = room_round_part(jaws, symmetry).is_some();
     let ahead = if is_round { 0 } else { REACH };
     let mut tips = outward_vectors(jaws, task.half_opening());
-    // Tips that are turned are round the middle.
+    // Turned tips are around the middle.
     tips.iter_mut().for_each(|tip| tip.whole[0] += ahead);
     tips
 }

@@ -1,9 +1,11 @@
-//! Grippers of three jaws with slides, gears and slots, carried to each other by thirds of a turn.
+//! Grippers of three jaws with slides, gears and slots, whose sides are images of each other by thirds of a turn.
 //!
-//! They are made of those with two jaws: what stands between frame and driver on one side stands there three times. A side moves
-//! by frame and driver alone, so that places, stroke and joint forces are those of one side of two. Those that half a turn carries
-//! to themselves stay in their plane, and turn about its normal, as a scroll chuck does. Mirror images turn about the axis along
-//! which their driver slides, each side in a plane of its own through it, as in a wedge chuck: half a turn about it is the mirror.
+//! They are made of grippers with two jaws: the links between frame and driver on one side are repeated three times. A side is connected to
+//! the others only by frame and driver. So places, stroke and joint forces are those of one side of two.
+//!
+//! Sides of grippers with half-turn symmetry stay in their plane, and are turned about its normal, as in a scroll chuck. Mirror-symmetric
+//! grippers are turned about the axis along which their driver slides, as in a wedge chuck. Each side is then in a separate plane through
+//! the axis, and half a turn about the axis is the reflection.
 
 use crate::chains::chain::{Chain, Joint, order_links};
 use crate::chains::roles::Roles;
@@ -15,12 +17,12 @@ use crate::synthesis::rules::Rules;
 use crate::synthesis::structure::{Sides, Structure};
 use petgraph::unionfind::UnionFind;
 
-/// Sides.
+/// Number of sides.
 pub(crate) const SIDES: usize = 3;
 
 impl Sides {
-    /// Of a gripper of two jaws; `None` where its sides are joined to each other or one of them is driven, or it is a mirror image
-    /// of which something that stands once does more than slide along the middle.
+    /// Finds the sides of a gripper of two jaws. `None` if its sides are joined to each other, or if one of them is driven. Also `None` for
+    /// a mirror-symmetric gripper if a link without an image does more than slide along the middle.
     fn new(two: &Structure) -> Option<Sides> {
         let lay = two.symmetry_lays().into_iter().next()?;
         let swap = &lay.swap;
@@ -53,7 +55,7 @@ impl Sides {
             if here == there {
                 return None;
             }
-            // Of two parts that change places the one with the first jaw, or the one that comes first.
+            // If the symmetry exchanges two parts, take the part with the first jaw, or else the first part.
             let jaw = [here, there].iter().position(|&p| p == parts.find(first));
             let is_side = jaw.map_or(here < there, |at| at == 0);
             if is_side {
@@ -147,13 +149,13 @@ impl Structure {
     }
 }
 
-/// All three sides as they are drawn.
+/// All three sides as drawn.
 #[derive(Debug, Clone)]
 pub(super) struct Around {
     pub(super) bones: Bones,
-    /// Of each point: the one of two sides that it is made of, and by how many thirds it is turned.
+    /// For each point, the point of two sides that it is made of, and its number of turns by 120°.
     made: Vec<(usize, usize)>,
-    /// Of each point of two sides, how often it stands here.
+    /// For each point of two sides, its number of copies.
     copies: Vec<usize>,
 }
 
@@ -204,13 +206,13 @@ impl Around {
         }
     }
 
-    /// Where all points are.
+    /// Returns the places of all points.
     pub(super) fn all_points(&self, two: &[Point]) -> Vec<Point> {
         let turned = |&(of, side): &(usize, usize)| (0..side).fold(two[of], |p, _| third(p));
         self.made.iter().map(turned).collect()
     }
 
-    /// Gives every place of a point of two sides.
+    /// Calls `take` with every place of a point of two sides.
     pub(super) fn each_place(&self, point: usize, at: Point, take: &mut dyn FnMut(Point)) {
         let mut now = at;
         for _ in 0..self.copies[point] {

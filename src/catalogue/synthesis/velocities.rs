@@ -1,7 +1,7 @@
-//! How the links of a laid-out gripper move when its driver does, in the plane.
+//! Velocities of the links of a laid-out gripper in the plane, for a given motion of its driver.
 //!
-//! Only how fast each link turns is unknown: that the contours stay closed is two equations each, as many as there are links
-//! besides frame and driver. Where the links go follows from how they turn, from pin to pin.
+//! Only the angular velocity of each link is unknown. The closure of each contour gives two equations, as many in total as there are links
+//! other than frame and driver. The velocities of points follow from the angular velocities, from pin to pin.
 
 use crate::chains::Input;
 use crate::closure::tree::{TreeStep, spanning_forest};
@@ -9,24 +9,24 @@ use crate::geom::vector::{add_scaled, quarter_turn, sub};
 use crate::synthesis::elimination::SmallSystem;
 use crate::synthesis::structure::Structure;
 
-/// A velocity of a link: its turning, and the velocity of its point at the origin.
+/// Velocity of a link: its angular velocity, and the velocity of its point at the origin.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Velocity {
-    /// In rad for a unit of the drive.
+    /// The angular velocity, in rad for a unit of the drive.
     pub turning: f64,
-    /// Of the point of the link at the origin.
+    /// The velocity of the point of the link at the origin.
     pub shift: [f64; 2],
 }
 
 impl Velocity {
-    /// Of a point of the link.
+    /// Returns the velocity of a point of the link.
     #[must_use]
     pub fn velocity_at(&self, point: [f64; 2]) -> [f64; 2] {
         add_scaled(self.shift, self.turning, quarter_turn(point))
     }
 }
 
-/// A link of a contour, and the points by which the contour leaves it and comes to it.
+/// A link of a contour, and the points at which the contour leaves it and enters it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Side {
     pub(super) link: usize,
@@ -34,7 +34,7 @@ pub(super) struct Side {
     pub(super) comes: usize,
 }
 
-/// What the links of a structure are joined to, as their velocities need it.
+/// Connections of the links of a structure, as their velocities need them.
 #[derive(Debug, Clone)]
 pub struct Contours {
     links: usize,
@@ -42,17 +42,17 @@ pub struct Contours {
     pub(super) input: Input,
     /// Links in the order they are reached from the frame.
     pub(super) tree: Vec<TreeStep<usize, usize>>,
-    /// Of each contour its two ways from the frame, without the links they share.
+    /// For each contour, its two paths from the frame, without the links they share.
     pub(super) contours: Vec<[Vec<Side>; 2]>,
-    /// The pin in which the two ways of each meet, by way of its first link and of its second.
+    /// The pin in which the two paths of each contour meet. The first path comes by its first link, the second by its second.
     pub(super) cuts: Vec<usize>,
-    /// Of each jaw its way from the frame to the tip.
+    /// For each jaw, its path from the frame to the tip.
     pub(super) tips: Vec<Vec<Side>>,
-    /// The place of each link's turning among the unknown; those of frame and driver are known.
+    /// The index of each link's angular velocity among the unknowns; those of frame and driver are known.
     pub(super) unknown: Vec<Option<usize>>,
 }
 
-/// The sides of a way from the frame, each link of it with the pin it is reached by, to a point of the last.
+/// Returns the sides of a path from the frame to a point of its last link. Each link of the path comes with the pin by which it is reached.
 fn sides(way: &[(usize, usize)], to: usize) -> Vec<Side> {
     let side = |(i, &(link, comes)): (usize, &(usize, usize))| Side {
         link,
@@ -63,7 +63,7 @@ fn sides(way: &[(usize, usize)], to: usize) -> Vec<Side> {
 }
 
 impl Contours {
-    /// Of a structure.
+    /// Creates the contours of a structure.
     #[must_use]
     pub fn new(structure: &Structure) -> Contours {
         let roles = &structure.structure.roles;
@@ -82,7 +82,7 @@ impl Contours {
         let contours = cuts.iter().map(|&pin| {
             let [u, v] = pins[pin].links;
             let both = ways[u].iter().zip(&ways[v]);
-            // The last link that both pass through is left by different pins, and is a side of either.
+            // The last link that both paths share is left by different pins, and is a side of both.
             let shared = both.take_while(|(a, b)| a == b).count().saturating_sub(1);
             [u, v].map(|end| sides(&ways[end], pin).split_off(shared))
         });
@@ -107,8 +107,8 @@ impl Contours {
         }
     }
 
-    /// Velocities of all links for a unit speed of the driver, a millimetre or a radian, with the pins at these places; `None`
-    /// in a singular pose, and beyond all bounds next to one.
+    /// Solves the velocities of all links for a unit speed of the driver, a millimetre or a radian, with the pins at these places. `None`
+    /// in a singular pose; unbounded near one.
     ///
     /// # Complexity
     /// O(n³) for n links.
@@ -116,8 +116,8 @@ impl Contours {
     pub fn link_velocities(&self, at: &[[f64; 2]]) -> Option<Vec<Velocity>> {
         let size = 2 * self.contours.len();
         let mut system = SmallSystem::new(size, 1);
-        // The sum of ω × (leaves - comes) over the one way is that over the other; a slide adds its millimetre, turned back by
-        // a quarter as all are.
+        // The sum of ω × (leaves - comes) is the same over both paths. A slide adds its millimetre, turned back by a quarter like all
+        // terms.
         for (k, ways) in self.contours.iter().enumerate() {
             for (way, sign) in ways.iter().zip([1.0, -1.0]) {
                 for side in way {

@@ -1,4 +1,4 @@
-//! What a gripper of a catalogue carries, whatever its structure: the part between its jaws, and its own links.
+//! Load on the grippers of a catalogue: the part between the jaws, and the links. It does not depend on the structure.
 
 use crate::file::schema::{Coordinate, ForceEntry};
 use crate::geom::vector::{Vector, add_scaled, length, sub};
@@ -6,15 +6,15 @@ use crate::synthesis::place::{Pivot, Place, middle_of, number_words};
 use crate::synthesis::task::exact_list;
 use serde::{Deserialize, Serialize};
 
-/// Forces and masses that every structure has alike.
+/// Forces and masses, the same for every structure.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Workload {
     /// The force between the part and each jaw, in N.
     pub closing: f64,
-    /// Mass of the part, in kg: the jaws share its weight.
+    /// Mass of the part, in kg. The jaws share its weight.
     pub part: f64,
-    /// Acceleration of gravity in m/s²; z is square to the plane, of jaw a where each has its own, x is ahead.
+    /// Acceleration of gravity in m/s². z is normal to the plane, or to the plane of jaw a if each jaw has its own plane; x is ahead.
     #[serde(deserialize_with = "exact_list")]
     pub gravity: [f64; 3],
     /// Mass of a metre of link, in kg.
@@ -22,7 +22,8 @@ pub struct Workload {
 }
 
 impl Default for Workload {
-    /// A part of 1 kg held by 100 N, its weight, in round figures, across the plane: the hardest attitude. Links weigh nothing.
+    /// Returns the usual load: a part of 1 kg held by 100 N. Its weight, in round figures, is normal to the plane, the most severe
+    /// attitude. Links have no weight.
     fn default() -> Workload {
         Workload {
             closing: 100.0,
@@ -33,19 +34,19 @@ impl Default for Workload {
     }
 }
 
-/// Where and how a part is held.
+/// How a part is held, and at which points.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct HeldPart<'a> {
     pub(super) tips: &'a [Place],
-    /// Away from the part, at each jaw.
+    /// Direction away from the part, at each jaw.
     pub(super) outward: &'a [Place],
-    /// 1 where jaws hold as they close, -1 where they do as they open.
+    /// 1 if the jaws hold as they close, -1 if they hold as they open.
     pub(super) grip: f64,
-    /// What turned places are turned about.
+    /// Axis of turned places.
     pub(super) pivot: Pivot,
 }
 
-/// A rod from the middle of a link's points to each of them, in millimetres: their length, and where their mass is.
+/// Returns the total length and the mass centre, in millimetres, of rods from the mean of a link's points to each of them.
 fn link_rods(points: &[Vector]) -> (f64, Vector) {
     let centre = middle_of(points);
     let (mut whole, mut moment) = (0.0, [0.0; 3]);
@@ -62,20 +63,20 @@ fn link_rods(points: &[Vector]) -> (f64, Vector) {
 }
 
 impl Workload {
-    /// Whether links have weights.
+    /// Returns true if the weight of links counts.
     #[must_use]
     pub(crate) fn weighs_links(&self) -> bool {
         self.link_mass > 0.0 && self.gravity != [0.0; 3]
     }
 
-    /// Mass in kg and mass centre in millimetres of a link with these points.
+    /// Returns the mass in kg and the mass centre in millimetres of a link with these points.
     #[must_use]
     pub fn link_mass(&self, points: &[Vector]) -> (f64, Vector) {
         let (length, centre) = link_rods(points);
         (self.link_mass * length / 1000.0, centre)
     }
 
-    /// The forces on jaws of these names: of each the part's push, then its share of the weight.
+    /// Returns the forces on jaws with these names: for each the push of the part, then its share of the weight.
     pub(super) fn jaw_forces(&self, jaws: &[String], held: &HeldPart<'_>) -> Vec<ForceEntry> {
         let entry = |n: usize, force| ForceEntry {
             link: jaws[n].clone(),

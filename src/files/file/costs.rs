@@ -14,8 +14,8 @@ use std::collections::{BTreeMap, BTreeSet};
 /// Costs are in revolute joints, from 0 to 1e6.
 ///
 /// # Errors
-/// Returns every problem found, each with its place: invalid TOML, an unknown name (not a joint type, an option of the mechanism,
-/// `change`, `link` or `harmful`), or an invalid cost.
+/// Returns every problem found, each with its place: invalid TOML, an unknown name, or an invalid cost. Names are joint types, options of
+/// the mechanism, `change`, `link` and `harmful`.
 pub fn costs_from_str(
     name: &str,
     text: &str,

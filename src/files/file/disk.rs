@@ -46,7 +46,7 @@ pub fn read_text(path: &Path, limit: usize) -> io::Result<String> {
     text.map_err(|_| io::Error::new(ErrorKind::InvalidData, "it is not UTF-8 text"))
 }
 
-/// Opens a regular file; refuses files that never end or that block when opened.
+/// Opens a regular file; rejects files that never end or that block when opened.
 ///
 /// # Errors
 /// Returns an error if it is not a regular file, or cannot be opened.
@@ -65,7 +65,7 @@ fn too_long(limit: usize) -> io::Error {
     )
 }
 
-/// A file, identified independently of its name where possible.
+/// A file, identified independently of its name if possible.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
 enum FileId {
     /// Its device and inode number, which only Unix systems report.
@@ -74,14 +74,14 @@ enum FileId {
     Path(PathBuf),
 }
 
-/// The files that were read since [`forget`].
+/// The files that were read since [`forget_read`].
 static READ: Mutex<BTreeSet<FileId>> = Mutex::new(BTreeSet::new());
 
 fn files_read() -> MutexGuard<'static, BTreeSet<FileId>> {
     READ.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// Returns what a file is known by: a name may be given to another file while the first is still read.
+/// Returns the identity of a file: a name may be given to another file while the first is still read.
 fn file_ids(path: &Path) -> impl Iterator<Item = FileId> {
     let number = fs::metadata(path).ok().and_then(|m| file_number(&m));
     let path = fs::canonicalize(path).ok().map(FileId::Path);
@@ -99,7 +99,7 @@ fn number(_: &Metadata) -> Option<FileId> {
     None
 }
 
-/// Forgets what was read.
+/// Forgets the files that were read.
 pub fn forget_read() {
     files_read().clear();
 }

@@ -1,5 +1,5 @@
-//! Doubtful values of a file: ratios and pitches that are written as decimals and are nearly fractions, and directions of options
-//! that are not given and default to the joint's own, where they have another meaning.
+//! Doubtful values of a file: ratios and pitches that are written as decimals and are nearly fractions. Also directions of options that are
+//! omitted and default to the joint's own, if they have another meaning there.
 
 use crate::file::locate::DocumentPath;
 use crate::file::problem::{Found, WarningKind, first_of};
@@ -36,7 +36,7 @@ pub(super) fn find_doubtful(file: &MechanismFile, m: &Mechanism) -> Found {
         entry.pitch.as_ref()?;
         let pitch = &joint.frame.pitch;
         let turn = Expr::from(2) * Expr::pi();
-        // The lead is what screws are made to.
+        // Screws are specified by their lead.
         let lead = Expr::from_f64((pitch * &turn).to_f64()).ok()?;
         let lead = doubt_ratio(&pitch.scaled_as_written(lead, turn.to_f64()))?;
         let message = format!(
@@ -50,13 +50,13 @@ pub(super) fn find_doubtful(file: &MechanismFile, m: &Mechanism) -> Found {
     couplings.chain(screws).collect()
 }
 
-/// Joints named of a list.
+/// Number of joints named in a list.
 const SHOWN: usize = 8;
 
 /// A guessed direction of an option at a joint: the direction, what it is taken along, and the key that would set it.
 type Guess = (&'static str, &'static str, &'static str);
 
-/// Lists each option with guessed directions once, with the joints where it has them.
+/// Lists each option with guessed directions once, with the joints that have it.
 pub(crate) fn find_guessed(file: &MechanismFile, m: &Mechanism) -> Found {
     let mut found: Vec<(DocumentPath, String, Guess, Vec<&str>)> = Vec::new();
     for (i, (entry, joint)) in file.joint.iter().zip(&m.joints).enumerate() {
@@ -138,7 +138,7 @@ fn has_plane(of: &JointType) -> bool {
     )
 }
 
-/// Joints nearer to special than this, in radians and sizes of the mechanism, were hardly meant to miss it.
+/// Joints nearer to special than this, in radians and sizes of the mechanism, were probably meant to be special.
 const NEARLY: f64 = 1e-4;
 /// Maximum number of pairs of joints reported.
 const TOLD: usize = 5;

@@ -29,12 +29,12 @@ const SAME_PLACE: f64 = 1e-6;
 /// Names shown of a list.
 const SHOWN: usize = 8;
 
-/// A file that can be used, and what is doubtful in it.
+/// A file that can be used, and its doubtful values.
 #[derive(Debug, Clone)]
 pub struct Checked {
     /// The mechanism.
     pub mechanism: Mechanism,
-    /// Which of `grip` and `drive` the workload has.
+    /// The tables of the workload, `grip` and `drive`, that exist.
     pub tables: Vec<&'static str>,
     /// The warnings.
     pub warnings: Warnings,

@@ -74,7 +74,7 @@ pub enum Document<'t> {
 }
 
 impl<'t> Document<'t> {
-    /// Reads a text; `None` where it cannot be read.
+    /// Reads a text; `None` if it cannot be read.
     #[must_use]
     pub fn new(text: &'t str, json: bool) -> Option<Document<'t>> {
         if !json {

@@ -63,7 +63,7 @@ impl ProblemKind {
 pub struct Located<K> {
     /// The problem or warning.
     pub kind: K,
-    /// Bytes of the text it concerns, where known.
+    /// Bytes of the text it concerns, if known.
     pub span: Option<Range<usize>>,
 }
 
@@ -133,7 +133,7 @@ pub struct ImportError {
     pub file: String,
     /// Its text; empty if it could not be read as text.
     pub text: String,
-    /// The problems, in order of the file where known.
+    /// The problems, in order of the file if known.
     pub problems: Vec<Problem>,
 }
 
@@ -269,7 +269,7 @@ pub struct Warnings {
     pub file: String,
     /// Its text.
     pub text: String,
-    /// The warnings, in order of the file where known.
+    /// The warnings, in order of the file if known.
     pub warnings: Vec<Warning>,
 }
 

@@ -194,7 +194,7 @@ fn check_matrix_size(m: &Mechanism, out: &Findings) -> bool {
     for (state, name) in m.states_with_ids() {
         let joints = || m.joints_in(state).map(|j| &m.joints[j]);
         let touched = joints().flat_map(|j| j.links).unique().count();
-        // The links of a state hang together.
+        // The links of a state are connected.
         let contours = (joints().count() + 1).saturating_sub(touched);
         let columns: usize = joints().map(|j| j.joint_type.freedoms().len()).sum();
         if dim * contours * columns > ENTRIES {

@@ -111,7 +111,7 @@ fn of_key<'s>(schema: &'s Map<String, Value>, key: &str) -> Option<&'s Value> {
     known.or_else(|| schema.get("additionalProperties"))
 }
 
-/// Returns the name of a list in a message: its key, with its place where it is a list of a list, and its owner.
+/// Returns the name of a list in a message: its key, with its index if it is a list in a list, and its owner.
 fn list_name(at: &Place<'_>, owner: &str) -> String {
     let place = at.path.last_index();
     let place = place.map_or(String::new(), |i| format!("entry {} of ", i + 1));

@@ -88,7 +88,7 @@ pub fn mechanism_file(m: &Mechanism) -> MechanismFile {
 pub struct Comment {
     /// The table's name, such as "joint".
     table: &'static str,
-    /// Which of the tables of that name.
+    /// Its index among the tables of that name.
     index: usize,
     /// The words.
     text: String,
@@ -200,7 +200,7 @@ fn state_names(m: &Mechanism, of: Option<&Vec<StateId>>) -> Option<Words> {
 }
 
 fn write_joint(m: &Mechanism, j: &Joint, stated: Option<&ToleranceEntry>) -> JointEntry {
-    // The present joint is understood, unless it has a name or a cost of its own.
+    // The original joint needs no entry, unless it has its own name or cost.
     let own = |o: &JointOption| o.cost_milli.is_some() || o.name != motion_name(&o.joint_type);
     let listed = j.options.iter();
     let listed = listed.skip(usize::from(!j.options.first().is_some_and(own)));

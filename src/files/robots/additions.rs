@@ -15,14 +15,14 @@ use crate::robots::warning::{Read, list_known, unknown_name};
 use crate::robots::xml::element::Element;
 use std::collections::BTreeSet;
 
-/// Rows that an element of unknown meaning may hold: all that two links can be held by.
+/// Rows that an element of unknown meaning may constrain: all freedoms between two links.
 const MOST_ROWS: usize = 6;
 
-/// Parts of words for what holds links together or couples joints.
+/// Parts of words for elements that constrain links or couple joints.
 const HOLDS: &str = "mimic constraint attach detach weld loop closed closing closure linkage \
     fourbar four_bar coupl gearbox grasp tendon equality bushing underactuated parallel pulley";
 
-/// Parts of words for what may name many links and joints and holds none of them.
+/// Parts of words for elements that may name many links and joints, and constrain none of them.
 const HARMLESS: &str = "publish camera sensor imu lidar laser gps control drive odom contact \
     collision visual material light friction gravity wind thrust buoyan hydro battery logger \
     broadcast torque bumper sonar depth wheel scene physics steer vehicle track trajector group \
@@ -52,8 +52,7 @@ pub(crate) fn add_coupling(e: Element<'_>, joints: [&str; 2], ratio: f64, robot:
     robot.couplings.push(Ratio::new(joints, ratio, e));
 }
 
-/// Reads a plugin: one that makes a joint follow another couples them, and one that joins links until it is told to detach welds
-/// them.
+/// Reads a plugin. A plugin that makes a joint follow another couples them. One that joins links until they are detached welds them.
 ///
 /// # Errors
 /// Returns an error if a multiplier is not a number.
@@ -88,7 +87,7 @@ pub(crate) fn read_plugin(
     Ok(())
 }
 
-/// Welds two links where they are drawn. A weld of a missing link is omitted and counted.
+/// Welds two links in their drawn places. A weld of a missing link is omitted and counted.
 fn weld_links(e: Element<'_>, names: &[String; 2], scene: &SdfScene<'_>, robot: &mut Robot) {
     let [Ok((a, at)), Ok((b, _))] = names.each_ref().map(|n| moves_with(scene, n)) else {
         let [a, b] = names;
@@ -112,8 +111,8 @@ fn weld_links(e: Element<'_>, names: &[String; 2], scene: &SdfScene<'_>, robot: 
     robot.joints.push(part);
 }
 
-/// Omits an element of unknown meaning. It is counted if it could close a loop or couple joints: if its name suggests it, or if
-/// it names several links or joints of the robot. `own` is its parent joint, which it may name.
+/// Omits an element of unknown meaning. It is counted if its name suggests that it closes a loop or couples joints, or if it names several
+/// links or joints of the robot. `own` is its parent joint, which it may name.
 pub(crate) fn leave_out(e: Element<'_>, own: Option<&str>, robot: &mut Robot) {
     let kind = kind_of(e);
     let has = |words: &str| words.split(' ').any(|w| kind.contains(w));
@@ -238,7 +237,7 @@ fn names_world(joint: Element<'_>) -> bool {
         .any(|t| joint_end(joint, t).is_ok_and(|(_, name)| name == "world"))
 }
 
-/// Returns the links where they are drawn.
+/// Returns the links in their drawn places.
 fn place_links<'a>(root: Element<'a>, robot: &Robot) -> Read<SdfScene<'a>> {
     let mut scene = SdfScene::default();
     scene.world = robot.links.iter().position(|l| l == "world").unwrap_or(0);

@@ -18,9 +18,9 @@ const HEADS: [(&str, Unit); 2] = [
     ("OndselSolver", Unit::Millimetre),
     ("freeCAD: 3D CAD", Unit::Metre),
 ];
-/// Rows of results, behind all that is read.
+/// Rows of results, after all rows that are read.
 const RESULTS: &str = "TimeSeries";
-/// Labels of joints that contacts have, which hold nothing until parts touch.
+/// Labels of the joints of contacts, which constrain nothing until parts touch.
 const CONTACT: &str = "Contact";
 
 /// Returns true if a text is an assembly of OndselSolver, judged by its first line.
@@ -127,7 +127,7 @@ fn read_pose(e: Element<'_>) -> Read<RigidMotion> {
         rotation,
         translation,
     };
-    // Digits may be few, but it is to be a turn.
+    // The numbers may have few digits, but must give a rotation.
     let product = m.inverse().then(&m);
     let off = (0..3).flat_map(|i| (0..3).map(move |k| (i, k)));
     let off = off.map(|(i, k)| (product.rotation[i][k] - f64::from(u8::from(i == k))).abs());

@@ -16,9 +16,9 @@ use crate::robots::cad::meet::{Meeting, find_meeting};
 use crate::robots::description::{Part, Robot, Unit, free_joint};
 use crate::robots::warning::{CadCount, Options};
 
-/// Frames that are apart by less than this, as a share of the assembly's size and in radians, meet: solvers leave so much.
+/// Frames meet if they are apart by less than this, as a share of the assembly's size and in radians: solvers are as accurate as this.
 const MEET: f64 = 1e-4;
-/// Less than this is rounding of the last digits.
+/// Smaller values are rounding errors of the last digits.
 const ROUNDED: f64 = 1e-9;
 /// Joint types that a search may use instead of a joint: those of CAD programs.
 const OPTIONS: [JointType; 3] = [
@@ -139,7 +139,7 @@ impl Assembly {
             Ok(m) => m,
             Err(why) => {
                 left_out(c, why, robot);
-                // A joint all the same, which holds nothing: its parts do not fall off.
+                // It is still a joint, without constraints: its parts remain in the assembly.
                 let there = c.frames[0];
                 Meeting::new(free_joint(), there, there)
             }
@@ -195,7 +195,7 @@ impl Assembly {
         shift > MEET * self.size() || turn > MEET
     }
 
-    /// Returns the accuracy of places: how well frames coincide that should coincide.
+    /// Returns the accuracy of places: the misfit of frames that should coincide.
     fn known_to(&self, robot: &Robot) -> [f64; 2] {
         let closed = robot.joints.iter().filter_map(|p| p.misfit);
         let closed = closed.filter(|m| !self.is_open(*m));
@@ -203,7 +203,7 @@ impl Assembly {
             [a.max(shift), b.max(turn)]
         });
         let size = self.size();
-        // A turn moves what is as far away as the assembly is large.
+        // A turn moves points at a distance of the assembly's size.
         let shift = most[0].max(most[1] * size).max(1e-12 * size);
         [shift, (shift / size).max(most[1])]
     }

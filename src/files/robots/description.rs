@@ -49,13 +49,13 @@ pub(crate) struct Part {
     pub(in crate::robots) comment: Option<String>,
     /// The element that defines it. `None` if a separate file does.
     pub(in crate::robots) element: Option<usize>,
-    /// How far its two sides are apart in what it holds, where the file places both: a length in the robot's unit, and radians.
+    /// Distance between its two sides in its constrained directions, if the file places both: a length in the robot's unit, and radians.
     pub(in crate::robots) misfit: Option<[f64; 2]>,
 }
 
 impl Part {
-    /// Returns the value and the limits of a joint of one freedom that is outside them after it moved so far; `None` if it is
-    /// within them or has no limits.
+    /// Returns the value and the limits of a joint of one freedom that is outside them after a motion by `moved`. `None` if it is within
+    /// them or has no limits.
     pub(in crate::robots) fn exceeded_limits(&self, moved: f64) -> Option<[f64; 3]> {
         let (Some((low, high)), [value]) = (self.limits, &self.values[..]) else {
             return None;
@@ -152,13 +152,13 @@ pub(crate) fn free_joint() -> JointType {
 pub(crate) struct Ratio {
     /// Names of the joint that leads and the one that follows.
     pub(in crate::robots) joints: [String; 2],
-    /// Rate of the follower over that of the leader, in radians and metres, where the leader is at its reference.
+    /// Rate of the follower over that of the leader, in radians and metres, with the leader at its reference.
     pub(in crate::robots) ratio: f64,
-    /// Coefficients of the second to fourth power of the leader's value, where the follower's is a polynomial of it.
+    /// Coefficients of the second to fourth power of the leader's value, if the follower's value is a polynomial of it.
     pub(in crate::robots) higher: [f64; 3],
     /// The element that defines it, in words.
     pub(in crate::robots) element: String,
-    /// That element.
+    /// The index of that element.
     pub(in crate::robots) said_by: usize,
     /// Whether gears make it, according to the file.
     pub(in crate::robots) gear: bool,
@@ -193,7 +193,7 @@ pub(crate) struct Robot {
     pub(in crate::robots) joints: Vec<Part>,
     /// Joints that move in a fixed ratio.
     pub(in crate::robots) couplings: Vec<Ratio>,
-    /// The link that is the world, where the format has one.
+    /// The link that is the world, if the format has one.
     pub(in crate::robots) world: Option<usize>,
     /// Whether parts that no joint holds float in the world.
     pub(in crate::robots) floats: bool,
@@ -201,7 +201,7 @@ pub(crate) struct Robot {
     pub(in crate::robots) shown: BTreeSet<usize>,
     /// Named frames: the link they are fixed to and their place on it.
     pub(in crate::robots) frames: BTreeMap<String, (usize, RigidMotion)>,
-    /// Places of links in the file, for those that nothing else places.
+    /// Places of links in the file, for links without another place.
     pub(in crate::robots) places: Vec<RigidMotion>,
     /// The unit of its lengths.
     pub(in crate::robots) unit: Unit,
@@ -209,12 +209,12 @@ pub(crate) struct Robot {
     pub(in crate::robots) known_to: Option<[f64; 2]>,
     /// Whether a joint has freedoms that are valid at this pose only.
     pub(in crate::robots) here_only: bool,
-    /// Whether it is an assembly of a CAD program: joints have one of a few types, and fixed joints of a loop are joints like
-    /// others; else what is fixed is one body.
+    /// Whether it is an assembly of a CAD program. Its joints have one of a few types, and fixed joints of a loop are joints like others.
+    /// Otherwise rigidly joined links are one body.
     pub(in crate::robots) assembly: bool,
     /// Joint types that a search may use instead of a joint.
     pub(in crate::robots) options: &'static [JointType],
-    /// The links that elements are.
+    /// The links of elements.
     pub(in crate::robots) said: BTreeMap<usize, usize>,
     pub(in crate::robots) report: Report,
 }

@@ -14,16 +14,16 @@ use crate::robots::xml::element::Element;
 use std::collections::BTreeMap;
 use std::ops::Range;
 
-/// The freedoms that a joint gets: whether each slides, its direction in the world, and why, in words.
+/// The freedoms that a joint gets: whether each slides, its direction in the world, and the reason, in words.
 pub(crate) type Freed<'a> = &'a [(bool, Vector, String)];
 
-/// A joint that gets freedoms, and the element that it is.
+/// A joint that gets freedoms, and its element.
 pub(crate) type Freeing<'a> = (&'a Part, Element<'a>, Freed<'a>);
 
 /// Changes to the text of a description.
 pub(crate) struct Edits<'a> {
     origin: &'a Origin,
-    /// File, what is replaced there, and by what.
+    /// File, replaced range, and replacement.
     list: Vec<(usize, Range<usize>, String)>,
     /// Lines to insert as the last children of an element.
     children: BTreeMap<usize, Vec<String>>,
@@ -171,7 +171,7 @@ pub(crate) fn end_of(e: Element<'_>) -> usize {
 pub(crate) fn free_urdf(origin: &Origin, all: &[Freeing<'_>], edits: &mut Edits<'_>) -> Read<()> {
     let light = Light::in_description(&origin.document).write_urdf();
     for &(part, e, freed) in all {
-        // A loop's first link has the place of the loop in its own attributes, a joint in an element of its own.
+        // The first link of a loop states its place in its own attributes, a joint in a separate element.
         let (tag, at) = match e.name() {
             "joint" => ("parent", e.first_child("origin")),
             _ => ("link1", e.first_child("link1")),

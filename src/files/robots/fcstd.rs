@@ -20,7 +20,7 @@ use std::collections::{BTreeMap, BTreeSet};
 /// The member of the archive that lists the objects.
 pub(crate) const DOCUMENT: &str = "Document.xml";
 
-/// Most documents that one may link to, with those that these link to.
+/// Maximum number of documents that one may link to, including indirect links.
 const MAX_LINKED: usize = 100;
 /// Rows of a joint of an unknown type: the maximum that still allows a motion.
 const UNKNOWN_ROWS: usize = 5;
@@ -198,7 +198,7 @@ type Ended<'a> = (Object<'a>, &'a str, [Reference<'a>; 2]);
 struct Parts<'a> {
     /// Labels and places; the first is the ground.
     parts: Vec<(String, RigidMotion)>,
-    /// Which of them an object is, by its name.
+    /// Index of the part of an object, by the object's name.
     place: BTreeMap<&'a str, usize>,
 }
 

@@ -1,4 +1,4 @@
-//! The formats of files: which are read, which are written, and by what.
+//! The formats of files, with their readers and writers.
 
 use crate::file::problem::ImportError;
 use crate::file::write::{self, mechanism_file};
@@ -27,12 +27,12 @@ pub struct Format {
 /// Reads the robot below the root element of a document; the files it includes are given by the reader.
 pub(crate) type Describe = fn(&mut Document, usize, Reader<'_>, &Options) -> Read<Robot>;
 
-/// How a format is written.
+/// Writer of a format.
 #[derive(Debug, Clone, Copy)]
 enum FormatWriter {
-    /// From a mechanism alone.
+    /// From the mechanism only.
     Mechanism(fn(&Mechanism) -> Result<FormattedFile, ExportError>),
-    /// Into the owner's document alone, joints changed: shapes and references are there and in no mechanism.
+    /// Only into the original document, with changed joints: the mechanism has no shapes and references.
     Own,
 }
 
@@ -52,7 +52,7 @@ impl From<String> for FormattedFile {
     }
 }
 
-/// All formats: with the root element of what is read, and the writer of what is written.
+/// All formats, with the root element of those that are read, and the writer of those that are written.
 static FORMATS: [Format; 9] = [
     Format {
         word: "toml",
@@ -145,7 +145,7 @@ pub fn writable_formats() -> impl Iterator<Item = &'static Format> {
     FORMATS.iter().filter(|f| f.write.is_some())
 }
 
-/// Writes a mechanism in the format of the given name, one of those of [`written`].
+/// Writes a mechanism in the format of the given name, one of those of [`writable_formats`].
 ///
 /// # Errors
 /// Returns an error if there is no such format, or if it cannot represent the mechanism.
@@ -160,7 +160,7 @@ pub fn write(m: &Mechanism, word: &str) -> Result<String, ExportError> {
     Ok(export(m, word)?.text)
 }
 
-/// Writes a mechanism and lists what is lost.
+/// Writes a mechanism, and lists the properties that the format cannot represent.
 ///
 /// # Errors
 /// Returns the errors of [`write()`].
@@ -300,7 +300,7 @@ static FOREIGN: [Foreign; 38] = [
     ),
 ];
 
-/// Refuses a file of a format that is not read, by its first bytes or by its ending, which no mechanism file has.
+/// Rejects a file of a format that is not read, by its first bytes or by its ending, which no mechanism file has.
 ///
 /// # Errors
 /// Returns the name of the format and the remedy.

@@ -1,9 +1,9 @@
 //! Robot descriptions as mechanisms.
 //!
-//! A description is read into links and joints with a place on either side; loops come from the file or from a
-//! separate file ([`Options::loops`]). The joints are composed into one pose, loops that are open there are closed by
-//! changing joint values as little as possible, rigidly joined links become one, and the result is a mechanism and the
-//! entries of its file, with a [`Report`] of what was mapped, approximated and dropped.
+//! A description is read into links and joints with a place on either side; loops come from the file or from a separate file
+//! ([`Options::loops`]). The joints are composed into one pose. Loops that are open there are closed by changing joint values as little as
+//! possible. Rigidly joined links become one. The result is a mechanism and the entries of its file, with a [`Report`] of what was mapped,
+//! approximated and dropped.
 
 use crate::file::problem::{ImportError, ProblemKind};
 use crate::file::read::build_mechanism;
@@ -29,7 +29,7 @@ use crate::robots::warning::{Options, Reader, Report};
 use crate::robots::xml::element::Element;
 use crate::robots::xml::{self, Document};
 
-/// A mechanism and how it came about.
+/// A mechanism and its origin.
 #[derive(Debug, Clone)]
 pub struct Imported {
     /// The mechanism.
@@ -179,7 +179,7 @@ fn read_described(
     Ok((format, robot))
 }
 
-/// Refuses a template whose macros are not expanded, because no element contains their content.
+/// Rejects a template whose macros are not expanded, because no element contains their content.
 fn check_expanded(document: &Document) -> Result<(), ImportError> {
     let all = (0..document.nodes.len()).map(|id| document.element(id));
     let is_macro = |e: &Element<'_>| {

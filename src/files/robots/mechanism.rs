@@ -1,4 +1,4 @@
-//! From a robot as read to a mechanism file: pose, frame, loops, bodies, outputs.
+//! Conversion of a robot to a mechanism file: pose, frame, loops, bodies, outputs.
 
 pub(in crate::robots) mod entries;
 pub(in crate::robots) mod loop_closing;
@@ -62,7 +62,7 @@ pub(crate) fn root_link(robot: &mut Robot, options: &Options) -> Result<usize, P
         .filter(held)
         .or_else(|| (0..robot.links.len()).find(|l| !child.contains(l) && robot.world != Some(*l)))
         .unwrap_or(0);
-    // A model that nothing holds to the world falls, as far as engines are concerned.
+    // In engines, a model that is not connected to the world falls.
     let falls = robot.world.is_none_or(|w| !held(&w));
     let parts = loose_roots(robot, &spanning_tree(robot, root)).len();
     let apart = robot.floats && (falls || parts > 0);
@@ -74,7 +74,7 @@ pub(crate) fn root_link(robot: &mut Robot, options: &Options) -> Result<usize, P
         None => robot.add_link("world", RigidMotion::IDENTITY),
     };
     robot.world = Some(world);
-    // Every tree of links that the world does not hold floats by itself.
+    // Every tree of links without connection to the world floats separately.
     let tree = spanning_tree(robot, world);
     for &r in tree.roots.iter().skip(1) {
         let sides = [robot.places[r], RigidMotion::IDENTITY];
@@ -95,7 +95,7 @@ pub(crate) fn root_link(robot: &mut Robot, options: &Options) -> Result<usize, P
     Ok(world)
 }
 
-/// Returns the roots other than the frame, except a world that holds nothing.
+/// Returns the roots other than the frame, except a world without connections.
 fn loose_roots(robot: &Robot, tree: &Tree) -> Vec<usize> {
     let jointless =
         |l: usize| robot.world == Some(l) && !robot.joints.iter().any(|j| j.links.contains(&l));
@@ -217,7 +217,7 @@ fn in_loops(robot: &Robot, tree: &Tree) -> BTreeSet<usize> {
     out
 }
 
-/// A mechanism file and what its parts are of the robot.
+/// A mechanism file, and the parts of the robot that its parts are made of.
 #[derive(Debug)]
 pub(crate) struct Entries {
     pub(in crate::robots) file: MechanismFile,
@@ -225,9 +225,9 @@ pub(crate) struct Entries {
     pub(in crate::robots) comments: Vec<Comment>,
     /// Places of the links in the pose found.
     pub(in crate::robots) places: Vec<RigidMotion>,
-    /// The robot's joints that its joints are.
+    /// The robot's joints, by joints of the mechanism.
     pub(in crate::robots) joints: Vec<usize>,
-    /// The elements that its couplings are.
+    /// The elements of its couplings.
     pub(in crate::robots) couplings: Vec<usize>,
 }
 

@@ -21,14 +21,14 @@ use crate::robots::xml::Document;
 use crate::robots::xml::element::Element;
 use std::collections::BTreeMap;
 
-/// Sections that hold nothing together: what equalities take of them is looked up there.
+/// Sections without constraints; equalities look up in them what they use.
 const SECTIONS: &str = "asset contact custom extension keyframe option sensor size statistic \
     tendon visual";
 
 /// Attributes of a joint's resistance to motion, which do not affect the kinematics.
 const RESISTANCE: &str = "damping stiffness springdamper armature frictionloss";
 
-/// Something still to be read: a body or frame, the link that holds it, the place there, and the class of its children.
+/// An element still to be read: a body or frame, its link, its place there, and the class of its children.
 struct Waiting<'a> {
     element: Element<'a>,
     link: usize,
@@ -105,7 +105,7 @@ pub(crate) fn read_mujoco(
 /// Records the joint that an actuator drives, or those that it pulls by a tendon.
 fn read_actuator(a: Element<'_>, root: Element<'_>, robot: &mut Robot) {
     let name = a.attribute("name");
-    // Whichever frame it acts in.
+    // The frame in which it acts does not matter.
     let joint = a.attribute("joint").or(a.attribute("jointinparent"));
     let mut joints = robot.joints.iter_mut();
     if let Some(j) = joints.find(|j| Some(j.id.as_str()) == joint) {

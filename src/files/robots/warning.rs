@@ -21,7 +21,7 @@ pub struct Options {
     pub assemble: bool,
     /// Accept loops that do not close.
     pub open: bool,
-    /// Folders that `model://` stands for, searched in order; files that are included with `../` may be within them, too.
+    /// Folders for `model://`, searched in order. Files that are included with `../` may also be within them.
     pub models: Vec<std::path::PathBuf>,
     /// The assembly of a CAD document that is read, in place of the one with most joints.
     pub assembly: Option<String>,
@@ -31,7 +31,7 @@ pub struct Options {
     pub outputs: Vec<String>,
 }
 
-/// Reads the bytes of a file that an included file's name stands for.
+/// Reads the bytes of an included file by its name.
 pub type Reader<'a> = &'a dyn Fn(&str) -> std::io::Result<Vec<u8>>;
 
 /// Names shown of each kind of dropped element.
@@ -51,9 +51,9 @@ pub struct Note {
 /// Couplings of joint values that went into the mechanism file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Kept {
-    /// How many.
+    /// Number of couplings.
     pub couplings: usize,
-    /// W without them and with them in the pose found, by singular values, where these converge.
+    /// W without them and with them in the pose found, by singular values, if these converge.
     pub mobility: Option<(usize, usize)>,
 }
 
@@ -85,7 +85,7 @@ pub struct Report {
     /// Approximations that are guesses or omissions. They may constrain or couple something, so figures are those
     /// of the file as read.
     pub assumed: Vec<String>,
-    /// Elements that bear no kinematics, by kind: how many, and some names.
+    /// Elements without influence on the kinematics, by kind: their number, and some names.
     pub dropped: BTreeMap<String, (usize, Vec<String>)>,
     /// Couplings of joint values (mimic joints, equalities) that are kept.
     pub kept: Option<Kept>,
@@ -95,13 +95,13 @@ pub struct Report {
     pub constraint_rows: usize,
     /// The count of a CAD program, for an assembly.
     pub count: Option<CadCount>,
-    /// How the pose was found and how well the loops close.
+    /// Search for the pose, and remaining errors of the loops.
     pub pose: Vec<String>,
     /// The subset that changes the mechanism from the drawn one: joints moved, loops left open, floating bases.
     pub moved: Vec<String>,
     /// Links and joints of the mechanism.
     pub size: (usize, usize),
-    /// Links taken as outputs, and whether that was asked for.
+    /// Links treated as outputs, and whether that was requested.
     pub outputs: (Vec<String>, bool),
 }
 
@@ -342,12 +342,12 @@ pub enum ExportError {
         /// The format.
         format: &'static str,
     },
-    /// No such format is written.
+    /// No format of this name can be written.
     #[error("unknown format \"{word}\"; known: {known}")]
     Unknown {
-        /// The word for it.
+        /// The unknown word.
         word: String,
-        /// The words known.
+        /// The known words.
         known: String,
     },
     /// The TOML writer failed.

@@ -12,11 +12,11 @@ use std::ops::Range;
 
 /// Largest file, in bytes.
 pub(crate) const MAX_BYTES: usize = 64 << 20;
-/// Deepest nesting.
+/// Maximum nesting depth.
 pub(crate) const MAX_DEPTH: usize = 4000;
-/// Most elements.
+/// Maximum number of elements.
 pub(crate) const MAX_ELEMENTS: usize = 500_000;
-/// Most attributes of one element, and of all together.
+/// Maximum number of attributes of one element, and of all together.
 const MAX_ATTRIBUTES: (usize, usize) = (256, 1_000_000);
 
 /// A file's name and text.
@@ -172,7 +172,7 @@ fn xml_problem(message: impl std::fmt::Display) -> ProblemKind {
     syntax_problem(format!("{message}; the file is not well-formed XML"))
 }
 
-/// Refuses control characters, which could control a terminal, except those that lay out the text.
+/// Rejects control characters, which could control a terminal, except those that lay out the text.
 fn no_control(text: &str, layout: &[char]) -> Result<(), Located> {
     let found = text.char_indices();
     let mut found = found.filter(|(_, c)| c.is_control() && !layout.contains(c));
@@ -185,7 +185,7 @@ fn no_control(text: &str, layout: &[char]) -> Result<(), Located> {
     })
 }
 
-/// Refuses one more element so deep, behind so many, or behind so many attributes.
+/// Checks that one more element keeps the limits of depth, of elements and of attributes.
 fn few_enough(depth: usize, elements: usize, attributes: usize) -> Result<(), ProblemKind> {
     if depth >= MAX_DEPTH {
         return Err(too_deep(MAX_DEPTH));
@@ -295,7 +295,7 @@ fn read_node(
             let message = format!("the attribute {name} is given twice");
             return Err((xml_problem(message), span.start));
         }
-        // The value is borrowed from the text where the reader could.
+        // The value is borrowed from the text if the reader could do so.
         let at = (found.value.as_ptr() as usize).wrapping_sub(start);
         let here = Some(at..at.saturating_add(found.value.len()));
         let here = here.filter(|here| text.get(here.clone()).is_some());

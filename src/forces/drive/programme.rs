@@ -179,7 +179,7 @@ impl Module {
     /// Runs a programme from rest, with the first disc turned φ0 ahead of the second.
     ///
     /// # Guarantee
-    /// Exact, see [`Disc::swing`]; latched discs do not move. A disc that the latch catches short of its groove stays
+    /// Exact, see [`Disc::swing_from`]; latched discs do not move. A disc that the latch catches short of its groove stays
     /// there.
     ///
     /// # Errors
@@ -230,7 +230,7 @@ impl Module {
     /// repeat only after several rounds are recognised, and a slow drift is not mistaken for rest.
     ///
     /// # Errors
-    /// Returns an error in the same cases as [`Module::run`].
+    /// Returns an error in the same cases as [`Module::run_programme`].
     ///
     /// # Complexity
     /// At most [`PATIENCE`] swings, and those of one more round.

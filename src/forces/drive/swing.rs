@@ -24,7 +24,7 @@ pub struct Disc {
 pub struct Feed {
     /// Its work. `[J]`
     pub energy: f64,
-    /// The position where it begins. `[rad]`
+    /// The position at its beginning. `[rad]`
     pub from: f64,
 }
 
@@ -35,7 +35,7 @@ impl Feed {
         from: 0.0,
     };
 
-    /// Returns the moment up to a latch, or `None` if nothing is fed before it. `[N·m]`
+    /// Returns the moment up to a latch, or `None` if no work is fed before it. `[N·m]`
     #[must_use]
     pub fn push_moment(&self, latch: f64) -> Option<f64> {
         (self.energy > 0.0 && self.from < latch).then(|| self.energy / (latch - self.from))
@@ -54,7 +54,7 @@ pub struct Latch {
 /// End of a swing.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum End {
-    /// At the latch, where the remaining speed is lost. `[J]`
+    /// At the latch, which stops the remaining speed. `[J]`
     Latched {
         /// Kinetic energy on arrival.
         impact: f64,
@@ -339,7 +339,7 @@ impl Disc {
     /// rest. Returns `None` if no work is enough, because the disc is stuck or stops before the push begins. `[J]`
     ///
     /// # Errors
-    /// Returns an error in the same cases as [`Disc::swing`].
+    /// Returns an error in the same cases as [`Disc::swing_from`].
     pub fn needed_feed(&self, latch: Latch, from: f64) -> Result<Option<f64>, SwingError> {
         let arrives = |energy: f64| -> Result<bool, SwingError> {
             let swing = self.swing_from(latch.at, latch, Feed { energy, from })?;

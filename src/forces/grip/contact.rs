@@ -1,7 +1,7 @@
 //! Positions of the levers and the part: the pose of a two-lever gripper, and whether it can hold a part at all.
 //!
-//! Axes: x along the gripper's axis of symmetry from the pivots to the part, y from the lower to the upper lever, z
-//! along the pivots and the part. The origin is midway between the pivots.
+//! Axes: x is along the gripper's axis of symmetry from the pivots to the part. y is from the lower to the upper lever, and z is along the
+//! pivots and the part. The origin is midway between the pivots.
 
 use crate::geom::vector::{
     add, add_scaled, cross_plane, dot, plane_norm, quarter_turn, rotate_plane, scale, sub,

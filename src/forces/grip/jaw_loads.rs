@@ -218,7 +218,7 @@ impl Gripping {
     /// Returns an error if points of the mechanism do not agree with the grip's figures.
     ///
     /// # Complexity
-    /// That of [`study`].
+    /// That of [`study_diameters`].
     pub fn new(m: &Mechanism, state: StateId) -> Result<Option<Gripping>, JawError> {
         match grip_of(m, state) {
             Some((spec, ..)) => Gripping::of_study(m, state, study_diameters(spec)?),

@@ -1,6 +1,6 @@
 //! The clamping force along a motion: the smallest that holds, for each pose and acceleration of a programme.
 //!
-//! [`study`](crate::grip::clamping::study) only considers the worst case. A gripper that always closes with that force
+//! [`study_diameters`](crate::grip::clamping::study_diameters) only considers the worst case. A gripper that always closes with that force
 //! marks soft parts. One whose force follows the motion closes harder only when necessary.
 
 use crate::grip::clamping::{DiameterRow, HoldVerdict, find_verdict};
@@ -59,7 +59,7 @@ impl StepTaken {
 /// SI.
 ///
 /// # Guarantee
-/// For each step that of [`hold`](crate::grip::holding::hold); nothing is stated about times between two steps.
+/// For each step that of [`find_holding`](crate::grip::holding::find_holding); nothing is stated about times between two steps.
 ///
 /// # Errors
 /// Returns a [`MotionError`].

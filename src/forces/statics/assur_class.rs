@@ -18,15 +18,15 @@ pub enum Kind {
     /// Two bodies with three pairs and two with two between them, in a closed contour: `[Bychkov, Dvornikov & Zhukov
     /// 2018]`.
     FourLinkContour,
-    /// Anything else.
+    /// Any other group.
     Other,
 }
 
 /// Class, order and kind of a group.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct AssurClass {
-    /// The largest number of pairs around one contour of the group: a body with k pairs is a rigid contour of k, bodies
-    /// joined in a ring a changeable one; at least 2.
+    /// The largest number of pairs around one contour of the group, at least 2. A body with k pairs is a rigid contour of k pairs; bodies
+    /// joined in a ring are a changeable contour.
     pub class: usize,
     /// Number of outer pairs.
     pub order: usize,

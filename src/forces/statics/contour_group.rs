@@ -1,9 +1,9 @@
 //! The four-link group with a closed contour, as a separate problem.
 //!
-//! Letters are those of the shears in `[Bychkov, Dvornikov & Zhukov 2018]`. The ternary link 4 is attached at D and
-//! carries rods 6 (F to M) and 7 (K to L), which carry the slider 10 on its guide. In any other mechanism, 4, 6, 7 and
-//! 10 are the corresponding links. Three methods solve it ([`solutions`]): the published [`delta_point`], its form in
-//! homogeneous coordinates ([`projective`]), and the twelve [`equilibrium`] equations, in doubles and exactly.
+//! Letters are those of the shears in `[Bychkov, Dvornikov & Zhukov 2018]`. The ternary link 4 is attached at D and carries rods 6 (F to M)
+//! and 7 (K to L). These carry the slider 10 on its guide. In any other mechanism, 4, 6, 7 and 10 are the corresponding links. Three
+//! methods solve it ([`solutions`]): the published [`delta_point`], its form in homogeneous coordinates ([`projective`]), and the twelve
+//! [`equilibrium`] equations, in doubles and exactly.
 
 pub mod delta_point;
 pub mod equilibrium;

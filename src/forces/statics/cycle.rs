@@ -93,7 +93,7 @@ pub struct Statics {
     pub loaded: bool,
     /// Results position by position.
     pub moments: Vec<Moment>,
-    /// Position where the motion ended early, if it did.
+    /// Position at which the motion ended early, if it did.
     pub dead: Option<DeadPoint>,
 }
 
@@ -232,7 +232,7 @@ pub fn planar_statics(
 /// Solves the statics at positions of the first drive in any order, `[rad]` or the file's unit.
 ///
 /// # Errors
-/// Returns an error in the same cases as [`statics`].
+/// Returns an error in the same cases as [`planar_statics`].
 pub(crate) fn statics_at(
     mechanism: &Mechanism,
     state: StateId,

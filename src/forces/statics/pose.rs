@@ -1,7 +1,6 @@
 //! Poses of a planar mechanism and the equations of its pairs.
 //!
-//! The position of a body is given by its origin (the mean of its pairs' points) and its turn since the pose of the
-//! file: (x, y, θ).
+//! The position of a body is (x, y, θ): its origin, the mean of its pairs' points, and its turn since the pose of the file.
 
 use crate::geom::vector::rotate_plane;
 pub use crate::geom::vector::{

@@ -1,4 +1,4 @@
-//! Where labels go so that none touches another or a symbol.
+//! Placement of labels, so that none overlaps another or a symbol.
 
 use super::plane::{Point, Rect, plane_norm, segments_cross, sub};
 use super::text::text_width;
@@ -12,7 +12,7 @@ pub struct Wish {
     pub height: f64,
     /// The point that it names.
     pub anchor: Point,
-    /// How far from the anchor it must stay.
+    /// Minimum distance from the anchor.
     pub clear: f64,
     /// Middles to try first, with their costs.
     pub first: Vec<(Point, f64)>,
@@ -40,26 +40,26 @@ pub struct LabelPlace {
     pub leader: Option<(Point, Point)>,
 }
 
-/// A line that labels had better not lie on, and how bad that is.
+/// A line that labels should avoid, and its cost.
 #[derive(Clone, Copy, Debug)]
 pub struct AvoidedLine {
     pub ends: (Point, Point),
     pub weight: f64,
 }
 
-/// The weight of a line that no label may lie on while there is room anywhere.
+/// Cost of a line that no label may cross while there is room anywhere.
 pub const CROSSED: f64 = 1000.0;
-/// How bad a leader across a label or a symbol is.
+/// Cost of a leader across a label or a symbol.
 const ON_LABEL: f64 = 100.0;
-/// The most that a line counts against a leader across it.
+/// Maximum cost of a line for a leader across it.
 const ACROSS: f64 = 1.6;
-/// The least space between a label and what is near.
+/// Minimum space between a label and its neighbours.
 const GAP: f64 = 2.0;
-/// A label farther than this from what it names has a leader.
+/// A label farther than this from its anchor has a leader.
 const NEAR: f64 = 9.0;
 const ANGLES: usize = 24;
 
-/// Places the labels one by one; none touches what is taken or one placed before. Each joins what is taken.
+/// Finds a place for each label in turn. A label overlaps neither the boxes in `taken` nor earlier labels, and is added to `taken`.
 pub fn place_labels(
     wishes: &[Wish],
     taken: &mut Vec<Rect>,
@@ -130,7 +130,7 @@ fn best_place(wish: &Wish, taken: &[Rect], lines: &[AvoidedLine]) -> LabelPlace 
     best.map_or_else(outside, |(_, place)| place)
 }
 
-/// The box whose distance from the anchor is `away`, in a direction.
+/// Returns the box whose distance from the anchor is `away`, in a direction.
 fn beside_anchor(wish: &Wish, angle: f64, away: f64) -> Rect {
     let (w, h) = (wish.width / 2.0, wish.height / 2.0);
     let (x, y) = (angle.cos(), angle.sin());
@@ -164,7 +164,7 @@ fn crossed_weight(rect: &Rect, lines: &[AvoidedLine]) -> f64 {
     on.map(|l| l.weight).sum()
 }
 
-/// How bad a leader is for what it crosses.
+/// Returns the cost of a leader that crosses boxes and lines.
 fn leader_cost(a: Point, b: Point, anchor: Point, taken: &[Rect], lines: &[AvoidedLine]) -> f64 {
     let boxes = taken
         .iter()

@@ -63,12 +63,12 @@ impl Store {
         self.check_result(self.db.query_row(sql, of, |r| r.get(0)).optional())
     }
 
-    /// Changes the file.
+    /// Executes a statement that modifies the file.
     pub(super) fn change(&self, sql: &str, of: impl Params) -> Stored<()> {
         self.check_result(self.db.execute(sql, of)).map(drop)
     }
 
-    /// Changes the file in one transaction: all at once, or not at all.
+    /// Modifies the file in one transaction: completely, or not at all.
     fn transact(
         &mut self,
         change: impl FnOnce(&Transaction<'_>) -> rusqlite::Result<()>,
@@ -96,7 +96,7 @@ impl Store {
         Ok(all.into_iter().collect())
     }
 
-    /// Adds structures with all that is known of them, at once or not at all.
+    /// Adds structures with all their data, completely or not at all.
     ///
     /// # Errors
     /// Returns an error if the file cannot be written.
@@ -149,7 +149,7 @@ impl Store {
         Ok(self.value::<i64>(sql, params![id, ideas])?.is_some())
     }
 
-    /// Adds a drawn mechanism with all that is known of it, at once or not at all, in place of an earlier search of it.
+    /// Adds a drawn mechanism with all its data, completely or not at all, in place of an earlier search of it.
     ///
     /// # Errors
     /// Returns an error if the file cannot be written.
@@ -178,10 +178,10 @@ impl Store {
         }
     }
 
-    /// Returns the answer to a question in SQL as names of columns and rows; `?1` is `id`.
+    /// Returns the answer to a query in SQL as names of columns and rows; `?1` is `id`.
     ///
     /// # Errors
-    /// Returns an error if the question is invalid or its answer is too large.
+    /// Returns an error if the query is invalid or its answer is too large.
     pub fn query_rows(
         &self,
         sql: &str,
@@ -209,7 +209,7 @@ impl Store {
         };
         let only_read = || StoreError::ReadOnly(self.path.clone());
         match all() {
-            // BEGIN and similar statements are not questions.
+            // BEGIN and similar statements are not queries.
             Ok(Ok((names, _))) if names.is_empty() => Err(only_read()),
             Err(why)
                 if why.sqlite_error_code() == Some(ErrorCode::AuthorizationForStatementDenied) =>

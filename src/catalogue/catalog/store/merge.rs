@@ -19,7 +19,7 @@ pub struct Merged {
     pub taken: usize,
     /// Number of structures and drawn mechanisms added.
     pub added: usize,
-    /// Missing parts. Empty if all structures are there.
+    /// Missing parts. Empty if all structures exist.
     pub missing: Vec<Shard>,
     /// Files whose part was not completed.
     pub unfinished: Vec<PathBuf>,
@@ -33,7 +33,7 @@ impl Merged {
         let is_finished = spec.is_none() || !from.finished_parts()?.is_empty();
         let whole = match (whole, spec) {
             (Some(whole), None) => whole,
-            // Drawn mechanisms alone go with any.
+            // A file with only drawn mechanisms can be merged with any catalogue.
             (None, None) => Store::open_writable(path)?,
             (whole, Some(text)) => {
                 let spec = toml::from_str::<Spec>(&text);
@@ -57,8 +57,8 @@ impl Merged {
 }
 
 impl Store {
-    /// Adds the missing structures from other catalogues of the same specification. A part that cannot be merged goes to `refuse`
-    /// and does not affect the others.
+    /// Adds the missing structures from other catalogues of the same specification. A part that cannot be merged is passed to `refuse` and
+    /// does not affect the others.
     ///
     /// # Errors
     /// Returns an error if the merged file cannot be read.
@@ -68,7 +68,7 @@ impl Store {
         mut refuse: impl FnMut(StoreError),
     ) -> Stored<Merged> {
         let mut merged = Merged::default();
-        // It is opened once, as opening looks at all of it, and anew after a part was refused.
+        // The file is opened once, since opening reads all of it, and again after a part was refused.
         let mut whole: Option<Store> = None;
         for part in parts {
             match merged.take_in(path, whole.take(), part) {
@@ -83,7 +83,7 @@ impl Store {
         Ok(merged)
     }
 
-    /// Marks a part as complete, with its number of structures.
+    /// Records that a part is complete, with its number of structures.
     ///
     /// # Errors
     /// Returns an error if the file cannot be written.
@@ -149,7 +149,7 @@ impl Store {
     }
 }
 
-/// Returns the missing parts, in a partition that all given ones fit into.
+/// Returns the missing parts, in a partition that contains all given ones.
 fn missing_shards(there: &[Shard]) -> Vec<Shard> {
     let of = there.iter().fold(
         1,
@@ -186,7 +186,7 @@ mod tests {
         assert_eq!(words(&["1/3", "3/3"]), "2/3");
         assert_eq!(words(&["1/2", "2/4", "4/4"]), "");
         assert_eq!(words(&["1/2", "2/4"]), "4/4");
-        // Every piece that is missing is in one of the parts named, and none of these is there.
+        // Every missing piece is in one of the named parts, none of which is in the file.
         let there: Vec<Shard> = ["1/2", "3/3"].map(|p| p.parse().unwrap()).into();
         let gone = missing_shards(&there);
         for piece in 0..200 {

@@ -29,7 +29,7 @@ const TELLING: [&str; 7] = [
 ];
 
 impl Store {
-    /// Opens a catalogue only to read. No question can write or open another file.
+    /// Opens a catalogue only to read. No query can write or open another file.
     ///
     /// # Errors
     /// Returns an error if the file is not a catalogue.
@@ -62,7 +62,7 @@ impl Store {
     /// Opens a catalogue of a specification to continue it, or creates it.
     ///
     /// # Errors
-    /// Returns an error if the file is something else, or holds another catalogue.
+    /// Returns an error if the file is not a catalogue, or holds another one.
     pub fn open_or_create(path: &Path, spec: &Spec) -> Stored<Store> {
         Store::writable_of(path, Some(&spec.to_canonical()))
     }
@@ -70,7 +70,7 @@ impl Store {
     /// Opens a catalogue for writing, or creates an empty one.
     ///
     /// # Errors
-    /// Returns an error if the file is something else.
+    /// Returns an error if the file is not a catalogue.
     pub fn open_writable(path: &Path) -> Stored<Store> {
         Store::writable_of(path, None)
     }
@@ -115,7 +115,7 @@ impl Store {
     }
 }
 
-/// Refuses a catalogue with tables of another version.
+/// Rejects a catalogue with tables of another version.
 fn check_version(path: &Path, found: i64) -> Stored<()> {
     let path = path.to_owned();
     match found {
@@ -124,7 +124,7 @@ fn check_version(path: &Path, found: i64) -> Stored<()> {
     }
 }
 
-/// Refuses a damaged file by SQLite's quick check, which reads every page once. Rows added to a damaged file may be lost.
+/// Rejects a damaged file by SQLite's quick check, which reads every page once. Rows added to a damaged file may be lost.
 fn check_pages(path: &Path, db: &Connection) -> Stored<()> {
     let found = db.query_row("PRAGMA quick_check(1)", [], |r| r.get::<_, String>(0));
     match Store::wrap_result(path, found)? {

@@ -1,6 +1,6 @@
-//! The version of the tables, the faults of a catalogue, and the prices of parts.
+//! The version of the tables, the errors of a catalogue, and the prices of parts.
 //!
-//! A catalogue of another version is refused. Prices are in revolute joints, with bought parts and their fitting.
+//! A catalogue of another version is rejected. Prices are in revolute joints, with bought parts and their fitting.
 
 use crate::model::joint_type::JointType;
 use crate::model::mechanism::CostSpec;
@@ -9,10 +9,10 @@ use rusqlite::Connection;
 use std::path::PathBuf;
 use thiserror::Error;
 
-/// Maximum size of an answer `[MiB]`. It is kept whole, since columns are as wide as their widest value.
+/// Maximum size of an answer `[MiB]`. It is kept completely, since columns are as wide as their widest value.
 pub(crate) const LARGEST_ANSWER: usize = 256;
 
-/// Fault of a catalogue.
+/// Error of a catalogue file.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum StoreError {
@@ -21,7 +21,7 @@ pub enum StoreError {
     Database {
         /// The file.
         path: PathBuf,
-        /// Why not.
+        /// The error of SQLite.
         why: rusqlite::Error,
     },
     /// The file is damaged: SQLite finds its pages inconsistent.
@@ -36,17 +36,17 @@ pub enum StoreError {
         /// SQLite's message.
         why: String,
     },
-    /// The file is something else.
+    /// The file is not a catalogue.
     #[error(
         "{} is not a catalogue of ozols; choose another name, `ozols catalog build -o NAME.db` makes one", .0.display()
     )]
     Other(PathBuf),
-    /// Nothing is in it.
+    /// The file is empty.
     #[error(
         "{} is empty: the command that was making the catalogue was ended; run it again and it carries on", .0.display()
     )]
     Empty(PathBuf),
-    /// Tables of another version.
+    /// The tables have another version.
     #[error(
         "{} has tables of version {found}, and this ozols reads version {VERSION} alone; build it again under another name: \
          `ozols catalog build -o NAME.db`",
@@ -58,52 +58,52 @@ pub enum StoreError {
         /// Its version.
         found: i64,
     },
-    /// It holds something else than what is asked for.
+    /// The file holds another catalogue than the requested one.
     #[error(
         "{} holds another catalogue ({what} differs: {there} there, {asked} asked for); choose another file, or the same options", path.display()
     )]
     Differs {
         /// The file.
         path: PathBuf,
-        /// Which part.
+        /// The part of the specification that differs.
         what: String,
-        /// Its specification.
+        /// Its value in the file.
         there: String,
-        /// The specification asked for.
+        /// The requested value.
         asked: String,
     },
-    /// A question that would do more than read the catalogue.
+    /// The query would do more than read the catalogue.
     #[error(
         "{}: a catalogue is only read here: no ATTACH, no VACUUM INTO, no settings; ask with SELECT, and -o FILE keeps the answer", .0.display()
     )]
     ReadOnly(PathBuf),
-    /// A question with an answer that would fill the memory.
+    /// The query has an answer that would fill the memory.
     #[error("{}: the answer is larger than {LARGEST_ANSWER} MiB; ask for fewer columns, or for a part of the rows with LIMIT and OFFSET", .0.display())]
     LargeAnswer(PathBuf),
-    /// No such structure.
+    /// There is no such structure.
     #[error("{} has no structure {id}; `ozols catalog query` lists them", path.display())]
     Unknown {
         /// The file.
         path: PathBuf,
-        /// The id asked for.
+        /// The requested id.
         id: String,
     },
-    /// Several structures begin so.
+    /// Several structures have ids that begin in this way.
     #[error("{id} is the beginning of {count} structures; give more of it")]
     Several {
-        /// The id asked for.
+        /// The requested id.
         id: String,
-        /// How many.
+        /// Number of such structures.
         count: usize,
     },
 }
 
 /// Application id of catalogues: "ozcg".
 const APPLICATION: i64 = 0x6f7a_6367;
-/// Version of the tables; it is raised with every change of them, and of what a specification says.
+/// Version of the tables. It is raised with every change of the tables, or of the meaning of a specification.
 pub(super) const VERSION: i64 = 11;
 
-/// The tables, each column with what it holds; the file carries these words, too (`.schema` shows them).
+/// The tables, with the meaning of each column. The file includes these comments, too (`.schema` shows them).
 const TABLES: &str = include_str!("../tables.sql");
 
 /// Returns the prices of parts, as rows.
@@ -115,11 +115,11 @@ fn price_rows() -> String {
 /// Kind of a file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum FileKind {
-    /// A database without a table, as a kill leaves it that comes while a catalogue is being made.
+    /// A database without tables, as it remains if the program is killed while it creates a catalogue.
     Fresh,
     /// A catalogue with tables of this version.
     Catalogue(i64),
-    /// Something else.
+    /// A file of another kind.
     Other,
 }
 
@@ -143,10 +143,10 @@ pub(super) fn make_tables(db: &Connection) -> rusqlite::Result<()> {
     ))
 }
 
-/// A gear pair, or a rack and its pinion, in thousandths: two parts with teeth, and their distance is to be kept.
+/// A gear pair, or a rack and its pinion, in thousandths: two parts with teeth that must keep their distance.
 const TEETH_MILLI: i64 = 3000;
 
-/// The price of each part by its name.
+/// Returns the price of each part by its name.
 fn part_prices() -> [(&'static str, f64); 5] {
     #[allow(clippy::cast_precision_loss, reason = "a few thousand")]
     let whole = |milli: i64| milli as f64 / 1000.0;

@@ -1,10 +1,10 @@
 //! Contracted graphs: chains with each string of binary links drawn as one edge. Vertices are the links with three joints or
 //! more.
 //!
-//! Chains whose mobility is not the sum of two parts' stay connected without any one of their links, and so do their
-//! contracted graphs. Those with k loops are the cubic ones (2(k - 1) vertices) and the contractions of their edges, because a
-//! vertex of four or more edges can be split in two without losing this property. Cubic graphs with k + 1 loops result from
-//! those with k by a new edge between the middles of two edges, or of one.
+//! Chains whose mobility is not the sum of two parts' stay connected without any one of their links, and so do their contracted graphs.
+//! Those with k loops are the cubic ones (2(k - 1) vertices) and the contractions of their edges. The reason is that a vertex of four or
+//! more edges can be split in two without losing this property. Cubic graphs with k + 1 loops result from those with k by a new edge
+//! between the middles of two edges, or of one.
 
 use crate::chains::canonical::{Weighted, number_graph};
 use itertools::Itertools;

@@ -1,5 +1,5 @@
-//! The numbers of joints of each string of a chain: every distribution of joints over the edges of a contracted graph without a
-//! rigid part, once up to the graph's symmetries.
+//! The numbers of joints of each string of a chain. These are all distributions of joints over the edges of a contracted graph without a
+//! rigid part, each once up to the graph's symmetries.
 
 use crate::chains::canonical::{Weighted, number_graph};
 use crate::chains::enumerate::contracted::repeated_edges;
@@ -24,7 +24,7 @@ pub(super) struct Strings {
     images: Vec<Vec<usize>>,
 }
 
-/// Joints that a loop takes away: a part with J joints and k loops has the mobility J - 3k, which must be at least 1.
+/// Mobility that a loop removes: a part with J joints and k loops has the mobility J - 3k, which must be at least 1.
 const LOOP: usize = 3;
 
 /// The joints given to strings so far.
@@ -105,7 +105,7 @@ impl Strings {
             return;
         }
         let after = self.ends.len() - at - 1;
-        // Strings between the same links: the longest first.
+        // The longest of the strings between the same links comes first.
         let alike = at > 0 && self.ends[at - 1] == self.ends[at];
         let most_here = if alike { shared.joints[at - 1] } else { most };
         let (ones, twos) = (shared.ones, shared.twos);

@@ -1,4 +1,4 @@
-//! A mechanism as a structure, or why it is none.
+//! Result of recognition: a mechanism as a structure, or the reason why it has none.
 
 use crate::chains::chain::MOST_LINKS;
 use crate::chains::classics::MadeAs;
@@ -9,11 +9,11 @@ use crate::model::mechanism::{Mechanism, Role};
 use itertools::Itertools;
 use thiserror::Error;
 
-/// Why a mechanism is no structure of the catalogue's kind.
+/// Why a mechanism has no structure of the kind in the catalogue.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[non_exhaustive]
 pub enum NoStructure {
-    /// Numbers without exact values.
+    /// Some numbers have no exact values.
     #[error(transparent)]
     Exact(#[from] ExactError),
     /// No joint turns, and none slides across another.
@@ -21,16 +21,16 @@ pub enum NoStructure {
         "no joint turns and no two slide in different directions, so that there is no plane of motion"
     )]
     NoPlane,
-    /// A joint that has no kind.
+    /// A joint of unknown kind in the plane.
     #[error(
         "joint {joint:?} leaves {turns} turns and {slides} slides in the plane of motion; hinges, slides and pins in slots are known"
     )]
     Kind {
         /// The joint.
         joint: String,
-        /// Turns.
+        /// Number of turns in the plane.
         turns: usize,
-        /// Slides.
+        /// Number of slides in the plane.
         slides: usize,
     },
     /// Two joints between two links.
@@ -41,24 +41,24 @@ pub enum NoStructure {
     /// A coupling without a carrier.
     #[error("the coupling {0} joins no two links by a third that carries both")]
     Coupling(String),
-    /// Not one drive.
+    /// The number of driven joints is not one.
     #[error("{0} joints are driven where one is to be: mark it with drive = true")]
     Drives(usize),
-    /// A drive that is no hinge or slide.
+    /// The driven joint is neither a hinge nor a slide.
     #[error("the driven joint is no hinge and no slide in the plane of motion")]
     DriveKind,
-    /// A thread of another screw than those known.
+    /// A thread of a screw of an unknown kind.
     #[error(
         "joint {0:?} is a thread: of screws those are known that are driven in the frame and have two nuts, which slide along them as \
          jaws, with a right and a left thread of one lead"
     )]
     Thread(String),
-    /// Neither two jaws nor three.
+    /// The number of jaws is neither two nor three.
     #[error(
         "{0} links are outputs where two or three jaws are to be: mark them with role = \"output\""
     )]
     Jaws(usize),
-    /// Links too few or too many.
+    /// Too few or too many links.
     #[error(
         "links that move against each other in one plane: {0}; structures have 3 to {MOST_LINKS}"
     )]
@@ -68,18 +68,18 @@ pub enum NoStructure {
 /// A structure with the names that its links have in the mechanism.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Recognized {
-    /// The structure: of three sides that are alike that of two.
+    /// The structure. For three equal sides, the structure of two of them.
     pub structure: PairStructure,
     /// The structure with all its jaws.
     pub whole: PairStructure,
-    /// The names of each link: several where they are one in the plane.
+    /// The names of each link; several if they are one link in the plane.
     pub names: Vec<Vec<String>>,
-    /// What it is beside that: flat faces stand in it as slots where slides are between links that other slides join already.
+    /// Further properties. Flat faces count as slots if they are slides between links that other slides join already.
     pub made_as: MadeAs,
 }
 
 impl Recognized {
-    /// How many sides there are: 2; 3 that are alike, of which the structure has two; or 1, with three jaws that are no such sides.
+    /// Returns the number of sides: 2; 3 if they are equal, with the structure of two; or 1 for three jaws without such sides.
     #[must_use]
     pub fn side_count(&self) -> usize {
         match self.structure.roles.jaws.len() {
@@ -89,7 +89,7 @@ impl Recognized {
     }
 }
 
-/// The jaws, where there are two or three that are not the frame.
+/// Returns the jaws if there are two or three besides the frame.
 pub(super) fn jaw_links(
     m: &Mechanism,
     body: impl Fn(LinkId) -> Option<usize>,

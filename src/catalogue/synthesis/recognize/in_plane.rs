@@ -1,4 +1,4 @@
-//! What joints make in their plane: links that are one there, and pairs between them.
+//! Links of a mechanism in its plane of motion, merged if they do not move relative to each other there, and the pairs between them.
 
 use crate::chains::PairKind;
 use crate::chains::chain::{Chain, Joint as PairJoint, MOST_LINKS, order_links};
@@ -11,7 +11,7 @@ use crate::synthesis::recognize::motion_plane::MotionPlane;
 use itertools::Itertools;
 use petgraph::unionfind::UnionFind;
 
-/// What each joint is in the plane, and which links do not move against each other there.
+/// Returns the kind of each joint in the plane, and the links merged if they do not move relative to each other there.
 fn kinds_of(
     m: &Mechanism,
     plane: &MotionPlane,
@@ -31,7 +31,7 @@ fn kinds_of(
     Ok((kinds, merged))
 }
 
-/// What some joints make in their plane.
+/// Links and pairs of some joints in their plane.
 pub(super) struct InPlane<'a> {
     m: &'a Mechanism,
     present: &'a [JointId],
@@ -39,11 +39,11 @@ pub(super) struct InPlane<'a> {
     pub(super) links: PlaneLinks,
 }
 
-/// Links that are one in a plane, and pairs between them.
+/// Links merged in a plane, and pairs between them.
 pub(super) struct PlaneLinks {
-    /// The names that each has.
+    /// The names of each link.
     pub(super) names: Vec<Vec<String>>,
-    /// Of each link of the mechanism the one of these that it is, where it is any.
+    /// For each link of the mechanism, its merged link, if there is one.
     body: Vec<Option<usize>>,
     pub(super) joints: Vec<PairJoint>,
     pub(super) frame: usize,
@@ -95,7 +95,7 @@ impl PlaneLinks {
         })
     }
 
-    /// Whether it moves as structures that are counted do.
+    /// Returns true if it moves in the way of the structures that are counted.
     fn is_counted(&self) -> bool {
         let chain = Chain::new(self.names.len(), self.joints.iter().copied());
         chain.has_carriers() && moves_throughout(&chain)
@@ -103,7 +103,7 @@ impl PlaneLinks {
 }
 
 impl<'a> InPlane<'a> {
-    /// In the plane in which the most joints move, of those in which all moves together, where it does in any.
+    /// Chooses the plane in which the most joints move, preferably among those in which all links move together.
     pub(super) fn new(
         m: &'a Mechanism,
         present: &'a [JointId],
@@ -133,7 +133,7 @@ impl<'a> InPlane<'a> {
         self.links.body[link.index()]
     }
 
-    /// The joint of the frame with a link, where there is one.
+    /// Returns the joint of the frame with a link, if there is one.
     pub(super) fn at_frame(&self, link: usize) -> Option<&'a Joint> {
         let ends = |j: &Joint| order_links(j.links.map(|l| self.body(l).unwrap_or(0)));
         let all = self.present.iter().map(|&j| &self.m.joints[j]);
@@ -142,14 +142,14 @@ impl<'a> InPlane<'a> {
     }
 }
 
-/// What the links are called that are one in the plane.
+/// Returns the names of the links that are merged into one in the plane.
 fn names_of(m: &Mechanism, merged: &UnionFind<usize>, body: usize) -> Vec<String> {
     let own = m.links_with_ids();
     let own = own.filter(|(l, _)| merged.find(l.index()) == body);
     own.map(|(_, link)| link.id.clone()).collect()
 }
 
-/// Nothing but two slots is between two links beside another joint.
+/// Returns an error if two links have more than one joint, unless the joints are two slots.
 fn no_others_twice(
     joints: &[([usize; 2], PairKind)],
     names: &[Vec<String>],
@@ -168,8 +168,8 @@ fn no_others_twice(
     }
 }
 
-/// Joints with slots in the place of flat faces, the slides between links that others join already, guides before others; and whether
-/// there are any.
+/// Returns the joints with slots in place of flat faces, and whether there are any. Flat faces are slides between links that others join
+/// already; guides come first.
 fn faces_as_slots(
     links: usize,
     joints: Vec<([usize; 2], PairKind)>,
@@ -189,7 +189,7 @@ fn faces_as_slots(
     (all, flat)
 }
 
-/// The links that a coupling gears: those of its two joints but the one that both have.
+/// Returns the links that a coupling gears: the links of its two joints without the common one.
 fn geared_links(coupling: &Coupling, ends: impl Fn(JointId) -> [usize; 2]) -> Option<[usize; 2]> {
     let [a, b] = [0, 1].map(|i| ends(coupling.ends[i].joint));
     let carrier = a.into_iter().find(|l| b.contains(l))?;

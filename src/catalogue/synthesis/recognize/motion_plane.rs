@@ -1,4 +1,4 @@
-//! The plane in which joints move, and what each of them is there.
+//! The plane in which joints move, and the kind of each joint in that plane.
 
 use crate::chains::PairKind;
 use crate::closure::twist::FrameValues;
@@ -13,14 +13,14 @@ use crate::synthesis::recognize::found::NoStructure;
 use itertools::Itertools;
 use std::cmp::Reverse;
 
-/// The plane of motion, with the field its numbers are in.
+/// The plane of motion, with the field of its numbers.
 pub(super) struct MotionPlane {
     exact: ExactField,
     normal: [Residue; 3],
 }
 
 impl MotionPlane {
-    /// The planes in which some joints may move, those first in which the most do: across the axes about which they turn.
+    /// Returns the planes in which joints may move, normal to the axes of turns. Planes in which the most joints move come first.
     pub(super) fn candidate_planes(
         m: &Mechanism,
         present: &[JointId],
@@ -44,7 +44,7 @@ impl MotionPlane {
                 }
             }
         }
-        // Wedges turn nowhere, or not in their plane: what is square to two slides.
+        // Wedges have no turns, or none in their plane, so the normals to pairs of slides are candidates, too.
         let zero = [exact.field().zero(); 3];
         let two = ways.iter().tuple_combinations();
         axes.extend(two.map(|(a, b)| exact.cross(*a, *b)));
@@ -67,12 +67,12 @@ impl MotionPlane {
         Ok((plane, counted.into_iter().map(|(_, n)| n).collect()))
     }
 
-    /// The same with another normal.
+    /// Sets the normal.
     pub(super) fn turn_to(&mut self, normal: [Residue; 3]) {
         self.normal = normal;
     }
 
-    /// Whether two joints are hinges in the plane, at one place there.
+    /// Returns true if two joints are hinges at the same place in the plane.
     pub(super) fn are_on_one_pin(&self, joints: [Option<&Joint>; 2]) -> Result<bool, NoStructure> {
         let [Some(a), Some(b)] = joints else {
             return Ok(false);
@@ -90,7 +90,7 @@ impl MotionPlane {
         Ok(along && kinds == [Some(PairKind::Hinge); 2])
     }
 
-    /// How many joints are of a kind in the plane.
+    /// Returns the number of joints of a known kind that move in the plane.
     fn moving_count(&self, m: &Mechanism, present: &[JointId]) -> Result<usize, NoStructure> {
         let mut out = 0;
         for &j in present {
@@ -111,13 +111,13 @@ impl MotionPlane {
         out
     }
 
-    /// What a joint is in the plane; nothing where it does not move there.
+    /// Returns the kind of a joint in the plane; `None` if it does not move there.
     pub(super) fn kind_in_plane(&self, joint: &Joint) -> Result<Option<PairKind>, NoStructure> {
         let frame = FrameValues::new(&self.exact, &joint.frame)?;
         let freedoms = joint.joint_type.freedoms();
         let twists = freedoms.iter().map(|&f| frame.twist_of(&self.exact, f));
         let twists = twists.collect_vec();
-        // How much of the joint's motions is in a space: dimensions add up to those of the sum and of what both have.
+        // Dimension of the joint's motions in a space: dim U + dim V = dim (U + V) + dim (U ∩ V).
         let own = self.span(twists.iter().copied()).rank();
         let shared = |space: &[[Residue; 6]]| {
             let both = twists.iter().chain(space).copied();
@@ -146,7 +146,7 @@ impl MotionPlane {
         }
     }
 
-    /// Two slides across the normal.
+    /// Returns two independent slides normal to the plane's normal.
     fn two_slides(&self) -> [[Residue; 6]; 2] {
         let zero = self.exact.field().zero();
         let one = self.exact.field().one();

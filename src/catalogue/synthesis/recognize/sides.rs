@@ -1,4 +1,4 @@
-//! Three sides that are alike, each in one plane with frame and driver or in a plane of its own: their structure is that of two of them.
+//! Three equal sides, all in one plane with frame and driver, or each in a separate plane. Their structure is that of two of them.
 
 use crate::chains::chain::{Chain, Joint as PairJoint, order_links};
 use crate::chains::classics::MadeAs;
@@ -11,10 +11,11 @@ use crate::synthesis::recognize::in_plane::InPlane;
 use itertools::Itertools;
 use petgraph::unionfind::UnionFind;
 
-/// The structure of two sides of a gripper of three; nothing of one with other jaws than three, or whose sides are joined, not alike or not all of it.
+/// Returns the structure of two sides of a gripper with three. `None` if it has not three jaws, or if its sides are joined, differ, or are
+/// not all of it.
 ///
 /// # Errors
-/// Where a side has no structure.
+/// Returns an error if a side has no structure.
 pub(super) fn three_sides(m: &Mechanism) -> Result<Option<Recognized>, NoStructure> {
     let jaws = m.links_with_ids().filter(|(_, l)| l.role == Role::Output);
     let jaws = jaws.map(|(l, _)| l).collect_vec();
@@ -44,7 +45,7 @@ pub(super) fn three_sides(m: &Mechanism) -> Result<Option<Recognized>, NoStructu
     let held = jaws.iter().map(|j| parts.find(j.index())).collect_vec();
     let links = all.iter().flat_map(|&j| m.joints[j].links);
     let mut others = links.filter(|l| !once(*l));
-    // What is on no side stands once, and is more than frame and driver.
+    // A link on no side, other than frame and driver, is not repeated: there are not three sides.
     let on_sides = others.all(|l| held.contains(&parts.find(l.index())));
     if !on_sides || !held.iter().all_unique() {
         return Ok(None);
@@ -65,7 +66,7 @@ pub(super) fn three_sides(m: &Mechanism) -> Result<Option<Recognized>, NoStructu
     Ok(found.into_iter().next().filter(|_| alike))
 }
 
-/// The structure of a side with one image, and with two.
+/// Returns the structure of a side with one image, and with two.
 fn one_side(
     m: &Mechanism,
     present: &[JointId],
@@ -89,7 +90,7 @@ fn one_side(
     let carried = |(copy, j): (usize, &PairJoint)| {
         let links = order_links(j.links.map(|l| image(l, copy)));
         let pair = j.pair;
-        // What joins links that stand once stands once.
+        // A joint between links that are not repeated is not repeated.
         (copy == 0 || links != j.links).then_some(PairJoint { links, pair })
     };
     let of = |sides: usize| {

@@ -1,4 +1,4 @@
-//! A screw with nuts that jaws are, which moves out of any plane: in one a pinion with its racks does the same.
+//! A screw with nuts as jaws. It moves out of any plane; a pinion with its racks is the equivalent in a plane.
 
 use crate::chains::PairKind;
 use crate::chains::chain::{Chain, Joint as PairJoint};
@@ -16,7 +16,7 @@ use crate::rank::exact::field::exact_field;
 use crate::synthesis::recognize::found::{NoStructure, Recognized, jaw_links};
 use itertools::Itertools;
 
-/// What stands for a screw and two nuts in the frame: frame, screw, nuts.
+/// Planar equivalent of a screw with two nuts in the frame. Links: frame, screw, nuts.
 const PAIRS: [(usize, usize, PairKind); 5] = [
     (0, 1, PairKind::Hinge),
     (0, 2, PairKind::Slide),
@@ -25,7 +25,8 @@ const PAIRS: [(usize, usize, PairKind); 5] = [
     (1, 3, PairKind::Gear),
 ];
 
-/// Along the screw: which way it goes, where it is, and of a thread how far for a radian times the square of the direction's length.
+/// Axis of a joint along the screw: its direction, a point on it, and for a thread the pitch. The pitch is the travel per radian times the
+/// squared length of the direction.
 struct Axis {
     way: [Residue; 3],
     at: [Residue; 3],
@@ -66,7 +67,7 @@ impl Axis {
     }
 }
 
-/// Whether two nuts that slide along a screw go opposite ways as it turns.
+/// Returns true if two nuts that slide along a screw move in opposite directions as it turns.
 fn go_apart(
     m: &Mechanism,
     bearing: &Joint,
@@ -87,11 +88,11 @@ fn go_apart(
     Ok(fits)
 }
 
-/// The structure of a screw that is driven in the frame with two jaws on its threads, a right and a left one, which slide along it in the frame; nothing of any other
-/// mechanism.
+/// Returns the structure of a screw that is driven in the frame. Its jaws are nuts on a right and a left thread that slide along it in the
+/// frame. `None` for any other mechanism.
 ///
 /// # Errors
-/// Where it has not two jaws.
+/// Returns an error if it has not two jaws.
 pub(super) fn screw_with_nuts(m: &Mechanism) -> Result<Option<Recognized>, NoStructure> {
     let joints = m.joints_in(StateId::FREE).map(|j| &m.joints[j]);
     let (threads, others): (Vec<&Joint>, Vec<&Joint>) = joints.partition(|j| is_thread(j));
@@ -151,7 +152,7 @@ pub(super) fn screw_with_nuts(m: &Mechanism) -> Result<Option<Recognized>, NoStr
     }))
 }
 
-/// Whether a joint is a thread.
+/// Returns true if a joint is a thread.
 pub(super) fn is_thread(joint: &Joint) -> bool {
     has(joint, |f| f == Freedom::Screw)
 }

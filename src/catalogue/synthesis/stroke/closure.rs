@@ -1,7 +1,7 @@
-//! The closure of a structure's contours when its links have turned, and how far apart its tips are then.
+//! Closure of a structure's contours after its links have turned, and the distance between its tips.
 //!
-//! Unknown are how far each link but the frame has turned since it was drawn, and how far the drive has gone. A contour is a sum
-//! of sides, vectors between two points of a link that turn with it; what the sides of a tip's way add up to is where it has gone.
+//! Unknowns are the turns of all moving links since the drawn pose, and the travel of the drive. A contour is a sum of sides, vectors
+//! between two points of a link that turn with it. The sum of the sides on the path to a tip is the displacement of the tip.
 
 use crate::chains::Input;
 use crate::geom::vector::{dot, quarter_turn, sub};
@@ -11,10 +11,10 @@ use crate::synthesis::stroke::pose::LinkPose;
 use crate::synthesis::stroke::walk::{FitEquations, RADIAN};
 use crate::synthesis::velocities::{Contours, Side};
 
-/// What a side follows.
+/// Motion that a side follows.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum SumMover {
-    /// The turn that is this unknown.
+    /// The turn with this unknown.
     Turn(usize),
     /// The slide.
     Slide,
@@ -31,29 +31,29 @@ struct SumSide {
     follows: SumMover,
 }
 
-/// The sums of a structure, whatever its places.
+/// The sums of a structure, which do not depend on its places.
 #[derive(Debug, Clone)]
 pub struct Closure {
-    /// How many are unknown; the drive is the last.
+    /// Number of unknowns; the drive is the last.
     size: usize,
     contours: Vec<SumSide>,
     tips: Vec<SumSide>,
-    /// Away from the part, over the number of pairs of jaws: by this the tips' ways add up to the opening.
+    /// Vectors away from the part, divided by the number of pairs of jaws. The displacements of the tips along them add up to the opening.
     outward: Vec<Point>,
 }
 
-/// Places put into the sums: the sides as vectors.
+/// Sums with places: the sides as vectors.
 #[derive(Debug, Clone)]
 pub struct Arms<'a> {
     closure: &'a Closure,
     contours: Vec<Point>,
     tips: Vec<Point>,
-    /// What each unknown turns by, as it was tried last.
+    /// The last trial of each unknown as a turn.
     pub(super) turns: Vec<LinkPose>,
 }
 
 impl Closure {
-    /// Of contours, and of the ways that tips open, over the number of pairs of jaws.
+    /// Creates the sums of contours, and of the opening of the tips. `outward` is divided by the number of pairs of jaws.
     #[must_use]
     pub fn new(contours: &Contours, outward: Vec<Point>) -> Closure {
         let drive = contours.unknown.iter().flatten().count();
@@ -85,7 +85,7 @@ impl Closure {
 }
 
 impl<'a> Arms<'a> {
-    /// Room for those of a closure.
+    /// Creates the sides of a closure, without places.
     pub(super) fn new(closure: &'a Closure) -> Arms<'a> {
         Arms {
             closure,
@@ -95,7 +95,7 @@ impl<'a> Arms<'a> {
         }
     }
 
-    /// Puts places in.
+    /// Inserts places.
     pub(super) fn place(&mut self, at: &[Point]) {
         let vector = |s: &SumSide| sub(at[s.to], at[s.from]);
         self.contours.clear();
@@ -125,7 +125,7 @@ impl FitEquations for Arms<'_> {
         for (turn, angle) in self.turns.iter_mut().zip(x) {
             *turn = LinkPose::turn_by(*angle);
         }
-        // A side as it has turned, and by how much it differs from what was drawn.
+        // A turned side, and its difference from the drawn side.
         let moved = |s: &SumSide, arm: Point| match s.follows {
             SumMover::Slide => ([slid, 0.0], None),
             SumMover::Turn(unknown) => {

@@ -1,5 +1,5 @@
-//! Forces in the joints at a pose of the stroke, if all joints are hinges except for an input that slides. Each jaw holds the part with a
-//! newton, without friction. The figures of forces are the greatest force, how well driver and jaws pass work on, and the efficiency.
+//! Joint forces at a pose of the stroke, if all joints are hinges except for an input that slides. Each jaw holds the part with 1 N,
+//! without friction. The figures are the greatest force, the force transmission of driver and jaws, and the efficiency.
 
 use super::pose::LinkPose;
 use crate::chains::Input;
@@ -12,7 +12,7 @@ use crate::synthesis::velocities::{Contours, Side};
 /// The action of a joint: the force on its second link, the point at which it acts, and a moment, in N and N mm.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(in crate::synthesis) struct JointForce {
-    /// On the second link of the joint.
+    /// The force on the second link of the joint.
     pub(in crate::synthesis) force: Point,
     /// The point at which the force acts.
     pub(in crate::synthesis) at: Point,
@@ -35,8 +35,8 @@ pub(in crate::synthesis) struct HingeForces {
 pub struct ForceFigures {
     /// The greatest joint force, in N for 1 N of each jaw.
     pub peak: f64,
-    /// The least angle whose sine is the work that a jaw or the driver passes on over what its joint forces could at the same
-    /// speeds, in degrees: of a jaw hinged in the frame and pushed by a rod, the transmission angle.
+    /// The smallest transmission angle of jaws and driver, in degrees. Its sine is the transmitted work over the greatest work of the joint
+    /// forces at the same speeds. For a jaw hinged in the frame and pushed by a rod, it is the usual transmission angle.
     pub transmission: f64,
     /// The work at the jaws over that of the drive, with friction.
     pub efficiency: f64,
@@ -50,14 +50,14 @@ impl ForceFigures {
         efficiency: 1.0,
     };
 
-    /// The figures if the forces are beyond all bounds.
+    /// The figures if the forces are infinite.
     pub const WORST: ForceFigures = ForceFigures {
         peak: f64::INFINITY,
         transmission: 0.0,
         efficiency: 0.0,
     };
 
-    /// The worse of both, figure by figure.
+    /// Returns the worse of both, figure by figure.
     #[must_use]
     pub fn worse_of(self, other: ForceFigures) -> ForceFigures {
         ForceFigures {
@@ -76,7 +76,7 @@ struct Wrench {
 }
 
 impl Wrench {
-    /// Adds a force, taken so many times, that acts at a place.
+    /// Adds a force, multiplied by `times`, that acts at a place.
     fn add_force(&mut self, times: f64, force: Point, place: Point) {
         self.force = add_scaled(self.force, times, force);
         self.moment += times * cross_plane(place, force);
@@ -88,7 +88,7 @@ impl Wrench {
 }
 
 impl HingeForces {
-    /// Returns room for the forces of a sketch.
+    /// Creates the forces of a sketch, not yet solved.
     pub(super) fn new(sketch: &Sketch<'_>, contours: &Contours) -> HingeForces {
         HingeForces {
             system: SmallSystem::new(2 * contours.cuts.len(), 1),
@@ -114,7 +114,7 @@ impl HingeForces {
     ) -> bool {
         let slides = contours.input == Input::Slide;
         for (i, joint) in sketch.rules.joints.iter().enumerate() {
-            // What presses on a guide goes with the driver.
+            // The force on a guide moves with the driver.
             let guide = slides && i == sketch.input;
             let link = if guide {
                 contours.driver
@@ -131,7 +131,7 @@ impl HingeForces {
         true
     }
 
-    /// The work at every turn: of the forces in the cuts, and, as the right side, of what the part makes them do.
+    /// Fills the virtual work at every turn: of the forces in the cuts, and, as the right side, of the part.
     fn fill(&mut self, sketch: &Sketch<'_>, contours: &Contours, links: &[LinkPose], at: &[Point]) {
         let right = 2 * contours.cuts.len();
         let turned = |side: &Side| {
@@ -158,7 +158,7 @@ impl HingeForces {
         }
     }
 
-    /// From the forces in the cuts those in all joints, from the ends of the tree on.
+    /// Computes the forces in all joints from the forces in the cuts, from the leaves of the tree to its root.
     fn gather_forces(&mut self, sketch: &Sketch<'_>, contours: &Contours, links: &[LinkPose]) {
         let (bones, joints) = (&sketch.bones, &sketch.rules.joints);
         self.on_links.fill(Wrench::default());
@@ -181,7 +181,7 @@ impl HingeForces {
             self.pins[s.joint].force = wrench.force.map(|x| on_second * x);
             self.on_links[s.from].add_force(1.0, wrench.force, place);
             if s.link == contours.driver && contours.input == Input::Slide {
-                // A slide lies on the x axis: its guide presses across.
+                // The slide lies on the x axis: the force of its guide is normal to it.
                 let guide = &mut self.pins[sketch.input];
                 guide.moment = -wrench.about(place);
                 guide.force[0] = 0.0;

@@ -1,10 +1,10 @@
-//! What is gathered on the way of a stroke.
+//! Figures gathered over a stroke.
 
 use super::forces::ForceFigures;
 use crate::geom::vector::{dot, sub};
 use crate::synthesis::place::Point;
 
-/// Least and greatest of figures.
+/// Minimum and maximum of a figure.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Between(pub(super) [f64; 2]);
 
@@ -15,7 +15,7 @@ impl Between {
         self.0 = [self.0[0].min(x), self.0[1].max(x)];
     }
 
-    /// The greatest over the least; 1 where nothing was taken.
+    /// Returns the maximum over the minimum; 1 if no value was taken.
     pub(super) fn force_ratio(self) -> f64 {
         let [least, most] = self.0;
         if least > most {
@@ -30,7 +30,7 @@ impl Between {
     }
 }
 
-/// What is gathered on the way.
+/// Figures gathered over a stroke.
 #[derive(Debug, Clone)]
 pub(super) struct Gathered {
     pub(super) sine: f64,
@@ -39,7 +39,7 @@ pub(super) struct Gathered {
     pub(super) turns: Vec<Between>,
     pub(super) sides: [Between; 2],
     pub(super) forces: ForceFigures,
-    /// The pins at the last pose, and the least square of the distance of two of them.
+    /// The pins at the last pose, and the smallest squared distance between two of them.
     pub(super) pins: Vec<Point>,
     pub(super) nearest: f64,
     pub(super) on_side: f64,
@@ -48,7 +48,7 @@ pub(super) struct Gathered {
 }
 
 impl Gathered {
-    /// Of so many jaws, nothing yet.
+    /// Creates the figures for this number of jaws, without any pose.
     pub(super) fn new(jaws: usize) -> Gathered {
         Gathered {
             sine: 1.0,
@@ -65,7 +65,7 @@ impl Gathered {
         }
     }
 
-    /// Nothing yet of another stroke, in the room of the last.
+    /// Clears the figures for another stroke, and keeps the allocations.
     pub(super) fn begin_stroke(&mut self) {
         let (mut turns, pins) = (
             std::mem::take(&mut self.turns),
@@ -79,7 +79,7 @@ impl Gathered {
         };
     }
 
-    /// So far on its side of the middle, of a half where that is no 0.
+    /// Takes the distance of a point from the middle, on the side of its half. Ignored if `half` is 0.
     pub(super) fn take_on_side(&mut self, far: f64, half: f64) {
         if half != 0.0 {
             self.on_side = self.on_side.min(far);

@@ -1,4 +1,4 @@
-//! What places do over the stroke of a task, and what that costs.
+//! Figures of places over the stroke of a task, and their cost.
 
 use super::forces::ForceFigures;
 use super::gathered::{Between, Gathered};
@@ -13,8 +13,7 @@ use crate::synthesis::places::Places;
 use crate::synthesis::sketch::Sketch;
 use crate::synthesis::task::Limits;
 
-/// Poses of a stroke while places are tried, as many as rank them as fifty do, and how near to its end it is followed: a fraction of
-/// the stroke.
+/// Poses of a stroke during the search. They rank places as well as fifty poses do.
 const COARSE: Grid = Grid {
     steps: 5.0,
     finest: 0.01,
@@ -22,7 +21,7 @@ const COARSE: Grid = Grid {
     forces_everywhere: false,
 };
 
-/// Where a stroke is looked at that is told.
+/// Poses of a stroke whose figures are reported.
 const FINE: Grid = Grid {
     steps: 48.0,
     finest: 1e-5,
@@ -30,76 +29,76 @@ const FINE: Grid = Grid {
     forces_everywhere: true,
 };
 
-/// Where a stroke is looked at.
+/// Poses at which a stroke is evaluated.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Grid {
-    /// How many steps there are over the task's stroke.
+    /// Number of steps over the task's stroke.
     steps: f64,
-    /// How near to an end before the task's it is followed, over the stroke.
+    /// Accuracy of an end that comes before the task's end, as a fraction of the stroke.
     finest: f64,
-    /// The last correction of a pose is smaller than this, in rad.
+    /// Bound for the last correction of a pose, in rad.
     settled: f64,
-    /// Whether joint forces are solved for at every pose, or at the drawn one and both ends alone.
+    /// Whether joint forces are solved at every pose, or only at the drawn pose and at both ends.
     forces_everywhere: bool,
 }
 
-/// Figures of a stroke. Where it does not reach, of what is reached.
+/// Figures of a stroke, or of its reachable part.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct StrokeFigures {
-    /// How far apart the tips come, least and greatest, in millimetres: no farther than the task asks.
+    /// Least and greatest distance between the tips, in millimetres, within the range that the task asks for.
     pub reached: [f64; 2],
-    /// Why no nearer, and no farther, where it is less than the task asks.
+    /// Why the tips come no nearer, and no farther apart, if the task asks for more.
     pub ends: [Option<StrokeEnd>; 2],
-    /// The drive's way by the opening where it is least and greatest, mm or rad a millimetre: by work, the force of each of two jaws
-    /// over the drive's.
+    /// The least and the greatest rate of the drive over the opening, in mm or rad per millimetre. By virtual work, this is the force of
+    /// each of two jaws over that of the drive.
     pub rates: [f64; 2],
-    /// The least force of a jaw: N for 1 N of the drive, or for 1 Nm where it turns.
+    /// The least force of a jaw: N for 1 N of the drive, or for 1 Nm if it turns.
     pub force: f64,
-    /// The drive at both ends, from where it is drawn: mm or rad.
+    /// The travel of the drive at both ends, from its drawn position, in mm or rad.
     pub drive: [f64; 2],
     /// The least transmission angle, of rods and by joint forces at driver and jaws, in degrees.
     pub transmission: f64,
-    /// The least share of the tips' motion that closes them; 0 where one opens as the others close.
+    /// The least share of the tips' motion that closes them; 0 if one opens as the others close.
     pub straightness: f64,
-    /// The most that a jaw turns, from where it turned least to where it turned most, in degrees.
+    /// The greatest turn of a jaw between any two poses, in degrees.
     pub turn: f64,
-    /// The box round pins, tips and pitch circles, in millimetres.
+    /// Width and height of the box around pins, tips and pitch circles, in millimetres.
     pub size: [f64; 2],
-    /// How near two pins come to each other, in millimetres; beyond all bounds where that is not asked.
+    /// Smallest distance between two pins, in millimetres; infinite if it is not asked for.
     pub pin_distance: f64,
-    /// How far pins and pitch circles of each jaw's half keep on its side of the middle, in millimetres: less than nothing where they
-    /// come beyond it.
+    /// Smallest distance of the pins and pitch circles of each jaw's half from the middle, in millimetres. Negative if they cross the
+    /// middle.
     pub on_side: f64,
-    /// How long a cylinder between two links is, from pin to pin, pulled out over pushed in; 1 where there is none.
+    /// Longest over shortest length of a cylinder between two links, from pin to pin; 1 if there is none.
     pub pulled_out: f64,
-    /// How far the tips are drawn ahead of all pins, in millimetres; beyond all bounds where that is not asked, or the part is not ahead.
+    /// How far the tips are drawn ahead of all pins, in millimetres; infinite if it is not asked for, or if the part is not ahead.
     pub reach: f64,
-    /// What the joint forces say.
+    /// Figures of the joint forces.
     pub forces: ForceFigures,
 }
 
 impl StrokeFigures {
-    /// The greatest force of a jaw over the least.
+    /// Returns the greatest force of a jaw over the least.
     #[must_use]
     pub fn force_ratio(&self) -> f64 {
         self.rates[1] / self.rates[0].max(1e-12)
     }
 }
 
-/// How far a stroke has come, narrower and wider: how far apart the tips are, the drive there, and why it ends.
+/// Progress of a stroke in both directions: distance between the tips, travel of the drive, and why the stroke ends.
 struct ReachedStroke {
     reached: [f64; 2],
     drive: [f64; 2],
     ends: [Option<StrokeEnd>; 2],
 }
 
-/// Strokes, one after another.
+/// Evaluates strokes, one after another.
 #[derive(Debug)]
 pub struct Judge<'a> {
     pub(in crate::synthesis) motion: Motion<'a>,
     pub(super) links: Vec<LinkPose>,
     gathered: Gathered,
-    /// What meets on the way, where that is asked.
+    /// The overlaps of links over the stroke, if they are asked for.
     meetings: Option<Meetings>,
 }
 
@@ -115,7 +114,7 @@ impl<'a> Judge<'a> {
         }
     }
 
-    /// Watches what meets on the next stroke, unless a link stands for several images of it or turns out of the plane.
+    /// Watches overlaps on the next stroke, unless a link represents several images of it or turns out of the plane.
     pub fn watch_meetings(&mut self) {
         let sketch = self.motion.sketch;
         let bones = &sketch.bones;
@@ -123,10 +122,10 @@ impl<'a> Judge<'a> {
         self.meetings = (each_drawn && !sketch.rules.threaded).then(|| Meetings::new(bones));
     }
 
-    /// The planes in which the links passed each other on the stroke that was watched.
+    /// Returns the layers in which the links passed each other on the watched stroke.
     ///
     /// # Complexity
-    /// That of [`Meetings::stacking`].
+    /// That of [`Meetings::fewest_planes`].
     pub fn find_stacking(&mut self) -> Stacking {
         let bones = &self.motion.sketch.bones;
         let met = self.meetings.take();
@@ -137,14 +136,14 @@ impl<'a> Judge<'a> {
         &self.motion.sketch.limits
     }
 
-    /// Stands at the drawn pose of places; `false` where that is singular.
+    /// Moves to the drawn pose of places. Returns false if the pose is singular.
     fn stand_drawn(&mut self, at: &Places) -> bool {
         self.motion.place(at);
         self.motion.walk.stand_drawn()
     }
 
-    /// The figures of places at some poses, as they are looked at while places are tried; `None` where the drawn pose is
-    /// singular, or where they cost more than `most`, which the first poses may tell.
+    /// Returns the figures of places at the few poses of the search. `None` if the drawn pose is singular, or if the cost is more than
+    /// `most`, which the first poses may show.
     ///
     /// # Complexity
     /// Some corrections of O(n³) for n links, for each of some seven poses.
@@ -152,18 +151,18 @@ impl<'a> Judge<'a> {
         self.follow_grid(at, COARSE, most)
     }
 
-    /// The figures of places as they are told; `None` where the drawn pose is singular.
+    /// Returns the figures of places at the poses for reports; `None` if the drawn pose is singular.
     ///
     /// # Complexity
-    /// As [`Judge::coarse`], for some fifty poses.
+    /// As [`Judge::coarse_figures`], for some fifty poses.
     pub fn fine_figures(&mut self, at: &Places) -> Option<StrokeFigures> {
         self.follow_grid(at, FINE, f64::INFINITY)
     }
 
-    /// The figures of places, at the poses of a grid; `None` where the drawn pose is singular, or where they cost more than `most`.
+    /// Returns the figures of places at the poses of a grid; `None` if the drawn pose is singular, or if the cost is more than `most`.
     ///
     /// # Complexity
-    /// As [`Judge::coarse`], by the number of poses.
+    /// As [`Judge::coarse_figures`], in proportion to the number of poses.
     fn follow_grid(&mut self, at: &Places, grid: Grid, most: f64) -> Option<StrokeFigures> {
         self.motion.walk.settled = grid.settled;
         if !self.stand_drawn(at) {
@@ -172,7 +171,7 @@ impl<'a> Judge<'a> {
         let task = self.limits().task;
         let drawn = 2.0 * f64::from(task.half_opening());
         let finest = grid.finest * task.opening_span();
-        // Until an end is reached, or is not, nothing is said against it.
+        // Both ends count as reached until the walk shows otherwise.
         let mut way = ReachedStroke {
             reached: [task.narrowest, task.widest],
             drive: [0.0; 2],
@@ -215,7 +214,7 @@ impl<'a> Judge<'a> {
         (!self.is_dearer(&way, most)).then(|| self.figures(&way))
     }
 
-    /// Whether what is known so far costs more than `most`: more poses make no figure better.
+    /// Returns true if the figures so far cost more than `most`; further poses improve no figure.
     fn is_dearer(&self, way: &ReachedStroke, most: f64) -> bool {
         most < f64::INFINITY && self.limits().stroke_cost(&self.figures(way)) > most
     }
@@ -240,19 +239,20 @@ impl<'a> Judge<'a> {
         }
     }
 
-    /// How far each jaw turned on the last stroke, from where it turned least to where it turned most, in rad.
+    /// Returns the greatest turn of each jaw between two poses of the last stroke, in rad.
     pub fn jaw_turns(&self) -> impl Iterator<Item = f64> {
         self.gathered.turns.iter().map(|t| t.span())
     }
 
-    /// How fast the drive goes by the width at the last pose, mm or rad a millimetre: negative where it goes back as jaws open.
+    /// Returns the rate of the drive over the width at the last pose, in mm or rad per millimetre. Negative if the drive goes back as the
+    /// jaws open.
     #[must_use]
     pub fn drive_rate(&self) -> f64 {
         self.motion.walk.drive_rate()
     }
 
-    /// How much farther than the task asks the tips can come, narrower and wider, in millimetres and at most `most`; 0 where they
-    /// do not come as far.
+    /// Returns how much farther than the task asks the tips can come, narrower and wider, in millimetres and at most `most`. 0 if they do
+    /// not come as far as the task asks.
     pub fn stroke_margin(&mut self, at: &Places, most: f64) -> [f64; 2] {
         let task = self.limits().task;
         let drawn = 2.0 * f64::from(task.half_opening());
@@ -260,14 +260,14 @@ impl<'a> Judge<'a> {
             let goes = self.stand_drawn(at);
             let to = end - drawn;
             let walk = &mut self.motion.walk;
-            // That it ends on the way is what is asked.
+            // The walk may end before; its position is the answer.
             let _ = walk.advance_to(to + more, 1e-3);
             let farther = (walk.wider - to) * more.signum();
             if goes { farther.max(0.0) } else { 0.0 }
         })
     }
 
-    /// Takes in what the joint forces say; where they have no one solution, the worst.
+    /// Takes the figures of the joint forces. They are the worst ones if there is not exactly one solution.
     fn weigh_forces(&mut self, at: &Places) {
         let here = self.motion.force_figures(at, &self.links);
         let here = here.unwrap_or(ForceFigures::WORST);
@@ -299,7 +299,7 @@ impl<'a> Judge<'a> {
         }
     }
 
-    /// Takes in where the tips are and how they move.
+    /// Takes the places and motions of the tips.
     fn look_at_tips(&mut self) {
         let sketch = self.motion.sketch;
         let bones = &sketch.bones;
@@ -318,7 +318,7 @@ impl<'a> Judge<'a> {
         g.straightness = g.straightness.min(share);
     }
 
-    /// Takes in where joints and pitch circles are, and how long a cylinder is.
+    /// Takes the places of joints and pitch circles, and the length of a cylinder.
     fn look_at_joints(&mut self, at: &Places) {
         let sketch = self.motion.sketch;
         let (bones, points) = (&sketch.bones, &at.points);

@@ -1,4 +1,4 @@
-//! How a structure moves over its stroke, as far as judging it asks.
+//! Motion of a structure over its stroke, as far as the judge needs it.
 
 use super::closure::Arms;
 use super::forces::{ForceFigures, HingeForces};
@@ -46,12 +46,12 @@ impl FitEquations for Equations<'_> {
     }
 }
 
-/// The strokes of a sketch, one after another.
+/// Strokes of a sketch, one after another.
 #[derive(Debug)]
 pub(in crate::synthesis) struct Motion<'a> {
     /// The structure that moves.
     pub(in crate::synthesis) sketch: &'a Sketch<'a>,
-    /// The pose on the way.
+    /// The walk, at its current pose.
     pub(super) walk: Walk<Equations<'a>>,
 }
 
@@ -69,7 +69,7 @@ impl<'a> Motion<'a> {
         }
     }
 
-    /// Puts places into the equations.
+    /// Inserts places into the equations.
     pub(super) fn place(&mut self, at: &Places) {
         match &mut self.walk.equations {
             Equations::Turns(_, arms, _) => arms.place(&at.points),

@@ -1,9 +1,9 @@
-//! Parallel planes in which the links of a layout pass each other: links that overlap somewhere on the stroke lie in different
-//! ones, and no pin passes a plane between its links in which something lies over it.
+//! Parallel layers in which the links of a layout pass each other. Links that overlap somewhere on the stroke are in different layers. No
+//! pin passes a layer between its links in which another link lies over it.
 //!
-//! The frame is a plate behind all, or one behind and one in front. A link is the hull of its points, a bar or a plate with room for
-//! a pin round it; wheels and the flanks of slots are left out. Where something lies over a tip the part is held in front of
-//! all, by pads that nothing is in front of.
+//! The frame is a plate behind all links, or one behind and one in front. A link is the hull of its points: a bar or a plate with room for
+//! a pin all around. Wheels and the flanks of slots are omitted. If a link lies over a tip, pads in front of all layers hold the part, and
+//! nothing may be in front of the pads.
 
 use crate::geom::vector::{length, sub};
 use crate::synthesis::bones::Bones;
@@ -13,47 +13,47 @@ use itertools::Itertools;
 use std::cmp::{Reverse, max, min};
 use std::fmt;
 
-/// Links by their bits.
+/// Links as bits.
 type Links = u32;
 
-/// What meets over a stroke, seen along the pins.
+/// Overlaps over a stroke, seen along the pins.
 #[derive(Debug, Clone)]
 pub struct Meetings {
-    /// Per link, those that it overlaps somewhere; joined ones overlap at their pin. The frame is behind all, and overlaps none.
+    /// Per link, the links that it overlaps somewhere; joined links overlap at their pin. The frame is behind all, and overlaps none.
     overlaps: Vec<Links>,
-    /// Per joint, the links that lie over it somewhere, its own left out.
+    /// Per joint, the links that lie over it somewhere, without its own links.
     over: Vec<Links>,
-    /// Per jaw, the links that lie over its tip somewhere, jaws left out.
+    /// Per jaw, the links that lie over its tip somewhere, without jaws.
     over_tips: Vec<Links>,
 }
 
-/// Whether a layout can be built of parts that do not meet.
+/// Whether a layout can be built of parts that do not collide.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Stacking {
-    /// So, in the fewest planes there may be.
+    /// It can be built, with the fewest layers.
     Planes {
-        /// How many, the frame's included.
+        /// Number of layers, including those of the frame.
         planes: usize,
-        /// The plane of each link, from the back; of the frame 0.
+        /// The layer of each link, from the back; 0 for the frame.
         of_link: Vec<usize>,
-        /// Whether the frame has a plate in front, too, in the last plane.
+        /// Whether the frame also has a plate in front, in the last layer.
         in_front: bool,
     },
-    /// Something meets in whatever planes.
+    /// Parts collide in every assignment of layers.
     Meets,
-    /// Of a layout that stands for several images of its links nothing is said.
+    /// Not evaluated, since the layout represents several images of its links.
     NotAsked,
 }
 
 impl Stacking {
-    /// Whether there are such planes.
+    /// Returns true if there are such layers.
     #[must_use]
     pub fn is_known(&self) -> bool {
         matches!(self, Stacking::Planes { .. })
     }
 }
 
-/// The links of each plane from the back, the frame where it has a plate: "0 | 1 3 | 2 4".
+/// The links of each layer from the back, and the frame in the layers of its plates: "0 | 1 3 | 2 4".
 impl fmt::Display for Stacking {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Stacking::Planes {
@@ -77,7 +77,7 @@ impl fmt::Display for Stacking {
 }
 
 impl Meetings {
-    /// Of a layout at rest.
+    /// Creates the overlaps of a layout at rest.
     #[must_use]
     pub fn new(bones: &Bones) -> Meetings {
         let mut out = Meetings {
@@ -98,7 +98,7 @@ impl Meetings {
         self.overlaps[m] |= 1 << l;
     }
 
-    /// Takes in a pose, of which these are the points.
+    /// Takes a pose with these points.
     ///
     /// # Complexity
     /// O(p²) for p points.
@@ -121,12 +121,12 @@ impl Meetings {
             };
             for sides in sides.chunk_by(|x, y| x.link == y.link) {
                 let link = sides[0].link;
-                // Where pitch circles touch is on no link.
+                // The contact point of pitch circles is on no link.
                 let apart = !of.is_empty() && !of.contains(&link);
                 if !apart || !lies_over(sides, at, place) {
                     continue;
                 }
-                // What is on the same axis passes it in a plane of its own.
+                // A link on the same axis passes it in a separate layer.
                 if bones.of_link[link]
                     .iter()
                     .any(|&q| bones.together[p] >> q & 1 == 1)
@@ -151,10 +151,10 @@ impl Meetings {
         }
     }
 
-    /// The fewest planes in which nothing meets.
+    /// Returns the fewest layers in which nothing collides.
     ///
     /// # Complexity
-    /// O(n!) for n links at worst; mostly links find their planes one after another.
+    /// O(n!) for n links in the worst case; usually links find their layers one after another.
     #[must_use]
     pub fn fewest_planes(&self, bones: &Bones) -> Stacking {
         let links = bones.of_link.len();
@@ -166,7 +166,7 @@ impl Meetings {
                 in_front,
             })
         };
-        // Where links pass in few planes, they do where each has its own.
+        // If the links pass in few layers, they also pass with a layer for each.
         let most = [(links, false), (links + 1, true)];
         if most.into_iter().find_map(way).is_none() {
             return Stacking::Meets;
@@ -176,7 +176,7 @@ impl Meetings {
         found.find_map(way).unwrap_or(Stacking::Meets)
     }
 
-    /// The plane of each link in so many, the frame's included.
+    /// Returns the layer of each link for this number of layers, including those of the frame.
     fn in_planes(&self, bones: &Bones, planes: usize, in_front: bool) -> Option<Vec<usize>> {
         let links = bones.of_link.len();
         if in_front && self.over_tips.iter().any(|over| *over != 0) {
@@ -198,25 +198,25 @@ impl Meetings {
     }
 }
 
-/// Whether two sides end at tips that are near each other: jaws that have closed.
+/// Returns true if two sides end at tips that are near each other: jaws that have closed.
 fn touch_at_tips(x: &LinkSide, y: &LinkSide, at: &[Point], pins: usize) -> bool {
     let tip = |side: &LinkSide| side.ends.into_iter().find(|p| *p >= pins);
     let both = tip(x).zip(tip(y));
     both.is_some_and(|(a, b)| length(sub(at[a], at[b])) < ON)
 }
 
-/// Links in planes, one after another.
+/// Assignment of links to layers, one after another.
 struct Stack<'a> {
     meetings: &'a Meetings,
     bones: &'a Bones,
-    /// Planes of moving links, from 1 on.
+    /// Number of layers of moving links, from 1 on.
     moving: usize,
     in_front: bool,
     of_link: Vec<Option<usize>>,
 }
 
 impl Stack<'_> {
-    /// Puts the rest of the links into planes; `false` where that cannot be.
+    /// Assigns layers to the remaining links. Returns false if that is impossible.
     fn fill(&mut self, rest: &[usize]) -> bool {
         let Some((&link, rest)) = rest.split_first() else {
             return true;
@@ -232,7 +232,7 @@ impl Stack<'_> {
         false
     }
 
-    /// Whether a plane has nothing that overlaps a link.
+    /// Returns true if a layer has no link that overlaps a link.
     fn is_free(&self, link: usize, plane: usize) -> bool {
         let others = self.of_link.iter().enumerate();
         others
@@ -240,7 +240,7 @@ impl Stack<'_> {
             .all(|(l, _)| self.meetings.overlaps[link] >> l & 1 == 0)
     }
 
-    /// Whether no pin has anything over it between the planes of its links.
+    /// Returns true if no pin has another link over it between the layers of its links.
     fn pins_pass(&self) -> bool {
         let joints = self.bones.joints.iter().zip(&self.meetings.over);
         joints.filter(|(_, over)| **over != 0).all(|(ends, &over)| {
@@ -254,7 +254,7 @@ impl Stack<'_> {
         })
     }
 
-    /// Whether nothing that lies over a tip is in front of its jaw.
+    /// Returns true if no link that lies over a tip is in front of its jaw.
     fn pads_pass(&self) -> bool {
         let jaws = self.bones.jaws.iter().zip(&self.meetings.over_tips);
         let mut at = jaws.filter_map(|(&jaw, &over)| Some((self.of_link[jaw]?, over)));
@@ -296,7 +296,7 @@ mod tests {
         Bones::new(5, plan, |_| true)
     }
 
-    /// The fewest planes by trying all, frame's plates included: a front plate counts only where some pin needs it.
+    /// Finds the fewest layers by trying all, including those of the frame. A front plate counts only if some pin needs it.
     fn by_trying(
         overlaps: &[[usize; 2]],
         over: &[(usize, usize)],

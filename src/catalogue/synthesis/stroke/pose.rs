@@ -1,27 +1,28 @@
-//! Where a link is on the way of a stroke.
+//! Pose of a link on a stroke.
 
 use crate::geom::vector::add;
 use crate::synthesis::place::Point;
 use crate::synthesis::velocities::Velocity;
 
-/// Where a link is on the way, and how it moves for a millimetre of the width.
+/// Pose of a link on a stroke, and its velocity for a millimetre of the width.
 #[derive(Debug, Clone, Copy)]
 pub struct LinkPose {
-    /// How far it has turned since it was drawn, in rad.
+    /// Turn since the drawn pose, in rad.
     pub angle: f64,
-    /// Cosine and sine of that.
+    /// Cosine and sine of the turn.
     turn: [f64; 2],
-    /// Where its point is that was drawn at the origin.
+    /// Current place of the point that was drawn at the origin.
     pub shift: Point,
-    /// Its velocity, at the pose, by the width.
+    /// Its velocity at the pose, over the width.
     pub velocity: Velocity,
 }
 
-/// So little that what the series leave out of a sine, by^7 / 5040, and of a cosine, by^6 / 720, is nothing beside one. In rad.
+/// Greatest angle for the short series of sine and cosine, in rad. The omitted terms, by^7 / 5040 of a sine and by^6 / 720 of a cosine, are
+/// negligible compared with 1.
 const LITTLE: f64 = 2e-3;
 
 impl LinkPose {
-    /// As drawn, at rest.
+    /// The drawn pose, at rest.
     pub const AT_REST: LinkPose = LinkPose {
         angle: 0.0,
         turn: [1.0, 0.0],
@@ -32,7 +33,7 @@ impl LinkPose {
         },
     };
 
-    /// Turned by an angle in rad.
+    /// Returns the pose turned by an angle in rad.
     #[must_use]
     pub fn turn_by(angle: f64) -> LinkPose {
         let (sine, cosine) = angle.sin_cos();
@@ -43,7 +44,8 @@ impl LinkPose {
         }
     }
 
-    /// Turned a little farther, as the last correction of a pose does: without another sine where it is that little.
+    /// Returns the pose turned to an angle. For a small difference, as in the last correction of a pose, short series replace sine and
+    /// cosine.
     #[must_use]
     pub fn turned_to(&self, angle: f64) -> LinkPose {
         let by = angle - self.angle;
@@ -64,14 +66,14 @@ impl LinkPose {
         }
     }
 
-    /// What has become of a direction of it.
+    /// Returns a drawn direction of the link in its current pose.
     #[must_use]
     pub fn turned_direction(&self, [x, y]: Point) -> Point {
         let [c, s] = self.turn;
         [c * x - s * y, s * x + c * y]
     }
 
-    /// Where a point of it is that was drawn there.
+    /// Returns the current place of a point of the link that was drawn at `at`.
     #[must_use]
     pub fn moved_point(&self, at: Point) -> Point {
         add(self.turned_direction(at), self.shift)

@@ -18,11 +18,11 @@ impl fmt::Display for Shortfall {
     }
 }
 
-/// Less than this is rounding, in mm.
+/// Smaller differences are rounding errors, in mm.
 pub(super) const NOISE: f64 = 1e-6;
 
 impl Limits {
-    /// Returns the first requirement of the task that a stroke does not meet. `swings` says whether every jaw turns about a hinge in the
+    /// Returns the first requirement of the task that a stroke does not meet. `swings` is true if every jaw turns about a hinge in the
     /// frame.
     #[must_use]
     pub fn find_shortfall(&self, f: &StrokeFigures, swings: bool) -> Option<Shortfall> {

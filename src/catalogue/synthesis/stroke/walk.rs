@@ -1,20 +1,21 @@
-//! From the drawn pose step by step to wider and narrower parts, by Newton's method.
+//! Walk from the drawn pose, step by step, to wider and narrower parts, by Newton's method.
 //!
-//! A step begins along the cubic that the last two poses and their rates tell. It is halved where the first correction is large beside it, where
-//! the determinant changes its sign, or where the drive would turn back: so no step passes a singular pose or a dead point unseen.
+//! A step is predicted by the cubic through the last two poses with their rates. It is halved in three cases: the first correction is large
+//! compared with the step, the determinant changes its sign, or the drive would turn back. So no step passes a singular pose or a dead
+//! point unnoticed.
 
 use crate::synthesis::elimination::SmallSystem;
 
-/// Corrections of a step at most.
+/// Maximum number of corrections of a step.
 const CORRECTIONS: usize = 6;
-/// The first correction over its step at most.
+/// Maximum of the first correction, as a fraction of the step.
 const CORRECTION: f64 = 0.25;
-/// The last correction of a pose whose figures are told is smaller than this, in rad.
+/// Bound for the last correction of a pose whose figures are reported, in rad.
 pub(in crate::synthesis) const SETTLED: f64 = 1e-8;
-/// So many millimetres count as a radian of a link.
+/// Millimetres that count as a radian of a link.
 pub(in crate::synthesis) const RADIAN: f64 = 50.0;
-/// A drive that is so many times faster by the width than in the drawn pose is near to where the jaws turn back; one that is
-/// so many times slower, to a dead point.
+/// Threshold for the kind of an end, on the rate of the drive over the width, relative to the drawn pose. A rate this many times as fast is
+/// near a turning point of the jaws, and one this many times as slow is near a dead point.
 const FAR: f64 = 4.0;
 
 /// Why a stroke ends.
@@ -29,7 +30,7 @@ pub enum StrokeEnd {
 }
 
 impl StrokeEnd {
-    /// Word for data.
+    /// Returns the word for data files.
     #[must_use]
     pub fn word(self) -> &'static str {
         match self {
@@ -39,7 +40,7 @@ impl StrokeEnd {
         }
     }
 
-    /// In words.
+    /// Returns the end in words.
     #[must_use]
     pub fn words(self) -> &'static str {
         match self {
@@ -50,16 +51,16 @@ impl StrokeEnd {
     }
 }
 
-/// The equations that hold where the links fit together and the tips are so far apart; the drive is the last unknown.
+/// Equations for links that fit together and tips at a given distance from each other; the drive is the last unknown.
 pub trait FitEquations {
-    /// How many there are, and how many unknown.
+    /// Returns the number of equations and unknowns.
     fn size(&self) -> usize;
 
-    /// How many of an unknown count as a radian of a link, when steps and corrections are compared.
+    /// Returns how many units of an unknown count as a radian of a link, when steps and corrections are compared.
     fn radian(&self, unknown: usize) -> f64;
 
-    /// By how much they miss when the unknown are `x` and the tips are to be so many millimetres farther apart than drawn, in the
-    /// first right side, with the rates of that; in the second what makes the rates by the width.
+    /// Fills the rows with the derivatives at `x` and two right sides. The first is the error of the equations, if the tips are `wider`
+    /// millimetres farther apart than drawn. The second is that for the rates of the unknowns over the width.
     fn fill(&mut self, x: &[f64], wider: f64, rows: &mut SmallSystem);
 }
 
@@ -73,7 +74,7 @@ struct PassedPose {
 }
 
 impl PassedPose {
-    /// None, of so many unknown.
+    /// Creates a record without a pose, for this number of unknowns.
     fn none(unknown: usize) -> PassedPose {
         PassedPose {
             passed: false,
@@ -91,22 +92,21 @@ impl PassedPose {
     }
 }
 
-/// A pose on the way.
+/// Current pose of a walk.
 #[derive(Debug, Clone)]
 pub struct Walk<E> {
     pub(in crate::synthesis) equations: E,
     rows: SmallSystem,
     /// How much farther apart the tips are than drawn, in millimetres.
     pub(in crate::synthesis) wider: f64,
-    /// The unknown: turns in rad, then the drive in mm or rad.
+    /// The unknowns: turns in rad, then the drive in mm or rad.
     pub(in crate::synthesis) x: Vec<f64>,
-    /// Their rates by the width.
+    /// Their rates over the width.
     pub(in crate::synthesis) rates: Vec<f64>,
-    /// The pose on the other side from where it goes on, and the first that was come to from the drawn one; where there are any.
+    /// The pose before the current one, on the side away from the next step, and the first pose after the drawn one, if any.
     before: PassedPose,
     first: PassedPose,
-    /// The last correction of the next poses is smaller than this, in rad: after it contours are open by about its square, and rates
-    /// are as far from true as it says.
+    /// Bound for the last correction of the next poses, in rad. Contours are then open by about its square, and rates have about its error.
     pub(super) settled: f64,
     /// Sign of the determinant.
     sign: f64,
@@ -115,7 +115,7 @@ pub struct Walk<E> {
 }
 
 impl<E: FitEquations> Walk<E> {
-    /// Room for walks.
+    /// Creates a walk, not yet at any pose.
     #[must_use]
     pub fn new(equations: E) -> Walk<E> {
         let n = equations.size();
@@ -134,7 +134,7 @@ impl<E: FitEquations> Walk<E> {
         }
     }
 
-    /// Stands at the drawn pose; `false` where that is singular.
+    /// Moves to the drawn pose. Returns false if it is singular.
     pub fn stand_drawn(&mut self) -> bool {
         self.wider = 0.0;
         self.trial.fill(0.0);
@@ -156,7 +156,7 @@ impl<E: FitEquations> Walk<E> {
         self.before.passed = first.passed;
     }
 
-    /// How fast the drive goes by the width: mm or rad a millimetre.
+    /// Returns the rate of the drive over the width, in mm or rad per millimetre.
     #[must_use]
     pub fn drive_rate(&self) -> f64 {
         self.rates.last().copied().unwrap_or(0.0)
@@ -167,7 +167,8 @@ impl<E: FitEquations> Walk<E> {
         sizes.fold(0.0, f64::max)
     }
 
-    /// Closes the contours at a width from the trial, and takes it where the first correction is at most `most`.
+    /// Corrects the trial until the contours are closed at a width, and accepts it. Returns false if the first correction is more than
+    /// `most`.
     fn correct_pose(&mut self, wider: f64, most: f64) -> bool {
         for n in 0..CORRECTIONS {
             (self.equations).fill(&self.trial, wider, &mut self.rows);
@@ -188,8 +189,8 @@ impl<E: FitEquations> Walk<E> {
         false
     }
 
-    /// Takes the trial for the pose at a width, with the rates and the sign of the determinant found there; not where one of these has
-    /// changed its sign.
+    /// Accepts the trial as the pose at a width, with its rates and the sign of the determinant. Returns false if this sign or the sign of
+    /// the drive's rate has changed.
     fn take_trial(&mut self, wider: f64, sign: f64) -> bool {
         let rate = self.rows.get(self.x.len() - 1, 1);
         let same = self.sign == 0.0 || (sign == self.sign && rate * self.drive_rate() > 0.0);
@@ -209,13 +210,13 @@ impl<E: FitEquations> Walk<E> {
         true
     }
 
-    /// Goes on until the tips are so much farther apart than drawn.
+    /// Advances until the tips are `wider` millimetres farther apart than drawn.
     ///
     /// # Errors
-    /// Why it ends before, nearer to that end than `finest` millimetres; the pose is the last.
+    /// Returns why the walk ends before, located to `finest` millimetres. The pose is the last before that end.
     ///
     /// # Complexity
-    /// O(n³) for n links, for each of some corrections a step.
+    /// O(n³) for n links, for each of a few corrections per step.
     pub fn advance_to(&mut self, wider: f64, finest: f64) -> Result<(), StrokeEnd> {
         let mut step = wider - self.wider;
         while self.wider != wider {
@@ -240,13 +241,13 @@ impl<E: FitEquations> Walk<E> {
         Ok(())
     }
 
-    /// Puts into the trial where the unknown are likely to be so much farther on.
+    /// Predicts the unknowns a step farther on, and writes them to the trial.
     fn predict_pose(&mut self, by: f64) {
         let before = &self.before;
         for i in 0..self.trial.len() {
             let (x, rate) = (self.x[i], self.rates[i]);
             self.trial[i] = x + if before.passed {
-                // Hermite's cubic through both, by how many of the last step it goes on.
+                // Hermite's cubic through both poses, extrapolated by a multiple of the last step.
                 let (step, gone) = (self.wider - before.wider, x - before.x[i]);
                 let (then, now) = (step * before.rates[i], step * rate);
                 let (u, cubic) = (by / step, then + now - 2.0 * gone);

@@ -39,16 +39,16 @@ impl fmt::Display for Thing {
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(tag = "do", rename_all = "kebab-case", deny_unknown_fields)]
 pub enum Edit {
-    /// Another text altogether.
+    /// Another text of the whole file.
     Text {
-        /// All of it.
+        /// The whole text.
         text: String,
     },
-    /// A key of an item gets a value; null takes it away.
+    /// A key of an item gets a value; null removes it.
     Set {
-        /// What kind of item.
+        /// The kind of item.
         what: Thing,
-        /// Which.
+        /// Its id.
         id: String,
         /// The key.
         key: String,
@@ -57,28 +57,28 @@ pub enum Edit {
     },
     /// A key of the file itself, or of a table in it: `["search", "options"]`.
     Put {
-        /// The keys that lead to it.
+        /// The path of keys.
         path: Vec<String>,
-        /// The value; null takes it away.
+        /// The value; null removes it.
         value: Value,
     },
-    /// An item more, after the last of its kind.
+    /// A further item, after the last of its kind.
     Add {
-        /// What kind of item.
+        /// The kind of item.
         what: Thing,
         /// Its keys.
         entry: serde_json::Map<String, Value>,
     },
-    /// Another id, wherever it is named.
+    /// Another id, in every place that names it.
     Rename {
-        /// What kind of item.
+        /// The kind of item.
         what: Thing,
-        /// Which.
+        /// Its id.
         id: String,
         /// Its new name.
         to: String,
     },
-    /// Items go, with what names them: joints of a link, pairs, couplings and contours of a joint.
+    /// Items are removed, with the items that name them: joints of a link; pairs, couplings and contours of a joint.
     Remove {
         /// The items.
         items: Vec<(Thing, String)>,

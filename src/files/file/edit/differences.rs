@@ -79,7 +79,7 @@ fn put_changes(before: &MechanismFile, after: &MechanismFile) -> Vec<Edit> {
         let turn = serde_json::to_value(&after.search.turn).unwrap_or_default();
         out.push(put(&["search", "turn"], turn));
     }
-    // A basis that is left out is found anew.
+    // A basis that is omitted is computed again.
     let count = |f: &MechanismFile| f.contour.iter().map(|c| c.joints.len()).sum::<usize>();
     if count(before) != count(after) {
         out.push(put(&["contour"], Value::Null));

@@ -3,7 +3,7 @@
 use super::change::Thing;
 use toml_edit::{Array, DocumentMut, Item, Table, Value};
 
-/// Lists of ids: where they are, and what they name. `*` is every table of a list.
+/// Lists of ids: their paths, and the kinds of items that they name. `*` is every table of a list.
 const LISTS: [(&[&str], Thing); 9] = [
     (&["joint", "*", "links"], Thing::Link),
     (&["search", "hold"], Thing::Link),
@@ -16,7 +16,7 @@ const LISTS: [(&[&str], Thing); 9] = [
     (&["workload", "drive", "disc_link"], Thing::Link),
 ];
 
-/// Tables of lists that name one item by a key, and are about nothing else.
+/// Tables of lists that name one item by a key, and have no meaning without it.
 const TABLES: [(&[&str], &str, Thing); 5] = [
     (&["point"], "link", Thing::Link),
     (&["workload", "force"], "link", Thing::Link),
@@ -61,7 +61,7 @@ fn names_item(text: &str, id: &str) -> bool {
             .is_some_and(|rest| rest.starts_with(':'))
 }
 
-/// Puts another id in all places of the old one.
+/// Replaces an id in all its places.
 pub(super) fn rename_references(root: &mut Table, what: Thing, id: &str, to: &str) {
     for (path, _) in LISTS.iter().filter(|(_, of)| *of == what) {
         visit_path(root, path, &mut |item| rename_in(item, id, to));
@@ -89,7 +89,7 @@ fn rename_in(item: &mut Item, id: &str, to: &str) {
     }
 }
 
-/// Takes an id out of all places where it is named.
+/// Removes an id from all lists that name it.
 pub(super) fn remove_references(root: &mut Table, what: Thing, id: &str) {
     for (path, _) in LISTS
         .iter()
@@ -123,7 +123,7 @@ fn names_it(v: &Value, id: &str) -> bool {
     }
 }
 
-/// Removes blanks left over where the first item of a list was removed.
+/// Removes blanks that remain after the first item of a list was removed.
 fn trim_first_blank(list: &mut Array) {
     if let Some(first) = list.get_mut(0)
         && first.decor().prefix().and_then(|p| p.as_str()) == Some(" ")
@@ -132,7 +132,7 @@ fn trim_first_blank(list: &mut Array) {
     }
 }
 
-/// Does something with all that is at a path.
+/// Applies a function to all items at a path.
 fn visit_path(table: &mut Table, path: &[&str], act: &mut dyn FnMut(&mut Item)) {
     let [key, rest @ ..] = path else { return };
     let Some(item) = table.get_mut(key) else {

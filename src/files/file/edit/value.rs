@@ -1,10 +1,10 @@
-//! Values of a file: what is the same stays as it is written.
+//! Values of a file: unchanged values keep their spelling.
 
 use super::change::EditError;
 use serde_json::Value as Json;
 use toml_edit::{Array, InlineTable, Item, Table, Value};
 
-/// Gives a key a value, with the comment behind it kept; null takes the key away.
+/// Sets the value of a key, and keeps the comment behind it; null removes the key.
 pub(super) fn set_value(table: &mut Table, key: &str, to: &Json) -> Result<(), EditError> {
     if to.is_null() {
         table.remove(key);
@@ -19,7 +19,7 @@ pub(super) fn set_value(table: &mut Table, key: &str, to: &Json) -> Result<(), E
     Ok(())
 }
 
-/// Returns a value to replace another, written like the old one where it is the same, element by element in a list.
+/// Returns a value to replace another. Equal elements keep their spelling, element by element in a list.
 fn replace_value(old: &Value, key: &str, to: &Json) -> Result<Value, EditError> {
     if equals_json(old, to) {
         return Ok(old.clone());

@@ -10,7 +10,7 @@ use crate::model::joint_type::{CoupledFreedom, Coupling, Freedom, JointType};
 use crate::model::mechanism::{JointId, JointOption, Mechanism};
 use itertools::Itertools;
 
-/// Reads the couplings, and takes from coupled joints the options that cannot be coupled alike.
+/// Reads the couplings, and removes from coupled joints the options that cannot be coupled in the same way.
 pub(crate) fn read_couplings(file: &MechanismFile, mechanism: &mut Mechanism, out: &Findings) {
     for (at, entry) in out.key("coupling").each_entry(&file.coupling) {
         let joints = at.key("joints");
@@ -127,8 +127,7 @@ fn is_definite(t: &JointType, freedom: Freedom) -> bool {
     !turns.contains(&freedom) || !turns.iter().all(|f| t.freedoms().contains(f))
 }
 
-/// Takes options away that lack the coupled freedom, or have it about another axis. In a joint's own list that is a
-/// problem.
+/// Removes options that lack the coupled freedom, or have it about another axis. In a joint's own list that is a problem.
 fn check_options(file: &MechanismFile, mechanism: &mut Mechanism, out: &Findings) {
     for j in mechanism.joint_ids() {
         let coupled = coupled_freedoms(mechanism, j);

@@ -18,7 +18,7 @@ use crate::model::mechanism::{
 use itertools::Itertools;
 use std::collections::BTreeSet;
 
-/// Most states of a mechanism.
+/// Maximum number of states of a mechanism.
 const MOST_STATES: usize = 100;
 
 /// Returns the names of the states, `free` first.
@@ -59,7 +59,7 @@ fn read_joint(
 ) -> Option<Joint> {
     let ends = read_ends(entry, links, &at.key("links"));
     let Some(joint_type) = joint_type(&entry.id, &entry.kind, entry.freedoms.as_ref(), at) else {
-        // The rest depends on the type, but a bad point is worth telling in the same run.
+        // The rest depends on the type, but a wrong point is worth reporting in the same run.
         at.key("point").read_vector(&entry.point);
         return None;
     };

@@ -36,7 +36,7 @@ pub(crate) fn read_options(
         };
         let contained = contains_option(&option, present);
         if option.joint_type == present.joint_type && contained == Some(true) {
-            // The present joint, listed: keep its name and cost.
+            // The original joint is listed: keep its name and cost.
             if !listed {
                 options[0].name = option.name;
                 options[0].cost_milli = option.cost_milli.or(options[0].cost_milli);
@@ -86,8 +86,8 @@ fn read_allowed_option(
     .then_some(option)
 }
 
-/// Joints that are off by more than this, as an angle and as a fraction of the mechanism's size, are not mirror images,
-/// regardless of the rounding of their coordinates.
+/// Joints that differ by more than this are not mirror images, regardless of the rounding of their coordinates. As an angle in radians, and
+/// as a fraction of the mechanism's size.
 const NO_IMAGE: f64 = 1e-3;
 
 /// Reports pairs that are not mirror images.
@@ -168,7 +168,7 @@ pub(crate) fn read_search(
     spec
 }
 
-/// Most terms and limits.
+/// Maximum number of terms, and of limits.
 const MOST: usize = 100;
 
 fn read_term(word: &str, at: &Place<'_>) -> Option<Term> {

@@ -1,5 +1,5 @@
-//! Names, numbers and quantities, with what is allowed of each; how large a file may be, its unit of length, and `[parameter]`: numbers
-//! that expressions know by their names.
+//! Names, numbers and quantities, with the allowed values of each. Also the maximum size of a file, its unit of length, and `[parameter]`:
+//! numbers that expressions know by their names.
 
 pub(crate) mod quantity;
 
@@ -12,10 +12,10 @@ use num_bigint::BigInt;
 use num_rational::BigRational;
 use std::collections::BTreeMap;
 
-/// Most links, joints (and as many contours), and options of one joint in a file.
+/// Maximum number of links, of joints (and of contours), and of options of one joint in a file.
 pub(crate) const LIMITS: (usize, usize, usize) = (2000, 4000, 64);
 
-/// Most entries of the closure matrix written out: 256 MB, and an elimination of some minutes.
+/// Maximum number of entries of the closure matrix: 256 MB, and an elimination of some minutes.
 pub(crate) const ENTRIES: usize = 1 << 25;
 
 const UNITS: [(&str, f64); 5] = [
@@ -39,7 +39,7 @@ pub(crate) fn length_unit(file: &MechanismFile, out: &Findings) -> LengthUnit {
     LengthUnit { symbol, metres }
 }
 
-/// Most parameters.
+/// Maximum number of parameters.
 const MOST: usize = 64;
 
 /// Returns the parameters of a file by name.
@@ -71,7 +71,7 @@ pub(crate) fn with_parameters(file: &MechanismFile) -> Findings {
     out
 }
 
-/// Most names listed where one is not known.
+/// Maximum number of names listed if a name is unknown.
 const LISTED: usize = 30;
 
 impl Words {
@@ -85,7 +85,7 @@ impl Words {
 }
 
 impl Place<'_> {
-    /// Reports what is wrong with the name of an item. `twice` is true if another item has the same name.
+    /// Reports faults in the name of an item. `twice` is true if another item has the same name.
     pub(crate) fn check_id(&self, what: &str, id: &str, twice: bool) {
         let at = self.key("id");
         if id.is_empty() || id.chars().count() > 64 || id.chars().any(char::is_control) {
@@ -144,7 +144,7 @@ pub(crate) fn used_twice(what: &str, id: &str) -> String {
 
 /// Smallest nonzero and largest size of a coordinate.
 const RANGE: (f64, f64) = (1e-40, 1e12);
-/// A component of a direction that is a smaller part of the largest one is what a program makes of 0.
+/// A component of a direction that is a smaller part of the largest one is probably a rounded 0.
 const NOTHING: f64 = 1e-40;
 
 impl Place<'_> {
@@ -203,7 +203,7 @@ impl Place<'_> {
 
     fn in_range(&self, e: Expr) -> Expr {
         let size = e.to_f64().abs();
-        // An irrational expression may cancel to zero, and is then zero; a number that is too small for doubles is not.
+        // An irrational expression may cancel to zero, and is then zero; a number too small for doubles is not.
         let lost = size == 0.0 && e.as_rational().is_some() && !e.is_zero_rational();
         if is_usual(size) && !lost {
             return e;

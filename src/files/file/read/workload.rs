@@ -31,7 +31,7 @@ pub struct WorkloadFile<T> {
     pub length_unit: LengthUnit,
     /// Claims of publications about it.
     pub claims: Vec<Claim>,
-    /// The mechanism, where the file has links or joints.
+    /// The mechanism, if the file has links or joints.
     pub mechanism: Option<Mechanism>,
     /// The content of the table, in SI units.
     pub spec: T,

@@ -1,5 +1,4 @@
-//! Numbers such that they say what they said where they were read: those of the geometry, with what is stated of how well they are known,
-//! and those in the units of a file.
+//! Numbers that are written as they were read: those of the geometry, with their stated accuracy, and those in the units of a file.
 
 use crate::file::schema::{Coordinate, ToleranceEntry};
 use crate::geom::expr::{Digits, End, Expr, WrittenNumber, half_of};

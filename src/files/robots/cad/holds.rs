@@ -3,11 +3,11 @@
 /// A constraint. Lengths are in the assembly's unit; d is the vector from I's origin to J's.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Holds {
-    /// All.
+    /// All directions.
     Fixed,
-    /// Origins, and z with z.
+    /// Origins, and the directions of z.
     Revolute,
-    /// All but the way along z.
+    /// All directions except for translation along z.
     Translational,
     /// The lines along z.
     Cylindrical,
@@ -15,19 +15,19 @@ pub(crate) enum Holds {
     Spherical,
     /// Origins, and the two z at a right angle.
     Universal,
-    /// Origins, and as far as I is turned about its axis, so far J about its own.
+    /// Origins, and equal turns of I and J about their axes.
     ConstantVelocity,
-    /// The xy planes, so far apart along z of I.
+    /// The xy planes, at this distance along z of I.
     Planar(f64),
-    /// J's origin with a plane parallel to I's xy plane, so far along z.
+    /// J's origin and a plane parallel to I's xy plane, at this distance along z.
     PointInPlane(f64),
-    /// J's line along z with that plane.
+    /// J's line along z and a plane parallel to I's xy plane, at this distance.
     LineInPlane(f64),
-    /// J's origin with I's line along z.
+    /// J's origin and I's line along z.
     PointInLine,
     /// The directions of z.
     ParallelAxes,
-    /// All directions.
+    /// All rotations.
     NoRotation,
     /// The cosine of the angle between the two z.
     Angle(f64),
@@ -43,7 +43,7 @@ pub(crate) enum Holds {
     Gear([f64; 2]),
     /// Pitch radius of the pinion J, whose rack slides along x of I.
     RackPinion(f64),
-    /// Travel along z a turn.
+    /// Travel along z per turn.
     Screw(f64),
 }
 

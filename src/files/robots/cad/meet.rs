@@ -1,4 +1,4 @@
-//! A joint of an assembly at a pose: its type, its frame as I has it and as J has it. The two differ by the misfit.
+//! A joint of an assembly at a pose: its type, and its frame on I and on J. The two differ by the misfit.
 
 use crate::geom::rigid::{RigidMotion, perpendicular, unit_or_z};
 use crate::geom::vector::{Vector, add, add_scaled, cross, dot, length, scale, sub};
@@ -6,7 +6,7 @@ use crate::model::joint_type::{Freedom, JointType};
 use crate::robots::cad::holds::Holds;
 use crate::robots::description::{Part, Ratio};
 
-/// Sines and ways below this have no direction.
+/// Sines and lengths below this have no direction.
 const FLAT: f64 = 1e-6;
 
 /// A joint at its place in the world.
@@ -173,7 +173,7 @@ fn square_joint(holds: Holds, i: &RigidMotion, j: &RigidMotion) -> Result<Meetin
     if length(cross(z, line)) < FLAT {
         return Err("its two axes are parallel, but must be at a right angle");
     }
-    // J's frame has its own x, and z as near I's as that lets it be.
+    // J's frame has its own x, and a z as near to I's as this allows.
     let across = cross(line, cross(z, line));
     let far = make_frame(oj, across, line);
     Ok(match holds {
@@ -276,8 +276,8 @@ fn distance_joint(holds: Holds, i: &RigidMotion, j: &RigidMotion) -> Result<Meet
     }))
 }
 
-/// Returns the contact of two gears at the pitch point of the line of centres, where they do not slip across that line. The pitch
-/// point of a belt is outside.
+/// Returns the contact of two gears at the pitch point on the line of centres. They do not slip normal to that line. The pitch point of a
+/// belt is outside.
 fn gear_joint(i: &RigidMotion, j: &RigidMotion, [a, b]: [f64; 2]) -> Result<Meeting, &'static str> {
     use Freedom::{Rx, Ry, Tx, Ty, Tz};
     let z = frame_axis(i, 2);
@@ -287,7 +287,7 @@ fn gear_joint(i: &RigidMotion, j: &RigidMotion, [a, b]: [f64; 2]) -> Result<Meet
         return Err("its two axes coincide, so they have no line of centres");
     }
     if (a + b).abs() < FLAT * a.abs() {
-        // A belt on equal wheels: both turn alike.
+        // A belt on equal wheels: both turn in the same way.
         let there = make_frame(i.translation, z, d);
         let kind = JointType::Custom(vec![Rx, Ry, Tx, Ty, Tz]);
         return Ok(at_this_pose(Meeting::new(kind, there, there)));
@@ -358,7 +358,7 @@ pub(crate) fn find_coupling(
             if on != also_on || on == j || a.id == b.id || least <= NONE * size {
                 continue;
             }
-            // J's motion less I's is nothing in the direction held.
+            // The relative motion of J and I is zero in the constrained direction.
             return Some(Ratio {
                 joints: [a.id.clone(), b.id.clone()],
                 ratio: i_rate / j_rate,

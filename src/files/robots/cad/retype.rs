@@ -35,7 +35,7 @@ const SIMPLE: [([Left; 2], SimpleType); 6] = [
     ([Left::Along, Left::All], ("Parallel", "ParallelAxesJoint")),
 ];
 
-/// Which turns, or which slides, a joint leaves.
+/// The turns, or the slides, that a joint allows.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Left {
     None,
@@ -101,7 +101,7 @@ pub(crate) fn simple_type(
         return None;
     }
     let whole: Vec<(bool, Vector)> = own.iter().chain(more).copied().collect();
-    // A direction that the joint has already, but for rounding, makes it no other type.
+    // A direction that the joint already has, except for rounding, does not change its type.
     let other = |then: &SimpleType| more.is_empty() || type_with(&own, axis) != Some(*then);
     type_with(&whole, axis).filter(other)
 }
@@ -197,7 +197,7 @@ fn set_enumeration(
         return Err(retype_error(part, property, why));
     };
     edits.set_attribute(integer, "value", &place.to_string())?;
-    // So that FreeCAD solves the assembly anew when it opens the file.
+    // FreeCAD then solves the assembly again when it opens the file.
     let root = origin.element(origin.root);
     let has = |o: &Element<'_>| {
         let all = o.first_child("Properties");

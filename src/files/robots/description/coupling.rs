@@ -16,7 +16,7 @@ pub(crate) const LARGEST: usize = 2_000_000_000;
 /// A coupling that a mechanism file can represent.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Usable {
-    /// The joints that lead and follow, by their places in the robot.
+    /// The leading and the following joint, by their indices in the robot.
     pub(in crate::robots) ends: [usize; 2],
     /// The rate of the follower over the leader's.
     pub(in crate::robots) ratio: f64,
@@ -113,8 +113,8 @@ pub(crate) struct Follows {
     pub(in crate::robots) ratio: f64,
 }
 
-/// Returns for each joint the joint it follows, and a sentence for each coupling that mimic joints cannot represent: those of
-/// joints that are not `written` as joints of one freedom, and those that close a loop of couplings.
+/// Returns for each joint the joint it follows, and a sentence for each coupling that mimic joints cannot represent. Such couplings have
+/// joints that are not `written` as joints of one freedom, or close a loop of couplings.
 pub(crate) fn find_mimics(m: &Mechanism, written: &[bool]) -> (Vec<Option<Follows>>, Vec<String>) {
     let mut follows = vec![None; m.joints.len()];
     let mut said = vec![false; m.couplings.len()];

@@ -1,4 +1,4 @@
-//! How well the places of a robot are known: by the digits of the numbers that they are calculated from.
+//! Accuracy of the places of a robot, by the digits of the numbers from which they are calculated.
 
 use crate::file::schema::{Coordinate, ToleranceEntry};
 use crate::geom::expr::Expr;
@@ -16,8 +16,7 @@ const MOST: f64 = 0.09;
 /// Returns the tolerance of a mechanism made from the elements under a root, or `None` if no number there was rounded. The sizes
 /// are those of the robot and of the box around its joints, in metres.
 ///
-/// Each place is taken to be known as well as the number that is known least, a turn moving what is as far away as the robot
-/// is large.
+/// Every place is assumed to be as accurate as the least accurate number. A turn moves points at a distance of the robot's size.
 pub(crate) fn find_tolerance(root: Element<'_>, size: f64, across: f64) -> Option<ToleranceEntry> {
     let mut found = Sources::default();
     let degrees = Expr::from_f64(1f64.to_radians()).ok()?;

@@ -10,7 +10,7 @@ use crate::robots::description::{Part, Robot};
 use crate::robots::xml::Document;
 use crate::robots::xml::element::Element;
 
-/// The description that a mechanism was read from, and which of its elements the mechanism's parts are.
+/// The description that a mechanism was read from, and the elements of the mechanism's parts.
 #[derive(Debug, Clone)]
 pub struct Origin {
     pub(in crate::robots) document: Document,
@@ -21,9 +21,9 @@ pub struct Origin {
     pub(in crate::robots) robot: Robot,
     /// Places of the robot's links in the pose found.
     pub(in crate::robots) places: Vec<RigidMotion>,
-    /// The robot's joints that the mechanism's are.
+    /// The robot's joints, by joints of the mechanism.
     pub(in crate::robots) joints: Vec<usize>,
-    /// The elements that the mechanism's couplings are.
+    /// The elements of the mechanism's couplings.
     pub(in crate::robots) couplings: Vec<usize>,
 }
 

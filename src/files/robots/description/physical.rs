@@ -100,9 +100,10 @@ pub(crate) fn left_out(m: &Mechanism) -> Vec<String> {
     out
 }
 
-/// Mass, and moment of inertia about every axis, where nothing there weighs less than a thousand times as much.
+/// Maximum of the mass, and of the moment of inertia about every axis. A link of the robot with less than a thousand times as much lowers
+/// it.
 const MOST: [f64; 2] = [1e-4, 1e-7];
-/// The least: sdformat takes a mass of 1e-6 for none and drops the link, MuJoCo takes 1e-15 for nothing.
+/// Minimum of both: sdformat treats a mass of 1e-6 as none and drops the link, and MuJoCo treats 1e-15 as zero.
 const LEAST: [f64; 2] = [1e-5, 1e-12];
 /// A mass below this fraction of the heaviest is treated as a placeholder in the file.
 const STAND_IN: f64 = 1e-4;
@@ -121,7 +122,7 @@ impl Light {
             let most = all.iter().copied().fold(0.0, f64::max);
             let own = all.iter().copied().filter(|x| *x > STAND_IN * most);
             let least = own.fold(f64::INFINITY, f64::min);
-            // A power of ten reads well, and nobody takes it for a measured mass.
+            // A power of ten is easy to read, and cannot be mistaken for a measured mass.
             let thousandth = format!("1e{}", (least / 1000.0).log10().floor());
             let thousandth = thousandth.parse().unwrap_or(MOST[which]);
             thousandth.clamp(LEAST[which], MOST[which])

@@ -325,7 +325,7 @@ fn find_section<'a>(text: &'a str, heading: &str) -> Option<(usize, &'a str)> {
 /// from the end.
 fn read_shapes(text: &str) -> Option<Vec<BrepShape<'_>>> {
     let (count, body) = find_section(text, "TShapes")?;
-    // Each takes three lines at least.
+    // Each takes at least three lines.
     if count > body.len() / 3 {
         return None;
     }
@@ -337,7 +337,7 @@ fn read_shapes(text: &str) -> Option<Vec<BrepShape<'_>>> {
             continue;
         }
         let mut geometry = None;
-        // The geometry ends with seven flags in a line of their own.
+        // The geometry ends with seven flags in a separate line.
         for line in lines.by_ref() {
             let words: Vec<&str> = line.split_whitespace().collect();
             if matches!(words[..], [flags] if flags.len() == 7 && flags.bytes().all(|b| b"01".contains(&b)))

@@ -31,9 +31,9 @@ pub(crate) struct Reference<'a> {
     pub(crate) place: RigidMotion,
     /// The place in the part of the object that the frame is given in.
     pub(crate) inner: RigidMotion,
-    /// Why that is not known for sure.
+    /// Why the reference is uncertain.
     pub(crate) doubt: Option<String>,
-    /// Member of the archive with the shape that the element is of.
+    /// Member of the archive with the shape of the element.
     pub(crate) shape: Option<&'a str>,
     /// The kind of object, if it is not a shape.
     pub(crate) object: &'a str,
@@ -41,7 +41,7 @@ pub(crate) struct Reference<'a> {
     pub(crate) element: &'a str,
 }
 
-/// Why a reference leads nowhere, in words.
+/// Why a reference is broken, in words.
 pub(crate) type Broken = String;
 
 /// Returns the reference of a joint, `Reference1` or `Reference2`.
@@ -208,7 +208,7 @@ fn follow_names<'a>(
         at = resolve_link(at, documents, &mut out)?;
         let found = documents.document_of(at.file).and_then(|o| o.get(name));
         if is_body(&at.object) || name.is_empty() {
-            // Features of a body; the last that is there has the shape.
+            // Features of a body; the last existing one has the shape.
             out.shape = found
                 .and_then(Object::shape_member)
                 .filter(|_| at.file.is_empty())

@@ -243,8 +243,8 @@ pub(crate) fn link_of(robot: &Robot, name: &str) -> Result<usize, ProblemKind> {
     })
 }
 
-/// Returns the output links by their representatives: those asked for, or end effectors by name, or the ends of chains with a
-/// shape or a site, or all ends, or the farthest link from the frame; and a floating base.
+/// Returns the output links by their representatives, and a floating base. Output links are the first that exist of: requested links, end
+/// effectors by name, ends of chains with a shape or a site, all ends, the farthest link from the frame.
 pub(crate) fn output_links(
     robot: &Robot,
     bodies: &Bodies,

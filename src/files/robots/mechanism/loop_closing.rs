@@ -9,18 +9,18 @@ use ozols_dense::{Matrix, solve_positive};
 
 /// A loop that is open by less than this fraction of the robot's size counts as closed: coordinates are rounded.
 pub(crate) const CLOSED: f64 = 1e-6;
-/// A loop that no motion of the joints closes further, and that is open by less than this fraction, also counts as closed: if
-/// constraints are redundant, rounded coordinates contradict each other in their last digit. It is reported.
+/// A loop that is open by less than this fraction also counts as closed if no motion of the joints closes it further. With redundant
+/// constraints, rounded coordinates contradict each other in their last digit. It is reported.
 pub(crate) const ROUNDED: f64 = 5e-4;
-/// Most unknowns; beyond them a pose has to be given.
+/// Maximum number of unknowns; with more, a pose must be given.
 const MAX_UNKNOWNS: usize = 600;
-/// Most steps from one start, and most starts.
+/// Maximum number of steps from one start, and of starts.
 const STEPS: usize = 300;
 const STARTS: usize = 12;
-/// Longest step of a joint, in radians or sizes of the robot: the loops close near by or not at all.
+/// Maximum step of a joint, in radians or sizes of the robot: the loops close near by or not at all.
 const LONGEST: f64 = 0.3;
 
-/// How far a loop is from closed.
+/// Error of a loop that is not closed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Gap {
     pub(in crate::robots) joint: usize,

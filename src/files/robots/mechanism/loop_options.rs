@@ -37,7 +37,7 @@ pub(crate) fn at_loops(m: &Mechanism, closes: &[bool], file: &mut MechanismFile)
         any |= !tables.is_empty();
         if !tables.is_empty() {
             let entry: &mut JointEntry = &mut file.joint[j.index()];
-            // Options hold what the joint can do now: all do where it is rigid, none of the words where it is a ball.
+            // Options include the original joint. All words do so if it is rigid, and none if it is a ball.
             let rigid = m.joints[j].joint_type == JointType::Fixed;
             let words = file.search.options.iter().filter(|_| rigid).cloned();
             entry.options = Some(words.chain(tables).collect());
@@ -92,7 +92,7 @@ fn option_table(kind: &JointType, more: &[(bool, Vector)]) -> OptionEntry {
         JointType::Fixed => String::new(),
         t => format!("{} + ", t.name()),
     };
-    // With one more freedom it has a name of its own.
+    // With one more freedom it has a separate name.
     let named = match (kind, more) {
         (JointType::Spherical, [(true, _)]) => Some(JointType::SphereInCylinder),
         (JointType::Fixed, [(true, _)]) => Some(JointType::Prismatic),

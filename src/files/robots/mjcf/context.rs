@@ -134,7 +134,7 @@ pub(crate) struct Defaults<'a> {
     classes: BTreeMap<&'a str, (Option<&'a str>, Vec<Element<'a>>)>,
 }
 
-/// The places where an element's attributes are looked up: itself, then its classes from the innermost out.
+/// The elements in which an element's attributes are looked up: itself, then its classes from the innermost out.
 #[derive(Debug)]
 pub(crate) struct Lookup<'a> {
     places: Vec<Element<'a>>,
@@ -167,8 +167,8 @@ impl<'a> Defaults<'a> {
         Ok(Defaults { classes })
     }
 
-    /// Returns the elements that hold the attributes of an element: itself, then `tag` in its class, otherwise in that of the
-    /// bodies around it, otherwise in the main one.
+    /// Returns the elements that hold the attributes of an element. The first is the element itself. The second is `tag` in its class,
+    /// otherwise in the class of the bodies around it, otherwise in the main one.
     pub(crate) fn lookup(
         &self,
         e: Element<'a>,

@@ -1,5 +1,5 @@
-//! Joints of one more freedom in an MJCF file: `<joint>`s added to a body behind its own, and bodies put in between what a
-//! `<connect>` or `<weld>` holds together. Keyframes get the numbers of the new joints.
+//! Joints of one more freedom in an MJCF file. `<joint>`s are added to a body behind its own joints, and bodies are inserted between the
+//! two sides of a `<connect>` or `<weld>`. Keyframes get the numbers of the new joints.
 
 use crate::geom::rigid::RigidMotion;
 use crate::geom::vector::{Vector, dot, sub};
@@ -17,8 +17,8 @@ use std::collections::BTreeMap;
 
 /// Armature if the weights of links are unknown, in kg and kg·m²: too much is harmless, too little is not.
 const HEAVY: f64 = 10.0;
-/// Armature over what links weigh. At 1 joints of a ladder of four loops are 1.4e-3 rad from those of the model as it was after half a
-/// second, at 10 they are 4e-4.
+/// Armature as a multiple of the weight of links. In a ladder of four loops, joints differ from those of the original model by 1.4e-3 rad
+/// after half a second at 1, and by 4e-4 at 10.
 const TIMES: f64 = 10.0;
 
 /// Gives joints freedoms.
@@ -33,7 +33,7 @@ pub(crate) fn free_joints(origin: &Origin, all: &[Freeing<'_>], edits: &mut Edit
         inserted: Vec::new(),
     };
     for &(part, e, freed) in all {
-        // A connect that may slide in three ways holds nothing.
+        // A connect that may slide in three directions has no constraints.
         let slides = freed.iter().filter(|f| f.0).count();
         if e.name() == "connect" && slides == 3 {
             let why = "ozols fix: disabled, because other joints impose the same constraints";
@@ -49,7 +49,7 @@ pub(crate) fn free_joints(origin: &Origin, all: &[Freeing<'_>], edits: &mut Edit
     file.extend_keyframes(edits)
 }
 
-/// Leaves an equality of joints out.
+/// Removes an equality of joints.
 pub(crate) fn deactivate(
     origin: &Origin,
     element: usize,
@@ -67,7 +67,7 @@ pub(crate) fn deactivate(
 enum KeyframeMark {
     /// Behind a joint.
     Joint(usize),
-    /// Behind all that is within a body or the world.
+    /// Behind all elements within a body or the world.
     Within(usize),
     /// Behind a site.
     Site(usize),
@@ -79,7 +79,7 @@ struct MjcfFile<'a> {
     parents: Vec<Option<usize>>,
     /// The weights of the links, in their frames.
     weights: BTreeMap<usize, Weight>,
-    /// Joints put in.
+    /// Inserted joints.
     inserted: Vec<(KeyframeMark, usize)>,
 }
 
@@ -130,10 +130,10 @@ impl<'a> MjcfFile<'a> {
         Ok(out)
     }
 
-    /// Returns the armature of a new joint next to a part, in kg for a slide and in kg·m² for a hinge: ten times that of the
-    /// links that the part joins. MuJoCo softens a constraint by the mean weight of its bodies in all directions. A light body in
-    /// between, or a thin one that may turn, would let the loop open. The new joint does not move while the loop stays closed, so
-    /// its armature changes no motion.
+    /// Returns the armature of a new joint next to a part, in kg for a slide and in kg·m² for a hinge. It is ten times that of the links
+    /// that the part joins. MuJoCo softens a constraint by the mean weight of its bodies in all directions. A light body in between, or a
+    /// thin one that may turn, would let the loop open. The new joint does not move while the loop stays closed, so its armature changes no
+    /// motion.
     fn armature(&self, part: &Part, slides: bool, point: Vector) -> String {
         let felt = |(link, w): (usize, &Weight)| {
             let at = self.origin.places[link].then(&w.place).translation;
@@ -152,7 +152,7 @@ impl<'a> MjcfFile<'a> {
                 .map(|(&l, w)| felt((l, w)))
                 .fold(0.0, f64::max)
         };
-        // Two digits are enough; more than is there does no harm.
+        // Two digits are enough; a larger value does no harm.
         let most = [joined, all(), HEAVY].into_iter().find(|x| *x > 0.0);
         let rounded = format!("{:.1e}", TIMES * most.unwrap_or(HEAVY)).parse::<f64>();
         rounded.unwrap_or(HEAVY).to_string()

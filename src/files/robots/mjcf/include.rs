@@ -6,7 +6,7 @@ use crate::robots::xml::element::Element;
 use crate::robots::xml::{self, Document};
 use std::path::{Component, Path};
 
-/// Deepest nesting of files, and most includes in all.
+/// Maximum depth of nested files, and number of includes.
 const LIMITS: (usize, usize) = (16, 1000);
 
 /// Replaces all `<include>` elements below `root` by the included files; with `outside`, files outside its folder

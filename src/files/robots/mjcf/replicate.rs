@@ -17,7 +17,7 @@ pub(super) fn expand_replicates(document: &mut Document, root: usize) -> Read<()
         order.push(id);
         stack.extend(&document.nodes[id].children);
     }
-    // From the inside out: children come after what is around them.
+    // From the inside out: children come after the elements around them.
     for id in order.into_iter().rev() {
         let children = document.nodes[id].children.clone();
         let mut all = Vec::with_capacity(children.len());

@@ -15,7 +15,7 @@ use crate::robots::warning::Read;
 use crate::robots::xml::element::Element;
 use std::collections::BTreeMap;
 
-/// Returns what the links weigh, in their frames; the robot is that of the same document.
+/// Returns the weights of the links, in their frames; the robot is that of the same document.
 pub(super) fn read_weights(root: Element<'_>, robot: &Robot) -> Read<BTreeMap<usize, Weight>> {
     let defaults = Defaults::read(root)?;
     let settings = Settings::read_settings(root)?;
@@ -124,8 +124,8 @@ mod tests {
         );
     }
 
-    /// Masses of 3 and 1 kg at (0, 0, 0) and (0.2, 0.1, 0.4) have their middle a quarter of the way, and, beside what each is
-    /// itself, the inertia of 3/4 kg so far apart.
+    /// Masses of 3 and 1 kg at (0, 0, 0) and (0.2, 0.1, 0.4) have their centre a quarter of the way. Their inertia is that of each, and
+    /// that of 3/4 kg at their distance.
     #[test]
     fn shapes_apart_weigh_together() {
         let w = weighed(

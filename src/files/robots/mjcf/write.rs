@@ -100,7 +100,7 @@ struct MjcfWriter<'a> {
     between: BTreeMap<LinkId, Vec<String>>,
     /// The children of a link, each with its joint and the sense in which it is passed.
     children: BTreeMap<LinkId, Vec<(LinkId, JointId, f64)>>,
-    /// In how many bodies a link is written, where it is more than one: its own, and one on each joint that closes a loop there.
+    /// Number of bodies of a link, if it is more than one: its own, and one on each joint that closes a loop there.
     parts: BTreeMap<LinkId, f64>,
     /// Names of the joints that are one freedom.
     joints: BTreeMap<(JointId, Freedom), String>,
@@ -165,9 +165,9 @@ impl MjcfWriter<'_> {
         !kind.freedoms().is_empty() && (*kind != JointType::Spherical || coupled)
     }
 
-    /// Returns the weight of a body that is welded to `link`, as an attribute list: an equal part of the link, so that the whole
-    /// moves in the same way. MuJoCo softens a weld by the weight of its bodies, and would let the loop open at a very light one.
-    /// A body welded to the frame does not move: it weighs as much as the link `other`.
+    /// Returns the weight of a body that is welded to `link`, as an attribute list. It is an equal part of the link, so that the whole
+    /// moves in the same way. MuJoCo softens a weld by the weight of its bodies, and would let the loop open at a very light one. A body
+    /// welded to the frame does not move: it weighs as much as the link `other`.
     fn weight_attributes(&self, link: LinkId, other: LinkId, at: Vector) -> String {
         let of = if link == self.m.frame_link() {
             other

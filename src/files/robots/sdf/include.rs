@@ -6,7 +6,7 @@ use crate::robots::warning::{Read, unsupported_problem};
 use crate::robots::xml::element::Element;
 use crate::robots::xml::{self, Document};
 
-/// Deepest nesting of files, and most includes in all.
+/// Maximum depth of nested files, and number of includes.
 const LIMITS: (usize, usize) = (16, 1000);
 
 /// Included files that are not mechanisms, and that few users have: Gazebo's own light and floor.

@@ -10,7 +10,7 @@ use crate::robots::xml::element::Element;
 
 pub(crate) const TYPES: &str =
     "revolute, continuous, prismatic, screw, universal, revolute2, ball, fixed, floating, gearbox";
-/// A parent frame this far from the joint, as a fraction of the lengths in the file, is where the joint is to go.
+/// Distance of a parent frame from the joint, as a fraction of the lengths in the file, beyond which the joint moves to it.
 pub(crate) const APART: f64 = 1e-6;
 
 /// Returns the direction of `<axis>` or `<axis2>` in the world.

@@ -7,12 +7,12 @@ use crate::robots::warning::{Read, list_known, unknown_name};
 use crate::robots::xml::element::Element;
 use std::collections::BTreeMap;
 
-/// Something that has a place: a model, link, frame or joint.
+/// An element with a place: a model, link, frame or joint.
 pub(crate) struct Placed<'a> {
     pub(super) element: Element<'a>,
-    /// The name of the thing its place is relative to.
+    /// The name of the element that its place is relative to.
     pub(super) relative_to: String,
-    /// Place in that.
+    /// Place relative to that element.
     pub(super) raw: RigidMotion,
     /// The element it moves with: itself for links, another name for frames, the child for joints.
     pub(super) attached_to: String,
@@ -101,7 +101,7 @@ pub(crate) fn unknown_name_error(e: Element<'_>, name: &str, scene: &SdfScene<'_
 pub(crate) fn resolve_places(scene: &mut SdfScene<'_>) -> Read<()> {
     let names: Vec<String> = scene.placed.keys().cloned().collect();
     for name in names {
-        // Down to something whose place is known, then back.
+        // Down to an element whose place is known, then back.
         let mut path: Vec<String> = Vec::new();
         let mut at = name;
         let mut base = loop {

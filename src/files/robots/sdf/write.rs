@@ -124,7 +124,7 @@ impl SdfWriter<'_> {
         }
         let name = |l: LinkId| self.links[l].clone().unwrap_or_else(|| WORLD.to_owned());
         let [mut a, mut b] = joint.links.map(name);
-        // The world is nobody's child: passed from the other end, a joint moves the other way about what comes last.
+        // The world is not a child of any joint. Passed from the other end, a joint moves in the opposite direction, last axis first.
         let back = b == WORLD;
         if back {
             (a, b) = (b, a);
@@ -199,7 +199,7 @@ fn write_axis(tag: &str, d: [f64; 3]) -> String {
     )
 }
 
-/// Returns the SDF joint of a type and its content, or `None` if there is none; `back` is true if it is passed from its second
+/// Returns the SDF joint of a type and its content, or `None` if SDF has no such joint. `back` is true if it is passed from its second
 /// link.
 fn sdf_joint(t: &JointType, p: &JointAxes, back: bool) -> Option<(&'static str, String)> {
     let [x, _, z] = p.axes;

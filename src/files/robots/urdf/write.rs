@@ -22,7 +22,7 @@ struct UrdfWriter<'a> {
     light: String,
     links: Names,
     joints: Names,
-    /// Name of each link that is written, and where its frame is.
+    /// Name of each written link, and the place of its frame.
     placed: Vec<Option<(String, [f64; 3])>>,
     /// Names of the joints.
     ids: Vec<String>,
@@ -121,7 +121,7 @@ impl UrdfWriter<'_> {
         let mut at = sub(p.point, origin);
         let id = self.ids[j].clone();
         let child = self.write_link(step.link, p.point);
-        // The child moves the other way where the joint is passed backwards.
+        // The child moves in the opposite direction if the joint is passed backwards.
         let sign = if step.forward { 1.0 } else { -1.0 };
         let parts = joint_kinds(self.m, j, sign)?;
         for (i, (kind, axis)) in parts.iter().enumerate() {

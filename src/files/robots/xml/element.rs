@@ -9,9 +9,9 @@ use crate::robots::warning::{
 use crate::robots::xml::{Document, Node};
 use std::ops::Range;
 
-/// Most links, and most joints, of a robot.
+/// Maximum number of links, and of joints, of a robot.
 const MAX_PARTS: usize = 10_000;
-/// Largest size of a number; the mechanism file takes lengths up to 1e12.
+/// Maximum absolute value of a number; the mechanism file takes lengths up to 1e12.
 const MAX_NUMBER: f64 = 1e9;
 
 /// An element.
@@ -120,7 +120,7 @@ impl<'a> Element<'a> {
         found.ok_or_else(|| self.missing_error(&format!("attribute {name}")))
     }
 
-    /// Returns the error for something that is missing.
+    /// Returns the error for a missing item.
     pub(crate) fn missing_error(self, what: &str) -> ImportError {
         self.error_at(None, missing_problem(&self.label(), what))
     }

@@ -1,8 +1,8 @@
 //! The δ-point method for the four-link group with a closed contour, step by step as published.
 //!
 //! # Sources
-//! `[Bychkov, Dvornikov & Zhukov 2018]`, equations for links 4, 6, 7, 10. DIFFERENCE: the moment of an inertia force is added as
-//! a couple, not by offsetting the force by h = M/F, which has no value for a link that turns about its mass centre.
+//! `[Bychkov, Dvornikov & Zhukov 2018]`, equations for links 4, 6, 7, 10. DIFFERENCE: the moment of an inertia force is added as a couple.
+//! The source offsets the force by h = M/F, which has no value for a link that turns about its mass centre.
 
 use crate::statics::contour_group::pose::{GroupPose, GroupReactions};
 use crate::statics::pose::{cross, dot, length, minus, plus, quarter_turn};
@@ -45,9 +45,8 @@ fn force_plan(u: [f64; 2], v: [f64; 2], w: [f64; 2]) -> [f64; 2] {
     [-cross(w, v) / area, -cross(u, w) / area]
 }
 
-/// Returns the reactions of a group by the δ-point method. They are not finite, or worthless, if rods 6 and 7 are
-/// parallel, D lies on the line through δ along the guide's normal, or D is at δ. The same holds for the arm h if
-/// R_0/10 vanishes.
+/// Returns the reactions of a group by the δ-point method. They are not finite, or worthless, in three cases: rods 6 and 7 are parallel, D
+/// lies on the line through δ along the guide's normal, or D is at δ. The same holds for the arm h if R_0/10 vanishes.
 ///
 /// # Complexity
 /// O(number of loads).

@@ -1,4 +1,4 @@
-//! The force plans of the four-link group: of the whole group, then of links 4, 7 and 6, each by the δ-point method and
+//! The force plans of the four-link group: one of the whole group, and one each of links 4, 7 and 6. Each is made by the δ-point method and
 //! by the equilibrium of all links.
 
 use crate::statics::contour_group::pose::GroupReactions;
@@ -96,7 +96,7 @@ struct SolvedGroup<'g> {
 }
 
 impl SolvedGroup<'_> {
-    /// Returns a reaction, complete or in its parts; see [`parts`].
+    /// Returns a reaction, complete or in its parts; see [`split_reaction`].
     fn drawn_reaction(
         &self,
         name: &str,

@@ -99,7 +99,7 @@ pub struct GroupReactions {
     pub m: [f64; 2],
     /// Reaction of link 10 on link 7 at L `[N]`.
     pub l: [f64; 2],
-    /// R_0/10, of the guide on link 10 along [`GroupPose::normal`] `[N]`.
+    /// R_0/10, of the guide on link 10 along [`GroupPose::guide_normal`] `[N]`.
     #[serde(rename = "guide")]
     pub guide: f64,
     /// Moment of the guide's reaction about D `[N·m]`.

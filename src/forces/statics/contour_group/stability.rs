@@ -12,7 +12,7 @@ use chacha20::ChaCha8Rng;
 use chacha20::rand_core::{Rng, SeedableRng};
 use rayon::prelude::*;
 
-/// Number of groups tested at each distance in [`study`].
+/// Number of groups tested at each distance in [`study_failures`].
 pub const GROUPS: usize = 9;
 
 /// Configurations in which the δ-point method fails. `[Bychkov, Dvornikov & Zhukov 2018]`

@@ -1,7 +1,7 @@
 //! Contacts of a clamped part with their actual behaviour: faces that push, hold by friction, and never pull.
 //!
-//! The equations treat a contact as a joint, which pulls as well as pushes. [`contacts`] determines which joints are
-//! faces and in which direction they push. [`Contact::force`] gives the force that a solution requires of one, and
+//! The equations treat a contact as a joint, which pulls as well as pushes. [`find_contacts`] determines which joints are
+//! faces and in which direction they push. [`Contact::contact_force`] gives the force that a solution requires of one, and
 //! whether a face can provide it.
 
 use crate::geom::vector::{add_scaled, dot, sub};

@@ -156,7 +156,7 @@ struct Wheel {
     sense: f64,
 }
 
-/// Returns the teeth of a coupling, or `None` if the file does not state that there are any, or where they are.
+/// Returns the teeth of a coupling, or `None` if the file does not state that there are any, or their place.
 pub(crate) fn find_teeth(
     m: &Mechanism,
     posed: &PosedFreedoms<'_>,

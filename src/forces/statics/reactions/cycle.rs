@@ -41,7 +41,7 @@ pub fn solve_cycle(
 /// Returns the reactions with the requested treatment of contacts.
 ///
 /// # Errors
-/// Returns an error in the same cases as [`cycle`].
+/// Returns an error in the same cases as [`solve_cycle`].
 pub(crate) fn cycle_with(
     m: &Mechanism,
     state: StateId,

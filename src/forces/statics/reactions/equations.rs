@@ -182,7 +182,7 @@ impl<'g> System<'g> {
 const RIGID: f64 = 1e-6;
 
 /// Adds self-stresses so that Σ (weight · value - aim)² is minimal, with weights and aims by value of
-/// [`Transmitted::flat`].
+/// [`Transmitted::flat_values`].
 fn fit_stresses(
     geometry: &Geometry,
     of: &mut Transmitted,

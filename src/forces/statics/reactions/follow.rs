@@ -14,7 +14,7 @@ pub struct Followed {
     pub poses: Vec<(f64, Pose)>,
     /// First position that could not be reached.
     pub stopped: Option<f64>,
-    /// The position of the drive where it stopped, and the pose.
+    /// The position of the drive at which it stopped, and the pose.
     pub last: Option<(f64, Pose)>,
 }
 

@@ -1,8 +1,7 @@
 //! A pose in numbers suitable for statics: unit twists about the middle of the joints, lengths in the mechanism's size.
 //!
-//! Middle and size are the mean and the root mean square distance of the joints' points, so that results do not depend
-//! on the axes of the file. Twists are (ω; v), wrenches (m; f), forces in newtons and moments in newtons times the
-//! size.
+//! Middle and size are the mean and the root mean square distance of the joints' points. So results do not depend on the axes of the file.
+//! Twists are (ω; v), wrenches (m; f), forces in newtons and moments in newtons times the size.
 
 use crate::closure::contour::{Contour, contour_basis};
 use crate::closure::tree::{TreeStep, spanning_tree};
@@ -196,7 +195,7 @@ impl Geometry {
         out
     }
 
-    /// Returns the closure matrix of some columns: a column for each of them, as by [`Geometry::row`].
+    /// Returns the closure matrix of some columns: a column for each of them, as by [`Geometry::closure_row`].
     pub(crate) fn closure_matrix(&self, columns: &[usize]) -> Matrix {
         let rows: Vec<Vec<f64>> =
             (columns.iter().map(|&c| self.closure_row(&self.columns[c]))).collect();

@@ -1,10 +1,9 @@
 //! Inertia forces of the links while the drives move at constant speeds.
 //!
-//! Speeds of the freedoms close every contour, Σ ± q̇ t = 0, and their rates also close: Σ ± q̈ t = -Σ ± q̇ [V, t].
-//! Here V is the velocity of the body that carries the freedom's twist t along the contour, and [V, t] the bracket of
-//! twists [Müller 2018, "Screw and Lie group theory in multibody kinematics", sec. 4]. Idle freedoms have the smallest
-//! speeds and rates that close. By D'Alembert, a link then carries the force -m a at its mass centre and the moment -(I
-//! α + ω × I ω).
+//! Speeds of the freedoms close every contour, Σ ± q̇ t = 0, and their rates also close: Σ ± q̈ t = -Σ ± q̇ [V, t]. Here V is the velocity
+//! of the body that carries the freedom's twist t along the contour. [V, t] is the bracket of twists [Müller 2018, "Screw and Lie group
+//! theory in multibody kinematics", sec. 4]. Idle freedoms have the smallest speeds and rates that close. By D'Alembert, a link then
+//! carries the force -m a at its mass centre and the moment -(I α + ω × I ω).
 
 use crate::geom::rigid::split_twist;
 use crate::geom::vector::{add, add_scaled, cross, dot, length, scale, to_vector};

@@ -1,10 +1,8 @@
-//! What inaccurate joints cost in assembly: the forces that close the loops of a redundant mechanism whose joints are made and
-//! mounted within tolerances.
+//! Assembly forces of inaccurate joints. They close the loops of a redundant mechanism whose joints are made and mounted within tolerances.
 //!
-//! Each joint has a random shift and turn. Reactions of elastic joints are linear in them, r = R·e, so one solution for each
-//! component of e gives the matrix R, and the covariance of the reactions is R·Σ·Rᵀ for independent errors with variances Σ. Without
-//! redundant constraints R is zero: a determinate mechanism assembles without force, which is the argument of [Pogrebnyak
-//! 2018] for it.
+//! Each joint has a random shift and turn. Reactions of elastic joints are linear in them, r = R·e, so one solution for each component of e
+//! gives the matrix R. For independent errors with variances Σ, the covariance of the reactions is R·Σ·Rᵀ. Without redundant constraints R
+//! is zero: a determinate mechanism assembles without force, which is the argument of [Pogrebnyak 2018] for it.
 
 use crate::model::loads::{Loads, Misalignment, Stiffness};
 use crate::model::mechanism::{JointId, Mechanism, StateId};

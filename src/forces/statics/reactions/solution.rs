@@ -45,7 +45,7 @@ pub struct CouplingReaction {
     /// Its effort on each joint's second link along the freedom: torque `[N·m]` of a turn, force `[N]` of a slide. The
     /// teeth of gears exert the opposite on the link on the other side of the joint.
     pub efforts: [f64; 2],
-    /// The teeth, if the file states that there are any and where, and if the joints carry their forces.
+    /// The teeth, if the file states their existence and place, and if the joints carry their forces.
     pub teeth: Option<ToothForce>,
 }
 

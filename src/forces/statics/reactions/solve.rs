@@ -57,8 +57,8 @@ impl Reactions {
         Self::solve_at(m, state, loads, &pose, 0.0, &drives)
     }
 
-    /// Returns the reactions at any pose, with the first drive `drive` `[rad]` or file units away from the pose of the
-    /// file, and with the freedoms that the drives hold.
+    /// Returns the reactions at any pose, with the freedoms that the drives hold. The first drive is `drive` `[rad]` or file units away
+    /// from the pose of the file.
     ///
     /// # Errors
     /// Returns an [`Unsolved`].

@@ -246,7 +246,7 @@ fn loaded_inertia(
     Some(1.0)
 }
 
-/// Most steps of a programme.
+/// Maximum number of steps of a programme.
 pub(in crate::file::read) const MOST: usize = 10_000;
 
 /// Returns the given number of swings, of both discs in turn or only of the second, with a dwell after each if one is given.

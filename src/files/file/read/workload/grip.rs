@@ -9,7 +9,7 @@ use itertools::Itertools;
 
 /// Standard gravity. `[m/s²]`
 const GRAVITY: f64 = 9.80665;
-/// Most diameters and accelerations.
+/// Maximum number of diameters, and of accelerations.
 const MOST: usize = 1000;
 
 /// The keys for the mass of a part, which contacts and loads need.
@@ -175,7 +175,7 @@ fn read_joints(at: &Place<'_>, ids: &[String], m: &Mechanism) -> Vec<JointId> {
         .collect()
 }
 
-/// Reports what contacts need of the rest of the table.
+/// Reports conditions of contacts that the rest of the table does not meet.
 fn contacts_go_with(t: &Place<'_>, spec: &GripSpec) {
     let levers = spec.load.as_ref().map(|l| l.levers);
     if levers.is_none() {
@@ -198,7 +198,7 @@ struct Clamp<'a> {
     levers: [JointId; 2],
     /// Upper far, upper near, lower far, lower near.
     contacts: [JointId; 4],
-    /// The clamped object, where the first contact has one.
+    /// The clamped object, if the first contact has one.
     part: Option<LinkId>,
 }
 

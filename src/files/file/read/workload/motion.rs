@@ -5,9 +5,9 @@ use crate::file::schema::Quantity;
 use crate::model::loads::Stroke;
 use thiserror::Error;
 
-/// Most forces, moments or misalignments.
+/// Maximum number of forces, moments or misalignments.
 pub(in crate::file::read) const MAX_FORCES: usize = 10_000;
-/// Most steps of a stroke.
+/// Maximum number of steps of a stroke.
 pub(crate) const MAX_STEPS: usize = 100_000;
 /// Largest mass, inertia or speed.
 pub(in crate::file::read) const LARGEST: f64 = 1e12;
@@ -24,7 +24,7 @@ fn parse_speed(text: &str) -> Option<f64> {
     with_units(text, &units)
 }
 
-/// A stroke that is not written as one.
+/// A text that is not a valid stroke.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[error("stroke {0:?} is not FROM:TO:STEPS, such as 0:360deg:72 with 1 to {MAX_STEPS} steps")]
 pub struct NoStroke(String);

@@ -4,18 +4,18 @@ use crate::model::grip::MotionStep;
 use csv::StringRecord;
 use thiserror::Error;
 
-/// Most steps.
+/// Maximum number of steps.
 const MOST: usize = 100_000;
 
-/// The columns: the first three are needed, the three of gravity go together.
+/// The columns. The first three are required; the three of gravity require each other.
 const COLUMNS: [&str; 8] = ["ax", "ay", "az", "gx", "gy", "gz", "time", "diameter"];
 
-/// The problem with a table of a motion: the file, the line if it is known, and what is wrong.
+/// The problem with a table of a motion: the file, the line if it is known, and the fault.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[error("{0}")]
 pub struct TrajectoryError(String);
 
-/// Describes what is wrong with the names of columns.
+/// Describes the fault in the names of columns.
 fn check_names(names: &StringRecord) -> Result<(), String> {
     if let Some(unknown) = names.iter().find(|n| !COLUMNS.contains(n)) {
         return Err(format!("unknown column {unknown:?}"));
@@ -30,7 +30,7 @@ fn check_names(names: &StringRecord) -> Result<(), String> {
     Ok(())
 }
 
-/// Returns the step in a line, or describes what is wrong with it.
+/// Returns the step in a line, or describes its fault.
 fn read_step(names: &StringRecord, record: &StringRecord, unit: f64) -> Result<MotionStep, String> {
     let number = |column: &str, least: f64| {
         let Some(at) = names.iter().position(|n| n == column) else {

@@ -42,7 +42,7 @@ fn rotate_tensor(tensor: [f64; 6], place: &RigidMotion) -> [f64; 6] {
     [at(0, 0), at(1, 1), at(2, 2), at(0, 1), at(0, 2), at(1, 2)]
 }
 
-/// Returns several weights as one, in the axes of the frame that they are given in; none of nothing.
+/// Combines several weights into one, in the axes of their common frame. `None` if there is no mass.
 pub(super) fn combine(all: &[Weight]) -> Option<Weight> {
     let mass: f64 = all.iter().map(|w| w.mass).sum();
     if mass <= 0.0 {
@@ -82,13 +82,13 @@ pub(super) fn combine(all: &[Weight]) -> Option<Weight> {
 /// The settings of `<compiler>` for weights.
 pub(super) struct Settings {
     pub(super) compiler: Compiler,
-    /// The least mass and moment of inertia of a body.
+    /// Minimum mass and moment of inertia of a body.
     pub(super) least: [f64; 2],
     /// Whether an impossible tensor is replaced by that of a ball.
     pub(super) balance: bool,
     /// Whether shapes define the weights of bodies. `None` if they do so for bodies without `<inertial>` only.
     pub(super) from_shapes: Option<bool>,
-    /// The groups of shapes that weigh anything, from the first to the last.
+    /// The groups of shapes that have weight, from the first to the last.
     pub(super) groups: [f64; 2],
 }
 
@@ -136,7 +136,7 @@ impl Settings {
 /// Default density in kg/m³.
 const WATER: f64 = 1000.0;
 
-/// Returns the numbers of `size`; 0 where there are fewer than three.
+/// Returns the numbers of `size`; 0 for missing ones.
 fn read_sizes(look: &Lookup<'_>) -> Read<[f64; 3]> {
     let Some((e, text)) = look.attribute("size") else {
         return Ok([0.0; 3]);
@@ -153,18 +153,18 @@ fn read_sizes(look: &Lookup<'_>) -> Read<[f64; 3]> {
 
 /// The size of a shape and its place.
 struct Measures {
-    /// The numbers of `size`; 0 where there are fewer.
+    /// The numbers of `size`; 0 for missing ones.
     sizes: [f64; 3],
-    /// Half the length of what is round.
+    /// Half the length of a round shape.
     half: f64,
-    /// Half the depth and half the length of what has three sizes.
+    /// Half the depth and half the length of a shape with three sizes.
     deep: f64,
     long: f64,
     place: RigidMotion,
 }
 
 impl Measures {
-    /// Returns those of a shape.
+    /// Returns the sizes of a shape.
     fn read_measures(look: &Lookup<'_>, compiler: &Compiler) -> Read<Measures> {
         let sizes = read_sizes(look)?;
         let mut out = Measures {
@@ -177,7 +177,7 @@ impl Measures {
                 ..read_orientation(look, compiler)?
             },
         };
-        // Between two points a shape is round, or as deep as it is wide, and as long as they are apart.
+        // A shape between two points is round, or as deep as it is wide, and as long as their distance.
         if let Some([a, b, c, d, f, g]) = look.numbers::<6>("fromto")? {
             let (from, to) = ([a, b, c], [d, f, g]);
             out.half = length(sub(to, from)) / 2.0;
@@ -191,7 +191,7 @@ impl Measures {
     }
 }
 
-/// Returns what a shape weighs on its body or frame, where it weighs something.
+/// Returns the weight of a shape on its body or frame, if it has weight.
 pub(super) fn weight_of_shape(look: &Lookup<'_>, settings: &Settings) -> Read<Option<Weight>> {
     let measures = Measures::read_measures(look, &settings.compiler)?;
     let [group] = look.numbers::<1>("group")?.unwrap_or_default();
@@ -261,7 +261,7 @@ mod tests {
     use super::*;
     use crate::geom::vector::{X, Z};
 
-    // Two points of 1 kg on x, a metre apart, each in axes of its own: as one they resist about y and z alone.
+    // Two points of 1 kg on x, a metre apart, each in its own axes: together they have inertia about y and z only.
     #[test]
     fn weights_add_up() {
         let end = |x: f64| Weight {
