@@ -44,7 +44,8 @@ const SORTED: usize = 24;
 /// Weights of places that take part in the order of ideas, in all.
 const WEIGHED: u64 = 64;
 
-/// The variants that are minimal, in what they add and cost, as a diagram; all admissible ones where these are not known.
+/// Returns the variants that are minimal in what they add and cost, as a diagram. Returns all admissible ones if these are
+/// not known.
 pub(in crate::search) fn idea_variants<'d>(
     question: &Question,
     diagrams: &'d Diagrams,
@@ -103,7 +104,7 @@ impl IdeaBasis {
     }
 }
 
-/// The same among minimal variants, and how many steps down their diagram were taken to find them.
+/// Finds the first ideas among minimal variants, and counts the steps taken down their diagram.
 pub(in crate::search) fn ideas_in_steps(
     question: &Question,
     basis: &IdeaBasis,
@@ -142,7 +143,7 @@ pub(in crate::search) fn ideas_in_steps(
 /// Ideas that are brought in order together: their cost in thousandths, and how many such groups of that cost come before.
 type CostGroup = (i64, usize);
 
-/// The group of an idea of a cost that comes after those found.
+/// Returns the group of an idea of a cost that follows those found.
 fn cost_group(cost: i64, found: &[(CostGroup, Assignment)]) -> CostGroup {
     let before = found.iter().rev();
     let before = before.take_while(|((c, _), _)| *c == cost).count();
@@ -207,7 +208,7 @@ fn first_variants(
     best
 }
 
-/// The first of each idea in a list of variants, with its place in the list.
+/// Returns the first variant of each idea in a list, with its place in the list.
 pub fn first_of_each<'a>(
     question: &Question,
     list: impl Iterator<Item = &'a Assignment>,
@@ -255,7 +256,7 @@ pub fn ideas_among(
     out
 }
 
-/// The idea of a variant, with how many of the diagram it stands for.
+/// Returns the idea of a variant, with the number of variants in the diagram that share it.
 fn make_idea(
     question: &Question,
     diagram: &Diagram,
@@ -274,7 +275,7 @@ fn make_idea(
     }
 }
 
-/// How many variants of a diagram have a pattern.
+/// Returns the number of variants in a diagram that have a pattern.
 fn with_pattern(
     question: &Question,
     diagram: &Diagram,

@@ -49,8 +49,8 @@ pub(crate) fn count_minimal(question: &Question, diagrams: &Diagrams) -> Option<
     Some(count_total(question, &least, true))
 }
 
-/// The diagram of the minimal variants among the admissible; `None` where what is admissible is not all known, or where it takes
-/// too many nodes.
+/// Returns the diagram of the minimal variants among the admissible. `None` if not all admissible variants are known, or if
+/// it takes too many nodes.
 pub(in crate::search) fn minimal_diagram(
     question: &Question,
     diagrams: &Diagrams,
@@ -117,7 +117,7 @@ impl Order {
     }
 }
 
-/// The motion of each joint of a choice.
+/// Returns the motion of each joint of a choice.
 fn choice_spans(question: &Question, choice: &Choice) -> Vec<Echelon> {
     let span = |rows: &Vec<Vec<_>>| Echelon::from_vectors(question.exact.field(), rows);
     choice.spans.iter().map(span).collect()
@@ -131,7 +131,7 @@ struct Arrived {
     others: Vec<u32>,
 }
 
-/// The variants of a diagram without others that have less.
+/// Returns the variants of a diagram for which no other variant has less.
 fn minimal_variants(question: &Question, diagram: &Diagram, order: &Order) -> Option<Diagram> {
     if diagram.stop != Stop::Exhausted {
         return None;

@@ -30,8 +30,8 @@ pub(in crate::search) struct Proof {
     pub(in crate::search) stop: Stop,
 }
 
-/// A diagram of all variants up to the cost of the `most` cheapest, or up to as high a cost as the budget allows. `known`
-/// is the cost of that many variants known before, where there are so many.
+/// Returns a diagram of all variants up to the cost of the `most` cheapest, or up to the highest cost that the budget
+/// allows. `known` is the cost of that many variants, if so many are already known.
 pub(in crate::search) fn up_to(
     question: &Question,
     missing: &Missing,

@@ -169,7 +169,7 @@ fn possible_changes(
         .collect()
 }
 
-/// The rank of the wrenches' powers on some twists.
+/// Returns the rank of the matrix of powers of the wrenches on some twists.
 fn power_rank(exact: &ExactField, wrenches: &[Vec<Residue>], twists: &[Vec<Residue>]) -> usize {
     let f = exact.field();
     let powers = |t: &Vec<Residue>| wrenches.iter().map(|w| f.dot(w, t)).collect::<Vec<_>>();
@@ -206,7 +206,7 @@ impl<'a> Carried<'a> {
         }
     }
 
-    /// A basis of the wrenches that a joint carries, six at most.
+    /// Returns a basis of the wrenches that a joint carries, at most six.
     fn wrenches_at(&self, joint: JointId) -> Vec<Vec<Residue>> {
         let (f, dim) = (self.exact.field(), self.dim);
         let mut span = Echelon::new(f);

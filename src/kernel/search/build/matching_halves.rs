@@ -38,8 +38,8 @@ pub(super) struct Grouped {
 }
 
 impl Grouped {
-    /// Groups nodes by their rows in reduced form, which have the motion of kept links as the last number. A node that moves these and
-    /// closes every contour is completed by none.
+    /// Collects nodes by their rows in reduced form, which have the motion of kept links as the last number. A node that moves
+    /// these and closes every contour has no completion.
     pub(super) fn group_nodes(nodes: impl Iterator<Item = Vec<Vec<Residue>>>) -> Grouped {
         let mut grouped = Grouped::default();
         nodes.for_each(|rows| grouped.take_node(rows));

@@ -125,7 +125,7 @@ pub(in crate::search) fn flat_stages(
     order.iter().enumerate().map(stage).collect()
 }
 
-/// The diagram of no variant, for variables in an order.
+/// Returns the diagram without variants, for variables in an order.
 pub(in crate::search) fn empty_diagram(question: &Question, order: &[usize]) -> Diagram {
     let layer = |(t, &variable): (usize, &usize)| {
         let choices = question.space.variables[variable].choices.len();

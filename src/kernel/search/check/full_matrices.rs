@@ -41,7 +41,7 @@ impl RowLayout<'_> {
         }
     }
 
-    /// How many rows there are of each kind.
+    /// Returns the number of rows of each kind.
     fn row_counts(&self) -> [usize; 3] {
         let state = self.state.as_ref();
         let state = state.map_or(0, ClosingRows::count_closing);
@@ -119,7 +119,7 @@ pub(crate) struct WrittenOut<N> {
 }
 
 impl WrittenOut<Residue> {
-    /// The columns of a search's space over its prime.
+    /// Computes the columns of a search's space over its prime.
     #[must_use]
     pub(in crate::search) fn modulo_prime(question: &Question, layout: &RowLayout<'_>) -> Self {
         let spans = |v: &Variable| v.choices.iter().map(|c| c.spans.clone()).collect();
@@ -129,7 +129,7 @@ impl WrittenOut<Residue> {
 }
 
 impl<N: Clone + Default> WrittenOut<N> {
-    /// The columns of a search's space, from what each choice of each variable spans.
+    /// Creates the columns of a search's space from the span of each choice of each variable.
     #[must_use]
     pub(in crate::search) fn new<S: Scalars<Number = N>>(
         s: &S,
@@ -153,22 +153,22 @@ impl<N: Clone + Default> WrittenOut<N> {
         }
     }
 
-    /// The columns of a choice of a variable.
+    /// Returns the columns of a choice of a variable.
     pub(in crate::search) fn of_choice(&self, variable: usize, choice: usize) -> &[Vec<N>] {
         &self.columns[variable][choice]
     }
 
-    /// How many choices a variable has.
+    /// Returns the number of choices of a variable.
     pub(in crate::search) fn count_choices(&self, variable: usize) -> usize {
         self.columns[variable].len()
     }
 
-    /// The columns of every choice, in one.
+    /// Returns the columns of every choice, one after another.
     pub(in crate::search) fn all_columns(&self) -> impl Iterator<Item = &Vec<N>> {
         self.columns.iter().flatten().flatten()
     }
 
-    /// The columns of a variant.
+    /// Returns the columns of a variant.
     pub(crate) fn variant_columns<'a>(
         &'a self,
         choices: &'a [usize],

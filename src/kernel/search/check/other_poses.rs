@@ -47,7 +47,7 @@ pub struct Stroke {
 }
 
 impl Stroke {
-    /// Poses reached.
+    /// Returns the number of poses reached.
     #[must_use]
     pub fn count_reached(&self) -> usize {
         self.poses.len()
@@ -75,7 +75,7 @@ pub struct OverStroke {
 }
 
 impl OverStroke {
-    /// Whether the variant's figures hold in the file's pose only; `None` where no other pose was reached.
+    /// Returns true if the variant's figures hold in the file's pose only. `None` if no other pose was reached.
     #[must_use]
     pub fn is_lucky(&self) -> Option<bool> {
         (self.poses > 0).then_some(self.other.is_some())
@@ -271,7 +271,7 @@ fn figures_at(question: &Question, m: &Mechanism, pose: &Pose) -> Option<Figures
     })
 }
 
-/// Rank by singular values.
+/// Returns the rank by singular values.
 fn numeric_rank(matrix: &Matrix) -> Option<usize> {
     Some(rank_of_values(singular_values(matrix)?, FLAT).rank)
 }

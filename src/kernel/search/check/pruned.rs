@@ -77,7 +77,7 @@ impl Pruned {
         }
     }
 
-    /// The order in which variables are chosen.
+    /// Returns the order in which variables are chosen.
     #[must_use]
     pub fn order(&self) -> &[usize] {
         &self.order

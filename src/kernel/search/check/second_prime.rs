@@ -36,7 +36,7 @@ pub struct PrimeCheck {
 }
 
 impl PrimeCheck {
-    /// Whether the primes agree: neither yes nor no where the search was interrupted.
+    /// Returns true if the primes agree. `None` if the search was interrupted.
     #[must_use]
     pub fn agree(&self) -> Option<bool> {
         (self.verdict == Verdict::Agree).then_some(true)
@@ -140,13 +140,13 @@ pub fn compare_counts(
     }
 }
 
-/// The primes of two searches.
+/// Returns the primes of two searches.
 #[must_use]
 pub fn primes(questions: [&Question; 2]) -> [u64; 2] {
     questions.map(|s| s.exact.field().modulus())
 }
 
-/// Whether two diagrams have the same nodes, edges and terminals.
+/// Returns true if two diagrams have the same nodes, edges and terminals.
 fn same(a: &Diagram, b: &Diagram) -> bool {
     a.terminals == b.terminals
         && a.layers.len() == b.layers.len()

@@ -33,7 +33,7 @@ pub(in crate::search) struct Passed<'a> {
 }
 
 impl Between {
-    /// One space, with the boundaries to come.
+    /// Creates the relaxed node of one space, with the boundaries to come.
     pub(in crate::search) fn from_space(
         arithmetic: &mut Arithmetic,
         width: usize,
@@ -54,12 +54,12 @@ impl Between {
         self.any.as_ref().unwrap_or(&self.all)
     }
 
-    /// The one space, packed; none of many.
+    /// Returns the one space, packed. `None` if there are several.
     pub(in crate::search) fn packed_space(&self) -> Option<Vec<Residue>> {
         self.any.is_none().then(|| self.all.to_packed())
     }
 
-    /// Numbers that tell it from others.
+    /// Returns numbers that identify the node.
     pub(in crate::search) fn identity_words(&self) -> Vec<u64> {
         let mut out = self.all.to_packed();
         if let Some(any) = &self.any {

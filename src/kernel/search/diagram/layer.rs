@@ -51,7 +51,7 @@ impl Nodes {
         self.spent.len()
     }
 
-    /// Bytes of the nodes, with the table that finds them while they are gathered.
+    /// Returns the bytes of the nodes, with the table that finds them during construction.
     pub(in crate::search) fn held_bytes(&self) -> usize {
         size_of::<Residue>() * self.data.len() + NODE * self.len()
     }
@@ -122,7 +122,7 @@ impl Merge {
         }
     }
 
-    /// Limits the layer to few nodes. If it has that many already, all other edges lead nowhere.
+    /// Restricts the layer to few nodes. If it already has that many, all other edges lead nowhere.
     pub(in crate::search) fn interrupt_merge(&mut self, edges: usize) {
         self.stop = Stop::Interrupted;
         self.room = self.room.min(CUT);

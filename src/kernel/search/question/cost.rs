@@ -32,7 +32,7 @@ pub struct CostTable {
 }
 
 impl CostTable {
-    /// The defaults with what the file replaces.
+    /// Creates the default costs, with the replacements of the file.
     #[must_use]
     pub fn new(spec: &CostSpec) -> Self {
         CostTable {
@@ -62,7 +62,7 @@ impl CostTable {
         replaced.max(0) + inserted
     }
 
-    /// The cost of a joint: the option's own, its name's, its type's, or by freedoms for a custom type.
+    /// Returns the cost of a joint: that of the option, of its name, or of its type. A custom type costs by freedoms.
     #[must_use]
     pub fn option_cost(&self, option: &JointOption) -> i64 {
         let named = |n: &str| {

@@ -66,8 +66,8 @@ pub struct Space {
 }
 
 impl Space {
-    /// The space of a mechanism: all joints of the free state, and those that `state` adds where one is given.
-    /// With `symmetric`, joints that are each other's images become one variable.
+    /// Creates the space of a mechanism: all joints of the free state, and those that `state` adds if one is given. With
+    /// `symmetric`, joints that are images of each other become one variable.
     ///
     /// # Errors
     /// Returns an error if a coordinate has no value in the field.
@@ -127,7 +127,7 @@ impl Space {
         })
     }
 
-    /// The number of variants.
+    /// Returns the number of variants.
     #[must_use]
     pub fn size(&self) -> BigUint {
         self.variables
@@ -201,8 +201,8 @@ fn joint_choices(
     Ok(out)
 }
 
-/// The twists of an option, and those of an unloading joint in series with it, one a freedom, each with the joint's rates behind it: its
-/// entry in the row of every coupling it is in, then the rate of its kept drive.
+/// Returns the twists of an option, and those of an unloading joint in series with it, one per freedom. Behind each come the
+/// joint's rates: its entry in the row of each of its couplings, then the rate of its kept drive.
 ///
 /// # Errors
 /// Returns an error if a coordinate has no value in the number system.
@@ -265,7 +265,7 @@ pub(in crate::search) fn coupled_twist<S: Scalars>(
     Ok(twist)
 }
 
-/// The name of what a choice puts at a joint, for people and programs.
+/// Returns the name of a choice at a joint, for people and programs.
 #[must_use]
 pub fn choice_name(mechanism: &Mechanism, joint: JointId, choice: &Choice) -> String {
     let joint = &mechanism.joints[joint];

@@ -109,12 +109,12 @@ impl<'m> ClosingRows<'m> {
         self.paths.len() * self.dim + drives
     }
 
-    /// Rows of contours, couplings and locked drives.
+    /// Returns the number of rows of contours, couplings and locked drives.
     pub(in crate::search) fn count_closing(&self) -> usize {
         self.contours.len() * self.dim + self.couplings.len() + self.mechanism.locked_drives()
     }
 
-    /// The columns of a choice at all joints of its variable.
+    /// Returns the columns of a choice at all joints of its variable.
     pub(in crate::search) fn choice_columns(
         &self,
         f: Field,
@@ -127,8 +127,8 @@ impl<'m> ClosingRows<'m> {
             .collect()
     }
 
-    /// The columns of a freedom along the motion times each power of t, as vectors over the field: the coordinates of the contours at
-    /// each power of t, then those of kept links likewise.
+    /// Returns the columns of a freedom along the motion times each power of t, as vectors over the field. The coordinates
+    /// of the contours at each power of t come first, then those of kept links.
     pub(in crate::search) fn series_multiples(
         &self,
         f: Field,
@@ -214,7 +214,7 @@ struct Basis {
 }
 
 impl Basis {
-    /// Of independent vectors.
+    /// Creates a basis of independent vectors.
     fn new(field: Field, vectors: &[Vec<Residue>]) -> Basis {
         let mut rows = Echelon::new(field);
         for (i, v) in vectors.iter().enumerate() {
@@ -229,7 +229,7 @@ impl Basis {
         }
     }
 
-    /// The factors of a vector of their span.
+    /// Returns the factors of a vector of the span.
     fn factors_of(&self, v: &[Residue]) -> Vec<Residue> {
         let mut row = v.to_vec();
         row.resize(v.len() + self.size, 0);
@@ -304,7 +304,7 @@ impl Reached {
         self.by.push(by);
     }
 
-    /// The first variable's own come first.
+    /// Reverses the order, so that the first variable's own vectors come first.
     fn reverse_order(mut self) -> Self {
         self.vectors.reverse();
         self.by.reverse();
