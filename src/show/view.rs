@@ -47,7 +47,7 @@ pub(crate) const AS_READ: &str = "as-read";
 /// come are no new contract.
 pub const FORMAT: u32 = 1;
 
-/// A value as JSON for people to read and programs to parse; an object with `format`, the number of the contract, first.
+/// Returns a value as JSON for people and programs. An object has `format`, the number of the contract, first.
 ///
 /// # Errors
 /// Returns an error if a key is not text.
