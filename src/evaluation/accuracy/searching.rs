@@ -168,7 +168,7 @@ fn by_diagram(
     })
 }
 
-/// Counts without a list, and without the file's ranking.
+/// Returns the counts without a list, and without the file's ranking.
 fn count_unranked(mechanism: &Mechanism, request: &Request) -> Result<Outcome, RunError> {
     let mut unranked = mechanism.clone();
     unranked.ranking = None;

@@ -240,7 +240,7 @@ impl<'w> BranchAndBound<'w> {
         walker
     }
 
-    /// Whether a variant behind a node could have a sum that is allowed.
+    /// Returns true if a variant below a node could have a sum that is allowed.
     fn may_win(&self, next: &Here, allowed: f64) -> bool {
         let left = self.left[next.layer][next.node];
         left.is_some_and(|left| {
@@ -249,7 +249,7 @@ impl<'w> BranchAndBound<'w> {
         })
     }
 
-    /// The least sum of terms.
+    /// Returns the least possible sum of the terms.
     fn least_sum(&self, key: Key, cost: u64, floor: Floor) -> f64 {
         let terms = self.ranking.terms.iter().map(|&(term, weight)| {
             let least = match term {
@@ -342,7 +342,7 @@ impl Walker<'_> {
         self.allowed = sum + MARGIN * (1.0 + sum.abs());
     }
 
-    /// Scores a variant.
+    /// Computes the scores of a variant.
     fn score_leaf(&mut self, terminal: usize, key: Key) {
         let walk = self.walk;
         let end = walk
