@@ -112,16 +112,16 @@ impl Diagram {
     }
 }
 
-/// Builds the diagram of a space along given stages, of variants that spend `root` before any choice; under a ceiling,
-/// all of it that variants within the ceiling need.
+/// Builds the diagram of a space along given stages, of variants that spend `root` before any choice. Under a ceiling,
+/// builds only the part that variants within the ceiling need.
 ///
-/// `cancelled` is asked between batches of nodes; once it says yes the remaining layers are cut to a few nodes, so that
-/// what was found can still be completed. The result does not depend on the number of threads: children are computed in
-/// parallel and merged in order.
+/// `cancelled` is called between batches of nodes. Once it returns true, the remaining layers are cut to a few nodes, so
+/// that the paths found so far can still be completed. The result does not depend on the number of threads. Children are
+/// computed in parallel and merged in order.
 ///
 /// # Complexity
-/// O(nodes · choices · d²w) field operations for matrices of d rows and w columns; memory is the edges of all layers
-/// and the matrices of two, both bounded by `limits.nodes` and `limits.bytes`.
+/// O(nodes · choices · d²w) field operations for matrices of d rows and w columns. Memory is the edges of all layers and the
+/// matrices of two, both bounded by `limits.nodes` and `limits.bytes`.
 pub(super) fn build_layers(
     space: &Space,
     stages: &[impl Carries],

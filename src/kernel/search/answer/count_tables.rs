@@ -16,8 +16,8 @@ pub(crate) struct Tally<C> {
 
 impl<C: Count> Tally<C> {
     /// Creates the tables of counts, backwards from the terminals. With a `bound` for each node, omits completions whose
-    /// cost exceeds it:
-    /// `bound(layer, node)` is the largest cost of interest. Returns `None` if the tables would take more than `bytes`.
+    /// cost exceeds it: `bound(layer, node)` is the largest cost of interest. Returns `None` if the tables would take more
+    /// than `bytes`.
     ///
     /// # Complexity
     /// O(edges · table size + nodes · table size · log), where the table sizes depend on the kinds that are distinguished.
@@ -76,7 +76,7 @@ impl<C: Count> Tally<C> {
 /// even these would take more than the given bytes.
 ///
 /// If a layer has one node, the choices before it and after it are independent. Each part is counted by itself, and the
-/// counts are multiplied: tables within a part have no more keys than the part.
+/// counts are multiplied. Tables within a part have no more keys than the part.
 ///
 /// # Complexity
 /// That of [`Tally::new`] for each part, and for each a product with the table of those after it.

@@ -193,8 +193,8 @@ fn direction_name(d: [f64; 3]) -> String {
     }
 }
 
-/// Returns what an option adds to the present joint: freedoms with their directions, or the option itself if it does not contain the
-/// present freedoms one by one.
+/// Returns what an option adds to the original joint: freedoms with their directions. If the option does not contain each of
+/// the original freedoms, returns the option itself.
 fn freedoms_added_by(present: &JointOption, option: &JointOption) -> Vec<String> {
     let mut all = freedom_names(option);
     for f in freedom_names(present) {

@@ -1,9 +1,11 @@
-//! Ideas: minimal variants that give the same freedoms to the same contours, as one, shown by the one that is preferred.
+//! Ideas: groups of minimal variants that give the same freedoms to the same contours. The preferred variant represents each
+//! group.
 //!
-//! Ideas come in order of cost; of equal cost those first whose shown variant is its own image, then those that put in fewer kinds of
-//! joints, then those that keep the drive and the pivots in the frame ([`preference`](crate::search::question::preference)), then
-//! those with less mobility and fewer changes. Of mechanisms with more than 24 joints ideas are in order of cost alone. If
-//! more than 512 ideas have one cost, each 512 of them are ordered by themselves.
+//! Ideas come in order of cost. At equal cost, ideas whose shown variant is its own image come first, then those with fewer
+//! kinds of inserted joints. Then come those that keep the drive and the pivots in the frame
+//! ([`preference`](crate::search::question::preference)), then those with less mobility and fewer changes. For mechanisms
+//! with more than 24 joints, ideas are in order of cost only. If more than 512 ideas have one cost, each group of 512 is
+//! ordered on its own.
 
 mod preferred;
 
@@ -59,9 +61,9 @@ pub(in crate::search) fn idea_variants<'d>(
 /// Returns the first `top` ideas among the admissible variants. A shorter list is the beginning of a longer one.
 ///
 /// # Complexity
-/// That of the diagram of minimal variants; of the variants up to the last idea's cost only as much of each as differs in its
-/// pattern; then a bounded search for the shown variant of each idea in the groups of the first `top`, and for each of these two passes
-/// over the part of the diagram that it uses.
+/// That of the diagram of minimal variants. Of the variants up to the last idea's cost, it takes only as much of each as
+/// differs in its pattern. Then a bounded search finds the shown variant of each idea in the groups of the first `top`. Each
+/// takes two passes over the part of the diagram that it uses.
 pub(crate) fn list_ideas(question: &Question, diagrams: &Diagrams, top: usize) -> Vec<Idea> {
     let variants = idea_variants(question, diagrams);
     ideas_in_steps(
@@ -73,8 +75,8 @@ pub(crate) fn list_ideas(question: &Question, diagrams: &Diagrams, top: usize) -
     )
 }
 
-/// What ideas depend on besides the variants that they are made of and what these cost: what each choice adds to which contours, what
-/// joints the mechanism's own image makes of them, the weights of their places, and the names of what choices put there.
+/// Data on which ideas depend, in addition to their variants and costs. They are: what each choice adds to which contours;
+/// the images of joints in the mechanism's own symmetry; the weights of places; the names of the chosen joints.
 #[derive(Debug, PartialEq, Eq)]
 pub struct IdeaBasis {
     patterns: Patterns,

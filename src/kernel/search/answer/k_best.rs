@@ -23,8 +23,8 @@ pub struct Assignment {
 /// The variants whose key passes a test, cheapest first, then in an order of keys, then by choices in diagram order.
 ///
 /// # Complexity
-/// Some passes over the part of the diagram that variants of that cost use, then O(variables · choices) look-ups per variant, less if many
-/// variants have the same beginning. Memory is that of the tables, whatever the length of the list.
+/// Some passes over the part of the diagram that variants of that cost use. Then O(variables · choices) look-ups per
+/// variant, or fewer if many variants have the same beginning. Memory is that of the tables, for any length of the list.
 pub(crate) struct Cheapest<'d, C> {
     diagram: &'d Diagram,
     steps: &'d Steps,

@@ -1,12 +1,13 @@
-//! Variants that do with the least: no other admissible one has part of their freedoms and all of their other choices.
+//! Minimal variants: no other admissible one has part of their freedoms and all of their other choices.
 //!
-//! A path through the diagram keeps the nodes that variants with less have reached. A variant is minimal if none of these nodes leads to an
-//! end by its other choices or by less. Without the constraints of a searched state, added freedoms never make a constraint redundant, and
-//! removed ones never let a link move. Then variants with less at several joints have others in between, and less at one joint is enough.
+//! A path through the diagram keeps the nodes that variants with less have reached. A variant is minimal if none of these
+//! nodes leads to an end by its other choices or by less. Without the constraints of a searched state, added freedoms never
+//! make a constraint redundant, and removed ones never release a link. Then variants with less at several joints have others
+//! in between. It is enough to compare those with less at one joint.
 //!
 //! # Sources
-//! Minimal elements of a family of sets on a decision diagram: Coudert, "Two-level logic minimization: an overview",
-//! Integration 17 (1994); Knuth, The Art of Computer Programming 4A, section 7.1.4, "nonsub" and "nonsup".
+//! Coudert, "Two-level logic minimization: an overview", Integration 17 (1994), on minimal elements of a family of sets on a
+//! decision diagram. Knuth, The Art of Computer Programming 4A, section 7.1.4, "nonsub" and "nonsup".
 
 use crate::linalg::echelon::Echelon;
 use crate::search::answer::counts::count_total;

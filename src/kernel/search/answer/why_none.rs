@@ -38,7 +38,7 @@ pub enum Relaxation {
     PoseOnly,
 }
 
-/// Reasons why nothing can be found, whatever is chosen.
+/// Reasons why no choice can give a result.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Hopeless {
     /// Redundant constraints that remain if every joint has all freedoms of its options, if these are more than allowed.
@@ -84,7 +84,7 @@ pub fn find_obstacles(question: &Question) -> Result<Hopeless, ExactError> {
 /// Returns an error in the same cases as [`Question::new`].
 ///
 /// # Complexity
-/// One search for each condition, and for redundancies one for each bit of the least that is enough, or two.
+/// One search for each condition. For redundancies, one or two for each bit of the smallest number that is enough.
 pub fn find_relaxations(
     question: &Question,
     nodes: usize,

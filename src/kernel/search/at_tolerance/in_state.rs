@@ -59,8 +59,8 @@ pub(super) struct InStateSeen {
 impl InStateSeen {
     /// Examines a variant as a mechanism. Returns `None` if the arithmetic fails.
     ///
-    /// A self-stress is harmless where it does no work in any motion that would take harm away: the ranks of J with these
-    /// motions added and without them differ by the number of harmful ones.
+    /// A self-stress is harmless if it does no work in any motion that would relieve harmful ones. So the number of harmful
+    /// ones is a difference of ranks of J, with these motions added and without them.
     ///
     /// # Complexity
     /// A decomposition for each face, and one for each body to be held and each link that may hold it.

@@ -72,8 +72,8 @@ pub(super) fn count_lookups(front: &Grouped, back: &Grouped) -> usize {
     a * b * LOOKUPS + front.nodes * b + back.nodes * a
 }
 
-/// Returns for each node of the front the set of nodes of the back that complete it; `None` if the sets take more than the given bytes, or
-/// if cancelled.
+/// Returns for each node of the front the set of nodes of the back that complete it. `None` if the sets take more than the
+/// given bytes, or if cancelled.
 ///
 /// # Complexity
 /// O(a·b·w³ + (n·b + m·a)·w) field operations for n nodes of the front in a groups, m of the back in b, and w coordinates.

@@ -26,8 +26,8 @@ pub struct Seen {
     pub external: i32,
     /// Dimension of the kept links' motion.
     pub motion: usize,
-    /// Whether the motion is the present one throughout the motion of the mechanism as built; `None` if that is not asked, or if the
-    /// variant has redundant constraints in the drawn pose.
+    /// True if the variant keeps the original motion throughout the motion of the mechanism as built. `None` if the search
+    /// does not need it, or if the variant has redundant constraints in the drawn pose.
     pub lasts: Option<bool>,
 }
 
@@ -54,7 +54,7 @@ impl Seen {
 pub struct Matrices {
     field: Field,
     all: WrittenOut<Residue>,
-    /// The matrices along the motion, with the dimension of the present joints' kept motion there.
+    /// The matrices along the motion, with the dimension of the original joints' kept motion there.
     along: Option<(WrittenOut<Residue>, usize)>,
     /// For each joint without a choice, the columns of every motion.
     whole: Vec<(JointId, Vec<Vec<Residue>>)>,
@@ -170,8 +170,8 @@ pub(super) fn eliminate_pivots(f: Field, mut vectors: Vec<Vec<Residue>>) -> Vec<
 /// Returns an error if a coordinate has no value in the field.
 ///
 /// # Complexity
-/// One elimination a variant, in parallel over the choices of the first variables, and with a state some more for those
-/// that meet the other conditions.
+/// One elimination per variant, in parallel over the choices of the first variables. With a state, some more for the
+/// variants that meet the other conditions.
 pub fn every_variant(question: &Question) -> Result<SearchCounts, ExactError> {
     let matrices = Matrices::new(question);
     let mut out = SearchCounts {

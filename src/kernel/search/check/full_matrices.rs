@@ -48,8 +48,9 @@ impl RowLayout<'_> {
         [self.free.count_closing(), self.free.count_kept(), state]
     }
 
-    /// Returns the columns of each choice along the motion times each power of t, in the rows of the free state at each power and then
-    /// those of the kept links' motion likewise, and how many rows there are of each kind; `None` where no motion is followed.
+    /// Returns the columns of each choice along the motion times each power of t. The rows are those of the free state at
+    /// each power, then those of the kept links' motion at each power. Also returns the number of rows of each kind. `None`
+    /// if no motion is followed.
     pub(in crate::search) fn along_motion(
         &self,
         question: &Question,

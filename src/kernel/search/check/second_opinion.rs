@@ -182,14 +182,14 @@ fn draw_variants(question: &Question, seed: u64) -> Vec<Vec<usize>> {
     }
 }
 
-/// Asks singular values of a geometry about the variants `listed`, some that `admissible` gives and some drawn of all
-/// from `seed`, and whether the counts keep the law.
+/// Tests variants by singular values of a geometry: those `listed`, some that `admissible` gives, and some of all variants
+/// drawn from `seed`. Also tests whether the counts keep the law.
 ///
 /// # Errors
 /// Returns an error if a coordinate has no value.
 ///
 /// # Complexity
-/// Two or three decompositions a variant, in parallel.
+/// Two or three decompositions per variant, in parallel.
 pub fn second_opinion(
     question: &Question,
     written: &Written,

@@ -1,10 +1,9 @@
 //! The search over a second prime: what one prime says of the diagram, the other must say too.
 //!
-//! A rank modulo a prime falls short where the prime divides a nonzero minor. Above 2^61 that is next to impossible by
-//! chance, and primes that follow from a hash of the coordinates divide none by design. Two odds are better than one: both
-//! diagrams number their
-//! nodes in the order in which they are met, so agreement is equality edge by edge, and then every count, every list
-//! and every sample drawn from them is equal too.
+//! A rank modulo a prime is too small if the prime divides a nonzero minor. Above 2^61 that is next to impossible by chance,
+//! and primes that follow from a hash of the coordinates divide none by design. A second prime makes it still less likely.
+//! Both diagrams number their nodes in the order in which they are met, so agreement is equality edge by edge. Then every
+//! count, every list and every sample drawn from them is equal too.
 
 use crate::search::answer::search_counts::SearchCounts;
 use crate::search::answer::variants_in_order::cheapest_variants;
@@ -80,7 +79,7 @@ pub fn build_both(
 /// Returns an error with both counts if they differ.
 ///
 /// # Complexity
-/// O(edges) where the diagrams are equal, which they always were; counting both where they are not.
+/// O(edges) if the diagrams are equal, as they have always been. Otherwise both are counted.
 pub fn compare_primes(
     questions: [&Question; 2],
     diagrams: [&Diagrams; 2],

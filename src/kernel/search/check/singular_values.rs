@@ -229,7 +229,7 @@ fn contour_shape(question: &Question, realized: &Mechanism) -> Shape {
     }
 }
 
-/// Returns a warning where singular values contradict exact arithmetic on the mechanism as built; `None` where they agree, do not
+/// Returns a warning if singular values contradict exact arithmetic on the mechanism as built. `None` if they agree, do not
 /// converge, or would take too long.
 ///
 /// # Errors

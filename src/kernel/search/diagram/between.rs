@@ -1,8 +1,8 @@
-//! Relaxed nodes: a node stands for several spaces by their intersection, their sum, and bounds of their dimensions.
+//! Relaxed nodes: a node represents several spaces by their intersection, their sum, and bounds of their dimensions.
 //!
-//! A diagram in the space dual to self-stresses has too many nodes where each part can be chosen in many ways that differ a
-//! little. Put together, some of them are a node that every one of them lies between: it has the futures of each, and maybe more.
-//! So a diagram of such nodes has every variant there is, and its count is an upper bound.
+//! A diagram in the space dual to self-stresses has too many nodes if each part can be chosen in many ways that differ a
+//! little. Some of them are merged into a node that bounds each of them from below and above: it has the futures of each,
+//! and maybe more. So a diagram of such nodes has every variant, and its count is an upper bound.
 //!
 //! # Sources
 //! Bergman, Cire, van Hoeve & Hooker, "Discrete optimization with decision diagrams", INFORMS J. Comput. 28 (2016): diagrams

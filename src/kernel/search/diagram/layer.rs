@@ -131,8 +131,8 @@ impl Merge {
         }
     }
 
-    /// Takes the children of some nodes, those of the nodes before them having been taken, but for those that are out of
-    /// the question: said of what a child has spent, its matrix, and the least cost of this way to it.
+    /// Adds the children of some nodes, after those of the nodes before them. Skips children that are excluded by a test of
+    /// three values: the redundancy spent, the child's matrix, and the least cost of this path to it.
     pub(in crate::search) fn take_children(
         &mut self,
         part: &Children,

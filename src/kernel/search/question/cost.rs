@@ -4,7 +4,7 @@
 //!               + Σ over unloading joints (cost of their type + link + change)
 //!               + harmful redundant constraints that a searched state adds · harmful, 0 by default
 //!
-//! The cost of a change is never negative: a plain bush is cheaper than a lead screw, but removing a screw is no gain.
+//! The cost of a change is never negative: a plain bush is cheaper than a lead screw, but removing a screw saves nothing.
 //!
 //! Joint types have default costs ([`JointType::default_cost_milli`]). A file can replace them under `[search.costs]`, and an option can
 //! have its own cost.
@@ -44,8 +44,8 @@ impl CostTable {
         }
     }
 
-    /// Returns the cost of a change above that of the present joint: another joint in its place, an unloading joint with its link, or both.
-    /// `drive` says that the joint is driven.
+    /// Returns the cost of a change above that of the original joint: another joint in its place, an unloading joint with
+    /// its link, or both. `drive` means that the joint is driven.
     #[must_use]
     pub fn change_cost(
         &self,

@@ -15,7 +15,7 @@ use num_bigint::BigUint;
 /// A choice for the joints of a variable.
 #[derive(Debug, Clone)]
 pub struct Choice {
-    /// Index into the joint's options; 0 is the present joint.
+    /// Index into the joint's options; 0 is the original joint.
     pub option: usize,
     /// Index into the joint's unloading joints, where one is inserted.
     pub unloading: Option<usize>,
@@ -28,7 +28,7 @@ pub struct Choice {
     pub freedoms: u32,
     /// Number of changed joints and inserted unloading joints.
     pub changes: u32,
-    /// Cost above that of the present joint, in thousandths.
+    /// Cost above that of the original joint, in thousandths.
     pub cost_milli: i64,
 }
 
@@ -46,7 +46,7 @@ pub struct Face {
 pub struct Variable {
     /// The joints.
     pub joints: Vec<JointId>,
-    /// The choices; the first is the present joint.
+    /// The choices; the first is the original joint.
     pub choices: Vec<Choice>,
     /// Whether the joints are present only in the searched state beyond the free one (contacts).
     pub external: bool,
@@ -235,8 +235,8 @@ pub(in crate::search) fn option_columns<S: Scalars>(
     Ok([own, added.collect()])
 }
 
-/// Returns a twist of an option with its entries in the rows of the joint's couplings behind it; none of them is other than 0 where it
-/// is the twist of no freedom that may be coupled.
+/// Returns a twist of an option, followed by its entries in the rows of the joint's couplings. All of these are 0 if the
+/// twist belongs to no freedom that may be coupled.
 ///
 /// # Errors
 /// Returns an error if a coordinate has no value in the number system.

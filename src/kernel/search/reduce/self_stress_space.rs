@@ -1,12 +1,13 @@
-//! The vectors that choices add to the present joints, in the space dual to the present self-stresses.
+//! The vectors that choices add to the original joints, in the space dual to the original self-stresses.
 //!
-//! Every choice allows the motions of the present joint, so every variant closes what the present joints close. The rest of the closure
-//! equations has a dimension for each self-stress of the present mechanism: 11 for the ten-link gripper, whose equations have 24 rows. A
-//! variant has no redundant constraint if its added motions span that space. The motions of kept links are further coordinates, modulo the
-//! present motions. A variant keeps them if no added motion closes every contour and moves a kept link.
+//! Every choice allows the motions of the original joint, so every variant closes what the original joints close. The rest
+//! of the closure equations has a dimension for each self-stress of the original mechanism: 11 for the ten-link gripper,
+//! whose equations have 24 rows. A variant has no redundant constraint if its added motions span that space. The motions of
+//! kept links are further coordinates, modulo the original motions. A variant keeps them if no added motion closes every
+//! contour and moves a kept link.
 //!
-//! The coordinates are ordered by the last variable that reaches them: what only the variables up to one reach comes before what
-//! later ones reach too, so that all that is forgotten after a variable stands in front. Each starts as late as can be.
+//! The coordinates are ordered by the last variable that reaches them. Those that later variables do not reach come first,
+//! so all that is forgotten after a variable is in front. Each coordinate starts as late as possible.
 
 use crate::closure::contour::Contour;
 use crate::closure::tree::{path_in, spanning_tree};
@@ -239,7 +240,7 @@ impl Basis {
     }
 }
 
-/// Reduces vectors modulo the motions of the present joints.
+/// Reduces vectors modulo the motions of the original joints.
 struct BesidePresent {
     present: Echelon,
     width: usize,
