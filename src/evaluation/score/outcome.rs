@@ -212,8 +212,8 @@ impl Outcome {
         counts::counts_by_cost(&self.search, lasting?)
     }
 
-    /// Returns what easing one condition would leave if nothing was found, for the conditions that were reached until `cancelled` said to
-    /// end. If some variants keep the motion in the drawn pose only, returns these.
+    /// Returns the variants that relaxing one condition would leave if nothing was found. Covers the conditions that were
+    /// reached until `cancelled` returned true. If some variants keep the motion in the drawn pose only, returns these.
     ///
     /// # Errors
     /// Returns an error if the geometry has no exact image.

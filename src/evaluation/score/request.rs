@@ -273,8 +273,8 @@ impl Request {
         })
     }
 
-    /// Returns the intended mechanism in all its states. Returns it as written if the request says so, or if there is no
-    /// exact intended geometry. `tell` receives what was moved, or why nothing was.
+    /// Returns the intended mechanism in all its states. Returns it as written if the request requires this, or if there is
+    /// no exact intended geometry. `tell` receives what was moved, or why nothing was.
     ///
     /// # Errors
     /// Returns an error if there is no verdict on the mechanism.

@@ -63,8 +63,8 @@ pub type ShouldCancel<'a> = &'a (dyn Fn() -> bool + Sync);
 /// Searches a mechanism.
 ///
 /// # Errors
-/// Returns an error if the request does not suit the mechanism, if measured coordinates change the figures, if two primes disagree, or
-/// if a ranking needs loads that the file does not state.
+/// Returns an error if the request does not suit the mechanism, or if measured coordinates change the figures. Returns an
+/// error if two primes disagree, or if a ranking needs loads that the file does not state.
 ///
 /// # Guarantee
 /// Counts are exact if [`Outcome::stop`] is [`Stop::Exhausted`], and lower bounds otherwise. A rank modulo a prime is a
@@ -91,7 +91,7 @@ pub fn run(
 /// Searches a mechanism that [`Request::prepare`] gave, under what [`Request::conditions`] gave.
 ///
 /// # Errors
-/// As [`run`].
+/// Returns an error in the same cases as [`run`].
 pub fn answer_request(
     mechanism: Arc<Mechanism>,
     conditions: Conditions,

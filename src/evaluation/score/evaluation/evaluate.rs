@@ -69,10 +69,10 @@ pub struct Evaluator<'s> {
 }
 
 impl<'s> Evaluator<'s> {
-    /// Makes everything ready that does not depend on the variant, for the states with loads.
+    /// Prepares all data that is the same for every variant, in the states with loads.
     ///
     /// # Errors
-    /// Returns an error if a coordinate has no value, or if singular values do not converge.
+    /// Returns an error if a coordinate has no value. Also if singular values do not converge.
     ///
     /// # Complexity
     /// O(poses · options · loads), and the poses of the stroke.
@@ -83,7 +83,7 @@ impl<'s> Evaluator<'s> {
     /// Does the same for the named states, or for those with loads if none are named.
     ///
     /// # Errors
-    /// As [`Evaluator::new`], and if a grip loads nothing.
+    /// Returns an error in the same cases as [`Evaluator::new`], and if a grip loads nothing.
     pub fn in_states(
         search: &'s Search,
         clearance: ClearanceSum,

@@ -1,8 +1,8 @@
 //! The poses and loads that variants are scored in.
 //!
-//! A variant moves as the mechanism does, so all are scored in the same cases: the poses of the free state's stroke under
-//! the file's loads, and, in a state that the grip loads, the pose round each part it holds under the contact forces of
-//! that part's worst case. The score is the worst over the cases of the states that count.
+//! A variant moves as the mechanism does, so all are scored in the same cases. They are the poses of the free state's stroke
+//! under the file's loads. In a state that the grip loads, they are the pose for each part it holds, under the contact
+//! forces of that part's worst case. The score is the worst over the cases of the states that count.
 
 use crate::grip::jaw_loads::{Gripping, JawError, grip_of};
 use crate::model::loads::Loads;

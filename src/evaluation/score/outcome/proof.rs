@@ -84,9 +84,9 @@ struct Here {
     floor: Floor,
 }
 
-/// Goes through all variants of a search that could come among the best so many, of which a pool has the list, and puts those that
-/// do into it; only for sums of terms, and where that does not take too long. `progress` is told how many of how many branches are
-/// done.
+/// Examines all variants of a search that could be among the best in the list of a pool. Adds those that are. Applies to
+/// sums of terms only, and only if it does not take too long. `progress` receives the number of branches done and the number
+/// of all branches.
 ///
 /// # Complexity
 /// O(unknowns · width) a branch, and a scoring for each variant that no bound puts behind.
