@@ -38,7 +38,7 @@ pub struct Marks {
     pub joints: usize,
     /// Links from this one on are added.
     pub links: usize,
-    /// The mechanism with its present joints in place of the changed ones, for the same view.
+    /// The mechanism with its original joints in place of the changed ones, for the same view.
     pub before: Option<Mechanism>,
 }
 

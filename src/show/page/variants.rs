@@ -24,7 +24,7 @@ use serde_json::{Value, json};
 /// Ideas that a page says why of: two pages of its table. `ozols search --format json` says it of all.
 const TOLD: usize = 50;
 
-/// Figures that need a computation of their own.
+/// Figures that need a separate computation.
 struct Further {
     states: Vec<(usize, usize)>,
     idle: String,

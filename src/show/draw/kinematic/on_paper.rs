@@ -87,7 +87,7 @@ impl<'a> Kinematic<'a> {
     }
 }
 
-/// Returns the links of some joints, each with the indices of its own.
+/// Returns the links of some joints, each with the indices of its joints.
 fn joined_links(m: &Mechanism, joints: &[JointId]) -> Vec<(LinkId, Vec<usize>)> {
     let mut links = Vec::new();
     for l in m.link_ids() {

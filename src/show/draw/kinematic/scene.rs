@@ -53,7 +53,7 @@ pub struct Scene {
     swaps: Vec<Value>,
 }
 
-/// What a scene shows in addition to the mechanism.
+/// Parts of a scene that are shown in addition to the mechanism.
 #[derive(Debug, Clone, Copy)]
 pub struct Shown<'a> {
     /// The motions, at least one, which may be of one pose.
@@ -64,8 +64,8 @@ pub struct Shown<'a> {
     pub swaps: &'a [Swap<'a>],
 }
 
-/// Draws the kinematic scheme at the pose of its first motion, in groups that a program may put another picture in place of
-/// (`data-scene` for what moves, `data-home` for what is of this view only), with what it takes to make such pictures.
+/// Draws the kinematic scheme at the pose of its first motion, with the data for pictures of other poses. Its groups can be
+/// replaced by such pictures: `data-scene` marks moving parts, `data-home` parts of this view only.
 #[must_use]
 pub fn kinematic_scene(subject: &Subject<'_>, sight: &Sight, shown: Shown<'_>) -> (Drawing, Scene) {
     let mut rest = Kinematic::new(subject, sight);
