@@ -9,7 +9,7 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 /// Bytes of a token.
 const TOKEN: usize = 16;
 
-/// What a request must have.
+/// Requirements that a request must meet.
 #[derive(Debug)]
 pub(super) struct Door {
     /// The only name that this server answers to: others may lead here by a name of theirs.
