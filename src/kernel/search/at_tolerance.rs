@@ -44,7 +44,7 @@ const BLOCK: usize = 64;
 /// Returns an error if a coordinate has no value.
 ///
 /// # Complexity
-/// Two or three decompositions per variant, in parallel, for at most [`WHOLE`] variants. Their matrices have 6k rows.
+/// Two or three decompositions per variant. They run in parallel, for at most [`WHOLE`] variants. Their matrices have 6k rows.
 pub(crate) fn at_tolerance(
     question: &mut Question,
     digits: Digits,

@@ -342,7 +342,8 @@ impl Expanded {
     }
 }
 
-/// Returns true if every contour is at a regular pose of its own motion. No contour may duplicate constraints of others.
+/// Returns true if every contour without the others is at a regular pose of its motion. No contour may duplicate
+/// constraints of others.
 ///
 /// # Errors
 /// Returns an error if a coordinate has no value in the field.

@@ -2,7 +2,7 @@
 //! group.
 //!
 //! Ideas come in order of cost. At equal cost, ideas whose shown variant is its own image come first, then those with fewer
-//! kinds of inserted joints. Then come those that keep the drive and the pivots in the frame
+//! kinds of inserted joints. The next are those that keep the drive and the pivots in the frame
 //! ([`preference`](crate::search::question::preference)), then those with less mobility and fewer changes. For mechanisms
 //! with more than 24 joints, ideas are in order of cost only. If more than 512 ideas have one cost, each group of 512 is
 //! ordered on its own.
@@ -61,8 +61,8 @@ pub(in crate::search) fn idea_variants<'d>(
 /// Returns the first `top` ideas among the admissible variants. A shorter list is the beginning of a longer one.
 ///
 /// # Complexity
-/// That of the diagram of minimal variants. Of the variants up to the last idea's cost, it takes only as much of each as
-/// differs in its pattern. Then a bounded search finds the shown variant of each idea in the groups of the first `top`. Each
+/// That of the diagram of minimal variants. From each variant up to the last idea's cost, it takes only
+/// the part that differs in its pattern. Then a bounded search finds the shown variant of each idea in the groups of the first `top`. Each
 /// takes two passes over the part of the diagram that it uses.
 pub(crate) fn list_ideas(question: &Question, diagrams: &Diagrams, top: usize) -> Vec<Idea> {
     let variants = idea_variants(question, diagrams);

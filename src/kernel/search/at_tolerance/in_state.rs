@@ -63,7 +63,7 @@ impl InStateSeen {
     /// ones is a difference of ranks of J, with these motions added and without them.
     ///
     /// # Complexity
-    /// A decomposition for each face, and one for each body to be held and each link that may hold it.
+    /// A decomposition for each face. Another one for each body to be held and each link that may hold it.
     pub(super) fn of(
         question: &Question,
         realized: &Mechanism,

@@ -73,7 +73,7 @@ pub fn build_both(
     )
 }
 
-/// Compares a search with its twin over another prime: structure first, then all counts and the `top` best.
+/// Compares a search with its twin over another prime. Structure comes first, then all counts and the `top` best.
 ///
 /// # Errors
 /// Returns an error with both counts if they differ.

@@ -236,7 +236,7 @@ fn contour_shape(question: &Question, realized: &Mechanism) -> Shape {
 /// Returns an error if a coordinate has no value in the field.
 ///
 /// # Complexity
-/// One exact rank of each state and as many decompositions as for a variant.
+/// One exact rank of each state. As many decompositions as for a variant.
 pub fn warning_of_present(question: &Question) -> Result<Option<String>, ExactError> {
     if affordable_count(question) <= AT_LEAST {
         return Ok(None);

@@ -1,6 +1,6 @@
 //! The additive cost of a redesign.
 //!
-//! cost(variant) = Σ over changed joints (cost of the new type - cost of the present type + change, and driven where a drive holds it)
+//! cost(variant) = Σ over changed joints (cost of the new type - cost of the original type + change, and driven where a drive holds it)
 //!               + Σ over unloading joints (cost of their type + link + change)
 //!               + harmful redundant constraints that a searched state adds · harmful, 0 by default
 //!
