@@ -12,7 +12,7 @@
 //!
 //! A variant moves as the original mechanism does, so the poses, the twists of every option, their powers on the
 //! A variant of the ten-link gripper then needs copies of some 24 rows of 24 + 7 numbers. One elimination follows, with
-//! seven right sides: the loads, and a unit force along each axis on each jaw. Then come 13 sums of wrenches and the two
+//! seven right sides: the loads, and a unit force along each axis on each jaw. The last steps are 13 sums of wrenches and the two
 //! ends of a spectrum of 24 values.
 //!
 //! `cargo bench --bench score` gives variants per second on one and two threads.

@@ -219,7 +219,7 @@ impl Outcome {
     /// Returns an error if the geometry has no exact image.
     ///
     /// # Complexity
-    /// A search for each condition and each step of easing it, none of more than some thousand nodes.
+    /// A search for each condition and each step of relaxing it. None has more than some thousand nodes.
     pub fn list_relaxations(
         &self,
         cancelled: &(dyn Fn() -> bool + Sync),

@@ -54,7 +54,7 @@ impl Outcome {
     /// Returns an error if a coordinate has no value in the field.
     ///
     /// # Complexity
-    /// Three searches of each symmetry with joints that are images of each other as one.
+    /// Three searches of each symmetry. Joints that are images of each other are one variable.
     pub fn symmetric_best(
         &self,
         should_cancel: &(dyn Fn() -> bool + Sync),
