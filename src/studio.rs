@@ -64,7 +64,7 @@ impl Studio {
         })
     }
 
-    /// The address of the page, with its token.
+    /// Returns the address of the page, with its token.
     #[must_use]
     pub(crate) fn page_address(&self) -> String {
         self.door.address()
@@ -123,7 +123,7 @@ impl Studio {
     }
 }
 
-/// Answers each connection on its own thread.
+/// Handles each connection on its own thread.
 fn accept_requests(listener: &TcpListener, door: &Arc<Door>, room: &Arc<Room>) {
     let busy = Arc::new(AtomicUsize::new(0));
     let waiting = Arc::new(Waiting::default());
@@ -164,7 +164,7 @@ impl Drop for Busy<'_> {
     }
 }
 
-/// Answers a request. It waits at `place` until it has shown the token, and is one of the `busy` ones after that.
+/// Handles a request. It waits at `place` until it has shown the token, and is one of the `busy` ones after that.
 fn answer_stream(
     stream: &mut TcpStream,
     door: &Door,

@@ -55,7 +55,7 @@ pub enum AnswerVerdict {
 }
 
 impl AnswerVerdict {
-    /// The verdict on an answer.
+    /// Returns the verdict on an answer.
     pub fn judge_answer(answer: &Result<Answer, NoAnswer>, truth: Truth) -> AnswerVerdict {
         match answer {
             Ok(a) if a.mobility == truth.finite => AnswerVerdict::Right,
@@ -68,8 +68,8 @@ impl AnswerVerdict {
         }
     }
 
-    /// Whether the answer is the one the method promises: the finite mobility, or the one at the pose where that is what
-    /// it speaks of.
+    /// Returns true if the answer is the one that the method promises: the finite mobility, or the instantaneous mobility if
+    /// the method computes that.
     pub(crate) fn keeps_promise(answer: &Result<Answer, NoAnswer>, truth: Truth) -> bool {
         answer.as_ref().is_ok_and(|a| match a.quantity {
             Quantity::Instantaneous => a.mobility == truth.instantaneous,
@@ -77,7 +77,7 @@ impl AnswerVerdict {
         })
     }
 
-    /// One word for programs.
+    /// Returns the word used in machine-readable output.
     pub fn word(self) -> &'static str {
         match self {
             AnswerVerdict::Right => "right",

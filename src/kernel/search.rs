@@ -121,8 +121,8 @@ impl Search {
         variants_in_order::sample_variants(self, diagrams, seed)
     }
 
-    /// Tests variants by singular values, if exact arithmetic does not have the intended mechanism: `list` of the
-    /// cheapest, and a sample drawn from `seed`, if there are too many to test each.
+    /// Tests variants by singular values, if exact arithmetic does not have the intended mechanism. If there are too many to
+    /// test each, it tests the `list` cheapest and a sample drawn from `seed`.
     ///
     /// # Errors
     /// Returns an error if a coordinate has no value.

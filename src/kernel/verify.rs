@@ -3,8 +3,8 @@
 //! A certificate that J has rank r over a real number field K shows three things:
 //! - K is a field: its first generator is 2 cos(2π/N), whose minimal polynomial is recomputed here. Each later one is
 //!   the root of a number that is not a square, which a prime shows.
-//! - The rank is at least r: under a ring homomorphism into a prime field, a minor of size r does not vanish.
-//! - The rank is at most r: there are f - r vectors with J v = 0 exactly, each 1 in a column in which all others are 0.
+//! - The rank is at least r. Under a ring homomorphism into a prime field, a minor of size r does not vanish.
+//! - The rank is at most r. There are f - r vectors with J v = 0 exactly, each 1 in a column in which all others are 0.
 
 pub mod certificate;
 mod field;

@@ -1,4 +1,4 @@
-//! What is found, shown: text, JSON and CSV, drawings, and pages.
+//! Output of results: text, JSON and CSV, drawings, and pages.
 
 use ozols_catalogue::chains;
 #[cfg(feature = "store")]

@@ -99,7 +99,7 @@ fn head_html(name: &str) -> Markup {
 /// Returns an error if a coordinate of a variant has no value in the field of the search.
 ///
 /// # Complexity
-/// Two drawings a state; for each variant a rank in each further state, and a scoring where the file states loads.
+/// Two drawings per state. For each variant a rank in each further state, and a scoring if the file states loads.
 pub fn report_html(page: &Page<'_>) -> Result<String, AnalysisError> {
     let m = page.mechanism;
     let analysis = Analysis::new(m, page.states, &[]);

@@ -22,7 +22,7 @@ pub struct GlossaryTerm {
 }
 
 impl GlossaryTerm {
-    /// The sentence that says what it is.
+    /// Returns the sentence that defines the term.
     #[must_use]
     pub fn first_sentence(&self) -> &str {
         let end = self.text.find(". ").map_or(self.text.len(), |i| i + 1);
@@ -41,7 +41,7 @@ pub struct Terms {
 }
 
 impl Terms {
-    /// Those built into the program.
+    /// Returns the terms built into the program.
     ///
     /// # Panics
     /// Never: a test reads the file.
@@ -50,7 +50,7 @@ impl Terms {
         toml::from_str(include_str!("terms.toml")).expect("a test reads the file")
     }
 
-    /// The term that a word or sign stands for; case, hyphens and apostrophes do not matter.
+    /// Returns the term of a word or sign. Ignores case, hyphens and apostrophes.
     ///
     /// # Examples
     /// ```
@@ -68,7 +68,7 @@ impl Terms {
         })
     }
 
-    /// Every word and sign that [`Terms::find`] knows.
+    /// Returns every word and sign that [`Terms::find`] knows.
     pub fn known_words(&self) -> impl Iterator<Item = &str> {
         self.term
             .iter()
@@ -92,7 +92,7 @@ pub struct PairWords {
 }
 
 impl PairWords {
-    /// The words of each joint type, by its name in files.
+    /// Returns the words of each joint type, by its name in files.
     ///
     /// # Panics
     /// Never: a test reads the file.
@@ -102,7 +102,7 @@ impl PairWords {
     }
 }
 
-/// A word as it is compared.
+/// Returns a word in the form used for comparison.
 fn fold_word(word: &str) -> String {
     let plain: String = word
         .to_lowercase()

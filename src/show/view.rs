@@ -43,11 +43,11 @@ pub(crate) fn certainty_kind(m: &Mechanism, sure: &'static str) -> &'static str 
 /// Word for figures that rest on assumptions.
 pub(crate) const AS_READ: &str = "as-read";
 
-/// The number of the contract of all JSON that the commands print. It is raised when a key goes or means something else; keys that
-/// come are no new contract.
+/// The number of the contract of all JSON that the commands print. It is raised when a key is removed or changes its
+/// meaning. New keys do not raise it.
 pub const FORMAT: u32 = 1;
 
-/// A value as JSON for people to read and programs to parse; an object with `format`, the number of the contract, first.
+/// Returns a value as JSON for people and programs. An object has `format`, the number of the contract, first.
 ///
 /// # Errors
 /// Returns an error if a key is not text.

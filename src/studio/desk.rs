@@ -87,7 +87,7 @@ impl Desk {
         std::str::from_utf8(self.current_bytes()).ok()
     }
 
-    /// Where unsaved work is kept, if there is any.
+    /// Returns the path of unsaved work, if there is any.
     pub(super) fn unsaved_path(&self) -> Option<PathBuf> {
         self.open_file().kept_path()
     }
@@ -144,7 +144,7 @@ impl Desk {
         self.text_changed();
     }
 
-    /// The text with changes, which are not made yet, and what is read of it.
+    /// Returns the text with proposed changes, and the result of reading it.
     pub(super) fn draft_edits(&self, edits: &[Edit]) -> Result<(String, DeskReading), Refused> {
         let file = self.open_file();
         let text = match (file.kind, self.current_text()) {
@@ -212,7 +212,7 @@ impl Desk {
         Ok(())
     }
 
-    /// The folder of the file.
+    /// Returns the folder of the file.
     pub(super) fn file_folder(&self) -> PathBuf {
         self.open_file().parent_folder().to_path_buf()
     }
@@ -295,7 +295,7 @@ impl Desk {
         Ok(true)
     }
 
-    /// Which of two forms of the file is to stay; the other is a step away.
+    /// Resolves a conflict between two versions of the file. One version stays, and undo brings back the other.
     pub(super) fn settle_conflict(&mut self, keep_mine: bool) {
         let Some(theirs) = self.theirs.take() else {
             return;
@@ -322,7 +322,7 @@ impl Desk {
         }
     }
 
-    /// How to show it: what changes with every text.
+    /// Returns the state of the desk for the page, which changes with every text.
     pub(super) fn desk_json(&self) -> Value {
         let mut out = self.reading.reading_json();
         let more = json!({
@@ -336,7 +336,7 @@ impl Desk {
         out
     }
 
-    /// How things stand with the file.
+    /// Returns the state of the file.
     pub(super) fn file_state(&self) -> Value {
         let kind = match self.open_file().kind {
             Kind::Toml => "toml",
@@ -357,7 +357,7 @@ impl Desk {
     }
 }
 
-/// The changes that take outgrown options out of the lists of their joints.
+/// Returns the edits that remove outdated options from the lists of their joints.
 fn without_outgrown(reading: &DeskReading) -> Vec<Edit> {
     let joints = reading.file.iter().flat_map(|f| &f.joint);
     let one = |j: &crate::file::schema::JointEntry| {

@@ -58,7 +58,7 @@ struct AutosavedText {
 const KEEPERS: usize = 20;
 
 impl OpenFile {
-    /// A file as it is now.
+    /// Reads a file in its current state.
     pub(super) fn open_file(path: &Path) -> io::Result<OpenFile> {
         // A link is followed, so that its target gets the data.
         let path = fs::canonicalize(path).unwrap_or_else(|_| path.to_path_buf());
@@ -73,7 +73,7 @@ impl OpenFile {
         Ok(out)
     }
 
-    /// Its name for people.
+    /// Returns the file name for people.
     pub(super) fn name(&self) -> String {
         let name = self.path.file_name().unwrap_or_default();
         name.to_string_lossy().into_owned()
@@ -142,7 +142,7 @@ impl OpenFile {
         Ok(())
     }
 
-    /// Nothing is unsaved any more.
+    /// Removes the unsaved copy, because nothing is unsaved any more.
     pub(super) fn drop_kept(&mut self) {
         self.kept.lock = None;
         if let Some(path) = self.kept.path.take() {
@@ -150,7 +150,7 @@ impl OpenFile {
         }
     }
 
-    /// Where unsaved work is, if any.
+    /// Returns the path of unsaved work, if any.
     pub(super) fn kept_path(&self) -> Option<PathBuf> {
         self.kept.path.clone()
     }
@@ -216,7 +216,7 @@ fn kind_of(path: &Path) -> Kind {
     }
 }
 
-/// A name of a file in a folder that nothing has yet.
+/// Returns a file name that does not exist in a folder yet.
 pub(super) fn free_name(folder: &Path, stem: &str) -> PathBuf {
     let names = std::iter::once(format!("{stem}.toml"))
         .chain((2..).map(|n: u32| format!("{stem}-{n}.toml")));
@@ -235,7 +235,7 @@ pub(super) fn plain_name(name: &str) -> Option<&str> {
     well.then_some(name)
 }
 
-/// The file and the first text of what is opened.
+/// Returns the opened file and its first text.
 pub(super) fn begin_opening(opening: &Opening) -> io::Result<(OpenFile, Option<String>)> {
     let fresh = |folder: &Path, stem: &str| OpenFile::open_file(&free_name(folder, stem));
     Ok(match opening {
@@ -256,7 +256,7 @@ pub(super) fn begin_opening(opening: &Opening) -> io::Result<(OpenFile, Option<S
     })
 }
 
-/// A copy of a built-in mechanism with its own comments, without what publications say of the original.
+/// Returns a copy of a built-in mechanism with its own comments, without the published results on the original.
 pub(super) fn of_builtin(name: &str) -> io::Result<String> {
     let text = builtin::text(name)
         .ok_or_else(|| io::Error::other(format!("{name} is not a built-in mechanism")))?;

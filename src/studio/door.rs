@@ -9,7 +9,7 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 /// Bytes of a token.
 const TOKEN: usize = 16;
 
-/// What a request must have.
+/// Requirements that a request must meet.
 #[derive(Debug)]
 pub(super) struct Door {
     /// The only name that this server answers to: others may lead here by a name of theirs.
@@ -18,7 +18,7 @@ pub(super) struct Door {
 }
 
 impl Door {
-    /// A door with a token nobody can guess.
+    /// Creates a door with a token that nobody can guess.
     pub(super) fn new(port: u16) -> std::io::Result<Door> {
         let mut bytes = [0; TOKEN];
         getrandom::fill(&mut bytes).map_err(std::io::Error::other)?;
@@ -32,7 +32,7 @@ impl Door {
         })
     }
 
-    /// The address of the page.
+    /// Returns the address of the page.
     pub(super) fn address(&self) -> String {
         format!("http://{}/{}/", self.host, self.token)
     }
@@ -66,7 +66,7 @@ impl Door {
     }
 }
 
-/// Whether two texts are the same, in a time that does not tell how much of them is.
+/// Returns true if two texts are the same. The time does not depend on how much of them is the same.
 fn same_text(a: &str, b: &str) -> bool {
     let differ = a.bytes().zip(b.bytes()).fold(0, |d, (x, y)| d | (x ^ y));
     a.len() == b.len() && differ == 0

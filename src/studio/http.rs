@@ -64,7 +64,7 @@ impl Reply {
         }
     }
 
-    /// The same, packed where who asks can unpack it and it is worth it.
+    /// Returns the reply, compressed if the client accepts it and it saves enough.
     pub(super) fn packed_for(mut self, asked: &Asked) -> io::Result<Reply> {
         let can = asked.header_once("accept-encoding");
         if self.body.len() > SHORT && can.is_some_and(|c| c.contains("gzip")) {
@@ -79,7 +79,7 @@ impl Reply {
         Reply::new("application/json", value.to_string())
     }
 
-    /// Why something is not done, for a person.
+    /// Returns the reason for a refusal, for a person.
     pub(super) fn refusal_reply(status: u16, why: &str) -> Reply {
         Reply {
             status,

@@ -15,8 +15,8 @@ use crate::view::lint::describe_release;
 use serde_json::{Value, json};
 use std::collections::BTreeSet;
 
-/// By state, what the ideas of a list put at joints: joint and choice, as the changes of a variant name them, the symbols, and what
-/// each of these puts there.
+/// Returns for each state the joints that the ideas of a list change. Each has its joint and choice, as the changes of a
+/// variant name them, and its symbols.
 pub(super) fn idea_marks(
     m: &Mechanism,
     states: &[StateAnalysis],

@@ -38,7 +38,7 @@ pub(super) fn whole_style() -> String {
     STYLES.concat()
 }
 
-/// The frame of the page, which the scripts fill.
+/// Returns the frame of the page, which the scripts fill.
 pub(super) fn page_html() -> String {
     let markup = html! {
         (DOCTYPE)
@@ -69,7 +69,7 @@ pub(super) fn page_html() -> String {
     markup.into_string()
 }
 
-/// The head of the page: the file and what is done with it.
+/// Returns the head of the page: the file and its commands.
 fn bar_html() -> Markup {
     let button = |id: &str, words: &str, tip: &str| html! { button type="button" id=(id) title=(tip) { (words) } };
     html! {

@@ -168,7 +168,7 @@ impl DeskReading {
         }));
     }
 
-    /// All of it for the page.
+    /// Returns the whole reading for the page.
     pub(super) fn reading_json(&self) -> Value {
         json!({
             "file": self.file.as_ref().map(MechanismFile::json),
@@ -181,7 +181,7 @@ impl DeskReading {
     }
 }
 
-/// The line of a byte, from 1.
+/// Returns the line of a byte, from 1.
 fn line_of(text: &str, at: usize) -> usize {
     let before = text.get(..at).unwrap_or(text);
     before.matches('\n').count() + 1
@@ -224,7 +224,7 @@ impl Items {
         Items(out)
     }
 
-    /// The item that a byte is in.
+    /// Returns the item that contains a byte.
     fn item_at(&self, byte: usize) -> Option<(Thing, usize)> {
         let found = self.0.iter().rfind(|(_, _, s)| s.contains(&byte));
         found.map(|&(what, n, _)| (what, n))

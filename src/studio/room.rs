@@ -81,7 +81,7 @@ impl Room {
         lock_mutex(&self.desk)
     }
 
-    /// Changes the desk and informs all windows.
+    /// Updates the desk and informs all windows.
     pub(super) fn at_desk(
         &self,
         act: impl FnOnce(&mut Desk) -> Result<(), Refused>,
@@ -92,7 +92,7 @@ impl Room {
         done.map(|()| told)
     }
 
-    /// Whether another program has written to the file.
+    /// Checks if another program has written to the file, and informs the windows.
     pub(super) fn look_at_disk(&self) {
         let mut desk = self.desk();
         // One that cannot be read now may be readable in a moment.
@@ -128,7 +128,7 @@ impl Room {
         }
     }
 
-    /// Whether a revision is of no use any more.
+    /// Returns true if a revision is outdated.
     pub(super) fn is_old(&self, revision: u64) -> bool {
         self.has_ended() || self.newest.load(Ordering::SeqCst) != revision
     }
@@ -161,7 +161,7 @@ impl Room {
         self.windows.tell_found(&made);
     }
 
-    /// All that a window has to know when it opens.
+    /// Returns all events that a window needs when it opens.
     pub(super) fn events_now(&self) -> Vec<Arc<str>> {
         let look = self.desk().desk_json();
         let told = lock_mutex(&self.told);
@@ -216,12 +216,12 @@ impl Room {
         self.desk().keep_again()
     }
 
-    /// Where unsaved work is kept, if there is any.
+    /// Returns the path of unsaved work, if there is any.
     pub(super) fn unsaved_path(&self) -> Option<PathBuf> {
         self.desk().unsaved_path()
     }
 
-    /// Numbers for tests, and for who wonders.
+    /// Returns numbers for tests and diagnosis.
     pub(super) fn status_json(&self) -> Value {
         let [begun, ended] = self.searches.each_ref().map(|n| n.load(Ordering::SeqCst));
         json!({
@@ -243,18 +243,18 @@ pub(super) struct Windows {
     ever: AtomicBool,
 }
 
-/// An event as a browser reads it.
+/// Returns an event in the format of a browser's event stream.
 pub(super) fn format_event(name: &str, value: &serde_json::Value) -> Arc<str> {
     format!("event: {name}\ndata: {value}\n\n").into()
 }
 
 impl Windows {
-    /// How many there are.
+    /// Returns the number of open windows.
     pub(super) fn window_count(&self) -> usize {
         lock_mutex(&self.list).len()
     }
 
-    /// Whether there were any, and none is there now.
+    /// Returns true if there were windows, and all are closed now.
     pub(super) fn have_left(&self) -> bool {
         self.ever.load(Ordering::SeqCst) && lock_mutex(&self.list).is_empty()
     }

@@ -29,7 +29,7 @@ struct Sent {
     yes: bool,
 }
 
-/// Answers a request that was let in, by the rest of its path.
+/// Handles an admitted request, by the rest of its path.
 pub(super) fn answer_request(asked: &Asked, path: &str, room: &Room) -> Reply {
     match asked.method.as_str() {
         "GET" => answer_get(path, room),
@@ -66,7 +66,7 @@ fn answer_get(path: &str, room: &Room) -> Reply {
     }
 }
 
-/// The mechanism in another format, to be saved by the browser.
+/// Returns the mechanism in another format, for the browser to save.
 fn export_reply(format: &str, room: &Room) -> Reply {
     let (reading, name) = {
         let desk = room.desk();

@@ -27,7 +27,7 @@ const OWN: [(&str, &str, &str); 3] = [
     ),
 ];
 
-/// All that there is to start from, by family.
+/// Returns all the mechanisms to start from, by family.
 pub(super) fn shelf_list() -> Value {
     let own: Vec<Value> = OWN
         .iter()
@@ -58,7 +58,7 @@ pub(super) fn opening_of(name: &str, folder: PathBuf) -> Option<Opening> {
     Some(Opening::Builtin(name.to_owned(), folder))
 }
 
-/// The picture of one of the list.
+/// Returns the picture of a mechanism in the list.
 pub(super) fn picture_of(name: &str) -> Option<String> {
     let own = OWN.iter().find(|(n, ..)| *n == name);
     let m = match own {
@@ -72,7 +72,7 @@ pub(super) fn picture_of(name: &str) -> Option<String> {
     still_picture(&m)
 }
 
-/// A mechanism with a joint of each type, side by side.
+/// Returns a mechanism with a joint of each type, side by side.
 fn sampler_mechanism() -> Option<Mechanism> {
     let mut text = "name = \"palette\"\n[[link]]\nid = \"0\"\nrole = \"frame\"\n".to_owned();
     for (n, word) in JointType::all_words().enumerate() {
@@ -91,7 +91,7 @@ fn sampler_mechanism() -> Option<Mechanism> {
     mechanism_from_str("palette.toml", &text).ok()
 }
 
-/// Every type with its class, its freedoms, what it is, and the pieces of its symbol.
+/// Returns every type with its class, its freedoms, its description, and the pieces of its symbol.
 pub(super) fn joint_types() -> Value {
     let words = PairWords::builtin();
     let Some(m) = sampler_mechanism() else {

@@ -118,13 +118,13 @@ fn compute_motion(room: &Room, revision: u64, m: &Mechanism, states: &[StateAnal
     }
 }
 
-/// Each state analysed; why not, in words, where it cannot be.
+/// Returns the analysis of each state. If one cannot be analysed, returns the reason in words.
 pub(super) fn all_states(m: &Mechanism) -> Result<Vec<StateAnalysis>, String> {
     let all: Vec<StateId> = m.state_ids().collect();
     analyse_states(m, &all, Method::Auto).map_err(|e| e.to_string())
 }
 
-/// The verdict as the page shows it: the analysis that `ozols analyze --format json` gives, the words of the report, and the
+/// Returns the verdict for the page. It has the analysis of `ozols analyze --format json`, the text of the report, and the
 /// mechanism at rest.
 pub(super) fn verdict_json(m: &Mechanism, states: &[StateAnalysis], revision: u64) -> Value {
     let analysis = Analysis::new(m, states, &[]);
@@ -196,7 +196,7 @@ fn run_search(room: &Room, revision: u64, m: &Mechanism, states: &[StateAnalysis
     }
 }
 
-/// What `ozols search --format json` gives, and what each change looks like.
+/// Returns the result of `ozols search --format json`, and the symbols of each change.
 fn ideas_json(
     room: &Room,
     revision: u64,
@@ -244,7 +244,7 @@ fn ideas_json(
 /// Positions of a stroke that the file does not state.
 const STEPS: usize = 24;
 
-/// By state a chart as SVG, or why there is none; null where nothing loads it.
+/// Returns for each state a chart as SVG, or why there is none. Null if the state has no loads.
 fn force_charts(m: &Mechanism) -> Vec<Value> {
     m.state_ids().map(|s| force_chart(m, s)).collect()
 }
@@ -264,7 +264,7 @@ fn force_chart(m: &Mechanism, state: StateId) -> Value {
     }
 }
 
-/// As far as the drive goes.
+/// Returns the stroke, as far as the drive goes.
 fn stroke_reach(m: &Mechanism, state: StateId) -> Option<Stroke> {
     let [from, to] = Moving::new(m, state, None, None).ok()?.drive_reach()?;
     Some(Stroke {

@@ -14,7 +14,7 @@ use crate::search::question::conditions::Symmetry;
 use crate::view::accuracy::bench_text;
 use serde_json::json;
 
-/// What to do, for each chart: which way of searching to take.
+/// Advice for each chart: which way of searching to use.
 const ADVICE: [&str; 3] = [
     "If the diagram fits into --nodes, take it whole: its counts are exact, and --check prime proves them over a second prime.",
     "If it does not, a search that is stopped gives certain bounds and an interval of 95 %: raise --nodes tenfold to narrow them.",

@@ -9,12 +9,12 @@ use chacha20::rand_core::{Rng, SeedableRng};
 use num_bigint::BigInt;
 use num_rational::BigRational;
 
-/// 10^e, exactly.
+/// Returns 10^e, exactly.
 pub(crate) fn power_of_ten(e: i32) -> Expr {
     Expr::rational(BigRational::from_integer(BigInt::from(10)).pow(e))
 }
 
-/// A copy without what only a search needs.
+/// Returns a copy without the data that only a search needs.
 fn without_options(mechanism: &Mechanism) -> Mechanism {
     let mut m = mechanism.clone();
     for joint in &mut m.joints {
@@ -24,7 +24,7 @@ fn without_options(mechanism: &Mechanism) -> Mechanism {
     m
 }
 
-/// Every length multiplied by 10^e, exactly.
+/// Returns a copy with every length multiplied by 10^e, exactly.
 pub(crate) fn resize(mechanism: &Mechanism, e: i32) -> Mechanism {
     let mut m = without_options(mechanism);
     let factor = power_of_ten(e);
@@ -69,14 +69,14 @@ pub(crate) fn with_exact_decimals(mechanism: &Mechanism) -> Mechanism {
 pub struct Noise(ChaCha8Rng);
 
 impl Noise {
-    /// The noise of a seed, for the `n`th mechanism.
+    /// Creates the noise of a seed, for the `n`th mechanism.
     pub fn new(seed: u64, n: usize) -> Noise {
         let mut random = ChaCha8Rng::seed_from_u64(seed);
         random.set_stream(n as u64);
         Noise(random)
     }
 
-    /// Uniform in [-1, 1].
+    /// Returns a uniform random number in [-1, 1].
     pub fn draw_uniform(&mut self) -> f64 {
         f64::from(self.0.next_u32()) / f64::from(u32::MAX) * 2.0 - 1.0
     }

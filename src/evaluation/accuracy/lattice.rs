@@ -25,7 +25,7 @@ impl LatticeKind {
     ];
 }
 
-/// A mechanism of `k` contours (for a grid: the next multiple of three).
+/// Returns a mechanism of `k` contours (for a grid: the next multiple of three).
 ///
 /// # Panics
 /// Never: the text is valid.

@@ -138,7 +138,7 @@ pub(crate) struct Tally {
 }
 
 impl Tally {
-    /// Counts replies.
+    /// Creates the tally of some replies.
     pub(crate) fn of<'a>(replies: impl IntoIterator<Item = &'a Reply>) -> Tally {
         let mut tally = Tally::default();
         for reply in replies {

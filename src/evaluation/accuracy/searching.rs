@@ -1,5 +1,6 @@
-//! How right and how fast each way of searching is: the whole diagram over one prime and over two, with second opinions and with a
-//! budget; rankings of larger and smaller pools; a search that prunes; brute force over a prime and in floating point.
+//! Accuracy and speed of each way of searching. They are: the whole diagram over one prime and over two, with second
+//! opinions and with a budget; rankings of larger and smaller pools; a search that prunes. Brute force runs over a prime and
+//! in floating point.
 //!
 //! The truth comes from a third prime, which no way uses: variant by variant if there are few enough to examine each, and
 //! otherwise by the whole diagram over that prime, with some variants drawn at random. A ranking is judged only by one of which it
@@ -45,7 +46,7 @@ pub type Progress<'a> = &'a mut dyn FnMut(Way, usize, usize);
 /// Tries every way of searching a mechanism. The request gives the conditions and the number of the best.
 ///
 /// # Errors
-/// As [`crate::score::run::run`].
+/// Returns an error in the same cases as [`crate::score::run::run`].
 ///
 /// # Complexity
 /// Some searches, and six examinations of each of [`TrialEffort::looked`] variants.
@@ -158,7 +159,7 @@ fn by_diagram(
     })
 }
 
-/// Counts without a list, and without the file's ranking.
+/// Returns the counts without a list, and without the file's ranking.
 fn count_unranked(mechanism: &Mechanism, request: &Request) -> Result<Outcome, RunError> {
     let mut unranked = mechanism.clone();
     unranked.ranking = None;

@@ -35,7 +35,7 @@ impl SpecialKind {
         SpecialKind::Rods,
     ];
 
-    /// Its name in pictures.
+    /// Returns the name used in pictures.
     pub fn name(self) -> &'static str {
         match self {
             SpecialKind::Door => "door",
@@ -54,7 +54,7 @@ impl SpecialKind {
         }
     }
 
-    /// Its hinges, of a size near 2, one off by a length or an angle.
+    /// Returns the hinges, of a size near 2. One is off by a length or an angle.
     fn place_hinges(self, off: f64, unit: f64, noise: &mut Noise) -> Vec<Hinge> {
         // On the grid of the last digit, so that rounding does not change the offset of what is not turned.
         let mut near = |x: f64| ((x + 0.2 * noise.draw_uniform()) / unit).round() * unit;
@@ -105,7 +105,8 @@ impl SpecialKind {
         }
     }
 
-    /// The file of one that is off by so many units of the last digit, turned in space or not.
+    /// Returns the file of a mechanism that is off by `units` units of the last digit. With `turned`, it is rotated in
+    /// space.
     pub fn text(self, units: f64, decimals: usize, turned: bool, noise: &mut Noise) -> String {
         let unit = 10f64.powi(-(decimals as i32));
         let axis = [(); 3].map(|()| noise.draw_uniform());
@@ -189,7 +190,7 @@ impl Sketch {
         self.add_joint(ends, "revolute", &format!("[{x}, {y}, 0]"), "[0, 0, 1]");
     }
 
-    /// The file.
+    /// Returns the file.
     pub(crate) fn text(&self, name: &str) -> String {
         let mut out = format!("name = \"{name}\"\n");
         for (i, link) in self.links.iter().enumerate() {

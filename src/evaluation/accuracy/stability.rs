@@ -8,7 +8,7 @@ mod scenes;
 use super::cases::Case;
 use super::study::{Effort, Progress, Study};
 
-/// Every study in turn.
+/// Runs every study in turn.
 pub fn run_studies(cases: &[Case], effort: Effort, progress: Progress<'_>) -> Vec<Study> {
     let step = if effort.quick { 4 } else { 1 };
     let some: Vec<Case> = cases.iter().step_by(step).cloned().collect();

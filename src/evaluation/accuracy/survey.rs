@@ -40,7 +40,7 @@ pub struct MethodRecord {
 }
 
 impl MethodRecord {
-    /// Cases it answers wrongly, for the pose too.
+    /// Returns the number of cases with a wrong answer, for the pose too.
     pub fn count_wrong(&self) -> usize {
         self.applies - self.right - self.pose
     }
@@ -89,7 +89,7 @@ impl Survey {
         Survey { cases, replies }
     }
 
-    /// The replies of the `m`th method with their cases.
+    /// Returns the replies of the `m`th method with their cases.
     pub fn of_method(&self, m: usize) -> impl Iterator<Item = (&Case, &Reply)> {
         self.cases
             .iter()
@@ -97,7 +97,7 @@ impl Survey {
             .map(move |(c, r)| (c, &r[m]))
     }
 
-    /// The record of the `m`th method.
+    /// Returns the record of the `m`th method.
     pub fn record_of(&self, m: usize) -> MethodRecord {
         let count = |of: &dyn Fn(&Reply) -> bool| self.of_method(m).filter(|(_, r)| of(r)).count();
         let right = count(&|r| r.verdict == AnswerVerdict::Right);

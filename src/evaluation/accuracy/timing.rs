@@ -78,7 +78,7 @@ pub struct Timing {
 }
 
 impl Timing {
-    /// Of some times, at least one.
+    /// Creates the timing from at least one time.
     pub fn of(times: &[f64]) -> Timing {
         let [least, median, most] = [0.0, 0.5, 1.0].map(|at| quantile(times, at));
         Timing {
@@ -131,7 +131,8 @@ impl Stopwatch {
     }
 }
 
-/// The value below which a share of some numbers lies, between neighbours in proportion; 0 of none.
+/// Returns the value below which a share of some numbers lies, with linear interpolation between neighbours. Returns 0 if
+/// there are no numbers.
 pub(crate) fn quantile(of: &[f64], share: f64) -> f64 {
     let mut of = of.to_vec();
     of.sort_by(f64::total_cmp);

@@ -26,7 +26,7 @@ pub struct JointTypes {
 }
 
 impl JointTypes {
-    /// The built-in catalogue.
+    /// Returns the built-in catalogue.
     ///
     /// # Panics
     /// Never: the text is part of the program, and a test reads it.
@@ -36,7 +36,7 @@ impl JointTypes {
         }
     }
 
-    /// The catalogue with what a mechanism's file replaces.
+    /// Returns the catalogue with the replacements in a mechanism's file.
     pub fn of(mechanism: &Mechanism) -> JointTypes {
         let mut all = JointTypes::built_in();
         for o in &mechanism.joint_types {
@@ -59,7 +59,7 @@ impl JointTypes {
         all
     }
 
-    /// A type by its name.
+    /// Returns a type by its name.
     pub fn get(&self, name: &str) -> Option<&JointType> {
         self.by_name.get(name)
     }

@@ -69,7 +69,7 @@ pub struct Outcome {
 }
 
 impl Outcome {
-    /// An outcome of counts alone.
+    /// Creates an outcome from the counts only.
     pub(super) fn of_counts(
         search: Search,
         request: Request,
@@ -101,7 +101,7 @@ impl Outcome {
         }
     }
 
-    /// The same by singular values, which found this.
+    /// Creates an outcome from a search by singular values.
     pub(super) fn of_numeric(
         search: Search,
         request: Request,
@@ -137,12 +137,12 @@ impl Outcome {
         self.stop == Stop::Exhausted && self.numeric.is_none()
     }
 
-    /// Whether nothing speaks against exact arithmetic.
+    /// Returns true if no numerical check contradicts exact arithmetic.
     pub fn is_confirmed(&self) -> bool {
         self.second.as_ref().is_none_or(SecondOpinion::confirms)
     }
 
-    /// Whether every variant was judged by singular values.
+    /// Returns true if every variant was judged by singular values.
     pub fn is_numeric_whole(&self) -> bool {
         self.numeric.as_ref().is_some_and(AtTolerance::is_whole)
     }
@@ -153,7 +153,7 @@ impl Outcome {
         found.is_some_and(|f| !f.admissible.is_narrow())
     }
 
-    /// Whether the determinate variants are counted exactly, however the rest ended.
+    /// Returns true if the determinate variants are counted exactly, even if the rest of the search ended early.
     pub fn is_determinate_exact(&self) -> bool {
         self.is_determinate_counted() && self.is_confirmed()
     }
@@ -163,14 +163,14 @@ impl Outcome {
         self.determinate_stop == Stop::Exhausted && self.numeric.is_none()
     }
 
-    /// The cost in thousandths up to which every admissible variant is known, however the search ended; `None` where of no
-    /// cost it can be said.
+    /// Returns the cost in thousandths up to which every admissible variant is known, even if the search ended early. `None`
+    /// if this holds for no cost.
     pub fn known_up_to(&self) -> Option<i64> {
         let found = self.diagrams.as_ref().filter(|_| self.is_confirmed());
         found?.known_up_to()
     }
 
-    /// About how many determinate and admissible variants there are, where the search ended early.
+    /// Returns the estimated numbers of determinate and admissible variants, if the search ended early.
     pub fn estimates(&self) -> [Option<&Estimate>; 2] {
         let found = self.diagrams.as_ref();
         [0, 1].map(|i| found.and_then(|d| d.estimates[i].as_ref()))
@@ -186,8 +186,8 @@ impl Outcome {
         self.search.count_minimal(found?)
     }
 
-    /// Counts of the admissible variants by cost in thousandths; none of orbits, and none by brute force. `None`
-    /// where they would take more than the memory there is.
+    /// Returns the numbers of admissible variants by cost in thousandths. `None` for orbits, for brute force, and if they
+    /// would take more than the available memory.
     ///
     /// # Complexity
     /// One more tally of the diagram.
@@ -212,14 +212,14 @@ impl Outcome {
         counts::counts_by_cost(&self.search, lasting?)
     }
 
-    /// Returns what easing one condition would leave if nothing was found, for the conditions that were reached until `cancelled` said to
-    /// end. If some variants keep the motion in the drawn pose only, returns these.
+    /// Returns the variants that relaxing one condition would leave if nothing was found. Covers the conditions that were
+    /// reached until `cancelled` returned true. If some variants keep the motion in the drawn pose only, returns these.
     ///
     /// # Errors
     /// Returns an error if the geometry has no exact image.
     ///
     /// # Complexity
-    /// A search for each condition and each step of easing it, none of more than some thousand nodes.
+    /// A search for each condition and each step of relaxing it. None has more than some thousand nodes.
     pub fn list_relaxations(
         &self,
         cancelled: &(dyn Fn() -> bool + Sync),

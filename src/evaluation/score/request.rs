@@ -66,7 +66,7 @@ pub enum List {
     Nothing,
 }
 
-/// The best so many, from a number.
+/// Reads the number of best variants to list.
 fn read_best<'de, D: Deserializer<'de>>(from: D) -> Result<List, D::Error> {
     usize::deserialize(from).map(List::Top)
 }
@@ -273,8 +273,8 @@ impl Request {
         })
     }
 
-    /// The mechanism that is meant in all its states; as it is written where that is asked for, or where nothing exact is meant.
-    /// `tell` hears what was moved, or why nothing was.
+    /// Returns the intended mechanism in all its states. Returns it as written if the request requires this, or if there is
+    /// no exact intended geometry. `tell` receives what was moved, or why nothing was.
     ///
     /// # Errors
     /// Returns an error if there is no verdict on the mechanism.
@@ -295,7 +295,7 @@ impl Request {
         Ok(settled.snapped.unwrap_or_else(|| mechanism.clone()))
     }
 
-    /// The state that takes part, with what is asked of variants in it.
+    /// Returns the searched state, with the conditions on variants in it.
     ///
     /// # Errors
     /// Returns an error if the mechanism has no such state.
@@ -372,7 +372,7 @@ impl Request {
         Ok((conditions, rounded))
     }
 
-    /// The ranking of the file, with the terms of the request where it names some; `None` where neither asks for one.
+    /// Returns the ranking of the file, with the terms of the request if it names some. `None` if neither requests one.
     ///
     /// # Errors
     /// Returns an error if the pool is 0 or too large.
@@ -396,8 +396,8 @@ impl Request {
         Ok(ranking)
     }
 
-    /// How many of the cheapest variants a ranking scores before it goes through the others; as [`Request::pool`] of another
-    /// request, it is these and no others.
+    /// Returns the number of the cheapest variants that a ranking scores before it examines the others. As [`Request::pool`]
+    /// of another request, the ranking covers only these.
     pub fn cheapest_scored(&self) -> usize {
         self.pool.unwrap_or(POOL)
     }

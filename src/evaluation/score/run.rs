@@ -63,8 +63,8 @@ pub type ShouldCancel<'a> = &'a (dyn Fn() -> bool + Sync);
 /// Searches a mechanism.
 ///
 /// # Errors
-/// Returns an error if the request does not suit the mechanism, if measured coordinates change the figures, if two primes disagree, or
-/// if a ranking needs loads that the file does not state.
+/// Returns an error if the request does not suit the mechanism, or if measured coordinates change the figures. Returns an
+/// error if two primes disagree, or if a ranking needs loads that the file does not state.
 ///
 /// # Guarantee
 /// Counts are exact if [`Outcome::stop`] is [`Stop::Exhausted`], and lower bounds otherwise. A rank modulo a prime is a
@@ -91,7 +91,7 @@ pub fn run(
 /// Searches a mechanism that [`Request::prepare`] gave, under what [`Request::conditions`] gave.
 ///
 /// # Errors
-/// As [`run`].
+/// Returns an error in the same cases as [`run`].
 pub fn answer_request(
     mechanism: Arc<Mechanism>,
     conditions: Conditions,
@@ -156,7 +156,7 @@ pub fn answer_request(
     })
 }
 
-/// The search over a prime, counted from 0.
+/// Returns the search over a prime, counted from 0.
 fn over_prime(
     mechanism: &Arc<Mechanism>,
     conditions: &Conditions,
@@ -169,7 +169,7 @@ fn over_prime(
     Ok(Search::new(field, mechanism.clone(), conditions)?)
 }
 
-/// The search over the first prime, with its twin over the second where a check needs it.
+/// Returns the search over the first prime, with its twin over the second if a check needs it.
 fn with_twin(
     check: Check,
     over: impl Fn(usize) -> Result<Search, RunError> + Sync,
@@ -209,7 +209,7 @@ fn by_brute_force(
     Ok(Outcome { second, ..found })
 }
 
-/// The diagrams, built over one prime or over two that must agree.
+/// Returns the diagrams, built over one prime or over two that must agree.
 fn build_diagrams(
     search: &Search,
     twin: Option<&Search>,
@@ -232,7 +232,7 @@ fn build_diagrams(
     Ok((first, Some(PrimeCheck { primes, verdict })))
 }
 
-/// How many variants are determinate, and how many admissible.
+/// Returns the numbers of determinate and admissible variants.
 fn count_found(search: &Search, diagrams: &Diagrams, request: &Request) -> SearchCounts {
     let mut counts = if request.only_sums && request.symmetry != Symmetry::OnePerOrbit {
         SearchCounts::sums_of(search, diagrams)
@@ -275,7 +275,7 @@ fn in_other_poses(
     Ok(stroke)
 }
 
-/// The cheapest variants in the order of a ranking, where one is asked for.
+/// Returns the cheapest variants in the order of a ranking, if one is requested.
 fn rank_pool(
     search: &Search,
     diagrams: &Diagrams,
@@ -302,7 +302,7 @@ fn rank_pool(
     Ok(pool)
 }
 
-/// The search of the mechanism as its file writes it, for singular values.
+/// Returns the search of the mechanism as its file writes it, for singular values.
 fn by_values(conditions: &Conditions) -> Result<Option<(Search, Digits)>, RunError> {
     let mut conditions = conditions.clone();
     let Some(written) = conditions.written.take() else {
@@ -355,7 +355,8 @@ fn search_numerically(
     ))
 }
 
-/// Counts of orbits over one prime or two, which must agree, and why the search ended with that for the symmetric variants.
+/// Computes the counts of orbits over one prime or two, which must agree. Also returns why the search ended, including that
+/// for the symmetric variants.
 fn count_orbits(
     search: &Search,
     twin: Option<&Search>,

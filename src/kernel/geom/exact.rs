@@ -4,8 +4,8 @@
 //! N` maps that field into F_p. Square roots of primes that divide N already lie in Q(zeta_N), so they have to be the
 //! Gauss sums. All other square roots are independent of it, and either root in F_p is valid.
 //!
-//! The result is a true ring homomorphism: zero maps to zero, and a nonzero number maps to zero only for the rare
-//! primes that divide its norm.
+//! The result is a true ring homomorphism. Zero maps to zero, and a nonzero number maps to zero only for the rare primes
+//! that divide its norm.
 //!
 //! # Sources
 //! Ireland & Rosen, "A Classical Introduction to Modern Number Theory", ch. 6 (quadratic Gauss sums).
@@ -28,7 +28,7 @@ impl ExactField {
     /// Creates the homomorphism into the `nth` suitable prime field above 2^61. The same expressions give the same
     /// field, others most likely a different one.
     ///
-    /// Costs O(`nth`) prime searches, each of 2^k candidates for k independent roots, and O(q) for every prime q both
+    /// Needs O(`nth`) prime searches, each of 2^k candidates for k independent roots. Needs O(q) for every prime q both
     /// under a root and in an angle.
     ///
     /// # Errors

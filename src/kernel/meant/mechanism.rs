@@ -148,13 +148,13 @@ fn written_alike(a: &[Expr; 3], b: &[Expr; 3]) -> bool {
     a.iter().zip(b).all(|(a, b)| a.is_same(b))
 }
 
-/// Recovers the mechanism intended by rounded coordinates. Returns `None` if nothing is rounded, or if no scene is
-/// found within the digits.
+/// Recovers the mechanism intended by rounded coordinates. `None` if nothing is rounded, or if no scene is found within the
+/// digits.
 ///
 /// # Guarantee
-/// No number is moved by more than half a unit of its last digit, or its stated uncertainty, and a third for
-/// intermediate rounding. Exact numbers stay unchanged. The structure does not depend on the orientation of the file,
-/// except for second axes left to the default.
+/// No number is moved by more than half a unit of its last digit, or its stated uncertainty. Intermediate rounding adds a
+/// third. Exact numbers stay unchanged. The structure does not depend on the orientation of the file, except for second axes
+/// left to the default.
 ///
 /// # Complexity
 /// As [`resolve`].

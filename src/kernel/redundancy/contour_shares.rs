@@ -76,7 +76,7 @@ pub(crate) fn coupling_shares(
 /// - The smallest is the number of rows less the rank of the contour's own columns.
 ///
 /// # Complexity
-/// One elimination of J by rows, then O(σ·k) to examine the basis and an elimination of at most `dim` independent rows
+/// One elimination of J by rows. Then O(σ·k) to examine the basis and an elimination of at most `dim` independent rows
 /// per contour. By the definition it would be k + 2 eliminations of J.
 #[must_use]
 pub fn contour_shares(exact: &ExactField, closure: &Closure<Residue>) -> Vec<ContourShare> {

@@ -116,15 +116,15 @@ impl HeldTwice {
 /// and `inside` which poses are within the limits of the joints. Without `inside`, only this pose is examined.
 ///
 /// # Guarantee
-/// σ is as the analysis says. The choice of redundant constraints of each loop is numeric, and there are other choices
-/// of as many constraints. Redundancy at this pose only is determined from a few further poses, if nothing is proven.
+/// σ is as the analysis says. The choice of redundant constraints of each loop is numeric, and there are other choices of as
+/// many constraints. If nothing is proven, a few further poses show which are redundant at this pose only.
 ///
 /// # Errors
 /// Returns an error in the same cases as [`analyse`].
 ///
 /// # Complexity
-/// That of an analysis, two decompositions of J and, if nothing is proven, a few tens of closures. Only an analysis if
-/// σ = 0.
+/// That of an analysis and two decompositions of J. If nothing is proven, also a few tens of closures. Only an analysis if σ
+/// = 0.
 pub fn held_twice(
     m: &Mechanism,
     closes: &dyn Fn(JointId) -> bool,

@@ -29,7 +29,7 @@ pub struct Idle {
     pub direction: Option<Direction>,
 }
 
-/// Returns a basis of the motions that leave the outputs at rest: first motions of single links, then the others.
+/// Returns a basis of the motions that leave the outputs at rest. Motions of single links come first.
 ///
 /// # Complexity
 /// O(n · f) twists for n links; an elimination of each link's own columns, and one of W motions.
@@ -233,13 +233,13 @@ pub struct Wiggle {
     pub closed: bool,
 }
 
-/// Returns one of the idle motions of a state, or `None` if the numerical null vectors do not show it.
+/// Returns one of the idle motions of a state. `None` if the numerical null vectors do not show it.
 ///
 /// # Errors
 /// Returns an error if a coordinate has no value.
 ///
 /// # Complexity
-/// Singular values of a matrix of six rows per contour and per link at rest, for each motion up to the requested one.
+/// Singular values of a matrix for each motion up to the requested one. It has six rows per contour and per link at rest.
 /// Then one closure per pose.
 pub fn animate_idle(
     mechanism: &Mechanism,

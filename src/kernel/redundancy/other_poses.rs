@@ -126,8 +126,7 @@ fn limit_words(limited: bool) -> &'static str {
 /// # Errors
 /// Returns an error if a coordinate has no value.
 ///
-/// # Complexity
-/// A few closures of O((6k)² f) and a decomposition of J per pose, if the finite mobility does not decide.
+/// A few closures of O((6k)² f). A decomposition of J per pose, if the finite mobility does not decide.
 pub(crate) fn redundant_where(
     m: &Mechanism,
     state: StateId,

@@ -151,13 +151,13 @@ impl<'a> Stresses<'a> {
     }
 }
 
-/// Returns the number of self-stresses that load the added joints of a state with more than friction.
+/// Returns the number of self-stresses that load the joints added by a state with more than friction.
 ///
 /// # Errors
 /// Returns an error if a coordinate has no value in the field.
 ///
 /// # Complexity
-/// One elimination of J, O((6k)² f), and a few of the stresses.
+/// One elimination of J, O((6k)² f). A few eliminations of the stresses.
 pub(crate) fn harmful_count(
     exact: &ExactField,
     mechanism: &Mechanism,

@@ -41,11 +41,10 @@ pub struct Stressed<'a> {
 }
 
 impl<'a> Stressed<'a> {
-    /// Returns the self-stresses if J has a rank, for each part that has any. Returns `None` if singular values do not
-    /// converge.
+    /// Returns the self-stresses if J has a rank, for each part that has any. `None` if singular values do not converge.
     ///
     /// # Guarantee
-    /// Numeric: as reliable as the rank, and the gap in the singular values that it is based on.
+    /// Numeric: as reliable as the rank. It depends on the gap in the singular values.
     ///
     /// # Complexity
     /// One decomposition of J of each part.

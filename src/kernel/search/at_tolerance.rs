@@ -37,14 +37,14 @@ const AT_ONCE: usize = 2048;
 /// Number of variants that a thread examines between two checks for cancellation.
 const BLOCK: usize = 64;
 
-/// Searches by singular values. In spaces that are too large to be examined completely, it looks for the `list` cheapest variants, and
+/// Searches by singular values. If the space is too large to examine completely, finds the `list` cheapest variants and
 /// draws a sample from `seed`.
 ///
 /// # Errors
 /// Returns an error if a coordinate has no value.
 ///
 /// # Complexity
-/// Two or three decompositions of a matrix of 6k rows per variant, in parallel, for at most [`WHOLE`] variants.
+/// Two or three decompositions per variant. They run in parallel, for at most [`WHOLE`] variants. Their matrices have 6k rows.
 pub(crate) fn at_tolerance(
     question: &mut Question,
     digits: Digits,

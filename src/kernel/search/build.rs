@@ -55,7 +55,7 @@ impl Diagrams {
         self.lasting.as_ref().unwrap_or(&self.admissible)
     }
 
-    /// The less complete of the two reasons for stopping.
+    /// Returns the less complete of the two reasons for stopping.
     #[must_use]
     pub fn stop_reason(&self) -> Stop {
         self.determinate.stop.combine_with(self.admissible.stop)
@@ -74,7 +74,7 @@ fn is_whole(of: &Diagram) -> bool {
     of.stop == Stop::Exhausted
 }
 
-/// Whether a diagram is whole and has no variant.
+/// Returns true if a diagram is whole and has no variants.
 fn is_empty(of: &Diagram) -> bool {
     is_whole(of) && of.terminals.is_empty()
 }

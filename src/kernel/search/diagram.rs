@@ -39,7 +39,8 @@ pub struct Progress {
 }
 
 impl Progress {
-    /// In a layer behind so many variables, with nodes before it and in it.
+    /// Creates the progress in a layer after `done` of `of` variables, with `before` nodes before it and `layer` nodes in
+    /// it.
     pub(in crate::search) fn in_layer(
         done: usize,
         of: usize,
@@ -111,16 +112,16 @@ impl Diagram {
     }
 }
 
-/// Builds the diagram of a space along given stages, of variants that spend `root` before any choice; under a ceiling,
-/// all of it that variants within the ceiling need.
+/// Builds the diagram of a space along given stages, of variants that spend `root` before any choice. Under a ceiling,
+/// builds only the part that variants within the ceiling need.
 ///
-/// `cancelled` is asked between batches of nodes; once it says yes the remaining layers are cut to a few nodes, so that
-/// what was found can still be completed. The result does not depend on the number of threads: children are computed in
-/// parallel and merged in order.
+/// `cancelled` is called between batches of nodes. Once it returns true, the remaining layers are cut to a few nodes, so
+/// that the paths found so far can still be completed. The result does not depend on the number of threads. Children are
+/// computed in parallel and merged in order.
 ///
 /// # Complexity
-/// O(nodes · choices · d²w) field operations for matrices of d rows and w columns; memory is the edges of all layers
-/// and the matrices of two, both bounded by `limits.nodes` and `limits.bytes`.
+/// O(nodes · choices · d²w) field operations for matrices of d rows and w columns. Memory is the edges of all layers and the
+/// matrices of two, both bounded by `limits.nodes` and `limits.bytes`.
 pub(super) fn build_layers(
     space: &Space,
     stages: &[impl Carries],
@@ -178,7 +179,7 @@ pub(super) fn build_layers(
     }
 }
 
-/// How many ways lead to each of the next nodes, from how many lead to these.
+/// Returns the number of paths to each of the next nodes, from the number to each of these nodes.
 fn carry_ways(ways: &[f64], edges: &[u32], choices: usize, next: usize) -> Vec<f64> {
     let mut out = vec![0.0; next];
     for (edges, n) in edges.chunks(choices.max(1)).zip(ways) {
@@ -201,11 +202,11 @@ fn cut_down(next: &mut Nodes, edges: &mut [u32], ways: Vec<f64>, keep: usize) ->
 
 /// A stage: it computes the children of nodes at a variable.
 pub(super) trait Carries: Sync {
-    /// Index of the variable in the space.
+    /// Returns the index of the variable in the space.
     fn variable(&self) -> usize;
-    /// Scratch space for a thread.
+    /// Returns scratch space for a thread.
     fn make_worker(&self) -> Worker;
-    /// About how many field operations a child takes of a node that has so many bytes.
+    /// Estimates the field operations for a child of a node of `bytes` bytes.
     fn child_effort(&self, bytes: usize) -> usize;
     /// Takes all children of a node, in order of choices.
     fn push_children(
@@ -265,7 +266,7 @@ const BATCH: usize = 1 << 25;
 /// Fewer children than this are not worth waking threads for.
 const PARALLEL: usize = 1024;
 
-/// The children of some nodes, in parallel, in order.
+/// Returns the children of some nodes, in parallel, in order.
 pub(super) fn expand_nodes(
     carries: &impl Carries,
     choices: usize,
@@ -294,8 +295,8 @@ pub(super) fn expand_nodes(
         .collect()
 }
 
-/// The nodes of a layer that are kept where not all can be, ascending: half of them those that most ways lead to, for what is counted,
-/// the others the cheapest, for what is listed; first come first kept among equals.
+/// Returns the nodes to keep in a layer that exceeds its limit, ascending. Half of them are reached by most paths, for the
+/// counts. The others are the cheapest, for the list. The first one found wins among equals.
 fn worth_keeping(nodes: &Nodes, ways: &[f64], keep: usize) -> Vec<usize> {
     let mut order: Vec<usize> = (0..nodes.len()).collect();
     order.sort_by(|&a, &b| ways[b].total_cmp(&ways[a]).then(a.cmp(&b)));

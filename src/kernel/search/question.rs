@@ -58,7 +58,7 @@ pub struct Question {
     pub(in crate::search) blocks: [Vec<Block>; 2],
 }
 
-/// The links whose motion may be kept: outputs and what is to be held, as far as they are in the free state.
+/// Returns the links whose motion may be kept: outputs and the bodies to hold, if they are in the free state.
 fn kept_links(mechanism: &Mechanism) -> Vec<LinkId> {
     let outputs = mechanism
         .link_ids()
@@ -72,7 +72,7 @@ fn kept_links(mechanism: &Mechanism) -> Vec<LinkId> {
     kept
 }
 
-/// How many joints of the free state are in none of its contours.
+/// Returns the number of joints of the free state that are in none of its contours.
 fn count_open_joints(mechanism: &Mechanism, contours: &[Contour]) -> usize {
     let joints = contours.iter().flat_map(|c| &c.joints);
     let closed = joints.map(|(j, _)| j).unique();
@@ -100,7 +100,7 @@ fn check_options(
     Ok(())
 }
 
-/// The frame, the links that are kept to the end, and those of joints that come after the common ones.
+/// Returns the frame, the links that are kept to the end, and the links of joints that follow the common ones.
 fn pinned_links(mechanism: &Mechanism, space: &Space, to_end: &[LinkId]) -> Vec<LinkId> {
     let mut pinned = vec![mechanism.frame_link()];
     pinned.extend(to_end);
@@ -112,7 +112,7 @@ fn pinned_links(mechanism: &Mechanism, space: &Space, to_end: &[LinkId]) -> Vec<
     pinned
 }
 
-/// The blocks of the variables of the free state, and those of the common ones between links that are `pinned`.
+/// Returns the blocks of the variables of the free state, and those of the common ones between links that are `pinned`.
 fn both_blocks(
     mechanism: &Mechanism,
     space: &Space,
@@ -244,7 +244,7 @@ impl Question {
         found.map(with).collect()
     }
 
-    /// The bodies that must be held in the searched state.
+    /// Returns the bodies that must be held in the searched state.
     pub fn held_bodies(&self) -> impl Iterator<Item = LinkId> + '_ {
         self.grasps.iter().map(|g| g.body)
     }
@@ -288,7 +288,7 @@ impl Question {
             })
     }
 
-    /// Dimension of the kept links' present motion.
+    /// Returns the dimension of the kept links' original motion.
     #[must_use]
     pub(crate) fn present_motion(&self) -> usize {
         self.present.unwrap_or(self.kept.motion.len())
@@ -300,19 +300,19 @@ impl Question {
         self.throughout.as_ref().err()
     }
 
-    /// The prime field of the search.
+    /// Returns the prime field of the search.
     #[must_use]
     pub fn field(&self) -> &ExactField {
         &self.exact
     }
 
-    /// Number of variants asked about: of orbits, where one of each is wanted.
+    /// Returns the number of variants in the question. Counts orbits if one of each is wanted.
     #[must_use]
     pub fn size(&self) -> BigUint {
         self.space.size()
     }
 
-    /// W of a variant, from its key: f - rank = f - 6k + σ.
+    /// Returns W of a variant from its key: f - rank = f - 6k + σ.
     #[must_use]
     pub fn mobility(&self, key: Key) -> i64 {
         i64::from(key.freedoms()) - self.rows + i64::from(key.internal())
@@ -324,7 +324,7 @@ impl Question {
         (key.cost(), self.mobility(key), key.changes(), key)
     }
 
-    /// Whether a variant's key meets the conditions on mobility and changes.
+    /// Returns true if a variant's key meets the conditions on mobility and changes.
     #[must_use]
     pub fn is_wanted(&self, key: Key) -> bool {
         self.conditions
@@ -336,7 +336,7 @@ impl Question {
                 .is_none_or(|c| key.changes() <= c)
     }
 
-    /// The choices of a variant's image.
+    /// Returns the choices of a variant's image.
     #[must_use]
     pub fn image_of(&self, choices: &[usize]) -> Vec<usize> {
         let mut out = choices.to_vec();

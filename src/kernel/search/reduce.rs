@@ -1,4 +1,5 @@
-//! Reductions of the question: parts that can be taken one after another, and the vectors that choices add to the present joints.
+//! Reductions of the question: parts that can be solved one after another, and the vectors that choices add to the original
+//! joints.
 
 pub(in crate::search) mod biconnected;
 pub(in crate::search) mod lifetimes;

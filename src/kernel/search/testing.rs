@@ -65,7 +65,7 @@ pub struct Walked {
     pub steps: usize,
 }
 
-/// Counts the steps that listing the cheapest admissible variants takes.
+/// Returns the number of steps needed to list the cheapest admissible variants.
 #[must_use]
 pub fn walked_for_variants(question: &Question, found: &Diagrams, top: usize) -> Walked {
     let mut steps = 0;
@@ -77,7 +77,7 @@ pub fn walked_for_variants(question: &Question, found: &Diagrams, top: usize) ->
     Walked { listed, steps }
 }
 
-/// Counts the steps that listing the first ideas takes.
+/// Returns the number of steps needed to list the first ideas.
 #[must_use]
 pub fn walked_for_ideas(question: &Question, found: &Diagrams, top: usize) -> Walked {
     let mut steps = 0;

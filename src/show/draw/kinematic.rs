@@ -128,7 +128,7 @@ struct Kinematic<'a> {
 }
 
 impl Kinematic<'_> {
-    /// The end of a link with one joint, and no point of interest that it leads to.
+    /// Returns the free end of a link with one joint, unless it leads to a point of interest.
     fn loose_end(&self, link: usize) -> Option<Point> {
         let (link, of) = &self.links[link];
         let &[only] = of.as_slice() else { return None };
@@ -209,7 +209,7 @@ impl Kinematic<'_> {
         sheet.finish_sheet(&caption, &plan)
     }
 
-    /// A picture with the symbols of the pose of the file, in groups that say what each part is.
+    /// Draws a picture with the symbols of the file's pose, in groups that name each part.
     fn draw_at_rest(&self, sheet: &mut Sheet, picture: &MovingPicture) {
         self.draw_traces(sheet);
         self.draw_picture(sheet, picture, true);
@@ -224,7 +224,7 @@ impl Kinematic<'_> {
         }
     }
 
-    /// A label; those of joints come first and stand in groups, so that a joint is found by its name.
+    /// Draws a label. Those of joints come first and are in groups, so that a joint is found by its name.
     fn draw_name(&self, sheet: &mut Sheet, n: usize, at: Point, label: &LabelText) {
         let LabelText { class, size, text } = label;
         let write = |s: &mut Sheet| s.write_text(class, *size, at, Anchor::Middle, text);
@@ -237,7 +237,7 @@ impl Kinematic<'_> {
         }
     }
 
-    /// The classes of a link.
+    /// Returns the classes of a link.
     fn link_classes(&self, link: usize, body: &Body) -> String {
         let (l, of) = &self.links[link];
         let here = of

@@ -16,7 +16,7 @@ impl Dice {
         Dice(seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) ^ 0x2545_f491_4f6c_dd1d)
     }
 
-    /// Even in 0..1.
+    /// Returns a uniform random number in 0..1.
     fn random_unit(&mut self) -> f64 {
         self.0 ^= self.0 << 13;
         self.0 ^= self.0 >> 7;
@@ -24,12 +24,12 @@ impl Dice {
         (self.0 >> 11) as f64 / (1u64 << 53) as f64
     }
 
-    /// Even in -1..1.
+    /// Returns a uniform random number in -1..1.
     fn random_signed(&mut self) -> f64 {
         2.0 * self.random_unit() - 1.0
     }
 
-    /// Even among 0..n.
+    /// Returns a uniform random number in 0..n.
     fn random_below(&mut self, n: usize) -> usize {
         ((self.random_unit() * n as f64) as usize).min(n.saturating_sub(1))
     }

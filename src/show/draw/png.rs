@@ -41,7 +41,7 @@ pub struct Picture {
     pub missing: BTreeSet<char>,
 }
 
-/// The drawing as PNG on white.
+/// Returns the drawing as PNG on white.
 ///
 /// # Errors
 /// Returns an error if the picture would be too large for memory.
@@ -71,7 +71,7 @@ pub fn png(drawing: &Drawing, size: Size) -> Result<Picture, PngError> {
     Ok(Picture { png, missing })
 }
 
-/// Loads what the drawing's texts need; the characters for which there is nothing.
+/// Adds the fonts that the drawing's texts need. Returns the characters that no font has.
 fn fonts(drawing: &Drawing, fonts: &mut Database) -> BTreeSet<char> {
     fonts.load_font_data(dejavu::sans_condensed::regular().to_vec());
     fonts.load_font_data(dejavu::sans_condensed::bold().to_vec());

@@ -134,7 +134,7 @@ impl<'a> Scheme<'a> {
         }
     }
 
-    /// The corners of a link: its joints, and its hub where it is loose or bowed.
+    /// Returns the corners of a link: its joints, and its hub if the link is free at one end or bowed.
     fn link_corners(&self, l: usize) -> Vec<Point> {
         let ring = &self.rings[l];
         let mut out: Vec<Point> = ring.iter().map(|&j| self.at.joints[j]).collect();
@@ -273,7 +273,7 @@ impl<'a> Scheme<'a> {
         }
     }
 
-    /// Whether a point is on the hatching.
+    /// Returns true if a point is on the hatching.
     fn on_frame(&self, p: Point) -> bool {
         let frame = self.subject.mechanism.frame_link();
         let Some(l) = self.parts.links.iter().position(|&l| l == frame) else {
@@ -343,7 +343,7 @@ impl<'a> Scheme<'a> {
         out
     }
 
-    /// The drawing in words, for those who do not see it.
+    /// Describes the drawing in words, for readers who cannot see it.
     fn describe_drawing(&self) -> String {
         let m = self.subject.mechanism;
         let mut out = self.subject.summary_sentence("Structural scheme");

@@ -62,7 +62,7 @@ pub(super) enum Swatch {
 }
 
 impl Swatch {
-    /// A level line of a class.
+    /// Returns a horizontal line of a class.
     pub(super) fn line(class: &str) -> Swatch {
         let line = Shape::line(class, vec![[-9.0, 0.0], [9.0, 0.0]]);
         Swatch::Shapes(vec![line])
@@ -182,7 +182,7 @@ impl Sheet {
         sheet
     }
 
-    /// The elements of a piece.
+    /// Returns the elements of a piece.
     pub(super) fn into_text(self) -> String {
         self.xml.finish_document()
     }
@@ -222,7 +222,7 @@ impl Sheet {
         self.xml.begin_tag("style").write_text(rules);
     }
 
-    /// Finished pieces with ids, shown where they are used.
+    /// Writes finished pieces with ids, for use by reference.
     pub(super) fn write_defs<'p>(&mut self, pieces: impl Iterator<Item = (String, &'p str)>) {
         self.xml.begin_tag("defs").keep_open();
         for (id, piece) in pieces {
@@ -262,7 +262,7 @@ impl Sheet {
         self.xml.end_element();
     }
 
-    /// Text whose middle line is at `at`.
+    /// Writes text whose middle line is at `at`.
     pub(super) fn write_text(
         &mut self,
         class: &str,
@@ -296,7 +296,7 @@ impl Sheet {
         tag.write_text(text);
     }
 
-    /// A path.
+    /// Draws a path.
     pub(super) fn draw_path(&mut self, class: &str, d: &str) {
         self.xml
             .begin_tag("path")
@@ -305,7 +305,7 @@ impl Sheet {
             .close_empty();
     }
 
-    /// A path that says something when one points at it.
+    /// Draws a path that shows a tooltip.
     pub(super) fn path_with_tip(&mut self, class: &str, d: &str, tip: &str) {
         self.xml
             .begin_tag("path")
@@ -314,12 +314,12 @@ impl Sheet {
             .close_with_tip(tip);
     }
 
-    /// A segment.
+    /// Draws a segment.
     pub(super) fn draw_line(&mut self, class: &str, a: Point, b: Point) {
         self.draw_path(class, &path_data(&[a, b], false));
     }
 
-    /// An arrow with a head of some length.
+    /// Draws an arrow with a head of length `head`.
     pub(super) fn draw_arrow(&mut self, class: &str, from: Point, to: Point, head: f64) {
         self.draw_line(class, from, to);
         let along = sub(to, from);
@@ -329,7 +329,7 @@ impl Sheet {
         self.draw_path("ink", &path_data(&corners, true));
     }
 
-    /// A circle.
+    /// Draws a circle.
     pub(super) fn draw_circle(&mut self, class: &str, at: Point, radius: f64) {
         self.xml
             .begin_tag("circle")
@@ -340,7 +340,7 @@ impl Sheet {
             .close_empty();
     }
 
-    /// A rectangle with round corners.
+    /// Draws a rectangle with round corners.
     pub(super) fn draw_rect(&mut self, class: &str, rect: &Rect, round: f64) {
         self.xml
             .begin_tag("rect")
@@ -353,7 +353,7 @@ impl Sheet {
             .close_empty();
     }
 
-    /// Finished pieces.
+    /// Draws finished shapes.
     pub(super) fn draw_shapes(&mut self, shapes: &[Shape]) {
         for shape in shapes {
             match shape {
@@ -367,7 +367,7 @@ impl Sheet {
         }
     }
 
-    /// Notes that a symbol covers a rectangle.
+    /// Records that a symbol covers a rectangle.
     pub(super) fn note_symbol(&mut self, rect: Rect) {
         self.symbols.push(rect.moved_by(self.origin));
     }

@@ -38,12 +38,12 @@ pub struct Marks {
     pub joints: usize,
     /// Links from this one on are added.
     pub links: usize,
-    /// The mechanism with its present joints in place of the changed ones, for the same view.
+    /// The mechanism with its original joints in place of the changed ones, for the same view.
     pub before: Option<Mechanism>,
 }
 
 impl Marks {
-    /// The mechanism that a variant is, with its changes marked for drawing.
+    /// Returns the mechanism of a variant, with its changes marked for drawing.
     #[must_use]
     pub fn of_variant(search: &Search, variant: &Assignment, name: &str) -> (Mechanism, Marks) {
         let old = &search.mechanism;
@@ -89,7 +89,7 @@ pub(super) enum Mark {
 }
 
 impl Mark {
-    /// The class of the style sheet that shows it, with a space before it.
+    /// Returns the class of the style sheet that shows it, with a space before it.
     pub(super) fn mark_class(self) -> &'static str {
         match self {
             Mark::None => "",
@@ -115,7 +115,7 @@ impl Subject<'_> {
         }
     }
 
-    /// Whether a joint is there in this state and not in the free one.
+    /// Returns true if a joint exists in this state but not in the free state.
     pub(super) fn only_here(&self, joint: JointId) -> bool {
         self.mechanism.joints[joint]
             .states
@@ -156,7 +156,7 @@ impl Subject<'_> {
         [what, figures]
     }
 
-    /// The same as the beginning of a text.
+    /// Returns the summary as the first sentence of a text.
     pub(super) fn summary_sentence(&self, what: &str) -> String {
         let [what, figures] = self.subtitle_lines(what);
         if figures.is_empty() {
@@ -166,7 +166,7 @@ impl Subject<'_> {
         }
     }
 
-    /// Rows of the legend for what a redesign changed.
+    /// Returns rows of the legend for the changes of a redesign.
     pub(super) fn mark_rows(&self) -> Vec<(Swatch, String)> {
         let Some(marks) = &self.marks else {
             return Vec::new();
@@ -203,13 +203,13 @@ impl Subject<'_> {
         }
     }
 
-    /// The row of the legend, where there are couplings.
+    /// Returns the row of the legend for couplings. `None` if there are none.
     pub(super) fn coupling_row(&self) -> Option<(Swatch, String)> {
         self.mechanism.couplings_in(self.state).next()?;
         Some((Swatch::line(COUPLING), "coupled joints".to_owned()))
     }
 
-    /// The couplings for those who do not see the drawing.
+    /// Describes the couplings in words, for readers who cannot see the drawing.
     pub(super) fn coupling_words(&self) -> String {
         let mut out = String::new();
         for c in self.mechanism.couplings_in(self.state) {
@@ -225,7 +225,7 @@ impl Subject<'_> {
     }
 }
 
-/// How much larger than usual a drawing is, for long names to have room.
+/// Returns the factor by which a drawing is larger than usual, to make room for long names.
 pub(super) fn roominess(m: &Mechanism, joints: &[JointId]) -> f64 {
     let wide = joints
         .iter()

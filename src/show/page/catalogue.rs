@@ -151,7 +151,7 @@ fn left_out_table(without: &[Map<String, Value>]) -> maud::Markup {
     }
 }
 
-/// The page of a catalogue, `file` being its name for the commands that go on with it.
+/// Writes the page of a catalogue. `file` is its name in the commands that use it.
 ///
 /// # Errors
 /// Returns an error if the database cannot be read.

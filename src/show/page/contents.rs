@@ -49,7 +49,7 @@ pub struct Redesigns<'a> {
 /// How to get what a page shows from the command line: commands quoted for a shell.
 #[derive(Debug, Clone)]
 pub struct Commands {
-    /// What each command gives, and the command.
+    /// The result of each command, and the command.
     pub rows: Vec<(String, String)>,
     /// The same about one variant, with `{}` for its number; empty if there is no such command.
     pub variant: Vec<(String, String)>,

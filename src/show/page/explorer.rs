@@ -32,7 +32,7 @@ pub(super) fn stage_html(page: &Page<'_>, analysis: &Analysis<'_>) -> Markup {
     }
 }
 
-/// What turns and moves both pictures.
+/// Returns the controls that turn and move both pictures.
 fn player_html(analysis: &Analysis<'_>) -> Markup {
     html! {
         div.player id="player" role="group" aria-label="Motion" hidden {
@@ -85,7 +85,7 @@ fn chosen_html() -> Markup {
     }
 }
 
-/// The frame, or why there is nothing to fill it with.
+/// Returns the frame of the redesigns, or the reason why there are none.
 pub(super) fn redesigns_html(page: &Page<'_>) -> Markup {
     match &page.redesigns {
         Err(why) => html! { p { "Redesigns were not searched: " (why) } },

@@ -7,8 +7,8 @@ use itertools::Itertools;
 use serde_json::{Value, json};
 use std::f64::consts::PI;
 
-/// The drawing of a mechanism; none of one whose pins are not all square to the plane of x and y, nor to planes at 120° through the
-/// x axis.
+/// Returns the drawing of a mechanism. `None` if some pins are not perpendicular to the plane of x and y, nor to planes at
+/// 120° through the x axis.
 pub(super) fn gripper_drawing(m: &Mechanism) -> Option<Value> {
     let view = View::seen_of(m)?;
     let joints = &view.joints;
@@ -83,7 +83,7 @@ struct View<'a> {
     folded: bool,
 }
 
-/// A vector after so many sixths of a turn about the x axis.
+/// Returns a vector turned by `sixths` sixths of a turn about the x axis.
 fn round_x([x, y, z]: Vector, sixths: i32) -> Vector {
     let [y, z] = rotate_plane([y, z], f64::from(sixths) * PI / 3.0);
     [x, y, z]
@@ -92,13 +92,13 @@ fn round_x([x, y, z]: Vector, sixths: i32) -> Vector {
 /// Coordinates that are less than this of a size are rounding errors of turns.
 const NEAR: f64 = 1e-9;
 
-/// Whether a point is in the plane of x and y, but for rounding.
+/// Returns true if a point is in the plane of x and y, except for rounding.
 fn is_in_plane([x, y, z]: Vector) -> bool {
     z.abs() <= NEAR * (1.0 + x.abs() + y.abs())
 }
 
 impl<'a> View<'a> {
-    /// The place of a link among those that are seen.
+    /// Returns the place of a link among the visible links.
     fn link_row(&self, link: LinkId) -> Option<usize> {
         self.links.iter().position(|&l| l == link)
     }
@@ -184,7 +184,8 @@ fn is_thread(joint: &Joint) -> bool {
     joint.joint_type.freedoms().contains(&Freedom::Screw)
 }
 
-/// Whether a pin is square to the plane of x and y after so many sixths of a turn about x; a slide may lie in it.
+/// Returns true if a pin is perpendicular to the plane of x and y after `sixths` sixths of a turn about x. A slide may lie
+/// in the plane.
 fn is_square(joint: &Joint, sixths: i32) -> bool {
     let axis = to_vector(&joint.frame.axis);
     let [x, y, z] = round_x(axis, sixths).map(|c| {
@@ -290,8 +291,8 @@ fn thread_json(m: &Mechanism, view: &View<'_>, thread: &Joint, scale: f64) -> Op
     }))
 }
 
-/// How many times larger a drawing is to be made: layouts are about as large as symbols are drawn for, whatever units a
-/// drawn mechanism is in.
+/// Returns the factor by which to enlarge a drawing. Layouts are about as large as the symbols need, in any unit of the
+/// drawn mechanism.
 fn drawing_scale(points: &[[f64; 2]]) -> f64 {
     let [width, height] = box_sides(points);
     match width.max(height) {

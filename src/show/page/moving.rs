@@ -34,7 +34,8 @@ pub struct Moving {
 }
 
 impl Moving {
-    /// The way of a mechanism's drive, or of the joint named: within a range such as "0:90deg:30", or as far as it goes.
+    /// Creates the motion of a mechanism's drive, or of the named joint. It covers a range such as "0:90deg:30", or as far
+    /// as the drive goes.
     pub fn new(
         m: &Mechanism,
         state: StateId,
@@ -91,12 +92,12 @@ impl Moving {
         })
     }
 
-    /// From where to where the drive goes, in radians or the file's length unit.
+    /// Returns the ends of the drive's range, in radians or the file's length unit.
     pub fn drive_reach(&self) -> Option<[f64; 2]> {
         ends_of(&self.way).map(|ends| ends.map(|x| x * self.unit))
     }
 
-    /// The working motion of a mechanism in which no joint can be a drive.
+    /// Returns the working motion of a mechanism in which no joint can be the drive.
     fn working_motion(m: &Mechanism, state: StateId, pose: Pose) -> anyhow::Result<Moving> {
         let way = working_way(m, state, &pose, STEPS)
             .with_context(|| format!("{}: no output moves from the pose of the file", m.name))?;
@@ -109,7 +110,7 @@ impl Moving {
         })
     }
 
-    /// To and fro along an idle freedom that the analysis of a state lists, counted from 0.
+    /// Returns the motion back and forth along an idle freedom that the analysis of a state lists, counted from 0.
     pub fn idle_motion(
         m: &Mechanism,
         found: &StateAnalysis,
@@ -148,7 +149,7 @@ impl Moving {
         })
     }
 
-    /// The pose of the file.
+    /// Returns the pose in the file.
     pub(crate) fn still_pose(m: &Mechanism, state: StateId) -> anyhow::Result<Moving> {
         let pose = Pose::of_file(m, state)?;
         let way = Way {
@@ -166,7 +167,7 @@ impl Moving {
         })
     }
 
-    /// To be drawn.
+    /// Returns the motion in the form that drawings need.
     pub fn as_moved(&self) -> Moved<'_> {
         Moved {
             pose: &self.pose,
@@ -202,7 +203,7 @@ fn ends_of(way: &Way) -> Option<[f64; 2]> {
     Some([*way.at.first()?, *way.at.last()?])
 }
 
-/// What stops the drive at either end of its way, to go on after where it goes; `met` is where jaws meet.
+/// Describes what stops the drive at either end of its range, as the end of a sentence. `met` is where jaws meet.
 fn why_it_ends(way: &Way, met: [Option<f64>; 2]) -> String {
     let why = |n: usize| match met[n] {
         Some(_) => Some("jaws meet".to_owned()),

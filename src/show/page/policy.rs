@@ -10,8 +10,8 @@ pub(super) const STYLE: &str = concat!(include_str!("look.css"), include_str!("p
 /// The placeholder of the policy until everything that it allows is written.
 pub(super) const POLICY: &str = "default-src 'none'";
 
-/// The page with the policy that allows its scripts and styles in place of the first `stand_in`. Text of mechanisms is
-/// escaped by then, so that every element found here is the page's own.
+/// Returns the page with the policy that allows its scripts and styles, in place of the first `stand_in`. Text of mechanisms
+/// is already escaped, so that every element found here belongs to the page.
 pub(super) fn with_policy(page: &str, stand_in: &str) -> String {
     let (styles, scripts) = (
         element_hashes(page, "style"),
@@ -21,7 +21,7 @@ pub(super) fn with_policy(page: &str, stand_in: &str) -> String {
     page.replacen(stand_in, &policy, 1)
 }
 
-/// The hashes of all elements of a name, each once.
+/// Returns the hashes of all elements of a name, each one once.
 fn element_hashes(page: &str, element: &str) -> String {
     let (begin, end) = (format!("<{element}"), format!("</{element}>"));
     let inside = page.split(&begin).skip(1).filter_map(|after| {

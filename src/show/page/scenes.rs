@@ -76,7 +76,7 @@ fn draw_scene(
     kinematic_scene(&subject, &Sight::default(), shown)
 }
 
-/// The picture of it at rest, without title and legend.
+/// Returns the picture of a mechanism at rest, without title and legend.
 pub fn still_picture(m: &Mechanism) -> Option<String> {
     let rest = [Moving::still_pose(m, StateId::FREE).ok()?];
     let (Drawing { svg, .. }, scene) = draw_scene(m, (None, StateId::FREE), &rest, &[], &[]);
@@ -88,7 +88,7 @@ pub fn still_picture(m: &Mechanism) -> Option<String> {
     Some(format!("{before}{room}{after}"))
 }
 
-/// It as its file has it, at rest, with what redesigns put at its joints.
+/// Returns the scene of a mechanism at rest, as in its file, with the joints of redesigns.
 pub fn still_scene(
     m: &Mechanism,
     of: (Option<&StateAnalysis>, StateId),

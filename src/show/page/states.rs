@@ -12,7 +12,7 @@ use crate::view::analysis::text::{external_formula, in_any_basis, in_any_order};
 use crate::view::analysis::{Analysis, State, harm_word, ranks_agree};
 use maud::{Markup, PreEscaped, html};
 
-/// The mechanism's size in a line.
+/// Returns a line on the mechanism's size.
 pub(super) fn size_facts(m: &Mechanism, analysis: &Analysis<'_>) -> String {
     let plane = match m.mode {
         Mode::Planar { .. } => "planar, three equations a contour",
@@ -46,7 +46,7 @@ pub(super) fn states_html(page: &Page<'_>, analysis: &Analysis<'_>) -> Markup {
     }
 }
 
-/// The two schemes; the kinematic one has room for what redesigns put at its joints.
+/// Returns the two schemes. The kinematic one has room for the joints of redesigns.
 fn drawings_html(page: &Page<'_>, s: &State<'_>, state: StateId) -> Markup {
     let subject = Subject {
         mechanism: page.mechanism,
@@ -72,7 +72,7 @@ fn drawings_html(page: &Page<'_>, s: &State<'_>, state: StateId) -> Markup {
     }
 }
 
-/// The figures with where they come from.
+/// Returns the figures with their sources.
 fn figures_html(state: &State<'_>) -> Markup {
     let (s, finite) = (state.found, state.finite_mobility());
     let row = |sign: &str, value: i64, words: &str| {
@@ -111,7 +111,7 @@ fn external_words(e: &External) -> String {
     format!("external = {formula}; by rank {by_rank}{disagree}")
 }
 
-/// The contours, each with the self-stresses that end in it.
+/// Returns the contours, each with the self-stresses that end in it.
 fn contours_html(s: &State<'_>) -> Markup {
     let all = &s.found.per_contour;
     if all.is_empty() {
@@ -162,7 +162,7 @@ fn contour_row(s: &State<'_>, i: usize, c: &ContourShare) -> Markup {
     }
 }
 
-/// A self-stress where it has the fewest components, and who bears it.
+/// Returns a self-stress in the form with the fewest components, with the joints that bear it.
 fn stress_item(s: &State<'_>, t: &SelfStress) -> Markup {
     let what = match s.simplest_joint(t) {
         Some((joint, what)) => format!("{what} at {joint}"),

@@ -5,7 +5,7 @@ use crate::model::mechanism::{JointId, Mechanism, StateId};
 use crate::score::outcome::Outcome;
 use crate::search::question::space::choice_name;
 
-/// Returns each joint of a state with each choice except the present one: the variable, the choice, and the new joint.
+/// Returns each joint of a state with each choice except the original one: the variable, the choice, and the new joint.
 pub(super) fn swap_places<'a>(
     m: &'a Mechanism,
     found: &Outcome,

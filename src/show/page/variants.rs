@@ -24,7 +24,7 @@ use serde_json::{Value, json};
 /// Ideas that a page says why of: two pages of its table. `ozols search --format json` says it of all.
 const TOLD: usize = 50;
 
-/// Figures that need a computation of their own.
+/// Figures that need a separate computation.
 struct Further {
     states: Vec<(usize, usize)>,
     idle: String,
@@ -110,7 +110,7 @@ pub(super) fn variant_columns(page: &Page<'_>, r: &Redesigns<'_>) -> Result<Valu
     }))
 }
 
-/// The texts on idle motions, each once, and the number of its text by variant.
+/// Returns the texts on idle motions, each one once, and the number of its text by variant.
 fn idle_words(further: &[Further]) -> (Vec<String>, Vec<usize>) {
     let mut words = vec![String::new()];
     let mut word = Vec::new();
@@ -151,7 +151,7 @@ fn choices_json(m: &Mechanism, v: &Variable) -> Value {
     })
 }
 
-/// W and σ of a state of a mechanism.
+/// Returns W and σ of a state of a mechanism.
 pub(super) fn state_figures(
     exact: &ExactField,
     m: &Mechanism,
@@ -162,7 +162,7 @@ pub(super) fn state_figures(
     Ok((closure.columns.len() - rank, closure.rows() - rank))
 }
 
-/// Its idle motions in the free state, in words.
+/// Describes the idle motions of a mechanism in the free state.
 pub(super) fn idle_words_of(exact: &ExactField, m: &Mechanism) -> Result<String, ExactError> {
     let closure = Closure::new(exact, m, StateId::FREE)?;
     let kernel = motion_basis(exact, &closure);
@@ -174,7 +174,7 @@ pub(super) fn idle_words_of(exact: &ExactField, m: &Mechanism) -> Result<String,
     Ok(idle::told_once(found.iter().map(|i| idle::describe_idle(m, i))).join("; "))
 }
 
-/// σ of each of its contours in the free state.
+/// Returns σ of each contour of a mechanism in the free state.
 pub(super) fn redundant_by_contour(
     exact: &ExactField,
     m: &Mechanism,

@@ -35,7 +35,7 @@ pub(super) fn verdict_html(page: &Page<'_>, analysis: &Analysis<'_>) -> Markup {
     }
 }
 
-/// The answer in a few words.
+/// Returns the verdict in a few words.
 pub fn verdict_head(s: &State<'_>) -> String {
     capitalise_first(&s.verdict())
 }

@@ -67,7 +67,7 @@ fn score_column<T>(scored: &[Scored], of: impl Fn(&Scores) -> T) -> Column<T> {
     scored.iter().map(one).collect()
 }
 
-/// A figure of every joint; what is below `beside` of the greatest force is rounding.
+/// Returns a figure of every joint. Values below `beside` times the greatest force are rounding.
 fn joint_columns(
     scored: &[Scored],
     of: fn(&Bearing) -> Option<f64>,

@@ -157,7 +157,7 @@ fn method_rows(survey: &Survey, generated: &Survey) -> Vec<Vec<String>> {
     registry::ALL.iter().enumerate().map(row).collect()
 }
 
-/// The worst failures of a method, and what it needs to be right.
+/// Describes the worst failures of a method, and its requirements for a right answer.
 fn describe_failures(survey: &Survey, m: usize) -> String {
     let mut wrong: Vec<(u64, &Case, String)> = survey
         .of_method(m)

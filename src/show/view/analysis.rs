@@ -46,7 +46,7 @@ pub struct State<'a> {
 }
 
 impl<'a> Analysis<'a> {
-    /// What `found` says of a mechanism, with `advice` for each of its states, or none.
+    /// Creates the analysis from what `found` reports of a mechanism. `advice` has an entry for each of its states, or none.
     pub fn new(
         mechanism: &'a Mechanism,
         found: &'a [StateAnalysis],
@@ -172,7 +172,8 @@ impl State<'_> {
         })
     }
 
-    /// The ranges are over all orders of these contours, and over all bases that one is part of.
+    /// Returns the share of a contour as JSON. The ranges are over all orders of these contours, and over all bases that
+    /// contain one.
     fn contour_json(&self, c: &ContourShare) -> Value {
         let joints = c.contour.joints.iter().map(|(j, _)| self.joint_name(*j));
         json!({

@@ -3,7 +3,7 @@
 use crate::model::claim::{Claim, Topic};
 use crate::view::prelude::*;
 
-/// Those about a topic, in the order of the file.
+/// Returns the claims about a topic, in the order of the file.
 pub(crate) fn claims_about(claims: &[Claim], topic: Topic) -> Vec<&Claim> {
     claims.iter().filter(|c| c.topic == topic).collect()
 }

@@ -26,7 +26,7 @@ pub struct Drive<'a> {
 }
 
 impl<'a> Drive<'a> {
-    /// A drive of a file and what was found of it.
+    /// Creates the report on a drive of a file and its results.
     pub fn new(file: &'a WorkloadFile<DriveSpec>, found: &'a Driving) -> Self {
         Drive {
             file,
@@ -90,7 +90,7 @@ fn design_json(spec: &DriveSpec, d: &Design) -> Value {
     })
 }
 
-/// A step of the programme; its swing is nothing in a dwell.
+/// Returns a step of the programme. The swing of a dwell is null.
 fn step_json(s: &Ran) -> Value {
     let swing = match &s.event {
         Event::Dwell => Value::Null,

@@ -99,7 +99,8 @@ impl<'a> GripReport<'a> {
         join_objects([first, json!(row.arms), rest])
     }
 
-    /// The hardest case of a diameter: the load on the part with its safety factor, and the least drive moment per lever that holds it.
+    /// Returns the hardest case of a diameter. It has the load on the part with its safety factor, and the least drive
+    /// moment per lever that holds the part.
     fn load_json(&self, at: usize, h: &Hardest) -> Value {
         let held = h.held_forces();
         let pose = self.found.study.rows[at].pose.as_ref();
@@ -118,12 +119,12 @@ impl<'a> GripReport<'a> {
     }
 }
 
-/// How a drive works on two levers: the turn of each by the travel of the drive, `[rad/m]` or `[1]`.
+/// Returns the transmission of a drive to two levers: the turn of each per travel of the drive, `[rad/m]` or `[1]`.
 fn transmission_json(r: &Rates) -> Value {
     json!({ "drive": if r.slides { "slides" } else { "turns" }, "rates": r.rates })
 }
 
-/// The contacts and their forces on the part.
+/// Returns the contacts and their forces on the part.
 fn contacts_json(held: &Holding, pose: &TouchingPose) -> Value {
     let each = pose.contacts.iter().zip(&held.forces);
     let one = each.map(|(c, force)| {
@@ -140,7 +141,7 @@ fn all_reasons(row: &DiameterRow, friction: f64) -> impl Iterator<Item = String>
     row.obstacles.iter().map(ToString::to_string).chain(forces)
 }
 
-/// The motion in which a part slips, in words.
+/// Describes the motion in which a part slips.
 fn describe_slip(s: &Slip) -> String {
     let names = [
         "slides outwards (x)",
@@ -162,7 +163,7 @@ fn describe_slip(s: &Slip) -> String {
     told.collect::<Vec<_>>().join(" and ")
 }
 
-/// Why the hardest case is not held.
+/// Returns the reason why the hardest case is not held.
 fn hold_reason(h: &Hardest, friction: f64) -> Option<String> {
     match &h.verdict {
         HoldVerdict::Held(_) => None,

@@ -131,7 +131,7 @@ impl Lint {
         }
     }
 
-    /// The same with the types that joints are to get, and W then: they go before single freedoms.
+    /// Returns the result with the new types of joints, and W with them. They come before single freedoms.
     pub fn with_changes(mut self, found: Option<(Vec<TypeChange>, usize)>) -> Lint {
         if let Some((changes, mobility)) = found {
             self.cheapest = changes.iter().map(TypeChange::describe_change).collect();
@@ -150,12 +150,12 @@ impl Lint {
         self.is_clean() && self.left_out == 0
     }
 
-    /// How many are redundant at this pose only.
+    /// Returns the number of redundant constraints that hold in this pose only.
     fn passing_count(&self) -> usize {
         self.redundant_at_most - self.redundant_over_motion
     }
 
-    /// Whether σ is one number.
+    /// Returns true if σ is one number.
     pub fn is_decided(&self) -> bool {
         self.redundant == self.redundant_at_most
     }
@@ -242,7 +242,7 @@ impl Lint {
         out
     }
 
-    /// What keeps the figures from being those of the description.
+    /// Describes why the figures are not those of the description.
     fn left_out(&self) -> String {
         let rows = match self.left_out {
             0 => String::new(),
@@ -255,7 +255,7 @@ impl Lint {
         rows + &read.unwrap_or_default()
     }
 
-    /// "2 redundant constraints (σ = 2)", "0 to 2 redundant constraints (...)".
+    /// Describes σ: "2 redundant constraints (σ = 2)", "0 to 2 redundant constraints (...)".
     pub fn sigma_words(&self) -> String {
         let (least, most) = (self.redundant, self.redundant_at_most);
         if self.is_decided() {

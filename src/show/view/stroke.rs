@@ -85,7 +85,7 @@ impl<'a> StrokeData<'a> {
         self.unit == "rad"
     }
 
-    /// A position for people: degrees, or the file's length unit.
+    /// Returns a position for people: degrees, or the file's length unit.
     fn format_place(&self, at: f64, digits: usize) -> String {
         if self.drive_turns() {
             format!("{}°", decimals(at.to_degrees(), digits))
@@ -184,7 +184,7 @@ impl<'a> StrokeData<'a> {
         text_table(heads, rows, width)
     }
 
-    /// Conditioning over the stroke.
+    /// Returns the chart of conditioning over the stroke.
     pub fn chart(&self) -> Chart {
         let x = |at: f64| {
             if self.drive_turns() {

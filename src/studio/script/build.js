@@ -87,7 +87,7 @@ async function addSlide(spot) {
   select([{ what: "joint", id: joint.entry.id }]);
 }
 
-/** Adds a contact of a held part with a link, in a state of its own. */
+/** Adds a contact of a held part with a link, in a separate state. */
 async function addContact(spot) {
   const link = spot.pin ? partnerAt(spot.pin) : spot.link;
   if (!link || link === frameOf()) return say("Click the face of a jaw: a pin, a point or a place of a link.", true);
@@ -192,8 +192,8 @@ function copySelection() {
 const flipped = (p, k) => p.map((c, i) => (i === k ? negated(c) : c));
 
 /**
- * Puts pins elsewhere, and their mirror images along with them: the file says which joints are images of which. Where the plane is
- * none of the coordinates, the pair is no pair any more. Gives the changes, and the images that go along.
+ * Puts pins elsewhere, and their mirror images along with them: the file says which joints are images of which. If the plane is not
+ * a plane of coordinates, the pair stops being a pair. Returns the changes, and the images that move along.
  */
 function putPins(moves) {
   const pairs = desk.look?.file?.search?.mirror ?? [];

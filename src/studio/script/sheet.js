@@ -75,7 +75,7 @@ function corner3() {
 /** The state that is judged: of a change that is tried, or of the text. */
 const judgedState = () => (preview.answer?.verdict ?? desk.verdict)?.analysis?.states[desk.state] ?? null;
 
-/** The position of a joint of the scene on paper, in the present pose. */
+/** The position of a joint of the scene on paper, in the current pose. */
 function jointOnPaper(scene, sight, pose, j) {
   const p = carried(pose, j.links[0], j.at);
   return plus(times([dot(sight.view[0], p), -dot(sight.view[1], p)], sight.fit.scale), sight.fit.at);

@@ -271,7 +271,7 @@ impl Begun<'_> {
         }
     }
 
-    /// Whether the reactions, which are known, do no work with the loads on a motion.
+    /// Returns true if the known reactions and the loads are in equilibrium on a motion: together they do no work.
     fn is_in_equilibrium(&self, row: &[f64]) -> bool {
         let unknowns = self.of.unknowns;
         let known = self.solution.iter().step_by(self.of.sides);
@@ -316,7 +316,7 @@ impl Begun<'_> {
         true
     }
 
-    /// The unknowns in some load cases.
+    /// Computes the unknowns in some load cases.
     fn solve_cases(&mut self, cases: std::ops::Range<usize>) {
         let (width, unknowns, sides) = (self.of.width, self.of.unknowns, self.of.sides);
         for at in (0..unknowns).rev() {
@@ -331,7 +331,7 @@ impl Begun<'_> {
         }
     }
 
-    /// Force and moment at a place in a load case.
+    /// Returns the force and moment at a place in a load case.
     fn load_at(&self, place: &LoadedPlace, case: usize) -> [f64; 6] {
         let mut out = place.fixed[case];
         for (i, across) in place.across.iter().enumerate() {
@@ -365,8 +365,8 @@ impl Begun<'_> {
         self.chosen[place.variable][place.slot]
     }
 
-    /// Bounds on the greatest force and moment over capacity, from what a choice that was just taken makes known, or those of some
-    /// places that are `enough` to end the branch; `None` where reactions are not known yet.
+    /// Returns bounds on the greatest force and moment over capacity, from the equations of a choice that was just taken.
+    /// Examines only some places if their bounds are `enough` to end the branch. `None` if reactions are not known yet.
     pub(in crate::score) fn peak_bounds(
         &mut self,
         taken: &TakenChoice,
@@ -403,7 +403,7 @@ impl Begun<'_> {
         bounds.moment = bounds.moment.max(self.moments[p] * limits.moment);
     }
 
-    /// A bound on the error of the outputs `[m]`, where the reactions are known.
+    /// Returns a bound on the error of the outputs `[m]`, if the reactions are known.
     pub(in crate::score) fn output_error(&mut self) -> f64 {
         if !self.errors {
             self.solve_cases(1..self.of.sides);

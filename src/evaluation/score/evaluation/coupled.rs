@@ -28,7 +28,7 @@ pub(in crate::score) enum CoupledChoice {
     InSeries,
 }
 
-/// The couplings at a joint.
+/// Returns the couplings at a joint.
 pub(in crate::score) fn couplings_at(geometry: &Geometry, joint: JointId) -> Vec<PlacedCoupling> {
     let all = geometry.couplings.iter().enumerate();
     let here = all.filter_map(|(coupling, c)| {

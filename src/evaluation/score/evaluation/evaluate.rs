@@ -69,10 +69,10 @@ pub struct Evaluator<'s> {
 }
 
 impl<'s> Evaluator<'s> {
-    /// Makes everything ready that does not depend on the variant, for the states with loads.
+    /// Prepares all data that is the same for every variant, in the states with loads.
     ///
     /// # Errors
-    /// Returns an error if a coordinate has no value, or if singular values do not converge.
+    /// Returns an error if a coordinate has no value. Also if singular values do not converge.
     ///
     /// # Complexity
     /// O(poses · options · loads), and the poses of the stroke.
@@ -83,7 +83,7 @@ impl<'s> Evaluator<'s> {
     /// Does the same for the named states, or for those with loads if none are named.
     ///
     /// # Errors
-    /// As [`Evaluator::new`], and if a grip loads nothing.
+    /// Returns an error in the same cases as [`Evaluator::new`], and if a grip loads nothing.
     pub fn in_states(
         search: &'s Search,
         clearance: ClearanceSum,
@@ -120,8 +120,8 @@ impl<'s> Evaluator<'s> {
         })
     }
 
-    /// The scores of a variant; [`Unsolved`] where its loads have no equilibrium. Variants with redundant constraints left
-    /// are solved the slow way.
+    /// Returns the scores of a variant, or [`Unsolved`] if its loads have no equilibrium. Variants with remaining redundant
+    /// constraints are solved by the slow method.
     ///
     /// # Errors
     /// [`Unsolved`].
@@ -157,7 +157,7 @@ impl<'s> Evaluator<'s> {
         worst.map_or_else(|| self.slowly_with(variant, each), Ok)
     }
 
-    /// The mobility that is at work.
+    /// Returns the working mobility.
     pub(in crate::score) fn working_freedoms(&self) -> i64 {
         self.working
     }
@@ -166,7 +166,7 @@ impl<'s> Evaluator<'s> {
         &self.tables
     }
 
-    /// What needs no equations.
+    /// Returns the scores that need no equations.
     pub(in crate::score) fn unloaded_scores(&self, variant: &Assignment) -> Scores {
         Scores {
             force: Peak::NONE,
@@ -181,7 +181,7 @@ impl<'s> Evaluator<'s> {
         }
     }
 
-    /// The scores in one pose; `None` where the fast way does not serve.
+    /// Returns the scores in one pose. `None` if the fast method does not apply.
     pub(in crate::score) fn score_at_pose(
         &self,
         table: &PoseTable,
@@ -261,7 +261,7 @@ struct SolvedPose<'p> {
 }
 
 impl SolvedPose<'_> {
-    /// Force and moment of a joint in a load case, without what its drive bears.
+    /// Returns the force and moment of a joint in a load case, without the part that its drive bears.
     fn joint_load(&self, place: &PlacedJoint, case: usize) -> ([f64; 3], [f64; 3]) {
         let wrench = self
             .table

@@ -70,12 +70,12 @@ pub struct Bearings {
 }
 
 impl Outcome {
-    /// Returns the loads of the joints of some variants, in the states of the ranking or else in those with loads. Returns `None` if the
-    /// file states no loads and there is no ranking. A ranking scores its whole pool, but computes no loads of joints. This does so
-    /// for the few variants that are shown.
+    /// Returns the loads of the joints of some variants, in the states of the ranking, or otherwise in those with loads.
+    /// `None` if the file states no loads and there is no ranking. A ranking scores its whole pool without the loads of
+    /// joints. This function computes them for the few variants that are shown.
     ///
     /// # Errors
-    /// As [`Evaluator::in_states`].
+    /// Returns an error in the same cases as [`Evaluator::in_states`].
     ///
     /// # Complexity
     /// [`Evaluator::scores`] for each variant, in parallel.

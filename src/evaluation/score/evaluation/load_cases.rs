@@ -1,8 +1,8 @@
 //! The poses and loads that variants are scored in.
 //!
-//! A variant moves as the mechanism does, so all are scored in the same cases: the poses of the free state's stroke under
-//! the file's loads, and, in a state that the grip loads, the pose round each part it holds under the contact forces of
-//! that part's worst case. The score is the worst over the cases of the states that count.
+//! A variant moves as the mechanism does, so all are scored in the same cases. They are the poses of the free state's stroke
+//! under the file's loads. In a state that the grip loads, they are the pose for each part it holds, under the contact
+//! forces of that part's worst case. The score is the worst over the cases of the states that count.
 
 use crate::grip::jaw_loads::{Gripping, JawError, grip_of};
 use crate::model::loads::Loads;
@@ -84,20 +84,20 @@ pub struct Cases {
     pub gripped: Vec<Gripped>,
 }
 
-/// Whether the file loads the free state.
+/// Returns true if the file loads the free state.
 fn free_is_loaded(m: &Mechanism) -> bool {
     let l = &m.loads;
     let weights = l.gravity.is_some() && m.links.iter().any(|x| x.mass.is_some());
     weights || l.acts_from_outside(StateId::FREE)
 }
 
-/// Whether the file loads any state.
+/// Returns true if the file loads any state.
 pub(crate) fn is_loaded(m: &Mechanism) -> bool {
     free_is_loaded(m) || m.state_ids().any(|s| grip_of(m, s).is_some())
 }
 
-/// The states that count where the ranking names none: those with loads, the free one also where it has a stroke to be
-/// conditioned over or nothing else is loaded.
+/// Returns the states that count if the ranking names none: those with loads. The free state also counts if conditioning
+/// applies to its stroke, or if nothing else is loaded.
 pub(crate) fn states_with_loads(m: &Mechanism) -> Vec<StateId> {
     let gripped = m.state_ids().skip(1).filter(|&s| grip_of(m, s).is_some());
     let gripped: Vec<StateId> = gripped.collect();

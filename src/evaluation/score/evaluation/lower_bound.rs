@@ -98,7 +98,7 @@ impl Evaluator<'_> {
     }
 }
 
-/// The greatest capacity that a choice gives a place; `None` where a choice bears nothing of the kind that counts.
+/// Returns the greatest capacity that a choice gives a place. `None` if a choice has no capacity of the kind that counts.
 fn greatest_capacity(
     table: &PoseTable,
     place: &PlacedJoint,
@@ -119,7 +119,7 @@ fn least_clearance(table: &PoseTable, place: &PlacedJoint) -> f64 {
     least.unwrap_or(0.0)
 }
 
-/// The equations that hold for every variant: rows in the span of those of each choice.
+/// Returns the equations that hold for every variant: rows in the span of those of each choice.
 fn common_equations(table: &PoseTable) -> Option<Common> {
     let (dim, unknowns) = (table.basis.len(), table.count_unknowns());
     let width = dim + table.couplings;
@@ -209,7 +209,7 @@ fn affine_load(
     AffineLoads { limit, fixed, open }
 }
 
-/// The vectors at which Σ weight · |vector|² is least.
+/// Returns the vectors at which Σ weight · |vector|² is least.
 fn weighted_least(parts: &[AffineLoads], weights: &[f64]) -> Option<Vec<[f64; 3]>> {
     let open = parts.first()?.open.len();
     let mut out: Vec<[f64; 3]> = parts.iter().map(|p| p.fixed).collect();
@@ -235,8 +235,8 @@ fn weighted_least(parts: &[AffineLoads], weights: &[f64]) -> Option<Vec<[f64; 3]
     Some(out)
 }
 
-/// A bound below the greatest |vector| / limit: for z = weight · vector at the least squares, Σ z · vector is the same for
-/// all that is open, and at most Σ |z| limit · peak.
+/// Returns a lower bound on the greatest |vector| / limit. It uses z = weight · vector at the least squares. Σ z · vector is
+/// the same for every open choice, and at most Σ |z| limit · peak.
 fn least_peak(parts: &[AffineLoads]) -> f64 {
     let mut share = vec![1.0 / parts.len().max(1) as f64; parts.len()];
     let mut best = 0.0;
@@ -267,7 +267,7 @@ fn least_peak(parts: &[AffineLoads]) -> f64 {
     best
 }
 
-/// A bound below Σ limit · |vector|, by a z of the same kind with |z| at most the limit.
+/// Returns a lower bound on Σ limit · |vector|, by a z of the same kind with |z| at most the limit.
 fn least_sum(parts: &[AffineLoads]) -> f64 {
     let mut weights: Vec<f64> = parts.iter().map(|p| p.limit).collect();
     let mut best = 0.0;
@@ -295,7 +295,7 @@ fn least_sum(parts: &[AffineLoads]) -> f64 {
     best
 }
 
-/// The least Σ (limit · |vector|)².
+/// Returns the least Σ (limit · |vector|)².
 fn least_square(parts: &[AffineLoads]) -> f64 {
     let weights: Vec<f64> = parts.iter().map(|p| p.limit.powi(2)).collect();
     let at = weighted_least(parts, &weights).unwrap_or_default();

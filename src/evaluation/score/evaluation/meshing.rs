@@ -4,8 +4,8 @@ use crate::score::evaluation::coupled::CoupledChoice;
 use crate::score::evaluation::pose_tables::{Cell, PlacedJoint, PoseTable};
 
 impl PoseTable {
-    /// By coupling, whether its teeth mesh in a variant, given the cell at each place; `None` where a joint in series is not
-    /// loaded as the one that is coupled.
+    /// Returns for each coupling whether its teeth mesh in a variant, given the cell at each place. `None` if a joint in
+    /// series has another load than the coupled joint.
     pub(in crate::score) fn teeth_mesh<'c>(
         &self,
         cell: impl Fn(&PlacedJoint) -> &'c Cell,
@@ -23,7 +23,7 @@ impl PoseTable {
         Some(out)
     }
 
-    /// By coupling, whether its teeth mesh in every variant or in none; `None` where that depends on the variant.
+    /// Returns for each coupling whether its teeth mesh in every variant or in none. `None` if that depends on the variant.
     pub(in crate::score) fn meshing_of_all(&self) -> Vec<Option<bool>> {
         let mut seen: Vec<Vec<CoupledChoice>> = vec![Vec::new(); self.couplings];
         for place in &self.places {

@@ -70,7 +70,7 @@ pub(in crate::score) struct PoseTable {
 }
 
 impl PlacedJoint {
-    /// A joint at its place, of no variable and under no load yet.
+    /// Creates a joint at its place, without a variable or loads.
     fn of(geometry: &Geometry, drives: &[Driven], joint: JointId) -> PlacedJoint {
         let contours = geometry.contours.iter().enumerate();
         let through = contours.filter_map(|(k, contour)| {
@@ -94,7 +94,8 @@ impl PlacedJoint {
     }
 }
 
-/// The wrench on every link in each load case: of the loads, then of a unit force along each axis on each output.
+/// Returns the wrench on every link in each load case. The wrenches of the loads come first, then those of a unit force
+/// along each axis on each output.
 fn wrenches_at(
     m: &Mechanism,
     geometry: &Geometry,
@@ -186,7 +187,7 @@ impl PoseTable {
         })
     }
 
-    /// What choices, by variable, put at a place.
+    /// Returns the cell at a place for some choices, by variable.
     pub(in crate::score) fn cell_at(&self, choices: &[usize], place: &PlacedJoint) -> &Cell {
         &self.cells[place.variable][choices[place.variable]][place.slot]
     }
@@ -227,8 +228,8 @@ impl PoseTable {
         }
     }
 
-    /// Wrench that a place's joint bears in a load case, for the unknowns `x`, unknowns × cases, where the teeth of these
-    /// couplings mesh.
+    /// Returns the wrench that a place's joint bears in a load case, for the unknowns `x`, unknowns × cases. The teeth of
+    /// the couplings in `meshing` mesh.
     pub(in crate::score) fn wrench_at(
         &self,
         place: &PlacedJoint,
@@ -254,7 +255,7 @@ impl PoseTable {
         w
     }
 
-    /// Force `[N]` and moment about the place `[N·m]` of a wrench, without what a drive bears.
+    /// Returns the force `[N]` and moment about the place `[N·m]` of a wrench, without the part that a drive bears.
     pub(in crate::score) fn borne_at(
         &self,
         place: &PlacedJoint,
@@ -357,8 +358,8 @@ fn coupled_choice(
     place.couplings.iter().map(one).collect()
 }
 
-/// Unit twists of an option at a pose of the present mechanism: freedoms that are passed before the present turn (slides, but
-/// not that of a slot) go with the joint's first link, those after it with the second.
+/// Returns the unit twists of an option at a pose of the original mechanism. Freedoms before the original turn (slides,
+/// except that of a slot) move with the joint's first link, later ones with the second.
 fn option_twists(
     m: &Mechanism,
     geometry: &Geometry,

@@ -67,8 +67,8 @@ fn unit_force(link: LinkId, point: [f64; 3], axis: usize) -> Loads {
 }
 
 impl Evaluator<'_> {
-    /// The scores of a variant, by realizing it and solving its equilibrium by singular values, reactions of minimum norm
-    /// where redundant constraints leave them open.
+    /// Returns the scores of a variant by building it and solving its equilibrium with singular values. Reactions that
+    /// redundant constraints leave open have minimum norm.
     ///
     /// # Errors
     /// [`Unsolved`].
@@ -120,7 +120,7 @@ impl Evaluator<'_> {
         worst.ok_or(Unsolved::NoConvergence)
     }
 
-    /// By joint of the realized variant: the joint of the mechanism it stands for, and what it bears.
+    /// Returns for each joint of the realized variant the original joint and the type that bears its load.
     fn realized_types(&self, choices: &[usize]) -> Vec<(JointId, JointType)> {
         let m = &self.search.mechanism;
         let mut chosen = vec![(0, None); m.joints.len()];

@@ -14,9 +14,10 @@ pub struct Spectrum {
 }
 
 impl Spectrum {
-    /// Smallest over greatest singular value of the equations whose Gram matrix is in the upper triangle of `gram`, n × n,
-    /// row by row; the triangle is spent. By a tridiagonal form and Laguerre's method from both ends of the spectrum, which
-    /// it approaches from outside only [Parlett 1998, ch. 7]. Ratios below some 1e-8 are rounding.
+    /// Returns the ratio of the smallest to the greatest singular value of the equations. Their Gram matrix is in the upper
+    /// triangle of `gram`, n × n, row by row, and is overwritten. Uses a tridiagonal form and Laguerre's method from both
+    /// ends of the spectrum, which it approaches from outside only [Parlett 1998, ch. 7]. Ratios below some 1e-8 are
+    /// rounding.
     ///
     /// # Complexity
     /// O(n³), 4/3 n³ of it additions and products.
@@ -36,7 +37,7 @@ impl Spectrum {
         (smallest.max(0.0) / greatest).sqrt()
     }
 
-    /// Householder's reduction.
+    /// Applies Householder's reduction to tridiagonal form.
     fn reduce_tridiagonal(&mut self, gram: &mut [f64], n: usize) {
         self.diagonal.clear();
         self.beside.clear();
@@ -86,7 +87,7 @@ impl Spectrum {
     }
 }
 
-/// Four sums side by side, so that they do not wait for each other.
+/// Returns the dot product. Computes four sums in parallel, so that they do not wait for each other.
 fn dot_product(a: &[f64], b: &[f64]) -> f64 {
     let mut sums = [0.0; 4];
     let (mut left, mut right) = (a.chunks_exact(4), b.chunks_exact(4));
@@ -99,15 +100,15 @@ fn dot_product(a: &[f64], b: &[f64]) -> f64 {
     (sums[0] + sums[1]) + (sums[2] + sums[3]) + tail.map(|(x, y)| x * y).sum::<f64>()
 }
 
-/// `out += factor · row`.
+/// Computes `out += factor · row`.
 fn add_scaled(out: &mut [f64], factor: f64, row: &[f64]) {
     for (o, x) in out.iter_mut().zip(row) {
         *o += factor * x;
     }
 }
 
-/// Greatest and smallest eigenvalue of a symmetric tridiagonal matrix, not indefinite, whose eigenvalues are at most `bound`.
-/// The two are sought side by side, so that the divisions of one fill the waiting times of the other.
+/// Returns the greatest and smallest eigenvalue of a symmetric tridiagonal matrix, not indefinite, whose eigenvalues are at
+/// most `bound`. Both are computed at the same time, so that the divisions of one fill the waiting times of the other.
 fn extreme_eigenvalues(d: &[f64], e: &[f64], bound: f64) -> [f64; 2] {
     let n = d.len() as f64;
     let mut x = [bound * (1.0 + 1e-12), -1e-17 * bound];
@@ -135,8 +136,8 @@ fn extreme_eigenvalues(d: &[f64], e: &[f64], bound: f64) -> [f64; 2] {
     x
 }
 
-/// First derivative of the logarithm of the characteristic polynomial at two places, and the second with its sign changed:
-/// Σ 1/(x - λ) and Σ 1/(x - λ)².
+/// Returns the first derivative of the logarithm of the characteristic polynomial at two places, and the second with its
+/// sign changed: Σ 1/(x - λ) and Σ 1/(x - λ)².
 fn logarithmic_derivatives(d: &[f64], e: &[f64], x: [f64; 2]) -> ([f64; 2], [f64; 2]) {
     let (mut slope, mut bend) = ([0.0; 2], [0.0; 2]);
     // With q_i = d_i - x - e_i²/q_(i-1): u = q'/q and w = q''/q.
@@ -160,7 +161,7 @@ pub(in crate::score) mod tests {
     use super::*;
     use ozols_dense::{Matrix, singular_values};
 
-    /// Numbers from a small generator.
+    /// Returns numbers from a small random generator.
     pub(in crate::score) fn numbers(seed: u64, n: usize) -> Vec<f64> {
         let mut s = seed;
         let mut one = || {
@@ -170,7 +171,7 @@ pub(in crate::score) mod tests {
         (0..n).map(|_| one()).collect()
     }
 
-    /// By this program, and by singular values.
+    /// Returns the ratio by this program, and by singular values.
     fn both(a: &[f64], n: usize, m: usize) -> (f64, f64) {
         let mut gram = vec![0.0; m * m];
         for i in 0..m {

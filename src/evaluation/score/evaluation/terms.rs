@@ -107,7 +107,7 @@ impl Scores {
         }
     }
 
-    /// Σ weight · loss.
+    /// Returns Σ weight · loss.
     pub fn weighted_sum(&self, ranking: &Ranking) -> f64 {
         let terms = ranking.terms.iter();
         terms
@@ -115,7 +115,7 @@ impl Scores {
             .sum()
     }
 
-    /// Whether the figures are within all limits of a ranking.
+    /// Returns true if the figures are within all limits of a ranking.
     pub fn within_limits(&self, ranking: &Ranking) -> bool {
         ranking.limits.iter().all(|l| {
             let x = self.term_value(l.term);
@@ -173,7 +173,7 @@ impl ErrorSum {
         }
     }
 
-    /// A joint's clearance `[m]` and the square of its force.
+    /// Adds a joint's clearance `[m]` with the square of its force.
     pub(in crate::score) fn add_joint(&mut self, clearance: f64, force_square: f64) {
         match self.how {
             ClearanceSum::Worst => self.axis += clearance * force_square.sqrt(),
@@ -181,7 +181,7 @@ impl ErrorSum {
         }
     }
 
-    /// Ends an axis.
+    /// Finishes an axis.
     pub(in crate::score) fn end_axis(&mut self) {
         self.square += match self.how {
             ClearanceSum::Worst => self.axis * self.axis,
@@ -195,7 +195,7 @@ impl ErrorSum {
     }
 }
 
-/// The axis of the joint's frame that a freedom is along, and whether it is a shift.
+/// Returns the axis of the joint's frame that a freedom is along, and true if it is a translation.
 pub(in crate::score) fn axis_of(freedom: Freedom) -> Option<(usize, bool)> {
     match freedom {
         Freedom::Rx => Some((0, false)),
@@ -220,7 +220,7 @@ pub struct Floor {
 }
 
 impl Floor {
-    /// Σ weight · bound over the terms but cost; those without a bound are at least 0.
+    /// Returns Σ weight · bound over the terms except cost. Terms without a bound are at least 0.
     pub fn weighted_sum(&self, ranking: &Ranking) -> f64 {
         ranking.terms.iter().map(|&(t, w)| w * self.of(t)).sum()
     }

@@ -42,19 +42,19 @@ impl Request {
 }
 
 impl Outcome {
-    /// The variants asked for, one by one: the best in order, all, or a sample. No more than a thousand are held at a time,
-    /// and second opinions are had in parallel.
+    /// Returns the requested variants, one by one: the best in order, all, or a sample. No more than a thousand are held at
+    /// a time, and second opinions are computed in parallel.
     pub fn variants(&self) -> Variants<'_> {
         self.variants_unless(&|| false)
     }
 
-    /// The same until `cancelled`.
+    /// Returns the requested variants, until `cancelled`.
     pub fn variants_unless<'o>(&'o self, cancelled: ShouldCancel<'o>) -> Variants<'o> {
         let request = &self.request;
         self.make_list(request.list, request.distinct, request.seed, cancelled)
     }
 
-    /// As many ideas as variants were asked for, each as its first variant, until `cancelled`.
+    /// Returns as many ideas as variants were requested, each as its first variant, until `cancelled`.
     pub fn ideas_unless<'o>(&'o self, cancelled: ShouldCancel<'o>) -> Variants<'o> {
         self.make_list(self.request.list, true, self.request.seed, cancelled)
     }
@@ -70,7 +70,7 @@ impl Outcome {
         self.make_list(list, self.request.distinct, seed, cancelled)
     }
 
-    /// A list, of ideas or of all variants.
+    /// Returns a list, of ideas or of all variants.
     fn make_list<'o>(
         &'o self,
         list: List,
@@ -110,7 +110,7 @@ impl Outcome {
         }
     }
 
-    /// A list of what singular values found.
+    /// Returns a list of the variants that singular values found.
     fn by_values<'o>(
         &'o self,
         found: &'o AtTolerance,
@@ -199,7 +199,7 @@ impl<'o> ListSource<'o> {
         }
     }
 
-    /// Ideas, each as its first variant, with their places.
+    /// Returns the source of a list of ideas, each as its first variant, with their places.
     fn of_ideas(ideas: Vec<Idea>, places: Vec<Option<usize>>) -> ListSource<'o> {
         let firsts = ideas.iter().map(|i| i.first.clone()).collect_vec();
         ListSource {
@@ -241,18 +241,18 @@ impl fmt::Debug for Variants<'_> {
 }
 
 impl Variants<'_> {
-    /// What second opinions and other poses say of those given so far.
+    /// Returns the findings of second opinions and other poses on the variants given so far.
     pub fn summary(&self) -> Summary {
         self.summary
     }
 
-    /// Whether the giving was cancelled.
+    /// Returns true if the list was cancelled.
     pub fn is_interrupted(&self) -> bool {
         self.interrupted
     }
 
-    /// Why the giving ended early, so far as it goes: it or the ranking was interrupted, or it would have taken more than the
-    /// memory there is.
+    /// Returns the reason why the list ended early, as far as it goes. Either it or the ranking was interrupted, or it would
+    /// have taken more than the available memory.
     pub fn cut_short(&self) -> Option<Stop> {
         let ranking = self.outcome.ranking.as_ref();
         if self.interrupted || ranking.is_some_and(|r| r.interrupted) {
@@ -261,7 +261,7 @@ impl Variants<'_> {
         self.short.then_some(Stop::Memory)
     }
 
-    /// Why this is not all that was asked for: the giving, or else the search.
+    /// Returns the reason why the list is not complete: that of the list itself, otherwise that of the search.
     pub fn stop(&self) -> Stop {
         self.cut_short().unwrap_or(self.outcome.stop)
     }
@@ -286,7 +286,7 @@ impl Variants<'_> {
         self.ideas.iter().find(|i| i.first == of.variant).cloned()
     }
 
-    /// The next with its opinions: variants are gathered first, so that they are analysed in parallel.
+    /// Returns the next variant with its opinions. Variants are collected first, so that they are analysed in parallel.
     fn next_certified(&mut self) -> Option<(Certified, Option<usize>)> {
         if let Some(next) = self.ready.next() {
             return Some(next);

@@ -1,12 +1,12 @@
 //! Fronts: of variants that no other is better than in every term, and of what no other is both faster and more often right than.
 
-/// Whether `a` is nowhere worse than `b` and somewhere better.
+/// Returns true if `a` is nowhere worse than `b` and better in at least one value.
 pub fn dominates(a: &[f64], b: &[f64]) -> bool {
     a.iter().zip(b).all(|(x, y)| x <= y) && a.iter().zip(b).any(|(x, y)| x < y)
 }
 
-/// The front of each point, from 0: the points that none dominates, then those that only the first front dominates, and so
-/// on, until `enough` points have one; `None` for the rest. Smaller is better.
+/// Returns the front of each point, from 0, until `enough` points have one. Front 0 has the points that none dominates, the
+/// next those that only earlier fronts dominate, and so on. `None` for the rest. Smaller is better.
 ///
 /// # Complexity
 /// O(n · front · terms) a front, after sorting.
@@ -41,7 +41,8 @@ pub fn fronts(points: &[Vec<f64>], enough: usize) -> Vec<Option<usize>> {
     out
 }
 
-/// The places of those that are right more often than all faster ones, the fastest first, from (seconds, share).
+/// Returns the indices of the points that are right more often than all faster ones, the fastest first. Points are (seconds,
+/// share).
 pub(crate) fn front(points: &[(f64, f64)]) -> Vec<usize> {
     let mut order: Vec<usize> = (0..points.len()).collect();
     order.sort_by(|&a, &b| {

@@ -84,9 +84,9 @@ struct Here {
     floor: Floor,
 }
 
-/// Goes through all variants of a search that could come among the best so many, of which a pool has the list, and puts those that
-/// do into it; only for sums of terms, and where that does not take too long. `progress` is told how many of how many branches are
-/// done.
+/// Examines all variants of a search that could be among the best in the list of a pool. Adds those that are. Applies to
+/// sums of terms only, and only if it does not take too long. `progress` receives the number of branches done and the number
+/// of all branches.
 ///
 /// # Complexity
 /// O(unknowns · width) a branch, and a scoring for each variant that no bound puts behind.
@@ -240,7 +240,7 @@ impl<'w> BranchAndBound<'w> {
         walker
     }
 
-    /// Whether a variant behind a node could have a sum that is allowed.
+    /// Returns true if a variant below a node could have a sum that is allowed.
     fn may_win(&self, next: &Here, allowed: f64) -> bool {
         let left = self.left[next.layer][next.node];
         left.is_some_and(|left| {
@@ -249,7 +249,7 @@ impl<'w> BranchAndBound<'w> {
         })
     }
 
-    /// The least sum of terms.
+    /// Returns the least possible sum of the terms.
     fn least_sum(&self, key: Key, cost: u64, floor: Floor) -> f64 {
         let terms = self.ranking.terms.iter().map(|&(term, weight)| {
             let least = match term {
@@ -342,7 +342,7 @@ impl Walker<'_> {
         self.allowed = sum + MARGIN * (1.0 + sum.abs());
     }
 
-    /// Scores a variant.
+    /// Computes the scores of a variant.
     fn score_leaf(&mut self, terminal: usize, key: Key) {
         let walk = self.walk;
         let end = walk

@@ -11,7 +11,7 @@ use crate::search::build::Diagrams;
 use crate::search::diagram::Stop;
 use crate::search::question::conditions::Symmetry;
 
-/// Scores the cheapest variants and puts the best in order, where that was asked for.
+/// Computes the scores of the cheapest variants and sorts the best, if a ranking is requested.
 ///
 /// # Errors
 /// Returns an error if the original mechanism cannot bear the loads of the ranking.

@@ -84,13 +84,13 @@ pub struct Missing {
 }
 
 impl Missing {
-    /// The cost from which on no variant can be among the list.
+    /// Returns the cost from which on no variant can be in the list.
     pub fn settled_at_cost(&self) -> f64 {
         self.settled_at as f64 / 1000.0
     }
 }
 
-/// Which of two comes first, the cheaper one where the order does not say.
+/// Compares two variants by rank. The cheaper one comes first if the order does not decide.
 pub fn compare_ranked(ranking: &Ranking, a: &Ranked, b: &Ranked) -> Ordering {
     let by_order = match ranking.order {
         Order::Weighted => a
@@ -111,8 +111,8 @@ pub fn compare_ranked(ranking: &Ranking, a: &Ranked, b: &Ranked) -> Ordering {
     by_order.then(a.by_cost.cmp(&b.by_cost))
 }
 
-/// Whether a variant of at least this cost, and with the other terms at least `floor`, could still come before the last of
-/// `list`: the proof where it could not.
+/// Returns the proof that no variant of at least this cost, with the other terms at least `floor`, can precede the last of
+/// `list`. `None` if one could.
 fn settling_proof(
     ranking: &Ranking,
     list: &[Ranked],
@@ -138,7 +138,7 @@ fn settling_proof(
     }
 }
 
-/// Scores a pool in parallel, in its order: the same for any number of threads.
+/// Computes the scores of a pool in parallel, in its order. They are the same for any number of threads.
 fn score_all(evaluator: &Evaluator<'_>, pool: &[Assignment]) -> Vec<Result<Scores, Unsolved>> {
     pool.par_iter()
         .map_init(Scratch::default, |scratch, v| {
@@ -163,7 +163,7 @@ pub struct Ranker<'e, 's> {
 }
 
 impl<'e, 's> Ranker<'e, 's> {
-    /// For a pool of at most `limit` variants, of which the best `top` are wanted.
+    /// Creates the ranking of a pool of at most `limit` variants, of which the best `top` are wanted.
     pub fn new(evaluator: &'e Evaluator<'s>, ranking: &Ranking, limit: usize, top: usize) -> Self {
         let floor = match ranking.order {
             Order::Weighted => evaluator.least_terms().weighted_sum(ranking),
@@ -212,7 +212,7 @@ impl<'e, 's> Ranker<'e, 's> {
         ControlFlow::Continue(())
     }
 
-    /// Scores the block in parallel and keeps what may be among the best.
+    /// Computes the scores of the block in parallel, and keeps the variants that may be among the best.
     fn score_block(&mut self) {
         let block = std::mem::take(&mut self.block);
         let ranking = &self.out.ranking;
@@ -278,7 +278,7 @@ impl<'e, 's> Ranker<'e, 's> {
         })
     }
 
-    /// The ranked pool. `all` says that every admissible variant was given.
+    /// Returns the ranked pool. `all` means that every admissible variant was given.
     ///
     /// # Complexity
     /// One scoring a variant, in parallel, and a sort a block; for Pareto's order O(pool · front).
@@ -310,7 +310,7 @@ impl<'e, 's> Ranker<'e, 's> {
     }
 }
 
-/// 1st, 2nd, 3rd, 4th.
+/// Returns an ordinal number: 1st, 2nd, 3rd, 4th.
 fn ordinal(n: usize) -> String {
     let end = match (n % 100, n % 10) {
         (11..=13, _) => "th",
@@ -359,8 +359,8 @@ fn describe_change(m: &Mechanism, term: Term, from: &Scores, to: &Scores) -> Str
 }
 
 impl RankedPool {
-    /// Why a variant is not where its cost would put it: the term that speaks most for it against the cheapest; `None`
-    /// where its place is that by cost.
+    /// Returns the reason why a variant is not in its place by cost: the term that most favours it over the cheapest. `None`
+    /// if its place is that by cost.
     pub fn place_reason(&self, m: &Mechanism, rank: usize) -> Option<String> {
         let (here, cheapest) = (
             self.list.get(rank.checked_sub(1)?)?,

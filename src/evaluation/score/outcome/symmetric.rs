@@ -47,14 +47,14 @@ pub struct OddFreedoms {
 }
 
 impl Outcome {
-    /// Returns the cheapest symmetric redesigns if the mechanism is symmetric and all variants were asked for in the free state. Each is
-    /// symmetric by a third of a turn, or if there is none by a mirror or half turn.
+    /// Returns the cheapest symmetric redesigns if the mechanism is symmetric and all variants were requested in the free
+    /// state. Each is symmetric by a third of a turn. If there is none, by a mirror or half turn.
     ///
     /// # Errors
     /// Returns an error if a coordinate has no value in the field.
     ///
     /// # Complexity
-    /// Three searches of each symmetry with joints that are images of each other as one.
+    /// Three searches of each symmetry. Joints that are images of each other are one variable.
     pub fn symmetric_best(
         &self,
         should_cancel: &(dyn Fn() -> bool + Sync),

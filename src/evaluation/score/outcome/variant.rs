@@ -43,12 +43,12 @@ pub struct Variant<'o> {
 }
 
 impl<'o> Variant<'o> {
-    /// The outcome it is of.
+    /// Returns the outcome that contains the variant.
     pub fn outcome(&self) -> &'o Outcome {
         self.outcome
     }
 
-    /// Its place in the list, from 1.
+    /// Returns the place in the list, from 1.
     pub fn position(&self) -> usize {
         self.position
     }
@@ -63,7 +63,7 @@ impl<'o> Variant<'o> {
         self.idea.as_ref()
     }
 
-    /// Its cost above the present mechanism's, in thousandths.
+    /// Returns the cost above the original mechanism's, in thousandths.
     pub fn cost_milli(&self) -> i64 {
         self.outcome
             .search
@@ -71,17 +71,17 @@ impl<'o> Variant<'o> {
             .cost_in_milli(self.assignment().key.cost())
     }
 
-    /// Its cost above the present mechanism's.
+    /// Returns the cost above the original mechanism's.
     pub fn cost(&self) -> f64 {
         self.cost_milli() as f64 / 1000.0
     }
 
-    /// Mobility W in the free state.
+    /// Returns the mobility W in the free state.
     pub fn mobility(&self) -> i64 {
         self.outcome.search.mobility(self.assignment().key)
     }
 
-    /// Redundant constraints σ in the free state.
+    /// Returns the number of redundant constraints σ in the free state.
     pub fn redundant(&self) -> u32 {
         self.assignment().key.internal()
     }
@@ -92,13 +92,14 @@ impl<'o> Variant<'o> {
         searched.map(|_| self.assignment().key.external())
     }
 
-    /// Harmful ones among them: self-stresses that load the joints the state adds with more than friction.
+    /// Returns the number of harmful ones among them: self-stresses that load the joints the state adds with more than
+    /// friction.
     pub fn external_harmful(&self) -> Option<u32> {
         let searched = self.outcome.search.conditions.state;
         searched.map(|_| self.assignment().key.harmful())
     }
 
-    /// Number of changed joints and inserted unloading joints.
+    /// Returns the number of changed joints and inserted unloading joints.
     pub fn change_count(&self) -> u32 {
         self.assignment().key.changes()
     }
@@ -128,18 +129,18 @@ impl<'o> Variant<'o> {
         self.outcome.ranking.as_ref()?.list.get(self.place?)
     }
 
-    /// Its scores under the workload, where it was ranked.
+    /// Returns the scores under the workload, if the variant was ranked.
     pub fn scores(&self) -> Option<&'o Scores> {
         self.ranked().map(|r| &r.scores)
     }
 
-    /// Why its place in the ranking is not that by cost.
+    /// Returns the reason why the place in the ranking is not that by cost.
     pub fn place_reason(&self) -> Option<String> {
         let pool = self.outcome.ranking.as_ref()?;
         pool.place_reason(&self.outcome.search.mechanism, self.place? + 1)
     }
 
-    /// Its name: "idea 3" in a list of ideas, "variant 3" in one of all variants.
+    /// Returns the name: "idea 3" in a list of ideas, "variant 3" in one of all variants.
     pub fn name(&self) -> String {
         let one = if self.idea.is_some() { IDEA } else { VARIANT };
         format!("{one} {}", self.position)
@@ -150,8 +151,8 @@ impl<'o> Variant<'o> {
         as_mechanism(&self.outcome.search, self.assignment(), &self.name())
     }
 
-    /// σ of each of its contours when they are added in this order, with the range over all orders of these: of the searched state,
-    /// whose own contours come last, or of the free one. Empty if no contour has any.
+    /// Returns σ of each contour when they are added in this order, with the range over all orders of these. It is that of
+    /// the searched state, whose own contours come last, or of the free state. Empty if no contour has any.
     ///
     /// # Errors
     /// Returns an error if a coordinate has no value in the field of the search.
@@ -207,7 +208,7 @@ pub fn as_mechanism(search: &Search, assignment: &Assignment, name: &str) -> Mec
     out
 }
 
-/// The same beginning a sentence.
+/// Returns a name with a capital letter, as at the start of a sentence.
 fn capitalize(name: &str) -> String {
     let mut letters = name.chars();
     let first = letters.next().map(char::to_uppercase);
@@ -257,7 +258,7 @@ fn offer_again(search: &Search, assignment: &Assignment, out: &mut Mechanism) {
     out.search = spec;
 }
 
-/// The joints that a choice of options changes, in file order.
+/// Returns the joints that a choice of options changes, in file order.
 pub fn list_changes(search: &Search, assignment: &Assignment) -> Vec<Change> {
     let mut out = Vec::new();
     let variables = search.space.variables.iter().zip(&assignment.choices);
@@ -272,7 +273,7 @@ pub fn list_changes(search: &Search, assignment: &Assignment) -> Vec<Change> {
     out
 }
 
-/// Changes in words: "3-0, 7-0 -> spherical; 5-1 -> cylindrical".
+/// Describes changes in words: "3-0, 7-0 -> spherical; 5-1 -> cylindrical".
 pub fn in_words(search: &Search, changes: &[Change]) -> String {
     let mut alike: Vec<(&str, Vec<&str>)> = Vec::new();
     for c in changes {

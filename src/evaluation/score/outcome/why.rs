@@ -109,7 +109,7 @@ impl<'o> Whys<'o> {
         }
     }
 
-    /// Whether peaks are those of the side load of [`SIDE_LOAD`] on each output, along its hinges.
+    /// Returns true if peaks are those of the side load of [`SIDE_LOAD`] on each output, along its hinges.
     pub fn is_side_load(&self) -> bool {
         self.side.is_some()
     }
@@ -226,7 +226,7 @@ impl<'o> Whys<'o> {
     }
 }
 
-/// A mechanism with a force on each output at the middle of its joints, along the hinges it turns on.
+/// Returns a mechanism with a force on each output at the middle of its joints, along the hinges on which it turns.
 fn pressed_aside(m: &Mechanism) -> Mechanism {
     let mut out = m.clone();
     let joints: Vec<_> = m.joints_in(StateId::FREE).map(|j| &m.joints[j]).collect();

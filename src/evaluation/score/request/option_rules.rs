@@ -78,7 +78,7 @@ impl<'r> OptionRule<'r> {
         Ok(rules)
     }
 
-    /// Whether an option is left.
+    /// Returns true if the rules keep an option.
     fn leaves_option(&self, name: &String) -> bool {
         !self.names.is_empty() && self.names.contains(name) == self.allow
     }

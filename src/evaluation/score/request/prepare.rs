@@ -30,7 +30,7 @@ pub struct Prepared {
     pub(in crate::score) written: Option<Written>,
 }
 
-/// A mechanism made ready for a search, in the places where `file` has its joints and options.
+/// Returns a mechanism prepared for a search, with its joints and options at the places they have in `file`.
 pub(in crate::score) fn as_in_file(
     ready: &Mechanism,
     file: &Mechanism,
@@ -54,7 +54,7 @@ pub(in crate::score) fn as_in_file(
     }
 }
 
-/// A mechanism made ready for a search, its joints and options in the places where another has them.
+/// Returns a mechanism prepared for a search, with its joints and options at the places of another.
 fn in_places(ready: &Mechanism, file: &Mechanism) -> Mechanism {
     let mut out = ready.clone();
     for (joint, there) in out.joints.iter_mut().zip(&file.joints) {
@@ -92,8 +92,8 @@ pub(in crate::score) fn digits_of(verdicts: &[RankVerdict]) -> Digits {
     }
 }
 
-/// The mechanism nearest to the one that is written that has the rank meant, where a verdict found one; options that shared a
-/// joint's frame share it still.
+/// Returns the mechanism nearest to the written one that has the intended rank, if a verdict found one. Options that shared
+/// a joint's frame still share it.
 pub(in crate::score) fn nearest_exact(
     m: &Mechanism,
     verdicts: &[RankVerdict],
@@ -115,7 +115,8 @@ pub(in crate::score) fn nearest_exact(
 }
 
 impl Prepared {
-    /// Why the geometry looks rounded, where that may matter; whether the file is to be taken as written is asked.
+    /// Returns the reason why the geometry looks rounded, if that may matter. `as_written` requests the geometry exactly as
+    /// in the file.
     pub(in crate::score) fn looks_rounded(
         &self,
         as_written: bool,
@@ -161,7 +162,7 @@ fn looks_measured(name: &str, w: &Rounded) -> String {
     }
 }
 
-/// How the rank as written differs from what a verdict tells of the mechanism of this name.
+/// Describes how the rank as written differs from a verdict on the mechanism of this name.
 fn describe_difference(name: &str, why: Option<&Rounded>, v: &RankVerdict) -> String {
     let looks = why.map_or_else(
         || {

@@ -9,7 +9,7 @@ use crate::score::request::{Request, RequestError};
 use crate::search::answer::single_changes::{USUAL, USUAL_UNLOADING};
 use itertools::Itertools;
 
-/// The types that need no more than a joint's own frame: a screw needs its lead, too, and a weld leaves nothing to choose.
+/// Returns the types that need only a joint's own frame. A screw also needs its lead, and a weld has nothing to choose.
 pub(in crate::score) fn framed_types() -> impl Iterator<Item = &'static JointType> {
     let fits = |t: &&JointType| !t.freedoms().is_empty() && !t.freedoms().contains(&Freedom::Screw);
     JointType::NAMED.iter().filter(fits)

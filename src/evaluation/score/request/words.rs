@@ -20,7 +20,7 @@ pub enum WordError {
     },
 }
 
-/// A term to rank by with its weight: `cost`, or `cost=0.5`.
+/// Parses a ranking term with its weight: `cost`, or `cost=0.5`.
 ///
 /// ```
 /// use ozols_evaluation::score::request::words::weighted_term;
@@ -44,7 +44,7 @@ pub fn weighted_term(word: &str) -> Result<(Term, f64), WordError> {
     Ok((term, weight))
 }
 
-/// Terms with their weights, from a list of words.
+/// Reads terms with their weights from a list of words.
 pub(super) fn weighted_terms<'de, D>(from: D) -> Result<Vec<(Term, f64)>, D::Error>
 where
     D: Deserializer<'de>,

@@ -16,7 +16,7 @@ use num_bigint::BigUint;
 /// Of so many ideas the first variants get a second opinion.
 const IDEAS: usize = 100;
 
-/// What singular values say of the counts, of the variants that are listed and of a sample, where coordinates look rounded.
+/// Returns the finding of singular values on the counts, the listed variants and a sample, if coordinates look rounded.
 pub(super) fn opinion_on_diagrams(
     search: &Search,
     diagrams: &Diagrams,

@@ -112,8 +112,8 @@ pub(crate) fn certify_within(
 /// Returns a [`NoCertificate`] if there is none within the budget.
 ///
 /// # Complexity
-/// For each prime O(d · rows · rank · columns + d² · kernel entries) operations modulo it, for degree d. There are
-/// about two primes for each 60 bits of the kernel's numbers. Then as [`verify::check`].
+/// The degree of the field is d. Each prime takes O(d · rows · rank · columns + d² · kernel entries) operations modulo
+/// it. There are about two primes for each 60 bits of the kernel's numbers. Then as [`verify::check`].
 pub fn certify_matrix(
     field: &NumberField,
     matrix: &MatrixOverRing,

@@ -9,8 +9,8 @@
 //! neighbours' rows and goes to the neighbour that is next in order. It is made independent first if it has more
 //! columns than rows, so that nothing piles up along a chain.
 //!
-//! No residue is inverted, because an inverse modulo a prime of 61 bits takes as long as a hundred products. Columns
-//! are combined crosswise, `v ← u_p·v - v_p·u`, which scales them by a nonzero factor and preserves the rank.
+//! No residue is inverted, because an inverse modulo a prime of 61 bits takes as long as a hundred products. Columns are
+//! combined crosswise, `v ← u_p·v - v_p·u`. This scales them by a nonzero factor and preserves the rank.
 //!
 //! # Sources
 //! Duff & Reid, "The multifrontal solution of indefinite sparse symmetric linear equations", ACM TOMS 9 (1983), applied

@@ -67,8 +67,7 @@ impl Chain {
     }
 }
 
-/// Returns the finite mobility of the joints of a closure by groups only, or `None` if they do not reduce to single
-/// joints.
+/// Returns the finite mobility of the joints of a closure by groups only. `None` if they do not reduce to single joints.
 ///
 /// # Errors
 /// Returns an error if a coordinate has no value in the field.

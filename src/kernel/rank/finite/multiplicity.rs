@@ -44,13 +44,13 @@ use crate::rank::finite::mobility::prove_regular;
 /// Number of contour orders tried.
 const ORDERS: usize = 6;
 
-/// Returns the highest order that can stop a motion, or `None` if it is unknown.
+/// Returns the highest order that can stop a motion. `None` if it is unknown.
 ///
 /// # Errors
 /// Returns an error if a coordinate has no value in the field.
 ///
 /// # Complexity
-/// A few eliminations of J, and products of classes with as many terms as sets of freedoms are open at a time.
+/// A few eliminations of J, and products of classes. A product has as many terms as sets of freedoms are open at a time.
 fn highest_order(
     exact: &ExactField,
     mechanism: &Mechanism,
@@ -342,8 +342,8 @@ impl Expanded {
     }
 }
 
-/// Returns true if every contour on its own is at a regular pose of its motion, and no contour duplicates constraints
-/// of others.
+/// Returns true if every contour without the others is at a regular pose of its motion. No contour may duplicate
+/// constraints of others.
 ///
 /// # Errors
 /// Returns an error if a coordinate has no value in the field.

@@ -191,12 +191,11 @@ fn rank_of(mechanism: &Mechanism, state: StateId) -> Result<usize, NoAnswer> {
 /// Returns the verdict on a state.
 ///
 /// # Errors
-/// Returns an error if the geometry has no image in a prime field, or if the singular values do not converge.
+/// Returns an error if the geometry has no image in a prime field. Also if the singular values do not converge.
 ///
 /// # Guarantee
-/// As written if Weyl's bound protects the exact rank against any rounding of the last digits. As intended if a
-/// geometry within the digits has the rank of the values above the bound, which is likely, not proven. Undecided
-/// otherwise.
+/// As written if Weyl's bound protects the exact rank against any rounding of the last digits. As intended if a geometry
+/// within the digits has the rank of the values above the bound. This is likely, not proven. Undecided otherwise.
 ///
 /// # Complexity
 /// The recovery of the intended scene and one modular rank. With decimals also one singular value decomposition, and

@@ -128,14 +128,14 @@ fn column_names(m: &Mechanism, pose: &Pose) -> Vec<(usize, String)> {
 }
 
 impl<'a> AskedStroke<'a> {
-    /// Creates the stroke for the mechanism of a verdict. The range is given as written and as parsed, and `named` is
-    /// the joint named as the drive.
+    /// Creates the stroke for the mechanism of a verdict. The range is given as written and as parsed. The joint `named` is
+    /// the drive.
     ///
     /// # Units
     /// Radians, or the file's unit of length, from the pose of the file.
     ///
     /// # Errors
-    /// Returns an error if the mechanism has no such drive, or if it is undecided which mechanism is intended.
+    /// Returns an error if the mechanism has no such drive. Also if it is undecided which mechanism is intended.
     pub fn new(
         m: &'a Mechanism,
         state: StateId,

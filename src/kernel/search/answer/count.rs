@@ -5,15 +5,15 @@ use std::ops::AddAssign;
 
 /// A number of variants.
 pub(crate) trait Count: Clone + Send + Sync + for<'a> AddAssign<&'a Self> {
-    /// No variant.
+    /// Returns the count of no variant.
     fn zero_count() -> Self;
-    /// One variant.
+    /// Returns the count of one variant.
     fn unit_count() -> Self;
     /// Adds the product of two numbers.
     fn add_product(&mut self, a: &Self, b: &Self);
-    /// As a number of any size.
+    /// Returns the count as a number of any size.
     fn to_big_uint(&self) -> BigUint;
-    /// Bytes held besides the number itself.
+    /// Returns the number of bytes held in addition to the number itself.
     fn heap_bytes(&self) -> usize {
         0
     }

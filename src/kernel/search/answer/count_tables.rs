@@ -15,8 +15,9 @@ pub(crate) struct Tally<C> {
 }
 
 impl<C: Count> Tally<C> {
-    /// Counts backwards from the terminals. With a `bound` for each node, completions whose cost exceeds it are left out: `bound(layer,
-    /// node)` is the largest cost of interest. Returns `None` if the tables would take more than `bytes`.
+    /// Creates the tables of counts, backwards from the terminals. With a `bound` for each node, omits completions whose
+    /// cost exceeds it: `bound(layer, node)` is the largest cost of interest. Returns `None` if the tables would take more
+    /// than `bytes`.
     ///
     /// # Complexity
     /// O(edges · table size + nodes · table size · log), where the table sizes depend on the kinds that are distinguished.
@@ -61,7 +62,7 @@ impl<C: Count> Tally<C> {
         Some((to, rest, &table[at].1))
     }
 
-    /// Counts of whole variants by key.
+    /// Returns the counts of whole variants by key.
     #[must_use]
     pub(crate) fn total_counts(&self) -> &[(Key, C)] {
         self.tables
@@ -71,11 +72,11 @@ impl<C: Count> Tally<C> {
     }
 }
 
-/// Counts of whole variants by key, with no more than two layers' tables held at a time; `None` if even these would take
-/// more than the given bytes.
+/// Returns the counts of whole variants by key. Holds the tables of no more than two layers at a time. Returns `None` if
+/// even these would take more than the given bytes.
 ///
 /// If a layer has one node, the choices before it and after it are independent. Each part is counted by itself, and the
-/// counts are multiplied: tables within a part have no more keys than the part.
+/// counts are multiplied. Tables within a part have no more keys than the part.
 ///
 /// # Complexity
 /// That of [`Tally::new`] for each part, and for each a product with the table of those after it.
@@ -235,7 +236,8 @@ fn put_in_order<C>(met: &mut Vec<u32>, sums: &[Option<C>]) {
     }
 }
 
-/// The tables of layer `l` from those of the one below and the numbers of their keys, with the bytes they take; `None` where these are too many.
+/// Computes the tables of layer `l` from those of the layer below and the numbers of their keys. Returns them with the bytes
+/// they take, or `None` if these are too many.
 fn layer_tables<C: Count>(
     diagram: &Diagram,
     steps: &Steps,

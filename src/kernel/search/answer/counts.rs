@@ -35,8 +35,9 @@ impl fmt::Display for Counts {
     }
 }
 
-/// How many orbits there are of a symmetry that is done `order` times, 2 or 3, until all is back: from how many variants
-/// there are and how many of them it keeps (Burnside's lemma: whatever but the identity is done keeps just these).
+/// Returns the number of orbits of a symmetry of the given `order`, 2 or 3. It follows from the number of all variants and
+/// the number of those that the symmetry keeps, by Burnside's lemma: every operation except the identity keeps exactly
+/// these.
 #[must_use]
 pub fn count_orbits(all: &BigUint, kept: &BigUint, order: usize) -> BigUint {
     (all + kept * (order - 1)) / order
@@ -107,7 +108,7 @@ impl Counts {
     }
 }
 
-/// Counts the variants of a diagram; `filter` applies the conditions on mobility and changes too.
+/// Returns the counts of a diagram's variants. With `filter`, applies the conditions on mobility and changes too.
 #[must_use]
 pub(crate) fn count_by_kind(question: &Question, diagram: &Diagram, filter: bool) -> Counts {
     let all = Kinds {
@@ -184,13 +185,13 @@ fn wanted_by(
     Some(totals)
 }
 
-/// Whether every count fits 128 bits.
+/// Returns true if every count fits 128 bits.
 pub(in crate::search) fn fits_u128(question: &Question) -> bool {
     question.space.size().bits() <= 127
 }
 
-/// How many variants a diagram has of each kind; `None` where this would take more than a quarter of the memory there is. The
-/// numbers are as wide as that of all variants needs.
+/// Returns the number of variants of each kind in a diagram. `None` if this would take more than a quarter of the memory.
+/// The numbers are as wide as the number of all variants needs.
 fn totals_by(question: &Question, diagram: &Diagram, kinds: Kinds) -> Option<Vec<(Key, BigUint)>> {
     fn with<C: Count>(
         s: &Question,
@@ -242,8 +243,8 @@ pub(in crate::search) fn limited_kinds(question: &Question) -> Kinds {
     }
 }
 
-/// How many variants a diagram has; `filter` applies the conditions on mobility and changes too. None that the memory there
-/// is does not suffice to count.
+/// Returns the number of variants in a diagram. With `filter`, applies the conditions on mobility and changes too. Returns 0
+/// if the memory is not enough to count them.
 pub(in crate::search) fn count_total(
     question: &Question,
     diagram: &Diagram,
@@ -253,8 +254,8 @@ pub(in crate::search) fn count_total(
     totals.into_iter().flatten().map(|(_, n)| n).sum()
 }
 
-/// Counts by cost in thousandths of the variants of a diagram that meet every condition; `None` where they would take
-/// more than the memory there is.
+/// Returns the number of variants that meet every condition, by cost in thousandths. `None` if they would take more than the
+/// available memory.
 #[must_use]
 pub fn counts_by_cost(question: &Question, diagram: &Diagram) -> Option<BTreeMap<i64, BigUint>> {
     let kinds = Kinds {

@@ -89,7 +89,7 @@ fn sample_with<'a, C: Count + 'a>(
     Box::new(std::iter::from_fn(draw))
 }
 
-/// A number below `n`, each with the same chance.
+/// Returns a number below `n`, each with the same chance.
 fn random_below(random: &mut ChaCha8Rng, n: &BigUint) -> BigUint {
     let bits = n.bits();
     let mut bytes = vec![0u8; usize::try_from(bits.div_ceil(8)).unwrap_or(0)];

@@ -26,14 +26,14 @@ pub struct Estimate {
 }
 
 impl Estimate {
-    /// How far the interval reaches on either side, in parts of the mean.
+    /// Returns half the width of the interval, relative to the mean.
     #[must_use]
     pub fn relative_reach(&self) -> f64 {
         let [least, most] = self.between;
         (most - least) / 2.0 / self.mean
     }
 
-    /// The same, where at least so many are counted, and no more than some are possible.
+    /// Returns the estimate with its bounds limited: at least `counted`, and no more than `possible`.
     #[must_use]
     pub(in crate::search) fn clamp_to_bounds(
         mut self,

@@ -109,7 +109,7 @@ impl Patterns {
             .map(|_| self.count_unlike(&v.choices) == 0)
     }
 
-    /// After each layer of a diagram, how often each freedom can still be added.
+    /// Returns how often each freedom can still be added after each layer of a diagram.
     pub(in crate::search) fn to_come(&self, diagram: &Diagram) -> Vec<Pattern> {
         let mut most = vec![0u8; self.items.len()];
         let mut out = Vec::with_capacity(diagram.layers.len());
@@ -136,7 +136,7 @@ impl Patterns {
     }
 }
 
-/// The joints of each joint's series, itself included: those on the same contours.
+/// Returns the joints in series with each joint, itself included: those on the same contours.
 fn joints_in_series(m: &Mechanism, state: StateId) -> BTreeMap<JointId, Vec<JointId>> {
     let basis = contour_basis(m, state);
     let of = |j: JointId| {
@@ -158,7 +158,7 @@ fn joints_in_series(m: &Mechanism, state: StateId) -> BTreeMap<JointId, Vec<Join
         .collect()
 }
 
-/// The freedoms of an option in words, by their directions.
+/// Returns the names of an option's freedoms, by their directions.
 fn freedom_names(option: &JointOption) -> Vec<String> {
     let z = unit(to_vector(&option.frame.axis));
     let x = unit(across(to_vector(&option.frame.reference), z));
@@ -178,7 +178,7 @@ fn freedom_names(option: &JointOption) -> Vec<String> {
     option.joint_type.freedoms().iter().map(word).collect()
 }
 
-/// A direction in words, either way along it.
+/// Returns the name of a direction, the same for both senses.
 fn direction_name(d: [f64; 3]) -> String {
     let d = d.map(|x| (x * 1e6).round() / 1e6 + 0.0);
     let sign = if d.iter().find(|x| **x != 0.0).is_some_and(|x| *x < 0.0) {
@@ -193,8 +193,8 @@ fn direction_name(d: [f64; 3]) -> String {
     }
 }
 
-/// Returns what an option adds to the present joint: freedoms with their directions, or the option itself if it does not contain the
-/// present freedoms one by one.
+/// Returns what an option adds to the original joint: freedoms with their directions. If the option does not contain each of
+/// the original freedoms, returns the option itself.
 fn freedoms_added_by(present: &JointOption, option: &JointOption) -> Vec<String> {
     let mut all = freedom_names(option);
     for f in freedom_names(present) {
@@ -256,7 +256,7 @@ pub(in crate::search) fn freedom_patterns(question: &Question) -> Patterns {
     }
 }
 
-/// The variable that each becomes, where each is of one joint.
+/// Returns the image of each variable, if each is the variable of one joint.
 fn images_of_variables(question: &Question, to: &[JointId]) -> Option<Vec<usize>> {
     let variables = &question.space.variables;
     let image = |v: &Variable| match v.joints[..] {

@@ -1,9 +1,11 @@
-//! Ideas: minimal variants that give the same freedoms to the same contours, as one, shown by the one that is preferred.
+//! Ideas: groups of minimal variants that give the same freedoms to the same contours. The preferred variant represents each
+//! group.
 //!
-//! Ideas come in order of cost; of equal cost those first whose shown variant is its own image, then those that put in fewer kinds of
-//! joints, then those that keep the drive and the pivots in the frame ([`preference`](crate::search::question::preference)), then
-//! those with less mobility and fewer changes. Of mechanisms with more than 24 joints ideas are in order of cost alone. If
-//! more than 512 ideas have one cost, each 512 of them are ordered by themselves.
+//! Ideas come in order of cost. At equal cost, ideas whose shown variant is its own image come first, then those with fewer
+//! kinds of inserted joints. The next are those that keep the drive and the pivots in the frame
+//! ([`preference`](crate::search::question::preference)), then those with less mobility and fewer changes. For mechanisms
+//! with more than 24 joints, ideas are in order of cost only. If more than 512 ideas have one cost, each group of 512 is
+//! ordered on its own.
 
 mod preferred;
 
@@ -44,7 +46,8 @@ const SORTED: usize = 24;
 /// Weights of places that take part in the order of ideas, in all.
 const WEIGHED: u64 = 64;
 
-/// The variants that are minimal, in what they add and cost, as a diagram; all admissible ones where these are not known.
+/// Returns the variants that are minimal in what they add and cost, as a diagram. Returns all admissible ones if these are
+/// not known.
 pub(in crate::search) fn idea_variants<'d>(
     question: &Question,
     diagrams: &'d Diagrams,
@@ -58,9 +61,9 @@ pub(in crate::search) fn idea_variants<'d>(
 /// Returns the first `top` ideas among the admissible variants. A shorter list is the beginning of a longer one.
 ///
 /// # Complexity
-/// That of the diagram of minimal variants; of the variants up to the last idea's cost only as much of each as differs in its
-/// pattern; then a bounded search for the shown variant of each idea in the groups of the first `top`, and for each of these two passes
-/// over the part of the diagram that it uses.
+/// That of the diagram of minimal variants. From each variant up to the last idea's cost, it takes only
+/// the part that differs in its pattern. Then a bounded search finds the shown variant of each idea in the groups of the first `top`. Each
+/// takes two passes over the part of the diagram that it uses.
 pub(crate) fn list_ideas(question: &Question, diagrams: &Diagrams, top: usize) -> Vec<Idea> {
     let variants = idea_variants(question, diagrams);
     ideas_in_steps(
@@ -72,8 +75,8 @@ pub(crate) fn list_ideas(question: &Question, diagrams: &Diagrams, top: usize) -
     )
 }
 
-/// What ideas depend on besides the variants that they are made of and what these cost: what each choice adds to which contours, what
-/// joints the mechanism's own image makes of them, the weights of their places, and the names of what choices put there.
+/// Data on which ideas depend, in addition to their variants and costs. They are: what each choice adds to which contours;
+/// the images of joints in the mechanism's own symmetry; the weights of places; the names of the chosen joints.
 #[derive(Debug, PartialEq, Eq)]
 pub struct IdeaBasis {
     patterns: Patterns,
@@ -103,7 +106,7 @@ impl IdeaBasis {
     }
 }
 
-/// The same among minimal variants, and how many steps down their diagram were taken to find them.
+/// Finds the first ideas among minimal variants, and counts the steps taken down their diagram.
 pub(in crate::search) fn ideas_in_steps(
     question: &Question,
     basis: &IdeaBasis,
@@ -142,7 +145,7 @@ pub(in crate::search) fn ideas_in_steps(
 /// Ideas that are brought in order together: their cost in thousandths, and how many such groups of that cost come before.
 type CostGroup = (i64, usize);
 
-/// The group of an idea of a cost that comes after those found.
+/// Returns the group of an idea of a cost that follows those found.
 fn cost_group(cost: i64, found: &[(CostGroup, Assignment)]) -> CostGroup {
     let before = found.iter().rev();
     let before = before.take_while(|((c, _), _)| *c == cost).count();
@@ -207,7 +210,7 @@ fn first_variants(
     best
 }
 
-/// The first of each idea in a list of variants, with its place in the list.
+/// Returns the first variant of each idea in a list, with its place in the list.
 pub fn first_of_each<'a>(
     question: &Question,
     list: impl Iterator<Item = &'a Assignment>,
@@ -255,7 +258,7 @@ pub fn ideas_among(
     out
 }
 
-/// The idea of a variant, with how many of the diagram it stands for.
+/// Returns the idea of a variant, with the number of variants in the diagram that share it.
 fn make_idea(
     question: &Question,
     diagram: &Diagram,
@@ -274,7 +277,7 @@ fn make_idea(
     }
 }
 
-/// How many variants of a diagram have a pattern.
+/// Returns the number of variants in a diagram that have a pattern.
 fn with_pattern(
     question: &Question,
     diagram: &Diagram,

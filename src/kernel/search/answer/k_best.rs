@@ -23,8 +23,8 @@ pub struct Assignment {
 /// The variants whose key passes a test, cheapest first, then in an order of keys, then by choices in diagram order.
 ///
 /// # Complexity
-/// Some passes over the part of the diagram that variants of that cost use, then O(variables · choices) look-ups per variant, less if many
-/// variants have the same beginning. Memory is that of the tables, whatever the length of the list.
+/// Some passes over the part of the diagram that variants of that cost use. Then O(variables · choices) look-ups per
+/// variant, or fewer if many variants have the same beginning. Memory is that of the tables, for any length of the list.
 pub(crate) struct Cheapest<'d, C> {
     diagram: &'d Diagram,
     steps: &'d Steps,
@@ -113,7 +113,7 @@ impl<'d, C: Count> Cheapest<'d, C> {
         }
     }
 
-    /// Whether there are none beyond those given: none that cost more, or none that there is memory for.
+    /// Returns true if there are no others: none that cost more, or none that the memory allows.
     pub(in crate::search) fn is_all(&self) -> bool {
         self.is_all
     }
@@ -182,8 +182,8 @@ impl<C> Cheapest<'_, C> {
     }
 }
 
-/// A tally of the cheapest variants as far as is asked for, with their keys, and whether there are none beyond; fewer where
-/// their tables would take more than some bytes.
+/// Finds the cheapest variants up to the requested number. Returns the tally, the keys, and true if there are no others.
+/// Tallies fewer if their tables would take more than `bytes`.
 fn tally_enough<C: Count>(
     diagram: &Diagram,
     steps: &Steps,
@@ -228,7 +228,7 @@ fn tally_enough<C: Count>(
 /// Least cost by layer and node; `None` if there is no path.
 type LeastCosts = Vec<Vec<Option<u64>>>;
 
-/// Least costs of the ways to each node.
+/// Returns the least costs of the paths to each node.
 fn least_to(diagram: &Diagram, steps: &Steps) -> LeastCosts {
     let mut out = vec![vec![Some(0)]];
     for (l, layer) in diagram.layers.iter().enumerate() {
@@ -248,7 +248,7 @@ fn least_to(diagram: &Diagram, steps: &Steps) -> LeastCosts {
     out
 }
 
-/// Least costs of the ways from each node on, with those of where they end.
+/// Returns the least costs of the paths from each node on, by the terminals where they end.
 pub fn least_from(diagram: &Diagram, steps: &Steps) -> LeastCosts {
     let ends = diagram.terminals.iter();
     let mut below: Vec<Option<u64>> = ends

@@ -36,7 +36,7 @@ impl Key {
         Key(u128::from(r.internal) << 32 | external << 16 | u128::from(r.harmful))
     }
 
-    /// Cost steps.
+    /// Returns the cost in steps.
     #[must_use]
     pub fn cost(self) -> u64 {
         (self.0 >> 80) as u64
@@ -44,27 +44,27 @@ impl Key {
     fn part_at(self, at: u32) -> u16 {
         (self.0 >> at) as u16
     }
-    /// Freedoms.
+    /// Returns the number of freedoms.
     #[must_use]
     pub fn freedoms(self) -> u32 {
         u32::from(self.part_at(64))
     }
-    /// Changes.
+    /// Returns the number of changes.
     #[must_use]
     pub fn changes(self) -> u32 {
         u32::from(self.part_at(48))
     }
-    /// Redundant constraints within the mechanism.
+    /// Returns the number of redundant constraints within the mechanism.
     #[must_use]
     pub fn internal(self) -> u32 {
         u32::from(self.part_at(32))
     }
-    /// Redundant constraints that the state adds; negative if it removes joints.
+    /// Returns the number of redundant constraints that the state adds. Negative if it removes joints.
     #[must_use]
     pub fn external(self) -> i32 {
         i32::from(self.part_at(16).cast_signed())
     }
-    /// Harmful ones among them.
+    /// Returns the number of harmful ones among them.
     #[must_use]
     pub fn harmful(self) -> u32 {
         u32::from(self.part_at(0))
@@ -85,7 +85,7 @@ pub struct Steps {
 }
 
 impl Steps {
-    /// The steps of a space: the unit is the greatest common divisor of all cost differences.
+    /// Returns the steps of a space: the unit is the greatest common divisor of all cost differences.
     #[must_use]
     pub fn new(space: &Space, costs: &CostTable) -> Steps {
         let least: Vec<i64> = space
@@ -115,7 +115,7 @@ impl Steps {
         }
     }
 
-    /// Steps of one thousandth, of keys alone.
+    /// Returns steps of one thousandth, for keys without a space.
     #[cfg(test)]
     pub(in crate::search) fn of_keys(keys: Vec<Vec<Key>>) -> Steps {
         Steps {
@@ -126,14 +126,14 @@ impl Steps {
         }
     }
 
-    /// The key of a variant's redundancy, with what it costs.
+    /// Returns the key of a variant's redundancy, with its cost.
     #[must_use]
     pub fn redundancy_key(&self, r: Redundancy) -> Key {
         let cost = self.harmful * u64::from(r.harmful);
         Key(Key::of_redundancy(r).0 | Key::new(cost, 0, 0).0)
     }
 
-    /// The same with only the wanted kinds left.
+    /// Returns these steps with only the wanted kinds kept.
     #[must_use]
     pub(crate) fn keep_kinds(&self, kinds: Kinds) -> Steps {
         let keep = |k: &Key| {
@@ -170,14 +170,14 @@ impl Steps {
         }
     }
 
-    /// The largest cost part of a key that is no more than a cost in thousandths.
+    /// Returns the largest cost part of a key that is no more than a cost in thousandths.
     #[must_use]
     pub fn steps_above(&self, milli: i64) -> u64 {
         let steps = milli.saturating_sub(self.base_milli) / self.unit_milli;
         u64::try_from(steps).unwrap_or(0)
     }
 
-    /// A cost in thousandths from the cost part of a key.
+    /// Returns a cost in thousandths from the cost part of a key.
     #[must_use]
     pub fn cost_in_milli(&self, cost: u64) -> i64 {
         self.base_milli + i64::try_from(cost).unwrap_or(i64::MAX / 2) * self.unit_milli

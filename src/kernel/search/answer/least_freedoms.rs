@@ -1,12 +1,13 @@
-//! Variants that do with the least: no other admissible one has part of their freedoms and all of their other choices.
+//! Minimal variants: no other admissible one has part of their freedoms and all of their other choices.
 //!
-//! A path through the diagram keeps the nodes that variants with less have reached. A variant is minimal if none of these nodes leads to an
-//! end by its other choices or by less. Without the constraints of a searched state, added freedoms never make a constraint redundant, and
-//! removed ones never let a link move. Then variants with less at several joints have others in between, and less at one joint is enough.
+//! A path through the diagram keeps the nodes that variants with less have reached. A variant is minimal if none of these
+//! nodes leads to an end by its other choices or by less. Without the constraints of a searched state, added freedoms never
+//! make a constraint redundant, and removed ones never release a link. Then variants with less at several joints have others
+//! in between. It is enough to compare those with less at one joint.
 //!
 //! # Sources
-//! Minimal elements of a family of sets on a decision diagram: Coudert, "Two-level logic minimization: an overview",
-//! Integration 17 (1994); Knuth, The Art of Computer Programming 4A, section 7.1.4, "nonsub" and "nonsup".
+//! Coudert, "Two-level logic minimization: an overview", Integration 17 (1994), on minimal elements of a family of sets on a
+//! decision diagram. Knuth, The Art of Computer Programming 4A, section 7.1.4, "nonsub" and "nonsup".
 
 use crate::linalg::echelon::Echelon;
 use crate::search::answer::counts::count_total;
@@ -49,8 +50,8 @@ pub(crate) fn count_minimal(question: &Question, diagrams: &Diagrams) -> Option<
     Some(count_total(question, &least, true))
 }
 
-/// The diagram of the minimal variants among the admissible; `None` where what is admissible is not all known, or where it takes
-/// too many nodes.
+/// Returns the diagram of the minimal variants among the admissible. `None` if not all admissible variants are known, or if
+/// it takes too many nodes.
 pub(in crate::search) fn minimal_diagram(
     question: &Question,
     diagrams: &Diagrams,
@@ -117,7 +118,7 @@ impl Order {
     }
 }
 
-/// The motion of each joint of a choice.
+/// Returns the motion of each joint of a choice.
 fn choice_spans(question: &Question, choice: &Choice) -> Vec<Echelon> {
     let span = |rows: &Vec<Vec<_>>| Echelon::from_vectors(question.exact.field(), rows);
     choice.spans.iter().map(span).collect()
@@ -131,7 +132,7 @@ struct Arrived {
     others: Vec<u32>,
 }
 
-/// The variants of a diagram without others that have less.
+/// Returns the variants of a diagram for which no other variant has less.
 fn minimal_variants(question: &Question, diagram: &Diagram, order: &Order) -> Option<Diagram> {
     if diagram.stop != Stop::Exhausted {
         return None;

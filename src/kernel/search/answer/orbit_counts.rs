@@ -6,7 +6,7 @@ use crate::search::diagram::Stop;
 use crate::search::question::Question;
 use crate::search::question::conditions::{Conditions, SearchError, Symmetry};
 
-/// Counts of orbits from counts of all variants, by a search for the symmetric ones, and why that search ended.
+/// Computes the counts of orbits from those of all variants, by a search for the symmetric ones. Also returns why that search ended.
 ///
 /// # Errors
 /// Returns an error in the same cases as [`Question::new`].

@@ -30,7 +30,7 @@ impl<'d> Places<'d> {
         })
     }
 
-    /// The place of a variant of the diagram, from 1.
+    /// Returns the place of a variant of the diagram, from 1.
     ///
     /// # Complexity
     /// O(kinds of variants + variables · choices).

@@ -4,9 +4,9 @@
 //! least cost of their completion exceed it. The ceiling is raised until it allows enough variants.
 //!
 //! # Sources
-//! Ceilings raised until there is an answer: Korf, "Depth-first iterative-deepening", Artificial Intelligence 27 (1985);
-//! raised so that each step about doubles the work: Sarkar, Chakrabarti, Ghose, De Sarkar, "Reducing reexpansions in
-//! iterative-deepening search by controlling cutoff bounds", Artificial Intelligence 50 (1991).
+//! Korf, "Depth-first iterative-deepening", Artificial Intelligence 27 (1985), raises ceilings until there is an answer.
+//! Sarkar, Chakrabarti, Ghose, De Sarkar, "Reducing reexpansions in iterative-deepening search by controlling cutoff
+//! bounds", Artificial Intelligence 50 (1991): each step about doubles the work.
 
 use crate::search::answer::counts::counts_by_cost;
 use crate::search::diagram::completion::{Ceiling, Missing};
@@ -30,8 +30,8 @@ pub(in crate::search) struct Proof {
     pub(in crate::search) stop: Stop,
 }
 
-/// A diagram of all variants up to the cost of the `most` cheapest, or up to as high a cost as the budget allows. `known`
-/// is the cost of that many variants known before, where there are so many.
+/// Returns a diagram of all variants up to the cost of the `most` cheapest, or up to the highest cost that the budget
+/// allows. `known` is the cost of that many variants, if so many are already known.
 pub(in crate::search) fn up_to(
     question: &Question,
     missing: &Missing,

@@ -34,7 +34,7 @@ pub const USUAL_UNLOADING: JointType = JointType::Spherical;
 pub struct Suggestion {
     /// The joint.
     pub joint: JointId,
-    /// The new joint, if the present one is replaced.
+    /// The new joint, if the original one is replaced.
     pub to: Option<JointOption>,
     /// The unloading joint inserted in series, where one is.
     pub unloading: Option<JointOption>,
@@ -62,10 +62,10 @@ pub struct Suggestions {
 /// Tries every single change.
 ///
 /// # Guarantee
-/// Ranks modulo a prime near 2^61, as those of the search.
+/// Ranks modulo a prime near 2^61, as in the search.
 ///
 /// # Complexity
-/// One elimination of J, and for each change an elimination of six by six numbers.
+/// One elimination of J. For each change, an elimination of six by six numbers.
 ///
 /// # Errors
 /// Returns an error if a coordinate has no value in the field.
@@ -129,7 +129,7 @@ pub fn single_changes(mechanism: &Mechanism, state: StateId) -> Result<Suggestio
     })
 }
 
-/// Returns the present joint as an option.
+/// Returns the original joint as an option.
 fn present_option(joint: &Joint) -> JointOption {
     let own = || JointOption::in_frame_of(joint, &joint.joint_type);
     joint.options.first().cloned().unwrap_or_else(own)
@@ -169,7 +169,7 @@ fn possible_changes(
         .collect()
 }
 
-/// The rank of the wrenches' powers on some twists.
+/// Returns the rank of the matrix of powers of the wrenches on some twists.
 fn power_rank(exact: &ExactField, wrenches: &[Vec<Residue>], twists: &[Vec<Residue>]) -> usize {
     let f = exact.field();
     let powers = |t: &Vec<Residue>| wrenches.iter().map(|w| f.dot(w, t)).collect::<Vec<_>>();
@@ -206,7 +206,7 @@ impl<'a> Carried<'a> {
         }
     }
 
-    /// A basis of the wrenches that a joint carries, six at most.
+    /// Returns a basis of the wrenches that a joint carries, at most six.
     fn wrenches_at(&self, joint: JointId) -> Vec<Vec<Residue>> {
         let (f, dim) = (self.exact.field(), self.dim);
         let mut span = Echelon::new(f);

@@ -30,8 +30,8 @@ pub(crate) fn cheapest_variants<'a>(
     Box::new(in_order(question, diagrams, enough).take(top))
 }
 
-/// Those up to the cost to which all are known, and then the dearer ones that happen to be known; of `top` variants those
-/// that are asked about.
+/// Returns the variants up to the cost below which all are known, then the dearer ones that happen to be known. Returns the
+/// requested ones of `top` variants.
 fn in_order<'a>(
     question: &'a Question,
     diagrams: &'a Diagrams,
@@ -54,8 +54,8 @@ fn in_order<'a>(
     Box::new(first.chain(dearer.flatten()))
 }
 
-/// Whether a variant comes before its images, which have the same properties, in the order of a diagram's variables; always
-/// where images are not taken together.
+/// Returns true if a variant precedes its images, which have the same properties, in the order of a diagram's variables.
+/// Always true if images are not merged.
 fn is_first_image(question: &Question, diagram: &Diagram, v: &Assignment) -> bool {
     if question.conditions.symmetry != Symmetry::OnePerOrbit {
         return true;
@@ -71,8 +71,9 @@ fn is_first_image(question: &Question, diagram: &Diagram, v: &Assignment) -> boo
     others.all(|image| by_layer(&image) >= own)
 }
 
-/// The admissible variants of a diagram that cost no more than `slack` above the cheapest by other steps than the question's, in
-/// the order and with keys of these, but for those whose beginnings `enter` refuses; and whether there are none that cost more.
+/// Returns the admissible variants of a diagram that cost no more than `slack` above the cheapest, by other steps than the
+/// question's. They come in the order and with the keys of these steps, without those whose beginnings `enter` refuses. Also
+/// returns true if none cost more.
 pub(in crate::search) fn variants_within<'a>(
     question: &'a Question,
     diagram: &'a Diagram,
@@ -88,7 +89,7 @@ pub(in crate::search) fn variants_within<'a>(
     in_steps(question, diagram, steps, limits, wanted, enter)
 }
 
-/// The variants of a diagram with costs in thousandths from `least` to `most`, but for those whose beginnings `enter`
+/// Returns the variants of a diagram with costs in thousandths from `least` to `most`. Omits those whose beginnings `enter`
 /// refuses.
 fn variants_between<'a>(
     question: &'a Question,
@@ -129,7 +130,8 @@ pub(in crate::search) fn every_choice<'a>(
     .0
 }
 
-/// The variants of a diagram whose keys pass a test, in the order of some steps, and whether there are none beyond.
+/// Returns the variants of a diagram whose keys pass a test, in the order of some steps. Also returns true if there are no
+/// others.
 fn in_steps<'a>(
     question: &'a Question,
     diagram: &'a Diagram,
@@ -151,7 +153,7 @@ fn in_steps<'a>(
     }
 }
 
-/// The properties of a variant of a diagram.
+/// Returns the properties of a variant of a diagram.
 pub(in crate::search) fn variant_key(
     question: &Question,
     diagram: &Diagram,

@@ -38,7 +38,7 @@ pub enum Relaxation {
     PoseOnly,
 }
 
-/// Reasons why nothing can be found, whatever is chosen.
+/// Reasons why no choice can give a result.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Hopeless {
     /// Redundant constraints that remain if every joint has all freedoms of its options, if these are more than allowed.
@@ -77,14 +77,14 @@ pub fn find_obstacles(question: &Question) -> Result<Hopeless, ExactError> {
     })
 }
 
-/// The conditions that, eased alone, leave some variants, with how many; a condition whose search would take too many
-/// nodes is passed over. `nodes` are those that the question took.
+/// Returns the conditions that leave some variants if each is relaxed on its own, with the number of variants. Skips a
+/// condition whose search would take too many nodes. `nodes` is the number that the question took.
 ///
 /// # Errors
 /// Returns an error in the same cases as [`Question::new`].
 ///
 /// # Complexity
-/// One search for each condition, and for redundancies one for each bit of the least that is enough, or two.
+/// One search for each condition. For redundancies, one or two for each bit of the smallest number that is enough.
 pub fn find_relaxations(
     question: &Question,
     nodes: usize,
@@ -160,8 +160,8 @@ impl Easing<'_> {
         Ok(self.count_eased(change)?.filter(|c| !c.total.is_zero()))
     }
 
-    /// Bounds beyond what is allowed. Diagrams grow with them, so a little more is tried first: twice as much more each time, until it
-    /// takes too many nodes.
+    /// Returns bounds beyond what is allowed. Diagrams grow with them, so the first is only a little larger. Each step is
+    /// twice the one before, until the search takes too many nodes.
     fn further_bounds(&self, allowed: u32) -> impl Iterator<Item = u32> {
         // No variant has more redundant constraints than rows.
         let rows = u32::try_from(6 * self.question.mechanism.joints.len()).unwrap_or(u32::MAX);
@@ -170,7 +170,7 @@ impl Easing<'_> {
         bounds.take_while(move |b| *b < 2 * rows)
     }
 
-    /// More redundant constraints within the mechanism.
+    /// Tries more redundant constraints within the mechanism.
     fn ease_redundant(&self) -> Result<Option<(Relaxation, BigUint)>, SearchError> {
         for bound in self.further_bounds(self.question.conditions.max_redundant) {
             let Some(c) = self.count_eased(&|r| r.max_redundant = bound)? else {
@@ -218,7 +218,7 @@ impl Easing<'_> {
         Ok(None)
     }
 
-    /// More redundant constraints that the searched state adds, and objects that it does not hold.
+    /// Tries more redundant constraints that the searched state adds, and objects that it does not hold.
     fn in_state(&self, state: InState) -> Result<Vec<(Relaxation, BigUint)>, SearchError> {
         let mut out = Vec::new();
         if let Some(allowed) = state.max_external {

@@ -25,7 +25,7 @@ pub struct Bracket {
 }
 
 impl Bracket {
-    /// Whether from and to are one number.
+    /// Returns true if both ends are the same number.
     #[must_use]
     pub fn is_narrow(&self) -> bool {
         self.sure.total == self.most
@@ -79,7 +79,7 @@ impl AtTolerance {
     }
 }
 
-/// The choices of a variant from its number: the last variable's change first.
+/// Returns the choices of a variant from its number. The choice of the last variable changes first.
 pub(in crate::search) fn choices_of_number(question: &Question, number: u32) -> Vec<usize> {
     let mut rest = number as usize;
     let mut out: Vec<usize> = Vec::with_capacity(question.steps.keys.len());
@@ -188,13 +188,13 @@ pub struct Sampled {
     pub all_below: Option<i64>,
 }
 
-/// The choices of a variant drawn at random, each with the same chance.
+/// Returns the choices of a variant drawn at random, all with the same chance.
 pub(in crate::search) fn any_choices(question: &Question, random: &mut ChaCha8Rng) -> Vec<usize> {
     let all = question.steps.keys.iter();
     all.map(|keys| random_index(random, keys.len())).collect()
 }
 
-/// A number below `n`, each with the same chance.
+/// Returns a number below `n`, each with the same chance.
 pub(in crate::search) fn random_index(random: &mut ChaCha8Rng, n: usize) -> usize {
     let n = n.max(1) as u64;
     // What would favour the first numbers is drawn again.

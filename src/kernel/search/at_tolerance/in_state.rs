@@ -20,7 +20,7 @@ pub(super) enum Answer {
 }
 
 impl Answer {
-    /// From whether it is for sure, and whether it may be.
+    /// Returns the answer from two facts: it is certain, and it is possible.
     pub(super) fn of(sure: bool, may: bool) -> Answer {
         match (sure, may) {
             (true, _) => Answer::Yes,
@@ -59,11 +59,11 @@ pub(super) struct InStateSeen {
 impl InStateSeen {
     /// Examines a variant as a mechanism. Returns `None` if the arithmetic fails.
     ///
-    /// A self-stress is harmless where it does no work in any motion that would take harm away: the ranks of J with these
-    /// motions added and without them differ by the number of harmful ones.
+    /// A self-stress is harmless if it does no work in any motion that would relieve harmful ones. So the number of harmful
+    /// ones is a difference of ranks of J, with these motions added and without them.
     ///
     /// # Complexity
-    /// A decomposition for each face, and one for each body to be held and each link that may hold it.
+    /// A decomposition for each face. Another one for each body to be held and each link that may hold it.
     pub(super) fn of(
         question: &Question,
         realized: &Mechanism,
@@ -122,7 +122,7 @@ impl InStateSeen {
         })
     }
 
-    /// Whether it is what is asked of variants in the state.
+    /// Returns true if it meets the conditions on variants in the state.
     pub(super) fn meets_conditions(&self, asked: &InState) -> Answer {
         let below = |[least, most]: [i64; 2], limit: Option<u32>| {
             let fits = |x: i64| limit.is_none_or(|l| x <= i64::from(l));
@@ -134,7 +134,7 @@ impl InStateSeen {
             .combine_with(self.held)
     }
 
-    /// External and harmful redundant constraints, the least there may be.
+    /// Returns the external and harmful redundant constraints, the smallest numbers possible.
     pub(super) fn figures(&self) -> (i32, u32) {
         (self.external[0], self.harmful[0])
     }
@@ -146,8 +146,8 @@ fn rank_range(m: &Mechanism, state: StateId, digits: Digits) -> Option<RankRange
     Some(RankRange::from_values(&values, digits))
 }
 
-/// Whether one of the links that may hold a body moves with it in every motion: rows of their relative motion add nothing to
-/// the rank.
+/// Returns whether one of the links that may hold a body moves with it in every motion. Then the rows of their relative
+/// motion add nothing to the rank.
 fn holds(
     m: &Mechanism,
     state: StateId,

@@ -63,7 +63,7 @@ impl<'s> Judge<'s> {
         self.digits
     }
 
-    /// The dimension of the kept links' present motion, the largest it may be.
+    /// Returns the largest possible dimension of the kept links' original motion.
     pub(super) fn motion_dimension(&self) -> usize {
         self.motion[1]
     }
@@ -130,7 +130,7 @@ impl<'s> Judge<'s> {
         }
     }
 
-    /// How a variant with some redundancy stands that meets the conditions, for sure or perhaps.
+    /// Returns the standing of a variant with some redundancy that meets the conditions, certainly or possibly.
     fn standing_of(&self, choices: &[usize], sure: bool, redundancy: Redundancy) -> Standing {
         let key = brute::variant_key(self.question, choices, redundancy);
         if sure {
@@ -153,7 +153,7 @@ impl<'s> Judge<'s> {
         ))
     }
 
-    /// Whether a variant meets the conditions on mobility and changes with so many redundant constraints.
+    /// Returns true if a variant meets the conditions on mobility and changes with `internal` redundant constraints.
     fn is_wanted(&self, choices: &[usize], internal: u32) -> bool {
         let redundancy = Redundancy {
             internal,
@@ -179,8 +179,8 @@ impl<'s> Judge<'s> {
     }
 }
 
-/// The least and the largest dimension of the kept links' motion, from the ranks of the closure equations and of these with
-/// that motion.
+/// Returns the smallest and largest dimension of the kept links' motion. They follow from the rank of the closure equations
+/// and the rank of these with that motion.
 fn motion_range(free: RankRange, kept: RankRange) -> [usize; 2] {
     [
         kept.least.saturating_sub(free.most),

@@ -28,7 +28,7 @@ pub(in crate::search) struct AtMost {
     space: SelfStressSpace,
 }
 
-/// Nodes of a layer: their number, bounded by memory, too.
+/// Returns the maximum number of nodes in a layer, as also limited by memory.
 fn layer_width(limits: &Limits, stages: &[Adding], choices: usize) -> usize {
     let numbers = stages.iter().map(|s| s.columns.width).max().unwrap_or(0);
     let each = size_of::<u64>() * 2 * (numbers * numbers / 2 + numbers);
@@ -94,7 +94,7 @@ pub(in crate::search) fn at_most(
 }
 
 impl AtMost {
-    /// Whether a variant of the diagram is one indeed.
+    /// Returns true if a variant of the diagram is an actual variant.
     pub(in crate::search) fn has_variant(&self, choices: &[usize]) -> bool {
         let space = &self.space;
         let contours = space.contours.len();
@@ -105,7 +105,7 @@ impl AtMost {
     }
 }
 
-/// For each stage, how many of its coordinates of contours there are up to each place where some end, from this stage on.
+/// Returns for each stage the number of its coordinates of contours up to each place where some end, from this stage on.
 fn boundary_counts(stages: &[Adding], contours: &[Lifetime]) -> Vec<Vec<usize>> {
     let ends: Vec<usize> = contours.iter().map(|c| c.to).dedup().collect();
     let of_stage = |(t, stage): (usize, &Adding)| {
@@ -130,7 +130,7 @@ struct Layered<'a> {
 }
 
 impl Layered<'_> {
-    /// The children of some nodes, equal ones together, and the edges to them.
+    /// Returns the children of some nodes, with equal ones merged, and the edges to them.
     fn merge_children(&self, nodes: &Weighed, choices: usize) -> (Weighed, Vec<u32>) {
         let all: Vec<Vec<Named>> = nodes
             .par_iter()
@@ -167,7 +167,7 @@ impl Layered<'_> {
         (next, edges)
     }
 
-    /// The children of one space, as the diagram itself has them.
+    /// Returns the children of one space, as the diagram itself has them.
     fn exact_children(
         &self,
         worker: &mut Worker,

@@ -7,7 +7,7 @@ use rayon::prelude::*;
 /// A set of nodes of one half.
 pub(in crate::search) type Set = Box<[u64]>;
 
-/// Whether a node is in a set.
+/// Returns true if a node is in a set.
 pub(in crate::search) fn contains_node(set: &Set, node: usize) -> bool {
     set[node / 64] >> (node % 64) & 1 == 1
 }

@@ -2,9 +2,9 @@
 //!
 //! The free state has one lane. A searched state adds lanes with the contours of that state:
 //! - One lane counts its redundant constraints.
-//! - One lane for each face that may take moments. The faces of this lane carry only friction: directions that friction does not hold
-//!   move freely. Constraints that are redundant there are redundant by friction.
-//! - One lane counts the redundant constraints without the joints that the state adds, if the free state has other joints.
+//! - One lane for each face that may take moments. The faces of this lane carry only friction: directions that friction does
+//!   not hold move freely. Constraints that are redundant there are redundant by friction.
+//! - One lane counts the redundant constraints without the joints that the state adds. It exists if the free state has other joints.
 //! - One lane for each body that is to be held and each link that may hold it. It keeps the motion of the body relative to the link.
 //!
 //! If the state joins only kept links, the choices of common joints make no difference to it, and its lanes have the original joints

@@ -38,8 +38,8 @@ pub(super) struct Grouped {
 }
 
 impl Grouped {
-    /// Groups nodes by their rows in reduced form, which have the motion of kept links as the last number. A node that moves these and
-    /// closes every contour is completed by none.
+    /// Collects nodes by their rows in reduced form, which have the motion of kept links as the last number. A node that moves
+    /// these and closes every contour has no completion.
     pub(super) fn group_nodes(nodes: impl Iterator<Item = Vec<Vec<Residue>>>) -> Grouped {
         let mut grouped = Grouped::default();
         nodes.for_each(|rows| grouped.take_node(rows));
@@ -72,8 +72,8 @@ pub(super) fn count_lookups(front: &Grouped, back: &Grouped) -> usize {
     a * b * LOOKUPS + front.nodes * b + back.nodes * a
 }
 
-/// Returns for each node of the front the set of nodes of the back that complete it; `None` if the sets take more than the given bytes, or
-/// if cancelled.
+/// Returns for each node of the front the set of nodes of the back that complete it. `None` if the sets take more than the
+/// given bytes, or if cancelled.
 ///
 /// # Complexity
 /// O(a·b·w³ + (n·b + m·a)·w) field operations for n nodes of the front in a groups, m of the back in b, and w coordinates.

@@ -73,7 +73,7 @@ fn is_none_possible(question: &Question, rows: &ClosingRows<'_>) -> bool {
     rows.count_closing() - rank > question.conditions.max_redundant as usize
 }
 
-/// Whether nothing is asked of variants but what makes them determinate.
+/// Returns true if the question sets no conditions except determinacy.
 pub(in crate::search) fn one_diagram(question: &Question) -> bool {
     !question.conditions.keep_output && question.conditions.state.is_none()
 }

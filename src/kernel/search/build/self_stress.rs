@@ -1,8 +1,8 @@
-//! Diagrams in the space dual to the self-stresses of the present joints.
+//! Diagrams in the space dual to the self-stresses of the original joints.
 //!
-//! A node is what the choices so far add there, within what the rest can still reach: the rest must reach all that is missing, or
-//! the node is dead. That space is smaller than the motions of all links, and nodes that differ in what a present joint to
-//! come allows anyway are one in it.
+//! A node is the space that the choices so far add there, within what the rest can still reach. If the rest cannot reach all
+//! that is missing, the node is dead. That space is smaller than the motions of all links. Nodes that differ only in motions
+//! that a later original joint allows anyway are one node in it.
 
 use crate::linalg::modp::{Field, Residue};
 use crate::search::diagram::minimize::minimize_diagram;
@@ -125,7 +125,7 @@ pub(in crate::search) fn flat_stages(
     order.iter().enumerate().map(stage).collect()
 }
 
-/// The diagram of no variant, for variables in an order.
+/// Returns the diagram without variants, for variables in an order.
 pub(in crate::search) fn empty_diagram(question: &Question, order: &[usize]) -> Diagram {
     let layer = |(t, &variable): (usize, &usize)| {
         let choices = question.space.variables[variable].choices.len();

@@ -1,7 +1,8 @@
 //! Which halves together span the space dual to self-stresses.
 //!
-//! Each half adds vectors in the coordinates that both halves reach. A variant has no redundant constraint if both halves together span all
-//! coordinates of contours. It keeps the motion of kept links if no combination of both lies in the coordinates of kept links alone.
+//! Each half adds vectors in the coordinates that both halves reach. A variant has no redundant constraint if both halves
+//! together span all coordinates of contours. It keeps the motion of kept links if no combination of both lies only in the
+//! coordinates of kept links.
 
 use crate::linalg::echelon::Echelon;
 use crate::linalg::modp::{Field, Residue};
@@ -19,8 +20,8 @@ use crate::search::reduce::self_stress_space::SelfStressSpace;
 
 /// Lookups of nodes that take about as long as a pair of them.
 const A_PAIR: usize = 5;
-/// Motions of kept links are known by one sum of their coordinates, each times a power of this: for one that is not zero it is
-/// zero as seldom as a number that is not zero has the residue of zero.
+/// Base of the checksum of the motions of kept links: the sum of their coordinates, each times a power of this. A nonzero
+/// motion has the sum zero as rarely as a nonzero number has the residue zero.
 const WEIGHT: i64 = 0x1e37_79b9_7f4a_7c15;
 
 /// A question in the space dual to self-stresses, from both ends.
@@ -225,8 +226,8 @@ impl Meeting {
         }
     }
 
-    /// Returns for each node of the front the number of the set of those of the back that complete it, or [`DEAD`], and the different
-    /// sets; `None` if they take more than the given bytes or if it is cancelled.
+    /// Returns for each node of the front the number of the set of nodes of the back that complete it, or [`DEAD`]. Also
+    /// returns the different sets. `None` if they take more than the given bytes, or if cancelled.
     ///
     /// # Complexity
     /// That of [`matched`] or that of [`Bases::completing`] for each node of the front.

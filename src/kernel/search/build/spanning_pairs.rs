@@ -1,10 +1,10 @@
 //! Which nodes of the back half complete one of the front, pair by pair.
 //!
-//! Together both must span all coordinates of contours that they reach. Linear forms describe what the front does not span: they are zero
-//! on all that it spans. The rows of a node of the back are taken one after another. A row is new if one of the forms is not zero on it;
-//! the others are then changed so that they are zero there. Nodes whose bases have the same beginning are examined together, so most pairs
-//! take one sum of products. One more form includes the motion of kept links. It must be zero on each row that is not new, because no
-//! combination may move kept links alone.
+//! Together both must span all coordinates of contours that they reach. Linear forms describe what the front does not span:
+//! they are zero on all that it spans. The rows of a node of the back are taken one after another. A row is new if one of
+//! the forms is not zero on it. The others are then changed so that they are zero there. Nodes whose bases have the same
+//! beginning are examined together, so most pairs take one sum of products. One more form includes the motion of kept links.
+//! It must be zero on each row that is not new, because no combination may move only kept links.
 
 use crate::linalg::echelon::Echelon;
 use crate::linalg::modp::{Field, Residue};
@@ -52,8 +52,8 @@ impl Bases {
     /// Returns the nodes that complete a node of the front, which has these rows in `width` coordinates.
     ///
     /// # Complexity
-    /// O(e·d) field operations for e different beginnings of bases and d coordinates that the node does not span; O(e·d²) where most rows
-    /// are not the last ones.
+    /// O(e·d) field operations for e different beginnings of bases and d coordinates that the node does not span. O(e·d²) if
+    /// most rows are not the last ones.
     pub(super) fn completing_nodes(&self, rows: &[Vec<Residue>], width: usize) -> Set {
         let span = Echelon::from_vectors(self.field, rows);
         let (rows, pivots) = (span.reduced_rows(), span.pivots());

@@ -1,10 +1,10 @@
 //! Diagrams built from both ends, where equal motion spaces are too many.
 //!
-//! Nodes with the same completions may add different vectors to the present joints. In coupled contours most do. Here one half of the
-//! variables is taken from the front and the other half from the back, until they meet. The pairs of nodes that complete each other are
-//! [looked up](super::matching_halves) or tested. Nodes of the front with the same set of completing nodes are one node, and so are nodes
-//! of the back that complete the same nodes. From there on, each choice maps such a set to a set of the next layer, read from the edges of
-//! the back half. The result is the smallest diagram, and exact.
+//! Nodes with the same completions may add different vectors to the original joints. In coupled contours most do. Here one
+//! half of the variables is taken from the front and the other half from the back, until they meet. The pairs of nodes that
+//! complete each other are [looked up](super::matching_halves) or tested. Nodes of the front with the same set of completing
+//! nodes are one node, and so are nodes of the back that complete the same nodes. From there on, each choice maps such a set
+//! to a set of the next layer, read from the edges of the back half. The result is the smallest diagram, and exact.
 //!
 //! # Sources
 //! An automaton reversed, made deterministic, and that once more, is minimal: Brzozowski, "Canonical regular expressions and
@@ -40,12 +40,12 @@ impl<'a> Side<'a> {
         }
     }
 
-    /// The stage that comes next.
+    /// Returns the stage that comes next.
     fn next_stage(&self) -> &'a Adding {
         &self.stages[self.layers.len()]
     }
 
-    /// Children that the next stage makes.
+    /// Returns the number of children that the next stage makes.
     fn next_children(&self, space: &Space) -> usize {
         self.nodes.len() * space.variables[self.next_stage().variable()].choices.len()
     }
@@ -127,7 +127,7 @@ pub(in crate::search) fn two_sided(
     Some(minimize_diagram(layers, vec![end; terminals]))
 }
 
-/// The halves of a part; `told` hears how far it has come.
+/// Builds the halves of a part, and reports the progress to `told`.
 fn build_halves<'a>(
     question: &'a Halves<'_>,
     space: &Space,
@@ -193,8 +193,8 @@ fn advance_side(
     Some(())
 }
 
-/// Layers from the back, with nodes that complete the same nodes of the front as one, and the sets of what completes these in the new
-/// nodes.
+/// Merges nodes of the back that complete the same nodes of the front. Returns the layers, and the completing sets in the
+/// new node numbers.
 fn without_twins(mut back: Vec<Layer>, sets: Vec<Set>) -> (Vec<Layer>, Vec<Set>) {
     let Some(last) = back.last_mut() else {
         return (back, sets);
@@ -228,8 +228,8 @@ fn without_twins(mut back: Vec<Layer>, sets: Vec<Set>) -> (Vec<Layer>, Vec<Set>)
     (smallest.layers, sets.iter().map(anew).collect())
 }
 
-/// The front's layers, and from there on layers of the sets of nodes of the back that complete what was chosen, of which `of_front` has
-/// the numbers; `None` if they are more than `most` nodes.
+/// Joins the front's layers to layers of sets of nodes of the back that complete what was chosen. `of_front` has the numbers
+/// of these sets. Returns `None` if there are more than `most` nodes.
 fn put_together(
     mut layers: Vec<Layer>,
     of_front: &[u32],

@@ -26,13 +26,14 @@ pub struct Seen {
     pub external: i32,
     /// Dimension of the kept links' motion.
     pub motion: usize,
-    /// Whether the motion is the present one throughout the motion of the mechanism as built; `None` if that is not asked, or if the
-    /// variant has redundant constraints in the drawn pose.
+    /// True if the variant keeps the original motion throughout the motion of the mechanism as built. `None` if the search
+    /// does not need it, or if the variant has redundant constraints in the drawn pose.
     pub lasts: Option<bool>,
 }
 
 impl Seen {
-    /// What ranks say: of the free state's rows, of those with the kept links' motion, and of the searched state's.
+    /// Creates the result from three ranks: of the free state's rows, of these with the kept links' motion, and of the
+    /// searched state's.
     pub(in crate::search) fn of_ranks(
         [free, _, state]: [usize; 3],
         [rank, with_kept]: [usize; 2],
@@ -53,7 +54,7 @@ impl Seen {
 pub struct Matrices {
     field: Field,
     all: WrittenOut<Residue>,
-    /// The matrices along the motion, with the dimension of the present joints' kept motion there.
+    /// The matrices along the motion, with the dimension of the original joints' kept motion there.
     along: Option<(WrittenOut<Residue>, usize)>,
     /// For each joint without a choice, the columns of every motion.
     whole: Vec<(JointId, Vec<Vec<Residue>>)>,
@@ -88,8 +89,8 @@ impl Matrices {
         }
     }
 
-    /// The redundant constraints within the mechanism that are left with every joint at once free to do what any of its
-    /// options allows, and the joints without a choice that would remove some of them.
+    /// Returns the redundant constraints within the mechanism that remain if every joint has the freedoms of all its options
+    /// at once. Also returns the joints without a choice that would remove some of them.
     #[must_use]
     pub(crate) fn freest_redundancy(&self) -> (usize, Vec<JointId>) {
         let free = self.all.rows[0];
@@ -139,7 +140,7 @@ fn free_and_kept_ranks(f: Field, of: &WrittenOut<Residue>, choices: &[usize]) ->
     [rank, pivots.len()]
 }
 
-/// Plain Gaussian elimination of some vectors; the columns of the pivots.
+/// Applies plain Gaussian elimination to some vectors. Returns the columns of the pivots.
 pub(super) fn eliminate_pivots(f: Field, mut vectors: Vec<Vec<Residue>>) -> Vec<usize> {
     let width = vectors.first().map_or(0, Vec::len);
     let (mut pivots, mut done) = (Vec::new(), 0);
@@ -163,14 +164,14 @@ pub(super) fn eliminate_pivots(f: Field, mut vectors: Vec<Vec<Residue>>) -> Vec<
     pivots
 }
 
-/// Counts by examining every variant. The searched state is examined on the mechanism of the variant.
+/// Examines every variant and counts. The searched state is examined on the mechanism of the variant.
 ///
 /// # Errors
 /// Returns an error if a coordinate has no value in the field.
 ///
 /// # Complexity
-/// One elimination a variant, in parallel over the choices of the first variables, and with a state some more for those
-/// that meet the other conditions.
+/// One elimination per variant, in parallel over the choices of the first variables. With a state, some more for the
+/// variants that meet the other conditions.
 pub fn every_variant(question: &Question) -> Result<SearchCounts, ExactError> {
     let matrices = Matrices::new(question);
     let mut out = SearchCounts {
@@ -195,7 +196,7 @@ pub fn every_variant(question: &Question) -> Result<SearchCounts, ExactError> {
 /// Properties of a variant, whether it is admissible but for mobility and changes, and whether it lasts.
 type Judged = (Key, bool, bool);
 
-/// Counts the variants with few enough redundant constraints by their properties.
+/// Returns the numbers of variants with few enough redundant constraints, by their properties.
 fn count_judged(
     question: &Question,
     matrices: &Matrices,
@@ -243,7 +244,7 @@ fn count_judged(
         .try_reduce(BTreeMap::new, merge)
 }
 
-/// The properties of a variant, from its choices and its redundant constraints.
+/// Returns the properties of a variant, from its choices and its redundant constraints.
 #[must_use]
 pub fn variant_key(question: &Question, choices: &[usize], redundancy: Redundancy) -> Key {
     let keys = question.steps.keys.iter().zip(choices);

@@ -46,8 +46,8 @@ impl Approximate {
         Approximate::of_mechanism(question, &question.mechanism, elimination, tolerance)
     }
 
-    /// The same of a mechanism with the links, joints and options of the searched one in other places, such as those that a
-    /// file writes.
+    /// Creates the same matrices for another mechanism with the same links, joints and options in other places, such as the
+    /// rounded coordinates of a file.
     ///
     /// # Errors
     /// Returns an error if a coordinate has no value.
@@ -113,14 +113,15 @@ impl Approximate {
         Some(Seen::of_ranks(self.all.rows, [inside, with_kept], of_state))
     }
 
-    /// How many closure equations the free state has, and how many the searched one.
+    /// Returns the number of closure equations of the free state, and of the searched one.
     #[must_use]
     pub fn count_equations(&self) -> [usize; 2] {
         let [free, _, state] = self.all.rows;
         [free, state]
     }
 
-    /// The rank of some rows of a variant, so far as the digits decide it; `None` where the singular values do not converge.
+    /// Returns the rank of some rows of a variant, as far as the digits decide it. `None` if the singular values do not
+    /// converge.
     ///
     /// # Complexity
     /// One decomposition.

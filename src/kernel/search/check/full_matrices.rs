@@ -41,15 +41,16 @@ impl RowLayout<'_> {
         }
     }
 
-    /// How many rows there are of each kind.
+    /// Returns the number of rows of each kind.
     fn row_counts(&self) -> [usize; 3] {
         let state = self.state.as_ref();
         let state = state.map_or(0, ClosingRows::count_closing);
         [self.free.count_closing(), self.free.count_kept(), state]
     }
 
-    /// Returns the columns of each choice along the motion times each power of t, in the rows of the free state at each power and then
-    /// those of the kept links' motion likewise, and how many rows there are of each kind; `None` where no motion is followed.
+    /// Returns the columns of each choice along the motion times each power of t. The rows are those of the free state at
+    /// each power, then those of the kept links' motion at each power. Also returns the number of rows of each kind. `None`
+    /// if no motion is followed.
     pub(in crate::search) fn along_motion(
         &self,
         question: &Question,
@@ -119,7 +120,7 @@ pub(crate) struct WrittenOut<N> {
 }
 
 impl WrittenOut<Residue> {
-    /// The columns of a search's space over its prime.
+    /// Computes the columns of a search's space over its prime.
     #[must_use]
     pub(in crate::search) fn modulo_prime(question: &Question, layout: &RowLayout<'_>) -> Self {
         let spans = |v: &Variable| v.choices.iter().map(|c| c.spans.clone()).collect();
@@ -129,7 +130,7 @@ impl WrittenOut<Residue> {
 }
 
 impl<N: Clone + Default> WrittenOut<N> {
-    /// The columns of a search's space, from what each choice of each variable spans.
+    /// Creates the columns of a search's space from the span of each choice of each variable.
     #[must_use]
     pub(in crate::search) fn new<S: Scalars<Number = N>>(
         s: &S,
@@ -153,22 +154,22 @@ impl<N: Clone + Default> WrittenOut<N> {
         }
     }
 
-    /// The columns of a choice of a variable.
+    /// Returns the columns of a choice of a variable.
     pub(in crate::search) fn of_choice(&self, variable: usize, choice: usize) -> &[Vec<N>] {
         &self.columns[variable][choice]
     }
 
-    /// How many choices a variable has.
+    /// Returns the number of choices of a variable.
     pub(in crate::search) fn count_choices(&self, variable: usize) -> usize {
         self.columns[variable].len()
     }
 
-    /// The columns of every choice, in one.
+    /// Returns the columns of every choice, one after another.
     pub(in crate::search) fn all_columns(&self) -> impl Iterator<Item = &Vec<N>> {
         self.columns.iter().flatten().flatten()
     }
 
-    /// The columns of a variant.
+    /// Returns the columns of a variant.
     pub(crate) fn variant_columns<'a>(
         &'a self,
         choices: &'a [usize],

@@ -1,12 +1,12 @@
-//! Whether a variant is over the stroke what it is in the file's pose, or is so in that one lucky pose only.
+//! Tests whether a variant has the same figures over the stroke as in the file's pose, or only in that one lucky pose.
 //!
-//! A redesign only adds freedoms, so each variant can take every pose of the present mechanism. Poses are reached by Newton's method from
-//! steps along the present motion. Then each joint of a variant is displaced as the present joint is, while its further freedoms rest, and
-//! the rank is computed there by singular values.
+//! A redesign only adds freedoms, so each variant can take every pose of the original mechanism. Poses are reached by
+//! Newton's method from steps along the original motion. Then each joint of a variant is displaced as the original joint is,
+//! while its further freedoms rest. The rank there is computed by singular values.
 //!
-//! What luck there may be: rank is largest at generic poses, so a variant with σ = 0 has it almost everywhere, but an
-//! idle motion that leaves the outputs at rest in the file's pose may move them in others; and the file's pose may be a
-//! singular one, where more seems to move, and to bind, than does.
+//! A result can hold by luck in two ways. Rank is largest at generic poses, so a variant with σ = 0 has it almost
+//! everywhere. But an idle motion that leaves the outputs at rest in the file's pose may move them in others. And the file's
+//! pose may be singular, with more instantaneous motions and more redundant constraints than elsewhere.
 
 use crate::closure::tree::path_from_frame;
 use crate::geom::exact::ExactError;
@@ -41,13 +41,13 @@ type JointDisplacements = Vec<(JointId, RigidMotion)>;
 pub struct Stroke {
     /// Poses asked for.
     pub asked: usize,
-    /// The poses reached: the displacements over the present joints in the file's unit, and the dimension of the kept links' present
-    /// motion.
+    /// The poses reached: the displacements over the original joints in the file's unit, and the dimension of the kept
+    /// links' original motion.
     poses: Vec<(JointDisplacements, Option<i64>)>,
 }
 
 impl Stroke {
-    /// Poses reached.
+    /// Returns the number of poses reached.
     #[must_use]
     pub fn count_reached(&self) -> usize {
         self.poses.len()
@@ -75,21 +75,21 @@ pub struct OverStroke {
 }
 
 impl OverStroke {
-    /// Whether the variant's figures hold in the file's pose only; `None` where no other pose was reached.
+    /// Returns true if the variant's figures hold in the file's pose only. `None` if no other pose was reached.
     #[must_use]
     pub fn is_lucky(&self) -> Option<bool> {
         (self.poses > 0).then_some(self.other.is_some())
     }
 }
 
-/// Reaches `count` generic poses along the present motion of the free state, in both directions from the file's pose. Returns fewer if it
-/// has no motion or if cancelled.
+/// Reaches `count` generic poses along the original motion of the free state, in both directions from the file's pose.
+/// Returns fewer if it has no motion or if cancelled.
 ///
 /// # Errors
 /// Returns an error if a coordinate has no value.
 ///
 /// # Complexity
-/// Some closings of O((6k)² f) a pose.
+/// Some closures of O((6k)² f) per pose.
 pub fn reach_poses(
     question: &Question,
     count: usize,
@@ -169,8 +169,8 @@ pub(crate) fn over_stroke(
     out
 }
 
-/// Returns the figures of a variant in a pose of the present mechanism, given by the displacements of its joints. Freedoms that the present
-/// joints do not need rest. Returns `None` if the variant cannot take the pose.
+/// Returns the figures of a variant in a pose of the original mechanism, given by the displacements of its joints. Freedoms
+/// that the original joints do not need rest. `None` if the variant cannot take the pose.
 fn figures_of_variant(
     question: &Question,
     m: &Mechanism,
@@ -271,7 +271,7 @@ fn figures_at(question: &Question, m: &Mechanism, pose: &Pose) -> Option<Figures
     })
 }
 
-/// Rank by singular values.
+/// Returns the rank by singular values.
 fn numeric_rank(matrix: &Matrix) -> Option<usize> {
     Some(rank_of_values(singular_values(matrix)?, FLAT).rank)
 }

@@ -1,5 +1,5 @@
-//! A depth-first search over the joints that leaves out branches without determinate variants. It is the usual method without a diagram,
-//! and serves the comparison of speed.
+//! A depth-first search over the joints that skips branches without determinate variants. It is the usual method without a
+//! diagram, and serves the comparison of speed.
 //!
 //! [`brute`](super::brute) eliminates every variant's matrix from the start. Here a branch keeps what its joints so far have
 //! eliminated, and ends where even all that the joints to come offer at once cannot raise the rank far enough.
@@ -77,7 +77,7 @@ impl Pruned {
         }
     }
 
-    /// The order in which variables are chosen.
+    /// Returns the order in which variables are chosen.
     #[must_use]
     pub fn order(&self) -> &[usize] {
         &self.order
@@ -86,7 +86,7 @@ impl Pruned {
     /// Visits the determinate variants that begin with the given choices, in the order of the variables.
     ///
     /// # Complexity
-    /// O(rows²) for each column of each branch that is entered, and as much for each later vector while the rank is too small.
+    /// O(rows²) for each column of each visited branch. As much for each later vector while the rank is too small.
     pub fn visit_determinate(&self, beginning: &[usize], leaf: &mut dyn FnMut(&[usize], Seen)) {
         let mut choices = vec![0; self.order.len()];
         let mut so_far = Echelon::default();
@@ -99,7 +99,7 @@ impl Pruned {
         self.visit_branch(beginning.len(), &mut choices, &mut so_far, leaf);
     }
 
-    /// Returns the result for one variant; `None` if its branch is left out.
+    /// Returns the result for one variant. `None` if its branch is skipped.
     #[must_use]
     pub fn look_at(&self, choices: &[usize]) -> Option<Seen> {
         let mut found = None;

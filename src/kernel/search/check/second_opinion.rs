@@ -83,20 +83,20 @@ pub struct SecondOpinion {
 }
 
 impl SecondOpinion {
-    /// Whether nothing speaks against the counts.
+    /// Returns true if nothing contradicts the counts.
     #[must_use]
     pub fn agrees(&self) -> bool {
         self.contradiction.is_none() && self.below_present.is_none()
     }
 
-    /// How many of the variants asked about are not decided.
+    /// Returns the number of examined variants that are not decided.
     #[must_use]
     pub fn count_undecided(&self) -> usize {
         self.listed.undecided + self.admissible.undecided + self.all.undecided
     }
 
-    /// Whether the counts may be called exact: nothing speaks against them, and it is decided what the digits mean, of the
-    /// mechanism and of every variant asked about.
+    /// Returns true if the counts may be called exact. Nothing contradicts them, and the digits decide the mechanism and
+    /// every examined variant.
     #[must_use]
     pub fn confirms(&self) -> bool {
         let decided = !self.digits.undecided && self.count_undecided() == 0;
@@ -168,7 +168,7 @@ pub fn sample_size(question: &Question) -> usize {
     (PRODUCTS / each).clamp(DRAWN[0], DRAWN[1])
 }
 
-/// Some of all variants, drawn from `seed`; of few all.
+/// Draws some of all variants from `seed`. Returns all if there are few.
 fn draw_variants(question: &Question, seed: u64) -> Vec<Vec<usize>> {
     let mut random = ChaCha8Rng::seed_from_u64(seed);
     let most = sample_size(question);
@@ -182,14 +182,14 @@ fn draw_variants(question: &Question, seed: u64) -> Vec<Vec<usize>> {
     }
 }
 
-/// Asks singular values of a geometry about the variants `listed`, some that `admissible` gives and some drawn of all
-/// from `seed`, and whether the counts keep the law.
+/// Tests variants by singular values of a geometry: those `listed`, some that `admissible` gives, and some of all variants
+/// drawn from `seed`. Also tests whether the counts keep the law.
 ///
 /// # Errors
 /// Returns an error if a coordinate has no value.
 ///
 /// # Complexity
-/// Two or three decompositions a variant, in parallel.
+/// Two or three decompositions per variant, in parallel.
 pub fn second_opinion(
     question: &Question,
     written: &Written,
@@ -252,13 +252,13 @@ pub fn second_opinion(
     })
 }
 
-/// Freedoms of a variant in the free state.
+/// Returns the number of freedoms of a variant in the free state.
 fn count_freedoms(question: &Question, choices: &[usize]) -> i64 {
     let keys = question.steps.keys.iter().zip(choices);
     keys.map(|(keys, &c)| i64::from(keys[c].freedoms())).sum()
 }
 
-/// The variants that break the law: options that only add freedoms take no mobility away.
+/// Returns the variants that break a law: options that only add freedoms take no mobility away.
 fn less_than_present(
     question: &Question,
     present: RankRange,
@@ -274,7 +274,7 @@ fn less_than_present(
     })
 }
 
-/// What singular values say of a variant; `None` where they do not converge.
+/// Returns the finding of singular values on a variant. `None` if they do not converge.
 fn compare_variant(
     question: &Question,
     of_file: &Approximate,

@@ -1,10 +1,9 @@
 //! The search over a second prime: what one prime says of the diagram, the other must say too.
 //!
-//! A rank modulo a prime falls short where the prime divides a nonzero minor. Above 2^61 that is next to impossible by
-//! chance, and primes that follow from a hash of the coordinates divide none by design. Two odds are better than one: both
-//! diagrams number their
-//! nodes in the order in which they are met, so agreement is equality edge by edge, and then every count, every list
-//! and every sample drawn from them is equal too.
+//! A rank modulo a prime is too small if the prime divides a nonzero minor. Above 2^61 that is next to impossible by chance,
+//! and primes that follow from a hash of the coordinates divide none by design. A second prime makes it still less likely.
+//! Both diagrams number their nodes in the order in which they are met, so agreement is equality edge by edge. Then every
+//! count, every list and every sample drawn from them is equal too.
 
 use crate::search::answer::search_counts::SearchCounts;
 use crate::search::answer::variants_in_order::cheapest_variants;
@@ -36,7 +35,7 @@ pub struct PrimeCheck {
 }
 
 impl PrimeCheck {
-    /// Whether the primes agree: neither yes nor no where the search was interrupted.
+    /// Returns true if the primes agree. `None` if the search was interrupted.
     #[must_use]
     pub fn agree(&self) -> Option<bool> {
         (self.verdict == Verdict::Agree).then_some(true)
@@ -74,13 +73,13 @@ pub fn build_both(
     )
 }
 
-/// Compares a search with its twin over another prime: structure first, then all counts and the `top` best.
+/// Compares a search with its twin over another prime. Structure comes first, then all counts and the `top` best.
 ///
 /// # Errors
 /// Returns an error with both counts if they differ.
 ///
 /// # Complexity
-/// O(edges) where the diagrams are equal, which they always were; counting both where they are not.
+/// O(edges) if the diagrams are equal, as they have always been. Otherwise both are counted.
 pub fn compare_primes(
     questions: [&Question; 2],
     diagrams: [&Diagrams; 2],
@@ -140,13 +139,13 @@ pub fn compare_counts(
     }
 }
 
-/// The primes of two searches.
+/// Returns the primes of two searches.
 #[must_use]
 pub fn primes(questions: [&Question; 2]) -> [u64; 2] {
     questions.map(|s| s.exact.field().modulus())
 }
 
-/// Whether two diagrams have the same nodes, edges and terminals.
+/// Returns true if two diagrams have the same nodes, edges and terminals.
 fn same(a: &Diagram, b: &Diagram) -> bool {
     a.terminals == b.terminals
         && a.layers.len() == b.layers.len()

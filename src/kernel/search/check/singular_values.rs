@@ -31,7 +31,7 @@ const WORK: usize = 70_000_000;
 /// Variants that get one however large they are.
 const AT_LEAST: usize = 20;
 
-/// How many variants of a list get a second opinion: [`CHECKED`], and of large mechanisms fewer.
+/// Returns the number of listed variants that get a second opinion: [`CHECKED`], and fewer for large mechanisms.
 #[must_use]
 pub fn affordable_count(question: &Question) -> usize {
     let closure = Closure::new(&Reals, &question.mechanism, StateId::FREE);
@@ -82,7 +82,7 @@ pub struct Certified {
 }
 
 impl Certified {
-    /// A variant that nothing more is known of.
+    /// Creates the entry of a variant without a second opinion.
     #[must_use]
     pub fn without_opinion(variant: Assignment) -> Self {
         Certified {
@@ -141,13 +141,13 @@ pub struct Summary {
 }
 
 impl Summary {
-    /// Whether second opinions were asked for.
+    /// Returns true if second opinions were asked for.
     #[must_use]
     pub fn is_asked(&self) -> bool {
         self.checked + self.failed > 0
     }
 
-    /// Counts one more.
+    /// Adds one certified variant to the counts.
     pub fn add_certified(&mut self, one: &Certified) {
         self.given += 1;
         self.posed += usize::from(one.stroke.is_some_and(|s| s.poses > 0));
@@ -211,7 +211,7 @@ pub fn certify_variants(
     all.into_iter().map_while(|c| c).collect()
 }
 
-/// At which variables an unloading joint is inserted.
+/// Returns true for each variable at which an unloading joint is inserted.
 fn inserted_joints(question: &Question, choices: &[usize]) -> Vec<bool> {
     let variables = question.space.variables.iter().zip(choices);
     variables
@@ -229,14 +229,14 @@ fn contour_shape(question: &Question, realized: &Mechanism) -> Shape {
     }
 }
 
-/// Returns a warning where singular values contradict exact arithmetic on the mechanism as built; `None` where they agree, do not
+/// Returns a warning if singular values contradict exact arithmetic on the mechanism as built. `None` if they agree, do not
 /// converge, or would take too long.
 ///
 /// # Errors
 /// Returns an error if a coordinate has no value in the field.
 ///
 /// # Complexity
-/// One exact rank of each state and as many decompositions as for a variant.
+/// One exact rank of each state. As many decompositions as for a variant.
 pub fn warning_of_present(question: &Question) -> Result<Option<String>, ExactError> {
     if affordable_count(question) <= AT_LEAST {
         return Ok(None);
@@ -323,7 +323,7 @@ fn form_opinion(
     })
 }
 
-/// Rank of J of a state by singular values, with the number of columns.
+/// Returns the rank of J of a state by singular values, with the number of columns.
 fn decompose_state(
     question: &Question,
     m: &Mechanism,

@@ -6,8 +6,8 @@ use crate::model::mechanism::{
 };
 use crate::search::question::Question;
 
-/// The mechanism that a variant is. Joints keep their places in the list; unloading joints and their links come
-/// after all others. An unloading joint of a contact is there in every state, as its link is.
+/// Returns the mechanism of a variant. Joints keep their places in the list. Unloading joints and their links follow all
+/// others. An unloading joint of a contact exists in every state, as its link does.
 #[must_use]
 pub fn realize_variant(question: &Question, choices: &[usize]) -> Mechanism {
     let old = &question.mechanism;
@@ -71,7 +71,8 @@ pub fn realize_variant(question: &Question, choices: &[usize]) -> Mechanism {
     }
 }
 
-/// An unloading joint in series with another, from the link at one end of it to a pad; that of a contact is there in every state.
+/// Returns an unloading joint in series with another, from the link at one end of it to a pad. That of a contact exists in
+/// every state.
 fn in_series(
     joint: &Joint,
     unloading: &JointOption,
@@ -90,8 +91,8 @@ fn in_series(
     series
 }
 
-/// A realized variant with its kept links fixed to the frame: what its contours lock beyond the variant's own is
-/// the kept links' motion.
+/// Returns a realized variant with its kept links fixed to the frame. The constraints that become redundant give the
+/// dimension of the kept links' motion.
 #[must_use]
 pub(crate) fn lock_links(question: &Question, realized: &Mechanism) -> Mechanism {
     let mut out = realized.clone();
@@ -110,7 +111,7 @@ pub(crate) fn lock_links(question: &Question, realized: &Mechanism) -> Mechanism
     out
 }
 
-/// A joint with another type and frame, and nothing to choose.
+/// Returns a joint with another type and frame, without options.
 fn replace_joint(joint: &Joint, by: Option<&JointOption>) -> Joint {
     let (joint_type, frame) = match by {
         Some(o) => (o.joint_type.clone(), o.frame.clone()),

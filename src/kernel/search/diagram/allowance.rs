@@ -26,7 +26,7 @@ impl<'a> Allowance<'a> {
         }
     }
 
-    /// Nodes that are left.
+    /// Returns the number of nodes left.
     fn left_nodes(&self) -> usize {
         self.limits.nodes.saturating_sub(self.nodes)
     }
@@ -46,7 +46,7 @@ impl<'a> Allowance<'a> {
         Merge::new(room, bytes, stop, edges)
     }
 
-    /// The system refused memory for a layer: lowers the limit to half of what is in use.
+    /// Lowers the limit to half of what is in use, after the system refused memory for a layer.
     pub(in crate::search) fn lower_bytes(&mut self, nodes: &Nodes, next: &Nodes, edges: usize) {
         let now = self.edges + nodes.held_bytes() + next.held_bytes() + size_of::<u32>() * edges;
         self.bytes = self.bytes.min(now / 2);

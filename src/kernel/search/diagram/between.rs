@@ -1,8 +1,8 @@
-//! Relaxed nodes: a node stands for several spaces by their intersection, their sum, and bounds of their dimensions.
+//! Relaxed nodes: a node represents several spaces by their intersection, their sum, and bounds of their dimensions.
 //!
-//! A diagram in the space dual to self-stresses has too many nodes where each part can be chosen in many ways that differ a
-//! little. Put together, some of them are a node that every one of them lies between: it has the futures of each, and maybe more.
-//! So a diagram of such nodes has every variant there is, and its count is an upper bound.
+//! A diagram in the space dual to self-stresses has too many nodes if each part can be chosen in many ways that differ a
+//! little. Some of them are merged into a node that bounds each of them from below and above: it has the futures of each,
+//! and maybe more. So a diagram of such nodes has every variant, and its count is an upper bound.
 //!
 //! # Sources
 //! Bergman, Cire, van Hoeve & Hooker, "Discrete optimization with decision diagrams", INFORMS J. Comput. 28 (2016): diagrams
@@ -33,7 +33,7 @@ pub(in crate::search) struct Passed<'a> {
 }
 
 impl Between {
-    /// One space, with the boundaries to come.
+    /// Creates the relaxed node of one space, with the boundaries to come.
     pub(in crate::search) fn from_space(
         arithmetic: &mut Arithmetic,
         width: usize,
@@ -54,12 +54,12 @@ impl Between {
         self.any.as_ref().unwrap_or(&self.all)
     }
 
-    /// The one space, packed; none of many.
+    /// Returns the one space, packed. `None` if there are several.
     pub(in crate::search) fn packed_space(&self) -> Option<Vec<Residue>> {
         self.any.is_none().then(|| self.all.to_packed())
     }
 
-    /// Numbers that tell it from others.
+    /// Returns numbers that identify the node.
     pub(in crate::search) fn identity_words(&self) -> Vec<u64> {
         let mut out = self.all.to_packed();
         if let Some(any) = &self.any {

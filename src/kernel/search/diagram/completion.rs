@@ -19,12 +19,12 @@ pub(in crate::search) struct Ceiling<'m> {
     missing: &'m Missing,
     /// The cost. `[thousandths]`
     pub(in crate::search) cost: i64,
-    /// The number of nodes left out, by their least cost.
+    /// The number of nodes omitted, by their least cost.
     pub(in crate::search) beyond: BTreeMap<i64, usize>,
 }
 
 impl<'m> Ceiling<'m> {
-    /// Returns a ceiling that has left out no node yet.
+    /// Returns a ceiling that has omitted no node yet.
     pub(in crate::search) fn new(missing: &'m Missing, cost: i64) -> Self {
         Ceiling {
             missing,

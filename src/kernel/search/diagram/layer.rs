@@ -51,7 +51,7 @@ impl Nodes {
         self.spent.len()
     }
 
-    /// Bytes of the nodes, with the table that finds them while they are gathered.
+    /// Returns the bytes of the nodes, with the table that finds them during construction.
     pub(in crate::search) fn held_bytes(&self) -> usize {
         size_of::<Residue>() * self.data.len() + NODE * self.len()
     }
@@ -122,7 +122,7 @@ impl Merge {
         }
     }
 
-    /// Limits the layer to few nodes. If it has that many already, all other edges lead nowhere.
+    /// Restricts the layer to few nodes. If it already has that many, all other edges lead nowhere.
     pub(in crate::search) fn interrupt_merge(&mut self, edges: usize) {
         self.stop = Stop::Interrupted;
         self.room = self.room.min(CUT);
@@ -131,8 +131,8 @@ impl Merge {
         }
     }
 
-    /// Takes the children of some nodes, those of the nodes before them having been taken, but for those that are out of
-    /// the question: said of what a child has spent, its matrix, and the least cost of this way to it.
+    /// Adds the children of some nodes, after those of the nodes before them. Skips children that are excluded by a test of
+    /// three values: the redundancy spent, the child's matrix, and the least cost of this path to it.
     pub(in crate::search) fn take_children(
         &mut self,
         part: &Children,

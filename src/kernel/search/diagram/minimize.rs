@@ -8,7 +8,7 @@ use crate::search::diagram::{DEAD, Diagram, Layer};
 use hashbrown::HashMap;
 use hashbrown::hash_map::Entry;
 
-/// A whole diagram of such layers and terminals, minimal, its nodes numbered breadth first from the root.
+/// Creates the minimal whole diagram from such layers and terminals. Numbers its nodes breadth first from the root.
 ///
 /// # Complexity
 /// O(edges).
@@ -53,7 +53,7 @@ pub(in crate::search) fn minimize_diagram(
     Diagram::from_layers(layers, terminals)
 }
 
-/// Numbers the nodes in the order in which they are reached, and removes those that are not.
+/// Renumbers the nodes in the order in which they are reached, and removes the unreachable ones.
 fn number_from_the_root(layers: &mut [Layer], terminals: &mut Vec<Redundancy>) {
     let mut met: Vec<u32> = vec![0];
     for layer in layers {

@@ -108,17 +108,17 @@ impl Rows {
         }
     }
 
-    /// Dimension of the span.
+    /// Returns the dimension of the span.
     pub(in crate::search) fn rank(&self) -> usize {
         self.pivots.len()
     }
 
-    /// Dimension of what the span is in the first coordinates.
+    /// Returns the dimension of the span's projection on the first coordinates.
     pub(in crate::search) fn rank_before(&self, coordinates: usize) -> usize {
         self.pivots.partition_point(|&p| p < coordinates)
     }
 
-    /// The rows, one after another.
+    /// Returns the rows, one after another.
     pub(in crate::search) fn rows(&self) -> impl Iterator<Item = &[Residue]> {
         self.data.chunks_exact(self.width.max(1))
     }
@@ -137,7 +137,8 @@ impl Rows {
         self.width = narrow;
     }
 
-    /// The rows with each coordinate at its place of those of a width, ascending, and nothing at the others.
+    /// Returns the rows in a larger width. Each coordinate moves to its place in `places`, ascending, and the others are
+    /// zero.
     pub(super) fn widen_to(&self, width: usize, places: &[usize]) -> Rows {
         let mut data = vec![0; self.rank() * width];
         for (row, own) in data.chunks_exact_mut(width.max(1)).zip(self.rows()) {
@@ -150,7 +151,7 @@ impl Rows {
         }
     }
 
-    /// What two spans have in common.
+    /// Returns the intersection of two spans.
     ///
     /// # Sources
     /// Zassenhaus' algorithm: rows (a, a) of the first space and (b, 0) of the second one are reduced. Rows that start with zeros contain a

@@ -60,7 +60,7 @@ pub struct Redundancy {
 const RULED_OUT: i32 = i32::MIN;
 
 impl Spent {
-    /// So many redundant constraints within the mechanism.
+    /// Creates the record of `internal` redundant constraints within the mechanism.
     pub(in crate::search) fn within_mechanism(internal: u32) -> Spent {
         Spent {
             internal,
@@ -132,7 +132,7 @@ impl Spent {
         self.lanes = vec![state - free, harmful];
     }
 
-    /// Redundant constraints within the mechanism so far.
+    /// Returns the number of redundant constraints within the mechanism so far.
     pub(in crate::search) fn internal(&self) -> u32 {
         self.internal
     }

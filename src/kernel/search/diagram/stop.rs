@@ -25,12 +25,12 @@ impl Stop {
         }
     }
 
-    /// Whether a diagram is cut down to its limits.
+    /// Returns true if a diagram is cut down to its limits.
     pub(in crate::search) fn is_cut(self) -> bool {
         matches!(self, Stop::NodeBudget | Stop::Memory)
     }
 
-    /// The word for programs.
+    /// Returns the word used in machine-readable output.
     #[must_use]
     pub fn word(self) -> &'static str {
         match self {

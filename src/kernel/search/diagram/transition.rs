@@ -22,7 +22,7 @@ pub(in crate::search) struct Children {
 }
 
 impl Children {
-    /// None yet, of nodes with so many choices.
+    /// Creates an empty list for nodes with `choices` choices.
     pub(in crate::search) fn new(choices: usize) -> Self {
         Children {
             choices,
@@ -208,7 +208,7 @@ fn to_u32(directions: usize) -> u32 {
     u32::try_from(directions).unwrap_or(u32::MAX)
 }
 
-/// A fixed hash: the same on every machine and run, so that nothing depends on a random seed.
+/// Returns a fixed hash. It is the same on every machine and in every run, so nothing depends on a random seed.
 fn hash_child(matrix: &[Residue], spent: &Spent) -> u64 {
     let mut h = 0x517c_c1b7_2722_0a95_u64;
     for x in spent.hash_words().chain(matrix.iter().copied()) {

@@ -11,7 +11,7 @@ use crate::model::mechanism::{LinkId, Mechanism, Role};
 use crate::search::question::space::Space;
 use std::collections::BTreeMap;
 
-/// The variables in their canonical order.
+/// Returns the variables in their canonical order.
 ///
 /// # Complexity
 /// O(v log v) comparisons of choices, then O((v + n) log n) for each of at most n rounds of refinement.

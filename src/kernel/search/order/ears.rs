@@ -25,7 +25,7 @@ pub(in crate::search) struct Joined {
 }
 
 impl Joined {
-    /// Of variables in the canonical order.
+    /// Creates the data of variables in the canonical order.
     pub(super) fn new(question: &Question, variables: &[usize]) -> Joined {
         let links = |v: usize| {
             let joints = question.space.variables[v].joints.iter();
@@ -51,12 +51,12 @@ impl Joined {
         }
     }
 
-    /// The place of a variable in the canonical order.
+    /// Returns the place of a variable in the canonical order.
     pub(super) fn canonical_place(&self, variable: usize) -> usize {
         self.places[variable]
     }
 
-    /// The variables of a trial, as bits by their places.
+    /// Returns the variables of a trial as bits, by their places.
     pub(super) fn taken_bits(&self, trial: &Trial) -> Vec<u64> {
         let mut taken = vec![0; self.variables.len().div_ceil(64)];
         for place in trial.order.iter().map(|&v| self.places[v]) {
@@ -65,7 +65,8 @@ impl Joined {
         taken
     }
 
-    /// Ways to go on: ears, the shortest first, or where no contour is left the next joint; nothing more for a whole order.
+    /// Returns the ways to continue: ears, the shortest first, or the next joint if no contour is left. Empty for a whole
+    /// order.
     pub(super) fn find_ears(&self, trial: &Trial) -> Vec<Vec<usize>> {
         if trial.order.len() == self.variables.len() {
             return vec![Vec::new()];
@@ -151,7 +152,7 @@ impl BreadthFirst<'_> {
         found
     }
 
-    /// The variables from the first edge on to a link.
+    /// Returns the variables from the first edge to a link.
     fn way_back(&self, first: usize, mut link: LinkId) -> Vec<usize> {
         let mut way = Vec::new();
         while let Some(e) = self.back[link.index()] {

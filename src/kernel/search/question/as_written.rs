@@ -13,6 +13,6 @@ pub struct Written {
     pub others: Vec<Arc<Mechanism>>,
     /// What its digits tell.
     pub digits: Digits,
-    /// True if each option allows every motion of the present joint.
+    /// True if each option allows every motion of the original joint.
     pub only_adds: bool,
 }

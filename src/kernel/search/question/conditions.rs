@@ -51,7 +51,7 @@ pub struct InState {
 }
 
 impl InState {
-    /// A state without limits in which objects are held.
+    /// Creates conditions on a state without limits, in which objects are held.
     #[must_use]
     pub fn holding(state: StateId) -> InState {
         InState {

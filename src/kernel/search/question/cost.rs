@@ -1,10 +1,10 @@
 //! The additive cost of a redesign.
 //!
-//! cost(variant) = Σ over changed joints (cost of the new type - cost of the present type + change, and driven where a drive holds it)
+//! cost(variant) = Σ over changed joints (cost of the new type - cost of the original type + change, and driven where a drive holds it)
 //!               + Σ over unloading joints (cost of their type + link + change)
 //!               + harmful redundant constraints that a searched state adds · harmful, 0 by default
 //!
-//! The cost of a change is never negative: a plain bush is cheaper than a lead screw, but removing a screw is no gain.
+//! The cost of a change is never negative: a plain bush is cheaper than a lead screw, but removing a screw saves nothing.
 //!
 //! Joint types have default costs ([`JointType::default_cost_milli`]). A file can replace them under `[search.costs]`, and an option can
 //! have its own cost.
@@ -32,7 +32,7 @@ pub struct CostTable {
 }
 
 impl CostTable {
-    /// The defaults with what the file replaces.
+    /// Creates the default costs, with the replacements of the file.
     #[must_use]
     pub fn new(spec: &CostSpec) -> Self {
         CostTable {
@@ -44,8 +44,8 @@ impl CostTable {
         }
     }
 
-    /// Returns the cost of a change above that of the present joint: another joint in its place, an unloading joint with its link, or both.
-    /// `drive` says that the joint is driven.
+    /// Returns the cost of a change above that of the original joint: another joint in its place, an unloading joint with
+    /// its link, or both. `drive` means that the joint is driven.
     #[must_use]
     pub fn change_cost(
         &self,
@@ -62,7 +62,7 @@ impl CostTable {
         replaced.max(0) + inserted
     }
 
-    /// The cost of a joint: the option's own, its name's, its type's, or by freedoms for a custom type.
+    /// Returns the cost of a joint: that of the option, of its name, or of its type. A custom type costs by freedoms.
     #[must_use]
     pub fn option_cost(&self, option: &JointOption) -> i64 {
         let named = |n: &str| {

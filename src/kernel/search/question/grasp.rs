@@ -19,15 +19,15 @@ pub(crate) struct Grasp {
     pub jaws: Vec<LinkId>,
 }
 
-/// Whether a link has a joint in the free state.
+/// Returns true if a link has a joint in the free state.
 #[must_use]
 pub fn is_free(mechanism: &Mechanism, link: LinkId) -> bool {
     let mut free = mechanism.joints_in(StateId::FREE);
     link == mechanism.frame_link() || free.any(|j| mechanism.joints[j].links.contains(&link))
 }
 
-/// The links of the free mechanism that a body hangs on in a state: over joints that the state adds, and other bodies that
-/// it adds.
+/// Returns the links of the free mechanism that hold a body in a state. They connect to it through joints and other bodies
+/// that the state adds.
 fn find_jaws(mechanism: &Mechanism, state: StateId, body: LinkId) -> Vec<LinkId> {
     let added: Vec<JointId> = mechanism.joints_added_in(state).collect();
     let (mut bodies, mut jaws) = (vec![body], Vec::new());
@@ -68,7 +68,7 @@ pub(crate) fn find_grasps(mechanism: &Mechanism, state: StateId, objects: bool) 
     each.filter(|g| !g.jaws.is_empty()).collect()
 }
 
-/// The bodies that a motion moves against all the links that may hold them.
+/// Returns the bodies that can move relative to all the links that may hold them.
 ///
 /// # Errors
 /// Returns an error if a coordinate has no value in the field.

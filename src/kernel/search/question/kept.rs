@@ -17,7 +17,7 @@ use std::sync::Arc;
 pub struct Kept {
     /// The links, in ascending order.
     pub links: Vec<LinkId>,
-    /// A reduced basis of their present motion in the free state: the twists of the links, then the rates of the drives of
+    /// A reduced basis of their original motion in the free state: the twists of the links, then the rates of the drives of
     /// [`SearchSpec::drives`](crate::model::mechanism::SearchSpec::drives).
     pub motion: Vec<Vec<Residue>>,
 }

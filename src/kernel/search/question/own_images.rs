@@ -72,8 +72,8 @@ impl OwnSymmetry {
     /// Returns the first symmetry that is proven: a mirror or half turn if the order is 2, a third of a turn if it is 3.
     ///
     /// # Complexity
-    /// O(joints^order) groups that are compared, O(joints²) distances for each symmetry that they suggest, and at most a dozen exact
-    /// proofs.
+    /// Compares O(joints^order) groups. Computes O(joints²) distances for each symmetry that they suggest, and at most a
+    /// dozen exact proofs.
     pub(in crate::search) fn find_symmetry(
         exact: &ExactField,
         mechanism: &Mechanism,

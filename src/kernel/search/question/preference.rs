@@ -14,7 +14,7 @@ const FRAME: u64 = 2;
 /// Weight of a change at any other joint that is not a rod's end.
 const PIVOT: u64 = 1;
 
-/// For each variable the weight of changing its joints, less first.
+/// Returns for each variable the weight of changing its joints. Lower weights come first.
 #[must_use]
 pub(crate) fn change_weights(mechanism: &Mechanism, space: &Space) -> Vec<u64> {
     let of = |&j: &JointId| change_weight(mechanism, j);
@@ -22,7 +22,7 @@ pub(crate) fn change_weights(mechanism: &Mechanism, space: &Space) -> Vec<u64> {
     variables.map(|v| v.joints.iter().map(of).sum()).collect()
 }
 
-/// The weight of changing a joint.
+/// Returns the weight of changing a joint.
 #[must_use]
 pub(crate) fn change_weight(mechanism: &Mechanism, joint: JointId) -> u64 {
     let (frame, here) = (mechanism.frame_link(), &mechanism.joints[joint]);
@@ -35,7 +35,7 @@ pub(crate) fn change_weight(mechanism: &Mechanism, joint: JointId) -> u64 {
     driven + place
 }
 
-/// Whether a link joins two others and nothing else, neither of them the frame.
+/// Returns true if a link joins exactly two others, neither of them the frame.
 #[must_use]
 pub fn is_rod(mechanism: &Mechanism, link: LinkId) -> bool {
     let frame = mechanism.frame_link();

@@ -43,7 +43,7 @@ impl RankRange {
         dropped: 0.0,
     };
 
-    /// From singular values, falling.
+    /// Creates the range from singular values in descending order.
     ///
     /// # Complexity
     /// O(values).
@@ -74,13 +74,13 @@ impl RankRange {
         }
     }
 
-    /// Whether the digits decide it.
+    /// Returns true if the digits decide the rank.
     #[must_use]
     pub fn is_decided(&self) -> bool {
         self.least == self.most
     }
 
-    /// Whether it may be this rank.
+    /// Returns true if the rank is possible.
     #[must_use]
     pub(crate) fn allows_rank(&self, rank: usize) -> bool {
         (self.least..=self.most).contains(&rank)

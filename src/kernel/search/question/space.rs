@@ -15,7 +15,7 @@ use num_bigint::BigUint;
 /// A choice for the joints of a variable.
 #[derive(Debug, Clone)]
 pub struct Choice {
-    /// Index into the joint's options; 0 is the present joint.
+    /// Index into the joint's options; 0 is the original joint.
     pub option: usize,
     /// Index into the joint's unloading joints, where one is inserted.
     pub unloading: Option<usize>,
@@ -28,7 +28,7 @@ pub struct Choice {
     pub freedoms: u32,
     /// Number of changed joints and inserted unloading joints.
     pub changes: u32,
-    /// Cost above that of the present joint, in thousandths.
+    /// Cost above that of the original joint, in thousandths.
     pub cost_milli: i64,
 }
 
@@ -46,7 +46,7 @@ pub struct Face {
 pub struct Variable {
     /// The joints.
     pub joints: Vec<JointId>,
-    /// The choices; the first is the present joint.
+    /// The choices; the first is the original joint.
     pub choices: Vec<Choice>,
     /// Whether the joints are present only in the searched state beyond the free one (contacts).
     pub external: bool,
@@ -66,8 +66,8 @@ pub struct Space {
 }
 
 impl Space {
-    /// The space of a mechanism: all joints of the free state, and those that `state` adds where one is given.
-    /// With `symmetric`, joints that are each other's images become one variable.
+    /// Creates the space of a mechanism: all joints of the free state, and those that `state` adds if one is given. With
+    /// `symmetric`, joints that are images of each other become one variable.
     ///
     /// # Errors
     /// Returns an error if a coordinate has no value in the field.
@@ -127,7 +127,7 @@ impl Space {
         })
     }
 
-    /// The number of variants.
+    /// Returns the number of variants.
     #[must_use]
     pub fn size(&self) -> BigUint {
         self.variables
@@ -201,8 +201,8 @@ fn joint_choices(
     Ok(out)
 }
 
-/// The twists of an option, and those of an unloading joint in series with it, one a freedom, each with the joint's rates behind it: its
-/// entry in the row of every coupling it is in, then the rate of its kept drive.
+/// Returns the twists of an option, and those of an unloading joint in series with it, one per freedom. Behind each come the
+/// joint's rates: its entry in the row of each of its couplings, then the rate of its kept drive.
 ///
 /// # Errors
 /// Returns an error if a coordinate has no value in the number system.
@@ -235,8 +235,8 @@ pub(in crate::search) fn option_columns<S: Scalars>(
     Ok([own, added.collect()])
 }
 
-/// Returns a twist of an option with its entries in the rows of the joint's couplings behind it; none of them is other than 0 where it
-/// is the twist of no freedom that may be coupled.
+/// Returns a twist of an option, followed by its entries in the rows of the joint's couplings. All of these are 0 if the
+/// twist belongs to no freedom that may be coupled.
 ///
 /// # Errors
 /// Returns an error if a coordinate has no value in the number system.
@@ -265,7 +265,7 @@ pub(in crate::search) fn coupled_twist<S: Scalars>(
     Ok(twist)
 }
 
-/// The name of what a choice puts at a joint, for people and programs.
+/// Returns the name of a choice at a joint, for people and programs.
 #[must_use]
 pub fn choice_name(mechanism: &Mechanism, joint: JointId, choice: &Choice) -> String {
     let joint = &mechanism.joints[joint];

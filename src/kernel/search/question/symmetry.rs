@@ -257,7 +257,7 @@ fn check_links(mechanism: &Mechanism, joints: &[JointId]) -> Result<(), MirrorEr
     Ok(())
 }
 
-/// Whether the mirror images of two coupled joints are coupled alike, whichever way they turn.
+/// Returns true if the mirror images of two coupled joints have the same coupling, in either sense of rotation.
 fn is_coupled_alike(mechanism: &Mechanism, coupling: &Coupling) -> bool {
     /// Relative difference of equal ratios.
     const EQUAL: f64 = 1e-12;

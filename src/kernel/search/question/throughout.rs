@@ -1,10 +1,10 @@
 //! The columns of every choice along the motion of the mechanism as built, for counts that hold beyond the drawn pose.
 //!
-//! The motion of the present joints is a power series in one variable t over the prime field. A redesign that keeps the motion in the drawn
-//! pose only by a special position loses it at some order of t. Along the motion, the column of each freedom is a series up to t². Its
-//! multiples by 1, t and t² are vectors over the field. If σ = 0 in the drawn pose, the span of all vectors of a variant has a pivot at
-//! every coordinate of the contours. The rest, in the coordinates of outputs and drives, is exact to second order. First order is not
-//! enough: a symmetric pose shows nothing to first order.
+//! The motion of the original joints is a power series in one variable t over the prime field. A redesign that keeps the
+//! motion in the drawn pose only by a special position loses it at some order of t. Along the motion, the column of each
+//! freedom is a series up to t². Its multiples by 1, t and t² are vectors over the field. If σ = 0 in the drawn pose, the
+//! span of all vectors of a variant has a pivot at every coordinate of the contours. The rest, in the coordinates of outputs
+//! and drives, is exact to second order. First order is not enough: a symmetric pose shows nothing to first order.
 //!
 //! A variant that is excluded is proven to lose the motion, for the motion as followed. One that is kept keeps it to second order.
 
@@ -36,7 +36,7 @@ pub(in crate::search) const ORDER: usize = 3;
 /// The order to which the motion itself is followed, to see that the pose is neither singular nor shaky.
 const FOLLOWED: usize = 8;
 
-/// The reason why counts are those of the drawn pose alone.
+/// The reason why counts are those of the drawn pose only.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[non_exhaustive]
 pub enum PoseOnly {
@@ -99,7 +99,7 @@ pub(in crate::search) struct Throughout {
 pub(in crate::search) type Followed = Result<Throughout, PoseOnly>;
 
 impl Throughout {
-    /// Returns the columns of the choices of a space along a random direction of the present motion. The prime is the seed.
+    /// Returns the columns of the choices of a space along a random direction of the original motion. The prime is the seed.
     ///
     /// # Errors
     /// Returns an error if a coordinate has no value in the field.
@@ -278,7 +278,7 @@ impl Motion {
         }))
     }
 
-    /// Returns the columns of a choice at a joint, one for each freedom; `None` if it cannot follow the present joint.
+    /// Returns the columns of a choice at a joint, one for each freedom. `None` if it cannot follow the original joint.
     fn choice_columns(
         &self,
         exact: &ExactField,
@@ -327,8 +327,8 @@ impl Motion {
         Ok(Some(out))
     }
 
-    /// Returns the coordinates of freedoms in series that move as the present joint does, by order of t; `None` if there are none. An
-    /// unloading joint rests if the others suffice.
+    /// Returns the coordinates of freedoms in series that move as the original joint does, by order of t. `None` if there
+    /// are none. An unloading joint rests if the others suffice.
     fn follow_coordinates(
         &self,
         passed: &[InSeries],

@@ -23,7 +23,8 @@ pub(in crate::search) struct Block {
     pub(in crate::search) apart: bool,
 }
 
-/// The blocks of some variables, those on the way between `pinned` links last. `contours` are a basis of the mechanism's.
+/// Returns the blocks of some variables. Those on the path between `pinned` links come last. `contours` is a basis of the
+/// mechanism's loops.
 ///
 /// # Complexity
 /// O(b · n) for b blocks of n joints in all.

@@ -19,12 +19,12 @@ pub(in crate::search) struct Lifetime {
 }
 
 impl Lifetime {
-    /// Whether variables before one, and this one or later ones, reach it.
+    /// Returns true if variables before this one, and this one or later ones, use the row.
     pub(in crate::search) fn is_live_before(self, variable: usize) -> bool {
         self.from < variable && variable <= self.to
     }
 
-    /// Whether it is in use at a variable.
+    /// Returns true if the row is in use at a variable.
     pub(in crate::search) fn is_live_at(self, variable: usize) -> bool {
         self.from <= variable && variable <= self.to
     }

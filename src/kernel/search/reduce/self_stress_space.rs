@@ -1,12 +1,13 @@
-//! The vectors that choices add to the present joints, in the space dual to the present self-stresses.
+//! The vectors that choices add to the original joints, in the space dual to the original self-stresses.
 //!
-//! Every choice allows the motions of the present joint, so every variant closes what the present joints close. The rest of the closure
-//! equations has a dimension for each self-stress of the present mechanism: 11 for the ten-link gripper, whose equations have 24 rows. A
-//! variant has no redundant constraint if its added motions span that space. The motions of kept links are further coordinates, modulo the
-//! present motions. A variant keeps them if no added motion closes every contour and moves a kept link.
+//! Every choice allows the motions of the original joint, so every variant closes what the original joints close. The rest
+//! of the closure equations has a dimension for each self-stress of the original mechanism: 11 for the ten-link gripper,
+//! whose equations have 24 rows. A variant has no redundant constraint if its added motions span that space. The motions of
+//! kept links are further coordinates, modulo the original motions. A variant keeps them if no added motion closes every
+//! contour and moves a kept link.
 //!
-//! The coordinates are ordered by the last variable that reaches them: what only the variables up to one reach comes before what
-//! later ones reach too, so that all that is forgotten after a variable stands in front. Each starts as late as can be.
+//! The coordinates are ordered by the last variable that reaches them. Those that later variables do not reach come first,
+//! so all that is forgotten after a variable is in front. Each coordinate starts as late as possible.
 
 use crate::closure::contour::Contour;
 use crate::closure::tree::{path_in, spanning_tree};
@@ -109,12 +110,12 @@ impl<'m> ClosingRows<'m> {
         self.paths.len() * self.dim + drives
     }
 
-    /// Rows of contours, couplings and locked drives.
+    /// Returns the number of rows of contours, couplings and locked drives.
     pub(in crate::search) fn count_closing(&self) -> usize {
         self.contours.len() * self.dim + self.couplings.len() + self.mechanism.locked_drives()
     }
 
-    /// The columns of a choice at all joints of its variable.
+    /// Returns the columns of a choice at all joints of its variable.
     pub(in crate::search) fn choice_columns(
         &self,
         f: Field,
@@ -127,8 +128,8 @@ impl<'m> ClosingRows<'m> {
             .collect()
     }
 
-    /// The columns of a freedom along the motion times each power of t, as vectors over the field: the coordinates of the contours at
-    /// each power of t, then those of kept links likewise.
+    /// Returns the columns of a freedom along the motion times each power of t, as vectors over the field. The coordinates
+    /// of the contours at each power of t come first, then those of kept links.
     pub(in crate::search) fn series_multiples(
         &self,
         f: Field,
@@ -214,7 +215,7 @@ struct Basis {
 }
 
 impl Basis {
-    /// Of independent vectors.
+    /// Creates a basis of independent vectors.
     fn new(field: Field, vectors: &[Vec<Residue>]) -> Basis {
         let mut rows = Echelon::new(field);
         for (i, v) in vectors.iter().enumerate() {
@@ -229,7 +230,7 @@ impl Basis {
         }
     }
 
-    /// The factors of a vector of their span.
+    /// Returns the factors of a vector of the span.
     fn factors_of(&self, v: &[Residue]) -> Vec<Residue> {
         let mut row = v.to_vec();
         row.resize(v.len() + self.size, 0);
@@ -239,7 +240,7 @@ impl Basis {
     }
 }
 
-/// Reduces vectors modulo the motions of the present joints.
+/// Reduces vectors modulo the motions of the original joints.
 struct BesidePresent {
     present: Echelon,
     width: usize,
@@ -304,7 +305,7 @@ impl Reached {
         self.by.push(by);
     }
 
-    /// The first variable's own come first.
+    /// Reverses the order, so that the first variable's own vectors come first.
     fn reverse_order(mut self) -> Self {
         self.vectors.reverse();
         self.by.reverse();

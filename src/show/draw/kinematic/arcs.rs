@@ -13,7 +13,7 @@ const PIECES: i32 = 16;
 const MEET: f64 = 1e-4;
 
 impl Kinematic<'_> {
-    /// The line of a bar that bows out, in the plane of the paper.
+    /// Returns the line of a bowed bar, in the plane of the paper.
     pub(super) fn bowed_in_space(&self, row: usize) -> Option<Vec<Vector>> {
         let by = self.bows[row];
         let body = self.body_at_rest(row);

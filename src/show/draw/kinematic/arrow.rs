@@ -27,7 +27,7 @@ pub(super) struct Arrow {
     pub(super) tip: String,
 }
 
-/// The shapes of an arrow that begins at a point of the paper.
+/// Returns the shapes of an arrow that begins at a point of the paper.
 pub(super) fn arrow_outline(at: Point, arrow: &Arrow, view: &View) -> Vec<Shape> {
     let class = if arrow.turns { "moment" } else { "force" };
     let to = view.flat_vector(arrow.along);

@@ -7,7 +7,7 @@ use crate::svg::labels::{self, Wish};
 use crate::svg::plane::{Rect, add, plane_norm, scale};
 
 impl Kinematic<'_> {
-    /// The directions of the coordinates.
+    /// Draws the directions of the coordinates.
     pub(super) fn draw_axes(&self, sheet: &mut Sheet, y: f64) {
         let origin = [PAD + 44.0, y + 8.0];
         let mut taken = vec![Rect::around(origin, 9.0, 9.0)];
@@ -48,7 +48,7 @@ impl Kinematic<'_> {
         }
     }
 
-    /// A bar of a round length.
+    /// Draws a scale bar with a round length.
     pub(super) fn draw_scale(&self, sheet: &mut Sheet, y: f64) {
         let longest = 150.0 / self.projection.scale;
         let (Some(length), unit) = (
@@ -74,7 +74,7 @@ impl Kinematic<'_> {
     }
 }
 
-/// The largest of 1, 2 and 5 times a power of ten that is not above.
+/// Returns the largest of 1, 2 and 5 times a power of ten that is not above `x`.
 fn round_below(x: f64) -> Option<f64> {
     if !(x.is_finite() && x > 1e-200) {
         return None;

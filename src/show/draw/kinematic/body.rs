@@ -52,7 +52,7 @@ impl Body {
         }
     }
 
-    /// A bar that bows out to one side in its middle.
+    /// Returns a bar that bows out to one side in its middle.
     pub(super) fn bowed_by(self, by: f64) -> Body {
         let (&[a, b], false) = (&self.points[..], self.plate || by == 0.0) else {
             return self;
@@ -69,14 +69,14 @@ impl Body {
         }
     }
 
-    /// The segments that it is drawn with.
+    /// Returns the segments that draw the body.
     pub(super) fn body_lines(&self) -> impl Iterator<Item = (Point, Point)> + '_ {
         let n = self.points.len();
         let count = if self.plate { n } else { n.saturating_sub(1) };
         (0..count).map(move |i| (self.points[i], self.points[(i + 1) % n]))
     }
 
-    /// Its middle: of a bar, halfway along.
+    /// Returns the middle of the body. That of a bar is halfway along.
     pub(super) fn body_middle(&self) -> Point {
         if self.plate || self.points.len() < 3 {
             return mean(self.points.iter().copied());
@@ -85,7 +85,7 @@ impl Body {
     }
 }
 
-/// How far each bar has to bow out so that none lies on another; the longer ones stay straight.
+/// Returns how far each bar must bow out so that none lies on another. The longer bars stay straight.
 pub(super) fn find_bows(bodies: &[Body]) -> Vec<f64> {
     let bar = |i: usize| match bodies[i].points[..] {
         [a, b] if !bodies[i].plate => Some([a, b]),
@@ -114,7 +114,7 @@ pub(super) fn find_bows(bodies: &[Body]) -> Vec<f64> {
     out
 }
 
-/// Whether two segments share more than a point of the paper.
+/// Returns true if two segments share more than a point of the paper.
 fn on_each_other([a, b]: [Point; 2], [c, d]: [Point; 2]) -> bool {
     let along = unit(sub(b, a));
     let off = |p: Point| cross(along, sub(p, a)).abs();
@@ -126,13 +126,13 @@ fn on_each_other([a, b]: [Point; 2], [c, d]: [Point; 2]) -> bool {
     high - low > SHARED
 }
 
-/// The unit vector to the left of a segment.
+/// Returns the unit vector to the left of a segment.
 fn left_normal(a: Point, b: Point) -> Point {
     let along = unit(sub(b, a));
     [-along[1], along[0]]
 }
 
-/// The two points that are farthest from each other.
+/// Returns the two points that are farthest from each other.
 fn farthest_pair(points: &[Point]) -> [Point; 2] {
     let mut best = ([points[0]; 2], -1.0);
     for (i, &a) in points.iter().enumerate() {
@@ -186,7 +186,7 @@ pub(super) fn marked_points(
     marked.collect()
 }
 
-/// The corners of the mark of a point.
+/// Returns the corners of the mark of a point.
 pub(super) fn mark_corners(at: Point) -> [Point; 4] {
     [[MARK, 0.0], [0.0, MARK], [-MARK, 0.0], [0.0, -MARK]].map(|c| add(at, c))
 }

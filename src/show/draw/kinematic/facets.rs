@@ -12,7 +12,7 @@ const MEET: f64 = 1e-4;
 const FARTHEST: f64 = 3.0;
 
 impl Kinematic<'_> {
-    /// The corners of each plate of a fold, by row of the links; none of other mechanisms.
+    /// Returns the corners of each plate of a fold, by row of the links. Empty for other mechanisms.
     ///
     /// A fold has a plate with three creases or more, and each of its links is a plate: its joints are hinges whose
     /// axes lie in a plane and meet. A ring about one vertex is a spherical linkage and is drawn as one.
@@ -103,7 +103,7 @@ fn find_crease(own: &JointInSpace, all: &[&JointInSpace], size: f64) -> Option<C
     })
 }
 
-/// Whether a point is on a crease.
+/// Returns true if a point is on a crease.
 fn is_on_crease(crease: &JointInSpace, p: Vector, size: f64) -> bool {
     norm(cross(crease.z, sub(p, crease.point))) < 1e-3 * size
 }

@@ -31,7 +31,7 @@ impl Kinematic<'_> {
         circles.map(|(_, circle)| flat(circle)).collect()
     }
 
-    /// The same in space, each with the end of the coupling that it is about.
+    /// Returns the pitch circles in space, each with the end of the coupling that it is about.
     pub(in crate::draw) fn pitch_circles_in_space(
         &self,
         coupling: &Coupling,
@@ -79,7 +79,7 @@ impl Kinematic<'_> {
     }
 }
 
-/// Two gears on one carrier whose pitch circles roll on each other.
+/// Returns the circles of two gears on one carrier, whose pitch circles roll on each other.
 fn gear_circles(
     drawn: &Kinematic<'_>,
     coupling: &Coupling,
@@ -112,7 +112,7 @@ fn gear_circles(
     radii.iter().all(drawable).then(|| circles.to_vec())
 }
 
-/// The pinion of a rack: one turn against one slide across its axis.
+/// Returns the pinion of a rack. The coupling joins a turn to a slide across its axis.
 fn pinion_circle(
     drawn: &Kinematic<'_>,
     coupling: &Coupling,

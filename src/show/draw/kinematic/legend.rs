@@ -52,7 +52,7 @@ impl Kinematic<'_> {
         out
     }
 
-    /// Each type of joint as the first joint of it is drawn.
+    /// Returns a row for each joint type, drawn as its first joint.
     fn joint_type_rows(&self) -> Vec<(Swatch, String)> {
         let m = self.subject.mechanism;
         let mut types: Vec<(&JointType, &Spot)> = Vec::new();
@@ -82,7 +82,7 @@ impl Kinematic<'_> {
         texts.map(|text| (Swatch::Shapes(Vec::new()), text.to_owned()))
     }
 
-    /// The drawing in words, for those who do not see it.
+    /// Describes the drawing in words, for readers who cannot see it.
     pub(super) fn describe_drawing(&self) -> String {
         let m = self.subject.mechanism;
         let mut out = self.subject.summary_sentence(&self.view_title());

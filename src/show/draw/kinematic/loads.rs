@@ -16,8 +16,8 @@ const SHORTEST: f64 = 1.5;
 /// How far from the joint an arrow begins, towards the middle of its link, so that one sees which link it loads.
 const ASIDE: f64 = 15.0;
 impl Kinematic<'_> {
-    /// The arrows of a self-stress on all links but the frame; lengths are to one scale, moments divided by the size of the
-    /// mechanism.
+    /// Returns the arrows of a self-stress on all links except the frame. Lengths have one scale, and moments are divided by
+    /// the size of the mechanism.
     pub(super) fn arrows_of(&self, stress: &SelfStress) -> Vec<Arrow> {
         let m = self.subject.mechanism;
         let borne = stress.joints.iter().filter_map(|w| Some((w, w.borne?)));
@@ -59,7 +59,7 @@ impl Kinematic<'_> {
         out
     }
 
-    /// A little from a joint towards the middle of a link.
+    /// Returns a point slightly off a joint, towards the middle of a link.
     fn beside_joint(&self, link: usize, joint: Vector) -> Vector {
         let inward = sub3(self.middle_in_space(link), joint);
         let far = norm3(inward) * self.projection.scale;
@@ -80,7 +80,7 @@ impl Kinematic<'_> {
         )
     }
 
-    /// The room of the arrows.
+    /// Returns the rectangle that the arrows take.
     pub(super) fn arrow_room(&self, arrows: &[Arrow]) -> Option<Rect> {
         let shapes = arrows.iter().flat_map(|a| self.arrow_shapes(a));
         let points: Vec<Point> = shapes.flat_map(|s| s.path_points().to_vec()).collect();

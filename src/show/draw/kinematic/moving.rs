@@ -47,7 +47,7 @@ pub fn kinematic_along(subject: &Subject<'_>, sight: &Sight, moved: &Moved<'_>) 
     rest.draw_sheet()
 }
 
-/// The poses of a motion, each once.
+/// Returns the poses of a motion, each once.
 pub(super) fn poses_of<'m>(moved: &Moved<'m>) -> Vec<Carried<'m>> {
     let links = moved.way.links.iter().map(Vec::as_slice);
     let of = links.map(|links| Carried {
@@ -105,7 +105,7 @@ impl<'a> Moving<'a> {
         })
     }
 
-    /// The symbols once each, and the pictures made of them.
+    /// Draws each symbol once, and the pictures that use them.
     fn draw_frames(&self, sheet: &mut Sheet) {
         let rest = &self.rest;
         let m = rest.subject.mechanism;
@@ -141,7 +141,7 @@ impl<'a> Moving<'a> {
         }
     }
 
-    /// Each picture in its turn, there and back where the drive does not go round.
+    /// Returns the style that shows each picture in its turn. They run back and forth unless the drive makes a full turn.
     fn animation_style(&self) -> String {
         let n = self.frames.len();
         let seconds = n as f64 / RATE as f64;
@@ -183,7 +183,7 @@ impl Kinematic<'_> {
         format!("Kinematic scheme {}", self.projection.view.name)
     }
 
-    /// The room that pictures take, one of which has the symbols of the pose of the file.
+    /// Returns the rectangle that the pictures take. One of them has the symbols of the file's pose.
     pub(super) fn room_of(&self, frames: &[MovingPicture], start: usize) -> Rect {
         let mut area = bounds_of(&frames[start].at);
         for (n, frame) in frames.iter().enumerate() {
@@ -221,7 +221,7 @@ impl Kinematic<'_> {
         }
     }
 
-    /// The symbol of a type in place of that of a joint.
+    /// Returns the symbol of a type that replaces that of a joint.
     pub(super) fn symbol_of(&self, i: usize, of: &JointType, place: &JointInSpace) -> Symbol {
         let Spot { joint, symbol, .. } = &self.spots[i];
         let view = &self.projection.view;
@@ -236,7 +236,7 @@ impl Kinematic<'_> {
         )
     }
 
-    /// The joints, those first that others are drawn within.
+    /// Returns the joints, with those first that others are drawn inside.
     pub(super) fn outer_first(&self) -> Vec<usize> {
         let mut order: Vec<usize> = (0..self.spots.len()).collect();
         let size = |i: usize| self.spots[i].symbol.size;

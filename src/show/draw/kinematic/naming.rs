@@ -37,7 +37,7 @@ impl Kinematic<'_> {
         (labels::place_labels(&wishes, &mut taken, &lines), texts)
     }
 
-    /// The segments of all that is drawn, which no label may lie on.
+    /// Returns the segments of everything that is drawn, which no label may cover.
     fn drawn_lines(&self, rest: &MovingPicture) -> Vec<(Point, Point)> {
         let bodies = rest.bodies.iter();
         let mut lines: Vec<_> = bodies.flat_map(|(_, body)| body.body_lines()).collect();
@@ -94,7 +94,7 @@ impl Kinematic<'_> {
         texts.enumerate().map(one).collect()
     }
 
-    /// The ids of points of interest.
+    /// Returns the ids of points of interest.
     fn point_names(&self) -> Vec<(Wish, LabelText)> {
         let ids: Vec<&str> = self.points.iter().map(|p| p.id.as_str()).collect();
         let texts = shorten_names(&ids, SMALL, 150.0);

@@ -73,7 +73,7 @@ impl<'a> Kinematic<'a> {
         self.grounds = place_grounds(&feet, &self.links, frame, &loose);
     }
 
-    /// A joint as the ground has to know it: a block seen from the side has a rail.
+    /// Returns a joint as the ground needs it: a block seen from the side has a rail.
     fn foot_of(&self, i: usize) -> Foot {
         let spot = &self.spots[i];
         let of = &self.subject.mechanism.joints[spot.joint].joint_type;
@@ -87,7 +87,7 @@ impl<'a> Kinematic<'a> {
     }
 }
 
-/// Returns the links of some joints, each with the indices of its own.
+/// Returns the links of some joints, each with the indices of its joints.
 fn joined_links(m: &Mechanism, joints: &[JointId]) -> Vec<(LinkId, Vec<usize>)> {
     let mut links = Vec::new();
     for l in m.link_ids() {
@@ -107,7 +107,7 @@ fn room_for(m: &Mechanism, joints: &[JointId]) -> Point {
     ROOM.map(|r| r * more)
 }
 
-/// The axes that outputs turn about in the frame.
+/// Returns the axes about which outputs turn in the frame.
 fn turning_axes(m: &Mechanism, joints: &[JointId], places: &[JointInSpace]) -> Vec<Vector> {
     let with = |j: JointId, role: Role| m.joints[j].links.iter().any(|&l| m.links[l].role == role);
     let turns = |j: JointId| m.joints[j].joint_type.freedoms().contains(&Freedom::Rz);
@@ -119,7 +119,7 @@ fn turning_axes(m: &Mechanism, joints: &[JointId], places: &[JointInSpace]) -> V
         .collect()
 }
 
-/// The joints on paper with their symbols, which share the room where several have one place.
+/// Returns the joints on paper with their symbols. Joints at one place share the room.
 fn place_spots(
     subject: &Subject<'_>,
     joints: &[JointId],

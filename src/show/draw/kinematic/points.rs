@@ -10,12 +10,12 @@ use crate::model::mechanism::LinkId;
 use crate::svg::plane::{Point, path_data, sub};
 
 impl Kinematic<'_> {
-    /// The points of a link.
+    /// Returns the points of a link.
     pub(super) fn points_of(&self, link: LinkId) -> impl Iterator<Item = &Marked> {
         self.points.iter().filter(move |p| p.link == link)
     }
 
-    /// All points of the ways.
+    /// Returns all points of the paths.
     pub(super) fn traced_points(&self) -> impl Iterator<Item = Point> + '_ {
         self.traces.0.iter().flatten().copied()
     }
@@ -46,7 +46,7 @@ impl Kinematic<'_> {
         out
     }
 
-    /// The way of each point that is shown.
+    /// Returns the path of each point that is shown.
     pub(super) fn traced_ways(&self, poses: &[Carried<'_>]) -> Vec<Vec<Point>> {
         let tips = self.traced_tips().into_iter();
         let of = tips.map(|(link, tip)| {
@@ -81,7 +81,7 @@ impl Kinematic<'_> {
         out
     }
 
-    /// The free end of a link with one joint.
+    /// Returns the free end of a link with one joint.
     pub(super) fn loose_in_space(&self, link: usize) -> Option<Vector> {
         let of = &self.links[link].1;
         let off = sub(self.loose_end(link)?, self.spots[of[0]].at);

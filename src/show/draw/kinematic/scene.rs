@@ -53,7 +53,7 @@ pub struct Scene {
     swaps: Vec<Value>,
 }
 
-/// What a scene shows in addition to the mechanism.
+/// Parts of a scene that are shown in addition to the mechanism.
 #[derive(Debug, Clone, Copy)]
 pub struct Shown<'a> {
     /// The motions, at least one, which may be of one pose.
@@ -64,8 +64,8 @@ pub struct Shown<'a> {
     pub swaps: &'a [Swap<'a>],
 }
 
-/// Draws the kinematic scheme at the pose of its first motion, in groups that a program may put another picture in place of
-/// (`data-scene` for what moves, `data-home` for what is of this view only), with what it takes to make such pictures.
+/// Draws the kinematic scheme at the pose of its first motion, with the data for pictures of other poses. Its groups can be
+/// replaced by such pictures: `data-scene` marks moving parts, `data-home` parts of this view only.
 #[must_use]
 pub fn kinematic_scene(subject: &Subject<'_>, sight: &Sight, shown: Shown<'_>) -> (Drawing, Scene) {
     let mut rest = Kinematic::new(subject, sight);
@@ -106,7 +106,7 @@ pub fn kinematic_scene(subject: &Subject<'_>, sight: &Sight, shown: Shown<'_>) -
 }
 
 impl Scene {
-    /// The part of the sheet that the scheme is in: left, top, right, bottom.
+    /// Returns the part of the sheet that the scheme covers: left, top, right, bottom.
     #[must_use]
     pub fn room(&self) -> [f64; 4] {
         self.room
@@ -153,7 +153,7 @@ impl Scene {
         }));
     }
 
-    /// The number of a symbol of some pieces.
+    /// Returns the number of a symbol made of some pieces.
     pub(super) fn symbol_number(&mut self, parts: Vec<Piece>) -> usize {
         let known = self.symbols.iter().position(|s| *s == parts);
         known.unwrap_or_else(|| {
@@ -164,7 +164,7 @@ impl Scene {
 }
 
 impl Kinematic<'_> {
-    /// The place of a link among those drawn, the frame included.
+    /// Returns the place of a link among the drawn links, including the frame.
     pub(super) fn link_row(&self, link: LinkId) -> usize {
         self.links
             .iter()
@@ -172,7 +172,7 @@ impl Kinematic<'_> {
             .unwrap_or_default()
     }
 
-    /// By link, its rotation vector and where the origin goes, in pixels.
+    /// Returns each link's rotation vector and the position of its origin, in pixels.
     fn carried_in_pixels(&self, c: &Carried<'_>) -> Vec<Vec<f64>> {
         let Pose { middle, .. } = c.pose;
         let centre = self.projection.in_pixels(*middle);
@@ -191,7 +191,7 @@ impl Kinematic<'_> {
         json!({ "at": scene_pixels(self, a.at), "along": a.along.map(round_hundredth), "turns": a.turns, "tip": a.tip })
     }
 
-    /// A picture of a scene in groups, which learns where on the sheet it is.
+    /// Draws a picture of a scene in groups, and records in the scene where on the sheet it is.
     fn draw_scene(
         &self,
         scene: &mut Scene,

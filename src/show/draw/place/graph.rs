@@ -53,7 +53,7 @@ pub(in crate::draw) fn build_net(graph: &Graph) -> Net {
     Net { hub, edges }
 }
 
-/// The distance of a link's joints from its middle.
+/// Returns the distance of a link's joints from its middle.
 pub(in crate::draw) fn link_radius(joints: usize) -> f64 {
     match joints {
         0 | 1 => 0.75,
@@ -63,7 +63,7 @@ pub(in crate::draw) fn link_radius(joints: usize) -> f64 {
     }
 }
 
-/// The joints of a link in order round their middle.
+/// Returns the joints of a link in order around their middle.
 pub(in crate::draw) fn joint_ring(of: &[usize], joints: &[Point]) -> Vec<usize> {
     let centre = mean(of.iter().map(|&j| joints[j]));
     let mut ring = of.to_vec();
@@ -140,7 +140,7 @@ impl Mirror {
         }
     }
 
-    /// The image of a joint.
+    /// Returns the image of a joint.
     pub(in crate::draw) fn image_of(&self, joint: usize) -> usize {
         self.0[joint]
     }

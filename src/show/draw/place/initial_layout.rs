@@ -16,7 +16,7 @@ pub(in crate::draw) struct Start {
     pub(in crate::draw) mirror: Option<Mirror>,
 }
 
-/// Every start.
+/// Returns every initial layout.
 pub(in crate::draw) fn all_starts(graph: &Graph, net: &Net, hints: &[Vec<Point>]) -> Vec<Start> {
     let mut out = Vec::new();
     let plain = |at| Start {
@@ -51,7 +51,7 @@ pub(in crate::draw) fn all_starts(graph: &Graph, net: &Net, hints: &[Vec<Point>]
     out
 }
 
-/// Places scaled so that links have about the usual length; `None` where they cannot be.
+/// Returns places scaled so that links have about the usual length. `None` if they cannot be scaled.
 fn fit_hint(graph: &Graph, hint: &[Point]) -> Option<Vec<Point>> {
     let (mut sum, mut count) = (0.0, 0.0f64);
     for of in &graph.links {
@@ -84,7 +84,7 @@ fn with_hubs(graph: &Graph, net: &Net, joints: &[Point]) -> Vec<Point> {
     at
 }
 
-/// Tutte's drawing: a contour on a circle, every other node in the middle of its neighbours.
+/// Returns Tutte's drawing: a contour on a circle, and every other node in the middle of its neighbours.
 fn tutte_layout(net: &Net, contour: &[usize]) -> Vec<Point> {
     let n = net.edges.len();
     let radius = (n as f64).sqrt() * 0.9;
@@ -122,8 +122,8 @@ fn tutte_layout(net: &Net, contour: &[usize]) -> Vec<Point> {
     at
 }
 
-/// Two links above each other and legs of one kind between them, as parallel manipulators have: the legs stand side by
-/// side, the frame is below. There is nothing to search for then.
+/// Returns the layout of two links above each other with legs of one kind between them, as in parallel manipulators. The
+/// legs are side by side, and the frame is below. Such a layout needs no search.
 pub(in crate::draw) fn ladder_layout(graph: &Graph) -> Option<Vec<Point>> {
     let mut branches = (0..graph.links.len()).filter(|&l| graph.links[l].len() > 2);
     let (mut above, mut below) = (branches.next()?, branches.next()?);
@@ -158,7 +158,7 @@ pub(in crate::draw) fn ladder_layout(graph: &Graph) -> Option<Vec<Point>> {
     Some(at)
 }
 
-/// The joints from a link on through bars.
+/// Returns the joints on a path of bars that starts at a link.
 fn follow_chain(graph: &Graph, from: usize, joint: usize, seen: &mut [bool]) -> Vec<usize> {
     let (mut at, mut j, mut out) = (from, joint, Vec::new());
     loop {

@@ -81,7 +81,7 @@ fn worth_polishing(mut candidates: Vec<Candidate>) -> Vec<Candidate> {
     candidates
 }
 
-/// A layout of the graph, starting also from the places given for the joints.
+/// Finds a layout of the graph. Starts also from the given places of the joints.
 pub(in crate::draw) fn find_layout(graph: &Graph, hints: &[Vec<Point>]) -> Layout {
     let net = build_net(graph);
     if let Some(joints) = initial_layout::ladder_layout(graph) {
@@ -145,7 +145,7 @@ fn level_layout(graph: &Graph, at: &mut [Point]) {
     }
 }
 
-/// The middles of links; of bars between the same two joints, each bows its own way; loose ends point outward.
+/// Returns the middles of links. Bars between the same two joints bow in different directions, and free ends point outward.
 fn place_hubs(graph: &Graph, net: &Net, joints: &[Point]) -> Vec<Point> {
     let middle = mean(joints.iter().copied());
     let mut out: Vec<Point> = Vec::new();
@@ -217,7 +217,7 @@ fn path_lengths(net: &Net) -> Vec<Vec<f64>> {
         .collect()
 }
 
-/// Stress majorization, node by node, with weights 1/d².
+/// Applies stress majorization node by node, with weights 1/d².
 fn relax_stress(at: &mut [Point], far: &[Vec<f64>], rounds: usize) {
     for _ in 0..rounds {
         for i in 0..at.len() {

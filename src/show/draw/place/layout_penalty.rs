@@ -19,7 +19,7 @@ pub(in crate::draw) struct Crowding<'a> {
 }
 
 impl Crowding<'_> {
-    /// The cost of the whole.
+    /// Returns the cost of the whole layout.
     pub(in crate::draw) fn layout_cost(&self, at: &[Point]) -> f64 {
         let rings = self.link_rings(at);
         let links: f64 = (0..rings.len())
@@ -38,7 +38,7 @@ impl Crowding<'_> {
         links + pairs + joints + self.full_contours(at)
     }
 
-    /// Whether something crosses or crowds.
+    /// Returns true if any parts cross or crowd each other.
     pub(in crate::draw) fn is_violated(&self, at: &[Point]) -> bool {
         let rings = self.link_rings(at);
         let mut pairs = near_pairs(&rings, at);
@@ -55,7 +55,7 @@ impl Crowding<'_> {
             .collect()
     }
 
-    /// Bars of unusual length, polygons of unusual size.
+    /// Returns the cost of bars of unusual length and polygons of unusual size.
     fn shape_cost(&self, ring: &[usize], at: &[Point]) -> f64 {
         let m = ring.len();
         if m < 2 {
@@ -86,7 +86,7 @@ impl Crowding<'_> {
         sum
     }
 
-    /// Joints of others near or on a link.
+    /// Returns the cost of other links' joints near or on a link.
     fn strangers_cost(&self, l: usize, rings: &[Vec<usize>], at: &[Point]) -> f64 {
         let own = &self.graph.links[l];
         let polygon: Vec<Point> = rings[l].iter().map(|&j| at[j]).collect();
@@ -133,7 +133,7 @@ impl Crowding<'_> {
         sum
     }
 
-    /// Foreign joints within contours.
+    /// Returns the cost of foreign joints inside contours.
     fn full_contours(&self, at: &[Point]) -> f64 {
         self.graph
             .contours
@@ -155,7 +155,7 @@ impl Crowding<'_> {
             .sum()
     }
 
-    /// Annealing by moves of single joints; the same for the same graph.
+    /// Anneals the layout by moves of single joints. The result is the same for the same graph.
     pub(in crate::draw) fn anneal_layout(&self, at: &mut Vec<Point>, mirror: Option<&Mirror>) {
         let n = at.len();
         if n < 2 {
@@ -197,7 +197,7 @@ impl Crowding<'_> {
     }
 }
 
-/// The sides of a polygon, or the one bar.
+/// Returns the sides of a polygon, or the single bar.
 fn ring_sides(ring: &[usize]) -> impl Iterator<Item = (usize, usize)> + '_ {
     let count = if ring.len() > 2 {
         ring.len()
@@ -207,7 +207,7 @@ fn ring_sides(ring: &[usize]) -> impl Iterator<Item = (usize, usize)> + '_ {
     (0..count).map(|i| (ring[i], ring[(i + 1) % ring.len()]))
 }
 
-/// The least and the greatest coordinates of a ring.
+/// Returns the least and the greatest coordinates of a ring.
 fn ring_span(ring: &[usize], at: &[Point]) -> [Point; 2] {
     let all = ring.iter().map(|&j| at[j]);
     let none = [[f64::INFINITY; 2], [f64::NEG_INFINITY; 2]];
@@ -219,14 +219,14 @@ fn ring_span(ring: &[usize], at: &[Point]) -> [Point; 2] {
     })
 }
 
-/// The pairs of rings that may meet, each with the one that comes before.
+/// Returns the pairs of rings that may meet, each with the earlier ring.
 fn near_pairs(rings: &[Vec<usize>], at: &[Point]) -> impl Iterator<Item = (usize, usize)> {
     let spans: Vec<[Point; 2]> = rings.iter().map(|r| ring_span(r, at)).collect();
     let pairs = (0..rings.len()).flat_map(|l| (0..l).map(move |m| (l, m)));
     pairs.filter(move |&(l, m)| !are_apart(spans[l], spans[m]))
 }
 
-/// Whether a place is farther from a segment than what crowds it, in one coordinate already.
+/// Returns true if one coordinate alone shows that a place is too far from a segment to crowd it.
 fn is_beyond(p: Point, a: Point, b: Point) -> bool {
     (0..2).any(|k| p[k] < a[k].min(b[k]) - CLEAR || p[k] > a[k].max(b[k]) + CLEAR)
 }

@@ -48,7 +48,7 @@ pub(in crate::draw) struct JointInSpace {
 }
 
 impl JointInSpace {
-    /// The same kind of joint at another point, with its axes turned.
+    /// Returns the same kind of joint at another point, with its axes turned.
     pub(in crate::draw) fn carried_to(
         &self,
         point: Vector,
@@ -65,7 +65,7 @@ impl JointInSpace {
     }
 }
 
-/// The place of a joint, as its coordinates have it.
+/// Returns the place of a joint, as its coordinates have it.
 fn joint_frame(mechanism: &Mechanism, joint: JointId) -> JointInSpace {
     let of = &mechanism.joints[joint];
     JointInSpace {
@@ -78,14 +78,14 @@ fn joint_frame(mechanism: &Mechanism, joint: JointId) -> JointInSpace {
     }
 }
 
-/// A vector in numbers; those that are none count as 0.
+/// Returns a vector in numbers. Entries that are not finite count as 0.
 pub(in crate::draw) fn finite_vector(v: &[Expr; 3]) -> Vector {
     let fits = |x: f64| x.is_finite() && x.abs() < 1e120;
     v.each_ref()
         .map(|e| Some(e.to_f64()).filter(|&x| fits(x)).unwrap_or_default())
 }
 
-/// A joint's frame in numbers; those that are none count as 0.
+/// Returns a joint's frame in numbers. Entries that are not finite count as 0.
 pub(in crate::draw) fn frame_in_numbers(f: &Frame) -> JointInSpace {
     let z = unit_or(finite_vector(&f.axis), Z);
     let reference = finite_vector(&f.reference);
@@ -114,12 +114,12 @@ pub(in crate::draw) struct Projection {
 }
 
 impl Projection {
-    /// A point in space, in pixels from what comes to the origin of the paper.
+    /// Returns a point in space, in pixels from the point that projects to the origin of the paper.
     pub(in crate::draw) fn in_pixels(&self, p: Vector) -> Vector {
         scale(sub(p, self.middle), self.scale)
     }
 
-    /// A point on paper.
+    /// Returns a point on paper.
     pub(in crate::draw) fn flat_point(&self, p: Vector) -> Point {
         self.view
             .flat_vector(sub(p, self.middle))
@@ -135,7 +135,7 @@ pub(in crate::draw) struct ToBeSeen<'a> {
     pub(in crate::draw) turning: &'a [Vector],
 }
 
-/// The view that is asked for, or that with least overlap, for a picture of the given size.
+/// Returns the requested view, or the one with the least overlap, for a picture of the given size.
 pub(in crate::draw) fn best_projection(
     ToBeSeen {
         places,
@@ -175,7 +175,7 @@ pub(in crate::draw) fn best_projection(
     )
 }
 
-/// The views that there are to choose from, each with how bad it is in itself.
+/// Returns the candidate views, each with its own penalty.
 fn views_to_try(places: &[JointInSpace], sight: &Sight) -> Vec<(View, f64)> {
     match (sight.asked_view(), planar_normal(places)) {
         (Some(view), _) => vec![(view, 0.0)],
@@ -196,7 +196,7 @@ fn views_to_try(places: &[JointInSpace], sight: &Sight) -> Vec<(View, f64)> {
     }
 }
 
-/// How many times larger an area is to be drawn to fill the room.
+/// Returns the factor by which a drawn area must grow to fill the room.
 fn to_fill(room: Point, area: &Rect) -> f64 {
     let (w, h) = (area.right - area.left, area.bottom - area.top);
     let scale = (room[0] / w.max(1e-300)).min(room[1] / h.max(1e-300));
@@ -207,7 +207,7 @@ fn to_fill(room: Point, area: &Rect) -> f64 {
     }
 }
 
-/// How much circles about some axes look like lines.
+/// Returns how much circles about some axes look like lines in the view.
 fn edge_on(view: &View, axes: &[Vector]) -> f64 {
     /// The width of an ellipse, as a share of its length, that is plainly one.
     const ROUND: f64 = 0.4;
@@ -258,13 +258,13 @@ fn planar_normal(places: &[JointInSpace]) -> Option<Vector> {
     found.copied()
 }
 
-/// The direction of the first hinge.
+/// Returns the direction of the first hinge.
 fn first_hinge(places: &[JointInSpace]) -> Option<Vector> {
     let mut hinges = places.iter().filter(|p| p.turn == Turn::Hinge);
     hinges.next().map(|p| p.z)
 }
 
-/// Whether hinges turn about this direction and other axes are along or across it.
+/// Returns true if hinges turn about this direction and other axes are along or across it.
 fn moves_across(places: &[JointInSpace], n: Vector) -> bool {
     lies_across(places, n) == Some(0)
 }
@@ -290,7 +290,7 @@ fn lies_across(places: &[JointInSpace], n: Vector) -> Option<usize> {
     Some(other)
 }
 
-/// How much joints and links lie on each other.
+/// Returns a cost for joints and links that lie on each other.
 fn crowding_cost(
     places: &[JointInSpace],
     on: &[Point],
@@ -331,7 +331,7 @@ fn crowding_cost(
     cost
 }
 
-/// The sides of a link.
+/// Returns the sides of a link.
 fn side_pairs(of: &[usize]) -> Vec<(usize, usize)> {
     let n = of.len();
     let count = if n > 2 { n } else { n.saturating_sub(1) };
@@ -347,7 +347,7 @@ fn places_middle(places: &[JointInSpace]) -> Vector {
     scale(sum, 1.0 / places.len().max(1) as f64)
 }
 
-/// A unit vector across another.
+/// Returns a unit vector perpendicular to another vector.
 pub(in crate::draw) fn unit_across(z: Vector) -> Vector {
     let [a, b] = [X, Y].map(|e| sub(e, scale(z, dot(e, z))));
     let longer = if norm(a) > norm(b) { a } else { b };

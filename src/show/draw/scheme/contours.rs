@@ -30,7 +30,7 @@ impl Scheme<'_> {
         out
     }
 
-    /// The contours, the smallest last and so on top: each stretch has the colour of the contour it is next to.
+    /// Returns the contours, the smallest last and so on top. Each segment has the colour of the contour next to it.
     pub(super) fn contours_by_size(&self) -> Vec<usize> {
         let mut order: Vec<usize> = (0..self.parts.contours.len()).collect();
         let size = |c: usize| polygon_area(&self.contour_outline(c));
@@ -87,7 +87,7 @@ impl Scheme<'_> {
         });
     }
 
-    /// A contour in words.
+    /// Describes a contour in words.
     pub(super) fn contour_words(c: usize, name: &str, share: Share) -> String {
         match share {
             Some((r, (low, high))) if low != high => {

@@ -26,7 +26,7 @@ impl Scheme<'_> {
         [joints, links, contours].concat()
     }
 
-    /// The lines of links, which labels stay off: from the hub to the corners, and round the link.
+    /// Returns the lines of links, which labels avoid: from the hub to the corners, and around the link.
     fn link_lines(&self) -> Vec<AvoidedLine> {
         let mut lines = Vec::new();
         for l in 0..self.rings.len() {
@@ -56,7 +56,7 @@ impl Scheme<'_> {
         lines
     }
 
-    /// The ids of links, each to stand on its link.
+    /// Returns the ids of links, each placed on its link.
     fn link_wishes(&self) -> Vec<(Wish, String)> {
         let links = self.parts.links.iter();
         let ids: Vec<&str> = links
@@ -73,7 +73,7 @@ impl Scheme<'_> {
         texts.enumerate().map(one).collect()
     }
 
-    /// The numbers of contours, each to stand within its contour.
+    /// Returns the numbers of contours, each placed inside its contour.
     fn contour_wishes(&self) -> Vec<(Wish, String)> {
         let one = |c: usize| {
             let text = format!("{}", c + 1);
@@ -198,7 +198,7 @@ impl Scheme<'_> {
     }
 }
 
-/// Labels at their places, which are taken from then on.
+/// Finds places for labels, and marks their places as taken.
 fn place_labelled(
     labels: Vec<(Wish, String)>,
     taken: &mut Vec<Rect>,

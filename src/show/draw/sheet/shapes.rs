@@ -22,7 +22,7 @@ pub(in crate::draw) enum Shape {
 }
 
 impl Shape {
-    /// The points of a path; none of a circle.
+    /// Returns the points of a path. Empty for a circle.
     pub(in crate::draw) fn path_points(&self) -> &[Point] {
         match self {
             Shape::Path { points, .. } => points,
@@ -30,7 +30,7 @@ impl Shape {
         }
     }
 
-    /// A path.
+    /// Returns a path.
     pub(in crate::draw) fn path(
         class: impl Into<String>,
         points: Vec<Point>,
@@ -43,12 +43,12 @@ impl Shape {
         }
     }
 
-    /// An open path.
+    /// Returns an open path.
     pub(in crate::draw) fn line(class: impl Into<String>, points: Vec<Point>) -> Shape {
         Shape::path(class, points, false)
     }
 
-    /// A circle.
+    /// Returns a circle.
     pub(in crate::draw) fn circle(class: impl Into<String>, at: Point, radius: f64) -> Shape {
         let class = class.into();
         Shape::Circle { at, radius, class }
@@ -58,7 +58,7 @@ impl Shape {
 /// Half the width of a bar.
 pub(in crate::draw) const HALF: f64 = 8.5;
 
-/// The sides of a polygon, or the pieces of a bar.
+/// Returns the sides of a polygon, or the pieces of a bar.
 pub(in crate::draw) fn outline_sides(corners: &[Point]) -> Vec<(Point, Point)> {
     let open = corners.len() < 3;
     let count = corners.len() - usize::from(open && !corners.is_empty());
@@ -67,7 +67,7 @@ pub(in crate::draw) fn outline_sides(corners: &[Point]) -> Vec<(Point, Point)> {
         .collect()
 }
 
-/// The outline of a polygon or bar, `r` away from it, with round corners.
+/// Returns the outline of a polygon or bar, `r` away from it, with round corners.
 pub(in crate::draw) fn rounded_path(corners: &[Point], r: f64) -> String {
     let n = corners.len();
     let mut d = String::new();
@@ -106,7 +106,7 @@ pub(in crate::draw) fn rounded_path(corners: &[Point], r: f64) -> String {
     d
 }
 
-/// Hatching within a polygon or bar.
+/// Returns the hatching within a polygon or bar.
 pub(in crate::draw) fn hatch_path(corners: &[Point]) -> String {
     hatch_with(corners, HALF - 1.0, 6.5)
 }
@@ -184,7 +184,7 @@ fn level_spans(area: &[Vec<Point>], level: f64) -> Vec<(f64, f64)> {
     out
 }
 
-/// Points of a grid within a polygon.
+/// Returns the points of a grid within a polygon.
 pub(in crate::draw) fn grid_points(polygon: &[Point], steps: usize) -> Vec<Point> {
     let [left, top, right, bottom] = bounds_of(polygon).edges();
     let all = (0..steps).flat_map(|i| (0..steps).map(move |j| [i, j]));

@@ -7,7 +7,7 @@ use crate::motion::pose::Pose;
 use crate::rank::stroke::request::drive_or_any;
 use std::f64::consts::PI;
 
-/// The axes of their frames that the driven joints of a state slide along, of those whose drive turns nothing.
+/// Returns the joints whose drive slides them without turning, each with the axis of its frame.
 pub(in crate::draw) fn driven_slides(m: &Mechanism, state: StateId) -> Vec<(JointId, usize)> {
     let driven = m.joints_in(state).filter(|&j| m.joints[j].drive);
     driven
@@ -15,7 +15,7 @@ pub(in crate::draw) fn driven_slides(m: &Mechanism, state: StateId) -> Vec<(Join
         .collect()
 }
 
-/// The axis of a slide.
+/// Returns the axis of a slide.
 fn slide_axis_of(freedom: Freedom) -> Option<usize> {
     match freedom {
         Freedom::Tx => Some(0),
@@ -25,7 +25,8 @@ fn slide_axis_of(freedom: Freedom) -> Option<usize> {
     }
 }
 
-/// The freedom that a drive moves; where the file leaves it open between a turn and a slide, the one that moves the mechanism.
+/// Returns the freedom that a drive moves. If the file leaves it open between a turn and a slide, returns the one that moves
+/// the mechanism.
 fn driven_freedom(m: &Mechanism, state: StateId, joint: JointId) -> Option<Freedom> {
     let of = &m.joints[joint];
     let open = of

@@ -31,7 +31,7 @@ pub(in crate::draw) struct Ground {
 }
 
 impl Ground {
-    /// Under a pivot.
+    /// Returns the ground under a pivot.
     pub(in crate::draw) fn under_pivot(from: Point, to: Point) -> Ground {
         Ground {
             from,
@@ -49,7 +49,7 @@ impl Ground {
         }
     }
 
-    /// Whether it is the rail of a block.
+    /// Returns true if it is the rail of a block.
     fn is_rail(&self) -> bool {
         self.half > PIVOT
     }
@@ -109,7 +109,7 @@ struct GroundSpot {
 }
 
 impl GroundSpot {
-    /// A ground in one of sixteen directions, and where that is; a rail has two.
+    /// Returns a ground in one of sixteen directions, and its position. A rail has two directions.
     fn ground_at(&self, step: i32) -> (Ground, Point) {
         if let Some((along, off)) = self.rail {
             let side = [-along[1], along[0]];
@@ -156,7 +156,7 @@ impl GroundSpot {
     }
 }
 
-/// Where links that move go from the joints `here`: to their other joints, and to their free ends.
+/// Returns the directions in which moving links leave the joints `here`: to their other joints, and to their free ends.
 fn directions_out(
     at: Point,
     here: &[usize],
@@ -174,8 +174,8 @@ fn directions_out(
     ends.map(|end| sub(end, at)).collect()
 }
 
-/// The ground at each place of the frame's joints, where there is most room; the free ends of links are given with their
-/// joints.
+/// Returns the ground at each place of the frame's joints, in the direction with the most room. `loose` gives the free ends
+/// of links with their joints.
 pub(in crate::draw) fn place_grounds(
     feet: &[Foot],
     links: &[(LinkId, Vec<usize>)],

@@ -82,7 +82,7 @@ fn draw_view(sheet: &mut Sheet, of: &JointType, view: &View) {
     sheet.note_symbol(symbols::shapes_extent(&shapes));
 }
 
-/// The axis of the frame that a freedom is about or along.
+/// Returns the axis of the frame that a freedom is about or along.
 fn axis_of(f: Freedom) -> usize {
     match f {
         Freedom::Rx | Freedom::Tx => 0,

@@ -89,13 +89,13 @@ const END_ON: f64 = 0.9;
 /// Faces smaller than this, in square pixels, are seen from the side.
 const EDGE: f64 = 0.05;
 
-/// To a hundredth of a pixel.
+/// Returns a coordinate rounded to a hundredth of a pixel.
 pub(in crate::draw) fn round_hundredth(x: f64) -> f64 {
     (x * 100.0).round() / 100.0
 }
 
 impl Piece {
-    /// A shape that is turned to the reader always.
+    /// Returns a shape that always faces the reader.
     pub(in crate::draw) fn on_paper(shape: &Shape) -> Piece {
         let (form, class, points, radius) = match shape {
             Shape::Path {
@@ -160,20 +160,21 @@ impl Piece {
     }
 }
 
-/// Across a direction on paper, upwards; of one that goes up itself, to where no rail is.
+/// Returns the upward perpendicular of a direction on paper. If the direction itself is vertical, returns the side without a
+/// rail.
 fn upper_side(along: Point) -> Point {
     let [x, y] = unit(along);
     let side = [y, -x];
     if side[1] > 1e-9 { [-y, x] } else { side }
 }
 
-/// Twice the area of a polygon, below 0 where it turns to the left on paper.
+/// Returns twice the area of a polygon. Negative if it turns to the left on paper.
 fn twice_area(points: &[Point]) -> f64 {
     let next = points.iter().cycle().skip(1);
     points.iter().zip(next).map(|(&a, &b)| cross(a, b)).sum()
 }
 
-/// A circle as a polygon; the point alone where the radius is 0.
+/// Returns a circle as a polygon. Returns a single point if the radius is 0.
 fn disc_points(at: Point, radius: f64) -> impl Iterator<Item = Point> {
     let corners = if radius > 0.0 { 24 } else { 1 };
     (0..corners).map(move |i| {
@@ -182,7 +183,7 @@ fn disc_points(at: Point, radius: f64) -> impl Iterator<Item = Point> {
     })
 }
 
-/// The convex hull, by monotone chains.
+/// Returns the convex hull, by monotone chains.
 pub(in crate::draw) fn convex_hull(mut points: Vec<Point>) -> Vec<Point> {
     points.sort_by(|a, b| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
     points.dedup();

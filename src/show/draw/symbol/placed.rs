@@ -59,14 +59,14 @@ impl Symbol {
         }
     }
 
-    /// Its shapes without a mark, small enough for a row of the legend.
+    /// Returns the symbol's shapes without a mark, small enough for a row of the legend.
     pub(in crate::draw) fn legend_shapes(&self) -> Vec<Shape> {
         let usual = symbols::shapes_extent(&symbols::symbol_shapes(&self.of, &self.pose, "", 1.0));
         let by = (ROW - 2.0) / (usual.bottom - usual.top);
         symbols::symbol_shapes(&self.of, &self.pose, "", by.min(1.0))
     }
 
-    /// How far it reaches from its middle.
+    /// Returns how far the symbol extends from its middle.
     pub(in crate::draw) fn reach_of_room(&self) -> f64 {
         let [left, top, right, bottom] = self.room.edges();
         (-left).max(-top).max(right).max(bottom).max(0.0)
@@ -78,7 +78,8 @@ impl Symbol {
         sheet.draw_shapes(&shapes);
     }
 
-    /// Its pieces from the back to the front, with the ring or the arrow of a drive and the ring of a joint of this state alone.
+    /// Returns the symbol's pieces from the back to the front. They include the ring or arrow of a drive, and the ring of a
+    /// joint that exists in this state only.
     pub(in crate::draw) fn all_pieces(&self, mark: Mark) -> Vec<Piece> {
         let mark = mark.mark_class();
         let below = self
@@ -107,7 +108,7 @@ pub struct Swap<'a> {
     pub unloading: bool,
 }
 
-/// The mark of an unloading joint round a symbol of some reach.
+/// Returns the mark of an unloading joint around a symbol of size `reach`.
 pub(in crate::draw) fn unloading_ring(reach: f64) -> Shape {
     Shape::circle("line new", [0.0; 2], reach + 4.0)
 }
@@ -115,8 +116,8 @@ pub(in crate::draw) fn unloading_ring(reach: f64) -> Shape {
 /// How much larger the next joint outwards is, so that the outline of each is seen.
 const STEP: f64 = 0.6;
 
-/// How many times its usual size each joint is drawn: those in one place on paper within each other, a multiple joint as concentric
-/// circles, a pin on its block.
+/// Returns the size of each joint's symbol relative to the usual. Those at one place on paper are nested: a multiple joint
+/// as concentric circles, a pin on its block.
 pub(in crate::draw) fn symbol_sizes(at: &[Point], joints: &[&Joint]) -> Vec<f64> {
     let mut out = vec![1.0; at.len()];
     let mut done = vec![false; at.len()];
@@ -136,12 +137,12 @@ pub(in crate::draw) fn symbol_sizes(at: &[Point], joints: &[&Joint]) -> Vec<f64>
     out
 }
 
-/// Whether two points of the paper are one to the eye.
+/// Returns true if two points of the paper look the same.
 pub(in crate::draw) fn one_place(a: Point, b: Point) -> bool {
     plane_norm(sub(a, b)) <= ONE_PLACE
 }
 
-/// Which of several joints is nearer to the outside: pins and balls stand on blocks and plates.
+/// Returns the rank of a joint type from the inside to the outside. Pins and balls are drawn on blocks and plates.
 fn outward_order(of: &JointType) -> u8 {
     match of {
         JointType::Revolute | JointType::Spherical => 0,

@@ -15,7 +15,8 @@ static SYMBOLS: LazyLock<BTreeMap<String, Vec<Piece>>> = LazyLock::new(|| {
     serde_json::from_str(include_str!("symbols.json")).expect("a test draws all of them")
 });
 
-/// How far the side of what slides along the axis of a joint is from the axis; nothing for joints without such a slide.
+/// Returns the distance from the axis of a joint to the side of the part that slides along it. `None` for joints without
+/// such a slide.
 pub(in crate::draw) fn side_of_slide(joint: &JointType) -> Option<f64> {
     match joint {
         JointType::Prismatic => Some(5.0),
@@ -37,7 +38,7 @@ pub(in crate::draw) fn symbol_shapes(
     symbol_pieces(joint).iter().filter_map(seen).collect()
 }
 
-/// The pieces of a joint's symbol, from the back to the front.
+/// Returns the pieces of a joint's symbol, from the back to the front.
 pub(in crate::draw) fn symbol_pieces(joint: &JointType) -> &'static [Piece] {
     &SYMBOLS[joint.name()]
 }
@@ -47,7 +48,7 @@ pub(in crate::draw) fn slide_arrow(axis: usize) -> &'static [Piece] {
     &SYMBOLS[["drive x", "drive y", "drive z"][axis]]
 }
 
-/// The rectangle round some shapes.
+/// Returns the bounding rectangle of some shapes.
 pub(in crate::draw) fn shapes_extent(shapes: &[Shape]) -> Rect {
     let own = shapes.iter().map(|s| match s {
         Shape::Path { points, .. } => bounds_of(points).grown_by(0.7),

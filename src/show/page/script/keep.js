@@ -1,4 +1,4 @@
-// What a reader can save: pictures as SVG or PNG files, tables as CSV on the clipboard.
+// Files that a reader can save: pictures as SVG or PNG, tables as CSV on the clipboard.
 
 /** Pixels of a saved picture for each of the drawing's. */
 const FINE = 2;

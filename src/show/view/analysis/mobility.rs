@@ -85,7 +85,7 @@ pub struct StructureSize {
 }
 
 impl StructureSize {
-    /// The numbers of a state.
+    /// Returns the numbers of a state.
     pub fn of_state(mechanism: &Mechanism, state: StateId) -> StructureSize {
         let mut links: Vec<_> = mechanism
             .joints_in(state)

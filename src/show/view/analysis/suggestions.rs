@@ -104,7 +104,7 @@ fn present_type<'a>(m: &'a Mechanism, x: &Suggestion) -> &'a str {
     option.map_or(joint.joint_type.name(), |o| &o.name)
 }
 
-/// "revolute -> spherical", "unloading joint in series: spherical (a ball pivot)".
+/// Describes a change: "revolute -> spherical", "unloading joint in series: spherical (a ball pivot)".
 fn describe_change(m: &Mechanism, x: &Suggestion) -> String {
     let to = x.to.as_ref();
     let replaced = to.map(|to| format!("{} -> {}", present_type(m, x), to.name));

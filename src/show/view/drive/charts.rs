@@ -8,8 +8,8 @@ use crate::view::drive::Drive;
 /// Points drawn of a swing.
 const PER_SWING: u32 = 48;
 
-/// The payload's acceleration on the first disc over the programme, as `ozols grip --motion` takes it: a gripper that reaches
-/// outwards from the axis (its x), the part along the axis (its z).
+/// Returns the payload's acceleration on the first disc over the programme, in the format of `ozols grip --motion`. It is
+/// for a gripper that reaches outwards from the axis (its x), with the part along the axis (its z).
 pub fn motion_csv(d: &Drive<'_>) -> Option<String> {
     let (found, payload) = (d.design?, d.file.spec.payload?);
     let rows = found

@@ -7,7 +7,7 @@ use crate::grip::clamping::DiameterRow;
 use crate::grip::lever_arm::Arms;
 use crate::view::grip::GripReport;
 
-/// Every chart with the name of its file.
+/// Returns every chart with the name of its file.
 pub fn grip_charts(g: &GripReport<'_>) -> Vec<(String, Chart)> {
     let (metres, symbol) = (g.file.length_unit.metres, g.file.length_unit.symbol);
     let series = |name: &str, style, y: &dyn Fn(&DiameterRow) -> Option<f64>| Series {
@@ -62,8 +62,8 @@ pub fn grip_charts(g: &GripReport<'_>) -> Vec<(String, Chart)> {
     out
 }
 
-/// The arms over one figure of the levers, on the smallest, the nominal and the largest part; on the nominal one with the parts
-/// that the arms are made of.
+/// Returns the arms over one figure of the levers, for the smallest, the nominal and the largest part. For the nominal part,
+/// adds the terms that make up the arms.
 fn arms_over(g: &GripReport<'_>, varied: Varied) -> (String, Chart) {
     type Part = (&'static str, fn(&Arms) -> f64);
     const WHOLE: [Part; 2] = [("l1", |a| a.l1), ("l2", |a| a.l2)];

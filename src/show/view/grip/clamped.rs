@@ -44,12 +44,12 @@ fn diameter_words(g: &Gripping, row: &DiameterRow) -> String {
     )
 }
 
-/// The pose in a few words.
+/// Describes the pose in a few words.
 pub(crate) fn pose_words(g: &Gripping, row: &DiameterRow) -> String {
     format!("round a part of {}", diameter_words(g, row))
 }
 
-/// Every reason why a part is not held, one a line.
+/// Returns every reason why a part is not held, one per line.
 pub(crate) fn not_held(g: &Gripping, row: &DiameterRow) -> String {
     let all = all_reasons(row, grip_load(g).map_or(0.0, |l| l.friction));
     let lines = all.map(|why| format!("  {} cannot be held: {why}\n", diameter_words(g, row)));
@@ -57,7 +57,7 @@ pub(crate) fn not_held(g: &Gripping, row: &DiameterRow) -> String {
 }
 
 impl<'a> NotHeld<'a> {
-    /// A part of a state that is not held, for one reason.
+    /// Creates the record of a part in a state that is not held, for one reason.
     pub fn because(m: &'a Mechanism, state: StateId, why: &str) -> Self {
         NotHeld {
             mechanism: &m.name,
@@ -67,7 +67,7 @@ impl<'a> NotHeld<'a> {
         }
     }
 
-    /// Why no diameter of a grip, or not the one asked for, is held.
+    /// Creates the list of reasons why no diameter of a grip, or not the requested one, is held.
     pub fn new(g: &'a Gripping) -> Self {
         let lost = g.study.rows.iter().filter(|r| !r.is_held());
         NotHeld {
@@ -78,7 +78,7 @@ impl<'a> NotHeld<'a> {
         }
     }
 
-    /// The same for people.
+    /// Returns the reasons as text for people.
     pub fn text(&self) -> String {
         let mut out = format!(
             "{}, state {}: the part cannot be held, so no contact forces load the jaws\n",

@@ -55,7 +55,7 @@ impl GripMotion {
         json!({ "holds": self.holds(), "steps": self.steps.iter().map(step).collect::<Value>() })
     }
 
-    /// Whether it can hold, and with what moments.
+    /// Describes whether the grip can hold the part, and with what moments.
     fn motion_verdict(&self) -> String {
         let moments = self.steps.iter().filter_map(StepTaken::drive_moment);
         let least = moments.clone().fold(f64::INFINITY, f64::min);
@@ -109,7 +109,7 @@ impl GripMotion {
         out.text()
     }
 
-    /// The moment, and the drive's effort where it is known, over the motion.
+    /// Returns the chart of the moment over the motion, and of the drive's effort if it is known.
     pub fn chart(&self, mechanism: &str) -> Chart {
         let timed = self.steps.iter().all(|s| s.of.time.is_some());
         #[allow(clippy::cast_precision_loss, reason = "at most 1e5 steps")]

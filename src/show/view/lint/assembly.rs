@@ -52,7 +52,7 @@ impl TypeChange {
         })
     }
 
-    /// "Hinge: Revolute -> Ball".
+    /// Describes a change: "Hinge: Revolute -> Ball".
     pub fn describe_change(&self) -> String {
         format!("{}: {} -> {}", self.joint, self.from, self.to)
     }
@@ -67,7 +67,7 @@ pub struct Misfit {
     pub degrees: f64,
 }
 
-/// W with other joint types in words, where it is more than it is now.
+/// Describes W with other joint types, if it is more than the current one.
 pub(super) fn describe_then(now: usize, then: Option<usize>) -> String {
     match then {
         Some(w) if w > now => format!(" (W = {w}: a part may turn or slide by itself)"),
@@ -75,7 +75,7 @@ pub(super) fn describe_then(now: usize, then: Option<usize>) -> String {
     }
 }
 
-/// The freedoms as a CAD program counts them, in a line, where they are others.
+/// Describes the freedoms as a CAD program counts them, in one line, if they differ.
 pub(super) fn describe_count(counted: Option<i64>, mobility: usize) -> String {
     match counted {
         Some(n) if i64::try_from(mobility) != Ok(n) => format!(

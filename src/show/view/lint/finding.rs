@@ -127,7 +127,8 @@ impl LintWords<'_> {
         }
     }
 
-    /// A row of a joint, or a coupling, in words: its name, "row " where it is of a joint, the row, and what an inexact part makes.
+    /// Describes a row of a joint, or a coupling. Has the name, "row " if it belongs to a joint, the row, and the effect of
+    /// an inexact part.
     fn describe_constraint(&self, row: Release) -> (String, [String; 3]) {
         match row {
             Release::Coupling(q) => {
@@ -156,7 +157,7 @@ impl LintWords<'_> {
         }
     }
 
-    /// How far the frames of a joint are apart, in millimetres and degrees.
+    /// Returns the distance between the frames of a joint, in millimetres and degrees.
     fn find_misfit(&self, origin: &Origin, joint: JointId) -> Option<Misfit> {
         let [shift, turn] = origin.misfit(joint)?;
         let metres = self.m.length_unit.metres;
@@ -166,7 +167,8 @@ impl LintWords<'_> {
         })
     }
 
-    /// "slide hinge along y: revolute -> cylindrical (cost 1.5)"; of an assembly, "hinge: Revolute -> Cylindrical (cost 1.5)".
+    /// Describes a remedy: "slide hinge along y: revolute -> cylindrical (cost 1.5)". For an assembly: "hinge: Revolute ->
+    /// Cylindrical (cost 1.5)".
     pub(super) fn describe_remedy(&self, i: usize, origin: Option<&Origin>) -> String {
         let (milli, release) = &self.found.releases[i];
         let other = origin.and_then(|o| TypeChange::from_release(self.m, o, release));
@@ -178,7 +180,7 @@ impl LintWords<'_> {
     }
 }
 
-/// A release in words: "let a slide along y: revolute -> cylindrical".
+/// Describes a release: "let a slide along y: revolute -> cylindrical".
 pub fn describe_release(m: &Mechanism, release: &Release) -> String {
     match *release {
         Release::Coupling(q) => {
@@ -204,7 +206,7 @@ pub fn describe_release(m: &Mechanism, release: &Release) -> String {
     }
 }
 
-/// "y", or "(0.6, 0.8, 0)".
+/// Returns the name of a direction: "y", or "(0.6, 0.8, 0)".
 fn direction_name(d: Vector) -> String {
     let axes = ["x", "y", "z"];
     let along = (0..3).find(|&i| d[i].abs() > 1.0 - 1e-9);
@@ -227,7 +229,7 @@ pub struct PassedOver {
 }
 
 impl PassedOver {
-    /// Why a file is passed over.
+    /// Creates the record of a skipped file with its reason.
     pub fn new(file: &str, why: &str, rigid: bool) -> PassedOver {
         let line = why.lines().next().unwrap_or_default();
         // The file stands in front of the line already: `FILE:3:7: why`, `FILE: why` or `FILE is no such thing`.
@@ -242,7 +244,7 @@ impl PassedOver {
         }
     }
 
-    /// A line for people.
+    /// Returns one line for people.
     pub fn text(&self) -> String {
         let (file, why) = (escape_line(&self.file), escape_line(&self.why));
         if self.rigid {

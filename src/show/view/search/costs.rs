@@ -23,7 +23,7 @@ const HEAD: &str = "\
 # here, too.
 ";
 
-/// The default costs as TOML.
+/// Returns the default costs as TOML.
 pub fn costs_toml() -> String {
     let table = CostTable::new(&CostSpec::default());
     let line = |name: &str, milli: i64, what: &str| {

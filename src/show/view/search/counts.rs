@@ -51,7 +51,7 @@ pub(super) fn counts_text(outcome: &Outcome, width: Option<u16>, verbose: bool) 
     out.text() + &fit_lines(&table, width)
 }
 
-/// "σ = 0", or the redundant constraints that are allowed.
+/// Returns "σ = 0", or the number of redundant constraints allowed.
 fn redundancy_condition(outcome: &Outcome) -> String {
     match outcome.search.conditions.max_redundant {
         0 => "σ = 0".to_owned(),
@@ -131,7 +131,7 @@ fn write_verdict(out: &mut Report, outcome: &Outcome, verbose: bool) {
     }
 }
 
-/// Where variants keep the motion, so far as that is known.
+/// Describes where variants keep the motion, as far as it is known.
 pub(crate) fn where_kept(outcome: &Outcome) -> &'static str {
     match &outcome.lasting {
         Ok(_) => " throughout the motion",
@@ -140,7 +140,7 @@ pub(crate) fn where_kept(outcome: &Outcome) -> &'static str {
     }
 }
 
-/// How many variants keep the motion in the drawn pose, or why only these are counted; `None` where there is nothing to say.
+/// Describes how many variants keep the motion in the drawn pose, or why only these are counted. `None` if neither applies.
 fn in_the_pose(outcome: &Outcome) -> Option<String> {
     let here = &outcome.admissible.total;
     match &outcome.lasting {
@@ -166,7 +166,7 @@ fn in_the_pose(outcome: &Outcome) -> Option<String> {
     }
 }
 
-/// How many variants are determinate.
+/// Returns the number of determinate variants.
 fn determinate_count(outcome: &Outcome) -> String {
     let [estimate, _] = outcome.estimates();
     let estimate = estimate.filter(|_| outcome.is_confirmed());
@@ -244,7 +244,7 @@ fn by_mobility(outcome: &Outcome, width: Option<u16>) -> String {
     format!("\n{}\n", text_table(&heads, rows, width))
 }
 
-/// How many of the variants that are listed are minimal, and what the others are, said once; `None` where that was not counted.
+/// Describes how many of the listed variants are minimal, and what the others are. `None` if they were not counted.
 fn minimal_line(outcome: &Outcome) -> Option<String> {
     let minimal = outcome.count_minimal()?;
     let rest = &outcome.listed_counts().total - &minimal;

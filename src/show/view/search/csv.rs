@@ -19,7 +19,7 @@ const FIGURES: &str = "position,cost,mobility,redundant,external_redundant,chang
 const OPINIONS: [&str; 3] = ["conditioning", "agree", "lucky"];
 /// Columns at the end.
 const MORE: [&str; 2] = ["external_harmful", "redundant_by_contour"];
-/// Columns of a ranking.
+/// Returns the column heads of a ranking.
 fn score_heads() -> Vec<String> {
     let terms = Term::ALL.map(Term::about).into_iter().filter(|a| a.csv);
     let terms = terms.map(|a| a.key.replace('-', "_"));
@@ -181,7 +181,8 @@ impl Lines {
     }
 }
 
-/// "0-1-2-3: 1 (0 to 1); 0-1-6-7: 0 (0 to 1)": σ of the contours that may have any, in the order they are added in.
+/// Returns σ of the contours that may have any, in the order in which they are added: "0-1-2-3: 1 (0 to 1); 0-1-6-7: 0 (0 to
+/// 1)".
 fn contours_cell(v: &Variant<'_>) -> String {
     let shares = v.redundant_by_contour().into_iter().flatten();
     let some = shares.filter(|(_, s)| s.range.1 > 0);
@@ -189,7 +190,7 @@ fn contours_cell(v: &Variant<'_>) -> String {
         .join("; ")
 }
 
-/// The joints that have a choice, in file order: (variable, joint).
+/// Returns the joints with a choice, in file order: (variable, joint).
 fn joint_columns(search: &Search) -> Vec<(usize, JointId)> {
     let variables = search.space.variables.iter().enumerate();
     let choosing = variables.filter(|(_, v)| v.choices.len() > 1);

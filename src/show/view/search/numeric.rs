@@ -7,7 +7,7 @@ use num_bigint::BigUint;
 use num_traits::Zero;
 use std::collections::BTreeSet;
 
-/// "12", or "12 to 15".
+/// Returns a number or a range: "12", or "12 to 15".
 pub(crate) fn from_to(bracket: &Bracket) -> String {
     let from = &bracket.sure.total;
     if bracket.is_narrow() {
@@ -20,7 +20,7 @@ pub(crate) fn from_to(bracket: &Bracket) -> String {
     )
 }
 
-/// How many admissible variants there are: "12", or "12 to 15".
+/// Returns the number of admissible variants: "12", or "12 to 15".
 pub(crate) fn admissible_range(outcome: &Outcome) -> String {
     match &outcome.numeric {
         Some(found) => from_to(&found.admissible),
@@ -28,14 +28,14 @@ pub(crate) fn admissible_range(outcome: &Outcome) -> String {
     }
 }
 
-/// The counts by mobility as a person reads them: "12", or "12 to 15".
+/// Returns the counts by mobility for people: "12", or "12 to 15".
 pub(crate) fn by_mobility(bracket: &Bracket, of: &[i64]) -> String {
     let sum = |c: &Counts| -> BigUint { of.iter().filter_map(|w| c.by_mobility.get(w)).sum() };
     let (sure, doubtful) = (sum(&bracket.sure), sum(&bracket.doubtful));
     format_span(group_thousands(&sure), group_thousands(&sure + doubtful))
 }
 
-/// The mobilities that some variant has or may have.
+/// Returns the mobilities that some variants have or may have.
 pub(crate) fn all_mobilities(found: &AtTolerance) -> BTreeSet<i64> {
     let brackets = [&found.determinate, &found.admissible];
     let counts = brackets.into_iter().flat_map(|b| [&b.sure, &b.doubtful]);

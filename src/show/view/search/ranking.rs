@@ -31,7 +31,7 @@ pub(crate) fn ranking_head(p: &RankedPool) -> String {
     )
 }
 
-/// What loads came from the grip.
+/// Describes the loads that the grip supplied.
 fn describe_grip(m: &Mechanism, g: &Gripped) -> String {
     let unit = m.length_unit;
     let told = |d: &f64| four_digits(d / unit.metres);
@@ -116,7 +116,7 @@ pub(crate) fn ranking_notes(m: &Mechanism, p: &RankedPool) -> Vec<String> {
     out
 }
 
-/// Why the first of a list of ranked variants are not in the order of cost, a line each.
+/// Returns the reasons why the first ranked variants are not in the order of cost, one per line.
 pub(crate) fn place_reasons<'a>(
     m: &'a Mechanism,
     p: &'a RankedPool,
@@ -125,7 +125,7 @@ pub(crate) fn place_reasons<'a>(
     places.filter_map(|place| p.place_reason(m, place))
 }
 
-/// Heads of the columns of a list.
+/// Returns the column heads of a list.
 pub(crate) fn ranking_columns(p: &RankedPool) -> Vec<&'static str> {
     let terms = p.ranking.terms.iter();
     let mut out: Vec<&str> = terms.filter_map(|(t, _)| t.heading()).collect();
@@ -137,7 +137,7 @@ pub(crate) fn ranking_columns(p: &RankedPool) -> Vec<&'static str> {
     out
 }
 
-/// The cells of those columns.
+/// Returns the cells of those columns.
 pub(crate) fn ranking_cells(p: &RankedPool, r: &Ranked) -> Vec<String> {
     let terms = p.ranking.terms.iter().map(|(t, _)| *t);
     let mut out: Vec<String> = terms

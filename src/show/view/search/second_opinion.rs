@@ -7,7 +7,7 @@ use crate::search::check::second_opinion::{Contradiction, SecondOpinion};
 use crate::view::prelude::*;
 use crate::view::{AS_READ, with_assumptions};
 
-/// How sure counts are that are not exact though no budget cut them short.
+/// Returns the certainty of counts that are not exact although no budget limited them.
 pub(crate) fn certainty_word(outcome: &Outcome) -> Option<&'static str> {
     if !outcome.search.mechanism.assumed.is_empty() {
         return Some(AS_READ);
@@ -20,7 +20,7 @@ pub(crate) fn certainty_word(outcome: &Outcome) -> Option<&'static str> {
     }
 }
 
-/// The changes of a variant in words.
+/// Describes the changes of a variant.
 fn variant_words(outcome: &Outcome, choices: &[usize]) -> String {
     let search = &outcome.search;
     let variant = Assignment {

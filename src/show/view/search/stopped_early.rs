@@ -6,7 +6,7 @@ use crate::search::diagram::Stop;
 use crate::view::prelude::*;
 use num_bigint::BigUint;
 
-/// Why a search ended early and what its counts and its list are; nothing of one that did not.
+/// Describes why a search ended early, and what its counts and its list are. `None` if it did not end early.
 pub(crate) fn stopped_line(outcome: &Outcome) -> Option<String> {
     let why = match outcome.stop {
         Stop::Exhausted => return None,
@@ -35,7 +35,7 @@ pub(crate) fn format_count(counted: &BigUint, exact: bool, estimate: Option<&Est
     }
 }
 
-/// How numbers of variants are known that are not counted.
+/// Describes how the numbers of variants that are not counted are known.
 pub(crate) fn estimate_line(outcome: &Outcome) -> Option<String> {
     let [determinate, admissible] = outcome.estimates();
     let said = |e: &Estimate, what| {
@@ -75,7 +75,7 @@ pub(crate) fn more_line(outcome: &Outcome) -> Option<String> {
     }
 }
 
-/// How much of a list by cost is proven, though the search ended early.
+/// Describes how much of a list by cost is proven, although the search ended early.
 pub(crate) fn proven_line(summary: &Summary) -> Option<String> {
     match summary.proven? {
         0 => None,

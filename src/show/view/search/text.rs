@@ -129,7 +129,7 @@ fn write_notes(
     write!(out, "{gap}{}", fit_lines(&notes.collect::<String>(), width))
 }
 
-/// The footnote of a marked variant.
+/// Returns the footnote of a marked variant.
 pub(crate) fn variant_footnote(v: &Variant<'_>) -> Option<String> {
     let position = v.position();
     if let Some((f, present)) = v.over_stroke().and_then(|s| s.other) {
@@ -172,7 +172,7 @@ pub(crate) fn variant_footnote(v: &Variant<'_>) -> Option<String> {
 /// Maximum number of footnotes.
 const NOTES: usize = 20;
 
-/// What second opinions and other poses say, a line each.
+/// Returns the findings of second opinions and other poses, one per line.
 pub(crate) fn summary_notes(summary: &Summary) -> Vec<String> {
     let mut out = Vec::new();
     if summary.is_asked() {
@@ -190,7 +190,7 @@ pub(crate) fn summary_notes(summary: &Summary) -> Vec<String> {
     out
 }
 
-/// The notes of marked variants, the first of them if there are many.
+/// Returns the notes of marked variants. If there are many, returns the first of them.
 fn limit_footnotes(mut notes: Vec<String>) -> Vec<String> {
     let more = notes.len().saturating_sub(NOTES);
     notes.truncate(NOTES);
@@ -235,7 +235,7 @@ fn next_of_some(outcome: &Outcome, changed: bool, file: &str, verbose: bool) -> 
     own.into_iter().chain(steps).chain(more).collect()
 }
 
-/// The options that a search was asked with. `--idea` says that ideas are meant.
+/// Returns the options of a search request. `--idea` means ideas.
 fn request_flags(outcome: &Outcome) -> String {
     let request = Request {
         distinct: false,

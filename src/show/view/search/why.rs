@@ -77,7 +77,7 @@ impl<'w> Teller<'w> {
         }
     }
 
-    /// The usual part that is such a joint.
+    /// Returns the usual part that is such a joint, if there is one.
     fn usual_part(&self, l: &LetGo) -> Option<&str> {
         let pair = self.words.get(l.to.as_ref()?.name())?;
         pair.hardware.first().map(String::as_str)
@@ -193,7 +193,7 @@ pub(crate) fn rows_of_ideas(
         .collect()
 }
 
-/// Those of some rows that have something in common, together: "what: these, those; other: that".
+/// Returns the rows that have something in common as groups: "what: these, those; other: that".
 fn group_rows(rows: impl Iterator<Item = (String, String)>, between: &str) -> String {
     let mut groups: Vec<(String, Vec<String>)> = Vec::new();
     for (what, one) in rows {

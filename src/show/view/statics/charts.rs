@@ -306,7 +306,7 @@ fn stability_labels(failure: Failure) -> (&'static str, &'static str, &'static s
     }
 }
 
-/// Errors of the methods against the distance from a failure.
+/// Returns the errors of the methods against the distance from a failure.
 pub fn stability_chart(failure: Failure, samples: &[DistanceErrors]) -> Named {
     // What is exact to the last bit is shown at the foot.
     let shown = |x: f64| {
@@ -349,7 +349,7 @@ pub fn stability_chart(failure: Failure, samples: &[DistanceErrors]) -> Named {
     (format!("stability-{}", failure.name()), chart)
 }
 
-/// Rows of a table: failure, figure, method, and the errors at distances 1, 1e-3, ... 1e-15.
+/// Returns the rows of a table: failure, figure, method, and the errors at distances 1, 1e-3, ... 1e-15.
 pub fn stability_rows(failure: Failure, samples: &[DistanceErrors]) -> Vec<Vec<String>> {
     let at = |decade: i32| {
         let wanted = 10f64.powi(-decade);

@@ -10,7 +10,7 @@ use crate::statics::kinetostatics::LoadSource;
 use crate::view::prelude::*;
 use crate::view::statics::{StaticsData, vector_size};
 
-/// The drawing of each group, with the name of its file.
+/// Returns the drawing of each group, with its file name.
 pub fn force_plans_of(s: &StaticsData<'_>) -> Vec<(String, Polygons)> {
     let groups = 0..s.found.contour_groups.len();
     groups.filter_map(|i| group_plan(s, i)).collect()

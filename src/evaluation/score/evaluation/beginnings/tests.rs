@@ -2,8 +2,8 @@
 
 use super::*;
 
-/// A reaction x of one place under one load, with 2 x = 6 for all variants where `known`; the one variable there is adds the
-/// equation `further` by its first choice, and nothing by its second.
+/// Creates a reaction x of one place under one load. If `known`, 2 x = 6 holds for all variants. The first choice of the
+/// single variable adds the equation `further`, and its second choice adds nothing.
 fn of_one_unknown(known: bool, further: [f64; 2]) -> Beginnings {
     let limits = |force, clearance| LoadLimits {
         force,
@@ -36,7 +36,7 @@ fn of_one_unknown(known: bool, further: [f64; 2]) -> Beginnings {
     }
 }
 
-/// Once x = 3 is known, a motion on which it and the loads do work has no equilibrium.
+/// Checks a motion on which a known reaction x = 3 and the loads do work. It has no equilibrium.
 #[test]
 fn a_motion_is_held_by_the_reactions_that_are_known() {
     for (further, held) in [
@@ -56,7 +56,8 @@ fn a_motion_is_held_by_the_reactions_that_are_known() {
     }
 }
 
-/// Where nothing is known of all variants, a choice's own equation tells the reactions, and giving it back forgets them.
+/// Checks reactions that nothing common to all variants determines. The equation of a choice determines them, and its
+/// removal undoes this.
 #[test]
 fn a_choice_that_determines_the_reactions_tells_them() {
     let of = of_one_unknown(false, [4.0, 2.0]);
@@ -72,7 +73,7 @@ fn a_choice_that_determines_the_reactions_tells_them() {
     assert!(begun.peak_bounds(&again, |_| false).is_none());
 }
 
-/// The place that ends a branch is looked at first in the next, and then the others need not be.
+/// Checks that the place that ends a branch is examined first in the next one. Then the other places need no examination.
 #[test]
 fn a_place_that_ended_a_branch_is_looked_at_first() {
     let mut of = of_one_unknown(true, [1.0, 3.0]);
@@ -104,7 +105,7 @@ fn a_place_that_ended_a_branch_is_looked_at_first() {
     assert_eq!(looked_at(first), (1, second));
 }
 
-/// Of two outputs the one that is farther off counts, whichever comes first.
+/// Checks that the output with the larger error counts, in either order of two outputs.
 #[test]
 fn the_error_is_that_of_the_output_that_is_farthest_off() {
     let of = of_one_unknown(true, [1.0, 3.0]);

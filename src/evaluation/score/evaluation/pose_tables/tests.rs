@@ -12,7 +12,7 @@ use crate::score::evaluation::evaluate::Evaluator;
 use crate::search::answer::k_best::Assignment;
 use crate::search::question::conditions::Conditions;
 
-/// A hinge and a joint behind it, so many units to a metre apart.
+/// Creates a hinge and a joint behind it, in a unit of which `metre` make a metre.
 fn two_joints(second: &str, unit: &str, metre: i64) -> Mechanism {
     let text = format!(
         "name = \"it\"\nlength_unit = \"{unit}\"\n\
@@ -24,7 +24,7 @@ fn two_joints(second: &str, unit: &str, metre: i64) -> Mechanism {
     mechanism_from_str("it.toml", &text).unwrap()
 }
 
-/// The place of the joint behind.
+/// Returns the place of the second joint.
 fn behind(geometry: &Geometry) -> PlacedJoint {
     let joint = JointId::new(1);
     PlacedJoint {
@@ -39,7 +39,7 @@ fn behind(geometry: &Geometry) -> PlacedJoint {
     }
 }
 
-/// A screw climbs as far by a radian whatever unit its file is in.
+/// Checks that a screw advances equally far per radian in any unit of its file.
 #[test]
 fn the_pitch_of_a_screw_is_a_length() {
     let twist = |unit: &str, metre: i64| {
@@ -67,7 +67,8 @@ fn the_pitch_of_a_screw_is_a_length() {
     }
 }
 
-/// What slides in a guide and turns about two pins behind it has the guide in its first link, however the pins have turned.
+/// Checks a joint that slides in a guide and turns about two pins behind it. The guide is in its first link at any angles of
+/// the pins.
 #[test]
 fn a_guide_stays_with_the_first_link() {
     let m = two_joints("universal", "m", 1);
@@ -86,8 +87,8 @@ fn a_guide_stays_with_the_first_link() {
     assert!(length(sub([slide[3], slide[4], slide[5]], first)) < 1e-12);
 }
 
-/// A coupler on three equal cranks, one more than hold it, and a force across the third. The pin of a crank in a slot takes the
-/// redundant constraint out, and what it bears is across the slot.
+/// Creates a coupler on three equal cranks, one more than needed, and a force across the third. The pin of a crank in a slot
+/// removes the redundant constraint, and bears a force across the slot.
 fn three_cranks(turned: bool, stroke: &str) -> Mechanism {
     let mut text =
         "name = \"it\"\nmode = \"planar\"\nlength_unit = \"m\"\nsearch.options = [\"revolute\", \"slotted\"]\n"
@@ -121,7 +122,7 @@ fn three_cranks(turned: bool, stroke: &str) -> Mechanism {
     mechanism_from_str("it.toml", &(text + stroke)).unwrap()
 }
 
-/// Scores by tables are those of the variants built and solved, whichever link a joint names first.
+/// Checks that scores by tables are those of the variants as built and solved, in either order of a joint's links.
 fn as_built(stroke: &str) {
     for turned in [false, true] {
         let m = three_cranks(turned, stroke);

@@ -96,7 +96,7 @@ impl<'a> SetSamples<'a> {
         Some((drawn, found))
     }
 
-    /// How many more samples are needed, as far as the first tell.
+    /// Returns the number of further samples needed, as estimated from the first ones.
     fn needed_samples(&self) -> usize {
         let needed = (NORMAL / WITHIN).powi(2) * self.odds * MARGIN;
         #[allow(
@@ -159,7 +159,8 @@ fn bisect_chance(holds: impl Fn(f64) -> bool) -> f64 {
     low
 }
 
-/// The chance that no more than `most` of some samples are found where each is with the chance `p`, which is neither 0 nor 1.
+/// Returns the probability of at most `most` successes in some samples. Each succeeds with probability `p`, which is neither
+/// 0 nor 1.
 fn up_to(samples: usize, most: usize, p: f64) -> f64 {
     let (n, odds) = (as_float(samples), p.ln() - (-p).ln_1p());
     let mut term = n * (-p).ln_1p();

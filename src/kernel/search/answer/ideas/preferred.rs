@@ -14,7 +14,8 @@ const COMPARED: usize = 4096;
 /// Maximum number of partial variants that are examined for them.
 const LOOKED: usize = 1 << 16;
 
-/// The variant that is shown for the idea of one that is among the cheapest of it, which it is where there are too many to look at.
+/// Returns the variant that represents the idea of one of its cheapest variants. This is the given variant if there are too
+/// many to examine.
 ///
 /// # Complexity
 /// O(nodes that the idea's variants use · ways of sharing out its freedoms), bounded.
@@ -126,7 +127,7 @@ impl Members<'_> {
         }
     }
 
-    /// The least cost of a way from a node to the end that adds just what is left of the pattern.
+    /// Returns the least cost of a path from a node to the end that adds exactly the remaining pattern.
     fn least_cost(&mut self, depth: usize, node: u32) -> Option<u64> {
         if depth == self.diagram.layers.len() {
             let end = *self.diagram.terminals.get(node as usize)?;

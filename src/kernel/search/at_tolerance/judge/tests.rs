@@ -35,12 +35,12 @@ fn judged(m: &Mechanism, conditions: Conditions, digits: Digits, choices: &[usiz
     [found.determinate, found.admissible].map(|s| word(s).to_owned())
 }
 
-/// A body on two hinges so far apart, and a hinge aside that says how large all is.
+/// Creates a body on two hinges at a distance of `apart`, and a hinge to the side that sets the size.
 fn door(apart: f64) -> Vec<Drawn> {
     hinges(&[([0, 1], [0.0; 3]), ([0, 1], [apart, 0.0, 0.0]), ([0, 2], X)])
 }
 
-/// On one line the hinges of a door have five redundant constraints, on two four.
+/// Checks a door: two hinges have five redundant constraints on one line, and four on two lines.
 #[test]
 fn redundant_constraints_are_sure_where_their_number_is() {
     for (apart, digits, wanted) in [
@@ -66,8 +66,8 @@ fn redundant_constraints_are_sure_where_their_number_is() {
     }
 }
 
-/// A body slides on an arm that turns. That it may turn about the slide, too, keeps its motion where the arm turns about that
-/// line, and gives it a third where it turns about another.
+/// Checks a body that slides on an arm that turns. A freedom to turn about the slide keeps its motion if the arm turns about
+/// that line. Otherwise it adds a third dimension.
 #[test]
 fn a_kept_motion_is_sure_where_its_dimension_is() {
     for (apart, digits, wanted) in [
@@ -88,7 +88,8 @@ fn a_kept_motion_is_sure_where_its_dimension_is() {
     }
 }
 
-/// A contact that stops a door on one line adds no redundant constraint; where the hinges hold it already, one.
+/// Checks a contact that stops a door: it adds no redundant constraint with hinges on one line, and one if the hinges
+/// already hold the door.
 #[test]
 fn external_constraints_are_sure_where_their_number_is() {
     for (apart, digits, wanted) in [

@@ -26,7 +26,7 @@ pub(in crate::draw::kinematic) struct LinkLine {
 }
 
 impl Kinematic<'_> {
-    /// The points of a link that its shape goes through.
+    /// Returns the points of a link that its shape passes through.
     pub(in crate::draw::kinematic) fn points_in_space(&self, link: usize) -> Vec<Vector> {
         let whole = &self.links[link];
         let own = whole.1.iter().map(|&i| self.places[i].point);
@@ -34,14 +34,14 @@ impl Kinematic<'_> {
         own.chain(self.loose_in_space(link)).collect()
     }
 
-    /// The middle of those points.
+    /// Returns the middle of those points.
     pub(in crate::draw::kinematic) fn middle_in_space(&self, link: usize) -> Vector {
         let points = self.points_in_space(link);
         let sum = points.iter().fold([0.0; 3], |s, &p| add3(s, p));
         times(sum, 1.0 / points.len() as f64)
     }
 
-    /// The lines on links that move over some poses; rails become as long as their blocks slide.
+    /// Returns the lines on links that move over some poses. Rails are as long as the travel of their blocks.
     pub(in crate::draw::kinematic) fn moving_lines(
         &mut self,
         poses: &[Carried<'_>],
@@ -53,7 +53,7 @@ impl Kinematic<'_> {
         lines
     }
 
-    /// What blocks slide along, on links that move.
+    /// Returns the lines that blocks slide along, on moving links.
     fn guide_lines(&self, slides: &[Option<[f64; 2]>]) -> Vec<LinkLine> {
         let one = |(i, range): (usize, &Option<[f64; 2]>)| {
             let (range, axis) = ((*range)?, self.slide_axis(i)?);
@@ -66,7 +66,8 @@ impl Kinematic<'_> {
         slides.iter().enumerate().filter_map(one).collect()
     }
 
-    /// A flag on each link that turns while nothing that is drawn of it moves: a rod about itself, a gear about its axle.
+    /// Returns a flag on each link that turns while none of its drawn lines move: a rod about its own axis, a gear about its
+    /// axle.
     fn flag_lines(&self, poses: &[Carried<'_>]) -> Vec<LinkLine> {
         let one = |row: usize| {
             let link = self.links[row].0;
@@ -101,12 +102,12 @@ impl Kinematic<'_> {
         (0..self.links.len()).filter_map(one).collect()
     }
 
-    /// The shape of a link at the pose of the file.
+    /// Returns the shape of a link at the pose in the file.
     pub(in crate::draw::kinematic) fn body_at_rest(&self, row: usize) -> Body {
         self.body_in(row, |p| p)
     }
 
-    /// The shape of a link where a pose has carried it.
+    /// Returns the shape of a link at the place where a pose has moved it.
     fn body_in(&self, row: usize, carried: impl Fn(Vector) -> Vector) -> Body {
         let flat = |p| self.projection.flat_point(carried(p));
         if let Some(arc) = self.arc_in_space(row) {

@@ -31,7 +31,8 @@ impl Carried<'_> {
 }
 
 impl Kinematic<'_> {
-    /// How far along its axis each joint slides from where it is at rest, over all poses; nothing for those that do not.
+    /// Returns how far along its axis each joint slides from its position at rest, over all poses. `None` for joints that do
+    /// not slide.
     pub(in crate::draw::kinematic) fn slide_ranges(
         &self,
         poses: &[Carried<'_>],
@@ -52,7 +53,7 @@ impl Kinematic<'_> {
         (0..self.spots.len()).map(one).collect()
     }
 
-    /// The direction that a joint slides in, where it slides in just one.
+    /// Returns the direction that a joint slides in. `None` unless there is exactly one.
     pub(in crate::draw::kinematic) fn slide_axis(&self, i: usize) -> Option<Vector> {
         let joint = &self.subject.mechanism.joints[self.spots[i].joint];
         let place = &self.places[i];
@@ -68,8 +69,9 @@ impl Kinematic<'_> {
         slides.next().is_none().then_some(first.1)
     }
 
-    /// The link that the symbol of a joint rides on, and the one that it slides along: a block rides on the link that is
-    /// nothing else, and on any rather than on the frame; a slot is the second link's, the pin in it the first's.
+    /// Returns the link that the symbol of a joint moves with, and the link that it slides along. A block moves with a link
+    /// that has no other shape, and preferably not with the frame. A slot belongs to the second link, and the pin in it to
+    /// the first.
     pub(in crate::draw::kinematic) fn carrier_links(&self, i: usize) -> (LinkId, LinkId) {
         let joint = &self.subject.mechanism.joints[self.spots[i].joint];
         let [a, b] = joint.links;

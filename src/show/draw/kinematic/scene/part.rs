@@ -6,7 +6,7 @@ use crate::model::joint_type::{Coupling, Freedom, JointType};
 use crate::model::mechanism::JointId;
 use serde_json::{Value, json};
 
-/// The ground below a joint.
+/// Returns the ground below a joint.
 pub(in crate::draw::kinematic) fn ground_below(reach: f64) -> Vec<Shape> {
     let strokes = (0..5).map(|i| {
         let x = 10.0 - 5.0 * f64::from(i);

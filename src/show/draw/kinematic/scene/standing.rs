@@ -34,7 +34,7 @@ impl Kinematic<'_> {
         out
     }
 
-    /// The view and the links, with nothing on them.
+    /// Returns the view and the links, without symbols.
     fn bare_scene(&self) -> Scene {
         let view = &self.projection.view;
         let m = self.subject.mechanism;
@@ -61,7 +61,7 @@ impl Kinematic<'_> {
         }
     }
 
-    /// The shapes of the links that move.
+    /// Adds the shapes of the moving links.
     fn add_links(&self, out: &mut Scene) {
         for row in 0..self.links.len() {
             if self.is_frame(self.links[row].0) {
@@ -80,7 +80,7 @@ impl Kinematic<'_> {
         }
     }
 
-    /// The pitch circles of gears, each on the link that is not the frame.
+    /// Adds the pitch circles of gears, each on the link that is not the frame.
     fn add_pitch_circles(&self, out: &mut Scene) {
         let m = self.subject.mechanism;
         for coupling in m.couplings_in(self.subject.state) {
@@ -94,7 +94,7 @@ impl Kinematic<'_> {
         }
     }
 
-    /// The points of interest, which come before the joints.
+    /// Adds the points of interest, before the joints.
     fn add_points(&self, out: &mut Scene) {
         for p in &self.points {
             let corners = body::mark_corners([0.0; 2]);
@@ -134,7 +134,7 @@ impl Kinematic<'_> {
         out.couplings = couplings.filter_map(|c| self.tie_json(c, row)).collect();
     }
 
-    /// The ground of a joint in turned views: straight below whatever the view, with the guide of what slides in it.
+    /// Adds the ground of a joint for turned views. It is straight below in every view, with the guide of a sliding part.
     fn add_ground(&self, out: &mut Scene, ground: &Ground) {
         let there = |i: &usize| one_place(self.spots[*i].at, ground.from);
         let Some(i) = (0..self.spots.len()).find(there) else {
@@ -157,7 +157,7 @@ impl Kinematic<'_> {
         }
     }
 
-    /// A symbol with the axes of the file, in every view.
+    /// Returns a symbol with the axes of the file, in every view.
     fn standing_json(&self, at: Vector, links: [usize; 2], symbol: usize) -> Value {
         json!({
             "at": scene_pixels(self, at),

@@ -5,7 +5,7 @@ use crate::geom::vector::{Vector, add, cross, dot, length as norm, scale, sub};
 use crate::model::joint_type::{Freedom, JointType};
 use crate::model::mechanism::{JointId, Mechanism};
 
-/// Joints as they are shown: those that meet in a point with axes of different directions are moved along them.
+/// Returns joints as they are shown. Those that meet in a point with axes of different directions are moved along them.
 pub(crate) fn shown_places(mechanism: &Mechanism, joints: &[JointId]) -> Vec<JointInSpace> {
     let mut out: Vec<JointInSpace> = joints.iter().map(|&j| joint_frame(mechanism, j)).collect();
     if planar_normal(&out).is_some() {
@@ -69,7 +69,7 @@ impl CloseJoints<'_> {
         (t.abs() > 1e-6 * size).then(|| add(p, scale(z, t)))
     }
 
-    /// How far along its axis a joint is clear of the axes of others: between those that meet it, or outside.
+    /// Returns how far along its axis a joint is clear of the axes of others: between those that meet it, or outside.
     fn free_of_others(&self, i: usize) -> f64 {
         let (old, size) = (&self.old, self.size);
         let (p, z) = (old[i].point, old[i].z);
@@ -93,7 +93,7 @@ impl CloseJoints<'_> {
     }
 }
 
-/// The middle between the other joints of the two bars that a sliding pair joins.
+/// Returns the middle between the other joints of the two bars that a sliding pair joins.
 fn middle_between(
     mechanism: &Mechanism,
     joints: &[JointId],
@@ -110,7 +110,7 @@ fn middle_between(
     Some(scale(add(a, b), 0.5))
 }
 
-/// Where on the line p + t·z the line q + s·w meets it.
+/// Returns where on the line p + t·z the line q + s·w meets it.
 pub(in crate::draw) fn meeting_parameter(
     p: Vector,
     z: Vector,

@@ -32,14 +32,14 @@ pub(crate) struct View {
 }
 
 impl View {
-    /// A vector on paper, where y goes down.
+    /// Returns a vector on paper, where y goes down.
     pub(crate) fn flat_vector(&self, v: Vector) -> Point {
         [dot(self.right, v), -dot(self.up, v)]
     }
 }
 
 impl Sight {
-    /// The view that is asked for, if one is.
+    /// Returns the requested view, if there is one.
     pub(super) fn asked_view(&self) -> Option<View> {
         let toward = unit_or(self.toward?, [0.0, 0.0, 1.0]);
         let mut all = all_views().into_iter();
@@ -54,7 +54,7 @@ impl Sight {
         Some(self.turned_view(upright_view(toward, name)))
     }
 
-    /// A view with what goes up as it is asked for.
+    /// Returns a view with the requested direction upwards.
     pub(super) fn turned_view(&self, view: View) -> View {
         let Some(up) = self.up else { return view };
         let right = cross(up, view.toward);
@@ -70,7 +70,7 @@ impl Sight {
     }
 }
 
-/// The views to choose from.
+/// Returns the available views.
 pub(super) fn all_views() -> Vec<View> {
     let axes = [
         ("seen along z", X, Y, Z),
@@ -98,12 +98,12 @@ pub(super) fn all_views() -> Vec<View> {
     out
 }
 
-/// The first isometric view.
+/// Returns the first isometric view.
 pub(crate) fn isometric_view() -> View {
     upright_view([1.0, 1.0, 1.0].map(|x: f64| x / 3f64.sqrt()), "isometric")
 }
 
-/// The view along z.
+/// Returns the view along z.
 pub(crate) fn along_z() -> View {
     all_views()[0]
 }
@@ -120,7 +120,7 @@ fn upright_view(toward: Vector, name: &'static str) -> View {
     }
 }
 
-/// Along a normal, from the side that the isometric views are on.
+/// Returns the view along a normal, from the side of the isometric views.
 pub(super) fn face_on(normal: Vector) -> View {
     let mut all = all_views().into_iter();
     if let Some(view) = all.find(|v| v.axis && norm(cross(v.toward, normal)) < FLAT) {
