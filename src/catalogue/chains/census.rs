@@ -261,6 +261,14 @@ impl Census {
 ///
 /// # Errors
 /// Returns an error in the same cases as [`visit_chains`].
+///
+/// # Examples
+/// ```
+/// use ozols::chains::census::{Counted, count_hinged};
+/// let of_six = count_hinged(6, 1, true)?;
+/// assert!(of_six.grippers.values().any(|g| g[Counted::Essential] > 0));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn count_hinged(links: usize, mobility: usize, grippers: bool) -> Result<Census, ChainsError> {
     let all = Mutex::new(Census::default());
     visit_chains(links, mobility, &|chain| {

@@ -51,6 +51,14 @@ pub struct Claim {
 
 impl Claim {
     /// Returns true if the claim holds.
+    ///
+    /// # Examples
+    /// ```
+    /// let gripper = ozols::built_in("gripper-10")?;
+    /// // Each refuted claim says what is right.
+    /// assert!(gripper.claims.iter().all(|c| c.holds() == c.right.is_none()));
+    /// # Ok::<(), ozols::Error>(())
+    /// ```
     #[must_use]
     pub fn holds(&self) -> bool {
         self.right.is_none()

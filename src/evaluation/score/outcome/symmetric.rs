@@ -55,6 +55,14 @@ impl Outcome {
     ///
     /// # Complexity
     /// Three searches of each symmetry. Joints that are images of each other are one variable.
+    ///
+    /// # Examples
+    /// ```
+    /// let outcome = ozols::search(&ozols::built_in("gripper-10")?, &ozols::Request::default())?;
+    /// let found = outcome.symmetric_best(&|| false)?.expect("it has a mirror");
+    /// assert!(found.best.iter().all(|b| b.left <= 2));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     pub fn symmetric_best(
         &self,
         should_cancel: &(dyn Fn() -> bool + Sync),
