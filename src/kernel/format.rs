@@ -4,14 +4,14 @@
 //!
 //! | style | digits | 1234.5678 | 2 | 0.00001 | for |
 //! |---|---|---|---|---|---|
-//! | [`significant`] | at most 4 | 1235 | 2 | 1e-5 | sentences and tables |
-//! | [`figure`] | 5, the same in every row | 1234.6 | 2.0000 | 1.0000e-5 | columns of forces |
-//! | [`brief`] | 3 | 1235 | 2.00 | 1.00e-5 | a difference mentioned briefly |
-//! | [`scientific`] | at most 2 | 1235 | 2 | 1e−5 | tolerances and noise in captions |
-//! | [`tooltip`] | at most 6 | 1234.57 | 2 | 1e−5 | points of a chart |
+//! | [`four_digits`] | at most 4 | 1235 | 2 | 1e-5 | sentences and tables |
+//! | [`five_digits`] | 5, the same in every row | 1234.6 | 2.0000 | 1.0000e-5 | columns of forces |
+//! | [`three_digits`] | 3 | 1235 | 2.00 | 1.00e-5 | a difference mentioned briefly |
+//! | [`two_digits`] | at most 2 | 1235 | 2 | 1e−5 | tolerances and noise in captions |
+//! | [`six_digits`] | at most 6 | 1234.57 | 2 | 1e−5 | points of a chart |
 //! | [`decimals`] | to a given decimal | 1234.57 | 2 | 0 | coordinates |
 //!
-//! Whole numbers that may be large use [`grouped`], costs use [`cost`], and times use [`duration`].
+//! Whole numbers that may be large use [`group_thousands`], costs use [`format_cost`], and times use [`format_duration`].
 
 pub mod csv;
 pub mod did_you_mean;

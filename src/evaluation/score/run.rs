@@ -101,7 +101,7 @@ pub fn run(
     )
 }
 
-/// Searches a mechanism that [`Request::prepare`] gave, under what [`Request::conditions`] gave.
+/// Searches a mechanism that [`Request::prepare`] gave, under what [`Request::search_conditions`] gave.
 ///
 /// # Errors
 /// Returns an error in the same cases as [`run`].

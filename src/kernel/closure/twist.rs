@@ -202,7 +202,7 @@ impl<N: Clone + PartialEq + Default> FrameValues<N> {
             .collect()
     }
 
-    /// Returns [`FrameValues::motions`] in the order of passage from the first link of the joint to the second. Slides
+    /// Returns [`FrameValues::motions_in_space`] in the order of passage from the first link of the joint to the second. Slides
     /// come before turns. For a pin in a slot the turn comes first, because the slot belongs to the second link.
     pub fn motions_in_series<S: Scalars<Number = N>>(
         &self,
@@ -216,7 +216,7 @@ impl<N: Clone + PartialEq + Default> FrameValues<N> {
         all
     }
 
-    /// Returns [`FrameValues::motions`] in the components of the motion space.
+    /// Returns [`FrameValues::motions_in_space`] in the components of the motion space.
     pub fn twists_in_space<S: Scalars<Number = N>>(
         &self,
         s: &S,
@@ -301,7 +301,7 @@ impl<N: Clone + PartialEq + Default> OutOfPlane<N> {
 /// Freedoms, each with its twist.
 pub type FreedomTwists<N> = Vec<(Freedom, Vec<N>)>;
 
-/// Returns the motions of a joint in a motion space, see [`FrameValues::motions`].
+/// Returns the motions of a joint in a motion space, see [`FrameValues::motions_in_space`].
 ///
 /// # Errors
 /// Returns an error if a coordinate has no value in the number system.

@@ -24,7 +24,7 @@ pub fn encode_cell(text: &str) -> String {
 }
 
 /// Returns a table with column heads, as text. Tables too long to hold in memory are written row by row with
-/// [`encoded`] cells.
+/// [`encode_cell`] cells.
 pub fn write_table<Row, Cell>(heads: &[&str], rows: impl IntoIterator<Item = Row>) -> String
 where
     Row: IntoIterator<Item = Cell>,

@@ -74,7 +74,7 @@ pub struct OwnScale {
 }
 
 impl OwnScale {
-    /// Returns the scale of some points; sizes are those of [`Extent::of`].
+    /// Returns the scale of some points; sizes are those of [`Extent::from_points`].
     #[must_use]
     pub fn from_points(points: &[&[Expr; 3]]) -> OwnScale {
         let zero = Expr::from(0);

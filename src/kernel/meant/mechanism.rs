@@ -157,7 +157,7 @@ fn written_alike(a: &[Expr; 3], b: &[Expr; 3]) -> bool {
 /// left to the default.
 ///
 /// # Complexity
-/// As [`resolve`].
+/// As [`resolve_scene`].
 #[must_use]
 pub fn recover_mechanism(mechanism: &Mechanism) -> Option<Meant> {
     let half = uncertainties(mechanism)?;

@@ -45,7 +45,7 @@ impl Pose {
     /// halved up to `halvings` times until the pose closes elsewhere.
     ///
     /// # Complexity
-    /// As [`Pose::close`] for each step tried.
+    /// As [`Pose::close_loops`] for each step tried.
     #[must_use]
     pub fn closed_beside(
         &self,
@@ -67,7 +67,7 @@ impl Pose {
     /// coordinates fixed.
     ///
     /// # Errors
-    /// Returns [`PoseError::Open`] if the gaps do not fall below [`Pose::closed`].
+    /// Returns [`PoseError::Open`] if the gaps do not fall below [`Pose::closed_tolerance`].
     ///
     /// # Complexity
     /// O((6k)²·f) per step.

@@ -36,7 +36,7 @@ pub struct Way {
 /// stops it.
 ///
 /// # Complexity
-/// As [`Follower::advance`], for about ten poses per radian, three times.
+/// As [`Follower::advance_to`], for about ten poses per radian, three times.
 ///
 /// # Examples
 /// ```

@@ -55,7 +55,7 @@ const CLOSINGS: usize = 1_000;
 /// Returns an error if a coordinate has no value in the field.
 ///
 /// # Complexity
-/// One rank and, if nothing is proven, the closures of [`local_dimension::mobility`].
+/// One rank and, if nothing is proven, the closures of [`local_dimension::mobility_by_following`].
 pub fn finite_mobility(
     exact: &ExactField,
     mechanism: &Mechanism,

@@ -29,7 +29,7 @@ use crate::redundancy::stress::{SelfStress, self_stresses};
 /// Method for the rank.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Method {
-    /// The cheapest that is certain, see [`decide`].
+    /// The cheapest that is certain, see [`decide_state`].
     Auto,
     /// Modulo two primes, with every digit taken exactly as written.
     Modular,

@@ -120,7 +120,7 @@ impl HeldTwice {
 /// many constraints. If nothing is proven, a few further poses show which are redundant at this pose only.
 ///
 /// # Errors
-/// Returns an error in the same cases as [`analyse`].
+/// Returns an error in the same cases as [`analyse_states`].
 ///
 /// # Complexity
 /// That of an analysis and two decompositions of J. If nothing is proven, also a few tens of closures. Only an analysis if σ

@@ -272,7 +272,7 @@ fn first_those_without(
 /// result would mean nothing.
 ///
 /// # Complexity
-/// That of [`modular::rank`].
+/// That of [`modular::rank_modulo`].
 ///
 /// # Examples
 /// ```

@@ -49,7 +49,7 @@ pub enum ReadError {
 }
 
 impl CertificateFile {
-    /// Reads a file of certificates. Its claims have to be confirmed by [`super::check`]. O(length).
+    /// Reads a file of certificates. Its claims have to be confirmed by [`super::check_certificate`]. O(length).
     ///
     /// # Errors
     /// Returns an error if the text is not such a file.

@@ -44,7 +44,7 @@ impl Evaluator<'_> {
     /// Returns [`Unsolved`] if the loads have no equilibrium.
     ///
     /// # Complexity
-    /// That of [`Evaluator::scores`].
+    /// That of [`Evaluator::score_variant`].
     pub fn bearings(
         &self,
         variant: &Assignment,
@@ -78,7 +78,7 @@ impl Outcome {
     /// Returns an error in the same cases as [`Evaluator::in_states`].
     ///
     /// # Complexity
-    /// [`Evaluator::scores`] for each variant, in parallel.
+    /// [`Evaluator::score_variant`] for each variant, in parallel.
     ///
     /// # Examples
     /// ```

@@ -39,7 +39,7 @@ pub struct Uncertainties {
     /// Half units of the frames, by joint.
     pub frames: Vec<FrameUncertainty>,
     /// Half units of the frames of the options, by joint, in the order of
-    /// [`Joint::offered`](crate::model::mechanism::Joint::offered).
+    /// [`Joint::offered`](crate::model::mechanism::Joint::offered_options).
     pub option_frames: Vec<Vec<FrameUncertainty>>,
     /// Half units of the points of interest.
     pub points: Vec<[f64; 3]>,

@@ -97,7 +97,7 @@ pub fn closure_matrix(
     )
 }
 
-/// Returns a certificate of the rank of a state's J, confirmed by [`verify::check`].
+/// Returns a certificate of the rank of a state's J, confirmed by [`verify::check_certificate`].
 ///
 /// # Errors
 /// Returns a [`NoCertificate`] if there is none within the [`Budget`].
@@ -140,7 +140,7 @@ pub(crate) fn certify_within(
 ///
 /// # Complexity
 /// The degree of the field is d. Each prime takes O(d · rows · rank · columns + d² · kernel entries) operations modulo
-/// it. There are about two primes for each 60 bits of the kernel's numbers. Then as [`verify::check`].
+/// it. There are about two primes for each 60 bits of the kernel's numbers. Then as [`verify::check_certificate`].
 pub fn certify_matrix(
     field: &NumberField,
     matrix: &MatrixOverRing,

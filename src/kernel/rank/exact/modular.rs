@@ -228,7 +228,7 @@ fn independent_columns(field: Field, columns: &mut [Residue], height: usize) -> 
     basis
 }
 
-/// [`rank`] as a method.
+/// [`rank_modulo`] as a method.
 #[derive(Debug, Clone, Copy)]
 pub struct Modular;
 

@@ -31,7 +31,7 @@ pub struct Decision {
 /// Returns an error if the geometry has no image in a prime field, or if the singular values do not converge.
 ///
 /// # Complexity
-/// That of [`verdict`], and of the finite mobility.
+/// That of [`rank_verdict`], and of the finite mobility.
 ///
 /// # Examples
 /// ```

@@ -82,7 +82,7 @@ impl LeastRows {
     /// Returns an error if a coordinate has no value in the field.
     ///
     /// # Complexity
-    /// That of [`modular::rank`]. For each joint and plane examined, a few eliminations of six by six numbers.
+    /// That of [`modular::rank_modulo`]. For each joint and plane examined, a few eliminations of six by six numbers.
     pub fn new(
         exact: &ExactField,
         mechanism: &Mechanism,

@@ -199,7 +199,7 @@ fn rank_of(mechanism: &Mechanism, state: StateId) -> Result<usize, NoAnswer> {
 ///
 /// # Complexity
 /// The recovery of the intended scene and one modular rank. With decimals also one singular value decomposition, and
-/// [`nearest`] only if the ranks disagree.
+/// [`nearest_of_rank`] only if the ranks disagree.
 ///
 /// # Examples
 /// ```
@@ -352,7 +352,7 @@ pub struct Settled {
 /// Determines which mechanism is intended in some states.
 ///
 /// # Errors
-/// Returns an error in the same cases as [`verdict`].
+/// Returns an error in the same cases as [`rank_verdict`].
 ///
 /// # Guarantee
 /// If no verdict is open, the exact rank of J in each state is that of its verdict.

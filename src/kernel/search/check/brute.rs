@@ -252,7 +252,7 @@ pub fn variant_key(question: &Question, choices: &[usize], redundancy: Redundanc
     Key(sum + question.steps.redundancy_key(redundancy).0)
 }
 
-/// Returns the properties of a variant, and whether it is admissible except for the conditions on W and changes ([`Question::wanted`]).
+/// Returns the properties of a variant, and whether it is admissible except for the conditions on W and changes ([`Question::is_wanted`]).
 /// Returns `None` if it is not determinate. The searched state is examined on the mechanism of the variant.
 ///
 /// # Errors
