@@ -78,6 +78,16 @@ impl<N: Clone + Default + PartialEq> Closure<N> {
     ///
     /// # Errors
     /// Returns an error if a coordinate has no value in the number system.
+    ///
+    /// # Examples
+    /// ```
+    /// use ozols::closure::Closure;
+    /// use ozols::geom::Reals;
+    /// use ozols::model::mechanism::StateId;
+    /// let j = Closure::new(&Reals, &ozols::built_in("gripper-10")?, StateId::FREE)?;
+    /// assert_eq!((j.rows(), j.columns.len()), (24, 14)); // 6k and f
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     pub fn new<S: Scalars<Number = N>>(
         s: &S,
         mechanism: &Mechanism,

@@ -18,6 +18,18 @@ use crate::motion::pose::Pose;
 ///
 /// # Complexity
 /// One pass over the joints.
+///
+/// # Examples
+/// ```
+/// use ozols::{model::mechanism::StateId, motion::{follow, move_mechanism, pose::Pose}};
+/// let bennett = ozols::built_in("bennett")?;
+/// let mut follower = follow::Follower::new(Pose::of_file(&bennett, StateId::FREE)?, 0, &[]);
+/// follower.advance_to(0.5, |_| {}).expect("it turns");
+/// // The linkage moves on in the new pose.
+/// let moved = move_mechanism(&bennett, &follower.current_pose()).expect("numbers are small");
+/// assert_eq!(moved.joints.len(), 4);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[must_use]
 pub fn move_mechanism(m: &Mechanism, pose: &Pose) -> Option<Mechanism> {
     let mut out = m.clone();

@@ -89,6 +89,14 @@ pub struct StateFigures {
 ///
 /// # Errors
 /// Returns an error if the geometry has no exact image.
+///
+/// # Examples
+/// ```
+/// use ozols::{model::mechanism::StateId, redundancy::state_figures};
+/// let gripper = state_figures(&ozols::built_in("gripper-10")?, StateId::FREE)?;
+/// assert_eq!((gripper.mobility, gripper.redundant, gripper.contours), (1, 11, 4));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn state_figures(mechanism: &Mechanism, state: StateId) -> Result<StateFigures, ExactError> {
     let (exact, closure) = closure_of(mechanism, state, 0)?;
     let rank = modular::rank_modulo(&exact, &closure);

@@ -38,6 +38,17 @@ use std::ops::Deref;
 use std::sync::Arc;
 
 /// A search: a prepared problem, its diagrams, and the results read from them.
+///
+/// # Examples
+/// ```
+/// use ozols::{rank::exact::field::exact_field, search::{Search, question::conditions::Conditions}};
+/// let gripper = ozols::built_in("gripper-10")?;
+/// let search = Search::new(exact_field(&gripper, 0)?, &gripper, Conditions::default())?;
+/// let diagrams = search.build_diagrams(&|| false, &mut |_| {});
+/// let counts = search.count_variants(&diagrams.admissible, true);
+/// assert_eq!(counts.to_string(), "25761436"); // In the drawn pose.
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Debug)]
 pub struct Search {
     question: Question,
@@ -67,6 +78,16 @@ impl Search {
     }
 
     /// Returns the variable orders of both diagrams. A reference search over another prime may use them.
+    ///
+    /// # Examples
+    /// ```
+    /// use ozols::{rank::exact::field::exact_field, search::{Search, question::conditions::Conditions}};
+    /// let four_bar = ozols::built_in("four-bar")?;
+    /// let search = Search::new(exact_field(&four_bar, 0)?, &four_bar, Conditions::default())?;
+    /// let known = search.build_in(&search.variable_orders(), &|| false, &mut |_| {});
+    /// assert!(search.has_all(&known.determinate));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     #[must_use]
     pub fn variable_orders(&self) -> Orders {
         build::orders::variable_orders(self)
@@ -104,6 +125,18 @@ impl Search {
     }
 
     /// Returns at most `top` admissible variants, cheapest first.
+    ///
+    /// # Examples
+    /// ```
+    /// use ozols::{rank::exact::field::exact_field, search::{Search, question::conditions::Conditions}};
+    /// let four_bar = ozols::built_in("four-bar")?;
+    /// let search = Search::new(exact_field(&four_bar, 0)?, &four_bar, Conditions::default())?;
+    /// let diagrams = search.build_diagrams(&|| false, &mut |_| {});
+    /// let found: Vec<_> = search.cheapest_variants(&diagrams, 5).collect();
+    /// assert!(found.windows(2).all(|w| w[0].key.cost() <= w[1].key.cost()));
+    /// assert!(found.iter().all(|v| v.key.internal() == 0)); // σ = 0
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     pub fn cheapest_variants<'a>(
         &'a self,
         diagrams: &'a Diagrams,
@@ -113,6 +146,17 @@ impl Search {
     }
 
     /// Returns an endless sample of admissible variants, each with the same probability.
+    ///
+    /// # Examples
+    /// ```
+    /// use ozols::{rank::exact::field::exact_field, search::{Search, question::conditions::Conditions}};
+    /// let four_bar = ozols::built_in("four-bar")?;
+    /// let search = Search::new(exact_field(&four_bar, 0)?, &four_bar, Conditions::default())?;
+    /// let diagrams = search.build_diagrams(&|| false, &mut |_| {});
+    /// let drawn = || search.sample_variants(&diagrams, 7).take(3).collect::<Vec<_>>();
+    /// assert_eq!(drawn(), drawn()); // The seed decides.
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     pub fn sample_variants<'a>(
         &'a self,
         diagrams: &'a Diagrams,
@@ -138,6 +182,17 @@ impl Search {
 
     /// Returns the number of minimal admissible variants: no other variant has only a part of their freedoms. Returns
     /// `None` if that is not counted.
+    ///
+    /// # Examples
+    /// ```
+    /// use ozols::{rank::exact::field::exact_field, search::{Search, question::conditions::Conditions}};
+    /// let four_bar = ozols::built_in("four-bar")?;
+    /// let search = Search::new(exact_field(&four_bar, 0)?, &four_bar, Conditions::default())?;
+    /// let diagrams = search.build_diagrams(&|| false, &mut |_| {});
+    /// assert_eq!(search.count_variants(&diagrams.admissible, true).to_string(), "14");
+    /// assert_eq!(search.count_minimal(&diagrams), Some(12u32.into()));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     #[must_use]
     pub fn count_minimal(&self, diagrams: &Diagrams) -> Option<BigUint> {
         least_freedoms::count_minimal(self, diagrams)
@@ -159,6 +214,18 @@ impl Search {
 
     /// Returns at most `top` first ideas, each of all minimal variants that give the same freedoms to the same
     /// contours.
+    ///
+    /// # Examples
+    /// ```
+    /// use ozols::{rank::exact::field::exact_field, search::{Search, question::conditions::Conditions}};
+    /// let four_bar = ozols::built_in("four-bar")?;
+    /// let search = Search::new(exact_field(&four_bar, 0)?, &four_bar, Conditions::default())?;
+    /// let diagrams = search.build_diagrams(&|| false, &mut |_| {});
+    /// let ideas = search.list_ideas(&diagrams, 3);
+    /// // The first adds the three freedoms that remove σ = 3, and may add them in six ways.
+    /// assert_eq!((ideas[0].first.key.freedoms(), ideas[0].variants.to_string().as_str()), (4 + 3, "6"));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     pub fn list_ideas(&self, diagrams: &Diagrams, top: usize) -> Vec<Idea> {
         ideas::list_ideas(self, diagrams, top)
     }

@@ -27,6 +27,14 @@ impl Shard {
     ///
     /// # Errors
     /// Returns an error if `index` is 0 or exceeds `of`.
+    ///
+    /// # Examples
+    /// ```
+    /// use ozols::shard::Shard;
+    /// let shards: Vec<Shard> = (1..=3).filter_map(|n| Shard::nth_of(n, 3).ok()).collect();
+    /// // Every piece belongs to exactly one shard.
+    /// assert_eq!(shards.iter().filter(|s| s.has_piece("a piece")).count(), 1);
+    /// ```
     pub fn nth_of(index: u64, of: u64) -> Result<Shard, NoShard> {
         match index.checked_sub(1) {
             Some(index) if index < of => Ok(Shard { index, of }),

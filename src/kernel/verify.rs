@@ -30,6 +30,19 @@ use modular::Homomorphism;
 ///
 /// # Complexity
 /// O(r³) operations modulo the prime and O(entries · (f - r)) products in the ring.
+///
+/// # Examples
+/// ```
+/// use ozols::{model::mechanism::StateId, rank::exact::certificate, verify::check_certificate};
+/// let bennett = ozols::built_in("bennett")?;
+/// let field = certificate::number_field(&bennett, StateId::FREE)?;
+/// let j = certificate::closure_matrix(&field, &bennett, StateId::FREE)?;
+/// let mut claim = certificate::certify_state(&bennett, StateId::FREE)?;
+/// assert_eq!(check_certificate(&j, &claim)?, 3);
+/// claim.rank = 4;
+/// assert!(check_certificate(&j, &claim).is_err());
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn check_certificate(
     matrix: &MatrixOverRing,
     certificate: &Certificate,

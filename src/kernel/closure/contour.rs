@@ -21,6 +21,16 @@ pub struct Contour {
 
 impl Contour {
     /// Returns the name used in the field: the links in order, as in `0-1-2-3`.
+    ///
+    /// # Examples
+    /// ```
+    /// use ozols::closure::contour::contour_basis;
+    /// use ozols::model::mechanism::StateId;
+    /// let four_bar = ozols::built_in("four-bar")?;
+    /// let basis = contour_basis(&four_bar, StateId::FREE);
+    /// assert_eq!(basis[0].name(&four_bar), "0-1-2-3");
+    /// # Ok::<(), ozols::Error>(())
+    /// ```
     #[must_use]
     pub fn name(&self, mechanism: &Mechanism) -> String {
         self.links
@@ -41,6 +51,16 @@ impl Contour {
 
 /// Returns a set of joints that forms one closed walk in order, starting at its first joint. Returns `None` if it does
 /// not form one.
+///
+/// # Examples
+/// ```
+/// use ozols::closure::contour::closed_walk;
+/// let four_bar = ozols::built_in("four-bar")?;
+/// let joints: Vec<_> = four_bar.joint_ids().collect();
+/// assert!(closed_walk(&four_bar, &joints).is_some_and(|c| c.links.len() == 4));
+/// assert!(closed_walk(&four_bar, &joints[..3]).is_none()); // It does not return.
+/// # Ok::<(), ozols::Error>(())
+/// ```
 #[must_use]
 pub fn closed_walk(mechanism: &Mechanism, joints: &[JointId]) -> Option<Contour> {
     let mut left: Vec<JointId> = joints.to_vec();

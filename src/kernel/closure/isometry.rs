@@ -173,6 +173,15 @@ impl Isometry {
     /// Returns the reflections in which the pairs may be images, the most likely first, with the deviation of every
     /// pair. The pairs themselves suggest the planes, which are ranked by most of the pairs, and then by all joints if
     /// these agree.
+    ///
+    /// # Examples
+    /// ```
+    /// use ozols::closure::isometry::Isometry;
+    /// let gripper = ozols::built_in("gripper-10")?;
+    /// let found = Isometry::find_mirrors(&gripper, &gripper.search.mirror);
+    /// assert!(found[0].1.iter().all(|miss| miss.distance == 0.0)); // Every pair fits the first plane.
+    /// # Ok::<(), ozols::Error>(())
+    /// ```
     #[must_use]
     pub fn find_mirrors(
         mechanism: &Mechanism,

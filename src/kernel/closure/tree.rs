@@ -23,6 +23,16 @@ pub struct TreeStep<N = LinkId, E = JointId> {
 ///
 /// # Complexity
 /// O(n + m) for n links, m joints.
+///
+/// # Examples
+/// ```
+/// use ozols::closure::tree::spanning_tree;
+/// use ozols::model::mechanism::StateId;
+/// // Every link but the frame; the one joint more than steps closes the loop.
+/// let four_bar = ozols::built_in("four-bar")?;
+/// assert_eq!(spanning_tree(&four_bar, StateId::FREE).len(), 3);
+/// # Ok::<(), ozols::Error>(())
+/// ```
 #[must_use]
 pub fn spanning_tree(mechanism: &Mechanism, state: StateId) -> Vec<TreeStep> {
     let joints: Vec<JointId> = mechanism.joints_in(state).collect();
@@ -80,6 +90,15 @@ pub(crate) fn path_in(tree: &[TreeStep], link: LinkId) -> Vec<(JointId, bool)> {
 ///
 /// # Complexity
 /// O(n + m) for n nodes, m edges.
+///
+/// # Examples
+/// ```
+/// use ozols::closure::tree::spanning_forest;
+/// // A triangle and a separate edge.
+/// let edges = [[0, 1], [1, 2], [2, 0], [3, 4]];
+/// let (roots, steps) = spanning_forest(5, edges, |_| false, 0..5);
+/// assert_eq!((roots, steps.len()), (vec![0, 3], 3));
+/// ```
 pub fn spanning_forest(
     nodes: usize,
     edges: impl IntoIterator<Item = [usize; 2]>,

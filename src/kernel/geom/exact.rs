@@ -33,6 +33,16 @@ impl ExactField {
     ///
     /// # Errors
     /// Returns an [`ExactError`] if a divisor is zero, a nested root is ambiguous, or a limit on roots is exceeded.
+    ///
+    /// # Examples
+    /// ```
+    /// use ozols::geom::exact::ExactField;
+    /// use ozols::geom::expr::Expr;
+    /// let zero: Expr = "cos(36deg) - (1 + sqrt(5))/4".parse()?;
+    /// let field = ExactField::for_expressions([&zero], 0)?;
+    /// assert_eq!(field.eval(&zero)?, 0);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     pub fn for_expressions<'a>(
         exprs: impl IntoIterator<Item = &'a Expr>,
         nth: usize,
@@ -72,6 +82,15 @@ impl ExactField {
     ///
     /// # Panics
     /// Panics in the same cases as [`Field::new`].
+    ///
+    /// # Examples
+    /// ```
+    /// use ozols::geom::exact::ExactField;
+    /// let modulo = ExactField::of_prime(101);
+    /// let half = modulo.eval(&"1/2".parse()?)?;
+    /// assert_eq!(modulo.field().to_u64(half), 51); // 2 · 51 = 1 modulo 101
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     #[must_use]
     pub fn of_prime(p: u64) -> ExactField {
         let field = Field::new(p);

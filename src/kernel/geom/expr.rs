@@ -45,6 +45,15 @@ impl Expr {
     ///
     /// # Errors
     /// Returns [`ExprError::NonFiniteFloat`] for infinities and NaN.
+    ///
+    /// # Examples
+    /// ```
+    /// use ozols::geom::expr::Expr;
+    /// // One tenth, as the designer intended, and not the nearest double.
+    /// assert!(Expr::from_f64(0.1)?.is_same(&"1/10".parse()?));
+    /// assert!(Expr::from_f64(f64::NAN).is_err());
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     pub fn from_f64(x: f64) -> Result<Expr, ExprError> {
         let bad = || ExprError::NonFiniteFloat {
             value: x.to_string(),
@@ -80,18 +89,42 @@ impl Expr {
     }
 
     /// Returns the rational that this expression was folded to, if any. O(size of the number).
+    ///
+    /// # Examples
+    /// ```
+    /// use ozols::geom::expr::Expr;
+    /// let folded = "1/2 + 0.25".parse::<Expr>()?.as_rational();
+    /// assert_eq!(folded.map(|r| r.to_string()).as_deref(), Some("3/4"));
+    /// assert!("sqrt(2)".parse::<Expr>()?.as_rational().is_none());
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     #[must_use]
     pub fn as_rational(&self) -> Option<BigRational> {
         self.rational_ref().cloned()
     }
 
     /// Returns π to [`PI_DIGITS`] decimals.
+    ///
+    /// # Examples
+    /// ```
+    /// use ozols::geom::expr::Expr;
+    /// assert!((Expr::pi().to_f64() - std::f64::consts::PI).abs() < 1e-15);
+    /// ```
     #[must_use]
     pub fn pi() -> Expr {
         Expr::new(NodeKind::Pi)
     }
 
     /// Returns true if the expression contains π as decimals.
+    ///
+    /// # Examples
+    /// ```
+    /// use ozols::geom::expr::Expr;
+    /// // Half a turn in an angle is exact; π as a number is not.
+    /// assert!(!"cos(pi/5)".parse::<Expr>()?.has_pi());
+    /// assert!(Expr::pi().has_pi());
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     #[must_use]
     pub fn has_pi(&self) -> bool {
         let leaf = |e: &&Expr| matches!(e.kind(), NodeKind::Pi);
@@ -99,12 +132,29 @@ impl Expr {
     }
 
     /// Returns true if the expression was folded to the rational 0. O(1).
+    ///
+    /// # Examples
+    /// ```
+    /// use ozols::geom::expr::Expr;
+    /// assert!("3/4 - 0.75".parse::<Expr>()?.is_zero_rational());
+    /// assert!(!"1e-30".parse::<Expr>()?.is_zero_rational());
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     #[must_use]
     pub fn is_zero_rational(&self) -> bool {
         self.rational_ref().is_some_and(Zero::is_zero)
     }
 
     /// Returns true if two expressions are identical, or the same rational; `false` decides nothing. O(1).
+    ///
+    /// # Examples
+    /// ```
+    /// use ozols::geom::expr::Expr;
+    /// let half: Expr = "0.5".parse()?;
+    /// assert!(half.is_same(&"1/2".parse()?));
+    /// assert!(!half.is_same(&"0.500001".parse()?));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     pub fn is_same(&self, other: &Expr) -> bool {
         let rationals = (self.rational_ref(), other.rational_ref());
         Arc::ptr_eq(&self.0, &other.0) || matches!(rationals, (Some(a), Some(b)) if a == b)
@@ -157,6 +207,14 @@ impl Expr {
     }
 
     /// Returns the quotient, or `None` if the divisor cannot be distinguished from zero.
+    ///
+    /// # Examples
+    /// ```
+    /// use ozols::geom::expr::Expr;
+    /// let third = Expr::from(1).div(&Expr::from(3));
+    /// assert!(third.is_some_and(|x| x.to_f64() == 1.0 / 3.0));
+    /// assert!(Expr::from(1).div(&Expr::from(0)).is_none());
+    /// ```
     pub fn div(&self, other: &Expr) -> Option<Expr> {
         if other.0.enclosure.has_zero() {
             return None;

@@ -36,6 +36,13 @@ pub fn box_diagonal(points: impl Iterator<Item = Vector> + Clone) -> f64 {
 
 impl Extent {
     /// Returns the extent of some points.
+    ///
+    /// # Examples
+    /// ```
+    /// use ozols::geom::extent::Extent;
+    /// let extent = Extent::from_points(&[[0.0, 0.0, 0.0], [6.0, 8.0, 0.0]]);
+    /// assert_eq!((extent.middle, extent.length), ([3.0, 4.0, 0.0], 5.0));
+    /// ```
     #[must_use]
     pub fn from_points(points: &[[f64; 3]]) -> Extent {
         let [low, high] = box_corners(points.iter().copied());

@@ -69,6 +69,15 @@ impl NumberField {
     ///
     /// # Errors
     /// Returns a [`NumberFieldError`] if the roots are not resolved or the degree is too large.
+    ///
+    /// # Examples
+    /// ```
+    /// use ozols::geom::expr::Expr;
+    /// use ozols::geom::number_field::NumberField;
+    /// let sum: Expr = "sqrt(2) + sqrt(3)".parse()?;
+    /// assert_eq!(NumberField::for_expressions([&sum])?.ring().dimension(), 4);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     pub fn for_expressions<'a>(
         exprs: impl IntoIterator<Item = &'a Expr>,
     ) -> Result<NumberField, NumberFieldError> {
@@ -170,6 +179,16 @@ impl NumberField {
     }
 
     /// Returns N if the first generator of the ring is 2 cos(2π/N), or `None` if all cosines are rational. O(1).
+    ///
+    /// # Examples
+    /// ```
+    /// use ozols::geom::expr::Expr;
+    /// use ozols::geom::number_field::NumberField;
+    /// let [seventh, root]: [Expr; 2] = ["cos(360deg/7)".parse()?, "sqrt(2)".parse()?];
+    /// assert_eq!(NumberField::for_expressions([&seventh])?.cosine_order(), Some(28)); // 4 · 7
+    /// assert_eq!(NumberField::for_expressions([&root])?.cosine_order(), None);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     #[must_use]
     pub fn cosine_order(&self) -> Option<u64> {
         (self.first_root() == 1).then_some(self.order)

@@ -37,6 +37,14 @@ impl RigidMotion {
     }
 
     /// Returns the rotation about an axis of any length through the origin `[rad]`; quarter turns are exact.
+    ///
+    /// # Examples
+    /// ```
+    /// use ozols::geom::rigid::RigidMotion;
+    /// use ozols::geom::vector::{X, Y, Z};
+    /// let quarter = RigidMotion::from_turn(Z, std::f64::consts::FRAC_PI_2);
+    /// assert_eq!(quarter.map_point(X), Y);
+    /// ```
     #[must_use]
     pub fn from_turn(axis: Vector, angle: f64) -> RigidMotion {
         let exact = |x: f64| {
@@ -55,6 +63,16 @@ impl RigidMotion {
 
     /// Returns the rotation by fixed-axis roll, pitch and yaw, as in URDF and SDF: Rz(yaw)·Ry(pitch)·Rx(roll), and a
     /// translation.
+    ///
+    /// # Examples
+    /// ```
+    /// use ozols::geom::rigid::RigidMotion;
+    /// use ozols::geom::vector::{X, Y};
+    /// let half_pi = std::f64::consts::FRAC_PI_2;
+    /// let yawed = RigidMotion::roll_pitch_yaw([5.0, 0.0, 0.0], [0.0, 0.0, half_pi]);
+    /// assert_eq!(yawed.map_direction(X), Y);
+    /// assert_eq!(yawed.map_point([0.0; 3]), [5.0, 0.0, 0.0]);
+    /// ```
     #[must_use]
     pub fn roll_pitch_yaw(translation: Vector, angles: Vector) -> RigidMotion {
         let turns = [X, Y, Z].into_iter().zip(angles);
@@ -68,6 +86,14 @@ impl RigidMotion {
     }
 
     /// Returns the rotation by a quaternion w, x, y, z of any nonzero length, and a translation.
+    ///
+    /// # Examples
+    /// ```
+    /// use ozols::geom::rigid::RigidMotion;
+    /// // Any nonzero length: (0, 0, 0, 2) is half a turn about z.
+    /// let half = RigidMotion::from_quaternion([0.0; 3], [0.0, 0.0, 0.0, 2.0]);
+    /// assert_eq!(half.map_point([1.0, 0.0, 0.0]), [-1.0, 0.0, 0.0]);
+    /// ```
     #[must_use]
     pub fn from_quaternion(translation: Vector, q: [f64; 4]) -> RigidMotion {
         let n = dot(q, q);
@@ -115,6 +141,15 @@ impl RigidMotion {
     ///
     /// # Sources
     /// Lynch & Park, "Modern Robotics", 2017, proposition 3.25.
+    ///
+    /// # Examples
+    /// ```
+    /// use ozols::geom::rigid::RigidMotion;
+    /// // A turn about z through (1, 0, 0): its linear part is the speed at the origin.
+    /// let turn = [0.0, 0.0, 1.0, 0.0, -1.0, 0.0];
+    /// let moved = RigidMotion::exp(&turn, std::f64::consts::PI).map_point([0.0; 3]);
+    /// assert!((moved[0] - 2.0).abs() < 1e-12 && moved[1].abs() < 1e-12);
+    /// ```
     #[must_use]
     pub fn exp(twist: &Twist, q: f64) -> RigidMotion {
         let (w, v) = split_twist(twist);
@@ -145,6 +180,14 @@ impl RigidMotion {
     }
 
     /// Returns the inverse motion.
+    ///
+    /// # Examples
+    /// ```
+    /// use ozols::geom::rigid::RigidMotion;
+    /// let turned = RigidMotion::from_quaternion([1.0, 2.0, 3.0], [1.0, 1.0, 0.0, 0.0]);
+    /// let back = turned.then(&turned.inverse()).translation;
+    /// assert!(back.iter().all(|x| x.abs() < 1e-12));
+    /// ```
     #[must_use]
     pub fn inverse(&self) -> RigidMotion {
         let r = &self.rotation;
@@ -195,6 +238,13 @@ impl RigidMotion {
     }
 
     /// Returns the rotation angle `[rad]`, 0 to π.
+    ///
+    /// # Examples
+    /// ```
+    /// use ozols::geom::rigid::RigidMotion;
+    /// let turn = RigidMotion::from_turn([0.0, 0.0, 2.0], 1.2);
+    /// assert!((turn.angle() - 1.2).abs() < 1e-12);
+    /// ```
     #[must_use]
     pub fn angle(&self) -> f64 {
         length(self.sine()).atan2(self.cosine())

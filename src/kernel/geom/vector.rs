@@ -43,6 +43,12 @@ pub fn dot<const N: usize>(a: [f64; N], b: [f64; N]) -> f64 {
 }
 
 /// Returns the vector product.
+///
+/// # Examples
+/// ```
+/// use ozols::geom::vector::{X, Y, Z, cross};
+/// assert_eq!(cross(X, Y), Z);
+/// ```
 #[must_use]
 pub fn cross(a: Vector, b: Vector) -> Vector {
     [
@@ -53,6 +59,13 @@ pub fn cross(a: Vector, b: Vector) -> Vector {
 }
 
 /// Returns the vector product in the plane, its component along the normal: the moment of force `b` at arm `a`.
+///
+/// # Examples
+/// ```
+/// use ozols::geom::vector::cross_plane;
+/// // 10 N upwards at an arm of 2 m.
+/// assert_eq!(cross_plane([2.0, 0.0], [0.0, 10.0]), 20.0);
+/// ```
 #[must_use]
 pub fn cross_plane(a: [f64; 2], b: [f64; 2]) -> f64 {
     a[0] * b[1] - a[1] * b[0]
@@ -93,6 +106,12 @@ pub fn box_sides(points: &[[f64; 2]]) -> [f64; 2] {
 }
 
 /// Returns the unit vector, which is not finite if there is none.
+///
+/// # Examples
+/// ```
+/// use ozols::geom::vector::unit;
+/// assert_eq!(unit([3.0, 4.0]), [0.6, 0.8]);
+/// ```
 #[must_use]
 pub fn unit<const N: usize>(a: [f64; N]) -> [f64; N] {
     let size = length(a);
@@ -100,6 +119,12 @@ pub fn unit<const N: usize>(a: [f64; N]) -> [f64; N] {
 }
 
 /// Returns a vector without its part along a unit vector.
+///
+/// # Examples
+/// ```
+/// use ozols::geom::vector::{X, across};
+/// assert_eq!(across([3.0, 4.0, 0.0], X), [0.0, 4.0, 0.0]);
+/// ```
 #[must_use]
 pub fn across(v: Vector, along: Vector) -> Vector {
     let part = dot(v, along);

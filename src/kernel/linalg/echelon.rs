@@ -92,6 +92,15 @@ impl Echelon {
 }
 
 /// Returns the dimension of the span of some vectors.
+///
+/// # Examples
+/// ```
+/// use ozols::linalg::{echelon::rank_of, modp::Field};
+/// let f = Field::new(1_000_003);
+/// let row = |all: [i64; 3]| all.map(|x| f.from_i64(x));
+/// let rows = [row([1, 2, 3]), row([4, 5, 6]), row([7, 8, 9])];
+/// assert_eq!(rank_of(f, rows.iter().map(|r| &r[..])), 2);
+/// ```
 #[must_use]
 pub fn rank_of<'a>(field: Field, vectors: impl IntoIterator<Item = &'a [Residue]>) -> usize {
     Echelon::from_vectors(field, vectors).rank()

@@ -316,6 +316,13 @@ impl Field {
 ///
 /// # Sources
 /// Sorenson & Webster, "Strong pseudoprimes to twelve prime bases", Math. Comp. 86 (2017).
+///
+/// # Examples
+/// ```
+/// use ozols::linalg::modp::is_prime;
+/// assert!(is_prime((1 << 61) - 1)); // A prime of Mersenne.
+/// assert!(!is_prime(561)); // The least number of Carmichael.
+/// ```
 #[must_use]
 pub fn is_prime(n: u64) -> bool {
     const BASES: [u64; 12] = [2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37];

@@ -51,6 +51,14 @@ pub struct Claim {
 
 impl Claim {
     /// Returns true if the claim holds.
+    ///
+    /// # Examples
+    /// ```
+    /// let gripper = ozols::built_in("gripper-10")?;
+    /// // Of 21 claims of its publication 19 hold.
+    /// assert_eq!((gripper.claims.len(), gripper.claims.iter().filter(|c| c.holds()).count()), (21, 19));
+    /// # Ok::<(), ozols::Error>(())
+    /// ```
     #[must_use]
     pub fn holds(&self) -> bool {
         self.right.is_none()

@@ -40,6 +40,13 @@ pub enum PartMass {
 
 impl PartMass {
     /// Returns the mass of a part of this diameter. `[kg]`
+    ///
+    /// # Examples
+    /// ```
+    /// use ozols::model::grip::PartMass;
+    /// let steel = PartMass::Cylinder { density: 7850.0, length: 0.1 };
+    /// assert!((steel.for_diameter(0.05) - 1.541).abs() < 1e-3); // kg
+    /// ```
     #[must_use]
     pub fn for_diameter(&self, diameter: f64) -> f64 {
         match *self {

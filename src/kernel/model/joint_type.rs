@@ -37,6 +37,14 @@ impl Freedom {
     ];
 
     /// Returns the word used for this freedom in files.
+    ///
+    /// # Examples
+    /// ```
+    /// use ozols::model::joint_type::Freedom;
+    /// assert_eq!(Freedom::Rz.name(), "rz");
+    /// assert_eq!(Freedom::from_name("screw"), Some(Freedom::Screw));
+    /// assert!(Freedom::Rz.is_turn() && Freedom::Tx.is_slide());
+    /// ```
     #[must_use]
     pub fn name(self) -> &'static str {
         Freedom::ALL[self as usize].1
@@ -99,6 +107,13 @@ pub enum JointType {
 
 impl JointType {
     /// Returns true if the direction of its axis matters, which is not so for a ball.
+    ///
+    /// # Examples
+    /// ```
+    /// use ozols::model::joint_type::JointType;
+    /// assert!(JointType::Revolute.is_directed());
+    /// assert!(!JointType::Spherical.is_directed()); // A ball has no axis.
+    /// ```
     #[must_use]
     pub fn is_directed(&self) -> bool {
         let freedoms = self.freedoms();
@@ -137,6 +152,12 @@ impl JointType {
     ];
 
     /// Returns the words of all types in files.
+    ///
+    /// # Examples
+    /// ```
+    /// use ozols::model::joint_type::JointType;
+    /// assert_eq!(JointType::all_words().count(), 14); // 13 named types and `custom`
+    /// ```
     pub fn all_words() -> impl Iterator<Item = &'static str> {
         let custom = JointType::Custom(Vec::new()).properties_of().0;
         let named = JointType::NAMED.iter().map(JointType::name);
@@ -178,6 +199,13 @@ impl JointType {
     }
 
     /// Returns the default cost in thousandths of a revolute joint's: an order of magnitude for machined parts.
+    ///
+    /// # Examples
+    /// ```
+    /// use ozols::model::joint_type::JointType;
+    /// // A ball joint costs as much as two hinges.
+    /// assert_eq!(JointType::Spherical.default_cost_milli(), 2 * JointType::Revolute.default_cost_milli());
+    /// ```
     #[must_use]
     pub fn default_cost_milli(&self) -> i64 {
         self.properties_of().2
@@ -209,6 +237,13 @@ impl JointType {
     ];
 
     /// Returns the names of the trade that mean this type.
+    ///
+    /// # Examples
+    /// ```
+    /// use ozols::model::joint_type::JointType;
+    /// let names: Vec<&str> = JointType::Revolute.trade_names().collect();
+    /// assert_eq!(names, ["hinge", "pin"]);
+    /// ```
     pub fn trade_names(&self) -> impl Iterator<Item = &'static str> {
         let own = self.name();
         let all = JointType::TRADE_NAMES.into_iter();
@@ -217,6 +252,13 @@ impl JointType {
     }
 
     /// Returns the word of the type that a trade name means; any other name unchanged.
+    ///
+    /// # Examples
+    /// ```
+    /// use ozols::model::joint_type::JointType;
+    /// assert_eq!(JointType::word_of_trade("cardan"), "universal");
+    /// assert_eq!(JointType::word_of_trade("revolute"), "revolute");
+    /// ```
     #[must_use]
     pub fn word_of_trade(name: &str) -> &str {
         let meant = JointType::TRADE_NAMES
@@ -253,6 +295,14 @@ impl JointType {
 
     /// Returns the freedoms in the order of passage from the first link to the second, as in `motion::pose`. Slides
     /// come first, but a slot (a slide along x and none along y) comes after its pin.
+    ///
+    /// # Examples
+    /// ```
+    /// use ozols::model::joint_type::{Freedom, JointType};
+    /// // The pin of a slotted joint turns in what slides.
+    /// assert_eq!(JointType::Cylindrical.freedoms_in_series(), [Freedom::Tz, Freedom::Rz]);
+    /// assert_eq!(JointType::Slotted.freedoms_in_series(), [Freedom::Rz, Freedom::Tx]);
+    /// ```
     #[must_use]
     pub fn freedoms_in_series(&self) -> Vec<Freedom> {
         let mut passed = self.freedoms().to_vec();
@@ -263,6 +313,14 @@ impl JointType {
 
     /// Returns the class of the joint, its number of constraints (6 - freedoms), in Roman numerals as is usual in the
     /// field.
+    ///
+    /// # Examples
+    /// ```
+    /// use ozols::model::joint_type::JointType;
+    /// // The class is the number of constraints: five of a hinge, three of a ball.
+    /// assert_eq!(JointType::Revolute.class_numeral(), "V");
+    /// assert_eq!(JointType::Spherical.class_numeral(), "III");
+    /// ```
     #[must_use]
     pub fn class_numeral(&self) -> &'static str {
         ["VI", "V", "IV", "III", "II", "I", "0"][self.freedoms().len().min(6)]

@@ -45,6 +45,14 @@ pub struct ExternalForce {
 
 /// Returns true if a force acts when the first drive is at a position, relative to the pose of the file. `range` is the
 /// range in which it acts (always if `None`), and is repeated after `period`, if given.
+///
+/// # Examples
+/// ```
+/// use ozols::model::loads::acts_at;
+/// // In the first quarter of each turn.
+/// let range = Some([0.0, 90.0]);
+/// assert!(acts_at(range, 400.0, Some(360.0)) && !acts_at(range, 200.0, Some(360.0)));
+/// ```
 #[must_use]
 pub fn acts_at(range: Option<[f64; 2]>, drive: f64, period: Option<f64>) -> bool {
     /// Tolerance at the ends of a range of drive positions.
@@ -114,6 +122,13 @@ pub struct Stroke {
 
 impl Stroke {
     /// Returns its positions, including both ends.
+    ///
+    /// # Examples
+    /// ```
+    /// use ozols::model::loads::Stroke;
+    /// let stroke = Stroke { from: -1.0, to: 1.0, steps: 4 };
+    /// assert_eq!(stroke.positions(), [-1.0, -0.5, 0.0, 0.5, 1.0]);
+    /// ```
     #[must_use]
     pub fn positions(&self) -> Vec<f64> {
         let steps = self.steps.max(1);

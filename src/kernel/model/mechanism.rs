@@ -263,6 +263,14 @@ impl SearchSpec {
 }
 
 /// A validated mechanism.
+///
+/// # Examples
+/// ```
+/// let gripper = ozols::built_in("gripper-10")?;
+/// assert_eq!(gripper.joints_in(gripper.state_ids().next().unwrap()).count(), 13);
+/// assert_eq!(gripper.links[gripper.frame_link()].id, "0");
+/// # Ok::<(), ozols::Error>(())
+/// ```
 #[derive(Debug, Clone)]
 pub struct Mechanism {
     /// Short name.

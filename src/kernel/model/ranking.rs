@@ -74,6 +74,13 @@ impl Term {
     ];
 
     /// Returns its description.
+    ///
+    /// # Examples
+    /// ```
+    /// use ozols::model::ranking::Term;
+    /// let about = Term::OutputError.about();
+    /// assert_eq!((about.word, about.scale), ("output-error", 1e3)); // Listed in mm, counted in m.
+    /// ```
     #[must_use]
     pub fn about(self) -> AboutTerm {
         match self {

@@ -172,6 +172,14 @@ fn shared_unit(mut units: Vec<f64>) -> f64 {
 /// A length is long with at least four significant digits, and a direction with three. Two are enough if the direction
 /// has length 1 within them and not exactly. Fractions and roots written as such are exact, however long their decimals
 /// are, and so are whole numbers.
+///
+/// # Examples
+/// ```
+/// use ozols::model::rounded::looks_rounded;
+/// assert!(looks_rounded(&ozols::built_in("bennett")?).is_none());
+/// assert!(looks_rounded(&ozols::built_in("jansen-leg")?).is_some_and(|r| r.coordinates == 11));
+/// # Ok::<(), ozols::Error>(())
+/// ```
 #[must_use]
 pub fn looks_rounded(mechanism: &Mechanism) -> Option<Rounded> {
     let mut seen = SeenDecimals::default();

@@ -71,6 +71,16 @@ impl Pose {
     ///
     /// # Complexity
     /// O((6k)²·f) per step.
+    ///
+    /// # Examples
+    /// ```
+    /// use ozols::{model::mechanism::StateId, motion::pose::Pose};
+    /// let pose = Pose::of_file(&ozols::built_in("four-bar")?, StateId::FREE)?;
+    /// // The crank is turned by 0.1 rad and held; the other joints follow.
+    /// let q = pose.close_loops(vec![0.1, 0.0, 0.0, 0.0], &[0]).expect("it closes");
+    /// assert!(pose.closure_gaps(&q).iter().all(|gap| gap.abs() < 1e-9));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     pub fn close_loops(&self, q: Vec<f64>, hold: &[usize]) -> Result<Vec<f64>, PoseError> {
         self.close_within(q, hold, f64::INFINITY)
     }

@@ -37,6 +37,15 @@ pub struct Way {
 ///
 /// # Complexity
 /// As [`Follower::advance`], for about ten poses per radian, three times.
+///
+/// # Examples
+/// ```
+/// use ozols::{model::mechanism::StateId, motion::{drive_range::follow_range, pose::Pose}};
+/// let pose = Pose::of_file(&ozols::built_in("four-bar")?, StateId::FREE)?;
+/// let way = follow_range(&pose, 0, &[], None, 36);
+/// assert!(way.closed); // It is a crank: it turns fully.
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[must_use]
 pub fn follow_range(
     pose: &Pose,

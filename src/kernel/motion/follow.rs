@@ -269,6 +269,16 @@ impl Follower {
     ///
     /// # Complexity
     /// One closure and singular values, O((6k + f)³), per step; steps of at most `LONGEST`.
+    ///
+    /// # Examples
+    /// ```
+    /// use ozols::{model::mechanism::StateId, motion::{follow::Follower, pose::Pose}};
+    /// let pose = Pose::of_file(&ozols::built_in("four-bar")?, StateId::FREE)?;
+    /// let mut follower = Follower::new(pose, 0, &[]);
+    /// assert!(follower.advance_to(1.0, |_| {}).is_ok());
+    /// assert!((follower.drive_position() - 1.0).abs() < 1e-12 && follower.closure_gap() < 1e-9);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     pub fn advance_to(&mut self, to: f64, mut visit: impl FnMut(&Follower)) -> Result<(), Stop> {
         let mut longest = LONGEST;
         loop {
@@ -346,7 +356,7 @@ pub fn column_slides(pose: &Pose, column: usize) -> bool {
 ///
 /// # Examples
 /// ```
-/// let all: Vec<f64> = ozols::motion::follow::positions([0.0, 1.0], 2).collect();
+/// let all: Vec<f64> = ozols::motion::follow::stroke_positions([0.0, 1.0], 2).collect();
 /// assert_eq!(all, [0.0, 0.5, 1.0]);
 /// ```
 pub fn stroke_positions([from, to]: [f64; 2], steps: usize) -> impl Iterator<Item = f64> {

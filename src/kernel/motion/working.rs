@@ -17,6 +17,15 @@ const ASTRAY: f64 = 0.5;
 ///
 /// # Complexity
 /// Two decompositions of J and one closure per step.
+///
+/// # Examples
+/// ```
+/// use ozols::{model::mechanism::StateId, motion::{pose::Pose, working::working_way}};
+/// let bennett = ozols::built_in("bennett")?;
+/// let pose = Pose::of_file(&bennett, StateId::FREE)?;
+/// assert!(working_way(&bennett, StateId::FREE, &pose, 10).is_some_and(|way| way.links.len() == 11));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[must_use]
 pub fn working_way(m: &Mechanism, state: StateId, pose: &Pose, steps: usize) -> Option<Way> {
     let outputs = m.link_ids().filter(|&l| m.links[l].role == Role::Output);

@@ -211,6 +211,15 @@ fn of_pursuit(found: Traced) -> Finite {
 ///
 /// # Errors
 /// Returns an error if a coordinate has no value.
+///
+/// # Examples
+/// ```
+/// use ozols::{model::mechanism::StateId, rank::finite::followed_mobility};
+/// let bennett = ozols::built_in("bennett")?;
+/// let found = followed_mobility(&bennett, StateId::FREE, 1, 0.0)?;
+/// assert_eq!((found.mobility, found.is_proven()), (1, false));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn followed_mobility(
     mechanism: &Mechanism,
     state: StateId,

@@ -78,6 +78,16 @@ impl Elimination {
     ///
     /// # Complexity
     /// O(6k · f · min(6k, f)).
+    ///
+    /// # Examples
+    /// ```
+    /// use ozols::{closure::Closure, geom::Reals, model::mechanism::StateId, rank::numeric::Elimination};
+    /// let j = Closure::new(&Reals, &ozols::built_in("four-bar")?, StateId::FREE)?;
+    /// let rank = Elimination::Svd.rank_of_closure(&j, Elimination::Svd.default_tolerance())?;
+    /// assert_eq!(rank.rank, 3);
+    /// assert!(rank.dropped < 1e-12); // A clear gap.
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     pub fn rank_of_closure(
         self,
         closure: &Closure<f64>,

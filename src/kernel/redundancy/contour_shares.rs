@@ -78,6 +78,17 @@ pub(crate) fn coupling_shares(
 /// # Complexity
 /// One elimination of J by rows, then O(σ·k) to examine the basis and an elimination of at most `dim` independent rows
 /// per contour. By the definition it would be k + 2 eliminations of J.
+///
+/// # Examples
+/// ```
+/// use ozols::{closure::Closure, model::mechanism::StateId, rank::exact::field::field_of};
+/// use ozols::redundancy::contour_shares::contour_shares;
+/// let gripper = ozols::built_in("gripper-10")?;
+/// let exact = field_of(&gripper, StateId::FREE, 0)?;
+/// let shares = contour_shares(&exact, &Closure::new(&exact, &gripper, StateId::FREE)?);
+/// assert_eq!(shares.iter().map(|s| s.redundant).sum::<usize>(), 11);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[must_use]
 pub fn contour_shares(exact: &ExactField, closure: &Closure<Residue>) -> Vec<ContourShare> {
     let dim = closure.dim;
@@ -249,6 +260,14 @@ impl<'a> Measured<'a> {
     }
 
     /// Returns W at the pose.
+    ///
+    /// # Examples
+    /// ```
+    /// use ozols::{model::mechanism::StateId, redundancy::contour_shares::Measured};
+    /// let gripper = ozols::built_in("gripper-10")?;
+    /// assert_eq!(Measured::new(&gripper, StateId::FREE, 1e-9)?.mobility(), 1);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     #[must_use]
     pub fn mobility(&self) -> usize {
         self.kernel.ncols()

@@ -125,6 +125,16 @@ impl HeldTwice {
 /// # Complexity
 /// That of an analysis, two decompositions of J and, if nothing is proven, a few tens of closures. Only an analysis if
 /// σ = 0.
+///
+/// # Examples
+/// ```
+/// use ozols::redundancy::duplicate_constraints::held_twice;
+/// let four_bar = ozols::built_in("four-bar")?;
+/// let found = held_twice(&four_bar, &|_| false, &|_| true, None)?;
+/// assert_eq!((found.range(), found.list.len()), ((3, 3), 3));
+/// assert_eq!(found.cheapest.len(), 3); // Three releases remove the three.
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn held_twice(
     m: &Mechanism,
     closes: &dyn Fn(JointId) -> bool,

@@ -77,6 +77,16 @@ impl StateAnalysis {
     ///
     /// # Errors
     /// Returns an error if a coordinate has no value.
+    ///
+    /// # Examples
+    /// ```
+    /// let four_bar = ozols::built_in("four-bar")?;
+    /// let motions = ozols::analyze(&four_bar)?[0].output_motions(&four_bar)?;
+    /// // The rocker turns about its hinge at (120, 0), parallel to z.
+    /// assert_eq!((motions[0].dimension(), motions[0].turns.len()), (1, 1));
+    /// assert!((motions[0].turns[0].point[0] - 120.0).abs() < 1e-9);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     pub fn output_motions(&self, mechanism: &Mechanism) -> Result<Vec<LinkMotion>, ExactError> {
         let state = mechanism.state_named(&self.state).unwrap_or(StateId::FREE);
         let joints: Vec<JointId> = mechanism.joints_in(state).collect();

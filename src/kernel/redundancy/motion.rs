@@ -16,6 +16,17 @@ use crate::rank::finite::Finite;
 pub type Speeds = Vec<Residue>;
 
 /// Returns the motions of a mechanism in its reference pose: a reduced basis of the kernel of J.
+///
+/// # Examples
+/// ```
+/// use ozols::{closure::Closure, model::mechanism::StateId, rank::exact::field::field_of};
+/// use ozols::redundancy::motion::motion_basis;
+/// let bennett = ozols::built_in("bennett")?;
+/// let exact = field_of(&bennett, StateId::FREE, 0)?;
+/// let motions = motion_basis(&exact, &Closure::new(&exact, &bennett, StateId::FREE)?);
+/// assert_eq!((motions.len(), motions[0].len()), (1, 4)); // W = 1, a speed for each hinge.
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[must_use]
 pub fn motion_basis(exact: &ExactField, closure: &Closure<Residue>) -> Vec<Speeds> {
     echelon::linear_relations(

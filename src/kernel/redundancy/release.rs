@@ -50,6 +50,16 @@ pub struct Duplicate {
 }
 
 /// Describes the joint with one more freedom: by the name of its type if it has one.
+///
+/// # Examples
+/// ```
+/// use ozols::redundancy::release::released_type;
+/// let four_bar = ozols::built_in("four-bar")?;
+/// let first = four_bar.joint_ids().next().expect("there are four");
+/// // A hinge that may slide along its axis is a bush.
+/// assert!(released_type(&four_bar, first, true, [0.0, 0.0, 1.0]).contains("cylindrical"));
+/// # Ok::<(), ozols::Error>(())
+/// ```
 #[must_use]
 pub fn released_type(m: &Mechanism, joint: JointId, slides: bool, direction: Vector) -> String {
     let j = &m.joints[joint];

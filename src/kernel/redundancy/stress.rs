@@ -273,6 +273,14 @@ fn first_those_without(
 ///
 /// # Complexity
 /// That of [`modular::rank`].
+///
+/// # Examples
+/// ```
+/// use ozols::{model::mechanism::StateId, redundancy::stress::exact_self_stresses};
+/// let four_bar = ozols::built_in("four-bar")?;
+/// assert_eq!(exact_self_stresses(&four_bar, StateId::FREE, &[]), Some(3));
+/// # Ok::<(), ozols::Error>(())
+/// ```
 #[must_use]
 pub fn exact_self_stresses(
     m: &Mechanism,

@@ -52,6 +52,15 @@ impl<'a> Stressed<'a> {
     ///
     /// # Errors
     /// Returns an error if a coordinate has no value.
+    ///
+    /// # Examples
+    /// ```
+    /// use ozols::{model::mechanism::StateId, redundancy::stressed::Stressed};
+    /// let four_bar = ozols::built_in("four-bar")?;
+    /// let parts = Stressed::stressed_parts(&four_bar, StateId::FREE, 3)?.expect("it converges");
+    /// assert_eq!(parts.iter().map(|p| p.count_redundant()).sum::<usize>(), 3);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     pub fn stressed_parts(
         m: &'a Mechanism,
         state: StateId,
@@ -163,6 +172,16 @@ impl<'a> Stressed<'a> {
 
     /// Returns the single freedoms that the joint lacks and on which a self-stress does work. Their directions fit the
     /// forces and moments on the joint, and slides come first.
+    ///
+    /// # Examples
+    /// ```
+    /// use ozols::{model::mechanism::StateId, redundancy::stressed::Stressed};
+    /// let four_bar = ozols::built_in("four-bar")?;
+    /// let part = &Stressed::stressed_parts(&four_bar, StateId::FREE, 3)?.expect("it converges")[0];
+    /// // Each hinge may slide along its axis and tilt about two others.
+    /// assert!(part.joints.iter().all(|&j| part.releases_at(j).len() == 3));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     #[must_use]
     pub fn releases_at(&self, joint: JointId) -> Vec<Release> {
         let directions = self.joint_directions(joint);

@@ -307,6 +307,15 @@ impl Question {
     }
 
     /// Number of variants asked about: of orbits, where one of each is wanted.
+    ///
+    /// # Examples
+    /// ```
+    /// use ozols::{rank::exact::field::exact_field, search::{Search, question::conditions::Conditions}};
+    /// let four_bar = ozols::built_in("four-bar")?;
+    /// let search = Search::new(exact_field(&four_bar, 0)?, &four_bar, Conditions::default())?;
+    /// assert_eq!(search.size().to_string(), "64"); // Four types at each joint that is not driven.
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     #[must_use]
     pub fn size(&self) -> BigUint {
         self.space.size()

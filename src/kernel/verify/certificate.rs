@@ -53,6 +53,15 @@ impl CertificateFile {
     ///
     /// # Errors
     /// Returns an error if the text is not such a file.
+    ///
+    /// # Examples
+    /// ```
+    /// use ozols::verify::certificate::CertificateFile;
+    /// assert!(CertificateFile::read(b"{}").is_err());
+    /// let text = br#"{"format": "ozols-certificate-1", "mechanism": "m", "certificates": [], "without": []}"#;
+    /// assert_eq!(CertificateFile::read(text)?.mechanism, "m");
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     pub fn read(json: &[u8]) -> Result<CertificateFile, ReadError> {
         let file: CertificateFile = serde_json::from_slice(json)?;
         if file.format == FORMAT {

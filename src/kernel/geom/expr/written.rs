@@ -52,6 +52,16 @@ impl Expr {
     /// Returns `None` for exact numbers: expressions, roots, fractions, whole numbers, and all calculated values. O(1).
     ///
     /// Trailing zeros count: `0.494` has 5e-4, `0.49400` 5e-6, `1.5e-3` 5e-5.
+    ///
+    /// # Examples
+    /// ```
+    /// use ozols::geom::expr::Expr;
+    /// let half = |text: &str| text.parse().map(|x: Expr| x.half_unit());
+    /// assert_eq!(half("0.494")?, Some(5e-4));
+    /// assert_eq!(half("0.49400")?, Some(5e-6)); // Trailing zeros count.
+    /// assert_eq!(half("1/3")?, None); // A fraction is exact.
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     #[must_use]
     pub fn half_unit(&self) -> Option<f64> {
         match self.0.written {
@@ -63,6 +73,15 @@ impl Expr {
 
     /// Returns the number with an accuracy of `half`, regardless of its digits. It is exact if `half` is 0. O(size of
     /// the number).
+    ///
+    /// # Examples
+    /// ```
+    /// use ozols::geom::expr::Expr;
+    /// let measured = "0.5".parse::<Expr>()?.with_half_unit(0.01);
+    /// assert_eq!(measured.half_unit(), Some(0.01));
+    /// assert_eq!(measured.with_half_unit(0.0).half_unit(), None);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     #[must_use]
     pub fn with_half_unit(self, half: f64) -> Expr {
         self.written_as(WrittenNumber::Stated(half))

@@ -36,6 +36,15 @@ impl Doubt {
 ///
 /// # Complexity
 /// O(digits) divisions.
+///
+/// # Examples
+/// ```
+/// use ozols::model::rounded::ratio::doubt_ratio;
+/// let doubt = doubt_ratio(&"-0.6667".parse()?);
+/// assert_eq!(doubt.map(|d| d.fraction.to_string()).as_deref(), Some("-2/3"));
+/// assert!(doubt_ratio(&"0.125".parse()?).is_none());
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[must_use]
 pub fn doubt_ratio(ratio: &Expr) -> Option<Doubt> {
     let WrittenNumber::Decimal(digits) = ratio.written() else {

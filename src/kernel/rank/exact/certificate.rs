@@ -3,17 +3,17 @@
 //! ```
 //! use ozols::file::text::mechanism_from_str;
 //! use ozols::model::mechanism::StateId;
-//! use ozols::rank::exact::certificate::{certify, matrix, number_field};
+//! use ozols::rank::exact::certificate::{certify_state, closure_matrix, number_field};
 //! use ozols::verify;
 //!
 //! let text = ozols::builtin::text("gripper-10").expect("it is built in");
 //! let gripper = mechanism_from_str("gripper-10.toml", text)?;
-//! let certificate = certify(&gripper, StateId::FREE)?;
+//! let certificate = certify_state(&gripper, StateId::FREE)?;
 //!
 //! // Whoever doubts it needs only the file and the certificate.
 //! let field = number_field(&gripper, StateId::FREE)?;
-//! let j = matrix(&field, &gripper, StateId::FREE)?;
-//! assert_eq!(verify::check(&j, &certificate)?, 13);
+//! let j = closure_matrix(&field, &gripper, StateId::FREE)?;
+//! assert_eq!(verify::check_certificate(&j, &certificate)?, 13);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
@@ -34,6 +34,15 @@ use crate::verify::{self, Flaw};
 ///
 /// # Errors
 /// Returns an error if the roots and angles of these joints have no number field that is small enough.
+///
+/// # Examples
+/// ```
+/// use ozols::{model::mechanism::StateId, rank::exact::certificate::number_field};
+/// // The gripper's coordinates are rational.
+/// let field = number_field(&ozols::built_in("gripper-10")?, StateId::FREE)?;
+/// assert_eq!(field.ring().dimension(), 1);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn number_field(
     mechanism: &Mechanism,
     state: StateId,
@@ -57,6 +66,16 @@ pub fn number_field(
 ///
 /// # Complexity
 /// O(entries) operations in the field.
+///
+/// # Examples
+/// ```
+/// use ozols::{model::mechanism::StateId, rank::exact::certificate::{closure_matrix, number_field}};
+/// let bennett = ozols::built_in("bennett")?;
+/// let field = number_field(&bennett, StateId::FREE)?;
+/// let j = closure_matrix(&field, &bennett, StateId::FREE)?;
+/// assert_eq!((j.rows(), j.columns()), (6, 4));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn closure_matrix(
     field: &NumberField,
     mechanism: &Mechanism,
@@ -85,6 +104,14 @@ pub fn closure_matrix(
 ///
 /// # Complexity
 /// As [`certify_matrix`].
+///
+/// # Examples
+/// ```
+/// use ozols::{model::mechanism::StateId, rank::exact::certificate::certify_state};
+/// let certificate = certify_state(&ozols::built_in("bennett")?, StateId::FREE)?;
+/// assert_eq!((certificate.rank, certificate.columns), (3, 4)); // So W = 1.
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn certify_state(mechanism: &Mechanism, state: StateId) -> Result<Certificate, NoCertificate> {
     certify_within(mechanism, state, Budget::default())
 }

@@ -29,6 +29,17 @@ pub(in crate::rank) fn plane_normal(mechanism: &Mechanism) -> &[Expr] {
 ///
 /// # Errors
 /// Returns an error if no prime is suitable, see [`ExactField`].
+///
+/// # Examples
+/// ```
+/// use ozols::{closure::Closure, model::mechanism::StateId};
+/// use ozols::rank::exact::{field::field_of, modular::rank_modulo};
+/// let gripper = ozols::built_in("gripper-10")?;
+/// let exact = field_of(&gripper, StateId::FREE, 0)?;
+/// let j = Closure::new(&exact, &gripper, StateId::FREE)?;
+/// assert_eq!(rank_modulo(&exact, &j), 13); // Of 24 rows, so σ = 11.
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn field_of(
     mechanism: &Mechanism,
     state: StateId,
@@ -63,6 +74,15 @@ pub(crate) fn closure_of(
 ///
 /// # Errors
 /// Returns an error if no prime is suitable, see [`ExactField`].
+///
+/// # Examples
+/// ```
+/// use ozols::rank::exact::field::exact_field;
+/// let gripper = ozols::built_in("gripper-10")?;
+/// let primes = [0, 1].map(|nth| exact_field(&gripper, nth).map(|f| f.field().modulus()));
+/// assert!(matches!(primes, [Ok(one), Ok(other)] if one != other));
+/// # Ok::<(), ozols::Error>(())
+/// ```
 pub fn exact_field(mechanism: &Mechanism, nth: usize) -> Result<ExactField, ExactError> {
     let frames = mechanism.joints.iter().flat_map(|j| {
         std::iter::once(&j.frame)

@@ -15,6 +15,16 @@ use crate::verify::matrix::MatrixOverRing;
 ///
 /// # Complexity
 /// O(rank · rows · columns) operations on fractions whose length may grow in proportion to the rank.
+///
+/// # Examples
+/// ```
+/// use ozols::{model::mechanism::StateId, rank::exact::{certificate, rational::rational_rank}};
+/// let bennett = ozols::built_in("bennett")?;
+/// let field = certificate::number_field(&bennett, StateId::FREE)?;
+/// let j = certificate::closure_matrix(&field, &bennett, StateId::FREE)?;
+/// assert_eq!(rational_rank(&j), Some(3));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[must_use]
 pub fn rational_rank(matrix: &MatrixOverRing) -> Option<usize> {
     let mut rows: Vec<BTreeMap<usize, BigRational>> = vec![BTreeMap::new(); matrix.rows()];

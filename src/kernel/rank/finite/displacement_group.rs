@@ -236,6 +236,17 @@ impl DisplacementGroup {
 ///
 /// # Errors
 /// Returns an error if a coordinate has no value in the field.
+///
+/// # Examples
+/// ```
+/// use ozols::{model::mechanism::StateId, rank::exact::field::field_of};
+/// use ozols::rank::finite::displacement_group::whole_group;
+/// // Three rows per loop are enough where everything moves in a plane.
+/// let four_bar = ozols::built_in("four-bar")?;
+/// let exact = field_of(&four_bar, StateId::FREE, 0)?;
+/// assert_eq!(whole_group(&exact, &four_bar, StateId::FREE)?.dimension(), 3);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn whole_group(
     exact: &ExactField,
     mechanism: &Mechanism,

@@ -32,6 +32,14 @@ pub struct Decision {
 ///
 /// # Complexity
 /// That of [`verdict`], and of the finite mobility.
+///
+/// # Examples
+/// ```
+/// use ozols::{model::mechanism::StateId, rank::method::auto::decide_state};
+/// let decision = decide_state(&ozols::built_in("bennett")?, StateId::FREE)?;
+/// assert_eq!((decision.verdict.rank(), decision.finite.mobility), (3, 1));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn decide_state(mechanism: &Mechanism, state: StateId) -> Result<Decision, NoAnswer> {
     let verdict = rank_verdict(mechanism, state)?;
     Ok(Decision {

@@ -72,6 +72,13 @@ impl Pebbles {
 }
 
 /// Returns the number of independent bars between bodies in general position.
+///
+/// # Examples
+/// ```
+/// use ozols::rank::method::generic::generic_rank;
+/// // Three bars hold a body in a plane, and a fourth is one too many.
+/// assert_eq!(generic_rank(2, &[(0, 1); 4], 3), 3);
+/// ```
 #[must_use]
 pub fn generic_rank(bodies: usize, bars: &[(usize, usize)], dim: usize) -> usize {
     let mut game = Pebbles {

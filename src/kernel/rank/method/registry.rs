@@ -26,6 +26,16 @@ pub const ALL: [&dyn MobilityMethod; 13] = [
 ];
 
 /// Returns the method with a name.
+///
+/// # Examples
+/// ```
+/// use ozols::{model::mechanism::StateId, rank::method::registry::by_name};
+/// let bennett = ozols::built_in("bennett")?;
+/// let by = |name| by_name(name).expect("there is one").answer(&bennett, StateId::FREE);
+/// assert_eq!(by("modular")?.mobility, 1);
+/// assert_eq!(by("svd")?.mobility, 1);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[must_use]
 pub fn by_name(name: &str) -> Option<&'static dyn MobilityMethod> {
     ALL.into_iter().find(|m| m.about().name == name)

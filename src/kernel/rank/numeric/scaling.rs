@@ -151,6 +151,13 @@ pub struct NumericRank {
 }
 
 /// Returns the rank that values (of any order and sign) have at a relative tolerance.
+///
+/// # Examples
+/// ```
+/// use ozols::rank::numeric::scaling::rank_of_values;
+/// let found = rank_of_values(vec![4.0, 2.0, 1e-15], 1e-9);
+/// assert_eq!((found.rank, found.kept), (2, 0.5));
+/// ```
 #[must_use]
 pub fn rank_of_values(mut values: Vec<f64>, tolerance: f64) -> NumericRank {
     values.iter_mut().for_each(|v| *v = v.abs());

@@ -86,6 +86,14 @@ impl NearJoint {
 
 /// Returns how far the rounding of coordinates can have moved two joints of a mechanism apart, or `None` if its digits
 /// are exact.
+///
+/// # Examples
+/// ```
+/// use ozols::rank::rounded::nearly_special::rounding_reach;
+/// assert!(rounding_reach(&ozols::built_in("bennett")?).is_none()); // It is exact.
+/// assert!(rounding_reach(&ozols::built_in("jansen-leg")?).is_some_and(|r| r.length == 0.02));
+/// # Ok::<(), ozols::Error>(())
+/// ```
 #[must_use]
 pub fn rounding_reach(mechanism: &Mechanism) -> Option<Reach> {
     let half = allowed_uncertainty(mechanism, looks_rounded(mechanism).as_ref())?;

@@ -201,6 +201,15 @@ fn rank_of(mechanism: &Mechanism, state: StateId) -> Result<usize, NoAnswer> {
 /// # Complexity
 /// The recovery of the intended scene and one modular rank. With decimals also one singular value decomposition, and
 /// [`nearest`] only if the ranks disagree.
+///
+/// # Examples
+/// ```
+/// use ozols::{model::mechanism::StateId, rank::rounded::verdict::rank_verdict};
+/// let verdict = rank_verdict(&ozols::built_in("bennett")?, StateId::FREE)?;
+/// assert!(verdict.is_decided() && verdict.is_as_written());
+/// assert_eq!(verdict.rank(), 3);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn rank_verdict(mechanism: &Mechanism, state: StateId) -> Result<RankVerdict, NoAnswer> {
     let scene = intended_scene(mechanism);
     verdict_on(mechanism, state, scene.as_ref())
@@ -348,6 +357,14 @@ pub struct Settled {
 ///
 /// # Guarantee
 /// If no verdict is open, the exact rank of J in each state is that of its verdict.
+///
+/// # Examples
+/// ```
+/// use ozols::{model::mechanism::StateId, rank::rounded::verdict::settle_states};
+/// let settled = settle_states(&ozols::built_in("bennett")?, &[StateId::FREE])?;
+/// assert!(settled.verdicts.is_empty()); // Every digit is exact: there is nothing to decide.
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn settle_states(mechanism: &Mechanism, states: &[StateId]) -> Result<Settled, NoAnswer> {
     let mut out = Settled::default();
     if looks_rounded(mechanism).is_none() {

@@ -191,6 +191,19 @@ impl<'a> AskedStroke<'a> {
     }
 
     /// Follows the stroke.
+    ///
+    /// # Examples
+    /// ```
+    /// use ozols::model::{loads::Stroke, mechanism::StateId};
+    /// use ozols::rank::{rounded::verdict::rank_verdict, stroke::request::AskedStroke};
+    /// let bennett = ozols::built_in("bennett")?;
+    /// let verdict = rank_verdict(&bennett, StateId::FREE)?;
+    /// let range = Stroke { from: 0.0, to: 1.0, steps: 4 };
+    /// let asked = AskedStroke::new(&bennett, StateId::FREE, "0rad..1rad", range, None, &verdict, None)?;
+    /// // It moves throughout, with three redundant constraints in every pose.
+    /// assert!(asked.follow_stroke().poses.iter().all(|p| (p.mobility, p.redundant) == (1, 3)));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     #[must_use]
     pub fn follow_stroke(&self) -> StrokeFigures {
         let found = self.verdict;

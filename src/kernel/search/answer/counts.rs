@@ -37,6 +37,13 @@ impl fmt::Display for Counts {
 
 /// How many orbits there are of a symmetry that is done `order` times, 2 or 3, until all is back: from how many variants
 /// there are and how many of them it keeps (Burnside's lemma: whatever but the identity is done keeps just these).
+///
+/// # Examples
+/// ```
+/// use ozols::search::answer::counts::count_orbits;
+/// // Of 10 variants 4 are their own mirror image; the other 6 form 3 pairs.
+/// assert_eq!(count_orbits(&10u32.into(), &4u32.into(), 2), 7u32.into());
+/// ```
 #[must_use]
 pub fn count_orbits(all: &BigUint, kept: &BigUint, order: usize) -> BigUint {
     (all + kept * (order - 1)) / order
@@ -255,6 +262,18 @@ pub(in crate::search) fn count_total(
 
 /// Counts by cost in thousandths of the variants of a diagram that meet every condition; `None` where they would take
 /// more than the memory there is.
+///
+/// # Examples
+/// ```
+/// use ozols::{rank::exact::field::exact_field, search::{Search, question::conditions::Conditions}};
+/// use ozols::search::answer::counts::counts_by_cost;
+/// let four_bar = ozols::built_in("four-bar")?;
+/// let search = Search::new(exact_field(&four_bar, 0)?, &four_bar, Conditions::default())?;
+/// let diagrams = search.build_diagrams(&|| false, &mut |_| {});
+/// let by_cost = counts_by_cost(&search, &diagrams.admissible).expect("it is small");
+/// assert_eq!(by_cost.into_values().sum::<num_bigint::BigUint>().to_string(), "14");
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[must_use]
 pub fn counts_by_cost(question: &Question, diagram: &Diagram) -> Option<BTreeMap<i64, BigUint>> {
     let kinds = Kinds {

@@ -23,6 +23,14 @@ pub struct Key(pub u128);
 
 impl Key {
     /// Packs what is chosen. A mechanism has at most 4000 joints, so that each count fits sixteen bits.
+    ///
+    /// # Examples
+    /// ```
+    /// use ozols::search::answer::keys::Key;
+    /// let key = Key::new(5, 7, 2);
+    /// assert_eq!((key.cost(), key.freedoms(), key.changes()), (5, 7, 2));
+    /// assert!(Key::new(4, 9, 9) < key); // Cost decides first.
+    /// ```
     #[must_use]
     pub fn new(cost: u64, freedoms: u32, changes: u32) -> Key {
         Key(u128::from(cost) << 80 | u128::from(freedoms) << 64 | u128::from(changes) << 48)

@@ -69,6 +69,14 @@ pub struct Suggestions {
 ///
 /// # Errors
 /// Returns an error if a coordinate has no value in the field.
+///
+/// # Examples
+/// ```
+/// use ozols::{model::mechanism::StateId, search::answer::single_changes::single_changes};
+/// let found = single_changes(&ozols::built_in("four-bar")?, StateId::FREE)?;
+/// assert_eq!((found.redundant, found.list[0].removes), (3, 2)); // A ball joint removes two.
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn single_changes(mechanism: &Mechanism, state: StateId) -> Result<Suggestions, ExactError> {
     let exact = &exact_field(mechanism, 0)?;
     let motion = MotionSpace::new(exact, &mechanism.mode)?;

@@ -64,6 +64,17 @@ impl InState {
 }
 
 /// The conditions on variants of one mechanism, with its state by number.
+///
+/// # Examples
+/// ```
+/// use ozols::{rank::exact::field::exact_field, search::{Search, question::conditions::Conditions}};
+/// let four_bar = ozols::built_in("four-bar")?;
+/// let few = Conditions { max_changes: Some(1), ..Conditions::default() };
+/// let search = Search::new(exact_field(&four_bar, 0)?, &four_bar, few)?;
+/// let diagrams = search.build_diagrams(&|| false, &mut |_| {});
+/// assert_eq!(search.cheapest_variants(&diagrams, 9).count(), 0); // σ = 3 needs more changes.
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Debug, Clone)]
 pub struct Conditions {
     /// Redundant constraints allowed within the mechanism.

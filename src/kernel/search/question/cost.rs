@@ -63,6 +63,15 @@ impl CostTable {
     }
 
     /// The cost of a joint: the option's own, its name's, its type's, or by freedoms for a custom type.
+    ///
+    /// # Examples
+    /// ```
+    /// use ozols::{model::mechanism::CostSpec, search::question::cost::CostTable};
+    /// let four_bar = ozols::built_in("four-bar")?;
+    /// let table = CostTable::new(&CostSpec::default());
+    /// assert_eq!(table.option_cost(&four_bar.joints[ozols::model::JointId::new(0)].options[0]), 1000);
+    /// # Ok::<(), ozols::Error>(())
+    /// ```
     #[must_use]
     pub fn option_cost(&self, option: &JointOption) -> i64 {
         let named = |n: &str| {
