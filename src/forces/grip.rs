@@ -75,9 +75,9 @@ pub fn drive_effort(levers: LeverDrive, h: &Holding, drive: &Rates) -> Option<f6
 /// ```
 /// let text = ozols::builtin::text("lever-gripper").expect("it is built in");
 /// let file = ozols::file::read::workload::grip_from_bytes("lever-gripper.toml", text.as_bytes())?;
-/// let found = ozols::grip::grip(&file.spec, file.mechanism.as_ref())?;
-/// assert!(found.study.holds());
-/// let hardest = found.study.hardest().expect("a load is stated");
+/// let found = ozols::grip::analyse_grip(&file.spec, file.mechanism.as_ref())?;
+/// assert!(found.study.holds_all());
+/// let hardest = found.study.hardest_row().expect("a load is stated");
 /// assert!((hardest.diameter - 0.050).abs() < 1e-12);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```

@@ -116,9 +116,9 @@ fn payload_motion(stiffness: f64, inertia: f64, twist: f64, radius: Option<f64>)
 /// ```
 /// let text = ozols::builtin::text("torsion-module").expect("it is built in");
 /// let file = ozols::file::read::workload::drive_from_bytes("torsion-module.toml", text.as_bytes())?;
-/// let found = ozols::drive::driving::drive(&file.spec)?;
+/// let found = ozols::drive::driving::design_drive(&file.spec)?;
 /// let design = found.design.expect("a bar is found");
-/// assert!(design.run.complete());
+/// assert!(design.run.is_complete());
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub fn design_drive(spec: &DriveSpec) -> Result<Driving, SwingError> {

@@ -168,6 +168,14 @@ impl Disc {
     }
 
     /// Returns the viscous damping with which a free swing from `twist` ends `missing` short, without dry friction. `[N·m·s/rad]`
+    ///
+    /// # Examples
+    /// ```
+    /// use ozols::drive::swing::Disc;
+    /// let viscous = Disc::viscous_for(1.0, 100.0, 0.5, 0.02);
+    /// let disc = Disc { inertia: 1.0, stiffness: 100.0, viscous, coulomb: 0.0 };
+    /// assert!((disc.missing_angle(0.5) - 0.02).abs() < 1e-12);
+    /// ```
     #[must_use]
     pub fn viscous_for(inertia: f64, stiffness: f64, twist: f64, missing: f64) -> f64 {
         let delta = (twist / (twist - missing)).ln();
@@ -175,6 +183,14 @@ impl Disc {
     }
 
     /// Returns the distance by which a swing without the cam ends short of the start's mirror image, in closed form. `[rad]`
+    ///
+    /// # Examples
+    /// ```
+    /// use ozols::drive::swing::Disc;
+    /// let disc = Disc { inertia: 1.0, stiffness: 100.0, viscous: 0.0, coulomb: 1.0 };
+    /// // Dry friction shifts the middle by 0.01 rad: twice that is missing.
+    /// assert!((disc.missing_angle(0.5) - 0.02).abs() < 1e-12);
+    /// ```
     #[must_use]
     pub fn missing_angle(&self, twist: f64) -> f64 {
         let (decay, _, turning) = self.decay_rates();
@@ -209,6 +225,18 @@ impl Disc {
     ///
     /// # Errors
     /// Returns an error if the disc does not swing.
+    ///
+    /// # Examples
+    /// ```
+    /// use ozols::drive::swing::{Disc, End, Feed, Latch};
+    /// let disc = Disc { inertia: 1.0, stiffness: 100.0, viscous: 0.0, coulomb: 0.0 };
+    /// let latch = Latch { at: 0.5, capture: 0.01 };
+    /// // Without losses it swings to the latch in half a period, π / 10 s.
+    /// let swing = disc.swing_from(0.5, latch, Feed::NONE)?;
+    /// assert!(matches!(swing.end, End::Latched { .. }));
+    /// assert!((swing.duration - std::f64::consts::PI / 10.0).abs() < 1e-6);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     pub fn swing_from(&self, start: f64, latch: Latch, feed: Feed) -> Result<Swing, SwingError> {
         self.check_disc()?;
         let (mut u, mut v, mut t) = (-start, 0.0, 0.0);
@@ -340,6 +368,16 @@ impl Disc {
     ///
     /// # Errors
     /// Returns an error in the same cases as [`Disc::swing`].
+    ///
+    /// # Examples
+    /// ```
+    /// use ozols::drive::swing::{Disc, Latch};
+    /// let disc = Disc { inertia: 1.0, stiffness: 100.0, viscous: 0.0, coulomb: 1.0 };
+    /// let needed = disc.needed_feed(Latch { at: 0.5, capture: 0.0 }, 0.0)?;
+    /// // The friction of 1 N·m over the whole swing of 1 rad.
+    /// assert!(needed.is_some_and(|energy| (energy - 1.0).abs() < 1e-3));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     pub fn needed_feed(&self, latch: Latch, from: f64) -> Result<Option<f64>, SwingError> {
         let arrives = |energy: f64| -> Result<bool, SwingError> {
             let swing = self.swing_from(latch.at, latch, Feed { energy, from })?;

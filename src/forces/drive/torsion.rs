@@ -4,6 +4,14 @@ use serde::{Serialize, Serializer};
 use std::f64::consts::PI;
 
 /// A round bar in torsion.
+///
+/// # Examples
+/// ```
+/// use ozols::drive::torsion::Bar;
+/// // 1 m of steel, 20 mm thick.
+/// let bar = Bar { length: 1.0, diameter: 0.02, shear_modulus: 80e9 };
+/// assert!((bar.stiffness() - 1256.6).abs() < 0.1); // N·m/rad
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Bar {
     /// l. `[m]`
@@ -29,6 +37,15 @@ impl Bar {
     ///
     /// # Sources
     /// `[Klyuchkovskyi 1999]` equation (11), where the stress shares its letter with the period.
+    ///
+    /// # Examples
+    /// ```
+    /// use ozols::drive::torsion::Bar;
+    /// let bar = Bar { length: 1.0, diameter: 0.02, shear_modulus: 80e9 };
+    /// let twist = bar.allowable_twist(400e6);
+    /// assert_eq!(twist, 0.5); // rad
+    /// assert!((bar.rim_stress(twist) - 400e6).abs() < 1.0);
+    /// ```
     #[must_use]
     pub fn allowable_twist(&self, allowable_stress: f64) -> f64 {
         2.0 * self.length * allowable_stress / (self.diameter * self.shear_modulus)
@@ -42,12 +59,24 @@ impl Bar {
 }
 
 /// Returns Π = k φ0² / 2. `[J]`, `[Klyuchkovskyi 1999]` equation (1).
+///
+/// # Examples
+/// ```
+/// use ozols::drive::torsion::stored_energy;
+/// assert_eq!(stored_energy(1000.0, 0.5), 125.0); // J
+/// ```
 #[must_use]
 pub fn stored_energy(stiffness: f64, twist: f64) -> f64 {
     stiffness * twist * twist / 2.0
 }
 
 /// Returns p = √(k/I). `[rad/s]`, `[Klyuchkovskyi 1999]` equation (4).
+///
+/// # Examples
+/// ```
+/// use ozols::drive::torsion::natural_frequency;
+/// assert_eq!(natural_frequency(100.0, 0.25), 20.0); // rad/s
+/// ```
 #[must_use]
 pub fn natural_frequency(stiffness: f64, inertia: f64) -> f64 {
     (stiffness / inertia).sqrt()
@@ -63,6 +92,15 @@ pub fn log_decrement(deflection: f64, next: f64) -> f64 {
 }
 
 /// Returns d = ⁴√(128 π I l / (τ² G)). `[m]`, `[Klyuchkovskyi 1999]` equation (10).
+///
+/// # Examples
+/// ```
+/// use ozols::drive::torsion::{Bar, bar_diameter, natural_frequency};
+/// let bar = Bar { length: 1.0, diameter: 0.02, shear_modulus: 80e9 };
+/// let period = std::f64::consts::TAU / natural_frequency(bar.stiffness(), 3.0);
+/// // The period of its swing gives the diameter back.
+/// assert!((bar_diameter(3.0, bar.length, period, bar.shear_modulus) - 0.02).abs() < 1e-12);
+/// ```
 #[must_use]
 pub fn bar_diameter(inertia: f64, length: f64, period: f64, shear_modulus: f64) -> f64 {
     (128.0 * PI * inertia * length / (period * period * shear_modulus))
@@ -74,6 +112,14 @@ pub fn bar_diameter(inertia: f64, length: f64, period: f64, shear_modulus: f64) 
 ///
 /// # Sources
 /// `[Klyuchkovskyi 1999]` equation (12).
+///
+/// # Examples
+/// ```
+/// use ozols::drive::torsion::{friction_energy, stored_energy};
+/// // The difference of the energies stored at both ends.
+/// let lost = stored_energy(1000.0, 0.5) - stored_energy(1000.0, 0.5 - 0.1);
+/// assert!((friction_energy(1000.0, 0.5, 0.1) - lost).abs() < 1e-9);
+/// ```
 #[must_use]
 pub fn friction_energy(stiffness: f64, twist: f64, missing: f64) -> f64 {
     stiffness / 2.0 * (2.0 * twist * missing - missing * missing)
@@ -106,6 +152,14 @@ impl CamSpring {
     ///
     /// # Sources
     /// `[Klyuchkovskyi 1999]` equation (14).
+    ///
+    /// # Examples
+    /// ```
+    /// use ozols::drive::torsion::CamSpring;
+    /// let spring = CamSpring::for_friction(2.0, 0.8, 0.25, 0.01);
+    /// // It gives what friction takes, and the losses of the cam.
+    /// assert!((spring.stroke_energy() - 2.0 / 0.8).abs() < 1e-12);
+    /// ```
     #[must_use]
     pub fn for_friction(energy: f64, efficiency: f64, mounting: f64, stroke: f64) -> CamSpring {
         let rate = 2.0 * energy / (efficiency * (1.0 + 2.0 * mounting) * stroke * stroke);

@@ -309,6 +309,15 @@ pub(super) fn gripper_for(spec: &GripSpec, lever: Lever, diameter: f64) -> Gripp
 ///
 /// # Errors
 /// Returns an error if figures of the lever are out of range.
+///
+/// # Examples
+/// ```
+/// let text = ozols::builtin::text("lever-gripper").unwrap_or_default();
+/// let file = ozols::file::read::workload::grip_from_bytes("lever-gripper.toml", text.as_bytes())?;
+/// let study = ozols::grip::clamping::study_diameters(&file.spec)?;
+/// assert!(study.holds_all());
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn study_diameters(spec: &GripSpec) -> Result<Study, LeverError> {
     let lever = Lever::new(spec.lever_length, spec.prism_angle, spec.mounting_angle)?;
     let row = |&diameter: &f64| {

@@ -152,6 +152,15 @@ impl fmt::Display for Unholdable {
 
 impl Gripper {
     /// Creates the gripper for which a diameter is nominal.
+    ///
+    /// # Examples
+    /// ```
+    /// use ozols::grip::{contact::Gripper, lever_arm::Lever};
+    /// let lever = Lever::new(0.1, 120f64.to_radians(), 30f64.to_radians())?;
+    /// let gripper = Gripper::with_nominal(lever, 0.05);
+    /// assert!(gripper.find_obstacles(0.05).is_empty());
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     #[must_use]
     pub fn with_nominal(lever: Lever, diameter: f64) -> Gripper {
         Gripper {
@@ -170,6 +179,15 @@ impl Gripper {
     ///
     /// # Sources
     /// The triangle of pivot, vertex and centre; `[Pavlenko & Godunko 2010]` fig. 1 for its angle at the vertex.
+    ///
+    /// # Examples
+    /// ```
+    /// use ozols::grip::{contact::Gripper, lever_arm::Lever};
+    /// let lever = Lever::new(0.1, 120f64.to_radians(), 30f64.to_radians())?;
+    /// let pose = Gripper::with_nominal(lever, 0.05).touching_pose(0.05).expect("it is held");
+    /// assert!(pose.turn.abs() < 1e-12); // The nominal part turns no lever.
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     pub fn touching_pose(&self, diameter: f64) -> Result<TouchingPose, Unholdable> {
         let (lever, half) = (&self.lever, self.lever.prism_angle / 2.0);
         let to_centre = lever.centre_distance(diameter);

@@ -368,6 +368,18 @@ impl<'a> Programme<'a> {
 /// # Sources
 /// Equilibrium of the part (six equations) and of each lever about its pivot, with moments from coordinates, not from
 /// the arms of `[Pavlenko & Godunko 2010]`.
+///
+/// # Examples
+/// ```
+/// use ozols::grip::{contact::Gripper, holding, lever_arm::Lever};
+/// use ozols::model::grip::LeverDrive;
+/// let lever = Lever::new(0.1, 120f64.to_radians(), 30f64.to_radians())?;
+/// let pose = Gripper::with_nominal(lever, 0.05).touching_pose(0.05).expect("it is held");
+/// let load = holding::PartWrench { force: [0.0, -10.0, 0.0], moment: [0.0; 3] };
+/// let found = holding::find_holding(&pose, &load, 0.3, LeverDrive::Independent)?;
+/// assert!(matches!(found, holding::HoldingOutcome::Held(h) if h.drive > 0.0));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn find_holding(
     pose: &TouchingPose,
     load: &PartWrench,

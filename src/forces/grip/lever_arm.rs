@@ -57,6 +57,14 @@ impl Lever {
     ///
     /// # Errors
     /// Returns an error if the length is not positive, α is outside (0, 180°), or γ is outside [0, 180°).
+    ///
+    /// # Examples
+    /// ```
+    /// use ozols::grip::lever_arm::Lever;
+    /// let angle = |degrees: f64| degrees.to_radians();
+    /// assert!(Lever::new(0.1, angle(120.0), angle(30.0)).is_ok());
+    /// assert!(Lever::new(0.1, angle(180.0), angle(30.0)).is_err()); // The faces are flat.
+    /// ```
     pub fn new(length: f64, prism_angle: f64, mounting_angle: f64) -> Result<Lever, LeverError> {
         if !(length > 0.0 && length.is_finite()) {
             return Err(LeverError::Length(length));
@@ -85,6 +93,19 @@ impl Lever {
     ///
     /// # Sources
     /// `[Pavlenko & Godunko 2010]` equations (1) to (8).
+    ///
+    /// # Examples
+    /// ```
+    /// use ozols::grip::lever_arm::Lever;
+    /// let arms = |mounting: f64| {
+    ///     let lever = Lever::new(0.1, 120f64.to_radians(), mounting.to_radians())?;
+    ///     Ok::<_, ozols::grip::lever_arm::LeverError>(lever.force_arms(0.05))
+    /// };
+    /// // From γ = 0° to 40° l11 grows by 44.0 mm and l21 falls by 23.4 mm.
+    /// assert!((arms(40.0)?.l11 - arms(0.0)?.l11 - 0.0440).abs() < 1e-4);
+    /// assert!((arms(0.0)?.l21 - arms(40.0)?.l21 - 0.0234).abs() < 1e-4);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     #[must_use]
     pub fn force_arms(&self, diameter: f64) -> Arms {
         let part = self.face_distance(diameter);
@@ -128,6 +149,15 @@ impl Lever {
 
     /// Returns the diameter that is nominal for a pivot at this signed distance from the axis. It is not positive if
     /// there is none. `[m]`
+    ///
+    /// # Examples
+    /// ```
+    /// use ozols::grip::lever_arm::Lever;
+    /// let lever = Lever::new(0.1, 120f64.to_radians(), 30f64.to_radians())?;
+    /// let pivot = lever.nominal_pivot(0.05);
+    /// assert!((lever.nominal_diameter(pivot) - 0.05).abs() < 1e-12);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     #[must_use]
     pub fn nominal_diameter(&self, pivot: f64) -> f64 {
         2.0 * (pivot + self.length * self.bisector_angle().cos()) * (self.prism_angle / 2.0).sin()

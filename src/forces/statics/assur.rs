@@ -112,6 +112,16 @@ impl Decomposition {
 ///
 /// # Complexity
 /// O(p·(n + p)) time, O(n + p) space, for n bodies and p pairs.
+///
+/// # Examples
+/// ```
+/// use ozols::{model::mechanism::StateId, statics::{assur::decompose_groups, planar::PlanarMechanism}};
+/// let planar = PlanarMechanism::new(&ozols::built_in("parallel-shears")?, StateId::FREE)?;
+/// let found = decompose_groups(&planar, &planar.driven_pairs())?;
+/// assert_eq!(found.highest_class(), 4); // [Bychkov, Dvornikov & Zhukov 2018]
+/// assert!(found.groups.iter().all(|g| g.mobility() == 0));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn decompose_groups(
     m: &PlanarMechanism,
     drives: &[PairId],

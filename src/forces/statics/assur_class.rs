@@ -39,6 +39,12 @@ pub struct AssurClass {
 }
 
 /// Returns a class in Roman numerals, as is usual in the field.
+///
+/// # Examples
+/// ```
+/// use ozols::statics::assur_class::roman_numeral;
+/// assert_eq!(roman_numeral(4), "IV");
+/// ```
 #[must_use]
 pub fn roman_numeral(class: usize) -> String {
     const ROMAN: [&str; 13] = [

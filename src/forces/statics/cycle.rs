@@ -220,6 +220,16 @@ impl Statics {
 ///
 /// # Complexity
 /// O(steps · n³) for n bodies.
+///
+/// # Examples
+/// ```
+/// use ozols::{model::{loads::Stroke, mechanism::StateId}, statics::cycle::planar_statics};
+/// let stroke = Stroke { from: 0.0, to: std::f64::consts::TAU, steps: 12 };
+/// let found = planar_statics(&ozols::built_in("four-bar")?, StateId::FREE, Some(stroke))?;
+/// assert_eq!(found.moments.len(), 13);
+/// assert!(found.dead.is_none()); // The crank turns fully.
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn planar_statics(
     mechanism: &Mechanism,
     state: StateId,
@@ -316,6 +326,15 @@ pub struct DrivenStructure {
 ///
 /// # Errors
 /// Returns an error if the mechanism is not planar.
+///
+/// # Examples
+/// ```
+/// use ozols::{model::mechanism::StateId, statics::cycle::drive_structures};
+/// let (_, all) = drive_structures(&ozols::built_in("four-bar")?, StateId::FREE)?;
+/// // Whichever hinge is driven, the rest is a group of class II.
+/// assert!(all.iter().all(|s| s.found.as_ref().is_ok_and(|(d, _)| d.highest_class() == 2)));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn drive_structures(
     mechanism: &Mechanism,
     state: StateId,

@@ -164,6 +164,15 @@ impl PlanarMechanism {
     ///
     /// # Errors
     /// Returns an error if a joint fits no planar pair, or if joints are coupled.
+    ///
+    /// # Examples
+    /// ```
+    /// use ozols::{model::mechanism::StateId, statics::planar::PlanarMechanism};
+    /// let planar = PlanarMechanism::new(&ozols::built_in("four-bar")?, StateId::FREE)?;
+    /// assert_eq!((planar.bodies.len(), planar.pairs.len()), (4, 4));
+    /// assert!(PlanarMechanism::new(&ozols::built_in("bennett")?, StateId::FREE).is_err());
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     pub fn new(m: &Mechanism, state: StateId) -> Result<Self, PlanarError> {
         if let Some(c) = m.couplings_in(state).next() {
             let coupling = c.name(m);

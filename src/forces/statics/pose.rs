@@ -99,6 +99,16 @@ impl Linkage {
     }
 
     /// Returns the position of a pair in a pose: its point on the second body.
+    ///
+    /// # Examples
+    /// ```
+    /// use ozols::{model::mechanism::StateId, statics::{planar::PlanarMechanism, pose::Linkage}};
+    /// let planar = PlanarMechanism::new(&ozols::built_in("four-bar")?, StateId::FREE)?;
+    /// let linkage = Linkage::new(planar);
+    /// let [x, y] = linkage.pair_position(&linkage.home_pose(), 2);
+    /// assert!((x - 0.080).hypot(y - 0.090) < 1e-12); // Drawn at (80, 90) mm.
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     #[must_use]
     pub fn pair_position(&self, pose: &Pose, pair: PairId) -> [f64; 2] {
         let p = &self.mechanism.pairs[pair];

@@ -84,14 +84,14 @@ pub(crate) fn is_for_space(error: &PlanarStaticsError) -> bool {
 /// The parallel shears, held in their first position:
 /// ```
 /// use ozols::model::mechanism::StateId;
-/// use ozols::statics::solve::{SolvedReactions, Model, solve};
+/// use ozols::statics::solve::{SolvedReactions, Model, solve_reactions};
 ///
 /// let text = ozols::builtin::text("parallel-shears").expect("it is built in");
 /// let shears = ozols::file::text::mechanism_from_str("parallel-shears.toml", text)?;
-/// let SolvedReactions::Planar(found) = solve(&shears, StateId::FREE, None, Model::Either)? else {
+/// let SolvedReactions::Planar(found) = solve_reactions(&shears, StateId::FREE, None, Model::Either)? else {
 ///     panic!("the shears are planar")
 /// };
-/// assert_eq!(found.decomposition.class(), 4);
+/// assert_eq!(found.decomposition.highest_class(), 4);
 /// assert_eq!(found.moments.len(), 1);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```

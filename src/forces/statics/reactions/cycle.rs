@@ -30,6 +30,14 @@ pub struct Cycle {
 ///
 /// # Complexity
 /// O((6k)²·f) per pose, for k contours and f freedoms.
+///
+/// # Examples
+/// ```
+/// use ozols::{model::mechanism::StateId, statics::reactions::cycle::solve_cycle};
+/// let found = solve_cycle(&ozols::built_in("gripper-10-loaded")?, StateId::FREE, None)?;
+/// assert_eq!((found.positions.len(), found.stopped), (1, None)); // The pose of the file alone.
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn solve_cycle(
     m: &Mechanism,
     state: StateId,

@@ -46,6 +46,15 @@ impl Reactions {
     ///
     /// # Complexity
     /// O((6k)²·f) for k contours and f freedoms.
+    ///
+    /// # Examples
+    /// ```
+    /// use ozols::{model::mechanism::StateId, statics::reactions::solve::Reactions};
+    /// let loaded = ozols::built_in("gripper-10-loaded")?;
+    /// let found = Reactions::solve_at_home(&loaded, StateId::FREE, &loaded.loads)?;
+    /// assert_eq!(found.reactions.len(), loaded.joints_in(StateId::FREE).count());
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     pub fn solve_at_home(
         m: &Mechanism,
         state: StateId,
