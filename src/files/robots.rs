@@ -38,6 +38,16 @@ use std::collections::BTreeMap;
 ///
 /// # Errors
 /// Returns the reason if these are not freedoms of existing joints, in words that follow the redesign's name.
+///
+/// # Examples
+/// ```
+/// use ozols::robots::find_releases;
+/// let four_bar = ozols::built_in("four-bar")?;
+/// let outcome = ozols::search(&four_bar, &ozols::Request::default())?;
+/// let best = outcome.variants().next().expect("there are 14").as_mechanism();
+/// assert_eq!(find_releases(&four_bar, &best)?.len(), 3); // One for each redundant constraint.
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn find_releases(before: &Mechanism, after: &Mechanism) -> Result<Vec<Release>, String> {
     if after.joints.len() != before.joints.len() {
         return Err("inserts joints that are not of one joint's kind; choose another".to_owned());
@@ -67,6 +77,22 @@ pub fn find_releases(before: &Mechanism, after: &Mechanism) -> Result<Vec<Releas
 ///
 /// # Errors
 /// Returns an error if the format cannot represent a release at its place.
+///
+/// # Examples
+/// ```
+/// use ozols::robots::{self, Options};
+/// let four_bar = ozols::built_in("four-bar")?;
+/// let outcome = ozols::search(&four_bar, &ozols::Request::default())?;
+/// let best = outcome.variants().next().expect("there are 14").as_mechanism();
+/// let sdf = ozols::export(&four_bar, "sdf")?;
+/// let none = |_: &str| Err(std::io::ErrorKind::NotFound.into());
+/// let read = |bytes: &[u8]| robots::import("four-bar.sdf", bytes, &none, &Options::default());
+/// let releases = robots::find_releases(&four_bar, &best)?.into_iter();
+/// let releases: Vec<_> = releases.map(|r| (r, "held twice".into())).collect();
+/// let fixed = robots::apply_releases(&read(sdf.as_bytes())?, &releases)?;
+/// assert_eq!(ozols::analyze(&read(&fixed)?.mechanism)?[0].redundant, 0);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn apply_releases(
     imported: &Imported,
     releases: &[(Release, String)],

@@ -16,6 +16,16 @@ use std::collections::{BTreeMap, BTreeSet};
 /// # Errors
 /// Returns every problem found, each with its place: invalid TOML, an unknown name (not a joint type, an option of the mechanism,
 /// `change`, `link` or `harmful`), or an invalid cost.
+///
+/// # Examples
+/// ```
+/// use ozols::file::costs::costs_from_str;
+/// let four_bar = ozols::built_in("four-bar")?;
+/// let costs = costs_from_str("costs.toml", "spherical = 1.5\nchange = 2", &four_bar)?;
+/// assert_eq!(costs.change_milli, Some(2000)); // In thousandths.
+/// assert!(costs_from_str("costs.toml", "bearing = 1", &four_bar).is_err());
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn costs_from_str(
     name: &str,
     text: &str,

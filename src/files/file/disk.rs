@@ -28,6 +28,16 @@ pub fn read_bytes(path: &Path, limit: usize) -> io::Result<Vec<u8>> {
 ///
 /// # Errors
 /// Returns an error if it is not a regular file, is longer, or cannot be read.
+///
+/// # Examples
+/// ```
+/// use ozols::file::disk::at_most;
+/// let path = std::env::temp_dir().join("ozols-at-most.toml");
+/// std::fs::write(&path, "name = \"mine\"")?;
+/// assert_eq!(at_most(&path, 100)?.len(), 13);
+/// assert!(at_most(&path, 12).is_err());
+/// # Ok::<(), std::io::Error>(())
+/// ```
 pub fn at_most(path: &Path, limit: usize) -> io::Result<Vec<u8>> {
     let all = read_bytes(path, limit)?;
     if all.len() > limit {

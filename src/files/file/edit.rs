@@ -14,6 +14,17 @@ use toml_edit::{ArrayOfTables, DocumentMut, Item, Table};
 ///
 /// # Errors
 /// Returns an error if the text is not TOML, or if a change names a missing item; then no change is made.
+///
+/// # Examples
+/// ```
+/// use ozols::file::edit::{Edit, Thing, apply_edits};
+/// let text = ozols::builtin::text("four-bar").unwrap_or_default();
+/// let rename = Edit::Rename { what: Thing::Link, id: "1".into(), to: "crank".into() };
+/// let edited = apply_edits(text, &[rename])?;
+/// // Joints name the link by its new id, and comments stay.
+/// assert!(edited.contains(r#"links = ["crank", "2"]"#) && edited.contains("# coupler, 100 mm"));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn apply_edits(text: &str, edits: &[Edit]) -> Result<String, EditError> {
     let mut text = text.to_owned();
     let mut document: Option<DocumentMut> = None;

@@ -47,6 +47,17 @@ pub struct Checked {
 ///
 /// # Errors
 /// Returns every problem found, each with its place, if the file cannot be used.
+///
+/// # Examples
+/// ```
+/// use ozols::file::lint::check_file;
+/// let text = ozols::builtin::text("four-bar").unwrap_or_default();
+/// assert!(check_file("four-bar.toml", text.as_bytes())?.warnings.warnings.is_empty());
+/// let unnamed = text.replace("name = \"four-bar\"", "name = \"\"");
+/// let told = check_file("mine.toml", unnamed.as_bytes())?.warnings.render(false);
+/// assert!(told.contains("the name is empty"));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn check_file(name: &str, bytes: &[u8]) -> Result<Checked, ImportError> {
     let text = text_of(name, bytes)?;
     read_file(name, text, |file| {
@@ -122,6 +133,14 @@ fn distance(a: [f64; 3], b: [f64; 3]) -> f64 {
 }
 
 /// Returns the diagonal of the box around the joints, in the file's unit.
+///
+/// # Examples
+/// ```
+/// use ozols::file::lint::mechanism_size;
+/// // The joints are at (0, 0), (0, 30), (80, 90) and (120, 0), in mm.
+/// assert_eq!(mechanism_size(&ozols::built_in("four-bar")?), 150.0);
+/// # Ok::<(), ozols::Error>(())
+/// ```
 #[must_use]
 pub fn mechanism_size(m: &Mechanism) -> f64 {
     box_diagonal(m.joints.iter().map(joint_point))

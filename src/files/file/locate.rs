@@ -89,6 +89,15 @@ impl<'t> Document<'t> {
     }
 
     /// Returns the bytes of an item, or of the innermost existing thing around it.
+    ///
+    /// # Examples
+    /// ```
+    /// use ozols::file::locate::{Document, DocumentPath};
+    /// let text = "name = \"mine\"\n[[link]]\nid = \"0\"";
+    /// let document = Document::new(text, false).expect("it is TOML");
+    /// let place = DocumentPath::root_key("link").entry_at(0).key("id");
+    /// assert_eq!(document.find_span(&place).map(|span| &text[span]), Some("\"0\""));
+    /// ```
     #[must_use]
     pub fn find_span(&self, path: &DocumentPath) -> Option<Range<usize>> {
         match self {

@@ -5,6 +5,14 @@ use crate::file::schema::{Coordinate, MechanismFile};
 use std::collections::BTreeSet;
 
 /// Returns the places of joints and of points of interest as numbers; `None` for those with an invalid expression.
+///
+/// # Examples
+/// ```
+/// use ozols::file::{loose::read_points, write::mechanism_file};
+/// let [joints, _] = read_points(&mechanism_file(&ozols::built_in("four-bar")?));
+/// assert_eq!(joints[2], Some([80.0, 90.0, 0.0]));
+/// # Ok::<(), ozols::Error>(())
+/// ```
 #[must_use]
 pub fn read_points(file: &MechanismFile) -> [Vec<Option<[f64; 3]>>; 2] {
     let one = |v: &[Coordinate; 3]| {

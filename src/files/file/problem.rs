@@ -127,6 +127,15 @@ impl<K: Display> Located<K> {
 pub type Problem = Located<ProblemKind>;
 
 /// A file that could not be used, with every problem found.
+///
+/// # Examples
+/// ```
+/// use ozols::file::text::mechanism_from_str;
+/// let text = ozols::builtin::text("four-bar").unwrap_or_default().replace("\"revolute\"", "\"revolt\"");
+/// let why = mechanism_from_str("mine.toml", &text).expect_err("there is no such type");
+/// assert_eq!(why.problems.len(), 4); // Each of the four joints is named, with a remedy.
+/// assert!(why.render(false).contains("revolute"));
+/// ```
 #[derive(Debug, Clone)]
 pub struct ImportError {
     /// Name of the file.
@@ -167,6 +176,13 @@ impl ImportError {
     }
 
     /// Returns true if the only problem is that nothing can move.
+    ///
+    /// # Examples
+    /// ```
+    /// use ozols::file::text::mechanism_from_str;
+    /// let why = mechanism_from_str("mine.toml", "name = 3").expect_err("a name is text");
+    /// assert!(!why.is_rigid()); // The problem is another one.
+    /// ```
     #[must_use]
     pub fn is_rigid(&self) -> bool {
         let rigid = |p: &Problem| matches!(p.kind, ProblemKind::Rigid { .. });

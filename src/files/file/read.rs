@@ -71,6 +71,15 @@ fn few_enough(file: &MechanismFile, out: &Findings) -> bool {
 ///
 /// # Errors
 /// Returns the first hundred problems found.
+///
+/// # Examples
+/// ```
+/// use ozols::file::{read::build_mechanism, schema::MechanismFile, write::mechanism_file};
+/// let file = mechanism_file(&ozols::built_in("bennett")?);
+/// assert!(build_mechanism(&file).is_ok_and(|m| m.joints.len() == 4));
+/// assert!(build_mechanism(&MechanismFile::default()).is_err());
+/// # Ok::<(), ozols::Error>(())
+/// ```
 pub fn build_mechanism(file: &MechanismFile) -> Result<Mechanism, Vec<Finding>> {
     let out = with_parameters(file);
     if !few_enough(file, &out) {

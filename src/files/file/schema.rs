@@ -328,6 +328,15 @@ pub struct ClaimEntry {
 
 impl MechanismFile {
     /// Returns the file as JSON, without values that equal their default.
+    ///
+    /// # Examples
+    /// ```
+    /// use ozols::file::write::mechanism_file;
+    /// let json = mechanism_file(&ozols::built_in("four-bar")?).json();
+    /// assert_eq!(json["joint"][0]["type"], "revolute");
+    /// assert!(json.get("coupling").is_none()); // What is empty is left out.
+    /// # Ok::<(), ozols::Error>(())
+    /// ```
     #[must_use]
     pub fn json(&self) -> Value {
         let mut value = serde_json::to_value(self).unwrap_or_default();

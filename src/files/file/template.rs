@@ -52,6 +52,14 @@ const ADVICE: [(&str, &str); 10] = [
 ///
 /// # Errors
 /// Returns an error if the text is not TOML.
+///
+/// # Examples
+/// ```
+/// use ozols::file::template::without_claims;
+/// let text = without_claims(ozols::builtin::text("torsion-module").unwrap_or_default())?;
+/// assert!(ozols::from_toml(&text)?.claims.is_empty());
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn without_claims(text: &str) -> Result<String, TomlError> {
     let mut document: DocumentMut = text.parse()?;
     document.remove("claim");
@@ -65,6 +73,15 @@ pub fn without_claims(text: &str) -> Result<String, TomlError> {
 ///
 /// # Errors
 /// Returns an error if the text is not TOML.
+///
+/// # Examples
+/// ```
+/// use ozols::file::template::with_comments;
+/// let text = with_comments(ozols::builtin::text("four-bar").unwrap_or_default(), "four-bar", "mine")?;
+/// assert!(text.starts_with("# mine: a mechanism for ozols"));
+/// assert_eq!(ozols::from_toml(&text)?.name, "mine");
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn with_comments(text: &str, from: &str, name: &str) -> Result<String, TomlError> {
     let mut document: DocumentMut = text.parse()?;
     document.remove("claim");

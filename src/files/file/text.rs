@@ -17,6 +17,15 @@ pub const MAX_BYTES: usize = 4 << 20;
 ///
 /// # Errors
 /// Returns every problem found, each with its place.
+///
+/// # Examples
+/// ```
+/// use ozols::file::text::mechanism_from_bytes;
+/// let text = ozols::builtin::text("bennett").unwrap_or_default();
+/// assert_eq!(mechanism_from_bytes("bennett.toml", text.as_bytes())?.joints.len(), 4);
+/// assert!(mechanism_from_bytes("bennett.toml", b"\xff").is_err()); // Not UTF-8.
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn mechanism_from_bytes(name: &str, bytes: &[u8]) -> Result<Mechanism, ImportError> {
     mechanism_from_str(name, text_of(name, bytes)?)
 }
@@ -60,6 +69,15 @@ pub(crate) fn decode_utf8(bytes: &[u8]) -> Result<&str, ProblemKind> {
 }
 
 /// Reads a file and makes something of it.
+///
+/// # Examples
+/// ```
+/// use ozols::file::text::read_file;
+/// let text = ozols::builtin::text("four-bar").unwrap_or_default();
+/// let joints = read_file("four-bar.toml", text, |file| Ok(file.joint.len()))?;
+/// assert_eq!(joints, 4);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn read_file<T>(
     name: &str,
     text: &str,

@@ -27,6 +27,15 @@ use toml_edit::{DocumentMut, Item};
 const LONGEST_COMMENT: usize = 110;
 
 /// Returns the file of a mechanism. Options that the file had in common are listed at each joint; nothing else is changed.
+///
+/// # Examples
+/// ```
+/// use ozols::file::write::{mechanism_file, toml};
+/// let four_bar = ozols::built_in("four-bar")?;
+/// let again = ozols::from_toml(&toml(&mechanism_file(&four_bar), &[])?)?;
+/// assert_eq!(again.joints.len(), four_bar.joints.len());
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[must_use]
 pub fn mechanism_file(m: &Mechanism) -> MechanismFile {
     let ids = |list: &[JointId]| list.iter().map(|&j| m.joints[j].id.clone()).collect();
@@ -125,6 +134,15 @@ impl Comment {
 ///
 /// # Errors
 /// No error is known for the file of a validated mechanism.
+///
+/// # Examples
+/// ```
+/// use ozols::file::write::{Comment, mechanism_file, toml};
+/// let file = mechanism_file(&ozols::built_in("four-bar")?);
+/// let text = toml(&file, &[Comment::new("joint", 1, "from crank to coupler")])?;
+/// assert!(text.contains("# from crank to coupler\n[[joint]]"));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn toml(file: &MechanismFile, comments: &[Comment]) -> Result<String, toml::ser::Error> {
     let text = toml::to_string(&file.json())?;
     if comments.is_empty() {

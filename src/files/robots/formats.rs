@@ -135,12 +135,25 @@ static FORMATS: [Format; 9] = [
 ];
 
 /// Returns true if a format can only be written from files read in it, with joints changed.
+///
+/// # Examples
+/// ```
+/// use ozols::robots::formats::is_own;
+/// // A FreeCAD document has shapes that no mechanism has.
+/// assert!(is_own("fcstd") && !is_own("urdf"));
+/// ```
 #[must_use]
 pub fn is_own(word: &str) -> bool {
     writable_formats().any(|f| f.word == word && matches!(f.write, Some(FormatWriter::Own)))
 }
 
 /// Returns the formats in which a mechanism can be written.
+///
+/// # Examples
+/// ```
+/// let words: Vec<&str> = ozols::robots::formats::writable_formats().map(|f| f.word).collect();
+/// assert!(["toml", "json", "urdf", "mjcf", "sdf", "dot", "graphml"].iter().all(|w| words.contains(w)));
+/// ```
 pub fn writable_formats() -> impl Iterator<Item = &'static Format> {
     FORMATS.iter().filter(|f| f.write.is_some())
 }
@@ -164,6 +177,14 @@ pub fn write(m: &Mechanism, word: &str) -> Result<String, ExportError> {
 ///
 /// # Errors
 /// Returns the errors of [`write()`].
+///
+/// # Examples
+/// ```
+/// let file = ozols::robots::formats::export(&ozols::built_in("four-bar")?, "urdf")?;
+/// // URDF has no loops, and masses are placeholders.
+/// assert!(!file.told.is_empty());
+/// # Ok::<(), ozols::Error>(())
+/// ```
 pub fn export(m: &Mechanism, word: &str) -> Result<FormattedFile, ExportError> {
     let format = writable_formats().find(|f| f.word == word);
     match format.and_then(|f| Some((f.name, f.write?))) {
@@ -180,6 +201,13 @@ pub fn export(m: &Mechanism, word: &str) -> Result<FormattedFile, ExportError> {
 }
 
 /// Returns true if a file of this name is a robot description, by its ending.
+///
+/// # Examples
+/// ```
+/// use ozols::robots::is_description;
+/// assert!(is_description("arm.URDF") && is_description("vice.FCStd"));
+/// assert!(!is_description("four-bar.toml"));
+/// ```
 #[must_use]
 pub fn is_description(name: &str) -> bool {
     std::path::Path::new(name).extension().is_some_and(|e| {
@@ -190,6 +218,13 @@ pub fn is_description(name: &str) -> bool {
 
 /// Returns whether the bytes of a file begin as a robot description or a CAD assembly does: as XML, a FreeCAD document or an assembly
 /// of OndselSolver.
+///
+/// # Examples
+/// ```
+/// use ozols::robots::begins_description;
+/// assert!(begins_description(b"<robot name=\"arm\"/>"));
+/// assert!(!begins_description(b"name = \"four-bar\""));
+/// ```
 #[must_use]
 pub fn begins_description(bytes: &[u8]) -> bool {
     let text = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
@@ -304,6 +339,13 @@ static FOREIGN: [Foreign; 38] = [
 ///
 /// # Errors
 /// Returns the name of the format and the remedy.
+///
+/// # Examples
+/// ```
+/// use ozols::robots::refuse_foreign;
+/// assert!(refuse_foreign("hand.jinja", b"{{ x }}").is_err());
+/// assert!(refuse_foreign("hand.urdf", b"<robot/>").is_ok());
+/// ```
 pub fn refuse_foreign(name: &str, bytes: &[u8]) -> Result<(), ImportError> {
     let path = std::path::Path::new(name);
     let ending = path

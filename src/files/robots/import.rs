@@ -50,6 +50,16 @@ impl Imported {
     ///
     /// # Errors
     /// No error is known.
+    ///
+    /// # Examples
+    /// ```
+    /// use ozols::robots::{Options, import};
+    /// let sdf = ozols::export(&ozols::built_in("bennett")?, "sdf")?;
+    /// let none = |_: &str| Err(std::io::ErrorKind::NotFound.into());
+    /// let read = import("bennett.sdf", sdf.as_bytes(), &none, &Options::default())?;
+    /// assert_eq!(ozols::from_toml(&read.toml()?)?.joints.len(), 4);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     pub fn toml(&self) -> Result<String, ExportError> {
         Ok(write::toml(&self.file, &self.comments)?)
     }
@@ -82,6 +92,17 @@ fn read_root(
 ///
 /// # Errors
 /// Returns the first problem found, with its place.
+///
+/// # Examples
+/// ```
+/// use ozols::robots::{Options, import};
+/// let mjcf = ozols::export(&ozols::built_in("four-bar")?, "mjcf")?;
+/// let none = |_: &str| Err(std::io::ErrorKind::NotFound.into());
+/// let read = import("four-bar.xml", mjcf.as_bytes(), &none, &Options::default())?;
+/// assert_eq!((read.format.word, read.report.left_out()), ("mjcf", 0));
+/// assert_eq!(ozols::analyze(&read.mechanism)?[0].redundant, 3);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn import(
     name: &str,
     bytes: &[u8],

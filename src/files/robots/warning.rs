@@ -58,6 +58,13 @@ pub struct Kept {
 }
 
 /// The count of a CAD program.
+///
+/// # Examples
+/// ```
+/// use ozols::robots::CadCount;
+/// // A four-bar of three moving parts and four hinges: W - σ = 1 - 3.
+/// assert_eq!(CadCount { parts: 3, constraints: 4 * 5 }.freedoms(), -2);
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct CadCount {
     /// Parts that are not the ground.

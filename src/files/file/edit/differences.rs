@@ -9,6 +9,19 @@ const KEYS: &str = "links type freedoms point axis reference lead pitch drive";
 
 /// Returns the changes that lead from a mechanism to a redesign of it: joints in their order, then additions. `own` is the file
 /// to change, whose joints may list options that the new ones exceed.
+///
+/// # Examples
+/// ```
+/// use ozols::file::{edit::{apply_edits, find_differences}, write::mechanism_file};
+/// let four_bar = ozols::built_in("four-bar")?;
+/// let outcome = ozols::search(&four_bar, &ozols::Request::default())?;
+/// let best = outcome.variants().next().expect("there are 14").as_mechanism();
+/// let [before, after] = [&four_bar, &best].map(mechanism_file);
+/// let text = ozols::builtin::text("four-bar").unwrap_or_default();
+/// let redesign = apply_edits(text, &find_differences(&before, &after, &before))?;
+/// assert_eq!(ozols::analyze(&ozols::from_toml(&redesign)?)?[0].redundant, 0);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[must_use]
 pub fn find_differences(
     before: &MechanismFile,

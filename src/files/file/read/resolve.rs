@@ -236,6 +236,17 @@ fn option_frame(joint: &str, present: &Frame, table: &OptionTable, at: &Place<'_
 
 /// Returns true if one joint allows every motion of another at the same place, computed exactly over a prime field. `None` if the
 /// geometry has no image there.
+///
+/// # Examples
+/// ```
+/// use ozols::{file::read::resolve::contains_option, model::{joint_type::JointType, mechanism::JointOption}};
+/// let four_bar = ozols::built_in("four-bar")?;
+/// let at = |of: &JointType| JointOption::in_frame_of(&four_bar.joints[ozols::model::JointId::new(0)], of);
+/// let [hinge, ball] = [JointType::Revolute, JointType::Spherical].map(|t| at(&t));
+/// assert_eq!(contains_option(&ball, &hinge), Some(true));
+/// assert_eq!(contains_option(&hinge, &ball), Some(false));
+/// # Ok::<(), ozols::Error>(())
+/// ```
 pub fn contains_option(wide: &JointOption, narrow: &JointOption) -> Option<bool> {
     if wide.joint_type == narrow.joint_type && wide.joint_type == JointType::Spherical {
         return Some(true);

@@ -41,6 +41,15 @@ pub struct WorkloadFile<T> {
 ///
 /// # Errors
 /// Returns every problem found, each with its place.
+///
+/// # Examples
+/// ```
+/// use ozols::file::read::workload::grip_from_bytes;
+/// let text = ozols::builtin::text("lever-gripper").unwrap_or_default();
+/// let file = grip_from_bytes("lever-gripper.toml", text.as_bytes())?;
+/// assert!(file.spec.lever_length > 0.0 && !file.claims.is_empty());
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn grip_from_bytes(name: &str, bytes: &[u8]) -> Result<WorkloadFile<GripSpec>, ImportError> {
     let example = ("grip", "lever-gripper");
     let text = text_of(name, bytes)?;
@@ -51,6 +60,15 @@ pub fn grip_from_bytes(name: &str, bytes: &[u8]) -> Result<WorkloadFile<GripSpec
 ///
 /// # Errors
 /// Returns every problem found, each with its place.
+///
+/// # Examples
+/// ```
+/// use ozols::file::read::workload::drive_from_bytes;
+/// let text = ozols::builtin::text("torsion-module").unwrap_or_default();
+/// let file = drive_from_bytes("torsion-module.toml", text.as_bytes())?;
+/// assert!(file.mechanism.is_some() && file.spec.shear_modulus > 0.0);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn drive_from_bytes(name: &str, bytes: &[u8]) -> Result<WorkloadFile<DriveSpec>, ImportError> {
     let example = ("drive", "torsion-module");
     let text = text_of(name, bytes)?;

@@ -33,6 +33,15 @@ pub struct NoStroke(String);
 ///
 /// # Errors
 /// Returns an error if the text is not a stroke.
+///
+/// # Examples
+/// ```
+/// use ozols::file::read::workload::motion::parse_stroke;
+/// let turn = parse_stroke("0:360deg:72")?;
+/// assert_eq!((turn.to, turn.steps), (std::f64::consts::TAU, 72));
+/// assert!(parse_stroke("0:360deg").is_err());
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn parse_stroke(text: &str) -> Result<Stroke, NoStroke> {
     let parts: Vec<&str> = text.split(':').collect();
     let parsed = match parts[..] {

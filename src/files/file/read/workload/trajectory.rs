@@ -61,6 +61,14 @@ fn read_step(names: &StringRecord, record: &StringRecord, unit: f64) -> Result<M
 ///
 /// # Errors
 /// Returns a [`TrajectoryError`].
+///
+/// # Examples
+/// ```
+/// use ozols::file::read::workload::trajectory::read_trajectory;
+/// let steps = read_trajectory("motion.csv", b"time,ax,ay,az\n0,0,0,0\n0.1,5,0,0\n", 0.001)?;
+/// assert_eq!(steps[1].acceleration, [5.0, 0.0, 0.0]);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn read_trajectory(
     file: &str,
     bytes: &[u8],
