@@ -191,6 +191,15 @@ pub fn make_ladder(scene: Scene, contours: usize, noise: &mut Noise) -> Mechanis
 ///
 /// # Panics
 /// Never: the text is valid.
+///
+/// # Examples
+/// ```
+/// use ozols::accuracy::lattice::make_lift;
+/// // A scissor lift is planar: three redundant constraints in each of its loops.
+/// let free = &ozols::analyze(&make_lift(3))?[0];
+/// assert_eq!((free.mobility, free.contours, free.redundant), (1, 4, 12));
+/// # Ok::<(), ozols::Error>(())
+/// ```
 pub fn make_lift(stages: usize) -> Mechanism {
     let mut file = Sketch::with_links(["0", "slide"]);
     let slider = |file: &mut Sketch, ends: [&str; 2], y: i64| {

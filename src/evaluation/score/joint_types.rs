@@ -30,6 +30,14 @@ impl JointTypes {
     ///
     /// # Panics
     /// Never: the text is part of the program, and a test reads it.
+    ///
+    /// # Examples
+    /// ```
+    /// use ozols::score::joint_types::JointTypes;
+    /// let types = JointTypes::built_in();
+    /// // A ball bears forces and no moments.
+    /// assert!(types.get("spherical").is_some_and(|t| t.capacity_force > 0.0 && t.capacity_moment.is_none()));
+    /// ```
     pub fn built_in() -> JointTypes {
         JointTypes {
             by_name: toml::from_str(TEXT).expect("the built-in catalogue is valid"),

@@ -33,6 +33,15 @@ use num_traits::{One, Zero};
 use std::collections::BTreeMap;
 
 /// The results of a search.
+///
+/// # Examples
+/// ```
+/// let outcome = ozols::search(&ozols::built_in("gripper-10")?, &ozols::Request::default())?;
+/// assert_eq!(outcome.determinate.to_string(), "6340592477");
+/// assert_eq!(outcome.admissible.to_string(), "25761436"); // In the drawn pose.
+/// assert!(outcome.lasting.as_ref().is_ok_and(|n| n.to_string() == "21817629"));
+/// # Ok::<(), ozols::Error>(())
+/// ```
 #[derive(Debug)]
 #[non_exhaustive]
 pub struct Outcome {
@@ -122,12 +131,28 @@ impl Outcome {
     }
 
     /// Returns the counts of the listed variants: those that keep the motion throughout, or the admissible ones if these are not known.
+    ///
+    /// # Examples
+    /// ```
+    /// let outcome = ozols::search(&ozols::built_in("gripper-10")?, &ozols::Request::default())?;
+    /// assert_eq!(outcome.listed_counts().to_string(), "21817629"); // Those that keep the motion throughout.
+    /// # Ok::<(), ozols::Error>(())
+    /// ```
     pub fn listed_counts(&self) -> &Counts {
         self.lasting.as_ref().unwrap_or(&self.admissible)
     }
 
     /// Returns whether exact arithmetic examined everything, and singular values do not contradict it if coordinates look rounded. Counts
     /// are then exact, and no list is better.
+    ///
+    /// # Examples
+    /// ```
+    /// let four_bar = ozols::built_in("four-bar")?;
+    /// assert!(ozols::search(&four_bar, &ozols::Request::default())?.is_exact());
+    /// let hasty = ozols::Request { nodes: 2, ..Default::default() };
+    /// assert!(!ozols::search(&four_bar, &hasty)?.is_exact()); // The budget ended it.
+    /// # Ok::<(), ozols::Error>(())
+    /// ```
     pub fn is_exact(&self) -> bool {
         self.is_counted() && self.is_confirmed()
     }
@@ -181,6 +206,13 @@ impl Outcome {
     ///
     /// # Complexity
     /// That of a diagram of the minimal variants.
+    ///
+    /// # Examples
+    /// ```
+    /// let outcome = ozols::search(&ozols::built_in("four-bar")?, &ozols::Request::default())?;
+    /// assert_eq!(outcome.count_minimal(), Some(12u32.into()));
+    /// # Ok::<(), ozols::Error>(())
+    /// ```
     pub fn count_minimal(&self) -> Option<BigUint> {
         let found = self.diagrams.as_ref().filter(|_| self.is_exact());
         self.search.count_minimal(found?)
@@ -191,6 +223,15 @@ impl Outcome {
     ///
     /// # Complexity
     /// One more tally of the diagram.
+    ///
+    /// # Examples
+    /// ```
+    /// let outcome = ozols::search(&ozols::built_in("four-bar")?, &ozols::Request::default())?;
+    /// let by_cost = outcome.admissible_by_cost().unwrap_or_default();
+    /// let counts: Vec<String> = by_cost.iter().map(|(cost, n)| format!("{cost}: {n}")).collect();
+    /// assert_eq!(counts, ["3500: 6", "4000: 1", "4500: 6", "5000: 1"]);
+    /// # Ok::<(), ozols::Error>(())
+    /// ```
     pub fn admissible_by_cost(&self) -> Option<BTreeMap<i64, BigUint>> {
         if let Some(found) = &self.numeric {
             return Some(found.by_cost.clone());
@@ -220,6 +261,17 @@ impl Outcome {
     ///
     /// # Complexity
     /// A search for each condition and each step of easing it, none of more than some thousand nodes.
+    ///
+    /// # Examples
+    /// ```
+    /// use ozols::search::answer::why_none::Relaxation;
+    /// let few = ozols::Request { max_changes: Some(1), ..Default::default() };
+    /// let outcome = ozols::search(&ozols::built_in("four-bar")?, &few)?;
+    /// assert_eq!(outcome.admissible.to_string(), "0");
+    /// // Two changes would leave 13 variants.
+    /// assert!(outcome.list_relaxations(&|| false)?.contains(&(Relaxation::Changes(2), 13u32.into())));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     pub fn list_relaxations(
         &self,
         cancelled: &(dyn Fn() -> bool + Sync),

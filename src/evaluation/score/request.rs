@@ -54,6 +54,15 @@ pub struct Inserts {
 }
 
 /// Which of the admissible variants are given.
+///
+/// # Examples
+/// ```
+/// use ozols::score::request::List;
+/// let request = ozols::Request { list: List::All, ..Default::default() };
+/// let outcome = ozols::search(&ozols::built_in("four-bar")?, &request)?;
+/// assert_eq!(outcome.variants().count().to_string(), outcome.listed_counts().to_string());
+/// # Ok::<(), ozols::Error>(())
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum List {
     /// The best so many.
@@ -85,6 +94,16 @@ pub enum Check {
 }
 
 /// How variants are counted.
+///
+/// # Examples
+/// ```
+/// use ozols::score::request::Method;
+/// let four_bar = ozols::built_in("four-bar")?;
+/// let brute = ozols::Request { method: Method::Brute, ..Default::default() };
+/// let [by_diagram, by_brute] = [&ozols::Request::default(), &brute].map(|r| ozols::search(&four_bar, r));
+/// assert_eq!(by_diagram?.admissible.total, by_brute?.admissible.total); // Each of the 64 was looked at.
+/// # Ok::<(), ozols::Error>(())
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Method {
@@ -376,6 +395,16 @@ impl Request {
     ///
     /// # Errors
     /// Returns an error if the pool is 0 or too large.
+    ///
+    /// # Examples
+    /// ```
+    /// use ozols::model::ranking::Term;
+    /// let four_bar = ozols::built_in("four-bar")?;
+    /// assert!(ozols::Request::default().asked_ranking(&four_bar)?.is_none());
+    /// let request = ozols::Request { rank: vec![(Term::Cost, 1.0)], ..Default::default() };
+    /// assert!(request.asked_ranking(&four_bar)?.is_some());
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     pub fn asked_ranking(&self, mechanism: &Mechanism) -> Result<Option<Ranking>, RequestError> {
         let mut ranking = mechanism.ranking.clone();
         if !self.rank.is_empty() {

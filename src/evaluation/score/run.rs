@@ -69,6 +69,19 @@ pub type ShouldCancel<'a> = &'a (dyn Fn() -> bool + Sync);
 /// # Guarantee
 /// Counts are exact if [`Outcome::stop`] is [`Stop::Exhausted`], and lower bounds otherwise. A rank modulo a prime is a
 /// lower bound of the true one; with [`Check::Prime`] or [`Check::Full`] two primes near 2^61 agree on every node.
+///
+/// # Examples
+/// ```
+/// use ozols::score::run::{Event, run};
+/// let mut joints = 0;
+/// let outcome = run(ozols::built_in("four-bar")?, &ozols::Request::default(), &|| false, &mut |event| {
+///     if let Event::Building(progress) = event {
+///         joints = joints.max(progress.done);
+///     }
+/// })?;
+/// assert_eq!((outcome.admissible.to_string().as_str(), joints), ("14", 3));
+/// # Ok::<(), ozols::Error>(())
+/// ```
 pub fn run(
     mechanism: Mechanism,
     request: &Request,

@@ -79,6 +79,16 @@ impl Outcome {
     ///
     /// # Complexity
     /// [`Evaluator::scores`] for each variant, in parallel.
+    ///
+    /// # Examples
+    /// ```
+    /// let loaded = ozols::built_in("gripper-10-loaded")?;
+    /// let outcome = ozols::search(&loaded, &ozols::Request { pool: Some(20), ..Default::default() })?;
+    /// let best: Vec<_> = outcome.variants().take(1).collect();
+    /// let loads = outcome.bearings(&best)?.expect("the file states loads");
+    /// assert!(loads.poses >= 1 && loads.of.len() == 1);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     pub fn bearings(&self, variants: &[Variant<'_>]) -> Result<Option<Bearings>, ScoreError> {
         let ranking = self.ranking.as_ref();
         if !is_loaded(&self.search.mechanism) && ranking.is_none() {

@@ -44,6 +44,15 @@ impl Request {
 impl Outcome {
     /// The variants asked for, one by one: the best in order, all, or a sample. No more than a thousand are held at a time,
     /// and second opinions are had in parallel.
+    ///
+    /// # Examples
+    /// ```
+    /// let outcome = ozols::search(&ozols::built_in("gripper-10")?, &ozols::Request::default())?;
+    /// let costs: Vec<f64> = outcome.variants().map(|v| v.cost()).collect();
+    /// assert_eq!((costs.len(), costs[0]), (10, 11.5));
+    /// assert!(costs.is_sorted());
+    /// # Ok::<(), ozols::Error>(())
+    /// ```
     pub fn variants(&self) -> Variants<'_> {
         self.variants_unless(&|| false)
     }
@@ -55,12 +64,32 @@ impl Outcome {
     }
 
     /// As many ideas as variants were asked for, each as its first variant, until `cancelled`.
+    ///
+    /// # Examples
+    /// ```
+    /// let outcome = ozols::search(&ozols::built_in("four-bar")?, &ozols::Request::default())?;
+    /// let ideas: Vec<_> = outcome.ideas_unless(&|| false).collect();
+    /// assert_eq!((ideas.len(), ideas[0].name().as_str()), (3, "idea 1")); // Of 14 variants.
+    /// assert!(ideas[0].to_string().ends_with("1-2 -> cylindrical; 2-3 -> spherical"));
+    /// # Ok::<(), ozols::Error>(())
+    /// ```
     pub fn ideas_unless<'o>(&'o self, cancelled: ShouldCancel<'o>) -> Variants<'o> {
         self.make_list(self.request.list, true, self.request.seed, cancelled)
     }
 
     /// Returns another list of the same variants, until `cancelled`: all of them, or a sample by another seed. The best by a ranking need
     /// another search, and so do more of the best than a search without counts was asked for.
+    ///
+    /// # Examples
+    /// ```
+    /// use ozols::score::request::List;
+    /// let outcome = ozols::search(&ozols::built_in("gripper-10")?, &ozols::Request::default())?;
+    /// let drawn = |seed| -> Vec<f64> {
+    ///     outcome.list_unless(List::Sample(3), seed, &|| false).map(|v| v.cost()).collect()
+    /// };
+    /// assert_eq!(drawn(1), drawn(1)); // The seed decides.
+    /// # Ok::<(), ozols::Error>(())
+    /// ```
     pub fn list_unless<'o>(
         &'o self,
         list: List,

@@ -1,6 +1,13 @@
 //! Fronts: of variants that no other is better than in every term, and of what no other is both faster and more often right than.
 
 /// Whether `a` is nowhere worse than `b` and somewhere better.
+///
+/// # Examples
+/// ```
+/// use ozols::score::outcome::pareto::dominates;
+/// assert!(dominates(&[1.0, 2.0], &[1.0, 3.0]));
+/// assert!(!dominates(&[1.0, 3.0], &[2.0, 2.0])); // Better in one term, worse in the other.
+/// ```
 pub fn dominates(a: &[f64], b: &[f64]) -> bool {
     a.iter().zip(b).all(|(x, y)| x <= y) && a.iter().zip(b).any(|(x, y)| x < y)
 }
@@ -10,6 +17,13 @@ pub fn dominates(a: &[f64], b: &[f64]) -> bool {
 ///
 /// # Complexity
 /// O(n · front · terms) a front, after sorting.
+///
+/// # Examples
+/// ```
+/// use ozols::score::outcome::pareto::fronts;
+/// let points = [vec![1.0, 3.0], vec![2.0, 2.0], vec![3.0, 3.0]];
+/// assert_eq!(fronts(&points, 3), [Some(0), Some(0), Some(1)]);
+/// ```
 pub fn fronts(points: &[Vec<f64>], enough: usize) -> Vec<Option<usize>> {
     let mut order: Vec<usize> = (0..points.len()).collect();
     // A point can be dominated only by those before it in this order.

@@ -31,6 +31,13 @@ impl Remarks {
 }
 
 /// Returns a request with one condition eased.
+///
+/// # Examples
+/// ```
+/// use ozols::{score::outcome::remarks::ease_request, search::answer::why_none::Relaxation};
+/// let eased = ease_request(&ozols::Request::default(), Relaxation::Redundant(1));
+/// assert_eq!(eased.max_redundant, 1);
+/// ```
 pub fn ease_request(request: &Request, how: Relaxation) -> Request {
     let mut out = request.clone();
     match how {

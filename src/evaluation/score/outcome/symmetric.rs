@@ -55,6 +55,16 @@ impl Outcome {
     ///
     /// # Complexity
     /// Three searches of each symmetry with joints that are images of each other as one.
+    ///
+    /// # Examples
+    /// ```
+    /// let outcome = ozols::search(&ozols::built_in("gripper-10")?, &ozols::Request::default())?;
+    /// let found = outcome.symmetric_best(&|| false)?.expect("it has a mirror");
+    /// let first = &found.best[0];
+    /// assert_eq!(first.left, 0); // Determinate, at a cost of 15 where the cheapest of all costs 11.5.
+    /// assert_eq!(first.search.steps.cost_in_milli(first.variant.key.cost()), 15_000);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     pub fn symmetric_best(
         &self,
         should_cancel: &(dyn Fn() -> bool + Sync),

@@ -77,6 +77,14 @@ impl<'o> Variant<'o> {
     }
 
     /// Mobility W in the free state.
+    ///
+    /// # Examples
+    /// ```
+    /// let outcome = ozols::search(&ozols::built_in("four-bar")?, &ozols::Request::default())?;
+    /// // W = f - 6k + σ, with σ = 0: the four-bar turns, and some variants have an idle motion besides.
+    /// assert!(outcome.variants().all(|v| v.redundant() == 0 && v.mobility() >= 1));
+    /// # Ok::<(), ozols::Error>(())
+    /// ```
     pub fn mobility(&self) -> i64 {
         self.outcome.search.mobility(self.assignment().key)
     }
@@ -104,6 +112,15 @@ impl<'o> Variant<'o> {
     }
 
     /// Returns the joints that it changes, in file order.
+    ///
+    /// # Examples
+    /// ```
+    /// let outcome = ozols::search(&ozols::built_in("four-bar")?, &ozols::Request::default())?;
+    /// let best = outcome.variants().next().expect("there are 14");
+    /// assert_eq!(best.list_changes().len(), best.change_count() as usize);
+    /// assert!(best.list_changes().iter().all(|c| c.from == "revolute"));
+    /// # Ok::<(), ozols::Error>(())
+    /// ```
     pub fn list_changes(&self) -> Vec<Change> {
         list_changes(&self.outcome.search, self.assignment())
     }
@@ -129,6 +146,19 @@ impl<'o> Variant<'o> {
     }
 
     /// Its scores under the workload, where it was ranked.
+    ///
+    /// # Examples
+    /// ```
+    /// use ozols::model::ranking::Term;
+    /// let loaded = ozols::built_in("gripper-10-loaded")?;
+    /// let rank = vec![(Term::PeakForce, 1.0)];
+    /// let request = ozols::Request { rank, pool: Some(20), ..Default::default() };
+    /// let outcome = ozols::search(&loaded, &request)?;
+    /// let scores = outcome.variants().filter_map(|v| v.scores());
+    /// let peaks: Vec<f64> = scores.map(|s| s.term_value(Term::PeakForce)).collect();
+    /// assert!(peaks.len() == 10 && peaks[0] <= peaks[9]);
+    /// # Ok::<(), ozols::Error>(())
+    /// ```
     pub fn scores(&self) -> Option<&'o Scores> {
         self.ranked().map(|r| &r.scores)
     }
@@ -146,6 +176,15 @@ impl<'o> Variant<'o> {
     }
 
     /// Returns the variant as a mechanism, named after its place in the list.
+    ///
+    /// # Examples
+    /// ```
+    /// let outcome = ozols::search(&ozols::built_in("gripper-10")?, &ozols::Request::default())?;
+    /// let best = outcome.variants().next().expect("there are 21,817,629").as_mechanism();
+    /// let free = &ozols::analyze(&best)?[0];
+    /// assert_eq!((free.mobility, free.redundant), (1, 0));
+    /// # Ok::<(), ozols::Error>(())
+    /// ```
     pub fn as_mechanism(&self) -> Mechanism {
         as_mechanism(&self.outcome.search, self.assignment(), &self.name())
     }
@@ -158,6 +197,17 @@ impl<'o> Variant<'o> {
     ///
     /// # Complexity
     /// Some eliminations of J for each call.
+    ///
+    /// # Examples
+    /// ```
+    /// let left = ozols::Request { max_redundant: 1, max_changes: Some(1), ..Default::default() };
+    /// let outcome = ozols::search(&ozols::built_in("four-bar")?, &left)?;
+    /// assert_eq!(outcome.admissible.to_string(), "3"); // One joint of three becomes a ball.
+    /// for v in outcome.variants() {
+    ///     assert_eq!(v.redundant_by_contour()?.len(), 1); // The one loop has it.
+    /// }
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     pub fn redundant_by_contour(&self) -> Result<Vec<(String, ContourShare)>, ExactError> {
         let (search, key) = (&self.outcome.search, self.assignment().key);
         // Exact arithmetic does not know of a mechanism that is judged by singular values.
