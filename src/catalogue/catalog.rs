@@ -57,6 +57,13 @@ pub enum RowError {
 
 /// The search that a catalogue makes of each mechanism. Variants of W = 1 move as the mechanism does, so that nothing more need
 /// be asked of their outputs.
+///
+/// # Examples
+/// ```
+/// use ozols::catalog::{search_request, spec::Spec};
+/// let request = search_request(&Spec::default());
+/// assert_eq!(request.max_mobility, Some(1));
+/// ```
 #[must_use]
 pub fn search_request(spec: &Spec) -> Request {
     Request {

@@ -57,6 +57,16 @@ impl Work {
 ///
 /// # Errors
 /// Returns an error if the specification is wrong.
+///
+/// # Examples
+/// ```
+/// use ozols::{catalog::{build::plan_work, spec::Spec}, shard::Shard};
+/// let count = |shard| plan_work(&Spec::default(), shard).map(|w| w.structure_count());
+/// // Every structure is in one of two shards.
+/// let halves = count(Shard::nth_of(1, 2)?)? + count(Shard::nth_of(2, 2)?)?;
+/// assert_eq!(halves, count(Shard::WHOLE)?);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn plan_work(spec: &Spec, shard: Shard) -> Result<Work, BuildError> {
     let mut all = if spec.classics {
         known_structures(spec)
@@ -178,6 +188,21 @@ fn hinged_work(spec: &Spec) -> Result<Vec<Structure>, BuildError> {
 ///
 /// # Errors
 /// Returns the first failure.
+///
+/// # Examples
+/// ```
+/// use ozols::{catalog::{build::{build_rows, plan_work}, spec::Spec}, shard::Shard};
+/// use std::ops::ControlFlow;
+/// let spec = Spec { links: "4".to_owned(), ..Spec::default() };
+/// let work = plan_work(&spec, Shard::WHOLE)?;
+/// let mut rows = Vec::new();
+/// build_rows(&spec, &work, |_| false, |row| {
+///     rows.push(row);
+///     ControlFlow::<()>::Continue(())
+/// })?;
+/// assert_eq!(rows.len(), work.structure_count());
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn build_rows<B: Send>(
     spec: &Spec,
     work: &Work,

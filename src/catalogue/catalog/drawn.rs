@@ -76,6 +76,14 @@ fn named_file(mechanism: &Mechanism) -> Result<(String, String), RowError> {
 ///
 /// # Errors
 /// Returns an error if it cannot be written as a file.
+///
+/// # Examples
+/// ```
+/// use ozols::catalog::drawn::id;
+/// let [one, other] = [id(&ozols::built_in("four-bar")?)?, id(&ozols::built_in("bennett")?)?];
+/// assert!(one.starts_with("drawn-") && one != other);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn id(mechanism: &Mechanism) -> Result<String, RowError> {
     Ok(named_file(mechanism)?.0)
 }
@@ -84,6 +92,15 @@ pub fn id(mechanism: &Mechanism) -> Result<String, RowError> {
 ///
 /// # Errors
 /// Returns an error if it cannot be analysed, searched or written.
+///
+/// # Examples
+/// ```
+/// use ozols::catalog::drawn::search_drawn;
+/// let found = search_drawn(ozols::built_in("four-bar")?, 3, 1_000_000)?;
+/// assert_eq!((found.as_built, found.admissible.to_string().as_str()), ((1, 3), "12"));
+/// assert!(found.exact && found.ideas.len() <= 3);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn search_drawn(
     mechanism: Mechanism,
     top: usize,

@@ -101,6 +101,16 @@ impl SpecError {
 }
 
 /// Specification of a catalogue. Its TOML file has the same keys.
+///
+/// # Examples
+/// ```
+/// use ozols::{catalog::{build::plan_work, spec::Spec}, shard::Shard};
+/// let spec = Spec { links: "6".to_owned(), ..Spec::default() };
+/// spec.check_all()?;
+/// let work = plan_work(&spec, Shard::WHOLE)?;
+/// assert_eq!((work.structure_count(), work.structure_ids().count()), (93, 93));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Spec {
@@ -213,6 +223,14 @@ const OPTIONS: [&str; 8] = [
 ///
 /// # Errors
 /// Returns the part that is not a number.
+///
+/// # Examples
+/// ```
+/// use ozols::catalog::spec::parse_range;
+/// assert_eq!(parse_range("4..8"), Ok(4..=8));
+/// assert_eq!(parse_range("6"), Ok(6..=6));
+/// assert_eq!(parse_range("six"), Err("six"));
+/// ```
 pub fn parse_range(text: &str) -> Result<RangeInclusive<usize>, &str> {
     let number = |t: &'_ str| t.trim().parse::<usize>().ok();
     let (from, to) = text.split_once("..").unwrap_or((text, text));

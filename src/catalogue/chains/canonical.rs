@@ -90,6 +90,17 @@ pub struct Canonical {
 ///
 /// # Complexity
 /// One refinement for each leaf of the search; at least as many leaves as automorphisms.
+///
+/// # Examples
+/// ```
+/// use ozols::chains::canonical::{Weighted, number_graph};
+/// let path = |edges: [[usize; 2]; 2]| {
+///     let mut graph = Weighted::new(3);
+///     edges.iter().for_each(|&[u, v]| graph.set(u, v, 1));
+///     number_graph(&graph).graph
+/// };
+/// assert_eq!(path([[0, 1], [1, 2]]), path([[1, 0], [0, 2]]));
+/// ```
 #[must_use]
 pub fn number_graph(graph: &Weighted) -> Canonical {
     let n = graph.vertices;

@@ -261,6 +261,15 @@ impl Census {
 ///
 /// # Errors
 /// Returns an error in the same cases as [`visit_chains`].
+///
+/// # Examples
+/// ```
+/// use ozols::chains::census::{Counted, DriveKind, count_hinged};
+/// let of_six = count_hinged(6, 1, true)?;
+/// let two_jaws = &of_six.grippers[&DriveKind::of_hinges(2)];
+/// assert_eq!((two_jaws[Counted::All], two_jaws[Counted::Essential]), (46, 40));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn count_hinged(links: usize, mobility: usize, grippers: bool) -> Result<Census, ChainsError> {
     let all = Mutex::new(Census::default());
     visit_chains(links, mobility, &|chain| {

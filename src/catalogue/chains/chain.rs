@@ -44,6 +44,15 @@ impl Joint {
 
 impl Chain {
     /// Returns the chain of N links with these joints. Two slots between the same links become one joint.
+    ///
+    /// # Examples
+    /// ```
+    /// use ozols::chains::{PairKind, chain::{Chain, Joint}};
+    /// let joint = |links, pair| Joint { links, pair };
+    /// let hinges = [[0, 1], [0, 2]].map(|links| joint(links, PairKind::Hinge));
+    /// let gears = Chain::new(3, hinges.into_iter().chain([joint([1, 2], PairKind::Gear)]));
+    /// assert_eq!(gears.mobility(), 1); // A gear takes one freedom, a hinge two.
+    /// ```
     #[must_use]
     pub fn new(links: usize, joints: impl IntoIterator<Item = Joint>) -> Chain {
         let mut pairs = Weighted::new(links);
@@ -61,6 +70,13 @@ impl Chain {
     }
 
     /// Returns the chain of N links with these hinges.
+    ///
+    /// # Examples
+    /// ```
+    /// use ozols::chains::chain::Chain;
+    /// let four_bar = Chain::with_hinges(4, [(0, 1), (1, 2), (2, 3), (3, 0)]);
+    /// assert_eq!((four_bar.links(), four_bar.joints().len(), four_bar.mobility()), (4, 4, 1));
+    /// ```
     #[must_use]
     pub fn with_hinges(links: usize, joints: impl IntoIterator<Item = (usize, usize)>) -> Chain {
         let pair = PairKind::Hinge;
@@ -150,6 +166,14 @@ impl Chain {
     }
 
     /// Returns the chain of a code, or `None` if the code is invalid.
+    ///
+    /// # Examples
+    /// ```
+    /// use ozols::chains::chain::Chain;
+    /// let four_bar = Chain::with_hinges(4, [(0, 1), (1, 2), (2, 3), (3, 0)]);
+    /// assert_eq!(Chain::of_code(4, &four_bar.pair_code()), Some(four_bar));
+    /// assert_eq!(Chain::of_code(4, "?"), None);
+    /// ```
     #[must_use]
     pub fn of_code(links: usize, code: &str) -> Option<Chain> {
         let pairs = (0..links).flat_map(|v| (0..v).map(move |u| [u, v]));
@@ -230,6 +254,13 @@ impl Chain {
     ///
     /// # Complexity
     /// As of [`canonical`].
+    ///
+    /// # Examples
+    /// ```
+    /// use ozols::chains::chain::Chain;
+    /// let four_bar = Chain::with_hinges(4, [(0, 1), (1, 2), (2, 3), (3, 0)]);
+    /// assert_eq!(four_bar.automorphisms().len(), 8); // Those of a square.
+    /// ```
     #[must_use]
     pub fn automorphisms(&self) -> Vec<Vec<usize>> {
         number_graph(&self.pairs).automorphisms

@@ -101,6 +101,12 @@ static ALL: LazyLock<(Vec<Classic>, Vec<Weighted>)> = LazyLock::new(|| {
 ///
 /// # Panics
 /// Never: the text is part of the program, and a test reads it.
+///
+/// # Examples
+/// ```
+/// use ozols::chains::classics::known_classics;
+/// assert_eq!(known_classics().len(), 34);
+/// ```
 #[must_use]
 pub fn known_classics() -> &'static [Classic] {
     &ALL.0

@@ -52,6 +52,18 @@ pub enum ChainsError {
 ///
 /// # Complexity
 /// Some microseconds per chain. Memory only for the contracted graphs.
+///
+/// # Examples
+/// ```
+/// use ozols::chains::enumerate::visit_chains;
+/// use std::sync::atomic::{AtomicUsize, Ordering};
+/// let count = AtomicUsize::new(0);
+/// visit_chains(8, 1, &|chain| {
+///     count.fetch_add(usize::from(chain.mobility() == 1), Ordering::Relaxed);
+/// })?;
+/// assert_eq!(count.into_inner(), 16);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn visit_chains(
     links: usize,
     mobility: usize,
@@ -90,6 +102,16 @@ pub fn visit_chains(
 ///
 /// # Errors
 /// Returns an error in the same cases as [`visit_chains`].
+///
+/// # Examples
+/// ```
+/// use ozols::chains::enumerate::list_chains;
+/// let all = list_chains(6, 1)?; // Watt's and Stephenson's.
+/// assert_eq!(all.len(), 2);
+/// assert!(all.iter().all(|c| c.joints().len() == 7));
+/// assert!(list_chains(5, 1).is_err()); // The joints would not be whole.
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn list_chains(links: usize, mobility: usize) -> Result<Vec<Chain>, ChainsError> {
     let all = Mutex::new(Vec::new());
     visit_chains(links, mobility, &|chain| {

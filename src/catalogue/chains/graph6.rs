@@ -35,6 +35,13 @@ pub enum Graph6Error {
 }
 
 /// Returns the text of a chain in its current numbering.
+///
+/// # Examples
+/// ```
+/// use ozols::chains::{chain::Chain, graph6::write_graph};
+/// let triangle = Chain::with_hinges(3, [(0, 1), (1, 2), (2, 0)]);
+/// assert_eq!(write_graph(&triangle), "Bw");
+/// ```
 #[must_use]
 pub fn write_graph(chain: &Chain) -> String {
     let n = chain.links();
@@ -52,6 +59,14 @@ pub fn write_graph(chain: &Chain) -> String {
 }
 
 /// Returns the permanent name of a chain: the text of its canonical numbering.
+///
+/// # Examples
+/// ```
+/// use ozols::chains::{chain::Chain, graph6::canonical_code};
+/// let ring = |joints: [(usize, usize); 4]| canonical_code(&Chain::with_hinges(4, joints));
+/// // However its links are numbered, a four-bar has one name.
+/// assert_eq!(ring([(0, 1), (1, 2), (2, 3), (3, 0)]), ring([(0, 2), (2, 1), (1, 3), (3, 0)]));
+/// ```
 #[must_use]
 pub fn canonical_code(chain: &Chain) -> String {
     write_graph(&chain.canonical_form().0)
@@ -64,11 +79,11 @@ pub fn canonical_code(chain: &Chain) -> String {
 ///
 /// # Examples
 /// ```
-/// use ozols::chains::enumerate::chains;
+/// use ozols::chains::enumerate::list_chains;
 /// use ozols::chains::graph6;
-/// let watt = &chains(6, 1).unwrap()[0];
-/// let again = graph6::read(&graph6::write(watt)).unwrap();
-/// assert_eq!(graph6::write(&again), graph6::write(watt));
+/// let watt = &list_chains(6, 1).unwrap()[0];
+/// let again = graph6::read_graph(&graph6::write_graph(watt)).unwrap();
+/// assert_eq!(graph6::write_graph(&again), graph6::write_graph(watt));
 /// ```
 pub fn read_graph(text: &str) -> Result<Chain, Graph6Error> {
     let wrong = text.chars().find(|c| !('?'..='~').contains(c));

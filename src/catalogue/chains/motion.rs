@@ -194,6 +194,12 @@ pub fn single_motion(chain: &Chain) -> Option<Vec<Velocity>> {
 ///
 /// # Complexity
 /// As [`motion`].
+///
+/// # Examples
+/// ```
+/// use ozols::chains::{chain::Chain, motion::moves_throughout};
+/// assert!(moves_throughout(&Chain::with_hinges(4, [(0, 1), (1, 2), (2, 3), (3, 0)])));
+/// ```
 #[must_use]
 pub fn moves_throughout(chain: &Chain) -> bool {
     single_motion(chain).is_some_and(|m| m.iter().all_unique())

@@ -144,6 +144,18 @@ impl<'a> Subject<'a> {
     }
 
     /// Returns the number of choices of a frame.
+    ///
+    /// # Examples
+    /// ```
+    /// use ozols::chains::{enumerate::list_chains, roles::Subject};
+    /// let mut frames = Vec::new();
+    /// for chain in list_chains(6, 1)? {
+    ///     frames.push(Subject::new(&chain, &chain.automorphisms()).count_frames());
+    /// }
+    /// frames.sort();
+    /// assert_eq!(frames, [2, 3]); // Watt's chain makes two mechanisms and Stephenson's three.
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     #[must_use]
     pub fn count_frames(&self) -> usize {
         let all = 0..self.chain.links();

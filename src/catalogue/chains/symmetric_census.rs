@@ -43,6 +43,13 @@ pub struct SymmetricGripper {
 ///
 /// # Complexity
 /// As of [`crate::chains::visit::visit_pair_chains`], over the halves.
+///
+/// # Examples
+/// ```
+/// use ozols::chains::{sharing::Menu, symmetric_census::symmetric_grippers};
+/// let hinges = Menu { kinds: &[], most: 0 };
+/// assert_eq!(symmetric_grippers(6, hinges).len(), 2);
+/// ```
 #[must_use]
 pub fn symmetric_grippers(links: usize, menu: Menu<'_>) -> Vec<SymmetricGripper> {
     let least = Mutex::new(BTreeMap::<(bool, bool, Weighted), usize>::new());

@@ -97,6 +97,13 @@ impl WholeDirection {
     }
 
     /// Of length 1, in double precision.
+    ///
+    /// # Examples
+    /// ```
+    /// use ozols::synthesis::direction::WholeDirection;
+    /// assert_eq!(WholeDirection::AHEAD.real(), [1.0, 0.0]);
+    /// assert_eq!(WholeDirection::ACROSS.reverse_direction().real(), [0.0, -1.0]);
+    /// ```
     #[must_use]
     pub fn real(self) -> Point {
         let length = QUARTER[self.number % QUARTER.len()][2];

@@ -37,6 +37,14 @@ pub(crate) fn known_schemes() -> Vec<Structure> {
 ///
 /// # Complexity
 /// As [`Structure::lays`], for each form.
+///
+/// # Examples
+/// ```
+/// use ozols::synthesis::{layout::most_symmetric, recognize::recognize_structure};
+/// let found = recognize_structure(&ozols::built_in("gripper-10")?)?;
+/// assert!(most_symmetric(&found.structure).is_some_and(|s| s.is_graph_symmetric()));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[must_use]
 pub fn most_symmetric(structure: &PairStructure) -> Option<Structure> {
     let symmetric = [Symmetry::Mirror, Symmetry::HalfTurn];

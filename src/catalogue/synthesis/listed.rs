@@ -15,6 +15,15 @@ use std::sync::{Mutex, PoisonError};
 ///
 /// # Complexity
 /// As [`symmetric_grippers`].
+///
+/// # Examples
+/// ```
+/// use ozols::{chains::sharing::Menu, synthesis::listed::symmetric_structures};
+/// let all = symmetric_structures(6, Menu { kinds: &[], most: 0 });
+/// // An id each.
+/// let ids: std::collections::BTreeSet<String> = all.iter().map(|s| s.id()).collect();
+/// assert_eq!(ids.len(), all.len());
+/// ```
 #[must_use]
 pub fn symmetric_structures(links: usize, menu: Menu<'_>) -> Vec<Structure> {
     let all = symmetric_grippers(links, menu).into_iter();

@@ -52,6 +52,13 @@ impl Place {
     }
 
     /// In double precision.
+    ///
+    /// # Examples
+    /// ```
+    /// use ozols::synthesis::place::Place;
+    /// let place = Place { whole: [12, 5], fine: [500, 0], thirds: 0 };
+    /// assert_eq!(place.real(), [12.5, 5.0]); // mm
+    /// ```
     #[must_use]
     pub fn real(self) -> [f64; 2] {
         (0..self.thirds).fold(self.unturned(), |p, _| third(p))

@@ -30,6 +30,15 @@ use threads::{is_thread, screw_with_nuts};
 ///
 /// # Complexity
 /// A few eliminations of six columns for each joint and each axis.
+///
+/// # Examples
+/// ```
+/// use ozols::synthesis::recognize::recognize_structure;
+/// let found = recognize_structure(&ozols::built_in("gripper-10")?)?;
+/// assert_eq!((found.structure.chain.links(), found.structure.roles.jaws.len()), (10, 2));
+/// assert!(recognize_structure(&ozols::built_in("bennett")?).is_err()); // It moves in no plane.
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn recognize_structure(m: &Mechanism) -> Result<Recognized, NoStructure> {
     if let Some(found) = screw_with_nuts(m)? {
         return Ok(found);

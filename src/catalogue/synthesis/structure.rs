@@ -57,6 +57,13 @@ pub struct Form {
 
 impl Form {
     /// Returns the form with a symmetry, driven on both sides, without parallelograms.
+    ///
+    /// # Examples
+    /// ```
+    /// use ozols::{chains::Symmetry, synthesis::structure::Form};
+    /// let form = Form::of_symmetry(Symmetry::Mirror);
+    /// assert!(form.suits_jaws(2) && !form.suits_jaws(3));
+    /// ```
     #[must_use]
     pub fn of_symmetry(symmetry: Symmetry) -> Form {
         Form {

@@ -199,6 +199,14 @@ impl Task {
     }
 
     /// By how much the tips go apart over the stroke, in millimetres.
+    ///
+    /// # Examples
+    /// ```
+    /// use ozols::synthesis::task::Task;
+    /// let task = Task { narrowest: 10.0, widest: 60.0, ..Task::default() };
+    /// assert_eq!(task.opening_span(), 50.0); // mm
+    /// assert_eq!(task.half_opening(), 15); // Drawn open by 30 mm.
+    /// ```
     #[must_use]
     pub fn opening_span(&self) -> f64 {
         self.widest - self.narrowest
