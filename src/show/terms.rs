@@ -23,6 +23,12 @@ pub struct GlossaryTerm {
 
 impl GlossaryTerm {
     /// The sentence that says what it is.
+    ///
+    /// # Examples
+    /// ```
+    /// let terms = ozols::terms::Terms::builtin();
+    /// assert!(terms.find("σ").is_some_and(|t| t.first_sentence().ends_with('.')));
+    /// ```
     #[must_use]
     pub fn first_sentence(&self) -> &str {
         let end = self.text.find(". ").map_or(self.text.len(), |i| i + 1);
@@ -69,6 +75,12 @@ impl Terms {
     }
 
     /// Every word and sign that [`Terms::find`] knows.
+    ///
+    /// # Examples
+    /// ```
+    /// let terms = ozols::terms::Terms::builtin();
+    /// assert!(terms.known_words().all(|word| terms.find(word).is_some()));
+    /// ```
     pub fn known_words(&self) -> impl Iterator<Item = &str> {
         self.term
             .iter()
@@ -96,6 +108,13 @@ impl PairWords {
     ///
     /// # Panics
     /// Never: a test reads the file.
+    ///
+    /// # Examples
+    /// ```
+    /// use ozols::{model::joint_type::JointType, terms::PairWords};
+    /// let words = PairWords::builtin();
+    /// assert!(JointType::NAMED.iter().all(|t| words.contains_key(t.name())));
+    /// ```
     #[must_use]
     pub fn builtin() -> BTreeMap<String, PairWords> {
         toml::from_str(include_str!("terms/joint_types.toml")).expect("a test reads the file")

@@ -58,7 +58,7 @@ pub const FORMAT: u32 = 1;
 /// struct Rank {
 ///     rank: usize,
 /// }
-/// let text = ozols::view::pretty(&Rank { rank: 12 }).unwrap();
+/// let text = ozols::view::pretty_json(&Rank { rank: 12 }).unwrap();
 /// assert_eq!(text, "{\n  \"format\": 1,\n  \"rank\": 12\n}");
 /// ```
 pub fn pretty_json(value: &impl Serialize) -> serde_json::Result<String> {

@@ -31,18 +31,50 @@ use crate::svg::plane::{Point, Rect, add, mean, scale, sub, unit};
 const STRIP: f64 = 84.0;
 
 /// Draws the kinematic scheme.
+///
+/// # Examples
+/// ```
+/// use ozols::{draw::{Subject, kinematic}, model::mechanism::StateId};
+/// let bennett = ozols::built_in("bennett")?;
+/// let subject = Subject { mechanism: &bennett, state: StateId::FREE, analysis: None, marks: None };
+/// let drawing = kinematic(&subject);
+/// assert!(drawing.svg.starts_with("<svg") && drawing.labels.iter().any(|l| l.text.contains("bennett")));
+/// # Ok::<(), ozols::Error>(())
+/// ```
 #[must_use]
 pub fn kinematic(subject: &Subject<'_>) -> Drawing {
     kinematic_seen(subject, &Sight::default())
 }
 
 /// Draws the kinematic scheme as seen from a side.
+///
+/// # Examples
+/// ```
+/// use ozols::{draw::{Sight, Subject, kinematic, kinematic_seen}, model::mechanism::StateId};
+/// let bennett = ozols::built_in("bennett")?;
+/// let subject = Subject { mechanism: &bennett, state: StateId::FREE, analysis: None, marks: None };
+/// let along_x = Sight { toward: Some([1.0, 0.0, 0.0]), ..Sight::default() };
+/// let along_y = Sight { toward: Some([0.0, 1.0, 0.0]), ..Sight::default() };
+/// assert_ne!(kinematic_seen(&subject, &along_x).svg, kinematic_seen(&subject, &along_y).svg);
+/// # Ok::<(), ozols::Error>(())
+/// ```
 #[must_use]
 pub fn kinematic_seen(subject: &Subject<'_>, sight: &Sight) -> Drawing {
     Kinematic::new(subject, sight).draw_sheet()
 }
 
 /// Draws the kinematic scheme with a self-stress as arrows on the links that it loads; its name goes under the title.
+///
+/// # Examples
+/// ```
+/// use ozols::{draw::{Sight, Subject, kinematic_stressed}, model::mechanism::StateId};
+/// let four_bar = ozols::built_in("four-bar")?;
+/// let free = &ozols::analyze(&four_bar)?[0];
+/// let subject = Subject { mechanism: &four_bar, state: StateId::FREE, analysis: Some(free), marks: None };
+/// let drawing = kinematic_stressed(&subject, &Sight::default(), &free.self_stresses[0], "the first of three");
+/// assert!(drawing.svg.contains("the first of three"));
+/// # Ok::<(), ozols::Error>(())
+/// ```
 #[must_use]
 pub fn kinematic_stressed(
     subject: &Subject<'_>,

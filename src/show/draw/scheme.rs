@@ -36,6 +36,17 @@ struct Parts {
 }
 
 /// Draws the structural scheme.
+///
+/// # Examples
+/// ```
+/// use ozols::{draw::{Subject, scheme}, model::mechanism::StateId};
+/// let four_bar = ozols::built_in("four-bar")?;
+/// let found = ozols::analyze(&four_bar)?;
+/// let analysis = found.first();
+/// let drawing = scheme(&Subject { mechanism: &four_bar, state: StateId::FREE, analysis, marks: None });
+/// assert_eq!(drawing.symbols.len(), 4); // A circle for each joint.
+/// # Ok::<(), ozols::Error>(())
+/// ```
 #[must_use]
 pub fn scheme(subject: &Subject<'_>) -> Drawing {
     let parts = collect_parts(subject);

@@ -44,6 +44,16 @@ pub struct Marks {
 
 impl Marks {
     /// The mechanism that a variant is, with its changes marked for drawing.
+    ///
+    /// # Examples
+    /// ```
+    /// use ozols::draw::Marks;
+    /// let outcome = ozols::search(&ozols::built_in("four-bar")?, &ozols::Request::default())?;
+    /// let best = outcome.variants().next().expect("there are 14");
+    /// let (redesign, marks) = Marks::of_variant(&outcome.search, best.assignment(), "variant 1");
+    /// assert_eq!((marks.changed.len(), redesign.joints.len()), (best.change_count() as usize, 4));
+    /// # Ok::<(), ozols::Error>(())
+    /// ```
     #[must_use]
     pub fn of_variant(search: &Search, variant: &Assignment, name: &str) -> (Mechanism, Marks) {
         let old = &search.mechanism;

@@ -35,6 +35,15 @@ pub struct Moving {
 
 impl Moving {
     /// The way of a mechanism's drive, or of the joint named: within a range such as "0:90deg:30", or as far as it goes.
+    ///
+    /// # Examples
+    /// ```
+    /// use ozols::{model::mechanism::StateId, page::moving::Moving};
+    /// let four_bar = ozols::built_in("four-bar")?;
+    /// let moving = Moving::new(&four_bar, StateId::FREE, Some("0:90deg:30"), None).expect("it is a crank");
+    /// assert!(moving.drive_reach().is_some_and(|[from, to]| from == 0.0 && (to - 1.5708).abs() < 1e-4));
+    /// # Ok::<(), ozols::Error>(())
+    /// ```
     pub fn new(
         m: &Mechanism,
         state: StateId,

@@ -11,6 +11,14 @@ use crate::score::outcome::Outcome;
 use crate::view::analysis::Analysis;
 
 /// Returns the mechanism in space in each state, or `None` if its pose has no numbers.
+///
+/// # Examples
+/// ```
+/// let gripper = ozols::built_in("gripper-10")?;
+/// let scenes = ozols::page::scenes::state_scenes(&gripper, &ozols::analyze(&gripper)?, None);
+/// assert_eq!(scenes.len(), gripper.states.len());
+/// # Ok::<(), ozols::Error>(())
+/// ```
 pub fn state_scenes(
     mechanism: &Mechanism,
     states: &[StateAnalysis],
@@ -77,6 +85,14 @@ fn draw_scene(
 }
 
 /// The picture of it at rest, without title and legend.
+///
+/// # Examples
+/// ```
+/// use ozols::page::scenes::still_picture;
+/// let bennett = ozols::built_in("bennett")?;
+/// assert!(still_picture(&bennett).is_some_and(|svg| svg.starts_with("<svg")));
+/// # Ok::<(), ozols::Error>(())
+/// ```
 pub fn still_picture(m: &Mechanism) -> Option<String> {
     let rest = [Moving::still_pose(m, StateId::FREE).ok()?];
     let (Drawing { svg, .. }, scene) = draw_scene(m, (None, StateId::FREE), &rest, &[], &[]);

@@ -36,6 +36,15 @@ pub(super) fn verdict_html(page: &Page<'_>, analysis: &Analysis<'_>) -> Markup {
 }
 
 /// The answer in a few words.
+///
+/// # Examples
+/// ```
+/// use ozols::{page::verdict::verdict_head, view::analysis::Analysis};
+/// let four_bar = ozols::built_in("four-bar")?;
+/// let found = ozols::analyze(&four_bar)?;
+/// assert_eq!(verdict_head(&Analysis::new(&four_bar, &found, &[]).states[0]), "3 redundant constraints");
+/// # Ok::<(), ozols::Error>(())
+/// ```
 pub fn verdict_head(s: &State<'_>) -> String {
     capitalise_first(&s.verdict())
 }

@@ -66,6 +66,16 @@ impl<'a> Analysis<'a> {
     }
 
     /// Returns all of it as data.
+    ///
+    /// # Examples
+    /// ```
+    /// use ozols::view::analysis::Analysis;
+    /// let gripper = ozols::built_in("gripper-10")?;
+    /// let found = ozols::analyze(&gripper)?;
+    /// let json = Analysis::new(&gripper, &found, &[]).json();
+    /// assert_eq!((&json["states"][0]["mobility"], &json["states"][0]["redundant"]), (&1.into(), &11.into()));
+    /// # Ok::<(), ozols::Error>(())
+    /// ```
     pub fn json(&self) -> Value {
         let m = self.mechanism;
         json!({

@@ -41,6 +41,16 @@ impl<'a> Drive<'a> {
     }
 
     /// Returns all of it as data.
+    ///
+    /// # Examples
+    /// ```
+    /// use ozols::{drive::driving::design_drive, view::drive::Drive};
+    /// let text = ozols::builtin::text("torsion-module").unwrap_or_default();
+    /// let file = ozols::file::read::workload::drive_from_bytes("torsion-module.toml", text.as_bytes())?;
+    /// let found = design_drive(&file.spec)?;
+    /// assert_eq!(Drive::new(&file, &found).json()["complete"], true);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     pub fn json(&self) -> Value {
         let spec = &self.file.spec;
         json!({

@@ -75,6 +75,17 @@ pub struct Lint {
 
 impl Lint {
     /// Describes the findings in a mechanism, in the words of its description if it came from one.
+    ///
+    /// # Examples
+    /// ```
+    /// use ozols::{redundancy::duplicate_constraints::held_twice, view::lint::Lint};
+    /// let four_bar = ozols::built_in("four-bar")?;
+    /// let found = held_twice(&four_bar, &|_| false, &|_| true, None)?;
+    /// let lint = Lint::new("four-bar.toml", &four_bar, None, &found);
+    /// assert!(lint.is_decided() && !lint.is_clean());
+    /// assert_eq!((lint.redundant, lint.cheapest.len()), (3, 3));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     pub fn new(file: &str, m: &Mechanism, read: Option<&Imported>, found: &HeldTwice) -> Lint {
         let origin = read.map(|i| &i.origin);
         let report = read.map(|i| &i.report);
@@ -273,6 +284,11 @@ impl Lint {
 }
 
 /// Returns the findings in some files as JSON, and the files that were skipped.
+///
+/// # Examples
+/// ```
+/// assert_eq!(ozols::view::lint::lint_json(&[], &[])["files"], serde_json::json!([]));
+/// ```
 pub fn lint_json(all: &[&Lint], passed_over: &[PassedOver]) -> Value {
     let mut out = json!({ "files": all });
     finding::in_json(&mut out, passed_over);

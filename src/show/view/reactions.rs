@@ -61,6 +61,17 @@ impl<'a> Reactions<'a> {
     }
 
     /// Returns true if these are the only reactions in equilibrium.
+    ///
+    /// # Examples
+    /// ```
+    /// use ozols::statics::reactions::solve::Reactions as Solved;
+    /// use ozols::{model::mechanism::StateId, view::reactions::Reactions};
+    /// let loaded = ozols::built_in("gripper-10-loaded")?;
+    /// let found = Solved::solve_at_home(&loaded, StateId::FREE, &loaded.loads)?;
+    /// // With 11 redundant constraints, the loads alone do not say what each joint bears.
+    /// assert!(!Reactions::new(&loaded, StateId::FREE, &found).is_unique());
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     pub fn is_unique(&self) -> bool {
         self.found.choice == Uniqueness::Unique
     }

@@ -33,6 +33,16 @@ pub struct Moved<'a> {
 
 /// Draws the kinematic scheme over a motion, animated by a style sheet: the pose of the file stands still for readers who want
 /// less motion, on paper and in programs that know no animation.
+///
+/// # Examples
+/// ```
+/// use ozols::{draw::{Sight, Subject, kinematic_moving}, model::mechanism::StateId, page::moving::Moving};
+/// let four_bar = ozols::built_in("four-bar")?;
+/// let moving = Moving::new(&four_bar, StateId::FREE, None, None).expect("the crank turns");
+/// let subject = Subject { mechanism: &four_bar, state: StateId::FREE, analysis: None, marks: None };
+/// assert!(kinematic_moving(&subject, &Sight::default(), &moving.as_moved()).svg.contains("@keyframes"));
+/// # Ok::<(), ozols::Error>(())
+/// ```
 #[must_use]
 pub fn kinematic_moving(subject: &Subject<'_>, sight: &Sight, moved: &Moved<'_>) -> Drawing {
     Moving::new(Kinematic::new(subject, sight), moved).draw_sheet()

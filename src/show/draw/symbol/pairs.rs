@@ -18,6 +18,12 @@ const AXIS: f64 = 120.0;
 const ROOM: Point = [360.0, 310.0];
 
 /// Draws a joint type in two views.
+///
+/// # Examples
+/// ```
+/// use ozols::model::joint_type::JointType;
+/// assert!(ozols::draw::joint_type(&JointType::Spherical).svg.contains("class III, freedoms: rx, ry, rz"));
+/// ```
 #[must_use]
 pub fn joint_type(of: &JointType) -> Drawing {
     let freedoms = of.freedoms().iter().map(|f| f.name()).join(", ");

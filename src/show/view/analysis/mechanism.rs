@@ -8,6 +8,15 @@ use num_bigint::BigUint;
 const SHOWN: usize = 12;
 
 /// Returns the links, joints, states, options and workload of a mechanism, a line each; `across` is its size in the file's unit.
+///
+/// # Examples
+/// ```
+/// use ozols::{file::lint::mechanism_size, view::analysis::mechanism::describe_mechanism};
+/// let four_bar = ozols::built_in("four-bar")?;
+/// let lines = describe_mechanism(&four_bar, mechanism_size(&four_bar));
+/// assert!(lines[0].contains("4 links") && lines[0].contains("150 mm"));
+/// # Ok::<(), ozols::Error>(())
+/// ```
 pub fn describe_mechanism(m: &Mechanism, across: f64) -> Vec<String> {
     let mut out = vec![
         describe_links(m, across),

@@ -86,6 +86,14 @@ pub struct StructureSize {
 
 impl StructureSize {
     /// The numbers of a state.
+    ///
+    /// # Examples
+    /// ```
+    /// use ozols::{model::mechanism::StateId, view::analysis::mobility::StructureSize};
+    /// let size = StructureSize::of_state(&ozols::built_in("gripper-10")?, StateId::FREE);
+    /// assert_eq!((size.links, size.joints, size.contours, size.freedoms, size.rows), (10, 13, 4, 14, 24));
+    /// # Ok::<(), ozols::Error>(())
+    /// ```
     pub fn of_state(mechanism: &Mechanism, state: StateId) -> StructureSize {
         let mut links: Vec<_> = mechanism
             .joints_in(state)

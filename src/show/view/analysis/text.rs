@@ -15,6 +15,16 @@ const MOTIONS: usize = 6;
 impl Analysis<'_> {
     /// Returns the analysis without its stroke, fitted to a terminal of `width` columns if one is given: what is redundant, what moves, and
     /// what to change. With `verbose` it also has the counts behind W and σ, the method, the self-stresses and published claims.
+    ///
+    /// # Examples
+    /// ```
+    /// use ozols::view::analysis::Analysis;
+    /// let four_bar = ozols::built_in("four-bar")?;
+    /// let found = ozols::analyze(&four_bar)?;
+    /// let text = Analysis::new(&four_bar, &found, &[]).text(Some(80), false);
+    /// assert!(text.contains("3 redundant constraints") && text.lines().all(|l| l.chars().count() <= 80));
+    /// # Ok::<(), ozols::Error>(())
+    /// ```
     pub fn text(&self, width: Option<u16>, verbose: bool) -> String {
         let states = self.states.iter().map(|s| {
             let mut out = Report::new(width);
@@ -199,6 +209,15 @@ impl State<'_> {
     }
 
     /// Returns the answer in a few words.
+    ///
+    /// # Examples
+    /// ```
+    /// use ozols::view::analysis::Analysis;
+    /// let gripper = ozols::built_in("gripper-10")?;
+    /// let found = ozols::analyze(&gripper)?;
+    /// assert_eq!(Analysis::new(&gripper, &found, &[]).states[0].verdict(), "11 redundant constraints");
+    /// # Ok::<(), ozols::Error>(())
+    /// ```
     pub fn verdict(&self) -> String {
         let least = self.found.redundant;
         if let Some((_, most)) = self.found.at_most() {

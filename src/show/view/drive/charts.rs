@@ -27,6 +27,17 @@ pub fn motion_csv(d: &Drive<'_>) -> Option<String> {
 }
 
 /// Returns both charts with the names of their files. Empty without a bar.
+///
+/// # Examples
+/// ```
+/// use ozols::{drive::driving::design_drive, view::drive::{Drive, charts::drive_charts}};
+/// let text = ozols::builtin::text("torsion-module").unwrap_or_default();
+/// let file = ozols::file::read::workload::drive_from_bytes("torsion-module.toml", text.as_bytes())?;
+/// let found = design_drive(&file.spec)?;
+/// let charts = drive_charts(&Drive::new(&file, &found));
+/// assert!(!charts.is_empty() && charts.iter().all(|(_, chart)| chart.svg().starts_with("<svg")));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn drive_charts(d: &Drive<'_>) -> Vec<(String, Chart)> {
     let Some(found) = d.design else {
         return Vec::new();

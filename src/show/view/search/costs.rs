@@ -24,6 +24,14 @@ const HEAD: &str = "\
 ";
 
 /// The default costs as TOML.
+///
+/// # Examples
+/// ```
+/// use ozols::{file::costs::costs_from_str, view::search::costs::costs_toml};
+/// // The default costs are a file that can be changed and read back.
+/// assert!(costs_from_str("costs.toml", &costs_toml(), &ozols::built_in("four-bar")?).is_ok());
+/// # Ok::<(), ozols::Error>(())
+/// ```
 pub fn costs_toml() -> String {
     let table = CostTable::new(&CostSpec::default());
     let line = |name: &str, milli: i64, what: &str| {

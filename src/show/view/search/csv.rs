@@ -32,6 +32,16 @@ fn score_heads() -> Vec<String> {
 ///
 /// # Errors
 /// Those of the writer.
+///
+/// # Examples
+/// ```
+/// let outcome = ozols::search(&ozols::built_in("four-bar")?, &ozols::Request::default())?;
+/// let mut csv = Vec::new();
+/// ozols::view::search::csv::write_csv(&mut csv, &outcome, outcome.variants())?;
+/// let csv = String::from_utf8(csv)?;
+/// assert!(csv.starts_with("position,cost,mobility,redundant") && csv.lines().count() == 11);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn write_csv(
     out: &mut dyn Write,
     outcome: &Outcome,

@@ -81,6 +81,15 @@ pub fn write_json(
 ///
 /// # Errors
 /// Those of the writer.
+///
+/// # Examples
+/// ```
+/// let outcome = ozols::search(&ozols::built_in("four-bar")?, &ozols::Request::default())?;
+/// let mut lines = Vec::new();
+/// ozols::view::search::json::write_lines(&mut lines, &outcome, outcome.variants())?;
+/// assert_eq!(String::from_utf8(lines)?.lines().count(), 10); // A variant each.
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn write_lines(
     out: &mut dyn Write,
     outcome: &Outcome,
@@ -133,6 +142,14 @@ fn diagram_size(diagram: Option<&Diagram>) -> Value {
 }
 
 /// Returns everything but the variants.
+///
+/// # Examples
+/// ```
+/// let outcome = ozols::search(&ozols::built_in("gripper-10")?, &ozols::Request::default())?;
+/// let json = ozols::view::search::json::search_json(&outcome).to_string();
+/// assert!(json.contains("\"25761436\"") && json.contains("\"21817629\""));
+/// # Ok::<(), ozols::Error>(())
+/// ```
 pub fn search_json(outcome: &Outcome) -> Value {
     let (determinate, admissible) = (&outcome.determinate, &outcome.admissible);
     let diagrams = outcome.diagrams.as_ref();

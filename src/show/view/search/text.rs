@@ -22,6 +22,17 @@ const BLOCK: usize = 1000;
 ///
 /// # Errors
 /// Those of the writer.
+///
+/// # Examples
+/// ```
+/// use ozols::{score::outcome::remarks::Remarks, view::search::text::write_text};
+/// let outcome = ozols::search(&ozols::built_in("gripper-10")?, &ozols::Request::default())?;
+/// let mut text = Vec::new();
+/// let (variants, remarks) = (outcome.variants(), Remarks::default());
+/// write_text(&mut text, &outcome, variants, &remarks, "gripper-10", None, false)?;
+/// assert!(String::from_utf8(text)?.contains("21,817,629"));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn write_text(
     out: &mut dyn io::Write,
     outcome: &Outcome,

@@ -43,6 +43,13 @@ pub fn row_cells<const N: usize>(of: [&dyn Display; N]) -> Vec<String> {
 /// Returns a plain table; its heads are separated by ` | `. If the output is a terminal of `width` columns, columns of words are
 /// wrapped, and numbers and names only if one takes more than half of the width. A table that is still too wide is given in parts, one
 /// below the other, each with the first column.
+///
+/// # Examples
+/// ```
+/// use ozols::view::terminal::layout::{row_cells, text_table};
+/// let table = text_table("link | joints", [row_cells([&"crank", &2])], None);
+/// assert!(table.contains("crank") && table.lines().count() >= 2);
+/// ```
 pub fn text_table(
     heads: &str,
     rows: impl IntoIterator<Item = Vec<String>>,
@@ -160,6 +167,13 @@ fn fitting_widths(columns: &[&ColumnWidth], width: usize) -> Vec<usize> {
 }
 
 /// Breaks lines that are too long between words, and indents the rest of them by two more.
+///
+/// # Examples
+/// ```
+/// use ozols::view::terminal::layout::fit_lines;
+/// let fitted = fit_lines("a line that is too long", Some(12));
+/// assert!(fitted.lines().count() > 1 && fitted.lines().all(|l| l.len() <= 12));
+/// ```
 pub fn fit_lines(text: &str, width: Option<u16>) -> String {
     let Some(width) = width.map(usize::from) else {
         return text.to_owned();

@@ -17,6 +17,13 @@ pub struct NextCommand {
 
 impl NextCommand {
     /// Returns the command that fixes a robot description in a copy of the file.
+    ///
+    /// # Examples
+    /// ```
+    /// use ozols::view::terminal::next_commands::NextCommand;
+    /// let next = NextCommand::fix_command("arm.urdf", "", "a copy without redundant constraints");
+    /// assert_eq!(next.command, "ozols fix arm.urdf -o arm-fixed.urdf");
+    /// ```
     pub fn fix_command(file: &str, more: &str, gives: &str) -> NextCommand {
         let (stem, ending) = file.rsplit_once('.').unwrap_or((file, "xml"));
         let out = format!("-o {}", shell_word(&format!("{stem}-fixed.{ending}")));
@@ -54,6 +61,14 @@ pub fn steps_text(steps: &[NextCommand], width: Option<u16>) -> String {
 }
 
 /// Returns the options that reproduce the list of a search, as they are typed: those of `search`, `draw` and `export` are the same.
+///
+/// # Examples
+/// ```
+/// use ozols::view::terminal::next_commands::request_flags;
+/// let request = ozols::Request { max_mobility: Some(1), distinct: true, ..Default::default() };
+/// assert_eq!(request_flags(&ozols::built_in("four-bar")?, &request), "--max-mobility 1 --distinct");
+/// # Ok::<(), ozols::Error>(())
+/// ```
 pub fn request_flags(mechanism: &Mechanism, r: &Request) -> String {
     let joints = |rule: &JointOptions| match rule.names.as_slice() {
         [] => rule.joint.clone(),
@@ -124,6 +139,13 @@ pub(crate) fn typed_option(option: &str, value: impl Display) -> String {
 }
 
 /// Quotes a word for a shell; standard input cannot be read again, so it is FILE.
+///
+/// # Examples
+/// ```
+/// use ozols::view::terminal::next_commands::shell_word;
+/// assert_eq!(shell_word("four-bar.toml"), "four-bar.toml");
+/// assert_eq!(shell_word("my arm.urdf"), "'my arm.urdf'");
+/// ```
 pub fn shell_word(text: &str) -> String {
     let plain = |c: char| c.is_ascii_alphanumeric() || "-_./=,+:@%".contains(c);
     match text {
