@@ -1,6 +1,20 @@
 //! The data of a chart: finished numbers with their names.
 
 /// Series over two axes.
+///
+/// # Examples
+/// ```
+/// use ozols::chart::{Axis, Chart, Series, Style};
+/// let points = vec![(0.0, 0.0), (1.0, 1.0), (2.0, 4.0)];
+/// let chart = Chart {
+///     title: "Squares".into(),
+///     subtitle: String::new(),
+///     x: Axis::linear("x"),
+///     y: Axis::linear("y"),
+///     series: vec![Series { name: "x²".into(), points, style: Style::Line }],
+/// };
+/// assert!(chart.svg().starts_with("<svg") && chart.svg().contains("Squares"));
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Chart {
     /// The title.
@@ -26,6 +40,12 @@ pub struct Axis {
 
 impl Axis {
     /// Returns an axis whose values are spaced evenly.
+    ///
+    /// # Examples
+    /// ```
+    /// use ozols::chart::{Axis, Scale};
+    /// assert_eq!(Axis::linear("force, N").scale, Scale::Linear);
+    /// ```
     pub fn linear(label: impl Into<String>) -> Axis {
         let (label, scale) = (label.into(), Scale::Linear);
         Axis { label, scale }
@@ -97,6 +117,18 @@ impl VerdictKind {
 pub type Band = (f64, f64, VerdictKind);
 
 /// Regions of an axis, row by row: the intervals in which each of several methods is right.
+///
+/// # Examples
+/// ```
+/// use ozols::chart::{Axis, Bands, Scale, VerdictKind};
+/// let bands = Bands {
+///     title: "Tolerances at which each method is right".into(),
+///     subtitle: String::new(),
+///     x: Axis { label: "tolerance".into(), scale: Scale::Log },
+///     rows: vec![("svd".into(), vec![(1e-12, 1e-6, VerdictKind::Good), (1e-6, 1.0, VerdictKind::Bad)])],
+/// };
+/// assert!(bands.svg().starts_with("<svg"));
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Bands {
     /// The title.

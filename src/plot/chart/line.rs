@@ -98,6 +98,15 @@ impl Chart {
     }
 
     /// Returns the points in long form, one per line, under the heads `series,x,y`.
+    ///
+    /// # Examples
+    /// ```
+    /// use ozols::chart::{Axis, Chart, Series, Style};
+    /// let series = Series { name: "drive".into(), points: vec![(0.0, 0.5)], style: Style::Points };
+    /// let [x, y] = ["time, s", "angle, rad"].map(Axis::linear);
+    /// let chart = Chart { title: "Swing".into(), subtitle: String::new(), x, y, series: vec![series] };
+    /// assert_eq!(chart.csv(), "series,x,y\ndrive,0.0,0.5\n");
+    /// ```
     pub fn csv(&self) -> String {
         let points = |s: &Series| {
             let one = |(x, y)| [s.name.clone(), format!("{x:?}"), format!("{y:?}")];

@@ -35,6 +35,13 @@ nav{display:none}
 ///
 /// The page follows the reader's light or dark setting, prints on white, and on a narrow screen each picture scrolls by itself.
 /// From four parts on there is a table of contents.
+///
+/// # Examples
+/// ```
+/// use ozols::chart::page;
+/// let html = page("Results", &[("Growth".into(), "It is linear.".into(), "<svg></svg>".into())]);
+/// assert!(html.starts_with("<!doctype html>") && html.contains("<svg></svg>"));
+/// ```
 pub fn page(title: &str, parts: &[(String, String, String)]) -> String {
     let page = html! {
         (PreEscaped("<!doctype html>\n"))

@@ -28,6 +28,14 @@ pub struct Panel {
 
 impl Panel {
     /// Returns the size of the sum of the vectors, zero if the plan closes.
+    ///
+    /// # Examples
+    /// ```
+    /// use ozols::chart::{Panel, PlanArrow};
+    /// let arrow = |name: &str, vector| PlanArrow { name: name.into(), vector, colour: 0 };
+    /// let arrows = vec![arrow("F", [3.0, 4.0]), arrow("R", [-3.0, -4.0])];
+    /// assert_eq!(Panel { title: "Link 1".into(), arrows }.closing_gap(), 0.0); // In equilibrium.
+    /// ```
     #[must_use]
     pub fn closing_gap(&self) -> f64 {
         plane_norm(self.arrows.iter().fold([0.0; 2], |s, a| add(s, a.vector)))
