@@ -21,6 +21,13 @@ use thiserror::Error;
 pub(crate) const MAX_DESCRIPTION_BYTES: usize = 64 << 20;
 
 /// An error of the functions at the root.
+///
+/// # Examples
+/// ```
+/// let why = ozols::built_in("perpetuum-mobile").unwrap_err();
+/// assert!(matches!(&why, ozols::Error::NotBuiltIn(name) if name == "perpetuum-mobile"));
+/// assert!(why.to_string().contains("ozols list"));
+/// ```
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum Error {
@@ -134,6 +141,15 @@ pub(crate) fn bytes(path: &Path, limit: usize) -> Result<Vec<u8>, Error> {
 ///
 /// # Errors
 /// Returns an error if a file cannot be read, or every problem in it.
+///
+/// # Examples
+/// ```
+/// let path = std::env::temp_dir().join("ozols-import-bennett.sdf");
+/// std::fs::write(&path, ozols::export(&ozols::built_in("bennett")?, "sdf")?)?;
+/// let read = ozols::import(&path, &ozols::robots::Options::default())?;
+/// assert_eq!((read.mechanism.joints.len(), read.report.left_out()), (4, 0));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn import(path: impl AsRef<Path>, options: &Options) -> Result<Imported, Error> {
     let path = path.as_ref();
     let bytes = bytes(path, MAX_DESCRIPTION_BYTES)?;
@@ -263,6 +279,15 @@ pub fn export(mechanism: &Mechanism, format: &str) -> Result<String, Error> {
 }
 
 /// A kind of drawing.
+///
+/// # Examples
+/// ```
+/// let gripper = ozols::built_in("gripper-10")?;
+/// let schemes = [ozols::Scheme::Structural, ozols::Scheme::Kinematic];
+/// let [structural, kinematic] = schemes.map(|scheme| ozols::draw(&gripper, scheme));
+/// assert_ne!(structural?, kinematic?);
+/// # Ok::<(), ozols::Error>(())
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Scheme {
     /// Links as polygons, joints as circles with their class, and loops tinted by their redundant constraints.

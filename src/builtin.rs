@@ -36,6 +36,12 @@ fn name_of(file: &'static File<'static>) -> Option<&'static str> {
 }
 
 /// Names of the built-in mechanisms, ascending.
+///
+/// # Examples
+/// ```
+/// let names = ozols::builtin::names();
+/// assert!(names.contains(&"gripper-10") && names.is_sorted());
+/// ```
 #[must_use]
 pub fn names() -> Vec<&'static str> {
     let mut names: Vec<&str> = files().filter_map(name_of).collect();
@@ -56,6 +62,14 @@ pub fn text(name: &str) -> Option<&'static str> {
 }
 
 /// Every built-in mechanism by its name, ascending, with its file.
+///
+/// # Examples
+/// ```
+/// for (name, text) in ozols::builtin::all().into_iter().take(3) {
+///     assert_eq!(ozols::from_toml(text)?.name, name);
+/// }
+/// # Ok::<(), ozols::Error>(())
+/// ```
 #[must_use]
 pub fn all() -> Vec<(&'static str, &'static str)> {
     let with = |name| Some((name, text(name)?));
