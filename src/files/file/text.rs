@@ -5,7 +5,7 @@ use crate::file::problem::{ImportError, ProblemKind, is_json};
 use crate::file::read::build_mechanism;
 use crate::file::schema::MechanismFile;
 use crate::file::shape::wrong_shapes;
-use crate::file::{Finding, Findings, Place, digits};
+use crate::file::{Finding, Findings, Place, digits, unknown_word};
 use crate::model::mechanism::Mechanism;
 use serde_json::Value;
 use std::ops::Range;
@@ -140,6 +140,13 @@ fn with_remedy(message: String) -> String {
     }
     if message == "floating-point number overflowed" {
         return format!("{message}; choose another length_unit");
+    }
+    // A text with an error further on has not been checked by the schema.
+    if let Some(rest) = message.strip_prefix("unknown field `")
+        && let Some((word, known)) = rest.split_once("`, expected ")
+    {
+        let known = known.trim_start_matches("one of ").replace('`', "");
+        return unknown_word("key", word, [known.replace(" or ", ", ")]).to_string();
     }
     let missing = message.strip_prefix("missing field `");
     match missing.and_then(|rest| rest.strip_suffix('`')) {
