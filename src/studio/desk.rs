@@ -251,7 +251,7 @@ impl Desk {
                 )));
             }
             let bytes = self.current_bytes().clone();
-            let mut file = OpenFile::open_file(&path)?;
+            let mut file = OpenFile::read(&path)?;
             file.save_bytes(&bytes)?;
             let before = self.steps[self.at].file;
             self.files[before].drop_kept();

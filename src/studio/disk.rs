@@ -59,7 +59,7 @@ const KEEPERS: usize = 20;
 
 impl OpenFile {
     /// Reads a file in its current state.
-    pub(super) fn open_file(path: &Path) -> io::Result<OpenFile> {
+    pub(super) fn read(path: &Path) -> io::Result<OpenFile> {
         // A link is followed, so that its target gets the data.
         let path = fs::canonicalize(path).unwrap_or_else(|_| path.to_path_buf());
         let mut out = OpenFile {
@@ -237,10 +237,10 @@ pub(super) fn plain_name(name: &str) -> Option<&str> {
 
 /// Returns the opened file and its first text.
 pub(super) fn begin_opening(opening: &Opening) -> io::Result<(OpenFile, Option<String>)> {
-    let fresh = |folder: &Path, stem: &str| OpenFile::open_file(&free_name(folder, stem));
+    let fresh = |folder: &Path, stem: &str| OpenFile::read(&free_name(folder, stem));
     Ok(match opening {
         Opening::File(path, options) => {
-            let mut file = OpenFile::open_file(path)?;
+            let mut file = OpenFile::read(path)?;
             file.options = options.clone();
             (file, None)
         }

@@ -305,7 +305,7 @@ fn charts_show_every_kind_of_way_the_brackets_and_the_pools() {
     }
     // What is never wrong stands at zero, on an axis by decades.
     assert!(text("overview.svg").contains(">0</text>"));
-    for row in ["gripper-10,1e3", "\"gripper-10, 95 %\",1e3"] {
+    for row in ["scissor-lift-6,1e3", "\"scissor-lift-6, 95 %\",1e3"] {
         assert!(
             text("brackets.csv").contains(row),
             "{}",

@@ -113,15 +113,15 @@ struct Axes {
 }
 
 impl Axes {
-    fn to_direction(&self, v: [f64; 3]) -> [f64; 3] {
+    fn world_direction(&self, v: [f64; 3]) -> [f64; 3] {
         [0, 1, 2].map(|i| (0..3).map(|k| v[k] * self.unit[k][i]).sum())
     }
 
-    fn to_point(&self, p: [f64; 3]) -> [f64; 3] {
-        add(self.origin, self.to_direction(p))
+    fn world_point(&self, p: [f64; 3]) -> [f64; 3] {
+        add(self.origin, self.world_direction(p))
     }
 
-    fn to_plane(&self, p: [f64; 3]) -> [f64; 2] {
+    fn plane_point(&self, p: [f64; 3]) -> [f64; 2] {
         let d = sub(p, self.origin);
         [dot(d, self.unit[0]), dot(d, self.unit[1])]
     }
@@ -134,7 +134,7 @@ impl Axes {
         wanted: [f64; 2],
         most: f64,
     ) -> Result<(), JawError> {
-        let is = self.to_plane(joint_metres(m, joint));
+        let is = self.plane_point(joint_metres(m, joint));
         let off = (is[0] - wanted[0]).hypot(is[1] - wanted[1]);
         if off.is_nan() || off > most {
             let told = |p: [f64; 2]| p.map(|x| x / m.length_unit.metres);
@@ -355,18 +355,18 @@ impl Gripping {
             ..self.mechanism.loads.in_state(self.state)
         };
         if out.gravity.is_some() {
-            out.gravity = Some(exact(self.axes.to_direction(hardest.pull))?);
+            out.gravity = Some(exact(self.axes.world_direction(hardest.pull))?);
         }
         let along = self.study.lever.face_distance(row.diameter);
         let each = self.nominal.contacts.iter().zip(&fitted.contacts);
         for ((home, now), f) in each.zip(&holding.forces) {
-            let point = self.axes.to_point(on_face(&self.nominal, home, along));
+            let point = self.axes.world_point(on_face(&self.nominal, home, along));
             let force = [0, 1].map(|i| f.normal * now.normal[i] + f.along * now.tangent[i]);
             out.forces.push(ExternalForce {
                 link: self.levers[home.lever],
                 point: exact(point.map(|x| x / self.mechanism.length_unit.metres))?,
                 // The part's force on the jaw is the opposite of the jaw's on the part.
-                force: exact(self.axes.to_direction([-force[0], -force[1], -f.axial]))?,
+                force: exact(self.axes.world_direction([-force[0], -force[1], -f.axial]))?,
                 range: None,
                 states: None,
             });

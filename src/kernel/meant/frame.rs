@@ -123,12 +123,12 @@ impl SceneFrame {
     }
 
     /// Converts a vector of the file to the scene's frame.
-    pub(super) fn into_scene(&self, v: Vector) -> Vector {
+    pub(super) fn scene_vector(&self, v: Vector) -> Vector {
         [0, 1, 2].map(|j| (0..3).map(|i| self.real[i][j] * v[i]).sum())
     }
 
     /// Converts a vector of the scene's frame to the file's.
-    pub(super) fn into_file(&self, v: Vector) -> Vector {
+    pub(super) fn file_vector(&self, v: Vector) -> Vector {
         self.real.map(|row| dot(row, v))
     }
 

@@ -72,14 +72,14 @@ impl<'a> Stage<'a> {
         let whole = |p: &usize| written.points[*p].half == [0.0; 3];
         let origin = (0..points.len()).find(whole).unwrap_or(0);
         let exactly = |ray: usize| frame.inside_exactly(&written.rays[ray].exact);
-        let mut exact = make_exact(&of.all, |v| frame.into_scene(v), exactly, digits);
+        let mut exact = make_exact(&of.all, |v| frame.scene_vector(v), exactly, digits);
         if let (Some(symmetry), Some(own)) = (&written.symmetry, symmetric) {
             let n = exact[own].exact.clone();
             for (a, b) in symmetry.image_pairs(&of) {
                 let image =
                     Exact::exact_near(symmetry.image_exactly(&n, &exact[a].exact), &exact[b]);
                 if of.all[b].exact.is_none()
-                    && digits_allow(written, &of, caution.bold)(b, frame.into_file(image.unit))
+                    && digits_allow(written, &of, caution.bold)(b, frame.file_vector(image.unit))
                 {
                     exact[b] = image;
                 }
@@ -87,7 +87,7 @@ impl<'a> Stage<'a> {
         }
         let inside = points
             .iter()
-            .map(|p| frame.into_scene(sub(*p, points[origin])));
+            .map(|p| frame.scene_vector(sub(*p, points[origin])));
         let same = [0, 1, 2].map(|k| match &frame.rotation {
             None => Some(k),
             Some(r) => (0..3).find(|&c| r[c][k].is_one() || (-&r[c][k]).is_one()),
@@ -146,13 +146,13 @@ impl<'a> Stage<'a> {
 
     /// Returns the displacement nearest to `by` that the digits of the point allow, in the scene's frame.
     pub(super) fn clip_move(&self, p: usize, by: Vector) -> Vector {
-        let (out, half) = (self.frame.into_file(by), &self.written.points[p].half);
+        let (out, half) = (self.frame.file_vector(by), &self.written.points[p].half);
         let most = half.map(|h| self.within * h.max(self.floor));
         if (0..3).all(|c| out[c].abs() <= most[c]) {
             return by;
         }
         let inside = [0, 1, 2].map(|c| out[c].clamp(-most[c], most[c]));
-        self.frame.into_scene(inside)
+        self.frame.scene_vector(inside)
     }
 
     /// Returns the exact scene of rows that hold at some points, or `None` if they contradict each other.

@@ -25,12 +25,15 @@ pub enum PoseError {
 /// Share of a step within which a pose counts as the one it came from.
 const BACK: f64 = 0.1;
 
+/// The value of an equation and its row.
+pub(crate) type Equation = (f64, Vec<f64>);
+
 /// How closed coordinates are sought.
 pub(crate) struct Newton<'a> {
     /// Columns that keep their coordinates.
     pub(crate) hold: &'a [usize],
     /// Further equations: their values and rows at some coordinates.
-    pub(crate) beside: &'a dyn Fn(&[f64]) -> Vec<(f64, Vec<f64>)>,
+    pub(crate) beside: &'a dyn Fn(&[f64]) -> Vec<Equation>,
     /// Maximum number of steps, and the longest.
     pub(crate) steps: usize,
     pub(crate) longest: f64,

@@ -100,10 +100,7 @@ fn the_long_run_tells_enough_from_too_little() {
         .unwrap()
         .unwrap();
     let fed = |energy| Module {
-        feed: Feed {
-            energy: energy,
-            from: 0.0,
-        },
+        feed: Feed { energy, from: 0.0 },
         ..m
     };
     let one = steps(&[0]);
@@ -315,10 +312,7 @@ fn the_push_stays_with_the_grooves_of_the_disc_that_swings() {
                 capture: 0.5,
                 ..weak.latch
             },
-            feed: Feed {
-                energy: energy,
-                from: from,
-            },
+            feed: Feed { energy, from },
             ..weak
         };
         let turns = [1, 0, 1, 0];

@@ -37,13 +37,13 @@ fn said(path: &str, more: &str) -> String {
 /// Between two ball pivots the part turns about the line through their centres: no redundant constraint, and no grip.
 #[test]
 fn a_part_that_spins_between_two_pads_is_not_held() {
-    let (_folder, path) = write_temporary("m.toml", &gripper_with_pads());
+    let (_folder, path) = write_temporary("m.toml", gripper_with_pads());
     let zero = ["--max-external", "0", "--count"];
-    assert_eq!(parse_count(&run_search(&path, &zero)["admissible"]), 0);
+    assert_eq!(parse_count(&run_search(path, &zero)["admissible"]), 0);
     let loose = [&zero[..], &["--allow-loose-object"]].concat();
-    assert!(parse_count(&run_search(&path, &loose)["admissible"]) > 0);
+    assert!(parse_count(&run_search(path, &loose)["admissible"]) > 0);
     // Every one of them has both pads, and none with one pad is lost.
-    let list = run_search(&path, "--max-external 0 --allow-loose-object --top 20");
+    let list = run_search(path, "--max-external 0 --allow-loose-object --top 20");
     for v in list["variants"].list() {
         let changes = v["changes"].list();
         for pad in ["4-a", "a-8"] {
@@ -52,10 +52,10 @@ fn a_part_that_spins_between_two_pads_is_not_held() {
     }
     let one = ["--max-external", "2", "--forbid", "4-a", "--count"];
     let without = [&one[..], &["--allow-loose-object"]].concat();
-    assert!(parse_count(&run_search(&path, "--max-external 2 --count")["admissible"]) > 0);
+    assert!(parse_count(&run_search(path, "--max-external 2 --count")["admissible"]) > 0);
     assert!(
-        parse_count(&run_search(&path, &without)["admissible"])
-            > parse_count(&run_search(&path, &one)["admissible"])
+        parse_count(&run_search(path, &without)["admissible"])
+            > parse_count(&run_search(path, &one)["admissible"])
     );
 }
 
@@ -81,17 +81,17 @@ fn the_conditions_in_a_state_are_said() {
 /// The part is no link of the free mechanism; with one pad it is held all the same.
 #[test]
 fn an_object_is_held_by_name() {
-    let (_folder, path) = write_temporary("m.toml", &gripper_with_pads());
+    let (_folder, path) = write_temporary("m.toml", gripper_with_pads());
     let count_of = |more: &[&str]| {
         let args = [&["--max-external", "2", "--count"][..], more].concat();
-        parse_count(&run_search(&path, &args)["admissible"])
+        parse_count(&run_search(path, &args)["admissible"])
     };
     let held = count_of(&[]);
     assert!(held > 0);
     assert_eq!(count_of(&["--hold", "a"]), held);
     assert_eq!(count_of(&["--hold", "a", "--allow-loose-object"]), held);
     assert!(count_of(&["--allow-loose-object"]) > held);
-    let hold = ["search", &path, "--hold", "a"];
+    let hold = ["search", path, "--hold", "a"];
     assert_fails(&hold, "link a");
     assert_fails(&hold, "in state clamped alone; add --state clamped");
 }
@@ -149,18 +149,18 @@ fn harmful_constraints_are_counted() {
 fn harm_has_a_price_and_a_term() {
     let question = ["--state", "clamped", "--top", "1"];
     let first = |path: &str| run_search(path, &question)["variants"][0].clone();
-    let (_folder, path) = write_temporary("m.toml", &gripper_with_pads());
-    assert_eq!(first(&path)["external_harmful"], 2);
+    let (_folder, path) = write_temporary("m.toml", gripper_with_pads());
+    assert_eq!(first(path)["external_harmful"], 2);
     let priced = replace_once(
         &gripper_with_pads(),
         "[search]\n",
         "[search]\ncosts = { harmful = 3 }\n",
     );
     let (_priced, priced) = write_temporary("m.toml", &priced);
-    let v = first(&priced);
+    let v = first(priced);
     assert_eq!(v["external_harmful"], 0, "{v}");
     // Two harmful ones at 3 each cost more than a pad at 4.
-    assert_eq!(v["cost"].real() - 4.0, first(&path)["cost"].real());
+    assert_eq!(v["cost"].real() - 4.0, first(path)["cost"].real());
     let ranked = [
         "--rank",
         "harmful,cost=0.01",

@@ -34,8 +34,9 @@ fn solve(mut a: Vec<Vec<f64>>, mut b: Vec<f64>) -> Vec<f64> {
     for c in 0..n {
         for r in c + 1..n {
             let factor = a[r][c] / a[c][c];
-            for k in c..n {
-                a[r][k] -= factor * a[c][k];
+            let pivot = a[c].clone();
+            for (x, p) in a[r].iter_mut().zip(&pivot) {
+                *x -= factor * p;
             }
             b[r] -= factor * b[c];
         }

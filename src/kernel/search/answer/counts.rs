@@ -89,7 +89,7 @@ impl Counts {
     }
 
     /// Orbits of a symmetry, from all variants and the symmetric ones, as [`orbits`] has it.
-    pub(in crate::search) fn to_orbits(mut self, symmetric: &Counts, order: usize) -> Counts {
+    pub(in crate::search) fn orbit_counts(mut self, symmetric: &Counts, order: usize) -> Counts {
         let part = |n: &BigUint, kept: &BigUint| count_orbits(n, kept, order);
         fn each<K: Ord>(
             all: &mut BTreeMap<K, BigUint>,

@@ -28,7 +28,7 @@ pub fn orbit_counts(
     )?;
     let diagrams = build_diagrams(&symmetric, cancelled, &mut |_| {});
     let order = question.mechanism.search.symmetry_order();
-    let counts = all.to_orbits(&SearchCounts::of_diagrams(&symmetric, &diagrams), order);
+    let counts = all.orbit_counts(&SearchCounts::of_diagrams(&symmetric, &diagrams), order);
     let stops = [diagrams.determinate.stop, diagrams.admissible.stop];
     Ok((counts, stops))
 }

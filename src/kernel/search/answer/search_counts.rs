@@ -54,16 +54,16 @@ impl SearchCounts {
     }
 
     /// Returns the counts of orbits of a symmetry, from all variants and the symmetric ones, by Burnside's lemma.
-    pub(in crate::search) fn to_orbits(
+    pub(in crate::search) fn orbit_counts(
         self,
         symmetric: &SearchCounts,
         order: usize,
     ) -> SearchCounts {
         let lasting = self.lasting.zip(symmetric.lasting.as_ref());
         SearchCounts {
-            determinate: self.determinate.to_orbits(&symmetric.determinate, order),
-            admissible: self.admissible.to_orbits(&symmetric.admissible, order),
-            lasting: lasting.map(|(all, kept)| all.to_orbits(kept, order)),
+            determinate: self.determinate.orbit_counts(&symmetric.determinate, order),
+            admissible: self.admissible.orbit_counts(&symmetric.admissible, order),
+            lasting: lasting.map(|(all, kept)| all.orbit_counts(kept, order)),
         }
     }
 }

@@ -151,7 +151,8 @@ pub(super) fn advice_text(
         );
     }
     // The list is sorted, and so are the groups by their firsts.
-    let mut groups: Vec<((String, usize, i64), Vec<&str>)> = Vec::new();
+    type Change = (String, usize, i64);
+    let mut groups: Vec<(Change, Vec<&str>)> = Vec::new();
     for x in &found.list {
         let key = (describe_change(m, x), x.removes, x.cost_milli);
         let joint = &*m.joints[x.joint].id;

@@ -24,7 +24,7 @@ fn pairs_that_are_no_mirror_images_are_refused_with_their_distance() {
     let place = place_of("m.toml", &wrong, "mirror = ");
     let (_folder, path) = write_temporary("m.toml", &wrong);
     for command in ["check", "search", "analyze"] {
-        let said = refused(&[command, &path]);
+        let said = refused(&[command, path]);
         // (3, 2.5) mirrored is (3, -2.5), and 7-0 is at (3.5, -0.5).
         for part in [
             "joints \"2-3\" and \"7-0\" are not mirror images",
@@ -47,11 +47,11 @@ fn orbits_need_exact_images() {
     );
     let (_folder, path) = write_temporary("m.toml", &near);
     for flag in ["--symmetric", "--one-per-orbit"] {
-        let said = refused(&["search", &path, flag, "--count"]);
+        let said = refused(&["search", path, flag, "--count"]);
         has(&said, "joint 2-3");
         has(&said, "4.000e-5 cm");
     }
-    assert!(parse_count(&run_search(&path, "--count")["determinate"]) > 0);
+    assert!(parse_count(&run_search(path, "--count")["determinate"]) > 0);
 }
 
 /// Joints without a partner are their own images, or there are no orbits.
@@ -59,11 +59,11 @@ fn orbits_need_exact_images() {
 fn what_has_no_image_is_told() {
     let alone = replace_once(&gripper(), ", [\"4-a\", \"a-8\"]]", "]");
     let (_folder, path) = write_temporary("m.toml", &alone);
-    let orbits = ["search", &path, "--one-per-orbit", "--count"];
+    let orbits = ["search", path, "--one-per-orbit", "--count"];
     let said = refused(&[&orbits[..], &["--state", "clamped"]].concat());
     has(&said, "joint 4-a has no image");
     // The free state has no contacts.
-    assert!(parse_count(&run_search(&path, &orbits[2..])["determinate"]) > 0);
+    assert!(parse_count(&run_search(path, &orbits[2..])["determinate"]) > 0);
     let said = refused(&["search", "gripper-10", "--one-per-orbit", "--hold", "5"]);
     has(&said, "links 5 and 9 are images of each other");
 }

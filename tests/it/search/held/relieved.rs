@@ -12,10 +12,10 @@ fn refused(args: &[&str]) -> String {
 
 #[test]
 fn unloading_joints_are_offered_by_name() {
-    let (_folder, path) = write_temporary("m.toml", &gripper_with_pads());
+    let (_folder, path) = write_temporary("m.toml", gripper_with_pads());
     let space = |more: &[&str]| {
         let args = [&["--state", "clamped", "--count"][..], more].concat();
-        parse_count(&run_search(&path, &args)["space"])
+        parse_count(&run_search(path, &args)["space"])
     };
     let four = 4u64.pow(12);
     assert_eq!(space(&[]), four * 2 * 2);
@@ -25,7 +25,7 @@ fn unloading_joints_are_offered_by_name() {
     let two = ["--unloading", "planar=a-8", "--unloading", "universal=1-2"];
     assert_eq!(space(&two), four * 2 * 2 * 3);
     // In the free mechanism, too.
-    let free = run_search(&path, "--unloading prismatic=2-4 --count");
+    let free = run_search(path, "--unloading prismatic=2-4 --count");
     assert_eq!(parse_count(&free["space"]), 2 * four);
     for (rule, parts) in [
         ("planar=4-a", &["joint 4-a", "add --state clamped"][..]),
@@ -74,7 +74,7 @@ fn an_unloading_joint_has_a_place_of_its_own() {
         let written = run_quiet(&["export", name, "--to", "toml"]);
         mechanism_from_str("m.toml", &written).unwrap()
     };
-    let again = read(&path);
+    let again = read(path);
     let again = &again.joints[again.joint_named("a-8").unwrap()].unloading[0];
     assert_eq!(format!("{:?}", again.frame), format!("{:?}", pad.frame));
     // So does the state that an option is for.
@@ -144,14 +144,14 @@ fn a_joint_of_the_free_state_alone_counts_in_it_alone() {
     let (_folder, path) = write_temporary("m.toml", text);
     let present =
         split_words("--options revolute --max-redundant 30 --state clamped --max-changes 0");
-    let v = run_search(&path, &present)["variants"][0].clone();
+    let v = run_search(path, &present)["variants"][0].clone();
     assert_eq!(v["external_redundant"].as_i64(), Some(difference));
     assert_eq!(v["agree"], true);
     // The diagram, and every variant looked at.
     let small = "--options revolute,spherical --max-redundant 6 --max-external 1 --forbid 1-2 --forbid 2-3 --forbid 6-7 \
         --forbid 3-0 --forbid 5-1 --count";
     let brute = format!("{small} --method brute");
-    let (a, b) = (run_search(&path, small), run_search(&path, &brute));
+    let (a, b) = (run_search(path, small), run_search(path, &brute));
     for key in split_words("determinate admissible admissible_by_mobility_and_changes") {
         assert_eq!(a[key], b[key], "{key}");
     }
@@ -168,7 +168,7 @@ fn what_helps_a_clamped_search_is_said() {
     let loose = gripper_with_pads().replace("type = \"fixed\"", "type = \"spherical\"");
     let loose = &loose[..loose.find("[[expected]]").unwrap()];
     let (_folder, path) = write_temporary("m.toml", loose);
-    let (code, text, notes) = run_full(&["search", &path, "--state", "clamped"]);
+    let (code, text, notes) = run_full(&["search", path, "--state", "clamped"]);
     assert_eq!(code, Some(1));
     has(&notes, "a is loose in state");
     has(&text, "--allow-loose-object\n");

@@ -47,9 +47,10 @@ impl Sight {
             return Some(self.turned_view(view));
         }
         let equal = |x: &f64| (x.abs() - toward[0].abs()).abs() < FLAT;
-        let name = match toward.iter().all(equal) {
-            true => "isometric",
-            false => "seen from the side asked for",
+        let name = if toward.iter().all(equal) {
+            "isometric"
+        } else {
+            "seen from the side asked for"
         };
         Some(self.turned_view(upright_view(toward, name)))
     }
