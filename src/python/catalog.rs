@@ -12,7 +12,14 @@ use std::path::PathBuf;
 use std::sync::atomic::Ordering;
 
 fn spec(json: &str) -> PyResult<Spec> {
-    let spec: Spec = serde_json::from_str(json).map_err(failed)?;
+    let spec: Spec = serde_json::from_str(json).map_err(|e| {
+        // The position in the JSON is of no use: nobody typed it.
+        let what = e.to_string();
+        failed(
+            what.rsplit_once(" at line")
+                .map_or(&*what, |(what, _)| what),
+        )
+    })?;
     spec.check_all().map_err(failed)?;
     Ok(spec)
 }

@@ -46,7 +46,7 @@ assert all(v.redundant == 0 and v.mobility == 1 for v in found)
 grippers = ozols.catalog.build({"links": "4..6", "symmetries": ["mirror"]}, out="grippers.db")
 table = grippers.to_pandas(
     "SELECT id, jaw_a_motion AS jaws, force_mean AS force, transmission, determinate_w1, best_cost "
-    "FROM structures JOIN layouts ON structure = id ORDER BY force_mean DESC"
+    "FROM structures JOIN layouts l ON l.structure = id JOIN strokes k ON k.structure = id ORDER BY force_mean DESC"
 )
 print(table)
 

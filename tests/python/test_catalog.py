@@ -105,7 +105,7 @@ def test_what_is_wrong_is_said(built, in_tmp):
         its.query("SELECT * FROM nowhere")
     for spec, why in [
         ({"links": "5"}, "is not a range of even numbers"),
-        ({"inputs": ["push"]}, "is none of slide, turn"),
+        ({"inputs": ["push"]}, "expected `slide` or `turn`"),
         ({"link": "4"}, "unknown field `link`"),
     ]:
         with pytest.raises(ozols.Error, match=why):
