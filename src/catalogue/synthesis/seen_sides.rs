@@ -34,16 +34,16 @@ pub(crate) struct LinkSide {
 
 impl LinkSide {
     /// Returns the places of its ends.
-    pub(crate) fn of(&self, at: &[Point]) -> [Point; 2] {
+    pub(crate) fn places(&self, at: &[Point]) -> [Point; 2] {
         self.ends.map(|i| at[i])
     }
 }
 
 /// Returns true if a link with these sides, a bar or a plate, lies over a point.
 pub(crate) fn lies_over(sides: &[LinkSide], at: &[Point], point: Point) -> bool {
-    let near = |side: &LinkSide| side_distance(point, side.of(at)) < ON;
+    let near = |side: &LinkSide| side_distance(point, side.places(at)) < ON;
     let left = |side: &LinkSide| {
-        let [a, b] = side.of(at);
+        let [a, b] = side.places(at);
         cross_plane(sub(b, a), sub(point, a)) > 0.0
     };
     let within = sides.len() > 2 && sides.iter().map(left).all_equal();
@@ -84,7 +84,7 @@ impl SideSeen {
 
     /// Evaluates some points again.
     fn look_again(&mut self, bones: &Bones, at: &[Point], moved: impl Iterator<Item = usize>) {
-        let [a, b] = self.side.of(at);
+        let [a, b] = self.side.places(at);
         let along = sub(b, a);
         // Squared distance from the line through both ends, by the area of the triangle.
         let strip = ON * ON * dot(along, along).max(1e-9);
@@ -206,16 +206,24 @@ impl SeenSides {
         // Both sides record a crossing.
         let count = crossed / 2 + foreign;
         let penalty: f64 = sides.clone().map(|s| s.penalty).sum();
-        let is_of_jaw = |s: &SideSeen| bones.jaws.contains(&s.side.link);
-        let of_jaws = sides.clone().enumerate().filter(|(_, s)| is_of_jaw(s));
-        let of_jaws = of_jaws.fold(0, |all, (i, _)| all | 1 << i);
-        let between_jaws = sides.filter(|s| is_of_jaw(s));
-        let between_jaws: u32 = between_jaws
-            .map(|s| (s.crossed & of_jaws).count_ones())
-            .sum();
-        let costs = 1.5 * f64::from(count) + JAWS_CROSS * f64::from(between_jaws / 2);
+        let between_jaws = match crossed {
+            0 => 0,
+            _ => jaw_crossings(bones, &now.sides),
+        };
+        let costs = 1.5 * f64::from(count) + JAWS_CROSS * f64::from(between_jaws);
         (count as usize, penalty + costs)
     }
+}
+
+/// Returns the number of crossings of sides of different jaws.
+fn jaw_crossings(bones: &Bones, sides: &[SideSeen]) -> u32 {
+    let is_of_jaw = |s: &SideSeen| bones.jaws.contains(&s.side.link);
+    let of_jaws = sides.iter().enumerate().filter(|(_, s)| is_of_jaw(s));
+    let of_jaws = of_jaws.fold(0, |all, (i, _)| all | 1 << i);
+    let crossed = sides.iter().filter(|s| is_of_jaw(s));
+    let crossed = crossed.map(|s| (s.crossed & of_jaws).count_ones());
+    // Both sides record a crossing.
+    crossed.sum::<u32>() / 2
 }
 
 /// Returns the indices of the bits that are set.

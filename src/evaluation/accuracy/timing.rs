@@ -57,7 +57,7 @@ impl fmt::Display for Machine {
         if !self.optimised {
             write!(
                 f,
-                ", a development build, whose times are no measure of the program"
+                ", a development build, which is slower than a release build"
             )?;
         }
         Ok(())

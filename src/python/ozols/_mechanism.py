@@ -214,19 +214,16 @@ class Mechanism:
         *,
         accelerations: Iterable[Sequence[float]] = (),
         any_acceleration: float | None = None,
-        closure: bool = False,
-        state: str | None = None,
     ) -> Answer:
         """Returns what a lever gripper can hold and the drive moment it needs, as ``ozols grip``.
 
-        Accelerations are in m/s², in the axes of the gripper; ``any_acceleration`` acts in any direction. ``closure`` reports
-        how firmly the contacts of a clamped state hold the part.
+        Accelerations are in m/s², in the axes of the gripper; ``any_acceleration`` acts in any direction.
 
         >>> Mechanism.builtin("lever-gripper").grip()["holds"]
         True
         """
         words = [f"--acceleration={','.join(map(str, a))}" for a in accelerations]
-        given = _commands.options(any_acceleration=any_acceleration, closure=closure, state=state)
+        given = _commands.options(any_acceleration=any_acceleration)
         return self._command("grip", [*words, *given])
 
     def drive(self) -> Answer:

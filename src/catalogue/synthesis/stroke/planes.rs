@@ -109,7 +109,7 @@ impl Meetings {
         for (i, x) in sides.iter().enumerate() {
             for y in &sides[..i] {
                 let known = x.link == y.link || self.overlaps[x.link] >> y.link & 1 == 1;
-                if !known && !touch_at_tips(x, y, at, pins) && crosses(x.of(at), y.of(at)) {
+                if !known && !touch_at_tips(x, y, at, pins) && crosses(x.places(at), y.places(at)) {
                     self.overlap(x.link, y.link);
                 }
             }
