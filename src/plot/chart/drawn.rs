@@ -253,13 +253,16 @@ pub(super) fn beside_points(xml: &mut Xml, drawn: &[DrawnSeries], plot: &Rect) {
     let points = lone.iter().map(|l| Rect::around(l.0.into(), 12.0, 12.0));
     let mut taken: Vec<Rect> = points.chain(around_room(&room)).collect();
     let places = labels::place_labels(&wishes, &mut taken, &[]);
-    for ((place, name), ((x, _), _)) in places.iter().zip(&names).zip(&lone) {
-        let mut rect = place.rect;
-        if !rect.is_within(&room) {
-            // There is no room left: it starts at the left edge.
-            rect = rect.moved_by([room.left - rect.left, 0.0]);
-        }
-        if let Some((from, to)) = place.leader {
+    for ((place, name), ((x, y), _)) in places.iter().zip(&names).zip(&lone) {
+        let inside = place.rect.is_within(&room);
+        let rect = if inside {
+            place.rect
+        } else {
+            // No place is free. The name stands beside its point, over other things if need be.
+            let [left, top, right, bottom] = place.rect.edges();
+            Rect::around([*x, *y], right - left, bottom - top).moved_into(&room)
+        };
+        if let Some((from, to)) = place.leader.filter(|_| inside) {
             frame::draw_stroke(xml, "lead", from.into(), to.into());
         }
         let (anchor, at) = match (rect.left >= *x, rect.right <= *x) {

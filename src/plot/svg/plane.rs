@@ -99,6 +99,15 @@ impl Rect {
         Rect::new(left, top, self.right + x, self.bottom + y)
     }
 
+    /// Returns it moved as little as needed to lie within a larger one.
+    #[must_use]
+    pub fn moved_into(&self, room: &Rect) -> Rect {
+        let into = |low: f64, high: f64| low.max(0.0) + high.min(0.0);
+        let x = into(room.left - self.left, room.right - self.right);
+        let y = into(room.top - self.top, room.bottom - self.bottom);
+        self.moved_by([x, y])
+    }
+
     /// Returns true if a segment touches it.
     pub fn meets_segment(&self, a: Point, b: Point) -> bool {
         let within = |p: Point| {
