@@ -115,7 +115,7 @@ impl Search {
     /// Returns whether all variants of another search's diagram are determinate here.
     #[must_use]
     pub fn has_all(&self, known: &Diagram) -> bool {
-        build::has_all(self, known)
+        build::known_variants::has_all(self, known)
     }
 
     /// Returns the counts of the variants of a diagram; `filter` also applies the conditions on mobility and changes.

@@ -115,9 +115,10 @@ impl Field {
             t = below(t + (product(0) + product(1)) + (product(2) + product(3)));
         }
         let done = x.len().min(y.len()) / 4 * 4;
-        let rest = x[done..].iter().zip(&y[done..]).map(product);
-        let t = below(t + rest.sum::<u128>());
-        self.reduce_sum(t)
+        for pair in x[done..].iter().zip(&y[done..]) {
+            t += product(pair);
+        }
+        self.reduce_sum(below(t))
     }
 
     /// Reduces a sum of products below p·2^64, divided by 2^64.

@@ -3,6 +3,7 @@
 pub(in crate::search) mod at_most;
 pub(in crate::search) mod completing_sets;
 mod estimates;
+pub(in crate::search) mod known_variants;
 pub(in crate::search) mod lanes;
 mod matching_halves;
 pub mod orders;
@@ -21,15 +22,13 @@ use crate::search::build::self_stress::{Wanted, diagram_limits, empty_diagram};
 use crate::search::build::spanning_halves::Halves;
 use crate::search::build::two_sided::two_sided;
 use crate::search::diagram::completion::Missing;
-use crate::search::diagram::layer::{CUT, DEAD, Merge, Nodes};
+use crate::search::diagram::layer::CUT;
 use crate::search::diagram::redundancy_so_far::Limits;
-use crate::search::diagram::{self, Diagram, Progress, Stop, next_layer};
+use crate::search::diagram::{self, Diagram, Progress, Stop};
 use crate::search::question::Question;
 use crate::search::question::throughout::PoseOnly;
-use itertools::Itertools;
 use num_bigint::BigUint;
 use num_traits::Zero;
-use std::collections::BTreeSet;
 
 /// Diagrams of one question.
 #[derive(Debug)]
@@ -268,54 +267,4 @@ fn prove_cheapest(
         admissible.stop = Stop::Interrupted;
     }
     cheapest
-}
-
-/// Returns whether every variant of a diagram is determinate in a question, with the same redundant constraints. The spaces that variants of
-/// the diagram lead to are followed layer by layer, and no others. Returns false if they are more than the budget allows.
-///
-/// # Complexity
-/// At most that of the diagram of the question, and O(n·choices) for n pairs of a node of the diagram and a space.
-pub(in crate::search) fn has_all(question: &Question, known: &Diagram) -> bool {
-    let order: Vec<usize> = known.layers.iter().map(|l| l.variable).collect();
-    let limits = diagram_limits(question);
-    let Lanes { stages, root } = Lanes::new(question, &order, &limits, Wanted::Determinate);
-    let mut nodes = Nodes::root_node(root);
-    let mut reached = BTreeSet::from([(0, 0)]);
-    for (stage, layer) in stages.iter().zip(&known.layers) {
-        let edges = nodes.len() * layer.choices;
-        let merge = next_layer(
-            stage,
-            &question.space.variables[layer.variable].choices,
-            limits.bytes,
-            &nodes,
-            Merge::new(limits.nodes, limits.bytes, Stop::Exhausted, edges),
-            |_, _, _| false,
-            &|| false,
-            &mut |_| {},
-        );
-        if merge.stop != Stop::Exhausted {
-            return false;
-        }
-        let mut below = BTreeSet::new();
-        for &(space, node) in &reached {
-            for choice in 0..layer.choices {
-                let to = layer.edges[node * layer.choices + choice];
-                match merge.edges[space * layer.choices + choice] {
-                    _ if to == DEAD => {}
-                    DEAD => return false,
-                    space => drop(below.insert((space as usize, to as usize))),
-                }
-            }
-        }
-        let kept: Vec<usize> = below.iter().map(|(space, _)| *space).dedup().collect();
-        let place = |space: usize| kept.partition_point(|&k| k < space);
-        reached = below
-            .iter()
-            .map(|&(space, node)| (place(space), node))
-            .collect();
-        nodes = merge.next;
-        nodes.retain(&kept);
-    }
-    let mut ends = reached.iter();
-    ends.all(|&(space, node)| nodes.spent[space].redundancy() == known.terminals[node])
 }

@@ -1,4 +1,4 @@
-//! Which halves together span the space dual to self-stresses.
+//! Pairs of half-diagrams that together span the dual of the self-stress space.
 //!
 //! Each half adds vectors in the coordinates that both halves reach. A variant has no redundant constraint if both halves
 //! together span all coordinates of contours. It keeps the motion of kept links if no combination of both lies only in the
@@ -91,29 +91,13 @@ impl<'a> Halves<'a> {
         [front, back]: [&Nodes; 2],
         stages: usize,
     ) -> Meeting {
-        let meeting = self.starts[part + 1] - stages;
-        let is_live = |c: &usize| self.contours[*c].is_live_before(meeting);
-        let live: Vec<usize> = (0..self.contours.len()).filter(is_live).collect();
-        let turned: Vec<usize> = self.turned.iter().copied().filter(is_live).collect();
-        let place = |c: &usize| turned.iter().position(|x| x == c);
-        let places: Vec<usize> = live.iter().filter_map(place).collect();
-        let from_back = |row: Vec<Residue>| -> Vec<Residue> {
-            let own = places.iter().map(|&at| row[at]);
-            own.chain([row[live.len()]]).collect()
-        };
-        let packed = PackedRows {
-            field: self.field,
-            keeps: self.keeps,
-            width: live.len() + 1,
-        };
-        let of_back = |node| {
-            let rows = packed.unpack_node(back, node).into_iter().map(from_back);
-            Echelon::from_vectors(self.field, rows).reduced_rows()
-        };
-        let back: Vec<_> = (0..back.len()).map(of_back).collect();
+        let packed = self.meeting_rows(part, stages);
+        let back: Vec<_> = (0..back.len())
+            .map(|node| packed.back_rows(back, node))
+            .collect();
         let pairs = front.len().saturating_mul(back.len());
         let grouped = self.keeps.then(|| {
-            let front = (0..front.len()).map(|node| packed.unpack_node(front, node));
+            let front = (0..front.len()).map(|node| packed.front_rows(front, node));
             [
                 Grouped::group_nodes(front),
                 Grouped::group_nodes(back.iter().cloned()),
@@ -128,6 +112,20 @@ impl<'a> Halves<'a> {
             packed,
             pairs,
             nodes,
+        }
+    }
+
+    /// Returns how the rows of nodes are read where the halves of a part meet, with the last `stages` stages in the back half.
+    pub(in crate::search) fn meeting_rows(&self, part: usize, stages: usize) -> PackedRows {
+        let meeting = self.starts[part + 1] - stages;
+        let is_live = |c: &usize| self.contours[*c].is_live_before(meeting);
+        let live: Vec<usize> = (0..self.contours.len()).filter(is_live).collect();
+        let turned: Vec<usize> = self.turned.iter().copied().filter(is_live).collect();
+        let place = |c: &usize| turned.iter().position(|x| x == c);
+        PackedRows {
+            field: self.field,
+            keeps: self.keeps,
+            places: live.iter().filter_map(place).collect(),
         }
     }
 }
@@ -181,26 +179,41 @@ fn turn_space(space: &SelfStressSpace) -> (SelfStressSpace, Vec<usize>) {
 }
 
 /// The rows of nodes where both halves of a part meet.
-struct PackedRows {
+pub(in crate::search) struct PackedRows {
     field: Field,
     /// Whether vectors have a number for the motion of kept links.
     keeps: bool,
-    /// Coordinates of contours that both halves reach, and one of kept links.
-    width: usize,
+    /// The place of each coordinate of contours that both halves reach, in the rows of the back.
+    places: Vec<usize>,
 }
 
 impl PackedRows {
-    /// Returns the rows of a node, with a number of kept links behind the coordinates of contours: 0 if vectors have none.
-    fn unpack_node(&self, nodes: &Nodes, node: usize) -> Vec<Vec<Residue>> {
-        let packed = self.width - usize::from(!self.keeps);
+    /// Returns the number of coordinates of contours that both halves reach, and one of kept links.
+    pub(in crate::search) fn width(&self) -> usize {
+        self.places.len() + 1
+    }
+
+    /// Returns the rows of a node of the front, with a number of kept links behind the coordinates of contours: 0 if vectors have none.
+    pub(in crate::search) fn front_rows(&self, nodes: &Nodes, node: usize) -> Vec<Vec<Residue>> {
+        let packed = self.width() - usize::from(!self.keeps);
         let mut rows = Rows::default();
         rows.unpack_rows(&mut Arithmetic::new(self.field), packed, nodes.matrix(node));
         let widened = rows.rows().map(|row| {
             let mut row = row.to_vec();
-            row.resize(self.width, 0);
+            row.resize(self.width(), 0);
             row
         });
         widened.collect()
+    }
+
+    /// Returns the rows of a node of the back in the same coordinates, as a reduced basis.
+    pub(in crate::search) fn back_rows(&self, nodes: &Nodes, node: usize) -> Vec<Vec<Residue>> {
+        let from_back = |row: Vec<Residue>| -> Vec<Residue> {
+            let own = self.places.iter().map(|&at| row[at]);
+            own.chain([row[self.places.len()]]).collect()
+        };
+        let rows = self.front_rows(nodes, node).into_iter().map(from_back);
+        Echelon::from_vectors(self.field, rows).reduced_rows()
     }
 }
 
@@ -239,7 +252,7 @@ impl Meeting {
         bytes: usize,
         cancelled: &(dyn Fn() -> bool + Sync),
     ) -> Option<(Vec<u32>, Vec<Set>)> {
-        let PackedRows { field, width, .. } = self.packed;
+        let (field, width) = (self.packed.field, self.packed.width());
         let back = match &self.nodes {
             Compared::Grouped(nodes) => {
                 return match_halves(field, width - 1, nodes, bytes, cancelled);
@@ -250,7 +263,7 @@ impl Meeting {
             return None;
         }
         let of_node =
-            |node: usize| back.completing_nodes(&self.packed.unpack_node(front, node), width);
+            |node: usize| back.completing_nodes(&self.packed.front_rows(front, node), width);
         let sets = completing_sets(front.len(), of_node, cancelled)?;
         let mut numbered = Numbered::default();
         let of_node = sets

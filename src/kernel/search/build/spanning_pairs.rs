@@ -10,15 +10,32 @@ use crate::linalg::echelon::Echelon;
 use crate::linalg::modp::{Field, Residue};
 use crate::search::build::completing_sets::{Set, add_node, empty_set};
 use hashbrown::HashMap;
+use std::borrow::Cow;
+use std::ops::Range;
 
-/// A node of the back, with its rows as numbers of vectors.
-type Rows = (Vec<usize>, usize);
+/// A row that bases with the same rows before it have in common, in a list where it is followed by all rows that come after it in one of
+/// these bases.
+#[derive(Clone, Copy)]
+struct Item {
+    /// The number of the row among all different ones.
+    vector: usize,
+    /// The index of the item after all those that follow this row.
+    end: usize,
+    /// The number of bases that are complete before this item.
+    first: usize,
+}
 
-/// The bases of the nodes of the back, sorted so that equal beginnings are adjacent.
+/// The bases of the nodes of the back, sorted so that equal beginnings are one.
 pub(super) struct Bases {
     field: Field,
-    vectors: Vec<Vec<Residue>>,
-    nodes: Vec<Rows>,
+    /// The different rows, one after another, each of `width` numbers.
+    vectors: Vec<Residue>,
+    width: usize,
+    items: Vec<Item>,
+    /// For each number of rows of a basis, where its items end.
+    lengths: Vec<(usize, usize)>,
+    /// The nodes in the order of their bases.
+    nodes: Vec<usize>,
     /// Whether the last number of a vector is a motion of kept links.
     keeps: bool,
 }
@@ -29,132 +46,239 @@ impl Bases {
         let mut known: HashMap<&[Residue], usize> = HashMap::new();
         let mut vectors = Vec::new();
         let mut number = |row| {
+            let next = known.len();
             *known.entry(row).or_insert_with_key(|row: &&[Residue]| {
-                vectors.push(row.to_vec());
-                vectors.len() - 1
+                vectors.extend_from_slice(row);
+                next
             })
         };
         // The last rows have few numbers that are not zero, so that more bases have them in common.
-        let mut all: Vec<Vec<usize>> = Vec::with_capacity(bases.len());
-        for rows in bases {
-            all.push(rows.iter().rev().map(|row| number(&row[..])).collect());
+        let mut all: Vec<(Vec<usize>, usize)> = Vec::with_capacity(bases.len());
+        for (node, rows) in bases.iter().enumerate() {
+            all.push((
+                rows.iter().rev().map(|row| number(&row[..])).collect(),
+                node,
+            ));
         }
-        let mut nodes: Vec<Rows> = all.into_iter().zip(0..).collect();
-        nodes.sort_by(|(a, _), (b, _)| (a.len(), a).cmp(&(b.len(), b)));
-        Bases {
+        all.sort_by(|(a, _), (b, _)| (a.len(), a).cmp(&(b.len(), b)));
+        let mut out = Bases {
             field,
+            width: bases.iter().flatten().next().map_or(0, Vec::len),
             vectors,
-            nodes,
+            items: Vec::new(),
+            lengths: Vec::new(),
+            nodes: all.iter().map(|(_, node)| *node).collect(),
             keeps,
+        };
+        let mut first = 0;
+        for alike in all.chunk_by(|(a, _), (b, _)| a.len() == b.len()) {
+            out.push_items(alike, 0, first);
+            out.lengths.push((alike[0].0.len(), out.items.len()));
+            first += alike.len();
+        }
+        out
+    }
+
+    /// Appends the items of bases with the same rows before row `at`, the first of which is number `first`.
+    fn push_items(&mut self, bases: &[(Vec<usize>, usize)], at: usize, mut first: usize) {
+        if bases[0].0.len() == at {
+            return;
+        }
+        for alike in bases.chunk_by(|(a, _), (b, _)| a[at] == b[at]) {
+            let item = self.items.len();
+            self.items.push(Item {
+                vector: alike[0].0[at],
+                end: 0,
+                first,
+            });
+            self.push_items(alike, at + 1, first);
+            self.items[item].end = self.items.len();
+            first += alike.len();
         }
     }
 
     /// Returns the nodes that complete a node of the front, which has these rows in `width` coordinates.
     ///
     /// # Complexity
-    /// O(e·d) field operations for e different beginnings of bases and d coordinates that the node does not span. O(e·d²) if
-    /// most rows are not the last ones.
+    /// O(e·w) field operations for e different beginnings of bases and w coordinates. O(e·w²) if most rows are not the last ones.
     pub(super) fn completing_nodes(&self, rows: &[Vec<Residue>], width: usize) -> Set {
         let span = Echelon::from_vectors(self.field, rows);
         let (rows, pivots) = (span.reduced_rows(), span.pivots());
         let open: Vec<usize> = (0..width).filter(|at| !pivots.contains(at)).collect();
-        let at_pivots = open
-            .iter()
-            .flat_map(|&at| rows.iter().map(move |row| self.field.neg(row[at])));
-        let at_pivots: Vec<Residue> = at_pivots.collect();
-        let mut images = Vec::with_capacity(self.vectors.len() * open.len());
-        let mut there = Vec::with_capacity(pivots.len());
-        for vector in &self.vectors {
-            there.clear();
-            there.extend(pivots.iter().map(|&p| vector[p]));
-            images.extend(open.iter().enumerate().map(|(form, &at)| {
-                let form = &at_pivots[form * pivots.len()..][..pivots.len()];
-                self.field.add(vector[at], self.field.dot(form, &there))
-            }));
+        let mut forms = vec![0; open.len() * width];
+        for (form, &at) in forms.chunks_exact_mut(width).zip(&open) {
+            form[at] = self.field.one();
+            for (&pivot, row) in pivots.iter().zip(&rows) {
+                form[pivot] = self.field.neg(row[at]);
+            }
         }
-        let mut forms = vec![0; open.len() * open.len()];
-        let own = forms.iter_mut().step_by(open.len() + 1);
-        own.for_each(|own| *own = self.field.one());
-        let mut walk = Walk {
-            of: self,
-            images,
-            width: open.len(),
-            found: empty_set(self.nodes.len()),
+        // What the forms are on a vector has fewer numbers than the vector, but takes as long as some items.
+        let vectors = self.vectors.chunks_exact(self.width.max(1));
+        let mut walk = if vectors.len() * open.len() < 2 * self.items.len() {
+            let forms = forms.chunks_exact(width);
+            let of_vector = |v| forms.clone().map(move |form| self.field.dot(form, v));
+            let images = Cow::Owned(vectors.flat_map(of_vector).collect());
+            let levels = (0..open.len()).map(|rank| Forms::sparse(open.len(), rank));
+            let mut levels: Vec<Forms> = levels.collect();
+            levels[0].numbers.fill(self.field.one());
+            Walk::new(self, images, open.len(), levels)
+        } else {
+            let levels = (0..open.len()).map(|rank| Forms::dense(open.len(), rank, width));
+            let mut levels: Vec<Forms> = levels.collect();
+            levels[0].numbers = forms;
+            Walk::new(self, Cow::Borrowed(&self.vectors), width, levels)
         };
-        for alike in self.nodes.chunk_by(|(a, _), (b, _)| a.len() == b.len()) {
-            walk.follow_rows(alike, 0, &forms);
+        let mut start = 0;
+        for &(rows, end) in &self.lengths {
+            if rows > 0 {
+                walk.follow_rows(start..end, rows, 0);
+            } else if open.len() == 1 {
+                // The front spans everything, and what has no rows adds nothing.
+                walk.add_nodes(0, 0);
+            }
+            start = end;
         }
         walk.found
+    }
+}
+
+/// The linear forms that are zero on the front and on some rows of rank r.
+struct Forms {
+    /// Empty if forms have numbers at all coordinates. Otherwise the coordinates: first r whose forms have ended, one with each row that was
+    /// new, then one of each form. A form has numbers at its own and at those that have ended.
+    order: Vec<usize>,
+    /// The numbers of the forms, one after another.
+    numbers: Vec<Residue>,
+    /// How many numbers a form has.
+    each: usize,
+}
+
+impl Forms {
+    /// Returns forms of a rank, all zero, of `forms` before any row.
+    fn dense(forms: usize, rank: usize, width: usize) -> Forms {
+        Forms {
+            order: Vec::new(),
+            numbers: vec![0; (forms - rank) * width],
+            each: width,
+        }
+    }
+
+    /// Returns forms of a rank, all zero, with a coordinate for each of `forms` before any row.
+    fn sparse(forms: usize, rank: usize) -> Forms {
+        Forms {
+            order: (0..forms).collect(),
+            ..Forms::dense(forms, rank, rank + 1)
+        }
+    }
+
+    /// Returns what a form is on a vector.
+    #[inline]
+    fn value(&self, f: Field, form: usize, vector: &[Residue]) -> Residue {
+        let numbers = &self.numbers[form * self.each..][..self.each];
+        if self.order.is_empty() {
+            return f.dot(numbers, vector);
+        }
+        let (ended, own) = self.order.split_at(self.each - 1);
+        let ended = ended.iter().zip(&numbers[1..]);
+        let ended = ended.map(|(&at, &number)| (number, vector[at]));
+        f.sum_of_products(std::iter::once((numbers[0], vector[own[form]])).chain(ended))
     }
 }
 
 /// The nodes that complete one of the front, as far as they are found.
 struct Walk<'a> {
     of: &'a Bases,
-    /// The forms of the front on each vector.
-    images: Vec<Residue>,
-    /// Forms of the front, that with the motion of kept links the last.
+    /// The vectors, or what the forms before any row are on them; each of `width` numbers.
+    vectors: Cow<'a, [Residue]>,
     width: usize,
+    /// The forms for each rank of the rows that are followed; that with the motion of kept links is the last.
+    levels: Vec<Forms>,
     found: Set,
 }
 
-impl Walk<'_> {
-    /// Follows bases of one length from a row on, all with the same rows before it. `forms` are those that are zero on these rows.
-    fn follow_rows(&mut self, nodes: &[Rows], row: usize, forms: &[Residue]) {
-        let missing = forms.len() / self.width - 1;
-        let rows = nodes[0].0.len();
-        if rows - row < missing {
+impl<'a> Walk<'a> {
+    /// Returns a walk that has found nothing.
+    fn new(
+        of: &'a Bases,
+        vectors: Cow<'a, [Residue]>,
+        width: usize,
+        levels: Vec<Forms>,
+    ) -> Walk<'a> {
+        Walk {
+            of,
+            vectors,
+            width,
+            levels,
+            found: empty_set(of.nodes.len()),
+        }
+    }
+
+    /// Follows the rows of some items, with `left` rows to the end of each basis. The rows before have a rank, and the forms of that rank
+    /// are zero on them.
+    fn follow_rows(&mut self, items: Range<usize>, left: usize, rank: usize) {
+        let (f, keeps, width) = (self.of.field, self.of.keeps, self.width);
+        let missing = self.levels.len() - 1 - rank;
+        if left < missing {
             return;
         }
-        if row == rows || missing == 0 && !self.of.keeps {
-            self.put(nodes);
-            return;
-        }
-        for alike in nodes.chunk_by(|(a, _), (b, _)| a[row] == b[row]) {
-            let image = alike[0].0[row] * self.width;
-            let image = image..image + self.width;
-            let value = |form: usize| {
-                let form = &forms[form * self.width..][..self.width];
-                self.of.field.dot(form, &self.images[image.clone()])
-            };
+        let mut at = items.start;
+        while at < items.end {
+            let Item { vector, end, first } = self.of.items[at];
+            let below = at + 1..end;
+            at = end;
+            let row = &self.vectors[vector * width..][..width];
+            let value = |form: usize| self.levels[rank].value(f, form, row);
             match (0..missing).find(|&form| value(form) != 0) {
+                // The rows that are left span too little.
+                None if left == missing => {}
                 // Kept links would move alone.
-                None if self.of.keeps && value(missing) != 0 => {}
-                None => self.follow_rows(alike, row + 1, forms),
+                None if keeps && value(missing) != 0 => {}
+                None if below.is_empty() || missing == 0 && !keeps => self.add_nodes(first, end),
+                None => self.follow_rows(below, left - 1, rank),
                 // Nothing is left to be spanned, or to be moved by further rows.
-                Some(_) if missing == 1 && (row + 1 == rows || !self.of.keeps) => self.put(alike),
-                Some(own) => {
-                    let left = self.eliminate_form(forms, own, &self.images[image]);
-                    self.follow_rows(alike, row + 1, &left);
+                Some(_) if missing == 1 && (below.is_empty() || !keeps) => {
+                    self.add_nodes(first, end);
+                }
+                Some(ended) => {
+                    self.eliminate_form(rank, ended, vector);
+                    self.follow_rows(below, left - 1, rank + 1);
                 }
             }
         }
     }
 
-    /// Returns the other forms, each with a multiple of one taken off so that it is zero on a vector.
-    fn eliminate_form(&self, forms: &[Residue], own: usize, image: &[Residue]) -> Vec<Residue> {
+    /// Makes the forms of the next rank, which are zero on a vector as well: those of a rank without one, each a multiple of itself less a
+    /// multiple of that one.
+    fn eliminate_form(&mut self, rank: usize, ended: usize, vector: usize) {
         let f = self.of.field;
-        let by = &forms[own * self.width..][..self.width];
-        let scale = f.dot(by, image);
-        let mut left = Vec::with_capacity(forms.len() - self.width);
-        for (number, form) in forms.chunks_exact(self.width).enumerate() {
-            let value = f.dot(form, image);
-            if number == own {
-                continue;
+        let row = &self.vectors[vector * self.width..][..self.width];
+        let (before, after) = self.levels.split_at_mut(rank + 1);
+        let (old, new) = (&before[rank], &mut after[0]);
+        let less = &old.numbers[ended * old.each..][..old.each];
+        let scale = old.value(f, ended, row);
+        let forms = old.numbers.chunks_exact(old.each).enumerate();
+        let others = forms.filter(|(form, _)| *form != ended);
+        for ((form, own), to) in others.zip(new.numbers.chunks_exact_mut(new.each)) {
+            let value = old.value(f, form, row);
+            for (to, (&own, &less)) in to.iter_mut().zip(own.iter().zip(less)) {
+                *to = f.difference_of_products(scale, own, value, less);
             }
-            if value == 0 {
-                left.extend_from_slice(form);
-            } else {
-                let both = form.iter().zip(by);
-                left.extend(both.map(|(&x, &y)| f.sub(f.mul(scale, x), f.mul(value, y))));
+            if new.each > old.each {
+                // Each has its first number at a coordinate of its own.
+                to[0] = f.mul(scale, own[0]);
+                to[old.each] = f.neg(f.mul(value, less[0]));
             }
         }
-        left
+        if !new.order.is_empty() {
+            new.order.copy_from_slice(&old.order);
+            new.order[rank..=rank + ended].rotate_right(1);
+        }
     }
 
-    /// Puts nodes to those found.
-    fn put(&mut self, nodes: &[Rows]) {
-        for &(_, node) in nodes {
+    /// Adds the nodes of the bases whose first rows are items from one that begins with basis `first` to before `end`.
+    fn add_nodes(&mut self, first: usize, end: usize) {
+        let behind = self.of.items.get(end).map(|item| item.first);
+        for &node in &self.of.nodes[first..behind.unwrap_or(self.of.nodes.len())] {
             add_node(&mut self.found, node);
         }
     }

@@ -68,6 +68,10 @@ pub(in crate::search) struct Worker {
     grown: [Vec<Rows>; 2],
     vector: Vec<Residue>,
     children: Vec<Growing>,
+    /// The choices whose children are wanted; all if empty.
+    wanted: Vec<bool>,
+    /// Scratch: the choices that these are grown from, too.
+    needed: Vec<bool>,
 }
 
 impl Worker {
@@ -78,7 +82,15 @@ impl Worker {
             grown: Default::default(),
             vector: Vec::new(),
             children: Vec::new(),
+            wanted: Vec::new(),
+            needed: Vec::new(),
         }
+    }
+
+    /// Restricts the next children to some choices. Those of the others are dead.
+    pub(in crate::search) fn restrict_choices(&mut self, wanted: &[bool]) {
+        self.wanted.clear();
+        self.wanted.extend_from_slice(wanted);
     }
 
     /// Takes a subspace off a packed node and extends it by each choice; `part` says which of the two it is.
@@ -88,7 +100,15 @@ impl Worker {
         base.unpack_spread(&mut self.arithmetic, *width, places, packed);
         let grown = &mut self.grown[part];
         grown.resize(columns.growth.len(), Rows::default());
-        for g in &columns.growth {
+        self.needed.clone_from(&self.wanted);
+        self.needed
+            .resize(columns.growth.len(), self.wanted.is_empty());
+        for g in columns.growth.iter().rev() {
+            if let Some(from) = g.from.filter(|_| self.needed[g.choice]) {
+                self.needed[from] = true;
+            }
+        }
+        for g in columns.growth.iter().filter(|g| self.needed[g.choice]) {
             let mut rows = std::mem::take(&mut grown[g.choice]);
             rows.clone_from(match g.from {
                 Some(from) => &grown[from],
@@ -175,6 +195,10 @@ impl Worker {
         self.grow_choices(0, &stage.columns, &mut matrix);
         let gap = stage.columns.closing;
         for (rows, child) in self.grown[0].iter_mut().zip(&mut self.children) {
+            if !child.alive {
+                out.take_child(child);
+                continue;
+            }
             // A pivot there is a motion that closes every contour and moves a kept link.
             let goes_wrong = rows
                 .pivots
@@ -196,10 +220,10 @@ impl Worker {
             packed: Vec::new(),
             alive: true,
         });
-        for child in &mut self.children {
+        for (choice, child) in self.children.iter_mut().enumerate() {
             child.spent.clone_from(spent);
             child.packed.clear();
-            child.alive = true;
+            child.alive = self.wanted.get(choice).is_none_or(|w| *w);
         }
     }
 }

@@ -1,0 +1,147 @@
+//! Whether a question has the variants of a known diagram.
+//!
+//! Only choices of known variants are followed: half of the variables from the front, the other half from the back. Where the halves
+//! meet, spaces are compared that variants lead to through the same node of the known diagram.
+
+use crate::search::build::self_stress::{Wanted, diagram_limits};
+use crate::search::build::spanning_halves::Halves;
+use crate::search::build::spanning_pairs::Bases;
+use crate::search::diagram::layer::{Merge, Nodes};
+use crate::search::diagram::redundancy_so_far::{Limits, Spent};
+use crate::search::diagram::stage::Adding;
+use crate::search::diagram::transition::Children;
+use crate::search::diagram::{Carries, DEAD, Diagram, Layer, Stop};
+use crate::search::question::Question;
+use itertools::Itertools;
+use std::collections::BTreeSet;
+
+/// Returns true if every variant of a diagram is determinate in a question. Returns false if not, if the diagram or the question allows
+/// redundant constraints that not every variant has, or if it takes more nodes than the budget allows.
+///
+/// # Complexity
+/// O(n·choices·s²) field operations for s self-stresses and n spaces that half of the choices of the variants add, and O(a·b) sums of
+/// products for a and b spaces that meet at a node.
+pub(in crate::search) fn has_all(question: &Question, known: &Diagram) -> bool {
+    let order: Vec<usize> = known.layers.iter().map(|l| l.variable).collect();
+    let limits = diagram_limits(question);
+    let Some(halves) = Halves::new(question, &order, &limits, Wanted::Determinate) else {
+        return false;
+    };
+    let end = Spent::within_mechanism(halves.already).redundancy();
+    let mut layers = &known.layers[..];
+    known.terminals.iter().all(|t| *t == end)
+        && (0..halves.parts.len()).all(|part| {
+            let (own, others) = layers.split_at(halves.parts[part][0].len());
+            layers = others;
+            let ends = others.first().map_or(known.terminals.len(), |l| l.nodes);
+            part_has_all(&halves, part, own, ends).is_some()
+        })
+}
+
+/// The spaces that known variants lead to from one end, and their pairs with the nodes of the known diagram.
+struct End {
+    spaces: Nodes,
+    reached: BTreeSet<(usize, usize)>,
+}
+
+/// Follows the variants of some layers, which end at `ends` nodes, through a part. Returns `None` if one of them is not determinate.
+fn part_has_all(halves: &Halves<'_>, part: usize, layers: &[Layer], ends: usize) -> Option<()> {
+    let nodes_at = |at: usize| layers.get(at).map_or(ends, |l| l.nodes);
+    let [mut front, mut back] = [nodes_at(0), ends].map(|nodes| End {
+        spaces: Nodes::root_node(Spent::within_mechanism(halves.already)),
+        reached: (0..nodes).map(|node| (0, node)).collect(),
+    });
+    let [from_front, from_back] = &halves.parts[part];
+    let (mut at, mut to) = (0, layers.len());
+    while at < to {
+        let forward = front.spaces.len() <= back.spaces.len();
+        let layer = if forward { at } else { to - 1 };
+        let from = nodes_at(if forward { at } else { to });
+        let mut ways = vec![Vec::new(); from];
+        let Layer { choices, edges, .. } = &layers[layer];
+        for (edge, &below) in edges.iter().enumerate().filter(|(_, to)| **to != DEAD) {
+            let (above, choice, below) = (edge / choices, edge % choices, below as usize);
+            let (from, to) = if forward {
+                (above, below)
+            } else {
+                (below, above)
+            };
+            ways[from].push((choice, to));
+        }
+        if forward {
+            front = front.follow_ways(&from_front[at], *choices, &ways, halves.limits)?;
+            at += 1;
+        } else {
+            to -= 1;
+            back = back.follow_ways(
+                &from_back[layers.len() - 1 - to],
+                *choices,
+                &ways,
+                halves.limits,
+            )?;
+        }
+    }
+    let rows = halves.meeting_rows(part, layers.len() - to);
+    let [of_front, of_back] = [&front, &back].map(|end| end.spaces_at(nodes_at(to)));
+    for (front_spaces, back_spaces) in of_front.iter().zip(of_back) {
+        let back_rows = back_spaces
+            .iter()
+            .map(|&space| rows.back_rows(&back.spaces, space));
+        let bases = Bases::new(halves.field, &back_rows.collect_vec(), false);
+        for &space in front_spaces {
+            let found =
+                bases.completing_nodes(&rows.front_rows(&front.spaces, space), rows.width());
+            let count: u32 = found.iter().map(|word| word.count_ones()).sum();
+            if (count as usize) < back_spaces.len() {
+                return None;
+            }
+        }
+    }
+    Some(())
+}
+
+impl End {
+    /// Follows the ways that start at each node of the known diagram: a choice and the node that it leads to. Returns `None` if a way has a
+    /// redundant constraint, or if there are too many spaces.
+    fn follow_ways(
+        &self,
+        stage: &Adding,
+        choices: usize,
+        ways: &[Vec<(usize, usize)>],
+        limits: &Limits,
+    ) -> Option<End> {
+        let mut merge = Merge::new(limits.nodes, limits.bytes, Stop::Exhausted, 0);
+        let mut worker = stage.make_worker();
+        let mut reached = BTreeSet::new();
+        for (space, pairs) in &self.reached.iter().chunk_by(|(space, _)| *space) {
+            let ways = pairs.flat_map(|&(_, node)| &ways[node]).collect_vec();
+            let mut wanted = vec![false; choices];
+            ways.iter().for_each(|(choice, _)| wanted[*choice] = true);
+            worker.restrict_choices(&wanted);
+            let mut children = Children::new(choices);
+            let (matrix, spent) = (self.spaces.matrix(space), &self.spaces.spent[space]);
+            stage.push_children(&mut worker, matrix, spent, &mut children);
+            merge.take_children(&children, &self.spaces, |_| 0, |_, _, _| false);
+            let found = &merge.edges[space * choices..];
+            for &&(choice, node) in &ways {
+                if found[choice] == DEAD {
+                    return None;
+                }
+                reached.insert((found[choice] as usize, node));
+            }
+        }
+        (merge.stop == Stop::Exhausted).then_some(End {
+            spaces: merge.next,
+            reached,
+        })
+    }
+
+    /// Returns the spaces at each of some nodes of the known diagram.
+    fn spaces_at(&self, nodes: usize) -> Vec<Vec<usize>> {
+        let mut at = vec![Vec::new(); nodes];
+        self.reached
+            .iter()
+            .for_each(|&(space, node)| at[node].push(space));
+        at
+    }
+}
