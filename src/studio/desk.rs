@@ -37,7 +37,7 @@ pub(super) struct Desk {
     files: Vec<OpenFile>,
     steps: Vec<DeskStep>,
     at: usize,
-    /// Goes up whenever another text is on the desk.
+    /// Revision number, incremented with every change of the text.
     pub(super) revision: u64,
     pub(super) reading: Arc<DeskReading>,
     /// The content of the file that another program has written since the last save.

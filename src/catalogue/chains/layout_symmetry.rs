@@ -16,7 +16,7 @@ pub enum NoGripper {
     #[error("nothing of the chain carries the jaws to each other")]
     Unsymmetric,
     /// More than one motion.
-    #[error("{0} motions where there should be one")]
+    #[error("{0} motions; exactly one is required")]
     Motions(usize),
     /// The drive cannot move.
     #[error("the drive cannot move")]

@@ -48,7 +48,7 @@ pub enum Why {
     #[error("nothing can move while the other drives are locked")]
     Locked,
     /// Motions on several branches.
-    #[error("singular pose: branches of the motion cross or end here, and none continues smoothly")]
+    #[error("singular pose: branches of the motion meet or end here, and none continues smoothly")]
     Singular,
     /// First-order motions that no pose follows, although the singular values show no irregularity.
     #[error(

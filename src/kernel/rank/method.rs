@@ -75,12 +75,10 @@ impl Certainty {
             Certainty::Counted => "counted, independent of the geometry".to_owned(),
             Certainty::Exact => "exact arithmetic".to_owned(),
             Certainty::Proven { .. } => {
-                "exact geometry; rank proven by a checked certificate, and the same modulo two primes"
+                "exact geometry; rank proven by a checked certificate; agrees modulo two primes"
                     .to_owned()
             }
-            Certainty::Modular { .. } => {
-                "exact geometry; ranks modulo two primes agree".to_owned()
-            }
+            Certainty::Modular { .. } => "exact geometry; ranks modulo two primes agree".to_owned(),
             Certainty::Numeric {
                 values,
                 tolerance,

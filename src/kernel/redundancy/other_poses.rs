@@ -80,9 +80,9 @@ impl Where {
     #[must_use]
     pub fn describe(self) -> String {
         match self {
-            Where::Proven => "over the motion through this pose (proven)".to_owned(),
+            Where::Proven => "throughout the motion, not only in this pose (proven)".to_owned(),
             Where::Followed => {
-                "over the motion through this pose (followed numerically)".to_owned()
+                "throughout the motion, not only in this pose (followed numerically)".to_owned()
             }
             Where::Seen { poses, limited } => format!(
                 "at this pose and in {}{} (numeric); not proven for the rest of the motion",

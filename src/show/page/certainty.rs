@@ -58,10 +58,10 @@ fn search_lines(r: &Redesigns<'_>) -> Vec<String> {
             ..
         }) => lines.push("Checked: two runs with different primes agree".to_owned()),
         Some(_) => lines.push("Not checked by a second prime: interrupted".to_owned()),
-        None => lines.push("One prime, without a second opinion".to_owned()),
+        None => lines.push("One prime, no cross-check".to_owned()),
     }
     let early = stopped_early::stopped_line(found);
-    lines.push(early.unwrap_or_else(|| "Every variant was counted; none was omitted".to_owned()));
+    lines.push(early.unwrap_or_else(|| "All variants were counted".to_owned()));
     lines.extend(stopped_early::estimate_line(found));
     lines.extend(stopped_early::more_line(found));
     if let Some((why, verdicts)) = &found.measured {
@@ -71,7 +71,7 @@ fn search_lines(r: &Redesigns<'_>) -> Vec<String> {
         } else if found.request.as_written {
             "something else is meant, and the search takes every digit exactly as written, as requested"
         } else {
-            "the search is of the mechanism as meant, snapped within the digits"
+            "the search uses the idealised geometry (snapped within the rounding of the file)"
         };
         lines.push(format!("The coordinates look rounded ({why}); {searched}"));
     }

@@ -90,7 +90,7 @@ pub(super) fn redesigns_html(page: &Page<'_>) -> Markup {
     match &page.redesigns {
         Err(why) => html! { p { "Redesigns were not searched: " (why) } },
         Ok(r) if r.variants.is_empty() => html! {
-            p { "There is no variant to show; the verdict at the top says why." }
+            p { "No redesign to show; see the verdict above." }
             @for why in hopeless_reasons(page.mechanism, &r.remarks.hopeless) { p { (why) "." } }
             dl.commands {
                 @for step in &page.commands.wider {

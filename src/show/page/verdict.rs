@@ -64,10 +64,9 @@ pub fn state_sentences(told: &State<'_>) -> Vec<String> {
     }
     out.push(
         if s.redundant == 0 {
-            "Parts that are slightly inaccurate still assemble without strain, and the loads alone say what each joint bears."
+            "Parts that are slightly inaccurate still assemble without strain, and the loads alone determine the joint forces."
         } else {
-            "Parts that are slightly inaccurate bind: they must be bent or pressed together, and joints bear loads even when \
-             nothing acts from outside."
+            "Parts that are slightly inaccurate bind: they must be forced together, and the joints carry load even without an external load."
         }
         .to_owned(),
     );

@@ -163,5 +163,8 @@ fn what_a_neighbour_does_better_stands_in_the_catalogue() {
     }
     assert!(better > 0, "{near:?}");
     let said = stdout_of(&asked);
-    assert!(said.contains("Next to it in the catalogue"), "{said}");
+    assert!(
+        said.contains("Similar structures in the catalogue"),
+        "{said}"
+    );
 }

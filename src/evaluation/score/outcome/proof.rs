@@ -122,7 +122,7 @@ pub(in crate::score) fn prove_best(
     let (scored, ended) = walk.search_branches(&mut pool.list, progress);
     pool.elsewhere = Some(scored);
     pool.proof = match ended {
-        None => "bounds on cost and reactions put every variant that was not scored behind",
+        None => "bounds on cost and reactions rule out the rest",
         Some(Ended::Stopped) => "going through the others was interrupted",
         Some(Ended::TooLong) => "going through all others would take too long",
     };

@@ -157,7 +157,7 @@ fn looks_measured(name: &str, w: &Rounded) -> String {
     } else {
         format!(
             "warning: the coordinates of {name} look measured ({w}). Exact and tolerant ranks agree on it as it \
-             is, but the search takes every digit at its word; {CURE}"
+             is, but the search uses the coordinates as written; {CURE}"
         )
     }
 }

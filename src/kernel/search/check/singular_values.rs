@@ -128,7 +128,7 @@ pub struct Summary {
     pub given: usize,
     /// Those with an opinion.
     pub checked: usize,
-    /// Those whose opinion differs from the diagram.
+    /// Number of variants for which singular values disagree with the diagram.
     pub disagreeing: usize,
     /// Those whose singular values did not converge.
     pub failed: usize,

@@ -3,7 +3,7 @@
 use crate::model::mechanism::JointId;
 use itertools::Itertools;
 
-/// When a partly built mechanism is given up, and when building stops; no number, no limit.
+/// Limits of the search: redundancy allowed in a variant, and the node and memory budgets. `None` means unlimited.
 #[derive(Debug, Clone)]
 pub(crate) struct Limits {
     /// Redundant constraints allowed within the mechanism.

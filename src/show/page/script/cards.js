@@ -97,7 +97,7 @@ function inTheWay(asked) {
     const n = data.cards.filter((c) => asked.every(([other, keeps]) => other === id || keeps(c))).length;
     return n ? [`without “${words(id)}” ${grouped(n)}`] : [];
   });
-  const out = without.length ? [without.join(', ')] : ['more than one filter is in the way'];
+  const out = without.length ? [without.join(', ')] : ['Two or more filters exclude every gripper'];
   if (byId('jaws').value === 'parallel' && !data.cards.some((c) => FILTERS.jaws(c, 'parallel'))) {
     out.push('with only hinges, jaws that do not turn need ten links; with slides, four do (ozols catalog build --pairs slide,gear,slot)');
   }

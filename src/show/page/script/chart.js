@@ -155,7 +155,7 @@ function drawChart() {
     frontPoints(svg, front, x, y);
     const part = shown.length === view.order.length ? "" : `The ${grouped(shown.length)} of ${grouped(view.order.length)} variants that have both figures. `;
     const best = front.length === 1
-      ? "The larger dot is as good as any other in both."
+      ? "The larger dot is best in both."
       : `No other variant is as good in both as one of the ${front.length} that the line joins; arrow keys walk along it.`;
     byId("chart-words").textContent = `${part}${best}`;
   } else {

@@ -189,11 +189,11 @@ pub(super) fn advice_text(
         width,
     );
     let loose = if found.state != StateId::FREE {
-        "\n  (the pad of an unloading joint hangs loose while nothing is held)"
+        "\n  (the pad of an unloading joint moves freely while no part is clamped)"
     } else {
         ""
     };
     format!(
-        "\n  Single changes that remove redundant constraints and leave all motions as they are\n  (of {tried} tried: {source}):\n\n{body}{rest}{loose}\n"
+        "\n  Single joint changes that remove redundant constraints and keep every motion\n  ({tried} tried: {source}):\n\n{body}{rest}{loose}\n"
     )
 }

@@ -83,13 +83,12 @@ pub fn hinged_row(links: usize, mobility: usize, chains: u64, census: Option<&Ce
 }
 
 const HINGED_LEGEND: &str = "\
-All up to isomorphism.
+Counted up to isomorphism.
 Drive: a frame, and a driver joined to it. Jaws are neither.
 Essential: no smaller moving part holds frame, driver and jaws.
-Truss: with a part hinged to both jaws nothing moves any more, and no smaller part is rigid.
+Truss: with a part hinged to both jaws the chain is rigid and has no rigid subchain.
 Graph symmetric: swapping the jaws twice, or carrying three round once, changes nothing, frame and driver in place.
-Mirror, half turn, threefold: in places so symmetric, otherwise generic (drawn at random modulo a prime), there is one motion; input
-and jaws move, and the jaws against each other.
+Mirror, half turn, threefold: placed symmetrically and otherwise generically (random modulo a prime), the chain has one motion, in which the input and the jaws move, the jaws relative to each other.
 ";
 
 /// Returns a table with a column for each number of links, without rows that have no counts.

@@ -165,7 +165,7 @@ impl<'a> FoundData<'a> {
             return out.text();
         };
         if known.entries.is_empty() {
-            out.add_line("The catalogue does not have it.");
+            out.add_line("Not in this catalogue.");
         }
         for entry in &known.entries {
             let (id, form) = (&entry.id, &entry.form);
@@ -186,7 +186,9 @@ impl<'a> FoundData<'a> {
                 "Not essential: {} alone move input and jaws alike",
                 links.join(", ")
             ),
-            None => "Essential: no smaller moving part holds frame, input and jaws".to_owned(),
+            None => {
+                "Essential: no smaller mobile subchain contains frame, input and jaws".to_owned()
+            }
         };
         let flag = |strict: bool, but: bool, word: &str| match (strict, but) {
             (true, _) => Some(word.to_owned()),
@@ -232,7 +234,7 @@ fn neighbours_text(all: &[Neighbour]) -> String {
         return String::new();
     }
     let mut out = String::from(
-        "Next to it in the catalogue, and what these do better than each of its layouts:\n",
+        "Similar structures in the catalogue, and where they are better than each of its layouts:\n",
     );
     for n in useful.iter().take(NAMED) {
         let relation = match n.relation {

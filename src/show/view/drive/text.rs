@@ -207,7 +207,7 @@ fn needed_feed(design: &Design) -> String {
         let more = (needed / design.friction_energy - 1.0) * 100.0;
         let feed = four_digits(design.feed);
         format!(
-            "{must}, {more:+.2} % on (12), since the fed swing is longer and faster; {feed} J in this run"
+            "{must}, {more:+.2} % on (12), because the driven swing is longer and faster; {feed} J in this run"
         )
     } else {
         must
@@ -267,7 +267,7 @@ fn write_motions(out: &mut Report, d: &Drive<'_>, design: &Design) {
         if let (Some(a), Some(p)) = (m.acceleration, spec.payload) {
             let (radius, shown) = (format_length(d, p.radius), four_digits(a));
             out.add_line(format!(
-                "    at {radius} from the axis {shown} m/s²; a grip there must hold: ozols grip FILE {}",
+                "    at {radius} from the axis {shown} m/s². A gripper there must withstand it: ozols grip FILE {}",
                 typed_option("any-acceleration", format_args!("{a:.3}"))
             ));
         }

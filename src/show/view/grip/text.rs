@@ -155,9 +155,7 @@ impl GripReport<'_> {
             Toward::Fixed(g) => format!("gravity ({}) m/s²", g.map(four_digits).join(", ")),
         };
         let levers = match load.levers {
-            LeverDrive::Coupled => {
-                "both levers turned by one drive (the moment per lever is the mean of the two)"
-            }
+            LeverDrive::Coupled => "one drive for both levers (moment per lever = mean of the two)",
             LeverDrive::Equal => "the same moment on both levers",
             LeverDrive::Independent => {
                 "a drive for each lever (the moment per lever is the greater of the two)"
@@ -169,7 +167,9 @@ impl GripReport<'_> {
             "  load: {mass}, {gravity}, {accelerations}, friction {friction}, safety factor {safety}"
         ));
         out.add_line(format!("  drive: {levers}"));
-        out.add_line("  friction cones are exact; a case of any direction is the worst of 26 directions, refined");
+        out.add_line(
+            "  exact friction cones; 'any direction' is the worst of 26 directions, then refined",
+        );
     }
 
     fn write_diameters(&self, out: &mut Report) {

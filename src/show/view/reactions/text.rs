@@ -48,7 +48,7 @@ impl Reactions<'_> {
         self.write_head(&mut out, pose);
         self.write_refuted(&mut out);
         out.add_line(
-            "First link on second, in the joint's own frame (z its axis), moments about its point\n",
+            "Force of the first link on the second, in the joint frame (z = joint axis); moments about the joint's point\n",
         );
         if !self.is_unique() {
             out.add_line(self.left_open() + "\n");
@@ -197,7 +197,7 @@ impl Reactions<'_> {
             .collect_vec();
         let passed = (!passed.is_empty()).then(|| format!("what {} pass", join_and(&passed)));
         format!(
-            "Left open by the self-stresses: {}; all else is the same in the whole family",
+            "Left open by the self-stresses: {}; all other components are unique",
             each.chain(passed).join("; ")
         )
     }
@@ -272,7 +272,7 @@ impl Reactions<'_> {
             _ => "",
         };
         out.add_line(format!(
-            "\nRedundant constraints leave these reactions open: any multiples of the {} may be added{push}",
+            "\nThe redundant constraints leave these reactions undetermined: any combination of the {} may be added{push}",
             count_stresses(open)
         ));
         let both = s.self_stresses.iter().zip(&s.coupling_stresses);
@@ -307,7 +307,7 @@ impl Reactions<'_> {
             write_elastic(out, &state_couplings(self.of, self.state, coupled));
         } else if open > 0 && s.choice != Uniqueness::Pushing {
             out.add_line(
-                "State [workload.stiffness.default] linear and angular, and [[workload.misalignment]], to see which of them arises.",
+                "State [workload.stiffness.default] linear and angular, and [[workload.misalignment]], to compute the actual reactions.",
             );
         } else if open == 0 && misalignments > 0 {
             out.add_line(NO_STRAIN);

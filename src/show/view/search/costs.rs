@@ -49,7 +49,7 @@ pub fn costs_toml() -> String {
         (
             "driven",
             table.driven,
-            "changing a driven joint, in addition: its motor is mounted and guided anew",
+            "changing a driven joint, in addition: the motor needs a new mount and guide",
         ),
         ("link", table.link, "the extra link of a joint in series"),
         (

@@ -113,7 +113,7 @@ fn write_verdict(out: &mut Report, outcome: &Outcome, verbose: bool) {
     out.add_line(format!("{mechanism}: {good} of {of} {all}"));
     if size == BigUint::from(1u8) {
         out.add_line(
-            "  no joint has an option with more freedoms than it has: list some under [search], such as options = \
+            "  no joint has an option with more freedoms than its own type; list some under [search], for example options = \
              [\"cylindrical\", \"spherical\"]"
         );
     }
@@ -261,7 +261,7 @@ fn minimal_line(outcome: &Outcome) -> Option<String> {
     };
     let rest = group_thousands(&rest);
     Some(format!(
-        "{all} minimal; the other {rest} only add {idle} to one of these"
+        "{all} minimal; the other {rest} are one of these plus {idle}"
     ))
 }
 

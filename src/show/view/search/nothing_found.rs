@@ -34,7 +34,7 @@ pub fn hopeless_reasons(m: &Mechanism, why: &Hopeless) -> Vec<String> {
     }
     if !why.frozen.is_empty() {
         out.push(format!(
-            "Nothing moves the drive {} in the original mechanism: it is locked, and variants that keep the output motion stay so",
+            "Nothing moves the drive {} in the original mechanism: it is locked, and so it is in every variant that keeps the output motion",
             named(&why.frozen)
         ));
     }
@@ -58,7 +58,7 @@ pub fn wider_requests(outcome: &Outcome, remarks: &Remarks) -> Vec<(Request, Str
     let steps = remarks.eased.iter();
     let steps = steps.map(|(how, n)| (ease_request(&outcome.request, *how), gives(*how, n)));
     let offered = remarks.offered.iter().map(|wider| {
-        let gives = "Offer more options: with these joint types there are variants, and with others there may be";
+        let gives = "Allow these joint types: they give at least one redesign (others may, too)";
         (wider.clone(), gives.to_owned())
     });
     // `--idea` says that ideas are meant.
@@ -89,7 +89,7 @@ pub fn wider_commands(
         .iter()
         .any(|(how, _)| *how == Relaxation::PoseOnly);
     let hint = (!in_pose && remarks.offered.is_none()).then(|| NextCommand {
-        command: "Offer more options under [search], or at the joints".to_owned(),
+        command: "List more joint types under [search] or at a joint".to_owned(),
         gives: format!(
             "the search chooses from those in the file, and from joint types named in {} and {}",
             typed_option("options", ""),

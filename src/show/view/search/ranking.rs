@@ -95,12 +95,15 @@ pub(crate) fn ranking_notes(m: &Mechanism, p: &RankedPool) -> Vec<String> {
         .iter()
         .any(|(t, _)| *t == Term::Conditioning)
     {
-        out.push("cond. held: as cond., the smallest singular value over the largest, but with the drives held and over all poses".to_owned());
+        out.push(
+            "cond. held: like cond., but with the drives locked and the worst over all poses"
+                .to_owned(),
+        );
     }
     let left_out = [
         (
             p.unheld,
-            "rejected: no equilibrium, since the loads move an idle freedom",
+            "rejected: not in equilibrium, because the loads move an idle freedom",
         ),
         (p.limited, "rejected: beyond a limit"),
         (

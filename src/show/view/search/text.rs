@@ -193,9 +193,9 @@ pub(crate) fn summary_notes(summary: &Summary) -> Vec<String> {
     let posed = group_thousands(summary.posed);
     match (summary.posed, summary.lucky) {
         (0, _) => {}
-        (_, 0) => out.push(format!("Figures the same at other poses: all {posed}")),
+        (_, 0) => out.push(format!("Same figures in other poses: all {posed}")),
         (_, n) => out.push(format!(
-            "Figures not the same at other poses: {n} of {posed}, marked !"
+            "Other figures in other poses: {n} of {posed}, marked !"
         )),
     }
     out
@@ -223,20 +223,20 @@ fn next_of_some(outcome: &Outcome, changed: bool, file: &str, verbose: bool) -> 
     let toml = file_name(&format!("{mechanism}-{number}-1"), "toml");
     // Whose first variant changes nothing has nothing to mend.
     let own = (changed && is_description(file)).then(|| {
-        NextCommand::fix_command(file, &joined(one), "the first of the list in your own file")
+        NextCommand::fix_command(file, &joined(one), &format!("{number} 1 in your own file"))
     });
     let steps = [
         NextCommand::new(
             "draw",
             file,
             &joined(&format!("{one} -o {svg}")),
-            "the first of the list, its changes in colour",
+            &format!("{number} 1 as a drawing, changes in colour"),
         ),
         NextCommand::new(
             "export",
             file,
             &joined(&format!("{one} {} -o {toml}", typed_option("to", "toml"))),
-            "the first of the list as a separate mechanism file",
+            &format!("{number} 1 as a separate mechanism file"),
         ),
     ];
     let more = (!verbose).then(|| {
@@ -285,7 +285,7 @@ fn opinions_line(summary: &Summary) -> String {
             which.trim_start_matches("all ")
         ),
     };
-    format!("{verdict} (cond.: the smallest over the largest)")
+    format!("{verdict} (cond. = smallest / largest)")
 }
 
 /// Returns some variants as a table.
@@ -356,10 +356,10 @@ pub(crate) fn contours_text(best: &[Variant<'_>], width: Option<u16>) -> String 
     if let [(one, _)] = &alike[..]
         && one.is_empty()
     {
-        return "\n  σ by contour: 0 in each, for any order of contours\n".to_owned();
+        return "\n  No loop has a redundant constraint left, in any order of loops\n".to_owned();
     }
     let head =
-        "\n  σ by contour, added in this order (range over all orders of these):\n".to_owned();
+        "\n  Redundant constraints left in each loop, in this order of loops (range over all orders):\n".to_owned();
     let line = |(text, places): &(String, Vec<usize>)| {
         let text = if text.is_empty() { "none" } else { text };
         format!("  {}: {text}\n", format_runs(places))

@@ -114,7 +114,8 @@ fn variants_say_where_their_redundant_constraints_are() {
         run_quiet(&[&head[..], &question].concat())
     };
     let text = as_written("text");
-    let head = "σ by contour, added in this order (range over all orders of these):";
+    let head =
+        "Redundant constraints left in each loop, in this order of loops (range over all orders):";
     assert!(text.contains(head), "{text}");
     let csv = as_written("csv");
     let mut lines = csv.lines();
