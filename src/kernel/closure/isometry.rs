@@ -241,6 +241,10 @@ impl Isometry {
         let mut out = Vec::new();
         for group in groups {
             let round: Vec<ExactVector> = group.iter().map(|j| frame(j).point.clone()).collect();
+            if group.len() == 3 && round.iter().all(|p| to_vector(p) == to_vector(&round[0])) {
+                out.extend(turns_about_point(group.iter().map(frame)));
+                continue;
+            }
             let axes: Vec<ExactVector> = match &round[..] {
                 [a, b, c] => vec![cross_exactly(
                     &exact_difference(b, a),
@@ -284,6 +288,35 @@ impl Isometry {
         Spot {
             point: add(centre, linear(sub(spot.point, centre))),
             axis: linear(spot.axis),
+        }
+    }
+
+    /// Returns the image of a direction, exactly and of another length.
+    pub(crate) fn image_of_direction(&self, v: &ExactVector) -> ExactVector {
+        let n = &self.axis;
+        let times = |a: &Expr, v: &ExactVector| [0, 1, 2].map(|i| a * &v[i]);
+        let square = dot_exactly(n, n);
+        let along = times(&dot_exactly(n, v), n);
+        let [sum, both] = match &self.round[..] {
+            // v cos + n × v sin / |n| + n (n·v) (1 - cos) / |n|² with sin / |n| = 1 / side², times 2 side² |n|².
+            [a, b, _] => {
+                let side = exact_difference(b, a);
+                let side = dot_exactly(&side, &side);
+                let across = times(&(&square * &Expr::from(2)), &cross_exactly(n, v));
+                let back = times(&(&side * &square), v);
+                let along = times(&(&side * &Expr::from(3)), &along);
+                [exact_difference(&across, &back), along]
+            }
+            _ => {
+                let back = times(&-&square, v);
+                [back, times(&Expr::from(2), &along)]
+            }
+        };
+        let turned = [0, 1, 2].map(|i| &sum[i] + &both[i]);
+        if self.reflects {
+            turned.map(|x| -x)
+        } else {
+            turned
         }
     }
 
@@ -356,6 +389,23 @@ impl Isometry {
     }
 }
 
+/// Returns the thirds of a turn about a point that carry the axes of three joints there to each other, either way along each.
+fn turns_about_point<'a>(frames: impl Iterator<Item = &'a Frame>) -> Vec<Isometry> {
+    let frames: Vec<&Frame> = frames.collect();
+    let signs = [[1, 1], [1, -1], [-1, 1], [-1, -1]];
+    let turn = |[b, c]: [i64; 2]| {
+        let ends = frames.iter().zip([1, b, c]).map(|(frame, sign)| {
+            let along = [0, 1, 2].map(|i| &frame.axis[i] * &Expr::from(sign));
+            sum(&frame.point, &along)
+        });
+        let round: Vec<ExactVector> = ends.collect();
+        let [p, q] = [1, 2].map(|i| exact_difference(&round[i], &round[0]));
+        let axis = cross_exactly(&p, &q);
+        (length(to_vector(&axis)) > 0.0).then(|| Isometry::new(round, axis, false))
+    };
+    signs.into_iter().filter_map(turn).collect()
+}
+
 /// An exact vector in space.
 type ExactVector = [Expr; 3];
 
@@ -365,6 +415,11 @@ fn exact_difference(a: &ExactVector, b: &ExactVector) -> ExactVector {
 
 fn sum(a: &ExactVector, b: &ExactVector) -> ExactVector {
     [0, 1, 2].map(|i| &a[i] + &b[i])
+}
+
+fn dot_exactly(a: &ExactVector, b: &ExactVector) -> Expr {
+    let [x, y, z] = [0, 1, 2].map(|i| &a[i] * &b[i]);
+    &(&x + &y) + &z
 }
 
 fn cross_exactly(a: &ExactVector, b: &ExactVector) -> ExactVector {
