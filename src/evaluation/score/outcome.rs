@@ -56,6 +56,9 @@ pub struct Outcome {
     /// Counts of the admissible variants that keep the motion throughout the motion of the mechanism as built, or why only the drawn pose
     /// is known.
     pub lasting: Result<Counts, PoseOnly>,
+    /// Number of variants that do it throughout the motion except perhaps in the drawn pose, which may be singular for them; `None`
+    /// where it is not known.
+    pub everywhere: Option<BigUint>,
     /// The diagrams; `None` for brute force.
     pub diagrams: Option<Diagrams>,
     /// Why the search ended.
@@ -89,6 +92,7 @@ impl Outcome {
             determinate,
             admissible,
             lasting,
+            everywhere,
         } = counts;
         let lasting =
             lasting.ok_or_else(|| search.pose_only().cloned().unwrap_or(PoseOnly::Budget));
@@ -98,6 +102,7 @@ impl Outcome {
             determinate,
             admissible,
             lasting,
+            everywhere,
             diagrams: None,
             stop: Stop::Exhausted,
             determinate_stop: Stop::Exhausted,
@@ -121,6 +126,7 @@ impl Outcome {
             determinate: found.determinate.sure.clone(),
             admissible: found.admissible.sure.clone(),
             lasting: None,
+            everywhere: None,
         };
         Outcome {
             stop: found.stop,

@@ -13,6 +13,7 @@ use crate::search::check::variant_mechanism::realize_variant;
 use crate::search::diagram::redundancy_so_far::Redundancy;
 use crate::search::question::Question;
 use crate::search::question::grasp::loose_bodies;
+use crate::search::question::throughout::{ORDER, POWERS};
 use num_bigint::BigUint;
 use rayon::prelude::*;
 use std::collections::BTreeMap;
@@ -29,6 +30,9 @@ pub struct Seen {
     /// True if the variant keeps the original motion throughout the motion of the mechanism as built. `None` if the search
     /// does not need it, or if the variant has redundant constraints in the drawn pose.
     pub lasts: Option<bool>,
+    /// True if the variant has no redundant constraints and keeps the motion in poses next to the drawn one, whatever it is in the drawn
+    /// one. `None` if no motion is followed.
+    pub everywhere: Option<bool>,
 }
 
 impl Seen {
@@ -45,6 +49,7 @@ impl Seen {
             external: of_state.map_or(0, |r| int(state - r) - int(free - rank)),
             motion: with_kept.saturating_sub(rank),
             lasts: None,
+            everywhere: None,
         }
     }
 }
@@ -54,8 +59,8 @@ impl Seen {
 pub struct Matrices {
     field: Field,
     all: WrittenOut<Residue>,
-    /// The matrices along the motion, with the dimension of the original joints' kept motion there.
-    along: Option<(WrittenOut<Residue>, usize)>,
+    /// The matrices along the motion at fewer and at all powers, with the dimension of the original joints' kept motion there.
+    along: [Option<(WrittenOut<Residue>, usize)>; 2],
     /// For each joint without a choice, the columns of every motion.
     whole: Vec<(JointId, Vec<Vec<Residue>>)>,
 }
@@ -77,9 +82,10 @@ impl Matrices {
             (j, every.collect())
         });
         let present = vec![0; variables.len()];
-        let along = layout.along_motion(question).map(|along| {
+        let along = [ORDER, POWERS].map(|powers| {
+            let along = layout.along_motion(question, powers)?;
             let [rank, with_kept] = free_and_kept_ranks(f, &along, &present);
-            (along, with_kept - rank)
+            Some((along, with_kept - rank))
         });
         Matrices {
             field: f,
@@ -117,13 +123,15 @@ impl Matrices {
             0 => None,
             _ => Some(eliminate_pivots(self.field, rows(free + kept, free + kept + state)).len()),
         };
-        let along = self.along.as_ref().filter(|_| rank == free);
-        let lasts = along.map(|(along, present)| {
+        // How many constraints are missed, and how many motions kept beyond the original joints', at some powers.
+        let beyond = self.along.each_ref().map(|along| {
+            let (along, present) = along.as_ref()?;
             let [rank, with_kept] = free_and_kept_ranks(self.field, along, choices);
-            rank == along.rows[0] && with_kept - rank == *present
+            Some([along.rows[0] - rank, with_kept - rank - present])
         });
         Seen {
-            lasts,
+            lasts: beyond[0].filter(|_| rank == free).map(|b| b == [0, 0]),
+            everywhere: beyond[0].map(|b| Some(b) == beyond[1]),
             ..Seen::of_ranks(self.all.rows, [rank, with_kept], of_state)
         }
     }
@@ -175,10 +183,18 @@ pub(super) fn eliminate_pivots(f: Field, mut vectors: Vec<Vec<Residue>>) -> Vec<
 pub fn every_variant(question: &Question) -> Result<SearchCounts, ExactError> {
     let matrices = Matrices::new(question);
     let mut out = SearchCounts {
-        lasting: matrices.along.is_some().then(Counts::default),
+        lasting: matrices.along[0].is_some().then(Counts::default),
         ..SearchCounts::default()
     };
-    for ((key, admissible, lasts), count) in count_judged(question, &matrices)? {
+    let (judged, everywhere) = count_judged(question, &matrices)?;
+    let limited =
+        question.conditions.max_mobility.is_some() || question.conditions.max_changes.is_some();
+    out.everywhere = out
+        .lasting
+        .as_ref()
+        .filter(|_| !limited)
+        .map(|_| everywhere.into());
+    for ((key, admissible, lasts), count) in judged {
         let count = BigUint::from(count);
         let w = question.mobility(key);
         out.determinate.add_variants(w, key, &count);
@@ -196,11 +212,12 @@ pub fn every_variant(question: &Question) -> Result<SearchCounts, ExactError> {
 /// Properties of a variant, whether it is admissible but for mobility and changes, and whether it lasts.
 type Judged = (Key, bool, bool);
 
-/// Returns the numbers of variants with few enough redundant constraints, by their properties.
+/// Returns the numbers of variants with few enough redundant constraints, by their properties. Also returns how many work in poses next to
+/// the drawn one.
 fn count_judged(
     question: &Question,
     matrices: &Matrices,
-) -> Result<BTreeMap<Judged, u128>, ExactError> {
+) -> Result<(BTreeMap<Judged, u128>, u128), ExactError> {
     let steps = &question.steps;
     let radix: Vec<usize> = steps.keys.iter().map(Vec::len).collect();
     let head = radix
@@ -213,7 +230,7 @@ fn count_judged(
         .count();
     let heads: usize = radix[..head].iter().product();
     let from = |h: usize| {
-        let mut counts: BTreeMap<Judged, u128> = BTreeMap::new();
+        let (mut counts, mut everywhere): (BTreeMap<Judged, u128>, u128) = Default::default();
         let mut choices = vec![0; radix.len()];
         let mut rest = h;
         for (c, r) in choices.iter_mut().zip(&radix[..head]) {
@@ -221,27 +238,28 @@ fn count_judged(
         }
         loop {
             let seen = matrices.look_at(&choices);
+            everywhere += u128::from(seen.everywhere == Some(true));
             if let Some((key, admissible)) = judge_variant(question, &choices, seen)? {
                 let lasts = seen.lasts == Some(true);
                 *counts.entry((key, admissible, lasts)).or_insert(0) += 1;
             }
             let Some(v) = (head..radix.len()).find(|&v| choices[v] + 1 < radix[v]) else {
-                return Ok(counts);
+                return Ok((counts, everywhere));
             };
             choices[head..v].fill(0);
             choices[v] += 1;
         }
     };
-    let merge = |mut a: BTreeMap<_, u128>, b: BTreeMap<_, u128>| {
-        for (k, c) in b {
-            *a.entry(k).or_insert(0) += c;
+    let merge = |mut a: (BTreeMap<_, u128>, u128), b: (BTreeMap<_, u128>, u128)| {
+        for (k, c) in b.0 {
+            *a.0.entry(k).or_insert(0) += c;
         }
-        Ok(a)
+        Ok((a.0, a.1 + b.1))
     };
     (0..heads)
         .into_par_iter()
         .map(from)
-        .try_reduce(BTreeMap::new, merge)
+        .try_reduce(Default::default, merge)
 }
 
 /// Returns the properties of a variant, from its choices and its redundant constraints.

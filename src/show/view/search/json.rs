@@ -187,6 +187,7 @@ pub fn search_json(outcome: &Outcome) -> Value {
         "admissible_by_cost": by_cost(&costs.unwrap_or_default()),
         // Those that keep the motion throughout the motion of the mechanism as built are the ones listed.
         "lasting": lasting.map(ToString::to_string),
+        "everywhere": outcome.everywhere.as_ref().map(ToString::to_string),
         "lasting_by_mobility": lasting.map(|l| counts_json(&l.by_mobility)),
         "lasting_by_cost": outcome.lasting_by_cost().as_ref().map(by_cost),
         "pose_only": outcome.lasting.as_ref().err().map(ToString::to_string),
