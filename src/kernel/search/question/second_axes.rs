@@ -107,9 +107,10 @@ pub(super) fn are_near_images(
             let miss = carrier.miss_of_image(spots[0], &one.joint_type, spots[1]);
             let mut frame = other.frame.clone();
             frame.reference = carrier.image_of_direction(&one.frame.reference);
-            let second = match one.joint_type.has_second_axis() {
-                true => angle_of_second_axes(&frame, &other.frame),
-                false => 0.0,
+            let second = if one.joint_type.has_second_axis() {
+                angle_of_second_axes(&frame, &other.frame)
+            } else {
+                0.0
             };
             one.joint_type == other.joint_type
                 && miss.distance < allowed.distance

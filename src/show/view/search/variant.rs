@@ -131,9 +131,10 @@ fn symmetry_word(search: &Search) -> String {
         (true, 3) => "third of a turn",
         _ => "half turn",
     };
-    let digits = match spec.nearly_symmetric {
-        true => ", within the digits of the file",
-        false => "",
+    let digits = if spec.nearly_symmetric {
+        ", within the digits of the file"
+    } else {
+        ""
     };
     format!("{word}{digits}")
 }
