@@ -57,7 +57,7 @@ pub struct Outcome {
     /// is known.
     pub lasting: Result<Counts, PoseOnly>,
     /// Number of variants that do it throughout the motion except perhaps in the drawn pose, which may be singular for them; `None`
-    /// where it is not known.
+    /// if it is not known.
     pub everywhere: Option<BigUint>,
     /// The diagrams; `None` for brute force.
     pub diagrams: Option<Diagrams>,

@@ -1,6 +1,6 @@
-//! How many variants keep the motion throughout, whatever they are in the drawn pose.
+//! Number of variants that keep the motion in poses near the drawn one, including variants that are singular in the drawn pose.
 //!
-//! A variant may have redundant constraints in the drawn pose alone, which is singular for it. It is not among the determinate ones there,
+//! A variant may have redundant constraints only in the drawn pose, which is singular for it. It is not among the determinate ones there,
 //! but it works in every other pose. Its columns along the motion are series modulo t^m. Let T(m) be the span of their multiples by
 //! 1, t, ..., t^(m-1). The rank next to the drawn pose is then dim T(m) - dim T(m-1) for a large m. The same difference of the parts
 //! that close all contours is the dimension of the kept motion. Two lanes count both, one for each span.

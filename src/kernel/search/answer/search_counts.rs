@@ -16,7 +16,7 @@ pub struct SearchCounts {
     pub admissible: Counts,
     /// Those of them that do it throughout the motion of the mechanism as built; `None` where no motion is followed.
     pub lasting: Option<Counts>,
-    /// Number of variants that do it throughout the motion except perhaps in the drawn pose; `None` where it is not known.
+    /// Number of variants that do it throughout the motion except perhaps in the drawn pose; `None` if it is not known.
     pub everywhere: Option<BigUint>,
 }
 

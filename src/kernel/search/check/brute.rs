@@ -30,8 +30,8 @@ pub struct Seen {
     /// True if the variant keeps the original motion throughout the motion of the mechanism as built. `None` if the search
     /// does not need it, or if the variant has redundant constraints in the drawn pose.
     pub lasts: Option<bool>,
-    /// True if the variant has no redundant constraints and keeps the motion in poses next to the drawn one, whatever it is in the drawn
-    /// one. `None` if no motion is followed.
+    /// True if the variant has no redundant constraints and keeps the motion in poses next to the drawn one. The drawn pose may be
+    /// singular for it. `None` if no motion is followed.
     pub everywhere: Option<bool>,
 }
 

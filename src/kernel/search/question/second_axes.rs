@@ -10,7 +10,7 @@ use crate::geom::vector::{Vector, cross, dot, length, scale, sub, to_vector};
 use crate::model::mechanism::{Frame, Joint, JointId, JointOption, Mechanism};
 use crate::model::rounded::uncertainties;
 
-/// How many half units of the last digit an image may be off: those of its own numbers, and those of the numbers of the symmetry.
+/// How many half units of the last digit an image may be off: half units of both images, and of the points that give the symmetry.
 const UNITS: f64 = 6.0;
 
 /// How far off images may be.
