@@ -17,6 +17,7 @@ use crate::search::Search;
 use crate::search::answer::counts;
 use crate::search::answer::counts::Counts;
 use crate::search::answer::estimate::Estimate;
+use crate::search::answer::everywhere::count_everywhere;
 use crate::search::answer::search_counts::SearchCounts;
 use crate::search::answer::why_none;
 use crate::search::answer::why_none::{Hopeless, Relaxation};
@@ -56,9 +57,6 @@ pub struct Outcome {
     /// Counts of the admissible variants that keep the motion throughout the motion of the mechanism as built, or why only the drawn pose
     /// is known.
     pub lasting: Result<Counts, PoseOnly>,
-    /// Number of variants that do it throughout the motion except perhaps in the drawn pose, which may be singular for them; `None`
-    /// if it is not known.
-    pub everywhere: Option<BigUint>,
     /// The diagrams; `None` for brute force.
     pub diagrams: Option<Diagrams>,
     /// Why the search ended.
@@ -92,7 +90,6 @@ impl Outcome {
             determinate,
             admissible,
             lasting,
-            everywhere,
         } = counts;
         let lasting =
             lasting.ok_or_else(|| search.pose_only().cloned().unwrap_or(PoseOnly::Budget));
@@ -102,7 +99,6 @@ impl Outcome {
             determinate,
             admissible,
             lasting,
-            everywhere,
             diagrams: None,
             stop: Stop::Exhausted,
             determinate_stop: Stop::Exhausted,
@@ -126,7 +122,6 @@ impl Outcome {
             determinate: found.determinate.sure.clone(),
             admissible: found.admissible.sure.clone(),
             lasting: None,
-            everywhere: None,
         };
         Outcome {
             stop: found.stop,
@@ -146,6 +141,25 @@ impl Outcome {
     /// ```
     pub fn listed_counts(&self) -> &Counts {
         self.lasting.as_ref().unwrap_or(&self.admissible)
+    }
+
+    /// Returns the number of variants that have σ = 0 and keep the motion in poses near the drawn one. The drawn pose may be singular for
+    /// them, so they are those that last and others. `None` if no motion is followed, W or changes are limited, or there are too many.
+    ///
+    /// # Complexity
+    /// O(m³) field operations for each of up to 1,000 nodes of a layer and each choice, for m rows at four powers of the motion.
+    ///
+    /// # Examples
+    /// ```
+    /// let outcome = ozols::search(&ozols::built_in("four-bar")?, &ozols::Request::default())?;
+    /// assert_eq!(outcome.listed_counts().to_string(), "14");
+    /// assert_eq!(outcome.count_everywhere(), Some(18u32.into())); // Four are singular just where drawn.
+    /// # Ok::<(), ozols::Error>(())
+    /// ```
+    pub fn count_everywhere(&self) -> Option<BigUint> {
+        let lasting = self.diagrams.as_ref()?.lasting.as_ref().ok()?;
+        let all = self.request.symmetry != Symmetry::OnePerOrbit;
+        all.then(|| count_everywhere(&self.search, lasting))?
     }
 
     /// Returns whether exact arithmetic examined everything, and singular values do not contradict it if coordinates look rounded. Counts

@@ -5,8 +5,8 @@
 use crate::common::*;
 use crate::search::varied::random;
 use itertools::Itertools;
+use ozols::search::answer::everywhere::count_everywhere;
 use ozols::search::answer::k_best::Assignment;
-use ozols::search::answer::search_counts::SearchCounts;
 use ozols::search::check::brute::{Matrices, Seen, every_variant, judge_variant};
 use ozols::search::check::other_poses::reach_poses;
 use ozols::search::check::singular_values::certify_variants;
@@ -34,9 +34,12 @@ fn counted(m: &Mechanism) -> [u64; 2] {
             let all = every_variant(&search).unwrap();
             assert_eq!(all.admissible, here, "{}", m.name);
             assert_eq!(all.lasting.as_ref(), Some(&lasting), "{}", m.name);
-            let everywhere = SearchCounts::of_diagrams(&search, &diagrams).everywhere;
-            if everywhere.is_some() {
-                assert_eq!(all.everywhere, everywhere, "{}", m.name);
+            if let Some(everywhere) = count_everywhere(&search, lasting_of(&diagrams)) {
+                let matrices = Matrices::new(&search);
+                let works =
+                    |choices: &Vec<usize>| matrices.look_at(choices).everywhere == Some(true);
+                let one_by_one = every_choice(&search).filter(works).count();
+                assert_eq!(everywhere, one_by_one.into(), "{}", m.name);
             }
         }
         [here, lasting]
@@ -110,12 +113,23 @@ fn variants_last_whose_figures_are_the_same_in_other_poses() {
     }
 }
 
+/// Returns the diagram of the variants that last.
+fn lasting_of(diagrams: &Diagrams) -> &Diagram {
+    diagrams.lasting.as_ref().unwrap()
+}
+
+/// Returns the choices of every variant of a search.
+fn every_choice(search: &Search) -> impl Iterator<Item = Vec<usize>> {
+    let radix = search.space.variables.iter().map(|v| 0..v.choices.len());
+    radix.multi_cartesian_product()
+}
+
 /// Returns how many variants work in poses next to the drawn one, counted by two spans side by side.
-fn count_everywhere(m: &Mechanism) -> u64 {
+fn count_beside(m: &Mechanism) -> u64 {
     let both = [0, 1].map(|nth| {
         let search = search(m, nth, Symmetry::All);
         let diagrams = search.build_diagrams(&|| false, &mut |_| {});
-        let found = SearchCounts::of_diagrams(&search, &diagrams).everywhere;
+        let found = count_everywhere(&search, lasting_of(&diagrams));
         u64::try_from(found.unwrap()).unwrap()
     });
     assert_eq!(both[0], both[1], "{}", m.name);
@@ -126,7 +140,6 @@ fn count_everywhere(m: &Mechanism) -> u64 {
 fn count_in_poses(m: &Mechanism) -> u64 {
     let here = Search::new(exact_field(m, 0).unwrap(), m, Conditions::default()).unwrap();
     let matrices = Matrices::new(&here);
-    let radix = here.space.variables.iter().map(|v| 0..v.choices.len());
     // What is asked of each is σ = 0, whatever it has in the drawn pose.
     let keyed = |choices: Vec<usize>| {
         let seen = matrices.look_at(&choices);
@@ -137,7 +150,7 @@ fn count_in_poses(m: &Mechanism) -> u64 {
         let (key, _) = judge_variant(&here, &choices, wanted).unwrap().unwrap();
         Assignment { choices, key }
     };
-    let all = radix.multi_cartesian_product().map(keyed).collect();
+    let all = every_choice(&here).map(keyed).collect();
     let stroke = reach_poses(&here, 3, 1, &|| false).unwrap();
     let judged = certify_variants(&here, all, false, Some(&stroke), &|| false);
     let works = judged
@@ -161,11 +174,11 @@ fn variants_work_beside_the_drawn_pose_that_are_singular_there() {
         ("watt-straight-line", 14 + 5),
     ] {
         let m = ozols::built_in(name).unwrap();
-        assert_eq!(count_everywhere(&m), stated, "{name}");
+        assert_eq!(count_beside(&m), stated, "{name}");
     }
     for name in ["watt-six-bar", "sarrus", "four-bar", "roberval-balance"] {
         let m = ozols::built_in(name).unwrap();
-        assert_eq!(count_everywhere(&m), count_in_poses(&m), "{name}");
+        assert_eq!(count_beside(&m), count_in_poses(&m), "{name}");
     }
     let text = run_quiet(&["search", "watt-six-bar", "--count"]);
     let said = "206 more keep it in all poses near the drawn one, which is singular for these";

@@ -8,8 +8,9 @@
 use crate::linalg::echelon::Echelon;
 use crate::linalg::modp::{Field, Residue};
 use crate::search::build::self_stress::space_along_motion;
+use crate::search::diagram::Diagram;
 use crate::search::question::Question;
-use crate::search::question::throughout::{POWERS, Throughout};
+use crate::search::question::throughout::POWERS;
 use crate::search::reduce::self_stress_space::SelfStressSpace;
 use num_bigint::BigUint;
 use num_traits::{One, Zero};
@@ -48,22 +49,21 @@ impl Lane<'_> {
 }
 
 /// Returns the number of variants that are determinate and keep the motion in poses next to the drawn one, by the first powers of the
-/// motion. `None` if no motion is followed, other conditions are set, or the nodes are too many.
+/// motion. `lasting` is the diagram of those that are so in the drawn pose, too. Returns `None` if no motion is followed, W or changes are
+/// limited, or the nodes are too many.
 ///
 /// # Complexity
 /// O(m³) field operations for each node and choice, for m rows of the closure equations and kept links at all powers.
-pub(in crate::search) fn count_everywhere(
-    question: &Question,
-    along: &Throughout,
-    order: &[usize],
-) -> Option<BigUint> {
+#[must_use]
+pub fn count_everywhere(question: &Question, lasting: &Diagram) -> Option<BigUint> {
+    let along = question.throughout.as_ref().ok()?;
     let conditions = &question.conditions;
-    let limited = conditions.max_mobility.is_some() || conditions.max_changes.is_some();
-    if limited {
+    if conditions.max_mobility.is_some() || conditions.max_changes.is_some() {
         return None;
     }
+    let order: Vec<usize> = lasting.layers.iter().map(|l| l.variable).collect();
     let spaces =
-        [POWERS, POWERS - 1].map(|powers| space_along_motion(question, along, order, powers));
+        [POWERS, POWERS - 1].map(|powers| space_along_motion(question, along, &order, powers));
     let lanes = spaces.each_ref().map(|space| Lane {
         field: question.exact.field(),
         space,

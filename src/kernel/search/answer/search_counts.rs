@@ -1,11 +1,9 @@
 //! The counts of a search: determinate variants, admissible ones, and those that keep the motion throughout.
 
-use crate::search::answer::counts::{Counts, count_by_kind, count_orbits, count_sums};
-use crate::search::answer::everywhere::count_everywhere;
+use crate::search::answer::counts::{Counts, count_by_kind, count_sums};
 use crate::search::build::Diagrams;
 use crate::search::diagram::Diagram;
 use crate::search::question::Question;
-use num_bigint::BigUint;
 
 /// The counts of a search.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
@@ -16,27 +14,15 @@ pub struct SearchCounts {
     pub admissible: Counts,
     /// Those of them that do it throughout the motion of the mechanism as built; `None` where no motion is followed.
     pub lasting: Option<Counts>,
-    /// Number of variants that do it throughout the motion except perhaps in the drawn pose; `None` if it is not known.
-    pub everywhere: Option<BigUint>,
 }
 
 impl SearchCounts {
     /// Returns the counts of the variants of some diagrams.
     #[must_use]
     pub fn of_diagrams(question: &Question, diagrams: &Diagrams) -> SearchCounts {
-        let counts = SearchCounts::count_each(diagrams, &|diagram, filter| {
+        SearchCounts::count_each(diagrams, &|diagram, filter| {
             count_by_kind(question, diagram, filter)
-        });
-        let along = question.throughout.as_ref().ok();
-        let along = along.zip(diagrams.lasting.as_ref().ok());
-        let everywhere = along.and_then(|(along, lasting)| {
-            let order: Vec<usize> = lasting.layers.iter().map(|l| l.variable).collect();
-            count_everywhere(question, along, &order)
-        });
-        SearchCounts {
-            everywhere,
-            ..counts
-        }
+        })
     }
 
     /// Returns the same without those by W and changes both, which take by far the longest where there are hundreds of joints.
@@ -64,7 +50,6 @@ impl SearchCounts {
             determinate,
             admissible,
             lasting,
-            everywhere: None,
         }
     }
 
@@ -75,12 +60,10 @@ impl SearchCounts {
         order: usize,
     ) -> SearchCounts {
         let lasting = self.lasting.zip(symmetric.lasting.as_ref());
-        let everywhere = self.everywhere.zip(symmetric.everywhere.as_ref());
         SearchCounts {
             determinate: self.determinate.orbit_counts(&symmetric.determinate, order),
             admissible: self.admissible.orbit_counts(&symmetric.admissible, order),
             lasting: lasting.map(|(all, kept)| all.orbit_counts(kept, order)),
-            everywhere: everywhere.map(|(all, kept)| count_orbits(&all, kept, order)),
         }
     }
 }

@@ -186,15 +186,7 @@ pub fn every_variant(question: &Question) -> Result<SearchCounts, ExactError> {
         lasting: matrices.along[0].is_some().then(Counts::default),
         ..SearchCounts::default()
     };
-    let (judged, everywhere) = count_judged(question, &matrices)?;
-    let limited =
-        question.conditions.max_mobility.is_some() || question.conditions.max_changes.is_some();
-    out.everywhere = out
-        .lasting
-        .as_ref()
-        .filter(|_| !limited)
-        .map(|_| everywhere.into());
-    for ((key, admissible, lasts), count) in judged {
+    for ((key, admissible, lasts), count) in count_judged(question, &matrices)? {
         let count = BigUint::from(count);
         let w = question.mobility(key);
         out.determinate.add_variants(w, key, &count);
@@ -212,12 +204,11 @@ pub fn every_variant(question: &Question) -> Result<SearchCounts, ExactError> {
 /// Properties of a variant, whether it is admissible but for mobility and changes, and whether it lasts.
 type Judged = (Key, bool, bool);
 
-/// Returns the numbers of variants with few enough redundant constraints, by their properties. Also returns how many work in poses next to
-/// the drawn one.
+/// Returns the numbers of variants with few enough redundant constraints, by their properties.
 fn count_judged(
     question: &Question,
     matrices: &Matrices,
-) -> Result<(BTreeMap<Judged, u128>, u128), ExactError> {
+) -> Result<BTreeMap<Judged, u128>, ExactError> {
     let steps = &question.steps;
     let radix: Vec<usize> = steps.keys.iter().map(Vec::len).collect();
     let head = radix
@@ -230,7 +221,7 @@ fn count_judged(
         .count();
     let heads: usize = radix[..head].iter().product();
     let from = |h: usize| {
-        let (mut counts, mut everywhere): (BTreeMap<Judged, u128>, u128) = Default::default();
+        let mut counts: BTreeMap<Judged, u128> = BTreeMap::new();
         let mut choices = vec![0; radix.len()];
         let mut rest = h;
         for (c, r) in choices.iter_mut().zip(&radix[..head]) {
@@ -238,28 +229,27 @@ fn count_judged(
         }
         loop {
             let seen = matrices.look_at(&choices);
-            everywhere += u128::from(seen.everywhere == Some(true));
             if let Some((key, admissible)) = judge_variant(question, &choices, seen)? {
                 let lasts = seen.lasts == Some(true);
                 *counts.entry((key, admissible, lasts)).or_insert(0) += 1;
             }
             let Some(v) = (head..radix.len()).find(|&v| choices[v] + 1 < radix[v]) else {
-                return Ok((counts, everywhere));
+                return Ok(counts);
             };
             choices[head..v].fill(0);
             choices[v] += 1;
         }
     };
-    let merge = |mut a: (BTreeMap<_, u128>, u128), b: (BTreeMap<_, u128>, u128)| {
-        for (k, c) in b.0 {
-            *a.0.entry(k).or_insert(0) += c;
+    let merge = |mut a: BTreeMap<_, u128>, b: BTreeMap<_, u128>| {
+        for (k, c) in b {
+            *a.entry(k).or_insert(0) += c;
         }
-        Ok((a.0, a.1 + b.1))
+        Ok(a)
     };
     (0..heads)
         .into_par_iter()
         .map(from)
-        .try_reduce(Default::default, merge)
+        .try_reduce(BTreeMap::new, merge)
 }
 
 /// Returns the properties of a variant, from its choices and its redundant constraints.

@@ -117,8 +117,8 @@ fn write_verdict(out: &mut Report, outcome: &Outcome, verbose: bool) {
              [\"cylindrical\", \"spherical\"]"
         );
     }
-    let kept = [in_the_pose(outcome), but_in_the_pose(outcome)];
-    for line in kept.into_iter().flatten() {
+    let beside = verbose.then(|| but_in_the_pose(outcome)).flatten();
+    for line in in_the_pose(outcome).into_iter().chain(beside) {
         out.add_line(format!("  {line}"));
     }
     if !more.is_empty() && (verbose || outcome.listed_counts().total.is_zero()) {
@@ -144,7 +144,7 @@ pub(crate) fn where_kept(outcome: &Outcome) -> &'static str {
 /// Describes how many variants keep the motion in all poses but the drawn one. `None` if there are none or it is not known.
 fn but_in_the_pose(outcome: &Outcome) -> Option<String> {
     let lasting = &outcome.lasting.as_ref().ok()?.total;
-    let everywhere = outcome.everywhere.as_ref().filter(|n| *n > lasting)?;
+    let everywhere = outcome.count_everywhere().filter(|n| n > lasting)?;
     let more = everywhere - lasting;
     let keep = if more.is_one() { "keeps" } else { "keep" };
     let more = group_thousands(&more);
