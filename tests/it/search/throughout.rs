@@ -7,7 +7,7 @@ use crate::search::varied::random;
 use itertools::Itertools;
 use ozols::search::answer::everywhere::count_everywhere;
 use ozols::search::answer::k_best::Assignment;
-use ozols::search::check::brute::{Matrices, Seen, every_variant, judge_variant};
+use ozols::search::check::brute::{Matrices, MatricesAlong, Seen, every_variant, judge_variant};
 use ozols::search::check::other_poses::reach_poses;
 use ozols::search::check::singular_values::certify_variants;
 use ozols::search::question::conditions::Symmetry;
@@ -35,9 +35,8 @@ fn counted(m: &Mechanism) -> [u64; 2] {
             assert_eq!(all.admissible, here, "{}", m.name);
             assert_eq!(all.lasting.as_ref(), Some(&lasting), "{}", m.name);
             if let Some(everywhere) = count_everywhere(&search, lasting_of(&diagrams)) {
-                let matrices = Matrices::new(&search);
-                let works =
-                    |choices: &Vec<usize>| matrices.look_at(choices).everywhere == Some(true);
+                let along = MatricesAlong::new(&search).unwrap();
+                let works = |choices: &Vec<usize>| along.works_beside(choices);
                 let one_by_one = every_choice(&search).filter(works).count();
                 assert_eq!(everywhere, one_by_one.into(), "{}", m.name);
             }

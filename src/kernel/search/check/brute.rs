@@ -30,9 +30,6 @@ pub struct Seen {
     /// True if the variant keeps the original motion throughout the motion of the mechanism as built. `None` if the search
     /// does not need it, or if the variant has redundant constraints in the drawn pose.
     pub lasts: Option<bool>,
-    /// True if the variant has no redundant constraints and keeps the motion in poses next to the drawn one. The drawn pose may be
-    /// singular for it. `None` if no motion is followed.
-    pub everywhere: Option<bool>,
 }
 
 impl Seen {
@@ -49,7 +46,6 @@ impl Seen {
             external: of_state.map_or(0, |r| int(state - r) - int(free - rank)),
             motion: with_kept.saturating_sub(rank),
             lasts: None,
-            everywhere: None,
         }
     }
 }
@@ -59,8 +55,8 @@ impl Seen {
 pub struct Matrices {
     field: Field,
     all: WrittenOut<Residue>,
-    /// The matrices along the motion at fewer and at all powers, with the dimension of the original joints' kept motion there.
-    along: [Option<(WrittenOut<Residue>, usize)>; 2],
+    /// The matrices along the motion, with the dimension of the original joints' kept motion there.
+    along: Option<(WrittenOut<Residue>, usize)>,
     /// For each joint without a choice, the columns of every motion.
     whole: Vec<(JointId, Vec<Vec<Residue>>)>,
 }
@@ -82,10 +78,9 @@ impl Matrices {
             (j, every.collect())
         });
         let present = vec![0; variables.len()];
-        let along = [ORDER, POWERS].map(|powers| {
-            let along = layout.along_motion(question, powers)?;
+        let along = layout.along_motion(question, ORDER).map(|along| {
             let [rank, with_kept] = free_and_kept_ranks(f, &along, &present);
-            Some((along, with_kept - rank))
+            (along, with_kept - rank)
         });
         Matrices {
             field: f,
@@ -123,17 +118,50 @@ impl Matrices {
             0 => None,
             _ => Some(eliminate_pivots(self.field, rows(free + kept, free + kept + state)).len()),
         };
-        // How many constraints are missed, and how many motions kept beyond the original joints', at some powers.
-        let beyond = self.along.each_ref().map(|along| {
-            let (along, present) = along.as_ref()?;
+        let along = self.along.as_ref().filter(|_| rank == free);
+        let lasts = along.map(|(along, present)| {
             let [rank, with_kept] = free_and_kept_ranks(self.field, along, choices);
-            Some([along.rows[0] - rank, with_kept - rank - present])
+            rank == along.rows[0] && with_kept - rank == *present
         });
         Seen {
-            lasts: beyond[0].filter(|_| rank == free).map(|b| b == [0, 0]),
-            everywhere: beyond[0].map(|b| Some(b) == beyond[1]),
+            lasts,
             ..Seen::of_ranks(self.all.rows, [rank, with_kept], of_state)
         }
+    }
+}
+
+/// The closure matrices of all variants along the motion, at all powers and at one power less.
+#[derive(Debug)]
+pub struct MatricesAlong {
+    field: Field,
+    powers: [WrittenOut<Residue>; 2],
+}
+
+impl MatricesAlong {
+    /// Writes the columns of a search's space out; `None` if no motion is followed.
+    #[must_use]
+    pub fn new(question: &Question) -> Option<MatricesAlong> {
+        let layout = RowLayout::new(question);
+        let along = |powers| layout.along_motion(question, powers);
+        Some(MatricesAlong {
+            field: question.field().field(),
+            powers: [along(POWERS)?, along(POWERS - 1)?],
+        })
+    }
+
+    /// Returns whether a variant has no redundant constraints and keeps the motion in poses next to the drawn one, which may be singular
+    /// for it.
+    #[must_use]
+    pub fn works_beside(&self, choices: &[usize]) -> bool {
+        let ranks_of = |choices: &[usize]| {
+            let ranks = |of: &WrittenOut<Residue>| free_and_kept_ranks(self.field, of, choices);
+            let [more, less] = self.powers.each_ref().map(ranks);
+            [more[0] - less[0], more[1] - less[1]]
+        };
+        let [rank, with_kept] = ranks_of(choices);
+        let [present, present_with_kept] = ranks_of(&vec![0; choices.len()]);
+        let rows = self.powers[0].rows[0] - self.powers[1].rows[0];
+        rank == rows && with_kept - rank == present_with_kept - present
     }
 }
 
@@ -183,7 +211,7 @@ pub(super) fn eliminate_pivots(f: Field, mut vectors: Vec<Vec<Residue>>) -> Vec<
 pub fn every_variant(question: &Question) -> Result<SearchCounts, ExactError> {
     let matrices = Matrices::new(question);
     let mut out = SearchCounts {
-        lasting: matrices.along[0].is_some().then(Counts::default),
+        lasting: matrices.along.is_some().then(Counts::default),
         ..SearchCounts::default()
     };
     for ((key, admissible, lasts), count) in count_judged(question, &matrices)? {
