@@ -118,7 +118,8 @@ impl Response {
     }
 }
 
-/// Returns the root mean square of the assembly force `[N]` at the joint where it is greatest, in the pose of the file.
+/// Returns the root mean square of the assembly force `[N]` at the joint where it is greatest, in the pose of the file. A moment counts as a
+/// force at the size of the mechanism, if that is more.
 ///
 /// # Errors
 /// Returns an [`Unsolved`] if the geometry has no values or its singular values do not converge.
@@ -128,7 +129,10 @@ impl Response {
 pub fn misfit_force(m: &Mechanism, state: StateId, accuracy: &Accuracy) -> Result<f64, Unsolved> {
     let response = Response::new(m, state, accuracy)?;
     let places = 0..response.geometry.joints.len();
-    let forces = places.map(|place| response.root_mean_squares(place)[1]);
+    let forces = places.map(|place| {
+        let [moment, force] = response.root_mean_squares(place);
+        force.max(moment / response.geometry.size)
+    });
     Ok(forces.fold(0.0, f64::max))
 }
 

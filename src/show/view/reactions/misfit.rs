@@ -60,7 +60,8 @@ impl MisfitView<'_> {
             four_digits(angle)
         );
         // Below a millionth of a newton there is only rounding.
-        if found.force.most < 1e-6 {
+        let moments = found.joints.iter().map(|j| j.moment.most);
+        if found.force.most.max(moments.fold(0.0, f64::max)) < 1e-6 {
             return fit_lines(
                 &format!("{head}it assembles without force\n{within}.\n"),
                 width,
