@@ -148,6 +148,12 @@ pub(crate) fn parse_count(v: &Value) -> u64 {
     v.as_str().unwrap().parse().unwrap()
 }
 
+/// Returns how many random cases a test draws: those of `PROPTEST_CASES` if it is set.
+pub(crate) fn case_count(usual: u32) -> u32 {
+    let asked = std::env::var("PROPTEST_CASES");
+    asked.ok().and_then(|n| n.parse().ok()).unwrap_or(usual)
+}
+
 pub(crate) fn near(found: f64, stated: f64, tolerance: f64) {
     assert!(
         (found - stated).abs() <= tolerance,

@@ -7,13 +7,13 @@ use crate::cli::prelude::*;
 use crate::cli::terminal::charts;
 use crate::file::read::workload::motion::parse_stroke;
 use crate::grip::jaw_loads::{Gripping, JawError};
-use crate::model::loads::Stroke;
+use crate::model::loads::{Accuracy, Stroke, Tolerances};
 use crate::statics::contour_group::solutions::GroupMethod;
 use crate::statics::contour_group::stability::{GROUPS, study_failures};
 use crate::statics::cycle;
 use crate::statics::reactions::Unsolved;
 use crate::statics::reactions::contact::object_at;
-use crate::statics::reactions::misfit::{Tolerances, misfit};
+use crate::statics::reactions::misfit::misfit;
 use crate::statics::solve::{Model, SolvedReactions, StaticsError, solve_reactions};
 use crate::view::grip::clamped::NotHeld;
 use crate::view::reactions::misfit::MisfitView;
@@ -94,20 +94,26 @@ pub(crate) fn run_statics(args: &Global, a: &Statics) -> anyhow::Result<Done> {
 fn run_misfit(
     m: &Mechanism,
     state: StateId,
-    tolerances: Tolerances,
+    tolerances: Option<Tolerances>,
     a: &Statics,
     seed: u64,
 ) -> anyhow::Result<Done> {
+    let mut accuracy = m.loads.accuracy.clone().unwrap_or_default();
+    if let Some(usual) = tolerances {
+        let hand_force = accuracy.hand_force;
+        accuracy = Accuracy::uniform(usual);
+        accuracy.hand_force = hand_force;
+    }
+    accuracy.hand_force = a.hand_force.unwrap_or(accuracy.hand_force);
     ensure!(
-        a.hand_force >= 0.0 && a.hand_force.is_finite(),
+        accuracy.hand_force >= 0.0 && accuracy.hand_force.is_finite(),
         "--hand-force must be a force in N, at least 0"
     );
     let view = MisfitView {
         mechanism: m,
         state,
-        tolerances,
-        hand: a.hand_force,
-        found: &misfit(m, state, tolerances, a.hand_force, seed)?,
+        accuracy: &accuracy,
+        found: &misfit(m, state, &accuracy, seed)?,
     };
     a.write_text(match a.format {
         StaticsFormat::Text => view.text(output::output_width(a.output.as_deref())),

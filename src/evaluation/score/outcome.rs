@@ -17,6 +17,7 @@ use crate::search::Search;
 use crate::search::answer::counts;
 use crate::search::answer::counts::Counts;
 use crate::search::answer::estimate::Estimate;
+use crate::search::answer::everywhere::count_everywhere;
 use crate::search::answer::search_counts::SearchCounts;
 use crate::search::answer::why_none;
 use crate::search::answer::why_none::{Hopeless, Relaxation};
@@ -140,6 +141,25 @@ impl Outcome {
     /// ```
     pub fn listed_counts(&self) -> &Counts {
         self.lasting.as_ref().unwrap_or(&self.admissible)
+    }
+
+    /// Returns the number of variants that have σ = 0 and keep the motion in poses near the drawn one. The drawn pose may be singular for
+    /// them, so they are those that last and others. `None` if no motion is followed, W or changes are limited, or there are too many.
+    ///
+    /// # Complexity
+    /// O(m³) field operations for each of up to 1,000 nodes of a layer and each choice, for m rows at four powers of the motion.
+    ///
+    /// # Examples
+    /// ```
+    /// let outcome = ozols::search(&ozols::built_in("four-bar")?, &ozols::Request::default())?;
+    /// assert_eq!(outcome.listed_counts().to_string(), "14");
+    /// assert_eq!(outcome.count_everywhere(), Some(18u32.into())); // Four are singular just where drawn.
+    /// # Ok::<(), ozols::Error>(())
+    /// ```
+    pub fn count_everywhere(&self) -> Option<BigUint> {
+        let lasting = self.diagrams.as_ref()?.lasting.as_ref().ok()?;
+        let all = self.request.symmetry != Symmetry::OnePerOrbit;
+        all.then(|| count_everywhere(&self.search, lasting))?
     }
 
     /// Returns whether exact arithmetic examined everything, and singular values do not contradict it if coordinates look rounded. Counts

@@ -14,8 +14,8 @@ use std::collections::{BTreeMap, BTreeSet};
 /// Costs are in revolute joints, from 0 to 1e6.
 ///
 /// # Errors
-/// Returns every problem found, each with its place: invalid TOML, an unknown name, or an invalid cost. Names are joint types, options of
-/// the mechanism, `change`, `link` and `harmful`.
+/// Returns every problem found, each with its place: invalid TOML, an unknown name, or an invalid cost. Names are joint types, classes of other
+/// sets of freedoms, options of the mechanism, `change`, `link` and `harmful`.
 ///
 /// # Examples
 /// ```
@@ -65,6 +65,9 @@ pub(crate) fn read_costs(
             "driven" => spec.driven_milli = Some(milli),
             "link" => spec.link_milli = Some(milli),
             "harmful" => spec.harmful_milli = Some(milli),
+            class if JointType::CLASSES.contains(&class) => {
+                spec.by_type_milli.push((class.to_owned(), milli))
+            }
             n if JointType::from_name(n).is_some() || offered.contains(n) => {
                 let own = offered.contains(n);
                 let name = if own { n } else { JointType::word_of_trade(n) };
@@ -72,7 +75,11 @@ pub(crate) fn read_costs(
             }
             _ => {
                 let types = JointType::NAMED.iter().map(JointType::name);
-                let mut known: Vec<&str> = OTHERS.into_iter().chain(types).collect();
+                let mut known: Vec<&str> = OTHERS
+                    .into_iter()
+                    .chain(types)
+                    .chain(JointType::CLASSES)
+                    .collect();
                 known.extend(&offered);
                 at.add_unknown_word("cost", name, known.iter().unique());
             }

@@ -2,8 +2,8 @@
 
 mod workload;
 
-pub use crate::file::schema::workload::ToleranceEntry;
 pub use crate::file::schema::workload::Words;
+pub use crate::file::schema::workload::{AccuracyEntry, JointAccuracyEntry, ToleranceEntry};
 pub use crate::file::schema::workload::{
     ContactEntry, DriveEntry, ForceEntry, InertiaEntry, MisalignmentEntry, MomentEntry,
     StiffnessEntry, StrokeEntry, WorkloadEntry,
@@ -66,6 +66,9 @@ pub struct MechanismFile {
     /// Loads and drive.
     #[serde(default)]
     pub workload: WorkloadEntry,
+    /// Accuracy of the joints as made and mounted, for `ozols statics --misfit` and the term misfit of a ranking. The accuracy of
+    /// the file's numbers is `tolerance`.
+    pub tolerances: Option<AccuracyEntry>,
     /// Ranking of variants under the workload. Default: by cost only.
     pub ranking: Option<RankingEntry>,
     /// Capacity of joint types, replacing the built-in catalogue: `[joint_types.spherical]`.

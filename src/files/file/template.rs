@@ -14,7 +14,7 @@ use toml_edit::{Decor, DocumentMut, InlineTable, Item, Table, TomlError};
 const COLUMNS: usize = 100;
 
 /// Advice on what to edit, by the path of the key; the schema describes each key.
-const ADVICE: [(&str, &str); 10] = [
+const ADVICE: [(&str, &str); 11] = [
     ("description", "Describe your mechanism."),
     ("sources", "Give your own sources, or delete this."),
     (
@@ -37,6 +37,10 @@ const ADVICE: [(&str, &str); 10] = [
     (
         "search.mirror",
         "Delete this if your mechanism is not symmetric.",
+    ),
+    (
+        "tolerances",
+        "How accurately the joints are made: a named fit, or position and angle.",
     ),
     (
         "ranking",

@@ -84,6 +84,11 @@ pub fn mechanism_file(m: &Mechanism) -> MechanismFile {
         point: m.points.iter().map(point).collect(),
         search: write_search(m),
         workload: write_workload(m),
+        tolerances: m
+            .loads
+            .accuracy
+            .as_ref()
+            .map(|a| workload::write_accuracy(m, a)),
         ranking: m.ranking.as_ref().map(|r| workload::write_ranking(m, r)),
         joint_types: workload::joint_types(m),
         expected: m.expected.iter().map(write_expected).collect(),

@@ -1,14 +1,16 @@
 //! Reflections and turns of space: whether the joints grouped in a file are images of each other in one plane or about
 //! one axis, and their deviations.
 
-use crate::closure::twist::{FrameValues, MotionSpace, joint_twists};
+mod map;
+
+use crate::closure::isometry::map::Map;
+pub(crate) use crate::closure::isometry::map::PlacedType;
 use crate::format::three_digits;
 use crate::geom::Scalars;
 use crate::geom::exact::{ExactError, ExactField};
 use crate::geom::expr::Expr;
 use crate::geom::vector::{Vector, add, cross, dot, length, sub, to_vector};
-use crate::linalg::echelon::Echelon;
-use crate::linalg::modp::{Field, Residue};
+use crate::linalg::modp::Residue;
 use crate::model::joint_type::JointType;
 use crate::model::mechanism::{Frame, Joint, JointId, Mechanism, Mode};
 
@@ -38,15 +40,6 @@ impl Spot {
             .map(|j| Spot::from_frame(&mechanism.joints[j].frame))
             .collect()
     }
-}
-
-/// A joint type at a position, which determines the allowed motions.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct PlacedType<'a> {
-    /// Its frame.
-    pub frame: &'a Frame,
-    /// The type.
-    pub joint_type: &'a JointType,
 }
 
 /// Deviation of the image of a joint from the joint it is paired with.
@@ -241,6 +234,10 @@ impl Isometry {
         let mut out = Vec::new();
         for group in groups {
             let round: Vec<ExactVector> = group.iter().map(|j| frame(j).point.clone()).collect();
+            if group.len() == 3 && round.iter().all(|p| to_vector(p) == to_vector(&round[0])) {
+                out.extend(turns_about_point(group.iter().map(frame)));
+                continue;
+            }
             let axes: Vec<ExactVector> = match &round[..] {
                 [a, b, c] => vec![cross_exactly(
                     &exact_difference(b, a),
@@ -284,6 +281,35 @@ impl Isometry {
         Spot {
             point: add(centre, linear(sub(spot.point, centre))),
             axis: linear(spot.axis),
+        }
+    }
+
+    /// Returns the image of a direction, exactly and of another length.
+    pub(crate) fn image_of_direction(&self, v: &ExactVector) -> ExactVector {
+        let n = &self.axis;
+        let times = |a: &Expr, v: &ExactVector| [0, 1, 2].map(|i| a * &v[i]);
+        let square = dot_exactly(n, n);
+        let along = times(&dot_exactly(n, v), n);
+        let [sum, both] = match &self.round[..] {
+            // v cos + n × v sin / |n| + n (n·v) (1 - cos) / |n|² with sin / |n| = 1 / side², times 2 side² |n|².
+            [a, b, _] => {
+                let side = exact_difference(b, a);
+                let side = dot_exactly(&side, &side);
+                let across = times(&(&square * &Expr::from(2)), &cross_exactly(n, v));
+                let back = times(&(&side * &square), v);
+                let along = times(&(&side * &Expr::from(3)), &along);
+                [exact_difference(&across, &back), along]
+            }
+            _ => {
+                let back = times(&-&square, v);
+                [back, times(&Expr::from(2), &along)]
+            }
+        };
+        let turned = [0, 1, 2].map(|i| &sum[i] + &both[i]);
+        if self.reflects {
+            turned.map(|x| -x)
+        } else {
+            turned
         }
     }
 
@@ -356,6 +382,23 @@ impl Isometry {
     }
 }
 
+/// Returns the thirds of a turn about a point that carry the axes of three joints there to each other, either way along each.
+fn turns_about_point<'a>(frames: impl Iterator<Item = &'a Frame>) -> Vec<Isometry> {
+    let frames: Vec<&Frame> = frames.collect();
+    let signs = [[1, 1], [1, -1], [-1, 1], [-1, -1]];
+    let turn = |[b, c]: [i64; 2]| {
+        let ends = frames.iter().zip([1, b, c]).map(|(frame, sign)| {
+            let along = [0, 1, 2].map(|i| &frame.axis[i] * &Expr::from(sign));
+            sum(&frame.point, &along)
+        });
+        let round: Vec<ExactVector> = ends.collect();
+        let [p, q] = [1, 2].map(|i| exact_difference(&round[i], &round[0]));
+        let axis = cross_exactly(&p, &q);
+        (length(to_vector(&axis)) > 0.0).then(|| Isometry::new(round, axis, false))
+    };
+    signs.into_iter().filter_map(turn).collect()
+}
+
 /// An exact vector in space.
 type ExactVector = [Expr; 3];
 
@@ -367,65 +410,12 @@ fn sum(a: &ExactVector, b: &ExactVector) -> ExactVector {
     [0, 1, 2].map(|i| &a[i] + &b[i])
 }
 
+fn dot_exactly(a: &ExactVector, b: &ExactVector) -> Expr {
+    let [x, y, z] = [0, 1, 2].map(|i| &a[i] * &b[i]);
+    &(&x + &y) + &z
+}
+
 fn cross_exactly(a: &ExactVector, b: &ExactVector) -> ExactVector {
     let minor = |i: usize, j: usize| &(&a[i] * &b[j]) - &(&a[j] * &b[i]);
     [minor(1, 2), minor(2, 0), minor(0, 1)]
-}
-
-/// Map of space: x maps to `linear`·x + `shift`, and lengths are preserved.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Map {
-    /// Images of x, y and z.
-    linear: [[Residue; 3]; 3],
-    /// Image of the origin.
-    shift: [Residue; 3],
-    /// Whether the map reverses orientation.
-    reflects: bool,
-}
-
-impl Map {
-    fn map_direction(&self, f: Field, v: [Residue; 3]) -> [Residue; 3] {
-        [0, 1, 2].map(|i| {
-            let columns = self.linear.iter().zip(v);
-            f.sum_of_products(columns.map(|(c, x)| (c[i], x)))
-        })
-    }
-
-    fn maps_motions(
-        &self,
-        exact: &ExactField,
-        mode: &Mode,
-        from: PlacedType<'_>,
-        to: PlacedType<'_>,
-    ) -> Result<bool, ExactError> {
-        let f = exact.field();
-        // A turn about u is a turn about -u in a mirror. The body point at the origin is the image of that at the
-        // shift.
-        let image = |[w0, w1, w2, v0, v1, v2]: [Residue; 6]| {
-            let turned = self.map_direction(f, [w0, w1, w2]);
-            let w = if self.reflects {
-                turned.map(|x| f.neg(x))
-            } else {
-                turned
-            };
-            let arm = exact.cross(self.shift, w);
-            let v = self.map_direction(f, [v0, v1, v2]);
-            let at = |i: usize| f.add(v[i], arm[i]);
-            [w[0], w[1], w[2], at(0), at(1), at(2)]
-        };
-        let space = MotionSpace::new(exact, mode)?;
-        let freedoms = from.joint_type.freedoms();
-        let values = FrameValues::new(exact, from.frame)?;
-        let (mut images, mut own) = (Echelon::new(f), Echelon::new(f));
-        for (_, twist) in values.motions_in_space(exact, &space, freedoms) {
-            match space.components_in_space(exact, &image(twist)) {
-                Some(t) => images.insert(&t),
-                None => return Ok(false),
-            };
-        }
-        for (_, t) in joint_twists(exact, &space, to.frame, to.joint_type)? {
-            own.insert(&t);
-        }
-        Ok(images.reduced_rows() == own.reduced_rows())
-    }
 }

@@ -211,6 +211,19 @@ impl JointType {
         self.properties_of().2
     }
 
+    /// Classes of sets of freedoms that are not a joint type: hardware along any axis of the joint's frame, and the number of freedoms.
+    pub const CLASSES: [&str; 9] = [
+        "wire-flexure",
+        "blade-flexure",
+        "floating-nut",
+        "ball-in-v-groove",
+        "freedoms-1",
+        "freedoms-2",
+        "freedoms-3",
+        "freedoms-4",
+        "freedoms-5",
+    ];
+
     /// Names of the trade, each with the word of the one type that it means.
     pub const TRADE_NAMES: [(&str, &str); 21] = [
         ("hinge", "revolute"),

@@ -4,6 +4,7 @@ use crate::geom::expr::Expr;
 use crate::model::drive::DriveSpec;
 use crate::model::grip::GripSpec;
 use crate::model::{JointId, LinkId, StateId};
+use serde::Serialize;
 
 /// Inertia of a link about its mass centre `[kg·m²]`.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -109,6 +110,84 @@ pub struct Misalignment {
     pub shift: [f64; 3],
 }
 
+/// Tolerances of a joint. The error of each axis is normal and independent; a tolerance is three standard deviations.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Tolerances {
+    /// Tolerance of the position `[m]`.
+    pub position: f64,
+    /// Tolerance of the direction `[rad]`.
+    pub angle: f64,
+}
+
+const FINE: Tolerances = Tolerances {
+    position: 0.15e-3,
+    angle: 0.5_f64.to_radians(),
+};
+const MEDIUM: Tolerances = Tolerances {
+    position: 0.3e-3,
+    ..FINE
+};
+const COARSE: Tolerances = Tolerances {
+    position: 0.8e-3,
+    angle: 1.0_f64.to_radians(),
+};
+
+impl Tolerances {
+    /// Names of the general tolerances of ISO 2768 for 30 to 120 mm.
+    pub const NAMES: [&str; 3] = ["fine", "medium", "coarse"];
+
+    /// Returns the general tolerances of a name; `None` if it is not one of [`Tolerances::NAMES`].
+    ///
+    /// # Examples
+    /// ```
+    /// use ozols::model::loads::Tolerances;
+    /// assert_eq!(Tolerances::named("medium").map(|t| t.position), Some(0.3e-3));
+    /// assert_eq!(Tolerances::named("rough"), None);
+    /// ```
+    #[must_use]
+    pub fn named(name: &str) -> Option<Tolerances> {
+        let at = Tolerances::NAMES.iter().position(|n| *n == name)?;
+        Some([FINE, MEDIUM, COARSE][at])
+    }
+}
+
+/// Accuracy with which the joints of a mechanism are made and mounted.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Accuracy {
+    /// Tolerances of joints without their own.
+    pub usual: Tolerances,
+    /// Joints with their own tolerances.
+    pub joints: Vec<(JointId, Tolerances)>,
+    /// Force that a person applies at each joint in assembly `[N]`.
+    pub hand_force: f64,
+}
+
+impl Accuracy {
+    /// Returns the accuracy of joints that all have the same tolerances, with 50 N by hand.
+    #[must_use]
+    pub fn uniform(usual: Tolerances) -> Accuracy {
+        Accuracy {
+            usual,
+            joints: Vec::new(),
+            hand_force: 50.0,
+        }
+    }
+
+    /// Returns the tolerances of a joint.
+    #[must_use]
+    pub fn of_joint(&self, joint: JointId) -> Tolerances {
+        let own = self.joints.iter().find(|(j, _)| *j == joint);
+        own.map_or(self.usual, |(_, t)| *t)
+    }
+}
+
+impl Default for Accuracy {
+    /// Returns the tolerances "fine" for all joints.
+    fn default() -> Accuracy {
+        Accuracy::uniform(FINE)
+    }
+}
+
 /// A range of the first drive's position, from the pose of the file.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Stroke {
@@ -161,6 +240,8 @@ pub struct Loads {
     pub faces: Vec<Face>,
     /// Inaccurate joints.
     pub misalignments: Vec<Misalignment>,
+    /// Accuracy of the joints, if the file states it.
+    pub accuracy: Option<Accuracy>,
     /// Speed of each drive `[rad/s]` or in the file's length unit per second. Drives without a stated speed are at
     /// rest.
     pub drive_speeds: Vec<f64>,

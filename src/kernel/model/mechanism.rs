@@ -221,6 +221,8 @@ pub struct SearchSpec {
     /// Joints that map to each other when the mechanism is turned, each to the next and the last to the first: two by
     /// half a turn, three by a third. Not allowed together with mirror images.
     pub turn: Vec<Vec<JointId>>,
+    /// Whether the images are off by no more than the digits of rounded coordinates. It is set by a search, not by a file.
+    pub nearly_symmetric: bool,
     /// Largest number of redundant constraints that may be left within the mechanism.
     pub max_redundant: u32,
     /// Largest mobility W allowed.

@@ -24,6 +24,8 @@ pub enum Term {
     Idle,
     /// Harmful redundant constraints that the searched state adds.
     Harmful,
+    /// Root mean square of the assembly force at the most loaded joint, if joints are inaccurate `[N]`.
+    Misfit,
 }
 
 /// Description of a term: files, text, JSON, CSV, the schema and the help use it.
@@ -62,7 +64,7 @@ impl AboutTerm {
 
 impl Term {
     /// All terms.
-    pub const ALL: [Term; 8] = [
+    pub const ALL: [Term; 9] = [
         Term::PeakForce,
         Term::PeakMoment,
         Term::Conditioning,
@@ -71,6 +73,7 @@ impl Term {
         Term::Cost,
         Term::Idle,
         Term::Harmful,
+        Term::Misfit,
     ];
 
     /// Returns its description.
@@ -136,6 +139,13 @@ impl Term {
                 ..AboutTerm::measured_term(
                     "harmful",
                     "number of harmful redundant constraints that the searched state adds",
+                )
+            },
+            Term::Misfit => AboutTerm {
+                heading: Some("misfit, N"),
+                ..AboutTerm::measured_term(
+                    "misfit",
+                    "the root mean square force that closes the loops at the most loaded joint, for the accuracy of [tolerances], in N",
                 )
             },
         }

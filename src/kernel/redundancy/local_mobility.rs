@@ -21,11 +21,15 @@ use std::f64::consts::TAU;
 pub struct Idle {
     /// The links that move. A single one if the motion involves no other link.
     pub links: Vec<LinkId>,
-    /// Joints of a single link whose points the motion leaves at rest. Two of them define the line it spins about.
+    /// Whether these links move as one body.
+    pub as_one: bool,
+    /// Joints between these links and others that move, if the links do not move as one.
+    pub moving: Vec<JointId>,
+    /// Joints of one body whose points the motion leaves at rest. Two of them define the line it spins about.
     pub through: Vec<JointId>,
-    /// Whether a single link only turns (rather than slides).
+    /// Whether one body only turns (rather than slides).
     pub turns: bool,
-    /// The axis or direction of the motion, for a single link and if it has a name.
+    /// The axis or direction of the motion, for one body and if it has a name.
     pub direction: Option<Direction>,
 }
 
@@ -60,25 +64,13 @@ pub fn idle_motions(
         for speeds in links.motions_alone(l, &joints) {
             if span.insert(&speeds) {
                 let own = link_twist(exact, &links.motion[at], &speeds);
-                let rests = |j: &JointId| rests_at(exact, mechanism, *j, &own);
-                let turns = own.len() == 6 && own[..3].iter().any(|&x| x != 0);
-                found.push(Idle {
-                    links: vec![l],
-                    through: joints.iter().copied().filter(rests).collect(),
-                    turns,
-                    direction: motion_direction(exact, mechanism, &own),
-                });
+                found.push(links.motion_of_body(vec![l], &own));
             }
         }
     }
     for speeds in all {
         if span.insert(&speeds) {
-            found.push(Idle {
-                links: links.moved_links(&speeds),
-                through: Vec::new(),
-                turns: false,
-                direction: None,
-            });
+            found.push(links.motion_of_links(&speeds));
         }
     }
     found
@@ -142,13 +134,48 @@ impl<'a> Links<'a> {
         }
     }
 
-    /// Returns the links that speeds move.
-    fn moved_links(&self, speeds: &Speeds) -> Vec<LinkId> {
-        let moving = |(_, m): &(&LinkId, &Vec<Vec<Residue>>)| {
-            link_twist(self.exact, m, speeds).iter().any(|&x| x != 0)
+    /// Returns the motion of links as one body, with its twist.
+    fn motion_of_body(&self, links: Vec<LinkId>, twist: &[Residue]) -> Idle {
+        let joints = self.mechanism.joints_in(self.closure.state);
+        let at_end = |j: &JointId| {
+            let ends = self.mechanism.joints[*j].links;
+            ends.iter().filter(|l| links.contains(l)).count() == 1
         };
-        let links = self.ids.iter().zip(&self.motion).filter(moving);
-        links.map(|(l, _)| *l).collect()
+        let rests = |j: &JointId| rests_at(self.exact, self.mechanism, *j, twist);
+        Idle {
+            through: joints.filter(at_end).filter(rests).collect(),
+            as_one: true,
+            moving: Vec::new(),
+            turns: twist.len() == 6 && twist[..3].iter().any(|&x| x != 0),
+            direction: motion_direction(self.exact, self.mechanism, twist),
+            links,
+        }
+    }
+
+    /// Returns the motion of several links at some speeds.
+    fn motion_of_links(&self, speeds: &Speeds) -> Idle {
+        let twists = self.ids.iter().zip(&self.motion);
+        let twists = twists.map(|(l, m)| (*l, link_twist(self.exact, m, speeds)));
+        let moved: Vec<_> = twists.filter(|(_, t)| t.iter().any(|&x| x != 0)).collect();
+        let links = moved.iter().map(|(l, _)| *l).collect();
+        if let Some((_, twist)) = moved
+            .first()
+            .filter(|(_, t)| moved.iter().all(|(_, u)| u == t))
+        {
+            return self.motion_of_body(links, twist);
+        }
+        let columns = self.closure.columns.iter().zip(speeds);
+        let moving = columns.filter(|(_, x)| **x != 0).map(|(c, _)| c.joint);
+        let mut moving: Vec<JointId> = moving.collect();
+        moving.dedup();
+        Idle {
+            links,
+            as_one: false,
+            moving,
+            through: Vec::new(),
+            turns: false,
+            direction: None,
+        }
     }
 
     /// Returns the motions of a single link. Only its own joints move, and its neighbours and everything behind them

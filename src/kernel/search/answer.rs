@@ -6,6 +6,7 @@ pub(crate) mod count_tables;
 pub mod counts;
 pub(in crate::search) mod drawn;
 pub mod estimate;
+pub mod everywhere;
 pub mod freedom_patterns;
 pub mod ideas;
 pub mod k_best;

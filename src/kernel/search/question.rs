@@ -8,20 +8,21 @@ pub mod kept;
 pub(crate) mod own_images;
 pub mod preference;
 pub mod rounded_rank;
+mod second_axes;
 pub mod space;
 pub(crate) mod symmetry;
 pub mod throughout;
 
 use crate::closure::contour::{Contour, contour_basis};
 use crate::geom::exact::{ExactError, ExactField};
-use crate::model::mechanism::{JointId, LinkId, Mechanism, Role, SearchSpec, StateId};
+use crate::model::mechanism::{JointId, LinkId, Mechanism, Role, StateId};
 use crate::redundancy::motion::joint_motion;
 use crate::search::answer::keys::{Key, Steps};
 use crate::search::question::conditions::{Conditions, OPEN, SearchError, Symmetry};
 use crate::search::question::cost::CostTable;
 use crate::search::question::grasp::{Grasp, find_grasps, is_free, loose_bodies};
 use crate::search::question::kept::{Followed, Kept};
-use crate::search::question::own_images::OwnSymmetry;
+use crate::search::question::own_images::{Carried, OwnSymmetry};
 use crate::search::question::space::{Space, Variable, choice_name};
 use crate::search::question::throughout::{PoseOnly, Throughout};
 use crate::search::reduce::biconnected::{Block, find_blocks};
@@ -129,19 +130,21 @@ fn both_blocks(
         .map(|(of, pinned)| find_blocks(mechanism, space, &of, pinned, contours))
 }
 
-/// Returns what is asked of a search with each symmetry of these orders that the geometry has, where the file states none.
+/// Returns each symmetry of these orders that the geometry has, where the file states none. `loosely` is as in
+/// [`OwnSymmetry::find_symmetry`].
 fn find_symmetries<'a>(
     exact: &'a ExactField,
     mechanism: &'a Mechanism,
     state: Option<StateId>,
     orders: &'a [usize],
-) -> impl Iterator<Item = SearchSpec> + 'a {
+    loosely: Option<&'a Mechanism>,
+) -> impl Iterator<Item = Carried> + 'a {
     let unstated = orders
         .iter()
         .filter(|_| mechanism.search.symmetry_order() == 1);
-    let found = unstated
-        .filter_map(move |&order| OwnSymmetry::find_symmetry(exact, mechanism, state, order));
-    found.map(|own| own.apply_to(&mechanism.search))
+    unstated.filter_map(move |&order| {
+        OwnSymmetry::find_symmetry(exact, mechanism, state, order, loosely)
+    })
 }
 
 impl Question {
@@ -170,11 +173,20 @@ impl Question {
             Symmetry::SymmetricOnly => &[3, 2],
             Symmetry::OnePerOrbit => &[2, 3],
         };
-        let found = find_symmetries(&exact, &mechanism, searched, orders).next();
-        if let Some(search) = found {
-            Arc::make_mut(&mut mechanism).search = search;
+        let as_written = conditions.written.as_ref().map(|w| w.mechanism.clone());
+        let as_written = as_written.unwrap_or_else(|| mechanism.clone());
+        let loosely = (conditions.symmetry == Symmetry::SymmetricOnly).then_some(&*as_written);
+        let found = find_symmetries(&exact, &mechanism, searched, orders, loosely).next();
+        if let Some(found) = found {
+            found.apply_to(Arc::make_mut(&mut mechanism));
+            if let Some(written) = &mut conditions.written {
+                let others = written.others.iter_mut();
+                others
+                    .chain([&mut written.mechanism])
+                    .for_each(|of| found.apply_to(Arc::make_mut(of)));
+            }
         }
-        if conditions.symmetry != Symmetry::All {
+        if conditions.symmetry != Symmetry::All && !mechanism.search.nearly_symmetric {
             symmetry::check_images(&exact, &mechanism, searched)?;
         }
         if conditions.symmetry == Symmetry::OnePerOrbit {
@@ -233,13 +245,13 @@ impl Question {
             return vec![self.mechanism.clone()];
         }
         let state = self.conditions.state.map(|s| s.state);
-        let found = find_symmetries(&self.exact, &self.mechanism, state, &[3, 2]);
-        let with = |search| {
-            let mechanism = Mechanism::clone(&self.mechanism);
-            Arc::new(Mechanism {
-                search,
-                ..mechanism
-            })
+        let written = self.conditions.written.as_ref().map(|w| &*w.mechanism);
+        let loosely = Some(written.unwrap_or(&self.mechanism));
+        let found = find_symmetries(&self.exact, &self.mechanism, state, &[3, 2], loosely);
+        let with = |found: Carried| {
+            let mut mechanism = Mechanism::clone(&self.mechanism);
+            found.apply_to(&mut mechanism);
+            Arc::new(mechanism)
         };
         found.map(with).collect()
     }

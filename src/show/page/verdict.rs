@@ -116,11 +116,15 @@ fn mobility_sentence(told: &State<'_>) -> String {
     };
     match (s.mobility, finite) {
         (0, _) => "Nothing moves in this state.".to_owned(),
-        (w, f) if w == f && s.local_mobility == 0 => format!("It moves in {} (W = {w}).", ways(w)),
+        // At a dead point the motion of the drive is not idle.
+        (w, f) if w == f && (s.idle.is_empty() || s.local_mobility == 0) => {
+            format!("It moves in {} (W = {w}).", ways(w))
+        }
         (w, f) if w == f => format!(
-            "It moves in {} (W = {w}), {} of which do not move the outputs.",
+            "It moves in {} (W = {w}), {} of which {} not move the outputs.",
             ways(w),
-            s.local_mobility
+            s.local_mobility,
+            if s.local_mobility == 1 { "does" } else { "do" }
         ),
         (w, 0) => format!(
             "W = {w} in this pose, but no motion is really there: the pose is shaky, and small errors are felt as play."

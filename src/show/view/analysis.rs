@@ -202,6 +202,8 @@ impl State<'_> {
         let link = |&l: &LinkId| self.mechanism.links[l].id.as_str();
         json!({
             "links": i.links.iter().map(link).collect::<Value>(),
+            // Joints that move, if the links do not move as one body.
+            "moving": i.moving.iter().map(|&j| self.joint_name(j)).collect::<Value>(),
             // Joints whose points it leaves at rest.
             "through": i.through.iter().map(|&j| self.joint_name(j)).collect::<Value>(),
             "text": idle::describe_idle(self.mechanism, i),

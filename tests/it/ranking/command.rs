@@ -32,7 +32,7 @@ fn the_command_changes_the_order_and_says_why() {
     let heads = csv.lines().next().unwrap();
     assert!(
         heads.ends_with(
-            "by_cost,peak_force,peak_moment,conditioning_held,output_error,idle,total,front,external_harmful,redundant_by_contour"
+            "by_cost,peak_force,peak_moment,conditioning_held,output_error,idle,misfit,total,front,external_harmful,redundant_by_contour"
         )
     );
     assert!(

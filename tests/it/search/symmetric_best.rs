@@ -95,6 +95,183 @@ fn thirds_of_a_turn_are_found() {
     }
 }
 
+/// A platform on three legs alike, turned in space and rounded to so many decimals, with options for all joints.
+fn three_legs(digits: usize, turned: bool, options: &str) -> String {
+    let (w, x, y, z) = if turned {
+        (0.8, 0.36, -0.48, 0.0)
+    } else {
+        (1.0, 0.0, 0.0, 0.0)
+    };
+    let rotate = |v: [f64; 3]| {
+        let rows = [
+            [
+                1.0 - 2.0 * (y * y + z * z),
+                2.0 * (x * y - z * w),
+                2.0 * (x * z + y * w),
+            ],
+            [
+                2.0 * (x * y + z * w),
+                1.0 - 2.0 * (x * x + z * z),
+                2.0 * (y * z - x * w),
+            ],
+            [
+                2.0 * (x * z - y * w),
+                2.0 * (y * z + x * w),
+                1.0 - 2.0 * (x * x + y * y),
+            ],
+        ];
+        rows.map(|r| r.iter().zip(v).map(|(a, b)| a * b).sum::<f64>())
+    };
+    let write = |v: [f64; 3]| {
+        let [a, b, c] = rotate(v);
+        format!("[{a:.digits$}, {b:.digits$}, {c:.digits$}]")
+    };
+    let mut out = format!(
+        "name = \"three-legs\"\n[search]\noptions = {options}\n[[link]]\nid = \"0\"\nrole = \"frame\"\n[[link]]\nid = \"p\"\nrole = \"output\"\n"
+    );
+    for leg in 0..3 {
+        let (sine, cosine) = (f64::from(leg) * std::f64::consts::TAU / 3.0).sin_cos();
+        let point = |r: f64, z: f64| write([r * cosine, r * sine, z]);
+        let axis = write([-sine, cosine, 0.0]);
+        out += &format!("[[link]]\nid = \"a{leg}\"\n[[link]]\nid = \"b{leg}\"\n");
+        for (from, to, kind, place) in [
+            (
+                "0".to_owned(),
+                format!("a{leg}"),
+                "revolute",
+                point(10.0, 0.0),
+            ),
+            (
+                format!("a{leg}"),
+                format!("b{leg}"),
+                "revolute",
+                point(13.0, 8.0),
+            ),
+            (
+                format!("b{leg}"),
+                "p".to_owned(),
+                "spherical",
+                point(5.0, 12.0),
+            ),
+        ] {
+            out += &format!(
+                "[[joint]]\nid = \"{from}-{to}\"\nlinks = [\"{from}\", \"{to}\"]\ntype = \"{kind}\"\npoint = {place}\naxis = {axis}\n"
+            );
+        }
+    }
+    out
+}
+
+/// Rounded coordinates of three legs alike are symmetric within their digits, turned in space or not, and symmetric redesigns are those of
+/// the list of all that change three legs alike.
+#[test]
+fn rounded_legs_are_symmetric_within_their_digits() {
+    for turned in [false, true] {
+        for digits in [4, 5, 6, 8] {
+            let text = three_legs(digits, turned, "[\"cylindrical\", \"spherical\"]");
+            let (_folder, path) = write_temporary("legs.toml", text);
+            let all = run_json(&[
+                "search",
+                path,
+                "--all",
+                "--format",
+                "json",
+                "-q",
+                "--pose-only",
+            ]);
+            let changes = |v: &Value| {
+                let one = |c: &Value| (c["joint"].word().to_owned(), c["to"].word().to_owned());
+                v["changes"].list().iter().map(one).collect::<Vec<_>>()
+            };
+            let is_alike = |v: &&Value| {
+                let mut alike: BTreeMap<(String, String), usize> = BTreeMap::new();
+                for (joint, to) in changes(v) {
+                    let place = joint.replace(['0', '1', '2'], "");
+                    *alike.entry((place, to)).or_default() += 1;
+                }
+                alike.values().all(|n| *n == 3)
+            };
+            let wanted = all["variants"].list().iter().filter(is_alike).count();
+            let args = [
+                "--symmetric",
+                "--all",
+                "--format",
+                "json",
+                "-q",
+                "--pose-only",
+            ];
+            let found = run_json(&[&["search", path][..], &args].concat());
+            assert_eq!(found["space"], "9", "{digits} {turned}");
+            assert_eq!(found["variants"].list().len(), wanted, "{digits} {turned}");
+            let best = all["symmetric"].list();
+            assert!(!best.is_empty());
+            for one in best {
+                assert_eq!(one["by"], "third of a turn, within the digits of the file");
+            }
+        }
+    }
+    // A leg that is a hundredth longer is none of three alike.
+    let text = three_legs(6, false, "[\"cylindrical\", \"spherical\"]");
+    let other = replace_once(
+        &text,
+        "[13.000000, 0.000000, 8.000000]",
+        "[13.010000, 0.010000, 8.000000]",
+    );
+    let (_folder, path) = write_temporary("legs.toml", other);
+    let o = run(&["search", path, "--symmetric", "--count", "-q"]);
+    assert_eq!(o.status.code(), Some(2), "{}", utf8_text(&o.stdout));
+}
+
+/// The second axis of a universal joint that a file leaves open goes with its leg, and axes through one point say the turn.
+#[test]
+fn open_second_axes_are_carried_along_by_thirds_of_a_turn() {
+    for name in ["agile-eye", "3-crr", "tripteron", "orthoglide"] {
+        let space = |more: &str| -> f64 {
+            let args = format!("search {name} --count --format json -q --pose-only {more}");
+            let found: Value = serde_json::from_slice(&run(&args).stdout).unwrap();
+            found["space"].word().parse().unwrap()
+        };
+        let (symmetric, all) = (space("--symmetric"), space("--nodes 2000"));
+        let off = symmetric.powi(3) - all;
+        assert!(off.abs() <= 1e-9 * all, "{name}: {symmetric} {all}");
+    }
+    // The counts are those of a file that states the axes.
+    let plain = ozols::builtin::text("tripteron").unwrap();
+    let mut stated = plain.to_owned();
+    for (joint, axis) in [
+        ("s1-a1", "[0, 1, 0]"),
+        ("s2-a2", "[0, 0, 1]"),
+        ("s3-a3", "[1, 0, 0]"),
+    ] {
+        let from = format!("id = \"{joint}\"\n");
+        stated = replace_once(&stated, &from, &format!("{from}reference = {axis}\n"));
+    }
+    let count = |text: &str| {
+        let text = replace_once(
+            text,
+            "options = [\"revolute\", \"cylindrical\", \"universal\", \"spherical\"]",
+            "",
+        );
+        let (_folder, path) = write_temporary("tripteron.toml", text);
+        let allow = ["s1-a1", "s2-a2", "s3-a3"]
+            .map(|j| format!("--allow={j}=cylindrical,universal,spherical"));
+        let mut args = vec![
+            "search",
+            path,
+            "--symmetric",
+            "--count",
+            "--format",
+            "json",
+            "-q",
+            "--pose-only",
+        ];
+        args.extend(allow.iter().map(String::as_str));
+        let found: Value = serde_json::from_slice(&run(&args).stdout).unwrap();
+        ["space", "determinate", "admissible"].map(|k| found[k].clone())
+    };
+    assert_eq!(count(plain), count(&stated));
+}
+
 #[test]
 fn mechanisms_without_symmetry_have_no_symmetric_redesigns() {
     for more in [

@@ -243,7 +243,7 @@ fn searched(
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 32, max_shrink_iters: 200, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: case_count(32), max_shrink_iters: 200, ..ProptestConfig::default() })]
     #[test]
     fn planar_helical_custom_and_held(
         text in random(),
@@ -284,7 +284,7 @@ proptest! {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 16, max_shrink_iters: 200, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: case_count(16), max_shrink_iters: 200, ..ProptestConfig::default() })]
     #[test]
     fn mirror_images(text in mirrored(), allowed in 0u32..4, most in prop::option::of(1i64..4)) {
         let m = mechanism_from_str("mirrored.toml", &text).unwrap();
@@ -321,7 +321,7 @@ proptest! {
         let orbit = Conditions { symmetry: Symmetry::OnePerOrbit, ..request };
         let search = Search::new(exact_field(&m, 0).unwrap(), &m, orbit.clone()).unwrap();
         let (determinate, admissible, list) = searched(&m, &orbit)?;
-        let all = SearchCounts { determinate, admissible, lasting: None };
+        let all = SearchCounts { determinate, admissible, ..SearchCounts::default() };
         let (SearchCounts { determinate, admissible, .. }, _) = orbit_counts::orbit_counts(&search, all, &|| false).unwrap();
         let first = |c: &Choice| *c <= image(c);
         prop_assert_eq!(&determinate.by_mobility_and_changes, &of(&good, &first));
@@ -333,7 +333,7 @@ proptest! {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 16, max_shrink_iters: 200, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: case_count(16), max_shrink_iters: 200, ..ProptestConfig::default() })]
     #[test]
     fn parts_of_a_turn(text in carried_round(), allowed in 0u32..4) {
         let m = mechanism_from_str("round.toml", &text).unwrap();
@@ -369,7 +369,7 @@ proptest! {
         let one = Conditions { symmetry: Symmetry::OnePerOrbit, ..request };
         let search = Search::new(exact_field(&m, 0).unwrap(), &m, one.clone()).unwrap();
         let (determinate, admissible, list) = searched(&m, &one)?;
-        let all = SearchCounts { determinate, admissible, lasting: None };
+        let all = SearchCounts { determinate, admissible, ..SearchCounts::default() };
         let (SearchCounts { determinate, admissible, .. }, _) = orbit_counts::orbit_counts(&search, all, &|| false).unwrap();
         prop_assert_eq!(&determinate.by_mobility_and_changes, &of(&|c| orbit(c).first() == Some(c)));
         let orbits: BTreeSet<BTreeSet<Choice>> = list.iter().map(orbit).collect();

@@ -1,7 +1,7 @@
 //! The arguments of `ozols statics`.
 
 use crate::cli::prelude::*;
-use crate::statics::reactions::misfit::Tolerances;
+use crate::model::loads::Tolerances;
 use crate::view::statics::told::ToldStatics;
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -57,12 +57,13 @@ pub(crate) struct Statics {
     #[arg(long, conflicts_with_all = ["groups", "stability", "svg"])]
     pub(crate) unilateral: bool,
     /// Print the assembly forces of inaccurate joints: tolerances of position and angle, such as 0.05mm,0.1deg, or the general
-    /// tolerances fine (0.15 mm, 0.5°), medium (0.3 mm, 0.5°) and coarse (0.8 mm, 1°) of ISO 2768 for 30 to 120 mm.
-    #[arg(long, value_name = "FIT", value_parser = parse_fit, conflicts_with_all = ["planar", "spatial", "unilateral", "groups", "stability", "svg", "stroke", "diameter"])]
-    pub(crate) misfit: Option<Tolerances>,
-    /// Force that a person applies at each joint in assembly, in N.
-    #[arg(long, value_name = "N", requires = "misfit", default_value_t = 50.0)]
-    pub(crate) hand_force: f64,
+    /// tolerances fine (0.15 mm, 0.5°), medium (0.3 mm, 0.5°) and coarse (0.8 mm, 1°) of ISO 2768 for 30 to 120 mm [default:
+    /// [tolerances] of the file, else fine].
+    #[arg(long, value_name = "FIT", num_args = 0..=1, value_parser = parse_fit, conflicts_with_all = ["planar", "spatial", "unilateral", "groups", "stability", "svg", "stroke", "diameter"])]
+    pub(crate) misfit: Option<Option<Tolerances>>,
+    /// Force that a person applies at each joint in assembly, in N [default: that of the file, else 50].
+    #[arg(long, value_name = "N", requires = "misfit")]
+    pub(crate) hand_force: Option<f64>,
     /// Print only the Assur groups, under each possible drive.
     #[arg(long, conflicts_with_all = ["stability", "svg", "stroke"])]
     pub(crate) groups: bool,
@@ -103,25 +104,19 @@ impl Statics {
 
 /// Parses tolerances of position and angle, or the name of a fit.
 fn parse_fit(text: &str) -> Result<Tolerances, String> {
-    let named = [
-        ("fine", 0.15, 0.5),
-        ("medium", 0.3, 0.5),
-        ("coarse", 0.8, 1.0),
-    ];
-    let fit = |millimetres: f64, degrees: f64| Tolerances {
-        position: millimetres * 1e-3,
-        angle: degrees.to_radians(),
-    };
-    if let Some((_, position, angle)) = named.iter().find(|(name, ..)| *name == text) {
-        return Ok(fit(*position, *angle));
+    if let Some(named) = Tolerances::named(text) {
+        return Ok(named);
     }
     let parsed = text.split_once(',').and_then(|(position, angle)| {
         let number = |text: &str, unit| text.trim().strip_suffix(unit)?.trim().parse::<f64>().ok();
         let both = [number(position, "mm")?, number(angle, "deg")?];
         let in_range = both.iter().all(|x| (0.0..=1e3).contains(x));
-        in_range.then(|| fit(both[0], both[1]))
+        in_range.then(|| Tolerances {
+            position: both[0] * 1e-3,
+            angle: both[1].to_radians(),
+        })
     });
     parsed.ok_or_else(|| {
-        "give two tolerances such as 0.05mm,0.1deg, or fine, medium or coarse".to_owned()
+        "give two tolerances such as 0.05mm,0.1deg, or fine, medium or coarse, or nothing for those of the file".to_owned()
     })
 }

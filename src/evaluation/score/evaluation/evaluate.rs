@@ -177,6 +177,7 @@ impl<'s> Evaluator<'s> {
             cost_milli: self.search.steps.cost_in_milli(variant.key.cost()),
             idle: self.search.mobility(variant.key) - self.working,
             harmful: variant.key.harmful(),
+            misfit: 0.0,
             minimum_norm: false,
         }
     }

@@ -12,6 +12,7 @@ use crate::score::joint_types::JointType;
 use crate::search::answer::k_best::Assignment;
 use crate::search::check::variant_mechanism;
 use crate::statics::reactions::follow::follow_to;
+use crate::statics::reactions::misfit::misfit_force;
 use crate::statics::reactions::{JointReaction, Reactions, Uniqueness, Unsolved};
 
 /// Returns force and moment of a joint without the part that its drive bears.
@@ -117,7 +118,12 @@ impl Evaluator<'_> {
                 None => worst = Some(now),
             }
         }
-        worst.ok_or(Unsolved::NoConvergence)
+        let mut worst = worst.ok_or(Unsolved::NoConvergence)?;
+        if variant.key.internal() > 0 {
+            let accuracy = m.loads.accuracy.clone().unwrap_or_default();
+            worst.misfit = misfit_force(&m, StateId::FREE, &accuracy)?;
+        }
+        Ok(worst)
     }
 
     /// Returns for each joint of the realized variant the original joint and the type that bears its load.

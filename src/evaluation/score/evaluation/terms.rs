@@ -55,6 +55,8 @@ pub struct Scores {
     pub idle: i64,
     /// Harmful redundant constraints that the searched state adds.
     pub harmful: u32,
+    /// Root mean square of the assembly force at the most loaded joint `[N]`; 0 without redundant constraints.
+    pub misfit: f64,
     /// Whether redundant constraints are left, so that reactions are those of minimum norm.
     pub minimum_norm: bool,
 }
@@ -71,6 +73,7 @@ impl Scores {
             Term::Cost => self.cost_milli as f64 / 1000.0,
             Term::Idle => self.idle as f64,
             Term::Harmful => f64::from(self.harmful),
+            Term::Misfit => self.misfit,
         }
     }
 
@@ -231,7 +234,13 @@ impl Floor {
             Term::PeakForce => self.force,
             Term::PeakMoment => self.moment,
             Term::OutputError => 1e3 * self.output_error,
-            Term::Conditioning | Term::Changes | Term::Cost | Term::Idle | Term::Harmful => 0.0,
+            // A determinate variant assembles without force.
+            Term::Conditioning
+            | Term::Changes
+            | Term::Cost
+            | Term::Idle
+            | Term::Harmful
+            | Term::Misfit => 0.0,
         }
     }
 }

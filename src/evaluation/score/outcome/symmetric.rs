@@ -89,6 +89,8 @@ impl Outcome {
                 nodes: NODES,
                 cheapest: 0,
                 estimate: None,
+                // Its options may have other second axes.
+                written: None,
                 ..asked.clone()
             };
             for mechanism in &symmetric {

@@ -1,6 +1,7 @@
 //! `[workload]` with `[workload.drive]`, and the inertia of links.
 
 use crate::format::join_or;
+use crate::model::loads::Tolerances;
 use crate::model::ranking::Term;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -109,6 +110,35 @@ pub struct MisalignmentEntry {
     pub length: Option<f64>,
     /// Axis of the rotation or shift: x, y or z of the joint's own frame.
     pub axis: String,
+}
+
+/// Accuracy of the joints: a named fit, or a position and an angle. A tolerance is three standard deviations of each axis.
+#[derive(Debug, Clone, Default, Deserialize, Serialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct AccuracyEntry {
+    /// "fine" (0.15 mm, 0.5°; default), "medium" (0.3 mm, 0.5°) or "coarse" (0.8 mm, 1°) of ISO 2768 for 30 to 120 mm.
+    #[schemars(extend("enum" = Tolerances::NAMES))]
+    pub fit: Option<String>,
+    /// Tolerance of the position, in the file's unit of length. Default: that of the fit.
+    pub position: Option<Coordinate>,
+    /// Tolerance of the direction: radians or "0.1deg". Default: that of the fit.
+    pub angle: Option<Quantity>,
+    /// Force in N that a person applies at each joint in assembly. Default: 50.
+    pub hand_force: Option<Coordinate>,
+    /// Joints with their own tolerances.
+    pub joint: Vec<JointAccuracyEntry>,
+}
+
+/// Tolerances of one joint, those of all joints where they are left out.
+#[derive(Debug, Clone, Deserialize, Serialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct JointAccuracyEntry {
+    /// The joint.
+    pub joint: String,
+    /// Tolerance of the position, in the file's unit of length.
+    pub position: Option<Coordinate>,
+    /// Tolerance of the direction: radians or "0.1deg".
+    pub angle: Option<Quantity>,
 }
 
 /// Inertia about the centre of mass: a number for the plane, three about the axes, or six of a tensor: xx, yy, zz, xy, yz, zx.

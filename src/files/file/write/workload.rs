@@ -2,12 +2,13 @@
 
 use crate::file::read::workload::drive::regular_programme;
 use crate::file::schema::{
-    Coordinate, Diameters, DriveEntry, Gravity, GripEntry, JointTypeEntry, LimitEntry,
-    RankingEntry, TermEntry,
+    AccuracyEntry, Coordinate, Diameters, DriveEntry, Gravity, GripEntry, JointAccuracyEntry,
+    JointTypeEntry, LimitEntry, Quantity, RankingEntry, TermEntry,
 };
 use crate::file::write::number::{write_angle, write_number, write_numbers};
 use crate::model::drive::{DriveSpec, ProgrammeStep};
 use crate::model::grip::{GripLoad, GripSpec, LeverDrive, PartMass, Pivots, Toward, Transmission};
+use crate::model::loads::Accuracy;
 use crate::model::mechanism::Mechanism;
 use crate::model::ranking::{ClearanceSum, Ranking};
 use std::collections::BTreeMap;
@@ -134,6 +135,24 @@ fn write_programme(entry: &mut DriveEntry, steps: &[ProgrammeStep]) {
         ProgrammeStep::Dwell(time) => format!("wait {time}"),
     };
     entry.programme = Some(steps.iter().map(word).collect());
+}
+
+/// Returns the entry of the accuracy of the joints, with lengths in the mechanism's unit.
+pub(crate) fn write_accuracy(m: &Mechanism, accuracy: &Accuracy) -> AccuracyEntry {
+    let length = |x: f64| Some(write_number(x, m.length_unit.metres));
+    let own = accuracy.joints.iter();
+    let own = own.map(|(joint, t)| JointAccuracyEntry {
+        joint: m.joints[*joint].id.clone(),
+        position: length(t.position),
+        angle: Some(Quantity::Number(t.angle)),
+    });
+    AccuracyEntry {
+        fit: None,
+        position: length(accuracy.usual.position),
+        angle: Some(Quantity::Number(accuracy.usual.angle)),
+        hand_force: Some(write_number(accuracy.hand_force, 1.0)),
+        joint: own.collect(),
+    }
 }
 
 /// Returns the entry of a ranking.

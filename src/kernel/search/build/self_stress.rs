@@ -11,7 +11,7 @@ use crate::search::diagram::stage::{Adding, Columns};
 use crate::search::diagram::transition::{Children, Worker};
 use crate::search::diagram::{Carries, DEAD, Diagram, Layer};
 use crate::search::question::Question;
-use crate::search::question::throughout::ORDER;
+use crate::search::question::throughout::{ORDER, Throughout};
 use crate::search::reduce::lifetimes::Lifetime;
 use crate::search::reduce::self_stress_space::{ClosingRows, SelfStressSpace};
 
@@ -47,29 +47,44 @@ pub(in crate::search) fn self_stress_space(
     order: &[usize],
     wanted: Wanted,
 ) -> SelfStressSpace {
+    if let (Wanted::Lasting, Ok(along)) = (wanted, &question.throughout) {
+        return space_along_motion(question, along, order, ORDER);
+    }
     let keeps = wanted != Wanted::Determinate && question.conditions.keep_output;
     let kept = keeps.then_some(&question.kept);
     let field = question.exact.field();
     let (mechanism, space) = (&question.mechanism, &question.space);
     let rows = ClosingRows::for_free_state(mechanism, space.dim, &question.contours, kept);
-    let (times, of_choice): (usize, &dyn Fn(usize, usize) -> Vec<Vec<Residue>>) =
-        match &question.throughout {
-            Ok(along) if wanted == Wanted::Lasting => (ORDER, &|v, c| {
-                let freedoms = along.of_choice(v, c).iter();
-                freedoms
-                    .flat_map(|(joint, series)| rows.series_multiples(field, *joint, series))
-                    .collect()
-            }),
-            _ => (1, &|v, c| {
-                let variable = &space.variables[v];
-                if variable.external {
-                    return Vec::new();
-                }
-                rows.choice_columns(field, variable, c)
-            }),
-        };
+    let of_choice = |v: usize, c: usize| {
+        let variable = &space.variables[v];
+        if variable.external {
+            return Vec::new();
+        }
+        rows.choice_columns(field, variable, c)
+    };
     let present = |v: usize| of_choice(v, 0);
-    SelfStressSpace::new(field, &rows, times, space, order, &present, of_choice)
+    SelfStressSpace::new(field, &rows, 1, space, order, &present, &of_choice)
+}
+
+/// Returns the same space along the motion, modulo a power of t.
+pub(in crate::search) fn space_along_motion(
+    question: &Question,
+    along: &Throughout,
+    order: &[usize],
+    powers: usize,
+) -> SelfStressSpace {
+    let kept = question.conditions.keep_output.then_some(&question.kept);
+    let field = question.exact.field();
+    let (mechanism, space) = (&question.mechanism, &question.space);
+    let rows = ClosingRows::for_free_state(mechanism, space.dim, &question.contours, kept);
+    let of_choice = |v: usize, c: usize| -> Vec<Vec<Residue>> {
+        let freedoms = along.of_choice(v, c).iter();
+        let multiples = freedoms
+            .flat_map(|(joint, series)| rows.series_multiples(field, *joint, &series[..powers]));
+        multiples.collect()
+    };
+    let present = |v: usize| of_choice(v, 0);
+    SelfStressSpace::new(field, &rows, powers, space, order, &present, &of_choice)
 }
 
 impl Carries for Adding {

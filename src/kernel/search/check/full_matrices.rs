@@ -7,7 +7,7 @@ use crate::model::mechanism::{JointId, StateId};
 use crate::motion::displacement_series::shifted_multiples;
 use crate::search::question::Question;
 use crate::search::question::space::Variable;
-use crate::search::question::throughout::{ColumnSeries, ORDER};
+use crate::search::question::throughout::ColumnSeries;
 use crate::search::reduce::self_stress_space::{ClosingRows, Part};
 use std::ops::Range;
 
@@ -49,17 +49,19 @@ impl RowLayout<'_> {
     }
 
     /// Returns the columns of each choice along the motion times each power of t. The rows are those of the free state at
-    /// each power, then those of the kept links' motion at each power. Also returns the number of rows of each kind. `None`
-    /// if no motion is followed.
+    /// each power, then those of the kept links' motion at each power, for so many powers. Also returns the number of rows of
+    /// each kind. `None` if no motion is followed.
     pub(in crate::search) fn along_motion(
         &self,
         question: &Question,
+        powers: usize,
     ) -> Option<WrittenOut<Residue>> {
         let along = question.throughout.as_ref().ok()?;
         let [free, kept, _] = self.row_counts();
         let multiples = |(joint, series): &(JointId, ColumnSeries)| -> Vec<Vec<Residue>> {
             let terms = series
                 .iter()
+                .take(powers)
                 .map(|t| self.joint_column(question.field(), *joint, t));
             let terms: Vec<Vec<Residue>> = terms.collect();
             let part = |rows: Range<usize>| -> Vec<Vec<Residue>> {
@@ -77,7 +79,7 @@ impl RowLayout<'_> {
         };
         let variables = question.space.variables.iter().enumerate();
         Some(WrittenOut {
-            rows: [ORDER * free, ORDER * kept, 0],
+            rows: [powers * free, powers * kept, 0],
             columns: variables.map(of_variable).collect(),
         })
     }

@@ -16,6 +16,12 @@ use crate::model::mechanism::{CostSpec, JointOption};
 pub(crate) const CHANGE: i64 = 1000;
 /// Default additional cost of changing a driven joint, in thousandths: its motor is mounted and guided again.
 pub(crate) const DRIVEN: i64 = 2000;
+/// Returns the class of a piece of hardware along an axis, such as `wire-flexure` for `wire-flexure-x`.
+fn hardware_class(name: &str) -> Option<&str> {
+    let (class, axis) = name.rsplit_once('-')?;
+    (JointType::CLASSES.contains(&class) && ["x", "y", "z"].contains(&axis)).then_some(class)
+}
+
 /// The costs in force for one mechanism, in thousandths.
 #[derive(Debug, Clone)]
 pub struct CostTable {
@@ -62,7 +68,7 @@ impl CostTable {
         replaced.max(0) + inserted
     }
 
-    /// Returns the cost of a joint: that of the option, of its name, or of its type. A custom type costs by freedoms.
+    /// Returns the cost of a joint: that of the option, of its name, of its class, or of its type. A custom type costs by freedoms.
     ///
     /// # Examples
     /// ```
@@ -79,13 +85,18 @@ impl CostTable {
             let default = || JointType::from_name(n).map(|t| t.default_cost_milli());
             stated.map(|(_, c)| *c).or_else(default)
         };
+        let class = || named(hardware_class(&option.name)?);
         let of_type = |t: &JointType| named(t.name()).unwrap_or(t.default_cost_milli());
         option
             .cost_milli
             .or_else(|| named(&option.name))
+            .or_else(class)
             .unwrap_or_else(|| match &option.joint_type {
-                // A revolute joint, at the file's price, and the freedoms beyond its one.
-                custom @ JointType::Custom(_) => {
+                // Its class, or a revolute joint, at the file's price, and the freedoms beyond its one.
+                custom @ JointType::Custom(set) => {
+                    if let Some(stated) = named(&format!("freedoms-{}", set.len())) {
+                        return stated;
+                    }
                     let revolute = &JointType::Revolute;
                     of_type(revolute) + custom.default_cost_milli() - revolute.default_cost_milli()
                 }

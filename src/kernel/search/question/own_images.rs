@@ -5,8 +5,9 @@ use crate::closure::isometry::{Isometry, Spot, frame_directions};
 use crate::geom::exact::ExactField;
 use crate::geom::expr::Expr;
 use crate::geom::vector::length;
-use crate::model::mechanism::{Joint, JointId, LinkId, Mechanism, SearchSpec, StateId};
-use crate::search::question::symmetry::check_images;
+use crate::model::mechanism::{Joint, JointId, LinkId, Mechanism, StateId};
+use crate::search::question::second_axes::{Allowance, SecondAxis, are_near_images, carried_axes};
+use crate::search::question::symmetry::{check_images, check_structure};
 use itertools::Itertools;
 
 /// Maximum number of mirrors and turns that are examined exactly.
@@ -19,7 +20,7 @@ const TURNED: usize = 16;
 const FIRST: usize = 6;
 /// Maximum number of steps of the search for the images of joints at one place.
 const STEPS: usize = 1_000;
-/// Tolerance of images before they are examined exactly, relative to the mechanism's size.
+/// Tolerance of images before they are examined exactly, relative to the mechanism's size, if its digits allow no more.
 const NEAR: f64 = 1e-6;
 
 /// Returns the image of each joint; `None` if the mechanism has no symmetry.
@@ -31,11 +32,11 @@ pub(crate) fn own_images(
 ) -> Option<Vec<JointId>> {
     let found = match mechanism.search.symmetry_order() {
         1 => {
-            let find = |order| OwnSymmetry::find_symmetry(exact, mechanism, state, order);
-            [2, 3]
-                .into_iter()
-                .find_map(find)?
-                .apply_to(&mechanism.search)
+            let find = |order| OwnSymmetry::find_symmetry(exact, mechanism, state, order, None);
+            let found = [2, 3].into_iter().find_map(find)?;
+            let mut symmetric = mechanism.clone();
+            found.apply_to(&mut symmetric);
+            symmetric.search
         }
         _ => {
             check_images(exact, mechanism, state).ok()?;
@@ -51,25 +52,47 @@ pub(crate) fn own_images(
 }
 
 /// The joints that a mirror, or part of a turn, carries to each other.
-#[derive(Debug, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub(in crate::search) struct OwnSymmetry {
     groups: Vec<Vec<JointId>>,
     mirrored: bool,
+    /// Whether images are off by no more than the digits, and not proven.
+    near: bool,
+}
+
+/// A symmetry, with the second axes that options get in symmetric redesigns.
+#[derive(Debug, Clone)]
+pub(in crate::search) struct Carried {
+    symmetry: OwnSymmetry,
+    second_axes: Vec<SecondAxis>,
+}
+
+impl Carried {
+    /// Writes the symmetry to what a mechanism asks of a search, and the second axes to its options.
+    pub(in crate::search) fn apply_to(&self, mechanism: &mut Mechanism) {
+        let OwnSymmetry {
+            groups,
+            mirrored,
+            near,
+        } = &self.symmetry;
+        mechanism.search.nearly_symmetric = *near;
+        if *mirrored {
+            mechanism.search.mirror = groups.iter().map(|g| (g[0], g[1])).collect();
+        } else {
+            mechanism.search.turn.clone_from(groups);
+        }
+        for (joint, option, axis) in &self.second_axes {
+            if let Some(option) = mechanism.joints[*joint].options.get_mut(*option) {
+                option.frame.reference.clone_from(axis);
+            }
+        }
+    }
 }
 
 impl OwnSymmetry {
-    /// Returns what is asked of a search with this symmetry in it.
-    pub(in crate::search) fn apply_to(&self, search: &SearchSpec) -> SearchSpec {
-        let mut out = search.clone();
-        if self.mirrored {
-            out.mirror = self.groups.iter().map(|g| (g[0], g[1])).collect();
-        } else {
-            out.turn.clone_from(&self.groups);
-        }
-        out
-    }
-
-    /// Returns the first symmetry that is proven: a mirror or half turn if the order is 2, a third of a turn if it is 3.
+    /// Returns the first symmetry that is proven: a mirror or half turn if the order is 2, a third of a turn if it is 3. `loosely` gives the
+    /// mechanism as its file writes it, for symmetric redesigns. Second axes that the file leaves open are then carried along, and if
+    /// nothing is proven, images may be off by its digits.
     ///
     /// # Complexity
     /// Compares O(joints^order) groups. Computes O(joints²) distances for each symmetry that they suggest, and at most a
@@ -79,18 +102,16 @@ impl OwnSymmetry {
         mechanism: &Mechanism,
         state: Option<StateId>,
         order: usize,
-    ) -> Option<OwnSymmetry> {
+        loosely: Option<&Mechanism>,
+    ) -> Option<Carried> {
         if mechanism.joints.len() > JOINTS {
             return None;
         }
-        let proven = |one: &OwnSymmetry| {
-            let mut symmetric = mechanism.clone();
-            symmetric.search = one.apply_to(&mechanism.search);
-            check_images(exact, &symmetric, state).is_ok()
-        };
-        let compared = ComparedJoints::new(mechanism);
+        let digits = loosely.and_then(Allowance::of_digits);
+        let compared = ComparedJoints::new(mechanism, digits);
         let directions = frame_directions(mechanism);
         let mut tried: Vec<OwnSymmetry> = Vec::new();
+        let mut nearest = None;
         let groups = mechanism.joint_ids().combinations(order);
         let groups = groups.take_while(|g| g[0].index() < FIRST);
         for group in groups.filter(|g| compared.may_be_images(g)) {
@@ -98,22 +119,49 @@ impl OwnSymmetry {
                 let Some(groups) = compared.image_groups(mechanism, &carrier, order) else {
                     continue;
                 };
-                let mirrored = carrier.reflects;
-                let one = OwnSymmetry { groups, mirrored };
-                if tried.contains(&one) {
+                let symmetry = OwnSymmetry {
+                    groups,
+                    mirrored: carrier.reflects,
+                    near: false,
+                };
+                if tried.contains(&symmetry) {
                     continue;
                 }
-                if proven(&one) {
-                    return Some(one);
+                let second_axes = loosely.map_or_else(Vec::new, |_| {
+                    carried_axes(mechanism, &carrier, &symmetry.groups, compared.allowed)
+                });
+                let carried = Carried {
+                    symmetry: symmetry.clone(),
+                    second_axes,
+                };
+                let mut symmetric = mechanism.clone();
+                carried.apply_to(&mut symmetric);
+                if check_images(exact, &symmetric, state).is_ok() {
+                    return Some(carried);
                 }
-                tried.push(one);
+                let image_of = |j| symmetric.search.image_of_joint(j);
+                if nearest.is_none()
+                    && digits.is_some()
+                    && check_structure(&symmetric, state).is_ok()
+                    && are_near_images(&symmetric, &carrier, &image_of, compared.allowed)
+                {
+                    nearest = Some(carried);
+                }
+                tried.push(symmetry);
                 if tried.len() == TRIED {
-                    return None;
+                    return near_symmetry(nearest);
                 }
             }
         }
-        None
+        near_symmetry(nearest)
     }
+}
+
+/// Returns a symmetry as one that is not proven.
+fn near_symmetry(of: Option<Carried>) -> Option<Carried> {
+    let mut of = of?;
+    of.symmetry.near = true;
+    Some(of)
 }
 
 /// Returns the mirrors and turns that may carry two or three joints to each other.
@@ -140,12 +188,12 @@ struct ComparedJoints {
     spots: Vec<Spot>,
     /// Those that offer the same, by name, are of one kind.
     kinds: Vec<usize>,
-    /// How far off an image may be, in the file's unit.
-    near: f64,
+    /// How far off an image may be.
+    allowed: Allowance,
 }
 
 impl ComparedJoints {
-    fn new(mechanism: &Mechanism) -> ComparedJoints {
+    fn new(mechanism: &Mechanism, digits: Option<Allowance>) -> ComparedJoints {
         let names = |j: &Joint| j.offered_options().map(|o| o.name.clone()).collect_vec();
         let of = |j: JointId| {
             let joint = &mechanism.joints[j];
@@ -156,12 +204,22 @@ impl ComparedJoints {
         let mut compared = ComparedJoints {
             spots: Spot::of_joints(mechanism),
             kinds: all.iter().filter_map(kind).collect(),
-            near: 0.0,
+            allowed: Allowance {
+                distance: 0.0,
+                angle: NEAR,
+            },
         };
         let mut ids = mechanism.joint_ids();
         let first = ids.next();
         let far = ids.filter_map(|j| Some(compared.distance_between(first?, j)));
-        compared.near = NEAR * far.fold(0.0, f64::max);
+        compared.allowed.distance = NEAR * far.fold(0.0, f64::max);
+        if let Some(digits) = digits {
+            let own = compared.allowed;
+            compared.allowed = Allowance {
+                distance: own.distance.max(digits.distance),
+                angle: own.angle.max(digits.angle),
+            };
+        }
         compared
     }
 
@@ -180,8 +238,8 @@ impl ComparedJoints {
         let far = || sides().map(|(&a, &b)| self.distance_between(a, b));
         let (least, most) = (far().fold(f64::MAX, f64::min), far().fold(0.0, f64::max));
         sides().all(|(&a, &b)| self.are_alike(a, b))
-            && least >= self.near
-            && most - least < self.near
+            && (least >= self.allowed.distance || group.len() == 3 && most == 0.0)
+            && most - least < self.allowed.distance
     }
 
     /// Returns the joints that become each other if each joint becomes one of its kind between the images of its links, and is back after
@@ -195,7 +253,7 @@ impl ComparedJoints {
         let close = |j: JointId, k: JointId| {
             let [from, to] = [j, k].map(|j| self.spots[j.index()]);
             let miss = carrier.miss_of_image(from, &mechanism.joints[j].joint_type, to);
-            miss.distance < self.near && miss.angle < NEAR
+            miss.distance < self.allowed.distance && miss.angle < self.allowed.angle
         };
         let near = |j: JointId| {
             let all = mechanism.joint_ids();

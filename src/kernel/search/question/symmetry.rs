@@ -116,6 +116,15 @@ pub(in crate::search) fn check_images(
             mechanism: mechanism.name.clone(),
         });
     }
+    let joints = check_structure(mechanism, state)?;
+    check_joints(exact, mechanism, &joints)
+}
+
+/// Refuses images that differ in what they join, offer or are coupled to, wherever they are. Returns the joints there are.
+pub(in crate::search) fn check_structure(
+    mechanism: &Mechanism,
+    state: Option<StateId>,
+) -> Result<Vec<JointId>, MirrorError> {
     let states = std::iter::once(StateId::FREE).chain(state);
     let joints = states
         .flat_map(|s| mechanism.joints_in(s))
@@ -139,7 +148,6 @@ pub(in crate::search) fn check_images(
         }
     }
     check_links(mechanism, &joints)?;
-    check_joints(exact, mechanism, &joints)?;
     match mechanism
         .couplings
         .iter()
@@ -148,7 +156,7 @@ pub(in crate::search) fn check_images(
         Some(c) => Err(MirrorError::UnlikeCoupling {
             coupling: c.name(mechanism),
         }),
-        None => Ok(()),
+        None => Ok(joints),
     }
 }
 

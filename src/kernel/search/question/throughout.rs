@@ -31,8 +31,11 @@ use chacha20::rand_core::{Rng, SeedableRng};
 use std::collections::BTreeMap;
 use thiserror::Error;
 
-/// Powers of t that are kept: 1, t and t².
+/// Powers of t that diagrams keep: 1, t and t².
 pub(in crate::search) const ORDER: usize = 3;
+/// Powers of t in each column. One more than diagrams keep, because two factors of t can add up in a variant that is singular in the drawn
+/// pose.
+pub(in crate::search) const POWERS: usize = 4;
 /// The order to which the motion itself is followed, to see that the pose is neither singular nor shaky.
 const FOLLOWED: usize = 8;
 
@@ -234,12 +237,12 @@ impl Motion {
         if let Some(order) = line.stopped {
             return Ok(Err(PoseOnly::Stopped(order)));
         }
-        if line.order + 1 < ORDER {
+        if line.order + 1 < POWERS {
             return Ok(Err(PoseOnly::TooLarge));
         }
         let columns = closure.columns.iter().zip(q);
         let series = columns.map(|(column, q)| {
-            let q = std::iter::once(0).chain(q).take(ORDER);
+            let q = std::iter::once(0).chain(q).take(POWERS);
             ((column.joint, column.freedom), q.collect::<Series>())
         });
         let series: BTreeMap<(JointId, Freedom), Series> = series.collect();
@@ -250,7 +253,7 @@ impl Motion {
             let freedoms = joint.joint_type.freedoms();
             let frame = FrameValues::new(exact, &joint.frame)?;
             let own = frame.motions_in_series(exact, &space, freedoms);
-            let mut at = DisplacementSeries::identity(field, ORDER);
+            let mut at = DisplacementSeries::identity(field, POWERS);
             for (freedom, twist) in own {
                 at = at.then(&DisplacementSeries::exp(
                     field,
@@ -260,7 +263,7 @@ impl Motion {
             }
             over.insert(j, at);
         }
-        let mut links = vec![DisplacementSeries::identity(field, ORDER); mechanism.links.len()];
+        let mut links = vec![DisplacementSeries::identity(field, POWERS); mechanism.links.len()];
         for step in spanning_tree(mechanism, StateId::FREE) {
             let passed = &over[&step.joint];
             let from = &links[step.from.index()];
@@ -304,12 +307,12 @@ impl Motion {
         };
         let row = rate_row(exact, &self.space, mechanism, joint, &option.frame)?;
         let base = &self.links[of.links[0].index()];
-        let mut before = DisplacementSeries::identity(self.field, ORDER);
+        let mut before = DisplacementSeries::identity(self.field, POWERS);
         let mut out = Vec::with_capacity(passed.len());
         for ((freedom, twist), q) in passed.iter().zip(&q) {
             let within = before.carry_twist(twist);
             let carried = base.then(&before).carry_twist(twist);
-            let mut column = ColumnSeries::with_capacity(ORDER);
+            let mut column = ColumnSeries::with_capacity(POWERS);
             for (k, (here, there)) in within.iter().zip(&carried).enumerate() {
                 let components = self.space.along_axes(exact, there);
                 let coupled_by = freedom.filter(|_| k == 0);
@@ -335,12 +338,12 @@ impl Motion {
         goal: &DisplacementSeries,
     ) -> Option<Vec<Series>> {
         let f = self.field;
-        let mut q = vec![vec![0; ORDER]; passed.len()];
+        let mut q = vec![vec![0; POWERS]; passed.len()];
         // Freedoms of the joint itself come first where twists depend on each other.
         let mut order: Vec<usize> = (0..passed.len()).collect();
         order.sort_by_key(|&i| passed[i].0.is_none());
-        for k in 1..ORDER {
-            let mut at = DisplacementSeries::identity(f, ORDER);
+        for k in 1..POWERS {
+            let mut at = DisplacementSeries::identity(f, POWERS);
             for ((_, twist), q) in passed.iter().zip(&q) {
                 at = at.then(&DisplacementSeries::exp(f, twist, q));
             }

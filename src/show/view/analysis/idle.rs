@@ -19,17 +19,25 @@ pub(crate) fn describe_idle(mechanism: &Mechanism, motion: &Idle) -> String {
     let along = motion.direction.map_or_else(String::new, |d| {
         format!(" along {}", d.describe_direction(mechanism))
     });
-    match (motion.links.len(), joints.as_slice()) {
-        (1, []) if motion.turns => {
-            format!("link {names} turns about a line{along}, through none of its joints")
+    if !motion.as_one {
+        let moving = motion.moving.iter();
+        let moving = moving.map(|&j| mechanism.joints[j].id.as_str()).join(", ");
+        return format!("links {names} move together, in joints {moving}");
+    }
+    let (what, s) = match motion.links.len() {
+        1 => (format!("link {names}"), "s"),
+        _ => (format!("links {names} as one body"), ""),
+    };
+    match joints.as_slice() {
+        [] if motion.turns => {
+            format!("{what} turn{s} about a line{along}, through none of its joints")
         }
-        (1, []) => format!("link {names} slides{along}"),
-        (1, [one]) => format!("link {names} spins about a line{along} through {one}"),
-        (1, many) => format!(
-            "link {names} spins about the line through {}",
+        [] => format!("{what} slide{s}{along}"),
+        [one] => format!("{what} spin{s} about a line{along} through {one}"),
+        many => format!(
+            "{what} spin{s} about the line through {}",
             many.join(" and ")
         ),
-        _ => format!("links {names} move together"),
     }
 }
 

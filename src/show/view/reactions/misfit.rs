@@ -1,6 +1,7 @@
 //! Assembly forces of inaccurate joints, as text and JSON.
 
-use crate::statics::reactions::misfit::{Misfit, Tolerances};
+use crate::model::loads::Accuracy;
+use crate::statics::reactions::misfit::Misfit;
 use crate::view::prelude::*;
 
 /// Joints in a text, those with the greatest force first.
@@ -13,10 +14,8 @@ pub struct MisfitView<'a> {
     pub mechanism: &'a Mechanism,
     /// The state.
     pub state: StateId,
-    /// Tolerances of the joints.
-    pub tolerances: Tolerances,
-    /// The force that a person applies, in N.
-    pub hand: f64,
+    /// Accuracy of the joints.
+    pub accuracy: &'a Accuracy,
     /// The result.
     pub found: &'a Misfit,
 }
@@ -27,14 +26,15 @@ impl MisfitView<'_> {
     pub fn json(&self) -> Value {
         let joints = self.found.joints.iter().map(|j| {
             let id = &self.mechanism.joints[j.joint].id;
-            json!({ "joint": id, "force": j.force, "moment": j.moment })
+            let within = self.accuracy.of_joint(j.joint);
+            json!({ "joint": id, "tolerances": within, "force": j.force, "moment": j.moment })
         });
         json!({
             "mechanism": self.mechanism.name,
             "state": self.mechanism.states[self.state],
-            "tolerances": self.tolerances,
+            "tolerances": self.accuracy.usual,
             "stiffness": { "linear": self.found.stiffness.linear, "angular": self.found.stiffness.angular },
-            "hand_force": self.hand,
+            "hand_force": self.accuracy.hand_force,
             "by_hand": self.found.by_hand,
             "force": self.found.force,
             "joints": joints.collect::<Vec<_>>(),
@@ -47,16 +47,21 @@ impl MisfitView<'_> {
         let (m, found) = (self.mechanism, self.found);
         let head = format!("{}, state {}: ", m.name, m.states[self.state]);
         let [position, angle] = [
-            self.tolerances.position * 1e3,
-            self.tolerances.angle.to_degrees(),
+            self.accuracy.usual.position * 1e3,
+            self.accuracy.usual.angle.to_degrees(),
         ];
+        let own = match self.accuracy.joints.len() {
+            0 => String::new(),
+            n => format!(" ({} with other tolerances)", count_noun(n, "joint")),
+        };
         let within = format!(
-            "Joints within {} mm and {}°, each axis normal with a third of that as standard deviation",
+            "Joints within {} mm and {}°{own}, each axis normal with a third of that as standard deviation",
             four_digits(position),
             four_digits(angle)
         );
         // Below a millionth of a newton there is only rounding.
-        if found.force.most < 1e-6 {
+        let moments = found.joints.iter().map(|j| j.moment.most);
+        if found.force.most.max(moments.fold(0.0, f64::max)) < 1e-6 {
             return fit_lines(
                 &format!("{head}it assembles without force\n{within}.\n"),
                 width,
@@ -73,7 +78,7 @@ impl MisfitView<'_> {
             four_digits(force.mean),
             four_digits(force.most),
             by_hand * 100.0,
-            four_digits(self.hand),
+            four_digits(self.accuracy.hand_force),
             four_digits(stiffness.linear),
             four_digits(stiffness.angular),
         );

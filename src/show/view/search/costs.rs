@@ -20,7 +20,7 @@ const HEAD: &str = "\
 # missing, [search.costs] of FILE holds, or the default. The cost at one
 # option of FILE stays. A custom joint costs a revolute joint, and
 # CUSTOM for each freedom beyond the first. Names of FILE's options may be
-# here, too.
+# here, too, and classes of the sets of `--options any`: CLASSES.
 ";
 
 /// Returns the default costs as TOML.
@@ -59,6 +59,12 @@ pub fn costs_toml() -> String {
         ),
     ];
     let others = others.map(|(name, milli, what)| line(name, milli, what));
-    let head = HEAD.replace("CUSTOM", &format_cost(JointType::CUSTOM_FREEDOM));
+    let classes = JointType::CLASSES.chunks(4).map(|c| c.join(", "));
+    let head = HEAD
+        .replace("CUSTOM", &format_cost(JointType::CUSTOM_FREEDOM))
+        .replace(
+            "CLASSES",
+            &format!("\n# {}", classes.collect::<Vec<_>>().join(",\n# ")),
+        );
     head + &others.concat() + &types.collect::<String>()
 }

@@ -117,7 +117,8 @@ fn write_verdict(out: &mut Report, outcome: &Outcome, verbose: bool) {
              [\"cylindrical\", \"spherical\"]"
         );
     }
-    if let Some(line) = in_the_pose(outcome) {
+    let beside = verbose.then(|| but_in_the_pose(outcome)).flatten();
+    for line in in_the_pose(outcome).into_iter().chain(beside) {
         out.add_line(format!("  {line}"));
     }
     if !more.is_empty() && (verbose || outcome.listed_counts().total.is_zero()) {
@@ -138,6 +139,18 @@ pub(crate) fn where_kept(outcome: &Outcome) -> &'static str {
         Err(PoseOnly::Rests | PoseOnly::Numeric) => "",
         Err(_) => " in the drawn pose",
     }
+}
+
+/// Describes how many variants keep the motion in all poses but the drawn one. `None` if there are none or it is not known.
+fn but_in_the_pose(outcome: &Outcome) -> Option<String> {
+    let lasting = &outcome.lasting.as_ref().ok()?.total;
+    let everywhere = outcome.count_everywhere().filter(|n| n > lasting)?;
+    let more = everywhere - lasting;
+    let keep = if more.is_one() { "keeps" } else { "keep" };
+    let more = group_thousands(&more);
+    Some(format!(
+        "{more} more {keep} it in all poses near the drawn one, which is singular for these"
+    ))
 }
 
 /// Describes how many variants keep the motion in the drawn pose, or why only these are counted. `None` if neither applies.

@@ -7,6 +7,7 @@ use crate::score::outcome::listing::Variants;
 use crate::score::outcome::remarks::Remarks;
 use crate::score::outcome::variant::Variant;
 use crate::score::outcome::why::Whys;
+use crate::score::request::List;
 use crate::score::request::prepare::LooksRounded;
 use crate::search::answer::why_none::Relaxation;
 use crate::search::diagram::{Diagram, Stop};
@@ -165,6 +166,8 @@ pub fn search_json(outcome: &Outcome) -> Value {
         costs.is_none().then_some("counts by cost"),
     ];
     let mechanism = &outcome.search.mechanism;
+    let counts_only = matches!(outcome.request.list, List::Nothing | List::Top(0));
+    let everywhere = counts_only.then(|| outcome.count_everywhere()).flatten();
     let lasting = outcome.lasting.as_ref().ok();
     json!({
         "mechanism": mechanism.name,
@@ -187,6 +190,7 @@ pub fn search_json(outcome: &Outcome) -> Value {
         "admissible_by_cost": by_cost(&costs.unwrap_or_default()),
         // Those that keep the motion throughout the motion of the mechanism as built are the ones listed.
         "lasting": lasting.map(ToString::to_string),
+        "everywhere": everywhere.as_ref().map(ToString::to_string),
         "lasting_by_mobility": lasting.map(|l| counts_json(&l.by_mobility)),
         "lasting_by_cost": outcome.lasting_by_cost().as_ref().map(by_cost),
         "pose_only": outcome.lasting.as_ref().err().map(ToString::to_string),

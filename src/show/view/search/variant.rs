@@ -124,13 +124,19 @@ pub(crate) fn symmetric_text(found: &SymmetricBest) -> String {
 }
 
 /// Returns what carries a mechanism over to itself.
-fn symmetry_word(search: &Search) -> &'static str {
+fn symmetry_word(search: &Search) -> String {
     let spec = &search.mechanism.search;
-    match (spec.mirror.is_empty(), spec.symmetry_order()) {
+    let word = match (spec.mirror.is_empty(), spec.symmetry_order()) {
         (false, _) => "mirror",
         (true, 3) => "third of a turn",
         _ => "half turn",
-    }
+    };
+    let digits = if spec.nearly_symmetric {
+        ", within the digits of the file"
+    } else {
+        ""
+    };
+    format!("{word}{digits}")
 }
 
 /// Returns the cheapest symmetric redesigns as data.

@@ -1,16 +1,17 @@
 //! Masses of links and the `[workload]` table.
 
 use crate::file::read::value::quantity::Bound;
+use crate::file::read::value::used_twice;
 use crate::file::read::workload::motion::{LARGEST, MAX_FORCES, MAX_STEPS};
 use crate::file::schema::{
-    ForceEntry, InertiaEntry, LinkEntry, MechanismFile, Quantities, Quantity, StrokeEntry,
-    WorkloadEntry,
+    Coordinate, ForceEntry, InertiaEntry, LinkEntry, MechanismFile, Quantities, Quantity,
+    StrokeEntry, WorkloadEntry,
 };
 use crate::file::{Findings, Place};
 use crate::model::joint_type::JointType;
 use crate::model::loads::{
-    ExternalForce, ExternalMoment, Face, Inertia, Loads, MassProperties, Misalignment, Stiffness,
-    Stroke,
+    Accuracy, ExternalForce, ExternalMoment, Face, Inertia, Loads, MassProperties, Misalignment,
+    Stiffness, Stroke, Tolerances,
 };
 use crate::model::mechanism::Mechanism;
 use crate::statics::reactions::contact::object_at;
@@ -99,6 +100,7 @@ pub(crate) fn read_loads(file: &MechanismFile, mechanism: &Mechanism, out: &Find
         faces,
         stiffness,
         misalignments,
+        accuracy: read_accuracy(file, mechanism, &out.key("tolerances")),
         drive_speeds,
         stroke: entry
             .stroke
@@ -260,4 +262,54 @@ pub(crate) fn read_misalignments(
         }
     }
     found
+}
+
+/// Returns the accuracy of the joints, if the file states it.
+pub(crate) fn read_accuracy(
+    file: &MechanismFile,
+    m: &Mechanism,
+    at: &Place<'_>,
+) -> Option<Accuracy> {
+    let entry = file.tolerances.as_ref()?;
+    let mut out = Accuracy::default();
+    if let Some(fit) = &entry.fit {
+        match Tolerances::named(fit) {
+            Some(named) => out.usual = named,
+            None => at
+                .key("fit")
+                .add_unknown_word("fit", fit, Tolerances::NAMES),
+        }
+    }
+    let read = |at: &Place<'_>,
+                position: &Option<Coordinate>,
+                angle: &Option<Quantity>,
+                other: Tolerances| {
+        let position = at.not_negative("position", position, m.length_unit.metres);
+        let angle = angle.as_ref().map(|q| at.key("angle").read_turn(q));
+        if let Some(x) = angle.filter(|x| !(0.0..=1.0).contains(x)) {
+            at.key("angle")
+                .add_bad_value("tolerance of the direction", x, "from 0 to 1 radian");
+        }
+        Tolerances {
+            position: position.unwrap_or(other.position),
+            angle: angle.unwrap_or(other.angle),
+        }
+    };
+    out.usual = read(at, &entry.position, &entry.angle, out.usual);
+    if let Some(force) = at.not_negative("hand_force", &entry.hand_force, 1.0) {
+        out.hand_force = force;
+    }
+    let joints = at.key("joint");
+    for (at, e) in joints.first_entries(MAX_FORCES, &entry.joint, "joints with tolerances") {
+        let tolerances = read(&at, &e.position, &e.angle, out.usual);
+        let Some(joint) = at.key("joint").find_joint(m, &e.joint) else {
+            continue;
+        };
+        if out.joints.iter().any(|(j, _)| *j == joint) {
+            at.key("joint")
+                .add_problem(used_twice("[tolerances]", &e.joint));
+        }
+        out.joints.push((joint, tolerances));
+    }
+    Some(out)
 }

@@ -1,0 +1,90 @@
+//! Number of variants that keep the motion in poses near the drawn one, including variants that are singular in the drawn pose.
+//!
+//! A variant may have redundant constraints only in the drawn pose, which is singular for it. It is not among the determinate ones there,
+//! but it works in every other pose. Its columns along the motion are series modulo t^m. Let T(m) be the span of their multiples by
+//! 1, t, ..., t^(m-1). The rank next to the drawn pose is then dim T(m) - dim T(m-1) for a large m. The same difference of the parts
+//! that close all contours is the dimension of the kept motion. Two lanes count both, one for each span.
+
+use crate::linalg::echelon::Echelon;
+use crate::linalg::modp::{Field, Residue};
+use crate::search::build::self_stress::space_along_motion;
+use crate::search::diagram::Diagram;
+use crate::search::question::Question;
+use crate::search::question::throughout::POWERS;
+use crate::search::reduce::self_stress_space::SelfStressSpace;
+use num_bigint::BigUint;
+use num_traits::{One, Zero};
+use std::collections::BTreeMap;
+
+/// Largest number of nodes of a layer.
+const NODES: usize = 1_000;
+
+/// The reduced rows of a span, in the coordinates that later variables reach.
+type Rows = Vec<Vec<Residue>>;
+
+/// A span that grows by the vectors of choices.
+struct Lane<'a> {
+    field: Field,
+    space: &'a SelfStressSpace,
+}
+
+impl Lane<'_> {
+    /// Returns the rows after a choice of a variable, and how many of the coordinates that no later variable reaches are missed.
+    fn take_choice(&self, at: usize, choice: usize, rows: &Rows) -> (Rows, i64) {
+        let ends = |before: usize| self.space.contours.partition_point(|c| c.to < before);
+        let (done, gap) = (ends(at), ends(at + 1) - ends(at));
+        let added = self.space.added[at][choice].iter().map(|v| &v[done..]);
+        let all = rows.iter().map(Vec::as_slice).chain(added);
+        let span = Echelon::from_vectors(self.field, all);
+        let mut pivots = span.pivots();
+        pivots.sort_unstable();
+        let met = pivots.partition_point(|p| *p < gap);
+        let left = span.reduced_rows().split_off(met);
+        let missed = i64::try_from(gap - met).unwrap_or(i64::MAX);
+        (
+            left.into_iter().map(|mut r| r.split_off(gap)).collect(),
+            missed,
+        )
+    }
+}
+
+/// Returns the number of variants that are determinate and keep the motion in poses next to the drawn one, by the first powers of the
+/// motion. `lasting` is the diagram of those that are so in the drawn pose, too. Returns `None` if no motion is followed, W or changes are
+/// limited, or the nodes are too many.
+///
+/// # Complexity
+/// O(m³) field operations for each node and choice, for m rows of the closure equations and kept links at all powers.
+#[must_use]
+pub fn count_everywhere(question: &Question, lasting: &Diagram) -> Option<BigUint> {
+    let along = question.throughout.as_ref().ok()?;
+    let conditions = &question.conditions;
+    if conditions.max_mobility.is_some() || conditions.max_changes.is_some() {
+        return None;
+    }
+    let order: Vec<usize> = lasting.layers.iter().map(|l| l.variable).collect();
+    let spaces =
+        [POWERS, POWERS - 1].map(|powers| space_along_motion(question, along, &order, powers));
+    let lanes = spaces.each_ref().map(|space| Lane {
+        field: question.exact.field(),
+        space,
+    });
+    let start = i64::from(spaces[0].lasting) - i64::from(spaces[1].lasting);
+    let mut layer = BTreeMap::from([((start, [Rows::new(), Rows::new()]), BigUint::one())]);
+    for (at, &variable) in order.iter().enumerate() {
+        let mut next: BTreeMap<(i64, [Rows; 2]), BigUint> = BTreeMap::new();
+        for ((missed, rows), count) in layer {
+            for choice in 0..question.space.variables[variable].choices.len() {
+                let [(a, more), (b, less)] =
+                    [0, 1].map(|i| lanes[i].take_choice(at, choice, &rows[i]));
+                *next.entry((missed + more - less, [a, b])).or_default() += &count;
+            }
+        }
+        if next.len() > NODES {
+            return None;
+        }
+        layer = next;
+    }
+    let works = |(missed, [a, b]): &(i64, [Rows; 2])| missed.is_zero() && a.len() == b.len();
+    let working = layer.iter().filter(|(node, _)| works(node));
+    Some(working.map(|(_, count)| count).sum())
+}
