@@ -249,6 +249,7 @@ fn other_types(imported: &Imported, a: &Fix) -> anyhow::Result<(StateAnalysis, T
     }
     check_names(&m, &a.at)?;
     for joint in m
+        .edit()
         .joints
         .iter_mut()
         .filter(|j| !a.at.is_empty() && !a.at.contains(&j.id))

@@ -172,7 +172,7 @@ impl Question {
         };
         let found = find_symmetries(&exact, &mechanism, searched, orders).next();
         if let Some(search) = found {
-            Arc::make_mut(&mut mechanism).search = search;
+            Arc::make_mut(&mut mechanism).parts_mut().search = search;
         }
         if conditions.symmetry != Symmetry::All {
             symmetry::check_images(&exact, &mechanism, searched)?;
@@ -235,11 +235,9 @@ impl Question {
         let state = self.conditions.state.map(|s| s.state);
         let found = find_symmetries(&self.exact, &self.mechanism, state, &[3, 2]);
         let with = |search| {
-            let mechanism = Mechanism::clone(&self.mechanism);
-            Arc::new(Mechanism {
-                search,
-                ..mechanism
-            })
+            let mut mechanism = Mechanism::clone(&self.mechanism);
+            mechanism.parts_mut().search = search;
+            Arc::new(mechanism)
         };
         found.map(with).collect()
     }

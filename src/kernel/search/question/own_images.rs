@@ -85,7 +85,7 @@ impl OwnSymmetry {
         }
         let proven = |one: &OwnSymmetry| {
             let mut symmetric = mechanism.clone();
-            symmetric.search = one.apply_to(&mechanism.search);
+            symmetric.parts_mut().search = one.apply_to(&mechanism.search);
             check_images(exact, &symmetric, state).is_ok()
         };
         let compared = ComparedJoints::new(mechanism);
