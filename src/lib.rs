@@ -52,6 +52,7 @@
 pub use api::{
     Error, Scheme, analyze, built_in, draw, export, from_json, from_toml, import, open, search,
 };
+pub use file::builder::Builder;
 pub use model::mechanism::Mechanism;
 pub use redundancy::analysis::StateAnalysis as Analysis;
 pub use score::outcome::Outcome;
