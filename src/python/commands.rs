@@ -42,21 +42,30 @@ pub(crate) fn grip(
         let mut file = grip_from_bytes(&name(m), file_text(m)?.as_bytes()).map_err(failed)?;
         let further = accelerations.into_iter().map(Toward::Fixed);
         let further: Vec<Toward> = further.chain(any_acceleration.map(Toward::Any)).collect();
-        let size = |t: &Toward| match t {
-            Toward::Fixed(v) => v.iter().fold(0.0, |most: f64, x| most.max(x.abs())),
-            Toward::Any(x) if *x < 0.0 => f64::NAN,
-            Toward::Any(x) => *x,
+        let fits = |t: &Toward| match t {
+            Toward::Fixed(v) => v.iter().all(|x| x.abs() <= 1e6),
+            Toward::Any(x) => (0.0..=1e6).contains(x),
         };
-        if let Some(bad) = further.iter().find(|t| !(size(t) <= 1e6)) {
-            return Err(failed(format!("{bad:?}: no acceleration is beyond 1e6 m/s²")));
+        if !further.iter().all(fits) {
+            return Err(failed(
+                "accelerations must be at most 1e6 m/s², and any_acceleration from 0 to 1e6",
+            ));
         }
         match &mut file.spec.load {
             Some(load) => load.accelerations.extend(further),
             None if further.is_empty() => {}
-            None => return Err(failed("accelerations need a load: give [workload.grip] a mass and friction")),
+            None => {
+                return Err(failed(
+                    "accelerations need a load: give [workload.grip] a mass and friction",
+                ));
+            }
         }
         let found = analyse_grip(&file.spec, file.mechanism.as_ref()).map_err(failed)?;
-        let shown = GripReport { file: &file, found: &found, motion: None };
+        let shown = GripReport {
+            file: &file,
+            found: &found,
+            motion: None,
+        };
         Ok((json(&shown.json())?, shown.text(None), None, None))
     })
 }
@@ -69,7 +78,12 @@ pub(crate) fn drive(py: Python<'_>, mechanism: &Bound<'_, Mechanism>) -> PyResul
         let file = drive_from_bytes(&name(m), file_text(m)?.as_bytes()).map_err(failed)?;
         let found = design_drive(&file.spec).map_err(failed)?;
         let shown = Drive::new(&file, &found);
-        Ok((json(&shown.json())?, text::drive_text(&shown, None), None, None))
+        Ok((
+            json(&shown.json())?,
+            text::drive_text(&shown, None),
+            None,
+            None,
+        ))
     })
 }
 

@@ -12,7 +12,13 @@ pub fn main() -> Result<(), Error> {
         .link("frame", Role::Frame)
         .link("upper", Role::Output)
         .link("lower", Role::Output)
-        .joint("slide", ["frame", "driver"], Prismatic, [0, 0, 0], [1, 0, 0])
+        .joint(
+            "slide",
+            ["frame", "driver"],
+            Prismatic,
+            [0, 0, 0],
+            [1, 0, 0],
+        )
         .driven();
     for (jaw, side) in [("upper", 1), ("lower", -1)] {
         let rod = format!("{jaw} rod");

@@ -28,7 +28,10 @@ pub fn main() -> Result<(), Box<dyn Error>> {
     for row in &rows {
         let id = row.structure.id();
         match &row.laid {
-            Ok(laid) => println!("{id}: W = {}, σ = {} as built", laid.as_built.0, laid.as_built.1),
+            Ok(laid) => println!(
+                "{id}: W = {}, σ = {} as built",
+                laid.as_built.0, laid.as_built.1
+            ),
             Err(why) => println!("{id}: {why}"),
         }
     }

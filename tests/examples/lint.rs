@@ -13,7 +13,10 @@ pub fn main() -> Result<(), Box<dyn Error>> {
     let m = &robot.mechanism;
     let closes = |j| robot.origin.closes(j);
     let found = held_twice(m, &closes, &|_| true, None)?;
-    println!("{}: {} redundant constraints", m.name, found.analysis.redundant);
+    println!(
+        "{}: {} redundant constraints",
+        m.name, found.analysis.redundant
+    );
     for &i in &found.cheapest {
         println!("  {}", describe_release(m, &found.releases[i].1));
     }

@@ -135,11 +135,7 @@ fn lint_file(file: &Named, options: &robots::Options) -> anyhow::Result<Found> {
 }
 
 /// Records a skipped file, and reports at once if something is wrong with it.
-fn passed_over(
-    file: &str,
-    e: &anyhow::Error,
-    tell: &mut dyn FnMut(&anyhow::Error),
-) -> PassedOver {
+fn passed_over(file: &str, e: &anyhow::Error, tell: &mut dyn FnMut(&anyhow::Error)) -> PassedOver {
     let rigid = output::file_problems(e).is_some_and(ImportError::is_rigid);
     if !rigid {
         tell(e);

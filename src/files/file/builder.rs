@@ -1,7 +1,9 @@
 //! A mechanism built in code.
 
 use crate::file::problem::ImportError;
-use crate::file::schema::{Coordinate, DriveWord, JointEntry, LinkEntry, MechanismFile, OptionEntry};
+use crate::file::schema::{
+    Coordinate, DriveWord, JointEntry, LinkEntry, MechanismFile, OptionEntry,
+};
 use crate::file::text::mechanism_from_str;
 use crate::file::write::role_word;
 use crate::model::joint_type::JointType;
