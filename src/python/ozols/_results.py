@@ -71,6 +71,8 @@ class GripRow(View):
     """The grip of a part of one diameter, in the units of the file."""
 
     diameter: float
+    pivot_distance: float
+    mass: float
     holds: bool
 
 

@@ -98,7 +98,7 @@ def _views_of(cls: type[View]) -> dict[str, type[View]]:
 class Answer(View):
     """A result: its keys, and the text that the command prints.
 
-    ``print(answer)`` shows the text; a notebook shows :attr:`records` as a table.
+    ``print(answer)`` shows the text; a notebook shows the declared keys of :attr:`records` as a table.
     """
 
     __slots__ = ("csv", "svg", "text")
@@ -130,4 +130,8 @@ class Answer(View):
 
     def _repr_html_(self) -> str:
         records = self.records
-        return table(records) if records else f"<pre>{html.escape(self.text)}</pre>"
+        if not records:
+            return f"<pre>{html.escape(self.text)}</pre>"
+        kind = self._kinds.get(self._rows or "")
+        declared = get_type_hints(kind) if kind else {}
+        return table([{k: v for k, v in row.items() if not declared or k in declared} for row in records])
