@@ -6,7 +6,7 @@ use ozols::model::joint_type::JointType::{Cylindrical, Prismatic, Revolute, Sphe
 use ozols::model::mechanism::Role;
 use ozols::{Builder, Error, Request, Scheme};
 
-pub fn main() -> Result<(), Error> {
+pub(crate) fn main() -> Result<(), Error> {
     let z = [0, 0, 1];
     let mut plan = Builder::new("idea", "mm")
         .link("frame", Role::Frame)

@@ -8,7 +8,7 @@ use ozols::shard::Shard;
 use std::error::Error;
 use std::ops::ControlFlow;
 
-pub fn main() -> Result<(), Box<dyn Error>> {
+pub(crate) fn main() -> Result<(), Box<dyn Error>> {
     let spec = Spec {
         links: "4..6".to_owned(),
         ..Spec::default()

@@ -7,7 +7,7 @@ use ozols::robots::Options;
 use ozols::view::lint::describe_release;
 use std::error::Error;
 
-pub fn main() -> Result<(), Box<dyn Error>> {
+pub(crate) fn main() -> Result<(), Box<dyn Error>> {
     let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/data/robots");
     let robot = ozols::import(format!("{folder}/gripper.xml"), &Options::default())?;
     let m = &robot.mechanism;

@@ -6,7 +6,7 @@ use ozols::model::ranking::Term;
 use ozols::score::request::List;
 use ozols::{Error, Request};
 
-pub fn main() -> Result<(), Error> {
+pub(crate) fn main() -> Result<(), Error> {
     let loaded = ozols::built_in("gripper-10-loaded")?;
     let request = Request {
         rank: vec![(Term::PeakForce, 1.0), (Term::Cost, 0.1)],

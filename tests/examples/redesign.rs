@@ -5,7 +5,7 @@
 use ozols::score::request::List;
 use ozols::{Error, Request};
 
-pub fn main() -> Result<(), Error> {
+pub(crate) fn main() -> Result<(), Error> {
     let gripper = ozols::built_in("gripper-10")?; // or ozols::open("mine.toml")
     let free = &ozols::analyze(&gripper)?[0];
     println!("as built: W = {}, σ = {}", free.mobility, free.redundant);
