@@ -32,7 +32,8 @@ fn gripper() -> Mechanism {
 /// The gripper with these options only, at the first `joints` joints that have any.
 fn with_options(names: &[&str], joints: usize) -> Mechanism {
     let mut m = gripper();
-    let changeable = m.joints.iter_mut().filter(|j| j.options.len() > 1);
+    let mut parts = m.edit();
+    let changeable = parts.joints.iter_mut().filter(|j| j.options.len() > 1);
     for (i, j) in changeable.enumerate() {
         let mut place = 0;
         j.options.retain(|o| {
@@ -40,6 +41,7 @@ fn with_options(names: &[&str], joints: usize) -> Mechanism {
             place == 1 || i < joints && names.contains(&o.name.as_str())
         });
     }
+    drop(parts);
     m
 }
 
@@ -118,6 +120,7 @@ fn spaces(c: &mut Criterion) {
     }
     sets.truncate(12);
     for j in thirteen
+        .edit()
         .joints
         .iter_mut()
         .filter(|j| j.joint_type == JointType::Revolute)

@@ -97,6 +97,42 @@ pub fn run_with(words: impl IntoIterator<Item = OsString>) -> u8 {
     exit_code(result.and_then(told))
 }
 
+/// Returns the JSON and the text of `ozols lint` with these words.
+///
+/// # Errors
+/// Returns an error if a word or a file is refused.
+pub fn lint(words: &[OsString]) -> anyhow::Result<(String, String)> {
+    match parse_command("lint", words)? {
+        Command::Lint(a) => command::lint::lint_both(&a),
+        _ => unreachable!("the command is lint"),
+    }
+}
+
+/// Does what `ozols fix` does with these words, and returns its summary.
+///
+/// # Errors
+/// Returns an error if a word or the file is refused, or the joints that may change do not remove everything.
+pub fn fix(words: &[OsString]) -> anyhow::Result<String> {
+    match parse_command("fix", words)? {
+        Command::Fix(a) => command::fix::fix_file(&a),
+        _ => unreachable!("the command is fix"),
+    }
+}
+
+fn parse_command(name: &str, words: &[OsString]) -> anyhow::Result<Command> {
+    let start = ["ozols".into(), name.into()];
+    let args = Args::try_parse_from(start.iter().chain(words))?;
+    terminal::output::kept::forget_files();
+    terminal::output::hush_notes();
+    Ok(args.command)
+}
+
+/// Returns the message of an error, with the lines of the file that it is about.
+#[must_use]
+pub fn error_text(e: &anyhow::Error) -> String {
+    terminal::output::error_text(e)
+}
+
 /// Returns the arguments with the command that a file alone means: `studio` if there is a display and standard output is a terminal,
 /// otherwise `check`, with the file.
 fn with_command(mut words: Vec<OsString>) -> (Vec<OsString>, Option<String>) {

@@ -27,12 +27,30 @@
 //! # Ok::<(), ozols::Error>(())
 //! ```
 //!
-//! [Using ozols from Rust](guide::rust) has more. The items at the root are stable within a minor version. The modules are public
-//! for tests and benchmarks, and their items may change in any version.
+//! [Using ozols from Rust](guide::rust) has more.
 //!
-//! # Layers
+//! # Modules
 //!
-//! mechanism -> search -> outcome -> view: [`guide::architecture`] describes each module and the allowed imports.
+//! The root has what most programs need: read ([`open`], [`import`], [`built_in`], [`from_toml`], [`from_json`]) or build
+//! ([`Builder`]) a mechanism, then [`analyze`], [`search`](fn@search), [`draw`](fn@draw) and [`export`] it. For more control:
+//!
+//! | module | what it is for |
+//! |---|---|
+//! | [`model`] | a [`Mechanism`], its parts, and how to change them |
+//! | [`file`], [`robots`] | mechanism files; robot descriptions and CAD assemblies |
+//! | [`redundancy`], [`rank`], [`motion`] | analyses by other methods, single constraints, poses |
+//! | [`score`] | requests, progress of a search, outcomes and rankings |
+//! | [`statics`], [`grip`], [`mod@drive`] | joint reactions and the workloads of grippers |
+//! | [`chains`], [`synthesis`], [`catalog`] | new gripper structures, their layouts, and catalogues of them |
+//! | [`view`], [`mod@draw`], [`chart`], [`page`] | results as text, JSON, CSV, SVG and HTML |
+//! | [`accuracy`] | studies of accuracy and speed |
+//!
+//! [`guide::architecture`] describes each module and the allowed imports.
+//!
+//! # Versions
+//!
+//! The root and the documented modules follow semantic versioning: in 0.y.z a new y may change them, a new z does not. Items marked
+//! `#[doc(hidden)]` may change at any time.
 //!
 //! # Sources
 //!
@@ -52,6 +70,7 @@
 pub use api::{
     Error, Scheme, analyze, built_in, draw, export, from_json, from_toml, import, open, search,
 };
+pub use file::builder::Builder;
 pub use model::mechanism::Mechanism;
 pub use redundancy::analysis::StateAnalysis as Analysis;
 pub use score::outcome::Outcome;

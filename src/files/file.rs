@@ -1,6 +1,7 @@
 //! Mechanism files: one schema for TOML and JSON. Files are read into a validated mechanism, with the place of every problem. They can be
 //! written back, checked, changed with their comments kept, and made into templates.
 
+pub mod builder;
 pub mod costs;
 mod digits;
 #[doc(hidden)]

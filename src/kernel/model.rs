@@ -14,6 +14,8 @@ pub mod loads;
 pub mod mechanism;
 pub mod ranking;
 pub mod rounded;
+mod search_spec;
+pub mod valid;
 
 use serde::Serialize;
 use std::ops::{Index, IndexMut};

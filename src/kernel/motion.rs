@@ -46,7 +46,7 @@ pub fn move_mechanism(m: &Mechanism, pose: &Pose) -> Option<Mechanism> {
         let carrier = joint.links[usize::from(!slot)];
         let at = sub(to_vector(&joint.frame.point), pose.middle);
         let at = pose.links[carrier.index()].map_point(scale(at, 1.0 / pose.length));
-        let frame = &mut out.joints[j].frame;
+        let frame = &mut out.parts_mut().joints[j].frame;
         frame.point = written(add(scale(at, pose.length), pose.middle))?;
         let of = |wanted: &[Freedom]| column_direction(pose, j, wanted);
         let carried =

@@ -5,6 +5,7 @@ mod analysis;
 mod answer;
 mod catalog;
 mod chart;
+mod commands;
 mod mechanism;
 mod search;
 mod statics;
@@ -24,6 +25,8 @@ mod _native {
     use crate::catalog::{catalog_build, catalog_merge, catalog_plan};
     #[pymodule_export]
     use crate::chart::chart;
+    #[pymodule_export]
+    use crate::commands::{drive, fix, grip, lint};
     #[pymodule_export]
     use crate::mechanism::{Mechanism, builtin_names};
     #[pymodule_export]

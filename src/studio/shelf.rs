@@ -36,7 +36,7 @@ pub(super) fn shelf_list() -> Value {
     let built_in = builtin::families().into_iter().map(|(family, names)| {
         let all = names.into_iter().map(|name| {
             let m = crate::built_in(name).ok();
-            json!({ "name": name, "what": m.map(|m| m.description) })
+            json!({ "name": name, "what": m.map(|m| m.description.clone()) })
         });
         json!({ "family": family, "all": all.collect::<Vec<_>>() })
     });

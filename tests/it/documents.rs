@@ -12,6 +12,8 @@ use crate::robots::assemblies::make;
 use assert_cmd::Command;
 use snapbox::Assert;
 use snapbox::assert::Action;
+use std::io::{BufRead, BufReader};
+use std::process::Stdio;
 
 /// A command and the output written beneath it.
 struct Example {
@@ -111,6 +113,52 @@ fn the_readme_says_what_the_program_says() {
     check(&["README.md".to_owned()]);
 }
 
+/// The lines of the blocks without a word at their fence.
+fn plain_commands(text: &str) -> Vec<&str> {
+    let blocks = text.split("```").skip(1).step_by(2);
+    let plain = blocks.filter(|block| block.starts_with('\n'));
+    plain.flat_map(|block| block.trim().lines()).collect()
+}
+
+/// Every command of the README but those that install it, in their order, in a folder with nothing but a robot.
+#[test]
+fn the_commands_of_the_readme_run() {
+    let readme = Path::new(env!("CARGO_MANIFEST_DIR")).join("README.md");
+    let text = fs::read_to_string(readme).unwrap();
+    let folder = tempdir().unwrap();
+    let robot = crate::common::run(&["export", "four-bar", "--to", "urdf"]).stdout;
+    fs::write(folder.path().join("robot.urdf"), robot).unwrap();
+    let mut ran = Vec::new();
+    for line in plain_commands(&text) {
+        let command = line.split('#').next().unwrap().trim();
+        let words = command.strip_prefix("cargo run --release -- ");
+        let words = words.or(command.strip_prefix("ozols ")).expect(line);
+        let mut program = std::process::Command::new(env!("CARGO_BIN_EXE_ozols"));
+        program.args(split_words(words)).current_dir(folder.path());
+        if words.starts_with("studio") {
+            let studio = program.arg("--no-open").stdout(Stdio::piped()).spawn();
+            let mut studio = studio.unwrap();
+            let mut address = String::new();
+            let mut said = BufReader::new(studio.stdout.take().unwrap());
+            said.read_line(&mut address).unwrap();
+            assert!(address.starts_with("http://127.0.0.1:"), "{address}");
+            studio.kill().unwrap();
+            studio.wait().unwrap();
+        } else {
+            let done = program.output().unwrap();
+            // 1 says that lint found something.
+            let code = done.status.code();
+            let found = i32::from(words.starts_with("lint"));
+            assert_eq!(code, Some(found), "{line}: {}", utf8_text(&done.stderr));
+        }
+        ran.push(words);
+    }
+    assert_eq!(ran.len(), 11, "{ran:?}");
+    for file in ["gripper.toml", "report.html", "fixed.urdf", "known.html"] {
+        assert!(folder.path().join(file).is_file(), "{file}");
+    }
+}
+
 #[test]
 fn the_guide_says_what_the_program_says() {
     let guide = Path::new(env!("CARGO_MANIFEST_DIR")).join("src/guide");
@@ -139,8 +187,17 @@ fn the_pictures_are_what_the_program_draws() {
             ],
         ),
         (
-            "gripper-10-idea-1.svg",
-            &["draw", "gripper-10", "--kind", "kinematic", "--idea", "1"],
+            "gripper-10-moving.svg",
+            &[
+                "draw",
+                "gripper-10",
+                "--kind",
+                "kinematic",
+                "--idea",
+                "1",
+                "--motion",
+                "--stroke=-1:1:20",
+            ],
         ),
     ];
     for (name, command) in pictures {
@@ -153,9 +210,7 @@ fn the_pictures_are_what_the_program_draws() {
         let committed = fs::read(Path::new(env!("CARGO_MANIFEST_DIR")).join(&path)).unwrap();
         assert!(
             output.stdout == committed,
-            "{name} is out of date: cargo run -- {} -o {}",
-            command.join(" "),
-            path.display()
+            "{name} is out of date: .ci/pictures makes it"
         );
     }
 }

@@ -16,6 +16,7 @@ mod documents;
 mod drawings;
 mod drive;
 mod drive_faults;
+mod examples;
 mod first_hour;
 mod fuzz;
 mod grip;

@@ -86,7 +86,7 @@ fn the_fast_scores_are_those_of_the_variant_built_and_solved() {
 #[test]
 fn over_a_stroke_the_scores_are_the_worst_of_its_poses() {
     let mut m = loaded();
-    m.loads.stroke = Some(ozols::model::loads::Stroke {
+    m.edit().loads.stroke = Some(ozols::model::loads::Stroke {
         from: -0.3,
         to: 0.3,
         steps: 2,

@@ -32,12 +32,12 @@ fn vector(v: [f64; 3]) -> [Expr; 3] {
 fn with_masses(m: &mut Mechanism, seed: &[f64]) {
     let mut next = seed.iter().copied().cycle();
     let mut draw = || next.next().unwrap();
-    m.loads.gravity = Some(vector([draw() * 9.0, -9.81 * draw(), 5.0 * draw() - 2.0]));
+    m.edit().loads.gravity = Some(vector([draw() * 9.0, -9.81 * draw(), 5.0 * draw() - 2.0]));
     for l in m.link_ids() {
         let at = m.joints.iter().find(|j| j.links.contains(&l)).unwrap();
         let near = to_vector(&at.frame.point).map(|x| x + draw() - 0.5);
         if !matches!(m.links[l].role, Role::Frame | Role::Object) {
-            m.links[l].mass = Some(MassProperties {
+            m.edit().links[l].mass = Some(MassProperties {
                 mass: 0.1 + 3.0 * draw(),
                 centre: vector(near),
                 inertia: None,
@@ -48,7 +48,7 @@ fn with_masses(m: &mut Mechanism, seed: &[f64]) {
         .link_ids()
         .find(|&l| m.links[l].role == Role::Output)
         .unwrap();
-    m.loads.forces.push(ExternalForce {
+    m.edit().loads.forces.push(ExternalForce {
         states: None,
         link: output,
         point: vector([draw(), draw(), draw()]),
@@ -228,8 +228,8 @@ proptest! {
         with_masses(&mut m, &seed);
         let both = solve(&m);
         let (mut weight, mut force) = (m.clone(), m.clone());
-        weight.loads.forces.clear();
-        force.loads.gravity = None;
+        weight.edit().loads.forces.clear();
+        force.edit().loads.gravity = None;
         let (a, b) = (solve(&weight), solve(&force));
         let greatest = greatest_force(&both.reactions);
         for ((x, y), z) in a.reactions.iter().zip(&b.reactions).zip(&both.reactions) {
@@ -259,21 +259,21 @@ proptest! {
             });
             u.map(|x| format!("{x:.15}").parse().unwrap())
         };
-        for j in &mut m.joints {
+        for j in &mut m.edit().joints {
             j.frame.point = by(&j.frame.point, [3, -7, 2]);
             j.frame.axis = by(&j.frame.axis, [0; 3]);
             j.frame.reference = by(&j.frame.reference, [0; 3]);
         }
-        for l in &mut m.links {
+        for l in &mut m.edit().links {
             if let Some(mass) = &mut l.mass {
                 mass.centre = by(&mass.centre, [3, -7, 2]);
             }
         }
-        for f in &mut m.loads.forces {
+        for f in &mut m.edit().loads.forces {
             f.point = by(&f.point, [3, -7, 2]);
             f.force = by(&f.force, [0; 3]);
         }
-        m.loads.gravity = m.loads.gravity.as_ref().map(|g| by(g, [0; 3]));
+        m.edit().loads.gravity = m.loads.gravity.as_ref().map(|g| by(g, [0; 3]));
         let after = solve(&m);
         let greatest = greatest_force(&before.reactions);
         for (x, y) in before.reactions.iter().zip(&after.reactions) {
@@ -301,7 +301,7 @@ fn loads_on_a_motion_that_nothing_holds_are_told_with_the_link() {
     // Without loads on the rods all is well, and the spin is told.
     for l in ["5", "9"] {
         let l = m.link_named(l).unwrap();
-        m.links[l].mass = None;
+        m.edit().links[l].mass = None;
     }
     let s = solve(&m);
     assert_eq!(s.undriven, 2);

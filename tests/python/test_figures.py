@@ -1,6 +1,8 @@
 """What Python gets is what the command prints."""
 
 import json
+from pathlib import Path
+from typing import get_args, get_origin, get_type_hints
 
 import pytest
 from conftest import ozols as command
@@ -9,6 +11,7 @@ from conftest import printed
 import ozols
 
 Mechanism = ozols.Mechanism
+ROBOTS = Path(__file__).parents[1] / "data/robots"
 
 DOZEN = [
     "gripper-10",
@@ -148,6 +151,72 @@ def test_statics_are_the_commands(name, asked, flags):
     assert told.csv == done.stdout
     assert len(told.to_pandas()) == len(told.records) > 0
     assert command("statics", name, *flags).stdout.startswith(str(told))
+
+
+def test_workloads_are_the_commands():
+    hand = Mechanism.builtin("lever-gripper")
+    module = Mechanism.builtin("torsion-module")
+    flags = ["--acceleration", "5,0,-2", "--any-acceleration", 3]
+    for told, line in (
+        (hand.grip(), ("grip", "lever-gripper")),
+        (hand.grip(accelerations=[(5, 0, -2)], any_acceleration=3), ("grip", "lever-gripper", *flags)),
+        (module.drive(), ("drive", "torsion-module")),
+    ):
+        assert told.to_dict() == printed(*line)
+        assert command(*line).stdout.startswith(str(told))
+    with pytest.raises(ozols.Error, match="1e6"):
+        hand.grip(any_acceleration=2e6)
+
+
+def test_files_are_linted_and_fixed_as_by_the_command(in_tmp):
+    Path("loop.urdf").write_text(Mechanism.builtin("four-bar").export("urdf"))
+    told = ozols.lint("loop.urdf", ROBOTS / "leg.urdf")
+    assert told.to_dict() == printed("lint", "loop.urdf", ROBOTS / "leg.urdf")
+    assert command("lint", "loop.urdf", ROBOTS / "leg.urdf").stdout == str(told)
+    assert told.files[0].redundant == 3 and list(told.to_pandas()["redundant"]) == [3, 0]
+    assert "3 releases" in ozols.fix("loop.urdf", "fixed.urdf")
+    assert command("fix", "loop.urdf", "-o", "by_command.urdf").returncode == 0
+    assert Path("fixed.urdf").read_bytes() == Path("by_command.urdf").read_bytes()
+    assert ozols.lint("fixed.urdf").files[0].redundant == 0
+    with pytest.raises(ozols.Error, match="at nowhere: no such joint"):
+        ozols.fix("loop.urdf", "other.urdf", at=["nowhere"])
+    with pytest.raises(ozols.Error, match="nowhere.urdf"):
+        ozols.lint("nowhere.urdf")
+    assert not Path("other.urdf").exists()
+
+
+def test_declared_keys_are_there_with_their_types():
+    """The annotations of each class of results, against what the library returns."""
+    gripper = Mechanism.builtin("gripper-10")
+    loaded = Mechanism.builtin("parallel-shears").statics()
+    seen = []
+
+    def check(view):
+        seen.append(type(view))
+        for key, hint in get_type_hints(type(view)).items():
+            if key.startswith("_"):
+                continue
+            value = view[key]
+            wanted = (get_origin(hint) or hint, *get_args(hint))
+            assert isinstance(value, (int, float) if wanted[0] is float else wanted[0]), (type(view), key, value)
+            parts = value if wanted[0] is list else [value]
+            for part in parts:
+                assert isinstance(part, wanted[-1]) or wanted[-1] is float
+                if isinstance(part, ozols.View):
+                    check(part)
+
+    for view in (
+        gripper.analyze(),
+        gripper.search(top=2)[0],
+        Mechanism.builtin("four-bar").stroke("0:90deg:3"),
+        loaded,
+        Mechanism.builtin("lever-gripper").grip(),
+        Mechanism.builtin("torsion-module").drive(),
+        ozols.lint(ROBOTS / "five_bar.urdf"),
+    ):
+        check(view)
+    named = {c for c in vars(ozols).values() if isinstance(c, type) and issubclass(c, ozols.View)}
+    assert named - set(seen) == {ozols.View, ozols.Answer}
 
 
 @pytest.mark.parametrize(("name", "range"), [("four-bar", "0:90deg:6"), ("slider-crank-spatial", "0:1:4")])

@@ -32,6 +32,13 @@ pub(crate) struct Fix {
 }
 
 pub(crate) fn run_fix(a: &Fix) -> anyhow::Result<Done> {
+    let lines = fix_file(a)?;
+    output::print_note(&fit_lines(&lines, output::error_width()));
+    Ok(Done::Found)
+}
+
+/// Writes the file without its redundant constraints, and returns a summary of the changes.
+pub(crate) fn fix_file(a: &Fix) -> anyhow::Result<String> {
     let options = a.reading.import_options()?;
     let imported = import_description(&a.file, &options)?;
     let m = &imported.mechanism;
@@ -68,10 +75,8 @@ pub(crate) fn run_fix(a: &Fix) -> anyhow::Result<Done> {
     } else {
         "release"
     };
-    let lines = describe_changes(&a.file, &told, what, [&before, &after])
-        + &describe_limits(&imported, &after, lasting);
-    output::print_note(&fit_lines(&lines, output::error_width()));
-    Ok(Done::Found)
+    Ok(describe_changes(&a.file, &told, what, [&before, &after])
+        + &describe_limits(&imported, &after, lasting))
 }
 
 /// Refuses an edited file that is not what was planned; `lasting` of what is redundant in it stays so over its motion.
@@ -249,6 +254,7 @@ fn other_types(imported: &Imported, a: &Fix) -> anyhow::Result<(StateAnalysis, T
     }
     check_names(&m, &a.at)?;
     for joint in m
+        .edit()
         .joints
         .iter_mut()
         .filter(|j| !a.at.is_empty() && !a.at.contains(&j.id))

@@ -28,30 +28,54 @@ pub(crate) struct Lint {
 }
 
 pub(crate) fn run_lint(a: &Lint) -> anyhow::Result<Done> {
-    let options = a.reading.import_options()?;
-    // A file that cannot be looked at takes nothing from the others.
     let mut failed = false;
-    let all: Vec<Result<Found, PassedOver>> = (a.files.iter())
-        .map(|file| lint_file(file, &options).map_err(|e| passed_over(file, &e, &mut failed)))
-        .collect();
-    let found: Vec<&Found> = all.iter().flatten().collect();
-    let others: Vec<PassedOver> = all
-        .iter()
-        .filter_map(|f| f.as_ref().err().cloned())
-        .collect();
-    let text = match a.format {
-        TextOrJson::Text => lint_text(a, &all, &found),
-        TextOrJson::Json => output::json_text(&lint::lint_json(&found, &others))?,
-    };
-    a.to.write_all_of(text)?;
-    Ok(match found.iter().all(|l| l.is_in_order()) {
+    let all = lint_all(a, &mut |e| {
+        failed = true;
+        output::print_error(e);
+    })?;
+    a.to.write_all_of(match a.format {
+        TextOrJson::Text => lint_text(a, &all),
+        TextOrJson::Json => output::json_text(&lint_json(&all))?,
+    })?;
+    Ok(match all.iter().flatten().all(Found::is_in_order) {
         _ if failed => Done::Partly,
         in_order => Done::found_or_nothing(in_order),
     })
 }
 
+/// Returns the JSON and the text of a lint.
+///
+/// # Errors
+/// Returns the first error of a file.
+pub(crate) fn lint_both(a: &Lint) -> anyhow::Result<(String, String)> {
+    let mut first = None;
+    let all = lint_all(a, &mut |e| {
+        first.get_or_insert_with(|| output::error_text(e));
+    })?;
+    match first {
+        Some(text) => bail!(text),
+        None => Ok((lint_json(&all).to_string(), lint_text(a, &all))),
+    }
+}
+
+/// Examines each file. `tell` is called with what is wrong with a file; the others are examined nevertheless.
+fn lint_all(
+    a: &Lint,
+    tell: &mut dyn FnMut(&anyhow::Error),
+) -> anyhow::Result<Vec<Result<Found, PassedOver>>> {
+    let options = a.reading.import_options()?;
+    let one = |file: &Named| lint_file(file, &options).map_err(|e| passed_over(file, &e, tell));
+    Ok(a.files.iter().map(one).collect())
+}
+
+fn lint_json(all: &[Result<Found, PassedOver>]) -> serde_json::Value {
+    let found: Vec<&Found> = all.iter().flatten().collect();
+    let others = all.iter().filter_map(|f| f.as_ref().err().cloned());
+    lint::lint_json(&found, &others.collect::<Vec<_>>())
+}
+
 /// Returns a paragraph on each file, and how to fix those that can be fixed.
-fn lint_text(a: &Lint, all: &[Result<Found, PassedOver>], found: &[&Found]) -> String {
+fn lint_text(a: &Lint, all: &[Result<Found, PassedOver>]) -> String {
     let width = a.to.width();
     let paragraph = |file: &Result<Found, PassedOver>| {
         let (text, verdict) = match file {
@@ -70,8 +94,9 @@ fn lint_text(a: &Lint, all: &[Result<Found, PassedOver>], found: &[&Found]) -> S
             verdict.map(|tone| (words, tone)),
         )
     };
-    let fixed = found
+    let fixed = all
         .iter()
+        .flatten()
         .filter(|l| l.from_description && l.is_decided() && !l.cheapest.is_empty());
     let gives = "apply the cheapest fix; all else stays unchanged";
     let flags = a.reading.typed_flags();
@@ -110,11 +135,10 @@ fn lint_file(file: &Named, options: &robots::Options) -> anyhow::Result<Found> {
 }
 
 /// Records a skipped file, and reports at once if something is wrong with it.
-fn passed_over(file: &str, e: &anyhow::Error, failed: &mut bool) -> PassedOver {
+fn passed_over(file: &str, e: &anyhow::Error, tell: &mut dyn FnMut(&anyhow::Error)) -> PassedOver {
     let rigid = output::file_problems(e).is_some_and(ImportError::is_rigid);
     if !rigid {
-        *failed = true;
-        output::print_error(e);
+        tell(e);
     }
     PassedOver::new(file, &format!("{e:#}"), rigid)
 }

@@ -150,7 +150,7 @@ pub(crate) fn find_state(m: &Mechanism, name: &str) -> anyhow::Result<StateId> {
 /// # Errors
 /// Returns an error that names the joints that cannot move in the plane at all. A joint that keeps a freedom in it is accepted.
 pub(crate) fn put_in_plane(mechanism: &mut Mechanism) -> anyhow::Result<()> {
-    mechanism.mode = Mode::Planar {
+    mechanism.edit().mode = Mode::Planar {
         normal: [0, 0, 1].map(Expr::from),
     };
     let space = MotionSpace::new(&Reals, &mechanism.mode)?;
@@ -174,7 +174,7 @@ pub(crate) fn put_in_plane(mechanism: &mut Mechanism) -> anyhow::Result<()> {
                 .collect::<Vec<_>>()
         )
     );
-    let all = std::mem::take(&mut mechanism.couplings);
+    let all = std::mem::take(&mut mechanism.edit().couplings);
     let stays = |c: &Coupling| {
         c.ends
             .iter()
@@ -187,7 +187,7 @@ pub(crate) fn put_in_plane(mechanism: &mut Mechanism) -> anyhow::Result<()> {
             "note: --planar omits the couplings of freedoms out of the plane: {names}\n"
         ));
     }
-    mechanism.couplings = kept;
+    mechanism.edit().couplings = kept;
     Ok(())
 }
 

@@ -180,6 +180,11 @@ pub(crate) fn print_error(e: &anyhow::Error) {
     coloured_note(&text);
 }
 
+/// Returns the message of an error without colours.
+pub(crate) fn error_text(e: &anyhow::Error) -> String {
+    file_problems(e).map_or_else(|| format!("{e:#}"), |problems| problems.render(false))
+}
+
 /// Returns the problems of a file, if these are the cause of an error.
 pub(crate) fn file_problems(e: &anyhow::Error) -> Option<&ImportError> {
     e.chain()

@@ -63,7 +63,7 @@ pub fn built_in_cases(built_in: BuiltIn<'_>) -> Result<Vec<Case>, ImportError> {
 pub fn generated_cases(seed: u64) -> Vec<Case> {
     let mut cases = Vec::new();
     let mut add = |mut mechanism: Mechanism, name: String, truth: Truth| {
-        mechanism.name = name;
+        mechanism.edit().name = name;
         cases.push(Case {
             mechanism,
             state: StateId::FREE,

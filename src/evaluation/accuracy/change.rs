@@ -17,7 +17,7 @@ pub(crate) fn power_of_ten(e: i32) -> Expr {
 /// Returns a copy without the data that only a search needs.
 fn without_options(mechanism: &Mechanism) -> Mechanism {
     let mut m = mechanism.clone();
-    for joint in &mut m.joints {
+    for joint in &mut m.edit().joints {
         joint.options.clear();
         joint.unloading.clear();
     }
@@ -28,7 +28,7 @@ fn without_options(mechanism: &Mechanism) -> Mechanism {
 pub(crate) fn resize(mechanism: &Mechanism, e: i32) -> Mechanism {
     let mut m = without_options(mechanism);
     let factor = power_of_ten(e);
-    for joint in &mut m.joints {
+    for joint in &mut m.edit().joints {
         let lengths = joint.frame.point.iter_mut().chain([&mut joint.frame.pitch]);
         lengths.for_each(|x| *x = &*x * &factor);
     }
@@ -41,7 +41,7 @@ pub(crate) fn stretch(mechanism: &Mechanism, by: f64, noise: &mut Noise) -> Mech
     let mut m = mechanism.clone();
     let mut factor = || (1e6 * (1.0 + by * noise.draw_uniform())) as i64;
     let factors = [(); 3].map(|()| &Expr::from(factor()) * &power_of_ten(-6));
-    for joint in &mut m.joints {
+    for joint in &mut m.edit().joints {
         let offered = joint.options.iter_mut().chain(&mut joint.unloading);
         let offered = offered.map(|option| &mut option.frame);
         for frame in offered.chain([&mut joint.frame]) {
@@ -55,7 +55,7 @@ pub(crate) fn stretch(mechanism: &Mechanism, by: f64, noise: &mut Noise) -> Mech
 /// Returns a copy in which every decimal is exact, as a fraction is.
 pub(crate) fn with_exact_decimals(mechanism: &Mechanism) -> Mechanism {
     let mut m = without_options(mechanism);
-    for joint in &mut m.joints {
+    for joint in &mut m.edit().joints {
         let frame = &mut joint.frame;
         for x in frame.point.iter_mut().chain(&mut frame.axis) {
             *x = x.as_rational().map_or_else(|| x.clone(), Expr::rational);
@@ -102,7 +102,7 @@ pub fn turned_and_rounded(mechanism: &Mechanism, decimals: usize, noise: &mut No
         let text = format!("{x:.decimals$}");
         text.parse().unwrap_or_else(|_| Expr::from(0))
     };
-    for joint in &mut m.joints {
+    for joint in &mut m.edit().joints {
         let frame = &mut joint.frame;
         frame.point = turn.map_direction(to_vector(&frame.point)).map(round);
         // In a plane joints must stay square to it.

@@ -162,7 +162,7 @@ fn by_diagram(
 /// Returns the counts without a list, and without the file's ranking.
 fn count_unranked(mechanism: &Mechanism, request: &Request) -> Result<Outcome, RunError> {
     let mut unranked = mechanism.clone();
-    unranked.ranking = None;
+    unranked.edit().ranking = None;
     let request = Request {
         list: List::Nothing,
         rank: Vec::new(),

@@ -4,7 +4,7 @@
 use crate::file::problem::{ImportError, ProblemKind};
 use crate::file::{Findings, Place};
 use crate::model::joint_type::JointType;
-use crate::model::mechanism::{CostSpec, Joint, Mechanism};
+use crate::model::mechanism::{CostSpec, Joint, Parts};
 use itertools::Itertools;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -26,11 +26,7 @@ use std::collections::{BTreeMap, BTreeSet};
 /// assert!(costs_from_str("costs.toml", "bearing = 1", &four_bar).is_err());
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-pub fn costs_from_str(
-    name: &str,
-    text: &str,
-    mechanism: &Mechanism,
-) -> Result<CostSpec, ImportError> {
+pub fn costs_from_str(name: &str, text: &str, mechanism: &Parts) -> Result<CostSpec, ImportError> {
     let stated: BTreeMap<String, f64> = toml::from_str(text).map_err(|e| {
         let why = e.message().trim().replace('\n', ", ");
         let message = format!(
@@ -49,7 +45,7 @@ const OTHERS: [&str; 4] = ["change", "driven", "link", "harmful"];
 
 pub(crate) fn read_costs(
     stated: &BTreeMap<String, f64>,
-    mechanism: &Mechanism,
+    mechanism: &Parts,
     at: &Place<'_>,
 ) -> CostSpec {
     let mut spec = CostSpec::default();

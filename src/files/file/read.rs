@@ -26,7 +26,7 @@ use crate::format::join_or;
 use crate::geom::expr::Expr;
 use crate::model::claim::{Claim, Topic};
 use crate::model::loads::Loads;
-use crate::model::mechanism::{Expected, Mechanism, Mode, PointOfInterest, SearchSpec};
+use crate::model::mechanism::{Expected, Mechanism, Mode, Parts, PointOfInterest, SearchSpec};
 use itertools::Itertools;
 
 /// Returns the claims of a file; reports those of an unknown topic.
@@ -93,7 +93,7 @@ pub fn build_mechanism(file: &MechanismFile) -> Result<Mechanism, Vec<Finding>> 
     if out.problem_count() > 0 {
         return Err(out.into_findings());
     }
-    let mut mechanism = Mechanism {
+    let mut mechanism = Parts {
         name: file.name.clone(),
         description: file.description.clone(),
         sources: file.sources.clone(),
@@ -135,17 +135,20 @@ pub fn build_mechanism(file: &MechanismFile) -> Result<Mechanism, Vec<Finding>> 
     read_tolerance(file, &mut mechanism, &out);
     mechanism.expected = read_expected(file, &mechanism, &out);
     mechanism.claims = read_claims(file, &out);
-    if out.problem_count() == 0 {
-        out.tell_unused();
+    if out.problem_count() > 0 {
+        return Err(out.into_findings());
     }
-    out.finish(mechanism)
+    out.tell_unused();
+    match Mechanism::new(mechanism) {
+        Ok(mechanism) => out.finish(mechanism),
+        Err(e) => {
+            out.root_place().add_problem(e.to_string());
+            Err(out.into_findings())
+        }
+    }
 }
 
-fn read_points(
-    file: &MechanismFile,
-    mechanism: &Mechanism,
-    out: &Findings,
-) -> Vec<PointOfInterest> {
+fn read_points(file: &MechanismFile, mechanism: &Parts, out: &Findings) -> Vec<PointOfInterest> {
     let mut points = Vec::with_capacity(file.point.len());
     for (i, (at, entry)) in out.key("point").each_entry(&file.point).enumerate() {
         let twice = file.point[..i].iter().any(|p| p.id == entry.id);
@@ -171,7 +174,7 @@ fn read_mode(file: &MechanismFile, out: &Findings) -> Mode {
     Mode::Planar { normal }
 }
 
-fn read_expected(file: &MechanismFile, mechanism: &Mechanism, out: &Findings) -> Vec<Expected> {
+fn read_expected(file: &MechanismFile, mechanism: &Parts, out: &Findings) -> Vec<Expected> {
     let mut list = Vec::new();
     for (at, e) in out.key("expected").each_entry(&file.expected) {
         let state = e.state.clone().unwrap_or_else(|| "free".to_owned());
@@ -194,7 +197,7 @@ fn read_expected(file: &MechanismFile, mechanism: &Mechanism, out: &Findings) ->
 }
 
 /// Returns true if no state's closure matrix is too large: a row for each constraint of a contour, a column for each freedom.
-fn check_matrix_size(m: &Mechanism, out: &Findings) -> bool {
+fn check_matrix_size(m: &Parts, out: &Findings) -> bool {
     let mut fits = true;
     let dim = match m.mode {
         Mode::Spatial => 6,

@@ -75,7 +75,7 @@ pub fn clamped_reactions(
         return Ok(None);
     };
     let mut m = g.mechanism.clone();
-    m.loads = loads;
+    m.edit().loads = loads;
     let one_drive = m.joints.iter().filter(|j| j.drive).count() == 1;
     let planar = match (!spatial && one_drive).then(|| statics_at(&m, g.state, &[fit.drive])) {
         Some(Err(e)) if !is_for_space(&e) => return Err(e.into()),

@@ -174,7 +174,12 @@ pub fn grip_of(m: &Mechanism, state: StateId) -> Option<(&GripSpec, [JointId; 4]
 /// Returns the mechanism without the joints of a link. They are in no state, and ids stay unchanged.
 fn cut_free(m: &Mechanism, part: LinkId) -> Mechanism {
     let mut out = m.clone();
-    for joint in out.joints.iter_mut().filter(|j| j.links.contains(&part)) {
+    for joint in out
+        .edit()
+        .joints
+        .iter_mut()
+        .filter(|j| j.links.contains(&part))
+    {
         joint.states = Some(Vec::new());
     }
     out

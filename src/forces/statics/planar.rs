@@ -216,7 +216,7 @@ impl PlanarMechanism {
     /// Returns the mechanism with only the motions in this plane, in which rotary drives turn about its normal.
     #[must_use]
     pub(crate) fn as_driven(&self, m: &Mechanism) -> Mechanism {
-        let mut out = m.clone();
+        let mut out = m.clone().into_parts();
         // The normal of a moving mechanism has a numerical value.
         let normal = self.axes[2].map(|x| Expr::from_f64(x).unwrap_or_else(|_| Expr::from(0)));
         if matches!(m.mode, Mode::Spatial) {
@@ -237,7 +237,7 @@ impl PlanarMechanism {
                 *turned = turned.each_ref().map(|c| -c);
             }
         }
-        out
+        Mechanism::new(out).expect("turned axes keep a mechanism valid")
     }
 
     /// Converts a point of the file to (x, y) in metres.

@@ -1,7 +1,7 @@
 //! Independent contours: those named in the file, completed to a minimum cycle basis.
 
 use crate::closure::tree::{connected_sets, spanning_forest};
-use crate::model::mechanism::{JointId, LinkId, Mechanism, StateId};
+use crate::model::mechanism::{JointId, LinkId, Mechanism, Parts, StateId};
 use fixedbitset::FixedBitSet;
 use itertools::Itertools;
 use petgraph::algo::dijkstra;
@@ -62,7 +62,7 @@ impl Contour {
 /// # Ok::<(), ozols::Error>(())
 /// ```
 #[must_use]
-pub fn closed_walk(mechanism: &Mechanism, joints: &[JointId]) -> Option<Contour> {
+pub fn closed_walk(mechanism: &Parts, joints: &[JointId]) -> Option<Contour> {
     let mut left: Vec<JointId> = joints.to_vec();
     if left.is_empty() || !left.iter().all_unique() {
         return None;

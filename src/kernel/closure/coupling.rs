@@ -9,7 +9,7 @@ use crate::geom::Reals;
 use crate::geom::exact::ExactError;
 use crate::geom::expr::Expr;
 use crate::model::joint_type::{Coupling, Freedom};
-use crate::model::mechanism::{Frame, JointId, Mechanism, StateId};
+use crate::model::mechanism::{Frame, JointId, Mechanism, Parts, StateId};
 
 /// Relative difference of squared lengths below which two axes, written in decimals, have the same length.
 const UNIT: f64 = 1e-12;
@@ -62,7 +62,7 @@ pub fn length_ratio(of: (&Frame, Freedom), over: (&Frame, Freedom)) -> Expr {
 
 /// Returns the entry of a coupling's row at the speed of its first freedom, with the entry of the second scaled to 1.
 #[must_use]
-pub fn coupling_coefficient(mechanism: &Mechanism, coupling: &Coupling) -> Expr {
+pub fn coupling_coefficient(mechanism: &Parts, coupling: &Coupling) -> Expr {
     let [a, b] = coupling.ends;
     let frame = |j: JointId| &mechanism.joints[j].frame;
     let length = length_ratio((frame(a.joint), a.freedom), (frame(b.joint), b.freedom));
@@ -80,7 +80,7 @@ pub fn coupling_coefficients(mechanism: &Mechanism, state: StateId) -> Vec<Expr>
 
 /// Returns true if a freedom on its own stays in the space of the mechanism's mode.
 #[must_use]
-pub fn in_plane(mechanism: &Mechanism, joint: JointId, freedom: Freedom) -> bool {
+pub fn in_plane(mechanism: &Parts, joint: JointId, freedom: Freedom) -> bool {
     let stays = || {
         let space = MotionSpace::new(&Reals, &mechanism.mode)?;
         let frame = FrameValues::new(&Reals, &mechanism.joints[joint].frame)?;

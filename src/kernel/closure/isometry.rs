@@ -12,7 +12,7 @@ use crate::geom::expr::Expr;
 use crate::geom::vector::{Vector, add, cross, dot, length, sub, to_vector};
 use crate::linalg::modp::Residue;
 use crate::model::joint_type::JointType;
-use crate::model::mechanism::{Frame, Joint, JointId, Mechanism, Mode};
+use crate::model::mechanism::{Frame, Joint, JointId, Mechanism, Mode, Parts};
 
 /// Position of a joint, in numbers.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -34,7 +34,7 @@ impl Spot {
     }
 
     /// Returns the positions of all joints.
-    pub(crate) fn of_joints(mechanism: &Mechanism) -> Vec<Spot> {
+    pub(crate) fn of_joints(mechanism: &Parts) -> Vec<Spot> {
         let joints = mechanism.joint_ids();
         joints
             .map(|j| Spot::from_frame(&mechanism.joints[j].frame))
@@ -177,7 +177,7 @@ impl Isometry {
     /// ```
     #[must_use]
     pub fn find_mirrors(
-        mechanism: &Mechanism,
+        mechanism: &Parts,
         pairs: &[(JointId, JointId)],
     ) -> Vec<(Isometry, Vec<Miss>)> {
         Isometry::mirrors_among(mechanism, &Spot::of_joints(mechanism), pairs)
@@ -185,7 +185,7 @@ impl Isometry {
 
     /// Returns the reflections for joints with known positions, as `mirrors` does for a mechanism.
     pub(crate) fn mirrors_among(
-        mechanism: &Mechanism,
+        mechanism: &Parts,
         spots: &[Spot],
         pairs: &[(JointId, JointId)],
     ) -> Vec<(Isometry, Vec<Miss>)> {

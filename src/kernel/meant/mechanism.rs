@@ -283,17 +283,18 @@ impl Places {
                 }
             }
         };
-        for ((joint, slots), offered) in out.joints.iter_mut().zip(&self.own).zip(&self.offered) {
+        let parts = out.parts_mut();
+        for ((joint, slots), offered) in parts.joints.iter_mut().zip(&self.own).zip(&self.offered) {
             put(&mut joint.frame, slots);
             let options = joint.options.iter_mut().chain(&mut joint.unloading);
             for (option, slots) in options.zip(offered) {
                 put(&mut option.frame, slots);
             }
         }
-        if let (Mode::Planar { normal }, Some(k)) = (&mut out.mode, self.normal) {
+        if let (Mode::Planar { normal }, Some(k)) = (&mut parts.mode, self.normal) {
             write(normal, &scene.rays[k]);
         }
-        for p in &mut out.points {
+        for p in &mut parts.points {
             make_exact(&mut p.point);
         }
         out

@@ -3,7 +3,7 @@
 use crate::geom::expr::Expr;
 use crate::model::joint_type::JointType;
 use crate::model::mechanism::{
-    Frame, Joint, JointOption, LengthUnit, Link, LinkId, Mechanism, Mode, Role,
+    Frame, Joint, JointOption, LengthUnit, Link, LinkId, Mechanism, Mode, Parts, Role,
 };
 
 /// The direction x, in numbers.
@@ -34,7 +34,7 @@ pub(crate) fn draw_mechanism(joints: &[Drawn], outputs: &[usize]) -> Mechanism {
         role: role(i),
         mass: None,
     };
-    Mechanism {
+    Mechanism::of_valid(Parts {
         name: String::new(),
         description: String::new(),
         sources: Vec::new(),
@@ -56,7 +56,7 @@ pub(crate) fn draw_mechanism(joints: &[Drawn], outputs: &[usize]) -> Mechanism {
         expected: Vec::new(),
         claims: Vec::new(),
         assumed: Vec::new(),
-    }
+    })
 }
 
 fn drawn_joint(number: usize, drawn: &Drawn) -> Joint {

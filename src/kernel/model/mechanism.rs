@@ -3,11 +3,13 @@
 use crate::format::four_digits;
 use crate::geom::expr::Expr;
 use crate::model::claim::Claim;
-use crate::model::joint_type::{CoupledFreedom, Coupling, Freedom, JointType};
+use crate::model::joint_type::{Coupling, Freedom, JointType};
 use crate::model::loads::{Loads, MassProperties};
 use crate::model::ranking::{Ranking, TypeOverride};
+use std::ops::Deref;
 use std::sync::Arc;
 
+pub use crate::model::search_spec::{CostSpec, Expected, SearchSpec};
 pub use crate::model::{JointId, LinkId, StateId};
 
 /// Purpose of a link.
@@ -170,111 +172,9 @@ impl LengthUnit {
     }
 }
 
-/// Stated figures of a mechanism, with their source.
-#[derive(Debug, Clone, Default)]
-pub struct Expected {
-    /// Name of the state.
-    pub state: String,
-    /// W at the pose of the file.
-    pub mobility: Option<i64>,
-    /// Finite mobility; smaller than at the pose if the pose is singular or shaky.
-    pub finite_mobility: Option<i64>,
-    /// Dimension of the output links' motion.
-    pub working_mobility: Option<i64>,
-    /// W less the working mobility.
-    pub local_mobility: Option<i64>,
-    /// σ of the whole mechanism.
-    pub redundant: Option<i64>,
-    /// σ that the state adds to the free one.
-    pub external_redundant: Option<i64>,
-    /// Publication or derivation.
-    pub source: String,
-}
-
-/// Costs that the search adds up, in thousandths; see `score::cost` for the defaults.
-#[derive(Debug, Clone, Default)]
-pub struct CostSpec {
-    /// Cost of a joint type by its name.
-    pub by_type_milli: Vec<(String, i64)>,
-    /// Cost of changing a joint at all.
-    pub change_milli: Option<i64>,
-    /// Cost of the extra link of an unloading joint.
-    pub link_milli: Option<i64>,
-    /// Additional cost of changing a driven joint.
-    pub driven_milli: Option<i64>,
-    /// Cost of a harmful redundant constraint that a searched state adds.
-    pub harmful_milli: Option<i64>,
-}
-
-impl CostSpec {
-    /// Default cost of a link, in thousandths of a revolute joint.
-    pub const LINK_MILLI: i64 = 1000;
-}
-
-/// Search settings of the file.
-#[derive(Debug, Clone, Default)]
-pub struct SearchSpec {
-    /// Links, in addition to the outputs, that must not gain a motion.
-    pub hold: Vec<LinkId>,
-    /// Pairs of joints that are mirror images of each other.
-    pub mirror: Vec<(JointId, JointId)>,
-    /// Joints that map to each other when the mechanism is turned, each to the next and the last to the first: two by
-    /// half a turn, three by a third. Not allowed together with mirror images.
-    pub turn: Vec<Vec<JointId>>,
-    /// Whether the images are off by no more than the digits of rounded coordinates. It is set by a search, not by a file.
-    pub nearly_symmetric: bool,
-    /// Largest number of redundant constraints that may be left within the mechanism.
-    pub max_redundant: u32,
-    /// Largest mobility W allowed.
-    pub max_mobility: Option<i64>,
-    /// Whether only variants are wanted that are their own mirror image.
-    pub symmetric: bool,
-    /// Costs.
-    pub costs: CostSpec,
-    /// The driven freedoms that a search follows, in addition to the motions of outputs. They are set by a search, not
-    /// by a file.
-    pub drives: Vec<CoupledFreedom>,
-    /// Whether the search locks these freedoms, so that their rates are further closure equations. Otherwise it keeps
-    /// their motion.
-    pub locks_drives: bool,
-}
-
-impl SearchSpec {
-    /// Returns the joint that another maps to by the mechanism's symmetry, or the joint itself if none is stated.
-    #[must_use]
-    pub fn image_of_joint(&self, j: JointId) -> JointId {
-        let pairs = self.mirror.iter().flat_map(|&(a, b)| [(a, b), (b, a)]);
-        let next = |g: &Vec<JointId>| {
-            let at = g.iter().position(|&x| x == j)?;
-            Some(g[(at + 1) % g.len()])
-        };
-        let by_turn = self.turn.iter().find_map(next);
-        let by_mirror = pairs.into_iter().find(|p| p.0 == j).map(|p| p.1);
-        by_mirror.or(by_turn).unwrap_or(j)
-    }
-
-    /// Returns the order of the symmetry, after which all joints are back in place; 1 if there is none.
-    #[must_use]
-    pub fn symmetry_order(&self) -> usize {
-        match (self.mirror.is_empty(), self.turn.first()) {
-            (false, _) => 2,
-            (true, Some(group)) => group.len(),
-            (true, None) => 1,
-        }
-    }
-}
-
-/// A validated mechanism.
-///
-/// # Examples
-/// ```
-/// let gripper = ozols::built_in("gripper-10")?;
-/// assert_eq!(gripper.joints_in(gripper.state_ids().next().unwrap()).count(), 13);
-/// assert_eq!(gripper.links[gripper.frame_link()].id, "0");
-/// # Ok::<(), ozols::Error>(())
-/// ```
+/// The parts of a mechanism, which may contradict each other until [`Mechanism::new`] has checked them.
 #[derive(Debug, Clone)]
-pub struct Mechanism {
+pub struct Parts {
     /// Short name.
     pub name: String,
     /// One or two sentences for display.
@@ -314,13 +214,53 @@ pub struct Mechanism {
     pub assumed: Vec<String>,
 }
 
+/// A validated mechanism: parts that cannot be changed, with the guarantees of [`Mechanism::new`].
+///
+/// The fields of [`Parts`] are read as its own. To change a mechanism, take it apart with [`Mechanism::into_parts`].
+///
+/// # Examples
+/// ```
+/// let gripper = ozols::built_in("gripper-10")?;
+/// assert_eq!(gripper.joints_in(gripper.state_ids().next().unwrap()).count(), 13);
+/// assert_eq!(gripper.links[gripper.frame_link()].id, "0");
+/// # Ok::<(), ozols::Error>(())
+/// ```
+#[derive(Debug, Clone)]
+pub struct Mechanism(pub(in crate::model) Parts);
+
+impl Deref for Mechanism {
+    type Target = Parts;
+
+    fn deref(&self) -> &Parts {
+        &self.0
+    }
+}
+
+impl Mechanism {
+    /// Returns the parts, to change them.
+    #[must_use]
+    pub fn into_parts(self) -> Parts {
+        self.0
+    }
+
+    /// Creates a mechanism of parts that have the guarantees of [`Mechanism::new`].
+    pub(crate) fn of_valid(parts: Parts) -> Mechanism {
+        Mechanism(parts)
+    }
+
+    /// Returns the parts for a change that keeps the guarantees of [`Mechanism::new`].
+    pub(crate) fn parts_mut(&mut self) -> &mut Parts {
+        &mut self.0
+    }
+}
+
 impl From<&Mechanism> for Arc<Mechanism> {
     fn from(mechanism: &Mechanism) -> Self {
         Arc::new(mechanism.clone())
     }
 }
 
-impl Mechanism {
+impl Parts {
     /// Returns the ids of the links, in file order.
     pub fn link_ids(
         &self,
@@ -437,7 +377,7 @@ impl Mechanism {
 impl Coupling {
     /// Returns its name for display: the two joints, each with its freedom if it has several.
     #[must_use]
-    pub fn name(&self, mechanism: &Mechanism) -> String {
+    pub fn name(&self, mechanism: &Parts) -> String {
         let [a, b] = self.ends.map(|e| {
             let joint = &mechanism.joints[e.joint];
             match joint.joint_type.freedoms() {

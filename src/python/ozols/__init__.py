@@ -23,15 +23,41 @@ from ._mechanism import Builder, Drawing, Mechanism
 from ._native import VERSION as __version__
 from ._native import Error
 from ._outcome import Outcome, Variant
+from ._results import (
+    Analysis,
+    Change,
+    Contour,
+    Drive,
+    Grip,
+    GripRow,
+    Lint,
+    LintedFile,
+    Pose,
+    State,
+    Statics,
+    Stroke,
+)
 from ._view import Answer, View
 
 __all__ = [
+    "Analysis",
     "Answer",
     "Builder",
+    "Change",
+    "Contour",
     "Drawing",
+    "Drive",
     "Error",
+    "Grip",
+    "GripRow",
+    "Lint",
+    "LintedFile",
     "Mechanism",
     "Outcome",
+    "Pose",
+    "State",
+    "Statics",
+    "Stroke",
     "Variant",
     "View",
     "__version__",

@@ -12,9 +12,9 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from . import _commands, _native
+from . import _native
 from ._outcome import Drawing, Outcome
-from ._view import Chart, Answer
+from ._results import Analysis, Drive, Grip, Statics, Stroke
 
 __all__ = ["Builder", "Drawing", "Mechanism"]
 
@@ -169,13 +169,13 @@ class Mechanism:
         """
         return self._native.export(format)
 
-    def analyze(self, state: str = "all", *, method: str = "auto", tolerance: float | None = None) -> Answer:
+    def analyze(self, state: str = "all", *, method: str = "auto", tolerance: float | None = None) -> Analysis:
         """Returns mobility and redundant constraints in each state, as ``ozols analyze``.
 
         >>> Mechanism.builtin("bennett").analyze().states[0].redundant
         3
         """
-        return Answer(_native.analyze(self._native, state, method, tolerance), "states")
+        return Analysis(_native.analyze(self._native, state, method, tolerance))
 
     def stroke(
         self,
@@ -184,7 +184,7 @@ class Mechanism:
         drive: str | None = None,
         state: str = "free",
         tolerance: float | None = None,
-    ) -> Chart:
+    ) -> Stroke:
         """Returns the mobility and rank at poses over a range of the drive.
 
         A range is ``"0:360deg:72"``, or a tuple of start, end and steps, in radians or the length unit of the file.
@@ -192,7 +192,7 @@ class Mechanism:
         >>> Mechanism.builtin("four-bar").stroke("0:90deg:3").poses[-1].mobility
         1
         """
-        return Chart(_native.stroke(self._native, _range(range), drive, state, tolerance), "poses")
+        return Stroke(_native.stroke(self._native, _range(range), drive, state, tolerance))
 
     def statics(
         self,
@@ -201,20 +201,20 @@ class Mechanism:
         stroke: str | tuple[float, float, int] | None = None,
         spatial: bool = False,
         unilateral: bool = False,
-    ) -> Answer:
+    ) -> Statics:
         """Returns the joint reactions under the loads of the file, as ``ozols statics``. The table has one row per joint.
 
         ``spatial`` gives all six components also for a planar mechanism. With ``unilateral``, contacts with an object only push.
         """
         over = None if stroke is None else _range(stroke)
-        return Answer(_native.statics(self._native, state, over, spatial, unilateral))
+        return Statics(_native.statics(self._native, state, over, spatial, unilateral))
 
     def grip(
         self,
         *,
         accelerations: Iterable[Sequence[float]] = (),
         any_acceleration: float | None = None,
-    ) -> Answer:
+    ) -> Grip:
         """Returns what a lever gripper can hold and the drive moment it needs, as ``ozols grip``.
 
         Accelerations are in m/s², in the axes of the gripper; ``any_acceleration`` acts in any direction.
@@ -222,24 +222,15 @@ class Mechanism:
         >>> Mechanism.builtin("lever-gripper").grip()["holds"]
         True
         """
-        words = [f"--acceleration={','.join(map(str, a))}" for a in accelerations]
-        given = _commands.options(any_acceleration=any_acceleration)
-        return self._command("grip", [*words, *given])
+        return Grip(_native.grip(self._native, [list(a) for a in accelerations], any_acceleration))
 
-    def drive(self) -> Answer:
+    def drive(self) -> Drive:
         """Returns the design of the spring drive in ``[workload.drive]``, as ``ozols drive``.
 
         >>> "design" in Mechanism.builtin("torsion-module").drive()
         True
         """
-        return self._command("drive", [])
-
-    def _command(self, name: str, options: Iterable[str]) -> Answer:
-        """Runs a command on a file of the mechanism."""
-        with tempfile.TemporaryDirectory() as folder:
-            file = Path(folder) / f"{self.name}.toml"
-            file.write_text(self.export("toml"), encoding="utf-8")
-            return _commands.answer([name, file, *options])
+        return Drive(_native.drive(self._native))
 
     def draw(self, kind: str = "scheme", *, state: str = "free") -> Drawing:
         """Returns a drawing as SVG: the structural ``scheme``, or the ``kinematic`` drawing from the coordinates."""

@@ -18,6 +18,10 @@ __all__ = [
     "catalog_plan",
     "chart",
     "command",
+    "drive",
+    "fix",
+    "grip",
+    "lint",
     "search",
     "statics",
     "stroke",
@@ -99,4 +103,10 @@ def chart(
     y: tuple[str, bool],
     lines: Sequence[tuple[str, Sequence[tuple[float, float]]]],
 ) -> str: ...
+def lint(words: Sequence[str]) -> _Answer: ...
+def fix(words: Sequence[str]) -> str: ...
+def grip(
+    mechanism: Mechanism, accelerations: Sequence[Sequence[float]], any_acceleration: float | None
+) -> _Answer: ...
+def drive(mechanism: Mechanism) -> _Answer: ...
 def command(words: Sequence[str]) -> int: ...

@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, overload
 
 from . import _native
+from ._results import Change
 from ._view import View, table
 
 if TYPE_CHECKING:
@@ -38,6 +39,11 @@ class Variant(View):
     """
 
     __slots__ = ("_made", "_native")
+    position: int
+    cost: float
+    mobility: int
+    redundant: int
+    changes: list[Change]
 
     def __init__(self, native: _native.Variant, made: Callable[[_native.Mechanism], Mechanism]) -> None:
         super().__init__(json.loads(native.data))

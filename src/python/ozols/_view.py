@@ -7,7 +7,7 @@ import html
 import io
 import json
 from collections.abc import Iterator, Mapping, Sequence
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, ClassVar, get_args, get_type_hints
 
 if TYPE_CHECKING:
     import pandas
@@ -16,11 +16,11 @@ if TYPE_CHECKING:
 ROWS = 30
 
 
-def _wrapped(value: Any) -> Any:
+def _wrapped(value: Any, kind: type[View]) -> Any:
     if isinstance(value, dict):
-        return View(value)
+        return kind(value)
     if isinstance(value, list):
-        return [_wrapped(v) for v in value]
+        return [_wrapped(v, kind) for v in value]
     return value
 
 
@@ -42,7 +42,7 @@ def table(records: Sequence[Mapping[str, Any]]) -> str:
 
 
 class View(Mapping[str, Any]):
-    """A mapping whose keys are also attributes.
+    """A mapping whose keys are also attributes. A subclass declares the types of its main keys.
 
     >>> import ozols
     >>> state = ozols.Mechanism.builtin("bennett").analyze().states[0]
@@ -51,12 +51,17 @@ class View(Mapping[str, Any]):
     """
 
     __slots__ = ("_data",)
+    #: The classes of the values that are views, by key.
+    _kinds: ClassVar[Mapping[str, type[View]]] = {}
+
+    def __init_subclass__(cls) -> None:
+        cls._kinds = {**cls._kinds, **_views_of(cls)}
 
     def __init__(self, data: dict[str, Any]) -> None:
         self._data = data
 
     def __getitem__(self, key: str) -> Any:
-        return _wrapped(self._data[key])
+        return _wrapped(self._data[key], self._kinds.get(key, View))
 
     def __getattr__(self, key: str) -> Any:
         if key.startswith("_"):
@@ -84,18 +89,25 @@ class View(Mapping[str, Any]):
         return self._data
 
 
+def _views_of(cls: type[View]) -> dict[str, type[View]]:
+    """Returns the declared keys of a class whose values are views or lists of views."""
+    named = {k: (*get_args(hint), hint)[0] for k, hint in get_type_hints(cls).items() if not k.startswith("_")}
+    return {k: kind for k, kind in named.items() if isinstance(kind, type) and issubclass(kind, View)}
+
+
 class Answer(View):
     """A result: its keys, and the text that the command prints.
 
-    ``print(answer)`` shows the text; a notebook shows :attr:`records` as a table.
+    ``print(answer)`` shows the text; a notebook shows the declared keys of :attr:`records` as a table.
     """
 
-    __slots__ = ("_rows", "csv", "svg", "text")
+    __slots__ = ("csv", "svg", "text")
+    #: The key of the main table.
+    _rows: ClassVar[str | None] = None
 
-    def __init__(self, printed: tuple[str, str, str | None, str | None], rows: str | None = None) -> None:
+    def __init__(self, printed: tuple[str, str, str | None, str | None]) -> None:
         data, self.text, self.csv, self.svg = printed
         super().__init__(json.loads(data))
-        self._rows = rows
 
     def __str__(self) -> str:
         return self.text
@@ -118,13 +130,8 @@ class Answer(View):
 
     def _repr_html_(self) -> str:
         records = self.records
-        return table(records) if records else f"<pre>{html.escape(self.text)}</pre>"
-
-
-class Chart(Answer):
-    """A result that a notebook shows as a chart."""
-
-    __slots__ = ()
-
-    def _repr_svg_(self) -> str:
-        return self.svg or ""
+        if not records:
+            return f"<pre>{html.escape(self.text)}</pre>"
+        kind = self._kinds.get(self._rows or "")
+        declared = get_type_hints(kind) if kind else {}
+        return table([{k: v for k, v in row.items() if not declared or k in declared} for row in records])

@@ -75,7 +75,7 @@ impl Marks {
         }
         changed.sort_unstable();
         let mut before = realized.clone();
-        for (joint, present) in before.joints.iter_mut().zip(&old.joints) {
+        for (joint, present) in before.edit().joints.iter_mut().zip(&old.joints) {
             joint.joint_type = present.joint_type.clone();
             joint.frame = present.frame.clone();
         }

@@ -108,7 +108,7 @@ fn joints_of_several_couplings_are_counted_one_by_one() {
         ("planetary-gear", Some(5)),
     ] {
         let mut m = built_in(name);
-        if let (Some(ratio), Some(last)) = (ratio, m.couplings.last_mut()) {
+        if let (Some(ratio), Some(last)) = (ratio, m.edit().couplings.last_mut()) {
             last.ratio = Expr::from(ratio);
         }
         let tied = |j| m.couplings_of(j).count() > 1;

@@ -168,7 +168,7 @@ fn long_names_are_never_alike() {
     let long =
         |id: &str| format!("assembly_of_the_front_suspension_joint_{id}_revision_of_the_year_2024");
     let mut m = read(text);
-    for joint in &mut m.joints {
+    for joint in &mut m.edit().joints {
         joint.id = long(&joint.id);
     }
     let d = drawn(&m);

@@ -174,8 +174,9 @@ fn jaws_bear_the_part() {
 
 fn with_mass(mass: f64) -> Gripping {
     let mut m = built_in();
-    let load = m.loads.grip.as_mut().unwrap().load.as_mut().unwrap();
-    load.mass = PartMass::Constant(mass);
+    let mut grip = m.loads.grip.clone().unwrap();
+    grip.load.as_mut().unwrap().mass = PartMass::Constant(mass);
+    m.edit().loads.grip = Some(grip);
     clamped(&m)
 }
 
@@ -210,14 +211,15 @@ fn loads_follow_the_gripper_in_the_files_axes() {
         let v = to_vector(v);
         [0, 1, 2].map(|i| Expr::from_f64(dot(turn[i], v) + shift[i]).unwrap())
     };
-    for j in &mut m.joints {
+    for j in &mut m.edit().joints {
         j.frame.point = by(&j.frame.point, [30.0, -70.0, 20.0]);
         j.frame.axis = by(&j.frame.axis, [0.0; 3]);
         j.frame.reference = by(&j.frame.reference, [0.0; 3]);
     }
     let slider = m.link_named("3").unwrap();
-    let mass = m.links[slider].mass.as_mut().unwrap();
+    let mut mass = m.links[slider].mass.clone().unwrap();
     mass.centre = by(&mass.centre, [30.0, -70.0, 20.0]);
+    m.edit().links[slider].mass = Some(mass);
     let (a, b) = (clamped(&before), clamped(&m));
     for (x, y) in a.study.rows.iter().zip(&b.study.rows) {
         let (p, q) = (solve(&a, x), solve(&b, y));
@@ -246,7 +248,7 @@ fn levers_turn_the_same_way_whichever_link_is_named_first() {
     };
     for joint in hinges(&before) {
         let mut m = before.clone();
-        m.joints[joint].links.reverse();
+        m.edit().joints[joint].links.reverse();
         let b = clamped(&m);
         for (x, y) in a.study.rows.iter().zip(&b.study.rows) {
             let (one, other) = (
@@ -307,13 +309,13 @@ fn statics_say_which_loads_came_from_the_grip() {
 #[test]
 fn a_grip_without_load_has_no_forces() {
     let mut m = built_in();
-    m.loads = default_with(|l: &mut Loads| l.grip = m.loads.grip.clone());
+    m.edit().loads = default_with(|l: &mut Loads| l.grip = m.loads.grip.clone());
     let g = clamped(&m);
     assert!(matches!(
         g.study.rows[0].hardest.as_ref().unwrap().verdict,
         HoldVerdict::Held(_)
     ));
-    m.loads.grip.as_mut().unwrap().load = None;
+    m.edit().loads.grip.as_mut().unwrap().load = None;
     let g = clamped(&m);
     assert!(g.study.rows.iter().all(|r| g.jaw_loads(r).is_none()));
 }

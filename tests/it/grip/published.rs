@@ -301,7 +301,7 @@ fn claim<'c>(claims: &'c [Claim], says: &str) -> &'c Claim {
 
 /// What is published of the built-in gripper of the paper.
 fn claims() -> Vec<Claim> {
-    let claims = built_in("lever-gripper").claims;
+    let claims = built_in("lever-gripper").into_parts().claims;
     assert!(claims.iter().all(|c| c.topic == Topic::Grip));
     claims
 }

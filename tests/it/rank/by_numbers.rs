@@ -20,7 +20,7 @@ fn disturbed(m: &Mechanism) -> Mechanism {
         })
     };
     let mut out = m.clone();
-    for joint in &mut out.joints {
+    for joint in &mut out.edit().joints {
         joint.frame.point = off(&joint.frame.point, 1e-9);
         if matches!(m.mode, Mode::Spatial) {
             joint.frame.axis = off(&joint.frame.axis, 1e-9);

@@ -37,7 +37,7 @@ fn as_measured(m: &Mechanism, seed: u64, noise: f64, away: f64) -> Mechanism {
     let shift = [(); 3].map(|()| away * size * random.draw_uniform());
     let turned = |v: &[Expr; 3]| turn.map_direction(to_vector(v));
     let mut out = m.clone();
-    for joint in &mut out.joints {
+    for joint in &mut out.edit().joints {
         let point = turned(&joint.frame.point);
         let reference = turned(&joint.frame.reference);
         let axis = turned(&joint.frame.axis);

@@ -51,13 +51,13 @@ fn variants_that_are_right_in_the_pose_of_the_file_only_are_marked() {
         for (joint, to) in &one {
             let j = m.joint_named(joint).unwrap();
             let option = m.joints[j].options.iter().find(|o| o.name == *to).unwrap();
-            (m.joints[j].joint_type, m.joints[j].frame) =
+            (m.edit().joints[j].joint_type, m.edit().joints[j].frame) =
                 (option.joint_type.clone(), option.frame.clone());
         }
         for (joint, x, y) in [("1-2", 120, 90), ("2-3", 120, -10)] {
             let j = m.joint_named(joint).unwrap();
             if turned {
-                m.joints[j].frame.point = [x, y, 0].map(|c: i64| c.into());
+                m.edit().joints[j].frame.point = [x, y, 0].map(|c: i64| c.into());
             }
         }
         let found = &analyse_states(&m, &[StateId::FREE], Method::Modular).unwrap()[0];

@@ -17,12 +17,12 @@ fn scaled(m: &Mechanism, exponent: i32) -> Mechanism {
         f.point = f.point.each_ref().map(|x| times(x, exponent));
         f.pitch = times(&f.pitch, exponent);
     };
-    for joint in &mut out.joints {
+    for joint in &mut out.edit().joints {
         frame(&mut joint.frame);
         joint.options.iter_mut().for_each(|o| frame(&mut o.frame));
         joint.unloading.iter_mut().for_each(|o| frame(&mut o.frame));
     }
-    for coupling in &mut out.couplings {
+    for coupling in &mut out.edit().couplings {
         coupling.ratio = match coupling.ends.map(|e| e.freedom.is_slide()) {
             [false, true] => times(&coupling.ratio, exponent),
             [true, false] => times(&coupling.ratio, -exponent),

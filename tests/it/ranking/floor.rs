@@ -17,7 +17,7 @@ fn vector(v: [i64; 3]) -> [Expr; 3] {
 /// A built-in mechanism as it is, with a force on its output.
 fn as_built(name: &str, force: [i64; 3]) -> Mechanism {
     let mut m = built_in(name);
-    for j in &mut m.joints {
+    for j in &mut m.edit().joints {
         j.options.truncate(1);
         j.unloading.clear();
     }
@@ -26,7 +26,7 @@ fn as_built(name: &str, force: [i64; 3]) -> Mechanism {
         .find(|&l| m.links[l].role == Role::Output)
         .unwrap();
     let at = m.joints.iter().find(|j| j.links.contains(&output)).unwrap();
-    m.loads.forces = vec![ExternalForce {
+    m.edit().loads.forces = vec![ExternalForce {
         states: None,
         link: output,
         point: at.frame.point.clone(),
@@ -93,7 +93,7 @@ fn mean_squares_are_of_three_directions() {
     for j in &m.joints {
         let clearance = if j.id == "2-3" { 1e-4 } else { 0.0 };
         let name = j.joint_type.name().to_owned();
-        one.joint_types.push(TypeOverride {
+        one.edit().joint_types.push(TypeOverride {
             name,
             capacity_force: None,
             capacity_moment: None,
@@ -111,8 +111,9 @@ fn mean_squares_are_of_three_directions() {
 fn a_small_moment_about_a_free_spin_is_refused() {
     let with = |moment: [&str; 3]| {
         let mut m = as_built("rssr", [30, -70, 45]);
-        m.loads.moments.push(ExternalMoment {
-            link: m.link_named("2").unwrap(),
+        let link = m.link_named("2").unwrap();
+        m.edit().loads.moments.push(ExternalMoment {
+            link,
             moment: moment.map(|x| x.parse().unwrap()),
             states: None,
         });
@@ -160,8 +161,8 @@ fn errors_are_told_of_the_point_that_is_loaded() {
     use ozols::score::evaluation::terms::output_points;
     let mut m = as_built("slider-crank-determinate", [0, -10, 0]);
     let slider = m.link_named("3").unwrap();
-    m.loads.forces[0].point = vector([160, 7, 1]);
-    m.links[slider].mass = Some(MassProperties {
+    m.edit().loads.forces[0].point = vector([160, 7, 1]);
+    m.edit().links[slider].mass = Some(MassProperties {
         mass: 2.0,
         centre: vector([155, 3, 2]),
         inertia: None,
@@ -172,9 +173,9 @@ fn errors_are_told_of_the_point_that_is_loaded() {
         output_points(m, &e.cases)
     };
     assert_eq!(point(&m), [(slider, [160.0, 7.0, 1.0])]);
-    m.loads.forces[0].link = m.link_named("2").unwrap();
+    m.edit().loads.forces[0].link = m.link_named("2").unwrap();
     assert_eq!(point(&m), [(slider, [155.0, 3.0, 2.0])]);
-    m.links[slider].mass = None;
+    m.edit().links[slider].mass = None;
     assert_eq!(point(&m), [(slider, [150.0, -10.0, 0.0])]);
 }
 
@@ -187,7 +188,7 @@ fn play_in_series_adds_up() {
     let series = mechanism_from_str("series.toml", &text).unwrap();
     let mut m = as_built("slider-crank-determinate", [30, -70, 45]);
     let at = m.joint_named("2-3").unwrap();
-    m.joints[at].unloading = series.joints[at].unloading.clone();
+    m.edit().joints[at].unloading = series.joints[at].unloading.clone();
     let s = search(&m, 0);
     let e = Evaluator::new(&s, ClearanceSum::Worst).unwrap();
     let mut scratch = Scratch::default();

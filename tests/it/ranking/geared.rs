@@ -81,7 +81,10 @@ fn no_geared_variant_is_below_the_floor() {
         assert!(tried > 40, "{tried}");
     }
     let mut m = built_in("rack-gripper");
-    m.joints.iter_mut().for_each(|j| j.options.truncate(1));
+    m.edit()
+        .joints
+        .iter_mut()
+        .for_each(|j| j.options.truncate(1));
     let s = search(&m, 0);
     let e = Evaluator::new(&s, ClearanceSum::Worst).unwrap();
     let (floor, scores) = (

@@ -76,10 +76,8 @@ fn every(m: &Mechanism) -> Vec<Option<Scores>> {
 }
 
 fn ranked(m: &Mechanism, ranking: &Ranking, threads: usize) -> Outcome {
-    let m = Mechanism {
-        ranking: Some(ranking.clone()),
-        ..m.clone()
-    };
+    let mut m = m.clone();
+    m.edit().ranking = Some(ranking.clone());
     let pool = rayon::ThreadPoolBuilder::new();
     let pool = pool.num_threads(threads).build().unwrap();
     pool.install(|| ozols::search(&m, &request()).unwrap())
@@ -139,7 +137,7 @@ fn what_is_proven_is_the_best_of_all_scored() {
 #[test]
 fn dear_variants_that_bear_best_are_found() {
     let mut m = loaded();
-    m.links.iter_mut().for_each(|l| l.mass = None);
+    m.edit().links.iter_mut().for_each(|l| l.mass = None);
     let scores = every(&m);
     let mut outside = 0;
     for terms in [

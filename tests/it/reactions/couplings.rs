@@ -37,11 +37,12 @@ fn joint<'s>(m: &Mechanism, s: &'s Solution, id: &str) -> &'s JointReaction {
 /// With masses, stroke and the file's loads left out, and a force on each link named.
 fn loaded(name: &str, forces: &[(&str, [i64; 3], [i64; 3])]) -> Mechanism {
     let mut m = built_in(name);
-    m.loads = Loads::default();
+    m.edit().loads = Loads::default();
     for &(link, point, force) in forces {
-        m.loads.forces.push(ExternalForce {
+        let link = m.link_named(link).unwrap();
+        m.edit().loads.forces.push(ExternalForce {
             states: None,
-            link: m.link_named(link).unwrap(),
+            link,
             point: point.map(Into::into),
             force: force.map(Into::into),
             range: None,
@@ -99,7 +100,7 @@ fn teeth_of_the_geared_gripper_push_by_hand() {
     near(joint(&m, &s, "1-2").force_size(), 0.0, 1e-7);
     // As a belt, or as what only says its ratio, no bearing feels it.
     let mut belt = m.clone();
-    belt.couplings[0].gear = false;
+    belt.edit().couplings[0].gear = false;
     let t = solve(&belt);
     assert!(t.couplings[0].teeth.is_none());
     near(t.couplings[0].efforts[1], c.efforts[1], 1e-9);
@@ -112,8 +113,9 @@ fn teeth_of_the_geared_gripper_push_by_hand() {
 #[test]
 fn three_planets_share_alike_where_nothing_else_is_known() {
     let mut m = loaded("planetary-gear", &[]);
-    m.loads.moments.push(ExternalMoment {
-        link: m.link_named("c").unwrap(),
+    let link = m.link_named("c").unwrap();
+    m.edit().loads.moments.push(ExternalMoment {
+        link,
         moment: [0, 0, 12].map(Into::into),
         states: None,
     });
@@ -279,7 +281,7 @@ fn the_drive_does_what_the_loads_take_at_every_pose() {
     for name in split_words("geared-gripper geared-five-bar planetary-gear rack-gripper") {
         let mut m = loaded(name, &[]);
         with_loads(&mut m, &mut Random::new(77));
-        m.loads.moments.clear();
+        m.edit().loads.moments.clear();
         tried += balanced(
             &m,
             &turns
@@ -298,7 +300,7 @@ fn the_drive_does_what_the_loads_take_at_every_pose() {
         };
         let mut m = mechanism_from_str("random.toml", &text).unwrap();
         with_loads(&mut m, &mut random);
-        m.loads.moments.clear();
+        m.edit().loads.moments.clear();
         tried += balanced(&m, &[-0.02, -0.01, 0.0, 0.01, 0.02]);
     }
     assert!(tried > 150, "{tried}");

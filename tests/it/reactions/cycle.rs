@@ -26,14 +26,14 @@ fn moving(name: &str, speed: f64, inertia: impl Fn(f64) -> Inertia) -> Mechanism
             let off = draw.next().unwrap() - 0.5;
             p[i] + if flat && i == 2 { 0.0 } else { off }
         });
-        m.links[l].mass = Some(MassProperties {
+        m.edit().links[l].mass = Some(MassProperties {
             mass: 0.2 + draw.next().unwrap(),
             centre: near.map(expr),
             inertia: Some(inertia(0.1 + draw.next().unwrap())),
         });
     }
-    m.loads.gravity = Some([0.0, -9.81, 0.0].map(expr));
-    m.loads.drive_speeds = vec![speed];
+    m.edit().loads.gravity = Some([0.0, -9.81, 0.0].map(expr));
+    m.edit().loads.drive_speeds = vec![speed];
     m
 }
 
@@ -60,10 +60,10 @@ fn the_drive_bears_the_same_in_the_plane_and_in_space() {
     for name in split_words("four-bar-planar watt-six-bar stephenson-six-bar gripper-10-planar") {
         let slides = name == "gripper-10-planar";
         let mut m = moving(name, if slides { 30.0 } else { 3.0 }, Inertia::Plane);
-        m.mode = Mode::Planar {
+        m.edit().mode = Mode::Planar {
             normal: [0, 0, 1].map(Expr::from),
         };
-        for l in &mut m.links {
+        for l in &mut m.edit().links {
             if let Some(mass) = &mut l.mass {
                 mass.centre[2] = Expr::from(0);
             }
@@ -73,9 +73,9 @@ fn the_drive_bears_the_same_in_the_plane_and_in_space() {
         let planar = planar_statics(&m, StateId::FREE, Some(STROKE)).unwrap();
         assert!(planar.dead.is_none());
         let mut still = m.clone();
-        still.loads.drive_speeds.clear();
+        still.edit().loads.drive_speeds.clear();
         let at_rest = solve_cycle(&still, StateId::FREE, Some(STROKE)).unwrap();
-        m.mode = Mode::Spatial;
+        m.edit().mode = Mode::Spatial;
         let spatial = solve_cycle(&m, StateId::FREE, Some(STROKE)).unwrap();
         let mut differs = 0.0f64;
         let all = solved(&c).into_iter().zip(solved(&spatial));
@@ -186,7 +186,7 @@ fn the_drive_feeds_the_energy_of_spatial_mechanisms() {
 fn inertia_is_quadratic_in_the_speed() {
     let at = |speed: f64| {
         let mut m = moving("rsur", speed, |x| Inertia::Principal([x, 2.0 * x, 1.5 * x]));
-        m.loads.gravity = None;
+        m.edit().loads.gravity = None;
         let found = solve_cycle(&m, StateId::FREE, None).unwrap();
         effort(&solved(&found)[0].1.reactions)
     };

@@ -12,7 +12,7 @@ fn self_stresses_are_in_equilibrium_and_as_many_as_the_redundant_constraints() {
         let s = solve(&m);
         let by_rank = analyse_states(&m, &[StateId::FREE], Method::Modular).unwrap()[0].redundant;
         assert_eq!(s.self_stresses.len(), by_rank, "{name}");
-        m.loads = Default::default();
+        m.edit().loads = Default::default();
         for stress in &s.self_stresses {
             assert!(left_over(&m, stress) < 1e-9, "{name}");
         }
@@ -123,12 +123,13 @@ fn stiffness_decides_among_the_family_and_equilibrium_stays() {
         linear: 1e7,
         angular: 1e3,
     };
-    m.loads.stiffness = vec![("default".into(), soft)];
+    m.edit().loads.stiffness = vec![("default".into(), soft)];
     let s = solve(&m);
     let straight = s.elastic.clone().unwrap();
     assert!(left_over(&m, &straight) < 1e-9);
-    m.loads.misalignments.push(Misalignment {
-        joint: m.joint_named("2-3").unwrap(),
+    let joint = m.joint_named("2-3").unwrap();
+    m.edit().loads.misalignments.push(Misalignment {
+        joint,
         turn: [0.001, 0.0, 0.0],
         shift: [0.0; 3],
     });
@@ -137,7 +138,7 @@ fn stiffness_decides_among_the_family_and_equilibrium_stays() {
     let moment = |l: &[JointReaction]| l.iter().map(JointReaction::moment_size).fold(0.0, f64::max);
     assert!(moment(&askew) > 1.01 * moment(&straight));
     // A hinge turned about its own axis strains nothing.
-    m.loads.misalignments[0].turn = [0.0, 0.0, 0.001];
+    m.edit().loads.misalignments[0].turn = [0.0, 0.0, 0.001];
     let free = solve(&m).elastic.unwrap();
     for (x, y) in free.iter().zip(&straight) {
         assert!((x.force_size() - y.force_size()).abs() < 1e-6);
@@ -148,7 +149,7 @@ fn stiffness_decides_among_the_family_and_equilibrium_stays() {
 #[test]
 fn a_types_own_stiffness_goes_before_the_default() {
     let mut m = built_in("four-bar");
-    m.loads.misalignments = vec![Misalignment {
+    m.edit().loads.misalignments = vec![Misalignment {
         joint: m.joint_ids().next().unwrap(),
         turn: [0.01, 0.0, 0.0],
         shift: [0.0; 3],
@@ -157,7 +158,7 @@ fn a_types_own_stiffness_goes_before_the_default() {
     let own = ("revolute".to_owned(), stiff(1e6, 2e3));
     let strained = |all: Vec<(String, Stiffness)>| {
         let mut m = m.clone();
-        m.loads.stiffness = all;
+        m.edit().loads.stiffness = all;
         solve(&m).elastic.unwrap()
     };
     let alone = strained(vec![own.clone()]);

@@ -55,17 +55,17 @@ fn together(points: &Points, metres: f64) -> MassProperties {
 /// The mechanism with rigid bodies, and with the points they are made of.
 fn both(name: &str, seed: &[f64], speed: f64) -> [Mechanism; 2] {
     let mut whole = built_in(name);
-    whole.loads.gravity = Some(vector([1.0, -9.81, 2.0]));
-    whole.loads.drive_speeds = vec![speed];
+    whole.edit().loads.gravity = Some(vector([1.0, -9.81, 2.0]));
+    whole.edit().loads.drive_speeds = vec![speed];
     let mut parts = whole.clone();
     for (l, points) in points(&whole, seed) {
-        whole.links[l].mass = Some(together(&points, whole.length_unit.metres));
+        whole.edit().links[l].mass = Some(together(&points, whole.length_unit.metres));
         let at = parts.joints.iter().find(|j| j.links.contains(&l)).unwrap();
         let frame = at.frame.clone();
         for (i, (mass, p)) in points.iter().enumerate() {
             let id = format!("{}~{i}", parts.links[l].id);
             let new = LinkId::new(parts.links.len());
-            parts.links.push(Link {
+            parts.edit().links.push(Link {
                 id: id.clone(),
                 role: Role::Inner,
                 mass: Some(MassProperties {
@@ -74,7 +74,7 @@ fn both(name: &str, seed: &[f64], speed: f64) -> [Mechanism; 2] {
                     inertia: None,
                 }),
             });
-            parts.joints.push(Joint {
+            parts.edit().joints.push(Joint {
                 id,
                 links: [l, new],
                 joint_type: JointType::Fixed,
@@ -125,7 +125,7 @@ proptest! {
     #[test]
     fn a_plane_that_leans_takes_the_tensor_along(seed in prop::collection::vec(0.0..1.0f64, 37), speed in 2.0..9.0f64) {
         let [mut upright, _] = both("slider-crank-determinate", &seed, speed);
-        for j in &mut upright.joints {
+        for j in &mut upright.edit().joints {
             // In the plane, the rod's ends are hinges.
             if matches!(j.joint_type, JointType::Cylindrical | JointType::Spherical) {
                 j.joint_type = JointType::Revolute;
@@ -133,24 +133,24 @@ proptest! {
                 j.frame.reference = vector([1.0, 0.0, 0.0]);
             }
         }
-        for l in &mut upright.links {
+        for l in &mut upright.edit().links {
             if let Some(mass) = &mut l.mass {
                 mass.centre[2] = Expr::from(0);
             }
         }
-        upright.loads.gravity = None;
+        upright.edit().loads.gravity = None;
         let turn = [[2.0, -2.0, 1.0], [1.0, 2.0, 2.0], [-2.0, -1.0, 2.0]].map(|r: [f64; 3]| r.map(|x| x / 3.0));
         let by = |v: &[Expr; 3]| -> [Expr; 3] {
             let v = to_vector(v);
             turn.map(|r| format!("{:.15}", (0..3).map(|i| r[i] * v[i]).sum::<f64>()).parse().unwrap())
         };
         let mut leans = upright.clone();
-        for j in &mut leans.joints {
+        for j in &mut leans.edit().joints {
             j.frame.point = by(&j.frame.point);
             j.frame.axis = by(&j.frame.axis);
             j.frame.reference = by(&j.frame.reference);
         }
-        for l in &mut leans.links {
+        for l in &mut leans.edit().links {
             let Some(mass) = &mut l.mass else { continue };
             mass.centre = by(&mass.centre);
             let Some(Inertia::Tensor([xx, yy, zz, xy, yz, zx])) = mass.inertia else { panic!() };
@@ -218,10 +218,12 @@ fn a_dumb_bell_that_leans_tugs_at_its_bearing() {
 fn forces_come_again_in_each_turn_in_space() {
     let mut m = built_in("slider-crank-determinate");
     let slider = m.link_named("3").unwrap();
-    m.loads.forces.push(ExternalForce {
+    let guide = m.joint_named("3-0").unwrap();
+    let point = m.joints[guide].frame.point.clone();
+    m.edit().loads.forces.push(ExternalForce {
         states: None,
         link: slider,
-        point: m.joints[m.joint_named("3-0").unwrap()].frame.point.clone(),
+        point,
         force: [-100.0, 0.0, 0.0].map(expr),
         range: Some([0.3, 0.8]),
     });

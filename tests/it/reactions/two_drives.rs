@@ -22,7 +22,7 @@ fn crane() -> String {
 #[test]
 fn drives_move_at_the_ratio_of_their_speeds() {
     let mut m = mechanism_from_str("crane.toml", &crane()).unwrap();
-    m.loads.drive_speeds = vec![0.5, -0.25, 100.0];
+    m.edit().loads.drive_speeds = vec![0.5, -0.25, 100.0];
     let pose = Pose::of_file(&m, StateId::FREE).unwrap();
     let geometry = Geometry::new(&m, StateId::FREE, &pose).unwrap();
     let drives = driven_freedoms(&m, &geometry).unwrap();

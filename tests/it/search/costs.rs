@@ -123,7 +123,7 @@ fn a_custom_joint_costs_a_hinge_at_the_files_price_and_more() {
 fn harm_costs_what_the_file_says_to_the_thousandth() {
     for (name, price) in [("tongs", 1730), ("tongs-pad", 1), ("tongs", 333)] {
         let mut m = built_in(name);
-        m.search.costs.harmful_milli = Some(price);
+        m.edit().search.costs.harmful_milli = Some(price);
         let conditions = Conditions {
             state: Some(InState::holding(StateId::new(1))),
             max_redundant: 9,
@@ -153,16 +153,17 @@ fn harm_costs_what_the_file_says_to_the_thousandth() {
 fn choices_cost_what_the_formula_says() {
     let prices = [("revolute", 1500), ("spherical", 2250), ("universal", 4000)];
     let mut m = built_in("gripper-10");
-    let costs = &mut m.search.costs;
+    let mut costs = m.search.costs.clone();
     (costs.change_milli, costs.link_milli) = (Some(1300), Some(700));
     costs.by_type_milli = prices.map(|(name, p)| (name.to_owned(), p)).to_vec();
+    m.edit().search.costs = costs;
     let ball = m.joints.iter().flat_map(|j| &j.options);
     let ball = ball
         .clone()
         .find(|o| o.name == "spherical")
         .unwrap()
         .clone();
-    for j in m.joints.iter_mut().filter(|j| !j.drive) {
+    for j in m.edit().joints.iter_mut().filter(|j| !j.drive) {
         j.unloading = vec![ball.clone()];
     }
     let conditions = Conditions::default();
@@ -194,7 +195,7 @@ fn choices_cost_what_the_formula_says() {
 #[test]
 fn bounds_are_whole_steps_above_the_cheapest() {
     let mut m = built_in("gripper-10");
-    m.search.costs.by_type_milli = vec![("revolute".to_owned(), 2000)];
+    m.edit().search.costs.by_type_milli = vec![("revolute".to_owned(), 2000)];
     let s = Search::new(exact_field(&m, 0).unwrap(), &m, Conditions::default()).unwrap();
     // No change costs less than nothing.
     assert!(s.steps.base_milli == 0 && s.steps.unit_milli > 1);

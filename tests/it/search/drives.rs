@@ -32,7 +32,7 @@ fn admissible(m: &Mechanism, drives: Drives) -> u64 {
 /// Returns a mechanism whose driven joints have the freedom of this name driven.
 fn driven(mut m: Mechanism, freedom: &str) -> Mechanism {
     let freedom = ozols::model::joint_type::Freedom::from_name(freedom);
-    for j in m.joints.iter_mut().filter(|j| j.drive) {
+    for j in m.edit().joints.iter_mut().filter(|j| j.drive) {
         j.drive_freedom = freedom;
     }
     m
@@ -128,7 +128,7 @@ fn independent_drives_are_as_many_as_the_motions_that_they_decide() {
     }
     // Without the second motor one drive is left, and the slide has what is asked.
     let mut one = m;
-    one.joints[1].drive = false;
+    one.edit().joints[1].drive = false;
     let search = search(&one, Drives::Independent).unwrap();
     let diagrams = search.build_diagrams(&|| false, &mut |_| {});
     let found: Vec<_> = search.cheapest_variants(&diagrams, 5).collect();
@@ -149,7 +149,7 @@ fn nothing_found_with_independent_drives_is_an_answer() {
 fn independent_drives_are_refused_where_they_cannot_be() {
     let built = mechanism_from_str("gantry.toml", &gantry()).unwrap();
     let mut none = built.clone();
-    none.joints.iter_mut().for_each(|j| j.drive = false);
+    none.edit().joints.iter_mut().for_each(|j| j.drive = false);
     let refused = search(&none, Drives::Independent).map(|_| ()).unwrap_err();
     assert!(matches!(refused, SearchError::NoDrives), "{refused}");
     // A slot as built leaves the beam a motion that one drive does not decide.
@@ -159,7 +159,7 @@ fn independent_drives_are_refused_where_they_cannot_be() {
         .replace("type = \"fixed\"", "type = \"slotted\"")
         .replace(options, "");
     let mut slotted = mechanism_from_str("gantry.toml", &slotted).unwrap();
-    slotted.joints[1].drive = false;
+    slotted.edit().joints[1].drive = false;
     let refused = search(&slotted, Drives::Independent)
         .map(|_| ())
         .unwrap_err();
@@ -173,7 +173,7 @@ fn a_driven_joint_of_several_freedoms_drives_the_one_that_is_named() {
     let slide = m.joint_named("0-1").unwrap();
     let named = |freedom: Option<&str>| {
         let mut m = m.clone();
-        m.joints[slide].drive_freedom =
+        m.edit().joints[slide].drive_freedom =
             freedom.and_then(ozols::model::joint_type::Freedom::from_name);
         m.joints[slide].driven_freedom().unwrap().name()
     };

@@ -115,8 +115,8 @@ fn the_frame_is_free_in_every_state() {
     let all: Vec<_> = m.link_ids().collect();
     assert!(all.iter().all(|&l| is_free(&m, l)));
     let frame = m.frame_link();
-    m.joints.retain(|j| !j.links.contains(&frame));
+    m.edit().joints.retain(|j| !j.links.contains(&frame));
     assert!(is_free(&m, frame));
-    m.joints.clear();
+    m.edit().joints.clear();
     assert!(all.iter().all(|&l| is_free(&m, l) == (l == frame)));
 }

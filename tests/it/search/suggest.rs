@@ -30,14 +30,14 @@ fn changed(
     pad: Option<&JointOption>,
 ) -> Mechanism {
     let mut out = m.clone();
-    out.contours.clear();
+    out.edit().contours.clear();
     if let Some(o) = to {
-        out.joints[j].joint_type = o.joint_type.clone();
-        out.joints[j].frame = o.frame.clone();
+        out.edit().joints[j].joint_type = o.joint_type.clone();
+        out.edit().joints[j].frame = o.frame.clone();
     }
     if let Some(u) = pad {
         let link = LinkId::new(out.links.len());
-        out.links.push(Link {
+        out.edit().links.push(Link {
             id: "pad".to_owned(),
             role: Role::Inner,
             mass: None,
@@ -48,8 +48,8 @@ fn changed(
         series.joint_type = u.joint_type.clone();
         series.frame = u.frame.clone();
         series.links[1] = link;
-        out.joints[j].links[0] = link;
-        out.joints.push(series);
+        out.edit().joints[j].links[0] = link;
+        out.edit().joints.push(series);
     }
     out
 }

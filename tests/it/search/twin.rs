@@ -42,7 +42,7 @@ fn drives() -> impl Strategy<Value = Vec<[prop::sample::Index; 2]>> {
 fn drive(m: &mut Mechanism, drives: &[[prop::sample::Index; 2]]) {
     let free: Vec<JointId> = m.joints_in(StateId::FREE).collect();
     for [joint, freedom] in drives {
-        let joint = &mut m.joints[free[joint.index(free.len())]];
+        let joint = &mut m.edit().joints[free[joint.index(free.len())]];
         let freedoms = joint.joint_type.freedoms();
         if !freedoms.is_empty() {
             joint.drive = true;
@@ -189,7 +189,7 @@ proptest! {
         // Turn the whole about z by a right angle and shift it.
         let mut moved = m.clone();
         let shift = Expr::from(i64::from(move_by));
-        for j in &mut moved.joints {
+        for j in &mut moved.edit().joints {
             let turn = |v: &[Expr; 3]| [-&v[1], v[0].clone(), v[2].clone()];
             let f = &j.frame;
             let point = turn(&f.point);
@@ -201,8 +201,8 @@ proptest! {
             };
             j.frame = frame;
         }
-        moved.joints.reverse();
-        for j in &mut moved.joints {
+        moved.edit().joints.reverse();
+        for j in &mut moved.edit().joints {
             j.links.reverse();
         }
         let after = &analyse_states(&moved, &[StateId::FREE], Method::Modular).unwrap()[0];
@@ -211,7 +211,7 @@ proptest! {
         for j in m.joint_ids() {
             for option in m.joints[j].options.clone() {
                 let mut freed = m.clone();
-                (freed.joints[j].joint_type, freed.joints[j].frame) = (option.joint_type, option.frame);
+                (freed.edit().joints[j].joint_type, freed.edit().joints[j].frame) = (option.joint_type, option.frame);
                 let s = &analyse_states(&freed, &[StateId::FREE], Method::Modular).unwrap()[0];
                 prop_assert!(s.redundant <= before.redundant);
             }

@@ -24,7 +24,7 @@ fn gap(s: &Statics, pose: &Pose) -> f64 {
 
 fn over(text: &str, [from, to]: [f64; 2], steps: usize, speeds: &[f64]) -> Statics {
     let mut m = read_planar(text);
-    m.loads.drive_speeds = speeds.to_vec();
+    m.edit().loads.drive_speeds = speeds.to_vec();
     let stroke = Some(Stroke { from, to, steps });
     let found = planar_statics(&m, StateId::FREE, stroke).unwrap();
     assert!(found.dead.is_none(), "{:?}", found.dead);

@@ -49,13 +49,13 @@ fn link(m: &Mechanism, id: &str) -> LinkId {
 fn loads_have_their_components_in_a_plane_that_leans() {
     let mut m = four_bar([0.8, 0.0, -0.6], [0.0, 1.0, 0.0]);
     let coupler = link(&m, "2");
-    m.links[coupler].mass = Some(MassProperties {
+    m.edit().links[coupler].mass = Some(MassProperties {
         mass: 2.0,
         centre: exact([1.2, 1.5, -0.9]),
         inertia: Some(Inertia::Principal([0.1, 0.2, 0.5])),
     });
-    m.loads.gravity = Some(exact([1.0, 2.0, -10.0]));
-    m.loads.drive_speeds = vec![2.0];
+    m.edit().loads.gravity = Some(exact([1.0, 2.0, -10.0]));
+    m.edit().loads.drive_speeds = vec![2.0];
     let found = planar_statics(&m, StateId::FREE, None).unwrap();
     let moment = &found.moments[0];
     let weight = moment
@@ -76,8 +76,9 @@ fn loads_have_their_components_in_a_plane_that_leans() {
 fn the_frame_bears_its_own_and_inertia_acts_aside() {
     let mut m = four_bar([1.0, 0.0, 0.0], [0.0, 1.0, 0.0]);
     for (id, force) in [("0", 5.0), ("2", 7.0)] {
-        m.loads.forces.push(ExternalForce {
-            link: link(&m, id),
+        let link = link(&m, id);
+        m.edit().loads.forces.push(ExternalForce {
+            link,
             point: exact([1.0, 1.0, 0.0]),
             force: exact([force, 0.0, 0.0]),
             range: None,
@@ -85,12 +86,12 @@ fn the_frame_bears_its_own_and_inertia_acts_aside() {
         });
     }
     let coupler = link(&m, "2");
-    m.links[coupler].mass = Some(MassProperties {
+    m.edit().links[coupler].mass = Some(MassProperties {
         mass: 2.0,
         centre: exact([1.5, 2.0, 0.0]),
         inertia: Some(Inertia::Plane(0.3)),
     });
-    m.loads.drive_speeds = vec![2.0];
+    m.edit().loads.drive_speeds = vec![2.0];
     let found = planar_statics(&m, StateId::FREE, None).unwrap();
     let moment = &found.moments[0];
     let frame = found.linkage.mechanism.frame;
@@ -115,8 +116,8 @@ fn the_power_of_all_drives_balances_the_loads() {
     let role = "role = \"output\"\n";
     let heavy = format!("{role}mass = 2\ncentre = [1, 2, 0]\ninertia = 0.2\n");
     let mut m = read_planar(&replace_once(&text, role, &heavy));
-    m.loads.gravity = Some(exact([0.0, -10.0, 0.0]));
-    m.loads.drive_speeds = vec![1.0, -0.7];
+    m.edit().loads.gravity = Some(exact([0.0, -10.0, 0.0]));
+    m.edit().loads.drive_speeds = vec![1.0, -0.7];
     let found = planar_statics(&m, StateId::FREE, None).unwrap();
     let now = &found.moments[0];
     assert!(now.load_power.abs() > 0.1);
@@ -131,12 +132,12 @@ fn a_weight_beside_the_plane_asks_for_space() {
     for (height, planar) in [(0.0, true), (0.5, false)] {
         let mut m = four_bar([1.0, 0.0, 0.0], [0.0, 1.0, 0.0]);
         let coupler = link(&m, "2");
-        m.links[coupler].mass = Some(MassProperties {
+        m.edit().links[coupler].mass = Some(MassProperties {
             mass: 2.0,
             centre: exact([1.5, 2.0, height]),
             inertia: None,
         });
-        m.loads.gravity = Some(exact([0.0, -10.0, 0.0]));
+        m.edit().loads.gravity = Some(exact([0.0, -10.0, 0.0]));
         let found = solve_reactions(&m, StateId::FREE, None, Model::Either).unwrap();
         let is_planar = matches!(found, SolvedReactions::Planar(_));
         assert_eq!(is_planar, planar, "{height}");

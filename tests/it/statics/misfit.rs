@@ -174,7 +174,7 @@ fn assembly_forces_are_those_of_displacements() {
 #[test]
 fn redesigns_are_ranked_by_what_their_assembly_takes() {
     let mut m = ozols::built_in("four-bar").unwrap();
-    m.loads.accuracy = Some(Accuracy::uniform(TOLERANCES));
+    m.edit().loads.accuracy = Some(Accuracy::uniform(TOLERANCES));
     let request = ozols::Request {
         options: ["revolute", "cylindrical", "spherical"]
             .map(str::to_owned)

@@ -147,7 +147,7 @@ pub(super) fn run_export(a: &Export) -> anyhow::Result<Done> {
             let field = exact_field(&mechanism, 0)?;
             let search = Search::new(field, mechanism, Conditions::default())?;
             let mut made = variant_mechanism::realize_variant(&search, &choices);
-            made.name = format!("{id}-idea-{k}");
+            made.edit().name = format!("{id}-idea-{k}");
             crate::cli::command::export::export_text(&made, &a.to, None)?
         }
     };

@@ -64,7 +64,7 @@ impl Special {
     fn displace(&self, exponent: i32) -> Mechanism {
         let mut m = self.mechanism.clone();
         let (joint, axis, coordinate) = self.place;
-        if let Some(joint) = m.joints.get_mut(joint) {
+        if let Some(joint) = m.edit().joints.get_mut(joint) {
             let frame = &mut joint.frame;
             let x = &mut (if axis {
                 &mut frame.axis

@@ -114,7 +114,7 @@ pub(super) fn study_prime(cases: &[Case], effort: Effort, progress: Progress<'_>
     const BITS: [u32; 10] = [8, 10, 12, 14, 16, 20, 24, 32, 48, 61];
     let mut chain = lattice::lattice_mechanism(LatticeKind::FourBars, CONTOURS as usize);
     // A row whose first crank is fixed is rigid: its rank is less where a minor vanishes.
-    chain.joints[JointId::new(0)].joint_type = JointType::Fixed;
+    chain.edit().joints[JointId::new(0)].joint_type = JointType::Fixed;
     let largest = ExactField::of_prime((1 << 61) - 1);
     let rational = |c: &&Case| Closure::new(&largest, &c.mechanism, c.state).is_ok();
     let cases: Vec<&Case> = cases.iter().filter(rational).collect();
@@ -152,7 +152,7 @@ pub(super) fn study_prime(cases: &[Case], effort: Effort, progress: Progress<'_>
                 Some(reply.with_time(time.median))
             };
             let mut drawn = chain.clone();
-            for joint in &mut drawn.joints {
+            for joint in &mut drawn.edit().joints {
                 let [x, y, _] = &mut joint.frame.point;
                 [x, y]
                     .into_iter()

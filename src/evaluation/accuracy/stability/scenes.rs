@@ -136,7 +136,7 @@ fn reprice_options(m: &Mechanism, by: f64, noise: &mut Noise) -> Mechanism {
     let costs = CostTable::new(&m.search.costs);
     let mut factors: BTreeMap<String, f64> = BTreeMap::new();
     let mut out = m.clone();
-    for joint in &mut out.joints {
+    for joint in &mut out.edit().joints {
         for option in joint.options.iter_mut().chain(&mut joint.unloading) {
             let factor = factors.entry(option.name.clone());
             let factor = factor.or_insert_with(|| 1.0 + by * noise.draw_uniform());

@@ -4,7 +4,7 @@ use crate::closure::Closure;
 use crate::file::read::resolve::contains_option;
 use crate::geom::exact::ExactError;
 use crate::model::joint_type::JointType;
-use crate::model::mechanism::{Joint, JointId, Mechanism, StateId};
+use crate::model::mechanism::{Joint, JointId, Mechanism, Parts, StateId};
 use crate::redundancy::contour_shares::{ContourShare, contour_shares};
 use crate::score::evaluation::terms::Scores;
 use crate::score::outcome::Outcome;
@@ -246,14 +246,14 @@ impl fmt::Display for Variant<'_> {
 /// Returns a choice of options as a mechanism, named after its place in a list: "variant 3".
 pub fn as_mechanism(search: &Search, assignment: &Assignment, name: &str) -> Mechanism {
     let mut out = variant_mechanism::realize_variant(search, &assignment.choices);
-    out.description = format!(
+    out.edit().description = format!(
         "{} of {}: {}",
         capitalize(name),
         out.name,
         in_words(search, &list_changes(search, assignment))
     );
-    out.name = format!("{}-{}", out.name, name.replace(' ', "-"));
-    offer_again(search, assignment, &mut out);
+    out.edit().name = format!("{}-{}", out.name, name.replace(' ', "-"));
+    offer_again(search, assignment, &mut out.edit());
     out
 }
 
@@ -266,7 +266,7 @@ fn capitalize(name: &str) -> String {
 
 /// Puts back what a search may still choose, so that a variant can be searched again: what was offered at a joint and allows
 /// what that joint does now, its costs and mirror images, under the same names.
-fn offer_again(search: &Search, assignment: &Assignment, out: &mut Mechanism) {
+fn offer_again(search: &Search, assignment: &Assignment, out: &mut Parts) {
     let old = &search.mechanism;
     let mut chosen = vec![(0, None); old.joints.len()];
     for (v, &choice) in search.space.variables.iter().zip(&assignment.choices) {

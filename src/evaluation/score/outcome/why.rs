@@ -242,7 +242,7 @@ fn pressed_aside(m: &Mechanism) -> Mechanism {
         let points = own.iter().map(|j| to_vector(&j.frame.point));
         let sum = points.fold([0.0; 3], |s, p| [0, 1, 2].map(|i| s[i] + p[i] / many));
         let expr = |x: f64| Expr::from_f64(x).unwrap_or_else(|_| Expr::from(0));
-        out.loads.forces.push(ExternalForce {
+        out.edit().loads.forces.push(ExternalForce {
             link: l,
             point: sum.map(expr),
             force: across.map(|x| expr(x * SIDE_LOAD)),

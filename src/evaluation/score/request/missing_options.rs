@@ -87,7 +87,7 @@ impl Outcome {
             ..wider.clone()
         };
         let mut unranked = Mechanism::clone(&self.search.mechanism);
-        unranked.ranking = None;
+        unranked.edit().ranking = None;
         run(unranked, &trial, &|| false, &mut |_| {})
             .is_ok_and(|found| found.variants().next().is_some())
     }

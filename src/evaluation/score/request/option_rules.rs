@@ -118,8 +118,8 @@ impl Request {
             let item = || format!("link {}", mechanism.links[l].id);
             self.takes_part(mechanism, "--hold", &joints.collect_vec(), item)?;
         }
-        mechanism.search.hold.extend(held);
-        for (id, joint) in mechanism.joint_ids().zip(&mut mechanism.joints) {
+        mechanism.edit().search.hold.extend(held);
+        for (id, joint) in mechanism.joint_ids().zip(&mut mechanism.edit().joints) {
             let kept = |name: &String| {
                 let mut own = rules.iter().filter(|r| r.joint == id);
                 (self.options.is_empty() || self.wants_any() || self.options.contains(name))
@@ -202,7 +202,7 @@ impl Request {
 
 /// Offers an unloading joint by name: one that the file has there, now in every state, or a type in the joint's own frame.
 fn offer_unloading(mechanism: &mut Mechanism, at: JointId, name: &str) -> Result<(), RequestError> {
-    let joint = &mut mechanism.joints[at];
+    let joint = &mut mechanism.edit().joints[at];
     if let Some(known) = joint.unloading.iter_mut().find(|u| u.name == name) {
         known.state = None;
         return Ok(());

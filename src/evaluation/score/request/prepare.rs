@@ -57,7 +57,7 @@ pub(in crate::score) fn as_in_file(
 /// Returns a mechanism prepared for a search, with its joints and options at the places of another.
 fn in_places(ready: &Mechanism, file: &Mechanism) -> Mechanism {
     let mut out = ready.clone();
-    for (joint, there) in out.joints.iter_mut().zip(&file.joints) {
+    for (joint, there) in out.edit().joints.iter_mut().zip(&file.joints) {
         joint.frame = there.frame.clone();
         let offered = |options: &mut [JointOption], named: &[JointOption]| {
             for option in options {
@@ -103,7 +103,7 @@ pub(in crate::score) fn nearest_exact(
         _ => None,
     };
     let mut out = verdicts.iter().find_map(near)?;
-    for (joint, before) in out.joints.iter_mut().zip(&m.joints) {
+    for (joint, before) in out.edit().joints.iter_mut().zip(&m.joints) {
         let offered = joint.options.iter_mut().chain(&mut joint.unloading);
         for option in offered.filter(|o| o.frame.is_same(&before.frame)) {
             let pitch = option.frame.pitch.clone();
@@ -194,14 +194,14 @@ pub(super) fn read_costs(
     text: &str,
 ) -> Result<(), ImportError> {
     let stated = costs_from_str(file, text, mechanism)?;
-    let old = std::mem::take(&mut mechanism.search.costs);
+    let old = std::mem::take(&mut mechanism.edit().search.costs);
     let mut by_type_milli = stated.by_type_milli;
     let named = |list: &[(String, i64)], name: &str| list.iter().any(|(n, _)| n == name);
     let kept = old.by_type_milli.into_iter();
     let kept: Vec<_> = kept.filter(|(n, _)| !named(&by_type_milli, n)).collect();
     by_type_milli.extend(kept);
     by_type_milli.sort();
-    mechanism.search.costs = CostSpec {
+    mechanism.edit().search.costs = CostSpec {
         by_type_milli,
         change_milli: stated.change_milli.or(old.change_milli),
         link_milli: stated.link_milli.or(old.link_milli),

@@ -83,15 +83,14 @@ impl Request {
             return;
         }
         for id in mechanism.joint_ids() {
-            let joint = &mut mechanism.joints[id];
+            let joint = &mechanism.joints[id];
             if is_changeable(joint) {
                 for t in USUAL {
                     offer_type(mechanism, id, &t);
                 }
             } else if !joint.is_in(StateId::FREE) {
-                joint
-                    .unloading
-                    .push(JointOption::in_frame_of(joint, &USUAL_UNLOADING));
+                let usual = JointOption::in_frame_of(joint, &USUAL_UNLOADING);
+                mechanism.edit().joints[id].unloading.push(usual);
             }
         }
         if mechanism.joints.iter().any(offers) {
@@ -217,7 +216,7 @@ fn offer_type(mechanism: &mut Mechanism, id: JointId, joint_type: &JointType) ->
     }
     let fits = type_fits(mechanism, id, joint_type);
     if fits {
-        let joint = &mut mechanism.joints[id];
+        let joint = &mut mechanism.edit().joints[id];
         if joint.options.is_empty() {
             joint
                 .options

@@ -7,11 +7,11 @@ use crate::file::schema::MechanismFile;
 use crate::file::{Findings, Place, unknown_word};
 use crate::geom::exact::ExactField;
 use crate::model::joint_type::{CoupledFreedom, Coupling, Freedom, JointType};
-use crate::model::mechanism::{JointId, JointOption, Mechanism};
+use crate::model::mechanism::{JointId, JointOption, Parts};
 use itertools::Itertools;
 
 /// Reads the couplings, and removes from coupled joints the options that cannot be coupled in the same way.
-pub(crate) fn read_couplings(file: &MechanismFile, mechanism: &mut Mechanism, out: &Findings) {
+pub(crate) fn read_couplings(file: &MechanismFile, mechanism: &mut Parts, out: &Findings) {
     for (at, entry) in out.key("coupling").each_entry(&file.coupling) {
         let joints = at.key("joints");
         let ends = joints.each_entry(&entry.joints);
@@ -57,7 +57,7 @@ pub(crate) fn read_couplings(file: &MechanismFile, mechanism: &mut Mechanism, ou
 }
 
 /// Returns a freedom by the name of its joint, or joint:freedom.
-fn read_end(mechanism: &Mechanism, word: &str, at: &Place<'_>) -> Option<CoupledFreedom> {
+fn read_end(mechanism: &Parts, word: &str, at: &Place<'_>) -> Option<CoupledFreedom> {
     let whole = mechanism.joint_named(word).map(|j| (j, None));
     let parts = || {
         let (id, freedom) = word.rsplit_once(':')?;
@@ -73,7 +73,7 @@ fn read_end(mechanism: &Mechanism, word: &str, at: &Place<'_>) -> Option<Coupled
 
 /// Returns the freedom that a word names, or the only one of its joint.
 fn freedom_of(
-    mechanism: &Mechanism,
+    mechanism: &Parts,
     joint: JointId,
     word: Option<&str>,
 ) -> Result<CoupledFreedom, ProblemKind> {
@@ -128,7 +128,7 @@ fn is_definite(t: &JointType, freedom: Freedom) -> bool {
 }
 
 /// Removes options that lack the coupled freedom, or have it about another axis. In a joint's own list that is a problem.
-fn check_options(file: &MechanismFile, mechanism: &mut Mechanism, out: &Findings) {
+fn check_options(file: &MechanismFile, mechanism: &mut Parts, out: &Findings) {
     for j in mechanism.joint_ids() {
         let coupled = coupled_freedoms(mechanism, j);
         if coupled.is_empty() {
@@ -152,7 +152,7 @@ fn check_options(file: &MechanismFile, mechanism: &mut Mechanism, out: &Findings
 
 /// Returns the freedoms of a joint that are coupled.
 #[must_use]
-pub fn coupled_freedoms(mechanism: &Mechanism, j: JointId) -> Vec<Freedom> {
+pub fn coupled_freedoms(mechanism: &Parts, j: JointId) -> Vec<Freedom> {
     let couplings = mechanism.couplings.iter();
     let own = couplings.filter_map(|c| c.end_at(j).map(|e| c.ends[e].freedom));
     own.unique().collect()

@@ -13,7 +13,7 @@ use crate::file::{Findings, Place};
 use crate::geom::expr::Expr;
 use crate::model::joint_type::{Freedom, JointType};
 use crate::model::mechanism::{
-    Frame, Joint, JointId, JointOption, Link, LinkId, Mechanism, Role, StateId,
+    Frame, Joint, JointId, JointOption, Link, LinkId, Parts, Role, StateId,
 };
 use itertools::Itertools;
 use std::collections::BTreeSet;
@@ -230,7 +230,7 @@ fn mark_outputs(file: &MechanismFile, links: &mut [Link]) {
 }
 
 /// Checks that every link is connected to the frame in each state in which it has joints.
-pub(crate) fn check_connected(mechanism: &Mechanism, out: &Findings) {
+pub(crate) fn check_connected(mechanism: &Parts, out: &Findings) {
     let at = |l: usize| out.key("link").entry_at(l).key("id");
     for (l, link) in mechanism.links_with_ids() {
         if !mechanism.joints.iter().any(|j| j.links.contains(&l)) {
@@ -266,11 +266,7 @@ pub(crate) fn check_connected(mechanism: &Mechanism, out: &Findings) {
     }
 }
 
-pub(crate) fn read_contours(
-    file: &MechanismFile,
-    m: &Mechanism,
-    out: &Findings,
-) -> Vec<Vec<JointId>> {
+pub(crate) fn read_contours(file: &MechanismFile, m: &Parts, out: &Findings) -> Vec<Vec<JointId>> {
     let contour = |joints: &[String], at: Place<'_>| {
         let named = at
             .each_entry(joints)

@@ -10,7 +10,7 @@ use crate::file::{Findings, Place};
 use crate::geom::extent::box_diagonal;
 use crate::geom::vector::to_vector;
 use crate::model::joint_type::JointType;
-use crate::model::mechanism::{Frame, Joint, JointId, JointOption, Mechanism, SearchSpec, StateId};
+use crate::model::mechanism::{Frame, Joint, JointId, JointOption, Parts, SearchSpec, StateId};
 use crate::model::ranking::{ClearanceSum, Limit, Order, Ranking, Term, TypeOverride};
 use itertools::Itertools;
 
@@ -91,7 +91,7 @@ fn read_allowed_option(
 const NO_IMAGE: f64 = 1e-3;
 
 /// Reports pairs that are not mirror images.
-fn check_images(mechanism: &Mechanism, pairs: &[(JointId, JointId)], at: &Place<'_>) {
+fn check_images(mechanism: &Parts, pairs: &[(JointId, JointId)], at: &Place<'_>) {
     let planes = Isometry::find_mirrors(mechanism, pairs);
     let Some((_, misses)) = planes.first() else {
         return;
@@ -109,11 +109,7 @@ fn check_images(mechanism: &Mechanism, pairs: &[(JointId, JointId)], at: &Place<
     }
 }
 
-pub(crate) fn read_search(
-    file: &MechanismFile,
-    mechanism: &Mechanism,
-    out: &Findings,
-) -> SearchSpec {
+pub(crate) fn read_search(file: &MechanismFile, mechanism: &Parts, out: &Findings) -> SearchSpec {
     let at = out.key("search");
     let mut spec = SearchSpec {
         max_redundant: file.search.max_redundant.unwrap_or(0),
@@ -181,7 +177,7 @@ fn read_term(word: &str, at: &Place<'_>) -> Option<Term> {
 }
 
 /// Returns the ranking that a file asks for, if any.
-pub(crate) fn read_ranking(file: &MechanismFile, m: &Mechanism, out: &Findings) -> Option<Ranking> {
+pub(crate) fn read_ranking(file: &MechanismFile, m: &Parts, out: &Findings) -> Option<Ranking> {
     let entry = file.ranking.as_ref()?;
     let at = &out.key("ranking");
     Some(Ranking {
@@ -245,7 +241,7 @@ fn read_limits(entry: &RankingEntry, at: &Place<'_>) -> Vec<Limit> {
 }
 
 /// Returns the states that count in the ranking: free, and those in which the gripper holds its part.
-fn ranked_states(entry: &RankingEntry, m: &Mechanism, at: &Place<'_>) -> Vec<StateId> {
+fn ranked_states(entry: &RankingEntry, m: &Parts, at: &Place<'_>) -> Vec<StateId> {
     let grip = m.loads.grip.as_ref().and_then(|g| g.contacts);
     let of_grip = grip.and_then(|c| m.joints[c[0]].states.as_ref());
     let counts = |s: &StateId| *s == StateId::FREE || of_grip.is_some_and(|all| all.contains(s));
@@ -268,7 +264,7 @@ fn ranked_states(entry: &RankingEntry, m: &Mechanism, at: &Place<'_>) -> Vec<Sta
 /// Returns the figures of joint types in a file: their capacities, and their costs in thousandths.
 pub(crate) fn joint_types(
     file: &MechanismFile,
-    mechanism: &Mechanism,
+    mechanism: &Parts,
     out: &Findings,
 ) -> (Vec<TypeOverride>, Vec<(String, i64)>) {
     let (mut found, mut costs) = (Vec::new(), Vec::new());

@@ -6,7 +6,7 @@ pub(crate) mod quantity;
 use crate::file::schema::{Coordinate, MechanismFile, Words};
 use crate::file::{Findings, Place};
 use crate::geom::expr::{Expr, ExprError, WORDS, WrittenNumber};
-use crate::model::mechanism::{JointId, LengthUnit, Link, LinkId, Mechanism, StateId};
+use crate::model::mechanism::{JointId, LengthUnit, Link, LinkId, Parts, StateId};
 use itertools::Itertools;
 use num_bigint::BigInt;
 use num_rational::BigRational;
@@ -109,7 +109,7 @@ impl Place<'_> {
     }
 
     /// Returns the joint with the given name; reports an unknown name.
-    pub(crate) fn find_joint(&self, mechanism: &Mechanism, id: &str) -> Option<JointId> {
+    pub(crate) fn find_joint(&self, mechanism: &Parts, id: &str) -> Option<JointId> {
         let found = mechanism.joint_named(id);
         if found.is_none() {
             self.unknown_joint(mechanism, id);
@@ -118,14 +118,14 @@ impl Place<'_> {
     }
 
     /// Reports an unknown joint.
-    pub(crate) fn unknown_joint(&self, mechanism: &Mechanism, id: &str) {
+    pub(crate) fn unknown_joint(&self, mechanism: &Parts, id: &str) {
         let mut ids = mechanism.joints.iter().map(|j| j.id.as_str()).take(LISTED);
         let known = ids.join(", ");
         self.add_problem(format!("unknown joint \"{id}\"; known joints: {known}"));
     }
 
     /// Returns the states that an entry names; `None` if it names none, which means all.
-    pub(crate) fn find_states(&self, m: &Mechanism, named: Option<&Words>) -> Option<Vec<StateId>> {
+    pub(crate) fn find_states(&self, m: &Parts, named: Option<&Words>) -> Option<Vec<StateId>> {
         let mut found = Vec::new();
         for word in named?.word_list() {
             match m.state_named(word) {

@@ -18,7 +18,7 @@ use crate::file::{Finding, Findings};
 use crate::model::claim::Claim;
 use crate::model::drive::DriveSpec;
 use crate::model::grip::GripSpec;
-use crate::model::mechanism::{LengthUnit, Mechanism};
+use crate::model::mechanism::{LengthUnit, Mechanism, Parts};
 
 /// A file as the workload commands see it.
 #[derive(Debug, Clone)]
@@ -108,7 +108,7 @@ pub(crate) fn workload_tables(file: &MechanismFile) -> Vec<&'static str> {
 
 fn read_workload<T>(
     file: &MechanismFile,
-    table: impl Fn(&MechanismFile, f64, Option<&Mechanism>, &Findings) -> Option<T>,
+    table: impl Fn(&MechanismFile, f64, Option<&Parts>, &Findings) -> Option<T>,
     (name, example): (&str, &str),
 ) -> Result<WorkloadFile<T>, Vec<Finding>> {
     let out = with_parameters(file);
@@ -118,7 +118,7 @@ fn read_workload<T>(
         Some(build_mechanism(file)?)
     };
     let length_unit = length_unit(file, &out);
-    let spec = table(file, length_unit.metres, mechanism.as_ref(), &out);
+    let spec = table(file, length_unit.metres, mechanism.as_deref(), &out);
     let claims = read_claims(file, &out);
     if spec.is_none() && out.problem_count() == 0 {
         out.key("workload").add_problem(format!(

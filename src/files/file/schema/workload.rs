@@ -336,6 +336,24 @@ impl Default for Coordinate {
     }
 }
 
+impl From<i64> for Coordinate {
+    fn from(x: i64) -> Coordinate {
+        Coordinate::Integer(x)
+    }
+}
+
+impl From<f64> for Coordinate {
+    fn from(x: f64) -> Coordinate {
+        Coordinate::Decimal(x)
+    }
+}
+
+impl From<&str> for Coordinate {
+    fn from(x: &str) -> Coordinate {
+        Coordinate::Expression(x.to_owned())
+    }
+}
+
 /// A number, or a number with a unit in quotes: "360deg", "60rpm".
 #[derive(Debug, Clone, Deserialize, Serialize, JsonSchema)]
 #[serde(

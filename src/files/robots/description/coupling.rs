@@ -97,7 +97,7 @@ pub(crate) fn kept_couplings(m: &Mechanism) -> Option<Kept> {
         found.is_decided().then(|| columns - found.rank())
     };
     let mut without = m.clone();
-    without.couplings.clear();
+    without.edit().couplings.clear();
     Some(Kept {
         couplings: m.couplings.len(),
         mobility: mobility(&without).zip(mobility(m)),

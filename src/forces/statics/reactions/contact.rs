@@ -6,7 +6,7 @@
 
 use crate::geom::vector::{add_scaled, dot, sub};
 use crate::model::joint_type::JointType;
-use crate::model::mechanism::{JointId, LinkId, Mechanism, Role};
+use crate::model::mechanism::{JointId, LinkId, Mechanism, Parts, Role};
 use crate::statics::drop_rounding;
 use crate::statics::reactions::geometry::{Geometry, Six, shift_wrench};
 use crate::statics::reactions::unsolved::Unsolved;
@@ -76,7 +76,7 @@ const NOTHING: f64 = 1e-7;
 
 /// Returns the clamped part on which a joint is a face, if it is one.
 #[must_use]
-pub fn object_at(m: &Mechanism, joint: JointId) -> Option<LinkId> {
+pub fn object_at(m: &Parts, joint: JointId) -> Option<LinkId> {
     let joint = &m.joints[joint];
     let face = matches!(
         joint.joint_type,

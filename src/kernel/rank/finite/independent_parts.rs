@@ -61,7 +61,7 @@ pub(crate) fn with_joints_only(mechanism: &Mechanism, joints: &[JointId]) -> Mec
     let mut out = mechanism.clone();
     for j in mechanism.joint_ids() {
         if !joints.contains(&j) {
-            out.joints[j].states = Some(Vec::new());
+            out.parts_mut().joints[j].states = Some(Vec::new());
         }
     }
     let touched = |l: LinkId| {
@@ -73,8 +73,8 @@ pub(crate) fn with_joints_only(mechanism: &Mechanism, joints: &[JointId]) -> Mec
         && !touched(mechanism.frame_link())
     {
         let frame = mechanism.frame_link();
-        out.links[frame].role = Role::Output;
-        out.links[mechanism.joints[first].links[0]].role = Role::Frame;
+        out.parts_mut().links[frame].role = Role::Output;
+        out.parts_mut().links[mechanism.joints[first].links[0]].role = Role::Frame;
     }
     out
 }
@@ -116,7 +116,7 @@ pub fn lock_idle(
         }
         // Freedoms of the first joint that extend the common group to all of its own freedoms.
         let mut span = Echelon::from_vectors(exact.field(), &shared);
-        let joint = &mut mechanism.joints[at[0]];
+        let joint = &mut mechanism.parts_mut().joints[at[0]];
         let kept = joint.joint_type.freedoms().iter().zip(first);
         let kept = kept
             .filter(|(_, t)| span.insert(t))
@@ -146,7 +146,7 @@ fn lock_ways(
     let mut locked = 0;
     for link in mechanism.link_ids().collect::<Vec<_>>() {
         while let Some((joint, kept)) = find_idle_motion(exact, mechanism, state, link)? {
-            mechanism.joints[joint].joint_type = JointType::Custom(kept);
+            mechanism.parts_mut().joints[joint].joint_type = JointType::Custom(kept);
             locked += 1;
         }
     }

@@ -434,7 +434,7 @@ fn lock_resting(
         return None;
     }
     let mut out = mechanism.clone();
-    for (j, joint) in mechanism.joint_ids().zip(&mut out.joints) {
+    for (j, joint) in mechanism.joint_ids().zip(&mut out.parts_mut().joints) {
         let mut kept = joint.joint_type.freedoms().to_vec();
         kept.retain(|&f| !resting.contains(&(j, f)));
         if kept.len() < joint.joint_type.freedoms().len() {

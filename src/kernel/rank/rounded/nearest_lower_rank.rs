@@ -49,7 +49,7 @@ pub struct Nearest {
 fn move_coordinates(m: &Mechanism, of: &[Coordinate], by: &[f64]) -> Option<Mechanism> {
     let mut out = m.clone();
     for (c, x) in of.iter().zip(by) {
-        let frame = &mut out.joints[c.joint].frame;
+        let frame = &mut out.parts_mut().joints[c.joint].frame;
         let vector = match c.vector {
             0 => &mut frame.point,
             1 => &mut frame.axis,

@@ -79,7 +79,7 @@ impl InStateSeen {
             let mut freer = realized.clone();
             for &j in &added {
                 if let Some(freedoms) = freed(j) {
-                    freer.joints[j].joint_type = JointType::Custom(freedoms);
+                    freer.parts_mut().joints[j].joint_type = JointType::Custom(freedoms);
                 }
             }
             rank_range(&freer, state, digits)

@@ -376,7 +376,7 @@ mod tests {
                     joint: JointId::new(place(j)),
                     freedom: Freedom::Rz,
                 };
-                m.couplings = vec![Coupling {
+                m.parts_mut().couplings = vec![Coupling {
                     ends: first.map(end),
                     ratio: ratio.into(),
                     gear: true,
@@ -399,7 +399,7 @@ mod tests {
             let mut m = draw_mechanism(&[(JointType::Revolute, [0, 1], [1.0, 2.0, 0.0], Z)], &[]);
             let mut other = m.joints[0].options[0].clone();
             other.joint_type = option.clone();
-            m.joints[0].options.push(other);
+            m.parts_mut().joints[0].options.push(other);
             assert_eq!(question(&m, 0).is_ok(), contained, "{option:?}");
         }
     }

@@ -297,11 +297,12 @@ mod tests {
             ],
             &[3],
         );
-        m.joints[1].frame.pitch = crate::geom::expr::Expr::from_f64(high / turn).unwrap();
-        m.joints[1].options[0].frame = m.joints[1].frame.clone();
+        m.parts_mut().joints[1].frame.pitch =
+            crate::geom::expr::Expr::from_f64(high / turn).unwrap();
+        m.parts_mut().joints[1].options[0].frame = m.joints[1].frame.clone();
         let exact = exact_field(&m, 0).unwrap();
         let question = Question::new(exact, m.clone(), Conditions::default()).unwrap();
-        m.joints[1].joint_type = JointType::Cylindrical;
+        m.parts_mut().joints[1].joint_type = JointType::Cylindrical;
         let pose = Pose::of_file(&m, StateId::FREE).unwrap();
         let output = |turns: f64| {
             // The screw climbs along its axis, in the file's unit.

@@ -2,7 +2,7 @@
 
 use crate::model::joint_type::JointType;
 use crate::model::mechanism::{
-    Joint, JointId, JointOption, Link, LinkId, Mechanism, Role, StateId,
+    Joint, JointId, JointOption, Link, LinkId, Mechanism, Parts, Role, StateId,
 };
 use crate::search::question::Question;
 
@@ -49,7 +49,7 @@ pub fn realize_variant(question: &Question, choices: &[usize]) -> Mechanism {
         joints.push(here);
     }
     joints.extend(inserted);
-    Mechanism {
+    Mechanism::of_valid(Parts {
         name: old.name.clone(),
         description: old.description.clone(),
         sources: old.sources.clone(),
@@ -68,7 +68,7 @@ pub fn realize_variant(question: &Question, choices: &[usize]) -> Mechanism {
         expected: Vec::new(),
         claims: Vec::new(),
         assumed: old.assumed.clone(),
-    }
+    })
 }
 
 /// Returns an unloading joint in series with another, from the link at one end of it to a pad. That of a contact exists in
@@ -106,7 +106,7 @@ pub(crate) fn lock_links(question: &Question, realized: &Mechanism) -> Mechanism
         lock.links = [frame, link];
         lock.joint_type = JointType::Fixed;
         lock.states = None;
-        out.joints.push(lock);
+        out.parts_mut().joints.push(lock);
     }
     out
 }

@@ -66,7 +66,7 @@ impl Followed {
     pub(super) fn enter_drives(&self, mechanism: &mut Arc<Mechanism>) {
         let spec = &mechanism.search;
         if (&spec.drives, spec.locks_drives) != (&self.freedoms, self.locked) {
-            let spec = &mut Arc::make_mut(mechanism).search;
+            let spec = &mut Arc::make_mut(mechanism).parts_mut().search;
             spec.drives.clone_from(&self.freedoms);
             spec.locks_drives = self.locked;
         }

@@ -36,7 +36,7 @@ pub(crate) fn own_images(
             let found = [2, 3].into_iter().find_map(find)?;
             let mut symmetric = mechanism.clone();
             found.apply_to(&mut symmetric);
-            symmetric.search
+            symmetric.search.clone()
         }
         _ => {
             check_images(exact, mechanism, state).ok()?;
@@ -75,14 +75,15 @@ impl Carried {
             mirrored,
             near,
         } = &self.symmetry;
-        mechanism.search.nearly_symmetric = *near;
+        let parts = mechanism.parts_mut();
+        parts.search.nearly_symmetric = *near;
         if *mirrored {
-            mechanism.search.mirror = groups.iter().map(|g| (g[0], g[1])).collect();
+            parts.search.mirror = groups.iter().map(|g| (g[0], g[1])).collect();
         } else {
-            mechanism.search.turn.clone_from(groups);
+            parts.search.turn.clone_from(groups);
         }
         for (joint, option, axis) in &self.second_axes {
-            if let Some(option) = mechanism.joints[*joint].options.get_mut(*option) {
+            if let Some(option) = parts.joints[*joint].options.get_mut(*option) {
                 option.frame.reference.clone_from(axis);
             }
         }

@@ -25,7 +25,7 @@ pub(super) fn small_request() -> Request {
 
 /// The same mechanism with its present joints as the only options.
 pub(super) fn without_options(mut m: Mechanism) -> Mechanism {
-    for joint in &mut m.joints {
+    for joint in &mut m.edit().joints {
         joint.unloading.clear();
         joint.options = vec![JointOption {
             name: joint.joint_type.name().to_owned(),

@@ -80,7 +80,7 @@ fn a_stated_image_that_is_off_by_more_than_the_digits_is_refused() {
         let mut m = turned_bare(&exact, 6, &mut Noise::new(seed, 0));
         let joint = m.search.mirror[1].0;
         for axis in 0..3 {
-            let x = &mut m.joints[joint].frame.point[axis];
+            let x = &mut m.edit().joints[joint].frame.point[axis];
             // Eight units of the last digit.
             *x = format!("{:.6}", x.to_f64() + 8e-6).parse().unwrap();
         }

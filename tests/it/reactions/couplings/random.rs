@@ -124,14 +124,14 @@ pub(super) fn with_loads(m: &mut Mechanism, random: &mut Random) {
     let links: Vec<_> = m.link_ids().filter(|&l| l != frame).collect();
     for link in links {
         let mut vector = |most: i64| [0, 1, 2].map(|_| random.around(most).into());
-        m.loads.forces.push(ExternalForce {
+        m.edit().loads.forces.push(ExternalForce {
             states: None,
             link,
             point: vector(80),
             force: vector(100),
             range: None,
         });
-        m.loads.moments.push(ExternalMoment {
+        m.edit().loads.moments.push(ExternalMoment {
             link,
             moment: vector(9),
             states: None,

@@ -76,7 +76,7 @@ fn minimal_variants_of_built_in_mechanisms() {
     ] {
         let mut m = built_in(name);
         if !options.is_empty() {
-            for joint in &mut m.joints {
+            for joint in &mut m.edit().joints {
                 let offered = |n: &str| n == "revolute" || options.contains(&n);
                 joint.options.retain(|o| offered(&o.name));
             }
@@ -93,7 +93,7 @@ fn minimal_variants_of_built_in_mechanisms() {
 fn equal_options_do_not_rule_each_other_out() {
     let with_names = |sleeves: &[&str]| {
         let mut m = built_in("four-bar");
-        for joint in &mut m.joints {
+        for joint in &mut m.edit().joints {
             joint
                 .options
                 .retain(|o| ["revolute", "cylindrical", "spherical"].contains(&o.name.as_str()));

@@ -137,9 +137,9 @@ fn the_motor_stays_where_it_can() {
     for driven in ["0-a0", "c0-0"] {
         let mut m = four_bars(&[RIGHT], [0, 0, 1], false);
         let [motor, left_out] = [driven, "b0-c0"].map(|id| m.joint_named(id).unwrap());
-        m.joints[left_out].options.truncate(1);
-        m.joints[motor].drive = true;
-        m.search.costs.driven_milli = Some(0);
+        m.edit().joints[left_out].options.truncate(1);
+        m.edit().joints[motor].drive = true;
+        m.edit().search.costs.driven_milli = Some(0);
         let outcome = ozols::search(&m, &Request::default()).unwrap();
         let ideas = outcome
             .search

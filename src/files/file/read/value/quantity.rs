@@ -5,7 +5,7 @@ use crate::file::{Findings, Place};
 use crate::geom::expr::{End, Expr, WrittenNumber};
 use crate::geom::extent::box_diagonal;
 use crate::geom::vector::{length, to_vector};
-use crate::model::mechanism::{Frame, Joint, Mechanism};
+use crate::model::mechanism::{Frame, Joint, Parts};
 use std::f64::consts::PI;
 use std::fmt::Display;
 
@@ -220,7 +220,7 @@ const MOST_TURN: f64 = 0.1;
 const MOST_SHIFT: f64 = 0.1;
 
 /// Replaces the uncertainties that follow from the digits by the stated ones.
-pub(crate) fn read_tolerance(file: &MechanismFile, m: &mut Mechanism, out: &Findings) {
+pub(crate) fn read_tolerance(file: &MechanismFile, m: &mut Parts, out: &Findings) {
     let across = box_diagonal(m.joints.iter().map(|j| to_vector(&j.frame.point)));
     // Joints that are all in one place have no size.
     let most = if across > 0.0 {

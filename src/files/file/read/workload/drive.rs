@@ -8,7 +8,7 @@ use crate::geom::vector::{dot, scale, sub, to_vector};
 use crate::model::drive::{Cam, Damping, DriveSpec, Payload, ProgrammeStep, Push};
 use crate::model::joint_type::JointType;
 use crate::model::loads::Inertia;
-use crate::model::mechanism::{Mechanism, StateId};
+use crate::model::mechanism::{Parts, StateId};
 
 fn read_damping(t: &Place<'_>, e: &DriveEntry) -> Option<Damping> {
     let viscous = t.not_negative("viscous_damping", &e.viscous_damping, 1.0);
@@ -80,7 +80,7 @@ fn missing_angle(t: &Place<'_>, e: &DriveEntry, twist: f64) -> Option<f64> {
 pub(crate) fn read_drive(
     file: &MechanismFile,
     unit: f64,
-    mechanism: Option<&Mechanism>,
+    mechanism: Option<&Parts>,
     out: &Findings,
 ) -> Option<DriveSpec> {
     let e = file.workload.drive.as_ref()?;
@@ -140,7 +140,7 @@ pub(super) fn add_lacking(t: &Place<'_>, other: &str) {
 }
 
 /// Returns the inertia of a link about the axis of its joint with the frame.
-fn link_inertia(t: &Place<'_>, id: &str, unit: f64, mechanism: Option<&Mechanism>) -> Option<f64> {
+fn link_inertia(t: &Place<'_>, id: &str, unit: f64, mechanism: Option<&Parts>) -> Option<f64> {
     let key = "disc_link";
     let Some(m) = mechanism else {
         t.add_missing_key(key, MECHANISM);
@@ -179,7 +179,7 @@ fn disc_inertia(
     t: &Place<'_>,
     e: &DriveEntry,
     unit: f64,
-    mechanism: Option<&Mechanism>,
+    mechanism: Option<&Parts>,
 ) -> Option<f64> {
     let disc = t.not_negative("disc_inertia", &e.disc_inertia, 1.0);
     match (disc, &e.disc_link) {
@@ -197,7 +197,7 @@ pub(crate) fn read_inertias(
     t: &Place<'_>,
     e: &DriveEntry,
     unit: f64,
-    mechanism: Option<&Mechanism>,
+    mechanism: Option<&Parts>,
 ) -> ([f64; 2], Option<Payload>) {
     let mass = t.read_positive("payload_mass", &e.payload_mass, 1.0);
     let radius = t.not_negative("payload_radius", &e.payload_radius, unit);

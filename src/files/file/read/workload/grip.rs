@@ -4,7 +4,7 @@ use crate::file::read::value::quantity::Bound;
 use crate::file::schema::{Diameters, Gravity, GripEntry, MechanismFile};
 use crate::file::{Findings, Place};
 use crate::model::grip::{GripLoad, GripSpec, LeverDrive, PartMass, Pivots, Toward, Transmission};
-use crate::model::mechanism::{JointId, LinkId, Mechanism, Role};
+use crate::model::mechanism::{JointId, LinkId, Parts, Role};
 use itertools::Itertools;
 
 /// Standard gravity. `[m/s²]`
@@ -148,7 +148,7 @@ fn read_transmission(
     t: &Place<'_>,
     e: &GripEntry,
     unit: f64,
-    mechanism: Option<&Mechanism>,
+    mechanism: Option<&Parts>,
 ) -> Transmission {
     let arm = t.read_positive("drive_arm", &e.drive_arm, unit);
     match (arm, &e.lever_joints, mechanism) {
@@ -169,7 +169,7 @@ fn read_transmission(
 }
 
 /// Returns the joints that a list names, without unknown ones.
-fn read_joints(at: &Place<'_>, ids: &[String], m: &Mechanism) -> Vec<JointId> {
+fn read_joints(at: &Place<'_>, ids: &[String], m: &Parts) -> Vec<JointId> {
     at.each_entry(ids)
         .filter_map(|(at, id)| at.find_joint(m, id))
         .collect()
@@ -193,7 +193,7 @@ fn contacts_go_with(t: &Place<'_>, spec: &GripSpec) {
 
 /// The joints of a clamped part and of the levers that clamp it.
 struct Clamp<'a> {
-    mechanism: &'a Mechanism,
+    mechanism: &'a Parts,
     /// The joints of the levers, upper and lower.
     levers: [JointId; 2],
     /// Upper far, upper near, lower far, lower near.
@@ -251,12 +251,7 @@ impl Clamp<'_> {
 }
 
 /// Returns the joints that represent the contacts; each joins the part to its lever.
-fn read_contacts(
-    t: &Place<'_>,
-    e: &GripEntry,
-    spec: &GripSpec,
-    m: &Mechanism,
-) -> Option<[JointId; 4]> {
+fn read_contacts(t: &Place<'_>, e: &GripEntry, spec: &GripSpec, m: &Parts) -> Option<[JointId; 4]> {
     let ids = e.contacts.as_ref()?;
     let Transmission::Joints(levers) = spec.transmission else {
         if e.lever_joints.is_none() {
@@ -305,7 +300,7 @@ fn read_pivots(t: &Place<'_>, e: &GripEntry, unit: f64) -> Pivots {
 pub(crate) fn read_grip(
     file: &MechanismFile,
     unit: f64,
-    mechanism: Option<&Mechanism>,
+    mechanism: Option<&Parts>,
     out: &Findings,
 ) -> Option<GripSpec> {
     let e = file.workload.grip.as_ref()?;

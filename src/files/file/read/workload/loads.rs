@@ -13,7 +13,7 @@ use crate::model::loads::{
     Accuracy, ExternalForce, ExternalMoment, Face, Inertia, Loads, MassProperties, Misalignment,
     Stiffness, Stroke, Tolerances,
 };
-use crate::model::mechanism::Mechanism;
+use crate::model::mechanism::Parts;
 use crate::statics::reactions::contact::object_at;
 
 /// The allowed range of inertias and masses.
@@ -77,7 +77,7 @@ pub(crate) fn read_mass(entry: &LinkEntry, at: &Place<'_>) -> Option<MassPropert
 }
 
 /// Reads the `[workload]` table.
-pub(crate) fn read_loads(file: &MechanismFile, mechanism: &Mechanism, out: &Findings) -> Loads {
+pub(crate) fn read_loads(file: &MechanismFile, mechanism: &Parts, out: &Findings) -> Loads {
     let (at, entry) = (&out.key("workload"), &file.workload);
     let forces = at.key("force");
     let forces = forces.first_entries(MAX_FORCES, &entry.force, "forces");
@@ -113,7 +113,7 @@ pub(crate) fn read_loads(file: &MechanismFile, mechanism: &Mechanism, out: &Find
 }
 
 /// Returns an external force, if its link is known.
-fn read_force(f: &ForceEntry, mechanism: &Mechanism, at: &Place<'_>) -> Option<ExternalForce> {
+fn read_force(f: &ForceEntry, mechanism: &Parts, at: &Place<'_>) -> Option<ExternalForce> {
     let point = at.key("point").read_vector(&f.point);
     let force = at.key("force").read_vector(&f.force);
     let end = |q: &Option<Quantity>, k: &str| q.as_ref().map(|q| at.key(k).read_position(q));
@@ -134,7 +134,7 @@ fn read_force(f: &ForceEntry, mechanism: &Mechanism, at: &Place<'_>) -> Option<E
 }
 
 /// Returns the speeds of the drives, at most one per drive.
-fn drive_speeds(entry: Option<&Quantities>, mechanism: &Mechanism, at: &Place<'_>) -> Vec<f64> {
+fn drive_speeds(entry: Option<&Quantities>, mechanism: &Parts, at: &Place<'_>) -> Vec<f64> {
     let speeds = match entry {
         None => Vec::new(),
         Some(Quantities::One(q)) => vec![at.read_speed(q)],
@@ -164,7 +164,7 @@ fn read_stroke(s: &StrokeEntry, at: &Place<'_>) -> Stroke {
 /// Returns the external moments.
 pub(crate) fn read_moments(
     entry: &WorkloadEntry,
-    m: &Mechanism,
+    m: &Parts,
     at: &Place<'_>,
 ) -> Vec<ExternalMoment> {
     let mut found = Vec::new();
@@ -182,7 +182,7 @@ pub(crate) fn read_moments(
 }
 
 /// Returns the faces of contacts.
-pub(crate) fn read_faces(entry: &WorkloadEntry, m: &Mechanism, at: &Place<'_>) -> Vec<Face> {
+pub(crate) fn read_faces(entry: &WorkloadEntry, m: &Parts, at: &Place<'_>) -> Vec<Face> {
     let mut found = Vec::new();
     for (at, e) in at.first_entries(MAX_FORCES, &entry.contact, "contacts") {
         let Some(joint) = at.key("joint").find_joint(m, &e.joint) else {
@@ -230,7 +230,7 @@ pub(crate) fn read_stiffness(entry: &WorkloadEntry, at: &Place<'_>) -> Vec<(Stri
 /// Returns the misaligned joints.
 pub(crate) fn read_misalignments(
     entry: &WorkloadEntry,
-    m: &Mechanism,
+    m: &Parts,
     at: &Place<'_>,
 ) -> Vec<Misalignment> {
     let mut found = Vec::new();
@@ -265,11 +265,7 @@ pub(crate) fn read_misalignments(
 }
 
 /// Returns the accuracy of the joints, if the file states it.
-pub(crate) fn read_accuracy(
-    file: &MechanismFile,
-    m: &Mechanism,
-    at: &Place<'_>,
-) -> Option<Accuracy> {
+pub(crate) fn read_accuracy(file: &MechanismFile, m: &Parts, at: &Place<'_>) -> Option<Accuracy> {
     let entry = file.tolerances.as_ref()?;
     let mut out = Accuracy::default();
     if let Some(fit) = &entry.fit {

@@ -81,7 +81,7 @@ fn a_kept_motion_is_sure_where_its_dimension_is() {
         let mut turns = m.joints[2].options[0].clone();
         turns.joint_type = JointType::Cylindrical;
         turns.name = turns.joint_type.name().to_owned();
-        m.joints[2].options.push(turns);
+        m.parts_mut().joints[2].options.push(turns);
         let said = |choices| judged(&m, Conditions::default(), digits, choices)[1].clone();
         assert_eq!(said(&[0, 0, 0]), "sure");
         assert_eq!(said(&[0, 0, 1]), wanted, "{apart} {digits:?}");
@@ -100,9 +100,9 @@ fn external_constraints_are_sure_where_their_number_is() {
         let mut joints = door(apart);
         joints.push((JointType::SphereOnPlane, [0, 1], X, Y));
         let mut m = draw_mechanism(&joints, &[]);
-        m.states.push("stopped".to_owned());
+        m.parts_mut().states.push("stopped".to_owned());
         let stopped = StateId::new(1);
-        m.joints[3].states = Some(vec![stopped]);
+        m.parts_mut().joints[3].states = Some(vec![stopped]);
         let found = [0, 1].map(|most| {
             let conditions = Conditions {
                 max_redundant: 5,
