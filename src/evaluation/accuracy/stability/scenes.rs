@@ -4,7 +4,7 @@ use crate::accuracy::cases::Case;
 use crate::accuracy::change::{Noise, stretch};
 use crate::accuracy::lattice::{Scene, make_ladder};
 use crate::accuracy::said::{Reply, Said};
-use crate::accuracy::study::{Effort, Progress, Study, View};
+use crate::accuracy::study::{Effort, Progress, Study};
 use crate::accuracy::timing::{Stopwatch, Timing};
 use crate::closure::Closure;
 use crate::closure::contour::contour_basis;
@@ -25,11 +25,7 @@ const CONTOURS: [usize; 8] = [1, 2, 3, 4, 6, 9, 14, 20];
 /// with that by all rows in space, which is the truth. Times are multiples of the time by all rows.
 pub(super) fn study_least_model(cases: &[Case], effort: Effort, progress: Progress<'_>) -> Study {
     let each = if effort.quick { 4 } else { 32 };
-    let study = Study::new(
-        "stability-model",
-        CONTOURS.map(|k| k as f64).to_vec(),
-        View::Ratios,
-    );
+    let study = Study::new("stability-model", CONTOURS.map(|k| k as f64).to_vec());
     let rows = Scene::ALL.map(Scene::name).into_iter();
     let rows = rows.chain(["built-in mechanisms"]);
     let watch = Stopwatch {
@@ -106,11 +102,11 @@ pub(super) fn study_first_idea(cases: &[Case], effort: Effort, progress: Progres
     let offers = free.filter(|m| m.joints.iter().any(|j| !j.options.is_empty()));
     let ideas = offers.filter_map(|m| Some((m, first(m, 10)?)));
     let ideas: Vec<_> = ideas.collect();
-    let study = Study::new("stability-first-idea", values.to_vec(), View::Best);
+    let study = Study::new("stability-first-idea", values.to_vec());
     let names = [
-        "first among costs",
-        "among the first ten",
-        "first in a ranking under loads",
+        "first by cost stays first",
+        "first by cost stays among ten",
+        "first of a ranking stays first",
     ];
     study.ask_cases(names, ideas.len() * each, progress, |v, n| {
         let (m, before) = &ideas[n / each];
