@@ -14,7 +14,7 @@ pub(crate) struct Accuracy {
     /// Write charts and tables to this folder, with index.html as the start page; without it only the table is printed.
     #[arg(long, short, value_name = "DIR")]
     output: Option<PathBuf>,
-    /// Fewer repeats and coarser studies: seconds instead of a minute or two.
+    /// Fewer repeats and coarser studies: under a minute instead of some minutes.
     #[arg(long)]
     quick: bool,
     /// Number of times that each answer is timed; the median counts [default: 5, or 1 with --quick].

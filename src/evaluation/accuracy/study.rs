@@ -6,7 +6,7 @@ mod conclusion;
 use super::said::{Reply, Said, Tally};
 use super::timing::Clock;
 use crate::chart::{Axis, Band, Bands, Chart, Scale, Series, Style, VerdictKind, page};
-use crate::format::csv;
+use crate::format::{csv, round_digits};
 use crate::score::outcome::pareto::front;
 use rayon::prelude::*;
 use serde::Deserialize;
@@ -162,7 +162,7 @@ impl Study {
         heads.extend(figures.then_some("figure"));
         let rows = self.rows.iter().flat_map(|(name, tallies)| {
             replies_of(tallies).map(move |(x, t)| {
-                let mut row = vec![name.clone(), format!("{x:e}")];
+                let mut row = vec![name.clone(), format!("{:e}", round_digits(x, 12))];
                 row.push(t.count_replies().to_string());
                 row.extend(t.of.map(|n| n.to_string()));
                 row.push(t.wrong.join("; ").replace('\n', " "));

@@ -29,8 +29,9 @@ impl Study {
     }
 
     /// Returns the rows that are always right, the shares of the others, and the values at which most answers are wrong and sure. If one
-    /// value matters most, shares are those at it.
+    /// value matters most, shares are those at it. Studies of many methods give the share of right answers alone.
     fn describe_shares(&self) -> String {
+        let brief = matches!(self.texts.view, View::Regions | View::Times);
         let (mut always, mut rest, mut worst) = (Vec::new(), Vec::new(), Vec::new());
         for (name, tallies) in &self.rows {
             let at = |x: f64| self.texts.at.is_none_or(|at| (x / at - 1.0).abs() < 1e-9);
@@ -44,11 +45,15 @@ impl Study {
             match sum.count_replies() {
                 0 => continue,
                 all if all == sum.of[0] => always.push(name.as_str()),
-                _ => rest.push(format!("{name} {}", words.collect::<Vec<_>>().join(", "))),
+                _ if brief => rest.push(format!("{name} {:.0} %", sum.percent_of(Said::Right))),
+                all => rest.push(format!(
+                    "{name} {} (of {all})",
+                    words.collect::<Vec<_>>().join(", ")
+                )),
             }
             let sure = |(_, t): &(f64, &Tally)| t.percent_of(Said::Wrong);
             let most = replies_of(tallies).max_by(|a, b| sure(a).total_cmp(&sure(b)));
-            if let Some((x, t)) = most.filter(|(_, t)| !t.wrong.is_empty()) {
+            if let Some((x, t)) = most.filter(|(_, t)| !brief && !t.wrong.is_empty()) {
                 let (wrong, all) = (t.wrong.len(), t.count_replies());
                 worst.push(format!("{name} in {wrong} of {all} at {}", two_digits(x)));
             }
@@ -64,22 +69,17 @@ impl Study {
         ])
     }
 
-    /// Returns the time of each row at the largest value that has replies, and how it grows.
+    /// Returns the time of each row at the largest value that has replies.
     fn describe_times(&self) -> String {
+        let seconds = self.texts.up.ends_with(", s");
         let times = self.each_row(|(name, tallies)| {
-            let of: Vec<_> = replies_of(tallies)
-                .map(|(x, t)| (x, t.median_time()))
-                .collect();
-            let (x1, y1) = *of.last()?;
-            if !self.texts.up.ends_with(", s") {
-                return Some(format!("{name} {y1:.1} at {x1}"));
-            }
-            let before = of.iter().rev().find(|(x, y)| x * 3.0 <= x1 && *y > 0.0);
-            let grows = before.map_or_else(String::new, |(x0, y0)| {
-                let power = (y1 / y0).ln() / (x1 / x0).ln();
-                format!(", growing with the power {power:.1}")
-            });
-            Some(format!("{name} {} at {x1}{grows}", format_duration(y1)))
+            let (x, tally) = replies_of(tallies).last()?;
+            let time = tally.median_time();
+            Some(if seconds {
+                format!("{name} {} at {x}", format_duration(time))
+            } else {
+                format!("{name} {time:.1} times as long at {x}")
+            })
         });
         format!("Times: {times}")
     }
