@@ -133,6 +133,7 @@ fn verdicts(folder: &std::path::Path) -> Vec<(String, String)> {
         "stability-scale.csv",
         "stability-shaky.csv",
         "stability-first-idea.csv",
+        "stability-dead-point.csv",
     ]
     .map(|n| (n.to_owned(), read(n)))
     .into();
@@ -164,6 +165,20 @@ fn exact_ranks_do_not_depend_on_the_unit(csv: &[Vec<String>]) {
     for far in ["1e-6", "1e6"] {
         assert!(right("lu32", far) < right("lu32", "1e-3"), "{csv:?}");
         assert_eq!(right("modular", far), right("modular", "1e0"));
+    }
+}
+
+/// Far from a dead point nine digits are right, near it fewer, and none that is wrong goes without a warning.
+fn reactions_lose_digits_with_a_warning(csv: &[Vec<String>]) {
+    let right = |digits: &str, height: &str| -> usize {
+        let row = csv.iter().find(|r| r[0] == digits && r[1] == height);
+        row.unwrap()[3].parse().unwrap()
+    };
+    assert!(csv[1..].iter().all(|r| r[6] == "0"), "{csv:?}");
+    assert_eq!(right("9 digits", "1e-3"), 4);
+    assert_eq!(right("9 digits", "1e-12"), 0);
+    for height in ["1e-15", "1e-12", "1e-9", "1e-6", "1e-3"] {
+        assert!(right("3 digits", height) >= right("6 digits", height));
     }
 }
 
@@ -281,7 +296,7 @@ fn a_quick_run_writes_a_chart_and_a_table_of_each_study() {
             _ => assert!(path.ends_with("index.html") && text.ends_with("</html>\n")),
         }
     }
-    assert_eq!(svgs, 11);
+    assert_eq!(svgs, 12);
 
     let read = |name: &str| fs::read_to_string(at.join(name)).unwrap();
     offsets_beyond_what_digits_allow_are_kept(&rows(&read("stability-digits.csv")));
@@ -289,6 +304,7 @@ fn a_quick_run_writes_a_chart_and_a_table_of_each_study() {
     errors_fall_with_the_prime(&rows(&read("stability-prime.csv")));
     rounded_files_are_counted(&rows(&read("stability-rounded.csv")));
     models_agree(&rows(&read("stability-model.csv")));
+    reactions_lose_digits_with_a_warning(&rows(&read("stability-dead-point.csv")));
     first_ideas_move_with_costs(&rows(&read("stability-first-idea.csv")));
     // Displaced ones and toggles: exact ranks are right about all of them.
     for name in ["stability-distance.csv", "stability-shaky.csv"] {

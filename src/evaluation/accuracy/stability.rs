@@ -1,7 +1,8 @@
-//! Where numbers fail: digits, closeness to special geometry, size, unit, shakiness, prime, model and costs moved until answers
+//! Where numbers fail: digits, closeness to special geometry, size, unit, shakiness, dead points, prime, model and costs moved until answers
 //! turn wrong.
 
 mod closeness;
+mod forces;
 mod limits;
 mod scenes;
 
@@ -20,6 +21,7 @@ pub fn run_studies(cases: &[Case], effort: Effort, progress: Progress<'_>) -> Ve
         limits::study_scale(&some, effort, progress),
         limits::study_prime(&some, effort, progress),
         limits::study_shaky(effort, progress),
+        forces::study_dead_points(effort, progress),
         scenes::study_least_model(cases, effort, progress),
         scenes::study_first_idea(cases, effort, progress),
     ]
