@@ -36,7 +36,10 @@ pub fn bench_text(
             "\n{}\n\n",
             text_table(&heads, t.records.iter().map(record_row), width)
         );
-        out += &fit_lines(&format!("{}\n\n", trial_notes(t)), width);
+        let notes = trial_notes(t);
+        if !notes.is_empty() {
+            out += &fit_lines(&format!("{notes}\n\n"), width);
+        }
     }
     let mut counted = trials
         .iter()
