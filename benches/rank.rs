@@ -12,14 +12,16 @@
 
 #[path = "rank/flint.rs"]
 mod flint;
+#[path = "../tests/it/common/lattice.rs"]
+mod lattice;
 
 use self::flint::against_flint;
+use self::lattice::LatticeKind;
 use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
 use itertools::Itertools;
 use num_bigint::BigInt;
 use num_integer::Integer;
 use num_traits::{ToPrimitive, Zero};
-use ozols::accuracy::lattice::{self, LatticeKind};
 use ozols::builtin;
 use ozols::closure::Closure;
 use ozols::file::text::mechanism_from_str;

@@ -113,7 +113,7 @@ pub(super) const ACCURACY: &str = "\
 Examples:
   ozols accuracy --quick                             only the table
   ozols accuracy --quick -o accuracy                 with charts and a page: open accuracy/index.html
-  ozols accuracy -o accuracy                         the same with more repeats: a minute or two";
+  ozols accuracy -o accuracy                         the same with more repeats: some minutes";
 
 pub(super) const BENCH: &str = "\
 Examples:

@@ -71,8 +71,13 @@ fn exact_ways_are_right_and_cut_ones_are_not() {
                 counts.then_some(true),
                 "{name}, {way}"
             );
-            assert_eq!(r.best.map(is_right), gives.then_some(true), "{name}, {way}");
-            assert_eq!(r.naming.is_some(), gives, "{name}, {way}");
+            // Without a ranking no best are judged.
+            assert_eq!(r.best, None, "{name}, {way}");
+            assert_eq!(
+                r.naming.is_some(),
+                matches!(way, Way::Diagram(_)),
+                "{name}, {way}"
+            );
             assert_eq!(r.by_proportion, looking.contains(&way) && !t.all_looked_at);
         }
         for r in stopped(&t) {
@@ -166,8 +171,6 @@ fn floating_point_is_wrong_about_a_hair() {
         assert!(!is_right(r.variants.unwrap()), "{e:?}");
         assert!(!is_right(r.counts.unwrap()), "{e:?}");
     }
-    let said = pictures::describe_errors(&t);
-    assert!(said.contains("brute force, svd on "), "{said}");
 }
 
 /// A pool is no judge of itself: where no pool is proven to hold the best, nobody is said to be right about them.
@@ -179,8 +182,6 @@ fn the_best_are_judged_by_a_proven_pool_alone() {
         (Some(2_000), Some(false))
     );
     assert!(t.records.iter().all(|r| r.best.is_none()));
-    let said = pictures::describe_ranking(&t).unwrap();
-    assert!(said.contains("are not judged"), "{said}");
     // Ranking takes time of its own, and counting none of it.
     let pool = of(&t, Way::Pool(Some(1000)));
     assert!(pool.naming.is_some() && pool.counting.is_none() && pool.counts.is_none());
@@ -192,6 +193,7 @@ fn the_best_are_judged_by_a_proven_pool_alone() {
     );
     let shares = [10, 100].map(|n| of(&small, Way::Pool(Some(n))).best.unwrap().right);
     assert!(shares.is_sorted(), "{shares:?}");
+    assert_eq!(of(&small, Way::Diagram(Check::Full)).best.unwrap().of, 10);
     // Looking at variants ranks nothing.
     assert!(of(&small, Way::Brute).best.is_none());
 }
@@ -398,14 +400,11 @@ fn conditions_are_those_of_a_search_and_bad_ones_are_refused() {
         );
     }
     let list = List::Top(3);
-    let top = tried(
-        &built_in("four-bar"),
-        &Request {
-            list,
-            ..Request::default()
-        },
-        EFFORT,
-    );
-    assert_eq!(of(&top, Way::Brute).best.unwrap().of, 3);
+    let request = Request {
+        list,
+        ..Request::default()
+    };
+    let top = tried(&built_in("lever-gripper"), &request, EFFORT);
+    assert_eq!(of(&top, Way::Pool(Some(1000))).best.unwrap().of, 3);
     assert!(MECHANISMS.len() >= 4 && MECHANISMS.contains(&"gripper-10"));
 }

@@ -1,5 +1,6 @@
 //! What several tests need: the program and what it says, closeness, a text with one thing changed.
 
+pub(crate) mod lattice;
 mod names;
 
 use assert_cmd::Command;

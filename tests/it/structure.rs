@@ -1,9 +1,9 @@
 //! What is done by the structure of J, against the same by definition: the rank from the contours one by one, and the
 //! shares of the contours from one basis of the self-stresses.
 
+use crate::common::lattice::{self, LatticeKind};
 use crate::common::*;
 use crate::search::twin;
-use ozols::accuracy::lattice::{self, LatticeKind};
 use ozols::closure::contour::Contour;
 use ozols::closure::{Column, CouplingRow};
 use ozols::linalg::echelon;

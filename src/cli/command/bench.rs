@@ -8,7 +8,7 @@ use crate::accuracy::study;
 use crate::accuracy::timing::Stopwatch;
 use crate::cli::option::request::Which;
 use crate::cli::prelude::*;
-use crate::cli::terminal::machine;
+use crate::cli::terminal::{charts, machine};
 use crate::score::request::{List, Request};
 use crate::search::question::conditions::Symmetry;
 use crate::view::accuracy::bench_text;
@@ -110,10 +110,7 @@ impl Trials {
 pub(crate) fn run(args: &Global, a: &Bench) -> anyhow::Result<Done> {
     let asked = Trials::from_options(args, a)?;
     // The folder and the files before the work: a bad path should not cost a minute.
-    if let Some(folder) = &a.output {
-        std::fs::create_dir_all(folder)
-            .with_context(|| format!("cannot make the folder {}", folder.display()))?;
-    }
+    a.output.as_deref().map_or(Ok(()), charts::make_folder)?;
     let built_in = MECHANISMS.map(Named::from);
     let files = if a.files.is_empty() {
         &built_in
@@ -154,16 +151,6 @@ pub(crate) fn run(args: &Global, a: &Bench) -> anyhow::Result<Done> {
         return Ok(Done::Partly);
     }
     let machine = machine::this_machine();
-    if let Some(folder) = &a.output {
-        let made = format!(
-            "Made by: {}. On {machine}.",
-            std::env::args().collect::<Vec<_>>().join(" ")
-        );
-        let tables = vec![("searches.csv".to_owned(), record::trials_csv(&trials))];
-        let studies = pictures::make_studies(&trials, ADVICE);
-        let title = "Ways of searching: accuracy against speed";
-        output::write_files(folder, study::page_files(title, &made, &studies, tables))?;
-    }
     let mut text = match a.format {
         BenchFormat::Text => bench_text(&trials, &ADVICE, &machine, output::output_width(None)),
         BenchFormat::Json => output::json_text(
@@ -172,8 +159,13 @@ pub(crate) fn run(args: &Global, a: &Bench) -> anyhow::Result<Done> {
         BenchFormat::Csv => record::trials_csv(&trials),
     };
     if let Some(folder) = &a.output {
-        let index = folder.join("index.html");
-        text += &format!("Written to {}: open it in a browser.\n", index.display());
+        let command = std::env::args().collect::<Vec<_>>().join(" ");
+        let made = format!("Made by: {command}. On {machine}.");
+        let tables = vec![("searches.csv".to_owned(), record::trials_csv(&trials))];
+        let studies = pictures::make_studies(&trials, ADVICE);
+        let title = "Ways of searching: accuracy against speed";
+        let files = study::page_files(title, &made, &studies, tables);
+        text += &charts::write_page(folder, files)?;
     }
     output::write_bytes(None, text)?;
     Ok(if well { Done::Found } else { Done::Partly })

@@ -44,10 +44,10 @@ pub(crate) fn total_memory() -> Option<u64> {
 
 /// Returns the memory of the machine, in bytes.
 #[cfg(not(target_os = "linux"))]
-pub(crate) fn memory() -> Option<u64> {
-    let mut told = sysinfo::System::new();
-    told.refresh_memory();
-    Some(told.total_memory()).filter(|bytes| *read_kilobytes > 0)
+pub(crate) fn total_memory() -> Option<u64> {
+    let mut system = sysinfo::System::new();
+    system.refresh_memory();
+    Some(system.total_memory()).filter(|bytes| *bytes > 0)
 }
 
 /// Returns the size of the address space of this process, in bytes.

@@ -1,7 +1,7 @@
 //! Mechanisms of known mobility: those built in, state by state, and others from a seed.
 
 use super::change::Noise;
-use super::lattice::{self, LatticeKind, toggle_row};
+use super::lattice::{Scene, make_ladder, make_lift, toggle_row};
 use super::special::SpecialKind;
 use super::{BuiltIn, Truth};
 use crate::file::problem::ImportError;
@@ -55,8 +55,8 @@ pub fn built_in_cases(built_in: BuiltIn<'_>) -> Result<Vec<Case>, ImportError> {
 }
 
 /// Returns mechanisms from a seed, for which no method was made. Special geometry is turned and written with six decimals, either
-/// exact or with one joint displaced by a thousand units of the last decimal. The others are rows of toggles, rows of four-bars and
-/// lazy tongs.
+/// exact or with one joint displaced by a thousand units of the last decimal. The others are rows of toggles, planar ladders and
+/// scissor lifts.
 ///
 /// # Panics
 /// Never: the texts are valid.
@@ -82,14 +82,13 @@ pub fn generated_cases(seed: u64) -> Vec<Case> {
     for levels in 1..=3 {
         let text = toggle_row(levels, &mut Noise::new(seed, levels));
         add(read(&text), format!("toggles {levels}"), Truth::new(1, 0));
-        for kind in [LatticeKind::FourBars, LatticeKind::Scissors] {
-            let name = format!("{kind:?} {levels}");
-            add(
-                lattice::lattice_mechanism(kind, levels),
-                name,
-                Truth::new(1, 1),
-            );
-        }
+        let ladder = make_ladder(Scene::Plane, levels, &mut Noise::new(seed, levels));
+        add(ladder, format!("planar ladder {levels}"), Truth::new(1, 1));
+        add(
+            make_lift(levels),
+            format!("scissor lift {levels}"),
+            Truth::new(1, 1),
+        );
     }
     cases
 }

@@ -3,7 +3,7 @@
 use crate::geom::expr::Expr;
 use crate::geom::rigid::RigidMotion;
 use crate::geom::vector::to_vector;
-use crate::model::mechanism::{Mechanism, Mode};
+use crate::model::mechanism::{JointId, Mechanism, Mode};
 use chacha20::ChaCha8Rng;
 use chacha20::rand_core::{Rng, SeedableRng};
 use num_bigint::BigInt;
@@ -32,6 +32,25 @@ pub(crate) fn resize(mechanism: &Mechanism, e: i32) -> Mechanism {
         let lengths = joint.frame.point.iter_mut().chain([&mut joint.frame.pitch]);
         lengths.for_each(|x| *x = &*x * &factor);
     }
+    m
+}
+
+/// The joint, whether its axis is tilted instead of its point moved, and the coordinate.
+pub(crate) type Place = (usize, bool, usize);
+
+/// Returns a copy in which one coordinate is larger by 10^e, exactly.
+pub(crate) fn displace_joint(mechanism: &Mechanism, place: Place, e: i32) -> Mechanism {
+    let mut m = mechanism.clone();
+    let mut parts = m.edit();
+    let (joint, axis, coordinate) = place;
+    let frame = &mut parts.joints[JointId::new(joint)].frame;
+    let vector = if axis {
+        &mut frame.axis
+    } else {
+        &mut frame.point
+    };
+    vector[coordinate] = &vector[coordinate] + &power_of_ten(e);
+    drop(parts);
     m
 }
 

@@ -1,93 +1,9 @@
-//! Mechanisms of any number of contours, whose mobility is known by construction or by exact ranks.
+//! Mechanisms of any number of contours, whose mobility is known by construction.
 
 use super::change::Noise;
 use super::special::Sketch;
 use crate::file::text::mechanism_from_str;
 use crate::model::mechanism::Mechanism;
-
-/// A kind of mechanism.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum LatticeKind {
-    /// Planar four-bars side by side on the frame, each driven by the one before: k contours, W = 1, σ = 3k.
-    FourBars,
-    /// A lazy tongs of k + 1 crossed pairs of bars: k contours, W = 1, σ = 3k.
-    Scissors,
-    /// Bodies on a grid four wide with joints of many types at many places and angles: k contours in bands of three.
-    Grid,
-}
-
-impl LatticeKind {
-    /// All of them.
-    pub const ALL: [LatticeKind; 3] = [
-        LatticeKind::FourBars,
-        LatticeKind::Scissors,
-        LatticeKind::Grid,
-    ];
-}
-
-/// Returns a mechanism of `k` contours (for a grid: the next multiple of three).
-///
-/// # Panics
-/// Never: the text is valid.
-pub fn lattice_mechanism(kind: LatticeKind, k: usize) -> Mechanism {
-    let name = |link: usize| link.to_string();
-    let hinge = |file: &mut Sketch, ends: [usize; 2], [x, y]: [usize; 2]| {
-        let [a, b] = ends.map(name);
-        let point = format!("[{x}, {y}, 0]");
-        file.add_joint([&a, &b], "revolute", &point, "[0, 0, 1]");
-    };
-    let mut file = Sketch::with_links(0..2 * k + 2);
-    match kind {
-        LatticeKind::FourBars => {
-            // Cranks 1, 3, 5, ... and the couplers between them.
-            for i in 0..=k {
-                hinge(&mut file, [0, 2 * i + 1], [3 * i, i % 2]);
-            }
-            for i in 0..k {
-                let (crank, coupler) = (2 * i + 1, if i + 1 == k { 2 * k } else { 2 * i + 2 });
-                hinge(&mut file, [crank, coupler], [3 * i + 1, 4 + i % 3]);
-                hinge(&mut file, [coupler, crank + 2], [3 * i + 3, 3 + i % 4]);
-            }
-        }
-        LatticeKind::Scissors => {
-            // Bars 2i (rising) and 2i + 1 (falling) cross at (2i + 1, 1).
-            for i in 0..=k {
-                hinge(&mut file, [2 * i, 2 * i + 1], [2 * i + 1, 1]);
-            }
-            for i in 0..k {
-                hinge(&mut file, [2 * i, 2 * i + 3], [2 * i + 2, 2]);
-                hinge(&mut file, [2 * i + 1, 2 * i + 2], [2 * i + 2, 0]);
-            }
-        }
-        LatticeKind::Grid => {
-            const TYPES: [&str; 6] = [
-                "revolute",
-                "universal",
-                "revolute",
-                "spherical",
-                "cylindrical",
-                "prismatic",
-            ];
-            const AXES: [[i32; 3]; 5] = [[0, 0, 1], [1, 0, 0], [0, 0, 1], [0, 1, 0], [1, 2, -1]];
-            let rows = k.div_ceil(3) + 1;
-            file = Sketch::with_links(0..4 * rows);
-            for l in 0..4 * rows {
-                let neighbours = [(l % 4 < 3, l + 1), (l / 4 + 1 < rows, l + 4)];
-                for (n, (_, to)) in neighbours
-                    .iter()
-                    .enumerate()
-                    .filter(|(_, (there, _))| *there)
-                {
-                    let mix = (l * 7 + n * 3) ^ (l / 5);
-                    let point = format!("{:?}", [mix % 5, (mix / 2) % 7, l % 3]);
-                    let axis = format!("{:?}", AXES[(mix + l) % 5]);
-                    file.add_joint([&name(l), &name(*to)], TYPES[mix % 6], &point, &axis);
-                }
-            }
-        }
-    }
-    mechanism_from_str("lattice.toml", &file.text("lattice")).expect("a generated file is valid")
-}
 
 /// Returns the file of a row of toggles that is shaky of order 2^levels: each knee is pushed by the one before by the square of its
 /// motion. At the pose it has one freedom, and none in truth [Connelly and Servatius 1994; Calladine and Pellegrino 1991].

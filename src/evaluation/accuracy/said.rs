@@ -20,6 +20,9 @@ pub enum Said {
 }
 
 impl Said {
+    /// All of them, the best first.
+    pub(super) const ALL: [Said; 4] = [Said::Right, Said::Open, Said::Hedged, Said::Wrong];
+
     /// Judges an answer: whether it is given, whether it is called exact, and whether it is right.
     pub fn judge(given: bool, exact: bool, right: bool) -> Said {
         match (given, right, exact) {
@@ -133,8 +136,8 @@ pub(crate) struct Tally {
     pub wrong: Vec<String>,
     /// How long each took.
     pub seconds: Vec<f64>,
-    /// A figure, if the study has one.
-    pub figure: f64,
+    /// The figure that is drawn; `None` if it follows from the counts or the times.
+    pub figure: Option<f64>,
 }
 
 impl Tally {
@@ -160,6 +163,13 @@ impl Tally {
         }
     }
 
+    /// Adds the counts of another tally.
+    pub(crate) fn add(&mut self, other: &Tally) {
+        for (sum, of) in self.of.iter_mut().zip(other.of) {
+            *sum += of;
+        }
+    }
+
     /// Returns the number of replies.
     pub(crate) fn count_replies(&self) -> usize {
         self.of.iter().sum()
@@ -174,24 +184,4 @@ impl Tally {
     pub(crate) fn percent_of(&self, said: Said) -> f64 {
         100.0 * self.of[said as usize] as f64 / self.count_replies().max(1) as f64
     }
-
-    /// Returns the figure that is drawn against the time.
-    pub(super) fn figure_of(&self, figure: Figure) -> f64 {
-        match figure {
-            Figure::Right => self.percent_of(Said::Right),
-            Figure::Wrong => self.percent_of(Said::Wrong),
-            Figure::Own(..) => self.figure,
-        }
-    }
-}
-
-/// The figure that is drawn against the time.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Figure {
-    /// The share of right answers, with the front of what is fastest and most often right.
-    Right,
-    /// The share of wrong answers.
-    Wrong,
-    /// The figures of the replies themselves, with what they are and the power of ten below which they count as zero.
-    Own(&'static str, i32),
 }

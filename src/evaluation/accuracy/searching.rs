@@ -16,15 +16,16 @@ use crate::model::mechanism::Mechanism;
 use crate::rank::numeric::Elimination;
 use crate::score::outcome::Outcome;
 use crate::score::request::{Check, List, Method, POOL, Request};
-use crate::score::run::{RunError, run};
+use crate::score::run::RunError;
 use crate::search::check::brute::{Matrices, Seen};
 use crate::search::check::brute_float::Approximate;
 use crate::search::check::pruned::Pruned;
 use crate::search::diagram::Stop;
-use ground_truth::{Truth, run_and_list};
+use ground_truth::{Truth, search_with};
 use num_bigint::BigUint;
 use num_traits::ToPrimitive;
 use record::{Bracket, Record, Trial, Way};
+use std::hint::black_box;
 
 /// The built-in mechanisms that are compared by default, in addition to some whose diagrams are large. They have few or
 /// many variants, special geometry, coupled joints, planar mode, or loads to rank by.
@@ -70,32 +71,37 @@ pub fn run_trial(
         pool: Some(request.cheapest_scored()),
         ..request.clone()
     };
-    let mut trial = Trial::new(&mechanism.name, top);
+    let mut trial = Trial {
+        mechanism: mechanism.name.clone(),
+        top,
+        ..Trial::default()
+    };
     let mut found = None;
     let mut truth = None;
     if effort.looked > 0 {
-        let (present, _) = run_and_list(mechanism, &base)?;
-        let new = Truth::new(&present, mechanism, &base, top, effort)?;
-        found = new.true_counts();
+        let present = search_with(mechanism, &base)?;
+        let new = Truth::new(&present, mechanism, &base, effort)?;
+        found.clone_from(&new.counts);
         trial.mechanism.clone_from(&present.search.mechanism.name);
-        trial.space = new.search.size().to_string();
         (trial.looked_at, trial.all_looked_at) = (new.looked.len(), new.is_whole());
         (trial.ranked_by_pool, trial.ranking_proven) = new.pool.unzip();
-        let ways = list_ways(new.pool.is_some(), effort.pool.unwrap_or(usize::MAX));
+        truth = Some(new);
+    }
+    if let Some(truth) = &truth {
+        let ways = list_ways(truth.pool.is_some(), effort.pool.unwrap_or(usize::MAX));
         for (n, &way) in ways.iter().enumerate() {
             progress(way, n, ways.len());
-            trial.records.push(match way {
-                way if way.examines_variants() => by_looking(&new, way, watch)?,
-                _ => by_diagram(&new, way, mechanism, &way.apply_to(&base), watch)?,
+            trial.records.push(if way.examines_variants() {
+                by_looking(truth, way, watch)?
+            } else {
+                by_diagram(Some(truth), way, mechanism, &base, watch)?.1
             });
         }
-        truth = Some(new);
     }
     for (n, nodes) in BUDGETS.into_iter().enumerate() {
         let way = Way::Nodes(nodes);
         progress(way, n, BUDGETS.len());
-        let (outcome, record) =
-            by_budget(truth.as_ref(), way, mechanism, &way.apply_to(&base), watch)?;
+        let (outcome, record) = by_diagram(truth.as_ref(), way, mechanism, &base, watch)?;
         trial.space = outcome.search.size().to_string();
         let exact = outcome.stop == Stop::Exhausted;
         let slow = record.counting.is_some_and(|t| t.median > effort.patience);
@@ -129,72 +135,50 @@ fn list_ways(ranked: bool, pool: usize) -> Vec<Way> {
     ways
 }
 
-/// Returns the record of a search by the diagram. Counting is timed without a list, and without the file's ranking.
+/// Returns the outcome and the record of a search by the diagram. Counting is timed without a list, and without the file's ranking. Its
+/// answers are judged if the truth is known.
 fn by_diagram(
-    truth: &Truth,
+    truth: Option<&Truth>,
     way: Way,
     mechanism: &Mechanism,
-    request: &Request,
+    base: &Request,
     watch: Stopwatch,
-) -> Result<Record, RunError> {
-    let (found, naming) = watch.time_repeatedly(|| run_and_list(mechanism, request));
-    let (outcome, list) = found?;
-    let judge = |choices: &[usize]| Ok::<_, RunError>(ground_truth::by_diagram(&outcome, choices));
-    let counts = !way.only_names();
-    Ok(Record {
-        way,
-        counting: counts.then(|| {
-            watch
-                .time_repeatedly(|| count_unranked(mechanism, request))
-                .1
-        }),
-        naming: Some(naming),
-        by_proportion: false,
-        counts: truth
-            .counts_right(&ground_truth::cells_of_outcome(&outcome))
-            .filter(|_| counts),
-        best: truth.best_right(&list)?,
-        variants: truth.variants_right(&ground_truth::judge_all(&truth.looked, judge)?),
-        bracket: None,
-    })
-}
-
-/// Returns the counts without a list, and without the file's ranking.
-fn count_unranked(mechanism: &Mechanism, request: &Request) -> Result<Outcome, RunError> {
+) -> Result<(Outcome, Record), RunError> {
+    let request = way.apply_to(base);
     let mut unranked = mechanism.clone();
     unranked.edit().ranking = None;
-    let request = Request {
+    let counting = Request {
         list: List::Nothing,
         rank: Vec::new(),
         ..request.clone()
     };
-    run(unranked, &request, &|| false, &mut |_| {})
-}
-
-/// Returns the record of a count with a budget of nodes.
-fn by_budget(
-    truth: Option<&Truth>,
-    way: Way,
-    mechanism: &Mechanism,
-    request: &Request,
-    watch: Stopwatch,
-) -> Result<(Outcome, Record), RunError> {
-    let (outcome, counting) = watch.time_repeatedly(|| count_unranked(mechanism, request));
-    let outcome = outcome?;
+    let count = || watch.time_repeatedly(|| search_with(&unranked, &counting));
+    let list = |outcome: &Outcome| drop(black_box(outcome.variants().collect::<Vec<_>>()));
+    let name = || watch.time_repeatedly(|| search_with(mechanism, &request).inspect(list));
+    let counted = (!way.only_names()).then(count);
+    let named = (!matches!(way, Way::Nodes(_))).then(name);
+    let times = [&counted, &named].map(|timed| timed.as_ref().map(|t| t.1));
+    let outcome = named
+        .or(counted)
+        .map_or_else(|| search_with(mechanism, &request), |t| t.0)?;
     let judge = |choices: &[usize]| Ok::<_, RunError>(ground_truth::by_diagram(&outcome, choices));
-    let judged = |truth: &Truth| ground_truth::judge_all(&truth.looked, judge);
-    let judged = truth.map(judged).transpose()?;
+    let judged = truth.map(|t| ground_truth::judge_all(&t.looked, judge));
+    let judged = truth.zip(judged.transpose()?);
+    let totals = [&outcome.determinate, &outcome.admissible].map(|c| c.total.clone());
+    let counts = |t: &Truth| t.counts_right(&totals);
     let record = Record {
         way,
-        counting: Some(counting),
-        naming: None,
+        counting: times[0],
+        naming: times[1],
         by_proportion: false,
-        counts: truth.and_then(|t| t.counts_right(&ground_truth::cells_of_outcome(&outcome))),
-        best: None,
-        variants: truth
-            .zip(judged)
-            .and_then(|(t, judged)| t.variants_right(&judged)),
-        bracket: bracket_of(&outcome),
+        counts: truth.filter(|_| !way.only_names()).and_then(counts),
+        best: truth
+            .filter(|_| times[1].is_some())
+            .and_then(|t| t.best_right(&outcome)),
+        variants: judged.map(|(truth, judged)| truth.variants_right(&judged)),
+        bracket: matches!(way, Way::Nodes(_))
+            .then(|| bracket_of(&outcome))
+            .flatten(),
     };
     Ok((outcome, record))
 }
@@ -256,21 +240,16 @@ fn by_looking(truth: &Truth, way: Way, watch: Stopwatch) -> Result<Record, RunEr
     let judged = judged?;
     let counting = each.map(|t| t * truth.ratio + ready.median);
     let whole = truth.is_whole();
-    let best = if whole && truth.pool.is_none() {
-        truth.best_right(&truth.cheapest_judged(&judged))?
-    } else {
-        None
-    };
-    let cells = whole.then(|| truth.cells_of(&judged));
+    let counts = whole.then(|| ground_truth::count_judged(&judged));
     Ok(Record {
         way,
         // A search that prunes is slower one by one, since it goes down its branches again for each.
         counting: Some(counting).filter(|_| whole || way != Way::Pruned),
-        naming: best.map(|_| counting),
+        naming: None,
         by_proportion: !whole,
-        counts: cells.and_then(|c| truth.counts_right(&c)),
-        best,
-        variants: truth.variants_right(&judged),
+        counts: counts.and_then(|c| truth.counts_right(&c)),
+        best: None,
+        variants: Some(truth.variants_right(&judged)),
         bracket: None,
     })
 }

@@ -1,7 +1,7 @@
 //! Mechanisms of special geometry with one joint off, made from a seed and written with so many decimals.
 
 use super::Truth;
-use super::change::{Noise, with_exact_decimals};
+use super::change::{Noise, Place, with_exact_decimals};
 use crate::file::text::mechanism_from_str;
 use crate::geom::rigid::RigidMotion;
 use crate::geom::vector::Vector;
@@ -137,9 +137,9 @@ impl SpecialKind {
         file.text(self.name())
     }
 
-    /// Returns a special mechanism with coordinates in whole hundredths, and the place that displaces it: the joint, whether its axis
-    /// is tilted instead of its point moved, and the coordinate. Returns `None` if directions are irrational.
-    pub(crate) fn with_place(self, noise: &mut Noise) -> Option<(Mechanism, (usize, bool, usize))> {
+    /// Returns a special mechanism with coordinates in whole hundredths, and the place that displaces it. Returns `None` if
+    /// directions are irrational.
+    pub(crate) fn with_place(self, noise: &mut Noise) -> Option<(Mechanism, Place)> {
         let place = match self {
             SpecialKind::Door => (1, false, 0),
             SpecialKind::FourBar => (2, true, 0),

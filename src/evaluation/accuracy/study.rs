@@ -3,11 +3,10 @@
 
 mod conclusion;
 
-pub use super::said::Figure;
 use super::said::{Reply, Said, Tally};
 use super::timing::Clock;
 use crate::chart::{Axis, Band, Bands, Chart, Scale, Series, Style, VerdictKind, page};
-use crate::format::csv;
+use crate::format::{csv, round_digits};
 use crate::score::outcome::pareto::front;
 use rayon::prelude::*;
 use serde::Deserialize;
@@ -28,40 +27,59 @@ pub struct Effort {
 /// Receives the current study, the number of finished steps and the number of all steps.
 pub type Progress<'a> = &'a mut dyn FnMut(&str, usize, usize);
 
-/// How a study is drawn.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+/// What is drawn of a study. All but the first two are timed: their cases are asked one after another.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum View {
     /// The values for which each row is right.
     Regions,
     /// The shares of answers that are right, and of those that are wrong and sure.
     Shares,
-    /// The share of answers that are right, and where it is largest.
-    Best,
-    /// The time of each row, asked one after another.
+    /// The time of each row.
     Times,
-    /// The time of each row as a multiple of another, asked one after another.
-    Ratios,
-    /// The share of wrong answers of each row by decades, with the bound of Schwartz and Zippel, which is this degree over the prime.
-    /// The answers are timed.
-    Errors(u32),
-    /// A point for each value of a row: a figure against its median time.
-    Against(Figure),
+    /// The share of wrong answers.
+    Errors,
+    /// The share of right answers against the time, with the front of what is fastest and most often right.
+    Front,
+    /// The share of wrong answers against the time, or the figures of the tallies.
+    Points,
 }
 
 /// The name of a row, with its tally at each of its values.
 pub(super) type Row = (String, Vec<(f64, Tally)>);
 
-/// The texts of a study.
+/// The texts of a study, and how it is drawn; `studies.toml` says more.
 #[derive(Debug, Clone, Deserialize)]
 pub struct Texts {
     /// The title.
     pub title: String,
-    /// The axis across, with its unit.
-    axis: String,
-    /// The head of the values in the table.
+    #[serde(default)]
+    about: String,
+    view: View,
+    across: String,
+    #[serde(default)]
+    up: String,
+    #[serde(default)]
+    even: bool,
+    zero: Option<i32>,
     column: String,
+    at: Option<f64>,
+    #[serde(default)]
+    lead: String,
+    #[serde(default = "said_words")]
+    words: [String; 4],
     /// Advice to the user.
     pub(super) advice: String,
+}
+
+fn said_words() -> [String; 4] {
+    [
+        "right",
+        "undecided",
+        "wrong but said not exact",
+        "wrong and sure",
+    ]
+    .map(str::to_owned)
 }
 
 /// The texts of each study by the stem of its files.
@@ -77,21 +95,21 @@ pub struct Study {
     pub texts: Texts,
     /// The values of the quantity, ascending.
     pub values: Vec<f64>,
-    /// How it is drawn.
-    pub view: View,
     /// The rows.
     pub(super) rows: Vec<Row>,
+    /// A sentence of its own for the conclusion, or empty.
+    pub(super) note: String,
 }
 
 impl Study {
     /// Returns a study without answers, which has texts by its name.
-    pub(super) fn new(name: &'static str, values: Vec<f64>, view: View) -> Study {
+    pub(super) fn new(name: &'static str, values: Vec<f64>) -> Study {
         Study {
             name,
             texts: TEXTS[name].clone(),
             values,
-            view,
             rows: Vec::new(),
+            note: String::new(),
         }
     }
 
@@ -131,159 +149,123 @@ impl Study {
     }
 
     fn is_timed(&self) -> bool {
-        !matches!(self.view, View::Regions | View::Shares | View::Best)
+        !matches!(self.texts.view, View::Regions | View::Shares)
     }
 
     /// Returns the table, with a line for each row and each value that has replies.
     pub fn to_csv(&self) -> String {
-        let mut heads = vec![
-            "asked",
-            self.texts.column.as_str(),
-            "cases",
-            "right",
-            "undecided",
-        ];
-        heads.extend(["wrong_not_exact", "wrong_and_sure", "wrong"]);
+        let mut heads = vec!["asked", self.texts.column.as_str(), "cases", "right"];
+        heads.extend(["undecided", "wrong_not_exact", "wrong_and_sure", "wrong"]);
         heads.extend(self.is_timed().then_some("median_seconds"));
-        let own = matches!(self.view, View::Against(Figure::Own(..)));
-        heads.extend(own.then_some("figure"));
+        let figures = |of: &[(f64, Tally)]| of.iter().any(|(_, t)| t.figure.is_some());
+        let figures = self.rows.iter().any(|(_, t)| figures(t));
+        heads.extend(figures.then_some("figure"));
         let rows = self.rows.iter().flat_map(|(name, tallies)| {
-            asked_of(tallies).map(move |(x, t)| {
-                let mut row = vec![
-                    name.clone(),
-                    format!("{x:e}"),
-                    t.count_replies().to_string(),
-                ];
+            replies_of(tallies).map(move |(x, t)| {
+                let mut row = vec![name.clone(), format!("{:e}", round_digits(x, 12))];
+                row.push(t.count_replies().to_string());
                 row.extend(t.of.map(|n| n.to_string()));
                 row.push(t.wrong.join("; ").replace('\n', " "));
                 row.extend(self.is_timed().then(|| format!("{:.3e}", t.median_time())));
-                row.extend(own.then(|| format!("{:.3e}", t.figure)));
+                let figure = || t.figure.map_or_else(String::new, |f| format!("{f:.3e}"));
+                row.extend(figures.then(figure));
                 row
             })
         });
         csv::write_table(&heads, rows)
     }
 
+    /// Returns the figure of a tally that the chart shows.
+    fn figure_of(&self, tally: &Tally) -> f64 {
+        tally.figure.unwrap_or_else(|| match self.texts.view {
+            View::Times => tally.median_time(),
+            View::Errors | View::Points => tally.percent_of(Said::Wrong),
+            _ => tally.percent_of(Said::Right),
+        })
+    }
+
     /// Returns the chart as SVG.
     pub fn to_svg(&self) -> String {
-        let share = |said: Said| move |t: &Tally| t.percent_of(said);
-        let x = |scale| Axis {
-            label: self.texts.axis.clone(),
-            scale,
+        let texts = &self.texts;
+        let by_decades = |linear| if linear { Scale::Linear } else { Scale::Log };
+        let x = Axis {
+            label: texts.across.clone(),
+            scale: by_decades(texts.even),
         };
-        let chart = |about: &str, across, up: &str, scale, series| Chart {
-            title: self.texts.title.clone(),
-            subtitle: about.to_owned(),
-            x: x(across),
+        if texts.view == View::Regions {
+            return self.draw_regions(x).svg();
+        }
+        let scale = by_decades(texts.view != View::Times);
+        let mut series = self.draw_rows("", |t| self.figure_of(t));
+        if texts.view == View::Shares {
+            let mut sure = self.draw_rows(", wrong and sure", |t| t.percent_of(Said::Wrong));
+            sure.retain(|s| s.points.iter().any(|p| p.1 > 0.0));
+            series.extend(sure);
+        }
+        if texts.view == View::Front {
+            series.insert(0, self.draw_front());
+        }
+        Chart {
+            title: texts.title.clone(),
+            subtitle: texts.about.clone(),
+            x,
             y: Axis {
-                label: up.to_owned(),
-                scale,
+                label: texts.up.clone(),
+                scale: texts.zero.map_or(scale, Scale::LogAndZero),
             },
             series,
-        };
-        let mut series = self.draw_lines("", Style::Line, share(Said::Right));
-        match self.view {
-            View::Regions => return self.draw_regions(x(Scale::Log)).svg(),
-            View::Shares => {
-                let sure = self.draw_lines(", wrong and sure", Style::Dashed, share(Said::Wrong));
-                series.extend(sure.into_iter().filter(|s| s.points.iter().any(|p| p.1 > 0.0)));
-                let about = "Solid: right. Dashed, if there are any: wrong and sure. The rest is undecided, or wrong but reported as \
-                             not exact.";
-                chart(about, Scale::Log, "share of answers, %", Scale::Linear, series)
-            }
-            View::Best => chart("", Scale::Log, "right answers, %", Scale::Linear, series),
-            View::Times | View::Ratios => {
-                let series = self.draw_lines("", Style::Line, Tally::median_time);
-                let up = match self.view {
-                    View::Times => "time of an answer, s",
-                    _ => "times as long",
-                };
-                let about = "Median over the cases that a row applies to.";
-                chart(about, Scale::Log, up, Scale::Log, series)
-            }
-            View::Errors(degree) => {
-                let mut series = self.draw_lines("", Style::Line, share(Said::Wrong));
-                series.push(Series {
-                    name: "bound for random points".to_owned(),
-                    points: self.values.iter().map(|b| (*b, error_bound(degree, *b))).collect(),
-                    style: Style::Dashed,
-                });
-                let about = format!("Share of wrong ranks. Bound of Schwartz and Zippel: {degree} over the least prime of each size.");
-                chart(&about, Scale::Linear, "wrong ranks, %", Scale::LogAndZero(-3), series)
-            }
-            View::Against(figure) => {
-                let (about, up, scale) = match figure {
-                    Figure::Right => ("", "right answers of all cases, %", Scale::Linear),
-                    Figure::Wrong => ("A point for each mechanism and way.", "wrong, %", Scale::LogAndZero(-2)),
-                    Figure::Own(up, zero) => ("", up, Scale::LogAndZero(zero)),
-                };
-                chart(about, Scale::Log, up, scale, self.points_over_time(figure))
-            }
         }
         .svg()
     }
 
-    /// Returns the points of each row over their times. Own figures of several values are lines.
-    fn points_over_time(&self, figure: Figure) -> Vec<Series> {
-        let point = |t: &Tally| (t.median_time(), t.figure_of(figure));
+    /// Returns a line or points for each row. A row with a comma in its name is dashed.
+    fn draw_rows(&self, after: &str, y: impl Fn(&Tally) -> f64) -> Vec<Series> {
+        let over_time = matches!(self.texts.view, View::Front | View::Points);
+        let x = |x: f64, t: &Tally| if over_time { t.median_time() } else { x };
         let row = |(name, tallies): &Row| {
-            let points: Vec<_> = asked_of(tallies).map(|(_, t)| point(t)).collect();
+            let name = format!("{name}{after}");
+            let lone = tallies.len() < 2 || tallies.iter().all(|(_, t)| t.figure.is_none());
             Series {
-                name: name.clone(),
-                style: match figure {
-                    Figure::Own(..) if points.len() < 2 => Style::Points,
-                    Figure::Own(..) if name.contains(',') => Style::Dashed,
-                    Figure::Own(..) => Style::Line,
-                    _ => Style::Points,
+                style: match name.contains(',') {
+                    _ if over_time && lone => Style::Points,
+                    true => Style::Dashed,
+                    false => Style::Line,
                 },
-                points,
+                points: replies_of(tallies).map(|(v, t)| (x(v, t), y(t))).collect(),
+                name,
             }
         };
-        let mut series: Vec<Series> = self.rows.iter().map(row).collect();
-        if figure == Figure::Right {
-            let mut points: Vec<_> = self
-                .pareto_rows()
-                .into_iter()
-                .map(|(_, t)| point(t))
-                .collect();
-            let slowest = series
-                .iter()
-                .flat_map(|s| &s.points)
-                .map(|p| p.0)
-                .fold(0.0, f64::max);
-            points.extend(points.last().map(|p| (slowest, p.1)));
-            let front = Series {
-                name: "Pareto front".to_owned(),
-                points,
-                style: Style::Steps,
-            };
-            series.insert(0, front);
+        self.rows.iter().map(row).collect()
+    }
+
+    /// Returns the line through the rows of the front.
+    fn draw_front(&self) -> Series {
+        let front = self.pareto_rows();
+        let mut points: Vec<_> = front
+            .iter()
+            .map(|(_, t)| (t.median_time(), self.figure_of(t)))
+            .collect();
+        let times = self.rows.iter().flat_map(|(_, of)| of);
+        let slowest = times.map(|(_, t)| t.median_time()).fold(0.0, f64::max);
+        points.extend(points.last().map(|p| (slowest, p.1)));
+        Series {
+            name: "Pareto front".to_owned(),
+            points,
+            style: Style::Steps,
         }
-        series
     }
 
     /// Returns the rows of one value that no other one beats in both share and time, the fastest first.
     fn pareto_rows(&self) -> Vec<(&str, &Tally)> {
-        let rows = self
-            .rows
-            .iter()
-            .filter_map(|(name, t)| Some((name.as_str(), &t.first()?.1)));
-        let rows: Vec<_> = rows.collect();
+        let rows = self.rows.iter();
+        let rows: Vec<_> = rows
+            .filter_map(|(name, t)| Some((name.as_str(), &t.first()?.1)))
+            .collect();
         let points: Vec<_> = rows
             .iter()
             .map(|(_, t)| (t.median_time(), t.percent_of(Said::Right)))
             .collect();
         front(&points).into_iter().map(|i| rows[i]).collect()
-    }
-
-    /// Returns a line for each row through the values that have replies.
-    fn draw_lines(&self, after: &str, style: Style, y: impl Fn(&Tally) -> f64) -> Vec<Series> {
-        let line = |(name, tallies): &Row| Series {
-            name: format!("{name}{after}"),
-            points: asked_of(tallies).map(|(x, t)| (x, y(t))).collect(),
-            style,
-        };
-        self.rows.iter().map(line).collect()
     }
 
     fn draw_regions(&self, x: Axis) -> Bands {
@@ -309,16 +291,11 @@ impl Study {
     }
 }
 
-/// Returns the values of a row that have replies.
-fn asked_of(of: &[(f64, Tally)]) -> impl Iterator<Item = (f64, &Tally)> {
+/// Returns the values of a row that have replies or a figure.
+fn replies_of(of: &[(f64, Tally)]) -> impl Iterator<Item = (f64, &Tally)> {
     of.iter()
         .map(|(x, t)| (*x, t))
-        .filter(|(_, t)| t.count_replies() > 0)
-}
-
-/// Returns the bound of Schwartz and Zippel in per cent, for a prime of the given number of bits.
-fn error_bound(degree: u32, bits: f64) -> f64 {
-    (100.0 * f64::from(degree) / (bits - 1.0).exp2()).min(100.0)
+        .filter(|(_, t)| t.count_replies() > 0 || t.figure.is_some())
 }
 
 /// Returns bands around the values of a log axis. Neighbours of the same kind are one band.

@@ -3,11 +3,11 @@
 use super::AnswerVerdict;
 pub use super::cases::{Case, built_in_cases, generated_cases};
 use super::said::Tally;
-use super::study::{Figure, Study, View};
+use super::study::Study;
 use super::timing::{Stopwatch, Timing, quantile};
 use crate::format::csv;
 use crate::rank::method::registry;
-use crate::rank::method::{Answer, Certainty, MobilityMethod, NoAnswer, Quantity};
+use crate::rank::method::{Answer, MobilityMethod, NoAnswer, Quantity};
 use rayon::prelude::*;
 use std::hint::black_box;
 
@@ -31,12 +31,8 @@ pub struct MethodRecord {
     pub right: usize,
     /// Cases in which it gives the mobility at the pose, which is not the finite one.
     pub pose: usize,
-    /// `right` of all cases, answered or not.
-    pub share: f64,
     /// Median time of an answer over the cases it answers.
     pub seconds: f64,
-    /// The times between which the answers of the middle half of those cases lie.
-    pub middle_half: [f64; 2],
 }
 
 impl MethodRecord {
@@ -110,15 +106,13 @@ impl Survey {
             applies: count(&|r| r.verdict != AnswerVerdict::Silent),
             right,
             pose: count(&|r| matches!(r.verdict, AnswerVerdict::Pose(_))),
-            share: right as f64 / self.cases.len().max(1) as f64,
             seconds: quantile(&times, 0.5),
-            middle_half: [0.25, 0.75].map(|at| quantile(&times, at)),
         }
     }
 
     /// Returns the share of right answers of each method against its median time, as the study of this name.
     pub fn as_study(&self, name: &'static str) -> Study {
-        let mut study = Study::new(name, Vec::new(), View::Against(Figure::Right));
+        let mut study = Study::new(name, Vec::new());
         for (m, method) in registry::ALL.iter().enumerate() {
             let record = self.record_of(m);
             if record.applies > 0 {
@@ -129,17 +123,12 @@ impl Survey {
         study
     }
 
-    /// Returns how often answers were timed, and how far their times spread.
+    /// Returns how often answers were timed.
     pub fn describe_repeats(&self) -> String {
-        let times = || self.replies.iter().flatten().map(|r| r.time);
-        let timed = times().filter(|t| t.repeats > 1 && t.median > 0.0);
-        let spread: Vec<f64> = timed.map(|t| (t.most - t.least) / t.median).collect();
-        match times().map(|t| t.repeats).max() {
+        let repeats = self.replies.iter().flatten().map(|r| r.time.repeats);
+        match repeats.max() {
             None | Some(0 | 1) => "Each answer was timed once".to_owned(),
-            Some(n) => format!(
-                "Answers were timed {n} times, slow ones fewer; the longest time of an answer is typically {:.0} % above the shortest",
-                100.0 * quantile(&spread, 0.5)
-            ),
+            Some(n) => format!("Answers were timed {n} times, slow ones fewer; the median counts"),
         }
     }
 
@@ -157,7 +146,7 @@ impl Survey {
                 registry::ALL[m].name().to_owned(),
                 of(&|a| a.mobility.to_string()),
                 of(&|a| quantity_word(a.quantity).to_owned()),
-                of(&|a| certainty_word(&a.certainty)),
+                of(&|a| a.certainty.as_word().to_owned()),
                 truth.instantaneous.to_string(),
                 truth.finite.to_string(),
                 reply.verdict.word().to_owned(),
@@ -183,19 +172,5 @@ fn quantity_word(q: Quantity) -> &'static str {
         Quantity::Count => "count",
         Quantity::Instantaneous => "instantaneous",
         Quantity::Finite => "finite",
-    }
-}
-
-fn certainty_word(c: &Certainty) -> String {
-    match c {
-        Certainty::Numeric {
-            tolerance,
-            kept,
-            dropped,
-            ..
-        } => format!(
-            "numeric at {tolerance:.0e}: smallest kept {kept:.1e}, largest dropped {dropped:.1e}"
-        ),
-        other => other.as_word().to_owned(),
     }
 }

@@ -119,22 +119,6 @@ impl Elimination {
         Ok(rank_of_values(values, tolerance))
     }
 
-    /// Returns the mobilities at several tolerances, each `None` if the arithmetic fails. A rank holds for every
-    /// tolerance between the largest dropped value and the smallest kept one, so a few decompositions serve many
-    /// tolerances.
-    #[must_use]
-    pub fn mobilities_at(self, closure: &Closure<f64>, tolerances: &[f64]) -> Vec<Option<i64>> {
-        let mut last: Option<NumericRank> = None;
-        let of = |&t: &f64| {
-            if last.is_none_or(|l| t < l.dropped || t >= l.kept) {
-                last = self.rank_of_closure(closure, t).ok();
-            }
-            let free = closure.columns.len().checked_sub(last?.rank)?;
-            i64::try_from(free).ok()
-        };
-        tolerances.iter().map(of).collect()
-    }
-
     /// Returns the certainty of a rank found at a tolerance.
     #[must_use]
     pub fn certainty_of(self, rank: NumericRank, tolerance: f64) -> Certainty {

@@ -1,15 +1,12 @@
 //! How right and how fast methods and ways of searching are, for people and as data.
 
-use crate::accuracy::AnswerVerdict;
-use crate::accuracy::searching::pictures::{describe_errors, describe_ranking};
 use crate::accuracy::searching::record::{Bracket, Record, Share, Trial};
 use crate::accuracy::study::Study;
-use crate::accuracy::survey::{Case, Survey};
+use crate::accuracy::survey::Survey;
 use crate::accuracy::timing::{Machine, Timing};
-use crate::format::{format_duration, format_signed, three_digits};
+use crate::format::{format_duration, three_digits};
 use crate::rank::method::{MobilityMethod, registry};
 use crate::view::prelude::*;
-use std::cmp::Reverse;
 
 /// Returns a table for each mechanism, advice, and the machine that they were made on.
 pub fn bench_text(
@@ -39,7 +36,10 @@ pub fn bench_text(
             "\n{}\n\n",
             text_table(&heads, t.records.iter().map(record_row), width)
         );
-        out += &fit_lines(&format!("{}\n\n", trial_notes(t)), width);
+        let notes = trial_notes(t);
+        if !notes.is_empty() {
+            out += &fit_lines(&format!("{notes}\n\n"), width);
+        }
     }
     let mut counted = trials
         .iter()
@@ -89,7 +89,7 @@ fn format_spread(t: Timing) -> String {
 }
 
 fn trial_notes(t: &Trial) -> String {
-    let mut notes = vec![describe_errors(t)];
+    let mut notes = Vec::new();
     if t.looked_at > 0 && !t.all_looked_at {
         notes.push(format!(
             "Brute force examined {} variants, half drawn from all and half from the admissible ones: it gives no counts, \
@@ -97,7 +97,14 @@ fn trial_notes(t: &Trial) -> String {
             group_thousands(t.looked_at)
         ));
     }
-    notes.extend(describe_ranking(t));
+    notes.extend(t.ranking_proven.map(|proven| {
+        let scored = group_thousands(t.ranked_by_pool.unwrap_or_default());
+        if proven {
+            format!("The best are judged by a ranking of the {scored} cheapest variants, the best of all.")
+        } else {
+            format!("The best are not judged: beyond the {scored} cheapest variants there may be better ones.")
+        }
+    }));
     notes.join(" ")
 }
 
@@ -111,8 +118,7 @@ pub fn accuracy_text(
 ) -> String {
     let cases = survey.cases.len();
     let heads = format!(
-        "method | right of {cases} | at the pose only | wrong | n/a | right of {} from the seed | median time | middle half | \
-         what fails, and why",
+        "method | right of {cases} | at the pose only | wrong | n/a | right of {} from the seed | median time | what it promises",
         generated.cases.len()
     );
     let standing = |name: &str| {
@@ -141,7 +147,6 @@ fn method_rows(survey: &Survey, generated: &Survey) -> Vec<Vec<String>> {
     let count = |n: usize| if n == 0 { String::new() } else { n.to_string() };
     let row = |(m, method): (usize, &&dyn MobilityMethod)| {
         let s = survey.record_of(m);
-        let [from, to] = s.middle_half.map(format_duration);
         vec![
             method.name().to_owned(),
             s.right.to_string(),
@@ -150,35 +155,8 @@ fn method_rows(survey: &Survey, generated: &Survey) -> Vec<Vec<String>> {
             count(cases - s.applies),
             generated.record_of(m).right.to_string(),
             format_duration(s.seconds),
-            format!("{from} to {to}"),
-            describe_failures(survey, m),
+            method.about().guarantee.to_owned(),
         ]
     };
     registry::ALL.iter().enumerate().map(row).collect()
-}
-
-/// Describes the worst failures of a method, and its requirements for a right answer.
-fn describe_failures(survey: &Survey, m: usize) -> String {
-    let mut wrong: Vec<(u64, &Case, String)> = survey
-        .of_method(m)
-        .filter_map(|(case, reply)| match reply.verdict {
-            AnswerVerdict::Wrong(by) => Some((by.unsigned_abs(), case, format_signed(by))),
-            AnswerVerdict::Failed => Some((u64::MAX, case, "fails".to_owned())),
-            _ => None,
-        })
-        .collect();
-    wrong.sort_by_key(|(size, case, _)| (Reverse(*size), case.name()));
-    let pose = survey.record_of(m).pose > 0;
-    let Some((_, worst, by)) = wrong.first() else {
-        return if pose {
-            "speaks of the pose: singular and shaky poses look mobile".to_owned()
-        } else {
-            String::new()
-        };
-    };
-    format!(
-        "{by} on {}; {}",
-        worst.name(),
-        registry::ALL[m].about().guarantee
-    )
 }

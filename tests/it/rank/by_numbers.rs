@@ -113,23 +113,6 @@ fn values_count_by_the_largest() {
     }
 }
 
-/// A rank at one of several tolerances is that at it alone, in whatever order they come.
-#[test]
-fn ranks_at_several_tolerances_are_those_at_each() {
-    let tolerances = [1e-12, 1e-9, 0.1, 0.3, 0.2, 0.6, 0.9, 0.05, 1e-3];
-    for name in ["bennett", "gripper-10", "four-bar"] {
-        let m = built_in(name);
-        let closure = Closure::new(&Reals, &m, StateId::FREE).unwrap();
-        let together = Elimination::Svd.mobilities_at(&closure, &tolerances);
-        let alone = tolerances.map(|t| Elimination::Svd.mobilities_at(&closure, &[t])[0]);
-        assert_eq!(together, alone, "{name}");
-        let mut each = alone.to_vec();
-        each.sort_unstable();
-        each.dedup();
-        assert!(each.len() > 1, "{name}: {alone:?}");
-    }
-}
-
 /// A column's speed is taken so many times: the row of a coupling says the same of scaled speeds as of the others.
 #[test]
 fn rows_of_couplings_are_in_scaled_speeds() {

@@ -8,7 +8,6 @@ use crate::score::outcome::Outcome;
 use crate::score::request::Request;
 use crate::score::run::{RunError, run};
 use crate::search::Search;
-use crate::search::answer::k_best::Assignment;
 use crate::search::answer::keys::Key;
 use crate::search::check::brute::{self, Matrices, Seen};
 use crate::search::diagram::Stop;
@@ -18,7 +17,6 @@ use itertools::Itertools;
 use num_bigint::BigUint;
 use num_traits::ToPrimitive;
 use rayon::prelude::*;
-use std::collections::BTreeMap;
 
 /// The prime of the truth, counted from 0: searches use the first two.
 const PRIME: usize = 2;
@@ -26,8 +24,8 @@ const PRIME: usize = 2;
 /// Properties of a variant that is judged determinate, and whether it meets every condition.
 pub(super) type Judged = (Key, bool);
 
-/// Counts by whether all conditions are asked for, W, and number of changes.
-pub(super) type Cells = BTreeMap<(bool, i64, u32), BigUint>;
+/// The numbers of determinate and of admissible variants.
+pub(super) type Counts = [BigUint; 2];
 
 /// The truth about a mechanism.
 pub(super) struct Truth {
@@ -40,11 +38,11 @@ pub(super) struct Truth {
     pub(super) ratio: f64,
     /// The number of scored variants of a ranking, and whether no other can win.
     pub(super) pool: Option<(usize, bool)>,
-    /// How many of the best are asked for.
-    pub(super) top: usize,
     judged: Vec<Option<Judged>>,
-    cells: Option<Cells>,
-    best: Option<Vec<Vec<u64>>>,
+    /// `None` if the diagram over the prime of the truth does not fit into the budget.
+    pub(super) counts: Option<Counts>,
+    /// The choices of the best in a ranking; `None` if there is none, or others may win.
+    best: Option<Vec<Vec<usize>>>,
 }
 
 impl Truth {
@@ -53,7 +51,6 @@ impl Truth {
         outcome: &Outcome,
         mechanism: &Mechanism,
         request: &Request,
-        top: usize,
         effort: TrialEffort,
     ) -> Result<Truth, RunError> {
         let search = search_over_prime(&outcome.search, PRIME)?;
@@ -62,15 +59,14 @@ impl Truth {
         let mut truth = Truth {
             pool: None,
             judged: Vec::new(),
-            cells: None,
+            counts: None,
             best: None,
             looked: Vec::new(),
             ratio: 1.0,
-            top,
             matrices,
             search,
         };
-        let (search, mut cheapest) = (&truth.search, None);
+        let search = &truth.search;
         if search.size() > BigUint::from(effort.looked) {
             let diagrams = search.build_diagrams(&|| false, &mut |_| {});
             looked.truncate(effort.looked.div_ceil(2));
@@ -80,30 +76,24 @@ impl Truth {
             truth.ratio = search.size().to_f64().unwrap_or(f64::INFINITY) / each;
             if diagrams.stop_reason() == Stop::Exhausted {
                 let both = [(false, &diagrams.determinate), (true, &diagrams.admissible)];
-                let both = both
-                    .map(|(all, d)| (all, search.count_variants(d, all).by_mobility_and_changes));
-                truth.cells = Some(both.into_iter().flat_map(name_cells).collect());
-                cheapest = Some(search.cheapest_variants(&diagrams, top).collect::<Vec<_>>());
+                truth.counts = Some(both.map(|(all, d)| search.count_variants(d, all).total));
             }
         }
         truth.judged = judge_all(&looked, |c| truth.judge_variant(c))?;
         truth.looked = looked;
         if truth.is_whole() {
-            truth.cells = Some(truth.cells_of(&truth.judged));
-            cheapest = Some(truth.cheapest_judged(&truth.judged));
+            truth.counts = Some(count_judged(&truth.judged));
         }
-        truth.best =
-            cheapest.map(|list| list.iter().map(|a| truth.sort_properties(a.key)).collect());
         if outcome.ranking.is_some() {
             let request = Request {
                 pool: effort.pool,
                 ..request.clone()
             };
-            let (all, list) = run_and_list(mechanism, &request)?;
+            let all = search_with(mechanism, &request)?;
             truth.pool = all.ranking.as_ref().map(|r| (r.scored, r.proven));
             // A pool is no judge of itself: outside of it may be better ones.
             let proven = truth.pool.is_some_and(|(_, proven)| proven);
-            truth.best = proven.then(|| list.iter().map(choice_key).collect());
+            truth.best = proven.then(|| choices_listed(&all));
         }
         Ok(truth)
     }
@@ -113,91 +103,49 @@ impl Truth {
         self.ratio <= 1.0
     }
 
-    /// Returns the numbers of determinate and of admissible variants.
-    pub(super) fn true_counts(&self) -> Option<[BigUint; 2]> {
-        let cells = self.cells.as_ref()?;
-        let total = |which| {
-            let of = cells.iter().filter(|(k, _)| k.0 == which);
-            of.map(|(_, n)| n).sum::<BigUint>()
-        };
-        Some([false, true].map(total))
-    }
-
     fn judge_variant(&self, choices: &[usize]) -> Result<Option<Judged>, ExactError> {
         judge_seen(&self.search, choices, self.matrices.look_at(choices))
     }
 
-    /// Returns how many of all counts, the true ones and those found, are equal.
-    pub(super) fn counts_right(&self, found: &Cells) -> Option<Share> {
-        Some(equal_counts(self.cells.as_ref()?, found))
+    /// Returns how many of the two counts are right.
+    pub(super) fn counts_right(&self, found: &Counts) -> Option<Share> {
+        let pairs = self.counts.as_ref()?.iter().zip(found);
+        let right = pairs.filter(|(a, b)| a == b).count();
+        Some(Share { right, of: 2 })
     }
 
-    /// Returns how many of the best a list has. Among variants of equal cost, W and number of changes none is better. A variant that
-    /// is not admissible in truth is none of the best.
-    pub(super) fn best_right(&self, list: &[Assignment]) -> Result<Option<Share>, ExactError> {
-        let Some(best) = &self.best else {
-            return Ok(None);
-        };
-        let mut given = Vec::new();
-        for a in list {
-            given.extend(match self.pool {
-                Some(_) => Some(choice_key(a)),
-                None => self
-                    .judge_variant(&a.choices)?
-                    .filter(|j| j.1)
-                    .map(|j| self.sort_properties(j.0)),
-            });
-        }
-        let given = given.into_iter().counts();
-        let common = |(one, n): (&Vec<u64>, usize)| n.min(given.get(one).copied().unwrap_or(0));
-        let right = best.iter().counts().into_iter().map(common).sum();
+    /// Returns how many of the best of a ranking an outcome lists.
+    pub(super) fn best_right(&self, outcome: &Outcome) -> Option<Share> {
+        let (best, given) = (self.best.as_ref()?, choices_listed(outcome));
+        let right = best.iter().filter(|b| given.contains(b)).count();
         let of = best.len();
-        Ok(Some(Share { right, of }))
+        Some(Share { right, of })
     }
 
     /// Returns how many of the examined variants are judged rightly: whether determinate, with which σ, and whether admissible.
-    pub(super) fn variants_right(&self, judged: &[Option<Judged>]) -> Option<Share> {
+    pub(super) fn variants_right(&self, judged: &[Option<Judged>]) -> Share {
         let verdict = |j: &Option<Judged>| j.map(|(key, good)| (key.internal(), good));
         let pairs = self.judged.iter().zip(judged);
         let right = pairs.filter(|(a, b)| verdict(a) == verdict(b)).count();
         let of = self.judged.len();
-        Some(Share { right, of })
-    }
-
-    /// Returns the counts of judged variants.
-    pub(super) fn cells_of(&self, judged: &[Option<Judged>]) -> Cells {
-        let mut cells = Cells::new();
-        for (key, good) in judged.iter().flatten() {
-            for all in [false, true].into_iter().take(1 + usize::from(*good)) {
-                let cell = (all, self.search.mobility(*key), key.changes());
-                *cells.entry(cell).or_default() += 1u8;
-            }
-        }
-        cells
-    }
-
-    /// Returns the cheapest admissible ones of the judged variants, in the order of the program but for ties.
-    pub(super) fn cheapest_judged(&self, judged: &[Option<Judged>]) -> Vec<Assignment> {
-        let all = self.looked.iter().zip(judged);
-        let good = all.filter_map(|(choices, j)| Some((choices, j.filter(|j| j.1)?.0)));
-        let sorted = good.sorted_by_key(|(_, key)| self.sort_properties(*key));
-        let assignment = |(choices, key): (&Vec<usize>, Key)| Assignment {
-            choices: choices.clone(),
-            key,
-        };
-        sorted.take(self.top).map(assignment).collect()
-    }
-
-    /// Returns cost, W and number of changes, by which a list is sorted.
-    fn sort_properties(&self, key: Key) -> Vec<u64> {
-        let w = self.search.mobility(key).unsigned_abs();
-        vec![key.cost(), w, u64::from(key.changes())]
+        Share { right, of }
     }
 }
 
-/// Returns what tells a ranked variant from others.
-fn choice_key(a: &Assignment) -> Vec<u64> {
-    a.choices.iter().map(|&c| c as u64).collect()
+/// Returns the counts of judged variants.
+pub(super) fn count_judged(judged: &[Option<Judged>]) -> Counts {
+    let determinate = judged.iter().flatten();
+    [
+        determinate.clone().count(),
+        determinate.filter(|j| j.1).count(),
+    ]
+    .map(BigUint::from)
+}
+
+/// Returns the choices of each variant that an outcome lists.
+fn choices_listed(outcome: &Outcome) -> Vec<Vec<usize>> {
+    let listed = outcome.variants();
+    listed.map(|v| v.assignment().choices.clone()).collect()
 }
 
 /// Returns a search over another prime.
@@ -207,14 +155,9 @@ pub(super) fn search_over_prime(search: &Search, nth: usize) -> Result<Search, R
     Ok(Search::new(field, search.mechanism.clone(), conditions)?)
 }
 
-/// Searches by the diagram. Returns the list that was asked for, too.
-pub(super) fn run_and_list(
-    mechanism: &Mechanism,
-    request: &Request,
-) -> Result<(Outcome, Vec<Assignment>), RunError> {
-    let outcome = run(mechanism.clone(), request, &|| false, &mut |_| {})?;
-    let list = outcome.variants().map(|v| v.assignment().clone()).collect();
-    Ok((outcome, list))
+/// Searches by the diagram.
+pub(super) fn search_with(mechanism: &Mechanism, request: &Request) -> Result<Outcome, RunError> {
+    run(mechanism.clone(), request, &|| false, &mut |_| {})
 }
 
 /// Returns the judgement that follows from what was seen of a variant; `None` if it is not determinate.
@@ -246,21 +189,6 @@ pub(super) fn judge_all<E: Send>(
     variants.par_iter().map(|v| judge(v)).collect()
 }
 
-/// Returns the counts of an outcome.
-pub(super) fn cells_of_outcome(outcome: &Outcome) -> Cells {
-    let both = [(false, &outcome.determinate), (true, &outcome.admissible)];
-    let both = both.map(|(all, counts)| (all, counts.by_mobility_and_changes.clone()));
-    both.into_iter().flat_map(name_cells).collect()
-}
-
-fn name_cells(
-    (all, counts): (bool, BTreeMap<(i64, u32), BigUint>),
-) -> impl Iterator<Item = ((bool, i64, u32), BigUint)> {
-    counts
-        .into_iter()
-        .map(move |((w, changes), n)| ((all, w, changes), n))
-}
-
 /// Returns every variant, or some drawn with equal chance if there are more than `most`.
 fn every_or_drawn(search: &Search, most: usize, seed: u64) -> Vec<Vec<usize>> {
     let variables = search.space.variables.iter();
@@ -273,35 +201,4 @@ fn every_or_drawn(search: &Search, most: usize, seed: u64) -> Vec<Vec<usize>> {
     let mut choice = |r: &usize| usize::try_from(random.next_u64() % *r as u64).unwrap_or(0);
     let mut one = || radix.iter().map(&mut choice).collect();
     (0..most).map(|_| one()).collect()
-}
-
-/// Returns how many of all counts, the true ones and those found, are equal.
-fn equal_counts(truth: &Cells, found: &Cells) -> Share {
-    let only = found.keys().filter(|k| !truth.contains_key(k)).count();
-    let right = truth.iter().filter(|(k, n)| found.get(k) == Some(n));
-    Share {
-        right: right.count(),
-        of: truth.len() + only,
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn counts_missed_and_counts_invented_are_wrong() {
-        let cells = |all: &[(u32, u32)]| -> Cells {
-            let one = |&(changes, n)| ((true, 1, changes), BigUint::from(n));
-            all.iter().map(one).collect()
-        };
-        let truth = cells(&[(0, 1), (1, 5), (2, 7)]);
-        let share = |found: &[(u32, u32)]| {
-            let share = equal_counts(&truth, &cells(found));
-            (share.right, share.of)
-        };
-        assert_eq!(share(&[(0, 1), (1, 5), (2, 7)]), (3, 3));
-        assert_eq!(share(&[(0, 1), (1, 6)]), (1, 3));
-        assert_eq!(share(&[(0, 1), (1, 5), (2, 7), (3, 2)]), (3, 4));
-    }
 }

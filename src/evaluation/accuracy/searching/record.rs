@@ -69,6 +69,14 @@ impl Way {
         matches!(self, Way::Diagram(Check::Full) | Way::Pool(_))
     }
 
+    /// Returns the budget of nodes.
+    pub(super) fn budget(self) -> Option<usize> {
+        match self {
+            Way::Nodes(nodes) => Some(nodes),
+            _ => None,
+        }
+    }
+
     /// Returns whether it examines variants one by one.
     pub fn examines_variants(self) -> bool {
         matches!(self, Way::Pruned | Way::Brute | Way::Float(_))
@@ -112,6 +120,11 @@ pub struct Bracket {
 }
 
 impl Bracket {
+    /// Returns whether the certain bounds differ.
+    pub fn is_open(self) -> bool {
+        self.certain[0] < self.certain[1]
+    }
+
     /// Returns the width of some bounds in decades. A decade is a factor of ten.
     pub fn width_in_decades([least, most]: [f64; 2]) -> f64 {
         (most.max(1.0) / least.max(1.0)).log10()
@@ -141,7 +154,7 @@ pub struct Record {
 }
 
 /// Every way of searching one mechanism.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize)]
 pub struct Trial {
     /// The mechanism.
     pub mechanism: String,
@@ -167,22 +180,6 @@ pub struct Trial {
 }
 
 impl Trial {
-    /// Returns a trial without records.
-    pub(super) fn new(mechanism: &str, top: usize) -> Trial {
-        Trial {
-            mechanism: mechanism.to_owned(),
-            space: String::new(),
-            determinate: None,
-            admissible: None,
-            looked_at: 0,
-            all_looked_at: false,
-            top,
-            ranked_by_pool: None,
-            ranking_proven: None,
-            records: Vec::new(),
-        }
-    }
-
     /// Takes the true numbers of determinate and of admissible variants, and judges each bracket by the second.
     pub(super) fn judge_brackets(&mut self, [determinate, admissible]: &[BigUint; 2]) {
         let truth = admissible.to_f64().unwrap_or(f64::INFINITY);
