@@ -35,12 +35,12 @@ const DRAWN = {
       await hand.tool("plate");
       for (const [x, y] of [[20, 0], [10, 20], [-35, 20], [-35, 20]]) await hand.place(x, y);
       await hand.tool("bar");
-      for (const [x, y] of [[10, 20], [30, 28], [30, 28], [42, 4]]) await hand.place(x, y);
+      for (const [x, y] of [[10, 20], [30, 30], [30, 30], [40, 5]]) await hand.place(x, y);
       await hand.tool("ground");
       await hand.place(20, 0);
-      await hand.place(42, 4);
+      await hand.place(40, 5);
       await hand.tool("drive");
-      await hand.place(42, 4);
+      await hand.place(40, 5);
       await hand.tool("output");
       await hand.place(-15, 20);
     },

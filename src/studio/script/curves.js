@@ -19,9 +19,10 @@ function limitStroke(end) {
   return change({ do: "put", path: ["workload", "stroke"], value: { from, to, steps: desk.look.file.workload?.stroke?.steps ?? 24 } });
 }
 
-function makeStrokeButtons() {
+/** The buttons that limit the stroke: they stand where a motion of the drive is known. */
+function strokeButtons() {
   const all = [["Start here", 0, "The stroke starts at the position of the slider"], ["End here", 1, "The stroke ends at the position of the slider"], ["Whole stroke", null, "The stroke goes as far as the drive does"]];
-  byId("player").append(element("span", { id: "limits" }, ...all.map(([words, end, tip]) => button(words, () => limitStroke(end), tip))));
+  return element("div", { id: "limits", class: "acts" }, ...all.map(([words, end, tip]) => button(words, () => limitStroke(end), tip)));
 }
 
 /** Angles that go on past half a turn. */
@@ -63,8 +64,7 @@ function curve(words, x, y) {
   const [low, high] = [Math.min(...y), Math.max(...y)];
   const [from, to] = [Math.min(...x), Math.max(...x)];
   const at = (i) => [4 + ((w - 8) * (x[i] - from)) / (to - from || 1), h - 4 - ((h - 8) * (y[i] - low)) / (high - low || 1)];
-  const picture = svgElement("svg", { class: "ozd curve", viewBox: `0 0 ${w} ${h}`, role: "img", "aria-label": `${words}, from ${shortly(low)} to ${shortly(high)}` },
-    );
+  const picture = svgElement("svg", { class: "ozd curve", viewBox: `0 0 ${w} ${h}`, role: "img", "aria-label": `${words}, from ${shortly(low)} to ${shortly(high)}` });
   const [px] = at(Math.min(player.now, y.length - 1));
   picture.append(svgElement("path", { class: "grid-line", d: `M${px.toFixed(1)} 0V${h}` }), svgElement("path", { class: "drawn", d: path(y.map((_, i) => at(i)), false) }));
   return element("figure", {}, element("figcaption", {}, `${words}: ${shortly(low)} to ${shortly(high)}`), picture);
@@ -77,13 +77,15 @@ function showCurves() {
   const move = drivePlaces();
   const scene = desk.motion?.scenes?.[desk.state];
   const all = move && selection.length === 1 && desk.motion.revision === desk.revision ? seriesOf(selection[0], scene) : [];
-  room.hidden = !all.length;
-  if (!all.length) return;
+  room.hidden = !move;
+  if (!move) return;
   const one = ([name, unitWord, y]) => {
     const v = slopesOf(move.at, y);
     return [curve(`${name}, ${unitWord}`, move.at, y), curve(`velocity of ${name}, ${unitWord} per ${move.unit} of the drive`, move.at, v), curve(`acceleration of ${name}, ${unitWord} per ${move.unit}²`, move.at, slopesOf(move.at, v))];
   };
-  refill(room, element("h2", {}, `${selection[0].what} ${selection[0].id} over the stroke`), ...all.flatMap(one));
+  const head = all.length ? `${selection[0].what} ${selection[0].id} over the stroke` : "Stroke";
+  const help = all.length ? [] : [element("p", { class: "help" }, "Select a joint, a point or a link to see its curves. The slider under the drawing has the position for the buttons.")];
+  refill(room, element("h2", {}, head), strokeButtons(), ...help, ...all.flatMap(one));
 }
 
 /** The steps of the tutorial: what to do, and when it is done. */

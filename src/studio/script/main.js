@@ -101,7 +101,6 @@ async function begin() {
   listenToButtons();
   listenToText();
   listenToPlayer();
-  makeStrokeButtons();
   hear("file", showFile);
   hear("look", () => {
     select(selection);

@@ -126,12 +126,12 @@ async function makeTools() {
   bar.append(types);
 }
 
-/** A type for what is drawn next, and for the joints that are selected. */
+/** A type for what is drawn next, and with Select for the joints that are selected. */
 function chooseType(kind) {
   type = kind;
   for (const button of document.querySelectorAll("#types [data-type]")) button.setAttribute("aria-pressed", button.dataset.type === kind);
   const joints = selection.filter((s) => s.what === "joint").map((s) => s.id);
-  if (joints.length) return setType(joints, kind);
+  if (joints.length && tool.name === "select") return setType(joints, kind);
   say(`New joints are ${kind}.`);
   return null;
 }
