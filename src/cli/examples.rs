@@ -11,7 +11,7 @@ Examples:
   ozols statics parallel-shears                Assur groups, and joint reactions over the cycle
   ozols grip lever-gripper                     what its levers can hold, and the drive moment
   ozols drive torsion-module                   the torsion bar, the cam spring, and the programme run
-  ozols draw gripper-10 -o gripper.svg         its structural diagram
+  ozols draw gripper-10 -o gripper.svg         a drawing of it
   ozols export robot.urdf --to toml -o robot.toml    convert a robot description to a mechanism file
 Each command has its own help: `ozols search --help`.
 
@@ -77,8 +77,8 @@ Examples:
 
 pub(super) const DRAW: &str = "\
 Examples:
-  ozols draw gripper-10 -o gripper.svg                   structural scheme
-  ozols draw bennett --kind kinematic -o bennett.svg     kinematic scheme
+  ozols draw gripper-10 --kind scheme -o gripper.svg     structural scheme
+  ozols draw bennett -o bennett.svg                       kinematic scheme
   ozols draw gripper-10 --motion -o moving.svg           the same, moving
   ozols draw gripper-10 --state clamped -o clamped.svg   with the clamped part
   ozols draw gripper-10 --variant 1 -o first.svg         the best redesign, its changes in colour";

@@ -5,7 +5,7 @@ use crate::page::{LOOK, SHARED};
 use maud::{DOCTYPE, Markup, html};
 
 /// The studio's own scripts by idea, in the order they are run, after those that the report's page shares with it.
-const SCRIPTS: [&str; 18] = [
+const SCRIPTS: [&str; 20] = [
     include_str!("script/talk.js"),
     include_str!("script/things.js"),
     include_str!("script/number.js"),
@@ -16,11 +16,13 @@ const SCRIPTS: [&str; 18] = [
     include_str!("script/build.js"),
     include_str!("script/tools.js"),
     include_str!("script/pointer.js"),
+    include_str!("script/measure.js"),
     include_str!("script/inspect.js"),
     include_str!("script/search.js"),
     include_str!("script/verdict.js"),
     include_str!("script/ideas.js"),
     include_str!("script/text.js"),
+    include_str!("script/curves.js"),
     include_str!("script/shelf.js"),
     include_str!("script/keys.js"),
     include_str!("script/main.js"),
@@ -77,7 +79,7 @@ fn bar_html() -> Markup {
             h1 id="name" { "ozols studio" }
             span id="file" {}
             div role="toolbar" aria-label="File" id="file-tools" {
-                (button("new", "New", "Start from something else (N)"))
+                (button("new", "New", "Start from an example, a file or the tutorial (N)"))
                 (button("undo", "Undo", "Undo (Ctrl+Z)"))
                 (button("redo", "Redo", "Redo (Ctrl+Y)"))
                 (button("save", "Save", "Save the file (Ctrl+S)"))
@@ -123,14 +125,15 @@ fn player_html() -> Markup {
 fn side_html() -> Markup {
     html! {
         div id="side" {
-            section id="thing" aria-label="Selection" hidden {}
             section id="verdict" aria-label="Verdict" {
                 div id="states" role="tablist" aria-label="States" {}
                 div id="verdict-panel" role="tabpanel" tabindex="0" aria-label="Verdict" {}
             }
             div id="work" role="status" {}
             section id="ideas" aria-label="Ideas" {}
+            section id="thing" aria-label="Selection" hidden {}
             section id="search" aria-label="Search" hidden { details id="search-fold" {} }
+            section id="curves" aria-label="Curves" hidden {}
             section id="force" aria-label="Forces" hidden {}
             section id="text-room" aria-label="The file as text" {
                 div id="problems" {}

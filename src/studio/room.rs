@@ -35,7 +35,7 @@ pub(super) struct Room {
     found: Mutex<Option<Arc<Found>>>,
     /// The first request, and the wider one that replaces it.
     request: Request,
-    wider: Mutex<Option<Request>>,
+    wider: Mutex<Option<(Request, String)>>,
     ended: AtomicBool,
     /// The revision whose search is to end with what it has.
     stopped: AtomicU64,
@@ -50,8 +50,8 @@ pub(super) struct Found {
     pub(super) revision: u64,
     /// Its outcome.
     pub(super) outcome: Outcome,
-    /// The requests that find something, where it found nothing.
-    pub(super) wider: Vec<Request>,
+    /// The requests that find something, where it found nothing, each with its result in words.
+    pub(super) wider: Vec<(Request, String)>,
 }
 
 fn lock_mutex<T>(m: &Mutex<T>) -> MutexGuard<'_, T> {
@@ -183,15 +183,16 @@ impl Room {
         found.filter(|f| f.revision == revision)
     }
 
-    /// Returns the request of a search, and whether it is wider than the first one.
-    pub(super) fn current_request(&self) -> (Request, bool) {
-        let wider = lock_mutex(&self.wider).clone();
-        let is_wider = wider.is_some();
-        (wider.unwrap_or_else(|| self.request.clone()), is_wider)
+    /// Returns the request of a search, and the words of a wider one.
+    pub(super) fn current_request(&self) -> (Request, Option<String>) {
+        match lock_mutex(&self.wider).clone() {
+            Some((request, words)) => (request, Some(words)),
+            None => (self.request.clone(), None),
+        }
     }
 
     /// Searches with a wider request from now on, or with the first one, and returns the state of the desk.
-    pub(super) fn ask_search(&self, wider: Option<Request>) -> Result<Value, Refused> {
+    pub(super) fn ask_search(&self, wider: Option<(Request, String)>) -> Result<Value, Refused> {
         *lock_mutex(&self.wider) = wider;
         self.at_desk(|desk| {
             desk.revision += 1;

@@ -1,6 +1,7 @@
 //! Which address does what.
 
 use super::desk::Refused;
+use super::disk::Opening;
 use super::http::{Asked, Reply};
 use super::idea::{self, Taken};
 use super::room::{self, Found, Room};
@@ -22,6 +23,8 @@ struct Sent {
     /// The revision that it is made of, or that ideas are of.
     revision: Option<u64>,
     name: Option<String>,
+    /// The text of a file that the browser has opened.
+    text: Option<String>,
     /// The number of an idea, from 1.
     idea: usize,
     /// The number of a wider request, from 0; `None` for the first request.
@@ -146,7 +149,11 @@ fn answer_post(asked: &Asked, path: &str, room: &Room) -> Result<Value, Refused>
         "save" => room.at_desk(|desk| desk.save_file(sent.name.as_deref())),
         "begin" => room.at_desk(|desk| {
             let name = sent.name.unwrap_or_default();
-            let opening = shelf::opening_of(&name, desk.file_folder());
+            let folder = desk.file_folder();
+            let opening = match sent.text {
+                Some(text) => Some(Opening::Text(name.clone(), text, folder)),
+                None => shelf::opening_of(&name, folder),
+            };
             let none = || Refused::Words(format!("there is no {name} to start from"));
             desk.begin_file(&opening.ok_or_else(none)?)
         }),

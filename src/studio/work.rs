@@ -10,6 +10,7 @@ use crate::page::scenes::{moving_scene, still_scene};
 use crate::page::verdict;
 use crate::redundancy::analysis::{Method, StateAnalysis, analyse_states};
 use crate::score::outcome::Outcome;
+use crate::score::outcome::variant::Variant;
 use crate::score::request::{List, Request};
 use crate::score::run::{Event, run};
 use crate::statics::solve::{Model, SolvedReactions, solve_reactions};
@@ -18,7 +19,8 @@ use crate::view::analysis::Analysis;
 use crate::view::reactions::stroke::ReactionsOverStroke as Reactions;
 use crate::view::search::json;
 use crate::view::search::nothing_found::{hopeless_reasons, wider_requests};
-use crate::view::terminal::next_commands::request_flags;
+use crate::view::search::variant::symmetric_lines;
+use crate::view::search::why::rows_of_ideas;
 use serde_json::{Value, json};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
@@ -145,8 +147,7 @@ pub(super) fn verdict_json(m: &Mechanism, states: &[StateAnalysis], revision: u6
 }
 
 fn run_search(room: &Room, revision: u64, m: &Mechanism, states: &[StateAnalysis]) {
-    let (asked, is_wider) = room.current_request();
-    let flags = is_wider.then(|| request_flags(m, &asked));
+    let (asked, wider) = room.current_request();
     let request = Request {
         list: List::Top(IDEAS),
         // A ranking orders variants, not ideas.
@@ -185,13 +186,13 @@ fn run_search(room: &Room, revision: u64, m: &Mechanism, states: &[StateAnalysis
         Ok(None) => {}
         Ok(Some(mut ideas)) => {
             ideas["notes"] = notes.into();
-            ideas["asked"] = flags.into();
+            ideas["asked"] = wider.into();
             room.tell_found(revision, "ideas", &ideas);
         }
         Err(why) => room.tell_found(
             revision,
             "ideas",
-            &json!({ "revision": revision, "why": why, "asked": flags }),
+            &json!({ "revision": revision, "why": why, "asked": wider }),
         ),
     }
 }
@@ -224,11 +225,40 @@ fn ideas_json(
         )
     };
     let wider: Vec<(Request, String)> = wider.map(own).collect();
-    let step = |(request, gives): &(Request, String)| json!({ "flags": request_flags(m, request), "gives": gives });
+    // What the file can say is written into it; the rest is asked for by its number.
+    let step = |(request, gives): &(Request, String)| {
+        let [old, new] = [&outcome.request, request];
+        let more = &new.allow[old.allow.len().min(new.allow.len())..];
+        let in_file = Request {
+            max_redundant: old.max_redundant,
+            max_mobility: old.max_mobility,
+            allow: old.allow.clone(),
+            list: old.list,
+            distinct: old.distinct,
+            pool: old.pool,
+            ..new.clone()
+        };
+        json!({
+            "gives": gives,
+            "in_file": in_file == *old,
+            "max_redundant": (new.max_redundant != old.max_redundant).then_some(new.max_redundant),
+            "max_mobility": new.max_mobility.filter(|_| new.max_mobility != old.max_mobility),
+            "allow": more.iter().map(|o| json!([o.joint, o.names])).collect::<Value>(),
+        })
+    };
+    let why = {
+        let ideas = outcome.variants_unless(&is_over);
+        let ideas: Vec<_> = ideas.filter(|v| v.idea().is_some()).collect();
+        let first: Vec<_> = ideas.iter().map(Variant::assignment).collect();
+        rows_of_ideas(&outcome, &first)
+    };
     let told = json!({
         "revision": revision,
         "found": found,
         "marks": marks,
+        // As in the report: reasons of each idea, and the cheapest symmetric redesigns.
+        "why": why,
+        "symmetric": remarks.symmetric.as_ref().map(symmetric_lines),
         "hopeless": hopeless_reasons(m, &remarks.hopeless),
         // In the order in which they are asked for by number.
         "wider": wider.iter().map(step).collect::<Value>(),
@@ -236,7 +266,7 @@ fn ideas_json(
     room.keep_found(Found {
         revision,
         outcome,
-        wider: wider.into_iter().map(|(request, _)| request).collect(),
+        wider,
     });
     Ok(told)
 }

@@ -297,7 +297,7 @@ export function studioTests(test) {
     await windowed(second.address, {}, async (tab) => {
       await tab.waitForSelector("#notice-left");
       assert.doesNotMatch(await source(tab), /spherical"\npoint/);
-      await tab.locator('#notice-left button:has-text("Take it up")').click();
+      await tab.locator('#notice-left button:has-text("Restore it")').click();
       await tab.waitForFunction(() => document.querySelector("#text").value.includes("spherical\"\npoint"));
       assert.equal(await source(tab), text);
     });
@@ -307,7 +307,7 @@ export function studioTests(test) {
     assert.match(said, /unsaved work is in .*mine\.toml\.autosave/);
     const third = await served(folder, "mine.toml");
     await windowed(third.address, {}, async (tab) => {
-      await tab.locator('#notice-left button:has-text("Take it up")').click();
+      await tab.locator('#notice-left button:has-text("Restore it")').click();
       await tab.locator("#save:enabled").click();
       await told(tab, "· saved");
     });
@@ -392,7 +392,7 @@ export function studioTests(test) {
     await windowed(address, {}, async (tab) => {
       await ideas(tab);
       await told(tab, "2 redundant constraints");
-      assert.match(await tab.locator("#hint").innerText(), /View a description here, and take an idea/);
+      assert.match(await tab.locator("#hint").innerText(), /read-only here; you can apply an idea/);
       await tab.locator(".idea:enabled").first().click();
       await tab.waitForFunction(() => desk.verdict?.analysis?.states[0].redundant === 0);
       await tab.locator("#save").click();

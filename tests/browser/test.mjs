@@ -7,6 +7,7 @@ import { catalogueTests } from "./catalogue.mjs";
 import { drawingTests } from "./drawing.mjs";
 import { pairTests } from "./pairs.mjs";
 import { stageTests } from "./stage.mjs";
+import { hourTests } from "./hour.mjs";
 import { studioTests } from "./studio.mjs";
 import { browser, column, fits, open, picture, report } from "./pages.mjs";
 
@@ -33,6 +34,7 @@ pairTests(test);
 stageTests(test, { gripper, loaded });
 dragTests(test, { gripper });
 studioTests(test);
+hourTests(test);
 drawingTests(test);
 
 test("the verdict stands at the top, and every part has its words", async () => {

@@ -91,6 +91,20 @@ export function handOn(tab, zoom = 4) {
       await tab.locator(selector).first().click();
       await settled();
     },
+    /** Types into a field of the selection. */
+    async fill(label, text) {
+      count.clicks += 1;
+      const field = tab.locator(`#thing input[aria-label="${label}"]`).first();
+      await field.fill(text);
+      await field.press("Enter");
+      await settled();
+    },
+    /** Does something with a key held. */
+    async key(name, act) {
+      await tab.keyboard.down(name);
+      await act();
+      await tab.keyboard.up(name);
+    },
     tool(name) {
       return this.press(`[data-tool="${name}"]`);
     },

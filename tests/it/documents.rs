@@ -177,22 +177,13 @@ fn the_pictures_are_what_the_program_draws() {
     let pictures: [(&str, &[&str]); 2] = [
         (
             "gripper-10.svg",
-            &[
-                "draw",
-                "gripper-10",
-                "--kind",
-                "kinematic",
-                "--self-stress",
-                "1",
-            ],
+            &["draw", "gripper-10", "--self-stress", "1"],
         ),
         (
             "gripper-10-moving.svg",
             &[
                 "draw",
                 "gripper-10",
-                "--kind",
-                "kinematic",
                 "--idea",
                 "1",
                 "--motion",

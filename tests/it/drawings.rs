@@ -265,10 +265,10 @@ fn the_same_bytes_each_time() {
 
 #[test]
 fn command_line() {
-    let svg = run_quiet(&["draw", "gripper-10"]);
+    let svg = run_quiet("draw gripper-10 --kind scheme");
     assert!(svg.starts_with("<svg "), "{svg}");
     assert!(svg.contains("Structural scheme, state free"));
-    let svg = run_quiet("draw gripper-10 --kind kinematic --state clamped");
+    let svg = run_quiet("draw gripper-10 --state clamped");
     assert!(svg.contains("Kinematic scheme seen along z, state clamped"));
     // the same variant as in the list of `ozols search`
     let list = run_json(&["search", "gripper-10", "--top", "2", "--format", "json"]);

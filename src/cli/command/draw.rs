@@ -11,10 +11,10 @@ use crate::view::analysis::Analysis;
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 enum DrawKind {
-    /// Links as polygons, joints as circles with their class, loops tinted by their redundant constraints.
-    Scheme,
     /// Links and joint symbols in place, from the coordinates.
     Kinematic,
+    /// Links as polygons, joints as circles with their class, loops tinted by their redundant constraints.
+    Scheme,
 }
 
 #[derive(Debug, ClapArgs)]
@@ -22,7 +22,7 @@ pub(crate) struct Draw {
     #[command(flatten)]
     file: File,
     /// Kind of drawing.
-    #[arg(long, value_enum, default_value = "scheme")]
+    #[arg(long, value_enum, default_value = "kinematic")]
     kind: DrawKind,
     /// State of the file to draw.
     #[arg(long, default_value = "free")]
@@ -119,7 +119,7 @@ pub(crate) fn run_draw(_: &Global, a: &Draw) -> anyhow::Result<Done> {
             || a.self_stress.is_some()
             || a.kind == DrawKind::Kinematic
             || (a.view.is_none() && a.up.is_none()),
-        "--view and --up need the kinematic scheme, which has coordinates; add --kind kinematic"
+        "--view and --up need the kinematic scheme, which has coordinates; leave out --kind scheme"
     );
     let mut mechanism = load::load_mechanism(&a.file)?;
     let state = load::find_state(&mechanism, &a.state)?;

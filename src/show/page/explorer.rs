@@ -1,11 +1,13 @@
 //! The parts that the script fills: the stage with the original mechanism and the chosen one, moved by one slider, and
 //! the frame of the redesigns with filters, table and chart.
 
-use super::contents::{Page, SHOWN};
+use super::contents::{Page, Redesigns, SHOWN};
 use crate::view::analysis::Analysis;
 use crate::view::search::nothing_found::hopeless_reasons;
+use crate::view::search::variant::symmetric_lines;
 use crate::view::terminal::next_commands::typed_option;
 use maud::{Markup, PreEscaped, html};
+use num_traits::Zero;
 
 pub(super) fn stage_html(page: &Page<'_>, analysis: &Analysis<'_>) -> Markup {
     html! {
@@ -39,9 +41,9 @@ fn player_html(analysis: &Analysis<'_>) -> Markup {
             div.row data-moves {
                 button type="button" data-part="play" { "Play" }
                 input type="range" data-part="range" min="0" step="1" aria-label="Position";
-                label.check data-part="again" { input type="checkbox" data-part="loop" checked; " Again and again" }
+                label.check data-part="again" { input type="checkbox" data-part="loop" checked; " Loop" }
                 button type="button" data-part="home" disabled { "First view" }
-                button type="button" data-part="trace" aria-pressed="false" title="Then click a link: the way of that point is drawn" { "Trace a point" }
+                button type="button" data-part="trace" aria-pressed="false" title="Then click a link to trace the path of that point" { "Trace a point" }
                 button type="button" data-part="untrace" hidden { "No traces" }
             }
             div.switches {
@@ -90,8 +92,7 @@ pub(super) fn redesigns_html(page: &Page<'_>) -> Markup {
     match &page.redesigns {
         Err(why) => html! { p { "Redesigns were not searched: " (why) } },
         Ok(r) if r.variants.is_empty() => html! {
-            p { "No redesign to show; see the verdict above." }
-            @for why in hopeless_reasons(page.mechanism, &r.remarks.hopeless) { p { (why) "." } }
+            @for why in empty_reasons(page, r) { p { (why) "." } }
             dl.commands {
                 @for step in &page.commands.wider {
                     dt { (step.gives) }
@@ -99,8 +100,38 @@ pub(super) fn redesigns_html(page: &Page<'_>) -> Markup {
                 }
             }
         },
-        Ok(_) => frame_html(),
+        Ok(r) => html! {
+            (frame_html())
+            @if let Some(found) = &r.remarks.symmetric {
+                p { "The cheapest symmetric redesign for each number of redundant constraints left:" }
+                ul { @for line in symmetric_lines(found) { li { (line) } } }
+            }
+        },
     }
+}
+
+/// Returns the reasons why no redesign is listed.
+fn empty_reasons(page: &Page<'_>, r: &Redesigns<'_>) -> Vec<String> {
+    if r.interrupted {
+        return vec!["The search was interrupted before it listed a redesign".to_owned()];
+    }
+    if !r.found.listed_counts().total.is_zero() {
+        let why = match r.found.ranking {
+            Some(_) => {
+                "None of the redesigns scored is in equilibrium within the limits of the ranking"
+            }
+            None => "Redesigns were counted, but none was asked for",
+        };
+        return vec![why.to_owned()];
+    }
+    let why = hopeless_reasons(page.mechanism, &r.remarks.hopeless);
+    if !why.is_empty() || !page.commands.wider.is_empty() {
+        return [vec!["No redesign meets the conditions".to_owned()], why].concat();
+    }
+    vec![
+        "No redesign meets the conditions; allow more joint types under [search] or at the joints"
+            .to_owned(),
+    ]
 }
 
 fn frame_html() -> Markup {
@@ -144,7 +175,13 @@ fn filters_html() -> Markup {
             label { "Cost ≤ " input type="number" id="most-cost" min="0" step="0.5" inputmode="decimal"; }
             label { "Changes ≤ " input type="number" id="most-changes" min="0" step="1" inputmode="numeric"; }
             label { "W ≤ " input type="number" id="most-mobility" step="1" inputmode="numeric"; }
-            label.check id="idle-field" { input type="checkbox" id="no-idle"; " No idle links" }
+            @for (id, words) in [
+                ("no-idle", "No idle links"),
+                ("symmetric-only", "Symmetric"),
+                ("in-all-poses", "Throughout the motion"),
+            ] {
+                label.check id={ (id) "-field" } { input type="checkbox" id=(id); " " (words) }
+            }
             button type="reset" { "Show all" }
             span.unseen id="find-help" { "Words that all must occur: a joint, a type, or joint:type. Escape clears." }
         }

@@ -16,12 +16,14 @@ use crate::redundancy::local_mobility::{FAR, animate_idle};
 use crate::view::analysis::idle;
 use crate::view::terminal::next_commands::typed_option;
 use anyhow::{Context, ensure};
-use std::f64::consts::PI;
+use std::f64::consts::{PI, TAU};
 
 /// Pictures of a motion where nobody says how many: at 30 a second, 2.4 seconds.
 const STEPS: usize = 72;
 /// The greatest number of pictures, each of which is part of the file.
 const MOST: usize = 600;
+/// Most turns that a screw is followed to either side.
+const MOST_TURNS: f64 = 50.0;
 
 /// A motion.
 #[derive(Debug)]
@@ -30,7 +32,7 @@ pub struct Moving {
     way: Way,
     words: String,
     /// What positions of the way are in: the file's length unit where the drive slides, radians otherwise.
-    unit: f64,
+    unit: (f64, String),
 }
 
 impl Moving {
@@ -61,9 +63,14 @@ impl Moving {
         };
         let slide = column_slides(&pose, drive);
         let unit = if slide { pose.length } else { 1.0 };
+        let symbol = if slide { m.length_unit.symbol } else { "rad" };
         let asked = stroke_asked(m, slide, range, named)?;
         let steps = asked.map_or(STEPS, |s| s.steps.clamp(2, MOST));
+        let far = farthest_drive(&pose, drive);
+        // A screw plays the travel of its nut, and not one turn.
+        let pitch = screw_pitch(&pose, drive);
         let range = asked.map(|s| [s.from / unit, s.to / unit]);
+        let range = range.or_else(|| (pitch != 0.0).then_some([-far, far]));
         let mut way = way_of(&pose, drive, &held, range, steps);
         // Nobody wants to see jaws go through each other.
         let met = match asked {
@@ -71,7 +78,6 @@ impl Moving {
             Some(_) => [None, None],
         };
         if met.iter().any(Option::is_some) {
-            let far = if slide { SLIDE } else { PI };
             let [low, high] = met;
             let range = [low.unwrap_or(-far), high.unwrap_or(far)];
             way = way_of(&pose, drive, &held, Some(range), steps);
@@ -81,29 +87,32 @@ impl Moving {
             .filter(|[first, last]| way.at.len() > 1 && (last - first).abs() > 1e-6)
             .with_context(|| format!("{name} cannot move from the pose of the file"))?;
         let words = if way.closed {
-            format!("drive {name} goes once round")
+            format!("drive {name} makes a full turn")
         } else {
+            // A screw is read by its nut.
+            let advance = if slide { unit } else { pitch * pose.length };
             let place = |x: f64| {
-                if slide {
-                    format!("{} {}", decimals(x * unit, 2), m.length_unit.symbol)
+                if advance != 0.0 {
+                    format!("{} {}", decimals(x * advance, 2), m.length_unit.symbol)
                 } else {
                     format!("{}°", decimals(x.to_degrees(), 1))
                 }
             };
             let (from, to, why) = (place(first), place(last), why_it_ends(&way, met));
-            format!("drive {name} goes from {from} to {to}{why}")
+            let what = if pitch == 0.0 { "drive" } else { "the nut of" };
+            format!("{what} {name} goes from {from} to {to}{why}")
         };
         Ok(Moving {
             pose,
             way,
             words,
-            unit,
+            unit: (unit, symbol.to_owned()),
         })
     }
 
     /// Returns the ends of the drive's range, in radians or the file's length unit.
     pub fn drive_reach(&self) -> Option<[f64; 2]> {
-        ends_of(&self.way).map(|ends| ends.map(|x| x * self.unit))
+        ends_of(&self.way).map(|ends| ends.map(|x| x * self.unit.0))
     }
 
     /// Returns the working motion of a mechanism in which no joint can be the drive.
@@ -115,7 +124,7 @@ impl Moving {
             pose,
             way,
             words: words.to_owned(),
-            unit: 1.0,
+            unit: (1.0, "rad".to_owned()),
         })
     }
 
@@ -154,7 +163,7 @@ impl Moving {
             pose: Pose::of_file(m, state)?,
             way: wiggle.way,
             words: format!("idle freedom {}: {words}{far}{open}", which + 1),
-            unit: 1.0,
+            unit: (1.0, "rad".to_owned()),
         })
     }
 
@@ -172,7 +181,7 @@ impl Moving {
             pose,
             way,
             words: "the pose of the file".to_owned(),
-            unit: 1.0,
+            unit: (1.0, "rad".to_owned()),
         })
     }
 
@@ -182,7 +191,26 @@ impl Moving {
             pose: &self.pose,
             way: &self.way,
             words: &self.words,
+            unit: (self.unit.0, &self.unit.1),
         }
+    }
+}
+
+/// Returns the advance of a screw per radian, as a fraction of [`Pose::length`]; 0 for other freedoms.
+fn screw_pitch(pose: &Pose, drive: usize) -> f64 {
+    let [a, b, c, x, y, z] = pose.columns[drive].twist;
+    let pitch = a * x + b * y + c * z;
+    // Less than that is rounding.
+    let screws = !column_slides(pose, drive) && pitch.abs() > 1e-9;
+    if screws { pitch } else { 0.0 }
+}
+
+/// Returns how far a drive is followed to either side: half a turn, or until a slide or a nut has gone the size of the mechanism.
+fn farthest_drive(pose: &Pose, drive: usize) -> f64 {
+    match screw_pitch(pose, drive) {
+        _ if column_slides(pose, drive) => SLIDE,
+        0.0 => PI,
+        pitch => (SLIDE / pitch.abs()).min(MOST_TURNS * TAU),
     }
 }
 

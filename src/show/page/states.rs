@@ -175,7 +175,7 @@ fn stress_item(s: &State<'_>, t: &SelfStress) -> Markup {
         _ => String::new(),
     };
     let (class, why) = match harm_word(t) {
-        "harmless" => ("good", ": friction shared by the contacts"),
+        "harmless" => ("good", ": friction shared between contacts"),
         _ => ("bad", ""),
     };
     html! {

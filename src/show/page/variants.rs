@@ -103,6 +103,7 @@ pub(super) fn variant_columns(page: &Page<'_>, r: &Redesigns<'_>) -> Result<Valu
         // Whether everything was looked at, so that what ideas stand for is counted and no lower bound.
         "exact": r.found.is_exact(),
         "adds": figure_column(r, added),
+        "symmetric": figure_column(r, |c| c.idea().and_then(|i| i.symmetric)),
         "stands_for": figure_column(r, |c| c.idea().map(|i| i.variants.to_string())),
         // Of the first ideas, line by line, what `ozols search` says of them.
         "why": why_ideas(r),

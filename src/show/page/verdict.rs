@@ -64,9 +64,9 @@ pub fn state_sentences(told: &State<'_>) -> Vec<String> {
     }
     out.push(
         if s.redundant == 0 {
-            "Parts that are slightly inaccurate still assemble without strain, and the loads alone determine the joint forces."
+            "Slightly inaccurate parts still assemble without strain, and the loads alone determine the joint forces."
         } else {
-            "Parts that are slightly inaccurate bind: they must be forced together, and the joints carry load even without an external load."
+            "Slightly inaccurate parts bind: they must be forced together, and the joints carry load even without an external load."
         }
         .to_owned(),
     );
@@ -79,10 +79,10 @@ pub fn state_sentences(told: &State<'_>) -> Vec<String> {
         let split = if harmless + harmful == 0 {
             String::new()
         } else {
-            format!(": {harmless} harmless (friction shared by the contacts), {harmful} harmful")
+            format!(": {harmless} harmless (friction shared between contacts), {harmful} harmful")
         };
         out.push(format!(
-            "{} of them {} from the joints of this state alone{split}.",
+            "{} of them {} from the joints that this state adds{split}.",
             e.redundant,
             if e.redundant == 1 { "comes" } else { "come" }
         ));
@@ -105,10 +105,13 @@ pub fn state_sentences(told: &State<'_>) -> Vec<String> {
 
 fn mobility_sentence(told: &State<'_>) -> String {
     let s = told.found;
-    let ways = |n: usize| count_noun(n, "way");
+    let freedoms = |n: usize| match n {
+        1 => "1 degree of freedom".to_owned(),
+        n => format!("{n} degrees of freedom"),
+    };
     let Some(finite) = told.finite_mobility() else {
         return format!(
-            "W = {} in this pose; how much of that is really there is undecided: between {} and {}.",
+            "W = {} in this pose; the finite mobility is undecided ({} to {}).",
             s.mobility,
             s.finite.mobility,
             s.finite.at_most()
@@ -118,20 +121,19 @@ fn mobility_sentence(told: &State<'_>) -> String {
         (0, _) => "Nothing moves in this state.".to_owned(),
         // At a dead point the motion of the drive is not idle.
         (w, f) if w == f && (s.idle.is_empty() || s.local_mobility == 0) => {
-            format!("It moves in {} (W = {w}).", ways(w))
+            format!("It has {} (W = {w}).", freedoms(w))
         }
         (w, f) if w == f => format!(
-            "It moves in {} (W = {w}), {} of which {} not move the outputs.",
-            ways(w),
+            "It has {} (W = {w}), {} of which {} not move the outputs.",
+            freedoms(w),
             s.local_mobility,
             if s.local_mobility == 1 { "does" } else { "do" }
         ),
         (w, 0) => format!(
-            "W = {w} in this pose, but no motion is really there: the pose is shaky, and small errors are felt as play."
+            "W = {w} in this pose only; no finite motion exists. The pose is shaky: small errors appear as play."
         ),
         (w, f) => format!(
-            "W = {w} in this pose, of which {f} {} really there: the pose is singular or shaky.",
-            if f == 1 { "is" } else { "are" }
+            "W = {w} in this pose, but the finite mobility is {f}: the pose is singular or shaky."
         ),
     }
 }
@@ -145,7 +147,7 @@ fn redesigns_sentence(page: &Page<'_>, s: &State<'_>) -> String {
     let found = r.found;
     let size = found.search.size();
     if size == num_bigint::BigUint::from(1u8) {
-        return "No joint has a choice, so there is nothing to search: list options under [search] in the file."
+        return "Nothing to search: no joint has options. List joint types under [search]."
             .to_owned();
     }
     let least = if found.is_counted() { "" } else { "at least " };
@@ -176,7 +178,7 @@ fn redesigns_sentence(page: &Page<'_>, s: &State<'_>) -> String {
     if good.is_zero() {
         let rest = &found.determinate.total;
         return if rest.is_zero() {
-            format!("None of the {all} variants {goal}: give the joints more options{by_values}.")
+            format!("None of the {all} variants {goal}: allow more joint types{by_values}.")
         } else {
             format!(
                 "None of the {all} variants {goal}{conditions}; {least}{} {goal}, but do not meet the other conditions{by_values}.",

@@ -10,5 +10,5 @@ pub(crate) mod ranking;
 pub(crate) mod second_opinion;
 pub(crate) mod stopped_early;
 pub mod text;
-pub(crate) mod variant;
-pub(crate) mod why;
+pub mod variant;
+pub mod why;

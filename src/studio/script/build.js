@@ -11,11 +11,11 @@ const SLIDES = ["prismatic"];
 /** Points that a drawing put at the free ends of links. */
 const isEnd = (id) => /^end \d+$/.test(id);
 
-/** The axis of a new joint: that of a turn looks at the reader, a slide goes to the right. */
+/** The axis of a new joint: that of a turn looks at the reader, a slide or a screw goes to the right. */
 function axisFor(kind) {
   const out = [0, 0, 0];
   const k = depthAxis();
-  out[SLIDES.includes(kind) ? paperAxes()[0] : k] = 1;
+  out[[...SLIDES, "helical"].includes(kind) ? paperAxes()[0] : k] = 1;
   return out;
 }
 
@@ -70,7 +70,7 @@ async function ground(spot, kind = type) {
   const frame = frameOf();
   if (frame === null) return say("No link is the frame yet: select one and choose the role frame.", true);
   const link = spot.pin ? partnerAt(spot.pin) : spot.link;
-  if (!link || link === frame) return say("Click a pin or a link: it is joined to the frame there.", true);
+  if (!link || link === frame) return say("Click a pin or a link to pivot it on the frame.", true);
   if (pinsAt(spot.at).some((p) => p.links.includes(frame) && p.links.includes(link))) return say(`Link ${link} is already joined to the frame there.`, true);
   const gone = spot.pin?.what === "point" && isEnd(spot.pin.id) ? [remove([spot.pin])] : [];
   const joint = newJoint([frame, link], spot.point, kind, []);
@@ -122,7 +122,7 @@ const setType = (ids, kind) => change(...ids.flatMap((id) => {
 
 function deleteSelection() {
   const all = selection.filter(({ what, id }) => !(what === "link" && id === frameOf()));
-  if (!all.length) return selection.length ? say("The frame stays: give another link that role first.", true) : undefined;
+  if (!all.length) return selection.length ? say("The frame cannot be deleted; make another link the frame first.", true) : undefined;
   const links = all.filter((s) => s.what === "link").map((s) => s.id);
   // what is on a link goes with it
   const rest = all.filter(({ what, id }) => what === "link" || ![thing(what, id).links ?? thing(what, id).link].flat().some((l) => links.includes(l)));

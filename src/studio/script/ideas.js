@@ -7,31 +7,96 @@ async function takeIdea(n) {
   const idea = desk.ideas.found.variants[n];
   pointedAt.idea = null;
   const done = await inTurn("take", { idea: idea.position, revision });
-  if (done) say(`Idea ${idea.position} is taken: ${changeLine(idea)}. Undo brings back what was.`);
+  if (done) say(`Applied idea ${idea.position}: ${changeLine(idea)}. Undo goes back.`);
 }
 
+/** The figures of an idea, each with its name; the same words as in the report. */
+function figuresOf(v) {
+  const { found } = desk.ideas;
+  const motion = found.lasting !== null ? "throughout the motion" : v.lucky ? "in the drawn pose only" : "in the drawn pose";
+  return [
+    ["cost", String(v.cost)],
+    ["mobility", `W = ${v.mobility}`],
+    ["left", `σ = ${v.redundant}`],
+    ["represents", v.idea ? `${v.idea.exact ? "" : "at least "}${grouped(v.idea.variants)}` : ""],
+    ["symmetry", typeof v.idea?.symmetric === "boolean" ? (v.idea.symmetric ? "symmetric" : "not symmetric") : ""],
+    ["works", motion],
+  ];
+}
+
+/** The explanation of an idea, line by line. */
+const whyOf = (n) => (desk.ideas.why?.[n] ?? []).map(([what, words]) => [what.replace(/:$/, ""), words]);
+
+const listRows = (rows) => element("dl", { class: "why" }, ...rows.flatMap(([what, words]) => [element("dt", {}, what.replace(/^./, (c) => c.toUpperCase())), element("dd", {}, ...unbroken(words))]));
+
+/** The ideas that are compared, by their numbers in the list. */
+let compared = [];
+
 function ideaRow(v, n) {
-  const stands = v.idea ? `represents ${v.idea.exact ? "" : "at least "}${grouped(v.idea.variants)}` : "";
-  const figures = `cost ${v.cost} · W = ${v.mobility} · σ = ${v.redundant}${stands ? ` · ${stands}` : ""}`;
+  const figures = figuresOf(v).filter(([, words]) => words).map(([name, words]) => (["cost", "represents"].includes(name) ? `${name} ${words}` : words)).join(" · ");
   const none = v.changes.length === 0;
-  const row = element("button", { type: "button", class: "idea", disabled: none ? "" : null, title: none ? null : "Take this idea: the file is changed, undo brings it back" },
+  const row = element("button", { type: "button", class: "idea", disabled: none ? "" : null, title: none ? null : "Apply this idea to the file; Undo reverts it" },
     element("span", { class: "idea-words" }, ...unbroken(changeLine(v))), element("small", {}, figures));
-  return element("li", {}, pointer(row, looked("idea", n), looked("idea", null), () => takeIdea(n)));
+  const out = element("li", {}, pointer(row, looked("idea", n), looked("idea", null), () => takeIdea(n)));
+  const rows = whyOf(n);
+  if (rows.length) out.append(element("details", { open: n === 0 ? "" : null }, element("summary", {}, "Why"), listRows(rows)));
+  if (desk.ideas.found.variants.length > 1) {
+    out.append(tick("compare", compared.includes(n), (on) => {
+      compared = on ? [...compared.slice(-1), n] : compared.filter((k) => k !== n);
+      showIdeas();
+    }));
+  }
+  return out;
+}
+
+/** Two ideas side by side; what differs is bold. */
+function comparison(variants) {
+  if (compared.length < 2) return [];
+  const columns = compared.map((n) => new Map([["changes", changeLine(variants[n])], ...figuresOf(variants[n]), ...whyOf(n)]));
+  const keys = [...new Set(columns.flatMap((c) => [...c.keys()]))].filter((k) => columns.some((c) => c.get(k)));
+  const head = element("tr", {}, element("th", {}), ...compared.map((n) => element("th", { scope: "col" }, pointer(button(`Idea ${n + 1}`, () => takeIdea(n)), looked("idea", n), looked("idea", null)))));
+  const row = (k) => {
+    const cells = columns.map((c) => c.get(k) || "–");
+    return element("tr", { class: cells[0] === cells[1] ? null : "differs" }, element("th", { scope: "row" }, k), ...cells.map((c) => element("td", {}, ...unbroken(c))));
+  };
+  return [element("table", { class: "compared" }, element("caption", { class: "unseen" }, "Two ideas compared"), element("thead", {}, head), element("tbody", {}, ...keys.map(row)))];
 }
 
 /** Searches again with the wider request of a number, or with the first one. */
 const ask = (wider) => inTurn("ask", { wider, revision: desk.ideas.revision });
 
+/** Widens the search: in the file, where the file has a key for it. */
+function widen(step, n) {
+  if (!step.in_file || desk.file.kind !== "toml") return ask(n);
+  const put = (key) => (step[key] === null ? [] : [{ do: "put", path: ["search", key], value: step[key] }]);
+  const options = step.allow.map(([id, names]) => set("joint", id, "options", [...offeredAt(thing("joint", id)), ...names]));
+  return change(...put("max_redundant"), ...put("max_mobility"), ...options);
+}
+
 /** The reasons why nothing is found, with a button for each request that finds something. */
-function nothingFound({ hopeless, wider }) {
-  const row = ({ flags, gives }, n) => element("li", {}, pointer(element("button", { type: "button", class: "idea" }, element("span", { class: "idea-words" }, `Search with ${flags}`), element("small", {}, gives)), () => {}, () => {}, () => ask(n)));
-  const words = hopeless.map((why) => `${why}.`).join(" ") || (wider.length ? "None with these options." : "None with these options: give the joints more.");
-  return [element("p", { class: "help" }, words), element("ul", { class: "idea-list" }, ...wider.map(row))];
+function nothingFound({ found, hopeless, wider }) {
+  const row = (step, n) => {
+    const made = element("button", { type: "button", class: "idea" }, `Show ${step.gives.replace(/^Allow more joint types: there are/, "the")}`);
+    made.addEventListener("click", () => widen(step, n));
+    return element("li", {}, made);
+  };
+  const words = hopeless.map((why) => `${why}.`).join(" ") || (wider.length ? "No redesign meets the conditions." : "No redesign meets the conditions. Allow more joint types.");
+  const fixed = [...new Set([...(found.unchanged ?? []), ...(found.frozen ?? [])])].filter((id) => thing("joint", id));
+  const open = (id) => button(`Joint types at ${id}`, () => {
+    typesAt.open = true;
+    select([{ what: "joint", id }]);
+  });
+  return [element("p", { class: "help" }, words), element("ul", { class: "idea-list" }, ...wider.map(row)), element("div", { class: "acts" }, ...fixed.slice(0, 6).map(open), button("Search options", openOptions))];
+}
+
+function openOptions() {
+  byId("search-fold").open = true;
+  byId("search").scrollIntoView({ block: "nearest" });
 }
 
 /** The wider request, with a button that goes back to the first one. */
 function askedNow(asked) {
-  return element("p", { class: "help" }, `Searched with ${asked}. `, button("Search as at first", () => ask(null)));
+  return element("p", { class: "help" }, `Shown: ${asked}. `, button("Back to the first search", () => ask(null)));
 }
 
 /** Forces over the stroke, where the file states loads. */
@@ -55,12 +120,16 @@ function showIdeas() {
   const asked = value.asked ? [askedNow(value.asked)] : [];
   if (value.why) return part(...asked, element("p", { class: "help" }, `Redesigns were not searched: ${value.why}.`));
   const { found, notes } = value;
-  if (found.space === "1" && !value.wider.length) return part(...asked, element("p", { class: "help" }, "No joint has a choice, so there is nothing to search: tick joint types under “Search options”."));
+  compared = compared.filter((n) => n < found.variants.length);
+  if (found.space === "1" && !value.wider.length) return part(...asked, element("p", { class: "help" }, "No joint has a choice, so there is nothing to search. "), button("Search options", openOptions));
   const left = searchOf().max_redundant;
   const goal = left ? `σ ≤ ${left}` : "σ = 0";
   const counts = `${found.exact ? "" : "at least "}${grouped(found.lasting ?? found.admissible)} of ${grouped(found.space)} variants ${value.asked ? "are found" : `have ${goal} and keep the motion of outputs and drives`} ${found.lasting === null ? "in the drawn pose" : "throughout the motion"}.`;
   const stopped = found.stop === "interrupted" || (desk.stoppedAt === value.revision && !found.exact) ? ["The search was stopped: these are the ideas found until then."] : [];
-  const all = found.variants.map(ideaRow);
   const none = found.variants.length ? [] : nothingFound(value);
-  return part(...asked, element("p", { class: "counts" }, counts), ...none, element("ol", { class: "idea-list" }, ...all), ...[...stopped, ...(notes ?? [])].map((n) => element("p", { class: "help" }, n)));
+  const divided = found.variants.some((v) => v.idea?.symmetric === false) && (found.variants.some((v) => v.idea?.symmetric) || value.symmetric);
+  const only = searchOf().symmetric || divided ? [tick("symmetric ideas only", searchOf().symmetric, (on) => putSearch("symmetric", on || null))] : [];
+  const best = value.symmetric ? [element("details", {}, element("summary", {}, "Symmetric redesigns"), element("ul", { class: "notes" }, ...value.symmetric.map((line) => element("li", {}, ...unbroken(line)))))] : [];
+  return part(...asked, element("p", { class: "counts" }, counts), ...only, ...none, ...comparison(found.variants), element("ol", { class: "idea-list" }, ...found.variants.map(ideaRow)),
+    ...best, ...[...stopped, ...(notes ?? [])].map((n) => element("p", { class: "help" }, n)));
 }

@@ -65,9 +65,7 @@ function aboutJoint(j) {
     element("div", { class: "pair-fields" }, choice("between", links, j.links[0], ends(0)), choice("and", links, j.links[1], ends(1))),
     choice("there in", states.map((s) => [s, s || "all states"]), [j.state ?? ""].flat()[0], (to) => change(set("joint", j.id, "state", to || null))),
   );
-  const driven = element("input", { type: "checkbox", checked: j.drive ? "" : null });
-  driven.addEventListener("change", () => toggleDrive(j.id));
-  out.push(element("label", { class: "check" }, driven, " drive"));
+  out.push(tick("drive", j.drive, () => toggleDrive(j.id)), ...couplingFields(j.id));
   return out;
 }
 
@@ -76,6 +74,8 @@ function aboutLink(l) {
   return [
     field("name", l.id, { take: rename("link", l.id) }),
     choice("role", roles, l.role ?? "", (to) => (to === "frame" ? toggleRole(l.id, "frame") : change(set("link", l.id, "role", to || null)))),
+    ...lengthFields(l.id),
+    ...(l.role === "frame" ? [] : loadFields(l)),
     element("p", { class: "help" }, `Joined by ${pinsOf(l.id).filter((p) => p.what === "joint").map((p) => p.id).join(", ") || "nothing yet"}.`),
   ];
 }
@@ -90,8 +90,8 @@ function aboutPoint(p) {
 
 /** The actions on the selection. */
 function acts() {
-  const mirrors = paperAxes().map((k) => button(`Mirror ${"xyz"[k]}`, () => mirrorSelection(k), `The image with ${"xyz"[k]} turned round; a pair for the search`));
-  return element("div", { class: "acts", role: "group", "aria-label": "Do with it" },
+  const mirrors = paperAxes().map((k) => button(`Mirror ${"xyz"[k]}`, () => mirrorSelection(k), `Mirror in ${"xyz"[k]}; the two halves count as a symmetric pair`));
+  return element("div", { class: "acts", role: "group", "aria-label": "Actions" },
     ...mirrors, button("Copy", copySelection, "A copy next to it (Ctrl+D)"), button("Delete", deleteSelection, "Delete (Del)"));
 }
 
@@ -123,8 +123,8 @@ function inspect() {
   const fields = element("fieldset", { class: "fields", disabled: fixed ? "" : null }, ...(one ? about[selection[0].what](one) : []), acts());
   const joints = selection.filter((s) => s.what === "joint").map((s) => s.id);
   const types = !fixed && joints.length === selection.length ? typesAt(joints) : null;
-  refill(room, element("h2", {}, head), ...alsoHere(), ...told, fields, types ?? "");
-  return null;
+  refill(room, element("h2", {}, head), ...alsoHere(), ...told, ...measured(), fields, types ?? "");
+  return room.scrollIntoView({ block: "nearest" });
 }
 
 /** Fills a room anew; who writes in one of its fields stays there. */

@@ -2,21 +2,21 @@
 
 /** The keys in the help. */
 const KEYS = [
-  ["V B P G S J D O C", "tools: select, bar, plate, frame pin, slide, joint, drive, output, part held"],
-  ["arrow keys", "move the cross (with a tool) or the selection by one grid step; with Shift by five"],
-  ["Enter", "sets a spot at the cross; ends a plate when it is set twice"],
-  ["Escape", "clears the spots, the tool, the selection; returns the mechanism to the file's pose"],
+  ["V B P G S J D K L O C", "tools: select, bar, plate, frame pin, slide, joint, drive, gears, force, output, clamped part"],
+  ["arrow keys", "move the cursor (with a tool) or the selection by one grid step; with Shift by five"],
+  ["Enter", "places a point at the cursor; a second time ends a plate"],
+  ["Escape", "cancels the points, the tool or the selection; returns the mechanism to its drawn pose"],
   ["Tab, Shift+Tab with Ctrl", "the next thing, the one before: use ] and [ where the browser keeps these"],
   ["Delete", "deletes what is selected"],
   ["M", "mirrors what is selected, first across the paper; Shift+M upside down"],
-  ["Ctrl+D", "a copy next to it"],
-  ["Ctrl+Z, Ctrl+Y", "undo, redo, without end"],
+  ["Ctrl+D", "duplicates the selection"],
+  ["Ctrl+Z, Ctrl+Y", "undo and redo (unlimited)"],
   ["Ctrl+S", "saves"],
-  ["1 to 9", "takes an idea of the list"],
-  ["Space", "plays the motion, or stops it"],
-  ["X Y Z", "looks along that axis; A at an angle, F all of it, + and - nearer and farther"],
+  ["1 to 9", "applies an idea from the list"],
+  ["Space", "plays or stops the motion"],
+  ["X Y Z", "view along that axis; A free view, F fit, + and - zoom"],
   ["Shift with the arrow keys and A", "at an angle, the arrow keys turn when nothing is selected"],
-  ["N", "start from something else"],
+  ["N", "new: start from an example or a file"],
   ["Alt while drawing", "no snapping"],
 ];
 

@@ -31,10 +31,10 @@ function showFile(file) {
   byId("redo").disabled = !file.redo;
   byId("save").disabled = file.saved;
   const settle = (yes) => () => inTurn("settle", { yes });
-  notice("conflict", file.conflict ? "Another program has written to the file while you changed it here. Whichever you keep, the other stays one step of undo away." : null,
+  notice("conflict", file.conflict ? "Another program has changed the file while you changed it here. Choose which to keep; Undo returns to the other." : null,
     ["Keep mine", settle(true)], ["Take theirs", settle(false)]);
   const restore = (yes) => () => inTurn("restore", { yes });
-  notice("left", file.left ? `Work on this file was left unsaved when a studio ended (${file.left}).` : null, ["Take it up", restore(true)], ["Throw it away", restore(false)]);
+  notice("left", file.left ? `Unsaved work from an earlier session was found (${file.left}).` : null, ["Restore it", restore(true)], ["Discard it", restore(false)]);
   notice("trouble", file.trouble);
 }
 
@@ -46,9 +46,10 @@ async function exportAs(format) {
   if (!answer.ok) return say((await answer.json()).refused, true);
   const name = /filename="([^"]*)"/.exec(answer.headers.get("content-disposition") ?? "")?.[1] ?? "mechanism";
   saveFile(name, await answer.blob());
-  return say(`${name} is with the browser's downloads.`);
+  return say(`${name} is in the downloads of the browser.`);
 }
 
+const UNITS = ["mm", "cm", "m", "in"];
 const VIEWS = [["xy", "z", () => lookAt("xy")], ["xz", "y", () => lookAt("xz")], ["yz", "x", () => lookAt("yz")], ["space", "a", lookAslant]];
 
 function tellViews() {
@@ -58,7 +59,7 @@ function tellViews() {
 function makeViews() {
   const room = byId("views");
   for (const [plane, key, act] of VIEWS) {
-    const one = button(plane === "space" ? "Space" : plane, act, plane === "space" ? "Aslant, to be turned (A)" : `Seen along ${key} (${key.toUpperCase()})`);
+    const one = button(plane === "space" ? "Space" : plane, act, plane === "space" ? "At an angle, can be turned (A)" : `Seen along ${key} (${key.toUpperCase()})`);
     one.dataset.plane = plane;
     room.append(one);
   }
@@ -68,7 +69,13 @@ function makeViews() {
     redraw();
   }, "Grid, numbers and scale");
   grid.setAttribute("aria-pressed", true);
-  room.append(button("All", fitAll, "All of it in sight (F)"), grid);
+  const units = element("select", { id: "unit", "aria-label": "Unit of length", title: "Unit of length: the numbers of the file stay" }, ...UNITS.map((u) => element("option", {}, u)));
+  units.addEventListener("change", () => change({ do: "put", path: ["length_unit"], value: units.value }));
+  hear("look", () => {
+    units.value = desk.look.file?.length_unit ?? "m";
+    units.disabled = desk.file.kind !== "toml";
+  });
+  room.append(button("All", fitAll, "Fit all (F)"), grid, units);
   tellViews();
 }
 
@@ -126,6 +133,8 @@ async function begin() {
   hear("ideas", showIdeas);
   for (const name of ["look", "verdict", "motion", "progress", "ideas"]) hear(name, showWork);
   for (const name of ["force", "look", "state"]) hear(name, showForce);
+  for (const name of ["motion", "selection", "look", "state"]) hear(name, showCurves);
+  for (const name of ["look", "verdict"]) hear(name, teach);
   hear("selection", () => {
     inspect();
     followSelection();

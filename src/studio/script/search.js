@@ -27,11 +27,46 @@ function tick(words, on, take) {
   return element("label", { class: "check" }, box, ` ${words}`);
 }
 
-/** A field with a whole number, or nothing. */
-function numberField(words, value, take) {
-  const input = element("input", { type: "number", min: 0, step: 1, value: value ?? "", placeholder: "any" });
-  input.addEventListener("change", () => take(input.value === "" ? null : Math.max(0, Math.round(Number(input.value)))));
+/** A field with a number that is not negative, or nothing. */
+function numberField(words, value, take, step = 1) {
+  const input = element("input", { type: "number", min: 0, step, value: value ?? "", placeholder: step === 1 ? "any" : "none" });
+  const whole = (x) => Math.max(0, step === 1 ? Math.round(x) : x);
+  input.addEventListener("change", () => take(input.value === "" ? null : whole(Number(input.value))));
   return element("label", { class: "number-field" }, element("span", {}, words), input);
+}
+
+/** A row of boxes to tick for the links that a list names. */
+function linkTicks(words, list, take) {
+  const all = listOf("link").filter((l) => l.role !== "frame" && l.role !== "object");
+  const box = (l) => tick(l.id, list.includes(l.id), (on) => take(on ? [...list, l.id] : list.filter((id) => id !== l.id)));
+  return element("fieldset", { class: "ticks" }, element("legend", {}, words), ...all.map(box));
+}
+
+/** The terms of a ranking, each with its weight; without any, ideas come by cost. */
+function rankingFields() {
+  const ranking = desk.look.file.ranking ?? {};
+  const terms = ranking.terms ?? [];
+  const field = ([term, words]) => {
+    const now = terms.find((t) => t.term === term);
+    return numberField(words, now ? now.weight ?? 1 : null, (weight) => {
+      const others = terms.filter((t) => t.term !== term);
+      const all = weight === null ? others : now ? terms.map((t) => (t === now ? { ...t, weight } : t)) : [...others, { term, weight }];
+      change({ do: "put", path: ["ranking"].concat(all.length ? "terms" : []), value: all.length ? all : null });
+    }, "any");
+  };
+  return element("details", { open: rankingFields.open ? "" : null }, element("summary", {}, "Ranking"),
+    element("p", { class: "help" }, "Give a weight to what counts. Without weights the ideas come by cost; forces need loads: select a link to add one."),
+    ...TERMS.map(field));
+}
+
+/** Terms of a ranking: the word of the file, and a name. */
+const TERMS = [["peak-force", "largest joint force"], ["peak-moment", "largest joint moment"], ["conditioning", "distance from a singular pose"], ["output-error", "output error by clearance"], ["changes", "changed joints"], ["cost", "cost"], ["idle", "idle motions"]];
+
+/** Whether a search may add a joint in series at a joint, which unloads it. */
+function unloadingTick(joint) {
+  return tick("a search may add a ball joint in series here", joint.unloading, (on) => change(
+    ...(on && !searchOf().unloading ? [{ do: "put", path: ["search", "unloading"], value: ["spherical"] }] : []),
+    set("joint", joint.id, "unloading", on || null)));
 }
 
 /** The panel: types offered, and what is asked of a redesign. */
@@ -50,10 +85,17 @@ function showSearch() {
     element("div", { class: "type-boxes", role: "group", "aria-label": "Joint types offered" }, ...boxes),
     numberField("Most redundant constraints left", search.max_redundant ?? 0, (n) => putSearch("max_redundant", n || null)),
     numberField("Largest mobility W", search.max_mobility, (n) => putSearch("max_mobility", n)),
-    tick("mirror-symmetric redesigns only", search.symmetric, (on) => putSearch("symmetric", on || null)),
+    tick("symmetric redesigns only", search.symmetric, (on) => putSearch("symmetric", on || null)),
+    linkTicks("Links that keep their motion, besides the outputs", search.hold ?? [], (list) => putSearch("hold", list.length ? list : null)),
+    rankingFields(),
   ];
   refill(byId("search-fold"), ...parts);
 }
+
+/** Whether a search leaves a joint unchanged unless options are listed at it. */
+const stays = (joint) => joint.drive || joint.type === "fixed" || joint.state;
+/** The options that a search has at a joint. */
+const offeredAt = (joint) => joint.options ?? (stays(joint) ? [] : searchOf().options ?? []).filter((o) => !(joint.forbid ?? []).includes(optionName(o)));
 
 /** The types that a search may put at some joints; what is ticked holds for their mirror images, too. */
 function typesAt(ids) {
@@ -62,8 +104,7 @@ function typesAt(ids) {
   if (!own) return null;
   const images = (searchOf().mirror ?? []).filter((pair) => pair.some((id) => ids.includes(id))).flat();
   const all = [...new Set([...ids, ...images])];
-  const stays = joint.drive || joint.type === "fixed" || joint.state;
-  const offered = joint.options ?? (stays ? [] : searchOf().options ?? []).filter((o) => !(joint.forbid ?? []).includes(optionName(o)));
+  const offered = offeredAt(joint);
   const give = (key, value) => all.map((id) => set("joint", id, key, value));
   const take = (kind) => (on) => {
     const forbid = joint.forbid ?? [];
@@ -76,11 +117,12 @@ function typesAt(ids) {
   const names = offered.map(optionName);
   const fold = element("details", { class: "wide", open: typesAt.open ? "" : null },
     element("summary", {}, "A search may put here"),
-    stays && !joint.options ? element("p", { class: "help" }, "A search does not change this joint, unless a type is ticked.") : "",
+    stays(joint) && !joint.options ? element("p", { class: "help" }, "A search does not change this joint, unless a type is ticked.") : "",
     element("div", { class: "type-boxes" }, ...fit.map((t) => typeBox(t, names.includes(t.type), take(t.type)))),
     element("div", { class: "acts" },
       button("Never change it", () => change(...give("options", []), ...give("forbid", null))),
-      button("As everywhere", () => change(...give("options", null), ...give("forbid", null)))));
+      button("As everywhere", () => change(...give("options", null), ...give("forbid", null))),
+      ids.length === 1 ? unloadingTick(joint) : ""));
   fold.addEventListener("toggle", () => (typesAt.open = fold.open));
   return fold;
 }

@@ -176,7 +176,7 @@ function drawSheet(traces) {
     fill("tints", []);
     fill("things", []);
   }
-  fill("loads", looseLinks().flatMap(looseShape));
+  fill("loads", [...looseLinks().flatMap(looseShape), ...forceArrows()]);
   fill("marks", [...loosePins(paperOf), ...marksOf(paperOf)]);
   fill("names", names(paperOf));
   fill("over", toolPicture());

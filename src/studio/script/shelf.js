@@ -5,10 +5,28 @@ function card({ name, what }) {
   const made = element("button", { type: "button", class: "card" }, picture, element("b", {}, name), element("small", {}, what ?? ""));
   made.addEventListener("click", async () => {
     byId("shelf").close();
-    takeScene.seen = false;
-    if (await inTurn("begin", { name })) select([]);
+    await beginWith({ name });
   });
   return made;
+}
+
+/** Begins another file; Undo goes back to this one. */
+async function beginWith(what) {
+  takeScene.seen = false;
+  if (await inTurn("begin", what)) select([]);
+}
+
+/** Opens a mechanism file of this computer as a copy, which is saved in the folder of the studio. */
+function fileField() {
+  const input = element("input", { type: "file", accept: ".toml", class: "unseen", "aria-label": "Open a file" });
+  input.addEventListener("change", async () => {
+    const [file] = input.files;
+    if (!file) return;
+    byId("shelf").close();
+    await beginWith({ name: file.name.replace(/\.toml$/i, "").replace(/[^\w -]/g, "-"), text: await file.text() });
+    input.value = "";
+  });
+  return element("label", { class: "file-button" }, "Open a file", input);
 }
 
 async function openShelf() {
@@ -24,7 +42,7 @@ async function openShelf() {
       }
     });
     const close = button("Close", () => dialog.close());
-    dialog.append(element("div", { class: "dialog-head" }, element("h2", { id: "shelf-head" }, "Start from"), find, close), ...rooms);
+    dialog.append(element("div", { class: "dialog-head" }, element("h2", { id: "shelf-head" }, "Start from"), fileField(), button("Tutorial", startLesson, "Draws a four-bar with you"), find, close), ...rooms);
   }
   dialog.showModal();
 }

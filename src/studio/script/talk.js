@@ -73,7 +73,7 @@ function inTurn(path, body) {
 const change = (...edits) => (edits.length ? inTurn("edit", { edits, revision: null }) : Promise.resolve(null));
 
 function lost() {
-  notice("lost", "The program behind this page has ended, or cannot be reached. Nothing is lost: unsaved work is next to the file, and the text is still here.",
+  notice("lost", "The ozols program has stopped or cannot be reached. Your work is safe: it is autosaved next to the file, and the text is still here.",
     ["Copy the text", () => copyText(byId("text").value)], ["Try again", () => location.reload()]);
 }
 

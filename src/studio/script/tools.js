@@ -2,15 +2,17 @@
 
 /** By tool: letter, name, what it says, and what it does with a spot. */
 const TOOLS = {
-  select: { key: "v", name: "Select", says: "Drag a pin to place it, a link to move the mechanism; drag next to them to turn or to shift the sheet.", mark: "M4 2L4 17L8 13L11 19L13.5 18L10.5 12L16 12Z" },
-  bar: { key: "b", name: "Bar", says: "Click both ends: pins, places of links, or empty places.", take: (spots) => (spots.length === 2 ? addLink(spots) : null), mark: "M4 16L16 4" },
-  plate: { key: "p", name: "Plate", says: "Click its pins; click the first or the last again, or press Enter, when it is done.", several: true, mark: "M3 16L10 3L17 13Z" },
-  ground: { key: "g", name: "Frame pin", says: "Click a pin or a link: it is joined to the frame there.", take: ([spot]) => ground(spot), mark: "M10 4L5 12H15ZM3 12H17M5 16L7 12M9 16L11 12M13 16L15 12" },
-  slide: { key: "s", name: "Slide", says: "Click a pin, a link or an empty place: it slides along the frame.", take: ([spot]) => addSlide(spot), mark: "M5 6H15V12H5ZM2 14H18" },
+  select: { key: "v", name: "Select", says: "Drag a pin to place it or a link to move the mechanism. Drag the background to turn or shift the sheet.", mark: "M4 2L4 17L8 13L11 19L13.5 18L10.5 12L16 12Z" },
+  bar: { key: "b", name: "Bar", says: "Click both ends: pins, points of links or the background.", take: (spots) => (spots.length === 2 ? addLink(spots) : null), mark: "M4 16L16 4" },
+  plate: { key: "p", name: "Plate", says: "Click the pins of the plate. To finish, click the first or last pin again or press Enter.", several: true, mark: "M3 16L10 3L17 13Z" },
+  ground: { key: "g", name: "Frame pin", says: "Click a pin or a link to pivot it on the frame.", take: ([spot]) => ground(spot), mark: "M10 4L5 12H15ZM3 12H17M5 16L7 12M9 16L11 12M13 16L15 12" },
+  slide: { key: "s", name: "Slide", says: "Click a pin, a link or the background to add a slide on the frame.", take: ([spot]) => addSlide(spot), mark: "M5 6H15V12H5ZM2 14H18" },
   joint: { key: "j", name: "Joint", says: "Click a pin of two links, or a link and then another.", take: (spots) => joinSpots(spots), mark: "M10 10m-5 0a5 5 0 1 0 10 0a5 5 0 1 0 -10 0" },
-  drive: { key: "d", name: "Drive", says: "Click a joint: it is driven, or no longer.", take: ([spot]) => (spot.pin?.what === "joint" ? toggleDrive(spot.pin.id) : say("Click a joint.", true)), mark: "M10 3a7 7 0 1 1 -6 3M4 2V6H8" },
-  output: { key: "o", name: "Output", says: "Click a link: its motion is kept by every redesign, or no longer.", take: ([spot]) => markRole(spot, "output"), mark: "M3 10H15M10 5L15 10L10 15" },
-  contact: { key: "c", name: "Part held", says: "Click the face of a jaw: a part touches it there in the state clamped.", take: ([spot]) => addContact(spot), mark: "M10 4V16M10 10H4M12 6H17V14H12" },
+  drive: { key: "d", name: "Drive", says: "Click a joint to make it the drive, or to clear it.", take: ([spot]) => (spot.pin?.what === "joint" ? toggleDrive(spot.pin.id) : say("Click a joint.", true)), mark: "M10 3a7 7 0 1 1 -6 3M4 2V6H8" },
+  gears: { key: "k", name: "Gears", says: "Click two joints: gears couple two hinges, a rack couples a slide and a hinge.", take: (spots) => meshJoints(spots), mark: "M7 10m-4 0a4 4 0 1 0 8 0a4 4 0 1 0 -8 0M15 10m-3 0a3 3 0 1 0 6 0a3 3 0 1 0 -6 0" },
+  force: { key: "l", name: "Force", says: "Click where a force acts on a link; its form has the numbers.", take: ([spot]) => addForce(spot), mark: "M10 3V16M6 12L10 17L14 12" },
+  output: { key: "o", name: "Output", says: "Click a link to mark or unmark it as an output. Redesigns keep the motion of outputs.", take: ([spot]) => markRole(spot, "output"), mark: "M3 10H15M10 5L15 10L10 15" },
+  contact: { key: "c", name: "Clamped part", says: "Click the face of a jaw to add a contact with the clamped part.", take: ([spot]) => addContact(spot), mark: "M10 4V16M10 10H4M12 6H17V14H12" },
 };
 const tool = { name: "select", spots: [], at: null };
 
@@ -48,7 +50,7 @@ function tellTool() {
 
 function readOnlyWords() {
   if (!desk.file) return "";
-  return desk.file.kind === "json" ? "A JSON file is changed as text, and may take an idea of the list." : "View a description here, and take an idea.";
+  return desk.file.kind === "json" ? "A JSON file is changed as text; you can apply an idea to it." : "Robot descriptions are read-only here; you can apply an idea to them.";
 }
 
 /** A click of the tool that is in hand. */
@@ -124,12 +126,12 @@ async function makeTools() {
   bar.append(types);
 }
 
-/** A type for what is drawn next, and for the joints that are selected. */
+/** A type for what is drawn next, and with Select for the joints that are selected. */
 function chooseType(kind) {
   type = kind;
   for (const button of document.querySelectorAll("#types [data-type]")) button.setAttribute("aria-pressed", button.dataset.type === kind);
   const joints = selection.filter((s) => s.what === "joint").map((s) => s.id);
-  if (joints.length) return setType(joints, kind);
+  if (joints.length && tool.name === "select") return setType(joints, kind);
   say(`New joints are ${kind}.`);
   return null;
 }

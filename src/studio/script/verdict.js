@@ -80,7 +80,7 @@ const isOpen = (s) => s.contours === 0 && s.redundant === 0 && !s.per_coupling?.
 /** Steps that complete a drawing, with a button for each free end; empty if it is complete. */
 function nextSteps(s) {
   if (desk.file?.kind !== "toml" || !desk.look?.file) return [];
-  if (isEmpty()) return [element("p", { class: "lead" }, "Draw the first part: take Bar (B) and click both its ends, or start from a mechanism under New.")];
+  if (isEmpty()) return [element("p", { class: "lead" }, "Nothing drawn yet. Choose Bar (B) and click two points, or start from an example or the tutorial under New.")];
   const frame = frameOf();
   const loose = looseLinks().filter((l) => l.role !== "object").map((l) => l.id);
   const ends = listOf("point").filter((p) => isEnd(p.id));
@@ -113,7 +113,7 @@ function showWork() {
   const judged = verdict?.revision === revision;
   const searched = p?.nodes !== undefined ? `Searching: joint ${p.done} of ${p.of}, ${grouped(p.nodes)} nodes` : p?.of ? `Ranking: branch ${p.done} of ${p.of}` : p ? "Listing the ideas" : "Searching";
   const stages = {
-    judge: !judged && (look?.whole || look?.partly) ? "Judging the mechanism" : null,
+    judge: !judged && (look?.whole || look?.partly) ? "Analysing the mechanism" : null,
     motion: judged && verdict.analysis && motion?.revision !== revision ? "Computing the motion" : null,
     search: judged && verdict.analysis && !ideas ? searched : null,
   };
@@ -146,11 +146,11 @@ function showVerdict() {
   panel.setAttribute("aria-labelledby", states.length > 1 ? `tab-${desk.state}` : "");
   if (!s) {
     const wrong = (desk.look?.told ?? []).some((t) => t.grave);
-    const why = value?.why ?? (wrong ? "Correct the problems listed below; then there is a verdict." : "");
+    const why = value?.why ?? (wrong ? "Fix the problems listed below to see the verdict." : "");
     return panel.replaceChildren(...(why ? [element("p", { class: "lead" }, why)] : nextSteps(null)));
   }
   const open = isOpen(s);
-  const words = open ? { head: "No closed loop yet", text: `It moves in ${s.mobility} way${s.mobility === 1 ? "" : "s"}. Only a closed loop can have redundant constraints.` } : value.words[desk.state];
+  const words = open ? { head: "No closed loop yet", text: `It has ${s.mobility} degree${s.mobility === 1 ? "" : "s"} of freedom. Only a closed loop can have redundant constraints.` } : value.words[desk.state];
   const good = s.redundant === 0 && s.redundant_at_most === null;
   const colour = open || desk.look?.partly ? "" : good ? " good" : " bad";
   const figures = element("p", { class: "figures" },

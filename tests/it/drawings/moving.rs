@@ -105,7 +105,7 @@ fn the_tracing_point_of_peaucellier_moves_in_a_straight_line() {
 #[test]
 fn a_crank_goes_round_and_a_slide_goes_to_and_fro() {
     let round = frames(&["slider-crank-spatial"]);
-    assert!(round.svg.contains("goes once round"));
+    assert!(round.svg.contains("makes a full turn"));
     assert!(!round.svg.contains("infinite alternate"));
     // in equal steps round a circle
     let crank: Vec<Point> = round.joints.iter().map(|j| j["1-2"]).collect();
@@ -177,10 +177,10 @@ fn what_cannot_be_drawn_is_said() {
         draw gripper-10 --motion --state clamped | 0-1:tz cannot move
         draw wren-platform --motion --drive 0-l0 | 0-l0:rx or 0-l0:ry or 0-l0:rz
         draw wren-platform --motion --drive 0-l0:tx | these can move: 0-l0:rx, 0-l0:ry, 0-l0:rz
-        draw gripper-10 --view z | --kind kinematic
-        draw gripper-10 --kind kinematic --view w | x, y, z, iso
-        draw gripper-10 --kind kinematic --view 0,0,0 | not all zero
-        draw gripper-10 --kind kinematic --up 1,2 | three numbers
+        draw gripper-10 --kind scheme --view z | leave out --kind scheme
+        draw gripper-10 --view w | x, y, z, iso
+        draw gripper-10 --view 0,0,0 | not all zero
+        draw gripper-10 --up 1,2 | three numbers
         ",
     );
 }

@@ -78,6 +78,33 @@ fn one_coordinate_changes_one_line_and_keeps_the_digits_of_the_others() {
 }
 
 #[test]
+fn loads_and_couplings_are_tables_whose_comments_stay() {
+    let put = |text: &str, value: Value| {
+        let path = ["workload", "force"].map(str::to_owned).to_vec();
+        apply_edits(text, &[Edit::Put { path, value }]).unwrap()
+    };
+    let force = |link: &str, y: f64| json!({ "link": link, "point": [0, "sqrt(2)", 0], "force": [0, y, 0] });
+    let own = builtin::text("four-bar").unwrap();
+    let one = put(own, json!([force("2", -10.0)]));
+    let table = "\n[[workload.force]]\nlink = \"2\"\n";
+    assert!(one.contains(table), "{one}");
+    assert_eq!(read(&one).loads.forces.len(), 1);
+    let noted = one.replace("link = \"2\"\n", "link = \"2\" # the coupler\n");
+    let two = put(&noted, json!([force("2", -20.0), force("3", 5.0)]));
+    assert!(
+        two.contains("# the coupler") && two.contains("-20.0"),
+        "{two}"
+    );
+    assert_eq!(read(&two).loads.forces.len(), 2);
+    assert_eq!(
+        put(&put(&two, json!([])), Value::Null)
+            .matches("force")
+            .count(),
+        0
+    );
+}
+
+#[test]
 fn another_name_is_put_wherever_the_file_has_it() {
     for name in builtin::names() {
         let text = builtin::text(name).unwrap();

@@ -57,6 +57,13 @@ fn an_idea_that_is_taken_does_what_it_says_and_keeps_the_comments() {
             let state = &verdict["analysis"]["states"][0];
             assert_eq!(state["mobility"], idea["mobility"], "{name}, idea {k}");
             assert_eq!(state["redundant"], idea["redundant"], "{name}, idea {k}");
+            // The reasons are those of the command line, which gives them for three.
+            let said = run_quiet(&format!("search {name} --distinct"));
+            let plain = |t: &str| t.split_whitespace().join(" ");
+            for row in told["why"][k - 1].list().iter().filter(|_| k <= 3) {
+                let words = plain(row[1].word());
+                assert!(plain(&said).contains(&words), "{name}, idea {k}: {words}");
+            }
             window.next("ideas");
             assert_eq!(s.done("undo", &json!({}))["text"], own.as_str());
         }
@@ -82,7 +89,8 @@ fn a_wider_request_is_asked_for_by_its_number() {
     for (n, step) in wider.iter().enumerate() {
         s.done("ask", &json!({ "wider": n, "revision": told["revision"] }));
         let found = window.next("ideas");
-        assert_eq!(found["asked"], step["flags"]);
+        assert_eq!(found["asked"], step["gives"]);
+        assert!(!step.to_string().contains("--"), "{step}");
         assert!(!found["found"]["variants"].list().is_empty(), "{step}");
         s.done(
             "ask",

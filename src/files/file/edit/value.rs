@@ -2,7 +2,7 @@
 
 use super::change::EditError;
 use serde_json::Value as Json;
-use toml_edit::{Array, InlineTable, Item, Table, Value};
+use toml_edit::{Array, ArrayOfTables, InlineTable, Item, Table, Value};
 
 /// Sets the value of a key, and keeps the comment behind it; null removes the key.
 pub(super) fn set_value(table: &mut Table, key: &str, to: &Json) -> Result<(), EditError> {
@@ -10,12 +10,52 @@ pub(super) fn set_value(table: &mut Table, key: &str, to: &Json) -> Result<(), E
         table.remove(key);
         return Ok(());
     }
+    if let Json::Array(list) = to
+        && list.iter().all(Json::is_object)
+        && (TABLES.contains(&key) || table.get(key).is_some_and(Item::is_array_of_tables))
+        && !table.get(key).is_some_and(Item::is_value)
+    {
+        return set_tables(table, key, list);
+    }
     match table.get_mut(key).and_then(Item::as_value_mut) {
         Some(old) => *old = replace_value(old, key, to)?,
         None => {
             table.insert(key, Item::Value(write_value(key, to)?));
         }
     }
+    Ok(())
+}
+
+/// Lists that are written as a table for each entry.
+const TABLES: [&str; 4] = ["force", "moment", "contact", "coupling"];
+
+/// Sets the value of a list of tables. Entries that stay keep their comments.
+fn set_tables(table: &mut Table, key: &str, list: &[Json]) -> Result<(), EditError> {
+    if list.is_empty() {
+        table.remove(key);
+        return Ok(());
+    }
+    let old = table
+        .remove(key)
+        .and_then(|i| i.into_array_of_tables().ok());
+    let mut old = old.unwrap_or_default().into_iter();
+    let mut tables = ArrayOfTables::new();
+    for entry in list.iter().filter_map(Json::as_object) {
+        let mut one = old.next().unwrap_or_else(|| {
+            let mut fresh = Table::new();
+            fresh.decor_mut().set_prefix("\n");
+            fresh
+        });
+        let gone: Vec<String> = one.iter().map(|(k, _)| k.to_owned()).collect();
+        for k in gone.iter().filter(|k| !entry.contains_key(*k)) {
+            one.remove(k);
+        }
+        for (k, to) in entry {
+            set_value(&mut one, k, to)?;
+        }
+        tables.push(one);
+    }
+    table.insert(key, Item::ArrayOfTables(tables));
     Ok(())
 }
 

@@ -29,6 +29,8 @@ pub struct Moved<'a> {
     pub way: &'a Way,
     /// The drive and how far it goes, in words.
     pub words: &'a str,
+    /// A unit for positions of the way: what 1 is in it, and its symbol.
+    pub unit: (f64, &'a str),
 }
 
 /// Draws the kinematic scheme over a motion, animated by a style sheet: the pose of the file stands still for readers who want

@@ -127,6 +127,9 @@ impl Scene {
             "name": moved.words,
             "closed": way.closed,
             "start": way.start,
+            // Positions of the drive, pose by pose.
+            "at": way.at.iter().map(|x| x * moved.unit.0).collect::<Vec<_>>(),
+            "unit": moved.unit.1,
             // By pose and link a rotation vector and where the origin goes; nothing where the link rests.
             "poses": carried.collect::<Vec<_>>(),
         }));

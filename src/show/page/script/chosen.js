@@ -94,7 +94,7 @@ function remarks(i) {
   }
   if (found.notes[i]) out.push(found.notes[i].replace(/^(\S) \d+: /, "Take care: "));
   if (work) {
-    if (work.peak_force[i] === null) out.push("The loads have no equilibrium: the loads move an idle freedom.");
+    if (work.peak_force[i] === null) out.push("No equilibrium: the loads move an idle freedom.");
     else {
       out.push(`Peak force ${percent(work.peak_force[i])} and peak moment ${percent(work.peak_moment[i])} of what a joint bears; output error ${short(work.output_error_mm[i])} mm from clearances.`);
     }

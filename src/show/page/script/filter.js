@@ -17,6 +17,19 @@ function limit(id) {
   return value === "" || Number.isNaN(Number(value)) ? null : Number(value);
 }
 
+/** Boxes to tick: by field, its words and its test. */
+const TICKS = {
+  "no-idle": ["no idle links", (i) => found.idle?.[i] === 0],
+  "symmetric-only": ["symmetric", (i) => found.symmetric[i] === true],
+  "in-all-poses": ["throughout the motion", (i) => found.lucky[i] === false],
+};
+
+/** Hides a box that would not divide the list. */
+function showTicks() {
+  const all = Array.from({ length: total }, (_, i) => i);
+  for (const [field, [, passes]] of Object.entries(TICKS)) byId(`${field}-field`).hidden = all.every(passes) || !all.some(passes);
+}
+
 /** The criteria of the filter: each with its field, and a test. */
 function criteria() {
   const out = [];
@@ -28,7 +41,9 @@ function criteria() {
     const most = limit(id);
     if (most !== null) out.push({ words: `${words} ${most}`, field: id, passes: (i) => values[i] <= most });
   }
-  if (byId("no-idle").checked && found.idle) out.push({ words: "no idle links", field: "no-idle", passes: (i) => found.idle[i] === 0 });
+  for (const [field, [words, passes]] of Object.entries(TICKS)) {
+    if (byId(field).checked && !byId(`${field}-field`).hidden) out.push({ words, field, passes });
+  }
   return out;
 }
 
@@ -44,7 +59,7 @@ function drop(criterion) {
   if (criterion.word) {
     const words = byId("find").value.split(/\s+/).filter((w) => w.replaceAll("→", "->") !== criterion.word);
     byId("find").value = words.join(" ");
-  } else if (criterion.field === "no-idle") byId("no-idle").checked = false;
+  } else if (criterion.field in TICKS) byId(criterion.field).checked = false;
   else byId(criterion.field).value = "";
   refresh();
 }

@@ -50,7 +50,7 @@ function relist() {
   view.sort = { key: "position", down: false };
   view.active = 0;
   byId("head").textContent = headLine();
-  byId("idle-field").hidden = !(found.idle && found.idle.some((n) => n > 0));
+  showTicks();
   offerAxes();
   refresh();
   choose(view.order.length ? view.order[0] : null);

@@ -26,7 +26,7 @@ pub fn next(m: &Mechanism, states: &[State<'_>], file: &str) -> Vec<NextCommand>
         "draw",
         file,
         &format!("-o {svg}"),
-        "its structural scheme",
+        "a drawing of it",
     ));
     steps
 }

@@ -26,7 +26,7 @@ pub fn hopeless_reasons(m: &Mechanism, why: &Hopeless) -> Vec<String> {
                     _ => ("stay unchanged, because they are", "them"),
                 };
                 out.push(format!(
-                    "{} {stays} {reason}; separate `options = [...]` would let the search change {it}",
+                    "{} {stays} {reason}; list joint types as options of {it} to let the search change {it}",
                     named(&joints)
                 ));
             }
@@ -41,25 +41,44 @@ pub fn hopeless_reasons(m: &Mechanism, why: &Hopeless) -> Vec<String> {
     out
 }
 
-/// Returns the requests that find something if one found nothing, each with its result in words.
+/// Returns the requests that find something if one found nothing, each with its result in words that name no option.
 pub fn wider_requests(outcome: &Outcome, remarks: &Remarks) -> Vec<(Request, String)> {
     let gives = |how, n: &_| {
         let n = plural_of(&group_thousands(n), "variant");
+        let constraints = |k: u32| count_noun(k as usize, "redundant constraint");
         match how {
-            Relaxation::OutputChange => format!("{n}, whose outputs move in other ways than now"),
-            Relaxation::FreeDrives => format!("{n}, in which a drive no longer holds"),
-            Relaxation::LooseObject => format!("{n}, none of which holds what it grips"),
+            Relaxation::Redundant(k) => format!("{n} with at most {} left", constraints(k)),
+            Relaxation::External(k) => {
+                format!("{n} with at most {} added by the state", constraints(k))
+            }
+            Relaxation::Harmful(k) => {
+                format!("{n} with at most {k} harmful constraints added by the state")
+            }
+            Relaxation::Mobility(w) => format!("{n} with a mobility of at most {w}"),
+            Relaxation::Changes(c) => {
+                format!(
+                    "{n} with at most {}",
+                    count_noun(c as usize, "changed joint")
+                )
+            }
+            Relaxation::OutputChange => format!("{n} whose outputs move differently from now"),
+            Relaxation::FreeDrives => format!("{n} in which a drive no longer holds"),
+            Relaxation::LooseObject => format!("{n} that do not hold the clamped part"),
             Relaxation::PoseOnly => {
                 "the variants that keep the motion in the drawn pose".to_owned()
             }
-            _ => format!("{n}; no smaller number leaves any"),
         }
     };
     let steps = remarks.eased.iter();
     let steps = steps.map(|(how, n)| (ease_request(&outcome.request, *how), gives(*how, n)));
     let offered = remarks.offered.iter().map(|wider| {
-        let gives = "Allow these joint types: they give at least one redesign (others may, too)";
-        (wider.clone(), gives.to_owned())
+        let all = remarks.offered_options(&outcome.request).iter();
+        let each = all.map(|o| format!("{} at {}", o.names.join(" or "), o.joint));
+        let words = format!(
+            "Allow more joint types: there are redesigns with {}",
+            each.collect_vec().join(", ")
+        );
+        (wider.clone(), words)
     });
     // `--idea` says that ideas are meant.
     let plain = |request| Request {

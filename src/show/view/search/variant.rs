@@ -9,7 +9,6 @@ use crate::search::check::other_poses::{Figures, OverStroke};
 use crate::view::prelude::*;
 use crate::view::search::ranking;
 use serde::ser::{Serialize, SerializeMap, Serializer};
-use std::fmt::Write;
 
 /// One variant of an outcome, written key by key, since there may be millions.
 #[derive(Debug)]
@@ -93,10 +92,15 @@ fn changes_json(m: &Mechanism, changes: Vec<Change>) -> Value {
 
 /// Returns a line for each number of redundant constraints left, under a heading.
 pub(crate) fn symmetric_text(found: &SymmetricBest) -> String {
+    let lines = symmetric_lines(found).into_iter();
+    let lines: String = lines.map(|l| format!("    {l}\n")).collect();
+    format!("\n  the cheapest symmetric redesign for each σ left:\n{lines}")
+}
+
+/// Returns these lines.
+pub fn symmetric_lines(found: &SymmetricBest) -> Vec<String> {
     let SymmetricBest { best, odd } = found;
-    let mut out = String::from("\n  the cheapest symmetric redesign for each σ left:\n");
-    // Writing to a string cannot fail.
-    for one in best {
+    let line = |one: &SymmetricRedesign| {
         let SymmetricRedesign {
             left,
             search,
@@ -108,17 +112,17 @@ pub(crate) fn symmetric_text(found: &SymmetricBest) -> String {
             in_words(search, &list_changes(search, v)),
         );
         let by = symmetry_word(search);
-        let _ = writeln!(out, "    σ = {left}: cost {price}, W = {w}, {words} ({by})");
-    }
+        format!("σ = {left}: cost {price}, W = {w}, {words} ({by})")
+    };
+    let mut out = best.iter().map(line).collect_vec();
     if best.is_empty() {
-        out += "    none with the options offered and at most 2 redundant constraints\n";
+        out.push("none with the options offered and at most 2 redundant constraints".to_owned());
     }
     if let Some(odd) = odd {
-        let _ = writeln!(
-            out,
-            "    none has σ = 0 without idle motion: that takes {} more freedoms, and joints that are images of each other gain them {} at a time",
+        out.push(format!(
+            "none has σ = 0 without idle motion: that takes {} more freedoms, and joints that are images of each other gain them {} at a time",
             odd.needed, odd.at_a_time
-        );
+        ));
     }
     out
 }

@@ -181,10 +181,7 @@ pub(crate) fn why_text(outcome: &Outcome, ideas: &[&Assignment]) -> String {
 }
 
 /// Returns the remarks on each of some ideas as pairs of subject and text.
-pub(crate) fn rows_of_ideas(
-    outcome: &Outcome,
-    ideas: &[&Assignment],
-) -> Vec<Vec<(String, String)>> {
+pub fn rows_of_ideas(outcome: &Outcome, ideas: &[&Assignment]) -> Vec<Vec<(String, String)>> {
     let whys = Whys::new(outcome);
     let (teller, mut why) = (Teller::new(outcome, &whys), whys.explain_each());
     ideas

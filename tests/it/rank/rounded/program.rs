@@ -81,7 +81,7 @@ fn every_command_takes_the_mechanism_as_meant() {
     let (_, page, _) = on("report", &[]);
     has(&page, "3 redundant constraints");
     has(&page, "as written");
-    assert!(on("draw", &[]).1.contains("σ = 3"));
+    assert!(on("draw", &["--kind", "scheme"]).1.contains("σ = 3"));
     let (code, variant, _) = on("export", &["--to", "toml", "--variant", "1"]);
     assert_eq!(code, Some(0));
     let (_, stdout, _) = run_on("analyze", "v.toml", &variant, &["--format", "json"]);

@@ -1,0 +1,225 @@
+// The first hour: four mechanisms from an empty sheet to a redesign that is applied, by mouse and keyboard alone, on three
+// sizes of screen. The text of the file is never touched.
+
+import assert from "node:assert/strict";
+import { fits, picture } from "./pages.mjs";
+import { fresh, handOn, ideas, served, settledOn, source, told, verdict, windowed } from "./windows.mjs";
+
+/** By name: how it is drawn, how many redundant constraints it has, and what is to be allowed before there are ideas. */
+const DRAWN = {
+  "lever gripper": {
+    redundant: 6,
+    async draw(hand) {
+      await hand.tool("slide");
+      await hand.place(-40, 0);
+      await hand.tool("bar");
+      await hand.place(-40, 0);
+      await hand.place(-10, 30);
+      await hand.tool("plate");
+      for (const [x, y] of [[-10, 30], [10, 15], [40, 10], [40, 10]]) await hand.place(x, y);
+      await hand.tool("ground");
+      await hand.place(10, 15);
+      await hand.tool("output");
+      await hand.place(25, 12.5);
+      await hand.tool("drive");
+      await hand.place(-40, 0);
+      await hand.tool("select");
+      await hand.place(-25, 15);
+      await hand.key("Shift", () => hand.place(25, 12.5));
+      await hand.press('.acts button:has-text("Mirror y")');
+    },
+  },
+  "toggle clamp": {
+    redundant: 3,
+    async draw(hand) {
+      await hand.tool("plate");
+      for (const [x, y] of [[20, 0], [10, 20], [-35, 20], [-35, 20]]) await hand.place(x, y);
+      await hand.tool("bar");
+      for (const [x, y] of [[10, 20], [30, 30], [30, 30], [40, 5]]) await hand.place(x, y);
+      await hand.tool("ground");
+      await hand.place(20, 0);
+      await hand.place(40, 5);
+      await hand.tool("drive");
+      await hand.place(40, 5);
+      await hand.tool("output");
+      await hand.place(-15, 20);
+    },
+  },
+  "screw gripper": {
+    redundant: 8,
+    async draw(hand) {
+      await hand.tool("bar");
+      await hand.place(-30, 0);
+      await hand.place(30, 0);
+      await hand.tool("ground");
+      await hand.place(-30, 0);
+      await hand.press('.axes button:has-text("x")');
+      await hand.tool("slide");
+      await hand.place(-15, 20);
+      await hand.place(15, 20);
+      await hand.press('#types [data-type="helical"]');
+      await hand.tool("joint");
+      for (const [x, y] of [[-15, 20], [-15, 0], [15, 20], [15, 0]]) await hand.place(x, y);
+      await hand.fill("lead", "-5");
+      await hand.tool("output");
+      await hand.place(-15, 20);
+      await hand.place(15, 20);
+      await hand.tool("drive");
+      await hand.place(-30, 0);
+    },
+  },
+  gantry: {
+    redundant: 5,
+    async draw(hand) {
+      await hand.tool("slide");
+      await hand.place(0, -25);
+      await hand.place(0, 25);
+      await hand.press('#types [data-type="fixed"]');
+      await hand.tool("bar");
+      await hand.place(0, -25);
+      await hand.place(0, 25);
+      await hand.tool("output");
+      await hand.place(0, 0);
+      await hand.tool("drive");
+      await hand.place(0, -25);
+    },
+    /** Joints that are bolted stay until types are allowed at them. */
+    async allow(hand) {
+      for (const id of ["1-3", "2-3"]) {
+        await hand.press(`#ideas .acts button:has-text("${id}")`);
+        for (const kind of ["revolute", "spherical", "cylindrical"]) await hand.press(`#thing .type-box:has-text("${kind}") input`);
+      }
+    },
+  },
+};
+const SCREENS = [[1300, 900], [900, 700], [390, 844]];
+
+export function hourTests(test) {
+  for (const [name, { redundant, draw, allow }] of Object.entries(DRAWN)) {
+    test(`studio: a ${name} from an empty sheet to an applied redesign, on three sizes of screen`, async () => {
+      for (const [width, height] of SCREENS) {
+        const { address, child } = await served(fresh());
+        const colorScheme = width === 900 ? "dark" : "light";
+        await windowed(address, { viewport: { width, height }, colorScheme }, async (tab) => {
+          const hand = handOn(tab);
+          const begun = await source(tab);
+          await draw(hand);
+          await told(tab, `σ = ${redundant} `);
+          if (allow) await allow(hand);
+          await ideas(tab);
+          await tab.waitForFunction(() => desk.motion?.revision === desk.revision && desk.ideas);
+          assert.doesNotMatch(await tab.locator("#side").innerText(), /--[a-z]/, "no option of the command line is named");
+          await fits(tab);
+          await hand.press(".idea:enabled");
+          await tab.waitForFunction(() => desk.verdict?.analysis?.states[0].redundant === 0);
+          assert.match(await verdict(tab), /W = 1 · σ = 0/);
+          assert.notEqual(await source(tab), begun);
+          assert.equal(await tab.evaluate(() => document.querySelector("#text-fold").open), false, "the text stayed folded");
+          console.log(`  ${name} at ${width} x ${height}: ${hand.count.clicks} clicks`);
+          assert.ok(hand.count.clicks < 40);
+          for (const scheme of ["light", "dark"]) {
+            await tab.emulateMedia({ colorScheme: scheme });
+            await picture(tab, `hour-${name.replace(" ", "-")}-${width}-${scheme}`, false);
+          }
+        });
+        child.kill("SIGINT");
+      }
+    });
+  }
+
+  test("studio: lengths, loads, gears, ranking and the stroke by forms and tools", async () => {
+    const { address, child } = await served(fresh(), "four-bar");
+    await windowed(address, {}, async (tab) => {
+      await ideas(tab);
+      const entry = (path) => tab.evaluate((keys) => keys.reduce((v, k) => v?.[k], desk.look.file), path);
+      await tab.evaluate(() => select([{ what: "link", id: "1" }]));
+      const length = tab.locator('#thing .pair-fields input').first();
+      await length.fill("45");
+      await length.press("Enter");
+      await settledOn(tab);
+      const far = await tab.evaluate(() => { const [a, b] = pinsOf("1"); return apart(a.at, b.at); });
+      assert.ok(Math.abs(far - 45) < 1e-6, `${far}`);
+      await tab.keyboard.press("Escape");
+      const spot = await tab.evaluate(() => {
+        const [a, b] = pinsOf("2").map((p) => toPaper(p.at));
+        const { left, top } = document.querySelector("#sheet").getBoundingClientRect();
+        return [(a[0] + b[0]) / 2 + left, (a[1] + b[1]) / 2 + top];
+      });
+      await tab.locator('[data-tool="force"]').click();
+      await tab.mouse.click(...spot);
+      await settledOn(tab);
+      assert.match(await source(tab), /\[\[workload\.force\]\]\nlink = "2"/);
+      await tab.waitForFunction(() => desk.force?.charts.some(Boolean));
+      await tab.locator("#search-fold > summary").click();
+      await tab.locator("#search-fold details > summary").click();
+      await tab.locator('label:has-text("largest joint force") input').fill("2");
+      await tab.locator('label:has-text("largest joint force") input').press("Enter");
+      await settledOn(tab);
+      assert.deepEqual(await entry(["ranking", "terms"]), [{ term: "peak-force", weight: 2 }]);
+      await tab.waitForFunction(() => desk.motion?.revision === desk.revision);
+      await tab.evaluate(() => select([{ what: "joint", id: "1-2" }]));
+      await tab.waitForSelector("#curves .curve");
+      const [count, right] = await tab.evaluate(() => {
+        // the x of the crank's pin swings between the ends of its circle
+        const scene = desk.motion.scenes[0], [[, , x]] = seriesOf({ what: "joint", id: "1-2" }, scene);
+        const pivot = placeOf("joint", "0-1")[0], far = apart(placeOf("joint", "0-1"), placeOf("joint", "1-2"));
+        return [document.querySelectorAll("#curves .curve").length, Math.abs(Math.max(...x) - (pivot + far)) < 0.02 * far];
+      });
+      assert.ok(count >= 6 && right, `${count}`);
+      await tab.locator('[data-part="range"]').fill("40");
+      await tab.locator('#limits button:has-text("End here")').click();
+      await settledOn(tab);
+      assert.match(await entry(["workload", "stroke", "to"]), /deg$/);
+      await tab.waitForFunction(() => desk.motion?.revision === desk.revision);
+      await tab.locator('#limits button:has-text("Whole stroke")').click();
+      await settledOn(tab);
+      assert.equal(await entry(["workload", "stroke"]), undefined);
+    });
+    child.kill("SIGINT");
+  });
+
+  test("studio: two ideas are compared, and the tutorial ends with a redesign", async () => {
+    const { address, child } = await served(fresh(), "gripper-10");
+    await windowed(address, {}, async (tab) => {
+      await ideas(tab);
+      const said = await tab.locator("#ideas").innerText();
+      for (const words of ["Hardware", "rod end", "Removes", "throughout the motion", "symmetric", "Most heavily loaded"]) assert.ok(said.includes(words), words);
+      const boxes = tab.locator('.idea-list .check input');
+      await boxes.nth(0).click();
+      await boxes.nth(2).click();
+      assert.equal(await tab.locator(".compared thead button").count(), 2);
+      assert.ok(await tab.locator(".compared .differs").count() > 0);
+      await picture(tab, "studio-compared", false);
+    });
+    child.kill("SIGINT");
+    const empty = await served(fresh());
+    await windowed(empty.address, {}, async (tab) => {
+      const hand = handOn(tab);
+      await hand.press("#new");
+      await hand.press('#shelf button:has-text("Tutorial")');
+      const step = (n) => told(tab, `${n} of 8:`);
+      await step(1);
+      await hand.tool("bar");
+      for (const [x, y] of [[-30, -20], [-30, 0]]) await hand.place(x, y);
+      await step(2);
+      for (const [x, y] of [[-30, 0], [20, 20]]) await hand.place(x, y);
+      await step(3);
+      for (const [x, y] of [[20, 20], [30, -20]]) await hand.place(x, y);
+      await step(4);
+      await hand.tool("ground");
+      await hand.place(-30, -20);
+      await hand.place(30, -20);
+      await step(5);
+      await hand.tool("drive");
+      await hand.place(-30, -20);
+      await step(6);
+      await hand.tool("output");
+      await hand.place(25, 0);
+      await step(7);
+      await ideas(tab);
+      await hand.press(".idea:enabled");
+      await step(8);
+    });
+    empty.child.kill("SIGINT");
+  });
+}
