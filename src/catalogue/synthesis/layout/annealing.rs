@@ -1,9 +1,9 @@
 //! Search for a place for every joint by simulated annealing. [Kirkpatrick, Gelatt & Vecchi 1983]
 
-use crate::synthesis::layout_quality::Looks;
 use crate::synthesis::places::Places;
-use crate::synthesis::seen_sides::SeenSides;
 use crate::synthesis::sketch::Sketch;
+use crate::synthesis::sketch::layout_quality::Looks;
+use crate::synthesis::sketch::seen_sides::SeenSides;
 use crate::synthesis::stroke::judge::Judge;
 use crate::synthesis::stroke::planes::Stacking;
 use crate::synthesis::task::Aim;
@@ -12,18 +12,18 @@ use chacha20::ChaCha8Rng;
 use std::cmp::Ordering;
 
 /// Places at the end of a start.
-pub(super) struct FoundPlaces {
+pub(in crate::synthesis) struct FoundPlaces {
     /// Whether the drawing keeps the limits, or links that cross pass each other in separate layers.
-    pub(super) within: bool,
+    pub(in crate::synthesis) within: bool,
     /// Whether the stroke fulfils the task.
     does: bool,
     /// Whether links collide in every assignment of layers.
     meets: bool,
-    pub(super) looks: Looks,
+    pub(in crate::synthesis) looks: Looks,
     /// Cost of the drawn pose and the stroke.
-    pub(super) cost: f64,
-    pub(super) at: Places,
-    pub(super) start: u32,
+    pub(in crate::synthesis) cost: f64,
+    pub(in crate::synthesis) at: Places,
+    pub(in crate::synthesis) start: u32,
 }
 
 impl FoundPlaces {
@@ -40,19 +40,19 @@ impl FoundPlaces {
     }
 
     /// Returns true if no better places need be searched for.
-    pub(super) fn are_good(&self, sketch: &Sketch<'_>) -> bool {
+    pub(in crate::synthesis) fn are_good(&self, sketch: &Sketch<'_>) -> bool {
         let enough = sketch.limits.task.aim == Aim::Balanced && self.cost < sketch.good_cost();
         self.will_do() && enough
     }
 
     /// Returns true if they are better than `best`, or if `best` is `None`.
-    pub(super) fn is_better_than(&self, best: Option<&FoundPlaces>) -> bool {
+    pub(in crate::synthesis) fn is_better_than(&self, best: Option<&FoundPlaces>) -> bool {
         best.is_none_or(|b| self.compare_places(b).is_lt())
     }
 }
 
 /// Maximum number of starts of a search for places, for each lay.
-pub(super) const STARTS: u32 = 12;
+pub(in crate::synthesis) const STARTS: u32 = 12;
 /// Number of best starts that are completed if none becomes good. More are completed if none of these keeps the limits of the drawing.
 const TO_THE_END: usize = 4;
 
@@ -60,7 +60,7 @@ const TO_THE_END: usize = 4;
 ///
 /// The first good places are enough. Starts that lag behind are paused. If none becomes good, the best go on until one fulfils the task and can
 /// be built.
-pub(super) fn best_of_starts<'a>(
+pub(in crate::synthesis) fn best_of_starts<'a>(
     sketch: &Sketch<'a>,
     judge: &mut Judge<'a>,
     name: &str,
