@@ -5,32 +5,19 @@
 //! millimetres, or thousandths of a millimetre if whole ones give a special pose by chance. Turns of whole coordinates by 120° are exact,
 //! too. This module also makes the random numbers for the search.
 
-mod annealing;
-pub(crate) mod beside;
-pub(crate) mod bones;
-pub mod direction;
-pub(crate) mod elimination;
 pub(crate) mod equations;
 pub mod figures;
 pub mod layout;
-pub mod layout_quality;
-pub mod listed;
 pub mod mechanism;
-mod moves;
 pub mod options;
 pub mod place;
 pub mod places;
-pub(crate) mod pose_forces;
 pub mod recognize;
-pub(crate) mod rows;
 pub mod rules;
-pub(crate) mod seen_sides;
 pub mod sketch;
 pub mod stroke;
 pub mod structure;
 pub mod task;
-pub(crate) mod threefold;
-pub(crate) mod velocities;
 pub mod workload;
 
 use chacha20::ChaCha8Rng;

@@ -10,8 +10,10 @@ use crate::chains::roles::Subject;
 use crate::chains::sharing::Menu;
 use crate::shard::Shard;
 use crate::synthesis::layout::known_schemes;
-use crate::synthesis::listed::{generic_structures, hinged_structures, symmetric_structures};
 use crate::synthesis::structure::Structure;
+use crate::synthesis::structure::listed::{
+    generic_structures, hinged_structures, symmetric_structures,
+};
 use itertools::Itertools;
 use rayon::prelude::*;
 use std::ops::{ControlFlow, RangeInclusive};

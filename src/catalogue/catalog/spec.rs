@@ -42,21 +42,18 @@ pub enum SpecError {
     Links(String),
     /// Too many links for pairs.
     #[error(
-        "links: structures with pairs have {MOST_PAIRED} links at most: there are too many beyond; with three jaws \
-         leave generic_pairs (--generic-pairs) out for more"
+        "links: structures with pairs have {MOST_PAIRED} links at most: there are too many beyond; \
+         only symmetric ones of three jaws may have more"
     )]
     PairedLinks,
     /// Pairs in a form in which they are not laid out.
     #[error(
-        "pairs: structures with pairs are symmetric: ask for mirror or half-turn among the symmetries, for \
-         generic with generic_pairs (--generic-pairs), or with three jaws for threefold"
+        "pairs: none of the symmetries suits structures with pairs; these are mirror and half-turn, threefold with three jaws, and \
+         generic if generic_pairs is true"
     )]
     PairedForms,
     /// Free layouts that no symmetry asked for allows.
-    #[error(
-        "generic_pairs: nothing is laid out freely without generic among the symmetries: add it (--symmetry generic), or leave \
-         generic_pairs (--generic-pairs) out"
-    )]
+    #[error("generic_pairs: free layouts need generic among the symmetries")]
     Freely,
     /// A number out of its range.
     #[error("{what} must be from {from} to {to}")]

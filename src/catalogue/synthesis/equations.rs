@@ -1,14 +1,19 @@
 //! The rows of a paired gripper as equations for the poses of its links.
 
+pub(crate) mod elimination;
+pub(crate) mod pose_forces;
+pub(crate) mod rows;
+pub(crate) mod velocities;
+
 use crate::geom::vector::{dot, sub};
-use crate::synthesis::elimination::SmallSystem;
+use crate::synthesis::equations::elimination::SmallSystem;
+use crate::synthesis::equations::rows::{PoseRows, TeethSeen, Term};
+use crate::synthesis::equations::velocities::Velocity;
 use crate::synthesis::place::Point;
 use crate::synthesis::places::Places;
-use crate::synthesis::rows::{PoseRows, TeethSeen, Term};
 use crate::synthesis::sketch::Sketch;
 use crate::synthesis::stroke::pose::LinkPose;
 use crate::synthesis::stroke::walk::{FitEquations, RADIAN};
-use crate::synthesis::velocities::Velocity;
 
 /// Returns the first column of a link's unknowns: two of its shift and one of its turn. `None` for the frame.
 pub(super) fn place_of(link: usize, frame: usize) -> Option<usize> {

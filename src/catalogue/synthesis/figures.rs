@@ -9,7 +9,7 @@ use crate::synthesis::stroke::planes::Stacking;
 use crate::synthesis::stroke::shortfall::Shortfall;
 use crate::synthesis::stroke::walk::StrokeEnd;
 use crate::synthesis::structure::Structure;
-use crate::synthesis::threefold::SIDES;
+use crate::synthesis::structure::threefold::SIDES;
 
 /// A jaw that turns by less than this over the stroke counts as parallel: the rest is the error of loop closure. In rad.
 const STILL: f64 = 1e-6;

@@ -1,20 +1,23 @@
 //! Layouts: a place for every joint of a structure, searched from seeds that follow from its name. Moves go to whole millimetres, so the
 //! places found are exact. Well-known schemes are laid out in their most symmetric forms.
 
+mod annealing;
+pub(crate) mod beside;
+
 use crate::chains::Symmetry;
 use crate::chains::classics::{Classic, known_classics};
 use crate::chains::layout_symmetry::NoGripper;
 use crate::chains::structure::PairStructure;
-use crate::synthesis::annealing::{FoundPlaces, STARTS, best_of_starts};
-use crate::synthesis::layout_quality::Looks;
+use crate::synthesis::layout::annealing::{FoundPlaces, STARTS, best_of_starts};
 use crate::synthesis::place::{Place, third};
 use crate::synthesis::places::Places;
 use crate::synthesis::rules::{NoRules, Rules};
 use crate::synthesis::sketch::Sketch;
+use crate::synthesis::sketch::layout_quality::Looks;
 use crate::synthesis::stroke::judge::Judge;
+use crate::synthesis::structure::threefold::SIDES;
 use crate::synthesis::structure::{Form, Structure};
 use crate::synthesis::task::Limits;
-use crate::synthesis::threefold::SIDES;
 use itertools::Itertools;
 use thiserror::Error;
 

@@ -16,8 +16,8 @@ use crate::synthesis::place::{Pivot, Place, number_words, point};
 use crate::synthesis::places::{Places, Teeth};
 use crate::synthesis::rules::Rules;
 use crate::synthesis::structure::Structure;
+use crate::synthesis::structure::threefold::SIDES;
 use crate::synthesis::task::{self, outward_vectors};
-use crate::synthesis::threefold::SIDES;
 use crate::synthesis::workload::{HeldPart, Workload};
 use itertools::Itertools;
 

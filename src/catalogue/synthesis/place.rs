@@ -1,6 +1,8 @@
 //! Exact places: whole millimetres, with or without thousandths, or whole millimetres turned by thirds of a turn, whose coordinates contain
 //! √3. Also points of the plane in double precision, and their form in a mechanism file.
 
+pub mod direction;
+
 use crate::file::schema::Coordinate;
 use crate::geom::vector::add_scaled;
 

@@ -2,8 +2,8 @@
 //! that layouts are exact.
 
 use crate::geom::vector::{add_scaled, quarter_turn, sub};
-use crate::synthesis::direction::WholeDirection;
 use crate::synthesis::place::Point;
+use crate::synthesis::place::direction::WholeDirection;
 use std::f64::consts::TAU;
 
 /// Places of all joints, by their indices in the chain's list.

@@ -3,7 +3,7 @@
 use crate::chains::chain::{Chain, Joint, carry_links, order_links};
 use crate::chains::{Input, PairKind, Symmetry};
 use crate::geom::vector::{add_scaled, sub};
-use crate::synthesis::direction::WholeDirection;
+use crate::synthesis::place::direction::WholeDirection;
 use crate::synthesis::place::{Place, Point, third};
 use crate::synthesis::places::{Places, Teeth};
 use crate::synthesis::structure::{Lay, Structure};

@@ -1,20 +1,25 @@
 //! Sketches: the properties of a structure that do not depend on the places of its joints, gathered once for many trials of places. A
 //! sketch also computes the cost of places.
 
+pub(crate) mod bones;
+pub mod layout_quality;
+mod moves;
+pub(crate) mod seen_sides;
+
 use crate::chains::chain::Joint;
 use crate::chains::{Input, PairKind, Symmetry};
-use crate::synthesis::bones::{BonePlan, Bones};
-use crate::synthesis::layout_quality::{LayoutMotion, Looks};
+use crate::synthesis::equations::velocities::Contours;
 use crate::synthesis::place::Point;
 use crate::synthesis::places::Places;
 use crate::synthesis::rules::{Rule, Rules};
-use crate::synthesis::seen_sides::SeenSides;
+use crate::synthesis::sketch::bones::{BonePlan, Bones};
+use crate::synthesis::sketch::layout_quality::{LayoutMotion, Looks};
+use crate::synthesis::sketch::seen_sides::SeenSides;
 use crate::synthesis::stroke::closure::Closure;
 use crate::synthesis::stroke::pose::LinkPose;
 use crate::synthesis::structure::Structure;
+use crate::synthesis::structure::threefold::{Around, SIDES};
 use crate::synthesis::task::{Limits, beyond_limit, room_round_part};
-use crate::synthesis::threefold::{Around, SIDES};
-use crate::synthesis::velocities::Contours;
 
 /// A structure with the rules of its joints.
 #[derive(Debug)]

@@ -13,7 +13,7 @@ pub mod pose;
 pub mod shortfall;
 pub mod walk;
 
-use crate::synthesis::layout_quality::DEAR;
+use crate::synthesis::sketch::layout_quality::DEAR;
 use crate::synthesis::stroke::judge::StrokeFigures;
 use crate::synthesis::stroke::shortfall::NOISE;
 use crate::synthesis::task::{AskedMotion, Limits, PARALLEL, Task, beyond_limit};

@@ -1,5 +1,8 @@
 //! Structures: a gripper's chain and roles with its symmetry, and its form.
 
+pub mod listed;
+pub(crate) mod threefold;
+
 use crate::chains::chain::{Joint, carry_links, order_links};
 use crate::chains::classics::MadeAs;
 use crate::chains::layout_symmetry::{NoGripper, working_swap};

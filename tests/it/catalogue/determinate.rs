@@ -8,7 +8,7 @@ use ozols::chains::enumerate::list_chains;
 use ozols::chains::roles::Subject;
 use ozols::chains::{Input, Symmetry, graph6};
 use ozols::score::request::{Check, List};
-use ozols::synthesis::listed::hinged_structures;
+use ozols::synthesis::structure::listed::hinged_structures;
 use ozols::synthesis::task::Limits;
 
 /// Determinate variants of W = 1 with the input joint unchanged, of each chain and input joint of so many links. They do not

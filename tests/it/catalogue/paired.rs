@@ -16,7 +16,7 @@ use super::command::{path_in, query_lines, query_rows};
 use super::pairs::classics::schemes;
 use super::pairs::menu;
 use ozols::chains::structure::PairStructure;
-use ozols::synthesis::listed::symmetric_structures;
+use ozols::synthesis::structure::listed::symmetric_structures;
 
 /// A catalogue, built once.
 pub(super) type Built = OnceLock<(TempDir, String)>;
@@ -318,12 +318,12 @@ fn what_is_not_laid_out_is_refused() {
         --links 4 --at-most 1 | name them with --pairs
         --classics --links 4 | cannot be used with
         --generic-pairs | --pairs
-        --jaws 3 --generic-pairs --symmetry generic --pairs slide --links 4..9 | leave generic_pairs (--generic-pairs) out for more
+        --jaws 3 --generic-pairs --symmetry generic --pairs slide --links 4..9 | 8 links at most
         --jaws 3 --generic-pairs --symmetry generic --pairs slide --links 4 --parallel only | each side is in a plane of its own
         --jaws 3 --generic-pairs --symmetry generic --pairs slide --links 3 | three jaws need at least four links
         --jaws 3 --generic-pairs --symmetry generic --pairs slide --links 5 | the number of links is even
         --jaws 3 --generic-pairs --symmetry generic --links 4 | --pairs
-        --jaws 3 --generic-pairs --symmetry threefold --pairs slide | add it (--symmetry generic), or leave generic_pairs (--generic-pairs) out
+        --jaws 3 --generic-pairs --symmetry threefold --pairs slide | free layouts need generic among the symmetries; add --symmetry generic, or omit --generic-pairs
         ",
     ) {
         assert_fails(&format!("catalog build {words} -o {file}"), says);

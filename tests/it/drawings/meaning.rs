@@ -148,6 +148,41 @@ fn a_driven_slide_has_a_straight_arrow() {
     assert!(gripper.svg.contains("driven slide"));
 }
 
+/// Both racks of the gripper are lines that touch the circle of their pinion, between the pinions.
+#[test]
+fn a_rack_touches_the_pitch_circle_of_its_pinion() {
+    let gripper = drawn(&read(builtin::text("rack-gripper").unwrap()));
+    let doc = roxmltree::Document::parse(&gripper.svg).unwrap();
+    let pitch = |n: &roxmltree::Node<'_, '_>| n.attribute("class") == Some("fine pitch");
+    let paths = doc.descendants().filter(|n| n.has_tag_name("path"));
+    let curves: Vec<Vec<Point>> = paths.filter(pitch).map(covers).collect();
+    let (circles, racks): (Vec<_>, Vec<_>) = curves.iter().partition(|c| c.len() > 2);
+    assert_eq!((circles.len(), racks.len()), (2, 2));
+    let length = |[x, y]: Point| x.hypot(y);
+    // The points of a circle are evenly spaced.
+    let middle = |circle: &[Point]| {
+        let mean = |k: usize| circle.iter().map(|p| p[k]).sum::<f64>() / circle.len() as f64;
+        [mean(0), mean(1)]
+    };
+    let [upper, lower] = [0, 1].map(|n| middle(circles[n]));
+    for (n, rack) in racks.iter().enumerate() {
+        let (centre, other) = if n == 0 {
+            (upper, lower)
+        } else {
+            (lower, upper)
+        };
+        let radius = length(sub(circles[n][0], centre));
+        let along = sub(rack[1], rack[0]);
+        let far = |p: Point| {
+            let to = sub(p, rack[0]);
+            (along[0] * to[1] - along[1] * to[0]) / length(along)
+        };
+        let (own, others) = (far(centre), far(other));
+        assert!((own.abs() - radius).abs() < 0.02, "{own} {radius}");
+        assert!(own * others < 0.0, "{own} {others}");
+    }
+}
+
 #[test]
 fn gears_are_drawn_where_the_file_says_gear_and_nowhere_else() {
     for name in ["geared-gripper", "geared-five-bar", "planetary-gear"] {

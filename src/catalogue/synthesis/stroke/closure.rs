@@ -5,11 +5,11 @@
 
 use crate::chains::Input;
 use crate::geom::vector::{dot, quarter_turn, sub};
-use crate::synthesis::elimination::SmallSystem;
+use crate::synthesis::equations::elimination::SmallSystem;
+use crate::synthesis::equations::velocities::{Contours, Side};
 use crate::synthesis::place::Point;
 use crate::synthesis::stroke::pose::LinkPose;
 use crate::synthesis::stroke::walk::{FitEquations, RADIAN};
-use crate::synthesis::velocities::{Contours, Side};
 
 /// Motion that a side follows.
 #[derive(Debug, Clone, Copy, PartialEq)]

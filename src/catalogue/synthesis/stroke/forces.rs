@@ -4,10 +4,10 @@
 use super::pose::LinkPose;
 use crate::chains::Input;
 use crate::geom::vector::{add_scaled, cross_plane, dot, quarter_turn, sub};
-use crate::synthesis::elimination::SmallSystem;
+use crate::synthesis::equations::elimination::SmallSystem;
+use crate::synthesis::equations::velocities::{Contours, Side};
 use crate::synthesis::place::Point;
 use crate::synthesis::sketch::Sketch;
-use crate::synthesis::velocities::{Contours, Side};
 
 /// The action of a joint: the force on its second link, the point at which it acts, and a moment, in N and N mm.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]

@@ -7,10 +7,10 @@ use super::planes::{Meetings, Stacking};
 use super::pose::LinkPose;
 use super::walk::{SETTLED, StrokeEnd};
 use crate::geom::vector::{dot, length, sub};
-use crate::synthesis::layout_quality::{angle_degrees, transmission_sine};
 use crate::synthesis::place::Point;
 use crate::synthesis::places::Places;
 use crate::synthesis::sketch::Sketch;
+use crate::synthesis::sketch::layout_quality::{angle_degrees, transmission_sine};
 use crate::synthesis::task::Limits;
 
 /// Poses of a stroke during the search. They rank places as well as fifty poses do.

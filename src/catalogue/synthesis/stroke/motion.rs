@@ -6,13 +6,13 @@ use super::pose::LinkPose;
 use super::walk::{FitEquations, RADIAN, Walk};
 use crate::chains::Input;
 use crate::geom::vector::{add_scaled, quarter_turn, sub};
-use crate::synthesis::elimination::SmallSystem;
+use crate::synthesis::equations::elimination::SmallSystem;
+use crate::synthesis::equations::pose_forces::{force_figures, joint_forces};
+use crate::synthesis::equations::velocities::{Contours, Velocity};
 use crate::synthesis::equations::{PoseEquations, place_of};
 use crate::synthesis::place::Point;
 use crate::synthesis::places::Places;
-use crate::synthesis::pose_forces::{force_figures, joint_forces};
 use crate::synthesis::sketch::Sketch;
-use crate::synthesis::velocities::{Contours, Velocity};
 
 /// The equations of the links at a pose. If all joints are hinges, turns are the only unknowns.
 #[derive(Debug)]

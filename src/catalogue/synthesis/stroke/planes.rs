@@ -6,9 +6,9 @@
 //! nothing may be in front of the pads.
 
 use crate::geom::vector::{length, sub};
-use crate::synthesis::bones::Bones;
 use crate::synthesis::place::Point;
-use crate::synthesis::seen_sides::{LinkSide, ON, crosses, lies_over};
+use crate::synthesis::sketch::bones::Bones;
+use crate::synthesis::sketch::seen_sides::{LinkSide, ON, crosses, lies_over};
 use itertools::Itertools;
 use std::cmp::{Reverse, max, min};
 use std::fmt;
@@ -271,7 +271,7 @@ impl Stack<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::synthesis::bones::BonePlan;
+    use crate::synthesis::sketch::bones::BonePlan;
     use itertools::Itertools;
     use proptest::prelude::*;
 

@@ -1,8 +1,8 @@
 //! Pose of a link on a stroke.
 
 use crate::geom::vector::add;
+use crate::synthesis::equations::velocities::Velocity;
 use crate::synthesis::place::Point;
-use crate::synthesis::velocities::Velocity;
 
 /// Pose of a link on a stroke, and its velocity for a millimetre of the width.
 #[derive(Debug, Clone, Copy)]

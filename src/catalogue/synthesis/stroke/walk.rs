@@ -4,7 +4,7 @@
 //! compared with the step, the determinant changes its sign, or the drive would turn back. So no step passes a singular pose or a dead
 //! point unnoticed.
 
-use crate::synthesis::elimination::SmallSystem;
+use crate::synthesis::equations::elimination::SmallSystem;
 
 /// Maximum number of corrections of a step.
 const CORRECTIONS: usize = 6;

@@ -3,7 +3,7 @@
 use super::chains::parse_pair_kind;
 use super::task::{TaskArgs, parse_word};
 use crate::catalog::build::{build_rows, plan_work};
-use crate::catalog::spec::{Parallel, Spec};
+use crate::catalog::spec::{Parallel, Spec, SpecError};
 use crate::catalog::store::Store;
 use crate::chains::{Input, PairKind, Symmetry};
 use crate::cli::prelude::*;
@@ -11,6 +11,7 @@ use crate::file::disk;
 use crate::file::text::MAX_BYTES;
 use crate::shard::Shard;
 use crate::view::catalog::structures::built_text;
+use anyhow::anyhow;
 use serde::Serialize;
 use std::ops::ControlFlow;
 
@@ -149,11 +150,23 @@ impl Build {
         };
         let line = text.lines().position(has).map(|n| n + 1);
         let place = file.zip(line).map(|(file, line)| format!("{file}:{line}"));
-        let wrong = anyhow::Error::new(wrong);
-        Err(match place {
-            None => wrong,
-            Some(place) => wrong.context(place),
+        Err(match (place, options_for(&wrong)) {
+            (Some(place), _) => anyhow::Error::new(wrong).context(place),
+            (None, Some(options)) => anyhow!("{wrong}; {options}"),
+            (None, None) => anyhow::Error::new(wrong),
         })
+    }
+}
+
+/// Returns the options that mend a specification, if there are any.
+fn options_for(wrong: &SpecError) -> Option<&'static str> {
+    match wrong {
+        SpecError::PairedLinks => Some("with three jaws, omit --generic-pairs"),
+        SpecError::PairedForms => Some(
+            "give --symmetry mirror or half-turn, threefold with three jaws, or generic with --generic-pairs",
+        ),
+        SpecError::Freely => Some("add --symmetry generic, or omit --generic-pairs"),
+        _ => None,
     }
 }
 

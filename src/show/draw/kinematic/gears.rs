@@ -1,59 +1,44 @@
-//! Joints that gears couple, as their pitch circles, and a pinion as that of its rack.
+//! Joints that gears couple, as their pitch circles, and a rack as its pitch line, which touches the circle of its pinion.
 
 use crate::draw::kinematic::Kinematic;
 use crate::draw::place::projection::{self, JointInSpace, add, cross, dot, norm, scale, sub};
 use crate::geom::vector::Vector;
-use crate::model::joint_type::{Coupling, Freedom};
+use crate::model::joint_type::{CoupledFreedom, Coupling, Freedom};
 use crate::svg::plane::Point;
 use std::f64::consts::TAU;
 
 /// The greatest radius of a gear that is drawn, in distances of the axes.
 const LARGEST: f64 = 6.0;
 
-/// A circle in space: the end of the coupling it is about, its middle, its normal, its radius.
-type Circle = (usize, Vector, Vector, f64);
+/// A pitch circle or a pitch line: the end of the coupling that it belongs to, and its points in space.
+type PitchCurve = (usize, Vec<Vector>);
 
 impl Kinematic<'_> {
-    /// Returns the pitch circles of a coupling on paper with the joints at the given places, each a closed line; empty
+    /// Returns the pitch circles and lines of a coupling on paper with the joints at the given places, each as a closed line; empty
     /// if gears cannot make it.
-    pub(in crate::draw) fn pitch_circles(
+    pub(in crate::draw) fn pitch_curves(
         &self,
         coupling: &Coupling,
         places: &[JointInSpace],
     ) -> Vec<Vec<Point>> {
-        let flat = |circle: Vec<Vector>| {
-            circle
-                .iter()
-                .map(|&p| self.projection.flat_point(p))
-                .collect()
-        };
-        let circles = self.pitch_circles_in_space(coupling, places).into_iter();
-        circles.map(|(_, circle)| flat(circle)).collect()
+        let flat = |p: &Vector| self.projection.flat_point(*p);
+        let curves = self.pitch_curves_in_space(coupling, places);
+        let curves = curves.iter().map(|(_, curve)| curve.iter().map(flat));
+        curves.map(Iterator::collect).collect()
     }
 
-    /// Returns the pitch circles in space, each with the end of the coupling that it is about.
-    pub(in crate::draw) fn pitch_circles_in_space(
+    /// Returns the pitch circles in space, or the circle of a pinion and the pitch line of its rack.
+    pub(in crate::draw) fn pitch_curves_in_space(
         &self,
         coupling: &Coupling,
         places: &[JointInSpace],
-    ) -> Vec<(usize, Vec<Vector>)> {
-        let circles = if coupling.gear {
-            gear_circles(self, coupling, places)
-                .or_else(|| pinion_circle(self, coupling, places).map(|c| vec![c]))
-        } else {
-            None
-        };
-        let line = |(end, middle, normal, radius): Circle| {
-            let x = projection::unit_across(normal);
-            let y = cross(normal, x);
-            let point = |i: i32| {
-                let angle = TAU * f64::from(i) / 60.0;
-                let off = add(scale(x, angle.cos()), scale(y, angle.sin()));
-                add(middle, scale(off, radius))
-            };
-            (end, (0..60).map(point).collect())
-        };
-        circles.unwrap_or_default().into_iter().map(line).collect()
+    ) -> Vec<PitchCurve> {
+        if !coupling.gear {
+            return Vec::new();
+        }
+        let gears = gear_circles(self, coupling, places);
+        let curves = gears.or_else(|| rack_and_pinion(self, coupling, places));
+        curves.unwrap_or_default()
     }
 
     /// Returns the lines between joints for couplings without circles.
@@ -61,7 +46,7 @@ impl Kinematic<'_> {
         let m = self.subject.mechanism;
         let place = |j| self.spots.iter().find(|s| s.joint == j).map(|s| s.at);
         let all = m.couplings_in(self.subject.state);
-        let plain = all.filter(|c| self.pitch_circles(c, &self.places).is_empty());
+        let plain = all.filter(|c| self.pitch_curves(c, &self.places).is_empty());
         plain
             .filter_map(|c| Some((place(c.ends[0].joint)?, place(c.ends[1].joint)?)))
             .collect()
@@ -79,18 +64,37 @@ impl Kinematic<'_> {
     }
 }
 
+/// Returns the points of a circle about a middle, across its normal.
+fn circle_points(middle: Vector, normal: Vector, radius: f64) -> Vec<Vector> {
+    let x = projection::unit_across(normal);
+    let y = cross(normal, x);
+    let point = |i: i32| {
+        let angle = TAU * f64::from(i) / 60.0;
+        let off = add(scale(x, angle.cos()), scale(y, angle.sin()));
+        add(middle, scale(off, radius))
+    };
+    (0..60).map(point).collect()
+}
+
+/// Returns 1 if the speed of a joint is that of its gear against the link of both joints, and -1 if it is the opposite; `None` if the joints have no
+/// link in common.
+fn gear_senses(drawn: &Kinematic<'_>, coupling: &Coupling) -> Option<[f64; 2]> {
+    let joints = &drawn.subject.mechanism.joints;
+    let links = coupling.ends.map(|e| joints[e.joint].links);
+    let carrier = links[0].into_iter().find(|l| links[1].contains(l))?;
+    Some(links.map(|l| if l[0] == carrier { 1.0 } else { -1.0 }))
+}
+
 /// Returns the circles of two gears on one carrier, whose pitch circles roll on each other.
 fn gear_circles(
     drawn: &Kinematic<'_>,
     coupling: &Coupling,
     places: &[JointInSpace],
-) -> Option<Vec<Circle>> {
+) -> Option<Vec<PitchCurve>> {
     if coupling.ends.iter().any(|e| e.freedom != Freedom::Rz) {
         return None;
     }
-    let m = drawn.subject.mechanism;
-    let links = coupling.ends.map(|e| m.joints[e.joint].links);
-    let carrier = links[0].into_iter().find(|l| links[1].contains(l))?;
+    let [first, second] = gear_senses(drawn, coupling)?;
     let [a, b] = [
         drawn.end_place(coupling, 0, places)?,
         drawn.end_place(coupling, 1, places)?,
@@ -98,9 +102,8 @@ fn gear_circles(
     if norm(cross(a.z, b.z)) > 1e-6 {
         return None;
     }
-    // the turns of both as seen from one side, against the carrier
-    let against = |n: usize| if links[n][0] == carrier { 1.0 } else { -1.0 };
-    let sense = against(0) * against(1) * dot(a.z, b.z).signum();
+    // the turns of both as seen from one side
+    let sense = first * second * dot(a.z, b.z).signum();
     let ratio = coupling.ratio.to_f64() * sense;
     let apart = sub(b.point, a.point);
     let distance = norm(sub(apart, scale(a.z, dot(apart, a.z))));
@@ -108,20 +111,23 @@ fn gear_circles(
     let second = distance / (1.0 - ratio).abs();
     let radii = [second * ratio.abs(), second];
     let drawable = |r: &f64| r.is_finite() && *r > 0.0 && *r < LARGEST * distance;
-    let circles = [(0, a.point, a.z, radii[0]), (1, b.point, a.z, radii[1])];
-    radii.iter().all(drawable).then(|| circles.to_vec())
+    let circle = |(n, of): (usize, &JointInSpace)| (n, circle_points(of.point, a.z, radii[n]));
+    let circles = [a, b].into_iter().enumerate();
+    radii
+        .iter()
+        .all(drawable)
+        .then(|| circles.map(circle).collect())
 }
 
-/// Returns the pinion of a rack. The coupling joins a turn to a slide across its axis.
-fn pinion_circle(
+/// Returns the circle of a pinion, and the line on which its rack rolls, from the rack's slide to beyond the point of contact. The coupling
+/// joins a turn to a slide across its axis.
+fn rack_and_pinion(
     drawn: &Kinematic<'_>,
     coupling: &Coupling,
     places: &[JointInSpace],
-) -> Option<Circle> {
-    let turn = coupling
-        .ends
-        .iter()
-        .position(|e| e.freedom == Freedom::Rz)?;
+) -> Option<Vec<PitchCurve>> {
+    let turns = |e: &CoupledFreedom| e.freedom == Freedom::Rz;
+    let turn = coupling.ends.iter().position(turns)?;
     let slide = 1 - turn;
     if coupling.ends[slide].freedom != Freedom::Tz {
         return None;
@@ -130,8 +136,21 @@ fn pinion_circle(
         drawn.end_place(coupling, turn, places)?,
         drawn.end_place(coupling, slide, places)?,
     ];
-    let ratio = coupling.ratio.to_f64().abs();
-    let radius = if turn == 0 { ratio } else { 1.0 / ratio };
+    let ratio = coupling.ratio.to_f64();
+    let travel = if turn == 0 { ratio } else { 1.0 / ratio };
+    let radius = travel.abs();
     let across = dot(pin.z, rack.z).abs() < 1e-6;
-    (across && radius.is_finite() && radius > 0.0).then_some((turn, pin.point, pin.z, radius))
+    if !(across && radius.is_finite() && radius > 0.0) {
+        return None;
+    }
+    let mut curves = vec![(turn, circle_points(pin.point, pin.z, radius))];
+    if let Some([first, second]) = gear_senses(drawn, coupling) {
+        // At the point of contact the pinion is as fast as the rack.
+        let arm = scale(cross(rack.z, pin.z), first * second * travel);
+        let contact = add(pin.point, arm);
+        let guide = dot(sub(rack.point, contact), rack.z);
+        let ends = [guide.min(-radius), guide.max(radius)];
+        curves.push((slide, ends.map(|x| add(contact, scale(rack.z, x))).to_vec()));
+    }
+    Some(curves)
 }

@@ -38,7 +38,7 @@ impl Kinematic<'_> {
         }
         out.extend(self.point_rows());
         let mut couplings = m.couplings_in(self.subject.state);
-        if couplings.any(|c| !self.pitch_circles(c, &self.places).is_empty()) {
+        if couplings.any(|c| !self.pitch_curves(c, &self.places).is_empty()) {
             let circle = Shape::circle("fine pitch", [0.0; 2], 9.0);
             let text = "pitch circle of a gear".to_owned();
             out.push((Swatch::Shapes(vec![circle]), text));

@@ -264,7 +264,7 @@ impl StructureData {
             symmetry => format!(", {{orbits_w1}} up to {symmetry} images"),
         };
         let template = format!(
-            "Drawn: links 1 : {{link_ratio}}, worst transmission angle {{transmission}}°, {{crossings}} crossings\n\
+            "Drawn: links 1 : {{link_ratio}}, {{crossings}} crossings\n\
              Determinate variants ({{certainty}}): {{determinate}}, of these {{determinate_w1}} with W = 1{images}\n\n"
         );
         fill_template(&template, layout)
@@ -282,8 +282,14 @@ impl StructureData {
             1 => "The first idea".to_owned(),
             n => format!("The {n} first ideas, symmetric ones before others"),
         };
+        // A determinate variant of mobility 1 adds freedoms to joints that are not driven, so the motion as built is its only one.
+        let keeps = if self.is_drawn() {
+            ""
+        } else {
+            "; each keeps the drive and the motion as built"
+        };
         let line = format!(
-            "{which}{found}; each represents {least}the given number of variants, and the first of these is exported:\n"
+            "{which}{found}{keeps}; each represents {least}the given number of variants, and the first of these is exported:\n"
         );
         let keys = "place | cost | variants | peak_force | peak_moment | changes";
         let row = |i: &Row| keys.split(" | ").map(|k| cell_of(i, k)).collect();

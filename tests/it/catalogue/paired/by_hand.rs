@@ -3,9 +3,9 @@
 use super::number;
 use crate::common::*;
 use ozols::chains::classics::known_classics;
-use ozols::synthesis::direction::WholeDirection;
 use ozols::synthesis::figures::{LayoutFigures, layout_figures};
 use ozols::synthesis::layout::{Layout, most_symmetric};
+use ozols::synthesis::place::direction::WholeDirection;
 use ozols::synthesis::places::{Places, Teeth};
 use ozols::synthesis::rules::Rules;
 use ozols::synthesis::sketch::Sketch;

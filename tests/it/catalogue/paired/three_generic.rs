@@ -8,7 +8,7 @@ use super::super::command::{cards_of, dump_catalogue, path_in, query_lines};
 use super::{Built, LAID, built, pulls_as_its_file_says, query_rows};
 use ozols::chains::sharing::Menu;
 use ozols::chains::{PairKind, structure::PairStructure};
-use ozols::synthesis::listed::generic_structures;
+use ozols::synthesis::structure::listed::generic_structures;
 
 const BUILD: &str = "catalog build --jaws 3 --symmetry generic --generic-pairs --quiet -o";
 

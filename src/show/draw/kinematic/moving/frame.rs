@@ -148,7 +148,7 @@ impl Kinematic<'_> {
             bodies: moving.map(body).collect(),
             lines: lines.iter().map(on_paper).collect(),
             circles: couplings
-                .flat_map(|c| self.pitch_circles(c, &places))
+                .flat_map(|c| self.pitch_curves(c, &places))
                 .collect(),
             places,
         }

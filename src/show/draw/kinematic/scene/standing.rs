@@ -80,16 +80,20 @@ impl Kinematic<'_> {
         }
     }
 
-    /// Adds the pitch circles of gears, each on the link that is not the frame.
+    /// Adds the pitch circles of gears and the pitch lines of racks, each on a link that moves.
     fn add_pitch_circles(&self, out: &mut Scene) {
         let m = self.subject.mechanism;
         for coupling in m.couplings_in(self.subject.state) {
-            for (end, circle) in self.pitch_circles_in_space(coupling, &self.places) {
-                let [a, b] = m.joints[coupling.ends[end].joint]
-                    .links
-                    .map(|l| self.link_row(l));
-                let link = if self.is_frame(self.links[a].0) { b } else { a };
-                out.add_wire(self, link, "fine pitch", "loop", &circle, None);
+            let other = |end: usize| m.joints[coupling.ends[1 - end].joint].links;
+            for (end, curve) in self.pitch_curves_in_space(coupling, &self.places) {
+                let own = m.joints[coupling.ends[end].joint].links.into_iter();
+                let moving = own.filter(|l| !self.is_frame(*l));
+                // The carrier of both joints is the last choice.
+                let Some(link) = moving.min_by_key(|l| other(end).contains(l)) else {
+                    continue;
+                };
+                let row = self.link_row(link);
+                out.add_wire(self, row, "fine pitch", "loop", &curve, None);
             }
         }
     }

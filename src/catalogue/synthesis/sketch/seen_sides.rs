@@ -2,8 +2,8 @@
 //! moved points are evaluated again.
 
 use crate::geom::vector::{cross_plane, dot, length, sub};
-use crate::synthesis::bones::Bones;
 use crate::synthesis::place::Point;
+use crate::synthesis::sketch::bones::Bones;
 use crate::synthesis::task::beyond_limit;
 use itertools::Itertools;
 
@@ -178,7 +178,11 @@ impl SeenSides {
     ///
     /// # Complexity
     /// O(s·(c + m) + p·c) for s sides, of which c have moved, and p points, of which m have.
-    pub(super) fn crossing_cost(&mut self, bones: &Bones, at: &[Point]) -> (usize, f64) {
+    pub(in crate::synthesis) fn crossing_cost(
+        &mut self,
+        bones: &Bones,
+        at: &[Point],
+    ) -> (usize, f64) {
         let moved = self.seen.each_ref().map(|seen| seen.moved_points(at));
         let nearer = usize::from(moved[1].count_ones() < moved[0].count_ones());
         self.seen.swap(1, nearer);

@@ -1,14 +1,14 @@
 //! Figures by which a layout is judged: its drawing and its motion.
 
 use crate::geom::vector::{cross_plane, dot, length, sub};
-use crate::synthesis::bones::Bones;
+use crate::synthesis::equations::velocities::Velocity;
 use crate::synthesis::place::Point;
-use crate::synthesis::seen_sides::{LinkSide, SeenSides};
+use crate::synthesis::sketch::bones::Bones;
+use crate::synthesis::sketch::seen_sides::{LinkSide, SeenSides};
 use crate::synthesis::task::{Limits, beyond_limit};
-use crate::synthesis::velocities::Velocity;
 
 /// Cost of a broken limit, if only limits and one figure count.
-pub(super) const DEAR: f64 = 50.0;
+pub(in crate::synthesis) const DEAR: f64 = 50.0;
 /// Links longer than this are long, and links shorter than `SHORT` are short. In millimetres.
 const LONG: f64 = 75.0;
 const SHORT: f64 = 18.0;
@@ -29,7 +29,7 @@ pub struct Looks {
 
 impl Looks {
     /// Returns true if the drawing keeps the limits. More crossings are accepted if the links pass each other in separate layers.
-    pub(super) fn keep_limits(&self, limits: &Limits, passes: bool) -> bool {
+    pub(in crate::synthesis) fn keep_limits(&self, limits: &Limits, passes: bool) -> bool {
         self.ratio <= limits.ratio && (self.crossings <= limits.crossings || passes)
     }
 }
@@ -38,10 +38,10 @@ impl Looks {
 const ALIGNED: f64 = 2.5;
 
 /// Figures of the motion of a layout.
-pub(super) struct LayoutMotion {
+pub(in crate::synthesis) struct LayoutMotion {
     closing: f64,
     tips: Vec<Point>,
-    pub(super) penalty: f64,
+    pub(in crate::synthesis) penalty: f64,
 }
 
 /// Figures of points: pins, then tips.
@@ -51,7 +51,7 @@ impl Bones {
     ///
     /// # Complexity
     /// O(p²) for p points.
-    pub(super) fn place_penalty(
+    pub(in crate::synthesis) fn place_penalty(
         &self,
         at: &[Point],
         most: f64,
@@ -69,7 +69,11 @@ impl Bones {
     ///
     /// # Complexity
     /// As [`Bones::place_penalty`].
-    pub(super) fn drawn_figures(&self, at: &[Point], motion: LayoutMotion) -> Option<Looks> {
+    pub(in crate::synthesis) fn drawn_figures(
+        &self,
+        at: &[Point],
+        motion: LayoutMotion,
+    ) -> Option<Looks> {
         let mut seen = SeenSides::default();
         Some(Looks {
             crossings: seen.crossing_cost(self, at).0,
@@ -125,7 +129,7 @@ impl Bones {
     }
 
     /// Writes the sides of all moving links to `out`, link by link.
-    pub(super) fn link_sides(&self, at: &[Point], out: &mut Vec<LinkSide>) {
+    pub(in crate::synthesis) fn link_sides(&self, at: &[Point], out: &mut Vec<LinkSide>) {
         out.clear();
         let moving = self.of_link.iter().enumerate();
         for (link, points) in moving.filter(|(l, _)| *l != self.frame) {
@@ -175,7 +179,7 @@ impl Bones {
     }
 
     /// Returns how far the tips are drawn ahead of all joints; infinite if the part is not ahead.
-    pub(super) fn tip_reach(&self, at: &[Point]) -> f64 {
+    pub(in crate::synthesis) fn tip_reach(&self, at: &[Point]) -> f64 {
         if self.round.is_some() {
             return f64::INFINITY;
         }
@@ -188,7 +192,12 @@ impl Bones {
     ///
     /// # Complexity
     /// As [`Bones::place_penalty`].
-    pub(super) fn broken_limits(&self, at: &[Point], limits: &Limits, seen: &mut SeenSides) -> f64 {
+    pub(in crate::synthesis) fn broken_limits(
+        &self,
+        at: &[Point],
+        limits: &Limits,
+        seen: &mut SeenSides,
+    ) -> f64 {
         let (ratio, _) = self.length_cost(at);
         let (count, crossings) = seen.crossing_cost(self, at);
         let over = count.saturating_sub(limits.crossings);
@@ -198,7 +207,7 @@ impl Bones {
     }
 
     /// Returns the figures of the motion for a unit speed of the driver, with their cost if each jaw needs a least force.
-    pub(super) fn motion_cost(
+    pub(in crate::synthesis) fn motion_cost(
         &self,
         at: &[Point],
         velocities: &[Velocity],
@@ -251,12 +260,12 @@ impl Bones {
 }
 
 /// Returns the angle of up to 90° with this sine, in degrees.
-pub(super) fn angle_degrees(sine: f64) -> f64 {
+pub(in crate::synthesis) fn angle_degrees(sine: f64) -> f64 {
     sine.asin().to_degrees()
 }
 
 /// Returns the sine of the transmission angle of a rod: between the rod and the normal to the velocity of its faster end.
-pub(super) fn transmission_sine(velocity: &Velocity, [a, b]: [Point; 2]) -> f64 {
+pub(in crate::synthesis) fn transmission_sine(velocity: &Velocity, [a, b]: [Point; 2]) -> f64 {
     let along = sub(b, a);
     let (va, vb) = (velocity.velocity_at(a), velocity.velocity_at(b));
     let speed = length(va).max(length(vb));

@@ -22,7 +22,7 @@ const QUARTER: [[i32; 3]; 15] = [
 ];
 
 /// Number of directions in one turn.
-pub(super) const ALL: usize = 4 * QUARTER.len();
+pub(in crate::synthesis) const ALL: usize = 4 * QUARTER.len();
 
 /// Direction whose coordinates and length are whole: the sides of a right triangle. It may be turned by thirds of a turn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -51,7 +51,7 @@ impl WholeDirection {
 
     /// Returns the direction turned counterclockwise by this many thirds of a turn.
     #[must_use]
-    pub(super) fn turned_by_thirds(self, by: u8) -> WholeDirection {
+    pub(in crate::synthesis) fn turned_by_thirds(self, by: u8) -> WholeDirection {
         WholeDirection::of(self.number, (self.thirds + by) % 3)
     }
 
@@ -100,7 +100,7 @@ impl WholeDirection {
     ///
     /// # Examples
     /// ```
-    /// use ozols::synthesis::direction::WholeDirection;
+    /// use ozols::synthesis::place::direction::WholeDirection;
     /// assert_eq!(WholeDirection::AHEAD.real(), [1.0, 0.0]);
     /// assert_eq!(WholeDirection::ACROSS.reverse_direction().real(), [0.0, -1.0]);
     /// ```

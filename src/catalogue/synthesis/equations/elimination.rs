@@ -54,13 +54,10 @@ impl SmallSystem {
         most.into_iter().fold(0.0, f64::max)
     }
 
-    /// Solves for all right sides by elimination with partial pivoting, and returns the sign of the determinant. `None` if a pivot is
-    /// negligible compared with the largest entry.
-    ///
-    /// # Complexity
-    /// O(n³) for n unknowns.
-    pub fn solve_all(&mut self) -> Option<f64> {
-        let (n, w) = (self.size, self.width);
+    /// Brings the rows to triangular form, and returns the sign of the determinant. `W` is the row stride, for which loops are unrolled,
+    /// or 0 for any.
+    fn eliminate_below<const W: usize>(&mut self) -> Option<f64> {
+        let (n, w) = (self.size, if W == 0 { self.width } else { W });
         let least = 1e-12 * self.largest_entry();
         let mut sign = 1.0;
         for c in 0..n {
@@ -80,7 +77,7 @@ impl SmallSystem {
             let own = &above[c * w..];
             sign *= own[c].signum();
             // Entries before the next column are not read again, and may change with their neighbours.
-            let begin = (c + 1) / LANES * LANES;
+            let begin = if W == 0 { (c + 1) / LANES * LANES } else { 0 };
             let inverse = 1.0 / own[c];
             let (lanes, _) = own[begin..].as_chunks::<LANES>();
             for row in below.chunks_exact_mut(w) {
@@ -93,6 +90,22 @@ impl SmallSystem {
                 }
             }
         }
+        Some(sign)
+    }
+
+    /// Solves for all right sides by elimination with partial pivoting, and returns the sign of the determinant. `None` if a pivot is
+    /// negligible compared with the largest entry.
+    ///
+    /// # Complexity
+    /// O(n³) for n unknowns.
+    pub fn solve_all(&mut self) -> Option<f64> {
+        let sign = match self.width {
+            4 => self.eliminate_below::<4>(),
+            8 => self.eliminate_below::<8>(),
+            12 => self.eliminate_below::<12>(),
+            _ => self.eliminate_below::<0>(),
+        }?;
+        let (n, w) = (self.size, self.width);
         for c in (0..n).rev() {
             let (above, own) = self.entries.split_at_mut(c * w);
             for side in n..n + self.sides {

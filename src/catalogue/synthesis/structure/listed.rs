@@ -18,7 +18,7 @@ use std::sync::{Mutex, PoisonError};
 ///
 /// # Examples
 /// ```
-/// use ozols::{chains::sharing::Menu, synthesis::listed::symmetric_structures};
+/// use ozols::{chains::sharing::Menu, synthesis::structure::listed::symmetric_structures};
 /// let all = symmetric_structures(6, Menu { kinds: &[], most: 0 });
 /// // An id each.
 /// let ids: std::collections::BTreeSet<String> = all.iter().map(|s| s.id()).collect();

@@ -2,15 +2,15 @@
 
 use crate::chains::PairKind;
 use crate::geom::vector::{length, sub};
-use crate::synthesis::bones::Bones;
-use crate::synthesis::direction::{self, WholeDirection};
 use crate::synthesis::equations::solve_velocities;
+use crate::synthesis::equations::velocities::Velocity;
 use crate::synthesis::place::Point;
+use crate::synthesis::place::direction::{self, WholeDirection};
 use crate::synthesis::places::{Places, Teeth};
 use crate::synthesis::rules::Rule;
 use crate::synthesis::sketch::Sketch;
+use crate::synthesis::sketch::bones::Bones;
 use crate::synthesis::task::outward_vectors;
-use crate::synthesis::velocities::Velocity;
 use crate::synthesis::{random_below, random_normal, random_unit};
 use chacha20::ChaCha8Rng;
 use std::borrow::Cow;
@@ -93,7 +93,7 @@ impl Sketch<'_> {
     }
 
     /// Returns the link that has the pin or the block of a joint; `None` for a joint that has no point on its links.
-    pub(super) fn link_of(&self, at: &Places, joint: usize) -> Option<usize> {
+    pub(in crate::synthesis) fn link_of(&self, at: &Places, joint: usize) -> Option<usize> {
         match self.rules.joints[joint].pair {
             PairKind::Slot => Some(at.pinned[joint]),
             _ => self.bones.joints[joint].map(|[link, _]| link),
@@ -101,7 +101,12 @@ impl Sketch<'_> {
     }
 
     /// Calls `take` with every place of a point: on one side, or on all sides of three.
-    pub(super) fn each_copy(&self, point: usize, at: Point, take: &mut dyn FnMut(Point)) {
+    pub(in crate::synthesis) fn each_copy(
+        &self,
+        point: usize,
+        at: Point,
+        take: &mut dyn FnMut(Point),
+    ) {
         match &self.around {
             None => take(at),
             Some(around) => around.each_place(point, at, take),
@@ -110,7 +115,11 @@ impl Sketch<'_> {
 
     /// Calls `take` with every pitch circle: the joint at its centre, its radius in mm, and a flag. The flag is false if its gear meshes
     /// with one in the half of the other jaw.
-    pub(super) fn each_circle(&self, at: &Places, take: &mut dyn FnMut(usize, f64, bool)) {
+    pub(in crate::synthesis) fn each_circle(
+        &self,
+        at: &Places,
+        take: &mut dyn FnMut(usize, f64, bool),
+    ) {
         let meshes = self.rules.meshes.iter().enumerate();
         if self.rules.threaded {
             return;
@@ -125,7 +134,7 @@ impl Sketch<'_> {
     }
 
     /// Returns the cost below which places are taken without a search for better ones.
-    pub(super) fn good_cost(&self) -> f64 {
+    pub(in crate::synthesis) fn good_cost(&self) -> f64 {
         if self.structure.form.hinges {
             GOOD_HINGES
         } else {
@@ -134,7 +143,10 @@ impl Sketch<'_> {
     }
 
     /// Returns all points that are drawn, and the bones that they belong to.
-    pub(super) fn drawn_points<'p>(&'p self, at: &'p Places) -> (Cow<'p, [Point]>, &'p Bones) {
+    pub(in crate::synthesis) fn drawn_points<'p>(
+        &'p self,
+        at: &'p Places,
+    ) -> (Cow<'p, [Point]>, &'p Bones) {
         match &self.around {
             None => (Cow::Borrowed(&at.points), &self.bones),
             Some(around) => (Cow::Owned(around.all_points(&at.points)), &around.bones),
@@ -169,7 +181,12 @@ impl Sketch<'_> {
     }
 
     /// Moves places at random, by how warm the search still is: 1 at first, 0 at its end.
-    pub(super) fn change_places(&self, at: &mut Places, warmth: f64, random: &mut ChaCha8Rng) {
+    pub(in crate::synthesis) fn change_places(
+        &self,
+        at: &mut Places,
+        warmth: f64,
+        random: &mut ChaCha8Rng,
+    ) {
         let movable = self.rules.movable_joints().count();
         let Some(joint) = self
             .rules
@@ -225,8 +242,8 @@ impl Sketch<'_> {
 #[cfg(test)]
 mod tests {
     use crate::synthesis::random_for;
-    use crate::synthesis::seen_sides::SeenSides;
     use crate::synthesis::sketch::each_classic;
+    use crate::synthesis::sketch::seen_sides::SeenSides;
 
     /// Places that cost more than the bound have no cost, whether joints or pitch circles cause it.
     #[test]

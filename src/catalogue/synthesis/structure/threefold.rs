@@ -11,9 +11,9 @@ use crate::chains::chain::{Chain, Joint, order_links};
 use crate::chains::roles::Roles;
 use crate::chains::structure::PairStructure;
 use crate::chains::{PairKind, Symmetry};
-use crate::synthesis::bones::{BonePlan, Bones};
 use crate::synthesis::place::{Pivot, Point, third};
 use crate::synthesis::rules::Rules;
+use crate::synthesis::sketch::bones::{BonePlan, Bones};
 use crate::synthesis::structure::{Sides, Structure};
 use petgraph::unionfind::UnionFind;
 
@@ -81,7 +81,7 @@ impl Structure {
     }
 
     /// Returns the axis about which the sides are turned.
-    pub(super) fn turn_axis(&self) -> Pivot {
+    pub(in crate::synthesis) fn turn_axis(&self) -> Pivot {
         if self.is_axial() {
             Pivot::Ahead
         } else {
@@ -151,8 +151,8 @@ impl Structure {
 
 /// All three sides as drawn.
 #[derive(Debug, Clone)]
-pub(super) struct Around {
-    pub(super) bones: Bones,
+pub(in crate::synthesis) struct Around {
+    pub(in crate::synthesis) bones: Bones,
     /// For each point, the point of two sides that it is made of, and its number of turns by 120°.
     made: Vec<(usize, usize)>,
     /// For each point of two sides, its number of copies.
@@ -160,7 +160,7 @@ pub(super) struct Around {
 }
 
 impl Around {
-    pub(super) fn new(structure: &Structure, rules: &Rules, two: &Bones) -> Around {
+    pub(in crate::synthesis) fn new(structure: &Structure, rules: &Rules, two: &Bones) -> Around {
         let mut made = Vec::new();
         let mut joints = Vec::new();
         let mut copies: Vec<usize> = rules
@@ -207,13 +207,18 @@ impl Around {
     }
 
     /// Returns the places of all points.
-    pub(super) fn all_points(&self, two: &[Point]) -> Vec<Point> {
+    pub(in crate::synthesis) fn all_points(&self, two: &[Point]) -> Vec<Point> {
         let turned = |&(of, side): &(usize, usize)| (0..side).fold(two[of], |p, _| third(p));
         self.made.iter().map(turned).collect()
     }
 
     /// Calls `take` with every place of a point of two sides.
-    pub(super) fn each_place(&self, point: usize, at: Point, take: &mut dyn FnMut(Point)) {
+    pub(in crate::synthesis) fn each_place(
+        &self,
+        point: usize,
+        at: Point,
+        take: &mut dyn FnMut(Point),
+    ) {
         let mut now = at;
         for _ in 0..self.copies[point] {
             take(now);

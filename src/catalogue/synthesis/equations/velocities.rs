@@ -6,7 +6,7 @@
 use crate::chains::Input;
 use crate::closure::tree::{TreeStep, spanning_forest};
 use crate::geom::vector::{add_scaled, quarter_turn, sub};
-use crate::synthesis::elimination::SmallSystem;
+use crate::synthesis::equations::elimination::SmallSystem;
 use crate::synthesis::structure::Structure;
 
 /// Velocity of a link: its angular velocity, and the velocity of its point at the origin.
@@ -28,28 +28,28 @@ impl Velocity {
 
 /// A link of a contour, and the points at which the contour leaves it and enters it.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Side {
-    pub(super) link: usize,
-    pub(super) leaves: usize,
-    pub(super) comes: usize,
+pub(in crate::synthesis) struct Side {
+    pub(in crate::synthesis) link: usize,
+    pub(in crate::synthesis) leaves: usize,
+    pub(in crate::synthesis) comes: usize,
 }
 
 /// Connections of the links of a structure, as their velocities need them.
 #[derive(Debug, Clone)]
 pub struct Contours {
     links: usize,
-    pub(super) driver: usize,
-    pub(super) input: Input,
+    pub(in crate::synthesis) driver: usize,
+    pub(in crate::synthesis) input: Input,
     /// Links in the order they are reached from the frame.
-    pub(super) tree: Vec<TreeStep<usize, usize>>,
+    pub(in crate::synthesis) tree: Vec<TreeStep<usize, usize>>,
     /// For each contour, its two paths from the frame, without the links they share.
-    pub(super) contours: Vec<[Vec<Side>; 2]>,
+    pub(in crate::synthesis) contours: Vec<[Vec<Side>; 2]>,
     /// The pin in which the two paths of each contour meet. The first path comes by its first link, the second by its second.
-    pub(super) cuts: Vec<usize>,
+    pub(in crate::synthesis) cuts: Vec<usize>,
     /// For each jaw, its path from the frame to the tip.
-    pub(super) tips: Vec<Vec<Side>>,
+    pub(in crate::synthesis) tips: Vec<Vec<Side>>,
     /// The index of each link's angular velocity among the unknowns; those of frame and driver are known.
-    pub(super) unknown: Vec<Option<usize>>,
+    pub(in crate::synthesis) unknown: Vec<Option<usize>>,
 }
 
 /// Returns the sides of a path from the frame to a point of its last link. Each link of the path comes with the pin by which it is reached.

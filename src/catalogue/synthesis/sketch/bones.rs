@@ -56,22 +56,22 @@ pub struct Bones {
 
 /// Input for [`Bones`]: the roles of the links, and rules for the places of the joints.
 #[derive(Debug, Clone)]
-pub(super) struct BonePlan<'a> {
-    pub(super) frame: usize,
-    pub(super) driver: usize,
-    pub(super) jaws: &'a [usize],
+pub(in crate::synthesis) struct BonePlan<'a> {
+    pub(in crate::synthesis) frame: usize,
+    pub(in crate::synthesis) driver: usize,
+    pub(in crate::synthesis) jaws: &'a [usize],
     /// The links of each joint that has a point on both.
-    pub(super) joints: Vec<Option<[usize; 2]>>,
-    pub(super) follows: Vec<bool>,
-    pub(super) tips: Vec<Point>,
-    pub(super) turns: bool,
-    pub(super) hinged: Vec<bool>,
-    pub(super) round: Option<f64>,
-    pub(super) wished: [f64; 2],
+    pub(in crate::synthesis) joints: Vec<Option<[usize; 2]>>,
+    pub(in crate::synthesis) follows: Vec<bool>,
+    pub(in crate::synthesis) tips: Vec<Point>,
+    pub(in crate::synthesis) turns: bool,
+    pub(in crate::synthesis) hinged: Vec<bool>,
+    pub(in crate::synthesis) round: Option<f64>,
+    pub(in crate::synthesis) wished: [f64; 2],
     /// Sets of joints that are on one axis, as bits.
-    pub(super) together: Vec<u32>,
+    pub(in crate::synthesis) together: Vec<u32>,
     /// The links of a drive that slides between two moving links.
-    pub(super) cylinder: Option<[usize; 2]>,
+    pub(in crate::synthesis) cylinder: Option<[usize; 2]>,
 }
 
 /// Returns the number of joints on a shortest path from a link to every link; infinite if there is no path.
@@ -120,7 +120,11 @@ fn joint_halves(links: usize, plan: &BonePlan<'_>) -> Vec<f64> {
 
 impl Bones {
     /// Creates the points of `links` links. Links for which `pinned` returns true can be rods.
-    pub(super) fn new(links: usize, plan: BonePlan<'_>, pinned: impl Fn(usize) -> bool) -> Bones {
+    pub(in crate::synthesis) fn new(
+        links: usize,
+        plan: BonePlan<'_>,
+        pinned: impl Fn(usize) -> bool,
+    ) -> Bones {
         let mut of_link = vec![Vec::new(); links];
         for (i, ends) in plan.joints.iter().enumerate() {
             for &link in ends.iter().flatten() {
@@ -183,7 +187,7 @@ impl Bones {
     /// Returns the unit vector away from the part at each jaw, divided by the number of pairs of jaws. The displacements of the tips along
     /// these vectors add up to the opening.
     #[must_use]
-    pub(super) fn apart_vectors(&self) -> Vec<Point> {
+    pub(in crate::synthesis) fn apart_vectors(&self) -> Vec<Point> {
         #[allow(clippy::cast_precision_loss, reason = "two or three")]
         let pairs = self.inward.len() as f64 / 2.0;
         let inward = self.inward.iter();
@@ -209,7 +213,7 @@ impl Bones {
 
     /// Returns random places to begin with: each joint between its two links, then the tips. Each link is ahead in proportion to its
     /// distance in joints from frame and jaws.
-    pub(super) fn first_places(
+    pub(in crate::synthesis) fn first_places(
         &self,
         joints: Vec<[usize; 2]>,
         random: &mut ChaCha8Rng,

@@ -2,10 +2,10 @@
 
 use crate::chains::PairKind;
 use crate::geom::vector::{add_scaled, dot, length, sub};
-use crate::synthesis::elimination::SmallSystem;
+use crate::synthesis::equations::elimination::SmallSystem;
 use crate::synthesis::equations::place_of;
+use crate::synthesis::equations::rows::{PoseRows, TeethSeen, Term};
 use crate::synthesis::places::Places;
-use crate::synthesis::rows::{PoseRows, TeethSeen, Term};
 use crate::synthesis::sketch::Sketch;
 use crate::synthesis::stroke::forces::{ForceFigures, JointForce};
 use crate::synthesis::stroke::pose::LinkPose;
@@ -16,7 +16,7 @@ use crate::synthesis::stroke::walk::RADIAN;
 ///
 /// # Complexity
 /// O(n³) for n links.
-pub(super) fn joint_forces(
+pub(in crate::synthesis) fn joint_forces(
     sketch: &Sketch<'_>,
     at: &Places,
     links: &[LinkPose],
@@ -85,7 +85,7 @@ impl Equilibrium {
 }
 
 /// Returns the figures of the joint forces, with the velocities of the links for a millimetre of the width.
-pub(super) fn force_figures(
+pub(in crate::synthesis) fn force_figures(
     sketch: &Sketch<'_>,
     at: &Places,
     links: &[LinkPose],

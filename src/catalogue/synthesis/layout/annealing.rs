@@ -1,9 +1,9 @@
 //! Search for a place for every joint by simulated annealing. [Kirkpatrick, Gelatt & Vecchi 1983]
 
-use crate::synthesis::layout_quality::Looks;
 use crate::synthesis::places::Places;
-use crate::synthesis::seen_sides::SeenSides;
 use crate::synthesis::sketch::Sketch;
+use crate::synthesis::sketch::layout_quality::Looks;
+use crate::synthesis::sketch::seen_sides::SeenSides;
 use crate::synthesis::stroke::judge::Judge;
 use crate::synthesis::stroke::planes::Stacking;
 use crate::synthesis::task::Aim;
@@ -12,20 +12,18 @@ use chacha20::ChaCha8Rng;
 use std::cmp::Ordering;
 
 /// Places at the end of a start.
-pub(super) struct FoundPlaces {
+pub(in crate::synthesis) struct FoundPlaces {
     /// Whether the drawing keeps the limits, or links that cross pass each other in separate layers.
-    pub(super) within: bool,
+    pub(in crate::synthesis) within: bool,
     /// Whether the stroke fulfils the task.
     does: bool,
     /// Whether links collide in every assignment of layers.
     meets: bool,
-    pub(super) looks: Looks,
+    pub(in crate::synthesis) looks: Looks,
     /// Cost of the drawn pose and the stroke.
-    pub(super) cost: f64,
-    pub(super) at: Places,
-    pub(super) start: u32,
-    /// Whether the search was abandoned before its end.
-    given_up: bool,
+    pub(in crate::synthesis) cost: f64,
+    pub(in crate::synthesis) at: Places,
+    pub(in crate::synthesis) start: u32,
 }
 
 impl FoundPlaces {
@@ -42,59 +40,59 @@ impl FoundPlaces {
     }
 
     /// Returns true if no better places need be searched for.
-    pub(super) fn are_good(&self, sketch: &Sketch<'_>) -> bool {
+    pub(in crate::synthesis) fn are_good(&self, sketch: &Sketch<'_>) -> bool {
         let enough = sketch.limits.task.aim == Aim::Balanced && self.cost < sketch.good_cost();
         self.will_do() && enough
     }
 
     /// Returns true if they are better than `best`, or if `best` is `None`.
-    pub(super) fn is_better_than(&self, best: Option<&FoundPlaces>) -> bool {
+    pub(in crate::synthesis) fn is_better_than(&self, best: Option<&FoundPlaces>) -> bool {
         best.is_none_or(|b| self.compare_places(b).is_lt())
     }
 }
 
 /// Maximum number of starts of a search for places, for each lay.
-pub(super) const STARTS: u32 = 12;
+pub(in crate::synthesis) const STARTS: u32 = 12;
 /// Number of best starts that are completed if none becomes good. More are completed if none of these keeps the limits of the drawing.
 const TO_THE_END: usize = 4;
 
 /// Returns the best places of some starts of a structure of this name; `None` if all end in singular poses.
 ///
-/// The first good places are enough. Starts that lag behind are abandoned. If none becomes good, the best are completed until one fulfils
-/// the task and can be built.
-pub(super) fn best_of_starts<'a>(
+/// The first good places are enough. Starts that lag behind are paused. If none becomes good, the best go on until one fulfils the task and can
+/// be built.
+pub(in crate::synthesis) fn best_of_starts<'a>(
     sketch: &Sketch<'a>,
     judge: &mut Judge<'a>,
     name: &str,
     seed: u64,
     first: u32,
 ) -> Option<FoundPlaces> {
-    let mut search = |start, patience| {
-        let random = random_for(name, seed, start);
-        search_from(sketch, judge, random, start, patience)
-    };
-    let patience = match sketch.limits.task.aim {
-        Aim::Balanced => Patience::Racing,
-        Aim::Force => Patience::Whole,
-    };
+    let aim = sketch.limits.task.aim;
     let mut raced = Vec::new();
-    for found in (first..first + STARTS).filter_map(|start| search(start, patience)) {
+    for start in first..first + STARTS {
+        let mut search = Annealing::new(sketch, random_for(name, seed, start), start);
+        search.advance(judge, aim == Aim::Balanced);
+        let Some(found) = search.judge_places(judge) else {
+            continue;
+        };
         if found.are_good(sketch) {
             return Some(found);
         }
-        raced.push(found);
+        raced.push((found, search));
     }
-    raced.sort_by(FoundPlaces::compare_places);
+    raced.sort_by(|(a, _), (b, _)| a.compare_places(b));
     let mut best: Option<FoundPlaces> = None;
-    for (n, found) in raced.into_iter().enumerate() {
+    for (n, (mut found, mut search)) in raced.into_iter().enumerate() {
         if n >= TO_THE_END && best.as_ref().is_some_and(|b| b.within) {
             break;
         }
-        let start = found.start;
-        let ended = Some(found).filter(|found| !found.given_up);
-        let Some(found) = ended.or_else(|| search(start, Patience::Whole)) else {
-            continue;
-        };
+        if search.paused {
+            search.advance(judge, false);
+            let Some(ended) = search.judge_places(judge) else {
+                continue;
+            };
+            found = ended;
+        }
         let will_do = found.will_do();
         if found.is_better_than(best.as_ref()) {
             best = Some(found);
@@ -104,52 +102,6 @@ pub(super) fn best_of_starts<'a>(
         }
     }
     best
-}
-
-/// Whether starts that lag behind are abandoned.
-#[derive(Debug, Clone, Copy, PartialEq)]
-enum Patience {
-    Racing,
-    Whole,
-}
-
-/// Searches for places from one start; `None` if the search ends in a singular pose.
-fn search_from<'a>(
-    sketch: &Sketch<'a>,
-    judge: &mut Judge<'a>,
-    random: ChaCha8Rng,
-    start: u32,
-    patience: Patience,
-) -> Option<FoundPlaces> {
-    let (at, given_up) = anneal_start(sketch, judge, random, start, patience);
-    let looks = sketch.drawn_figures(&at)?;
-    // An abandoned start is judged by some poses only, and its layers are not checked.
-    let stroke = if given_up {
-        judge.coarse_figures(&at, f64::INFINITY)
-    } else {
-        judge.watch_meetings();
-        judge.fine_figures(&at)
-    };
-    let (stroke, stacking) = (stroke?, judge.find_stacking());
-    let limits = &sketch.limits;
-    Some(FoundPlaces {
-        cost: match limits.task.aim {
-            Aim::Balanced => looks.penalty + limits.stroke_cost(&stroke),
-            Aim::Force => {
-                sketch.broken_cost(&at, &mut SeenSides::default())
-                    + limits.force_cost(&stroke, WITHIN)
-            }
-        },
-        does: limits
-            .find_shortfall(&stroke, sketch.bones.all_swing())
-            .is_none(),
-        within: looks.keep_limits(limits, stacking.is_known()),
-        meets: stacking == Stacking::Meets,
-        looks,
-        at,
-        start,
-        given_up,
-    })
 }
 
 /// Subject of the evaluation in a phase of the search.
@@ -188,7 +140,7 @@ const PHASES: [Phase; 3] = [
     },
 ];
 
-/// Thresholds for abandoning a start: a number of moves that evaluate strokes, and the lowest cost after them over the cost of good places.
+/// Thresholds for pausing a start: a number of moves that evaluate strokes, and the lowest cost after them over the cost of good places.
 /// Few starts beyond a threshold become good: one in twelve for hinged structures.
 const LAGGING: [(usize, f64); 4] = [(50, 7.0), (100, 4.0), (150, 3.0), (200, 2.0)];
 
@@ -210,10 +162,10 @@ const FOR_FORCE: [Phase; 2] = [
 ];
 
 /// Search for places from one start.
-struct Annealing<'s, 'j, 'a> {
+struct Annealing<'s, 'a> {
     sketch: &'s Sketch<'a>,
-    judge: &'j mut Judge<'a>,
     random: ChaCha8Rng,
+    start: u32,
     /// The current places, their cost, and the places before the last move.
     at: Places,
     now: f64,
@@ -221,35 +173,73 @@ struct Annealing<'s, 'j, 'a> {
     seen: SeenSides,
     /// The cheapest places of the phase.
     best: (f64, Places),
-    given_up: bool,
+    /// The phase in which the search goes on, and the number of its moves so far.
+    phase: usize,
+    step: usize,
+    /// Whether the search waits for others, and can go on.
+    paused: bool,
 }
 
-impl<'s, 'j, 'a> Annealing<'s, 'j, 'a> {
-    fn new(sketch: &'s Sketch<'a>, judge: &'j mut Judge<'a>, mut random: ChaCha8Rng) -> Self {
+impl<'s, 'a> Annealing<'s, 'a> {
+    fn new(sketch: &'s Sketch<'a>, mut random: ChaCha8Rng, start: u32) -> Self {
         let at = sketch.first_places(&mut random);
         Annealing {
             before: at.clone(),
             seen: SeenSides::default(),
             best: (f64::INFINITY, at.clone()),
-            given_up: false,
+            phase: 0,
+            step: 0,
+            paused: false,
             now: f64::INFINITY,
+            start,
             sketch,
-            judge,
             random,
             at,
         }
     }
 
+    /// Returns the places found so far; `None` if their pose is singular.
+    fn judge_places(&self, judge: &mut Judge<'a>) -> Option<FoundPlaces> {
+        let (sketch, at) = (self.sketch, self.best.1.clone());
+        let looks = sketch.drawn_figures(&at)?;
+        // A paused start is judged by some poses only, and its layers are not checked.
+        let stroke = if self.paused {
+            judge.coarse_figures(&at, f64::INFINITY)
+        } else {
+            judge.watch_meetings();
+            judge.fine_figures(&at)
+        };
+        let (stroke, stacking) = (stroke?, judge.find_stacking());
+        let limits = &sketch.limits;
+        Some(FoundPlaces {
+            cost: match limits.task.aim {
+                Aim::Balanced => looks.penalty + limits.stroke_cost(&stroke),
+                Aim::Force => {
+                    sketch.broken_cost(&at, &mut SeenSides::default())
+                        + limits.force_cost(&stroke, WITHIN)
+                }
+            },
+            does: limits
+                .find_shortfall(&stroke, sketch.bones.all_swing())
+                .is_none(),
+            within: looks.keep_limits(limits, stacking.is_known()),
+            meets: stacking == Stacking::Meets,
+            looks,
+            at,
+            start: self.start,
+        })
+    }
+
     /// Returns the cost of the places; `None` if it is more than `most`, or if the pose is singular.
-    fn place_cost(&mut self, look: Look, most: f64) -> Option<f64> {
+    fn place_cost(&mut self, judge: &mut Judge<'a>, look: Look, most: f64) -> Option<f64> {
         if let Look::Force(slack) = look {
             let drawn = self.sketch.broken_cost(&self.at, &mut self.seen);
             let limits = self.sketch.limits;
-            let stroke = self.judge.coarse_figures(&self.at, f64::INFINITY)?;
+            let stroke = judge.coarse_figures(&self.at, f64::INFINITY)?;
             let mut all = drawn + limits.force_cost(&stroke, slack);
             // Places that seem good enough at some poses are also checked between them.
             if all <= most && slack <= WITHIN {
-                all = drawn + limits.force_cost(&self.judge.fine_figures(&self.at)?, slack);
+                all = drawn + limits.force_cost(&judge.fine_figures(&self.at)?, slack);
             }
             return (all <= most).then_some(all);
         }
@@ -258,63 +248,80 @@ impl<'s, 'j, 'a> Annealing<'s, 'j, 'a> {
         if look != Look::Stroke {
             return Some(drawn);
         }
-        let stroke = self.judge.coarse_figures(&self.at, most - drawn)?;
+        let stroke = judge.coarse_figures(&self.at, most - drawn)?;
         let all = drawn + self.sketch.limits.stroke_cost(&stroke);
         (all <= most).then_some(all)
     }
 
     /// Returns true if the search may end with these places. They are the cheapest so far, their stroke costs little, and they fulfil the
     /// task at all its poses.
-    fn is_good(&mut self, look: Look) -> bool {
+    fn is_good(&self, judge: &mut Judge<'a>, look: Look) -> bool {
         if look != Look::Stroke || self.now >= self.sketch.good_cost() {
             return false;
         }
-        let stroke = self.judge.fine_figures(&self.at);
+        let stroke = judge.fine_figures(&self.at);
         let swings = self.sketch.bones.all_swing();
         stroke.is_some_and(|f| self.sketch.limits.find_shortfall(&f, swings).is_none())
     }
 
-    /// Returns true if the start is abandoned after this many moves that evaluate strokes, because its lowest cost is still too high.
-    fn is_lagging(&self, moves: usize) -> bool {
-        let bound = LAGGING.iter().find(|(after, _)| *after == moves);
+    /// Returns true if the lowest cost is still too high after so many moves that evaluate strokes.
+    fn is_lagging(&self) -> bool {
+        let bound = LAGGING.iter().find(|(after, _)| *after == self.step);
         bound.is_some_and(|(_, times)| self.best.0 > times * self.sketch.good_cost())
     }
 
-    fn phase(&mut self, phase: &Phase, patience: Patience) {
-        // The stroke phases begin with the best places of the drawing phases.
-        if matches!(phase.look, Look::Stroke | Look::Force(_)) {
-            self.at.clone_from(&self.best.1);
+    /// Goes on until the end of the search, or, if it races, until it lags behind.
+    fn advance(&mut self, judge: &mut Judge<'a>, races: bool) {
+        self.paused = false;
+        let phases: &[&[Phase]] = match self.sketch.limits.task.aim {
+            Aim::Balanced => &[&PHASES],
+            // Good looks do not imply a high force, so every other start skips the drawing phases.
+            Aim::Force if self.start.is_multiple_of(2) => &[&PHASES, &FOR_FORCE],
+            Aim::Force => &[&FOR_FORCE],
+        };
+        let phases = phases.iter().copied().flatten().skip(self.phase);
+        for phase in phases {
+            self.advance_phase(judge, phase, races);
+            if self.paused {
+                return;
+            }
         }
-        self.now = self
-            .place_cost(phase.look, f64::INFINITY)
-            .unwrap_or(f64::INFINITY);
-        self.best = (self.now, self.at.clone());
-        if self.is_good(phase.look) {
-            return;
+    }
+
+    /// Goes on to the end of a phase, unless the search is paused.
+    fn advance_phase(&mut self, judge: &mut Judge<'a>, phase: &Phase, races: bool) {
+        let strokes = phase.look == Look::Stroke;
+        if self.step == 0 {
+            // The stroke phases begin with the best places of the drawing phases.
+            if strokes || matches!(phase.look, Look::Force(_)) {
+                self.at.clone_from(&self.best.1);
+            }
+            let cost = self.place_cost(judge, phase.look, f64::INFINITY);
+            self.now = cost.unwrap_or(f64::INFINITY);
+            self.best = (self.now, self.at.clone());
         }
         let [from, to] = phase.warmth;
-        let races = patience == Patience::Racing && phase.look == Look::Stroke;
-        for step in 0..phase.moves {
-            if races && self.is_lagging(step) {
-                self.given_up = true;
+        let mut good = self.step == 0 && self.is_good(judge, phase.look);
+        while !good && self.step < phase.moves {
+            if races && strokes && self.is_lagging() {
+                self.paused = true;
                 return;
             }
             #[allow(clippy::cast_precision_loss, reason = "a few thousand")]
-            let done = step as f64 / phase.moves as f64;
+            let done = self.step as f64 / phase.moves as f64;
             let before = self.best.0;
-            self.try_step(phase.look, from + (to - from) * done);
-            if self.best.0 < before && self.is_good(phase.look) {
-                return;
-            }
+            self.try_step(judge, phase.look, from + (to - from) * done);
+            self.step += 1;
+            good = self.best.0 < before && self.is_good(judge, phase.look);
         }
+        (self.phase, self.step) = (self.phase + 1, 0);
         // Of starts whose drawing costs more than good places with their stroke, one in twenty becomes good.
         let drawn = matches!(phase.look, Look::Places | Look::Motion);
-        let races = patience == Patience::Racing && drawn;
-        self.given_up = races && self.best.0 > self.sketch.good_cost();
+        self.paused = races && drawn && self.best.0 > self.sketch.good_cost();
     }
 
     /// Tries other places.
-    fn try_step(&mut self, look: Look, warmth: f64) {
+    fn try_step(&mut self, judge: &mut Judge<'a>, look: Look, warmth: f64) {
         let heat = 2.0 * warmth * warmth;
         self.before.clone_from(&self.at);
         if let Look::Force(_) = look {
@@ -330,7 +337,7 @@ impl<'s, 'j, 'a> Annealing<'s, 'j, 'a> {
         }
         // Accepted if exp((now - then) / heat) is above a random number. The evaluation stops as soon as the cost is too high.
         let most = self.now - heat * random_unit(&mut self.random).ln();
-        match self.place_cost(look, most) {
+        match self.place_cost(judge, look, most) {
             Some(then) => {
                 self.now = then;
                 if then < self.best.0 {
@@ -341,28 +348,4 @@ impl<'s, 'j, 'a> Annealing<'s, 'j, 'a> {
             None => self.at.clone_from(&self.before),
         }
     }
-}
-
-/// Returns the places at the end of one search, and whether it was abandoned.
-fn anneal_start<'a>(
-    sketch: &Sketch<'a>,
-    judge: &mut Judge<'a>,
-    random: ChaCha8Rng,
-    start: u32,
-    patience: Patience,
-) -> (Places, bool) {
-    let mut search = Annealing::new(sketch, judge, random);
-    let phases: &[&[Phase]] = match sketch.limits.task.aim {
-        Aim::Balanced => &[&PHASES],
-        // Good looks do not imply a high force, so every other start skips the drawing phases.
-        Aim::Force if start.is_multiple_of(2) => &[&PHASES, &FOR_FORCE],
-        Aim::Force => &[&FOR_FORCE],
-    };
-    for phase in phases.iter().copied().flatten() {
-        search.phase(phase, patience);
-        if search.given_up {
-            break;
-        }
-    }
-    (search.best.1, search.given_up)
 }

@@ -13,17 +13,17 @@ use crate::synthesis::stroke::walk::RADIAN;
 
 /// Term of a row for a link.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Term {
-    pub(super) link: usize,
+pub(in crate::synthesis) struct Term {
+    pub(in crate::synthesis) link: usize,
     /// A force on the link, and its point of action.
-    pub(super) force: Point,
-    pub(super) at: Point,
+    pub(in crate::synthesis) force: Point,
+    pub(in crate::synthesis) at: Point,
     /// A moment on the link, as a force at the arm of [`RADIAN`].
-    pub(super) moment: f64,
+    pub(in crate::synthesis) moment: f64,
 }
 
 impl Term {
-    pub(super) fn force(link: usize, force: Point, at: Point) -> Term {
+    pub(in crate::synthesis) fn force(link: usize, force: Point, at: Point) -> Term {
         Term {
             link,
             force,
@@ -33,7 +33,7 @@ impl Term {
     }
 
     /// Returns its force, and its moment about a point as a force at the arm of [`RADIAN`].
-    pub(super) fn force_about(&self, point: Point) -> [f64; 3] {
+    pub(in crate::synthesis) fn force_about(&self, point: Point) -> [f64; 3] {
         let moment = cross_plane(sub(self.at, point), self.force);
         [self.force[0], self.force[1], moment / RADIAN + self.moment]
     }
@@ -50,7 +50,7 @@ impl Term {
 
 /// Form of the row of teeth.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum TeethSeen {
+pub(in crate::synthesis) enum TeethSeen {
     /// A ratio of turns relative to the carrier, which holds over any travel.
     Ratio,
     /// A force at the contact point of the pitch circles, as it loads the hinges.
@@ -59,10 +59,10 @@ pub(super) enum TeethSeen {
 
 /// The rows of all joints at places, with the links at poses.
 #[derive(Clone, Copy)]
-pub(super) struct PoseRows<'a> {
-    pub(super) rules: &'a Rules,
-    pub(super) at: &'a Places,
-    pub(super) links: &'a [LinkPose],
+pub(in crate::synthesis) struct PoseRows<'a> {
+    pub(in crate::synthesis) rules: &'a Rules,
+    pub(in crate::synthesis) at: &'a Places,
+    pub(in crate::synthesis) links: &'a [LinkPose],
 }
 
 /// Visitor of a row: its error in millimetres, and its terms.
@@ -74,7 +74,7 @@ impl PoseRows<'_> {
     }
 
     /// Returns the direction of a slide or a slot that is fixed to a link.
-    pub(super) fn line_direction(&self, link: usize, joint: usize) -> Point {
+    pub(in crate::synthesis) fn line_direction(&self, link: usize, joint: usize) -> Point {
         self.links[link].turned_direction(self.at.along[joint].real())
     }
 
@@ -84,14 +84,14 @@ impl PoseRows<'_> {
     }
 
     /// Visits the rows of every joint, in order.
-    pub(super) fn each_joint(&self, seen: TeethSeen, visit: Visit<'_>) {
+    pub(in crate::synthesis) fn each_joint(&self, seen: TeethSeen, visit: Visit<'_>) {
         for joint in 0..self.rules.joints.len() {
             self.joint_rows(joint, seen, visit);
         }
     }
 
     /// Visits the rows of a joint.
-    pub(super) fn joint_rows(&self, joint: usize, seen: TeethSeen, visit: Visit<'_>) {
+    pub(in crate::synthesis) fn joint_rows(&self, joint: usize, seen: TeethSeen, visit: Visit<'_>) {
         let [u, v] = self.rules.joints[joint].links;
         match (self.rules.joints[joint].pair, self.rules.meshes[joint]) {
             (PairKind::Hinge, _) => {
@@ -126,7 +126,7 @@ impl PoseRows<'_> {
     }
 
     /// Returns the link with the pin of a slot, and the link with the slot.
-    pub(super) fn pin_and_slot(&self, joint: usize) -> [usize; 2] {
+    pub(in crate::synthesis) fn pin_and_slot(&self, joint: usize) -> [usize; 2] {
         self.with_other(joint, self.at.pinned[joint])
     }
 
@@ -211,7 +211,11 @@ impl PoseRows<'_> {
     }
 
     /// Returns the travel of the drive, in mm or rad, and the row of its speed.
-    pub(super) fn drive_row(&self, joint: usize, [base, driver]: [usize; 2]) -> (f64, [Term; 2]) {
+    pub(in crate::synthesis) fn drive_row(
+        &self,
+        joint: usize,
+        [base, driver]: [usize; 2],
+    ) -> (f64, [Term; 2]) {
         if self.rules.joints[joint].pair == PairKind::Slide {
             let along = self.line_direction(base, joint);
             let on = self.on(driver, joint);
