@@ -180,7 +180,7 @@ fn pages_say_what_is_not_there() {
     let page = run_quiet(&["report", "slider-crank-determinate"]);
     assert!(page.contains("Statically determinate") && page.contains("Nothing needs changing"));
     let page = run_quiet(&["report", "tongs"]);
-    assert!(page.contains("No joint has a choice"));
+    assert!(page.contains("Nothing to search: no joint has options"));
     let page = run_quiet(&["report", "gripper-10", "--max-changes", "1"]);
     has(
         &page,

@@ -47,7 +47,7 @@ fn conditionings_have_their_own_names() {
         "{head:?}"
     );
     assert!(!text.contains("condit."), "{text}");
-    has(&text, "cond. held: as cond.");
+    has(&text, "cond. held: like cond.");
 }
 
 /// A robot of many joints has variants of many mobilities: the least are told one by one, the others in a row, and all add up.

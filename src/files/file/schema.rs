@@ -1,7 +1,9 @@
 //! The mechanism file, with one schema for TOML and JSON.
 
+mod ranking;
 mod workload;
 
+pub use crate::file::schema::ranking::{JointTypeEntry, LimitEntry, RankingEntry, TermEntry};
 pub use crate::file::schema::workload::Words;
 pub use crate::file::schema::workload::{AccuracyEntry, JointAccuracyEntry, ToleranceEntry};
 pub use crate::file::schema::workload::{
@@ -10,7 +12,6 @@ pub use crate::file::schema::workload::{
 };
 pub use crate::file::schema::workload::{Coordinate, Quantities, Quantity};
 pub use crate::file::schema::workload::{DiameterSteps, Diameters, Gravity, GripEntry};
-pub use crate::file::schema::workload::{JointTypeEntry, LimitEntry, RankingEntry, TermEntry};
 use crate::format::join_or;
 use crate::model::joint_type::JointType;
 use schemars::JsonSchema;

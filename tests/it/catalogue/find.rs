@@ -140,5 +140,5 @@ fn a_catalogue_has_what_it_laid_out() {
         );
     }
     let (_, told, _) = run_full(&["catalog", "find", "geared-gripper", "--in", db]);
-    has(&told, "does not have it");
+    has(&told, "Not in this catalogue");
 }

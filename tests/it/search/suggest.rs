@@ -30,27 +30,29 @@ fn changed(
     pad: Option<&JointOption>,
 ) -> Mechanism {
     let mut out = m.clone();
-    out.edit().contours.clear();
+    let mut parts = out.edit();
+    parts.contours.clear();
     if let Some(o) = to {
-        out.edit().joints[j].joint_type = o.joint_type.clone();
-        out.edit().joints[j].frame = o.frame.clone();
+        parts.joints[j].joint_type = o.joint_type.clone();
+        parts.joints[j].frame = o.frame.clone();
     }
     if let Some(u) = pad {
-        let link = LinkId::new(out.links.len());
-        out.edit().links.push(Link {
+        let link = LinkId::new(parts.links.len());
+        parts.links.push(Link {
             id: "pad".to_owned(),
             role: Role::Inner,
             mass: None,
         });
-        let mut series = out.joints[j].clone();
+        let mut series = parts.joints[j].clone();
         series.id = "series".to_owned();
         series.drive = false;
         series.joint_type = u.joint_type.clone();
         series.frame = u.frame.clone();
         series.links[1] = link;
-        out.edit().joints[j].links[0] = link;
-        out.edit().joints.push(series);
+        parts.joints[j].links[0] = link;
+        parts.joints.push(series);
     }
+    drop(parts);
     out
 }
 

@@ -252,7 +252,7 @@ fn the_file_states_how_accurate_its_joints_are() {
     for [from, to, parts] in read_cases::<3>(
         r#"
         "coarse" | "tight" | unknown fit "tight" & fine, medium
-        hand_force = 200 | hand_force = -1 | -1 & at least 0
+        hand_force = 200 | hand_force = -1 | -1 & give 0 or a number above it
         joint = "1-2" | joint = "1-9" | 1-9
         position = 0.02 | position = -2 | -2
         "0.1deg" | "100deg" | from 0 to 1 radian
