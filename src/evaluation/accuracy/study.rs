@@ -27,7 +27,7 @@ pub struct Effort {
 /// Receives the current study, the number of finished steps and the number of all steps.
 pub type Progress<'a> = &'a mut dyn FnMut(&str, usize, usize);
 
-/// What is drawn of a study. All but the first two are timed: their cases are asked one after another.
+/// How a study is drawn. All but the first two are timed: their cases are asked one after another.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum View {
@@ -97,7 +97,7 @@ pub struct Study {
     pub values: Vec<f64>,
     /// The rows.
     pub(super) rows: Vec<Row>,
-    /// A sentence of its own for the conclusion, or empty.
+    /// A further sentence for the conclusion, or empty.
     pub(super) note: String,
 }
 

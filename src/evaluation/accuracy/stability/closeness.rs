@@ -85,7 +85,7 @@ pub(super) fn study_digits(effort: Effort, progress: Progress<'_>) -> Study {
 }
 
 /// The methods that are asked about rounded mechanisms. Others of floating point and of exact numbers answer as these do.
-const METHODS: [&str; 6] = ["auto", "finite", "modular", "svd", "loops", "count"];
+const METHODS: [&str; 4] = ["auto", "finite", "modular", "svd"];
 
 /// Returns the study of every built-in mechanism, turned at random and rounded to 4 to 16 decimals. The original mechanism is the truth.
 pub(super) fn study_rounded(cases: &[Case], effort: Effort, progress: Progress<'_>) -> Study {

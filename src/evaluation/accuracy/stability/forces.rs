@@ -9,7 +9,7 @@ use crate::model::mechanism::StateId;
 use crate::statics::reactions::solve::Reactions;
 
 /// The digits that are asked for.
-const DIGITS: [i32; 3] = [3, 6, 9];
+const DIGITS: [i32; 3] = [6, 9, 12];
 /// The force on the knee, three times a unit vector across the bars.
 const FORCE: [i32; 3] = [-2000, -1000, 2000];
 

@@ -91,7 +91,7 @@ fn by_rank(m: &Mechanism, state: StateId, watch: Stopwatch) -> Option<(Reply, [u
 /// Under a ranking it multiplies the coordinates along each axis instead.
 pub(super) fn study_first_idea(cases: &[Case], effort: Effort, progress: Progress<'_>) -> Study {
     let (each, values): (usize, &[f64]) = if effort.quick {
-        (1, &[0.01, 0.05])
+        (1, &[0.05, 0.2])
     } else {
         (5, &[0.001, 0.002, 0.005, 0.01, 0.02, 0.05, 0.1, 0.2])
     };
