@@ -99,6 +99,7 @@ const DRAWN = {
         await hand.press(`#ideas .acts button:has-text("${id}")`);
         await hand.press(`#thing [data-type="${kind}"]`);
       }
+      await hand.press("#ideas .idea");
     },
   },
 };
