@@ -113,7 +113,7 @@ fn put_value(table: &mut Table, path: &[String], to: &Value) -> Result<(), EditE
         [key, rest @ ..] => {
             let inner = table
                 .entry(key)
-                .or_insert_with(|| Item::Table(Table::new()));
+                .or_insert_with(|| Item::Table(implicit_table()));
             let Some(inner) = inner.as_table_mut() else {
                 return Err(EditError::NoValue {
                     what: key.clone(),
@@ -123,6 +123,13 @@ fn put_value(table: &mut Table, path: &[String], to: &Value) -> Result<(), EditE
             put_value(inner, rest, to)
         }
     }
+}
+
+/// Returns a table whose head is written only if it has values of its own.
+fn implicit_table() -> Table {
+    let mut table = Table::new();
+    table.set_implicit(true);
+    table
 }
 
 fn add_table(

@@ -54,7 +54,7 @@ function comparison(variants) {
   if (compared.length < 2) return [];
   const columns = compared.map((n) => new Map([["changes", changeLine(variants[n])], ...figuresOf(variants[n]), ...whyOf(n)]));
   const keys = [...new Set(columns.flatMap((c) => [...c.keys()]))].filter((k) => columns.some((c) => c.get(k)));
-  const head = element("tr", {}, element("th", {}), ...compared.map((n) => element("th", { scope: "col" }, pointer(button(`Idea ${n + 1}`, () => takeIdea(n)), looked("idea", n), looked("idea", null)))));
+  const head = element("tr", {}, element("td", {}), ...compared.map((n) => element("th", { scope: "col" }, pointer(button(`Idea ${n + 1}`, () => takeIdea(n)), looked("idea", n), looked("idea", null)))));
   const row = (k) => {
     const cells = columns.map((c) => c.get(k) || "–");
     return element("tr", { class: cells[0] === cells[1] ? null : "differs" }, element("th", { scope: "row" }, k), ...cells.map((c) => element("td", {}, ...unbroken(c))));

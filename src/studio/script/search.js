@@ -15,7 +15,7 @@ const toggled = (list, kind, on) => (on ? [...list, kind] : list.filter((o) => o
 
 /** A box to tick with a joint type: its symbol, its name and what the trade calls it. */
 function typeBox({ type: kind, trade, about }, on, take) {
-  const box = element("input", { type: "checkbox", checked: on ? "" : null });
+  const box = element("input", { type: "checkbox", checked: on ? "" : null, "data-type": kind });
   box.addEventListener("change", () => take(box.checked));
   const names = trade.length ? element("small", {}, ` ${trade.join(", ").replaceAll("-", " ")}`) : "";
   return element("label", { class: "type-box", title: about }, box, typeIcon(kind), element("span", {}, kind, names));
