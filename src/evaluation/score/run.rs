@@ -346,7 +346,7 @@ fn search_numerically(
             request.asked_ranking(&search.mechanism)?.is_some(),
             "ranked",
         ),
-        (request.poses > 0, "looked at in other poses"),
+        (request.poses > 0, "checked in other poses"),
     ];
     for (_, what) in left_out.iter().filter(|(asked, _)| *asked) {
         tell(Event::Note(format!(

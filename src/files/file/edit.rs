@@ -125,7 +125,7 @@ fn put_value(table: &mut Table, path: &[String], to: &Value) -> Result<(), EditE
     }
 }
 
-/// Returns a table whose head is written only if it has values of its own.
+/// Returns a table whose head is written only if it has values.
 fn implicit_table() -> Table {
     let mut table = Table::new();
     table.set_implicit(true);

@@ -1,4 +1,4 @@
-//! What a file says about its search and about known figures.
+//! Search settings and known figures.
 
 use crate::model::joint_type::CoupledFreedom;
 use crate::model::{JointId, LinkId};

@@ -1,4 +1,4 @@
-//! What the parts of a mechanism must satisfy.
+//! Conditions that the parts of a mechanism must satisfy.
 
 use crate::geom::expr::Expr;
 use crate::model::mechanism::{Joint, Mechanism, Mode, Parts, Role, StateId};

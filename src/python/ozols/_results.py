@@ -77,7 +77,7 @@ class GripRow(View):
 
 
 class Grip(Answer):
-    """What a lever gripper can hold; the table has one row per diameter."""
+    """The grasp of a lever gripper. The table has one row per diameter."""
 
     _rows = "diameters"
     mechanism: str

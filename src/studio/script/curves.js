@@ -19,7 +19,7 @@ function limitStroke(end) {
   return change({ do: "put", path: ["workload", "stroke"], value: { from, to, steps: desk.look.file.workload?.stroke?.steps ?? 24 } });
 }
 
-/** The buttons that limit the stroke: they stand where a motion of the drive is known. */
+/** The buttons that limit the stroke: shown if a motion of the drive is known. */
 function strokeButtons() {
   const all = [["Start here", 0, "The stroke starts at the position of the slider"], ["End here", 1, "The stroke ends at the position of the slider"], ["Whole stroke", null, "The stroke goes as far as the drive does"]];
   return element("div", { id: "limits", class: "acts" }, ...all.map(([words, end, tip]) => button(words, () => limitStroke(end), tip)));
@@ -34,7 +34,7 @@ const slopesOf = (x, y) => y.map((_, i) => {
   return x[b] === x[a] ? 0 : (y[b] - y[a]) / (x[b] - x[a]);
 });
 
-/** What the selected thing does over the stroke: a name, a unit and values. */
+/** The motion of the selected thing over the stroke: a name, a unit and values. */
 function seriesOf({ what, id }, scene) {
   const { poses } = scene.moves[0];
   const lengths = desk.look.file.length_unit ?? "m";

@@ -192,7 +192,7 @@ fn the_command_takes_three_jaws() {
     let shown = stdout_of(&["catalog", "show", &db, id]);
     has(
         &shown,
-        "round the part, 3 of them at the frame; laid out threefold",
+        "around the part, 3 of them at the frame; laid out threefold",
     );
     has(&shown, "swinging, swinging and swinging");
     stdout_of(&["catalog", "export", &db, id, "--idea", "1", "-o", &toml]);

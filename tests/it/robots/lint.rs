@@ -187,7 +187,7 @@ fn nothing_redundant_is_said_at_once() {
     let more = ["--nodes", "20000", "--top", "3", "--allow-output-change"];
     let (code, out, told) = run_on("search", "m.xml", &text, &more);
     assert_eq!(code, Some(0), "{told}");
-    has(&out, "none: the mechanism as it is");
+    has(&out, "none: the original mechanism");
     has(&out, "16,777,216 of 16,777,216 variants have σ = 0");
 }
 

@@ -158,7 +158,7 @@ impl Build {
     }
 }
 
-/// Returns the options that mend a specification, if there are any.
+/// Returns the options that correct a specification, if there are any.
 fn options_for(wrong: &SpecError) -> Option<&'static str> {
     match wrong {
         SpecError::PairedLinks => Some("with three jaws, omit --generic-pairs"),

@@ -186,7 +186,7 @@ impl<'e, 's> Ranker<'e, 's> {
                 limited: 0,
                 open: 0,
                 proven: false,
-                proof: "dearer variants were not looked at",
+                proof: "dearer variants were not scored",
                 interrupted: false,
                 missing: None,
                 cheapest: None,

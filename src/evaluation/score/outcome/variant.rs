@@ -333,7 +333,7 @@ pub fn in_words(search: &Search, changes: &[Change]) -> String {
         }
     }
     if alike.is_empty() {
-        return "none: the mechanism as it is".to_owned();
+        return "none: the original mechanism".to_owned();
     }
     alike
         .iter()

@@ -127,7 +127,7 @@ pub struct AccuracyEntry {
     pub joint: Vec<JointAccuracyEntry>,
 }
 
-/// Tolerances of one joint, those of all joints where they are left out.
+/// Tolerances of one joint. The default is those of all joints.
 #[derive(Debug, Clone, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct JointAccuracyEntry {

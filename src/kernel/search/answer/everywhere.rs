@@ -49,7 +49,7 @@ impl Lane<'_> {
 }
 
 /// Returns the number of variants that are determinate and keep the motion in poses next to the drawn one, by the first powers of the
-/// motion. `lasting` is the diagram of those that are so in the drawn pose, too. Returns `None` if no motion is followed, W or changes are
+/// motion. `lasting` is the diagram of those that do so in the drawn pose, too. Returns `None` if no motion is followed, W or changes are
 /// limited, or the nodes are too many.
 ///
 /// # Complexity

@@ -1,7 +1,7 @@
 //! Whether a question has the variants of a known diagram.
 //!
-//! Only choices of known variants are followed: half of the variables from the front, the other half from the back. Where the halves
-//! meet, spaces are compared that variants lead to through the same node of the known diagram.
+//! Only choices of known variants are followed: half of the variables from the front, the other half from the back. At their
+//! meeting, spaces are compared that variants lead to through the same node of the known diagram.
 
 use crate::search::build::self_stress::{Wanted, diagram_limits};
 use crate::search::build::spanning_halves::Halves;

@@ -35,7 +35,7 @@ pub fn joint_type(of: &JointType) -> Drawing {
     let line = format!("class {}, freedoms: {freedoms}", of.class_numeral());
     let caption = Caption {
         title: of.name(),
-        subtitle: [&line, "left aslant, right along the axis z"],
+        subtitle: [&line, "left at an angle, right along the axis z"],
         description: &format!(
             "The joint type {}, {line}, in two views with the axes of its frame.",
             of.name()

@@ -212,7 +212,7 @@ impl StructureData {
     fn make_up_text(&self) -> String {
         let s = &self.structure;
         let jaws = if has_value(s, "jaw_c") {
-            "{jaw_a}, {jaw_b} and {jaw_c} round the part"
+            "{jaw_a}, {jaw_b} and {jaw_c} around the part"
         } else {
             "{jaw_a} and {jaw_b}"
         };

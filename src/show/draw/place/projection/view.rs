@@ -93,7 +93,11 @@ pub(super) fn all_views() -> Vec<View> {
     for (n, (azimuth, height)) in slanted.into_iter().chain(others).enumerate() {
         let (a, h): (f64, f64) = (f64::to_radians(azimuth), f64::to_radians(height));
         let toward = [a.cos() * h.cos(), a.sin() * h.cos(), h.sin()];
-        let name = if n < 4 { "isometric" } else { "seen aslant" };
+        let name = if n < 4 {
+            "isometric"
+        } else {
+            "seen at an angle"
+        };
         out.push(upright_view(toward, name));
     }
     out
