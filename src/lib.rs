@@ -37,7 +37,7 @@
 //! | module | what it is for |
 //! |---|---|
 //! | [`model`] | a [`Mechanism`], its parts, and how to change them |
-//! | [`file`], [`robots`] | mechanism files; robot descriptions and CAD assemblies |
+//! | [`file`](mod@file), [`robots`] | mechanism files; robot descriptions and CAD assemblies |
 //! | [`redundancy`], [`rank`], [`motion`] | analyses by other methods, single constraints, poses |
 //! | [`score`] | requests, progress of a search, outcomes and rankings |
 //! | [`statics`], [`grip`], [`mod@drive`] | joint reactions and the workloads of grippers |

@@ -76,17 +76,17 @@ macro_rules! id {
 }
 
 id! {
-    /// A link, by its index in [`Mechanism::links`](mechanism::Mechanism::links).
+    /// A link, by its index in [`Parts::links`](mechanism::Parts::links).
     LinkId
 }
 
 id! {
-    /// A joint, by its index in [`Mechanism::joints`](mechanism::Mechanism::joints).
+    /// A joint, by its index in [`Parts::joints`](mechanism::Parts::joints).
     JointId
 }
 
 id! {
-    /// A state, by its index in [`Mechanism::states`](mechanism::Mechanism::states).
+    /// A state, by its index in [`Parts::states`](mechanism::Parts::states).
     StateId
 }
 

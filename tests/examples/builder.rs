@@ -2,6 +2,8 @@
 //!
 //! `cargo run --example builder`
 
+#![allow(clippy::print_stdout, reason = "an example shows what it finds")]
+
 use ozols::model::joint_type::JointType::{Cylindrical, Prismatic, Revolute, Spherical};
 use ozols::model::mechanism::Role;
 use ozols::{Builder, Error, Request, Scheme};

@@ -2,6 +2,8 @@
 //!
 //! `cargo run --example catalogue`
 
+#![allow(clippy::print_stdout, reason = "an example shows what it finds")]
+
 use ozols::catalog::build::{build_rows, plan_work};
 use ozols::catalog::spec::Spec;
 use ozols::shard::Shard;

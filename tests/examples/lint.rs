@@ -2,6 +2,8 @@
 //!
 //! `cargo run --example lint`
 
+#![allow(clippy::print_stdout, reason = "an example shows what it finds")]
+
 use ozols::redundancy::duplicate_constraints::held_twice;
 use ozols::robots::Options;
 use ozols::view::lint::describe_release;

@@ -2,6 +2,8 @@
 //!
 //! `cargo run --example ranking`
 
+#![allow(clippy::print_stdout, reason = "an example shows what it finds")]
+
 use ozols::model::ranking::Term;
 use ozols::score::request::List;
 use ozols::{Error, Request};

@@ -2,6 +2,8 @@
 //!
 //! `cargo run --example redesign`
 
+#![allow(clippy::print_stdout, reason = "an example shows what it finds")]
+
 use ozols::score::request::List;
 use ozols::{Error, Request};
 

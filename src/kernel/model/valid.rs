@@ -189,13 +189,13 @@ fn check_axes(joint: &Joint) -> Result<(), InvalidMechanism> {
 }
 
 fn check_direction(what: &'static str, of: &str, v: &[Expr; 3]) -> Result<(), InvalidMechanism> {
-    match v.iter().all(|c| c.to_f64() == 0.0) {
-        true => Err(InvalidMechanism::Zero {
-            what,
-            of: of.to_owned(),
-        }),
-        false => Ok(()),
+    if v.iter().any(|c| c.to_f64() != 0.0) {
+        return Ok(());
     }
+    Err(InvalidMechanism::Zero {
+        what,
+        of: of.to_owned(),
+    })
 }
 
 /// Checks that every link that has a joint in a state is connected to the frame.

@@ -260,7 +260,7 @@ fn the_file_states_how_accurate_its_joints_are() {
     ) {
         let text = replace_once(&(plain.to_owned() + table), from, to);
         let (_folder, path) = write_temporary("bad.toml", text);
-        let o = run(&["statics", &path, "--misfit"]);
+        let o = run(&["statics", path, "--misfit"]);
         let said = String::from_utf8(o.stderr).unwrap();
         assert_eq!(o.status.code(), Some(2), "{said}");
         for p in parts.split(" & ") {
