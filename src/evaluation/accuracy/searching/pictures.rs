@@ -3,7 +3,7 @@
 use super::record::{Bracket, Record, Trial, Way};
 use crate::accuracy::said::{Said, Tally};
 use crate::accuracy::study::Study;
-use crate::format::{format_duration, group_thousands, two_digits};
+use crate::format::{format_duration, group_thousands, three_digits};
 use crate::score::request::{Check, POOL};
 use std::collections::BTreeMap;
 
@@ -102,7 +102,7 @@ fn describe_budget(nodes: usize, of: &[(&str, Bracket, &Record)]) -> String {
             return format!("{mechanism} exact ({time})");
         }
         let [certain, likely] = [bracket.certain, bracket.likely]
-            .map(|b| two_digits(10f64.powf(Bracket::width_in_decades(b))));
+            .map(|b| three_digits(10f64.powf(Bracket::width_in_decades(b))));
         let missed = if bracket.holds == Some(false) {
             ", which misses the true number"
         } else {
