@@ -124,7 +124,9 @@ function inspect() {
   const joints = selection.filter((s) => s.what === "joint").map((s) => s.id);
   const types = !fixed && joints.length === selection.length ? typesAt(joints) : null;
   refill(room, element("h2", {}, head), ...alsoHere(), ...told, ...measured(), fields, types ?? "");
-  return room.scrollIntoView({ block: "nearest" });
+  // on a narrow screen the sheet would scroll away
+  if (matchMedia("(min-width: 56.01rem)").matches) room.scrollIntoView({ block: "nearest" });
+  return null;
 }
 
 /** Fills a room anew; who writes in one of its fields stays there. */
