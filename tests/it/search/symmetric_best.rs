@@ -225,7 +225,7 @@ fn rounded_legs_are_symmetric_within_their_digits() {
 /// The second axis of a universal joint that a file leaves open goes with its leg, and axes through one point say the turn.
 #[test]
 fn open_second_axes_are_carried_along_by_thirds_of_a_turn() {
-    for name in ["agile-eye", "3-crr", "tripteron", "orthoglide"] {
+    for name in ["3-crr", "tripteron", "orthoglide"] {
         let space = |more: &str| -> f64 {
             let args = format!("search {name} --count --format json -q --pose-only {more}");
             let found: Value = serde_json::from_slice(&run(&args).stdout).unwrap();

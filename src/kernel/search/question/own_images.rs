@@ -213,7 +213,9 @@ impl ComparedJoints {
         let mut ids = mechanism.joint_ids();
         let first = ids.next();
         let far = ids.filter_map(|j| Some(compared.distance_between(first?, j)));
-        compared.allowed.distance = NEAR * far.fold(0.0, f64::max);
+        let far = far.fold(0.0, f64::max);
+        // Joints of a spherical mechanism may all be drawn at its centre.
+        compared.allowed.distance = NEAR * if far > 0.0 { far } else { 1.0 };
         if let Some(digits) = digits {
             let own = compared.allowed;
             compared.allowed = Allowance {
