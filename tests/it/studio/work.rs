@@ -58,7 +58,7 @@ fn an_idea_that_is_taken_does_what_it_says_and_keeps_the_comments() {
             assert_eq!(state["mobility"], idea["mobility"], "{name}, idea {k}");
             assert_eq!(state["redundant"], idea["redundant"], "{name}, idea {k}");
             // The reasons are those of the command line, which gives them for three.
-            let said = run_quiet(&format!("search {name} --distinct"));
+            let said = run_quiet(&format!("search {name} --distinct --verbose"));
             let plain = |t: &str| t.split_whitespace().join(" ");
             for row in told["why"][k - 1].list().iter().filter(|_| k <= 3) {
                 let words = plain(row[1].word());

@@ -175,7 +175,7 @@ mod tests {
         let shares = study("stability-digits", [0, 0, 3, 1]);
         assert_eq!(
             shares.conclusion(),
-            "Over all offsets: m 90.0 % right, 10.0 % wrong and sure. Wrong and sure most often: m in 3 of 10 at 0.1."
+            "Over all offsets: m 90.0 % right, 10.0 % wrong and sure (of 40). Wrong and sure most often: m in 3 of 10 at 0.1."
         );
         let csv = shares.to_csv();
         assert!(csv.contains("m,1e-1,10,7,0,0,3,c0; c1; c2\n"), "{csv}");

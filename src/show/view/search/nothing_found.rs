@@ -74,9 +74,11 @@ pub fn wider_requests(outcome: &Outcome, remarks: &Remarks) -> Vec<(Request, Str
     let offered = remarks.offered.iter().map(|wider| {
         let all = remarks.offered_options(&outcome.request).iter();
         let each = all.map(|o| format!("{} at {}", o.names.join(" or "), o.joint));
+        let asked = &outcome.request.options;
+        let everywhere = wider.options.iter().filter(|o| !asked.contains(o)).cloned();
         let words = format!(
             "Allow more joint types: there are redesigns with {}",
-            each.collect_vec().join(", ")
+            everywhere.chain(each).join(", ")
         );
         (wider.clone(), words)
     });
