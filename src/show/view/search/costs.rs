@@ -29,7 +29,8 @@ const HEAD: &str = "\
 /// ```
 /// use ozols::{file::costs::costs_from_str, view::search::costs::costs_toml};
 /// // The default costs are a file that can be changed and read back.
-/// assert!(costs_from_str("costs.toml", &costs_toml(), &ozols::built_in("four-bar")?).is_ok());
+/// let four_bar = ozols::built_in("four-bar")?;
+/// assert!(costs_from_str("costs.toml", &costs_toml(), &four_bar).is_ok());
 /// # Ok::<(), ozols::Error>(())
 /// ```
 pub fn costs_toml() -> String {
