@@ -252,7 +252,7 @@ fn the_file_states_how_accurate_its_joints_are() {
     for [from, to, parts] in read_cases::<3>(
         r#"
         "coarse" | "tight" | unknown fit "tight" & fine, medium
-        hand_force = 200 | hand_force = -1 | -1 & at least 0
+        hand_force = 200 | hand_force = -1 | -1 & 0 or a number above
         joint = "1-2" | joint = "1-9" | 1-9
         position = 0.02 | position = -2 | -2
         "0.1deg" | "100deg" | from 0 to 1 radian
@@ -260,7 +260,7 @@ fn the_file_states_how_accurate_its_joints_are() {
     ) {
         let text = replace_once(&(plain.to_owned() + table), from, to);
         let (_folder, path) = write_temporary("bad.toml", text);
-        let o = run(&["statics", &path, "--misfit"]);
+        let o = run(&["statics", path, "--misfit"]);
         let said = String::from_utf8(o.stderr).unwrap();
         assert_eq!(o.status.code(), Some(2), "{said}");
         for p in parts.split(" & ") {
