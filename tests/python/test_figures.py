@@ -216,7 +216,7 @@ def test_declared_keys_are_there_with_their_types():
     ):
         check(view)
     named = {c for c in vars(ozols).values() if isinstance(c, type) and issubclass(c, ozols.View)}
-    assert named - set(seen) == {ozols.View, ozols.Answer}
+    assert named - set(seen) - {ozols.View} == {ozols.Answer}
 
 
 @pytest.mark.parametrize(("name", "range"), [("four-bar", "0:90deg:6"), ("slider-crank-spatial", "0:1:4")])
