@@ -257,7 +257,7 @@ fn ideas_json(
         "found": found,
         "marks": marks,
         // As in the report: reasons of each idea, and the cheapest symmetric redesigns.
-        "why": why,
+        "reasons": why,
         "symmetric": remarks.symmetric.as_ref().map(symmetric_lines),
         "hopeless": hopeless_reasons(m, &remarks.hopeless),
         // In the order in which they are asked for by number.

@@ -232,8 +232,8 @@ class Mechanism:
         """
         return Drive(_native.drive(self._native))
 
-    def draw(self, kind: str = "scheme", *, state: str = "free") -> Drawing:
-        """Returns a drawing as SVG: the structural ``scheme``, or the ``kinematic`` drawing from the coordinates."""
+    def draw(self, kind: str = "kinematic", *, state: str = "free") -> Drawing:
+        """Returns a drawing as SVG: the ``kinematic`` scheme from the coordinates, or the structural ``scheme``."""
         return Drawing(self._native.draw(kind, state))
 
     def studio(self, *, show: bool = True) -> Mechanism:

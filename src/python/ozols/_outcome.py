@@ -57,7 +57,7 @@ class Variant(View):
         """Returns the redesign as a mechanism."""
         return self._made(self._native.mechanism())
 
-    def draw(self, kind: str = "scheme", *, state: str = "free") -> Drawing:
+    def draw(self, kind: str = "kinematic", *, state: str = "free") -> Drawing:
         """Returns a drawing of the redesign with its changes marked."""
         return Drawing(self._native.draw(kind, state))
 

@@ -25,7 +25,7 @@ function figuresOf(v) {
 }
 
 /** The explanation of an idea, line by line. */
-const whyOf = (n) => (desk.ideas.why?.[n] ?? []).map(([what, words]) => [what.replace(/:$/, ""), words]);
+const whyOf = (n) => (desk.ideas.reasons?.[n] ?? []).map(([what, words]) => [what.replace(/:$/, ""), words]);
 
 const listRows = (rows) => element("dl", { class: "why" }, ...rows.flatMap(([what, words]) => [element("dt", {}, what.replace(/^./, (c) => c.toUpperCase())), element("dd", {}, ...unbroken(words))]));
 

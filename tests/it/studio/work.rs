@@ -60,7 +60,7 @@ fn an_idea_that_is_taken_does_what_it_says_and_keeps_the_comments() {
             // The reasons are those of the command line, which gives them for three.
             let said = run_quiet(&format!("search {name} --distinct --verbose"));
             let plain = |t: &str| t.split_whitespace().join(" ");
-            for row in told["why"][k - 1].list().iter().filter(|_| k <= 3) {
+            for row in told["reasons"][k - 1].list().iter().filter(|_| k <= 3) {
                 let words = plain(row[1].word());
                 assert!(plain(&said).contains(&words), "{name}, idea {k}: {words}");
             }
