@@ -52,7 +52,7 @@ export function drawingTests(test) {
     const { address, child } = await served(fresh());
     await windowed(address, {}, async (tab) => {
       const hand = handOn(tab);
-      await told(tab, "Draw the first part");
+      await told(tab, "Nothing drawn yet");
       const calm = async (words) => {
         await told(tab, words);
         assert.equal(await tab.locator(".bad, .good, .wrong, #problems li").count(), 0, words);
@@ -101,7 +101,7 @@ export function drawingTests(test) {
       };
       const written = (words) => tab.waitForFunction((w) => document.querySelector("#text").value.includes(w), words);
       await counted("14 of 64 variants have σ = 0");
-      await tab.locator("#search-fold summary").click();
+      await tab.locator("#search-fold > summary").click();
       const box = (room, kind) => tab.locator(`${room} .type-box`).filter({ hasText: new RegExp(`^${kind}( |$)`) }).locator("input");
       await told(tab, "ball, rod end");
       await picture(tab, "studio-search", false);

@@ -71,6 +71,8 @@ export const settledOn = async (tab) => {
 export function handOn(tab, zoom = 4) {
   const count = { clicks: 0 };
   const at = async (x, y) => {
+    // On a small screen a form below may have scrolled it away.
+    await tab.locator("#sheet").scrollIntoViewIfNeeded();
     const b = await tab.locator("#sheet").boundingBox();
     return [b.x + b.width / 2 + zoom * x, b.y + b.height / 2 - zoom * y];
   };

@@ -244,7 +244,7 @@ fn the_drawn_pose_alone_is_searched_where_that_is_asked() {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: case_count(48), max_shrink_iters: 200, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: case_count(48), max_shrink_iters: 200, max_global_rejects: 1 << 20, ..ProptestConfig::default() })]
     #[test]
     fn random_mechanisms_are_as_one_by_one_and_in_poses(text in random()) {
         let m = mechanism_from_str("varied.toml", &text).unwrap();

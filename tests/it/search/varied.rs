@@ -243,7 +243,7 @@ fn searched(
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: case_count(32), max_shrink_iters: 200, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: case_count(32), max_shrink_iters: 200, max_global_rejects: 1 << 20, ..ProptestConfig::default() })]
     #[test]
     fn planar_helical_custom_and_held(
         text in random(),
@@ -284,7 +284,7 @@ proptest! {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: case_count(16), max_shrink_iters: 200, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: case_count(16), max_shrink_iters: 200, max_global_rejects: 1 << 20, ..ProptestConfig::default() })]
     #[test]
     fn mirror_images(text in mirrored(), allowed in 0u32..4, most in prop::option::of(1i64..4)) {
         let m = mechanism_from_str("mirrored.toml", &text).unwrap();
@@ -333,7 +333,7 @@ proptest! {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: case_count(16), max_shrink_iters: 200, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: case_count(16), max_shrink_iters: 200, max_global_rejects: 1 << 20, ..ProptestConfig::default() })]
     #[test]
     fn parts_of_a_turn(text in carried_round(), allowed in 0u32..4) {
         let m = mechanism_from_str("round.toml", &text).unwrap();
