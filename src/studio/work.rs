@@ -247,8 +247,7 @@ fn ideas_json(
         })
     };
     let why = {
-        let ideas = outcome.variants_unless(&is_over);
-        let ideas: Vec<_> = ideas.filter(|v| v.idea().is_some()).collect();
+        let ideas: Vec<_> = outcome.variants_unless(&is_over).collect();
         let first: Vec<_> = ideas.iter().map(Variant::assignment).collect();
         rows_of_ideas(&outcome, &first)
     };
