@@ -246,14 +246,16 @@ impl fmt::Display for Variant<'_> {
 /// Returns a choice of options as a mechanism, named after its place in a list: "variant 3".
 pub fn as_mechanism(search: &Search, assignment: &Assignment, name: &str) -> Mechanism {
     let mut out = variant_mechanism::realize_variant(search, &assignment.choices);
-    out.edit().description = format!(
+    let mut parts = out.edit();
+    parts.description = format!(
         "{} of {}: {}",
         capitalize(name),
-        out.name,
+        parts.name,
         in_words(search, &list_changes(search, assignment))
     );
-    out.edit().name = format!("{}-{}", out.name, name.replace(' ', "-"));
-    offer_again(search, assignment, &mut out.edit());
+    parts.name = format!("{}-{}", parts.name, name.replace(' ', "-"));
+    offer_again(search, assignment, &mut parts);
+    drop(parts);
     out
 }
 

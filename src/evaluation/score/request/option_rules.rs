@@ -1,6 +1,6 @@
 //! Rules of a request for single links and joints: held links, and offered, allowed and forbidden options.
 
-use crate::model::mechanism::{JointId, JointOption, Mechanism, StateId};
+use crate::model::mechanism::{JointId, JointOption, Mechanism, Parts, StateId};
 use crate::score::request::unlisted::framed_types;
 use crate::score::request::{Inserts, JointOptions, Request, RequestError};
 use itertools::Itertools;
@@ -190,9 +190,10 @@ impl Request {
                     named.iter().map(id).collect::<Result<_, RequestError>>()?
                 }
             };
+            let mut parts = mechanism.edit();
             for j in places {
                 for name in names {
-                    offer_unloading(mechanism, j, name)?;
+                    offer_unloading(&mut parts, j, name)?;
                 }
             }
         }
@@ -201,8 +202,8 @@ impl Request {
 }
 
 /// Offers an unloading joint by name: one that the file has there, now in every state, or a type in the joint's own frame.
-fn offer_unloading(mechanism: &mut Mechanism, at: JointId, name: &str) -> Result<(), RequestError> {
-    let joint = &mut mechanism.edit().joints[at];
+fn offer_unloading(mechanism: &mut Parts, at: JointId, name: &str) -> Result<(), RequestError> {
+    let joint = &mut mechanism.joints[at];
     if let Some(known) = joint.unloading.iter_mut().find(|u| u.name == name) {
         known.state = None;
         return Ok(());

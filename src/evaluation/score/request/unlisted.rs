@@ -4,7 +4,7 @@ use crate::closure::coupling::in_plane;
 use crate::file::read::coupling::{coupled_freedoms, keeps_coupled};
 use crate::file::read::resolve::contains_option;
 use crate::model::joint_type::{Freedom, JointType};
-use crate::model::mechanism::{Joint, JointId, JointOption, Mechanism, StateId};
+use crate::model::mechanism::{Joint, JointId, JointOption, Mechanism, Parts, StateId};
 use crate::score::request::{Request, RequestError};
 use crate::search::answer::single_changes::{USUAL, USUAL_UNLOADING};
 use itertools::Itertools;
@@ -51,6 +51,7 @@ impl Request {
         use Freedom::{Rx, Ry, Rz, Tx, Ty, Tz};
         let changeable = |j: &JointId| is_changeable(&mechanism.joints[*j]);
         let all: Vec<JointId> = mechanism.joint_ids().filter(changeable).collect();
+        let mechanism = &mut *mechanism.edit();
         for id in all {
             let of_space = [Rx, Ry, Rz, Tx, Ty, Tz].into_iter();
             let own: Vec<Freedom> = of_space.filter(|&f| in_plane(mechanism, id, f)).collect();
@@ -82,17 +83,20 @@ impl Request {
         if names_some || mechanism.joints.iter().any(offers) {
             return;
         }
-        for id in mechanism.joint_ids() {
-            let joint = &mechanism.joints[id];
+        // All are offered before the mechanism is checked.
+        let mut parts = mechanism.edit();
+        for id in parts.joint_ids() {
+            let joint = &parts.joints[id];
             if is_changeable(joint) {
                 for t in USUAL {
-                    offer_type(mechanism, id, &t);
+                    offer_type(&mut parts, id, &t);
                 }
             } else if !joint.is_in(StateId::FREE) {
                 let usual = JointOption::in_frame_of(joint, &USUAL_UNLOADING);
-                mechanism.edit().joints[id].unloading.push(usual);
+                parts.joints[id].unloading.push(usual);
             }
         }
+        drop(parts);
         if mechanism.joints.iter().any(offers) {
             tell(format!(
                 "note: {} offers no joint types, so the usual ones are tried at all joints without a drive: {}",
@@ -144,15 +148,16 @@ impl Request {
                 }
             }
         }
+        let mut parts = mechanism.edit();
         for (flag, name, joint_type, at) in wanted {
             let mut taken = false;
             for id in at {
-                taken |= offer_type(mechanism, id, &joint_type);
+                taken |= offer_type(&mut parts, id, &joint_type);
             }
             if !taken {
                 return Err(RequestError::LosesMotion {
                     flag,
-                    mechanism: mechanism.name.clone(),
+                    mechanism: parts.name.clone(),
                     option: name,
                 });
             }
@@ -198,7 +203,7 @@ fn name_of_set(set: &[Freedom]) -> String {
 }
 
 /// Offers a type at a joint, if it fits there, and returns whether it is offered.
-fn offer_type(mechanism: &mut Mechanism, id: JointId, joint_type: &JointType) -> bool {
+fn offer_type(mechanism: &mut Parts, id: JointId, joint_type: &JointType) -> bool {
     let joint = &mechanism.joints[id];
     let name = match joint_type {
         JointType::Custom(set) => name_of_set(set),
@@ -216,7 +221,7 @@ fn offer_type(mechanism: &mut Mechanism, id: JointId, joint_type: &JointType) ->
     }
     let fits = type_fits(mechanism, id, joint_type);
     if fits {
-        let joint = &mut mechanism.edit().joints[id];
+        let joint = &mut mechanism.joints[id];
         if joint.options.is_empty() {
             joint
                 .options
@@ -228,11 +233,7 @@ fn offer_type(mechanism: &mut Mechanism, id: JointId, joint_type: &JointType) ->
 }
 
 /// Returns whether a type in a joint's frame allows what the joint does now and keeps the freedoms that are coupled there.
-pub(in crate::score) fn type_fits(
-    mechanism: &Mechanism,
-    id: JointId,
-    joint_type: &JointType,
-) -> bool {
+pub(in crate::score) fn type_fits(mechanism: &Parts, id: JointId, joint_type: &JointType) -> bool {
     let joint = &mechanism.joints[id];
     let [new, present] =
         [joint_type, &joint.joint_type].map(|t| JointOption::in_frame_of(joint, t));
