@@ -70,7 +70,7 @@ pub(in crate::search) struct Worker {
     children: Vec<Growing>,
     /// The choices whose children are wanted; all if empty.
     wanted: Vec<bool>,
-    /// Scratch: the choices that these are grown from, too.
+    /// These and the choices that they are grown from; empty if all are wanted.
     needed: Vec<bool>,
 }
 
@@ -101,14 +101,17 @@ impl Worker {
         let grown = &mut self.grown[part];
         grown.resize(columns.growth.len(), Rows::default());
         self.needed.clone_from(&self.wanted);
-        self.needed
-            .resize(columns.growth.len(), self.wanted.is_empty());
-        for g in columns.growth.iter().rev() {
-            if let Some(from) = g.from.filter(|_| self.needed[g.choice]) {
-                self.needed[from] = true;
+        if !self.needed.is_empty() {
+            for g in columns.growth.iter().rev() {
+                if let Some(from) = g.from.filter(|_| self.needed[g.choice]) {
+                    self.needed[from] = true;
+                }
             }
         }
-        for g in columns.growth.iter().filter(|g| self.needed[g.choice]) {
+        for g in &columns.growth {
+            if self.needed.get(g.choice) == Some(&false) {
+                continue;
+            }
             let mut rows = std::mem::take(&mut grown[g.choice]);
             rows.clone_from(match g.from {
                 Some(from) => &grown[from],
