@@ -3,31 +3,13 @@
 
 import assert from "node:assert/strict";
 import { fits, picture } from "./pages.mjs";
-import { fresh, handOn, ideas, served, settledOn, source, told, verdict, windowed } from "./windows.mjs";
+import { drawGripper, fresh, handOn, ideas, served, settledOn, source, told, verdict, windowed } from "./windows.mjs";
 
 /** By name: how it is drawn, how many redundant constraints it has, and what is to be allowed before there are ideas. */
 const DRAWN = {
   "lever gripper": {
     redundant: 6,
-    async draw(hand) {
-      await hand.tool("slide");
-      await hand.place(-40, 0);
-      await hand.tool("bar");
-      await hand.place(-40, 0);
-      await hand.place(-10, 30);
-      await hand.tool("plate");
-      for (const [x, y] of [[-10, 30], [10, 15], [40, 10], [40, 10]]) await hand.place(x, y);
-      await hand.tool("ground");
-      await hand.place(10, 15);
-      await hand.tool("output");
-      await hand.place(25, 12.5);
-      await hand.tool("drive");
-      await hand.place(-40, 0);
-      await hand.tool("select");
-      await hand.place(-25, 15);
-      await hand.key("Shift", () => hand.place(25, 12.5));
-      await hand.press('.acts button:has-text("Mirror y")');
-    },
+    draw: (hand) => drawGripper(hand, 40),
   },
   "toggle clamp": {
     redundant: 3,

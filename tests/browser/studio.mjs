@@ -7,34 +7,9 @@ import http from "node:http";
 import { createRequire } from "node:module";
 import path from "node:path";
 import { browser, fits, picture, root, work } from "./pages.mjs";
-import { fresh, handOn, ideas, served, settledOn, source, told, verdict, windowed } from "./windows.mjs";
+import { drawGripper, fresh, handOn, ideas, served, settledOn, source, told, verdict, windowed } from "./windows.mjs";
 
 const axe = readFileSync(createRequire(path.join(work, "package.json")).resolve("axe-core/axe.min.js"), "utf8");
-
-/** Draws a gripper of six links: a slide, two rods, two jaws, a frame. */
-async function drawGripper(tab) {
-  const hand = handOn(tab);
-  await hand.tool("slide");
-  await hand.place(-40, 0);
-  await hand.tool("bar");
-  await hand.place(-40, 0);
-  await hand.place(-10, 30);
-  await hand.tool("plate");
-  for (const [x, y] of [[-10, 30], [10, 15], [60, 10], [60, 10]]) await hand.place(x, y);
-  await hand.tool("ground");
-  await hand.place(10, 15);
-  await hand.tool("output");
-  await hand.place(35, 12.5);
-  await hand.tool("drive");
-  await hand.place(-40, 0);
-  await hand.tool("select");
-  await hand.place(-25, 15);
-  await tab.keyboard.down("Shift");
-  await hand.place(35, 12.5);
-  await tab.keyboard.up("Shift");
-  await hand.press('.acts button:has-text("Mirror y")');
-  return hand;
-}
 
 const asked = (address, options, body) => new Promise((resolve, reject) => {
   const sent = http.request(address, options, (answer) => {
@@ -51,7 +26,8 @@ export function studioTests(test) {
     const { address, child } = await served(folder);
     await windowed(address, {}, async (tab) => {
       const begun = performance.now();
-      const hand = await drawGripper(tab);
+      const hand = handOn(tab);
+      await drawGripper(hand, 60);
       await ideas(tab);
       assert.match(await verdict(tab), /W = 1 · σ = 6 · 6 links, 7 joints, 2 contours/);
       await picture(tab, "studio-drawn", false);

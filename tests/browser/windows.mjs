@@ -112,3 +112,25 @@ export function handOn(tab, zoom = 4) {
     },
   };
 }
+
+/** Draws a gripper of six links: a slide, two rods, two jaws whose tips are at x = `tip`, a frame. The jaws are outputs. */
+export async function drawGripper(hand, tip) {
+  const middle = (10 + tip) / 2;
+  await hand.tool("slide");
+  await hand.place(-40, 0);
+  await hand.tool("bar");
+  await hand.place(-40, 0);
+  await hand.place(-10, 30);
+  await hand.tool("plate");
+  for (const [x, y] of [[-10, 30], [10, 15], [tip, 10], [tip, 10]]) await hand.place(x, y);
+  await hand.tool("ground");
+  await hand.place(10, 15);
+  await hand.tool("output");
+  await hand.place(middle, 12.5);
+  await hand.tool("drive");
+  await hand.place(-40, 0);
+  await hand.tool("select");
+  await hand.place(-25, 15);
+  await hand.key("Shift", () => hand.place(middle, 12.5));
+  await hand.press('.acts button:has-text("Mirror y")');
+}
