@@ -42,7 +42,7 @@ pub enum SpecError {
     Links(String),
     /// Too many links for pairs.
     #[error(
-        "links: structures with pairs have {MOST_PAIRED} links at most: there are too many beyond; \
+        "links: structures with pairs have at most {MOST_PAIRED} links, because larger ones are too many; \
          only symmetric ones of three jaws may have more"
     )]
     PairedLinks,

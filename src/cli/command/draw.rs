@@ -119,7 +119,7 @@ pub(crate) fn run_draw(_: &Global, a: &Draw) -> anyhow::Result<Done> {
             || a.self_stress.is_some()
             || a.kind == DrawKind::Kinematic
             || (a.view.is_none() && a.up.is_none()),
-        "--view and --up need the kinematic scheme, which has coordinates; leave out --kind scheme"
+        "--view and --up need the kinematic scheme, which has coordinates; remove --kind scheme"
     );
     let mut mechanism = load::load_mechanism(&a.file)?;
     let state = load::find_state(&mechanism, &a.state)?;

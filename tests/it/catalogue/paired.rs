@@ -311,14 +311,14 @@ fn what_is_not_laid_out_is_refused() {
     for [words, says] in read_cases::<2>(
         "
         --pairs cam | \"cam\" is none of slide, gear, slot
-        --pairs slide --links 6..9 | 8 links at most
+        --pairs slide --links 6..9 | at most 8 links
         --pairs slide --jaws 3 --symmetry generic --links 6 | threefold
         --pairs gear --symmetry generic | mirror or half-turn
         --pairs gear --at-most 0 | at_most must be from 1 to 12
         --links 4 --at-most 1 | name them with --pairs
         --classics --links 4 | cannot be used with
         --generic-pairs | --pairs
-        --jaws 3 --generic-pairs --symmetry generic --pairs slide --links 4..9 | 8 links at most
+        --jaws 3 --generic-pairs --symmetry generic --pairs slide --links 4..9 | at most 8 links
         --jaws 3 --generic-pairs --symmetry generic --pairs slide --links 4 --parallel only | each side is in a plane of its own
         --jaws 3 --generic-pairs --symmetry generic --pairs slide --links 3 | three jaws need at least four links
         --jaws 3 --generic-pairs --symmetry generic --pairs slide --links 5 | the number of links is even

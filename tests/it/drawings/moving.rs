@@ -177,7 +177,7 @@ fn what_cannot_be_drawn_is_said() {
         draw gripper-10 --motion --state clamped | 0-1:tz cannot move
         draw wren-platform --motion --drive 0-l0 | 0-l0:rx or 0-l0:ry or 0-l0:rz
         draw wren-platform --motion --drive 0-l0:tx | these can move: 0-l0:rx, 0-l0:ry, 0-l0:rz
-        draw gripper-10 --kind scheme --view z | leave out --kind scheme
+        draw gripper-10 --kind scheme --view z | remove --kind scheme
         draw gripper-10 --view w | x, y, z, iso
         draw gripper-10 --view 0,0,0 | not all zero
         draw gripper-10 --up 1,2 | three numbers
