@@ -9,7 +9,7 @@ use crate::linalg::modp::{Field, Residue};
 use crate::search::build::completing_sets::{Numbered, Set, completing_sets};
 use crate::search::build::matching_halves::{Grouped, count_lookups, match_halves};
 use crate::search::build::self_stress::{Wanted, flat_stages, self_stress_space};
-use crate::search::build::spanning_pairs::Bases;
+use crate::search::build::spanning_pairs::{Bases, ZeroForms};
 use crate::search::diagram::layer::Nodes;
 use crate::search::diagram::reduced_rows::{Arithmetic, Rows};
 use crate::search::diagram::redundancy_so_far::Limits;
@@ -106,7 +106,11 @@ impl<'a> Halves<'a> {
         let fewer = |[front, back]: &[Grouped; 2]| count_lookups(front, back) / A_PAIR < pairs;
         let nodes = match grouped.filter(fewer) {
             Some(grouped) => Compared::Grouped(grouped),
-            None => Compared::Pairs(Bases::new(self.field, &back, self.keeps)),
+            None => Compared::Pairs(Bases::new(
+                self.field,
+                back.iter().map(Vec::as_slice),
+                self.keeps,
+            )),
         };
         Meeting {
             packed,
@@ -262,8 +266,10 @@ impl Meeting {
         if self.pairs / 8 > bytes {
             return None;
         }
-        let of_node =
-            |node: usize| back.completing_nodes(&self.packed.front_rows(front, node), width);
+        let of_node = |node: usize| {
+            let rows = self.packed.front_rows(front, node);
+            back.completing_nodes(&ZeroForms::new(field, &rows, width))
+        };
         let sets = completing_sets(front.len(), of_node, cancelled)?;
         let mut numbered = Numbered::default();
         let of_node = sets
