@@ -58,7 +58,8 @@ const TO_THE_END: usize = 4;
 
 /// Returns the best places of some starts of a structure of this name; `None` if all end in singular poses.
 ///
-/// The first good places are enough. Starts that lag behind are paused. If none becomes good, the best go on until one fulfils the task and can
+/// The first good places are enough. Starts that lag behind are paused. If the stroke is the reason, the next start begins with the same
+/// drawing, reheated, since drawings from random places take most of the time. If none becomes good, the best go on until one fulfils the task and can
 /// be built.
 pub(in crate::synthesis) fn best_of_starts<'a>(
     sketch: &Sketch<'a>,
@@ -69,9 +70,13 @@ pub(in crate::synthesis) fn best_of_starts<'a>(
 ) -> Option<FoundPlaces> {
     let aim = sketch.limits.task.aim;
     let mut raced = Vec::new();
+    let mut drawn = None;
     for start in first..first + STARTS {
-        let mut search = Annealing::new(sketch, random_for(name, seed, start), start);
+        let random = random_for(name, seed, start);
+        let mut search = Annealing::new(sketch, random, start, drawn.take());
         search.advance(judge, aim == Aim::Balanced);
+        let lagged = search.paused && !search.reheated;
+        drawn = search.drawn.take().filter(|_| lagged);
         let Some(found) = search.judge_places(judge) else {
             continue;
         };
@@ -120,6 +125,9 @@ struct Phase {
     moves: usize,
     warmth: [f64; 2],
 }
+
+/// Temperature at the beginning of the motion phase if a start begins with the drawing of another.
+const REHEATED: f64 = 0.8;
 
 /// Places only, which is cheap; then also the motion of the drawn pose; then the whole stroke, slightly reheated.
 const PHASES: [Phase; 3] = [
@@ -173,6 +181,9 @@ struct Annealing<'s, 'a> {
     seen: SeenSides,
     /// The cheapest places of the phase.
     best: (f64, Places),
+    /// The places with which the stroke phase began, and whether the search began with those of another.
+    drawn: Option<Places>,
+    reheated: bool,
     /// The phase in which the search goes on, and the number of its moves so far.
     phase: usize,
     step: usize,
@@ -181,13 +192,21 @@ struct Annealing<'s, 'a> {
 }
 
 impl<'s, 'a> Annealing<'s, 'a> {
-    fn new(sketch: &'s Sketch<'a>, mut random: ChaCha8Rng, start: u32) -> Self {
-        let at = sketch.first_places(&mut random);
+    fn new(
+        sketch: &'s Sketch<'a>,
+        mut random: ChaCha8Rng,
+        start: u32,
+        drawn: Option<Places>,
+    ) -> Self {
+        let reheated = drawn.is_some();
+        let at = drawn.unwrap_or_else(|| sketch.first_places(&mut random));
         Annealing {
             before: at.clone(),
             seen: SeenSides::default(),
             best: (f64::INFINITY, at.clone()),
-            phase: 0,
+            drawn: None,
+            phase: usize::from(reheated),
+            reheated,
             step: 0,
             paused: false,
             now: f64::INFINITY,
@@ -295,12 +314,16 @@ impl<'s, 'a> Annealing<'s, 'a> {
             // The stroke phases begin with the best places of the drawing phases.
             if strokes || matches!(phase.look, Look::Force(_)) {
                 self.at.clone_from(&self.best.1);
+                self.drawn = Some(self.at.clone());
             }
             let cost = self.place_cost(judge, phase.look, f64::INFINITY);
             self.now = cost.unwrap_or(f64::INFINITY);
             self.best = (self.now, self.at.clone());
         }
-        let [from, to] = phase.warmth;
+        let [mut from, to] = phase.warmth;
+        if self.reheated && phase.look == Look::Motion {
+            from = REHEATED;
+        }
         let mut good = self.step == 0 && self.is_good(judge, phase.look);
         while !good && self.step < phase.moves {
             if races && strokes && self.is_lagging() {

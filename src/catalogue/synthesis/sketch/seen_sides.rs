@@ -10,6 +10,12 @@ use itertools::Itertools;
 /// A pin nearer than this to a foreign link lies on it, in mm.
 pub(crate) const ON: f64 = 6.0;
 
+/// A pin nearer than this to a side of its own link makes the link a splinter, in mm.
+const SPLINTER: f64 = 10.0;
+
+/// The cost of a pin within a plate that it does not belong to.
+const WITHIN: f64 = 3.0;
+
 /// The additional cost of a crossing between plates of two jaws, which no designer would build.
 const JAWS_CROSS: f64 = 6.0;
 
@@ -86,26 +92,28 @@ impl SideSeen {
     fn look_again(&mut self, bones: &Bones, at: &[Point], moved: impl Iterator<Item = usize>) {
         let [a, b] = self.side.places(at);
         let along = sub(b, a);
+        let members = bones.members[self.side.link];
+        let reach = |p: usize| if members >> p & 1 == 1 { SPLINTER } else { ON };
         // Squared distance from the line through both ends, by the area of the triangle.
-        let strip = ON * ON * dot(along, along).max(1e-9);
+        let square = dot(along, along).max(1e-9);
         let (mut looked_at, was_near) = (0, self.near);
         for p in moved {
             let area = cross_plane(along, sub(at[p], a));
             let bit = 1 << p;
             looked_at |= bit;
             self.left = self.left & !bit | u32::from(area > 0.0) << p;
-            self.near = self.near & !bit | u32::from(area * area < strip) << p;
+            self.near = self.near & !bit | u32::from(area * area < reach(p).powi(2) * square) << p;
         }
         self.near &= !self.at_ends;
         for p in set_bits(self.near & looked_at) {
-            self.near ^= u32::from(side_distance(at[p], [a, b]) >= ON) << p;
+            self.near ^= u32::from(side_distance(at[p], [a, b]) >= reach(p)) << p;
         }
         if (self.near | was_near) & looked_at != 0 {
             // The contact point of pitch circles is on no link. A point of the link itself makes the link a splinter, which does not count
             // as a crossing.
             let near = self.near & !bones.touching;
-            self.foreign = (near & !bones.members[self.side.link]).count_ones();
-            let cost = |p: usize| beyond_limit(ON - side_distance(at[p], [a, b]), ON);
+            self.foreign = (near & !members).count_ones();
+            let cost = |p: usize| beyond_limit(reach(p) - side_distance(at[p], [a, b]), reach(p));
             self.penalty = set_bits(near).map(cost).sum();
         }
     }
@@ -214,9 +222,27 @@ impl SeenSides {
             0 => 0,
             _ => jaw_crossings(bones, &now.sides),
         };
-        let costs = 1.5 * f64::from(count) + JAWS_CROSS * f64::from(between_jaws);
+        let costs = 1.5 * f64::from(count)
+            + JAWS_CROSS * f64::from(between_jaws)
+            + WITHIN * f64::from(pins_within(bones, &now.sides));
         (count as usize, penalty + costs)
     }
+}
+
+/// Returns the number of pins within plates that they do not belong to.
+fn pins_within(bones: &Bones, sides: &[SideSeen]) -> u32 {
+    let pins = ((1 << bones.joints.len()) - 1) & !bones.touching;
+    let plates = sides.chunk_by(|x, y| x.side.link == y.side.link);
+    let within = plates.filter(|plate| plate.len() > 2).map(|plate| {
+        let of = |bits: fn(&SideSeen) -> u32| plate.iter().map(bits);
+        let all_left = of(|s| s.left).fold(u32::MAX, |all, left| all & left);
+        let any_left = of(|s| s.left).fold(0, |any, left| any | left);
+        // A pin that is near to a side has a cost already.
+        let known = of(|s| s.at_ends | s.near).fold(0, |any, own| any | own);
+        let other = pins & !known & !bones.members[plate[0].side.link];
+        ((all_left | !any_left) & other).count_ones()
+    });
+    within.sum()
 }
 
 /// Returns the number of crossings of sides of different jaws.
@@ -241,7 +267,7 @@ fn set_bits(mut set: u32) -> impl Iterator<Item = usize> {
 
 #[cfg(test)]
 mod tests {
-    use super::SeenSides;
+    use super::{ON, SeenSides, SideSeen, pins_within, side_distance};
     use crate::synthesis::sketch::each_classic;
     use crate::synthesis::{random_below, random_for};
 
@@ -263,5 +289,42 @@ mod tests {
                 }
             }
         });
+    }
+
+    /// A line to the right of a pin within a plate crosses its outline an odd number of times.
+    #[test]
+    fn pins_within_plates_are_those_that_rays_find() {
+        let mut found = 0;
+        each_classic(|name, sketch| {
+            let mut random = random_for(name, 3, 0);
+            for _ in 0..20 {
+                let (at, mut seen) = (sketch.first_places(&mut random), SeenSides::default());
+                let (at, bones) = sketch.drawn_points(&at);
+                seen.crossing_cost(bones, &at);
+                let sides = &seen.seen[0].sides;
+                let is_within = |plate: &[SideSeen], p: usize| {
+                    let [x, y] = at[p];
+                    let right = plate.iter().filter(|s| {
+                        let [a, b] = s.side.places(&at);
+                        let there = a[0] + (y - a[1]) / (b[1] - a[1]) * (b[0] - a[0]);
+                        (a[1] > y) != (b[1] > y) && there > x
+                    });
+                    let near = |s: &SideSeen| {
+                        s.at_ends >> p & 1 == 1 || side_distance(at[p], s.side.places(&at)) < ON
+                    };
+                    right.count() % 2 == 1 && !plate.iter().any(near)
+                };
+                let mut count = 0;
+                for plate in sides.chunk_by(|x, y| x.side.link == y.side.link) {
+                    let link = plate[0].side.link;
+                    let others = (0..bones.joints.len())
+                        .filter(|p| bones.joints[*p].is_some_and(|links| !links.contains(&link)));
+                    count += others.filter(|&p| is_within(plate, p)).count();
+                }
+                assert_eq!(pins_within(bones, sides) as usize, count, "{name}");
+                found += count;
+            }
+        });
+        assert!(found > 50, "{found}");
     }
 }
