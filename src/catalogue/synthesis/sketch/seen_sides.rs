@@ -233,7 +233,9 @@ impl SeenSides {
 fn pins_within(bones: &Bones, sides: &[SideSeen]) -> u32 {
     let pins = ((1 << bones.joints.len()) - 1) & !bones.touching;
     let plates = sides.chunk_by(|x, y| x.side.link == y.side.link);
-    let within = plates.filter(|plate| plate.len() > 2).map(|plate| {
+    // Every corner of an outline ends two sides. A bar has none, nor has a plate with three pins in line.
+    let has_outline = |plate: &&[SideSeen]| plate.iter().fold(0, |odd, s| odd ^ s.ends) == 0;
+    let within = plates.filter(has_outline).map(|plate| {
         let of = |bits: fn(&SideSeen) -> u32| plate.iter().map(bits);
         let all_left = of(|s| s.left).fold(u32::MAX, |all, left| all & left);
         let any_left = of(|s| s.left).fold(0, |any, left| any | left);
@@ -270,6 +272,7 @@ mod tests {
     use super::{ON, SeenSides, SideSeen, pins_within, side_distance};
     use crate::synthesis::sketch::each_classic;
     use crate::synthesis::{random_below, random_for};
+    use itertools::Itertools;
 
     /// Moves accepted and rejected in any order give the same result as a new evaluation: only moved points are evaluated again.
     #[test]
@@ -317,6 +320,10 @@ mod tests {
                 let mut count = 0;
                 for plate in sides.chunk_by(|x, y| x.side.link == y.side.link) {
                     let link = plate[0].side.link;
+                    let ends = plate.iter().flat_map(|s| s.side.ends);
+                    if ends.counts().values().any(|times| *times != 2) {
+                        continue;
+                    }
                     let others = (0..bones.joints.len())
                         .filter(|p| bones.joints[*p].is_some_and(|links| !links.contains(&link)));
                     count += others.filter(|&p| is_within(plate, p)).count();
