@@ -54,13 +54,13 @@ impl FoundPlaces {
 /// Maximum number of starts of a search for places, for each lay.
 pub(in crate::synthesis) const STARTS: u32 = 12;
 /// Number of best starts that are completed if none becomes good. More are completed if none of these keeps the limits of the drawing.
-const TO_THE_END: usize = 4;
+const TO_THE_END: usize = 3;
 
 /// Returns the best places of some starts of a structure of this name; `None` if all end in singular poses.
 ///
 /// The first good places are enough. Starts that lag behind are paused. If the stroke is the reason, the next start begins with the same
-/// drawing, reheated, since drawings from random places take most of the time. If none becomes good, the best go on until one fulfils the task and can
-/// be built.
+/// drawing, reheated, since drawings from random places take most of the time. If none becomes good, the best go on until one fulfils the
+/// task and can be built.
 pub(in crate::synthesis) fn best_of_starts<'a>(
     sketch: &Sketch<'a>,
     judge: &mut Judge<'a>,
@@ -143,7 +143,7 @@ const PHASES: [Phase; 3] = [
     },
     Phase {
         look: Look::Stroke,
-        moves: 500,
+        moves: 1000,
         warmth: [0.5, 0.0],
     },
 ];
