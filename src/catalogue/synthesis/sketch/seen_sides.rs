@@ -224,18 +224,26 @@ impl SeenSides {
         };
         let costs = 1.5 * f64::from(count)
             + JAWS_CROSS * f64::from(between_jaws)
-            + WITHIN * f64::from(pins_within(bones, &now.sides));
+            + WITHIN * f64::from(pins_within(bones, &now.sides, at));
         (count as usize, penalty + costs)
     }
 }
 
 /// Returns the number of pins within plates that they do not belong to.
-fn pins_within(bones: &Bones, sides: &[SideSeen]) -> u32 {
+fn pins_within(bones: &Bones, sides: &[SideSeen], at: &[Point]) -> u32 {
     let pins = ((1 << bones.joints.len()) - 1) & !bones.touching;
     let plates = sides.chunk_by(|x, y| x.side.link == y.side.link);
     // Every corner of an outline ends two sides. A bar has none, nor has a plate with three pins in line.
     let has_outline = |plate: &&[SideSeen]| plate.iter().fold(0, |odd, s| odd ^ s.ends) == 0;
-    let within = plates.filter(has_outline).map(|plate| {
+    let plates = plates.filter(has_outline).filter(|plate| {
+        // Three pins in line have no side that turns.
+        let [along, next] = [0, 1].map(|i| {
+            let [a, b] = plate[i].side.places(at);
+            sub(b, a)
+        });
+        plate.len() > 3 || cross_plane(along, next) != 0.0
+    });
+    let within = plates.map(|plate| {
         let of = |bits: fn(&SideSeen) -> u32| plate.iter().map(bits);
         let all_left = of(|s| s.left).fold(u32::MAX, |all, left| all & left);
         let any_left = of(|s| s.left).fold(0, |any, left| any | left);
@@ -328,7 +336,7 @@ mod tests {
                         .filter(|p| bones.joints[*p].is_some_and(|links| !links.contains(&link)));
                     count += others.filter(|&p| is_within(plate, p)).count();
                 }
-                assert_eq!(pins_within(bones, sides) as usize, count, "{name}");
+                assert_eq!(pins_within(bones, sides, &at) as usize, count, "{name}");
                 found += count;
             }
         });
