@@ -87,13 +87,13 @@ fn bad_arguments_end_with_exit_code_2() {
         search four-bar --memory much | such as 500M or 2G
         analyze four-bar --method svd --tolerance 2 | --tolerance
         search gripper-10 --method brute | 13841287201 & too many for brute force
-        search gripper-10 --options revolute,gearbox | --options & gearbox & universal-y
-        search gripper-10 --allow 2-3=gearbox | --allow & gearbox & universal-y
-        search gripper-10 --allow 2-3 | --allow needs names
-        search gripper-10 --allow x-y=revolute | --allow & no joint x-y
-        search gripper-10 --forbid 2-3=gearbox | --forbid & gearbox
-        search gripper-10 --forbid x-y | --forbid & no joint x-y
-        search gripper-10 --hold zz | --hold & no link zz
+        search gripper-10 --options revolute,gearbox | no joint of gripper-10 has an option named gearbox & universal-y
+        search gripper-10 --allow 2-3=gearbox | an option named gearbox & universal-y
+        search gripper-10 --allow 2-3 | name the options to allow at 2-3
+        search gripper-10 --allow x-y=revolute | gripper-10 has no joint x-y
+        search gripper-10 --forbid 2-3=gearbox | an option named gearbox
+        search gripper-10 --forbid x-y | gripper-10 has no joint x-y
+        search gripper-10 --hold zz | gripper-10 has no link zz to hold
         search gripper-10 --state zz | no state zz & free, clamped
         analyze gripper-10 --state zz | no state zz & free, clamped
         search four-bar --max-external 0 | no state besides free

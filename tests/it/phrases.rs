@@ -119,10 +119,10 @@ fn options_may_name_types_that_the_file_does_not_list() {
     // a type that loses the present motion, and no type at all
     let (code, _, err) = search("--options prismatic");
     assert_eq!(code, Some(2));
-    has(&err, "prismatic does not allow the present motion");
+    has(&err, "prismatic does not allow the motion that a joint");
     let (code, _, err) = search("--options nonsuch");
     assert_eq!(code, Some(2));
-    has(&err, "no joint type is named so; there are: ");
+    has(&err, "no joint type has that name; there are: ");
 }
 
 #[test]

@@ -309,7 +309,7 @@ impl Request {
         let settled = settle_states(mechanism, &states)?;
         tell_moved(&settled, tell);
         if settled.open.is_some() {
-            tell("written as it stands: the geometry that its digits mean is not exact, or they do not decide it (`ozols check` tells more)".to_owned());
+            tell("written unchanged: the intended geometry is not exact, or the digits do not decide it (see `ozols check`)".to_owned());
         }
         Ok(settled.snapped.unwrap_or_else(|| mechanism.clone()))
     }

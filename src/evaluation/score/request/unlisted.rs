@@ -127,14 +127,14 @@ impl Request {
         };
         let of_type = |name: &&String| framed_types().find(|t| t.name() == name.as_str()).cloned();
         let new = |name: &&String| !listed.contains(name);
-        let mut wanted: Vec<(&'static str, String, JointType, Vec<JointId>)> = Vec::new();
+        let mut wanted: Vec<(String, JointType, Vec<JointId>)> = Vec::new();
         for name in self.options.iter().filter(new).unique() {
             if let Some(t) = of_type(&name) {
                 let all = mechanism
                     .joints_with_ids()
                     .filter(|(_, j)| is_changeable(j));
                 let all = all.map(|(id, _)| id).collect();
-                wanted.push(("--options", name.clone(), t, all));
+                wanted.push((name.clone(), t, all));
             }
         }
         for rule in &self.allow {
@@ -144,19 +144,18 @@ impl Request {
             for name in &rule.names {
                 let there = mechanism.joints[at].options.iter().any(|o| o.name == *name);
                 if let (Some(t), false) = (of_type(&name), there) {
-                    wanted.push(("--allow", name.clone(), t, vec![at]));
+                    wanted.push((name.clone(), t, vec![at]));
                 }
             }
         }
         let mut parts = mechanism.edit();
-        for (flag, name, joint_type, at) in wanted {
+        for (name, joint_type, at) in wanted {
             let mut taken = false;
             for id in at {
                 taken |= offer_type(&mut parts, id, &joint_type);
             }
             if !taken {
                 return Err(RequestError::LosesMotion {
-                    flag,
                     mechanism: parts.name.clone(),
                     option: name,
                 });
