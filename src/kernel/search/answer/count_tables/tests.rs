@@ -3,8 +3,8 @@ use crate::search::answer::keys::{Key, Steps};
 use crate::search::diagram::redundancy_so_far::Redundancy;
 use crate::search::diagram::{DEAD, Diagram, Layer};
 
-/// Two nodes in each layer: one takes any choice, within a cost of 1; the other takes the dearest alone, whatever that costs.
-/// Between them they have three keys, and no others are carried on.
+/// Each layer has two nodes. One takes any choice within a cost of 1; the other takes only the dearest choice, without a
+/// limit. The two have three keys, and no layer keeps others.
 #[test]
 fn under_bounds_only_the_keys_of_tables_are_carried_on() {
     let keys: Vec<Key> = (0..4).map(|k| Key::new(k.into(), k * k, k)).collect();
