@@ -59,7 +59,7 @@ fn records_of_the_methods_are_those_of_the_survey() {
     says(
         "README.md",
         &format!(
-            "{all} cases of published mobility, of which counting formulas get {} right, double precision {}, and the default method all",
+            "Of {all} published cases, counting formulas get {} right, double precision {}, and the default method all",
             right("count"),
             right("lu")
         ),
