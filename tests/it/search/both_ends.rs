@@ -13,7 +13,9 @@ use std::fmt::Write;
 
 /// Conditions within so many nodes.
 fn within(nodes: usize, keep_output: bool) -> Conditions {
-    default_with(|c: &mut Conditions| (c.nodes, c.keep_output) = (nodes, keep_output))
+    default_with(|c: &mut Conditions| {
+        (c.nodes, c.keep_output, c.throughout) = (nodes, keep_output, keep_output);
+    })
 }
 
 /// Whether a diagram has no two nodes that lead on alike.

@@ -86,8 +86,10 @@ fn part_has_all(halves: &Halves<'_>, part: usize, layers: &[Layer], ends: usize)
     for (front_spaces, back_spaces) in of_front.iter().zip(of_back) {
         let back_rows = back_spaces
             .iter()
-            .map(|&space| rows.back_rows(&back.spaces, space));
-        let bases = Bases::new(halves.field, &back_rows.collect_vec(), false);
+            .map(|&space| rows.back_rows(&back.spaces, space))
+            .collect_vec();
+        let back_rows = back_rows.iter().map(|rows| &rows[..]).collect_vec();
+        let bases = Bases::new(halves.field, &back_rows, false);
         for &space in front_spaces {
             let found =
                 bases.completing_nodes(&rows.front_rows(&front.spaces, space), rows.width());
@@ -121,7 +123,7 @@ impl End {
             let mut children = Children::new(choices);
             let (matrix, spent) = (self.spaces.matrix(space), &self.spaces.spent[space]);
             stage.push_children(&mut worker, matrix, spent, &mut children);
-            merge.take_children(&children, &self.spaces, |_| 0, |_, _, _| false);
+            merge.take_children(&children, &self.spaces, |_| 0, |_, _, _, _| false);
             let found = &merge.edges[space * choices..];
             for &&(choice, node) in &ways {
                 if found[choice] == DEAD {

@@ -8,7 +8,7 @@
 
 use crate::linalg::echelon::Echelon;
 use crate::linalg::modp::{Field, Residue};
-use crate::search::build::completing_sets::{Set, add_node, empty_set};
+use crate::search::diagram::node_sets::{Set, add_node, empty_set};
 use hashbrown::HashMap;
 use std::borrow::Cow;
 use std::ops::Range;
@@ -42,7 +42,7 @@ pub(super) struct Bases {
 
 impl Bases {
     /// Takes a reduced basis of each node, with a number of kept links behind the coordinates of contours.
-    pub(super) fn new(field: Field, bases: &[Vec<Vec<Residue>>], keeps: bool) -> Bases {
+    pub(super) fn new(field: Field, bases: &[&[Vec<Residue>]], keeps: bool) -> Bases {
         let mut known: HashMap<&[Residue], usize> = HashMap::new();
         let mut vectors = Vec::new();
         let mut number = |row| {
@@ -63,7 +63,7 @@ impl Bases {
         all.sort_by(|(a, _), (b, _)| (a.len(), a).cmp(&(b.len(), b)));
         let mut out = Bases {
             field,
-            width: bases.iter().flatten().next().map_or(0, Vec::len),
+            width: bases.iter().copied().flatten().next().map_or(0, Vec::len),
             vectors,
             items: Vec::new(),
             lengths: Vec::new(),
