@@ -20,7 +20,7 @@ pub mod text;
 pub mod write;
 
 use crate::file::locate::DocumentPath;
-use crate::file::problem::{ProblemKind, suggest_word};
+use crate::file::problem::{Found, ProblemKind, WarningKind, suggest_word};
 use crate::geom::expr::{Expr, ExprError};
 use itertools::Itertools;
 use std::cell::{Cell, RefCell};
@@ -39,6 +39,8 @@ pub(crate) const TOLD: usize = 100;
 pub(crate) struct Findings {
     told: RefCell<Vec<Finding>>,
     more: Cell<usize>,
+    /// The doubtful values found so far.
+    warned: RefCell<Found>,
     /// The values of the file's parameters.
     names: BTreeMap<String, Expr>,
     /// The parameters that an expression uses.
@@ -182,6 +184,12 @@ impl<'f> Place<'f> {
         } else {
             self.out.more.set(self.out.more.get() + 1);
         }
+    }
+
+    /// Warns of a doubtful value at this place.
+    pub(crate) fn warn(&self, kind: impl Into<WarningKind>) {
+        let warning = (self.path.clone(), kind.into());
+        self.out.warned.borrow_mut().push(warning);
     }
 
     /// Reports an unknown word.
