@@ -214,8 +214,6 @@ pub(crate) struct Robot {
     pub(in crate::robots) assembly: bool,
     /// Joint types that a search may use instead of a joint.
     pub(in crate::robots) options: &'static [JointType],
-    /// The links of elements.
-    pub(in crate::robots) said: BTreeMap<usize, usize>,
     pub(in crate::robots) report: Report,
 }
 
@@ -269,11 +267,6 @@ impl Robot {
         self.frames
             .insert(name.to_owned(), (l, RigidMotion::IDENTITY));
         l
-    }
-
-    /// Records the element of a link; links inserted between others have none.
-    pub(crate) fn said_by(&mut self, link: usize, e: Element<'_>) {
-        self.said.insert(e.id, link);
     }
 
     /// Returns the link or frame of a name.

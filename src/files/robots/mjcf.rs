@@ -5,7 +5,6 @@ mod equality;
 pub(super) mod fix;
 mod include;
 mod replicate;
-mod weights;
 pub(super) mod write;
 
 use crate::geom::rigid::RigidMotion;
@@ -79,7 +78,6 @@ pub(crate) fn read_mujoco(
     let world = robot.add_link("world", RigidMotion::IDENTITY);
     robot.world = Some(world);
     for w in root.children_named("worldbody") {
-        robot.said_by(world, w);
         read_bodies(Waiting::at_world(w), &mut context, &mut robot)?;
     }
     for section in root.children() {
@@ -146,7 +144,6 @@ fn read_bodies<'a>(start: Waiting<'a>, context: &mut Context<'a>, robot: &mut Ro
                 "body" => {
                     let place = w.place.then(&context.compiler.read_place(e)?);
                     let link = read_body(e, w.link, place, inner(0, place).class, context, robot)?;
-                    robot.said_by(link, e);
                     here.push(inner(link, RigidMotion::IDENTITY));
                 }
                 "frame" => {

@@ -255,11 +255,9 @@ fn read_link<'a>(
             return Err(e.unsupported_error(why, "remove its pose, or give it another name"));
         }
         robot.report.count_mapped("link that is the world");
-        robot.said_by(0, e);
         return Ok(());
     }
     let link = robot.add_link(&name, RigidMotion::IDENTITY);
-    robot.said_by(link, e);
     let to = relative.map_or_else(|| own.to_owned(), |r| absolute_name(scope, r));
     let mut placed = Placed::new(e, to, raw, name.clone());
     placed.link = Some(link);

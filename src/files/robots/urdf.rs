@@ -81,7 +81,6 @@ fn read_link(e: Element<'_>, robot: &mut Robot) -> Read<()> {
         return Err(e.duplicate_error());
     }
     let l = robot.add_link(name, RigidMotion::IDENTITY);
-    robot.said_by(l, e);
     for c in e.children() {
         if ["visual", "collision"].contains(&c.name()) {
             robot.shown.insert(l);

@@ -2,7 +2,7 @@
 //! two sides of a `<connect>` or `<weld>`. Keyframes get the numbers of the new joints.
 
 use crate::geom::rigid::RigidMotion;
-use crate::geom::vector::{Vector, dot, sub};
+use crate::geom::vector::Vector;
 use crate::robots::description::Part;
 use crate::robots::description::origin::Origin;
 use crate::robots::description::physical::Light;
@@ -10,16 +10,13 @@ use crate::robots::edit::{Edits, Freed, Freeing};
 use crate::robots::mechanism::series_of_single_joints::{escape_xml, format_numbers};
 use crate::robots::mjcf::context::Defaults;
 use crate::robots::mjcf::context::read_compiler;
-use crate::robots::mjcf::weights::{self, Weight};
 use crate::robots::warning::Read;
 use crate::robots::xml::element::Element;
-use std::collections::BTreeMap;
 
-/// Armature if the weights of links are unknown, in kg and kg·m²: too much is harmless, too little is not.
-const HEAVY: f64 = 10.0;
-/// Armature as a multiple of the weight of links. In a ladder of four loops, joints differ from those of the original model by 1.4e-3 rad
-/// after half a second at 1, and by 4e-4 at 10.
-const TIMES: f64 = 10.0;
+/// Armature of a new joint, in kg for a slide and in kg·m² for a hinge: more than any robot weighs. MuJoCo softens a constraint by the
+/// mean weight of its bodies in all directions, so a light body in between would let the loop open. The new joint does not move while the
+/// loop stays closed, so its armature changes no motion, however large it is.
+const ARMATURE: f64 = 1000.0;
 
 /// Gives joints freedoms.
 pub(crate) fn free_joints(origin: &Origin, all: &[Freeing<'_>], edits: &mut Edits<'_>) -> Read<()> {
@@ -28,8 +25,6 @@ pub(crate) fn free_joints(origin: &Origin, all: &[Freeing<'_>], edits: &mut Edit
         origin,
         defaults: Defaults::read(root)?,
         parents: find_parents(origin),
-        // Errors in shapes and masses do not matter for the kinematics.
-        weights: weights::read_weights(root, &origin.robot).unwrap_or_default(),
         inserted: Vec::new(),
     };
     for &(part, e, freed) in all {
@@ -77,8 +72,6 @@ struct MjcfFile<'a> {
     origin: &'a Origin,
     defaults: Defaults<'a>,
     parents: Vec<Option<usize>>,
-    /// The weights of the links, in their frames.
-    weights: BTreeMap<usize, Weight>,
     /// Inserted joints.
     inserted: Vec<(KeyframeMark, usize)>,
 }
@@ -130,34 +123,6 @@ impl<'a> MjcfFile<'a> {
         Ok(out)
     }
 
-    /// Returns the armature of a new joint next to a part, in kg for a slide and in kg·m² for a hinge. It is ten times that of the links
-    /// that the part joins. MuJoCo softens a constraint by the mean weight of its bodies in all directions. A light body in between, or a
-    /// thin one that may turn, would let the loop open. The new joint does not move while the loop stays closed, so its armature changes no
-    /// motion.
-    fn armature(&self, part: &Part, slides: bool, point: Vector) -> String {
-        let felt = |(link, w): (usize, &Weight)| {
-            let at = self.origin.places[link].then(&w.place).translation;
-            let far = sub(at, point);
-            let about = w.tensor[..3].iter().sum::<f64>() / 2.0 + w.mass * dot(far, far);
-            if slides { w.mass } else { about }
-        };
-        let joined = part
-            .links
-            .iter()
-            .filter_map(|&l| Some(felt((l, self.weights.get(&l)?))));
-        let joined: f64 = joined.sum();
-        let all = || {
-            self.weights
-                .iter()
-                .map(|(&l, w)| felt((l, w)))
-                .fold(0.0, f64::max)
-        };
-        // Two digits are enough; a larger value does no harm.
-        let most = [joined, all(), HEAVY].into_iter().find(|x| *x > 0.0);
-        let rounded = format!("{:.1e}", TIMES * most.unwrap_or(HEAVY)).parse::<f64>();
-        rounded.unwrap_or(HEAVY).to_string()
-    }
-
     /// Writes the new joints of a joint, in a frame at a place in the world.
     fn write_joints(
         &self,
@@ -177,10 +142,9 @@ impl<'a> MjcfFile<'a> {
                 ("hinge", "turn")
             };
             let name = edits.name(&format!("{}_{word}", part.id));
-            let armature = self.armature(part, *slides, point);
             out.push(format!("<!-- {why} -->"));
             out.push(format!(
-                "<joint name=\"{}\" type=\"{kind}\" armature=\"{armature}\" pos=\"{}\" axis=\"{}\"{neutral}/>",
+                "<joint name=\"{}\" type=\"{kind}\" armature=\"{ARMATURE}\" pos=\"{}\" axis=\"{}\"{neutral}/>",
                 escape_xml(&name),
                 format_numbers(inside.map_point(point)),
                 format_numbers(inside.map_direction(*direction)),
