@@ -4,7 +4,7 @@ use crate::geom::rigid::RigidMotion;
 use crate::geom::vector::length;
 use crate::robots::cad::holds::Holds;
 use crate::robots::cad::{Assembly, Connection, NO_LIMITS};
-use crate::robots::description::{Robot, Unit};
+use crate::robots::description::Robot;
 use crate::robots::warning::{Options, Reader};
 use crate::robots::warning::{
     Read, bad_value, list_known, missing_problem, unknown_name, unknown_word,
@@ -14,10 +14,7 @@ use crate::robots::xml::element::Element;
 use std::collections::BTreeMap;
 
 /// The beginnings of the first line of a file: that of OndselSolver, whose files are in millimetres, and the old one.
-const HEADS: [(&str, Unit); 2] = [
-    ("OndselSolver", Unit::Millimetre),
-    ("freeCAD: 3D CAD", Unit::Metre),
-];
+const HEADS: [(&str, &str); 2] = [("OndselSolver", "mm"), ("freeCAD: 3D CAD", "m")];
 /// Rows of results, after all rows that are read.
 const RESULTS: &str = "TimeSeries";
 /// Labels of the joints of contacts, which constrain nothing until parts touch.
@@ -47,7 +44,7 @@ pub(crate) fn read_assembly(
 ) -> Read<Robot> {
     let text = document.sources[0].text.as_str();
     let unit = HEADS.iter().find(|(head, _)| text.starts_with(head));
-    let unit = unit.map_or(Unit::Millimetre, |(_, unit)| *unit);
+    let unit = unit.map_or("mm", |(_, unit)| *unit);
     let root = document.element(root);
     let name = name(root)?;
     let mut robot = Robot::new(name);

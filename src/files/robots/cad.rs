@@ -13,7 +13,7 @@ use crate::model::joint_type::JointType;
 use crate::robots::cad::holds::Holds;
 use crate::robots::cad::meet::find_coupling;
 use crate::robots::cad::meet::{Meeting, find_meeting};
-use crate::robots::description::{Part, Robot, Unit, free_joint};
+use crate::robots::description::{Part, Robot, free_joint};
 use crate::robots::warning::{CadCount, Options};
 
 /// Frames meet if they are apart by less than this, as a share of the assembly's size and in radians: solvers are as accurate as this.
@@ -54,7 +54,7 @@ impl Connection {
 #[derive(Debug, Clone)]
 pub(crate) struct Assembly {
     pub(crate) name: String,
-    pub(crate) unit: Unit,
+    pub(crate) unit: &'static str,
     /// Names and places.
     pub(crate) parts: Vec<(String, RigidMotion)>,
     pub(crate) connections: Vec<Connection>,
@@ -264,21 +264,16 @@ fn left_out(c: &Connection, why: &str, robot: &mut Robot) {
 }
 
 /// Describes a misfit, such as "0.02 mm and 1.2 degrees".
-pub(crate) fn describe_misfit([shift, turn]: [f64; 2], unit: Unit) -> String {
+pub(crate) fn describe_misfit([shift, turn]: [f64; 2], unit: &str) -> String {
     let number = |x: f64| match x {
         x if x >= 0.095 => format!("{x:.1}"),
         x => format!("{x:.1e}"),
     };
     let degrees = turn.to_degrees();
     match (shift > ROUNDED, degrees > ROUNDED) {
-        (true, true) => format!(
-            "{} {} and {} degrees",
-            number(shift),
-            unit.symbol(),
-            number(degrees)
-        ),
+        (true, true) => format!("{} {unit} and {} degrees", number(shift), number(degrees)),
         (false, true) => format!("{} degrees", number(degrees)),
-        (true, false) => format!("{} {}", number(shift), unit.symbol()),
-        (false, false) => format!("0 {}", unit.symbol()),
+        (true, false) => format!("{} {unit}", number(shift)),
+        (false, false) => format!("0 {unit}"),
     }
 }

@@ -203,8 +203,8 @@ pub(crate) struct Robot {
     pub(in crate::robots) frames: BTreeMap<String, (usize, RigidMotion)>,
     /// Places of links in the file, for links without another place.
     pub(in crate::robots) places: Vec<RigidMotion>,
-    /// The unit of its lengths.
-    pub(in crate::robots) unit: Unit,
+    /// The symbol of the unit of its lengths: m or mm.
+    pub(in crate::robots) unit: &'static str,
     /// The accuracy of places, in its unit and in radians, if it is better than the digits of its numbers.
     pub(in crate::robots) known_to: Option<[f64; 2]>,
     /// Whether a joint has freedoms that are valid at this pose only.
@@ -215,31 +215,6 @@ pub(crate) struct Robot {
     /// Joint types that a search may use instead of a joint.
     pub(in crate::robots) options: &'static [JointType],
     pub(in crate::robots) report: Report,
-}
-
-/// A unit of lengths.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
-pub(crate) enum Unit {
-    #[default]
-    Metre,
-    Millimetre,
-}
-
-impl Unit {
-    /// Returns its symbol in mechanism files.
-    pub(crate) fn symbol(self) -> &'static str {
-        match self {
-            Unit::Metre => "m",
-            Unit::Millimetre => "mm",
-        }
-    }
-
-    pub(crate) fn metres(self) -> f64 {
-        match self {
-            Unit::Metre => 1.0,
-            Unit::Millimetre => 1e-3,
-        }
-    }
 }
 
 /// Joint types that a search may use instead of a joint, if a format has no list.
@@ -255,6 +230,7 @@ impl Robot {
         Robot {
             name: name.to_owned(),
             options: &OPTIONS,
+            unit: "m",
             ..Robot::default()
         }
     }

@@ -7,7 +7,7 @@ mod reference;
 use crate::geom::rigid::RigidMotion;
 use crate::robots::cad::archive::Archive;
 use crate::robots::cad::{Assembly, Connection, NO_LIMITS};
-use crate::robots::description::{Robot, Unit};
+use crate::robots::description::Robot;
 use crate::robots::fcstd::distance::{Held, Shapes, Slide, joint_constraint, joint_frames};
 use crate::robots::fcstd::objects::{Object, Objects};
 use crate::robots::fcstd::reference::{Documents, Reference, read_reference};
@@ -255,7 +255,7 @@ impl<'a> Assembling<'a, '_> {
         }
         Ok(Assembly {
             name: self.assembly.label().to_owned(),
-            unit: Unit::Millimetre,
+            unit: "mm",
             parts,
             connections,
         })

@@ -131,7 +131,7 @@ pub(crate) fn close_loops(
         return Ok(());
     }
     let size = robot_size(robot);
-    let unit = robot.unit.symbol();
+    let unit = robot.unit;
     let first = worst_gap(&loop_gaps(robot, tree), size);
     let loops = count_noun(tree.loops.len(), "loop");
     if first <= CLOSED * size {
@@ -188,7 +188,7 @@ fn moved_most(robot: &Robot, tree: &Tree, before: &[Vec<f64>]) -> String {
 
 /// Describes the loop with the widest gap.
 fn widest_gap(robot: &Robot, tree: &Tree, size: f64) -> String {
-    let unit = robot.unit.symbol();
+    let unit = robot.unit;
     let by = |g: &loop_closing::Gap| g.shift.max(g.turn * size);
     let gaps = loop_gaps(robot, tree);
     let most = gaps.iter().max_by(|a, b| by(a).total_cmp(&by(b)));

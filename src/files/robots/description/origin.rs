@@ -71,12 +71,12 @@ impl Origin {
         self.part_of(joint).drive || self.part_of(joint).pulled
     }
 
-    /// Returns true if all joints of one freedom are within their limits in a pose; `metres` is the mechanism's unit of length.
+    /// Returns true if all joints of one freedom are within their limits in a pose.
     #[must_use]
-    pub fn is_inside(&self, pose: &Pose, metres: f64) -> bool {
+    pub fn is_inside(&self, pose: &Pose) -> bool {
         pose.columns.iter().all(|c| {
             let unit = if c.freedom.is_slide() {
-                pose.length * metres / self.robot.unit.metres()
+                pose.length
             } else {
                 1.0
             };
@@ -93,11 +93,7 @@ impl Origin {
         let words = |p: &Part| {
             let [value, low, high] = p.exceeded_limits(0.0)?.map(|x| three_digits(x + p.zero));
             let slides = p.joint_type.freedoms().iter().any(|f| f.is_slide());
-            let unit = if slides {
-                self.robot.unit.symbol()
-            } else {
-                "rad"
-            };
+            let unit = if slides { self.robot.unit } else { "rad" };
             Some(format!(
                 "{} is at {value} {unit}, outside its limits {low} to {high}",
                 p.id

@@ -106,7 +106,7 @@ pub(crate) fn make_file(c: &Content<'_>) -> (MechanismFile, Vec<Comment>) {
     let file = MechanismFile {
         name: one_line(&c.robot.name),
         description: describe_source(c),
-        length_unit: Some(c.robot.unit.symbol().to_owned()),
+        length_unit: Some(c.robot.unit.to_owned()),
         link: links,
         joint: joints,
         coupling: c.couplings.iter().map(coupling).collect(),
