@@ -14,8 +14,7 @@ use crate::geom::rigid::RigidMotion;
 use crate::model::joint_type::JointType;
 use crate::robots::description::kinematics::{Tree, link_places, spanning_tree};
 use crate::robots::description::{Part, Robot, coupling, free_joint};
-use crate::robots::mechanism::entries::{Bodies, Content};
-use crate::robots::mechanism::entries::{link_of, output_links};
+use crate::robots::mechanism::entries::{Content, link_of, merge_links, output_links};
 use crate::robots::mechanism::loop_closing::{
     CLOSED, ROUNDED, close_numerically, loop_gaps, robot_size, worst_gap,
 };
@@ -242,7 +241,7 @@ pub(crate) fn make_entries(
     let places = link_places(robot, tree);
     let (bodies, joints) = rigid_bodies(robot, tree)?;
     let couplings = coupling::usable_couplings(robot, &joints);
-    let frame = bodies.of[tree.roots[0]];
+    let frame = bodies[tree.roots[0]];
     let outputs = output_links(robot, &bodies, &joints, frame, options)?;
     let mut report = std::mem::take(&mut robot.report);
     report.outputs = (
@@ -251,7 +250,7 @@ pub(crate) fn make_entries(
     );
     let used: BTreeSet<usize> = joints
         .iter()
-        .flat_map(|&j| robot.joints[j].links.map(|l| bodies.of[l]))
+        .flat_map(|&j| robot.joints[j].links.map(|l| bodies[l]))
         .collect();
     report.size = (used.len(), joints.len());
     within_limits(used.len(), joints.len())?;
@@ -281,7 +280,7 @@ pub(crate) fn make_entries(
 
 /// Merges rigidly joined links to bodies and returns them with the joints between them. Joints within a body are reported and
 /// omitted.
-fn rigid_bodies(robot: &mut Robot, tree: &Tree) -> Result<(Bodies, Vec<usize>), ProblemKind> {
+fn rigid_bodies(robot: &mut Robot, tree: &Tree) -> Result<(Vec<usize>, Vec<usize>), ProblemKind> {
     let kept = if robot.assembly {
         in_loops(robot, tree)
     } else {
@@ -289,12 +288,12 @@ fn rigid_bodies(robot: &mut Robot, tree: &Tree) -> Result<(Bodies, Vec<usize>), 
     };
     let fixed = |j: usize| robot.joints[j].joint_type == JointType::Fixed && !kept.contains(&j);
     let rigid = tree.steps.iter().filter(|s| fixed(s.joint));
-    let bodies = Bodies::new(robot.links.len(), rigid.map(|s| (s.from, s.link)));
+    let bodies = merge_links(robot.links.len(), rigid.map(|s| (s.from, s.link)));
     let in_tree: BTreeSet<usize> = tree.steps.iter().map(|s| s.joint).collect();
     let mut joints = Vec::new();
     let mut within = Vec::new();
     for (j, p) in robot.joints.iter().enumerate() {
-        let [a, b] = p.links.map(|l| bodies.of[l]);
+        let [a, b] = p.links.map(|l| bodies[l]);
         if a == b && !(in_tree.contains(&j) && fixed(j)) {
             within.push(p.id.clone());
         } else if a != b {

@@ -142,6 +142,10 @@ impl Document {
     /// Reads a file into the arena; gives its root element.
     pub(crate) fn read(&mut self, name: &str, text: String) -> Read<usize> {
         let source = self.sources.len();
+        let total = text.len() + self.sources.iter().map(|s| s.text.len()).sum::<usize>();
+        if total > MAX_BYTES {
+            return Err(too_large(total, MAX_BYTES).in_file(name, "", None));
+        }
         let root = parse_xml(&text, source, &mut self.nodes).map_err(|(problem, at)| {
             let at = (0..=at.min(text.len()))
                 .rev()
@@ -152,17 +156,6 @@ impl Document {
         let name = name.to_owned();
         self.sources.push(Source { name, text });
         Ok(root)
-    }
-
-    /// Returns an error if the files become too large with this number of further bytes.
-    pub(super) fn has_room(&self, bytes: usize) -> Result<(), String> {
-        let total: usize = self.sources.iter().map(|s| s.text.len()).sum();
-        if total + bytes > MAX_BYTES {
-            return Err(format!(
-                "the files have more than {MAX_BYTES} bytes together"
-            ));
-        }
-        Ok(())
     }
 }
 

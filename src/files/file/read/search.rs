@@ -182,24 +182,15 @@ pub(crate) fn read_ranking(file: &MechanismFile, m: &Parts, out: &Findings) -> O
     let at = &out.key("ranking");
     Some(Ranking {
         order: at.read_word("order", &entry.order, &Order::ALL.map(|(o, w)| (w, o))),
-        clearance: read_clearance(entry, at),
+        clearance: at.read_word(
+            "clearance",
+            &entry.clearance,
+            &[("worst", ClearanceSum::Worst), ("rms", ClearanceSum::Rms)],
+        ),
         terms: read_terms(entry, &at.key("terms")),
         limits: read_limits(entry, &at.key("limits")),
         states: ranked_states(entry, m, &at.key("states")),
     })
-}
-
-/// Returns the rule for adding clearances.
-fn read_clearance(entry: &RankingEntry, at: &Place<'_>) -> ClearanceSum {
-    match entry.clearance.as_deref() {
-        None | Some("worst") => ClearanceSum::Worst,
-        Some("rms") => ClearanceSum::Rms,
-        Some(word) => {
-            let at = at.key("clearance");
-            at.add_unknown_word("sum of clearances", word, ["worst", "rms"]);
-            ClearanceSum::Worst
-        }
-    }
 }
 
 /// Returns the terms with their weights.

@@ -51,14 +51,12 @@ fn tilt_to(m: &RigidMotion, z: Vector) -> RigidMotion {
         sine if sine > 0.0 => RigidMotion::from_turn(about, sine.atan2(dot(from, z))),
         _ => RigidMotion::IDENTITY,
     };
-    let turned = RigidMotion {
-        translation: [0.0; 3],
-        ..*m
-    };
-    RigidMotion {
-        translation: m.translation,
-        ..turn.then(&turned)
-    }
+    at_point(turn.then(&at_point(*m, [0.0; 3])), m.translation)
+}
+
+/// Returns a frame moved to a point.
+fn at_point(m: RigidMotion, translation: Vector) -> RigidMotion {
+    RigidMotion { translation, ..m }
 }
 
 /// Returns the orientation of J that is nearest to I among those along the same lines: a cosine of 0 also holds for a flipped
@@ -201,14 +199,8 @@ fn constant_velocity_joint(i: &RigidMotion, j: &RigidMotion) -> Result<Meeting, 
     }
     let sum = dot(frame_axis(i, 0), frame_axis(j, 1)) + dot(frame_axis(i, 1), frame_axis(j, 0));
     let near = make_frame(i.translation, n, frame_axis(i, 0));
-    let off = RigidMotion::from_turn(n, sum / length(n)).then(&RigidMotion {
-        translation: [0.0; 3],
-        ..near
-    });
-    let far = RigidMotion {
-        translation: j.translation,
-        ..off
-    };
+    let off = RigidMotion::from_turn(n, sum / length(n)).then(&at_point(near, [0.0; 3]));
+    let far = at_point(off, j.translation);
     let kind = JointType::Custom(vec![Freedom::Rx, Freedom::Ry]);
     Ok(at_this_pose(Meeting::new(kind, near, far)))
 }
@@ -225,13 +217,8 @@ fn angle_joint(i: &RigidMotion, j: &RigidMotion, cosine: f64) -> Result<Meeting,
     }
     let off = length(n).atan2(dot(a, b)) - cosine.clamp(-1.0, 1.0).acos();
     let near = make_frame(i.translation, n, a);
-    let far = RigidMotion {
-        translation: i.translation,
-        ..RigidMotion::from_turn(n, off).then(&RigidMotion {
-            translation: [0.0; 3],
-            ..near
-        })
-    };
+    let turned = RigidMotion::from_turn(n, off).then(&at_point(near, [0.0; 3]));
+    let far = at_point(turned, i.translation);
     let kind = JointType::Custom(vec![Rx, Ry, Tx, Ty, Tz]);
     Ok(at_this_pose(Meeting::new(kind, near, far)))
 }
@@ -259,10 +246,7 @@ fn distance_joint(holds: Holds, i: &RigidMotion, j: &RigidMotion) -> Result<Meet
     let zj = scale(zj, if dot(zj, z) < 0.0 { -1.0 } else { 1.0 });
     let lines = |kind, slip: f64| {
         let near = make_frame(add_scaled(point, -slip, z), z, u);
-        let far = RigidMotion {
-            translation: oj,
-            ..tilt_to(&near, zj)
-        };
+        let far = at_point(tilt_to(&near, zj), oj);
         Meeting::new(kind, near, far)
     };
     Ok(at_this_pose(match holds {

@@ -402,11 +402,7 @@ fn geometry_line<'a>(text: &'a str, heading: &str, n: usize) -> Option<&'a str> 
     let mut lines = body.lines();
     for _ in 1..n {
         let kind: usize = lines.next()?.split_whitespace().next()?.parse().ok()?;
-        let simple = match heading {
-            "Surfaces" => (1..=5).contains(&kind),
-            _ => (1..=5).contains(&kind),
-        };
-        if !simple {
+        if !(1..=5).contains(&kind) {
             return None;
         }
     }
@@ -414,25 +410,17 @@ fn geometry_line<'a>(text: &'a str, heading: &str, n: usize) -> Option<&'a str> 
 }
 
 fn of_geometry(heading: &str, line: &str) -> Option<ShapeKind> {
-    let words: Vec<f64> = line
-        .split_whitespace()
-        .filter_map(|w| w.parse().ok())
-        .collect();
-    let last = words.last().copied()?;
-    #[allow(
-        clippy::cast_possible_truncation,
-        reason = "a small whole number or none"
-    )]
-    let kind = *words.first()? as i64;
+    let (kind, rest) = line.trim().split_once(' ')?;
+    let last = rest.rsplit(' ').find_map(|w| w.parse().ok())?;
     Some(match (heading, kind) {
-        ("Surfaces", 1) => ShapeKind::Plane,
-        ("Surfaces", 2) => ShapeKind::Cylinder(last),
-        ("Surfaces", 3) => ShapeKind::Cone,
-        ("Surfaces", 4) => ShapeKind::Sphere(last),
-        ("Surfaces", 5) => ShapeKind::Torus(last),
+        ("Surfaces", "1") => ShapeKind::Plane,
+        ("Surfaces", "2") => ShapeKind::Cylinder(last),
+        ("Surfaces", "3") => ShapeKind::Cone,
+        ("Surfaces", "4") => ShapeKind::Sphere(last),
+        ("Surfaces", "5") => ShapeKind::Torus(last),
         ("Surfaces", _) => ShapeKind::Surface,
-        (_, 1) => ShapeKind::Line,
-        (_, 2) => ShapeKind::Circle(last),
+        (_, "1") => ShapeKind::Line,
+        (_, "2") => ShapeKind::Circle(last),
         _ => ShapeKind::Curve,
     })
 }

@@ -20,23 +20,14 @@ use std::collections::{BTreeMap, BTreeSet};
 /// Longest name in a mechanism file, in characters.
 const LONGEST: usize = 64;
 
-/// The links after merging those that are rigidly joined.
-#[derive(Debug)]
-pub(crate) struct Bodies {
-    /// For each link of the robot the link that represents it.
-    pub(in crate::robots) of: Vec<usize>,
-}
-
-impl Bodies {
-    /// Merges along the fixed joints of the tree.
-    pub(crate) fn new(links: usize, fixed: impl Iterator<Item = (usize, usize)>) -> Bodies {
-        let mut of: Vec<usize> = (0..links).collect();
-        // The steps of a tree lead away from its roots, so that `from` is already settled.
-        for (from, to) in fixed {
-            of[to] = of[from];
-        }
-        Bodies { of }
+/// Merges links along the fixed joints of a tree. Returns for each link of the robot the link that represents it.
+pub(crate) fn merge_links(links: usize, fixed: impl Iterator<Item = (usize, usize)>) -> Vec<usize> {
+    let mut of: Vec<usize> = (0..links).collect();
+    // The steps of a tree lead away from its roots, so that `from` is already settled.
+    for (from, to) in fixed {
+        of[to] = of[from];
     }
+    of
 }
 
 /// Returns a name that fits a mechanism file: unique, not empty, short, without control characters.
@@ -65,7 +56,8 @@ pub(crate) struct Content<'a> {
     pub(in crate::robots) file: &'a str,
     pub(in crate::robots) format: &'static str,
     pub(in crate::robots) places: &'a [RigidMotion],
-    pub(in crate::robots) bodies: &'a Bodies,
+    /// For each link of the robot the link that represents it.
+    pub(in crate::robots) bodies: &'a [usize],
     pub(in crate::robots) frame: usize,
     /// Bodies that are outputs.
     pub(in crate::robots) outputs: &'a [usize],
@@ -143,12 +135,12 @@ fn make_links(
     comments: &mut Vec<Comment>,
 ) -> (Vec<LinkEntry>, BTreeMap<usize, String>) {
     let mut merged: BTreeMap<usize, Vec<&str>> = BTreeMap::new();
-    for (l, &b) in c.bodies.of.iter().enumerate() {
+    for (l, &b) in c.bodies.iter().enumerate() {
         if l != b {
             merged.entry(b).or_default().push(&c.robot.links[l]);
         }
     }
-    let ends = |&j: &usize| c.robot.joints[j].links.map(|l| c.bodies.of[l]);
+    let ends = |&j: &usize| c.robot.joints[j].links.map(|l| c.bodies[l]);
     let used: BTreeSet<usize> = c.joints.iter().flat_map(ends).collect();
     let order = std::iter::once(c.frame).chain(used.into_iter().filter(|&b| b != c.frame));
     let (mut names, mut ids, mut links) = (Names::default(), BTreeMap::new(), Vec::new());
@@ -212,7 +204,7 @@ fn make_joint(j: usize, id: String, c: &Content<'_>, ids: &BTreeMap<usize, Strin
     let screws = p.joint_type.freedoms().contains(&Freedom::Screw);
     JointEntry {
         id,
-        links: p.links.map(|l| ids[&c.bodies.of[l]].clone()),
+        links: p.links.map(|l| ids[&c.bodies[l]].clone()),
         kind: p.joint_type.name().to_owned(),
         freedoms: match &p.joint_type {
             JointType::Custom(list) => Some(list.iter().map(|f| f.name().to_owned()).collect()),
@@ -247,14 +239,14 @@ pub(crate) fn link_of(robot: &Robot, name: &str) -> Result<usize, ProblemKind> {
 /// effectors by name, ends of chains with a shape or a site, all ends, the farthest link from the frame.
 pub(crate) fn output_links(
     robot: &Robot,
-    bodies: &Bodies,
+    bodies: &[usize],
     joints: &[usize],
     frame: usize,
     options: &Options,
 ) -> Result<Vec<usize>, ProblemKind> {
     let mut out = Vec::new();
     for name in &options.outputs {
-        let b = bodies.of[link_of(robot, name)?];
+        let b = bodies[link_of(robot, name)?];
         if b == frame {
             return Err(syntax_problem(format!(
                 "link \"{name}\" is the frame or fixed to it; name a link that moves"
@@ -270,25 +262,25 @@ pub(crate) fn output_links(
     Ok(out)
 }
 
-fn guess_outputs(robot: &Robot, bodies: &Bodies, joints: &[usize], frame: usize) -> Vec<usize> {
+fn guess_outputs(robot: &Robot, bodies: &[usize], joints: &[usize], frame: usize) -> Vec<usize> {
     let ends = joints
         .iter()
-        .map(|&j| robot.joints[j].links.map(|l| bodies.of[l]));
+        .map(|&j| robot.joints[j].links.map(|l| bodies[l]));
     let n = robot.links.len();
     let mut joints_at = vec![0; n];
     ends.clone().flatten().for_each(|b| joints_at[b] += 1);
     let moves = |b: usize| b != frame && joints_at[b] > 0;
-    let named = (0..n).filter(|&l| moves(bodies.of[l]) && is_effector(&robot.links[l]));
-    let named: Vec<usize> = named.map(|l| bodies.of[l]).collect();
+    let named = (0..n).filter(|&l| moves(bodies[l]) && is_effector(&robot.links[l]));
+    let named: Vec<usize> = named.map(|l| bodies[l]).collect();
     let floating = joints.iter().map(|&j| &robot.joints[j]);
     // A body that is driven in all six freedoms is an input, not an output.
     let floating = floating.filter(|p| p.joint_type.freedoms().len() == 6 && !p.drive);
-    let floating = floating.flat_map(|p| p.links.map(|l| bodies.of[l]));
+    let floating = floating.flat_map(|p| p.links.map(|l| bodies[l]));
     let floating: Vec<usize> = floating.filter(|&b| b != frame).collect();
     if !named.is_empty() {
         return [named, floating].concat();
     }
-    let shown: BTreeSet<usize> = robot.shown.iter().map(|&l| bodies.of[l]).collect();
+    let shown: BTreeSet<usize> = robot.shown.iter().map(|&l| bodies[l]).collect();
     let leaves: Vec<usize> = (0..n).filter(|&b| moves(b) && joints_at[b] == 1).collect();
     let with: Vec<usize> = leaves
         .iter()

@@ -100,9 +100,6 @@ fn read_included(
         let why = format!("it cannot be read ({error})");
         refuse(e, &why, "put it in the folder of the file")
     })?;
-    if let Err(why) = document.has_room(bytes.len()) {
-        return Err(refuse(e, &why, "remove everything that is not kinematics"));
-    }
     document.read(&file, xml::decode_utf8(&file, &bytes)?)
 }
 

@@ -90,14 +90,6 @@ fn read_included(
             return Err(include_error(e, &uri, &why, remedy));
         }
     };
-    if let Err(why) = document.has_room(bytes.len()) {
-        return Err(include_error(
-            e,
-            &uri,
-            &why,
-            "remove everything that is not kinematics",
-        ));
-    }
     let inner = document.read(&uri, xml::decode_utf8(&uri, &bytes)?)?;
     let found = document.element(inner);
     old.push(is_old(found));
