@@ -4,7 +4,7 @@ use crate::geom::rigid::RigidMotion;
 use crate::geom::vector::Vector;
 use crate::robots::description::Part;
 use crate::robots::description::origin::Origin;
-use crate::robots::description::physical::Light;
+use crate::robots::description::physical::{LIGHT_SDF, LIGHT_URDF};
 use crate::robots::mechanism::series_of_single_joints::{
     Names, escape_comment, escape_xml, format_numbers,
 };
@@ -169,7 +169,6 @@ pub(crate) fn end_of(e: Element<'_>) -> usize {
 
 /// Gives joints freedoms. Inserted joints come before the joint: its child, its name and its followers stay.
 pub(crate) fn free_urdf(origin: &Origin, all: &[Freeing<'_>], edits: &mut Edits<'_>) -> Read<()> {
-    let light = Light::in_description(&origin.document).write_urdf();
     for &(part, e, freed) in all {
         // The first link of a loop states its place in its own attributes, a joint in a separate element.
         let (tag, at) = match e.name() {
@@ -194,7 +193,7 @@ pub(crate) fn free_urdf(origin: &Origin, all: &[Freeing<'_>], edits: &mut Edits<
             let name = edits.name(&format!("{}_{word}", part.id));
             lines.push(format!("<!-- {why} -->"));
             lines.push(format!(
-                "<link name=\"{}\">{light}</link>",
+                "<link name=\"{}\">{LIGHT_URDF}</link>",
                 escape_xml(&between)
             ));
             lines.push(format!(
@@ -246,7 +245,6 @@ pub(crate) fn comment_out(
 
 /// Gives joints freedoms.
 pub(crate) fn free_sdf(origin: &Origin, all: &[Freeing<'_>], edits: &mut Edits<'_>) -> Read<()> {
-    let light = Light::in_description(&origin.document).write_sdf();
     for &(part, e, freed) in all {
         let remedy = "choose another joint";
         let (Some(child), "joint") = (e.first_child("child"), e.name()) else {
@@ -281,7 +279,7 @@ pub(crate) fn free_sdf(origin: &Origin, all: &[Freeing<'_>], edits: &mut Edits<'
             let axis = format_numbers(frame.inverse().map_direction(*direction));
             lines.push(format!("<!-- {why} -->"));
             lines.push(format!(
-                "<link name=\"{}\">{link_pose}{light}</link>",
+                "<link name=\"{}\">{link_pose}{LIGHT_SDF}</link>",
                 escape_xml(&between)
             ));
             chain.push((name, kind, between, axis));

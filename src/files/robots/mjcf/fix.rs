@@ -5,7 +5,7 @@ use crate::geom::rigid::RigidMotion;
 use crate::geom::vector::Vector;
 use crate::robots::description::Part;
 use crate::robots::description::origin::Origin;
-use crate::robots::description::physical::Light;
+use crate::robots::description::physical::LIGHT_MJCF;
 use crate::robots::edit::{Edits, Freed, Freeing};
 use crate::robots::mechanism::series_of_single_joints::{escape_xml, format_numbers};
 use crate::robots::mjcf::context::Defaults;
@@ -212,7 +212,7 @@ impl<'a> MjcfFile<'a> {
         let between = edits.name(&format!("{}_between", part.id));
         let inner = self.write_joints(part, point, &frame, body, freed, edits)?;
         let at = frame.inverse().map_point(point);
-        edits.append_child(body, &self.write_body(&between, at, inner, None));
+        edits.append_child(body, &write_body(&between, at, inner, None));
         edits.set_attribute(e, "body1", &between)?;
         self.inserted
             .push((KeyframeMark::Within(body.id), freed.len()));
@@ -250,30 +250,11 @@ impl<'a> MjcfFile<'a> {
         let (before, after) = (&raw[..span.start - start], &raw[span.end - start..]);
         let copied = format!("{before}{}{after}", escape_xml(&copy));
         let inside = frame.inverse().map_point(at.translation);
-        edits.insert_after(
-            found,
-            &self.write_body(&between, inside, inner, Some(copied)),
-        );
+        edits.insert_after(found, &write_body(&between, inside, inner, Some(copied)));
         edits.set_attribute(e, "site1", &copy)?;
         self.inserted
             .push((KeyframeMark::Site(found.id), freed.len()));
         Ok(())
-    }
-
-    /// Writes the lines of an inserted body, with its mass at its joints.
-    fn write_body(
-        &self,
-        name: &str,
-        at: Vector,
-        inner: Vec<String>,
-        site: Option<String>,
-    ) -> Vec<String> {
-        let mut out = vec![format!("<body name=\"{}\">", escape_xml(name))];
-        let light = Light::in_description(&self.origin.document).write_mjcf(at);
-        let inner = std::iter::once(light).chain(inner).chain(site);
-        out.extend(inner.map(|l| format!("  {l}")));
-        out.push("</body>".to_owned());
-        out
     }
 
     /// Zeros for the new joints in the positions and speeds of keyframes.
@@ -329,6 +310,16 @@ impl<'a> MjcfFile<'a> {
         }
         Ok(())
     }
+}
+
+/// Writes the lines of an inserted body, with its mass at its joints.
+fn write_body(name: &str, at: Vector, inner: Vec<String>, site: Option<String>) -> Vec<String> {
+    let mut out = vec![format!("<body name=\"{}\">", escape_xml(name))];
+    let light = format!("<inertial pos=\"{}\" {LIGHT_MJCF}/>", format_numbers(at));
+    let inner = std::iter::once(light).chain(inner).chain(site);
+    out.extend(inner.map(|l| format!("  {l}")));
+    out.push("</body>".to_owned());
+    out
 }
 
 /// Returns the starts of the words of a text.

@@ -3,8 +3,7 @@
 use crate::model::joint_type::JointType;
 use crate::model::mechanism::{JointId, LinkId, Mechanism, Role, StateId};
 use crate::robots::description::coupling::{Follows, find_mimics};
-use crate::robots::description::physical::Light;
-use crate::robots::description::physical::{left_out, moving_inertial, write_head};
+use crate::robots::description::physical::{LIGHT_SDF, left_out, moving_inertial, write_head};
 use crate::robots::formats::FormattedFile;
 use crate::robots::mechanism::series_of_single_joints::{
     JointAxes, Names, Single, clean_number, escape_comment, escape_xml, format_numbers, joint_axes,
@@ -20,8 +19,6 @@ struct SdfWriter<'a> {
     links: Vec<Option<String>>,
     ids: Vec<String>,
     follows: Vec<Option<Follows>>,
-    /// A link without its own mass.
-    light: String,
     head: String,
     body: String,
 }
@@ -45,7 +42,6 @@ pub(crate) fn write_sdf(m: &Mechanism) -> FormattedFile {
         links: vec![None; m.links.len()],
         ids: vec![String::new(); m.joints.len()],
         follows,
-        light: Light::in_mechanism(m).write_sdf(),
         head: String::new(),
         body: String::new(),
     };
@@ -159,12 +155,8 @@ impl SdfWriter<'_> {
                 end.clone()
             } else {
                 let to = self.names.fit_name(&format!("{id}~{}", i + 1));
-                let light = &self.light;
-                let _ = writeln!(
-                    self.head,
-                    "    <link name=\"{}\">{light}</link>",
-                    escape_xml(&to)
-                );
+                let link = escape_xml(&to);
+                let _ = writeln!(self.head, "    <link name=\"{link}\">{LIGHT_SDF}</link>");
                 to
             };
             let part = match i {

@@ -5,8 +5,9 @@ use crate::geom::vector::sub;
 use crate::model::joint_type::JointType;
 use crate::model::mechanism::{JointId, Link, LinkId, Mechanism, StateId};
 use crate::robots::description::coupling::{Follows, find_mimics};
-use crate::robots::description::physical::Light;
-use crate::robots::description::physical::{self, GRAM, left_out, link_inertial, moving_inertial};
+use crate::robots::description::physical::{
+    GRAM, LIGHT_URDF, left_out, link_inertial, moving_inertial, write_head,
+};
 use crate::robots::formats::FormattedFile;
 use crate::robots::mechanism::series_of_single_joints::{
     Names, Single, clean_number, escape_comment, escape_xml, format_numbers, joint_axes,
@@ -18,8 +19,6 @@ use std::fmt::Write;
 /// The content of a file.
 struct UrdfWriter<'a> {
     m: &'a Mechanism,
-    /// A link without its own mass.
-    light: String,
     links: Names,
     joints: Names,
     /// Name of each written link, and the place of its frame.
@@ -39,7 +38,6 @@ struct UrdfWriter<'a> {
 pub(crate) fn write_urdf(m: &Mechanism) -> Result<FormattedFile, ExportError> {
     let mut w = UrdfWriter {
         m,
-        light: Light::in_mechanism(m).write_urdf(),
         links: Names::default(),
         joints: Names::default(),
         placed: vec![None; m.links.len()],
@@ -98,12 +96,8 @@ impl UrdfWriter<'_> {
     /// Writes a light link between the freedoms of a joint, and returns its name.
     fn write_between(&mut self, id: &str, place: usize) -> String {
         let name = self.links.fit_name(&format!("{id}~{place}~link"));
-        let light = &self.light;
-        let _ = writeln!(
-            self.head,
-            "  <link name=\"{}\">{light}</link>",
-            escape_xml(&name)
-        );
+        let link = escape_xml(&name);
+        let _ = writeln!(self.head, "  <link name=\"{link}\">{LIGHT_URDF}</link>");
         name
     }
 
@@ -212,7 +206,7 @@ impl UrdfWriter<'_> {
                     .to_owned(),
             );
         }
-        let (name, above) = (escape_xml(&m.name), physical::write_head(m, "  ", &told));
+        let (name, above) = (escape_xml(&m.name), write_head(m, "  ", &told));
         let (head, body) = (self.head, self.body);
         let text = format!(
             "<?xml version=\"1.0\"?>\n<robot name=\"{name}\">\n{above}{head}{body}</robot>\n"
