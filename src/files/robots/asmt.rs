@@ -5,9 +5,8 @@ use crate::geom::vector::length;
 use crate::robots::cad::holds::Holds;
 use crate::robots::cad::{Assembly, Connection, NO_LIMITS};
 use crate::robots::description::Robot;
-use crate::robots::warning::{Options, Reader};
 use crate::robots::warning::{
-    Read, bad_value, list_known, missing_problem, unknown_name, unknown_word,
+    Options, Read, Reader, bad_value, list_known, missing_problem, unknown_name, unknown_word,
 };
 use crate::robots::xml::Document;
 use crate::robots::xml::element::Element;

@@ -11,8 +11,7 @@ use crate::geom::rigid::RigidMotion;
 use crate::geom::vector::length;
 use crate::model::joint_type::JointType;
 use crate::robots::cad::holds::Holds;
-use crate::robots::cad::meet::find_coupling;
-use crate::robots::cad::meet::{Meeting, find_meeting};
+use crate::robots::cad::meet::{Meeting, find_coupling, find_meeting};
 use crate::robots::description::{Part, Robot, free_joint};
 use crate::robots::warning::{CadCount, Options};
 

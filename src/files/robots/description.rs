@@ -13,8 +13,7 @@ use crate::file::problem::ImportError;
 use crate::geom::rigid::{RigidMotion, perpendicular};
 use crate::geom::vector::{Vector, X, Z, cross};
 use crate::model::joint_type::{Freedom, JointType};
-use crate::robots::warning::Read;
-use crate::robots::warning::Report;
+use crate::robots::warning::{Read, Report};
 use crate::robots::xml::element::Element;
 use std::collections::{BTreeMap, BTreeSet};
 

@@ -11,8 +11,9 @@ use crate::robots::description::Robot;
 use crate::robots::fcstd::distance::{Held, Shapes, Slide, joint_constraint, joint_frames};
 use crate::robots::fcstd::objects::{Object, Objects};
 use crate::robots::fcstd::reference::{Documents, Reference, read_reference};
-use crate::robots::warning::{Options, Reader};
-use crate::robots::warning::{Read, list_known, syntax_problem, too_many, unknown_name};
+use crate::robots::warning::{
+    Options, Read, Reader, list_known, syntax_problem, too_many, unknown_name,
+};
 use crate::robots::xml::element::Element;
 use crate::robots::xml::{self, Document};
 use std::collections::{BTreeMap, BTreeSet};

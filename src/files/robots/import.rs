@@ -24,8 +24,7 @@ use crate::robots::mechanism::loop_closing::robot_size;
 use crate::robots::mechanism::{
     Entries, apply_pose, check_held, close_loops, loop_options, make_entries, root_link,
 };
-use crate::robots::warning::{ExportError, syntax_problem};
-use crate::robots::warning::{Options, Reader, Report};
+use crate::robots::warning::{ExportError, Options, Reader, Report, syntax_problem};
 use crate::robots::xml::element::Element;
 use crate::robots::xml::{self, Document};
 

@@ -18,8 +18,7 @@ use crate::robots::mechanism::entries::{Content, link_of, merge_links, output_li
 use crate::robots::mechanism::loop_closing::{
     CLOSED, ROUNDED, close_numerically, loop_gaps, robot_size, worst_gap,
 };
-use crate::robots::warning::Options;
-use crate::robots::warning::{bad_value, list_known, syntax_problem, unknown_name};
+use crate::robots::warning::{Options, bad_value, list_known, syntax_problem, unknown_name};
 use itertools::Itertools;
 use std::collections::BTreeSet;
 

@@ -12,13 +12,11 @@ use crate::model::joint_type::JointType;
 use crate::robots::additions::{ball_constraint, leave_out, read_plugin};
 use crate::robots::description::{Part, Robot};
 use crate::robots::sdf::include::Expanded;
-use crate::robots::sdf::joints::read_gearbox;
-use crate::robots::sdf::joints::{read_joint, read_weld};
+use crate::robots::sdf::joints::{read_gearbox, read_joint, read_weld};
 use crate::robots::sdf::scene::{
     Placed, SdfScene, absolute_name, insert, moves_with, named_place, read_pose, resolve_places,
 };
-use crate::robots::warning::Read;
-use crate::robots::warning::{Options, Reader};
+use crate::robots::warning::{Options, Read, Reader};
 use crate::robots::xml::Document;
 use crate::robots::xml::element::Element;
 

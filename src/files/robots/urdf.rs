@@ -9,8 +9,7 @@ use crate::robots::additions::{
     add_coupling, ball_constraint, leave_out, named_parts, read_gazebo,
 };
 use crate::robots::description::{Part, Ratio, Robot, free_joint, same_link};
-use crate::robots::warning::{Options, Reader};
-use crate::robots::warning::{Read, bad_value, list_known, unknown_name};
+use crate::robots::warning::{Options, Read, Reader, bad_value, list_known, unknown_name};
 use crate::robots::xml::Document;
 use crate::robots::xml::element::Element;
 

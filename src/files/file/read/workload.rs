@@ -7,11 +7,10 @@ pub mod motion;
 pub mod trajectory;
 
 use crate::file::problem::ImportError;
-use crate::file::read::build_mechanism;
-use crate::file::read::read_claims;
 use crate::file::read::value::{length_unit, with_parameters};
 use crate::file::read::workload::drive::read_drive;
 use crate::file::read::workload::grip::read_grip;
+use crate::file::read::{build_mechanism, read_claims};
 use crate::file::schema::MechanismFile;
 use crate::file::text::{read_file, text_of};
 use crate::file::{Finding, Findings};

@@ -12,9 +12,8 @@ use crate::geom::rigid::RigidMotion;
 use crate::geom::vector::{Vector, X, Y, Z, length};
 use crate::model::joint_type::JointType;
 use crate::robots::description::{Part, Robot};
-use crate::robots::warning::Reader;
 use crate::robots::warning::{
-    Read, list_known, syntax_problem, too_large, unknown_name, unknown_word,
+    Read, Reader, list_known, syntax_problem, too_large, unknown_name, unknown_word,
 };
 use serde_json::{Map, Value};
 

@@ -8,8 +8,7 @@ use crate::robots::description::origin::Origin;
 use crate::robots::description::physical::LIGHT_MJCF;
 use crate::robots::edit::{Edits, Freed, Freeing};
 use crate::robots::mechanism::series_of_single_joints::{escape_xml, format_numbers};
-use crate::robots::mjcf::context::Defaults;
-use crate::robots::mjcf::context::read_compiler;
+use crate::robots::mjcf::context::{Defaults, read_compiler};
 use crate::robots::warning::Read;
 use crate::robots::xml::element::Element;
 

@@ -1,7 +1,6 @@
 //! Includes: the children of another file's root in place of an element.
 
-use crate::robots::warning::Reader;
-use crate::robots::warning::{Read, unsupported_problem};
+use crate::robots::warning::{Read, Reader, unsupported_problem};
 use crate::robots::xml::element::Element;
 use crate::robots::xml::{self, Document};
 use std::path::{Component, Path};

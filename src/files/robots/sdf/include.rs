@@ -1,8 +1,7 @@
 //! `<include>`: the model of another file in place of the element, under the name and at the place that it gives.
 
 use crate::file::problem::ImportError;
-use crate::robots::warning::Reader;
-use crate::robots::warning::{Read, unsupported_problem};
+use crate::robots::warning::{Read, Reader, unsupported_problem};
 use crate::robots::xml::element::Element;
 use crate::robots::xml::{self, Document};
 
