@@ -6,10 +6,10 @@ use crate::robots::cad::holds::Holds;
 use crate::robots::cad::{Assembly, Connection, NO_LIMITS};
 use crate::robots::description::Robot;
 use crate::robots::warning::{
-    Options, Read, Reader, bad_value, list_known, missing_problem, unknown_name, unknown_word,
+    Read, bad_value, list_known, missing_problem, unknown_name, unknown_word,
 };
-use crate::robots::xml::Document;
 use crate::robots::xml::element::Element;
+use crate::robots::xml::{Document, Input};
 use std::collections::BTreeMap;
 
 /// The beginnings of the first line of a file: that of OndselSolver, whose files are in millimetres, and the old one.
@@ -35,16 +35,11 @@ pub(crate) fn read_lines(document: &mut Document, name: &str, text: String) -> R
 ///
 /// # Errors
 /// Returns the first problem found, with its place.
-pub(crate) fn read_assembly(
-    document: &mut Document,
-    root: usize,
-    _: Reader<'_>,
-    options: &Options,
-) -> Read<Robot> {
-    let text = document.sources[0].text.as_str();
+pub(crate) fn read_assembly(input: Input<'_>) -> Read<Robot> {
+    let text = input.document.sources[0].text.as_str();
     let unit = HEADS.iter().find(|(head, _)| text.starts_with(head));
     let unit = unit.map_or("mm", |(_, unit)| *unit);
-    let root = document.element(root);
+    let root = input.document.element(input.root);
     let name = name(root)?;
     let mut robot = Robot::new(name);
     let ground = read_pose(root)?;
@@ -92,7 +87,7 @@ pub(crate) fn read_assembly(
         parts,
         connections,
     };
-    Ok(assembly.to_robot(robot, options))
+    Ok(assembly.to_robot(robot, input.options))
 }
 
 /// Returns the child with a label, or an error if it is missing.

@@ -15,7 +15,7 @@ use crate::robots::warning::{
     Options, Read, Reader, list_known, syntax_problem, too_many, unknown_name,
 };
 use crate::robots::xml::element::Element;
-use crate::robots::xml::{self, Document};
+use crate::robots::xml::{self, Document, Input};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// The member of the archive that lists the objects.
@@ -33,12 +33,8 @@ const LIMITS: &str = "EnableLengthMin EnableLengthMax EnableAngleMin EnableAngle
 ///
 /// # Errors
 /// Returns the first problem found, with its place.
-pub(crate) fn read_document(
-    document: &mut Document,
-    root: usize,
-    read: Reader<'_>,
-    options: &Options,
-) -> Read<Robot> {
+pub(crate) fn read_document(input: Input<'_>) -> Read<Robot> {
+    let (document, root, read) = (input.document, input.root, input.read);
     let mut robot = Robot::new("");
     let roots = read_linked(document, root, read, &mut robot)?;
     let mut documents = Documents {
@@ -49,7 +45,7 @@ pub(crate) fn read_document(
         let objects = Objects::read_objects(document.element(*root))?;
         documents.linked.insert(file.clone(), objects);
     }
-    let assembly = choose_assembly(document, root, &documents.main, options, &mut robot)?;
+    let assembly = choose_assembly(document, root, &documents.main, input.options, &mut robot)?;
     let shapes = |member: &str| String::from_utf8(read(member).ok()?).ok();
     let reading = Assembling {
         documents: &documents,
@@ -58,7 +54,7 @@ pub(crate) fn read_document(
         shapes: &shapes,
     };
     let assembly = reading.read_assembly(document, root, &mut robot)?;
-    Ok(assembly.to_robot(robot, options))
+    Ok(assembly.to_robot(robot, input.options))
 }
 
 /// Reads the documents that links lead to, with those that these lead to; their root elements by the names of their files.

@@ -5,8 +5,8 @@ use crate::file::write::{self, mechanism_file};
 use crate::model::mechanism::Mechanism;
 use crate::robots::cad::archive::Archive;
 use crate::robots::description::Robot;
-use crate::robots::warning::{ExportError, Options, Read, Reader, syntax_problem};
-use crate::robots::xml::Document;
+use crate::robots::warning::{ExportError, Read, syntax_problem};
+use crate::robots::xml::Input;
 use crate::robots::{asmt, fcstd, graph, mjcf, sdf, urdf};
 
 /// A format of files.
@@ -24,8 +24,8 @@ pub struct Format {
     write: Option<FormatWriter>,
 }
 
-/// Reads the robot below the root element of a document; the files it includes are given by the reader.
-pub(crate) type Describe = fn(&mut Document, usize, Reader<'_>, &Options) -> Read<Robot>;
+/// Reads a robot.
+pub(crate) type Describe = fn(Input<'_>) -> Read<Robot>;
 
 /// Writer of a format.
 #[derive(Debug, Clone, Copy)]

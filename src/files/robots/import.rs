@@ -26,7 +26,7 @@ use crate::robots::mechanism::{
 };
 use crate::robots::warning::{ExportError, Options, Reader, Report, syntax_problem};
 use crate::robots::xml::element::Element;
-use crate::robots::xml::{self, Document};
+use crate::robots::xml::{self, Document, Input};
 
 /// A mechanism and its origin.
 #[derive(Debug, Clone)]
@@ -192,7 +192,12 @@ fn read_described(
         return Err(element.error_at(None, syntax_problem(message)));
     };
     check_expanded(document)?;
-    let robot = describe(document, root, read, options)?;
+    let robot = describe(Input {
+        document,
+        root,
+        read,
+        options,
+    })?;
     if robot.links.is_empty() {
         return Err(document.element(root).missing_error("links"));
     }

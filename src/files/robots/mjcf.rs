@@ -13,8 +13,8 @@ use crate::model::joint_type::JointType;
 use crate::robots::additions::leave_out;
 use crate::robots::description::{Part, Robot, free_joint};
 use crate::robots::mjcf::context::{Context, Defaults, Lookup, read_compiler};
-use crate::robots::warning::{Options, Read, Reader, bad_value};
-use crate::robots::xml::Document;
+use crate::robots::warning::{Read, bad_value};
+use crate::robots::xml::Input;
 use crate::robots::xml::element::Element;
 use std::collections::BTreeMap;
 
@@ -57,13 +57,9 @@ impl<'a> Waiting<'a> {
 }
 
 /// Reads a `<mujoco>` and the files it includes.
-pub(crate) fn read_mujoco(
-    document: &mut Document,
-    root: usize,
-    inner: Reader<'_>,
-    options: &Options,
-) -> Read<Robot> {
-    include::expand_includes(document, root, inner, !options.models.is_empty())?;
+pub(crate) fn read_mujoco(input: Input<'_>) -> Read<Robot> {
+    let (document, root) = (input.document, input.root);
+    include::expand_includes(document, root, input.read, !input.options.models.is_empty())?;
     replicate::expand_replicates(document, root)?;
     let root = document.element(root);
     let name = root.attribute("model").unwrap_or("robot");

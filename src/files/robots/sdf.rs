@@ -16,18 +16,14 @@ use crate::robots::sdf::joints::{read_gearbox, read_joint, read_weld};
 use crate::robots::sdf::scene::{
     Placed, SdfScene, absolute_name, insert, moves_with, named_place, read_pose, resolve_places,
 };
-use crate::robots::warning::{Options, Read, Reader};
-use crate::robots::xml::Document;
+use crate::robots::warning::Read;
+use crate::robots::xml::Input;
 use crate::robots::xml::element::Element;
 
 /// Reads an `<sdf>`.
-pub(crate) fn read_sdf(
-    document: &mut Document,
-    root: usize,
-    inner: Reader<'_>,
-    options: &Options,
-) -> Read<Robot> {
-    let Expanded { old, scenery } = include::expand_includes(document, root, inner)?;
+pub(crate) fn read_sdf(input: Input<'_>) -> Read<Robot> {
+    let (document, root) = (input.document, input.root);
+    let Expanded { old, scenery } = include::expand_includes(document, root, input.read)?;
     let root = document.element(root);
     let mut robot = Robot::new("robot");
     for uri in &scenery {
@@ -39,7 +35,7 @@ pub(crate) fn read_sdf(
     robot.floats = true;
     let mut scene = SdfScene {
         old_axes: old,
-        assemble: options.assemble,
+        assemble: input.options.assemble,
         ..SdfScene::default()
     };
     let among = of_worlds(root, &mut scene);

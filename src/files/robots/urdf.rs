@@ -9,8 +9,8 @@ use crate::robots::additions::{
     add_coupling, ball_constraint, leave_out, named_parts, read_gazebo,
 };
 use crate::robots::description::{Part, Ratio, Robot, free_joint, same_link};
-use crate::robots::warning::{Options, Read, Reader, bad_value, list_known, unknown_name};
-use crate::robots::xml::Document;
+use crate::robots::warning::{Read, bad_value, list_known, unknown_name};
+use crate::robots::xml::Input;
 use crate::robots::xml::element::Element;
 
 /// The elements of a joint that are read.
@@ -18,13 +18,8 @@ const OF_JOINTS: [&str; 6] = ["origin", "parent", "child", "axis", "limit", "mim
 const TYPES: &str = "revolute, continuous, prismatic, fixed, planar, floating";
 
 /// Reads a `<robot>`.
-pub(crate) fn read_urdf(
-    document: &mut Document,
-    root: usize,
-    _: Reader<'_>,
-    _: &Options,
-) -> Read<Robot> {
-    let root = document.element(root);
+pub(crate) fn read_urdf(input: Input<'_>) -> Read<Robot> {
+    let root = input.document.element(input.root);
     let mut robot = Robot::new(root.attribute("name").unwrap_or("robot"));
     for e in root.children_named("link") {
         read_link(e, &mut robot)?;

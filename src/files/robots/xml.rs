@@ -5,7 +5,9 @@ pub(crate) mod element;
 use crate::file::problem::ProblemKind;
 use crate::file::text;
 use crate::geom::vector::Vector;
-use crate::robots::warning::{Read, syntax_problem, too_deep, too_large, too_many};
+use crate::robots::warning::{
+    Options, Read, Reader as FileReader, syntax_problem, too_deep, too_large, too_many,
+};
 use quick_xml::Reader;
 use quick_xml::events::{BytesStart, Event};
 use std::ops::Range;
@@ -127,6 +129,14 @@ impl Node {
 pub(crate) struct Document {
     pub(super) sources: Vec<Source>,
     pub(super) nodes: Vec<Node>,
+}
+
+/// A description to be read: its root element, the files that it includes, and how to read it.
+pub(crate) struct Input<'a> {
+    pub(crate) document: &'a mut Document,
+    pub(crate) root: usize,
+    pub(crate) read: FileReader<'a>,
+    pub(crate) options: &'a Options,
 }
 
 /// Returns bytes as text.
