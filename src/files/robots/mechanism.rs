@@ -16,7 +16,7 @@ use crate::robots::description::kinematics::{Tree, link_places, spanning_tree};
 use crate::robots::description::{Part, Robot, coupling, free_joint};
 use crate::robots::mechanism::entries::{Content, link_of, merge_links, output_links};
 use crate::robots::mechanism::loop_closing::{
-    CLOSED, ROUNDED, close_numerically, loop_gaps, robot_size, worst_gap,
+    CLOSED, ROUNDED, close_numerically, joint_values, loop_gaps, robot_size, worst_gap,
 };
 use crate::robots::warning::{Options, bad_value, list_known, syntax_problem, unknown_name};
 use itertools::Itertools;
@@ -145,7 +145,7 @@ pub(crate) fn close_loops(
         robot.report.add_moved(note);
         return Ok(());
     }
-    let before: Vec<Vec<f64>> = robot.joints.iter().map(|j| j.values.clone()).collect();
+    let before = joint_values(robot);
     let (left, outside) = close_numerically(robot, tree);
     if left > ROUNDED * size {
         let widest = widest_gap(robot, tree, size);

@@ -174,24 +174,6 @@ fn link_inertia(t: &Place<'_>, id: &str, unit: f64, mechanism: Option<&Parts>) -
     Some(about + body.mass * (dot(from, from) - along * along).max(0.0))
 }
 
-/// Returns the inertia of the bare disc, from its figure or its link.
-fn disc_inertia(
-    t: &Place<'_>,
-    e: &DriveEntry,
-    unit: f64,
-    mechanism: Option<&Parts>,
-) -> Option<f64> {
-    let disc = t.not_negative("disc_inertia", &e.disc_inertia, 1.0);
-    match (disc, &e.disc_link) {
-        (Some(_), Some(_)) => {
-            t.add_excluded_key("disc_link", "disc_inertia");
-            disc
-        }
-        (None, Some(id)) => Some(link_inertia(t, id, unit, mechanism).unwrap_or(1.0)),
-        (_, None) => disc,
-    }
-}
-
 /// Inertias of the discs with what they carry, and the payload.
 pub(crate) fn read_inertias(
     t: &Place<'_>,
@@ -201,7 +183,14 @@ pub(crate) fn read_inertias(
 ) -> ([f64; 2], Option<Payload>) {
     let mass = t.read_positive("payload_mass", &e.payload_mass, 1.0);
     let radius = t.not_negative("payload_radius", &e.payload_radius, unit);
-    let disc = disc_inertia(t, e, unit, mechanism);
+    let stated = t.not_negative("disc_inertia", &e.disc_inertia, 1.0);
+    let linked = e.disc_link.as_ref();
+    if stated.is_some() && linked.is_some() {
+        t.add_excluded_key("disc_link", "disc_inertia");
+    }
+    let linked = linked.filter(|_| stated.is_none());
+    let linked = linked.map(|id| link_inertia(t, id, unit, mechanism).unwrap_or(1.0));
+    let disc = stated.or(linked);
     let whole = t.read_positive("inertia", &e.inertia, 1.0);
     match (mass, radius) {
         (Some(_), None) => t.add_missing_key("payload_mass", "payload_radius"),
@@ -212,38 +201,22 @@ pub(crate) fn read_inertias(
     let mass = mass.or(whole.map(|_| 0.0));
     let payload = mass.zip(radius);
     let payload = payload.map(|(mass, radius)| Payload { mass, radius });
-    let Some(first) = loaded_inertia(t, whole, disc, payload) else {
-        return ([1.0; 2], payload);
-    };
-    let second = t.read_positive("second_inertia", &e.second_inertia, 1.0);
-    ([first, second.unwrap_or(first)], payload)
-}
-
-/// Returns the inertia of a disc with its payload: the given sum, or the sum of both; `None` if neither has an inertia.
-fn loaded_inertia(
-    t: &Place<'_>,
-    whole: Option<f64>,
-    disc: Option<f64>,
-    payload: Option<Payload>,
-) -> Option<f64> {
-    match (whole, disc) {
-        (Some(i), None) => return Some(i),
-        (Some(_), Some(_)) => t.add_excluded_key("disc_inertia", "inertia"),
-        (None, Some(disc)) => {
-            let sum = disc + payload.map_or(0.0, |p| p.mass * p.radius * p.radius);
-            if sum <= 0.0 {
-                let allowed = "a disc or a payload with an inertia above 0";
-                t.key("disc_inertia").add_bad_value("inertia", sum, allowed);
-                return None;
-            }
-            return Some(sum);
-        }
+    let sum = disc.map(|i| i + payload.map_or(0.0, |p| p.mass * p.radius * p.radius));
+    match (whole, sum) {
         (None, None) => {
             let other = "inertia, or disc_inertia with payload_mass and payload_radius";
             add_lacking(t, other);
         }
+        (Some(_), Some(_)) => t.add_excluded_key("disc_inertia", "inertia"),
+        (None, Some(sum)) if sum <= 0.0 => {
+            let allowed = "a disc or a payload with an inertia above 0";
+            t.key("disc_inertia").add_bad_value("inertia", sum, allowed);
+        }
+        _ => {}
     }
-    Some(1.0)
+    let first = whole.or(sum).unwrap_or(1.0);
+    let second = t.read_positive("second_inertia", &e.second_inertia, 1.0);
+    ([first, second.unwrap_or(first)], payload)
 }
 
 /// Maximum number of steps of a programme.

@@ -191,66 +191,8 @@ fn contacts_go_with(t: &Place<'_>, spec: &GripSpec) {
     }
 }
 
-/// The joints of a clamped part and of the levers that clamp it.
-struct Clamp<'a> {
-    mechanism: &'a Parts,
-    /// The joints of the levers, upper and lower.
-    levers: [JointId; 2],
-    /// Upper far, upper near, lower far, lower near.
-    contacts: [JointId; 4],
-    /// The clamped object, if the first contact has one.
-    part: Option<LinkId>,
-}
-
-impl Clamp<'_> {
-    /// Checks that each contact is between the part and its lever, and that all act in the same states.
-    fn check_contacts(&self, at: &Place<'_>) {
-        let m = self.mechanism;
-        for (i, (at, &j)) in at.each_entry(&self.contacts).enumerate() {
-            let joint = &m.joints[j];
-            let lever = &m.joints[self.levers[i / 2]];
-            let touches = joint.links.iter().any(|&l| Some(l) == self.part);
-            let shared = |l: &LinkId| lever.links.contains(l) && *l != m.frame_link();
-            let allowed = if !touches || !joint.links.iter().any(shared) {
-                match i / 2 {
-                    0 => {
-                        "a joint between the part (a link of role \"object\") and the link that turns in the first of lever_joints"
-                    }
-                    _ => {
-                        "a joint between the part (a link of role \"object\") and the link that turns in the second of lever_joints"
-                    }
-                }
-            } else if joint.states.is_none() || joint.states != m.joints[self.contacts[0]].states {
-                "one with the same `state` as the other contacts, such as state = \"clamped\""
-            } else {
-                continue;
-            };
-            at.add_bad_value("contact", format!("{:?}", joint.id), allowed);
-        }
-    }
-
-    /// Checks that the levers turn on the frame.
-    fn check_pivots(&self, at: &Place<'_>) {
-        let m = self.mechanism;
-        for (at, &j) in at.each_entry(&self.levers) {
-            if !m.joints[j].links.contains(&m.frame_link()) {
-                let allowed = "a joint at the frame: with contacts, the pivots stand still";
-                at.add_bad_value("lever joint", format!("{:?}", m.joints[j].id), allowed);
-            }
-        }
-    }
-
-    /// Returns true if there are four contacts and nothing else holds the part.
-    fn holds_alone(&self) -> bool {
-        let m = self.mechanism;
-        let further = |j: JointId| {
-            self.part.is_some_and(|p| m.joints[j].links.contains(&p)) && !self.contacts.contains(&j)
-        };
-        !m.joint_ids().any(further) && self.contacts.iter().all_unique()
-    }
-}
-
-/// Returns the joints that represent the contacts; each joins the part to its lever.
+/// Returns the joints that represent the contacts: upper far, upper near, lower far, lower near. Each joins the part to its lever, and
+/// all act in the same states.
 fn read_contacts(t: &Place<'_>, e: &GripEntry, spec: &GripSpec, m: &Parts) -> Option<[JointId; 4]> {
     let ids = e.contacts.as_ref()?;
     let Transmission::Joints(levers) = spec.transmission else {
@@ -263,17 +205,33 @@ fn read_contacts(t: &Place<'_>, e: &GripEntry, spec: &GripSpec, m: &Parts) -> Op
     contacts_go_with(t, spec);
     let at = t.key("contacts");
     let contacts: [JointId; 4] = read_joints(&at, ids, m).try_into().ok()?;
-    let held =
-        |l: &LinkId| m.links[*l].role == Role::Object && m.joints[contacts[0]].links.contains(l);
-    let clamp = Clamp {
-        mechanism: m,
-        levers,
-        contacts,
-        part: m.link_ids().find(held),
-    };
-    clamp.check_contacts(&at);
-    clamp.check_pivots(&t.key("lever_joints"));
-    if !clamp.holds_alone() {
+    let first = &m.joints[contacts[0]];
+    let held = |l: &LinkId| m.links[*l].role == Role::Object && first.links.contains(l);
+    let part = m.link_ids().find(held);
+    let of_part = |j: &JointId| part.is_some_and(|p| m.joints[*j].links.contains(&p));
+    for (i, (at, &j)) in at.each_entry(&contacts).enumerate() {
+        let (joint, lever) = (&m.joints[j], &m.joints[levers[i / 2]]);
+        let shared = |l: &LinkId| lever.links.contains(l) && *l != m.frame_link();
+        let allowed = if !of_part(&j) || !joint.links.iter().any(shared) {
+            let which = ["first", "second"][i / 2];
+            &format!(
+                "a joint between the part (a link of role \"object\") and the link that turns in the {which} of lever_joints"
+            )
+        } else if joint.states.is_none() || joint.states != first.states {
+            "one with the same `state` as the other contacts, such as state = \"clamped\""
+        } else {
+            continue;
+        };
+        at.add_bad_value("contact", format!("{:?}", joint.id), allowed);
+    }
+    for (at, &j) in t.key("lever_joints").each_entry(&levers) {
+        if !m.joints[j].links.contains(&m.frame_link()) {
+            let allowed = "a joint at the frame: with contacts, the pivots stand still";
+            at.add_bad_value("lever joint", format!("{:?}", m.joints[j].id), allowed);
+        }
+    }
+    let further = m.joint_ids().any(|j| of_part(&j) && !contacts.contains(&j));
+    if further || !contacts.iter().all_unique() {
         let allowed =
             "all four joints of the part, each once, and no other joint may hold the part";
         at.add_bad_value("list of contacts", format!("{ids:?}"), allowed);
