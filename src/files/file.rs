@@ -3,7 +3,6 @@
 
 pub mod builder;
 pub mod costs;
-mod digits;
 #[doc(hidden)]
 pub mod disk;
 mod doubted;
@@ -14,7 +13,6 @@ pub mod loose;
 pub mod problem;
 pub mod read;
 pub mod schema;
-mod shape;
 pub mod template;
 pub mod text;
 pub mod write;

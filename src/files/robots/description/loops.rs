@@ -74,23 +74,15 @@ pub(crate) fn report_beside(name: &str, read: Reader<'_>, robot: &mut Robot) {
 
 /// Returns true if a file has one of the forms that define loops.
 fn has_loops(name: &str, bytes: &[u8]) -> bool {
-    let text = std::str::from_utf8(bytes)
-        .ok()
-        .filter(|t| t.len() <= MAX_BYTES);
-    match text.and_then(|t| parse_loops(name, t).ok()) {
-        Some(Value::Object(o)) => {
-            let full = |k: &str| {
-                o.get(k)
-                    .and_then(Value::as_array)
-                    .is_some_and(|l| !l.is_empty())
-            };
-            full("closed_loop") || full("loop") || full("joint_name")
-        }
-        Some(Value::Array(all)) => all
-            .iter()
-            .any(|v| v.get("ball_constraint_body_A").is_some()),
-        _ => false,
-    }
+    let text = std::str::from_utf8(bytes).ok();
+    let text = text.filter(|t| t.len() <= MAX_BYTES);
+    let Some(found) = text.and_then(|t| parse_loops(name, t).ok()) else {
+        return false;
+    };
+    let full = |k: &str| found[k].as_array().is_some_and(|l| !l.is_empty());
+    let mut entries = found.as_array().into_iter().flatten();
+    ["closed_loop", "loop", "joint_name"].into_iter().any(full)
+        || entries.any(|v| v.get("ball_constraint_body_A").is_some())
 }
 
 fn parse_loops(name: &str, text: &str) -> Result<Value, String> {
@@ -267,23 +259,17 @@ fn read_pairs(o: &Map<String, Value>, robot: &mut Robot) -> Result<(), ProblemKi
 
 /// Reads numbers as a list, or as text with spaces as in Drake.
 fn read_vector(v: Option<&Value>, what: &str) -> Result<Option<Vector>, ProblemKind> {
-    let bad = || {
-        syntax_problem(format!(
-            "{what} is not three finite numbers; write [0, 0, 1]"
-        ))
-    };
-    let numbers: Vec<f64> = match v {
+    let numbers: Option<Vec<f64>> = match v {
         None => return Ok(None),
-        Some(Value::String(s)) => {
-            let read: Result<Vec<f64>, _> = s.split_whitespace().map(str::parse).collect();
-            read.map_err(|_| bad())?
-        }
-        Some(Value::Array(items)) => items.iter().filter_map(Value::as_f64).collect(),
-        Some(_) => return Err(bad()),
+        Some(Value::String(s)) => s.split_whitespace().map(|w| w.parse().ok()).collect(),
+        Some(Value::Array(items)) => items.iter().map(Value::as_f64).collect(),
+        Some(_) => None,
     };
-    match numbers[..] {
-        [x, y, z] if [x, y, z].iter().all(|c| c.abs() <= 1e9) => Ok(Some([x, y, z])),
-        _ => Err(bad()),
+    match numbers.as_deref() {
+        Some(&[x, y, z]) if [x, y, z].iter().all(|c| c.abs() <= 1e9) => Ok(Some([x, y, z])),
+        _ => Err(syntax_problem(format!(
+            "{what} is not three finite numbers; write [0, 0, 1]"
+        ))),
     }
 }
 
