@@ -25,7 +25,8 @@ const SECTIONS: &str = "asset contact custom extension keyframe option sensor si
 /// Attributes of a joint's resistance to motion, which do not affect the kinematics.
 const RESISTANCE: &str = "damping stiffness springdamper armature frictionloss";
 
-/// An element still to be read: a body or frame, its link, its place there, and the class of its children.
+/// An element still to be read: a body, frame or joint, its link, its place there, and the class of its children.
+#[derive(Clone, Copy)]
 struct Waiting<'a> {
     element: Element<'a>,
     link: usize,
@@ -137,7 +138,7 @@ fn read_bodies<'a>(start: Waiting<'a>, context: &mut Context<'a>, robot: &mut Ro
             match e.name() {
                 "body" => {
                     let place = w.place.then(&context.compiler.read_place(e)?);
-                    let link = read_body(e, w.link, place, inner(0, place).class, context, robot)?;
+                    let link = read_body(inner(w.link, place), context, robot)?;
                     here.push(inner(link, RigidMotion::IDENTITY));
                 }
                 "frame" => {
@@ -206,15 +207,9 @@ fn read_site(
     Ok(())
 }
 
-/// Reads a body and its joints, in series through extra links if there are several.
-fn read_body<'a>(
-    e: Element<'a>,
-    parent: usize,
-    place: RigidMotion,
-    class: Option<&'a str>,
-    context: &Context<'a>,
-    robot: &mut Robot,
-) -> Read<usize> {
+/// Reads a body on its parent and its joints, in series through extra links if there are several.
+fn read_body<'a>(at: Waiting<'a>, context: &Context<'a>, robot: &mut Robot) -> Read<usize> {
+    let (e, parent, place) = (at.element, at.link, at.place);
     let name = match e.attribute("name") {
         Some(n) if robot.frame(n).is_some() && robot.links.iter().any(|l| l == n) => {
             return Err(e.duplicate_error());
@@ -226,7 +221,11 @@ fn read_body<'a>(
     e.check_room("joints", robot.joints.len())?;
     let world = robot.places[parent].then(&place);
     let mut joints = Vec::new();
-    own_joints(e, RigidMotion::IDENTITY, class, context, &mut joints)?;
+    let own = Waiting {
+        place: RigidMotion::IDENTITY,
+        ..at
+    };
+    own_joints(own, context, &mut joints)?;
     robot.report.count_mapped("body");
     if joints.is_empty() {
         let link = robot.add_link(&name, world);
@@ -264,34 +263,14 @@ fn read_body<'a>(
     Ok(from)
 }
 
-/// A joint of a body.
-struct OwnJoint<'a> {
-    element: Element<'a>,
-    /// The place of the frames around it in the body.
-    inner: RigidMotion,
-    /// The class of those frames.
-    class: Option<&'a str>,
-}
-
-/// Returns the joints of a body, including those in its frames.
-fn own_joints<'a>(
-    e: Element<'a>,
-    place: RigidMotion,
-    class: Option<&'a str>,
-    context: &Context<'a>,
-    out: &mut Vec<OwnJoint<'a>>,
-) -> Read<()> {
-    for c in e.children() {
+/// Returns the joints of a body, including those in its frames, with the places of these in the body and their classes.
+fn own_joints<'a>(at: Waiting<'a>, context: &Context<'a>, out: &mut Vec<Waiting<'a>>) -> Read<()> {
+    for c in at.element.children() {
         match c.name() {
-            "joint" | "freejoint" => out.push(OwnJoint {
-                element: c,
-                inner: place,
-                class,
-            }),
+            "joint" | "freejoint" => out.push(Waiting { element: c, ..at }),
             "frame" => {
-                let inner = place.then(&context.compiler.read_place(c)?);
-                let class = c.attribute("childclass").or(class);
-                own_joints(c, inner, class, context, out)?;
+                let place = at.place.then(&context.compiler.read_place(c)?);
+                own_joints(at.at_element(c, at.link, place), context, out)?;
             }
             _ => {}
         }
@@ -309,20 +288,16 @@ fn joint_id(e: Element<'_>, body: &str, word: &str, robot: &Robot) -> Read<Strin
 }
 
 fn read_joint<'a>(
-    own: &OwnJoint<'a>,
+    own: &Waiting<'a>,
     body: &str,
     links: [usize; 2],
     place: RigidMotion,
     context: &Context<'a>,
     robot: &mut Robot,
 ) -> Read<Part> {
-    let &OwnJoint {
-        element: e,
-        inner,
-        class,
-    } = own;
+    let (e, inner) = (own.element, own.place);
     let tag = if e.name() == "freejoint" { "" } else { "joint" };
-    let look = context.defaults.lookup(e, tag, class)?;
+    let look = context.defaults.lookup(e, tag, own.class)?;
     let word = if tag.is_empty() {
         "free"
     } else {

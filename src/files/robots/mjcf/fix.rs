@@ -34,9 +34,8 @@ pub(crate) fn free_joints(origin: &Origin, all: &[Freeing<'_>], edits: &mut Edit
             deactivate(origin, e.id, why, edits)?;
             continue;
         }
-        match (e.name(), e.attribute("site1")) {
-            ("connect" | "weld", Some(site)) => file.at_site(e, part, site, freed, edits)?,
-            ("connect" | "weld", None) => file.at_body(e, part, freed, edits)?,
+        match e.name() {
+            "connect" | "weld" => file.at_closure(e, part, freed, edits)?,
             _ => file.in_body(e, freed, edits)?,
         }
     }
@@ -190,8 +189,8 @@ impl<'a> MjcfFile<'a> {
         all.find(|e| e.name() == tag && (name.is_none() || e.attribute("name") == name))
     }
 
-    /// Inserts a body that moves on the first body and is held in its place.
-    fn at_body(
+    /// Inserts a body that moves on the first body and is held in its place. If sites are held together, it has a copy of the first.
+    fn at_closure(
         &mut self,
         e: Element<'a>,
         part: &Part,
@@ -199,44 +198,33 @@ impl<'a> MjcfFile<'a> {
         edits: &mut Edits<'_>,
     ) -> Read<()> {
         let (robot, one) = (&self.origin.robot, part.links[0]);
-        let body = if robot.world == Some(one) {
-            self.find_named("worldbody", None)
-        } else {
-            self.find_named("body", Some(&robot.links[one]))
-        };
-        let body =
-            body.ok_or_else(|| e.unsupported_error("its first body has no name", "give it one"))?;
-        let frame = self.origin.places[one];
-        let point = frame.then(&part.sides[0]).translation;
+        let at = self.origin.places[one].then(&part.sides[0]);
+        let point = at.translation;
         let between = edits.name(&format!("{}_between", part.id));
-        let inner = self.write_joints(part, point, &frame, body, freed, edits)?;
-        let at = frame.inverse().map_point(point);
-        edits.append_child(body, &write_body(&between, at, inner, None));
-        edits.set_attribute(e, "body1", &between)?;
-        self.inserted
-            .push((KeyframeMark::Within(body.id), freed.len()));
-        Ok(())
-    }
-
-    /// Inserts a body with a copy of the first site, if sites are held together.
-    fn at_site(
-        &mut self,
-        e: Element<'a>,
-        part: &Part,
-        site: &str,
-        freed: Freed<'_>,
-        edits: &mut Edits<'_>,
-    ) -> Read<()> {
+        let Some(site) = e.attribute("site1") else {
+            let body = if robot.world == Some(one) {
+                self.find_named("worldbody", None)
+            } else {
+                self.find_named("body", Some(&robot.links[one]))
+            };
+            let body = body
+                .ok_or_else(|| e.unsupported_error("its first body has no name", "give it one"))?;
+            let frame = self.origin.places[one];
+            let inner = self.write_joints(part, point, &frame, body, freed, edits)?;
+            let inside = frame.inverse().map_point(point);
+            edits.append_child(body, &write_body(&between, inside, inner, None));
+            self.inserted
+                .push((KeyframeMark::Within(body.id), freed.len()));
+            return edits.set_attribute(e, "body1", &between);
+        };
         let found = self.find_named("site", Some(site)).ok_or_else(|| {
             e.unsupported_error("its first site has no element", "choose another")
         })?;
-        let around = self.parent_of(found);
         let root = self.origin.element(self.origin.root);
         let own = read_compiler(root)?.read_place(found)?;
-        let at = self.origin.places[part.links[0]].then(&part.sides[0]);
         let frame = at.then(&own.inverse());
-        let between = edits.name(&format!("{}_between", part.id));
-        let inner = self.write_joints(part, at.translation, &frame, around, freed, edits)?;
+        let around = self.parent_of(found);
+        let inner = self.write_joints(part, point, &frame, around, freed, edits)?;
         let copy = edits.name(&format!("{site}_between"));
         let raw = edits.raw_text(found);
         let Some(span) = found.value_span("name") else {
@@ -248,12 +236,11 @@ impl<'a> MjcfFile<'a> {
         let start = found.node().span.start;
         let (before, after) = (&raw[..span.start - start], &raw[span.end - start..]);
         let copied = format!("{before}{}{after}", escape_xml(&copy));
-        let inside = frame.inverse().map_point(at.translation);
+        let inside = frame.inverse().map_point(point);
         edits.insert_after(found, &write_body(&between, inside, inner, Some(copied)));
-        edits.set_attribute(e, "site1", &copy)?;
         self.inserted
             .push((KeyframeMark::Site(found.id), freed.len()));
-        Ok(())
+        edits.set_attribute(e, "site1", &copy)
     }
 
     /// Zeros for the new joints in the positions and speeds of keyframes.
@@ -266,21 +253,17 @@ impl<'a> MjcfFile<'a> {
         if keys.is_empty() {
             return Ok(());
         }
-        let mut walk = Walk {
-            file: self,
-            sizes: [0, 0],
-            marks: Vec::new(),
-        };
+        let (mut total, mut marks) = ([0, 0], Vec::new());
         for w in root.children_named("worldbody") {
-            walk.walk_below(w);
+            self.walk_below(w, &mut total, &mut marks);
         }
         for key in keys {
             for (which, attribute) in ["qpos", "qvel"].into_iter().enumerate() {
                 let Some(text) = key.attribute(attribute) else {
                     continue;
                 };
-                if text.split_whitespace().count() != walk.sizes[which] {
-                    let why = format!("{attribute} has not {} numbers", walk.sizes[which]);
+                if text.split_whitespace().count() != total[which] {
+                    let why = format!("{attribute} has not {} numbers", total[which]);
                     return Err(key.unsupported_error(&why, "correct or remove the keyframe"));
                 }
                 let Some(span) = key.value_span(attribute) else {
@@ -294,7 +277,7 @@ impl<'a> MjcfFile<'a> {
                         [span.start - key.node().span.start..span.end - key.node().span.start],
                 );
                 for (mark, count) in &self.inserted {
-                    let place = walk.marks.iter().find(|(m, _)| m == mark);
+                    let place = marks.iter().find(|(m, _)| m == mark);
                     let Some((_, sizes)) = place else { continue };
                     let zeros = " 0".repeat(*count);
                     match starts.get(sizes[which]) {
@@ -308,6 +291,35 @@ impl<'a> MjcfFile<'a> {
             }
         }
         Ok(())
+    }
+
+    /// Walks through bodies in the order of MuJoCo, depth first, each with its own joints first, and marks the numbers of `qpos` and of
+    /// `qvel` so far.
+    fn walk_below(
+        &self,
+        e: Element<'a>,
+        sizes: &mut [usize; 2],
+        marks: &mut Vec<(KeyframeMark, [usize; 2])>,
+    ) {
+        for j in e
+            .children()
+            .filter(|c| ["joint", "freejoint"].contains(&c.name()))
+        {
+            let part = self.part_of(j.id);
+            let freedoms = part.map_or(0, |p| p.joint_type.freedoms().len());
+            // A ball's and a free joint's turns are quaternions.
+            sizes[0] += freedoms + usize::from(freedoms > 1);
+            sizes[1] += freedoms;
+            marks.push((KeyframeMark::Joint(j.id), *sizes));
+        }
+        for c in e.children() {
+            match c.name() {
+                "body" | "frame" => self.walk_below(c, sizes, marks),
+                "site" => marks.push((KeyframeMark::Site(c.id), *sizes)),
+                _ => {}
+            }
+        }
+        marks.push((KeyframeMark::Within(e.id), *sizes));
     }
 }
 
@@ -338,38 +350,4 @@ fn find_parents(origin: &Origin) -> Vec<Option<usize>> {
         }
     }
     out
-}
-
-/// Bodies in the order of MuJoCo, depth first, each with its own joints first.
-struct Walk<'f, 'a> {
-    file: &'f MjcfFile<'a>,
-    /// Numbers of `qpos` and of `qvel` so far.
-    sizes: [usize; 2],
-    marks: Vec<(KeyframeMark, [usize; 2])>,
-}
-
-impl<'a> Walk<'_, 'a> {
-    fn walk_below(&mut self, e: Element<'a>) {
-        for j in e
-            .children()
-            .filter(|c| ["joint", "freejoint"].contains(&c.name()))
-        {
-            let freedoms = self
-                .file
-                .part_of(j.id)
-                .map_or(0, |p| p.joint_type.freedoms().len());
-            // A ball's and a free joint's turns are quaternions.
-            self.sizes[0] += freedoms + usize::from(freedoms > 1);
-            self.sizes[1] += freedoms;
-            self.marks.push((KeyframeMark::Joint(j.id), self.sizes));
-        }
-        for c in e.children() {
-            match c.name() {
-                "body" | "frame" => self.walk_below(c),
-                "site" => self.marks.push((KeyframeMark::Site(c.id), self.sizes)),
-                _ => {}
-            }
-        }
-        self.marks.push((KeyframeMark::Within(e.id), self.sizes));
-    }
 }
