@@ -11,7 +11,6 @@ use crate::file::schema::{MechanismFile, ToleranceEntry};
 use crate::file::text::mechanism_from_str;
 use crate::file::write::{self, Comment};
 use crate::geom::extent::box_diagonal;
-use crate::geom::rigid::RigidMotion;
 use crate::model::mechanism::Mechanism;
 use crate::robots::asmt;
 use crate::robots::cad::archive::Archive;
@@ -20,9 +19,10 @@ use crate::robots::description::origin::Origin;
 use crate::robots::description::{Robot, coupling, digits, loops};
 use crate::robots::fcstd::DOCUMENT;
 use crate::robots::formats::{Format, list_roots, of_root, refuse_foreign};
+use crate::robots::mechanism::entries::Content;
 use crate::robots::mechanism::loop_closing::robot_size;
 use crate::robots::mechanism::{
-    Entries, apply_pose, check_held, close_loops, loop_options, make_entries, root_link,
+    apply_pose, check_held, close_loops, loop_options, make_entries, root_link,
 };
 use crate::robots::warning::{ExportError, Options, Reader, Report, syntax_problem};
 use crate::robots::xml::element::Element;
@@ -130,16 +130,17 @@ pub fn import(
     let tree = spanning_tree(&robot, frame);
     check_held(&robot, &tree).map_err(fail)?;
     close_loops(&mut robot, &tree, options).map_err(fail)?;
-    let Entries {
-        mut file,
-        comments,
-        places,
-        joints,
-        couplings,
-    } = make_entries(&mut robot, &tree, name, format.name, options).map_err(fail)?;
+    let source = std::path::Path::new(name).file_name().unwrap_or_default();
+    let source = format!("{} ({})", source.to_string_lossy(), format.name);
+    let (mut file, comments, content) =
+        make_entries(&mut robot, &tree, &source, options).map_err(fail)?;
     file.assumed.clone_from(&robot.report.assumed);
-    file.tolerance = find_tolerance(document.element(root), &robot, &places, &joints);
-    let closes: Vec<bool> = joints.iter().map(|&j| robot.joints[j].closes).collect();
+    file.tolerance = find_tolerance(document.element(root), &robot, &content);
+    let closes: Vec<bool> = content
+        .joints
+        .iter()
+        .map(|&j| robot.joints[j].closes)
+        .collect();
     let mechanism = with_offers(&mut file, &comments, &closes)?;
     robot.report.kept = coupling::kept_couplings(&mechanism);
     Ok(Imported {
@@ -153,26 +154,23 @@ pub fn import(
             archive,
             root,
             robot,
-            places,
-            joints,
-            couplings,
+            places: content.places,
+            joints: content.joints,
+            couplings: content.couplings.iter().map(|u| u.said_by).collect(),
         },
     })
 }
 
 /// Returns the accuracy of a robot: from its reader, or from the digits of the numbers below its root element.
-fn find_tolerance(
-    root: Element<'_>,
-    robot: &Robot,
-    places: &[RigidMotion],
-    joints: &[usize],
-) -> Option<ToleranceEntry> {
+fn find_tolerance(root: Element<'_>, robot: &Robot, content: &Content) -> Option<ToleranceEntry> {
     if let Some(known) = robot.known_to {
         return digits::stated_tolerance(known);
     }
-    let at_joints = joints.iter().map(|&j| {
+    let at_joints = content.joints.iter().map(|&j| {
         let part = &robot.joints[j];
-        places[part.links[0]].then(&part.sides[0]).translation
+        content.places[part.links[0]]
+            .then(&part.sides[0])
+            .translation
     });
     digits::find_tolerance(root, robot_size(robot), box_diagonal(at_joints))
 }

@@ -215,66 +215,35 @@ fn in_loops(robot: &Robot, tree: &Tree) -> BTreeSet<usize> {
     out
 }
 
-/// A mechanism file, and the parts of the robot that its parts are made of.
-#[derive(Debug)]
-pub(crate) struct Entries {
-    pub(in crate::robots) file: MechanismFile,
-    /// The comments above its entries.
-    pub(in crate::robots) comments: Vec<Comment>,
-    /// Places of the links in the pose found.
-    pub(in crate::robots) places: Vec<RigidMotion>,
-    /// The robot's joints, by joints of the mechanism.
-    pub(in crate::robots) joints: Vec<usize>,
-    /// The elements of its couplings.
-    pub(in crate::robots) couplings: Vec<usize>,
-}
-
-/// Returns the entries of the file called `file` of a `format`.
+/// Returns the entries of the mechanism file of a robot and their comments. `source` is the name of the file read, and of its format.
 pub(crate) fn make_entries(
     robot: &mut Robot,
     tree: &Tree,
-    file: &str,
-    format: &'static str,
+    source: &str,
     options: &Options,
-) -> Result<Entries, ProblemKind> {
-    let places = link_places(robot, tree);
+) -> Result<(MechanismFile, Vec<Comment>, Content), ProblemKind> {
     let (bodies, joints) = rigid_bodies(robot, tree)?;
-    let couplings = coupling::usable_couplings(robot, &joints);
     let frame = bodies[tree.roots[0]];
-    let outputs = output_links(robot, &bodies, &joints, frame, options)?;
-    let mut report = std::mem::take(&mut robot.report);
-    report.outputs = (
-        outputs.iter().map(|&b| robot.links[b].clone()).collect(),
-        !options.outputs.is_empty(),
-    );
-    let used: BTreeSet<usize> = joints
-        .iter()
-        .flat_map(|&j| robot.joints[j].links.map(|l| bodies[l]))
-        .collect();
-    report.size = (used.len(), joints.len());
-    within_limits(used.len(), joints.len())?;
-    let limited = robot.joints.iter().filter(|j| j.limits.is_some());
-    limited.for_each(|j| report.count_dropped("limit of a joint", Some(&j.id)));
-    robot.report = report;
-    let file = std::path::Path::new(file).file_name();
-    let (file, comments) = entries::make_file(&Content {
-        robot,
-        file: &file.unwrap_or_default().to_string_lossy(),
-        format,
-        places: &places,
-        bodies: &bodies,
+    let content = Content {
+        places: link_places(robot, tree),
+        couplings: coupling::usable_couplings(robot, &joints),
+        outputs: output_links(robot, &bodies, &joints, frame, options)?,
+        bodies,
         frame,
-        outputs: &outputs,
-        joints: &joints,
-        couplings: &couplings,
-    });
-    Ok(Entries {
-        file,
-        comments,
-        places,
         joints,
-        couplings: couplings.iter().map(|u| u.said_by).collect(),
-    })
+    };
+    let named = content.outputs.iter().map(|&b| robot.links[b].clone());
+    let outputs = (named.collect(), !options.outputs.is_empty());
+    let ends = |&j: &usize| robot.joints[j].links.map(|l| content.bodies[l]);
+    let used: BTreeSet<usize> = content.joints.iter().flat_map(ends).collect();
+    let size = (used.len(), content.joints.len());
+    within_limits(size.0, size.1)?;
+    (robot.report.outputs, robot.report.size) = (outputs, size);
+    for j in robot.joints.iter().filter(|j| j.limits.is_some()) {
+        robot.report.count_dropped("limit of a joint", Some(&j.id));
+    }
+    let (file, comments) = entries::make_file(robot, source, &content);
+    Ok((file, comments, content))
 }
 
 /// Merges rigidly joined links to bodies and returns them with the joints between them. Joints within a body are reported and

@@ -48,44 +48,36 @@ fn fitting_name(names: &mut Names, wanted: &str) -> String {
     })
 }
 
-/// The content of the file.
+/// What the parts of a mechanism are made of.
 #[derive(Debug)]
-pub(crate) struct Content<'a> {
-    pub(in crate::robots) robot: &'a Robot,
-    /// Name of the file read, and of its format.
-    pub(in crate::robots) file: &'a str,
-    pub(in crate::robots) format: &'static str,
-    pub(in crate::robots) places: &'a [RigidMotion],
+pub(crate) struct Content {
+    /// Places of the links in the pose found.
+    pub(in crate::robots) places: Vec<RigidMotion>,
     /// For each link of the robot the link that represents it.
-    pub(in crate::robots) bodies: &'a [usize],
+    pub(in crate::robots) bodies: Vec<usize>,
     pub(in crate::robots) frame: usize,
     /// Bodies that are outputs.
-    pub(in crate::robots) outputs: &'a [usize],
-    /// Joints to write, in order.
-    pub(in crate::robots) joints: &'a [usize],
+    pub(in crate::robots) outputs: Vec<usize>,
+    /// The robot's joints, by joints of the mechanism.
+    pub(in crate::robots) joints: Vec<usize>,
     /// Joints that lead and follow.
-    pub(in crate::robots) couplings: &'a [Usable],
-}
-
-impl Content<'_> {
-    /// Returns true if the rates of a joint matter; its axis then has length 1, so that they are exact.
-    fn is_coupled(&self, joint: usize) -> bool {
-        self.couplings.iter().any(|u| u.ends.contains(&joint))
-    }
+    pub(in crate::robots) couplings: Vec<Usable>,
 }
 
 /// Returns the entries of the file and the comments above them.
-pub(crate) fn make_file(c: &Content<'_>) -> (MechanismFile, Vec<Comment>) {
+pub(crate) fn make_file(robot: &Robot, source: &str, c: &Content) -> (MechanismFile, Vec<Comment>) {
     let mut comments = Vec::new();
-    let (links, ids) = make_links(c, &mut comments);
+    let (links, ids) = make_links(robot, c, &mut comments);
     let (mut names, mut joint_ids, mut joints) = (Names::default(), BTreeMap::new(), Vec::new());
-    for &j in c.joints {
-        let id = fitting_name(&mut names, &c.robot.joints[j].id);
+    for &j in &c.joints {
+        let id = fitting_name(&mut names, &robot.joints[j].id);
         joint_ids.insert(j, id.clone());
-        if let Some(what) = &c.robot.joints[j].comment {
+        // The rates of a coupled joint matter; its axis has length 1, so that they are exact.
+        let coupled = c.couplings.iter().any(|u| u.ends.contains(&j));
+        if let Some(what) = &robot.joints[j].comment {
             comments.push(Comment::new("joint", joints.len(), what));
         }
-        joints.push(make_joint(j, id, c, &ids));
+        joints.push(make_joint(&robot.joints[j], c, id, coupled, &ids));
     }
     let coupling = |u: &Usable| CouplingEntry {
         joints: u.ends.map(|j| joint_ids[&j].clone()),
@@ -94,11 +86,11 @@ pub(crate) fn make_file(c: &Content<'_>) -> (MechanismFile, Vec<Comment>) {
     };
     let what = "Joint types that a search may use instead; edit freely.";
     comments.push(Comment::new("search", 0, what));
-    let options = c.robot.options.iter().map(|t| t.name().to_owned());
+    let options = robot.options.iter().map(|t| t.name().to_owned());
     let file = MechanismFile {
-        name: one_line(&c.robot.name),
-        description: describe_source(c),
-        length_unit: Some(c.robot.unit.to_owned()),
+        name: one_line(&robot.name),
+        description: describe_source(robot, source),
+        length_unit: Some(robot.unit.to_owned()),
         link: links,
         joint: joints,
         coupling: c.couplings.iter().map(coupling).collect(),
@@ -116,8 +108,8 @@ fn one_line(s: &str) -> String {
 }
 
 /// Describes the source of the mechanism, and what was omitted in the conversion.
-fn describe_source(c: &Content<'_>) -> String {
-    let report = &c.robot.report;
+fn describe_source(robot: &Robot, source: &str) -> String {
+    let report = &robot.report;
     let left_out = match (report.coupling_rows, report.constraint_rows) {
         (0, 0) => "",
         (_, 0) => " Some couplings of joints are omitted.",
@@ -125,27 +117,28 @@ fn describe_source(c: &Content<'_>) -> String {
     };
     let left_behind = report.left_behind();
     let left_behind = left_behind.map_or(String::new(), |t| format!(" {}", one_line(&t)));
-    let (file, format) = (one_line(c.file), c.format);
-    format!("Imported from {file} ({format}).{left_out}{left_behind}")
+    let source = one_line(source);
+    format!("Imported from {source}.{left_out}{left_behind}")
 }
 
 /// Returns the links, the frame first, with the names of their bodies.
 fn make_links(
-    c: &Content<'_>,
+    robot: &Robot,
+    c: &Content,
     comments: &mut Vec<Comment>,
 ) -> (Vec<LinkEntry>, BTreeMap<usize, String>) {
     let mut merged: BTreeMap<usize, Vec<&str>> = BTreeMap::new();
     for (l, &b) in c.bodies.iter().enumerate() {
         if l != b {
-            merged.entry(b).or_default().push(&c.robot.links[l]);
+            merged.entry(b).or_default().push(&robot.links[l]);
         }
     }
-    let ends = |&j: &usize| c.robot.joints[j].links.map(|l| c.bodies[l]);
+    let ends = |&j: &usize| robot.joints[j].links.map(|l| c.bodies[l]);
     let used: BTreeSet<usize> = c.joints.iter().flat_map(ends).collect();
     let order = std::iter::once(c.frame).chain(used.into_iter().filter(|&b| b != c.frame));
     let (mut names, mut ids, mut links) = (Names::default(), BTreeMap::new(), Vec::new());
     for b in order {
-        let id = fitting_name(&mut names, &c.robot.links[b]);
+        let id = fitting_name(&mut names, &robot.links[b]);
         let role = if b == c.frame {
             Some("frame")
         } else {
@@ -180,10 +173,15 @@ fn file_direction(v: Vector) -> Vector {
     }
 }
 
-fn make_joint(j: usize, id: String, c: &Content<'_>, ids: &BTreeMap<usize, String>) -> JointEntry {
-    let p: &Part = &c.robot.joints[j];
+fn make_joint(
+    p: &Part,
+    c: &Content,
+    id: String,
+    coupled: bool,
+    ids: &BTreeMap<usize, String>,
+) -> JointEntry {
     let place = c.places[p.links[0]].then(&p.sides[0]);
-    let axes = world_axes(p, c.places);
+    let axes = world_axes(p, &c.places);
     let about = |f: &[Freedom]| {
         let found = axes.iter().find(|a| f.contains(&a.freedom));
         found.map(|a| a.direction)
@@ -191,7 +189,7 @@ fn make_joint(j: usize, id: String, c: &Content<'_>, ids: &BTreeMap<usize, Strin
     let axis = || {
         let z = about(&[Freedom::Rz, Freedom::Tz, Freedom::Screw]);
         let z = z.unwrap_or_else(|| place.map_direction(p.axis));
-        let z = if c.is_coupled(j) {
+        let z = if coupled {
             unit_or_z(z)
         } else {
             file_direction(z)
