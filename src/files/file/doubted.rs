@@ -190,13 +190,8 @@ fn by_default(m: &Mechanism) -> Option<WarningKind> {
         .iter()
         .map(|other| across(sub(to_vector(&other.frame.point), here), axis));
     let towards = others.max_by(|a, b| length(*a).total_cmp(&length(*b)))?;
-    let towards = if length(towards) > 0.0 {
-        unit(towards)
-    } else {
-        return None;
-    };
+    let [x, y, z] = Some(unit(towards)).filter(|_| length(towards) > 0.0)?;
     let ids: Vec<&str> = all.iter().map(|(_, j)| j.id.as_str()).collect();
-    let [x, y, z] = towards;
     let message = format!(
         "the second axes of {} use the default, which depends on the file's x, y and z; the same mechanism rotated in space has other axes; write them out, such as reference = [{x:.6}, {y:.6}, {z:.6}] at {}",
         first_of(&ids, TOLD),

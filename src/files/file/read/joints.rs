@@ -1,6 +1,7 @@
 //! The joints: ends, type, place, the states they act in.
 
 use crate::closure::contour::closed_walk;
+use crate::closure::tree::spanning_forest;
 use crate::file::problem::ProblemKind;
 use crate::file::read::resolve::{
     check_frame, joint_type, missing_message, motion_name, read_option, takes_no,
@@ -239,22 +240,15 @@ pub(crate) fn check_connected(mechanism: &Parts, out: &Findings) {
         }
     }
     for (s, state) in mechanism.states_with_ids() {
-        let mut reached = vec![mechanism.frame_link()];
-        let mut next = 0;
         let joints: Vec<JointId> = mechanism.joints_in(s).collect();
-        while let Some(&l) = reached.get(next) {
-            next += 1;
-            for &j in &joints {
-                let [a, b] = mechanism.joints[j].links;
-                for (from, to) in [(a, b), (b, a)] {
-                    if from == l && !reached.contains(&to) {
-                        reached.push(to);
-                    }
-                }
-            }
-        }
+        let ends = joints
+            .iter()
+            .map(|&j| mechanism.joints[j].links.map(LinkId::index));
+        let (count, frame) = (mechanism.links.len(), mechanism.frame_link());
+        let (_, steps) = spanning_forest(count, ends, |_| false, [frame.index()]);
+        let reached: BTreeSet<usize> = steps.iter().map(|s| s.link).collect();
         let all = mechanism.links_with_ids();
-        for (l, link) in all.filter(|(l, _)| !reached.contains(l)) {
+        for (l, link) in all.filter(|(l, _)| *l != frame && !reached.contains(&l.index())) {
             let here = joints
                 .iter()
                 .any(|&j| mechanism.joints[j].links.contains(&l));

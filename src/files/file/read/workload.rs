@@ -97,12 +97,9 @@ pub fn tables_alone(
 
 /// Returns the names of the independent tables that a file has.
 pub(crate) fn workload_tables(file: &MechanismFile) -> Vec<&'static str> {
-    let tables = [
-        ("grip", file.workload.grip.is_some()),
-        ("drive", file.workload.drive.is_some()),
-    ];
-    let there = tables.into_iter().filter(|(_, there)| *there);
-    there.map(|(n, _)| n).collect()
+    let grip = file.workload.grip.as_ref().map(|_| "grip");
+    let drive = file.workload.drive.as_ref().map(|_| "drive");
+    grip.into_iter().chain(drive).collect()
 }
 
 fn read_workload<T>(
@@ -124,15 +121,15 @@ fn read_workload<T>(
             "the file has no [workload.{name}] table; `ozols show {example}` prints one to start from"
         ));
     }
-    match spec {
-        Some(spec) if out.problem_count() == 0 => Ok(WorkloadFile {
-            name: file.name.clone(),
-            sources: file.sources.clone(),
-            claims,
-            length_unit,
-            mechanism,
-            spec,
-        }),
-        _ => Err(out.into_findings()),
-    }
+    let Some(spec) = spec else {
+        return Err(out.into_findings());
+    };
+    out.finish(WorkloadFile {
+        name: file.name.clone(),
+        sources: file.sources.clone(),
+        claims,
+        length_unit,
+        mechanism,
+        spec,
+    })
 }

@@ -163,13 +163,8 @@ pub(super) fn point_tolerance(
 ) -> Option<Coordinate> {
     let halves = point.iter().filter_map(stated_half);
     let half = write_number(halves.reduce(f64::max)?, 1.0);
-    let size = |c: &Coordinate| match c {
-        Coordinate::Integer(x) => x.to_string(),
-        Coordinate::Decimal(x) => x.to_string(),
-        Coordinate::Expression(x) => x.clone(),
-    };
-    let of_file = file.and_then(|t| t.length.as_ref()).map(size);
-    (of_file != Some(size(&half))).then_some(half)
+    let of_file = file.and_then(|t| t.length.as_ref());
+    (of_file != Some(&half)).then_some(half)
 }
 
 /// Removes errors in the last bits of a value that was multiplied by a length and divided again.

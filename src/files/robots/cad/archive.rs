@@ -34,16 +34,13 @@ impl Archive {
         syntax_problem(message).in_file(&self.name, "", None)
     }
 
-    fn open_zip(&self) -> Result<ZipArchive<Cursor<&[u8]>>, ImportError> {
-        ZipArchive::new(Cursor::new(&self.bytes[..])).map_err(|e| self.archive_error(&e))
-    }
-
     /// Returns the bytes of a member, or `None` if it does not exist.
     ///
     /// # Errors
     /// Returns an error if the archive is broken, or if the member is larger than a description may be.
     pub(crate) fn read_member(&self, member: &str) -> Result<Option<Vec<u8>>, ImportError> {
-        let mut archive = self.open_zip()?;
+        let archive = ZipArchive::new(Cursor::new(&self.bytes[..]));
+        let mut archive = archive.map_err(|e| self.archive_error(&e))?;
         let found = match archive.by_name(member) {
             Ok(found) => found,
             Err(ZipError::FileNotFound) => return Ok(None),
@@ -68,16 +65,18 @@ impl Archive {
     /// # Errors
     /// Returns an error if the archive is broken.
     pub(crate) fn with_member(&self, member: &str, content: &[u8]) -> Result<Vec<u8>, ImportError> {
-        let mut archive = self.open_zip()?;
+        let done = self.replace_member(member, content);
+        done.map_err(|e| self.archive_error(&e))
+    }
+
+    fn replace_member(&self, member: &str, content: &[u8]) -> Result<Vec<u8>, ZipError> {
+        let mut archive = ZipArchive::new(Cursor::new(&self.bytes[..]))?;
         let mut out = ZipWriter::new(Cursor::new(Vec::new()));
-        out.set_raw_comment(archive.comment().into())
-            .map_err(|e| self.archive_error(&e))?;
+        out.set_raw_comment(archive.comment().into())?;
         for at in 0..archive.len() {
-            let old = archive
-                .by_index_raw(at)
-                .map_err(|e| self.archive_error(&e))?;
-            if old.name().map_err(|e| self.archive_error(&e))? != member {
-                out.raw_copy_file(old).map_err(|e| self.archive_error(&e))?;
+            let old = archive.by_index_raw(at)?;
+            if old.name()? != member {
+                out.raw_copy_file(old)?;
                 continue;
             }
             let mut options =
@@ -85,13 +84,10 @@ impl Archive {
             if let Some(time) = old.last_modified() {
                 options = options.last_modified_time(time);
             }
-            out.start_file(member, options)
-                .map_err(|e| self.archive_error(&e))?;
-            out.write_all(content)
-                .map_err(|e| self.archive_error(&ZipError::Io(e)))?;
+            out.start_file(member, options)?;
+            out.write_all(content)?;
         }
-        let done = out.finish().map_err(|e| self.archive_error(&e))?;
-        Ok(done.into_inner())
+        Ok(out.finish()?.into_inner())
     }
 }
 
