@@ -9,7 +9,6 @@ use crate::file::schema::{JointEntry, LinkEntry, MechanismFile, OptionEntry, Unl
 use crate::file::text::{read_file, text_of};
 use crate::file::{Findings, Place};
 use crate::format::four_digits;
-use crate::format::plain::changes_direction;
 use crate::geom::expr::Expr;
 use crate::geom::extent::box_diagonal;
 use crate::geom::vector::{length, sub, to_vector};
@@ -75,7 +74,6 @@ fn find_warnings(file: &MechanismFile, m: &Mechanism) -> Found {
         let empty = "the name is empty; give one, because every answer begins with it";
         out.key("name").warn(empty);
     }
-    check_ids(file, out);
     check_drives(m, out);
     check_lengths(file, m, out);
     check_contours(m, out);
@@ -85,19 +83,6 @@ fn find_warnings(file: &MechanismFile, m: &Mechanism) -> Found {
     find_doubtful(file, m, out);
     check_workload(file, m, out);
     out.warned.take()
-}
-
-/// Finds ids that do not read as they are written.
-fn check_ids(file: &MechanismFile, out: &Findings) {
-    let (links, joints) = (out.key("link"), out.key("joint"));
-    let links = links.each_entry(&file.link).map(|(at, l)| (at, &l.id));
-    let joints = joints.each_entry(&file.joint).map(|(at, j)| (at, &j.id));
-    let all = links.chain(joints);
-    for (at, id) in all.filter(|(_, id)| id.contains(changes_direction)) {
-        at.key("id").warn(format!(
-            "the id \"{id}\" has characters that reverse the order of letters; answers spell them out; remove them to show the id as it is read"
-        ));
-    }
 }
 
 /// Finds driven joints with several freedoms for which the file does not name the driven one.

@@ -63,8 +63,7 @@ pub(crate) fn read_plugin(
     robot: &mut Robot,
 ) -> Read<()> {
     if let (Some(leader), Some(follower)) = (child_text(e, "joint"), child_text(e, "mimicJoint")) {
-        let ratio = e.first_child("multiplier").map(|m| m.text_numbers::<1>());
-        let ratio = ratio.transpose()?.map_or(1.0, |[x]| x);
+        let ratio = e.child_number("multiplier")?.unwrap_or(1.0);
         let joints = [leader, follower].map(|j| absolute_name(scope, j));
         add_coupling(e, joints.each_ref().map(String::as_str), ratio, robot);
         return Ok(());

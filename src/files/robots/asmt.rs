@@ -187,8 +187,7 @@ fn read_figure(e: Element<'_>, label: &str) -> Read<f64> {
 
 /// Returns the offset of a plane; 0 if the file gives none.
 fn read_offset(e: Element<'_>) -> Read<f64> {
-    e.first_child("offset")
-        .map_or(Ok(0.0), |_| read_figure(e, "offset"))
+    Ok(e.child_number("offset")?.unwrap_or(0.0))
 }
 
 fn read_constraint(e: Element<'_>) -> Read<Holds> {

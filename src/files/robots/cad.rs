@@ -7,6 +7,7 @@ pub(crate) mod holds;
 mod meet;
 pub(crate) mod retype;
 
+use crate::closure::tree::spanning_forest;
 use crate::geom::rigid::RigidMotion;
 use crate::geom::vector::length;
 use crate::model::joint_type::JointType;
@@ -98,32 +99,19 @@ impl Assembly {
 
     /// Returns for each part whether a chain of joints connects it to the ground; the others are reported.
     fn find_tied(&self, robot: &mut Robot) -> Vec<bool> {
+        let ties = self.connections.iter().filter(|c| !c.holds.couples());
+        let ends = ties.map(|c| c.parts);
+        let (_, steps) = spanning_forest(self.parts.len(), ends, |_| false, [0]);
         let mut tied = vec![false; self.parts.len()];
         tied[0] = true;
-        let ties = || self.connections.iter().filter(|c| !c.holds.couples());
-        let mut more = true;
-        while std::mem::take(&mut more) {
-            for c in ties() {
-                let [a, b] = c.parts;
-                if tied[a] != tied[b] {
-                    (tied[a], tied[b], more) = (true, true, true);
-                }
-            }
+        steps.iter().for_each(|s| tied[s.link] = true);
+        let report = &mut robot.report;
+        for ((name, _), _) in self.parts.iter().zip(&tied).filter(|(_, t)| !**t) {
+            report.count_dropped("part that is not connected to the ground", Some(name));
         }
-        let loose = self.parts.iter().zip(&tied).filter(|(_, t)| !**t);
-        for ((name, _), _) in loose {
-            robot
-                .report
-                .count_dropped("part that is not connected to the ground", Some(name));
-        }
-        for c in self
-            .connections
-            .iter()
-            .filter(|c| !tied[c.parts[0]] || !tied[c.parts[1]])
-        {
-            robot
-                .report
-                .count_dropped("joint between floating parts", Some(&c.id));
+        let loose = |c: &&Connection| c.parts.iter().any(|&p| !tied[p]);
+        for c in self.connections.iter().filter(loose) {
+            report.count_dropped("joint between floating parts", Some(&c.id));
         }
         tied
     }

@@ -198,14 +198,11 @@ impl Report {
             write_line(&mut out, "pose", p);
         }
         if let Some(kept) = &self.kept {
-            let n = match kept.couplings {
-                1 => "1 coupling of joints".to_owned(),
-                n => format!("{n} couplings of joints"),
-            };
+            let n = count_noun(kept.couplings, "coupling");
             let figures = kept.mobility.map_or(String::new(), |(without, with)| {
                 format!(": W = {without} without, {with} with")
             });
-            write_line(&mut out, "coupled", &format!("{n}{figures}"));
+            write_line(&mut out, "coupled", &format!("{n} of joints{figures}"));
         }
         out.push_str(&self.list_doubts());
         for (kind, (count, names)) in &self.dropped {
@@ -233,13 +230,9 @@ impl Report {
         let mut out = String::new();
         if self.coupling_rows > 0 {
             let n = self.coupling_rows;
-            let (rows, them) = if n == 1 {
-                ("row", "it")
-            } else {
-                ("rows", "them")
-            };
             let what = format!(
-                "{n} coupling {rows} between joint values: W is up to {n} too high without {them}, σ may be too low"
+                "{} between joint values: W is up to {n} too high, σ may be too low",
+                count_noun(n, "coupling row")
             );
             write_line(&mut out, "omitted", &what);
         }

@@ -164,10 +164,8 @@ fn read_mimic(e: Element<'_>, name: &str, scope: &str, robot: &mut Robot) -> Rea
         return Ok(None);
     };
     let leader = absolute_name(scope, m.required_attribute("joint")?);
-    let ratio = match m.first_child("multiplier") {
-        Some(x) => x.text_numbers::<1>()?[0],
-        None => m.read_numbers::<1>("multiplier")?.map_or(1.0, |[x]| x),
-    };
+    let ratio = m.read_numbers::<1>("multiplier")?.map_or(1.0, |[x]| x);
+    let ratio = m.child_number("multiplier")?.unwrap_or(ratio);
     robot.couplings.push(Ratio {
         said_by: m.id,
         ..Ratio::new([&leader, name], ratio, e)
@@ -195,8 +193,8 @@ pub(crate) fn read_limits(e: Element<'_>) -> Read<Option<(f64, f64)>> {
 
 /// Metres per radian: `screw_thread_pitch` is metres per turn, `thread_pitch` minus radians per metre.
 pub(crate) fn screw_pitch(e: Element<'_>) -> Read<f64> {
-    if let Some(p) = e.first_child("screw_thread_pitch") {
-        return Ok(p.text_numbers::<1>()?[0] / std::f64::consts::TAU);
+    if let Some(lead) = e.child_number("screw_thread_pitch")? {
+        return Ok(lead / std::f64::consts::TAU);
     }
     let Some(p) = e.first_child("thread_pitch") else {
         return Err(e.missing_error("<screw_thread_pitch>"));
@@ -228,22 +226,17 @@ pub(crate) fn two_axes(
     }
     let between = robot.add_link(&format!("{}~1", part.id), RigidMotion::IDENTITY);
     let [parent, child] = part.links;
-    let one = Part::new(
-        &part.id,
-        [parent, between],
-        [part.sides[0], RigidMotion::IDENTITY],
-        JointType::Revolute,
-    );
-    let two = Part::new(
-        &format!("{}~2", part.id),
-        [between, child],
-        [RigidMotion::IDENTITY, part.sides[1]],
-        JointType::Revolute,
-    );
     // Axes that are not square: two hinges in series are the same.
     robot.report.count_mapped("joint of two oblique axes");
-    robot.joints.push(one.with_axis(first).said_by(e));
-    robot.joints.push(two.with_axis(second).said_by(e));
+    let [near, far] = part.sides;
+    let mut hinge = |id: &str, links, sides, axis| {
+        let part = Part::new(id, links, sides, JointType::Revolute);
+        robot.joints.push(part.with_axis(axis).said_by(e));
+    };
+    let here = RigidMotion::IDENTITY;
+    hinge(&part.id, [parent, between], [near, here], first);
+    let second_id = format!("{}~2", part.id);
+    hinge(&second_id, [between, child], [here, far], second);
     Ok(())
 }
 
@@ -282,10 +275,7 @@ pub(crate) fn read_gearbox(
 ) -> Read<()> {
     let name = format!("{scope}{}", e.required_attribute("name")?);
     let world = of_joint(scene, e, &name).unwrap_or(RigidMotion::IDENTITY);
-    let times = match e.first_child("gearbox_ratio") {
-        Some(r) => r.text_numbers::<1>()?[0],
-        None => 1.0,
-    };
+    let times = e.child_number("gearbox_ratio")?.unwrap_or(1.0);
     let (_, on) = joint_end(e, "gearbox_reference_body")?;
     let (on, _) = locate_name(e, &absolute_name(scope, on), scene)?;
     let mut found = Vec::new();

@@ -161,6 +161,12 @@ impl Element<'_> {
         self.parse_numbers("the text", self.text())
     }
 
+    /// Returns the number in the text of a child, if there is one.
+    pub(crate) fn child_number(self, tag: &str) -> Read<Option<f64>> {
+        let found = self.first_child(tag).map(|c| c.text_numbers::<1>());
+        Ok(found.transpose()?.map(|[x]| x))
+    }
+
     fn parse_numbers<const N: usize>(self, what: &str, text: &str) -> Read<[f64; N]> {
         let bad = || {
             let want = match N {
