@@ -8,6 +8,7 @@ use crate::robots::description::Robot;
 use crate::robots::warning::{ExportError, Read, syntax_problem};
 use crate::robots::xml::Input;
 use crate::robots::{asmt, fcstd, graph, mjcf, sdf, urdf};
+use itertools::Itertools;
 
 /// A format of files.
 #[derive(Debug)]
@@ -52,85 +53,83 @@ impl From<String> for FormattedFile {
     }
 }
 
+/// Returns a format that is neither read nor written.
+const fn format(word: &'static str, name: &'static str, about: &'static str) -> Format {
+    Format {
+        word,
+        name,
+        about,
+        endings: &[],
+        read: None,
+        write: None,
+    }
+}
+
 /// All formats, with the root element of those that are read, and the writer of those that are written.
 static FORMATS: [Format; 9] = [
     Format {
-        word: "toml",
-        name: "TOML",
-        about: "The mechanism file, with the options of every joint",
-        endings: &[],
-        read: None,
         write: Some(FormatWriter::Mechanism(|m| {
             Ok(write::toml(&mechanism_file(m), &[])?.into())
         })),
+        ..format(
+            "toml",
+            "TOML",
+            "The mechanism file, with the options of every joint",
+        )
     },
     Format {
-        word: "json",
-        name: "JSON",
-        about: "The same as JSON",
-        endings: &[],
-        read: None,
         write: Some(FormatWriter::Mechanism(|m| {
             Ok(format!("{:#}\n", mechanism_file(m).json()).into())
         })),
+        ..format("json", "JSON", "The same as JSON")
     },
     Format {
-        word: "urdf",
-        name: "URDF",
-        about: "A spanning tree, loops as <loop_joint>",
         endings: &["urdf", "xacro", "xml"],
         read: Some(("robot", urdf::read_urdf)),
         write: Some(FormatWriter::Mechanism(urdf::write::write_urdf)),
+        ..format("urdf", "URDF", "A spanning tree, loops as <loop_joint>")
     },
     Format {
-        word: "mjcf",
-        name: "MJCF",
-        about: "Bodies; loops as connect and weld",
         endings: &["mjcf", "xml"],
         read: Some(("mujoco", mjcf::read_mujoco)),
         write: Some(FormatWriter::Mechanism(mjcf::write::write_mjcf)),
+        ..format("mjcf", "MJCF", "Bodies; loops as connect and weld")
     },
     Format {
-        word: "sdf",
-        name: "SDF",
-        about: "Loops closed by joints",
         endings: &["sdf", "world", "xml"],
         read: Some(("sdf", sdf::read_sdf)),
         write: Some(FormatWriter::Mechanism(|m| Ok(sdf::write::write_sdf(m)))),
+        ..format("sdf", "SDF", "Loops closed by joints")
     },
     Format {
-        word: "fcstd",
-        name: "FreeCAD",
-        about: "FILE, a FreeCAD document, with joints of other types",
         endings: &["fcstd"],
         read: Some(("Document", fcstd::read_document)),
         write: Some(FormatWriter::Own),
+        ..format(
+            "fcstd",
+            "FreeCAD",
+            "FILE, a FreeCAD document, with joints of other types",
+        )
     },
     Format {
-        word: "asmt",
-        name: "OndselSolver",
-        about: "FILE, an assembly of FreeCAD's solver, with joints of other types",
         endings: &["asmt"],
         read: Some(("Assembly", asmt::read_assembly)),
         write: Some(FormatWriter::Own),
+        ..format(
+            "asmt",
+            "OndselSolver",
+            "FILE, an assembly of FreeCAD's solver, with joints of other types",
+        )
     },
     Format {
-        word: "dot",
-        name: "DOT",
-        about: "Graphviz",
-        endings: &[],
-        read: None,
         write: Some(FormatWriter::Mechanism(|m| Ok(graph::write_dot(m).into()))),
+        ..format("dot", "DOT", "Graphviz")
     },
     Format {
-        word: "graphml",
-        name: "GraphML",
-        about: "GraphML, for graph programs",
-        endings: &[],
-        read: None,
         write: Some(FormatWriter::Mechanism(|m| {
             Ok(graph::write_graphml(m).into())
         })),
+        ..format("graphml", "GraphML", "GraphML, for graph programs")
     },
 ];
 
@@ -192,10 +191,7 @@ pub fn export(m: &Mechanism, word: &str) -> Result<FormattedFile, ExportError> {
         Some((format, FormatWriter::Own)) => Err(ExportError::Own { format }),
         None => Err(ExportError::Unknown {
             word: word.to_owned(),
-            known: writable_formats()
-                .map(|f| f.word)
-                .collect::<Vec<_>>()
-                .join(", "),
+            known: writable_formats().map(|f| f.word).join(", "),
         }),
     }
 }
@@ -246,13 +242,10 @@ pub(crate) fn of_root(element: &str) -> Option<(&'static Format, Describe)> {
 /// Lists the root elements that can be read.
 pub(crate) fn list_roots() -> String {
     let known = FORMATS.iter().filter_map(|f| Some((f.read?.0, f.name)));
-    let words: Vec<String> = known
-        .map(|(root, name)| format!("<{root}> ({name})"))
-        .collect();
-    let (last, first) = words
-        .split_last()
-        .map_or(("", &[][..]), |(l, f)| (l.as_str(), f));
-    format!("{} and {last}", first.join(", "))
+    let mut words = known.map(|(root, name)| format!("<{root}> ({name})"));
+    let all = words.join(", ");
+    let (first, last) = all.rsplit_once(", ").unwrap_or(("", &all));
+    format!("{first} and {last}")
 }
 
 /// Formats that are not read, by what to do instead: for each its name and the endings of its files in lower case.
@@ -352,7 +345,6 @@ pub fn refuse_foreign(name: &str, bytes: &[u8]) -> Result<(), ImportError> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use itertools::Itertools;
 
     #[test]
     fn words_and_root_elements_are_unique() {

@@ -43,18 +43,9 @@ pub(crate) fn root_link(robot: &mut Robot, options: &Options) -> Result<usize, P
     if let Some(name) = &options.frame {
         return link_of(robot, name);
     }
-    let child: BTreeSet<usize> = robot
-        .joints
-        .iter()
-        .filter(|j| !j.closes)
-        .map(|j| j.links[1])
-        .collect();
-    let held = |w: &usize| {
-        robot
-            .joints
-            .iter()
-            .any(|j| !j.closes && j.links.contains(w))
-    };
+    let in_tree = || robot.joints.iter().filter(|j| !j.closes);
+    let child: BTreeSet<usize> = in_tree().map(|j| j.links[1]).collect();
+    let held = |w: &usize| in_tree().any(|j| j.links.contains(w));
     let root = robot
         .world
         .filter(held)
@@ -77,9 +68,8 @@ pub(crate) fn root_link(robot: &mut Robot, options: &Options) -> Result<usize, P
     for &r in tree.roots.iter().skip(1) {
         let sides = [robot.places[r], RigidMotion::IDENTITY];
         let id = format!("floating-{}", robot.links[r]);
-        robot
-            .joints
-            .push(Part::new(&id, [world, r], sides, free_joint()));
+        let part = Part::new(&id, [world, r], sides, free_joint());
+        robot.joints.push(part);
         robot.report.count_mapped("floating base");
     }
     if apart && !options.floating {
@@ -104,15 +94,12 @@ fn loose_roots(robot: &Robot, tree: &Tree) -> Vec<usize> {
 /// Checks that every link is connected to the frame.
 pub(crate) fn check_held(robot: &Robot, tree: &Tree) -> Result<(), ProblemKind> {
     let loose = loose_roots(robot, tree);
-    let loose: Vec<&str> = loose.iter().map(|&l| robot.links[l].as_str()).collect();
     if loose.is_empty() {
         return Ok(());
     }
-    let loose = loose
-        .iter()
-        .take(5)
-        .map(|l| format!("link \"{l}\""))
-        .join(", ");
+    let first = loose.iter().take(5);
+    let loose = first.map(|&l| format!("link \"{}\"", robot.links[l]));
+    let loose = loose.format(", ");
     let root = &robot.links[tree.roots[0]];
     Err(syntax_problem(format!(
         "no joint connects {loose} with {root}; add one, or set `floating` to let every such part float"
@@ -269,10 +256,11 @@ fn rigid_bodies(robot: &mut Robot, tree: &Tree) -> Result<(Vec<usize>, Vec<usize
         }
     }
     for id in within {
-        let what = "both ends are on one rigid body; omitted, with all its rows redundant";
-        robot
-            .report
-            .add_approximation(&format!("joint \"{id}\""), what);
+        let (element, what) = (
+            format!("joint \"{id}\""),
+            "both ends are on one rigid body; omitted, with all its rows redundant",
+        );
+        robot.report.add_approximation(&element, what);
     }
     if joints.is_empty() {
         let links = robot.links.len();

@@ -107,12 +107,9 @@ fn read_actuator(a: Element<'_>, root: Element<'_>, robot: &mut Robot) {
         return;
     }
     let pulled = of_tendon(root, a);
-    let pulled = |j: &&mut Part| pulled.contains(&j.id.as_str());
-    robot
-        .joints
-        .iter_mut()
-        .filter(pulled)
-        .for_each(|j| j.pulled = true);
+    for j in &mut robot.joints {
+        j.pulled |= pulled.contains(&j.id.as_str());
+    }
     robot.report.count_dropped("actuator", name);
 }
 
@@ -142,10 +139,8 @@ fn read_bodies<'a>(start: Waiting<'a>, context: &mut Context<'a>, robot: &mut Ro
                     here.push(inner(link, RigidMotion::IDENTITY));
                 }
                 "frame" => {
-                    here.push(inner(
-                        w.link,
-                        w.place.then(&context.compiler.read_place(e)?),
-                    ));
+                    let place = w.place.then(&context.compiler.read_place(e)?);
+                    here.push(inner(w.link, place));
                 }
                 "site" => read_site(e, &w, context, robot)?,
                 "joint" | "freejoint" if w.link != 0 => {}
@@ -191,17 +186,11 @@ fn read_site(
         robot.report.count_dropped("site", None);
         return Ok(());
     };
-    if context
-        .sites
-        .insert(name.to_owned(), (w.link, place))
-        .is_some()
-    {
+    let here = (w.link, place);
+    if context.sites.insert(name.to_owned(), here).is_some() {
         return Err(e.duplicate_error());
     }
-    robot
-        .frames
-        .entry(name.to_owned())
-        .or_insert((w.link, place));
+    robot.frames.entry(name.to_owned()).or_insert(here);
     robot.shown.insert(w.link);
     robot.report.count_mapped("site");
     Ok(())
@@ -230,15 +219,10 @@ fn read_body<'a>(at: Waiting<'a>, context: &Context<'a>, robot: &mut Robot) -> R
     if joints.is_empty() {
         let link = robot.add_link(&name, world);
         // A hand or a recording moves it in six freedoms: it is a drive, and not part of the frame.
-        let mocap = e.attribute("mocap") == Some("true");
-        let kind = if mocap {
-            free_joint()
-        } else {
-            JointType::Fixed
-        };
         let sides = [place, RigidMotion::IDENTITY];
-        let mut part = Part::new(&name, [parent, link], sides, kind).said_by(e);
-        if mocap {
+        let mut part = Part::new(&name, [parent, link], sides, JointType::Fixed).said_by(e);
+        if e.attribute("mocap") == Some("true") {
+            part = Part::new(&name, [parent, link], sides, free_joint()).said_by(e);
             part.drive = true;
             robot.report.count_mapped("mocap body, as a drive");
         }
@@ -247,12 +231,9 @@ fn read_body<'a>(at: Waiting<'a>, context: &Context<'a>, robot: &mut Robot) -> R
     }
     let (mut from, mut at) = (parent, place);
     for (i, j) in joints.iter().enumerate() {
-        let link = if i + 1 == joints.len() {
-            robot.add_link(&name, world)
-        } else {
-            let between = format!("{name}~{}", i + 1);
-            robot.add_link(&between, world)
-        };
+        let between = format!("{name}~{}", i + 1);
+        let last = i + 1 == joints.len();
+        let link = robot.add_link(if last { &name } else { &between }, world);
         let part = read_joint(j, &name, [from, link], at, context, robot)?;
         robot.joints.push(part);
         (from, at) = (link, RigidMotion::IDENTITY);
@@ -321,10 +302,9 @@ fn read_joint<'a>(
     if matches!(word, "hinge" | "slide") {
         let axis = read_axis(e, &look)?;
         part = part.with_axis(inner.map_direction(axis));
-        let unit = if word == "hinge" {
-            context.compiler.angle
-        } else {
-            1.0
+        let unit = match word {
+            "hinge" => context.compiler.angle,
+            _ => 1.0,
         };
         part.zero = look.numbers::<1>("ref")?.map_or(0.0, |[x]| x * unit);
         if let Some([low, high]) = look.numbers::<2>("range")? {

@@ -7,7 +7,6 @@ use crate::model::joint_type::Freedom;
 use crate::robots::description::{Part, Robot};
 
 /// A spanning tree, or forest, of the links.
-#[derive(Debug)]
 pub(crate) struct Tree {
     /// Roots, the frame first.
     pub(in crate::robots) roots: Vec<usize>,

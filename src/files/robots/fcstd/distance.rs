@@ -143,7 +143,6 @@ pub(crate) fn rack_frame(rack: &RigidMotion, pinion: &RigidMotion, slide: [f64; 
 pub(crate) type Shapes<'a> = &'a dyn Fn(&str) -> Option<String>;
 
 /// The constraint of a joint, its frames in the assembly, and whether its two parts are swapped; or why it cannot be represented.
-#[derive(Debug)]
 pub(crate) struct Held {
     pub(crate) holds: Holds,
     pub(crate) frames: [RigidMotion; 2],

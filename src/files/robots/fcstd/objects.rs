@@ -18,7 +18,6 @@ pub(crate) struct Object<'a> {
 }
 
 /// The objects of a document, in its order.
-#[derive(Debug)]
 pub(crate) struct Objects<'a> {
     list: Vec<Object<'a>>,
     by_name: BTreeMap<&'a str, usize>,

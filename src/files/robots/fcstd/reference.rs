@@ -7,7 +7,6 @@ use crate::robots::xml::element::Element;
 use std::collections::BTreeMap;
 
 /// The documents read: the first is the one with the assembly, the others those that it links to, by the name of their file.
-#[derive(Debug)]
 pub(crate) struct Documents<'a> {
     pub(crate) main: Objects<'a>,
     pub(crate) linked: BTreeMap<String, Objects<'a>>,

@@ -49,7 +49,6 @@ fn fitting_name(names: &mut Names, wanted: &str) -> String {
 }
 
 /// What the parts of a mechanism are made of.
-#[derive(Debug)]
 pub(crate) struct Content {
     /// Places of the links in the pose found.
     pub(in crate::robots) places: Vec<RigidMotion>,

@@ -15,7 +15,6 @@ pub(super) struct Compiler {
 }
 
 /// The data that the sections of a file share.
-#[derive(Debug)]
 pub(super) struct Context<'a> {
     pub(super) compiler: Compiler,
     pub(crate) defaults: Defaults<'a>,
@@ -129,13 +128,11 @@ impl Compiler {
 }
 
 /// The classes: for each the class around it and its `<default>` elements.
-#[derive(Debug)]
 pub(crate) struct Defaults<'a> {
     classes: BTreeMap<&'a str, (Option<&'a str>, Vec<Element<'a>>)>,
 }
 
 /// The elements in which an element's attributes are looked up: itself, then its classes from the innermost out.
-#[derive(Debug)]
 pub(crate) struct Lookup<'a> {
     places: Vec<Element<'a>>,
 }
