@@ -71,11 +71,8 @@ pub(crate) fn read_costs(
             }
             _ => {
                 let types = JointType::NAMED.iter().map(JointType::name);
-                let mut known: Vec<&str> = OTHERS
-                    .into_iter()
-                    .chain(types)
-                    .chain(JointType::CLASSES)
-                    .collect();
+                let known = OTHERS.into_iter().chain(types).chain(JointType::CLASSES);
+                let mut known: Vec<&str> = known.collect();
                 known.extend(&offered);
                 at.add_unknown_word("cost", name, known.iter().unique());
             }

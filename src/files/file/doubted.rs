@@ -185,10 +185,8 @@ fn by_default(m: &Mechanism) -> Option<WarningKind> {
     let (_, first) = all.first()?;
     let axis = unit(to_vector(&first.frame.axis));
     let here = to_vector(&first.frame.point);
-    let others = m
-        .joints
-        .iter()
-        .map(|other| across(sub(to_vector(&other.frame.point), here), axis));
+    let others = m.joints.iter();
+    let others = others.map(|other| across(sub(to_vector(&other.frame.point), here), axis));
     let towards = others.max_by(|a, b| length(*a).total_cmp(&length(*b)))?;
     let [x, y, z] = Some(unit(towards)).filter(|_| length(towards) > 0.0)?;
     let ids: Vec<&str> = all.iter().map(|(_, j)| j.id.as_str()).collect();

@@ -321,10 +321,8 @@ fn check_workload(file: &MechanismFile, m: &Mechanism, out: &Findings) {
             "no joint is a drive, so {what} has nothing to move; mark one with drive = true"
         ));
     }
-    let heavy = m
-        .links
-        .iter()
-        .position(|l| l.mass.as_ref().is_some_and(|p| p.mass > 0.0));
+    let mut links = m.links.iter();
+    let heavy = links.position(|l| l.mass.as_ref().is_some_and(|p| p.mass > 0.0));
     let moved = loads.drive_speeds.iter().any(|v| *v != 0.0);
     match (heavy, &loads.gravity) {
         (None, Some(_)) => at

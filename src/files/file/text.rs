@@ -149,15 +149,10 @@ fn with_remedy(message: String) -> String {
 
 fn from_json(text: &str) -> Result<MechanismFile, Syntax> {
     serde_json::from_str(text).map_err(|e| {
-        let line_start: usize = text
-            .split_inclusive('\n')
-            .take(e.line().saturating_sub(1))
-            .map(str::len)
-            .sum();
-        let line = text
-            .get(line_start..)
-            .and_then(|t| t.lines().next())
-            .unwrap_or("");
+        let line_start = text.split_inclusive('\n').take(e.line().saturating_sub(1));
+        let line_start: usize = line_start.map(str::len).sum();
+        let line = text.get(line_start..).and_then(|t| t.lines().next());
+        let line = line.unwrap_or("");
         let mut at = e.column().saturating_sub(1).min(line.len());
         while !line.is_char_boundary(at) {
             at -= 1;

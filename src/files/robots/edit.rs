@@ -107,10 +107,8 @@ impl<'a> Edits<'a> {
         for (id, lines) in std::mem::take(&mut self.children) {
             let e = self.origin.element(id);
             let (indent, newline) = self.find_layout(e);
-            let inner: String = lines
-                .iter()
-                .map(|l| format!("{newline}{indent}  {l}"))
-                .collect();
+            let inner = lines.iter().map(|l| format!("{newline}{indent}  {l}"));
+            let inner: String = inner.collect();
             let node = e.node();
             if node.close.is_empty() {
                 // <body .../> is opened.

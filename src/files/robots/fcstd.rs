@@ -150,10 +150,8 @@ fn choose_assembly<'a>(
     options: &Options,
     robot: &mut Robot,
 ) -> Read<Object<'a>> {
-    let all: Vec<Object<'a>> = (objects.all_objects())
-        .filter(|o| o.kind == "Assembly::AssemblyObject")
-        .copied()
-        .collect();
+    let all = (objects.all_objects()).filter(|o| o.kind == "Assembly::AssemblyObject");
+    let all: Vec<Object<'a>> = all.copied().collect();
     let root = document.element(root);
     if let Some(wanted) = &options.assembly {
         let named = |o: &&Object<'a>| o.label() == wanted || o.name == wanted;

@@ -317,11 +317,8 @@ const OLE: &[u8] = b"\xd0\xcf\x11\xe0\xa1\xb1\x1a\xe1";
 /// ```
 pub fn refuse_foreign(name: &str, bytes: &[u8]) -> Result<(), ImportError> {
     let path = std::path::Path::new(name);
-    let ending = path
-        .extension()
-        .unwrap_or_default()
-        .to_string_lossy()
-        .to_lowercase();
+    let ending = path.extension().unwrap_or_default().to_string_lossy();
+    let ending = ending.to_lowercase();
     // The first line of IGES ends in its section and number.
     let line = bytes.split(|b| *b == b'\n').next().unwrap_or_default();
     let is_iges = line.len() >= 80 && &line[72..80] == b"S      1";

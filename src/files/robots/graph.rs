@@ -33,10 +33,8 @@ pub(super) fn write_dot(m: &Mechanism) -> String {
 
 /// Quotes a string for DOT.
 fn quote_dot(text: &str) -> String {
-    let inner = text
-        .replace('\\', "\\\\")
-        .replace('"', "\\\"")
-        .replace('\n', "\\n");
+    let inner = text.replace('\\', "\\\\").replace('"', "\\\"");
+    let inner = inner.replace('\n', "\\n");
     format!("\"{inner}\"")
 }
 

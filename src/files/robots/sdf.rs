@@ -103,10 +103,8 @@ fn read_models<'a>(
             String::new()
         };
         read_model(m, &outer, &scope, scene, robot)?;
-        let nested: Vec<_> = m
-            .children_named("model")
-            .map(|n| (n, scope.clone(), true))
-            .collect();
+        let nested = m.children_named("model").map(|n| (n, scope.clone(), true));
+        let nested: Vec<_> = nested.collect();
         stack.extend(nested.into_iter().rev());
     }
     Ok(())

@@ -168,10 +168,8 @@ impl Report {
     /// Describes what the mechanism lacks of the description: masses, shapes, limits and the like.
     #[must_use]
     pub fn left_behind(&self) -> Option<String> {
-        let kinds = self
-            .dropped
-            .iter()
-            .map(|(kind, (n, _))| format!("{kind} ({n})"));
+        let kinds = self.dropped.iter();
+        let kinds = kinds.map(|(kind, (n, _))| format!("{kind} ({n})"));
         let mut kinds: Vec<String> = kinds.collect();
         let more = kinds.len().saturating_sub(KINDS);
         kinds.truncate(KINDS);

@@ -81,12 +81,9 @@ fn freedom_of(
         mechanism.joints[joint].id.clone(),
         &mechanism.joints[joint].joint_type,
     );
-    let coupled: Vec<Freedom> = t
-        .freedoms()
-        .iter()
-        .copied()
-        .filter(|&f| is_definite(t, f) && in_plane(mechanism, joint, f))
-        .collect();
+    let coupled = t.freedoms().iter().copied();
+    let coupled = coupled.filter(|&f| is_definite(t, f) && in_plane(mechanism, joint, f));
+    let coupled: Vec<Freedom> = coupled.collect();
     let known = || {
         coupled
             .iter()

@@ -26,10 +26,8 @@ const MOST_STATES: usize = 100;
 pub(crate) fn read_states(file: &MechanismFile, out: &Findings) -> Vec<String> {
     let named = file.joint.iter().filter_map(|j| j.state.as_ref());
     let named = named.flat_map(|w| w.word_list()).cloned();
-    let mut states = std::iter::once("free".to_owned())
-        .chain(named)
-        .unique()
-        .collect_vec();
+    let states = std::iter::once("free".to_owned()).chain(named).unique();
+    let mut states = states.collect_vec();
     out.key("joint")
         .count_within(MOST_STATES, states.len(), "states");
     states.truncate(MOST_STATES);
@@ -149,18 +147,12 @@ fn read_place(entry: &JointEntry, joint_type: &JointType, at: &Place<'_>) -> Fra
     let (joint, kind) = (&entry.id, &entry.kind);
     let missing = |what| at.add_problem(missing_message(joint, kind, what));
     let point = at.key("point").read_vector(&entry.point);
-    let axis = entry
-        .axis
-        .as_ref()
-        .map(|v| at.key("axis").read_direction(v));
+    let axis = at.read_given("axis", entry.axis.as_ref(), Place::read_direction);
     if axis.is_none() && !matches!(joint_type, JointType::Spherical | JointType::Fixed) {
         missing("an axis, such as axis = [0, 0, 1]");
     }
     let axis = axis.unwrap_or_else(|| [0, 0, 1].map(Expr::from));
-    let reference = entry
-        .reference
-        .as_ref()
-        .map(|v| at.key("reference").read_direction(v));
+    let reference = at.read_given("reference", entry.reference.as_ref(), Place::read_direction);
     let screws = joint_type.freedoms().contains(&Freedom::Screw);
     let stated = [("pitch", &entry.pitch), ("lead", &entry.lead)];
     match (stated.into_iter().find(|s| s.1.is_some()), screws) {
@@ -218,10 +210,8 @@ pub(crate) fn read_links(file: &MechanismFile, out: &Findings) -> Vec<Link> {
 /// all motions.
 fn mark_outputs(file: &MechanismFile, links: &mut [Link]) {
     let is_free = |w: &Words| w.word_list().iter().any(|s| s == "free");
-    let free = file
-        .joint
-        .iter()
-        .filter(|j| j.state.as_ref().is_none_or(is_free));
+    let free = file.joint.iter();
+    let free = free.filter(|j| j.state.as_ref().is_none_or(is_free));
     let there: BTreeSet<&String> = free.flat_map(|j| &j.links).collect();
     for link in links {
         if link.role == Role::Inner && there.contains(&link.id) {

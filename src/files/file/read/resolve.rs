@@ -124,10 +124,8 @@ pub(crate) fn joint_type(
                 .add_problem(takes_no(joint, kind, "freedoms"));
         }
         _ => {
-            let known = JointType::NAMED
-                .iter()
-                .map(JointType::name)
-                .chain(["custom"]);
+            let known = JointType::NAMED.iter().map(JointType::name);
+            let known = known.chain(["custom"]);
             at.key("type").add_unknown_word("joint type", kind, known);
         }
     }
@@ -206,15 +204,9 @@ pub(crate) fn read_option(
 
 /// Returns the frame of an option; values that its table omits are those of the joint.
 fn option_frame(joint: &str, present: &Frame, table: &OptionTable, at: &Place<'_>) -> Frame {
-    let axis = table
-        .axis
-        .as_ref()
-        .map(|v| at.key("axis").read_direction(v));
+    let axis = at.read_given("axis", table.axis.as_ref(), Place::read_direction);
     let axis = axis.unwrap_or_else(|| present.axis.clone());
-    let reference = table
-        .reference
-        .as_ref()
-        .map(|v| at.key("reference").read_direction(v));
+    let reference = at.read_given("reference", table.reference.as_ref(), Place::read_direction);
     let own = || Some(present.reference.clone()).filter(|r| !are_parallel(r, &axis));
     let reference = reference.or_else(own);
     let pitch = at.read_pitch(&table.pitch, &table.lead);

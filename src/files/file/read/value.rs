@@ -201,6 +201,16 @@ impl Place<'_> {
         Some(lead.scaled_as_written(pitch, 1.0 / std::f64::consts::TAU))
     }
 
+    /// Returns what is read from the value of a key, if it is given.
+    pub(crate) fn read_given<T, R>(
+        &self,
+        key: &str,
+        value: Option<&T>,
+        read: impl FnOnce(&Self, &T) -> R,
+    ) -> Option<R> {
+        value.map(|v| read(&self.key(key), v))
+    }
+
     fn in_range(&self, e: Expr) -> Expr {
         let size = e.to_f64().abs();
         // An irrational expression may cancel to zero, and is then zero; a number too small for doubles is not.

@@ -31,10 +31,8 @@ pub(crate) struct Usable {
 pub(crate) fn usable_couplings(robot: &mut Robot, written: &[usize]) -> Vec<Usable> {
     let mut out: Vec<Usable> = Vec::new();
     for coupling in robot.couplings.clone() {
-        let found = coupling
-            .joints
-            .each_ref()
-            .map(|id| robot.joints.iter().position(|j| j.id == *id));
+        let found = coupling.joints.each_ref();
+        let found = found.map(|id| robot.joints.iter().position(|j| j.id == *id));
         let (leader, follower) = (&coupling.joints[0], &coupling.joints[1]);
         let one = |j: usize| {
             let freedoms = robot.joints[j].joint_type.freedoms();

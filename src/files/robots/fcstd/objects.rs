@@ -158,11 +158,8 @@ impl<'a> Object<'a> {
         };
         let found = index.required_attribute("value")?;
         let list = property.first_child("CustomEnumList");
-        let words: Vec<&str> = list
-            .iter()
-            .flat_map(|l| l.children_named("Enum"))
-            .filter_map(|e| e.attribute("value"))
-            .collect();
+        let words = list.iter().flat_map(|l| l.children_named("Enum"));
+        let words: Vec<&str> = words.filter_map(|e| e.attribute("value")).collect();
         let at = found.parse::<usize>().ok();
         at.and_then(|i| words.get(i).copied())
             .map(Some)

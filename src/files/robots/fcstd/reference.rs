@@ -84,10 +84,8 @@ fn element_path<'a>(
     assembly: &Object<'a>,
     objects: &Objects<'a>,
 ) -> Vec<&'a str> {
-    let sub = link
-        .children_named("Sub")
-        .next()
-        .and_then(|s| s.attribute("value"));
+    let sub = link.children_named("Sub").next();
+    let sub = sub.and_then(|s| s.attribute("value"));
     let mut names: Vec<&str> = sub.unwrap_or("").split('.').collect();
     // FreeCAD 1.0 begins at the assembly or above, 1.1 at the part or within a group.
     if let Some(at) = names.iter().position(|n| *n == assembly.name) {

@@ -32,11 +32,8 @@ pub(crate) fn merge_links(links: usize, fixed: impl Iterator<Item = (usize, usiz
 
 /// Returns a name that fits a mechanism file: unique, not empty, short, without control characters.
 fn fitting_name(names: &mut Names, wanted: &str) -> String {
-    let plain: String = wanted
-        .chars()
-        .filter(|c| !c.is_control())
-        .take(LONGEST)
-        .collect();
+    let plain = wanted.chars().filter(|c| !c.is_control()).take(LONGEST);
+    let plain: String = plain.collect();
     let plain = if plain.is_empty() {
         "unnamed".to_owned()
     } else {
@@ -279,11 +276,8 @@ fn guess_outputs(robot: &Robot, bodies: &[usize], joints: &[usize], frame: usize
     }
     let shown: BTreeSet<usize> = robot.shown.iter().map(|&l| bodies[l]).collect();
     let leaves: Vec<usize> = (0..n).filter(|&b| moves(b) && joints_at[b] == 1).collect();
-    let with: Vec<usize> = leaves
-        .iter()
-        .copied()
-        .filter(|b| shown.contains(b))
-        .collect();
+    let with = leaves.iter().copied().filter(|b| shown.contains(b));
+    let with: Vec<usize> = with.collect();
     let leaves = if with.is_empty() { leaves } else { with };
     if !leaves.is_empty() || !floating.is_empty() {
         return [leaves, floating].concat();

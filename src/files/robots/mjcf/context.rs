@@ -68,10 +68,8 @@ impl Compiler {
             e.error_at(Some(name), bad_value(&e.label(), name, found, want))
         };
         let ways = ["quat", "axisangle", "xyaxes", "zaxis", "euler"];
-        let given: Vec<&str> = ways
-            .into_iter()
-            .filter(|w| e.attribute(w).is_some())
-            .collect();
+        let given = ways.into_iter().filter(|w| e.attribute(w).is_some());
+        let given: Vec<&str> = given.collect();
         if given.len() > 1 {
             let why = format!("it has two orientations, {}", given.join(" and "));
             return Err(e.unsupported_error(&why, "keep one"));

@@ -221,10 +221,8 @@ pub(crate) fn read_pose(e: Element<'_>) -> Read<(RigidMotion, Option<&str>)> {
     let Some(p) = e.first_child("pose") else {
         return Ok((RigidMotion::IDENTITY, None));
     };
-    let relative = p
-        .attribute("relative_to")
-        .or(p.attribute("frame"))
-        .filter(|r| !r.is_empty());
+    let relative = p.attribute("relative_to").or(p.attribute("frame"));
+    let relative = relative.filter(|r| !r.is_empty());
     if p.text().is_empty() {
         return Ok((RigidMotion::IDENTITY, relative));
     }

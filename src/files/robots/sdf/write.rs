@@ -91,10 +91,8 @@ impl SdfWriter<'_> {
         let Some(n) = self.links[l].clone().filter(|n| n != WORLD) else {
             return;
         };
-        let stated = link
-            .mass
-            .as_ref()
-            .map(|_| moving_inertial(self.m, l, [0.0; 3]));
+        let stated = link.mass.as_ref();
+        let stated = stated.map(|_| moving_inertial(self.m, l, [0.0; 3]));
         let weight = stated.map_or("/>".to_owned(), |i| {
             let [xx, yy, zz, xy, xz, yz] = i.tensor.map(clean_number);
             format!(

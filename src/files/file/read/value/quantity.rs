@@ -235,16 +235,12 @@ pub(crate) fn read_tolerance(file: &MechanismFile, m: &mut Parts, out: &Findings
         out.key("tolerance"),
     );
     let lengths = shift(at.key("length"), &of_file.length);
-    let of_joints: Vec<Option<f64>> = out
-        .key("joint")
-        .each_entry(&file.joint)
-        .map(|(at, j)| shift(at.key("tolerance"), &j.tolerance))
-        .collect();
-    let of_points: Vec<Option<f64>> = out
-        .key("point")
-        .each_entry(&file.point)
-        .map(|(at, p)| shift(at.key("tolerance"), &p.tolerance))
-        .collect();
+    let of_joints = out.key("joint").each_entry(&file.joint);
+    let of_joints = of_joints.map(|(at, j)| shift(at.key("tolerance"), &j.tolerance));
+    let of_joints: Vec<Option<f64>> = of_joints.collect();
+    let of_points = out.key("point").each_entry(&file.point);
+    let of_points = of_points.map(|(at, p)| shift(at.key("tolerance"), &p.tolerance));
+    let of_points: Vec<Option<f64>> = of_points.collect();
     let at = at.key("direction");
     let directions = at.read_stated(&of_file.direction, MOST_TURN, "0, or at most 0.1 rad");
     for (joint, own) in m.joints.iter_mut().zip(of_joints) {

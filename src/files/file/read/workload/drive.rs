@@ -65,10 +65,8 @@ fn read_diameters(t: &Place<'_>, e: &DriveEntry, unit: f64) -> Vec<f64> {
 /// Returns the angle missing after a swing without the cam, if it was measured.
 fn missing_angle(t: &Place<'_>, e: &DriveEntry, twist: f64) -> Option<f64> {
     let key = "missing_angle";
-    let missing = e
-        .missing_angle
-        .as_ref()
-        .map(|c| t.key(key).read_angle(key, c));
+    let missing = e.missing_angle.as_ref();
+    let missing = missing.map(|c| t.key(key).read_angle(key, c));
     if let Some(found) = missing.filter(|m| !(0.0..twist).contains(m)) {
         let allowed = "an angle from 0 to below half the swing";
         t.key(key).bad_angle(key, found, allowed);
@@ -122,10 +120,8 @@ pub(crate) fn read_drive(
 /// Returns the cam's push over a swing of `twist` to either side.
 fn read_push(t: &Place<'_>, e: &DriveEntry, twist: f64) -> Push {
     let key = "feed_from";
-    let from = e
-        .feed_from
-        .as_ref()
-        .map_or(0.0, |c| t.key(key).read_angle(key, c));
+    let from = e.feed_from.as_ref();
+    let from = from.map_or(0.0, |c| t.key(key).read_angle(key, c));
     if !(-twist..twist).contains(&from) {
         let allowed = "an angle within the swing, 0 being its middle";
         t.key(key).bad_angle(key, from, allowed);

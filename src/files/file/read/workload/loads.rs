@@ -49,10 +49,7 @@ fn read_inertia(entry: Option<&InertiaEntry>, at: &Place<'_>) -> Option<Inertia>
 
 /// Returns the mass of a link, if its entry gives one.
 pub(crate) fn read_mass(entry: &LinkEntry, at: &Place<'_>) -> Option<MassProperties> {
-    let centre = entry
-        .centre
-        .as_ref()
-        .map(|c| at.key("centre").read_vector(c));
+    let centre = at.read_given("centre", entry.centre.as_ref(), Place::read_vector);
     let inertia = read_inertia(entry.inertia.as_ref(), &at.key("inertia"));
     if let Some(x) = entry.mass.filter(|&x| !is_in_range(x)) {
         at.key("mass").add_bad_value("mass", x, NOT_NEGATIVE);
@@ -91,10 +88,7 @@ pub(crate) fn read_loads(file: &MechanismFile, mechanism: &Parts, out: &Findings
     let speeds = entry.drive_speed.as_ref();
     let drive_speeds = drive_speeds(speeds, mechanism, &at.key("drive_speed"));
     Loads {
-        gravity: entry
-            .gravity
-            .as_ref()
-            .map(|g| at.key("gravity").read_vector(g)),
+        gravity: at.read_given("gravity", entry.gravity.as_ref(), Place::read_vector),
         forces,
         moments,
         faces,
@@ -102,10 +96,7 @@ pub(crate) fn read_loads(file: &MechanismFile, mechanism: &Parts, out: &Findings
         misalignments,
         accuracy: read_accuracy(file, mechanism, &out.key("tolerances")),
         drive_speeds,
-        stroke: entry
-            .stroke
-            .as_ref()
-            .map(|s| read_stroke(s, &at.key("stroke"))),
+        stroke: at.read_given("stroke", entry.stroke.as_ref(), read_stroke),
         // These name joints and links; they are read once all of those are.
         grip: None,
         drive: None,
@@ -148,7 +139,7 @@ fn drive_speeds(entry: Option<&Quantities>, mechanism: &Parts, at: &Place<'_>) -
     speeds
 }
 
-fn read_stroke(s: &StrokeEntry, at: &Place<'_>) -> Stroke {
+fn read_stroke(at: &Place<'_>, s: &StrokeEntry) -> Stroke {
     let from = at.key("from").read_position(&s.from);
     let to = at.key("to").read_position(&s.to);
     let allowed = "a whole number from 1 to 100000";
@@ -235,10 +226,7 @@ pub(crate) fn read_misalignments(
 ) -> Vec<Misalignment> {
     let mut found = Vec::new();
     for (at, e) in at.first_entries(MAX_FORCES, &entry.misalignment, "misalignments") {
-        let angle = e
-            .angle
-            .as_ref()
-            .map(|angle| at.key("angle").read_turn(angle));
+        let angle = at.read_given("angle", e.angle.as_ref(), Place::read_turn);
         if angle.is_some() == e.length.is_some() {
             at.add_bad_value("misalignment", &e.joint, "either an angle or a length");
         }
