@@ -78,18 +78,13 @@ fn freedom_of(
     word: Option<&str>,
 ) -> Result<CoupledFreedom, ProblemKind> {
     let (id, t) = (
-        mechanism.joints[joint].id.clone(),
+        &mechanism.joints[joint].id,
         &mechanism.joints[joint].joint_type,
     );
     let coupled = t.freedoms().iter().copied();
     let coupled = coupled.filter(|&f| is_definite(t, f) && in_plane(mechanism, joint, f));
     let coupled: Vec<Freedom> = coupled.collect();
-    let known = || {
-        coupled
-            .iter()
-            .map(|f| format!("{id}:{}", f.name()))
-            .collect_vec()
-    };
+    let known = || coupled.iter().map(|f| format!("{id}:{}", f.name()));
     let freedom = match (word, t.freedoms(), coupled.as_slice()) {
         (_, _, []) => {
             return Err(format!(

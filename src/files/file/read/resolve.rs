@@ -190,11 +190,9 @@ pub(crate) fn read_option(
         }
         known.map(StateId::new)
     });
+    let name = table.name.clone();
     Some(JointOption {
-        name: table
-            .name
-            .clone()
-            .unwrap_or_else(|| motion_name(&joint_type)),
+        name: name.unwrap_or_else(|| motion_name(&joint_type)),
         joint_type,
         frame,
         cost_milli: table.cost.and_then(|c| at.key("cost").read_cost(c)),

@@ -282,16 +282,10 @@ fn parse_step(text: &str) -> Option<ProgrammeStep> {
         "1" => Some(ProgrammeStep::Swing(0)),
         "2" => Some(ProgrammeStep::Swing(1)),
         other => {
-            let time = other
-                .strip_prefix("wait")?
-                .trim()
-                .trim_end_matches('s')
-                .trim_end()
-                .parse::<f64>()
-                .ok()?;
-            (0.0..=1e6)
-                .contains(&time)
-                .then_some(ProgrammeStep::Dwell(time))
+            let time = other.strip_prefix("wait")?.trim();
+            let time: f64 = time.trim_end_matches('s').trim_end().parse().ok()?;
+            let allowed = (0.0..=1e6).contains(&time);
+            allowed.then_some(ProgrammeStep::Dwell(time))
         }
     }
 }
