@@ -171,15 +171,12 @@ fn by_default(m: &Mechanism) -> Option<WarningKind> {
     let half = uncertainties(m)?;
     let left = |(j, joint): &(JointId, &Joint)| {
         let given = |e: &Expr| e.is_written_whole() || e.half_unit().is_some();
+        let mut reference = joint.frame.reference.iter();
         let types = std::iter::once(&joint.joint_type)
             .chain(joint.offered_options().map(|o| &o.joint_type));
         half.frames[j.index()].axis != [0.0; 3]
             && types.into_iter().any(JointType::has_second_axis)
-            && joint
-                .frame
-                .reference
-                .iter()
-                .all(|e| !given(e) && e.as_rational().is_some())
+            && reference.all(|e| !given(e) && e.as_rational().is_some())
     };
     let all: Vec<(JointId, &Joint)> = m.joints_with_ids().filter(left).collect();
     let (_, first) = all.first()?;

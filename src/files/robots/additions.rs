@@ -40,15 +40,11 @@ pub(crate) fn add_coupling(e: Element<'_>, joints: [&str; 2], ratio: f64, robot:
         let [a, b] = c.joints.each_ref().map(String::as_str);
         (joints == [a, b] && c.ratio == ratio) || (joints == [b, a] && c.ratio * ratio == 1.0)
     };
+    let report = &mut robot.report;
     if robot.couplings.iter().any(same) {
-        robot
-            .report
-            .count_dropped("duplicate coupling", Some(joints[1]));
-        return;
+        return report.count_dropped("duplicate coupling", Some(joints[1]));
     }
-    robot
-        .report
-        .count_mapped("coupling of a plugin or controller");
+    report.count_mapped("coupling of a plugin or controller");
     robot.couplings.push(Ratio::new(joints, ratio, e));
 }
 
@@ -240,19 +236,11 @@ fn names_world(joint: Element<'_>) -> bool {
 fn place_links<'a>(root: Element<'a>, robot: &Robot) -> Read<SdfScene<'a>> {
     let mut scene = SdfScene::default();
     scene.world = robot.links.iter().position(|l| l == "world").unwrap_or(0);
-    let model = Placed::new(
-        root,
-        "world".to_owned(),
-        RigidMotion::IDENTITY,
-        robot.links[0].clone(),
-    );
+    let (here, first) = (RigidMotion::IDENTITY, robot.links[0].clone());
+    let model = Placed::new(root, "world".to_owned(), here, first);
     insert(&mut scene, "__model__".to_owned(), model)?;
-    for (l, name) in robot
-        .links
-        .iter()
-        .enumerate()
-        .filter(|(_, n)| *n != "world")
-    {
+    let links = robot.links.iter().enumerate();
+    for (l, name) in links.filter(|(_, n)| *n != "world") {
         let mut link = Placed::new(root, "world".to_owned(), robot.places[l], name.clone());
         link.link = Some(l);
         insert(&mut scene, name.clone(), link)?;
@@ -267,9 +255,8 @@ fn add_joints<'a>(
     robot: &mut Robot,
 ) -> Read<()> {
     for &e in joints {
-        let shared = e
-            .attribute("name")
-            .is_some_and(|n| robot.frame(n).is_some());
+        let name = e.attribute("name");
+        let shared = name.is_some_and(|n| robot.frame(n).is_some());
         named_place(e, "", "__model__", shared, &mut scene)?;
     }
     resolve_places(&mut scene)?;

@@ -46,11 +46,8 @@ pub(crate) fn read_assembly(input: Input<'_>) -> Read<Robot> {
     let mut parts = vec![("ground".to_owned(), ground)];
     let mut markers = BTreeMap::new();
     collect_markers(root, 0, &ground, name, &mut markers)?;
-    for part in root
-        .first_child("Parts")
-        .iter()
-        .flat_map(|p| p.children_named("Part"))
-    {
+    let all = root.first_child("Parts");
+    for part in all.iter().flat_map(|p| p.children_named("Part")) {
         part.check_room("parts", parts.len())?;
         let (own, place) = (self::name(part)?, ground.then(&read_pose(part)?));
         let path = format!("{name}/{own}");
@@ -63,9 +60,8 @@ pub(crate) fn read_assembly(input: Input<'_>) -> Read<Robot> {
     for joint in joints.iter().flat_map(|j| j.children()) {
         joint.check_room("joints", connections.len())?;
         if joint.name().contains(CONTACT) {
-            robot
-                .report
-                .count_dropped("contact", joint.first_child("Name").map(|n| n.text()));
+            let name = joint.first_child("Name").map(|n| n.text());
+            robot.report.count_dropped("contact", name);
             continue;
         }
         connections.push(read_connection(joint, &markers)?);

@@ -75,23 +75,16 @@ fn read_linked(
         let bytes = match read(&file) {
             Ok(bytes) => bytes,
             Err(why) => {
-                robot.report.count_dropped(
-                    &format!("linked document that cannot be read ({why})"),
-                    Some(&file),
-                );
+                let what = format!("linked document that cannot be read ({why})");
+                robot.report.count_dropped(&what, Some(&file));
                 continue;
             }
         };
         let archive = Archive::find_archive(&file, &bytes);
-        let member = archive
-            .map(|a| a.read_member(DOCUMENT))
-            .transpose()?
-            .flatten();
-        let Some(member) = member else {
-            robot.report.count_dropped(
-                "linked document that is not a FreeCAD document",
-                Some(&file),
-            );
+        let member = archive.map(|a| a.read_member(DOCUMENT)).transpose()?;
+        let Some(member) = member.flatten() else {
+            let what = "linked document that is not a FreeCAD document";
+            robot.report.count_dropped(what, Some(&file));
             continue;
         };
         let name = format!("{file}/{DOCUMENT}");
@@ -213,11 +206,10 @@ impl<'a> Assembling<'a, '_> {
         let mut labels = BTreeSet::new();
         for (joint, word, ends) in &ended {
             let label = joint.label();
-            let id = if labels.insert(label) {
-                label.to_owned()
-            } else {
-                format!("{label} ({})", joint.name)
-            };
+            let mut id = label.to_owned();
+            if !labels.insert(label) {
+                id += &format!(" ({})", joint.name);
+            }
             let element = format!("joint \"{id}\"");
             let Some(found) = joint_constraint(word, joint, ends, &slides, self.shapes)? else {
                 let what = format!("omitted: its type {word} is not known");
@@ -238,14 +230,13 @@ impl<'a> Assembling<'a, '_> {
                 robot.report.add_approximation(&element, NO_LIMITS);
             }
             let [a, b] = [of(&ends[0]), of(&ends[1])];
+            let property = joint.find_property("JointType");
             connections.push(Connection {
                 id,
                 parts: if swap { [b, a] } else { [a, b] },
                 frames,
                 holds,
-                element: joint
-                    .find_property("JointType")
-                    .map_or(joint.listed.id, |p| p.id),
+                element: property.map_or(joint.listed.id, |p| p.id),
             });
         }
         Ok(Assembly {

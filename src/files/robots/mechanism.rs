@@ -46,11 +46,9 @@ pub(crate) fn root_link(robot: &mut Robot, options: &Options) -> Result<usize, P
     let in_tree = || robot.joints.iter().filter(|j| !j.closes);
     let child: BTreeSet<usize> = in_tree().map(|j| j.links[1]).collect();
     let held = |w: &usize| in_tree().any(|j| j.links.contains(w));
-    let root = robot
-        .world
-        .filter(held)
-        .or_else(|| (0..robot.links.len()).find(|l| !child.contains(l) && robot.world != Some(*l)))
-        .unwrap_or(0);
+    let free = |l: &usize| !child.contains(l) && robot.world != Some(*l);
+    let first = || (0..robot.links.len()).find(free);
+    let root = robot.world.filter(held).or_else(first).unwrap_or(0);
     // In engines, a model that is not connected to the world falls.
     let falls = robot.world.is_none_or(|w| !held(&w));
     let parts = loose_roots(robot, &spanning_tree(robot, root)).len();
@@ -236,11 +234,8 @@ pub(crate) fn make_entries(
 /// Merges rigidly joined links to bodies and returns them with the joints between them. Joints within a body are reported and
 /// omitted.
 fn rigid_bodies(robot: &mut Robot, tree: &Tree) -> Result<(Vec<usize>, Vec<usize>), ProblemKind> {
-    let kept = if robot.assembly {
-        in_loops(robot, tree)
-    } else {
-        BTreeSet::new()
-    };
+    let kept = robot.assembly.then(|| in_loops(robot, tree));
+    let kept = kept.unwrap_or_default();
     let fixed = |j: usize| robot.joints[j].joint_type == JointType::Fixed && !kept.contains(&j);
     let rigid = tree.steps.iter().filter(|s| fixed(s.joint));
     let bodies = merge_links(robot.links.len(), rigid.map(|s| (s.from, s.link)));

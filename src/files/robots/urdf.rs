@@ -86,10 +86,8 @@ fn read_link(e: Element<'_>, robot: &mut Robot) -> Read<()> {
 
 /// Records the joints that a transmission drives.
 fn read_transmission(e: Element<'_>, robot: &mut Robot) {
-    for j in e
-        .children_named("joint")
-        .filter_map(|j| j.attribute("name"))
-    {
+    let driven = e.children_named("joint");
+    for j in driven.filter_map(|j| j.attribute("name")) {
         match robot.joints.iter_mut().find(|p| p.id == j) {
             Some(p) => {
                 p.drive = true;

@@ -108,11 +108,8 @@ fn read_workload<T>(
     (name, example): (&str, &str),
 ) -> Result<WorkloadFile<T>, Vec<Finding>> {
     let out = with_parameters(file);
-    let mechanism = if file.link.is_empty() && file.joint.is_empty() {
-        None
-    } else {
-        Some(build_mechanism(file)?)
-    };
+    let alone = file.link.is_empty() && file.joint.is_empty();
+    let mechanism = (!alone).then(|| build_mechanism(file)).transpose()?;
     let length_unit = length_unit(file, &out);
     let spec = table(file, length_unit.metres, mechanism.as_deref(), &out);
     let claims = read_claims(file, &out);

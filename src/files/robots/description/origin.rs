@@ -75,14 +75,10 @@ impl Origin {
     #[must_use]
     pub fn is_inside(&self, pose: &Pose) -> bool {
         pose.columns.iter().all(|c| {
-            let unit = if c.freedom.is_slide() {
-                pose.length
-            } else {
-                1.0
-            };
-            self.part_of(c.joint)
-                .exceeded_limits(c.moved * unit)
-                .is_none()
+            let slides = c.freedom.is_slide();
+            let unit = if slides { pose.length } else { 1.0 };
+            let part = self.part_of(c.joint);
+            part.exceeded_limits(c.moved * unit).is_none()
         })
     }
 

@@ -79,11 +79,7 @@ pub(crate) fn distance_constraint(
 
 /// Returns the distance of one frame from the plane of the other, along its normal; with `swap` the plane is the second.
 fn height_above_plane(frames: &[RigidMotion; 2], swap: bool) -> f64 {
-    let [plane, other] = if swap {
-        [&frames[1], &frames[0]]
-    } else {
-        [&frames[0], &frames[1]]
-    };
+    let [plane, other] = [swap, !swap].map(|second| &frames[usize::from(second)]);
     let z = plane.rotation.map(|row| row[2]);
     dot(sub(other.translation, plane.translation), z)
 }
@@ -128,11 +124,8 @@ pub(crate) fn rack_frame(rack: &RigidMotion, pinion: &RigidMotion, slide: [f64; 
     let y = cross(z, x);
     let to_rack = sub(rack.translation, pinion.translation);
     // The teeth are on the side of the pinion where the rack is.
-    let (x, y) = if dot(to_rack, y) > 0.0 {
-        (x.map(|c| -c), y.map(|c| -c))
-    } else {
-        (x, y)
-    };
+    let sign = if dot(to_rack, y) > 0.0 { -1.0 } else { 1.0 };
+    let [x, y] = [x, y].map(|v| v.map(|c| sign * c));
     RigidMotion {
         rotation: [0, 1, 2].map(|i| [x[i], y[i], z[i]]),
         translation: rack.translation,

@@ -135,11 +135,10 @@ fn make_links(
     let (mut names, mut ids, mut links) = (Names::default(), BTreeMap::new(), Vec::new());
     for b in order {
         let id = fitting_name(&mut names, &robot.links[b]);
-        let role = if b == c.frame {
-            Some("frame")
-        } else {
-            c.outputs.contains(&b).then_some("output")
-        };
+        let role = c.outputs.contains(&b).then_some("output");
+        let role = role
+            .filter(|_| b != c.frame)
+            .or((b == c.frame).then_some("frame"));
         if let Some(with) = merged.get(&b) {
             let text = format!("with {}, fixed to it", with.join(", "));
             comments.push(Comment::new("link", links.len(), &text));
@@ -162,11 +161,8 @@ fn clean_number(x: f64) -> Coordinate {
 
 /// Returns a direction for the file: with its own length unless that is extreme.
 fn file_direction(v: Vector) -> Vector {
-    if (0.1..=10.0).contains(&length(v)) {
-        v
-    } else {
-        unit_or_z(v)
-    }
+    let usual = (0.1..=10.0).contains(&length(v));
+    if usual { v } else { unit_or_z(v) }
 }
 
 fn make_joint(

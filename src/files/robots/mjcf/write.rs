@@ -43,10 +43,8 @@ pub(crate) fn write_mjcf(m: &Mechanism) -> Result<FormattedFile, ExportError> {
         let at = joint_axes(m, &m.joints[s.joint]).point;
         w.bodies[s.link] = Some((w.body_names.fit_name(&m.links[s.link].id), at));
         let sign = if s.forward { 1.0 } else { -1.0 };
-        w.children
-            .entry(s.from)
-            .or_default()
-            .push((s.link, s.joint, sign));
+        let here = w.children.entry(s.from).or_default();
+        here.push((s.link, s.joint, sign));
     }
     let mut bodies = String::new();
     // Joint by joint in the order of the file, so that names are fitted in it.
@@ -169,16 +167,10 @@ impl MjcfWriter<'_> {
     /// moves in the same way. MuJoCo softens a weld by the weight of its bodies, and would let the loop open at a very light one. A body
     /// welded to the frame does not move: it weighs as much as the link `other`.
     fn weight_attributes(&self, link: LinkId, other: LinkId, at: Vector) -> String {
-        let of = if link == self.m.frame_link() {
-            other
-        } else {
-            link
-        };
-        let parts = if of == link {
-            self.parts.get(&of).copied().unwrap_or(1.0)
-        } else {
-            1.0
-        };
+        let fixed = link == self.m.frame_link();
+        let of = if fixed { other } else { link };
+        let own = self.parts.get(&of).copied().unwrap_or(1.0);
+        let parts = if fixed { 1.0 } else { own };
         let i = moving_inertial(self.m, of, at);
         format!(
             "pos=\"{}\" mass=\"{}\" fullinertia=\"{}\"",

@@ -282,11 +282,8 @@ pub(crate) fn read_gearbox(
     for (tag, way) in [("parent", "axis"), ("child", "axis2")] {
         let (c, link) = joint_end(e, tag)?;
         let (link, _) = locate_name(c, &absolute_name(scope, link), scene)?;
-        let way = if e.first_child(way).is_some() {
-            way
-        } else {
-            "axis"
-        };
+        let stated = e.first_child(way).is_some();
+        let way = if stated { way } else { "axis" };
         let about = read_axis(e, way, scope, scene, &world)?;
         found.extend(find_hinge(robot, [on, link], about));
     }

@@ -145,10 +145,8 @@ pub(crate) fn moves_with(
     if name == "world" {
         return Ok((scene.world, RigidMotion::IDENTITY));
     }
-    let first = scene
-        .placed
-        .get(name)
-        .ok_or_else(|| Some(name.to_owned()))?;
+    let find = |n: &str| scene.placed.get(n).ok_or_else(|| Some(n.to_owned()));
+    let first = find(name)?;
     let world = first.world.unwrap_or(RigidMotion::IDENTITY);
     let mut at = first;
     for _ in 0..=scene.placed.len() {
@@ -158,10 +156,7 @@ pub(crate) fn moves_with(
         if at.attached_to == "world" {
             return Ok((scene.world, world));
         }
-        at = scene
-            .placed
-            .get(&at.attached_to)
-            .ok_or_else(|| Some(at.attached_to.clone()))?;
+        at = find(&at.attached_to)?;
     }
     Err(None)
 }
@@ -234,16 +229,9 @@ pub(crate) fn read_pose(e: Element<'_>) -> Read<(RigidMotion, Option<&str>)> {
         ));
     }
     let [x, y, z, roll, pitch, yaw] = p.text_numbers::<6>()?;
-    let degrees = p
-        .attribute("degrees")
-        .is_some_and(|d| ["true", "1"].contains(&d));
-    let turn = scale(
-        [roll, pitch, yaw],
-        if degrees {
-            std::f64::consts::PI / 180.0
-        } else {
-            1.0
-        },
-    );
+    let degrees = p.attribute("degrees");
+    let degrees = degrees.is_some_and(|d| ["true", "1"].contains(&d));
+    let degree = std::f64::consts::PI / 180.0;
+    let turn = scale([roll, pitch, yaw], if degrees { degree } else { 1.0 });
     Ok((RigidMotion::roll_pitch_yaw([x, y, z], turn), relative))
 }

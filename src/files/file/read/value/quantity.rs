@@ -223,11 +223,8 @@ const MOST_SHIFT: f64 = 0.1;
 pub(crate) fn read_tolerance(file: &MechanismFile, m: &mut Parts, out: &Findings) {
     let across = box_diagonal(m.joints.iter().map(|j| to_vector(&j.frame.point)));
     // Joints that are all in one place have no size.
-    let most = if across > 0.0 {
-        MOST_SHIFT * across
-    } else {
-        f64::INFINITY
-    };
+    let tenth = MOST_SHIFT * across;
+    let most = if across > 0.0 { tenth } else { f64::INFINITY };
     let allowed = "0, or at most a tenth of the distance across the joints";
     let shift = |at: Place<'_>, c: &Option<Coordinate>| at.read_stated(c, most, allowed);
     let (of_file, at) = (

@@ -131,15 +131,14 @@ fn read_load(t: &Place<'_>, e: &GripEntry, unit: f64) -> Option<GripLoad> {
     let coefficient = Bound::Range(0.0, 10.0, "a coefficient from 0 to 10");
     let factor = Bound::Range(1.0, 1000.0, "a factor from 1 to 1000");
     let centre = e.centre_of_mass.as_ref();
+    let safety = t.read_optional("safety", &e.safety, 1.0, factor);
     Some(GripLoad {
         mass,
         centre_of_mass: centre.map_or([0.0; 3], |v| t.key("centre_of_mass").read_reals(v, unit)),
         gravity,
         accelerations,
         friction: t.read_figure("friction", friction, 1.0, coefficient),
-        safety: t
-            .read_optional("safety", &e.safety, 1.0, factor)
-            .unwrap_or(1.0),
+        safety: safety.unwrap_or(1.0),
         levers: t.read_word("levers", &e.levers, &kinds),
     })
 }
@@ -269,6 +268,7 @@ pub(crate) fn read_grip(
     let mounting_angle = t.angle_in("mounting_angle", &e.mounting_angle, [0.0, 179.0], allowed);
     let diameter = t.read_figure("diameter", &e.diameter, unit, Bound::Positive);
     let pivots = read_pivots(t, e, unit);
+    let width = t.not_negative("lever_width", &e.lever_width, unit);
     let mut spec = GripSpec {
         lever_length: t.read_figure("lever_length", &e.lever_length, unit, Bound::Positive),
         prism_angle,
@@ -277,9 +277,7 @@ pub(crate) fn read_grip(
         diameters: read_diameters(t, e, unit, diameter),
         pivots,
         face_length: t.read_positive("face_length", &e.face_length, unit),
-        lever_width: t
-            .not_negative("lever_width", &e.lever_width, unit)
-            .unwrap_or(0.0),
+        lever_width: width.unwrap_or(0.0),
         may_cross: e.levers_cross,
         load: read_load(t, e, unit),
         transmission: read_transmission(t, e, unit, mechanism),
