@@ -74,11 +74,9 @@ impl Assembly {
             link[p] = Some(robot.add_link(name, *place));
         }
         robot.world = link[0];
-        let known: Vec<(&Connection, [usize; 2])> = (self.connections.iter())
-            .filter_map(|c| Some((c, [link[c.parts[0]]?, link[c.parts[1]]?])))
-            .collect();
-        let (couplers, ties): (Vec<_>, Vec<_>) =
-            known.into_iter().partition(|(c, _)| c.holds.couples());
+        let known = self.connections.iter();
+        let known = known.filter_map(|c| Some((c, [link[c.parts[0]]?, link[c.parts[1]]?])));
+        let (couplers, ties): (Vec<_>, Vec<_>) = known.partition(|(c, _)| c.holds.couples());
         let mut rows = 0;
         for (c, links) in &ties {
             rows += c.holds.rows();
@@ -204,10 +202,8 @@ fn make_part(
     options: &Options,
 ) -> Part {
     let apart = m.near.inverse().then(&m.far);
-    let turn = match m.kind {
-        JointType::Spherical => 0.0,
-        _ => apart.angle(),
-    };
+    let ball = m.kind == JointType::Spherical;
+    let turn = if ball { 0.0 } else { apart.angle() };
     // By default a joint is at its first frame; with `assemble`, each part keeps its own frame.
     let far = if options.assemble { &m.far } else { &m.near };
     let sides = [

@@ -113,11 +113,8 @@ impl<'a> Edits<'a> {
             if node.close.is_empty() {
                 // <body .../> is opened.
                 let slash = node.span.end - 2..node.span.end;
-                self.replace_span(
-                    e,
-                    slash,
-                    format!(">{inner}{newline}{indent}</{}>", e.name()),
-                );
+                let opened = format!(">{inner}{newline}{indent}</{}>", e.name());
+                self.replace_span(e, slash, opened);
             } else {
                 let at = self.source_text(e)[..node.close.start].trim_end().len();
                 self.replace_span(e, at..at, inner);
@@ -133,11 +130,8 @@ impl<'a> Edits<'a> {
         if let Some((source, span, _)) = self.list.iter().find(|(s, ..)| *s != 0) {
             let source = &sources[*source];
             let message = "the change is in an included file; merge the files, for example by saving the model from MuJoCo as XML, or change joints of the main file only";
-            return Err(syntax_problem(message).in_file(
-                &source.name,
-                &source.text,
-                Some(span.clone()),
-            ));
+            let problem = syntax_problem(message);
+            return Err(problem.in_file(&source.name, &source.text, Some(span.clone())));
         }
         // The sort is stable: edits at one place keep their order.
         self.list.sort_by_key(|(_, span, _)| span.start);
@@ -145,11 +139,8 @@ impl<'a> Edits<'a> {
         for (_, span, by) in &self.list {
             if span.start < at {
                 let message = "two changes affect the same place; make them one at a time";
-                return Err(syntax_problem(message).in_file(
-                    &sources[0].name,
-                    text,
-                    Some(span.clone()),
-                ));
+                let problem = syntax_problem(message);
+                return Err(problem.in_file(&sources[0].name, text, Some(span.clone())));
             }
             out.push_str(&text[at..span.start]);
             out.push_str(by);
@@ -174,9 +165,8 @@ pub(crate) fn free_urdf(origin: &Origin, all: &[Freeing<'_>], edits: &mut Edits<
             _ => ("link1", e.first_child("link1")),
         };
         let Some(end) = e.first_child(tag) else {
-            return Err(
-                e.unsupported_error("it has no end that can be changed", "choose another joint")
-            );
+            let why = "it has no end that can be changed";
+            return Err(e.unsupported_error(why, "choose another joint"));
         };
         let frame = origin.places[part.links[0]].then(&part.sides[0]);
         let mut from = end.required_attribute("link")?.to_owned();
@@ -190,10 +180,8 @@ pub(crate) fn free_urdf(origin: &Origin, all: &[Freeing<'_>], edits: &mut Edits<
             let between = edits.name(&format!("{}_{word}_link", part.id));
             let name = edits.name(&format!("{}_{word}", part.id));
             lines.push(format!("<!-- {why} -->"));
-            lines.push(format!(
-                "<link name=\"{}\">{LIGHT_URDF}</link>",
-                escape_xml(&between)
-            ));
+            let link = escape_xml(&between);
+            lines.push(format!("<link name=\"{link}\">{LIGHT_URDF}</link>"));
             lines.push(format!(
                 "<joint name=\"{}\" type=\"{kind}\"><parent link=\"{}\"/><child link=\"{}\"/>{place}<axis xyz=\"{}\"/>{limit}</joint>",
                 escape_xml(&name),
@@ -249,36 +237,30 @@ pub(crate) fn free_sdf(origin: &Origin, all: &[Freeing<'_>], edits: &mut Edits<'
             return Err(e.unsupported_error("no link can be inserted there", remedy));
         };
         let mut nodes = origin.document.nodes.iter();
-        let model = nodes
-            .position(|n| n.children.contains(&e.id))
-            .unwrap_or(origin.root);
-        let model = origin.element(model);
+        let model = nodes.position(|n| n.children.contains(&e.id));
+        let model = origin.element(model.unwrap_or(origin.root));
         let named = |l: &Element<'_>| l.attribute("name") == Some(child.text());
         let Some(link) = model.children_named("link").find(named) else {
             return Err(e.unsupported_error("its child is not a link of the same model", remedy));
         };
         let frame = axes_frame(origin, model, part, e)?;
-        let pose = |e: Element<'_>| {
-            e.first_child("pose")
-                .map_or("", |p| edits.raw_text(p))
-                .to_owned()
-        };
+        let pose = |e: Element<'_>| e.first_child("pose").map_or("", |p| edits.raw_text(p));
         let (link_pose, joint_pose) = (pose(link), pose(e));
         let mut lines = Vec::new();
         let mut chain = Vec::new();
         for (slides, direction, why) in freed {
-            let (kind, word) = if *slides {
-                ("prismatic", "slide")
-            } else {
-                ("revolute", "turn")
+            let (kind, word) = match slides {
+                true => ("prismatic", "slide"),
+                false => ("revolute", "turn"),
             };
-            let between = edits.name(&format!("{}_{word}_link", part.id.replace("::", "_")));
-            let name = edits.name(&format!("{}_{word}", part.id.replace("::", "_")));
+            let id = part.id.replace("::", "_");
+            let between = edits.name(&format!("{id}_{word}_link"));
+            let name = edits.name(&format!("{id}_{word}"));
             let axis = format_numbers(frame.inverse().map_direction(*direction));
             lines.push(format!("<!-- {why} -->"));
+            let link = escape_xml(&between);
             lines.push(format!(
-                "<link name=\"{}\">{link_pose}{LIGHT_SDF}</link>",
-                escape_xml(&between)
+                "<link name=\"{link}\">{link_pose}{LIGHT_SDF}</link>"
             ));
             chain.push((name, kind, between, axis));
         }

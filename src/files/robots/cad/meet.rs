@@ -147,11 +147,9 @@ impl Meeting {
     }
 }
 
-fn at_this_pose(m: Meeting) -> Meeting {
-    Meeting {
-        here_only: true,
-        ..m
-    }
+fn at_this_pose(mut m: Meeting) -> Meeting {
+    m.here_only = true;
+    m
 }
 
 /// Returns a joint that constrains only a direction.
@@ -252,11 +250,10 @@ fn distance_joint(holds: Holds, i: &RigidMotion, j: &RigidMotion) -> Result<Meet
     Ok(at_this_pose(match holds {
         Holds::LineLine(_) => lines(JointType::Custom(vec![Rz, Ty, Tz]), 0.0),
         Holds::Hinges(_) => lines(JointType::Custom(vec![Rz, Ty]), along),
-        _ => Meeting::new(
-            JointType::SphereOnPlane,
-            make_frame(point, u, z),
-            make_frame(oj, u, z),
-        ),
+        _ => {
+            let [near, far] = [point, oj].map(|at| make_frame(at, u, z));
+            Meeting::new(JointType::SphereOnPlane, near, far)
+        }
     }))
 }
 
@@ -278,11 +275,8 @@ fn gear_joint(i: &RigidMotion, j: &RigidMotion, [a, b]: [f64; 2]) -> Result<Meet
     }
     let point = add_scaled(i.translation, a / (a + b), d);
     let there = make_frame(point, cross(z, d), z);
-    Ok(at_this_pose(Meeting::new(
-        JointType::SphereOnPlane,
-        there,
-        there,
-    )))
+    let contact = Meeting::new(JointType::SphereOnPlane, there, there);
+    Ok(at_this_pose(contact))
 }
 
 /// Rates below this fraction of the other count as zero.

@@ -22,15 +22,14 @@ const SAME: f64 = 1e-4;
 /// figure.
 type SimpleType = (&'static str, &'static str);
 
+const CYLINDRICAL: SimpleType = ("Cylindrical", "CylindricalJoint");
+
 /// The turns and the slides that each of these types leaves.
 const SIMPLE: [([Left; 2], SimpleType); 6] = [
     ([Left::None, Left::None], ("Fixed", "FixedJoint")),
     ([Left::Along, Left::None], ("Revolute", "RevoluteJoint")),
     ([Left::None, Left::Along], ("Slider", "TranslationalJoint")),
-    (
-        [Left::Along, Left::Along],
-        ("Cylindrical", "CylindricalJoint"),
-    ),
+    ([Left::Along, Left::Along], CYLINDRICAL),
     ([Left::All, Left::None], ("Ball", "SphericalJoint")),
     ([Left::Along, Left::All], ("Parallel", "ParallelAxesJoint")),
 ];
@@ -93,10 +92,9 @@ pub(crate) fn simple_type(
     let frame = origin.places[part.links[0]].then(&part.sides[0]);
     let axis = frame.map_direction(part.axis);
     let own = part.joint_type.freedoms().iter();
-    let own: Vec<(bool, Vector)> = own
-        .filter(|f| **f != Freedom::Screw)
-        .map(|&f| (f.is_slide(), frame.map_direction(part.direction(f))))
-        .collect();
+    let own = own.filter(|f| **f != Freedom::Screw);
+    let own = own.map(|&f| (f.is_slide(), frame.map_direction(part.direction(f))));
+    let own: Vec<(bool, Vector)> = own.collect();
     if own.len() < part.joint_type.freedoms().len() {
         return None;
     }
@@ -131,10 +129,8 @@ pub(crate) fn retype_joints(imported: &Imported, releases: &[(Release, String)])
             continue;
         };
         let Some((freecad, ondsel)) = simple_type(origin, joint, &more) else {
-            let why = format!(
-                "{} has no joint type with the required freedoms",
-                imported.format.name
-            );
+            let format = imported.format.name;
+            let why = format!("{format} has no joint type with the required freedoms");
             return Err(retype_error(part, element, why));
         };
         match imported.format.word {
@@ -170,11 +166,9 @@ fn by_joint(
             } => out.entry(joint).or_default().push((slides, direction)),
             Release::Coupling(q) => {
                 let element = origin.element(origin.couplings[q]);
+                let why = "it couples joints, so its type cannot be changed";
                 let remedy = "suppress the joint in the CAD program, or choose another joint";
-                return Err(element.unsupported_error(
-                    "it couples joints, so its type cannot be changed",
-                    remedy,
-                ));
+                return Err(element.unsupported_error(why, remedy));
             }
         }
     }

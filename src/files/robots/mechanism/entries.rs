@@ -135,10 +135,8 @@ fn make_links(
     let (mut names, mut ids, mut links) = (Names::default(), BTreeMap::new(), Vec::new());
     for b in order {
         let id = fitting_name(&mut names, &robot.links[b]);
-        let role = c.outputs.contains(&b).then_some("output");
-        let role = role
-            .filter(|_| b != c.frame)
-            .or((b == c.frame).then_some("frame"));
+        let frame = (b == c.frame).then_some("frame");
+        let role = frame.or(c.outputs.contains(&b).then_some("output"));
         if let Some(with) = merged.get(&b) {
             let text = format!("with {}, fixed to it", with.join(", "));
             comments.push(Comment::new("link", links.len(), &text));

@@ -42,10 +42,8 @@ pub(super) fn read_compiler(root: Element<'_>) -> Read<Compiler> {
             seq.clone_into(&mut out.eulerseq);
         }
         if c.attribute("coordinate") == Some("global") {
-            return Err(c.unsupported_error(
-                "global coordinates",
-                "save the model with MuJoCo 2.3 or later",
-            ));
+            let remedy = "save the model with MuJoCo 2.3 or later";
+            return Err(c.unsupported_error("global coordinates", remedy));
         }
     }
     Ok(out)
@@ -115,11 +113,9 @@ impl Compiler {
             };
             let step = RigidMotion::from_turn(about, angle * self.angle);
             // Small letters turn with the frame, capitals about the fixed axes.
-            turn = if axis.is_lowercase() {
-                turn.then(&step)
-            } else {
-                step.then(&turn)
-            };
+            let moves = axis.is_lowercase();
+            let (first, then) = if moves { (turn, step) } else { (step, turn) };
+            turn = first.then(&then);
         }
         turn
     }
@@ -154,10 +150,8 @@ impl<'a> Defaults<'a> {
                 return Err(d.error_at(Some("class"), syntax_problem(message)));
             }
             entry.1.push(d);
-            stack.extend(
-                d.children_named("default")
-                    .map(|inner| (inner, Some(class))),
-            );
+            let inner = d.children_named("default");
+            stack.extend(inner.map(|inner| (inner, Some(class))));
         }
         Ok(Defaults { classes })
     }
@@ -179,12 +173,8 @@ impl<'a> Defaults<'a> {
         }
         let mut places = vec![e];
         // A class is only ever within one that was read before, so that this ends; the bound is for repeated names.
-        let outermost = || {
-            self.classes
-                .iter()
-                .find(|(_, (outer, _))| outer.is_none())
-                .map(|(c, _)| *c)
-        };
+        let mut all = self.classes.iter();
+        let outermost = || all.find(|(_, (outer, _))| outer.is_none()).map(|(c, _)| *c);
         let mut next = given.or_else(outermost);
         for _ in 0..=self.classes.len() {
             let Some((outer, elements)) = next.and_then(|c| self.classes.get(c)) else {

@@ -17,6 +17,9 @@ use crate::robots::xml::element::Element;
 /// loop stays closed, so its armature changes no motion, however large it is.
 const ARMATURE: f64 = 1000.0;
 
+/// Attributes that limit the force of the actuators of a joint.
+const LIMITED_FORCE: [&str; 2] = ["actuatorfrcrange", "actuatorfrclimited"];
+
 /// Gives joints freedoms.
 pub(crate) fn free_joints(origin: &Origin, all: &[Freeing<'_>], edits: &mut Edits<'_>) -> Read<()> {
     let root = origin.element(origin.root);
@@ -109,10 +112,7 @@ impl<'a> MjcfFile<'a> {
             (&["frictionloss"], "frictionloss=\"0\""),
             (&["ref"], "ref=\"0\""),
             (&["springref"], "springref=\"0\""),
-            (
-                &["actuatorfrcrange", "actuatorfrclimited"],
-                "actuatorfrclimited=\"false\"",
-            ),
+            (&LIMITED_FORCE, "actuatorfrclimited=\"false\""),
         ] {
             if set.iter().any(says) {
                 out += &format!(" {back}");
@@ -168,13 +168,12 @@ impl<'a> MjcfFile<'a> {
             return Err(e.unsupported_error("its body has joints in a <frame>", "choose another"));
         }
         let frame = self.origin.places[link.links[1]];
-        let point = self.origin.places[part.links[1]]
-            .then(&part.sides[1])
-            .translation;
+        let at = self.origin.places[part.links[1]].then(&part.sides[1]);
+        let point = at.translation;
         let lines = self.write_joints(part, point, &frame, body, freed, edits)?;
         edits.insert_after(last, &lines);
-        self.inserted
-            .push((KeyframeMark::Joint(last.id), freed.len()));
+        let mark = KeyframeMark::Joint(last.id);
+        self.inserted.push((mark, freed.len()));
         Ok(())
     }
 
@@ -213,8 +212,8 @@ impl<'a> MjcfFile<'a> {
             let inner = self.write_joints(part, point, &frame, body, freed, edits)?;
             let inside = frame.inverse().map_point(point);
             edits.append_child(body, &write_body(&between, inside, inner, None));
-            self.inserted
-                .push((KeyframeMark::Within(body.id), freed.len()));
+            let mark = KeyframeMark::Within(body.id);
+            self.inserted.push((mark, freed.len()));
             return edits.set_attribute(e, "body1", &between);
         };
         let found = self.find_named("site", Some(site)).ok_or_else(|| {
@@ -228,27 +227,24 @@ impl<'a> MjcfFile<'a> {
         let copy = edits.name(&format!("{site}_between"));
         let raw = edits.raw_text(found);
         let Some(span) = found.value_span("name") else {
-            return Err(found.unsupported_error(
-                "its name has character references",
-                "write it as plain text",
-            ));
+            let why = "its name has character references";
+            return Err(found.unsupported_error(why, "write it as plain text"));
         };
         let start = found.node().span.start;
         let (before, after) = (&raw[..span.start - start], &raw[span.end - start..]);
         let copied = format!("{before}{}{after}", escape_xml(&copy));
         let inside = frame.inverse().map_point(point);
         edits.insert_after(found, &write_body(&between, inside, inner, Some(copied)));
-        self.inserted
-            .push((KeyframeMark::Site(found.id), freed.len()));
+        let mark = KeyframeMark::Site(found.id);
+        self.inserted.push((mark, freed.len()));
         edits.set_attribute(e, "site1", &copy)
     }
 
     /// Zeros for the new joints in the positions and speeds of keyframes.
     fn extend_keyframes(&self, edits: &mut Edits<'_>) -> Read<()> {
         let root = self.origin.element(self.origin.root);
-        let keys = root
-            .children_named("keyframe")
-            .flat_map(|k| k.children_named("key").collect::<Vec<_>>());
+        let keys = root.children_named("keyframe");
+        let keys = keys.flat_map(|k| k.children_named("key").collect::<Vec<_>>());
         let keys: Vec<Element<'a>> = keys.collect();
         if keys.is_empty() {
             return Ok(());
@@ -267,15 +263,12 @@ impl<'a> MjcfFile<'a> {
                     return Err(key.unsupported_error(&why, "correct or remove the keyframe"));
                 }
                 let Some(span) = key.value_span(attribute) else {
-                    return Err(key.unsupported_error(
-                        "it has character references",
-                        "write it as plain text",
-                    ));
+                    let why = "it has character references";
+                    return Err(key.unsupported_error(why, "write it as plain text"));
                 };
-                let starts = word_starts(
-                    &edits.raw_text(key)
-                        [span.start - key.node().span.start..span.end - key.node().span.start],
-                );
+                let start = key.node().span.start;
+                let starts =
+                    word_starts(&edits.raw_text(key)[span.start - start..span.end - start]);
                 for (mark, count) in &self.inserted {
                     let place = marks.iter().find(|(m, _)| m == mark);
                     let Some((_, sizes)) = place else { continue };
@@ -301,10 +294,8 @@ impl<'a> MjcfFile<'a> {
         sizes: &mut [usize; 2],
         marks: &mut Vec<(KeyframeMark, [usize; 2])>,
     ) {
-        for j in e
-            .children()
-            .filter(|c| ["joint", "freejoint"].contains(&c.name()))
-        {
+        let is_joint = |c: &Element<'_>| ["joint", "freejoint"].contains(&c.name());
+        for j in e.children().filter(is_joint) {
             let part = self.part_of(j.id);
             let freedoms = part.map_or(0, |p| p.joint_type.freedoms().len());
             // A ball's and a free joint's turns are quaternions.
