@@ -71,10 +71,8 @@ impl Findings {
 
     /// Reports parameters that no expression uses.
     pub(crate) fn tell_unused(&self) {
-        for name in self
-            .parameter_names()
-            .filter(|n| !self.used.borrow().contains(*n))
-        {
+        let used = self.used.borrow();
+        for name in self.parameter_names().filter(|n| !used.contains(*n)) {
             let at = self.key("parameter").key(name);
             at.add_problem(format!(
                 "parameter \"{name}\" is never used; use it in an expression in quotes, such as \"2*{name}\", or remove it"
@@ -110,10 +108,9 @@ impl Findings {
 
     /// Returns the result for the file, or the problems if there are any.
     pub(crate) fn finish<T>(self, made: T) -> Result<T, Vec<Finding>> {
-        if self.problem_count() == 0 {
-            Ok(made)
-        } else {
-            Err(self.into_findings())
+        match self.problem_count() {
+            0 => Ok(made),
+            _ => Err(self.into_findings()),
         }
     }
 }

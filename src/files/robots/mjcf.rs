@@ -79,11 +79,9 @@ pub(crate) fn read_mujoco(input: Input<'_>) -> Read<Robot> {
         match section.name() {
             "worldbody" | "compiler" | "default" => {}
             "equality" => equality::read_equalities(section, root, &context, &mut robot)?,
-            "actuator" => {
-                for a in section.children() {
-                    read_actuator(a, root, &mut robot);
-                }
-            }
+            "actuator" => section
+                .children()
+                .for_each(|a| read_actuator(a, root, &mut robot)),
             "deformable" => {
                 let what = "deformable bodies are not links; omitted";
                 robot.report.add_approximation(&section.label(), what);
@@ -118,9 +116,8 @@ fn of_tendon<'a>(root: Element<'a>, actuator: Element<'a>) -> Vec<&'a str> {
     let Some(name) = actuator.attribute("tendon") else {
         return Vec::new();
     };
-    let all = root
-        .children_named("tendon")
-        .flat_map(|s| s.children_named("fixed"));
+    let all = root.children_named("tendon");
+    let all = all.flat_map(|s| s.children_named("fixed"));
     let called = all.filter(|f| f.attribute("name") == Some(name));
     let joints = called.flat_map(|f| f.children_named("joint"));
     joints.filter_map(|j| j.attribute("joint")).collect()
@@ -145,9 +142,8 @@ fn read_bodies<'a>(start: Waiting<'a>, context: &mut Context<'a>, robot: &mut Ro
                 "site" => read_site(e, &w, context, robot)?,
                 "joint" | "freejoint" if w.link != 0 => {}
                 "joint" | "freejoint" => {
-                    return Err(
-                        e.unsupported_error("the world cannot move", "put the joint into a body")
-                    );
+                    let remedy = "put the joint into a body";
+                    return Err(e.unsupported_error("the world cannot move", remedy));
                 }
                 "flexcomp" | "attach" => {
                     let what = "its result when the model is compiled is omitted; save the compiled model from MuJoCo as XML to include it";
@@ -157,10 +153,9 @@ fn read_bodies<'a>(start: Waiting<'a>, context: &mut Context<'a>, robot: &mut Ro
                     }
                 }
                 "composite" => {
+                    let why = "it makes bodies when the model is compiled";
                     let remedy = "save the compiled model from MuJoCo as XML and import that file";
-                    return Err(
-                        e.unsupported_error("it makes bodies when the model is compiled", remedy)
-                    );
+                    return Err(e.unsupported_error(why, remedy));
                 }
                 other => {
                     if other == "geom" {

@@ -26,10 +26,9 @@ pub(crate) fn read_sdf(input: Input<'_>) -> Read<Robot> {
     let Expanded { old, scenery } = include::expand_includes(document, root, input.read)?;
     let root = document.element(root);
     let mut robot = Robot::new("robot");
+    let what = "include of a light or floor";
     for uri in &scenery {
-        robot
-            .report
-            .count_dropped("include of a light or floor", Some(uri));
+        robot.report.count_dropped(what, Some(uri));
     }
     robot.world = Some(robot.add_link("world", RigidMotion::IDENTITY));
     robot.floats = true;
@@ -47,10 +46,10 @@ pub(crate) fn read_sdf(input: Input<'_>) -> Read<Robot> {
     resolve_places(&mut scene)?;
     place_links(&scene, &mut robot);
     // Other elements of worlds are judged by the names that are known now.
-    let others = root
-        .children_named("world")
-        .flat_map(|w| w.children().collect::<Vec<_>>());
-    let others: Vec<Element<'_>> = others.filter(|e| !IN_WORLDS.contains(&e.name())).collect();
+    let worlds = root.children_named("world");
+    let others = worlds.flat_map(|w| w.children().collect::<Vec<_>>());
+    let others = others.filter(|e| !IN_WORLDS.contains(&e.name()));
+    let others: Vec<Element<'_>> = others.collect();
     read_joints(scene, &mut robot)?;
     for e in others {
         leave_out(e, None, &mut robot);
@@ -81,9 +80,8 @@ fn read_models<'a>(
     scene: &mut SdfScene<'a>,
     robot: &mut Robot,
 ) -> Read<()> {
-    let of_worlds = root
-        .children_named("world")
-        .flat_map(|w| w.children_named("model"));
+    let worlds = root.children_named("world");
+    let of_worlds = worlds.flat_map(|w| w.children_named("model"));
     let models: Vec<Element<'_>> = root.children_named("model").chain(of_worlds).collect();
     let Some(first) = models.first() else {
         return Err(root.missing_error("<model>"));
@@ -178,9 +176,8 @@ fn read_model<'a>(
             "joint" => {
                 let wanted = e.attribute("name");
                 let others = ["link", "frame", "model"].into_iter();
-                let shared = others
-                    .flat_map(|tag| m.children_named(tag).collect::<Vec<_>>())
-                    .any(|o| o.attribute("name") == wanted);
+                let mut others = others.flat_map(|tag| m.children_named(tag).collect::<Vec<_>>());
+                let shared = others.any(|o| o.attribute("name") == wanted);
                 named_place(e, scope, &own, shared, scene)?;
             }
             "drake:joint" => {
@@ -214,9 +211,8 @@ fn own_frame<'a>(
         None if outer.is_empty() => "world".to_owned(),
         None => format!("{outer}__model__"),
     };
-    let canonical = m
-        .attribute("canonical_link")
-        .or_else(|| m.first_child("link").and_then(|l| l.attribute("name")));
+    let first = || m.first_child("link").and_then(|l| l.attribute("name"));
+    let canonical = m.attribute("canonical_link").or_else(first);
     let attached_to = canonical.map_or_else(|| "world".to_owned(), |c| format!("{scope}{c}"));
     let frame = Placed::new(m, relative_to, raw, attached_to);
     insert(scene, own.clone(), frame)?;

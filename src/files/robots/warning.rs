@@ -183,11 +183,8 @@ impl Report {
     #[must_use]
     pub fn text(&self, file: &str) -> String {
         let (links, joints) = self.size;
-        let mut out = format!(
-            "{file}: {}, {}\n",
-            count_noun(links, "link"),
-            count_noun(joints, "joint")
-        );
+        let (links, joints) = (count_noun(links, "link"), count_noun(joints, "joint"));
+        let mut out = format!("{file}: {links}, {joints}\n");
         let mapped = self.mapped.iter().map(|(k, n)| format!("{n} {k}"));
         if !self.mapped.is_empty() {
             write_line(&mut out, "mapped", &mapped.format(", ").to_string());
@@ -236,10 +233,8 @@ impl Report {
         }
         if self.constraint_rows > 0 {
             let n = self.constraint_rows;
-            let what = format!(
-                "{} of joints: W is up to {n} too high, σ may be too low",
-                count_noun(n, "row")
-            );
+            let rows = count_noun(n, "row");
+            let what = format!("{rows} of joints: W is up to {n} too high, σ may be too low");
             write_line(&mut out, "omitted", &what);
         }
         for n in &self.approximated {

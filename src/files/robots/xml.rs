@@ -157,10 +157,8 @@ impl Document {
             return Err(too_large(total, MAX_BYTES).in_file(name, "", None));
         }
         let root = parse_xml(&text, source, &mut self.nodes).map_err(|(problem, at)| {
-            let at = (0..=at.min(text.len()))
-                .rev()
-                .find(|&i| text.is_char_boundary(i));
-            let at = at.unwrap_or(0);
+            let mut before = (0..=at.min(text.len())).rev();
+            let at = before.find(|&i| text.is_char_boundary(i)).unwrap_or(0);
             problem.in_file(name, &text, Some(at..at))
         })?;
         let name = name.to_owned();
@@ -180,10 +178,8 @@ fn no_control(text: &str, layout: &[char]) -> Result<(), Located> {
     let found = text.char_indices();
     let mut found = found.filter(|(_, c)| c.is_control() && !layout.contains(c));
     found.next().map_or(Ok(()), |(at, c)| {
-        let message = format!(
-            "the control character {} is not allowed",
-            c.escape_unicode()
-        );
+        let c = c.escape_unicode();
+        let message = format!("the control character {c} is not allowed");
         Err((xml_problem(message), at))
     })
 }

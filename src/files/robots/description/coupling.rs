@@ -4,7 +4,7 @@
 use crate::closure::Closure;
 use crate::closure::tree::spanning_forest;
 use crate::geom::Reals;
-use crate::model::joint_type::{Coupling, Freedom};
+use crate::model::joint_type::Freedom;
 use crate::model::mechanism::{JointId, Mechanism, StateId};
 use crate::rank::rounded::verdict::rank_verdict;
 use crate::robots::description::Robot;
@@ -63,12 +63,11 @@ pub(crate) fn usable_couplings(robot: &mut Robot, written: &[usize]) -> Vec<Usab
                         );
                         robot.report.add_approximation(&coupling.element, what);
                     }
-                    let (said_by, gear) = (coupling.said_by, coupling.gear);
                     out.push(Usable {
                         ends,
                         ratio,
-                        said_by,
-                        gear,
+                        said_by: coupling.said_by,
+                        gear: coupling.gear,
                     });
                     continue;
                 }
@@ -142,11 +141,7 @@ pub(crate) fn find_mimics(m: &Mechanism, written: &[bool]) -> (Vec<Option<Follow
     }
     let left = m.couplings.iter().zip(&said).filter(|(_, s)| !**s);
     let present = left.filter(|(c, _)| m.couplings_in(StateId::FREE).any(|x| x.ends == c.ends));
-    let unsaid = |c: &Coupling| {
-        format!(
-            "coupled, which a mimic joint cannot represent: {}",
-            c.name(m)
-        )
-    };
-    (follows, present.map(|(c, _)| unsaid(c)).collect())
+    let what = "coupled, which a mimic joint cannot represent";
+    let unsaid = present.map(|(c, _)| format!("{what}: {}", c.name(m)));
+    (follows, unsaid.collect())
 }

@@ -27,10 +27,8 @@ pub(crate) fn add_loops(name: &str, bytes: &[u8], robot: &mut Robot) -> Read<()>
         if bytes.len() > MAX_BYTES {
             return Err(too_large(bytes.len(), MAX_BYTES));
         }
-        read_loops(
-            &parse_loops(name, decode_utf8(bytes)?).map_err(syntax_problem)?,
-            robot,
-        )
+        let found = parse_loops(name, decode_utf8(bytes)?);
+        read_loops(&found.map_err(syntax_problem)?, robot)
     };
     added().map_err(|p| p.in_file(name, "", None))
 }
@@ -43,11 +41,8 @@ pub(crate) fn report_beside(name: &str, read: Reader<'_>, robot: &mut Robot) {
     let endings = ["yaml", "yml", "json", "toml"];
     let own = endings.map(|e| format!("{stem}.{e}"));
     let others = ["robot.yaml", "robot.yml"].map(str::to_owned);
-    for (is_own, file) in own
-        .map(|f| (true, f))
-        .into_iter()
-        .chain(others.map(|f| (false, f)))
-    {
+    let own = own.map(|f| (true, f)).into_iter();
+    for (is_own, file) in own.chain(others.map(|f| (false, f))) {
         let Some(bytes) = read(&file).ok().filter(|b| has_loops(&file, b)) else {
             continue;
         };
@@ -65,9 +60,8 @@ pub(crate) fn report_beside(name: &str, read: Reader<'_>, robot: &mut Robot) {
         let what = format!(
             "it defines closed loops of this robot, which are omitted; give {file} as `loops` to read them"
         );
-        robot
-            .report
-            .leave_out_joint(&format!("{file} next to it"), rows, what);
+        let element = format!("{file} next to it");
+        robot.report.leave_out_joint(&element, rows, what);
         return;
     }
 }
@@ -189,10 +183,8 @@ fn retype_joints(o: &Map<String, Value>, robot: &mut Robot) -> Result<(), Proble
         )));
     }
     for (name, kind) in names.iter().zip(types) {
-        let (name, kind) = (
-            read_word(Some(name), "joint_name")?,
-            read_word(Some(kind), "joint_type")?,
-        );
+        let name = read_word(Some(name), "joint_name")?;
+        let kind = read_word(Some(kind), "joint_type")?;
         let Some(joint) = robot.joints.iter_mut().find(|j| j.id == name) else {
             let known = list_known("joints", robot.joints.iter().map(|j| &j.id));
             return Err(unknown_name("joint_name", "joint", name, &known));
@@ -212,10 +204,8 @@ fn retype_joints(o: &Map<String, Value>, robot: &mut Robot) -> Result<(), Proble
             _ => None,
         };
         let Some((new, first, second)) = new else {
-            let (joint, known) = (
-                format!("joint \"{name}\""),
-                "SPHERICAL, FIXED, CARDAN, UJOINT_XY and the like",
-            );
+            let joint = format!("joint \"{name}\"");
+            let known = "SPHERICAL, FIXED, CARDAN, UJOINT_XY and the like";
             return Err(unknown_word(&joint, "joint_type", kind, known));
         };
         joint.values = vec![0.0; new.freedoms().len()];
@@ -298,10 +288,9 @@ fn read_end(
 fn read_ball(i: usize, item: &Value, robot: &mut Robot) -> Result<(), ProblemKind> {
     let element = format!("ball-{}", i + 1);
     let end = |keys| read_end(&element, item, keys, robot);
-    let ends = [
-        end(["ball_constraint_body_A", "ball_constraint_p_AP", ""])?,
-        end(["ball_constraint_body_B", "ball_constraint_p_BQ", ""])?,
-    ];
+    let a = end(["ball_constraint_body_A", "ball_constraint_p_AP", ""])?;
+    let b = end(["ball_constraint_body_B", "ball_constraint_p_BQ", ""])?;
+    let ends = [a, b];
     add_closure(&element, ends, JointType::Spherical, robot)
 }
 
@@ -312,10 +301,8 @@ const KEYS: [&str; 8] = [
 
 /// Reads a `[[loop]]`.
 fn read_loop(i: usize, item: &Value, robot: &mut Robot) -> Result<(), ProblemKind> {
-    let element = match item.get("id").and_then(Value::as_str) {
-        Some(id) => id.to_owned(),
-        None => format!("loop-{}", i + 1),
-    };
+    let id = item.get("id").and_then(Value::as_str);
+    let element = id.map_or_else(|| format!("loop-{}", i + 1), str::to_owned);
     let mut keys = item.as_object().into_iter().flat_map(Map::keys);
     if let Some(key) = keys.find(|k| !KEYS.contains(&k.as_str())) {
         return Err(syntax_problem(format!(
@@ -328,9 +315,7 @@ fn read_loop(i: usize, item: &Value, robot: &mut Robot) -> Result<(), ProblemKin
         some => joint_type(&element, read_word(some, "type")?)?,
     };
     let end = |keys| read_end(&element, item, keys, robot);
-    let ends = [
-        end(["a", "point_a", "axis_a"])?,
-        end(["b", "point_b", "axis_b"])?,
-    ];
+    let [a, b] = [["a", "point_a", "axis_a"], ["b", "point_b", "axis_b"]];
+    let ends = [end(a)?, end(b)?];
     add_closure(&element, ends, kind, robot)
 }

@@ -86,8 +86,10 @@ fn read_ends(e: Element<'_>, context: &Context<'_>, robot: &Robot) -> Read<[End;
         })
     };
     let (one, two) = (body("body1")?, body("body2")?);
-    let between = robot.places[two].inverse().then(&robot.places[one]);
-    let as_drawn = |at: RigidMotion| between.then(&at);
+    let as_drawn = |at: RigidMotion| {
+        let there = robot.places[one].then(&at);
+        robot.places[two].inverse().then(&there)
+    };
     if e.name() == "connect" {
         e.required_attribute("anchor")?;
         let at = RigidMotion::from_translation(e.read_vector("anchor", [0.0; 3])?);

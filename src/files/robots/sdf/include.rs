@@ -97,11 +97,9 @@ fn read_included(
         return Ok((None, uri));
     }
     let [model] = models[..] else {
-        let (e, why) = (
-            document.element(id),
-            "the file does not have exactly one <model>",
-        );
-        return Err(include_error(e, &uri, why, "name a file with one model"));
+        let (e, remedy) = (document.element(id), "name a file with one model");
+        let why = "the file does not have exactly one <model>";
+        return Err(include_error(e, &uri, why, remedy));
     };
     said_by_include(document, id, model);
     Ok((Some(model), uri))

@@ -142,9 +142,8 @@ impl UrdfWriter<'_> {
         let joint = &self.m.joints[j];
         let p = joint_axes(self.m, joint);
         let id = self.ids[j].clone();
-        let [(mut a, mut from), (b, to)] = joint
-            .links
-            .map(|l| self.placed[l].clone().unwrap_or_default());
+        let placed = joint.links.map(|l| self.placed[l].clone());
+        let [(mut a, mut from), (b, to)] = placed.map(Option::unwrap_or_default);
         let mut parts = match joint.joint_type {
             JointType::Spherical => vec![("spherical", None)],
             _ => joint_kinds(self.m, j, 1.0)?,
@@ -201,10 +200,8 @@ impl UrdfWriter<'_> {
             told.push(GRAM.to_owned());
         }
         if self.body.contains(LIMIT) {
-            told.push(
-                "sliding joints get placeholder limits of 1 m, because URDF requires limits"
-                    .to_owned(),
-            );
+            let what = "sliding joints get placeholder limits of 1 m, because URDF requires limits";
+            told.push(what.to_owned());
         }
         let (name, above) = (escape_xml(&m.name), write_head(m, "  ", &told));
         let (head, body) = (self.head, self.body);
@@ -242,10 +239,8 @@ fn joint_kinds(m: &Mechanism, j: JointId, sign: f64) -> Result<Vec<Kind>, Export
             remedy: "write SDF instead",
         }),
     };
-    single_freedoms(&joint.joint_type, &p)
-        .into_iter()
-        .map(single)
-        .collect()
+    let all = single_freedoms(&joint.joint_type, &p).into_iter();
+    all.map(single).collect()
 }
 
 fn tree_joint(
