@@ -168,11 +168,9 @@ impl ImportError {
     #[must_use]
     pub(crate) fn line_and_column(&self, at: usize) -> (usize, usize) {
         let before = self.text.get(..at.min(self.text.len())).unwrap_or("");
+        let last = before.rsplit('\n').next().unwrap_or("");
         let line = before.matches('\n').count() + 1;
-        (
-            line,
-            before.rsplit('\n').next().unwrap_or("").chars().count() + 1,
-        )
+        (line, last.chars().count() + 1)
     }
 
     /// Returns true if the only problem is that nothing can move.

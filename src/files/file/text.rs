@@ -230,11 +230,8 @@ fn check_value(schema: &Value, value: &Value, owner: &str, at: &Place<'_>) {
                 match all.iter().find_map(|s| of_key(s, k)) {
                     Some(Value::Bool(false)) => {
                         let known = all.iter().filter_map(|s| s.get("properties")?.as_object());
-                        at.key_name(k).add_problem(unknown_word(
-                            "key",
-                            k,
-                            known.flat_map(Map::keys),
-                        ));
+                        let problem = unknown_word("key", k, known.flat_map(Map::keys));
+                        at.key_name(k).add_problem(problem);
                     }
                     Some(schema) => check_value(schema, entry, owner, &at.key(k)),
                     None => {}
@@ -276,10 +273,8 @@ fn length_limits(schema: &Map<String, Value>) -> [usize; 2] {
         let stated = schema.get(name).and_then(Value::as_u64);
         stated.and_then(|n| usize::try_from(n).ok())
     };
-    [
-        limit("minItems").unwrap_or(0),
-        limit("maxItems").unwrap_or(usize::MAX),
-    ]
+    let (least, most) = (limit("minItems"), limit("maxItems"));
+    [least.unwrap_or(0), most.unwrap_or(usize::MAX)]
 }
 
 /// Returns the schema of an entry of a table.

@@ -94,10 +94,7 @@ fn weld_links(e: Element<'_>, names: &[String; 2], scene: &SdfScene<'_>, robot: 
             .report
             .count_dropped("weld of one link to itself", Some(&names[0]));
     }
-    let sides = [
-        robot.places[a].inverse().then(&at),
-        robot.places[b].inverse().then(&at),
-    ];
+    let sides = [a, b].map(|l| robot.places[l].inverse().then(&at));
     let id = format!("weld-{}-{}", names[0], names[1]);
     let mut part = Part::new(&id, [a, b], sides, JointType::Fixed).said_by(e);
     part.closes = true;

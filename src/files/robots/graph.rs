@@ -62,11 +62,8 @@ pub(super) fn write_graphml(m: &Mechanism) -> String {
             "  <key id=\"{name}\" for=\"{on}\" attr.name=\"{name}\" attr.type=\"{kind}\"/>"
         );
     }
-    let _ = writeln!(
-        out,
-        "  <graph id=\"{}\" edgedefault=\"undirected\">",
-        escape_xml(&m.name)
-    );
+    let name = escape_xml(&m.name);
+    let _ = writeln!(out, "  <graph id=\"{name}\" edgedefault=\"undirected\">");
     for link in &m.links {
         let _ = writeln!(out, "    <node id=\"{}\">", escape_xml(&link.id));
         write_datum(&mut out, "role", role_word(link.role).unwrap_or("inner"));
@@ -80,21 +77,15 @@ pub(super) fn write_graphml(m: &Mechanism) -> String {
 }
 
 fn write_datum(out: &mut String, key: &str, value: &str) {
-    let _ = writeln!(
-        out,
-        "      <data key=\"{key}\">{}</data>",
-        escape_xml(value)
-    );
+    let value = escape_xml(value);
+    let _ = writeln!(out, "      <data key=\"{key}\">{value}</data>");
 }
 
 /// Writes a joint as an edge of GraphML.
 fn write_edge(out: &mut String, m: &Mechanism, j: &Joint) {
     let [a, b] = j.links.map(|l| escape_xml(&m.links[l].id));
-    let _ = writeln!(
-        out,
-        "    <edge id=\"{}\" source=\"{a}\" target=\"{b}\">",
-        escape_xml(&j.id)
-    );
+    let id = escape_xml(&j.id);
+    let _ = writeln!(out, "    <edge id=\"{id}\" source=\"{a}\" target=\"{b}\">");
     let text = |v: &[Expr; 3]| v.each_ref().map(ToString::to_string).join(" ");
     let freedoms = j.joint_type.freedoms().len();
     write_datum(out, "type", j.joint_type.name());

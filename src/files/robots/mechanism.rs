@@ -251,10 +251,8 @@ fn rigid_bodies(robot: &mut Robot, tree: &Tree) -> Result<(Vec<usize>, Vec<usize
         }
     }
     for id in within {
-        let (element, what) = (
-            format!("joint \"{id}\""),
-            "both ends are on one rigid body; omitted, with all its rows redundant",
-        );
+        let what = "both ends are on one rigid body; omitted, with all its rows redundant";
+        let element = format!("joint \"{id}\"");
         robot.report.add_approximation(&element, what);
     }
     if joints.is_empty() {

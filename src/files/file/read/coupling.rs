@@ -77,10 +77,8 @@ fn freedom_of(
     joint: JointId,
     word: Option<&str>,
 ) -> Result<CoupledFreedom, ProblemKind> {
-    let (id, t) = (
-        &mechanism.joints[joint].id,
-        &mechanism.joints[joint].joint_type,
-    );
+    let named = &mechanism.joints[joint];
+    let (id, t) = (&named.id, &named.joint_type);
     let coupled = t.freedoms().iter().copied();
     let coupled = coupled.filter(|&f| is_definite(t, f) && in_plane(mechanism, joint, f));
     let coupled: Vec<Freedom> = coupled.collect();

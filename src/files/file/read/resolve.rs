@@ -113,15 +113,12 @@ pub(crate) fn joint_type(
             return Some(JointType::Custom(list));
         }
         ("custom", None) => {
-            at.add_problem(missing_message(
-                joint,
-                kind,
-                "freedoms, such as freedoms = [\"rz\", \"tx\"]",
-            ));
+            let what = "freedoms, such as freedoms = [\"rz\", \"tx\"]";
+            at.add_problem(missing_message(joint, kind, what));
         }
         (_, Some(_)) if known.is_some() => {
-            at.key("freedoms")
-                .add_problem(takes_no(joint, kind, "freedoms"));
+            let problem = takes_no(joint, kind, "freedoms");
+            at.key("freedoms").add_problem(problem);
         }
         _ => {
             let known = JointType::NAMED.iter().map(JointType::name);

@@ -170,8 +170,8 @@ const MOST: usize = 100;
 fn read_term(word: &str, at: &Place<'_>) -> Option<Term> {
     let found = Term::from_name(word);
     if found.is_none() {
-        at.key("term")
-            .add_unknown_word("term", word, Term::ALL.map(Term::name));
+        let at = at.key("term");
+        at.add_unknown_word("term", word, Term::ALL.map(Term::name));
     }
     found
 }
@@ -180,13 +180,10 @@ fn read_term(word: &str, at: &Place<'_>) -> Option<Term> {
 pub(crate) fn read_ranking(file: &MechanismFile, m: &Parts, out: &Findings) -> Option<Ranking> {
     let entry = file.ranking.as_ref()?;
     let at = &out.key("ranking");
+    let sums = [("worst", ClearanceSum::Worst), ("rms", ClearanceSum::Rms)];
     Some(Ranking {
         order: at.read_word("order", &entry.order, &Order::ALL.map(|(o, w)| (w, o))),
-        clearance: at.read_word(
-            "clearance",
-            &entry.clearance,
-            &[("worst", ClearanceSum::Worst), ("rms", ClearanceSum::Rms)],
-        ),
+        clearance: at.read_word("clearance", &entry.clearance, &sums),
         terms: read_terms(entry, &at.key("terms")),
         limits: read_limits(entry, &at.key("limits")),
         states: ranked_states(entry, m, &at.key("states")),
@@ -241,11 +238,8 @@ fn ranked_states(entry: &RankingEntry, m: &Parts, at: &Place<'_>) -> Vec<StateId
         let found = m.state_named(word).filter(counts);
         if found.is_none() {
             let what = "state to rank in (free, or one with the contacts of [workload.grip])";
-            at.add_unknown_word(
-                what,
-                word,
-                m.state_ids().filter(counts).map(|s| &m.states[s]),
-            );
+            let known = m.state_ids().filter(counts).map(|s| &m.states[s]);
+            at.add_unknown_word(what, word, known);
         }
         states.extend(found);
     }
@@ -296,15 +290,11 @@ pub(crate) fn joint_types(
 /// Checks that the capacities of a type are in range.
 fn check_figures(entry: &JointTypeEntry, at: &Place<'_>) {
     let above = (f64::MIN_POSITIVE, "a number above 0, up to 1e12");
+    let from_zero = (0.0, "a number from 0 to 1e12");
     for (k, what, value, (least, allowed)) in [
         ("capacity_force", "capacity", entry.capacity_force, above),
         ("capacity_moment", "capacity", entry.capacity_moment, above),
-        (
-            "clearance",
-            "clearance",
-            entry.clearance,
-            (0.0, "a number from 0 to 1e12"),
-        ),
+        ("clearance", "clearance", entry.clearance, from_zero),
     ] {
         if let Some(x) = value.filter(|x| !(least..=1e12).contains(x)) {
             at.key(k).add_bad_value(what, x, allowed);

@@ -178,20 +178,17 @@ fn square_joint(holds: Holds, i: &RigidMotion, j: &RigidMotion) -> Result<Meetin
             let near = make_frame(add_scaled(oj, gap, z), z, line);
             Meeting::new(JointType::CylinderOnPlane, near, far)
         }
-        _ => Meeting::new(
-            JointType::Universal,
-            make_frame(i.translation, z, line),
-            far,
-        ),
+        _ => {
+            let near = make_frame(i.translation, z, line);
+            Meeting::new(JointType::Universal, near, far)
+        }
     })
 }
 
 /// Returns the joint that constrains the rotation about one line, Ix·Jy + Iy·Jx = 0; the line moves as the joint turns.
 fn constant_velocity_joint(i: &RigidMotion, j: &RigidMotion) -> Result<Meeting, &'static str> {
-    let n = add(
-        cross(frame_axis(j, 1), frame_axis(i, 0)),
-        cross(frame_axis(j, 0), frame_axis(i, 1)),
-    );
+    let normal = |a, b| cross(frame_axis(j, a), frame_axis(i, b));
+    let n = add(normal(1, 0), normal(0, 1));
     if length(n) < FLAT {
         return Err("its two shafts are placed so that it constrains no rotation");
     }

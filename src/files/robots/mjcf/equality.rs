@@ -96,16 +96,14 @@ fn read_ends(e: Element<'_>, context: &Context<'_>, robot: &Robot) -> Read<[End;
         return Ok([(one, at), (two, as_drawn(at))]);
     }
     // The place of body 2 in body 1; a zero quaternion means the place in the model as drawn.
-    match e.read_numbers::<7>("relpose")? {
-        Some([x, y, z, quat @ ..]) if quat != [0.0; 4] => Ok([
-            (one, RigidMotion::from_quaternion([x, y, z], quat)),
-            (two, RigidMotion::IDENTITY),
-        ]),
-        _ => Ok([
-            (one, RigidMotion::IDENTITY),
-            (two, as_drawn(RigidMotion::IDENTITY)),
-        ]),
-    }
+    let here = RigidMotion::IDENTITY;
+    Ok(match e.read_numbers::<7>("relpose")? {
+        Some([x, y, z, quat @ ..]) if quat != [0.0; 4] => {
+            let place = RigidMotion::from_quaternion([x, y, z], quat);
+            [(one, place), (two, here)]
+        }
+        _ => [(one, here), (two, as_drawn(here))],
+    })
 }
 
 fn add_closing(

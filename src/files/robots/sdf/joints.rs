@@ -80,10 +80,8 @@ pub(crate) fn read_joint(
     } else {
         world
     };
-    let sides = [
-        robot.places[parent].inverse().then(&on_parent),
-        robot.places[child].inverse().then(&world),
-    ];
+    let on = |link: usize, at: &RigidMotion| robot.places[link].inverse().then(at);
+    let sides = [on(parent, &on_parent), on(child, &world)];
     let mut part = Part::new(&name, [parent, child], sides, joint_type).said_by(e);
     robot.report.count_mapped(word);
     left_out(e, &name, robot);

@@ -91,10 +91,8 @@ pub(crate) fn insert<'a>(scene: &mut SdfScene<'a>, name: String, p: Placed<'a>) 
 
 pub(crate) fn unknown_name_error(e: Element<'_>, name: &str, scene: &SdfScene<'_>) -> ImportError {
     let known = list_known("names", scene.placed.keys());
-    e.error_at(
-        None,
-        unknown_name(&e.label(), "link or frame", name, &known),
-    )
+    let problem = unknown_name(&e.label(), "link or frame", name, &known);
+    e.error_at(None, problem)
 }
 
 /// Works out all places in the world.
@@ -168,10 +166,10 @@ pub(crate) fn locate_name(
 ) -> Read<(usize, RigidMotion)> {
     moves_with(scene, name).map_err(|missing| match missing {
         Some(n) => unknown_name_error(e, &n, scene),
-        None => e.unsupported_error(
-            &format!("{name} is attached to itself through other elements"),
-            "attach it to a link",
-        ),
+        None => {
+            let why = format!("{name} is attached to itself through other elements");
+            e.unsupported_error(&why, "attach it to a link")
+        }
     })
 }
 
@@ -223,10 +221,8 @@ pub(crate) fn read_pose(e: Element<'_>) -> Read<(RigidMotion, Option<&str>)> {
     }
     if p.attribute("rotation_format") == Some("quat_xyzw") {
         let [a, b, c, x, y, z, w] = p.text_numbers::<7>()?;
-        return Ok((
-            RigidMotion::from_quaternion([a, b, c], [w, x, y, z]),
-            relative,
-        ));
+        let place = RigidMotion::from_quaternion([a, b, c], [w, x, y, z]);
+        return Ok((place, relative));
     }
     let [x, y, z, roll, pitch, yaw] = p.text_numbers::<6>()?;
     let degrees = p.attribute("degrees");

@@ -201,10 +201,10 @@ fn sdf_joint(t: &JointType, p: &JointAxes, back: bool) -> Option<(&'static str, 
             };
             single_joint(single)
         }
-        JointType::Universal => (
-            "universal",
-            write_axis("axis", first) + &write_axis("axis2", second),
-        ),
+        JointType::Universal => {
+            let axes = write_axis("axis", first) + &write_axis("axis2", second);
+            ("universal", axes)
+        }
         JointType::Spherical => ("ball", String::new()),
         JointType::Fixed => ("fixed", String::new()),
         _ => return None,

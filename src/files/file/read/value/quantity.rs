@@ -227,10 +227,8 @@ pub(crate) fn read_tolerance(file: &MechanismFile, m: &mut Parts, out: &Findings
     let most = if across > 0.0 { tenth } else { f64::INFINITY };
     let allowed = "0, or at most a tenth of the distance across the joints";
     let shift = |at: Place<'_>, c: &Option<Coordinate>| at.read_stated(c, most, allowed);
-    let (of_file, at) = (
-        file.tolerance.clone().unwrap_or_default(),
-        out.key("tolerance"),
-    );
+    let of_file = file.tolerance.clone().unwrap_or_default();
+    let at = out.key("tolerance");
     let lengths = shift(at.key("length"), &of_file.length);
     let of_joints = out.key("joint").each_entry(&file.joint);
     let of_joints = of_joints.map(|(at, j)| shift(at.key("tolerance"), &j.tolerance));
@@ -317,10 +315,8 @@ fn set_half(e: &mut Expr, half: Option<f64>) {
 }
 
 fn is_number(e: &Expr) -> bool {
-    matches!(
-        e.written(),
-        WrittenNumber::Decimal(_) | WrittenNumber::Whole
-    )
+    use WrittenNumber::{Decimal, Whole};
+    matches!(e.written(), Decimal(_) | Whole)
 }
 
 fn is_whole(e: &Expr) -> bool {

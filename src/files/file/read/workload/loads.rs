@@ -67,9 +67,8 @@ pub(crate) fn read_mass(entry: &LinkEntry, at: &Place<'_>) -> Option<MassPropert
         (None, _) => "mass, in kg",
     };
     let link = &entry.id;
-    at.add_problem(format!(
-        "link \"{link}\" has incomplete mass data; add {what}"
-    ));
+    let problem = format!("link \"{link}\" has incomplete mass data; add {what}");
+    at.add_problem(problem);
     None
 }
 
@@ -78,9 +77,7 @@ pub(crate) fn read_loads(file: &MechanismFile, mechanism: &Parts, out: &Findings
     let (at, entry) = (&out.key("workload"), &file.workload);
     let forces = at.key("force");
     let forces = forces.first_entries(MAX_FORCES, &entry.force, "forces");
-    let forces = forces
-        .filter_map(|(at, f)| read_force(f, mechanism, &at))
-        .collect();
+    let forces = forces.filter_map(|(at, f)| read_force(f, mechanism, &at));
     let moments = read_moments(entry, mechanism, &at.key("moment"));
     let stiffness = read_stiffness(entry, &at.key("stiffness"));
     let faces = read_faces(entry, mechanism, &at.key("contact"));
@@ -89,7 +86,7 @@ pub(crate) fn read_loads(file: &MechanismFile, mechanism: &Parts, out: &Findings
     let drive_speeds = drive_speeds(speeds, mechanism, &at.key("drive_speed"));
     Loads {
         gravity: at.read_given("gravity", entry.gravity.as_ref(), Place::read_vector),
-        forces,
+        forces: forces.collect(),
         moments,
         faces,
         stiffness,
@@ -182,8 +179,8 @@ pub(crate) fn read_faces(entry: &WorkloadEntry, m: &Parts, at: &Place<'_>) -> Ve
         if object_at(m, joint).is_none() {
             let faces = m.joint_ids().filter(|&j| object_at(m, j).is_some());
             let what = "contact (a fixed or planar joint, or one on a plane, with a link of the role object)";
-            at.key("joint")
-                .add_unknown_word(what, &e.joint, faces.map(|j| &m.joints[j].id));
+            let known = faces.map(|j| &m.joints[j].id);
+            at.key("joint").add_unknown_word(what, &e.joint, known);
         }
         let range = Bound::Range(0.0, 10.0, "a number from 0 to 10");
         found.push(Face {
@@ -202,18 +199,16 @@ pub(crate) fn read_stiffness(entry: &WorkloadEntry, at: &Place<'_>) -> Vec<(Stri
         let (linear, angular) = (s.linear, s.angular);
         for (k, value) in [("linear", linear), ("angular", angular)] {
             if !(value > 0.0 && value <= 1e18) {
-                at.key(k)
-                    .add_bad_value("stiffness", value, "a number above 0, up to 1e18");
+                let allowed = "a number above 0, up to 1e18";
+                at.key(k).add_bad_value("stiffness", value, allowed);
             }
         }
         if name != "default" && name != "custom" && JointType::from_name(name).is_none() {
             let types = JointType::NAMED.iter().map(JointType::name);
             at.add_unknown_word("joint type", name, types.chain(["custom", "default"]));
         }
-        (
-            JointType::word_of_trade(name).to_owned(),
-            Stiffness { linear, angular },
-        )
+        let name = JointType::word_of_trade(name).to_owned();
+        (name, Stiffness { linear, angular })
     });
     each.collect()
 }
@@ -256,12 +251,11 @@ pub(crate) fn read_misalignments(
 pub(crate) fn read_accuracy(file: &MechanismFile, m: &Parts, at: &Place<'_>) -> Option<Accuracy> {
     let entry = file.tolerances.as_ref()?;
     let mut out = Accuracy::default();
+    let of_fit = at.key("fit");
     if let Some(fit) = &entry.fit {
         match Tolerances::named(fit) {
             Some(named) => out.usual = named,
-            None => at
-                .key("fit")
-                .add_unknown_word("fit", fit, Tolerances::NAMES),
+            None => of_fit.add_unknown_word("fit", fit, Tolerances::NAMES),
         }
     }
     let read = |at: &Place<'_>,
