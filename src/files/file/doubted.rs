@@ -23,10 +23,7 @@ pub(super) fn find_doubtful(file: &MechanismFile, m: &Mechanism, out: &Findings)
         if let Some(doubt) = doubt_of(c) {
             at.key("ratio").warn(format!(
                 "the ratio {} of {} is a decimal, known to within {}; write ratio = \"{}\" if that is intended, or another fraction",
-                c.ratio,
-                c.name(m),
-                four_digits(doubt.half),
-                doubt.fraction
+                c.ratio, c.name(m), four_digits(doubt.half), doubt.fraction
             ));
         }
     }

@@ -95,9 +95,7 @@ fn check_drives(m: &Mechanism, out: &Findings) {
         if freedoms.len() > 1 && joint.drive_freedom.is_none() {
             at.key("drive").warn(format!(
                 "joint \"{}\" has the freedoms {}, and the file does not state which one is driven; write drive = \"{}\" if it is the one that redesigns keep now, or name another",
-                joint.id,
-                freedoms.iter().map(|f| f.name()).join(", "),
-                taken.name()
+                joint.id, freedoms.iter().map(|f| f.name()).join(", "), taken.name()
             ));
         }
     }
@@ -163,10 +161,7 @@ fn check_places(m: &Mechanism, across: f64, out: &Findings) -> bool {
             let unit = m.length_unit.symbol;
             joint_place(out, b).key("point").warn(format!(
                 "joints \"{}\" and \"{}\" are {} {unit} apart in a mechanism of {} {unit}; give both the same point if they should coincide",
-                i.id,
-                j.id,
-                four_digits(apart),
-                four_digits(across)
+                i.id, j.id, four_digits(apart), four_digits(across)
             ));
         }
     }

@@ -184,10 +184,8 @@ pub(crate) fn free_urdf(origin: &Origin, all: &[Freeing<'_>], edits: &mut Edits<
             lines.push(format!("<link name=\"{link}\">{LIGHT_URDF}</link>"));
             lines.push(format!(
                 "<joint name=\"{}\" type=\"{kind}\"><parent link=\"{}\"/><child link=\"{}\"/>{place}<axis xyz=\"{}\"/>{limit}</joint>",
-                escape_xml(&name),
-                escape_xml(&from),
-                escape_xml(&between),
-                format_numbers(frame.inverse().map_direction(*direction)),
+                escape_xml(&name), escape_xml(&from), escape_xml(&between),
+                format_numbers(frame.inverse().map_direction(*direction))
             ));
             place.clear();
             from = between;
@@ -268,9 +266,7 @@ pub(crate) fn free_sdf(origin: &Origin, all: &[Freeing<'_>], edits: &mut Edits<'
             let next = chain.get(i + 1).map_or(child.text(), |c| &c.2);
             lines.push(format!(
                 "<joint name=\"{}\" type=\"{kind}\">{joint_pose}<parent>{}</parent><child>{}</child><axis><xyz>{axis}</xyz><limit><lower>-1e16</lower><upper>1e16</upper></limit></axis></joint>",
-                escape_xml(name),
-                escape_xml(between),
-                escape_xml(next),
+                escape_xml(name), escape_xml(between), escape_xml(next)
             ));
         }
         let inner = child.node().span.end..child.node().close.start;

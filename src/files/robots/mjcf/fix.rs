@@ -143,9 +143,8 @@ impl<'a> MjcfFile<'a> {
             out.push(format!("<!-- {why} -->"));
             out.push(format!(
                 "<joint name=\"{}\" type=\"{kind}\" armature=\"{ARMATURE}\" pos=\"{}\" axis=\"{}\"{neutral}/>",
-                escape_xml(&name),
-                format_numbers(inside.map_point(point)),
-                format_numbers(inside.map_direction(*direction)),
+                escape_xml(&name), format_numbers(inside.map_point(point)),
+                format_numbers(inside.map_direction(*direction))
             ));
         }
         Ok(out)

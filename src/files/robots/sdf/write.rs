@@ -97,8 +97,7 @@ impl SdfWriter<'_> {
             let [xx, yy, zz, xy, xz, yz] = i.tensor.map(clean_number);
             format!(
                 "><inertial><pose>{} 0 0 0</pose><mass>{}</mass><inertia><ixx>{xx}</ixx><iyy>{yy}</iyy><izz>{zz}</izz><ixy>{xy}</ixy><ixz>{xz}</ixz><iyz>{yz}</iyz></inertia></inertial></link>",
-                format_numbers(i.centre),
-                i.mass
+                format_numbers(i.centre), i.mass
             )
         });
         let _ = writeln!(self.head, "    <link name=\"{}\"{weight}", escape_xml(&n));
@@ -229,6 +228,6 @@ fn write_joint(out: &mut String, id: &str, kind: &str, ends: [&str; 2], at: [f64
         out,
         "    <joint name=\"{}\" type=\"{kind}\">\n      <pose relative_to=\"__model__\">{} 0 0 0</pose>\n      <parent>{parent}</parent>\n      <child>{child}</child>\n{more}    </joint>\n",
         escape_xml(id),
-        format_numbers(at),
+        format_numbers(at)
     );
 }

@@ -84,8 +84,7 @@ impl UrdfWriter<'_> {
             let [xx, yy, zz, xy, xz, yz] = i.tensor.map(clean_number);
             format!(
                 "><inertial><origin xyz=\"{}\"/><mass value=\"{}\"/><inertia ixx=\"{xx}\" ixy=\"{xy}\" ixz=\"{xz}\" iyy=\"{yy}\" iyz=\"{yz}\" izz=\"{zz}\"/></inertial></link>",
-                format_numbers(i.centre),
-                i.mass
+                format_numbers(i.centre), i.mass
             )
         });
         let _ = writeln!(self.head, "  <link name=\"{}\"{weight}", escape_xml(&name));
@@ -175,7 +174,7 @@ impl UrdfWriter<'_> {
             escape_xml(&a),
             format_numbers(sub(p.point, from)),
             escape_xml(&b),
-            format_numbers(sub(p.point, to)),
+            format_numbers(sub(p.point, to))
         );
         self.write_driven(j, &id);
         Ok(())
@@ -262,6 +261,6 @@ fn tree_joint(
     format!(
         "  <joint name=\"{}\" type=\"{kind}\">\n    <parent link=\"{parent}\"/>\n    <child link=\"{child}\"/>\n    <origin xyz=\"{}\"/>\n{axis}{limit}{more}  </joint>\n",
         escape_xml(id),
-        format_numbers(at),
+        format_numbers(at)
     )
 }
