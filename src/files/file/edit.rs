@@ -86,24 +86,18 @@ fn table_of<'d>(
 ) -> Result<&'d mut Table, EditError> {
     let all = tables_of(document, what)?;
     let found = all.iter_mut().find(|t| id_of(t) == Some(id));
-    found.ok_or_else(|| EditError::Gone {
-        what,
-        id: id.to_owned(),
-    })
+    let id = || id.to_owned();
+    found.ok_or_else(|| EditError::Gone { what, id: id() })
 }
 
 /// Checks that nothing else of its kind has this name.
 fn check_unused(document: &mut DocumentMut, what: Thing, id: &str) -> Result<(), EditError> {
-    if tables_of(document, what)?
-        .iter()
-        .any(|t| id_of(t) == Some(id))
-    {
-        return Err(EditError::Taken {
-            what,
-            id: id.to_owned(),
-        });
+    let all = tables_of(document, what)?;
+    if !all.iter().any(|t| id_of(t) == Some(id)) {
+        return Ok(());
     }
-    Ok(())
+    let id = id.to_owned();
+    Err(EditError::Taken { what, id })
 }
 
 fn put_value(table: &mut Table, path: &[String], to: &Value) -> Result<(), EditError> {
@@ -111,9 +105,8 @@ fn put_value(table: &mut Table, path: &[String], to: &Value) -> Result<(), EditE
         [] => Ok(()),
         [key] => value::set_value(table, key, to),
         [key, rest @ ..] => {
-            let inner = table
-                .entry(key)
-                .or_insert_with(|| Item::Table(implicit_table()));
+            let inner = table.entry(key);
+            let inner = inner.or_insert_with(|| Item::Table(implicit_table()));
             let Some(inner) = inner.as_table_mut() else {
                 return Err(EditError::NoValue {
                     what: key.clone(),

@@ -174,10 +174,8 @@ fn joint_place(out: &Findings, j: JointId) -> Place<'_> {
 
 fn check_contours(m: &Mechanism, out: &Findings) {
     let joints = |c: &Contour| c.joints.iter().map(|&(j, _)| j).sorted().collect_vec();
-    let bases: Vec<Vec<Vec<JointId>>> = m
-        .state_ids()
-        .map(|s| contour_basis(m, s).iter().map(joints).collect())
-        .collect();
+    let basis = |s: StateId| contour_basis(m, s).iter().map(joints).collect();
+    let bases: Vec<Vec<Vec<JointId>>> = m.state_ids().map(basis).collect();
     let walked: Vec<bool> = m
         .joint_ids()
         .map(|j| {
@@ -336,12 +334,9 @@ fn check_workload(file: &MechanismFile, m: &Mechanism, out: &Findings) {
         || !loads.misalignments.is_empty()
         || loads.grip.as_ref().is_some_and(|g| g.contacts.is_some())
         || (heavy.is_some() && (loads.gravity.is_some() || moved));
-    let asked = m
-        .ranking
-        .iter()
-        .flat_map(|r| &r.terms)
-        .find_map(|(t, _)| matches!(t, Term::PeakForce | Term::PeakMoment).then(|| t.name()));
-    if let Some(term) = asked.filter(|_| !loaded) {
+    let mut terms = m.ranking.iter().flat_map(|r| &r.terms);
+    let asked = terms.find(|(t, _)| matches!(t, Term::PeakForce | Term::PeakMoment));
+    if let Some(term) = asked.filter(|_| !loaded).map(|(t, _)| t.name()) {
         out.key("ranking").key("terms").warn(format!(
             "the ranking uses {term}, but nothing loads the mechanism; add forces, moments, or masses with gravity"
         ));

@@ -45,10 +45,8 @@ pub(crate) fn read_claims(file: &MechanismFile, out: &Findings) -> Vec<Claim> {
             evidence: c.evidence.clone(),
         })
     };
-    out.key("claim")
-        .each_entry(&file.claim)
-        .filter_map(claim)
-        .collect()
+    let all = out.key("claim").each_entry(&file.claim);
+    all.filter_map(claim).collect()
 }
 
 /// Returns true if no list of the file has too many entries; reports the first that has.

@@ -203,11 +203,10 @@ fn inline_keys_of(value: &toml_edit::Value) -> Option<BTreeSet<String>> {
     let keys = |t: &InlineTable| t.iter().map(|(k, _)| k.to_owned()).collect::<BTreeSet<_>>();
     let found: BTreeSet<String> = match value {
         toml_edit::Value::InlineTable(t) => keys(t),
-        toml_edit::Value::Array(list) => list
-            .iter()
-            .filter_map(toml_edit::Value::as_inline_table)
-            .flat_map(keys)
-            .collect(),
+        toml_edit::Value::Array(list) => {
+            let tables = list.iter().filter_map(|v| v.as_inline_table());
+            tables.flat_map(keys).collect()
+        }
         _ => BTreeSet::new(),
     };
     (!found.is_empty()).then_some(found)
@@ -236,12 +235,8 @@ fn list_other_keys<'t>(out: &mut String, schema: &Value, tables: impl Iterator<I
 fn unused_keys<'s, 't>(schema: &'s Value, tables: impl Iterator<Item = &'t Table>) -> Vec<&'s str> {
     let used: BTreeSet<&str> = tables.flat_map(|t| t.iter().map(|(k, _)| k)).collect();
     let known = schema["properties"].as_object();
-    known
-        .into_iter()
-        .flat_map(|k| k.keys())
-        .map(String::as_str)
-        .filter(|k| !used.contains(k))
-        .collect()
+    let known = known.into_iter().flat_map(|k| k.keys()).map(String::as_str);
+    known.filter(|k| !used.contains(k)).collect()
 }
 
 /// Appends a comment, filled to the columns.

@@ -90,9 +90,8 @@ fn weld_links(e: Element<'_>, names: &[String; 2], scene: &SdfScene<'_>, robot: 
         return robot.report.leave_out_joint(&label_of(e), MOST_ROWS, what);
     };
     if a == b {
-        return robot
-            .report
-            .count_dropped("weld of one link to itself", Some(&names[0]));
+        let what = "weld of one link to itself";
+        return robot.report.count_dropped(what, Some(&names[0]));
     }
     let sides = [a, b].map(|l| robot.places[l].inverse().then(&at));
     let id = format!("weld-{}-{}", names[0], names[1]);
@@ -264,9 +263,8 @@ fn add_joints<'a>(
         read_joint(e, "", &scene, size, robot)?;
         // A joint between a link and the world closes no loop.
         let closes = !names_world(e);
-        robot.joints[first..]
-            .iter_mut()
-            .for_each(|p| p.closes = closes);
+        let new = robot.joints[first..].iter_mut();
+        new.for_each(|p| p.closes = closes);
     }
     for &e in plugins {
         read_plugin(e, "", &scene, robot)?;

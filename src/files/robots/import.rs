@@ -136,11 +136,8 @@ pub fn import(
         make_entries(&mut robot, &tree, &source, options).map_err(fail)?;
     file.assumed.clone_from(&robot.report.assumed);
     file.tolerance = find_tolerance(document.element(root), &robot, &content);
-    let closes: Vec<bool> = content
-        .joints
-        .iter()
-        .map(|&j| robot.joints[j].closes)
-        .collect();
+    let closes = content.joints.iter().map(|&j| robot.joints[j].closes);
+    let closes: Vec<bool> = closes.collect();
     let mechanism = with_offers(&mut file, &comments, &closes)?;
     robot.report.kept = coupling::kept_couplings(&mechanism);
     Ok(Imported {

@@ -281,8 +281,8 @@ fn read_node(
     for found in tag.attributes().with_checks(false) {
         let found = found.map_err(|e| (xml_problem(e), span.start))?;
         let name: &str = found.key.as_ref();
-        let value = found
-            .normalized_value(quick_xml::XmlVersion::Implicit1_0)
+        let value = found.normalized_value(quick_xml::XmlVersion::Implicit1_0);
+        let value = value
             .map_err(|e| (xml_problem(e), span.start))?
             .into_owned();
         no_control(&value, &[]).map_err(|(problem, _)| (problem, span.start))?;

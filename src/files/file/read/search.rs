@@ -78,12 +78,9 @@ fn read_allowed_option(
     // A bad entry of the common list would be reported once per joint.
     let before = at.out.problem_count();
     let option = read_option(&entry.id, present, item, states, at)?;
-    (at.out.problem_count() == before
-        && !entry
-            .forbid
-            .iter()
-            .any(|f| *f == option.name || JointType::word_of_trade(f) == option.name))
-    .then_some(option)
+    let is_it = |f: &String| *f == option.name || JointType::word_of_trade(f) == option.name;
+    let allowed = !entry.forbid.iter().any(is_it);
+    (at.out.problem_count() == before && allowed).then_some(option)
 }
 
 /// Joints that differ by more than this are not mirror images, regardless of the rounding of their coordinates. As an angle in radians, and

@@ -49,10 +49,8 @@ impl Archive {
         let mut out = Vec::new();
         // The size in a header may be wrong.
         let limit = MAX_BYTES as u64 + 1;
-        found
-            .take(limit)
-            .read_to_end(&mut out)
-            .map_err(|e| self.archive_error(&ZipError::Io(e)))?;
+        let read = found.take(limit).read_to_end(&mut out);
+        read.map_err(|e| self.archive_error(&ZipError::Io(e)))?;
         if out.len() > MAX_BYTES {
             let name = format!("{}:{member}", self.name);
             return Err(too_large(out.len(), MAX_BYTES).in_file(&name, "", None));

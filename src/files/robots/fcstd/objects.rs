@@ -29,11 +29,9 @@ impl<'a> Objects<'a> {
     /// Returns the objects below the root element of `Document.xml`.
     pub(crate) fn read_objects(root: Element<'a>) -> Read<Objects<'a>> {
         let data = root.first_child("ObjectData");
-        let data: BTreeMap<&str, Element<'a>> = data
-            .iter()
-            .flat_map(|d| d.children_named("Object"))
-            .filter_map(|e| Some((e.attribute("name")?, e)))
-            .collect();
+        let data = data.iter().flat_map(|d| d.children_named("Object"));
+        let data = data.filter_map(|e| Some((e.attribute("name")?, e)));
+        let data: BTreeMap<&str, Element<'a>> = data.collect();
         let mut out = Objects {
             list: Vec::new(),
             by_name: BTreeMap::new(),
@@ -119,10 +117,8 @@ impl<'a> Object<'a> {
             _ => vec![value],
         };
         let name = |e: &Element<'a>| e.attribute("value").or_else(|| e.attribute("name"));
-        all.iter()
-            .filter_map(name)
-            .filter(|n| !n.is_empty())
-            .collect()
+        let all = all.iter().filter_map(name);
+        all.filter(|n| !n.is_empty()).collect()
     }
 
     /// Returns its placement relative to its parent.

@@ -206,10 +206,8 @@ fn follow_names<'a>(
         let found = documents.document_of(at.file).and_then(|o| o.get(name));
         if is_body(&at.object) || name.is_empty() {
             // Features of a body; the last existing one has the shape.
-            out.shape = found
-                .and_then(Object::shape_member)
-                .filter(|_| at.file.is_empty())
-                .or(out.shape);
+            let own = found.filter(|_| at.file.is_empty());
+            out.shape = own.and_then(Object::shape_member).or(out.shape);
             continue;
         }
         let Some(o) = found else {

@@ -186,9 +186,12 @@ fn make_joint(
         };
         z.map(clean_number)
     };
-    let second = || Some(place.map_direction(p.second));
+
     let ball = matches!(p.joint_type, JointType::Spherical | JointType::Fixed);
     let universal = p.joint_type == JointType::Universal;
+    let second = || place.map_direction(p.second);
+    let second = p.joint_type.has_second_axis().then(second);
+    let reference = about(&[Freedom::Rx]).filter(|_| universal).or(second);
     let screws = p.joint_type.freedoms().contains(&Freedom::Screw);
     JointEntry {
         id,
@@ -200,10 +203,7 @@ fn make_joint(
         },
         point: place.translation.map(clean_number),
         axis: (!ball).then(axis),
-        reference: about(&[Freedom::Rx])
-            .filter(|_| universal)
-            .or_else(|| second().filter(|_| p.joint_type.has_second_axis()))
-            .map(|x| file_direction(x).map(clean_number)),
+        reference: reference.map(|x| file_direction(x).map(clean_number)),
         pitch: screws.then(|| clean_number(p.pitch)),
         drive: DriveWord::Driven(p.drive),
         ..JointEntry::default()

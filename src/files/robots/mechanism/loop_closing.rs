@@ -32,11 +32,8 @@ pub(crate) struct Gap {
 
 /// Returns the size of the robot: the largest distance between joints of one link, for weighing angles against lengths.
 pub(crate) fn robot_size(robot: &Robot) -> f64 {
-    robot
-        .joints
-        .iter()
-        .flat_map(|j| j.sides.iter().map(|s| length(s.translation)))
-        .fold(1e-3, f64::max)
+    let sides = robot.joints.iter().flat_map(|j| &j.sides);
+    sides.map(|s| length(s.translation)).fold(1e-3, f64::max)
 }
 
 /// Returns the difference between the two sides of a loop joint: a shift and a rotation vector, in the world.

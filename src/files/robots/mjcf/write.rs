@@ -13,7 +13,6 @@ use crate::robots::mechanism::series_of_single_joints::{
     single_freedoms,
 };
 use crate::robots::warning::ExportError;
-use crate::statics::reactions::Unsolved;
 use crate::statics::reactions::drives::driven_freedoms;
 use crate::statics::reactions::geometry::Geometry;
 use std::collections::BTreeMap;
@@ -254,11 +253,9 @@ impl MjcfWriter<'_> {
     /// Motors of the driven joints, each on the freedom that statics have its drive hold: a slider may turn about its guide.
     fn write_motors(&self) -> Vec<String> {
         let (m, free) = (self.m, StateId::FREE);
-        let held = Pose::of_file(m, free)
-            .and_then(|pose| Geometry::new(m, free, &pose))
-            .map_err(Unsolved::from)
-            .and_then(|g| driven_freedoms(m, &g))
-            .unwrap_or_default();
+        let geometry = Pose::of_file(m, free).and_then(|pose| Geometry::new(m, free, &pose));
+        let held = geometry.ok().and_then(|g| driven_freedoms(m, &g).ok());
+        let held = held.unwrap_or_default();
         let drives = m.joints_in(free).filter(|&j| m.joints[j].drive);
         let motors = drives.filter_map(|j| {
             let of_drive = held.iter().find(|(k, _)| *k == j);

@@ -180,11 +180,8 @@ impl Element<'_> {
         let mut out = [0.0; N];
         let mut words = text.split_whitespace();
         for x in &mut out {
-            *x = words
-                .next()
-                .and_then(|w| w.parse::<f64>().ok())
-                .filter(|x| x.abs() <= MAX_NUMBER)
-                .ok_or_else(bad)?;
+            let found = words.next().and_then(|w| w.parse::<f64>().ok());
+            *x = found.filter(|x| x.abs() <= MAX_NUMBER).ok_or_else(bad)?;
         }
         if words.next().is_some() {
             return Err(bad());
