@@ -51,13 +51,9 @@ impl Findings {
         self.names = names;
     }
 
-    /// Returns the value of an expression. With `pi_is_a_number`, pi may be used outside of angles.
-    pub(crate) fn parse_expression(
-        &self,
-        text: &str,
-        pi_is_a_number: bool,
-    ) -> Result<Expr, ExprError> {
-        Expr::with_names(text, pi_is_a_number, &mut |word| {
+    /// Returns the value of an expression. If `pi` is true, pi may be used outside of angles.
+    pub(crate) fn parse_expression(&self, text: &str, pi: bool) -> Result<Expr, ExprError> {
+        Expr::with_names(text, pi, &mut |word| {
             let found = self.names.get(word)?;
             self.used.borrow_mut().insert(word.to_owned());
             Some(found.clone())

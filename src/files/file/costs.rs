@@ -43,13 +43,9 @@ pub fn costs_from_str(name: &str, text: &str, mechanism: &Parts) -> Result<CostS
 /// The names of costs that do not belong to a joint type.
 const OTHERS: [&str; 4] = ["change", "driven", "link", "harmful"];
 
-pub(crate) fn read_costs(
-    stated: &BTreeMap<String, f64>,
-    mechanism: &Parts,
-    at: &Place<'_>,
-) -> CostSpec {
+pub(crate) fn read_costs(stated: &BTreeMap<String, f64>, m: &Parts, at: &Place<'_>) -> CostSpec {
     let mut spec = CostSpec::default();
-    let offered = mechanism.joints.iter().flat_map(Joint::offered_options);
+    let offered = m.joints.iter().flat_map(Joint::offered_options);
     let offered: BTreeSet<&str> = offered.map(|o| o.name.as_str()).collect();
     for (name, &value) in stated {
         let at = at.key(name);

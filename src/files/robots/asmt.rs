@@ -28,7 +28,7 @@ pub(crate) fn is_one(text: &[u8]) -> bool {
 
 /// Reads the lines of a file into the arena.
 pub(crate) fn read_lines(document: &mut Document, name: &str, text: String) -> Read<usize> {
-    document.read_outline(name, text, 1, RESULTS)
+    document.read_outline(name, text, RESULTS)
 }
 
 /// Reads an assembly as a robot.

@@ -17,6 +17,12 @@ use crate::robots::warning::{Read, Report};
 use crate::robots::xml::element::Element;
 use std::collections::{BTreeMap, BTreeSet};
 
+/// A link and a place on it.
+pub(crate) type End = (usize, RigidMotion);
+
+/// The places of a joint on its two links.
+type Sides = [RigidMotion; 2];
+
 /// A joint between two links, or a constraint that closes a loop.
 #[derive(Debug, Clone)]
 pub(crate) struct Part {
@@ -65,12 +71,7 @@ impl Part {
     }
 
     /// Creates a joint at rest with the axis z.
-    pub(crate) fn new(
-        id: &str,
-        links: [usize; 2],
-        sides: [RigidMotion; 2],
-        joint_type: JointType,
-    ) -> Part {
+    pub(crate) fn new(id: &str, links: [usize; 2], sides: Sides, joint_type: JointType) -> Part {
         Part {
             id: id.to_owned(),
             links,
@@ -98,7 +99,7 @@ impl Part {
     pub(crate) fn new_closing(
         e: Element<'_>,
         id: &str,
-        ends: [(usize, RigidMotion); 2],
+        ends: [End; 2],
         joint_type: JointType,
     ) -> Read<Part> {
         let links = ends.map(|end| end.0);
@@ -245,7 +246,7 @@ impl Robot {
     }
 
     /// Returns the link or frame of a name.
-    pub(crate) fn frame(&self, name: &str) -> Option<(usize, RigidMotion)> {
+    pub(crate) fn frame(&self, name: &str) -> Option<End> {
         self.frames.get(name).copied()
     }
 }

@@ -53,7 +53,7 @@ pub(crate) fn read_document(input: Input<'_>) -> Read<Robot> {
         joints: assembly_joints(&documents.main, &assembly),
         shapes: &shapes,
     };
-    let assembly = reading.read_assembly(document, root, &mut robot)?;
+    let assembly = reading.read_assembly(document.element(root), &mut robot)?;
     Ok(assembly.to_robot(robot, input.options))
 }
 
@@ -191,15 +191,10 @@ struct Parts<'a> {
 }
 
 impl<'a> Assembling<'a, '_> {
-    fn read_assembly(
-        &self,
-        document: &'a Document,
-        root: usize,
-        robot: &mut Robot,
-    ) -> Read<Assembly> {
+    fn read_assembly(&self, root: Element<'a>, robot: &mut Robot) -> Read<Assembly> {
         let ended = self.joints_with_ends(robot)?;
         let grounded = self.grounded_parts(&ended, robot);
-        let Parts { parts, place } = self.find_parts(&ended, &grounded, document.element(root))?;
+        let Parts { parts, place } = self.find_parts(&ended, &grounded, root)?;
         let slides = slide_directions(&ended)?;
         let of = |end: &Reference<'_>| end.part.map_or(0, |p| place.get(p).copied().unwrap_or(0));
         let mut connections = Vec::new();

@@ -18,11 +18,11 @@ use crate::robots::mechanism::entries::{Content, link_of, merge_links, output_li
 use crate::robots::mechanism::loop_closing::{
     CLOSED, ROUNDED, close_numerically, joint_values, loop_gaps, robot_size, worst_gap,
 };
-use crate::robots::warning::{Options, bad_value, list_known, syntax_problem, unknown_name};
+use crate::robots::warning::{Found, Options, bad_value, list_known, syntax_problem, unknown_name};
 use itertools::Itertools;
 use std::collections::BTreeSet;
 
-pub(crate) fn apply_pose(robot: &mut Robot, options: &Options) -> Result<(), ProblemKind> {
+pub(crate) fn apply_pose(robot: &mut Robot, options: &Options) -> Found<()> {
     for (id, values) in &options.pose {
         let Some(joint) = robot.joints.iter_mut().find(|j| j.id == *id) else {
             let known = list_known("joints", robot.joints.iter().map(|j| &j.id));
@@ -39,7 +39,7 @@ pub(crate) fn apply_pose(robot: &mut Robot, options: &Options) -> Result<(), Pro
 }
 
 /// Returns the frame: the world if something is connected to it, otherwise the link that is no joint's child.
-pub(crate) fn root_link(robot: &mut Robot, options: &Options) -> Result<usize, ProblemKind> {
+pub(crate) fn root_link(robot: &mut Robot, options: &Options) -> Found<usize> {
     if let Some(name) = &options.frame {
         return link_of(robot, name);
     }
@@ -90,7 +90,7 @@ fn loose_roots(robot: &Robot, tree: &Tree) -> Vec<usize> {
 }
 
 /// Checks that every link is connected to the frame.
-pub(crate) fn check_held(robot: &Robot, tree: &Tree) -> Result<(), ProblemKind> {
+pub(crate) fn check_held(robot: &Robot, tree: &Tree) -> Found<()> {
     let loose = loose_roots(robot, tree);
     if loose.is_empty() {
         return Ok(());
@@ -105,11 +105,7 @@ pub(crate) fn check_held(robot: &Robot, tree: &Tree) -> Result<(), ProblemKind> 
 }
 
 /// Closes the loops of a robot: as drawn, by moving joints, or not at all if the options ask for that.
-pub(crate) fn close_loops(
-    robot: &mut Robot,
-    tree: &Tree,
-    options: &Options,
-) -> Result<(), ProblemKind> {
+pub(crate) fn close_loops(robot: &mut Robot, tree: &Tree, options: &Options) -> Found<()> {
     if tree.loops.is_empty() {
         return Ok(());
     }
@@ -206,7 +202,7 @@ pub(crate) fn make_entries(
     tree: &Tree,
     source: &str,
     options: &Options,
-) -> Result<(MechanismFile, Vec<Comment>, Content), ProblemKind> {
+) -> Found<(MechanismFile, Vec<Comment>, Content)> {
     let (bodies, joints) = rigid_bodies(robot, tree)?;
     let frame = bodies[tree.roots[0]];
     let content = Content {
@@ -233,7 +229,7 @@ pub(crate) fn make_entries(
 
 /// Merges rigidly joined links to bodies and returns them with the joints between them. Joints within a body are reported and
 /// omitted.
-fn rigid_bodies(robot: &mut Robot, tree: &Tree) -> Result<(Vec<usize>, Vec<usize>), ProblemKind> {
+fn rigid_bodies(robot: &mut Robot, tree: &Tree) -> Found<(Vec<usize>, Vec<usize>)> {
     let kept = robot.assembly.then(|| in_loops(robot, tree));
     let kept = kept.unwrap_or_default();
     let fixed = |j: usize| robot.joints[j].joint_type == JointType::Fixed && !kept.contains(&j);
@@ -264,7 +260,7 @@ fn rigid_bodies(robot: &mut Robot, tree: &Tree) -> Result<(Vec<usize>, Vec<usize
 }
 
 /// Checks that there are no more links and joints than a mechanism file may have.
-fn within_limits(links: usize, joints: usize) -> Result<(), ProblemKind> {
+fn within_limits(links: usize, joints: usize) -> Found<()> {
     let all = [("links", links, LIMITS.0), ("joints", joints, LIMITS.1)];
     match all.iter().find(|(_, count, limit)| count > limit) {
         None => Ok(()),

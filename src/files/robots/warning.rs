@@ -252,6 +252,9 @@ fn write_line(out: &mut String, head: &str, what: &str) {
 /// The result of reading a part of a description, or the first problem with it.
 pub(crate) type Read<T> = Result<T, ImportError>;
 
+/// A result, or a problem whose place is not known yet.
+pub(crate) type Found<T> = Result<T, ProblemKind>;
+
 /// Returns a problem with the given message.
 pub(crate) fn syntax_problem(message: impl Into<String>) -> ProblemKind {
     ProblemKind::from(message)

@@ -168,13 +168,14 @@ impl Document {
 }
 
 type Located = (ProblemKind, usize);
+type Parsed<T> = Result<T, Located>;
 
 fn xml_problem(message: impl std::fmt::Display) -> ProblemKind {
     syntax_problem(format!("{message}; the file is not well-formed XML"))
 }
 
 /// Rejects control characters, which could control a terminal, except those that lay out the text.
-fn no_control(text: &str, layout: &[char]) -> Result<(), Located> {
+fn no_control(text: &str, layout: &[char]) -> Parsed<()> {
     let found = text.char_indices();
     let mut found = found.filter(|(_, c)| c.is_control() && !layout.contains(c));
     found.next().map_or(Ok(()), |(at, c)| {
@@ -198,7 +199,7 @@ fn few_enough(depth: usize, elements: usize, attributes: usize) -> Result<(), Pr
     Ok(())
 }
 
-fn parse_xml(text: &str, source: usize, nodes: &mut Vec<Node>) -> Result<usize, Located> {
+fn parse_xml(text: &str, source: usize, nodes: &mut Vec<Node>) -> Parsed<usize> {
     no_control(text, &['\t', '\n', '\r'])?;
     let mut reader = Reader::from_str(text);
     let (mut open, mut root): (Vec<usize>, Option<usize>) = (Vec::new(), None);
@@ -270,12 +271,7 @@ fn append_text(text: &str, open: &[usize], nodes: &mut [Node]) {
     }
 }
 
-fn read_node(
-    tag: &BytesStart<'_>,
-    text: &str,
-    source: usize,
-    span: Range<usize>,
-) -> Result<Node, Located> {
+fn read_node(tag: &BytesStart<'_>, text: &str, source: usize, span: Range<usize>) -> Parsed<Node> {
     let start = text.as_ptr() as usize;
     let mut attributes: Vec<Attribute> = Vec::new();
     for found in tag.attributes().with_checks(false) {

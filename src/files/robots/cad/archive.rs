@@ -90,18 +90,12 @@ impl Archive {
 }
 
 impl Document {
-    /// Reads a file laid out by tabs into the arena from a line on; gives its first label. Lines from one on that `ends` are not
-    /// read.
-    pub(crate) fn read_outline(
-        &mut self,
-        name: &str,
-        text: String,
-        from: usize,
-        ends: &str,
-    ) -> Read<usize> {
+    /// Reads a file laid out by tabs into the arena from its second line on; gives its first label. Lines from one that `ends` on
+    /// are not read.
+    pub(crate) fn read_outline(&mut self, name: &str, text: String, ends: &str) -> Read<usize> {
         let source = self.sources.len();
         let root = self.nodes.len();
-        let nodes = read_lines(&text, source, root, from, ends)
+        let nodes = read_lines(&text, source, root, ends)
             .map_err(|(problem, at)| problem.in_file(name, &text, Some(at..at)))?;
         self.nodes.extend(nodes);
         let name = name.to_owned();
@@ -113,13 +107,7 @@ impl Document {
 type Located = (ProblemKind, usize);
 
 /// Returns the lines as nodes, whose places in the arena begin at `first`.
-fn read_lines(
-    text: &str,
-    source: usize,
-    first: usize,
-    from: usize,
-    ends: &str,
-) -> Result<Vec<Node>, Located> {
+fn read_lines(text: &str, source: usize, first: usize, ends: &str) -> Result<Vec<Node>, Located> {
     let mut nodes: Vec<Node> = Vec::new();
     let mut open: Vec<usize> = Vec::new();
     let mut at = 0;
@@ -128,7 +116,7 @@ fn read_lines(
         at += line.len();
         let depth = line.len() - line.trim_start_matches('\t').len();
         let word = line.trim();
-        if n < from || word.is_empty() {
+        if n == 0 || word.is_empty() {
             continue;
         }
         if word.starts_with(ends) {

@@ -23,6 +23,9 @@ pub(crate) struct Meeting {
     pub(super) here_only: bool,
 }
 
+/// A joint, or the reason why there is none.
+type Met = Result<Meeting, &'static str>;
+
 /// Returns a frame at a point, with a z and an x made perpendicular to it.
 fn make_frame(point: Vector, z: Vector, x: Vector) -> RigidMotion {
     let z = unit_or_z(z);
@@ -73,11 +76,7 @@ fn nearest_rotation(i: &RigidMotion, j: &RigidMotion) -> [Vector; 3] {
 ///
 /// # Errors
 /// Returns the reason, in words, if it constrains nothing that can be determined at this pose.
-pub(crate) fn find_meeting(
-    holds: Holds,
-    i: &RigidMotion,
-    j: &RigidMotion,
-) -> Result<Meeting, &'static str> {
+pub(crate) fn find_meeting(holds: Holds, i: &RigidMotion, j: &RigidMotion) -> Met {
     let (x, z) = (frame_axis(i, 0), frame_axis(i, 2));
     let (oi, oj) = (i.translation, j.translation);
     let d = sub(oj, oi);
@@ -164,7 +163,7 @@ fn three_slides() -> JointType {
 }
 
 /// Returns the joint that keeps two z axes perpendicular and the origins together, or J's line in a plane: z is I's, x is J's z.
-fn square_joint(holds: Holds, i: &RigidMotion, j: &RigidMotion) -> Result<Meeting, &'static str> {
+fn square_joint(holds: Holds, i: &RigidMotion, j: &RigidMotion) -> Met {
     let (z, line, oj) = (frame_axis(i, 2), frame_axis(j, 2), j.translation);
     if length(cross(z, line)) < FLAT {
         return Err("its two axes are parallel, but must be at a right angle");
@@ -186,7 +185,7 @@ fn square_joint(holds: Holds, i: &RigidMotion, j: &RigidMotion) -> Result<Meetin
 }
 
 /// Returns the joint that constrains the rotation about one line, Ix·Jy + Iy·Jx = 0; the line moves as the joint turns.
-fn constant_velocity_joint(i: &RigidMotion, j: &RigidMotion) -> Result<Meeting, &'static str> {
+fn constant_velocity_joint(i: &RigidMotion, j: &RigidMotion) -> Met {
     let normal = |a, b| cross(frame_axis(j, a), frame_axis(i, b));
     let n = add(normal(1, 0), normal(0, 1));
     if length(n) < FLAT {
@@ -201,7 +200,7 @@ fn constant_velocity_joint(i: &RigidMotion, j: &RigidMotion) -> Result<Meeting, 
 }
 
 /// Returns the joint that fixes the angle between two z axes: it constrains the rotation about their common normal.
-fn angle_joint(i: &RigidMotion, j: &RigidMotion, cosine: f64) -> Result<Meeting, &'static str> {
+fn angle_joint(i: &RigidMotion, j: &RigidMotion, cosine: f64) -> Met {
     use Freedom::{Rx, Ry, Tx, Ty, Tz};
     let (a, b) = (frame_axis(i, 2), frame_axis(j, 2));
     let n = cross(a, b);
@@ -219,7 +218,7 @@ fn angle_joint(i: &RigidMotion, j: &RigidMotion, cosine: f64) -> Result<Meeting,
 }
 
 /// Returns the joint that fixes a distance of points or of lines, along the direction from one to the other.
-fn distance_joint(holds: Holds, i: &RigidMotion, j: &RigidMotion) -> Result<Meeting, &'static str> {
+fn distance_joint(holds: Holds, i: &RigidMotion, j: &RigidMotion) -> Met {
     use Freedom::{Rz, Ty, Tz};
     let (z, oj) = (frame_axis(i, 2), j.translation);
     let d = sub(oj, i.translation);
@@ -256,7 +255,7 @@ fn distance_joint(holds: Holds, i: &RigidMotion, j: &RigidMotion) -> Result<Meet
 
 /// Returns the contact of two gears at the pitch point on the line of centres. They do not slip normal to that line. The pitch point of a
 /// belt is outside.
-fn gear_joint(i: &RigidMotion, j: &RigidMotion, [a, b]: [f64; 2]) -> Result<Meeting, &'static str> {
+fn gear_joint(i: &RigidMotion, j: &RigidMotion, [a, b]: [f64; 2]) -> Met {
     use Freedom::{Rx, Ry, Tx, Ty, Tz};
     let z = frame_axis(i, 2);
     let d = sub(j.translation, i.translation);

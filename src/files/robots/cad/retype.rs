@@ -34,6 +34,9 @@ const SIMPLE: [([Left; 2], SimpleType); 6] = [
     ([Left::Along, Left::All], ("Parallel", "ParallelAxesJoint")),
 ];
 
+/// Freedoms, each a slide or a turn and its direction.
+type Freedoms = [(bool, Vector)];
+
 /// The turns, or the slides, that a joint allows.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Left {
@@ -83,11 +86,7 @@ impl Origin {
 
 /// Returns a joint with additional freedoms, each a translation or a rotation and its direction in the world. `None` if there is
 /// no such type.
-pub(crate) fn simple_type(
-    origin: &Origin,
-    joint: JointId,
-    more: &[(bool, Vector)],
-) -> Option<SimpleType> {
+fn simple_type(origin: &Origin, joint: JointId, more: &Freedoms) -> Option<SimpleType> {
     let part = origin.part_of(joint);
     let frame = origin.places[part.links[0]].then(&part.sides[0]);
     let axis = frame.map_direction(part.axis);
@@ -105,7 +104,7 @@ pub(crate) fn simple_type(
 }
 
 /// Returns the type with these freedoms, each a translation or a rotation and its direction, about an axis.
-fn type_with(freedoms: &[(bool, Vector)], axis: Vector) -> Option<SimpleType> {
+fn type_with(freedoms: &Freedoms, axis: Vector) -> Option<SimpleType> {
     let left = |slides: bool| {
         let all = freedoms.iter().filter(|(s, _)| *s == slides);
         let all: Vec<Vector> = all.map(|(_, d)| *d).collect();

@@ -6,14 +6,13 @@
 //!   and `joint_type: [...]` of the joints whose types differ from the URDF;
 //! - Drake's list of `ball_constraint_body_A`, `ball_constraint_p_AP`, `..._body_B`, `..._p_BQ`.
 
-use crate::file::problem::ProblemKind;
 use crate::file::text::decode_utf8;
 use crate::geom::rigid::RigidMotion;
 use crate::geom::vector::{Vector, X, Y, Z, length};
 use crate::model::joint_type::JointType;
-use crate::robots::description::{Part, Robot};
+use crate::robots::description::{End, Part, Robot};
 use crate::robots::warning::{
-    Read, Reader, list_known, syntax_problem, too_large, unknown_name, unknown_word,
+    Found, Read, Reader, list_known, syntax_problem, too_large, unknown_name, unknown_word,
 };
 use serde_json::{Map, Value};
 
@@ -91,7 +90,7 @@ fn parse_loops(name: &str, text: &str) -> Result<Value, String> {
     }
 }
 
-fn read_loops(value: &Value, robot: &mut Robot) -> Result<(), ProblemKind> {
+fn read_loops(value: &Value, robot: &mut Robot) -> Found<()> {
     match value {
         Value::Object(o) if o.contains_key("closed_loop") => read_pairs(o, robot),
         Value::Object(o) if o.contains_key("loop") => {
@@ -108,7 +107,7 @@ fn read_loops(value: &Value, robot: &mut Robot) -> Result<(), ProblemKind> {
     }
 }
 
-fn read_list<'a>(o: &'a Map<String, Value>, key: &str) -> Result<&'a [Value], ProblemKind> {
+fn read_list<'a>(o: &'a Map<String, Value>, key: &str) -> Found<&'a [Value]> {
     match o.get(key) {
         None => Ok(&[]),
         Some(Value::Array(items)) => Ok(items),
@@ -118,7 +117,7 @@ fn read_list<'a>(o: &'a Map<String, Value>, key: &str) -> Result<&'a [Value], Pr
     }
 }
 
-fn read_word<'a>(v: Option<&'a Value>, what: &str) -> Result<&'a str, ProblemKind> {
+fn read_word<'a>(v: Option<&'a Value>, what: &str) -> Found<&'a str> {
     v.and_then(Value::as_str).ok_or_else(|| {
         syntax_problem(format!(
             "{what} is missing or not a word; write it in quotes"
@@ -127,7 +126,7 @@ fn read_word<'a>(v: Option<&'a Value>, what: &str) -> Result<&'a str, ProblemKin
 }
 
 /// Returns the link and place of a name: of a link or frame, or of the child's side of a joint.
-fn find_place(element: &str, name: &str, robot: &Robot) -> Result<End, ProblemKind> {
+fn find_place(element: &str, name: &str, robot: &Robot) -> Found<End> {
     if let Some(j) = robot.joints.iter().find(|j| j.id == name) {
         return Ok((j.links[1], j.sides[1]));
     }
@@ -137,7 +136,7 @@ fn find_place(element: &str, name: &str, robot: &Robot) -> Result<End, ProblemKi
     })
 }
 
-fn joint_type(element: &str, word: &str) -> Result<JointType, ProblemKind> {
+fn joint_type(element: &str, word: &str) -> Found<JointType> {
     Ok(match word.to_lowercase().as_str() {
         "6d" | "fixed" | "weld" => JointType::Fixed,
         "3d" | "spherical" | "ball" => JointType::Spherical,
@@ -148,23 +147,15 @@ fn joint_type(element: &str, word: &str) -> Result<JointType, ProblemKind> {
     })
 }
 
-/// A link and a place on it.
-type End = (usize, RigidMotion);
-
-fn add_closure(
-    element: &str,
-    ends: [End; 2],
-    kind: JointType,
-    robot: &mut Robot,
-) -> Result<(), ProblemKind> {
+fn add_closure(id: &str, ends: [End; 2], kind: JointType, robot: &mut Robot) -> Found<()> {
     let links = ends.map(|e| e.0);
     if links[0] == links[1] {
         return Err(syntax_problem(format!(
-            "{element} connects link \"{}\" to itself; name two different links",
+            "{id} connects link \"{}\" to itself; name two different links",
             robot.links[links[0]]
         )));
     }
-    let mut part = Part::new(element, links, ends.map(|e| e.1), kind);
+    let mut part = Part::new(id, links, ends.map(|e| e.1), kind);
     part.closes = true;
     part.comment = Some("closes a loop".to_owned());
     robot.report.count_mapped("loop closure");
@@ -173,7 +164,7 @@ fn add_closure(
 }
 
 /// Gives the joints of `joint_name` the kinds of `joint_type`, which URDF cannot represent.
-fn retype_joints(o: &Map<String, Value>, robot: &mut Robot) -> Result<(), ProblemKind> {
+fn retype_joints(o: &Map<String, Value>, robot: &mut Robot) -> Found<()> {
     let (names, types) = (read_list(o, "joint_name")?, read_list(o, "joint_type")?);
     if names.len() != types.len() {
         return Err(syntax_problem(format!(
@@ -218,7 +209,7 @@ fn retype_joints(o: &Map<String, Value>, robot: &mut Robot) -> Result<(), Proble
 }
 
 /// Reads the form of example-parallel-robots.
-fn read_pairs(o: &Map<String, Value>, robot: &mut Robot) -> Result<(), ProblemKind> {
+fn read_pairs(o: &Map<String, Value>, robot: &mut Robot) -> Found<()> {
     retype_joints(o, robot)?;
     let types = read_list(o, "type")?;
     for (i, pair) in read_list(o, "closed_loop")?.iter().enumerate() {
@@ -248,7 +239,7 @@ fn read_pairs(o: &Map<String, Value>, robot: &mut Robot) -> Result<(), ProblemKi
 }
 
 /// Reads numbers as a list, or as text with spaces as in Drake.
-fn read_vector(v: Option<&Value>, what: &str) -> Result<Option<Vector>, ProblemKind> {
+fn read_vector(v: Option<&Value>, what: &str) -> Found<Option<Vector>> {
     let numbers: Option<Vec<f64>> = match v {
         None => return Ok(None),
         Some(Value::String(s)) => s.split_whitespace().map(|w| w.parse().ok()).collect(),
@@ -264,12 +255,7 @@ fn read_vector(v: Option<&Value>, what: &str) -> Result<Option<Vector>, ProblemK
 }
 
 /// Reads an end of a loop: the keys of its link, frame or joint, of a point there and of an axis.
-fn read_end(
-    element: &str,
-    item: &Value,
-    keys: [&str; 3],
-    robot: &Robot,
-) -> Result<End, ProblemKind> {
+fn read_end(element: &str, item: &Value, keys: [&str; 3], robot: &Robot) -> Found<End> {
     let [name, point, axis] = keys.map(|k| (item.get(k), format!("{k} of {element}")));
     let (link, frame) = find_place(element, read_word(name.0, &name.1)?, robot)?;
     let at = read_vector(point.0, &point.1)?.unwrap_or([0.0; 3]);
@@ -285,7 +271,7 @@ fn read_end(
 }
 
 /// Reads a ball constraint of Drake.
-fn read_ball(i: usize, item: &Value, robot: &mut Robot) -> Result<(), ProblemKind> {
+fn read_ball(i: usize, item: &Value, robot: &mut Robot) -> Found<()> {
     let element = format!("ball-{}", i + 1);
     let end = |keys| read_end(&element, item, keys, robot);
     let a = end(["ball_constraint_body_A", "ball_constraint_p_AP", ""])?;
@@ -300,7 +286,7 @@ const KEYS: [&str; 8] = [
 ];
 
 /// Reads a `[[loop]]`.
-fn read_loop(i: usize, item: &Value, robot: &mut Robot) -> Result<(), ProblemKind> {
+fn read_loop(i: usize, item: &Value, robot: &mut Robot) -> Found<()> {
     let id = item.get("id").and_then(Value::as_str);
     let element = id.map_or_else(|| format!("loop-{}", i + 1), str::to_owned);
     let mut keys = item.as_object().into_iter().flat_map(Map::keys);

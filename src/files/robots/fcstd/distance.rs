@@ -11,7 +11,7 @@ use crate::robots::warning::Read;
 const SINE: f64 = 1e-3;
 
 /// Returns the kind of an element by its name and that of its object, if its shape does not define it.
-pub(crate) fn by_name(element: &str, object: &str) -> Option<ShapeKind> {
+fn by_name(element: &str, object: &str) -> Option<ShapeKind> {
     if element.starts_with("Vertex") {
         return Some(ShapeKind::Vertex);
     }
@@ -28,11 +28,7 @@ pub(crate) fn by_name(element: &str, object: &str) -> Option<ShapeKind> {
 }
 
 /// Returns the constraint between two kinds, at frames in the assembly and with the distance of the joint.
-pub(crate) fn distance_constraint(
-    kinds: [Option<ShapeKind>; 2],
-    frames: [RigidMotion; 2],
-    value: f64,
-) -> Held {
+fn distance_constraint(kinds: Kinds, frames: [RigidMotion; 2], value: f64) -> Held {
     use ShapeKind::{Circle, Curve, Cylinder, Line, Plane, Sphere, Surface, Torus, Vertex};
     let [a, b] = kinds.map(|k| k.unwrap_or(Surface));
     let constraint = |a: ShapeKind, b: ShapeKind, swap: bool| {
@@ -92,7 +88,7 @@ fn circle_radius(k: ShapeKind) -> f64 {
 }
 
 /// Determines unknown kinds of faces from the directions of the two frames at a solved pose, as far as possible.
-fn guess_constraint(kinds: [Option<ShapeKind>; 2], found: Held) -> Held {
+fn guess_constraint(kinds: Kinds, found: Held) -> Held {
     let frames = &found.frames;
     let [z, line] = frames.map(|m| m.rotation.map(|row| row[2]));
     let swap = kinds[1] == Some(ShapeKind::Plane);
@@ -118,7 +114,7 @@ fn guess_constraint(kinds: [Option<ShapeKind>; 2], found: Held) -> Held {
 }
 
 /// Returns the frame of a rack, with x along its direction of sliding and y away from the pinion.
-pub(crate) fn rack_frame(rack: &RigidMotion, pinion: &RigidMotion, slide: [f64; 3]) -> RigidMotion {
+fn rack_frame(rack: &RigidMotion, pinion: &RigidMotion, slide: [f64; 3]) -> RigidMotion {
     let z = pinion.rotation.map(|row| row[2]);
     let x = crate::geom::rigid::unit_or_z(add_scaled(slide, -dot(slide, z), z));
     let y = cross(z, x);
@@ -146,14 +142,16 @@ pub(crate) struct Held {
 /// The direction of a slide, and the part that has it: racks slide along one.
 pub(crate) type Slide<'a> = (Option<&'a str>, [f64; 3]);
 
+/// The two ends of a joint.
+type Ends<'a> = [Reference<'a>; 2];
+/// The kinds of two elements, as far as they are known.
+type Kinds = [Option<ShapeKind>; 2];
+
 /// Returns the two frames of a joint in the assembly.
 ///
 /// # Errors
 /// Returns an error if a number of a placement is invalid.
-pub(crate) fn joint_frames(
-    joint: &Object<'_>,
-    ends: &[Reference<'_>; 2],
-) -> Read<[RigidMotion; 2]> {
+pub(crate) fn joint_frames(joint: &Object<'_>, ends: &Ends<'_>) -> Read<[RigidMotion; 2]> {
     let mut out = [RigidMotion::IDENTITY; 2];
     for (i, end) in ends.iter().enumerate() {
         let own = joint.read_placement(&format!("Placement{}", i + 1))?;
@@ -170,7 +168,7 @@ pub(crate) fn joint_frames(
 pub(crate) fn joint_constraint(
     word: &str,
     joint: &Object<'_>,
-    ends: &[Reference<'_>; 2],
+    ends: &Ends<'_>,
     slides: &[Slide<'_>],
     shapes: Shapes<'_>,
 ) -> Read<Option<Held>> {
@@ -228,7 +226,7 @@ fn kind_of(end: &Reference<'_>, shapes: Shapes<'_>) -> Option<ShapeKind> {
 /// Returns the rack and pinion; the rack is the part with a slide across the pinion's axis.
 fn rack_and_pinion(
     radius: f64,
-    ends: &[Reference<'_>; 2],
+    ends: &Ends<'_>,
     frames: [RigidMotion; 2],
     slides: &[Slide<'_>],
 ) -> Held {
@@ -277,7 +275,7 @@ pub(crate) enum ShapeKind {
 }
 
 /// Returns the kind of an element, such as `Face3`. `None` if the shape does not define it.
-pub(crate) fn element_kind(shape: &str, element: &str) -> Option<ShapeKind> {
+fn element_kind(shape: &str, element: &str) -> Option<ShapeKind> {
     let number = |prefix: &str| element.strip_prefix(prefix)?.parse::<usize>().ok();
     let (tag, place) = match (number("Face"), number("Edge")) {
         (Some(n), _) => ("Fa", n),

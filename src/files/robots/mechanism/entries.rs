@@ -1,7 +1,6 @@
 //! The entries of the mechanism file of a robot.
 
 use crate::closure::tree::spanning_forest;
-use crate::file::problem::ProblemKind;
 use crate::file::schema::{
     Coordinate, CouplingEntry, DriveWord, JointEntry, LinkEntry, MechanismFile, OptionEntry,
     SearchEntry,
@@ -14,7 +13,7 @@ use crate::robots::description::coupling::Usable;
 use crate::robots::description::kinematics::world_axes;
 use crate::robots::description::{Part, Robot};
 use crate::robots::mechanism::series_of_single_joints::Names;
-use crate::robots::warning::{Options, list_known, syntax_problem, unknown_name};
+use crate::robots::warning::{Found, Options, list_known, syntax_problem, unknown_name};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Longest name in a mechanism file, in characters.
@@ -216,7 +215,7 @@ const NAMES: &str = "foot feet toe hand palm tool tool0 tcp ee eef effector flan
 /// Words that may follow them.
 const IDLE: &str = "link body frame left right l r front rear";
 
-pub(crate) fn link_of(robot: &Robot, name: &str) -> Result<usize, ProblemKind> {
+pub(crate) fn link_of(robot: &Robot, name: &str) -> Found<usize> {
     robot.links.iter().position(|l| l == name).ok_or_else(|| {
         let known = list_known("links", &robot.links);
         unknown_name("the command line", "link", name, &known)
@@ -231,7 +230,7 @@ pub(crate) fn output_links(
     joints: &[usize],
     frame: usize,
     options: &Options,
-) -> Result<Vec<usize>, ProblemKind> {
+) -> Found<Vec<usize>> {
     let mut out = Vec::new();
     for name in &options.outputs {
         let b = bodies[link_of(robot, name)?];

@@ -3,7 +3,7 @@
 use crate::geom::rigid::RigidMotion;
 use crate::model::joint_type::JointType;
 use crate::robots::description::kinematics::joint_motion;
-use crate::robots::description::{Part, Ratio, Robot};
+use crate::robots::description::{End, Part, Ratio, Robot};
 use crate::robots::mjcf::context::Context;
 use crate::robots::warning::{Read, bad_value, list_known};
 use crate::robots::xml::element::Element;
@@ -60,8 +60,6 @@ pub(crate) fn read_equalities(
     }
     Ok(())
 }
-
-type End = (usize, RigidMotion);
 
 fn read_ends(e: Element<'_>, context: &Context<'_>, robot: &Robot) -> Read<[End; 2]> {
     if e.attribute("site1").is_some() || e.attribute("site2").is_some() {

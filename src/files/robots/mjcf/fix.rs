@@ -69,6 +69,9 @@ enum KeyframeMark {
     Site(usize),
 }
 
+/// The numbers of `qpos` and of `qvel` before each mark.
+type Marks = Vec<(KeyframeMark, [usize; 2])>;
+
 struct MjcfFile<'a> {
     origin: &'a Origin,
     defaults: Defaults<'a>,
@@ -287,12 +290,7 @@ impl<'a> MjcfFile<'a> {
 
     /// Walks through bodies in the order of MuJoCo, depth first, each with its own joints first, and marks the numbers of `qpos` and of
     /// `qvel` so far.
-    fn walk_below(
-        &self,
-        e: Element<'a>,
-        sizes: &mut [usize; 2],
-        marks: &mut Vec<(KeyframeMark, [usize; 2])>,
-    ) {
+    fn walk_below(&self, e: Element<'a>, sizes: &mut [usize; 2], marks: &mut Marks) {
         let is_joint = |c: &Element<'_>| ["joint", "freejoint"].contains(&c.name());
         for j in e.children().filter(is_joint) {
             let part = self.part_of(j.id);

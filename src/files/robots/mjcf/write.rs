@@ -26,6 +26,7 @@ pub(crate) fn write_mjcf(m: &Mechanism) -> Result<FormattedFile, ExportError> {
     let mut w = MjcfWriter {
         m,
         bodies: vec![None; m.links.len()],
+        own: BTreeMap::new(),
         between: BTreeMap::new(),
         children: BTreeMap::new(),
         parts: BTreeMap::new(),
@@ -48,10 +49,9 @@ pub(crate) fn write_mjcf(m: &Mechanism) -> Result<FormattedFile, ExportError> {
     let mut bodies = String::new();
     // Joint by joint in the order of the file, so that names are fitted in it.
     let tree: Vec<(LinkId, JointId, f64)> = w.children.values().flatten().copied().collect();
-    let mut own: BTreeMap<LinkId, Vec<String>> = BTreeMap::new();
     for (link, joint, sign) in tree {
         let lines = w.write_joints(joint, sign, [0.0; 3]);
-        own.insert(link, lines);
+        w.own.insert(link, lines);
     }
     let closing: Vec<JointId> = m.joints_in(StateId::FREE).filter(|&j| !used[j]).collect();
     for &j in &closing {
@@ -63,7 +63,7 @@ pub(crate) fn write_mjcf(m: &Mechanism) -> Result<FormattedFile, ExportError> {
         w.write_closing(j);
     }
     w.write_couplings();
-    w.write_bodies(frame, 2, &own, &mut bodies);
+    w.write_bodies(frame, 2, &mut bodies);
     let mut out = format!("<mujoco model=\"{}\">\n", escape_xml(&m.name));
     let mut told = left_out(m);
     if m.links[frame].id != "world" {
@@ -93,6 +93,8 @@ struct MjcfWriter<'a> {
     m: &'a Mechanism,
     /// Names and origins of the links.
     bodies: Vec<Option<(String, Vector)>>,
+    /// Lines of the joints that hold a link.
+    own: BTreeMap<LinkId, Vec<String>>,
     /// Lines of the small bodies on a link.
     between: BTreeMap<LinkId, Vec<String>>,
     /// The children of a link, each with its joint and the sense in which it is passed.
@@ -269,13 +271,7 @@ impl MjcfWriter<'_> {
     }
 
     /// Writes the bodies on a link.
-    fn write_bodies(
-        &self,
-        link: LinkId,
-        depth: usize,
-        own: &BTreeMap<LinkId, Vec<String>>,
-        out: &mut String,
-    ) {
+    fn write_bodies(&self, link: LinkId, depth: usize, out: &mut String) {
         let indent = "  ".repeat(depth);
         let (_, from) = self.body_of(link);
         for line in self.between.get(&link).into_iter().flatten() {
@@ -291,10 +287,10 @@ impl MjcfWriter<'_> {
             let _ = writeln!(out, "{indent}<body name=\"{name}\" pos=\"{pos}\">{role}");
             let weight = self.weight_attributes(child, child, at);
             let _ = writeln!(out, "{indent}  <inertial {weight}/>");
-            for line in own.get(&child).into_iter().flatten() {
+            for line in self.own.get(&child).into_iter().flatten() {
                 let _ = writeln!(out, "{indent}  {line}");
             }
-            self.write_bodies(child, depth + 1, own, out);
+            self.write_bodies(child, depth + 1, out);
             let _ = writeln!(out, "{indent}</body>");
         }
     }

@@ -3,6 +3,7 @@
 use crate::file::problem::ImportError;
 use crate::geom::rigid::RigidMotion;
 use crate::geom::vector::scale;
+use crate::robots::description::End;
 use crate::robots::warning::{Read, list_known, unknown_name};
 use crate::robots::xml::element::Element;
 use std::collections::BTreeMap;
@@ -136,10 +137,7 @@ pub(crate) fn resolve_places(scene: &mut SdfScene<'_>) -> Read<()> {
 }
 
 /// Returns the link that a name moves with, and the name's place in the world.
-pub(crate) fn moves_with(
-    scene: &SdfScene<'_>,
-    name: &str,
-) -> Result<(usize, RigidMotion), Option<String>> {
+pub(crate) fn moves_with(scene: &SdfScene<'_>, name: &str) -> Result<End, Option<String>> {
     if name == "world" {
         return Ok((scene.world, RigidMotion::IDENTITY));
     }
@@ -159,11 +157,7 @@ pub(crate) fn moves_with(
     Err(None)
 }
 
-pub(crate) fn locate_name(
-    e: Element<'_>,
-    name: &str,
-    scene: &SdfScene<'_>,
-) -> Read<(usize, RigidMotion)> {
+pub(crate) fn locate_name(e: Element<'_>, name: &str, scene: &SdfScene<'_>) -> Read<End> {
     moves_with(scene, name).map_err(|missing| match missing {
         Some(n) => unknown_name_error(e, &n, scene),
         None => {

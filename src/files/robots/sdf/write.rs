@@ -136,13 +136,8 @@ impl SdfWriter<'_> {
     }
 
     /// Writes freedoms in series, through light links; a fixed joint if there are none.
-    fn write_series(
-        &mut self,
-        j: JointId,
-        all: &[Single],
-        [mut from, end]: [String; 2],
-        at: [f64; 3],
-    ) {
+    fn write_series(&mut self, j: JointId, all: &[Single], ends: [String; 2], at: [f64; 3]) {
+        let [mut from, end] = ends;
         let id = self.ids[j].clone();
         if all.is_empty() {
             write_joint(&mut self.body, &id, "fixed", [&from, &end], at, "");

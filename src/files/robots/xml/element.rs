@@ -132,14 +132,8 @@ impl<'a> Element<'a> {
     }
 
     /// Returns the error for an attribute or text that names something unknown.
-    pub(crate) fn unknown_name(
-        self,
-        key: &str,
-        what: &str,
-        name: &str,
-        known: &str,
-    ) -> ImportError {
-        self.error_at(Some(key), unknown_name(&self.label(), what, name, known))
+    pub(crate) fn unknown_name(self, key: &str, what: &str, id: &str, known: &str) -> ImportError {
+        self.error_at(Some(key), unknown_name(&self.label(), what, id, known))
     }
 }
 

@@ -171,7 +171,7 @@ fn link_inertia(t: &Place<'_>, id: &str, unit: f64, mechanism: Option<&Parts>) -
 }
 
 /// Inertias of the discs with what they carry, and the payload.
-pub(crate) fn read_inertias(
+fn read_inertias(
     t: &Place<'_>,
     e: &DriveEntry,
     unit: f64,
@@ -235,7 +235,7 @@ pub(crate) fn regular_programme(
 }
 
 /// Returns the steps of a file: those it lists, or the number of swings it asks for.
-pub(crate) fn read_programme(t: &Place<'_>, e: &DriveEntry) -> Vec<ProgrammeStep> {
+fn read_programme(t: &Place<'_>, e: &DriveEntry) -> Vec<ProgrammeStep> {
     let time = Bound::Range(0.0, 1e6, "a time from 0 to 1e6 s");
     let dwell = t.read_optional("dwell", &e.dwell, 1.0, time);
     let Some(list) = &e.programme else {

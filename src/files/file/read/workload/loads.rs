@@ -150,11 +150,7 @@ fn read_stroke(at: &Place<'_>, s: &StrokeEntry) -> Stroke {
 }
 
 /// Returns the external moments.
-pub(crate) fn read_moments(
-    entry: &WorkloadEntry,
-    m: &Parts,
-    at: &Place<'_>,
-) -> Vec<ExternalMoment> {
+fn read_moments(entry: &WorkloadEntry, m: &Parts, at: &Place<'_>) -> Vec<ExternalMoment> {
     let mut found = Vec::new();
     for (at, e) in at.first_entries(MAX_FORCES, &entry.moment, "moments") {
         let moment = at.key("moment").read_vector(&e.moment);
@@ -170,7 +166,7 @@ pub(crate) fn read_moments(
 }
 
 /// Returns the faces of contacts.
-pub(crate) fn read_faces(entry: &WorkloadEntry, m: &Parts, at: &Place<'_>) -> Vec<Face> {
+fn read_faces(entry: &WorkloadEntry, m: &Parts, at: &Place<'_>) -> Vec<Face> {
     let mut found = Vec::new();
     for (at, e) in at.first_entries(MAX_FORCES, &entry.contact, "contacts") {
         let Some(joint) = at.key("joint").find_joint(m, &e.joint) else {
@@ -193,7 +189,7 @@ pub(crate) fn read_faces(entry: &WorkloadEntry, m: &Parts, at: &Place<'_>) -> Ve
 }
 
 /// Returns the stiffness by joint type.
-pub(crate) fn read_stiffness(entry: &WorkloadEntry, at: &Place<'_>) -> Vec<(String, Stiffness)> {
+fn read_stiffness(entry: &WorkloadEntry, at: &Place<'_>) -> Vec<(String, Stiffness)> {
     let each = entry.stiffness.iter().map(|(name, s)| {
         let at = at.key(name);
         let (linear, angular) = (s.linear, s.angular);
@@ -214,11 +210,7 @@ pub(crate) fn read_stiffness(entry: &WorkloadEntry, at: &Place<'_>) -> Vec<(Stri
 }
 
 /// Returns the misaligned joints.
-pub(crate) fn read_misalignments(
-    entry: &WorkloadEntry,
-    m: &Parts,
-    at: &Place<'_>,
-) -> Vec<Misalignment> {
+fn read_misalignments(entry: &WorkloadEntry, m: &Parts, at: &Place<'_>) -> Vec<Misalignment> {
     let mut found = Vec::new();
     for (at, e) in at.first_entries(MAX_FORCES, &entry.misalignment, "misalignments") {
         let angle = at.read_given("angle", e.angle.as_ref(), Place::read_turn);
@@ -248,7 +240,7 @@ pub(crate) fn read_misalignments(
 }
 
 /// Returns the accuracy of the joints, if the file states it.
-pub(crate) fn read_accuracy(file: &MechanismFile, m: &Parts, at: &Place<'_>) -> Option<Accuracy> {
+fn read_accuracy(file: &MechanismFile, m: &Parts, at: &Place<'_>) -> Option<Accuracy> {
     let entry = file.tolerances.as_ref()?;
     let mut out = Accuracy::default();
     let of_fit = at.key("fit");

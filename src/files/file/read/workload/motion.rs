@@ -68,8 +68,8 @@ impl Place<'_> {
         &self,
         q: &Quantity,
         parse: fn(&str) -> Option<f64>,
-        what: &'static str,
-        allowed: &'static str,
+        what: &str,
+        allowed: &str,
     ) -> f64 {
         let (value, shown) = match q {
             Quantity::Number(x) => (Some(*x).filter(|x| x.abs() <= LARGEST), x.to_string()),
