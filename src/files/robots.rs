@@ -142,13 +142,13 @@ fn in_series(imported: &Imported, releases: &[(Release, String)]) -> Result<Stri
     }
     free(origin, &all, &mut edits)?;
     for (element, why) in uncoupled {
-        uncouple(origin, element, &why, &mut edits)?;
+        uncouple(element, &why, &mut edits)?;
     }
     edits.apply_edits()
 }
 
 type Free = fn(&Origin, &[Freeing<'_>], &mut Edits<'_>) -> Result<(), ImportError>;
-type Uncouple = fn(&Origin, usize, &str, &mut Edits<'_>) -> Result<(), ImportError>;
+type Uncouple = fn(usize, &str, &mut Edits<'_>) -> Result<(), ImportError>;
 
 /// Returns the error for a joint that is defined in a separate file.
 fn separate_file_error(origin: &Origin, part: &Part) -> ImportError {

@@ -9,7 +9,8 @@ use crate::robots::description::kinematics::{link_places, spanning_tree};
 use crate::robots::description::{Part, Ratio, Robot};
 use crate::robots::sdf::joints::read_joint;
 use crate::robots::sdf::scene::{
-    Placed, SdfScene, absolute_name, insert, joint_end, moves_with, named_place, resolve_places,
+    Placed, Scoped, SdfScene, absolute_name, insert, joint_end, moves_with, named_place,
+    resolve_places,
 };
 use crate::robots::warning::{Read, list_known, unknown_name};
 use crate::robots::xml::element::Element;
@@ -52,12 +53,8 @@ pub(crate) fn add_coupling(e: Element<'_>, joints: [&str; 2], ratio: f64, robot:
 ///
 /// # Errors
 /// Returns an error if a multiplier is not a number.
-pub(crate) fn read_plugin(
-    e: Element<'_>,
-    scope: &str,
-    scene: &SdfScene<'_>,
-    robot: &mut Robot,
-) -> Read<()> {
+pub(crate) fn read_plugin(at: &Scoped<'_>, scene: &SdfScene<'_>, robot: &mut Robot) -> Read<()> {
+    let (e, scope) = (at.0, at.1.as_str());
     if let (Some(leader), Some(follower)) = (child_text(e, "joint"), child_text(e, "mimicJoint")) {
         let ratio = e.child_number("multiplier")?.unwrap_or(1.0);
         let joints = [leader, follower].map(|j| absolute_name(scope, j));
@@ -267,7 +264,7 @@ fn add_joints<'a>(
         new.for_each(|p| p.closes = closes);
     }
     for &e in plugins {
-        read_plugin(e, "", &scene, robot)?;
+        read_plugin(&(e, String::new()), &scene, robot)?;
     }
     Ok(())
 }

@@ -20,6 +20,8 @@ use std::collections::{BTreeMap, BTreeSet};
 /// A link and a place on it.
 pub(crate) type End = (usize, RigidMotion);
 
+/// The two ends of a joint.
+pub(crate) type Ends = [End; 2];
 /// The places of a joint on its two links.
 type Sides = [RigidMotion; 2];
 
@@ -96,17 +98,12 @@ impl Part {
     ///
     /// # Errors
     /// Returns an error if both places are on the same link.
-    pub(crate) fn new_closing(
-        e: Element<'_>,
-        id: &str,
-        ends: [End; 2],
-        joint_type: JointType,
-    ) -> Read<Part> {
+    pub(crate) fn new_closing(e: Element<'_>, id: &str, ends: Ends, kind: JointType) -> Read<Part> {
         let links = ends.map(|end| end.0);
         if links[0] == links[1] {
             return Err(same_link(e));
         }
-        let part = Part::new(id, links, ends.map(|end| end.1), joint_type);
+        let part = Part::new(id, links, ends.map(|end| end.1), kind);
         Ok(Part {
             closes: true,
             ..part.said_by(e)

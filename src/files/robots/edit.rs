@@ -22,7 +22,7 @@ pub(crate) type Freeing<'a> = (&'a Part, Element<'a>, Freed<'a>);
 
 /// Changes to the text of a description.
 pub(crate) struct Edits<'a> {
-    origin: &'a Origin,
+    pub(crate) origin: &'a Origin,
     /// File, replaced range, and replacement.
     list: Vec<(usize, Range<usize>, String)>,
     /// Lines to insert as the last children of an element.
@@ -214,13 +214,8 @@ fn origin_of(at: Element<'_>) -> String {
 }
 
 /// Makes a `<mimic>` a comment.
-pub(crate) fn comment_out(
-    origin: &Origin,
-    element: usize,
-    why: &str,
-    edits: &mut Edits<'_>,
-) -> Read<()> {
-    let e = origin.element(element);
+pub(crate) fn comment_out(element: usize, why: &str, edits: &mut Edits<'_>) -> Read<()> {
+    let e = edits.origin.element(element);
     let raw = escape_comment(edits.raw_text(e));
     let span = e.node().span.start..end_of(e);
     edits.replace_span(e, span, format!("<!-- {why}; it was {raw} -->"));
@@ -277,20 +272,15 @@ pub(crate) fn free_sdf(origin: &Origin, all: &[Freeing<'_>], edits: &mut Edits<'
 }
 
 /// Returns the frame, in the world, in which axes of a joint's followers are given: of the joint, or of its model before SDF 1.5.
-fn axes_frame(
-    origin: &Origin,
-    model: Element<'_>,
-    part: &Part,
-    e: Element<'_>,
-) -> Read<RigidMotion> {
+fn axes_frame(of: &Origin, model: Element<'_>, part: &Part, e: Element<'_>) -> Read<RigidMotion> {
     // A joint with two axes that are not square is two parts; its child hangs on the last.
-    let mut parts = origin.robot.joints.iter().rev();
+    let mut parts = of.robot.joints.iter().rev();
     let last = parts.find(|p| p.element == Some(e.id)).unwrap_or(part);
     let to = last.links[1];
-    if !is_old(origin.element(origin.root)) {
-        return Ok(origin.places[to].then(&last.sides[1]));
+    if !is_old(of.element(of.root)) {
+        return Ok(of.places[to].then(&last.sides[1]));
     }
-    let back = origin.robot.places[to].then(&origin.places[to].inverse());
+    let back = of.robot.places[to].then(&of.places[to].inverse());
     let pose = model.first_child("pose").map(|p| p.text_numbers::<6>());
     let [_, _, _, roll, pitch, yaw] = pose.transpose()?.unwrap_or_default();
     let model = RigidMotion::roll_pitch_yaw([0.0; 3], [roll, pitch, yaw]);

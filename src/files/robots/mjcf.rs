@@ -60,7 +60,7 @@ impl<'a> Waiting<'a> {
 /// Reads a `<mujoco>` and the files it includes.
 pub(crate) fn read_mujoco(input: Input<'_>) -> Read<Robot> {
     let (document, root) = (input.document, input.root);
-    include::expand_includes(document, root, input.read, !input.options.models.is_empty())?;
+    include::expand_includes(document, root, input.read, input.options)?;
     replicate::expand_replicates(document, root)?;
     let root = document.element(root);
     let name = root.attribute("model").unwrap_or("robot");
@@ -139,7 +139,7 @@ fn read_bodies<'a>(start: Waiting<'a>, context: &mut Context<'a>, robot: &mut Ro
                     let place = w.place.then(&context.compiler.read_place(e)?);
                     here.push(inner(w.link, place));
                 }
-                "site" => read_site(e, &w, context, robot)?,
+                "site" => read_site(inner(w.link, w.place), context, robot)?,
                 "joint" | "freejoint" if w.link != 0 => {}
                 "joint" | "freejoint" => {
                     let remedy = "put the joint into a body";
@@ -170,12 +170,8 @@ fn read_bodies<'a>(start: Waiting<'a>, context: &mut Context<'a>, robot: &mut Ro
     Ok(())
 }
 
-fn read_site(
-    e: Element<'_>,
-    w: &Waiting<'_>,
-    context: &mut Context<'_>,
-    robot: &mut Robot,
-) -> Read<()> {
+fn read_site(w: Waiting<'_>, context: &mut Context<'_>, robot: &mut Robot) -> Read<()> {
+    let e = w.element;
     let place = w.place.then(&context.compiler.read_place(e)?);
     let Some(name) = e.attribute("name") else {
         robot.report.count_dropped("site", None);

@@ -140,17 +140,17 @@ fn read_joints(mut scene: SdfScene<'_>, robot: &mut Robot) -> Read<()> {
         read_joint(e, &scope, &scene, size, robot)?;
     }
     // These couple joints that are read by now.
-    for (e, scope) in gearboxes {
-        read_gearbox(e, &scope, &scene, robot)?;
+    for e in gearboxes {
+        read_gearbox(&e, &scene, robot)?;
     }
-    for (e, scope) in std::mem::take(&mut scene.constraints) {
-        match e.name() {
-            "drake:weld_constraint" => read_weld(e, &scope, &scene, robot)?,
-            _ => ball_constraint(e, robot)?,
+    for at in std::mem::take(&mut scene.constraints) {
+        match at.0.name() {
+            "drake:weld_constraint" => read_weld(&at, &scene, robot)?,
+            _ => ball_constraint(at.0, robot)?,
         }
     }
-    for (e, scope) in std::mem::take(&mut scene.plugins) {
-        read_plugin(e, &scope, &scene, robot)?;
+    for at in std::mem::take(&mut scene.plugins) {
+        read_plugin(&at, &scene, robot)?;
     }
     for e in std::mem::take(&mut scene.unknown) {
         leave_out(e, None, robot);

@@ -29,16 +29,17 @@ pub(crate) fn free_joints(origin: &Origin, all: &[Freeing<'_>], edits: &mut Edit
         parents: find_parents(origin),
         inserted: Vec::new(),
     };
-    for &(part, e, freed) in all {
+    for joint in all {
+        let &(_, e, freed) = joint;
         // A connect that may slide in three directions has no constraints.
         let slides = freed.iter().filter(|f| f.0).count();
         if e.name() == "connect" && slides == 3 {
             let why = "ozols fix: disabled, because other joints impose the same constraints";
-            deactivate(origin, e.id, why, edits)?;
+            deactivate(e.id, why, edits)?;
             continue;
         }
         match e.name() {
-            "connect" | "weld" => file.at_closure(e, part, freed, edits)?,
+            "connect" | "weld" => file.at_closure(joint, edits)?,
             _ => file.in_body(e, freed, edits)?,
         }
     }
@@ -46,13 +47,8 @@ pub(crate) fn free_joints(origin: &Origin, all: &[Freeing<'_>], edits: &mut Edit
 }
 
 /// Removes an equality of joints.
-pub(crate) fn deactivate(
-    origin: &Origin,
-    element: usize,
-    why: &str,
-    edits: &mut Edits<'_>,
-) -> Read<()> {
-    let e = origin.element(element);
+pub(crate) fn deactivate(element: usize, why: &str, edits: &mut Edits<'_>) -> Read<()> {
+    let e = edits.origin.element(element);
     edits.set_attribute(e, "active", "false")?;
     edits.insert_after(e, &[format!("<!-- {why} -->")]);
     Ok(())
@@ -191,13 +187,8 @@ impl<'a> MjcfFile<'a> {
     }
 
     /// Inserts a body that moves on the first body and is held in its place. If sites are held together, it has a copy of the first.
-    fn at_closure(
-        &mut self,
-        e: Element<'a>,
-        part: &Part,
-        freed: Freed<'_>,
-        edits: &mut Edits<'_>,
-    ) -> Read<()> {
+    fn at_closure(&mut self, joint: &Freeing<'a>, edits: &mut Edits<'_>) -> Read<()> {
+        let &(part, e, freed) = joint;
         let (robot, one) = (&self.origin.robot, part.links[0]);
         let at = self.origin.places[one].then(&part.sides[0]);
         let point = at.translation;

@@ -4,7 +4,9 @@ use crate::geom::rigid::{RigidMotion, unit_or_z};
 use crate::geom::vector::{Vector, Z, cross, dot, length, sub};
 use crate::model::joint_type::JointType;
 use crate::robots::description::{Part, Ratio, Robot, free_joint, same_link};
-use crate::robots::sdf::scene::{SdfScene, absolute_name, joint_end, locate_name, of_joint};
+use crate::robots::sdf::scene::{
+    Scoped, SdfScene, absolute_name, joint_end, locate_name, of_joint,
+};
 use crate::robots::warning::{Read, bad_value};
 use crate::robots::xml::element::Element;
 
@@ -207,12 +209,8 @@ pub(crate) fn screw_pitch(e: Element<'_>) -> Read<f64> {
 }
 
 /// Reads a universal joint, or two revolute ones if the axes are not perpendicular.
-pub(crate) fn two_axes(
-    e: Element<'_>,
-    mut part: Part,
-    [first, second]: [Vector; 2],
-    robot: &mut Robot,
-) -> Read<()> {
+fn two_axes(e: Element<'_>, mut part: Part, axes: [Vector; 2], robot: &mut Robot) -> Read<()> {
+    let [first, second] = axes;
     let (a, b) = (unit_or_z(first), unit_or_z(second));
     if length(cross(a, b)) < 1e-9 {
         return Err(e.unsupported_error("its two axes are parallel", "give two directions"));
@@ -239,12 +237,8 @@ pub(crate) fn two_axes(
 }
 
 /// Reads Drake's weld of two frames.
-pub(crate) fn read_weld(
-    e: Element<'_>,
-    scope: &str,
-    scene: &SdfScene<'_>,
-    robot: &mut Robot,
-) -> Read<()> {
+pub(crate) fn read_weld(at: &Scoped<'_>, scene: &SdfScene<'_>, robot: &mut Robot) -> Read<()> {
+    let (e, scope) = (at.0, at.1.as_str());
     let mut ends = [(0, RigidMotion::IDENTITY); 2];
     for (x, tag) in ends.iter_mut().zip(["parent", "child"]) {
         let (c, name) = joint_end(e, tag)?;
@@ -265,12 +259,8 @@ pub(crate) fn read_weld(
 
 /// Couples the hinges of the parent and of the child on the reference body: the child turns the other way, faster by the gear
 /// ratio. If there are no such hinges, the gearbox is omitted and reported.
-pub(crate) fn read_gearbox(
-    e: Element<'_>,
-    scope: &str,
-    scene: &SdfScene<'_>,
-    robot: &mut Robot,
-) -> Read<()> {
+pub(crate) fn read_gearbox(at: &Scoped<'_>, scene: &SdfScene<'_>, robot: &mut Robot) -> Read<()> {
+    let (e, scope) = (at.0, at.1.as_str());
     let name = format!("{scope}{}", e.required_attribute("name")?);
     let world = of_joint(scene, e, &name).unwrap_or(RigidMotion::IDENTITY);
     let times = e.child_number("gearbox_ratio")?.unwrap_or(1.0);

@@ -41,11 +41,14 @@ impl<'a> Placed<'a> {
     }
 }
 
+/// An element and the scope of its names.
+pub(crate) type Scoped<'a> = (Element<'a>, String);
+
 #[derive(Default)]
 pub(crate) struct SdfScene<'a> {
     pub(super) placed: BTreeMap<String, Placed<'a>>,
-    pub(super) joints: Vec<(Element<'a>, String)>,
-    pub(crate) constraints: Vec<(Element<'a>, String)>,
+    pub(super) joints: Vec<Scoped<'a>>,
+    pub(crate) constraints: Vec<Scoped<'a>>,
     /// Links of static models.
     pub(super) fixed: Vec<usize>,
     /// By file, whether axes are given in the model's frame: before SDF 1.5.
@@ -53,7 +56,7 @@ pub(crate) struct SdfScene<'a> {
     /// Whether joints put their parent frame onto the child.
     pub(super) assemble: bool,
     /// Plugins of models and worlds, each with its scope.
-    pub(super) plugins: Vec<(Element<'a>, String)>,
+    pub(super) plugins: Vec<Scoped<'a>>,
     /// Elements of models that are not known.
     pub(super) unknown: Vec<Element<'a>>,
     /// The link that is the world.
