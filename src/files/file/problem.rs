@@ -58,6 +58,9 @@ impl ProblemKind {
     }
 }
 
+/// A problem or warning and the path of its item.
+type At<K> = (DocumentPath, K);
+
 /// A problem or warning and its place in a text.
 #[derive(Debug, Clone)]
 pub struct Located<K> {
@@ -69,11 +72,7 @@ pub struct Located<K> {
 
 impl<K: Display> Located<K> {
     /// Locates what was found at the paths of a text.
-    pub(crate) fn locate_all(
-        text: &str,
-        json: bool,
-        found: Vec<(DocumentPath, K)>,
-    ) -> Vec<Located<K>> {
+    pub(crate) fn locate_all(text: &str, json: bool, found: Vec<At<K>>) -> Vec<Located<K>> {
         let document = Document::new(text, json);
         let span = |path: &DocumentPath| document.as_ref().and_then(|d| d.find_span(path));
         let located = |(path, kind)| Located {

@@ -22,7 +22,17 @@ use crate::robots::warning::{Found, Options, bad_value, list_known, syntax_probl
 use itertools::Itertools;
 use std::collections::BTreeSet;
 
-pub(crate) fn apply_pose(robot: &mut Robot, options: &Options) -> Found<()> {
+/// Puts a robot into its pose and closes its loops. Returns its tree.
+pub(crate) fn pose_robot(robot: &mut Robot, options: &Options) -> Found<Tree> {
+    apply_pose(robot, options)?;
+    let frame = root_link(robot, options)?;
+    let tree = spanning_tree(robot, frame);
+    check_held(robot, &tree)?;
+    close_loops(robot, &tree, options)?;
+    Ok(tree)
+}
+
+fn apply_pose(robot: &mut Robot, options: &Options) -> Found<()> {
     for (id, values) in &options.pose {
         let Some(joint) = robot.joints.iter_mut().find(|j| j.id == *id) else {
             let known = list_known("joints", robot.joints.iter().map(|j| &j.id));
@@ -39,7 +49,7 @@ pub(crate) fn apply_pose(robot: &mut Robot, options: &Options) -> Found<()> {
 }
 
 /// Returns the frame: the world if something is connected to it, otherwise the link that is no joint's child.
-pub(crate) fn root_link(robot: &mut Robot, options: &Options) -> Found<usize> {
+fn root_link(robot: &mut Robot, options: &Options) -> Found<usize> {
     if let Some(name) = &options.frame {
         return link_of(robot, name);
     }
@@ -90,7 +100,7 @@ fn loose_roots(robot: &Robot, tree: &Tree) -> Vec<usize> {
 }
 
 /// Checks that every link is connected to the frame.
-pub(crate) fn check_held(robot: &Robot, tree: &Tree) -> Found<()> {
+fn check_held(robot: &Robot, tree: &Tree) -> Found<()> {
     let loose = loose_roots(robot, tree);
     if loose.is_empty() {
         return Ok(());
@@ -105,7 +115,7 @@ pub(crate) fn check_held(robot: &Robot, tree: &Tree) -> Found<()> {
 }
 
 /// Closes the loops of a robot: as drawn, by moving joints, or not at all if the options ask for that.
-pub(crate) fn close_loops(robot: &mut Robot, tree: &Tree, options: &Options) -> Found<()> {
+fn close_loops(robot: &mut Robot, tree: &Tree, options: &Options) -> Found<()> {
     if tree.loops.is_empty() {
         return Ok(());
     }

@@ -11,7 +11,6 @@ use crate::geom::vector::length;
 use crate::model::joint_type::JointType;
 use crate::robots::additions::{ball_constraint, leave_out, read_plugin};
 use crate::robots::description::{Part, Robot};
-use crate::robots::sdf::include::Expanded;
 use crate::robots::sdf::joints::{read_gearbox, read_joint, read_weld};
 use crate::robots::sdf::scene::{
     Placed, SdfScene, absolute_name, insert, moves_with, named_place, read_pose, resolve_places,
@@ -21,19 +20,18 @@ use crate::robots::xml::Input;
 use crate::robots::xml::element::Element;
 
 /// Reads an `<sdf>`.
-pub(crate) fn read_sdf(input: Input<'_>) -> Read<Robot> {
-    let (document, root) = (input.document, input.root);
-    let Expanded { old, scenery } = include::expand_includes(document, root, input.read)?;
-    let root = document.element(root);
+pub(crate) fn read_sdf(mut input: Input<'_>) -> Read<Robot> {
+    let included = include::expand_includes(&mut input)?;
+    let root = input.document.element(input.root);
     let mut robot = Robot::new("robot");
     let what = "include of a light or floor";
-    for uri in &scenery {
+    for uri in &included.scenery {
         robot.report.count_dropped(what, Some(uri));
     }
     robot.world = Some(robot.add_link("world", RigidMotion::IDENTITY));
     robot.floats = true;
     let mut scene = SdfScene {
-        old_axes: old,
+        old_axes: included.old,
         assemble: input.options.assemble,
         ..SdfScene::default()
     };

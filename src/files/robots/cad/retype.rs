@@ -37,6 +37,9 @@ const SIMPLE: [([Left; 2], SimpleType); 6] = [
 /// Freedoms, each a slide or a turn and its direction.
 type Freedoms = [(bool, Vector)];
 
+/// The freedoms that each joint gets.
+type ByJoint = BTreeMap<JointId, Vec<(bool, Vector)>>;
+
 /// The turns, or the slides, that a joint allows.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Left {
@@ -134,7 +137,7 @@ pub(crate) fn retype_joints(imported: &Imported, releases: &[(Release, String)])
         };
         match imported.format.word {
             "asmt" => edits.replace_span(element, element.node().span.clone(), ondsel.to_owned()),
-            _ => set_enumeration(origin, part, element, freecad, &mut edits)?,
+            _ => set_enumeration(part, element, freecad, &mut edits)?,
         }
     }
     let text = edits.apply_edits()?;
@@ -151,11 +154,8 @@ fn retype_error(part: &Part, element: Element<'_>, why: String) -> ImportError {
 }
 
 /// Returns the freedoms that each joint gets.
-fn by_joint(
-    origin: &Origin,
-    releases: &[(Release, String)],
-) -> Read<BTreeMap<JointId, Vec<(bool, Vector)>>> {
-    let mut out: BTreeMap<JointId, Vec<(bool, Vector)>> = BTreeMap::new();
+fn by_joint(origin: &Origin, releases: &[(Release, String)]) -> Read<ByJoint> {
+    let mut out = ByJoint::new();
     for (release, _) in releases {
         match *release {
             Release::Freedom {
@@ -175,26 +175,20 @@ fn by_joint(
 }
 
 /// Returns the index of a type in the list next to it, as FreeCAD writes it.
-fn set_enumeration(
-    origin: &Origin,
-    part: &Part,
-    property: Element<'_>,
-    word: &str,
-    edits: &mut Edits<'_>,
-) -> Read<()> {
-    let list = property.first_child("CustomEnumList");
+fn set_enumeration(part: &Part, e: Element<'_>, word: &str, edits: &mut Edits<'_>) -> Read<()> {
+    let list = e.first_child("CustomEnumList");
     let mut words = list.iter().flat_map(|l| l.children_named("Enum"));
-    let place = words.position(|e| e.attribute("value") == Some(word));
-    let (Some(integer), Some(place)) = (property.first_child("Integer"), place) else {
+    let place = words.position(|w| w.attribute("value") == Some(word));
+    let (Some(integer), Some(place)) = (e.first_child("Integer"), place) else {
         let why = format!("this version of FreeCAD has no joint type {word}");
-        return Err(retype_error(part, property, why));
+        return Err(retype_error(part, e, why));
     };
     edits.set_attribute(integer, "value", &place.to_string())?;
     // FreeCAD then solves the assembly again when it opens the file.
-    let root = origin.element(origin.root);
+    let root = edits.origin.element(edits.origin.root);
     let has = |o: &Element<'_>| {
         let all = o.first_child("Properties");
-        all.is_some_and(|p| p.children().any(|c| c.id == property.id))
+        all.is_some_and(|p| p.children().any(|c| c.id == e.id))
     };
     let data = root.first_child("ObjectData");
     let name = data.and_then(|d| d.children_named("Object").find(has)?.attribute("name"));

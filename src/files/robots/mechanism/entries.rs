@@ -44,6 +44,9 @@ fn fitting_name(names: &mut Names, wanted: &str) -> String {
     })
 }
 
+/// The names of bodies.
+type Ids = BTreeMap<usize, String>;
+
 /// What the parts of a mechanism are made of.
 pub(crate) struct Content {
     /// Places of the links in the pose found.
@@ -117,11 +120,7 @@ fn describe_source(robot: &Robot, source: &str) -> String {
 }
 
 /// Returns the links, the frame first, with the names of their bodies.
-fn make_links(
-    robot: &Robot,
-    c: &Content,
-    comments: &mut Vec<Comment>,
-) -> (Vec<LinkEntry>, BTreeMap<usize, String>) {
+fn make_links(robot: &Robot, c: &Content, comments: &mut Vec<Comment>) -> (Vec<LinkEntry>, Ids) {
     let mut merged: BTreeMap<usize, Vec<&str>> = BTreeMap::new();
     for (l, &b) in c.bodies.iter().enumerate() {
         if l != b {
@@ -162,13 +161,7 @@ fn file_direction(v: Vector) -> Vector {
     if usual { v } else { unit_or_z(v) }
 }
 
-fn make_joint(
-    p: &Part,
-    c: &Content,
-    id: String,
-    coupled: bool,
-    ids: &BTreeMap<usize, String>,
-) -> JointEntry {
+fn make_joint(p: &Part, c: &Content, id: String, coupled: bool, ids: &Ids) -> JointEntry {
     let place = c.places[p.links[0]].then(&p.sides[0]);
     let axes = world_axes(p, &c.places);
     let about = |f: &[Freedom]| {

@@ -121,6 +121,9 @@ impl Compiler {
     }
 }
 
+/// The name of a class, if there is one.
+type Class<'a> = Option<&'a str>;
+
 /// The classes: for each the class around it and its `<default>` elements.
 pub(crate) struct Defaults<'a> {
     classes: BTreeMap<&'a str, (Option<&'a str>, Vec<Element<'a>>)>,
@@ -158,13 +161,8 @@ impl<'a> Defaults<'a> {
 
     /// Returns the elements that hold the attributes of an element. The first is the element itself. The second is `tag` in its class,
     /// otherwise in the class of the bodies around it, otherwise in the main one.
-    pub(crate) fn lookup(
-        &self,
-        e: Element<'a>,
-        tag: &str,
-        childclass: Option<&'a str>,
-    ) -> Read<Lookup<'a>> {
-        let given = e.attribute("class").or(childclass);
+    pub(crate) fn lookup(&self, e: Element<'a>, tag: &str, class: Class<'a>) -> Read<Lookup<'a>> {
+        let given = e.attribute("class").or(class);
         if let Some(c) = given
             && !self.classes.contains_key(c)
         {

@@ -195,12 +195,11 @@ fn read_tendons(e: Element<'_>, root: Element<'_>, robot: &mut Robot) -> Read<()
     Ok(())
 }
 
+/// The coefficients of joints.
+type Row<'a> = BTreeMap<&'a str, f64>;
+
 /// Returns the coefficients of the joints whose sum is the length of a tendon. `None` if it is not a `<fixed>` tendon.
-fn tendon_length<'a>(
-    e: Element<'a>,
-    key: &'static str,
-    root: Element<'a>,
-) -> Read<Option<BTreeMap<&'a str, f64>>> {
+fn tendon_length<'a>(e: Element<'a>, key: &str, root: Element<'a>) -> Read<Option<Row<'a>>> {
     let name = e.required_attribute(key)?;
     let all = root
         .children_named("tendon")

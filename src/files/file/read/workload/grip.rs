@@ -143,14 +143,9 @@ fn read_load(t: &Place<'_>, e: &GripEntry, unit: f64) -> Option<GripLoad> {
     })
 }
 
-fn read_transmission(
-    t: &Place<'_>,
-    e: &GripEntry,
-    unit: f64,
-    mechanism: Option<&Parts>,
-) -> Transmission {
+fn read_transmission(t: &Place<'_>, e: &GripEntry, unit: f64, m: Option<&Parts>) -> Transmission {
     let arm = t.read_positive("drive_arm", &e.drive_arm, unit);
-    match (arm, &e.lever_joints, mechanism) {
+    match (arm, &e.lever_joints, m) {
         (Some(_), Some(_), _) => t.add_excluded_key("lever_joints", "drive_arm"),
         (Some(arm), None, _) => return Transmission::Arm(arm),
         (None, None, _) => {}
