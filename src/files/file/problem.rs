@@ -48,12 +48,10 @@ impl<M: Into<String>> From<M> for ProblemKind {
 impl ProblemKind {
     /// Returns the error of a file that has only this problem, at the given place.
     pub(crate) fn in_file(self, file: &str, text: &str, span: Option<Range<usize>>) -> ImportError {
-        let (file, text) = (file.to_owned(), text.to_owned());
-        let problems = vec![Located { kind: self, span }];
         ImportError {
-            file,
-            text,
-            problems,
+            file: file.to_owned(),
+            text: text.to_owned(),
+            problems: vec![Located { kind: self, span }],
         }
     }
 }
@@ -155,10 +153,9 @@ impl ImportError {
     ) -> ImportError {
         let mut problems = Located::locate_all(text, json, found);
         problems.sort_by_key(|p| p.span.as_ref().map_or(usize::MAX, |s| s.start));
-        let (file, text) = (file.to_owned(), text.to_owned());
         ImportError {
-            file,
-            text,
+            file: file.to_owned(),
+            text: text.to_owned(),
             problems,
         }
     }

@@ -103,11 +103,9 @@ impl Part {
         if links[0] == links[1] {
             return Err(same_link(e));
         }
-        let part = Part::new(id, links, ends.map(|end| end.1), kind);
-        Ok(Part {
-            closes: true,
-            ..part.said_by(e)
-        })
+        let mut part = Part::new(id, links, ends.map(|end| end.1), kind).said_by(e);
+        part.closes = true;
+        Ok(part)
     }
 
     /// Sets the element of the joint.

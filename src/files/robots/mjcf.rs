@@ -201,10 +201,8 @@ fn read_body<'a>(at: Waiting<'a>, context: &Context<'a>, robot: &mut Robot) -> R
     e.check_room("joints", robot.joints.len())?;
     let world = robot.places[parent].then(&place);
     let mut joints = Vec::new();
-    let own = Waiting {
-        place: RigidMotion::IDENTITY,
-        ..at
-    };
+    let mut own = at;
+    own.place = RigidMotion::IDENTITY;
     own_joints(own, context, &mut joints)?;
     robot.report.count_mapped("body");
     if joints.is_empty() {

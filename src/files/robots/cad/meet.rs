@@ -64,12 +64,12 @@ fn at_point(m: RigidMotion, translation: Vector) -> RigidMotion {
 
 /// Returns the orientation of J that is nearest to I among those along the same lines: a cosine of 0 also holds for a flipped
 /// part.
-fn nearest_rotation(i: &RigidMotion, j: &RigidMotion) -> [Vector; 3] {
+fn nearest_frame(i: &RigidMotion, j: &RigidMotion) -> RigidMotion {
     let [x, y] = [0, 1].map(|k| {
         let a = frame_axis(j, k);
         scale(a, dot(a, frame_axis(i, k)).signum())
     });
-    make_frame([0.0; 3], cross(x, y), x).rotation
+    make_frame([0.0; 3], cross(x, y), x)
 }
 
 /// Returns the joint that connects two frames at their pose, given in the world.
@@ -87,10 +87,7 @@ pub(crate) fn find_meeting(holds: Holds, i: &RigidMotion, j: &RigidMotion) -> Me
     let zj = scale(zj, if dot(zj, z) < 0.0 { -1.0 } else { 1.0 });
     let at = |point| make_frame(point, z, x);
     let tilted = |point| tilt_to(&at(point), zj);
-    let as_j = |point| RigidMotion {
-        rotation: nearest_rotation(i, j),
-        translation: point,
-    };
+    let as_j = |point| at_point(nearest_frame(i, j), point);
     let simple = Meeting::new;
     Ok(match holds {
         Holds::Fixed => simple(JointType::Fixed, at(oi), as_j(oj)),

@@ -62,10 +62,8 @@ fn distance_constraint(kinds: Kinds, frames: [RigidMotion; 2], value: f64) -> He
         (planes.unwrap_or(Holds::Planar(value)), false)
     });
     let found = Held {
-        holds,
-        frames,
         swap,
-        doubt: None,
+        ..Held::new(holds, frames)
     };
     match kinds {
         [Some(_), Some(_)] => found,
@@ -139,6 +137,17 @@ pub(crate) struct Held {
     pub(crate) doubt: Option<&'static str>,
 }
 
+impl Held {
+    fn new(holds: Holds, frames: [RigidMotion; 2]) -> Held {
+        Held {
+            holds,
+            frames,
+            swap: false,
+            doubt: None,
+        }
+    }
+}
+
 /// The direction of a slide, and the part that has it: racks slide along one.
 pub(crate) type Slide<'a> = (Option<&'a str>, [f64; 3]);
 
@@ -174,12 +183,7 @@ pub(crate) fn joint_constraint(
 ) -> Read<Option<Held>> {
     let frames = joint_frames(joint, ends)?;
     let figure = |name: &str| -> Read<f64> { Ok(joint.property_number(name)?.unwrap_or(0.0)) };
-    let plain = |holds| Held {
-        holds,
-        frames,
-        swap: false,
-        doubt: None,
-    };
+    let plain = |holds| Held::new(holds, frames);
     Ok(Some(match word {
         "Fixed" => plain(Holds::Fixed),
         "Revolute" => plain(Holds::Revolute),
@@ -241,21 +245,17 @@ fn rack_and_pinion(
         (None, found) => (1, found),
     };
     let Some(direction) = found else {
+        let doubt =
+            "neither part has a slider; the first is treated as the rack, along x of its frame";
         return Held {
-            holds: Holds::RackPinion(radius),
-            frames,
-            swap: false,
-            doubt: Some(
-                "neither part has a slider; the first is treated as the rack, along x of its frame",
-            ),
+            doubt: Some(doubt),
+            ..Held::new(Holds::RackPinion(radius), frames)
         };
     };
     let there = rack_frame(&frames[i], &frames[1 - i], direction);
     Held {
-        holds: Holds::RackPinion(radius),
-        frames: [there, frames[1 - i]],
         swap: i == 1,
-        doubt: None,
+        ..Held::new(Holds::RackPinion(radius), [there, frames[1 - i]])
     }
 }
 

@@ -52,10 +52,9 @@ pub(super) fn read_compiler(root: Element<'_>) -> Read<Compiler> {
 impl Compiler {
     /// Returns the placement given by `pos` and one of the five forms of orientation.
     pub(super) fn read_place(&self, e: Element<'_>) -> Read<RigidMotion> {
-        Ok(RigidMotion {
-            translation: e.read_vector("pos", [0.0; 3])?,
-            ..self.read_rotation(e)?
-        })
+        let mut out = self.read_rotation(e)?;
+        out.translation = e.read_vector("pos", [0.0; 3])?;
+        Ok(out)
     }
 
     /// Returns the rotation given by one of the five forms.

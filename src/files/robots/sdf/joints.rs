@@ -74,14 +74,10 @@ pub(crate) fn read_joint(
     let joint_type = joint_type(e, word)?;
     let far = length(sub(parent_world.translation, world.translation));
     let apart = is_frame(&absolute_name(scope, parent_name), scene) && far > APART * size;
-    let on_parent = if apart && scene.assemble {
-        RigidMotion {
-            translation: parent_world.translation,
-            ..world
-        }
-    } else {
-        world
-    };
+    let mut on_parent = world;
+    if apart && scene.assemble {
+        on_parent.translation = parent_world.translation;
+    }
     let on = |link: usize, at: &RigidMotion| robot.places[link].inverse().then(at);
     let sides = [on(parent, &on_parent), on(child, &world)];
     let mut part = Part::new(&name, [parent, child], sides, joint_type).said_by(e);
