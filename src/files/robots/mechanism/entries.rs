@@ -47,7 +47,7 @@ fn fitting_name(names: &mut Names, wanted: &str) -> String {
 /// The names of bodies.
 type Ids = BTreeMap<usize, String>;
 
-/// What the parts of a mechanism are made of.
+/// The bodies, joints and couplings of a mechanism, as parts of the robot.
 pub(crate) struct Content {
     /// Places of the links in the pose found.
     pub(in crate::robots) places: Vec<RigidMotion>,
