@@ -56,8 +56,11 @@ pub(crate) fn read_assembly(input: Input<'_>) -> Read<Robot> {
     }
     let sets = root.first_child("ConstraintSets");
     let mut connections = Vec::new();
-    let joints = sets.and_then(|s| s.first_child("Joints"));
-    for joint in joints.iter().flat_map(|j| j.children()) {
+    let within = |set: &str| -> Vec<Element<'_>> {
+        let found = sets.and_then(|s| s.first_child(set));
+        found.iter().flat_map(|s| s.children()).collect()
+    };
+    for joint in within("Joints") {
         joint.check_room("joints", connections.len())?;
         if joint.name().contains(CONTACT) {
             let name = joint.first_child("Name").map(|n| n.text());
@@ -66,15 +69,14 @@ pub(crate) fn read_assembly(input: Input<'_>) -> Read<Robot> {
         }
         connections.push(read_connection(joint, &markers)?);
     }
-    for set in ["Motions", "GeneralConstraintSets"] {
-        let found = sets.and_then(|s| s.first_child(set));
-        for e in found.iter().flat_map(|s| s.children()) {
-            let name = e.first_child("Name").map(|n| n.text());
-            robot.report.count_dropped(e.name(), name);
-        }
+    for e in ["Motions", "GeneralConstraintSets"]
+        .into_iter()
+        .flat_map(within)
+    {
+        let name = e.first_child("Name").map(|n| n.text());
+        robot.report.count_dropped(e.name(), name);
     }
-    let limits = sets.and_then(|s| s.first_child("Limits"));
-    for limit in limits.iter().flat_map(|s| s.children()) {
+    for limit in within("Limits") {
         robot.report.add_approximation(&label_of(limit), NO_LIMITS);
     }
     let assembly = Assembly {

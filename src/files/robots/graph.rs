@@ -7,7 +7,6 @@ use crate::robots::mechanism::series_of_single_joints::escape_xml;
 use std::fmt::Write;
 
 /// Writes links as nodes (the frame with a double outline, outputs filled) and joints as edges with their class.
-#[must_use]
 pub(super) fn write_dot(m: &Mechanism) -> String {
     let mut out = format!("graph {} {{\n", quote_dot(&m.name));
     for (l, link) in m.links_with_ids() {
@@ -51,7 +50,6 @@ const KEYS: [(&str, &str, &str); 8] = [
 ];
 
 /// Writes links as nodes and joints as edges, with all data on the structure.
-#[must_use]
 pub(super) fn write_graphml(m: &Mechanism) -> String {
     let mut out = String::from(
         "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<graphml xmlns=\"http://graphml.graphdrawing.org/xmlns\">\n",

@@ -219,7 +219,6 @@ fn read_inertias(
 pub(in crate::file::read) const MOST: usize = 10_000;
 
 /// Returns the given number of swings, of both discs in turn or only of the second, with a dwell after each if one is given.
-#[must_use]
 pub(crate) fn regular_programme(
     stepwise: bool,
     swings: usize,
