@@ -212,13 +212,9 @@ fn option_frame(joint: &str, present: &Frame, table: &OptionTable, at: &Place<'_
         return check_frame(joint, point, axis, reference, pitch, at);
     }
     // These directions are already checked.
-    let reference = present.reference.clone();
-    Frame {
-        point,
-        axis,
-        reference,
-        pitch,
-    }
+    let mut frame = present.clone();
+    (frame.point, frame.pitch) = (point, pitch);
+    frame
 }
 
 /// Returns true if one joint allows every motion of another at the same place, computed exactly over a prime field. `None` if the

@@ -268,18 +268,17 @@ pub(crate) fn joint_types(
         check_figures(entry, &at);
         let milli = entry.cost.and_then(|c| at.key("cost").read_cost(c));
         costs.extend(milli.map(|milli| (name.to_owned(), milli)));
-        let says = TypeOverride {
-            name: name.to_owned(),
-            capacity_force: entry.capacity_force,
-            capacity_moment: entry.capacity_moment,
-            clearance: entry.clearance,
-        };
+        let says = [entry.capacity_force, entry.capacity_moment, entry.clearance];
         // An entry with only a cost does not change the capacity of the type.
-        let nothing = TypeOverride {
-            name: name.to_owned(),
-            ..TypeOverride::default()
-        };
-        found.extend((says != nothing).then_some(says));
+        if says.iter().any(Option::is_some) {
+            let [capacity_force, capacity_moment, clearance] = says;
+            found.push(TypeOverride {
+                name: name.to_owned(),
+                capacity_force,
+                capacity_moment,
+                clearance,
+            });
+        }
     }
     (found, costs)
 }
