@@ -160,15 +160,6 @@ impl ImportError {
         }
     }
 
-    /// Returns line and column, from 1, of a byte.
-    #[must_use]
-    pub(crate) fn line_and_column(&self, at: usize) -> (usize, usize) {
-        let before = self.text.get(..at.min(self.text.len())).unwrap_or("");
-        let last = before.rsplit('\n').next().unwrap_or("");
-        let line = before.matches('\n').count() + 1;
-        (line, last.chars().count() + 1)
-    }
-
     /// Returns true if the only problem is that nothing can move.
     ///
     /// # Examples
@@ -191,6 +182,14 @@ impl ImportError {
     }
 }
 
+/// Returns line and column of a byte of a text, both from 1.
+pub(crate) fn line_and_column(text: &str, at: usize) -> [usize; 2] {
+    let before = text.get(..at.min(text.len())).unwrap_or("");
+    let last = before.rsplit('\n').next().unwrap_or("");
+    let line = before.matches('\n').count() + 1;
+    [line, last.chars().count() + 1]
+}
+
 impl Display for ImportError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         for (i, p) in self.problems.iter().enumerate() {
@@ -199,7 +198,7 @@ impl Display for ImportError {
             }
             match &p.span {
                 Some(s) => {
-                    let (line, column) = self.line_and_column(s.start);
+                    let [line, column] = line_and_column(&self.text, s.start);
                     write!(f, "{}:{line}:{column}: {}", self.file, p.kind)?;
                 }
                 None => write!(f, "{}: {}", self.file, p.kind)?,

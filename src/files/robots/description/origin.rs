@@ -1,5 +1,6 @@
 //! The places of the parts of a mechanism in its description.
 
+use crate::file::problem::line_and_column;
 use crate::format::three_digits;
 use crate::geom::rigid::RigidMotion;
 use crate::model::mechanism::JointId;
@@ -139,14 +140,9 @@ impl Origin {
     fn element_place(&self, id: usize) -> ElementPlace {
         let node = self.element(id).node();
         let source = &self.document.sources[node.source];
-        let before = &source.text[..node.span.start];
-        let line = before.rfind('\n').map_or(0, |n| n + 1);
         ElementPlace {
             file: source.name.clone(),
-            at: [
-                before.matches('\n').count() + 1,
-                before[line..].chars().count() + 1,
-            ],
+            at: line_and_column(&source.text, node.span.start),
             tag: self.element(id).name().to_owned(),
         }
     }

@@ -49,6 +49,9 @@ pub(super) fn read_compiler(root: Element<'_>) -> Read<Compiler> {
     Ok(out)
 }
 
+/// The five forms of an orientation.
+const ORIENTATIONS: [&str; 5] = ["quat", "axisangle", "xyaxes", "zaxis", "euler"];
+
 impl Compiler {
     /// Returns the placement given by `pos` and one of the five forms of orientation.
     pub(super) fn read_place(&self, e: Element<'_>) -> Read<RigidMotion> {
@@ -59,41 +62,33 @@ impl Compiler {
 
     /// Returns the rotation given by one of the five forms.
     pub(super) fn read_rotation(&self, e: Element<'_>) -> Read<RigidMotion> {
-        let zero = |name: &str| {
+        let nonzero = |name: &str, size: f64| {
             let want = "give a direction or quaternion that is not zero";
             let found = e.attribute(name).unwrap_or("");
-            e.error_at(Some(name), bad_value(&e.label(), name, found, want))
+            let problem = || e.error_at(Some(name), bad_value(&e.label(), name, found, want));
+            (size >= 1e-9).then_some(()).ok_or_else(problem)
         };
-        let ways = ["quat", "axisangle", "xyaxes", "zaxis", "euler"];
-        let given = ways.into_iter().filter(|w| e.attribute(w).is_some());
-        let given: Vec<&str> = given.collect();
+        let given = ORIENTATIONS.into_iter();
+        let given: Vec<&str> = given.filter(|w| e.attribute(w).is_some()).collect();
         if given.len() > 1 {
             let why = format!("it has two orientations, {}", given.join(" and "));
             return Err(e.unsupported_error(&why, "keep one"));
         }
         let mut pose = RigidMotion::IDENTITY;
         if let Some(q) = e.read_numbers::<4>("quat")? {
-            if q.iter().all(|x| x.abs() < 1e-9) {
-                return Err(zero("quat"));
-            }
+            nonzero("quat", q.iter().fold(0.0, |most, x| x.abs().max(most)))?;
             pose = RigidMotion::from_quaternion([0.0; 3], q);
         } else if let Some([x, y, z, angle]) = e.read_numbers::<4>("axisangle")? {
-            if length([x, y, z]) < 1e-9 {
-                return Err(zero("axisangle"));
-            }
+            nonzero("axisangle", length([x, y, z]))?;
             pose = pose.then(&RigidMotion::from_turn([x, y, z], angle * self.angle));
         } else if let Some([a, b, c, d, f, g]) = e.read_numbers::<6>("xyaxes")? {
             let x = unit_or_z([a, b, c]);
             let y = sub([d, f, g], scale(x, dot(x, [d, f, g])));
-            if length([a, b, c]) < 1e-9 || length(y) < 1e-9 {
-                return Err(zero("xyaxes"));
-            }
+            nonzero("xyaxes", length([a, b, c]).min(length(y)))?;
             let (y, z) = (unit_or_z(y), cross(x, unit_or_z(y)));
             pose.rotation = [0, 1, 2].map(|i| [x[i], y[i], z[i]]);
         } else if let Some(z) = e.read_numbers::<3>("zaxis")? {
-            if length(z) < 1e-9 {
-                return Err(zero("zaxis"));
-            }
+            nonzero("zaxis", length(z))?;
             pose = pose.then(&RigidMotion::z_to(z));
         } else if let Some(angles) = e.read_numbers::<3>("euler")? {
             pose = pose.then(&self.euler_rotation(angles));
