@@ -58,9 +58,9 @@ impl<'a> Waiting<'a> {
 }
 
 /// Reads a `<mujoco>` and the files it includes.
-pub(crate) fn read_mujoco(input: Input<'_>) -> Read<Robot> {
+pub(crate) fn read_mujoco(mut input: Input<'_>) -> Read<Robot> {
+    include::expand_includes(&mut input)?;
     let (document, root) = (input.document, input.root);
-    include::expand_includes(document, root, input.read, input.options)?;
     replicate::expand_replicates(document, root)?;
     let root = document.element(root);
     let name = root.attribute("model").unwrap_or("robot");

@@ -1,23 +1,19 @@
 //! Includes: the children of another file's root in place of an element.
 
-use crate::robots::warning::{Options, Read, Reader, unsupported_problem};
-use crate::robots::xml::{self, Document};
+use crate::robots::warning::{Read, Reader, unsupported_problem};
+use crate::robots::xml::{self, Document, Input};
 use std::path::{Component, Path};
 
 /// Maximum depth of nested files, and number of includes.
 const LIMITS: (usize, usize) = (16, 1000);
 
-/// Replaces all `<include>` elements below `root` by the included files. Files outside its folder are read if folders are given.
-pub(super) fn expand_includes(
-    document: &mut Document,
-    root: usize,
-    read: Reader<'_>,
-    options: &Options,
-) -> Read<()> {
+/// Replaces all `<include>` elements below the root by the included files. Files outside its folder are read if folders are given.
+pub(super) fn expand_includes(input: &mut Input<'_>) -> Read<()> {
+    let (document, root) = (&mut *input.document, input.root);
     let names = vec![document.element(root).source().to_owned()];
     let mut files = Files {
-        read,
-        outside: !options.models.is_empty(),
+        read: input.read,
+        outside: !input.options.models.is_empty(),
         count: 0,
     };
     files.expand_below(document, root, &names)

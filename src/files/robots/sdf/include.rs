@@ -44,7 +44,7 @@ pub(super) fn expand_includes<'r>(input: &mut Input<'r>) -> Read<Expanded<'r>> {
                 continue;
             }
             out.count += 1;
-            let (model, uri) = out.read_included(document, c, &open)?;
+            let (model, uri) = out.read_model(document, c, &open)?;
             let Some(model) = model else {
                 out.scenery.push(uri);
                 continue;
@@ -73,12 +73,7 @@ type Found = (Option<usize>, String);
 
 impl Expanded<'_> {
     /// Returns the model that an include names, with the settings of the include, and the name. `None` for a light or the floor.
-    fn read_included(
-        &mut self,
-        document: &mut Document,
-        id: usize,
-        open: &[String],
-    ) -> Read<Found> {
+    fn read_model(&mut self, document: &mut Document, id: usize, open: &[String]) -> Read<Found> {
         let e = document.element(id);
         let uri = e.first_child("uri").map(|u| u.text().to_owned());
         let Some(uri) = uri.filter(|u| !u.is_empty()) else {

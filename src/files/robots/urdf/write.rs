@@ -117,7 +117,7 @@ impl UrdfWriter<'_> {
         // The child moves in the opposite direction if the joint is passed backwards.
         let sign = if step.forward { 1.0 } else { -1.0 };
         let parts = joint_kinds(self.m, j, sign)?;
-        for (i, (kind, axis)) in parts.iter().enumerate() {
+        for (i, joint) in parts.iter().enumerate() {
             let held = if i + 1 == parts.len() {
                 child.clone()
             } else {
@@ -128,7 +128,7 @@ impl UrdfWriter<'_> {
                 _ => self.joints.fit_name(&format!("{id}~{}", i + 1)),
             };
             let ends = [holder.as_str(), held.as_str()];
-            self.body += &tree_joint(&part, kind, ends, at, *axis, &self.write_mimic(j));
+            self.body += &tree_joint(&part, joint, ends, at, &self.write_mimic(j));
             (holder, at) = (held, [0.0; 3]);
         }
         self.write_driven(j, &id);
@@ -156,11 +156,11 @@ impl UrdfWriter<'_> {
                 remedy: "write MJCF instead",
             });
         }
-        for (i, (kind, axis)) in parts.iter().enumerate() {
+        for (i, kind) in parts.iter().enumerate() {
             let between = self.write_between(&id, i + 1);
             let part = self.joints.fit_name(&format!("{id}~{}", i + 1));
             let ends = [a.as_str(), between.as_str()];
-            self.body += &tree_joint(&part, kind, ends, sub(p.point, from), *axis, "");
+            self.body += &tree_joint(&part, kind, ends, sub(p.point, from), "");
             (a, from) = (between, p.point);
         }
         let axis = closes.1.map_or(String::new(), |d| {
@@ -242,14 +242,8 @@ fn joint_kinds(m: &Mechanism, j: JointId, sign: f64) -> Result<Vec<Kind>, Export
     all.map(single).collect()
 }
 
-fn tree_joint(
-    id: &str,
-    kind: &str,
-    ends: [&str; 2],
-    at: [f64; 3],
-    axis: Option<[f64; 3]>,
-    more: &str,
-) -> String {
+fn tree_joint(id: &str, joint: &Kind, ends: [&str; 2], at: [f64; 3], more: &str) -> String {
+    let &(kind, axis) = joint;
     let [parent, child] = ends.map(escape_xml);
     let axis = axis.map_or(String::new(), |d| {
         format!("    <axis xyz=\"{}\"/>\n", format_numbers(d))
