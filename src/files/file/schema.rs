@@ -343,10 +343,15 @@ impl MechanismFile {
     /// ```
     #[must_use]
     pub fn json(&self) -> Value {
-        let mut value = serde_json::to_value(self).unwrap_or_default();
-        strip_defaults(&mut value);
-        value
+        stripped_json(self)
     }
+}
+
+/// Returns a value as JSON, without values that equal their default.
+pub(crate) fn stripped_json(of: &impl Serialize) -> Value {
+    let mut value = serde_json::to_value(of).unwrap_or_default();
+    strip_defaults(&mut value);
+    value
 }
 
 /// Removes empty values: null, false, "" (except names) and empty tables and lists.

@@ -70,6 +70,6 @@ fn what_moves_in_an_exported_urdf_weighs_something() {
         .filter(|l| l.contains("<link name=\"") && l.contains('~'));
     assert!(between.clone().count() > 1, "{sdf}");
     for line in between {
-        has(line, "<mass>1e-4</mass>");
+        has(line, "<mass>1e-5</mass>");
     }
 }
