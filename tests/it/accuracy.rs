@@ -2,16 +2,10 @@
 
 use crate::common::*;
 use ozols::accuracy::AnswerVerdict;
-use ozols::accuracy::change::turned_and_rounded;
 use ozols::accuracy::lattice::toggle_row;
-use ozols::accuracy::special::SpecialKind;
-use ozols::accuracy::survey::{Reply, Survey, built_in_cases, generated_cases};
+use ozols::accuracy::survey::{Survey, built_in_cases, generated_cases};
 use ozols::accuracy::timing::Stopwatch;
-use ozols::geom::Reals;
-use ozols::rank::method::registry;
 use ozols::rank::numeric::Elimination;
-use std::sync::LazyLock;
-use std::time::Duration;
 
 pub(crate) static SURVEY: LazyLock<Survey> = LazyLock::new(|| {
     // Verdicts do not depend on the clock, so one that stands still will do.
@@ -28,11 +22,6 @@ pub(crate) static SURVEY: LazyLock<Survey> = LazyLock::new(|| {
 
 fn index(name: &str) -> usize {
     registry::ALL.iter().position(|m| m.name() == name).unwrap()
-}
-
-fn reply(case: &str, method: &str) -> &'static Reply {
-    let n = SURVEY.cases.iter().position(|c| c.name() == case).unwrap();
-    &SURVEY.replies[n][index(method)]
 }
 
 #[test]
@@ -52,24 +41,6 @@ fn finite_auto_and_modular_are_right_everywhere() {
         }
     }
     assert!(wrong.is_empty(), "{wrong:#?}");
-}
-
-#[test]
-fn each_naive_formula_fails_where_it_is_known_to() {
-    for (case, method, says, by) in [
-        ("bennett", "count", -2, -3),
-        ("parallelogram-3-rods", "count-planar", 0, -1),
-        ("3-crr", "loops", 2, -1),
-        ("bennett", "generic", 0, -1),
-    ] {
-        let r = reply(case, method);
-        assert_eq!(
-            r.answer.as_ref().unwrap().mobility,
-            says,
-            "{method} on {case}"
-        );
-        assert_eq!(r.verdict, AnswerVerdict::Wrong(by), "{method} on {case}");
-    }
 }
 
 /// Returns the number of turned and rounded cases in which a decomposition of J, made anew, has the mobility at the pose.
@@ -115,12 +86,6 @@ fn rows(csv: &str) -> Vec<Vec<String>> {
     let width = rows[0].len();
     assert!(rows.iter().all(|r| r.len() == width), "rows of one width");
     rows
-}
-
-fn run<L: Line + ?Sized>(args: &L) -> String {
-    let mut command = assert_cmd::Command::cargo_bin("ozols").unwrap();
-    let out = command.args(args.words()).assert().success();
-    String::from_utf8(out.get_output().stdout.clone()).unwrap()
 }
 
 /// What does not depend on time.
@@ -265,15 +230,6 @@ fn rows_of_toggles_have_one_freedom_at_the_pose() {
 }
 
 #[test]
-fn special_mechanisms_are_those_of_their_seed() {
-    for kind in SpecialKind::ALL {
-        let text = |seed| kind.text(3.0, 6, true, &mut Noise::new(seed, 0));
-        assert_eq!(text(1), text(1));
-        assert_ne!(text(1), text(2));
-    }
-}
-
-#[test]
 fn a_quick_run_writes_a_chart_and_a_table_of_each_study() {
     let folder = tempdir().unwrap();
     let (said, at) = quick_accuracy();
@@ -348,7 +304,7 @@ fn a_quick_run_writes_a_chart_and_a_table_of_each_study() {
         assert_eq!(row[error], off.unwrap_or_default(), "{row:?}");
     }
     let other = folder.path().join("other");
-    run(&format!(
+    run_quiet(&format!(
         "accuracy --quick --threads 1 -o {}",
         other.display()
     ));

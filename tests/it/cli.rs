@@ -49,7 +49,7 @@ fn shell_fails(folder: &Path, words: &str, says: &str) {
 }
 
 fn four_bar() -> String {
-    run_quiet(&["show", "four-bar"])
+    run_quiet("show four-bar")
 }
 
 // Exit codes.
@@ -64,7 +64,7 @@ fn exit_code_0_done() {
 
 #[test]
 fn exit_code_1_nothing_found() {
-    let o = run(&["search", "gripper-10", "--max-mobility", "0", "--quiet"]);
+    let o = run("search gripper-10 --max-mobility 0 --quiet");
     assert_eq!(
         (o.status.code(), utf8_text(&o.stderr).as_str()),
         (Some(1), "")

@@ -18,8 +18,8 @@ mod taken;
 mod unread;
 
 use ozols::file::write::mechanism_file;
-use ozols::redundancy::analysis::{Elimination, StateAnalysis};
-use ozols::robots::{Imported, Options, import};
+use ozols::redundancy::analysis::Elimination;
+use ozols::robots::Options;
 
 pub(crate) fn folder() -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("tests/data/robots")
@@ -36,7 +36,7 @@ pub(crate) fn read_model(path: &str, options: &Options) -> Imported {
 
 /// n, p, k, f, W, σ of the imported mechanism by singular values.
 pub(crate) fn numeric_figures(imported: &Imported, tolerance: f64) -> [i64; 6] {
-    let m = mechanism_from_str("imported.toml", &imported.toml().unwrap()).unwrap();
+    let m = read(&imported.toml().unwrap());
     // What is written is what was built.
     let entries = |m| mechanism_file(m).json();
     assert_eq!(entries(&m), entries(&imported.mechanism));
@@ -113,10 +113,9 @@ fn poses_are_composed() {
             i.toml().unwrap()
         );
     }
-    let turned = Options {
-        pose: vec![("p".to_owned(), vec![std::f64::consts::FRAC_PI_2])],
-        ..Options::default()
-    };
+    let turned = default_with(|o: &mut Options| {
+        o.pose = vec![("p".to_owned(), vec![std::f64::consts::FRAC_PI_2])]
+    });
     let i = import("arm.urdf", ARM.as_bytes(), &no_files, &turned).unwrap();
     has(&i.toml().unwrap(), "point = [-0.1, -0.2, 1]");
 }

@@ -2,14 +2,12 @@
 //! two canonical forms; OEIS A233288) and against a slow twin that tries every graph.
 
 use crate::common::*;
+use ozols::chains::Symmetry;
 use ozols::chains::census::{Census, Counted, DriveKind, count_hinged};
-use ozols::chains::chain::Chain;
-use ozols::chains::enumerate::{count_chains, list_chains};
+use ozols::chains::enumerate::count_chains;
 use ozols::chains::graph6::{self, Graph6Error};
 use ozols::chains::layout_symmetry::working_swap;
 use ozols::chains::roles::{Roles, Subject};
-use ozols::chains::{Input, Symmetry};
-use proptest::prelude::*;
 
 #[test]
 fn as_many_chains_as_are_known() {

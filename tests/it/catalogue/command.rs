@@ -151,7 +151,7 @@ fn what_cannot_be_done_is_said() {
         show DB 4- | the beginning of 2 structures
         merge DB -o DB | one of the parts and the whole
         query OTHER | is not a catalogue
-        query MISSING | missing.db
+        query MISSING | makes a catalogue
         search tong gripper-11 -o MISSING | gripper-1
         search -o MISSING | --grippers
         count --links 4..x | \"x\" is not a number of links

@@ -1,9 +1,8 @@
 //! Signals: what is said, what is left, and the exit code.
 
 use crate::common::*;
-use std::process::{Child, Command, Stdio};
+use std::process::{Child, Command};
 use std::thread::sleep;
-use std::time::{Duration, Instant};
 
 /// The exit codes of signals by name.
 const SIGNALS: [(&str, i32); 3] = [("INT", 130), ("TERM", 143), ("HUP", 129)];
@@ -268,7 +267,7 @@ fn what_killed_runs_left_is_cleaned_by_the_next() {
     assert!(folder.join(".tmpother").exists() && folder.join("x.txt").exists());
     going.kill().unwrap();
     going.wait().unwrap();
-    ozols(&["analyze", "four-bar", "-o", "x.txt"])
+    ozols("analyze four-bar -o x.txt")
         .current_dir(folder)
         .assert()
         .success();

@@ -17,7 +17,7 @@ fn json_is_read_like_toml() {
     assert_eq!(from(path), from("four-bar"));
     assert_eq!(
         run_quiet(&["search", path, "--format", "json"]),
-        run_quiet(&["search", "four-bar", "--format", "json"])
+        run_quiet("search four-bar --format json")
     );
 }
 

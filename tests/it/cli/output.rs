@@ -2,8 +2,6 @@
 
 use super::four_bar;
 use crate::common::*;
-use std::io::{BufRead, BufReader, Read};
-use std::process::Stdio;
 
 // Files written.
 
@@ -29,7 +27,7 @@ fn output_file_is_whole() {
 #[test]
 fn show_round_trips_through_standard_input() {
     let shown = four_bar();
-    let o = ozols(&["check", "-"])
+    let o = ozols("check -")
         .write_stdin(shown.clone())
         .output()
         .unwrap();
@@ -37,22 +35,19 @@ fn show_round_trips_through_standard_input() {
         (o.status.code(), utf8_text(&o.stderr).as_str()),
         (Some(0), "")
     );
-    assert_eq!(utf8_text(&o.stdout), run_quiet(&["check", "four-bar"]));
-    let o = ozols(&["analyze", "-", "--format", "json"])
+    assert_eq!(utf8_text(&o.stdout), run_quiet("check four-bar"));
+    let o = ozols("analyze - --format json")
         .write_stdin(shown)
         .output()
         .unwrap();
     let mut read: Value = serde_json::from_slice(&o.stdout).unwrap();
-    let mut named = run_json(&["analyze", "four-bar", "--format", "json"]);
+    let mut named = run_json("analyze four-bar --format json");
     // What to do next names the file.
     for v in [&mut read, &mut named] {
         v["next"].take();
     }
     assert_eq!(read, named);
-    let o = ozols(&["check", "-"])
-        .write_stdin("x = [")
-        .output()
-        .unwrap();
+    let o = ozols("check -").write_stdin("x = [").output().unwrap();
     assert_eq!(o.status.code(), Some(2));
     assert!(utf8_text(&o.stderr).contains("standard input:1:"));
 }
@@ -121,7 +116,7 @@ fn output_through_a_symbolic_link() {
     assert!(fs::symlink_metadata(&link).unwrap().is_symlink());
     assert_eq!(
         fs::read_to_string(&real).unwrap(),
-        run_quiet(&["analyze", "four-bar"])
+        run_quiet("analyze four-bar")
     );
 }
 
@@ -129,7 +124,7 @@ fn output_through_a_symbolic_link() {
 
 #[test]
 fn a_search_says_how_long_it_took() {
-    let o = run(&["search", "four-bar", "--format", "json"]);
+    let o = run("search four-bar --format json");
     let whole = utf8_text(&o.stdout);
     let v: Value = serde_json::from_str(&whole).unwrap();
     let seconds = v["seconds"].real();
@@ -203,7 +198,7 @@ fn what_is_read_is_not_written_over() {
 #[test]
 fn a_robot_description_on_standard_input_is_told_from_toml() {
     let xml = "\n<robot name='r'/>";
-    let o = ozols(&["analyze", "-"]).write_stdin(xml).output().unwrap();
+    let o = ozols("analyze -").write_stdin(xml).output().unwrap();
     let said = utf8_text(&o.stderr);
     assert_eq!(o.status.code(), Some(2), "{said}");
     has(&said, "standard input is XML");

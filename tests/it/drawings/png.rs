@@ -3,8 +3,8 @@
 use crate::common::*;
 #[test]
 fn sizes_are_for_png() {
-    assert_fails(&["draw", "bennett", "--scale", "2"], "--scale and --width");
-    assert_fails(&["draw", "bennett", "--width", "90"], "--scale and --width");
+    assert_fails("draw bennett --scale 2", "--scale and --width");
+    assert_fails("draw bennett --width 90", "--scale and --width");
 }
 
 #[cfg(not(feature = "png"))]
@@ -13,7 +13,7 @@ fn a_build_without_png_says_so() {
     let dir = tempdir().unwrap();
     let path = dir.path().join("x.PNG");
     let path = path.to_str().unwrap();
-    assert_fails(&["draw", "bennett", "--png"], "--features png");
+    assert_fails("draw bennett --png", "--features png");
     // the name asks for it
     assert_fails(&["draw", "bennett", "-o", path], "--features png");
     assert_fails(&["explain", "spherical", "-o", path], "--features png");
@@ -24,8 +24,12 @@ fn a_build_without_png_says_so() {
 mod with_png {
     use crate::common::*;
     use crate::drawings::subject;
+    use ozols::draw::Sight;
+    use ozols::draw::Size;
+    use ozols::draw::Subject;
+    use ozols::draw::kinematic_seen;
     use ozols::draw::png::png;
-    use ozols::draw::{Drawing, Rect, Sight, Size, Subject, kinematic, kinematic_seen, scheme};
+    use ozols::draw::scheme;
     use resvg::tiny_skia::{self, Pixmap};
 
     fn drawings(name: &str) -> [Drawing; 2] {
@@ -69,11 +73,7 @@ mod with_png {
             ""
         };
         let joint = format!("0-1 | 0 1 | {joint_type} | 0, 0, 0 | 0, 0, 1 | {pitch}");
-        mechanism_from_str(
-            "one.toml",
-            &write_mechanism("name = \"one\"", "0 1*", &joint),
-        )
-        .unwrap()
+        read(&write_mechanism("name = \"one\"", "0 1*", &joint))
     }
 
     /// The symbol of a drawing's only joint in so many pixels, in black and white.
@@ -159,7 +159,7 @@ joint = [
 
     #[test]
     fn every_contour_is_seen_in_its_tint() {
-        let wishbone = mechanism_from_str("wishbone.toml", WISHBONE).unwrap();
+        let wishbone = read(WISHBONE);
         let names =
             split_words("door-two-hinges twin-rail-slide shaft-two-bearings gripper-10 bennett");
         for m in names.into_iter().map(built_in).chain([wishbone]) {
@@ -233,10 +233,10 @@ joint = [
         let file = fs::read(path).unwrap();
         let picture = Pixmap::decode_png(&file).unwrap();
         assert_eq!(picture.width(), 321);
-        let piped = run(&["draw", "four-bar", "--png", "--width", "321"]);
+        let piped = run("draw four-bar --png --width 321");
         assert_eq!(piped.stdout, file);
-        assert_fails(&["draw", "four-bar", "--png", "--scale", "0"], "--scale");
-        assert_fails(&["draw", "four-bar", "--png", "--width", "0"], "--width");
+        assert_fails("draw four-bar --png --scale 0", "--scale");
+        assert_fails("draw four-bar --png --width 0", "--width");
         assert_fails("draw four-bar --png --width 99999", "too large");
     }
 }

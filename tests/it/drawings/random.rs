@@ -2,8 +2,7 @@
 
 use super::reading::collisions;
 use crate::common::*;
-use ozols::draw::{Subject, kinematic, scheme};
-use proptest::prelude::*;
+use ozols::draw::{Subject, scheme};
 use std::fmt::Write as _;
 
 const TYPES: [&str; 13] = [
@@ -72,7 +71,7 @@ fn any_mechanism() -> impl Strategy<Value = Mechanism> {
                 text += "drive = true\n";
             }
         }
-        mechanism_from_str("random.toml", &text).unwrap_or_else(|e| panic!("{e}\n{text}"))
+        read(&text)
     })
 }
 

@@ -35,9 +35,9 @@ fn small_json(text: &str, code: i32) -> Value {
 
 #[test]
 fn built_in_module_runs_its_programme() {
-    let text = run_quiet(&["drive", "torsion-module"]);
+    let text = run_quiet("drive torsion-module");
     assert!(text.starts_with("torsion-module: torsion bar d = 5 mm, l = 346 mm; swings 90° in 0.4 s, all 8 swings latched"), "{text}");
-    let value = run_json(&["drive", "torsion-module", "--format", "json"]);
+    let value = run_json("drive torsion-module --format json");
     let design = &value["design"];
     // I = 0.05 + 2 · 0.3², k = I (2π/0.8)².
     near(design["stiffness"].real(), 0.23 * (TAU / 0.8).powi(2), 1e-9);
@@ -60,13 +60,13 @@ fn built_in_module_runs_its_programme() {
 /// The motion that `drive` prints is what `grip` takes.
 #[test]
 fn the_drive_says_what_the_grip_must_hold() {
-    let text = run_quiet(&["drive", "torsion-module"]);
+    let text = run_quiet("drive torsion-module");
     let line = text
         .lines()
         .find(|l| l.contains("--any-acceleration"))
         .unwrap();
     let value = line.rsplit(' ').next().unwrap();
-    let plain = run_json(&["grip", "lever-gripper", "--format", "json"]);
+    let plain = run_json("grip lever-gripper --format json");
     let swung = run_json(&format!(
         "grip lever-gripper --any-acceleration {value} --format json"
     ));

@@ -9,12 +9,8 @@ use ozols::grip::clamping::{DiameterRow, HoldVerdict};
 use ozols::grip::jaw_loads::Gripping;
 use ozols::model::grip::PartMass;
 use ozols::model::loads::Loads;
-use ozols::motion::pose::Pose;
 
-use ozols::statics::reactions::drives::driven_freedoms;
-use ozols::statics::reactions::follow::follow_to;
-use ozols::statics::reactions::geometry::{Geometry, cross, dot};
-use ozols::statics::reactions::{JointReaction, Reactions, Solution};
+use ozols::statics::reactions::geometry::{cross, dot};
 
 fn text() -> &'static str {
     builtin::text("lever-gripper").unwrap()
@@ -55,21 +51,15 @@ fn effort(list: &[JointReaction]) -> f64 {
 /// `ozols grip` adds up lever moments and rates of the levers; statics solve for every joint.
 #[test]
 fn the_drive_bears_what_the_grip_asks() {
-    let grip = run_json(&["grip", "lever-gripper", "--format", "json"]);
+    let grip = run_json("grip lever-gripper --format json");
     for row in grip["diameters"].list() {
         let asked = number(&row["load"]["drive_effort"]);
         let diameter = (number(&row["diameter"]) * 1e3).round().to_string();
-        let run = |more: &[&str]| {
-            let args = split_words("statics lever-gripper --state clamped --format json");
-            let args: Vec<&str> = args
-                .iter()
-                .chain(&["--diameter", &diameter])
-                .chain(more)
-                .copied()
-                .collect();
-            run_json(&args)
+        let run = |more: &str| {
+            let clamped = "statics lever-gripper --state clamped --format json";
+            run_json(&format!("{clamped} --diameter {diameter} {more}"))
         };
-        let planar = run(&[]);
+        let planar = run("");
         let found = planar["positions"][0]["reactions"].list();
         let force = found.iter().find_map(|r| r["effort"].as_f64()).unwrap();
         assert!(
@@ -77,7 +67,7 @@ fn the_drive_bears_what_the_grip_asks() {
             "{diameter}: {force} {asked}"
         );
         assert_eq!(number(&planar["grip"]["drive_effort"]), asked);
-        let spatial = run(&["--spatial"]);
+        let spatial = run("--spatial");
         let found = spatial["reactions"].list();
         let force = found
             .iter()
@@ -285,7 +275,7 @@ fn links_feel_the_case() {
 
 #[test]
 fn statics_say_which_loads_came_from_the_grip() {
-    let said = run_quiet(&["statics", "lever-gripper", "--state", "clamped"]);
+    let said = run_quiet("statics lever-gripper --state clamped");
     has_all(
         &said,
         &[
@@ -297,7 +287,7 @@ fn statics_say_which_loads_came_from_the_grip() {
         ],
     );
     // Empty jaws bear nothing.
-    let free = run_quiet(&["statics", "lever-gripper"]);
+    let free = run_quiet("statics lever-gripper");
     has(&free, "states no loads");
     let csv = run_quiet("statics lever-gripper --state clamped --spatial --format csv");
     assert!(

@@ -2,7 +2,6 @@
 
 use crate::common::*;
 use ozols::closure::contour::contour_basis;
-use proptest::prelude::*;
 
 type Three = [i64; 3];
 
@@ -216,14 +215,9 @@ fn ring() -> impl Strategy<Value = Ring> {
 /// How many variants there are by mobility, of all with few enough redundant constraints and of the admissible ones.
 fn counts(m: &Mechanism, max_redundant: u32) -> [BTreeMap<i64, num_bigint::BigUint>; 2] {
     let conditions = default_with(|c: &mut Conditions| c.max_redundant = max_redundant);
-    let search = Search::new(exact_field(m, 0).unwrap(), m, conditions).unwrap();
-    let found = search.build_diagrams(&|| false, &mut |_| {});
+    let (search, found) = searched(m, conditions);
     [(&found.determinate, false), (&found.admissible, true)]
         .map(|(diagram, filter)| search.count_variants(diagram, filter).by_mobility)
-}
-
-fn read(text: &str) -> Mechanism {
-    mechanism_from_str("ring.toml", text).unwrap_or_else(|e| panic!("{e}\n{text}"))
 }
 
 proptest! {
@@ -234,7 +228,7 @@ proptest! {
         prop_assume!(choices.len() <= 16);
         let plane = read(&ring.planar());
         let contours = contour_basis(&plane, StateId::FREE).len();
-        let of = |m: &Mechanism| analyse_states(m, &[StateId::FREE], Method::Modular).unwrap().remove(0);
+        let of = |m: &Mechanism| analysed(m);
         let in_space = |choice: &Vec<usize>| of(&read(&ring.spatial(choice)));
         let (a, b) = (of(&plane), in_space(&choices[0]));
         prop_assert_eq!(a.mobility, b.mobility);

@@ -44,8 +44,8 @@ fn variants_that_are_right_in_the_pose_of_the_file_only_are_marked() {
     .map(|(j, t)| (j.to_owned(), t.to_owned()));
     assert!(lucky.iter().any(|x| changes(x) == one));
     // The same variant, exactly, here and with the arms turned by a 3-4-5 triangle's angle.
-    let text = run_quiet(&["show", "roberval-balance"]);
-    let m = mechanism_from_str("it.toml", &text).unwrap();
+    let text = run_quiet("show roberval-balance");
+    let m = read(&text);
     for (turned, working) in [(false, 1), (true, 2)] {
         let mut m = m.clone();
         for (joint, to) in &one {
@@ -60,7 +60,7 @@ fn variants_that_are_right_in_the_pose_of_the_file_only_are_marked() {
                 m.edit().joints[j].frame.point = [x, y, 0].map(|c: i64| c.into());
             }
         }
-        let found = &analyse_states(&m, &[StateId::FREE], Method::Modular).unwrap()[0];
+        let found = &analysed(&m);
         assert_eq!(
             (found.mobility, found.redundant, found.working_mobility),
             (2, 0, working)
@@ -71,7 +71,7 @@ fn variants_that_are_right_in_the_pose_of_the_file_only_are_marked() {
 /// With the second pin in the rocker it points at the ball always.
 #[test]
 fn which_link_has_which_pin_matters() {
-    let text = run_quiet(&["show", "roberval-balance"]);
+    let text = run_quiet("show roberval-balance");
     let swapped = text.replace("links = [\"3\", \"0\"]", "links = [\"0\", \"3\"]");
     assert_ne!(text, swapped);
     let (_folder, path) = write_temporary("swapped.toml", swapped);
@@ -109,6 +109,6 @@ fn poses_do_not_depend_on_threads_and_need_a_motion() {
     let v: Value = serde_json::from_slice(&o.stdout).unwrap();
     assert_eq!(v["poses"]["reached"], 0);
     assert!(v["variants"].list().iter().all(|x| x["lucky"].is_null()));
-    let v = run_json(&["search", "four-bar", "--format", "json"]);
+    let v = run_json("search four-bar --format json");
     assert!(v["poses"].is_null() && v["variants"][0]["lucky"].is_null());
 }

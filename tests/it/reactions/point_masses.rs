@@ -4,12 +4,8 @@
 use super::{built_in, expr, vector};
 use crate::common::*;
 use crate::reactions::greatest_force;
-use ozols::model::loads::{ExternalForce, Inertia, MassProperties, Stroke};
 use ozols::model::mechanism::{Joint, Link};
-use ozols::statics::cycle::planar_statics;
 use ozols::statics::reactions::cycle::{Cycle, solve_cycle};
-use ozols::statics::reactions::{Solution, Uniqueness};
-use proptest::prelude::*;
 
 /// Masses `[kg]` at points in the file's unit.
 type Points = Vec<(f64, [f64; 3])>;
@@ -203,7 +199,7 @@ fn a_dumb_bell_that_leans_tugs_at_its_bearing() {
         "A | 0 1 | revolute | 0, 0, 0 | 0, 0, 1 | drive = true",
     );
     let text = replace_once(&text, role, &heavy) + &format!("[workload]\ndrive_speed = {speed}\n");
-    let m = mechanism_from_str("bell.toml", &text).unwrap();
+    let m = read(&text);
     let found = solve_cycle(&m, StateId::FREE, None).unwrap();
     let reaction = &solved(&found).next().unwrap().1.reactions[0];
     // r × F of both about y: z·Fx, with Fx = -m ω² a at z = b and the other way at -b.

@@ -1,8 +1,6 @@
 //! Figures of forces that are rounding and nothing else are 0, in text, JSON and CSV.
 
 use crate::common::*;
-use chacha20::ChaCha8Rng;
-use chacha20::rand_core::{Rng, SeedableRng};
 use std::fmt::Write;
 
 /// Loads are of 1 N and more and lengths of 1 mm and more: what is smaller is rounding.

@@ -5,8 +5,6 @@ mod physical;
 
 use crate::robots::read_robot;
 use ozols::redundancy::analysis::Elimination;
-use ozols::robots::formats;
-use proptest::prelude::*;
 
 fn all() -> impl Iterator<Item = Mechanism> {
     builtin::names().into_iter().map(built_in)
@@ -132,7 +130,7 @@ fn import_undoes_export_of_rich_workloads() {
         ),
     ];
     for text in texts {
-        let m = mechanism_from_str("x.toml", &text).unwrap_or_else(|e| panic!("{e}\n{text}"));
+        let m = read(&text);
         comes_back(&m);
     }
 }
@@ -169,7 +167,7 @@ fn figures(m: &Mechanism) -> (usize, usize) {
 
 fn back(name: &str, text: &str) -> Mechanism {
     let i = read_robot(name, text);
-    mechanism_from_str("x.toml", &i.toml().unwrap()).unwrap()
+    read(&i.toml().unwrap())
 }
 
 // MJCF, URDF and SDF keep loops: W and σ of the free state survive the way there and back, and masses are written.
@@ -232,7 +230,7 @@ fn graphs() {
         assert_eq!(xml.matches("<edge ").count(), m.joints.len());
     }
     let tricky = "name = \"a\\\"b<&>\"\n[[link]]\nid = \"<0>\"\nrole = \"frame\"\n[[link]]\nid = \"\\\"&--\\\\\"\nrole = \"output\"\n[[joint]]\nid = \"]]>-->\"\nlinks = [\"<0>\", \"\\\"&--\\\\\"]\ntype = \"revolute\"\npoint = [0, 0, 0]\naxis = [0, 0, 1]\ndrive = true\n";
-    let m = mechanism_from_str("t.toml", tricky).unwrap();
+    let m = read(tricky);
     assert!(
         formats::write(&m, "dot")
             .unwrap()
@@ -263,9 +261,7 @@ fn the_command() {
             "{to}"
         );
     }
-    let o = ozols(&["export", "nowhere", "--to", "dot"])
-        .output()
-        .unwrap();
+    let o = ozols("export nowhere --to dot").output().unwrap();
     assert_eq!(o.status.code(), Some(2));
 }
 
@@ -282,7 +278,7 @@ fn the_workload_survives() {
     }
     let shears = all().find(|m| m.name == "parallel-shears").unwrap();
     let text = formats::write(&shears, "toml").unwrap();
-    let back = mechanism_from_str("x.toml", &text).unwrap();
+    let back = read(&text);
     assert_eq!(back.loads.stroke, shears.loads.stroke);
     assert_eq!(back.loads.drive_speeds, shears.loads.drive_speeds);
     for (a, b) in back.links.iter().zip(&shears.links) {

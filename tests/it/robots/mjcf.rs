@@ -2,7 +2,7 @@
 
 use crate::common::*;
 use crate::robots::{message_of, no_files, numeric_figures, read_robot};
-use ozols::robots::{Options, import};
+use ozols::robots::Options;
 
 // MuJoCo's values count from `ref`, where the model is as drawn; the pose is in radians whatever the file's unit.
 #[test]

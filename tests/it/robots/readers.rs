@@ -4,7 +4,7 @@
 use crate::common::*;
 use crate::robots::mjcf::{mjcf, toml_of};
 use crate::robots::{folder, message_of, no_files, numeric_figures, read_robot};
-use ozols::robots::{Options, import};
+use ozols::robots::Options;
 
 /// W and σ.
 fn w_sigma(name: &str, text: &str) -> (i64, i64) {
@@ -18,10 +18,9 @@ fn types_of_joints_beside_the_description() {
     // The leg's ankle and rods turn about two axes: by hand W = 4, two motors of the leg and two of the foot. As hinges they
     // hold the foot but for its pitch, and most of it twice.
     let leg = |side: &str| {
-        let options = Options {
-            loops: Some(("leg.yaml".to_owned(), side.as_bytes().to_vec())),
-            ..Options::default()
-        };
+        let options = default_with(|o: &mut Options| {
+            o.loops = Some(("leg.yaml".to_owned(), side.as_bytes().to_vec()))
+        });
         let bytes = fs::read(folder().join("leg.urdf")).unwrap();
         import("leg.urdf", &bytes, &no_files, &options).unwrap()
     };
@@ -36,10 +35,9 @@ fn types_of_joints_beside_the_description() {
       <joint name='q' type='revolute'><parent link='b'/><child link='c'/><origin xyz='1 0 0'/></joint></robot>";
     let with = |names: &str, types: &str| {
         let side = format!("closed_loop: []\njoint_name: {names}\njoint_type: {types}\n");
-        let options = Options {
-            loops: Some(("robot.yaml".to_owned(), side.into_bytes())),
-            ..Options::default()
-        };
+        let options = default_with(|o: &mut Options| {
+            o.loops = Some(("robot.yaml".to_owned(), side.into_bytes()))
+        });
         import("r.urdf", urdf.as_bytes(), &no_files, &options)
             .map(|i| i.toml().unwrap())
             .map_err(|e| e.to_string())

@@ -29,7 +29,7 @@ fn joints_may_be_called_as_links() {
     assert_eq!(linted("m.sdf", &text, &[]).0, 1);
     // But not as another joint.
     let twice = text.replace("name='held'", "name='b'");
-    let (code, _, err) = run_on("lint", "m.sdf", &twice, &[]);
+    let (code, _, err) = run_on("lint", "m.sdf", &twice, "");
     assert_eq!(code, Some(2), "{err}");
 }
 
@@ -42,7 +42,7 @@ fn models_that_nothing_holds_float() {
     has(&notes, "floats with 6 freedoms");
     assert_eq!(linted("m.sdf", &of(""), &["--frame", "a"]).0, 1);
     assert_eq!(linted("m.sdf", &of(HELD), &[]).0, 1);
-    let (code, out, _) = run_on("lint", "m.sdf", &of("<static>true</static>"), &[]);
+    let (code, out, _) = run_on("lint", "m.sdf", &of("<static>true</static>"), "");
     assert_eq!(code, Some(0), "{out}");
 }
 
@@ -78,7 +78,7 @@ fn joints_and_frames_of_a_world_are_read() {
     ));
     assert_eq!(linted("w.sdf", &text, &[]).0, 2);
     let wrong = text.replace("<parent>eye", "<parent>ear");
-    let (code, _, err) = run_on("lint", "w.sdf", &wrong, &[]);
+    let (code, _, err) = run_on("lint", "w.sdf", &wrong, "");
     assert!(code == Some(2) && err.contains("\"ear\""), "{err}");
 }
 
@@ -100,7 +100,7 @@ fn gearboxes_are_couplings() {
         ))
     };
     assert_eq!(linted("m.sdf", &of("a"), &[]).0, 1);
-    let (_, out, _) = run_on("export", "m.sdf", &of("a"), &["--to", "toml"]);
+    let (_, out, _) = run_on("export", "m.sdf", &of("a"), "--to toml");
     has(&out, "ratio = -3");
     // What has no such hinges is left out, and said.
     let (w, _, notes) = linted("m.sdf", &of("b"), &[]);
@@ -156,7 +156,7 @@ fn sdf_never_has_the_world_for_a_child() {
             <equality>{closing}</equality>"
         ));
         let (w, sigma, _) = linted("m.xml", &text, &[]);
-        let (code, out, err) = run_on("export", "m.xml", &text, &["--to", "sdf"]);
+        let (code, out, err) = run_on("export", "m.xml", &text, "--to sdf");
         assert_eq!(code, Some(0), "{err}");
         assert!(!out.contains("<child>world"), "{out}");
         let (w2, sigma2, _) = linted("m.sdf", &out, &[]);

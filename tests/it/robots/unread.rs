@@ -3,7 +3,7 @@
 use crate::common::*;
 use crate::robots::mjcf::mjcf;
 use crate::robots::no_files;
-use ozols::robots::{Options, import};
+use ozols::robots::Options;
 
 /// The exit code of `lint`, what it found in a file, and its text.
 fn linted(name: &str, text: &str, more: &[&str]) -> (Option<i32>, Value, String) {
@@ -70,10 +70,9 @@ fn each_way_to_close_a_loop_is_read() {
             chain(lengths, 3.0 * x(3), &filled)
         };
         let truth = {
-            let options = Options {
-                loops: Some(("side.toml".to_owned(), side.clone().into_bytes())),
-                ..Options::default()
-            };
+            let options = default_with(|o: &mut Options| {
+                o.loops = Some(("side.toml".to_owned(), side.clone().into_bytes()))
+            });
             let i = import("x.urdf", at("").as_bytes(), &no_files, &options)
                 .unwrap_or_else(|e| panic!("seed {seed}: {e}"));
             ozols::analyze(&i.mechanism).unwrap()[0].clone()
@@ -248,7 +247,7 @@ fn foreign_formats_are_named() {
         ("robot.yaml", "closed_loop: []", "loop closures"),
     ] {
         for command in ["analyze", "lint", "check", "search", "fix"] {
-            let (code, _, err) = run_on(command, name, text, &[]);
+            let (code, _, err) = run_on(command, name, text, "");
             assert_eq!(code, Some(2), "{command} {name}: {err}");
             assert!(
                 err.contains(words) && err.contains("not read"),
@@ -265,7 +264,7 @@ fn foreign_formats_are_named() {
         ("r.urdf", numbers),
     ] {
         for command in ["analyze", "lint"] {
-            let (code, _, err) = run_on(command, name, text, &[]);
+            let (code, _, err) = run_on(command, name, text, "");
             assert!(
                 code == Some(2) && err.contains("xacro FILE"),
                 "{command} {name}: {err}"
@@ -277,7 +276,7 @@ fn foreign_formats_are_named() {
         "<robot ",
         "<robot xmlns:xacro='http://www.ros.org/wiki/xacro' ",
     );
-    assert_eq!(run_on("lint", "r.urdf", &plain, &[]).0, Some(0));
+    assert_eq!(run_on("lint", "r.urdf", &plain, "").0, Some(0));
 }
 
 // An equality of a fixed tendon is a row between joint values: MuJoCo's Jacobian has the row, and W is by as much less.
@@ -325,14 +324,14 @@ fn equalities_of_fixed_tendons_couple() {
         let found = (&file["mobility"], &file["left_out"]);
         assert_eq!(found, (&w.into(), &left_out.into()), "{equalities}: {told}");
         assert_eq!(code, Some(i32::from(left_out > 0)), "{told}");
-        let (_, toml, _) = run_on("export", "x.xml", &text, &["--to", "toml"]);
+        let (_, toml, _) = run_on("export", "x.xml", &text, "--to toml");
         assert!(toml.contains(ratio), "{toml}");
     }
     let (code, _, err) = run_on(
         "lint",
         "x.xml",
         &finger(&pair, "<tendon tendon1='nowhere'/>"),
-        &[],
+        "",
     );
     assert!(code == Some(2) && err.contains("nowhere"), "{err}");
 }
@@ -345,7 +344,7 @@ fn joints_put_in_have_an_armature() {
         <body name='b' pos='0 1 0'><joint name='j2'/><geom type='box' size='1 .25 .02' pos='1 .25 0' mass='16'/></body></body>
         <body name='c' pos='2 0 0'><joint name='j3'/><geom type='sphere' size='.1' mass='12'/></body></worldbody>
         <equality><connect name='e' body1='b' body2='c' anchor='2 0.5 0'/></equality></mujoco>";
-    let (code, out, err) = run_on("fix", "x.xml", text, &["--at", "e"]);
+    let (code, out, err) = run_on("fix", "x.xml", text, "--at e");
     assert_eq!(code, Some(0), "{err}");
     has(&out, "type=\"slide\" armature=\"280\"");
     has(&out, "<inertial pos=\"2 0.5 0\"");

@@ -1,17 +1,12 @@
 //! Costs in a file of their own: printed, changed, taken, and refused where they are none.
 
 use crate::common::*;
-use ozols::search::question::conditions::InState;
 
 /// A folder with the table of costs, changed, and the path to it.
 fn table(from: &str, to: &str) -> (tempfile::TempDir, String) {
     let folder = tempdir().unwrap();
     let path = folder.path().join("costs.toml");
-    fs::write(
-        &path,
-        replace_once(&run_quiet(&["show", "costs"]), from, to),
-    )
-    .unwrap();
+    fs::write(&path, replace_once(&run_quiet("show costs"), from, to)).unwrap();
     let path = path.to_str().unwrap().to_owned();
     (folder, path)
 }
@@ -20,11 +15,8 @@ fn table(from: &str, to: &str) -> (tempfile::TempDir, String) {
 fn the_table_that_is_printed_changes_nothing() {
     let (_folder, path) = table("change = 1\n", "change = 1.0\n");
     let with = run_quiet(&["search", "gripper-10", "--format", "csv", "--costs", &path]);
-    assert_eq!(
-        with,
-        run_quiet(&["search", "gripper-10", "--format", "csv"])
-    );
-    assert!(!run_quiet(&["list"]).contains("\n costs "));
+    assert_eq!(with, run_quiet("search gripper-10 --format csv"));
+    assert!(!run_quiet("list").contains("\n costs "));
 }
 
 #[test]
@@ -48,7 +40,7 @@ fn a_type_that_is_dear_is_chosen_no_more() {
 fn the_costs_of_a_file_stand_where_the_table_says_nothing() {
     let folder = tempdir().unwrap();
     let at = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
-    let own = run_quiet(&["show", "gripper-10"]) + "\n[search.costs]\nlink = 7\nspherical = 3\n";
+    let own = run_quiet("show gripper-10") + "\n[search.costs]\nlink = 7\nspherical = 3\n";
     fs::write(at("own.toml"), own).unwrap();
     fs::write(at("costs.toml"), "spherical = 2\n").unwrap();
     let cost = |more: &[&str]| {
@@ -87,9 +79,10 @@ fn what_is_no_cost_is_refused_with_its_line_and_a_remedy() {
             + 1;
         assert!(err.contains(&format!("costs.toml:{line}:")), "{to}: {err}");
     }
-    let o = run(&["search", "gripper-10", "--costs", "no/such.toml"]);
-    assert_eq!(o.status.code(), Some(2));
-    assert!(utf8_text(&o.stderr).contains("`ozols show costs > no/such.toml` writes one"));
+    assert_fails(
+        "search gripper-10 --costs no/such.toml",
+        "`ozols show costs > no/such.toml` writes one",
+    );
 }
 
 /// A joint that the file describes by its freedoms is a hinge with more of them: what it costs above a hinge does not depend on
@@ -98,7 +91,7 @@ fn what_is_no_cost_is_refused_with_its_line_and_a_remedy() {
 fn a_custom_joint_costs_a_hinge_at_the_files_price_and_more() {
     let folder = tempdir().unwrap();
     let list = |price: &str| {
-        let text = run_quiet(&["show", "four-bar"]);
+        let text = run_quiet("show four-bar");
         let cut = text.find("[search]").unwrap();
         let text = format!(
             "{}[search]\noptions = [\"revolute\", {{ freedoms = [\"rz\", \"rx\", \"ry\"], name = \"loose\" }}]\n[search.costs]\n\
@@ -124,13 +117,10 @@ fn harm_costs_what_the_file_says_to_the_thousandth() {
     for (name, price) in [("tongs", 1730), ("tongs-pad", 1), ("tongs", 333)] {
         let mut m = built_in(name);
         m.edit().search.costs.harmful_milli = Some(price);
-        let conditions = Conditions {
-            state: Some(InState::holding(StateId::new(1))),
-            max_redundant: 9,
-            ..Conditions::default()
-        };
-        let s = Search::new(exact_field(&m, 0).unwrap(), &m, conditions).unwrap();
-        let diagrams = s.build_diagrams(&|| false, &mut |_| {});
+        let conditions = default_with(|c: &mut Conditions| {
+            (c.state, c.max_redundant) = (Some(InState::holding(StateId::new(1))), 9)
+        });
+        let (s, diagrams) = searched(&m, conditions);
         let mut harms = 0;
         for v in s.cheapest_variants(&diagrams, 300) {
             let choices = s.space.variables.iter().zip(&v.choices);
@@ -218,11 +208,11 @@ fn present_joints_cost_what_the_list_says() {
     let before = ["\"prismatic\"", "\"spherical\"", "\"cylindrical\""];
     let cost = |options: &str| {
         let text = replace_once(
-            &run_quiet(&["show", "four-bar"]),
+            &run_quiet("show four-bar"),
             "options = [\"revolute\", \"cylindrical\", \"universal\", \"spherical\"]",
             &format!("options = [{options}]"),
         );
-        let m = mechanism_from_str("four-bar.toml", &text).unwrap();
+        let m = read(&text);
         let joint = &m.joints[1];
         assert_eq!(joint.options[0].name, "stock", "{options}");
         joint.options[0].cost_milli

@@ -36,7 +36,7 @@ fn the_gripper_has_a_symmetric_redesign_with_one_constraint_left() {
         assert_eq!(v["changes"], first.unwrap()["changes"], "σ = {left}");
         assert_eq!(row(v), row(first.unwrap()), "σ = {left}");
     }
-    let text = run_quiet(&["search", "gripper-10"]);
+    let text = run_quiet("search gripper-10");
     let said = "that takes 11 more freedoms, and joints that are images of each other gain them 2 at a time";
     assert!(text.contains(said), "{text}");
     let flags = ["--symmetric", "--max-mobility", "1", "--count"];

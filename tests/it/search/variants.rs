@@ -175,7 +175,7 @@ fn orbits_are_listed_however_few_are_asked_for_and_sampled_alike() {
 /// A list of all variants is by cost whatever ranking a file has, and so is the command that leads on from it.
 #[test]
 fn what_follows_a_list_of_all_variants_is_of_that_list() {
-    let text = run_quiet(&["search", "lever-gripper", "--all"]);
+    let text = run_quiet("search lever-gripper --all");
     let next = text
         .lines()
         .find(|l| l.contains("ozols export lever-gripper"))
@@ -187,11 +187,11 @@ fn what_follows_a_list_of_all_variants_is_of_that_list() {
         "export lever-gripper --rank cost --variant 1 --to toml -o {}",
         to.display()
     ));
-    let all = run_quiet(&["search", "lever-gripper", "--all", "--format", "csv"]);
+    let all = run_quiet("search lever-gripper --all --format csv");
     let mut lines = all.lines();
     let heads: Vec<&str> = lines.next().unwrap().split(',').collect();
     let first: Vec<&str> = lines.next().unwrap().split(',').collect();
-    let exported = mechanism_from_str("one.toml", &fs::read_to_string(to).unwrap()).unwrap();
+    let exported = read(&fs::read_to_string(to).unwrap());
     let joints = heads
         .iter()
         .zip(&first)
@@ -209,7 +209,7 @@ fn what_follows_a_list_of_all_variants_is_of_that_list() {
 /// A type that one joint has already is offered at the others, as if the file listed it, and one that none is offered may be forbidden.
 #[test]
 fn a_type_that_a_joint_has_is_offered_at_the_others() {
-    let four_bar = run_quiet(&["show", "four-bar"]);
+    let four_bar = run_quiet("show four-bar");
     let text = replace_once(
         &four_bar,
         "id = \"3-0\"\nlinks = [\"3\", \"0\"]\ntype = \"revolute\"",

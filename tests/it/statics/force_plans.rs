@@ -74,7 +74,7 @@ fn tangential_reactions_are_the_moments_over_the_rods() {
             near(told, -moment / length, 1e-9 * (1.0 + told.abs()));
         }
     }
-    let text = run_quiet(&["statics", "parallel-shears", "--stroke", "0:360deg:2"]);
+    let text = run_quiet("statics parallel-shears --stroke 0:360deg:2");
     has_all(
         &text,
         &["R46τ", "R47τ", "R34τ", "inertia force, N", "ε, rad/s²"],
@@ -136,7 +136,6 @@ fn force_plans_close_beside_those_of_the_full_solve() {
 /// do not.
 #[test]
 fn the_force_plan_is_of_the_pose_with_most_load_from_outside() {
-    use ozols::model::mechanism::StateId;
     use ozols::statics::kinetostatics::LoadSource;
     use ozols::statics::solve::{Model, SolvedReactions, solve_reactions};
     let m = built_in("parallel-shears");

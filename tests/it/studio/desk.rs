@@ -19,7 +19,7 @@ fn names(folder: &Path) -> Vec<String> {
 #[test]
 fn every_change_can_be_undone_to_the_byte() {
     let folder = tempdir().unwrap();
-    let own = run_quiet(&["show", "gripper-10"]);
+    let own = run_quiet("show gripper-10");
     fs::write(folder.path().join("mine.toml"), &own).unwrap();
     let s = Served::new(folder.path(), &["mine.toml"]);
     let mut texts = vec![own.clone()];
@@ -62,10 +62,7 @@ fn a_text_that_is_made_of_an_older_one_is_refused() {
     window.next("look");
     assert_eq!(s.post("edit", &whole(&first)).0, 409);
     let sent = window.next("look")["text"].word().to_owned();
-    assert!(
-        sent.contains("spherical"),
-        "whoever was late gets what there is"
-    );
+    has(&sent, "spherical");
     s.done("edit", &whole(&s.status()["revision"]));
 }
 
@@ -73,7 +70,7 @@ fn a_text_that_is_made_of_an_older_one_is_refused() {
 fn what_another_program_writes_is_taken_in_or_told() {
     let folder = tempdir().unwrap();
     let file = folder.path().join("mine.toml");
-    let own = run_quiet(&["show", "four-bar"]);
+    let own = run_quiet("show four-bar");
     fs::write(&file, &own).unwrap();
     let s = Served::new(folder.path(), &["mine.toml"]);
     // Nothing unsaved: taken in, and a step of undo.
@@ -113,7 +110,7 @@ fn what_another_program_writes_is_taken_in_or_told() {
 #[test]
 fn work_of_a_killed_program_is_offered() {
     let folder = tempdir().unwrap();
-    let own = run_quiet(&["show", "four-bar"]);
+    let own = run_quiet("show four-bar");
     fs::write(folder.path().join("mine.toml"), &own).unwrap();
     let mut first = Served::new(folder.path(), &["mine.toml"]);
     let mine = first.done("edit", &spherical("1-2"))["text"]
@@ -195,7 +192,7 @@ fn what_cannot_be_opened_is_told() {
 #[test]
 fn a_file_that_is_wrong_is_opened_to_be_mended() {
     let folder = tempdir().unwrap();
-    let own = run_quiet(&["show", "four-bar"]);
+    let own = run_quiet("show four-bar");
     fs::write(
         folder.path().join("mine.toml"),
         own.replacen("revolute", "revolut", 1),
@@ -218,11 +215,7 @@ fn a_file_that_is_wrong_is_opened_to_be_mended() {
 #[test]
 fn work_that_cannot_be_kept_is_told_until_it_is_saved() {
     let folder = tempdir().unwrap();
-    fs::write(
-        folder.path().join("mine.toml"),
-        run_quiet(&["show", "four-bar"]),
-    )
-    .unwrap();
+    fs::write(folder.path().join("mine.toml"), run_quiet("show four-bar")).unwrap();
     let taken = |n: usize| match n {
         1 => folder.path().join("mine.toml.autosave"),
         _ => folder.path().join(format!("mine.toml.autosave-{n}")),
@@ -264,7 +257,7 @@ fn work_that_cannot_be_kept_is_told_until_it_is_saved() {
 fn a_full_disk_takes_no_work() {
     use std::process::Command;
     let folder = tempdir().unwrap();
-    let own = run_quiet(&["show", "four-bar"]);
+    let own = run_quiet("show four-bar");
     fs::write(folder.path().join("mine.toml"), &own).unwrap();
     let mut shell = Command::new("sh");
     shell.args([

@@ -2,9 +2,8 @@
 
 use super::served::Served;
 use crate::common::*;
-use std::io::{Read, Write};
+use std::io::Write;
 use std::net::TcpStream;
-use std::time::Duration;
 
 fn status(s: &Served, request: &str) -> u16 {
     s.raw(request.as_bytes()).0

@@ -1,10 +1,9 @@
 //! The program, served, and a plain client of it.
 
 use crate::common::*;
-use std::io::{BufRead, BufReader, Read, Write};
+use std::io::Write;
 use std::net::TcpStream;
-use std::process::{Child, Command, Stdio};
-use std::time::{Duration, Instant};
+use std::process::{Child, Command};
 
 /// Longer than any machine takes.
 const LONG: Duration = Duration::from_secs(120);

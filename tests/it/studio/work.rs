@@ -82,7 +82,7 @@ fn an_idea_that_is_taken_does_what_it_says_and_keeps_the_comments() {
 #[test]
 fn a_wider_request_is_asked_for_by_its_number() {
     let folder = tempdir().unwrap();
-    let own = run_quiet(&["show", "bennett"]);
+    let own = run_quiet("show bennett");
     let few = own.replace(r#""cylindrical", "universal", "spherical""#, r#""slotted""#);
     assert_ne!(few, own);
     fs::write(folder.path().join("mine.toml"), few).unwrap();
@@ -114,7 +114,7 @@ fn a_search_ends_when_another_text_comes() {
     let folder = tempdir().unwrap();
     fs::write(
         folder.path().join("mine.toml"),
-        run_quiet(&["show", "gripper-10"]),
+        run_quiet("show gripper-10"),
     )
     .unwrap();
     let s = Served::new(folder.path(), &["mine.toml"]);

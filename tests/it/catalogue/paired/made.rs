@@ -10,8 +10,8 @@ use crate::common::*;
 /// Every structure of four links with pairs, laid out freely.
 fn free() -> &'static str {
     static FILE: Built = OnceLock::new();
-    let line = "catalog build --pairs slide,gear,slot --generic-pairs --symmetry generic --links 4 --ideas 0 --quiet -o";
-    built(&FILE, &split_words(line))
+    let pairs = "--pairs slide,gear,slot --generic-pairs --symmetry generic";
+    built(&FILE, &format!("{pairs} --links 4 --ideas 0"))
 }
 
 #[test]

@@ -111,7 +111,7 @@ fn joints_without_a_partner_and_skew_axes_say_which_plane_it_is() {
         let head =
             "name = \"on the plane\"\n[search]\nmirror = [[\"u0\", \"l0\"], [\"u1\", \"l1\"]]";
         let text = write_mechanism(head, "f s u* l*", &joints);
-        let m = mechanism_from_str("on-the-plane.toml", &text).unwrap();
+        let m = read(&text);
         let conditions = default_with(|c: &mut Conditions| c.symmetry = Symmetry::SymmetricOnly);
         let search = Search::new(exact_field(&m, 0).unwrap(), &m, conditions);
         assert!(search.is_ok(), "{axis:?}: {:?}", search.err());
