@@ -1,10 +1,12 @@
 //! What several tests need: the program and what it says, closeness, a text with one thing changed.
 
+mod folder;
 pub(crate) mod lattice;
 mod names;
 mod prelude;
 
 use assert_cmd::Command;
+pub(crate) use folder::*;
 pub(crate) use names::*;
 use ozols::linalg::echelon;
 use ozols::linalg::modp::Residue;

@@ -4,10 +4,10 @@ use crate::common::*;
 pub(crate) mod assemblies;
 mod every_pose;
 mod exports;
-pub(crate) mod fix;
+mod fix;
 pub(crate) mod ideas;
 mod lasting;
-mod lint;
+pub(crate) mod lint;
 mod masses;
 pub(crate) mod mjcf;
 mod models;
@@ -228,35 +228,21 @@ fn too_many_links() {
 
 #[test]
 fn the_command() {
-    let file = folder().join("mimic_gripper.urdf");
-    let out = tempdir().unwrap();
-    let target = out.path().join("gripper.toml");
-    let run = |more: &[&str]| {
-        ozols(&[&["export", file.to_str().unwrap()][..], more].concat())
-            .output()
-            .unwrap()
-    };
-    let o = run(&["--to", "toml", "-o", target.to_str().unwrap()]);
-    assert_eq!((o.status.code(), o.stdout.len()), (Some(0), 0));
-    assert_eq!(run(&["--to", "toml", "--quiet"]).stderr.len(), 0);
-    assert!(
-        String::from_utf8(o.stderr)
-            .unwrap()
-            .contains("5 couplings of joints: W = 6 without, 1 with")
-    );
-    let checked = ozols(&["check", target.to_str().unwrap()])
-        .output()
-        .unwrap();
-    assert_eq!(checked.status.code(), Some(0));
-    let json: Value = serde_json::from_slice(&run(&["--to", "json"]).stdout).unwrap();
+    let dir = Folder::with("m.urdf", read_data("robots/mimic_gripper.urdf"));
+    let (out, told) = dir.succeed("export m.urdf --to toml -o gripper.toml");
+    assert_eq!(out, "");
+    has(&told, "5 couplings of joints: W = 6 without, 1 with");
+    assert_eq!(dir.succeed("export m.urdf --to toml --quiet").1, "");
+    dir.succeed("check gripper.toml");
+    let json: Value = serde_json::from_str(&dir.succeed("export m.urdf --to json").0).unwrap();
     assert_eq!(json["joint"][0]["type"], "revolute");
     for bad in [
-        &["--pose", "finger_joint"][..],
-        &["--pose", "x=1"],
-        &["--frame", "x"],
-        &["--working-link", "x"],
+        "--pose finger_joint",
+        "--pose x=1",
+        "--frame x",
+        "--working-link x",
     ] {
-        let o = run(&[&["--to", "toml"][..], bad].concat());
-        assert_eq!((o.status.code(), o.stdout.len()), (Some(2), 0), "{bad:?}");
+        let (code, out, _) = dir.run(&format!("export m.urdf --to toml {bad}"));
+        assert_eq!((code, out.as_str()), (Some(2), ""), "{bad}");
     }
 }
