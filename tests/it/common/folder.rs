@@ -4,6 +4,12 @@ use super::*;
 
 pub(crate) struct Folder(TempDir);
 
+impl AsRef<Path> for Folder {
+    fn as_ref(&self) -> &Path {
+        self.0.path()
+    }
+}
+
 impl Folder {
     pub(crate) fn new() -> Folder {
         Folder(tempdir().unwrap())
@@ -33,6 +39,13 @@ impl Folder {
 
     pub(crate) fn text(&self, name: &str) -> String {
         utf8_text(&self.bytes(name))
+    }
+
+    /// Returns the names of the files and folders in it, in order.
+    pub(crate) fn names(&self) -> Vec<String> {
+        let all = fs::read_dir(&self.0).unwrap();
+        let name = |f: std::io::Result<fs::DirEntry>| f.unwrap().file_name().into_string();
+        all.map(|f| name(f).unwrap()).sorted().collect()
     }
 
     /// Returns the exit code, standard output and standard error of a command that runs in this folder.
