@@ -64,22 +64,20 @@ impl Ring {
         }
     }
 
+    /// The file, by what [`write_mechanism`] has of each joint behind its links.
     fn text(&self, mode: &str, joints: &[String]) -> String {
         let ring = self.joints.len() - usize::from(self.twice);
-        let mut out = format!("name = \"ring\"\n{mode}\n");
-        for i in 0..ring {
-            let role = match i {
-                0 => "role = \"frame\"",
-                1 => "role = \"output\"",
-                _ => "",
-            };
-            out += &format!("[[link]]\nid = \"l{i}\"\n{role}\n");
-        }
-        for (i, joint) in joints.iter().enumerate() {
+        let links = (0..ring).map(|i| format!("{i}{}", if i == 1 { "*" } else { "" }));
+        let line = |(i, joint): (usize, &String)| {
             let [a, b] = self.links(i);
-            out += &format!("[[joint]]\nid = \"j{i}\"\nlinks = [\"l{a}\", \"l{b}\"]\n{joint}\n");
-        }
-        out
+            format!("j{i} | {a} {b} | {joint}")
+        };
+        let joints = joints.iter().enumerate().map(line).join("\n");
+        write_mechanism(
+            &format!("name = \"ring\"\n{mode}"),
+            &links.collect_vec().join(" "),
+            &joints,
+        )
     }
 
     /// In planar mode, the frames as they are.
@@ -89,14 +87,13 @@ impl Ring {
             .iter()
             .map(|j| {
                 let names: Vec<&str> = j.types.iter().map(|&t| TYPES[t].0).collect();
-                format!(
-                    "type = {:?}\npoint = {:?}\naxis = {:?}\nreference = {:?}\noptions = {:?}",
-                    names[0],
-                    j.point,
-                    j.axis,
+                let [point, axis] = [j.point, j.axis].map(commas);
+                let more = format!(
+                    "reference = {:?}\\noptions = {:?}",
                     j.reference,
                     &names[1..]
-                )
+                );
+                format!("{} | {point} | {axis} | {more}", names[0])
             })
             .collect();
         let mode = format!("mode = \"planar\"\nplane_normal = {:?}", self.normal);
@@ -109,7 +106,7 @@ impl Ring {
             .joints
             .iter()
             .zip(choice)
-            .map(|(j, &t)| format!("{}\npoint = {:?}", self.in_plane(j, t), j.point))
+            .map(|(j, &t)| self.in_plane(j, t))
             .collect();
         self.text("", &pairs)
     }
@@ -156,12 +153,12 @@ impl Ring {
             [0, 0, 1]
         };
         let reference = along.first().copied().unwrap_or(any);
-        let kind = if freedoms.is_empty() {
-            "type = \"fixed\"".to_owned()
-        } else {
-            format!("type = \"custom\"\nfreedoms = {freedoms:?}")
+        let (kind, more) = match freedoms.len() {
+            0 => ("fixed", String::new()),
+            _ => ("custom", format!("\\nfreedoms = {freedoms:?}")),
         };
-        format!("{kind}\naxis = {n:?}\nreference = {reference:?}")
+        let [point, axis] = [j.point, n].map(commas);
+        format!("{kind} | {point} | {axis} | reference = {reference:?}{more}")
     }
 }
 
