@@ -21,9 +21,7 @@ fn data(page: &str) -> Value {
 #[test]
 fn the_data_are_those_of_the_search() {
     for name in ["gripper-10", "gripper-10-loaded"] {
-        let page = data(&run_quiet(&[
-            "report", name, "--top", "40", "--pool", "2000",
-        ]));
+        let page = data(&run_quiet(&format!("report {name} --top 40 --pool 2000")));
         let found = &page["search"];
         let list = run_json(&format!("search {name} --top 40 --pool 2000 --format json"));
         for (own, key) in [
@@ -109,9 +107,7 @@ fn figures_of_further_states_are_those_of_the_variant_analysed() {
 #[test]
 fn each_change_has_a_symbol() {
     for name in ["gripper-10", "gripper-10-planar", "bennett"] {
-        let page = data(&run_quiet(&[
-            "report", name, "--top", "12", "--pool", "2000",
-        ]));
+        let page = data(&run_quiet(&format!("report {name} --top 12 --pool 2000")));
         let (rows, scene) = (page["swaps"][0].list(), &page["scenes"][0]);
         assert_eq!(rows.len(), scene["swaps"].list().len(), "{name}");
         for chosen in page["search"]["choices"].list() {

@@ -44,17 +44,12 @@ fn number(v: &Value) -> BigUint {
 fn a_larger_budget_never_gives_a_worse_bound() {
     let ladder = ladder(12);
     for budgets in [
-        [
-            "--nodes=100",
-            "--nodes=700",
-            "--nodes=1000",
-            "--nodes=20000",
-        ],
-        ["--memory=1M", "--memory=2M", "--memory=8M", "--memory=40M"],
+        "--nodes=100 --nodes=700 --nodes=1000 --nodes=20000",
+        "--memory=1M --memory=2M --memory=8M --memory=40M",
     ] {
         let mut before = [BigUint::ZERO, BigUint::ZERO];
         let mut stopped = false;
-        for budget in budgets {
+        for budget in split_words(budgets) {
             let v = found(&ladder, &[budget]);
             let now = [number(&v["determinate"]), number(&v["admissible"])];
             assert!(

@@ -136,16 +136,8 @@ fn reactions_in_a_plane_without_redundant_constraints_are_determined() {
     ) {
         let analysis = run_json(&["analyze", name, "--state", "free", "--format", "json"]);
         let parts = analysis["states"][0]["least_rows"].list();
-        let args = [
-            "statics",
-            name,
-            "--state",
-            "free",
-            "--spatial",
-            "--format",
-            "json",
-        ];
-        let reactions = run_json(&args);
+        let line = format!("statics {name} --state free --spatial --format json");
+        let reactions = run_json(&line);
         assert_eq!(reactions["unique"], false, "{name}");
         assert_eq!(
             parts.len() % 2,

@@ -1,16 +1,7 @@
 //! Variants in other poses of the present motion.
 
 use crate::common::*;
-const BALANCE: [&str; 8] = [
-    "search",
-    "roberval-balance",
-    "--pose-only",
-    "--format",
-    "json",
-    "--all",
-    "--seed",
-    "3",
-];
+const BALANCE: &str = "search roberval-balance --pose-only --format json --all --seed 3";
 
 fn changes(v: &Value) -> Vec<(String, String)> {
     let word = |x: &Value| x.word().to_owned();
@@ -24,7 +15,7 @@ fn changes(v: &Value) -> Vec<(String, String)> {
 /// with the frame, happens to point at the ball.
 #[test]
 fn variants_that_are_right_in_the_pose_of_the_file_only_are_marked() {
-    let v = run_json(&[&BALANCE[..], &["--poses", "4"]].concat());
+    let v = run_json(&format!("{BALANCE} --poses 4"));
     assert_eq!(v["poses"], serde_json::json!({"asked": 4, "reached": 4}));
     let variants = v["variants"].list();
     assert!(variants.iter().all(|x| x["lucky"].is_boolean()));
@@ -97,10 +88,8 @@ fn marked_variants_are_said_to_be_of_this_pose_only() {
 
 #[test]
 fn poses_do_not_depend_on_threads_and_need_a_motion() {
-    let run = |threads: &str| {
-        run_quiet(&[&BALANCE[..], &["--poses", "3", "--threads", threads]].concat())
-    };
-    assert!(run("1") == run("2"));
+    let run = |threads| run_quiet(&format!("{BALANCE} --poses 3 --threads {threads}"));
+    assert!(run(1) == run(2));
     let o = ozols("search bennett-perturbed --poses 2 --format json")
         .output()
         .unwrap();

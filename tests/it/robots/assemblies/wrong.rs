@@ -93,7 +93,7 @@ fn joints_that_cannot_be_read_are_left_out_and_told() {
     let mut other = bar.clone();
     let d = other.iter_mut().find(|o| o.0 == "D").unwrap();
     d.2 = d.2.replace(
-        &joint_type("Revolute", &super::make::TYPES),
+        &joint_type("Revolute", &split_words(super::make::TYPES)),
         &joint_type("Helix", &["Fixed", "Helix"]),
     );
     let i = read("x.FCStd", &fcstd(&other), &Options::default());
@@ -126,8 +126,10 @@ fn both_versions_say_the_same() {
             }
         }
         let new = joint_type("Revolute", &["Slider", "Fixed", "Revolute"]);
-        o.2 =
-            o.2.replace(&joint_type("Revolute", &super::make::TYPES), &new);
+        o.2 = o.2.replace(
+            &joint_type("Revolute", &split_words(super::make::TYPES)),
+            &new,
+        );
         assert!(!o.2.contains("name=\"Assembly\""));
     }
     let i = read("x.FCStd", &fcstd(&bar), &Options::default());

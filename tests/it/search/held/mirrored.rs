@@ -71,18 +71,13 @@ fn what_has_no_image_is_told() {
 /// All variants are those that are their own images, and pairs of others.
 #[test]
 fn orbits_of_the_clamped_gripper() {
-    let question = [
-        "--max-external",
-        "2",
-        "--options",
-        "revolute,spherical,sphere-in-cylinder",
-        "--count",
-    ];
-    let admissible = |more: &[&str]| {
-        parse_count(&run_search("gripper-10", &[&question[..], more].concat())["admissible"])
+    let options = "--options revolute,spherical,sphere-in-cylinder";
+    let admissible = |more: &str| {
+        let question = format!("--max-external 2 {options} --count {more}");
+        parse_count(&run_search("gripper-10", &question)["admissible"])
     };
-    let (all, own) = (admissible(&[]), admissible(&["--symmetric"]));
-    assert_eq!(2 * admissible(&["--one-per-orbit"]), all + own);
+    let (all, own) = (admissible(""), admissible("--symmetric"));
+    assert_eq!(2 * admissible("--one-per-orbit"), all + own);
     assert!(all > 0);
 }
 
