@@ -4,6 +4,7 @@ mod folder;
 pub(crate) mod lattice;
 mod names;
 mod prelude;
+mod turned;
 
 use assert_cmd::Command;
 pub(crate) use folder::*;
@@ -13,6 +14,7 @@ use ozols::linalg::modp::Residue;
 pub(crate) use prelude::*;
 use std::hash::{BuildHasher, Hasher, RandomState};
 pub(crate) use tempfile::{TempDir, tempdir};
+pub(crate) use turned::*;
 
 /// A command line: its words, or a text with blanks between them.
 pub(crate) trait Line {

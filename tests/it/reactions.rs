@@ -162,34 +162,7 @@ proptest! {
         prop_assume!(!matches!(m.mode, Mode::Planar { .. }));
         with_masses(&mut m, &seed);
         let before = solve(&m);
-        // A turn with rational entries, so that expressions stay short.
-        let turn = [[2.0, -2.0, 1.0], [1.0, 2.0, 2.0], [-2.0, -1.0, 2.0]];
-        let turn = turn.map(|r: [f64; 3]| r.map(|x| x / 3.0));
-        let by = |v: &[Expr; 3], shift: [i64; 3]| -> [Expr; 3] {
-            let v = to_vector(v);
-            let u = [0, 1, 2].map(|i| {
-                #[allow(clippy::cast_precision_loss, reason = "small")]
-                let s = shift[i] as f64;
-                dot(turn[i], v) + s
-            });
-            u.map(|x| format!("{x:.15}").parse().unwrap())
-        };
-        for j in &mut m.edit().joints {
-            j.frame.point = by(&j.frame.point, [3, -7, 2]);
-            j.frame.axis = by(&j.frame.axis, [0; 3]);
-            j.frame.reference = by(&j.frame.reference, [0; 3]);
-        }
-        for l in &mut m.edit().links {
-            if let Some(mass) = &mut l.mass {
-                mass.centre = by(&mass.centre, [3, -7, 2]);
-            }
-        }
-        for f in &mut m.edit().loads.forces {
-            f.point = by(&f.point, [3, -7, 2]);
-            f.force = by(&f.force, [0; 3]);
-        }
-        m.edit().loads.gravity = m.loads.gravity.as_ref().map(|g| by(g, [0; 3]));
-        let after = solve(&m);
+        let after = solve(&turned_and_moved(&m, [3.0, -7.0, 2.0]));
         let greatest = greatest_force(&before.reactions);
         for (x, y) in before.reactions.iter().zip(&after.reactions) {
             for i in 0..3 {

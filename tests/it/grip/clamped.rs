@@ -194,22 +194,7 @@ fn reactions_are_linear_in_the_payload_and_vanish_with_it() {
 fn loads_follow_the_gripper_in_the_files_axes() {
     // A link that weighs, too: it feels the case in the file's axes.
     let before = mechanism_from_str("heavy", &weighed()).unwrap();
-    let mut m = before.clone();
-    let turn = [[2.0, -2.0, 1.0], [1.0, 2.0, 2.0], [-2.0, -1.0, 2.0]];
-    let turn = turn.map(|r: [f64; 3]| r.map(|x| x / 3.0));
-    let by = |v: &[Expr; 3], shift: [f64; 3]| -> [Expr; 3] {
-        let v = to_vector(v);
-        [0, 1, 2].map(|i| Expr::from_f64(dot(turn[i], v) + shift[i]).unwrap())
-    };
-    for j in &mut m.edit().joints {
-        j.frame.point = by(&j.frame.point, [30.0, -70.0, 20.0]);
-        j.frame.axis = by(&j.frame.axis, [0.0; 3]);
-        j.frame.reference = by(&j.frame.reference, [0.0; 3]);
-    }
-    let slider = m.link_named("3").unwrap();
-    let mut mass = m.links[slider].mass.clone().unwrap();
-    mass.centre = by(&mass.centre, [30.0, -70.0, 20.0]);
-    m.edit().links[slider].mass = Some(mass);
+    let m = turned_and_moved(&before, [30.0, -70.0, 20.0]);
     let (a, b) = (clamped(&before), clamped(&m));
     for (x, y) in a.study.rows.iter().zip(&b.study.rows) {
         let (p, q) = (solve(&a, x), solve(&b, y));
