@@ -71,7 +71,7 @@ fn poses_are_inside_the_limits() {
         "range='-2 2' limited='true'",
         "range='40 50' limited='true'",
     ] {
-        let (code, found) = linted("m.xml", &in_line("type='ball'", range));
+        let (code, found) = linted("m.xml", in_line("type='ball'", range));
         assert_eq!(code, Some(0), "{range}: {found}");
         assert_eq!(found["redundant_over_motion"], 0, "{range}");
         let over = found["over_motion"].word();

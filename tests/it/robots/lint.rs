@@ -15,7 +15,7 @@ pub(crate) fn linted(name: &str, text: impl AsRef<[u8]>) -> (Option<i32>, Value)
 // Each connect of the gripper closes a planar loop of three hinges: its row across the plane is held twice.
 #[test]
 fn lint_names_each_redundant_row_with_its_line() {
-    let (code, file) = linted("gripper.xml", &read_data("robots/gripper.xml"));
+    let (code, file) = linted("gripper.xml", read_data("robots/gripper.xml"));
     assert_eq!(code, Some(1));
     assert_eq!(file["file"], "gripper.xml");
     let found: Vec<(&str, &str, u64)> = file["findings"]
@@ -143,7 +143,7 @@ fn loops_that_slide_move() {
         j0 | f c | revolute | 0, 0, 0 | 0, 1, 0
         j1 | f c | revolute | 3, 0, 0 | 1, 0, 0
         k | f h | revolute | 9, 9, 9 | 0, 0, 1";
-    let (_, file) = linted("m.toml", &write_mechanism(head, "f c* h", truss));
+    let (_, file) = linted("m.toml", write_mechanism(head, "f c* h", truss));
     assert_eq!(file["over_motion_kind"], "rigid");
 }
 
