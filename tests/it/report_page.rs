@@ -143,11 +143,9 @@ fn the_same_bytes_for_any_number_of_threads() {
 
 #[test]
 fn a_file_is_written_and_needs_nothing_else() {
-    let folder = tempdir().unwrap();
-    let path = folder.path().join("report.html");
-    let file = path.to_str().unwrap();
-    assert_eq!(run_quiet(&["report", "gripper-10", "-o", file]), "");
-    let page = fs::read_to_string(&path).unwrap();
+    let folder = Folder::new();
+    assert_eq!(folder.succeed("report gripper-10 -o r.html").0, "");
+    let page = folder.text("r.html");
     assert!(page.starts_with("<!doctype html>") && page.ends_with("</html>\n"));
     assert!(page.contains("default-src 'none'"));
     assert!(!page.contains("{{"), "every part is filled in");

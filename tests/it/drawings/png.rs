@@ -10,14 +10,12 @@ fn sizes_are_for_png() {
 #[cfg(not(feature = "png"))]
 #[test]
 fn a_build_without_png_says_so() {
-    let dir = tempdir().unwrap();
-    let path = dir.path().join("x.PNG");
-    let path = path.to_str().unwrap();
-    assert_fails("draw bennett --png", "--features png");
+    let dir = Folder::new();
+    dir.assert_fails("draw bennett --png", "--features png");
     // the name asks for it
-    assert_fails(&["draw", "bennett", "-o", path], "--features png");
-    assert_fails(&["explain", "spherical", "-o", path], "--features png");
-    assert_eq!(dir.path().read_dir().unwrap().count(), 0);
+    dir.assert_fails("draw bennett -o x.PNG", "--features png");
+    dir.assert_fails("explain spherical -o x.PNG", "--features png");
+    assert_eq!(dir.names(), [""; 0]);
 }
 
 #[cfg(feature = "png")]
@@ -207,13 +205,10 @@ joint = [
 
     #[test]
     fn joint_types_are_explained_in_a_picture() {
-        let dir = tempdir().unwrap();
+        let dir = Folder::new();
         for t in JointType::NAMED {
-            let path = dir.path().join(format!("{t}.png"));
-            let done = run(&["explain", t.name(), "-o", path.to_str().unwrap()]);
-            let said = String::from_utf8_lossy(&done.stderr);
-            assert!(done.status.success(), "{t}: {said}");
-            let picture = Pixmap::decode_png(&fs::read(&path).unwrap()).unwrap();
+            dir.succeed(&format!("explain {} -o x.png", t.name()));
+            let picture = Pixmap::decode_png(&dir.bytes("x.png")).unwrap();
             let dark = picture.pixels().iter().filter(|p| p.red() < 150).count();
             assert!(dark > 500, "{t}: {dark}");
         }
@@ -221,16 +216,9 @@ joint = [
 
     #[test]
     fn command_line() {
-        let dir = tempdir().unwrap();
-        let path = dir.path().join("x.png");
-        let path = path.to_str().unwrap();
-        let done = run(&["draw", "four-bar", "-o", path, "--width", "321"]);
-        assert!(
-            done.status.success(),
-            "{}",
-            String::from_utf8_lossy(&done.stderr)
-        );
-        let file = fs::read(path).unwrap();
+        let dir = Folder::new();
+        dir.succeed("draw four-bar -o x.png --width 321");
+        let file = dir.bytes("x.png");
         let picture = Pixmap::decode_png(&file).unwrap();
         assert_eq!(picture.width(), 321);
         let piped = run("draw four-bar --png --width 321");

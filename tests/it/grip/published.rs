@@ -300,13 +300,10 @@ fn claims_are_told_of_the_gripper_of_the_paper_alone() {
     assert_eq!(value["claims"][13]["scan"], Value::Null);
     assert!(value["claims"][10]["scan"].is_string());
     // A gripper of one's own, started from that one.
-    let folder = tempdir().unwrap();
-    let mine = folder.path().join("mine.toml");
-    let mine = mine.to_str().unwrap();
-    run_quiet(&["new", mine, "--from", "lever-gripper"]);
-    let value = run_json(&["grip", mine, "--format", "json"]);
-    assert_eq!(value["claims"], serde_json::json!([]));
-    let text = run_quiet(&["grip", mine]);
+    let folder = Folder::new();
+    folder.succeed("new mine.toml --from lever-gripper");
+    assert_eq!(folder.json("grip mine.toml")["claims"], json!([]));
+    let (text, _) = folder.succeed("grip mine.toml");
     lacks(&text, "Pavlenko");
     lacks(&text, "refuted");
 }
@@ -314,16 +311,12 @@ fn claims_are_told_of_the_gripper_of_the_paper_alone() {
 /// Figs. 2, 4 and 5 as charts, each point by the equations as they are printed.
 #[test]
 fn figures_are_charts_of_any_gripper() {
-    let folder = tempdir().unwrap();
-    let file = folder.path().join("curves.toml");
     let text = "name = \"curves\"\nlength_unit = \"mm\"\n[workload.grip]\nlever_length = 100\nprism_angle = 120\n\
         mounting_angle = 20\ndiameter = 60\ndiameters = [40, 60, 100]\npivots = \"nominal\"\nlevers_cross = true\n";
-    fs::write(&file, text).unwrap();
-    let charts = folder.path().join("charts");
-    let [file, into] = [&file, &charts].map(|p| p.to_str().unwrap());
-    run_quiet(&["grip", file, "--svg", into]);
+    let folder = Folder::with("curves.toml", text);
+    folder.succeed("grip curves.toml --svg charts");
     for (name, at) in [("length", 0), ("prism-angle", 1), ("mounting-angle", 2)] {
-        let table = fs::read_to_string(charts.join(format!("arms-over-{name}.csv"))).unwrap();
+        let table = folder.text(&format!("charts/arms-over-{name}.csv"));
         let mut seen = BTreeMap::new();
         for line in table.lines().skip(1) {
             let (series, rest) = line[1..].split_once("\",").unwrap();

@@ -47,11 +47,9 @@ fn loads_out_of_the_plane_are_not_left_out() {
         .split("[[expected]]")
         .next()
         .unwrap();
-    let folder = tempdir().unwrap();
-    let path = folder.path().join("loaded.toml");
     let with = |load: &str| {
-        fs::write(&path, format!("{four_bar}\n{load}\n")).unwrap();
-        run_json(&["statics", path.to_str().unwrap(), "--format", "json"])
+        let text = format!("{four_bar}\n{load}\n");
+        json_on("statics", "loaded.toml", &text, "")
     };
     let force = |point: &str, force: &str| {
         format!("[[workload.force]]\nlink = \"2\"\npoint = {point}\nforce = {force}")

@@ -97,23 +97,16 @@ fn structure_under_every_drive() {
 
 #[test]
 fn charts_and_stability_go_to_folders() {
-    let folder = tempdir().unwrap();
-    let [charts, stability] = ["charts", "stability"].map(|n| folder.path().join(n));
-    run_quiet(&format!(
-        "statics parallel-shears --stroke 0:6.28:8 --svg {}",
-        charts.display()
-    ));
+    let folder = Folder::new();
+    folder.succeed("statics parallel-shears --stroke 0:6.28:8 --svg charts");
     let names = "group-4-6-7-10.svg group-5-8-9-11.csv guide-4-6-7-10.svg group-2-3.svg drive.svg methods.svg index.html";
     for name in split_words(names) {
-        assert!(charts.join(name).is_file(), "{name}");
+        folder.bytes(&format!("charts/{name}"));
     }
-    let text = run_quiet(&format!("statics --stability -o {}", stability.display()));
+    let (text, _) = folder.succeed("statics --stability -o stability");
     for name in split_words("parallel-rods across-guide at-delta no-guide-reaction") {
         has(&text, name);
-        assert!(
-            stability.join(format!("stability-{name}.svg")).is_file(),
-            "{name}"
-        );
+        folder.bytes(&format!("stability/stability-{name}.svg"));
     }
 }
 
