@@ -184,7 +184,7 @@ fn an_ignored_hangup_stays_ignored() {
     );
     let mut child = Command::new("sh")
         .args(["-c", &command])
-        .current_dir(&folder)
+        .current_dir(folder)
         .stdout(Stdio::null())
         .stderr(Stdio::null())
         .spawn()
