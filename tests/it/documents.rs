@@ -12,8 +12,6 @@ use crate::robots::assemblies::make;
 use assert_cmd::Command;
 use snapbox::Assert;
 use snapbox::assert::Action;
-use std::io::{BufRead, BufReader};
-use std::process::Stdio;
 
 /// A command and the output written beneath it.
 struct Example {
@@ -126,7 +124,7 @@ fn the_commands_of_the_readme_run() {
     let readme = Path::new(env!("CARGO_MANIFEST_DIR")).join("README.md");
     let text = fs::read_to_string(readme).unwrap();
     let folder = tempdir().unwrap();
-    let robot = crate::common::run(&["export", "four-bar", "--to", "urdf"]).stdout;
+    let robot = crate::common::run("export four-bar --to urdf").stdout;
     fs::write(folder.path().join("robot.urdf"), robot).unwrap();
     let mut ran = Vec::new();
     for line in plain_commands(&text) {

@@ -270,7 +270,7 @@ fn parts_are_held_from_inside_by_the_other_way() {
         let sql = "SELECT closes, force_min, tip_a_dx, tip_a_dy, mechanism FROM layouts ORDER BY structure";
         let all = query_rows(&file, sql);
         for row in &all {
-            let m = mechanism_from_str("m.toml", row["mechanism"].word()).unwrap();
+            let m = read(row["mechanism"].word());
             let up = m.loads.forces.iter().find(|f| to_vector(&f.point)[1] > 0.0);
             assert_eq!(to_vector(&up.unwrap().force)[1], pushes);
         }

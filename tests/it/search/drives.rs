@@ -3,7 +3,6 @@
 //! The counts of built-in mechanisms are those of a trial that looked at every variant over another prime field, with code of its own.
 
 use crate::common::*;
-use ozols::search::check::brute::every_variant;
 use ozols::search::question::conditions::SearchError;
 use ozols::search::question::kept::Drives;
 
@@ -75,7 +74,7 @@ fn jack() -> String {
 
 #[test]
 fn a_bush_in_place_of_a_lead_screw_is_no_redesign_and_costs_no_less_than_nothing() {
-    let m = mechanism_from_str("jack.toml", &jack()).unwrap();
+    let m = read(&jack());
     assert_eq!(
         [Drives::Free, Drives::Kept].map(|d| admissible(&m, d)),
         [2, 1]
@@ -116,7 +115,7 @@ fn gantry() -> String {
 
 #[test]
 fn independent_drives_are_as_many_as_the_motions_that_they_decide() {
-    let m = mechanism_from_str("gantry.toml", &gantry()).unwrap();
+    let m = read(&gantry());
     // By hand: the slide keeps the one motion of the beam, the slot gives it a turn.
     for (drives, mobility) in [(Drives::Kept, 1), (Drives::Independent, 2)] {
         let search = search(&m, drives).unwrap();
@@ -147,7 +146,7 @@ fn nothing_found_with_independent_drives_is_an_answer() {
 
 #[test]
 fn independent_drives_are_refused_where_they_cannot_be() {
-    let built = mechanism_from_str("gantry.toml", &gantry()).unwrap();
+    let built = read(&gantry());
     let mut none = built.clone();
     none.edit().joints.iter_mut().for_each(|j| j.drive = false);
     let refused = search(&none, Drives::Independent).map(|_| ()).unwrap_err();
@@ -158,7 +157,7 @@ fn independent_drives_are_refused_where_they_cannot_be() {
     let slotted = gantry()
         .replace("type = \"fixed\"", "type = \"slotted\"")
         .replace(options, "");
-    let mut slotted = mechanism_from_str("gantry.toml", &slotted).unwrap();
+    let mut slotted = read(&slotted);
     slotted.edit().joints[1].drive = false;
     let refused = search(&slotted, Drives::Independent)
         .map(|_| ())

@@ -134,7 +134,7 @@ fn symmetric_variants_of_joints_at_one_place_are_found() {
 #[test]
 fn an_unsymmetric_mechanism_is_refused() {
     let text = replace_once(&hand(3, ""), "[-20, 30, 0]", "[-21, 30, 0]");
-    let (code, said, _) = run_on("search", "hand.toml", &text, &["--symmetric"]);
+    let (code, said, _) = run_on("search", "hand.toml", &text, "--symmetric");
     assert_eq!((code, said.as_str()), (Some(2), ""));
 }
 
