@@ -344,7 +344,8 @@ mod tests {
     #[test]
     fn every_advice_is_of_a_key_that_exists() {
         let root = crate::file::schema::json_schema();
-        for (path, _) in super::ADVICE {
+        for advice in super::ADVICE {
+            let (path, _) = advice.split_once(": ").unwrap();
             let mut schema = &root;
             for key in path.split('.') {
                 let next = &schema["properties"][key];

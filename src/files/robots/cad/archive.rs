@@ -172,7 +172,7 @@ mod tests {
         let text = "head\r\nA\r\n\tB\r\n\t\t1\t2\t\r\n\t\t3\r\n\tC\r\n\tEnd\r\n";
         let mut document = Document::default();
         let root = document
-            .read_outline("x", text.to_owned(), 1, "End")
+            .read_outline("x", text.to_owned(), "End")
             .unwrap_or_else(|e| panic!("{e}"));
         let a = document.element(root);
         assert_eq!(a.name(), "A");
@@ -184,7 +184,7 @@ mod tests {
     #[test]
     fn a_line_too_deep_is_named() {
         let mut document = Document::default();
-        let found = document.read_outline("x", "A\n\t\tB\n".to_owned(), 0, "End");
+        let found = document.read_outline("x", "head\nA\n\t\tB\n".to_owned(), "End");
         assert!(found.is_err_and(|e| e.to_string().contains("one tab deeper")));
     }
 }
