@@ -5,7 +5,7 @@
 
 use crate::search::build::self_stress::{Wanted, diagram_limits};
 use crate::search::build::spanning_halves::Halves;
-use crate::search::build::spanning_pairs::Bases;
+use crate::search::build::spanning_pairs::{Bases, ZeroForms};
 use crate::search::diagram::layer::{Merge, Nodes};
 use crate::search::diagram::redundancy_so_far::{Limits, Spent};
 use crate::search::diagram::stage::Adding;
@@ -82,17 +82,18 @@ fn part_has_all(halves: &Halves<'_>, part: usize, layers: &[Layer], ends: usize)
         }
     }
     let rows = halves.meeting_rows(part, layers.len() - to);
+    // A space is at several nodes.
+    let front_rows = (0..front.spaces.len()).map(|space| rows.front_rows(&front.spaces, space));
+    let zero_forms = front_rows.map(|own| ZeroForms::new(halves.field, &own, rows.width()));
+    let zero_forms = zero_forms.collect_vec();
+    let back_rows = (0..back.spaces.len()).map(|space| rows.back_rows(&back.spaces, space));
+    let back_rows = back_rows.collect_vec();
     let [of_front, of_back] = [&front, &back].map(|end| end.spaces_at(nodes_at(to)));
     for (front_spaces, back_spaces) in of_front.iter().zip(of_back) {
-        let back_rows = back_spaces
-            .iter()
-            .map(|&space| rows.back_rows(&back.spaces, space))
-            .collect_vec();
-        let back_rows = back_rows.iter().map(|rows| &rows[..]).collect_vec();
-        let bases = Bases::new(halves.field, &back_rows, false);
+        let own = back_spaces.iter().map(|&space| &back_rows[space][..]);
+        let bases = Bases::new(halves.field, own, false);
         for &space in front_spaces {
-            let found =
-                bases.completing_nodes(&rows.front_rows(&front.spaces, space), rows.width());
+            let found = bases.completing_nodes(&zero_forms[space]);
             let count: u32 = found.iter().map(|word| word.count_ones()).sum();
             if (count as usize) < back_spaces.len() {
                 return None;

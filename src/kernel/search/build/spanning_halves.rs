@@ -9,7 +9,7 @@ use crate::linalg::modp::{Field, Residue};
 use crate::search::build::completing_sets::{Numbered, completing_sets};
 use crate::search::build::matching_halves::{Grouped, count_lookups, match_halves};
 use crate::search::build::self_stress::{Wanted, flat_stages, self_stress_space};
-use crate::search::build::spanning_pairs::Bases;
+use crate::search::build::spanning_pairs::{Bases, ZeroForms};
 use crate::search::diagram::layer::Nodes;
 use crate::search::diagram::node_sets::{Set, add_node, empty_set, nodes_in};
 use crate::search::diagram::reduced_rows::{Arithmetic, Rows};
@@ -155,10 +155,11 @@ impl<'a> Halves<'a> {
         let mut of_node = vec![DEAD; halves.front.len()];
         let mut numbered = Numbered::default();
         for [fronts, backs] in &halves.alike {
-            let rows: Vec<&[Vec<Residue>]> = backs.iter().map(|&n| &back[n][..]).collect();
-            let bases = Bases::new(self.field, &rows, self.keeps);
+            let rows = backs.iter().map(|&node| &back[node][..]);
+            let bases = Bases::new(self.field, rows, self.keeps);
             let completing = |n: usize| {
-                let own = bases.completing_nodes(&rows_of_front(fronts[n]), width);
+                let forms = ZeroForms::new(self.field, &rows_of_front(fronts[n]), width);
+                let own = bases.completing_nodes(&forms);
                 let mut set = empty_set(back.len());
                 nodes_in(&own).for_each(|node| add_node(&mut set, backs[node]));
                 set

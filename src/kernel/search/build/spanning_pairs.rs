@@ -42,7 +42,11 @@ pub(super) struct Bases {
 
 impl Bases {
     /// Takes a reduced basis of each node, with a number of kept links behind the coordinates of contours.
-    pub(super) fn new(field: Field, bases: &[&[Vec<Residue>]], keeps: bool) -> Bases {
+    pub(super) fn new<'b>(
+        field: Field,
+        bases: impl IntoIterator<Item = &'b [Vec<Residue>]>,
+        keeps: bool,
+    ) -> Bases {
         let mut known: HashMap<&[Residue], usize> = HashMap::new();
         let mut vectors = Vec::new();
         let mut number = |row| {
@@ -53,8 +57,10 @@ impl Bases {
             })
         };
         // The last rows have few numbers that are not zero, so that more bases have them in common.
-        let mut all: Vec<(Vec<usize>, usize)> = Vec::with_capacity(bases.len());
-        for (node, rows) in bases.iter().enumerate() {
+        let mut all: Vec<(Vec<usize>, usize)> = Vec::new();
+        let mut width = 0;
+        for (node, rows) in bases.into_iter().enumerate() {
+            width = rows.first().map_or(width, Vec::len);
             all.push((
                 rows.iter().rev().map(|row| number(&row[..])).collect(),
                 node,
@@ -63,7 +69,7 @@ impl Bases {
         all.sort_by(|(a, _), (b, _)| (a.len(), a).cmp(&(b.len(), b)));
         let mut out = Bases {
             field,
-            width: bases.iter().copied().flatten().next().map_or(0, Vec::len),
+            width,
             vectors,
             items: Vec::new(),
             lengths: Vec::new(),
@@ -97,48 +103,74 @@ impl Bases {
         }
     }
 
-    /// Returns the nodes that complete a node of the front, which has these rows in `width` coordinates.
+    /// Returns the nodes that complete a node of the front, on which these forms are zero.
     ///
     /// # Complexity
     /// O(e·w) field operations for e different beginnings of bases and w coordinates. O(e·w²) if most rows are not the last ones.
-    pub(super) fn completing_nodes(&self, rows: &[Vec<Residue>], width: usize) -> Set {
-        let span = Echelon::from_vectors(self.field, rows);
-        let (rows, pivots) = (span.reduced_rows(), span.pivots());
-        let open: Vec<usize> = (0..width).filter(|at| !pivots.contains(at)).collect();
-        let mut forms = vec![0; open.len() * width];
-        for (form, &at) in forms.chunks_exact_mut(width).zip(&open) {
-            form[at] = self.field.one();
-            for (&pivot, row) in pivots.iter().zip(&rows) {
-                form[pivot] = self.field.neg(row[at]);
-            }
-        }
+    pub(super) fn completing_nodes(&self, front: &ZeroForms) -> Set {
+        let (width, open) = (front.width, front.count);
+        let forms = &front.numbers;
         // What the forms are on a vector has fewer numbers than the vector, but takes as long as some items.
         let vectors = self.vectors.chunks_exact(self.width.max(1));
-        let mut walk = if vectors.len() * open.len() < 2 * self.items.len() {
+        let mut walk = if vectors.len() * open < 2 * self.items.len() {
             let forms = forms.chunks_exact(width);
             let of_vector = |v| forms.clone().map(move |form| self.field.dot(form, v));
             let images = Cow::Owned(vectors.flat_map(of_vector).collect());
-            let levels = (0..open.len()).map(|rank| Forms::sparse(open.len(), rank));
+            let levels = (0..open).map(|rank| Forms::sparse(open, rank));
             let mut levels: Vec<Forms> = levels.collect();
             levels[0].numbers.fill(self.field.one());
-            Walk::new(self, images, open.len(), levels)
+            Walk::new(self, images, open, levels)
         } else {
-            let levels = (0..open.len()).map(|rank| Forms::dense(open.len(), rank, width));
+            let levels = (0..open).map(|rank| Forms::dense(open, rank, width));
             let mut levels: Vec<Forms> = levels.collect();
-            levels[0].numbers = forms;
+            levels[0].numbers.clone_from(forms);
             Walk::new(self, Cow::Borrowed(&self.vectors), width, levels)
         };
         let mut start = 0;
         for &(rows, end) in &self.lengths {
             if rows > 0 {
                 walk.follow_rows(start..end, rows, 0);
-            } else if open.len() == 1 {
+            } else if open == 1 {
                 // The front spans everything, and what has no rows adds nothing.
                 walk.add_nodes(0, 0);
             }
             start = end;
         }
         walk.found
+    }
+}
+
+/// The linear forms that are zero on the rows of a node of the front.
+pub(super) struct ZeroForms {
+    /// Number of coordinates.
+    width: usize,
+    /// Number of forms.
+    count: usize,
+    /// The numbers of the forms, one after another.
+    numbers: Vec<Residue>,
+}
+
+impl ZeroForms {
+    /// Returns the forms for rows in `width` coordinates.
+    ///
+    /// # Complexity
+    /// O(w³) field operations for w coordinates.
+    pub(super) fn new(field: Field, rows: &[Vec<Residue>], width: usize) -> ZeroForms {
+        let span = Echelon::from_vectors(field, rows);
+        let (rows, pivots) = (span.reduced_rows(), span.pivots());
+        let open: Vec<usize> = (0..width).filter(|at| !pivots.contains(at)).collect();
+        let mut numbers = vec![0; open.len() * width];
+        for (form, &at) in numbers.chunks_exact_mut(width).zip(&open) {
+            form[at] = field.one();
+            for (&pivot, row) in pivots.iter().zip(&rows) {
+                form[pivot] = field.neg(row[at]);
+            }
+        }
+        ZeroForms {
+            width,
+            count: open.len(),
+            numbers,
+        }
     }
 }
 

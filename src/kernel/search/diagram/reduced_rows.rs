@@ -220,11 +220,15 @@ impl Arithmetic {
     pub(in crate::search) fn new(field: Field) -> Self {
         Arithmetic {
             field,
-            inverses: vec![(0, 0); 1024],
+            inverses: Vec::new(),
         }
     }
 
     fn cached_inverse(&mut self, a: Residue) -> Residue {
+        // Many are made only to read rows, and need no inverse.
+        if self.inverses.is_empty() {
+            self.inverses.resize(1024, (0, 0));
+        }
         let slot = (a.wrapping_mul(0x9e37_79b9_7f4a_7c15) >> 54) as usize;
         if self.inverses[slot].0 != a {
             self.inverses[slot] = (a, self.field.inv(a));

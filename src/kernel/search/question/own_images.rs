@@ -261,7 +261,7 @@ impl ComparedJoints {
         let near = |j: JointId| {
             let all = mechanism.joint_ids();
             let near = all.filter(|&k| self.are_alike(j, k) && close(j, k));
-            near.collect_vec()
+            Some(near.collect_vec()).filter(|near| !near.is_empty())
         };
         let frame = mechanism.frame_link().index();
         let mut images = PartialImages {
@@ -270,7 +270,7 @@ impl ComparedJoints {
             links: vec![None; mechanism.links.len()],
         };
         images.links[frame] = Some(frame);
-        let near = mechanism.joint_ids().map(near).collect_vec();
+        let near: Vec<Vec<JointId>> = mechanism.joint_ids().map(near).collect::<Option<_>>()?;
         let mut steps = STEPS;
         let images = images.complete_images(mechanism, &near, &mut steps)?;
         let groups = mechanism.joint_ids().map(|j| images.orbit_of(j));
