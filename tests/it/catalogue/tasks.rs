@@ -178,6 +178,15 @@ fn answers_are_sorted_by_what_is_asked() {
             assert_eq!(row["force_per_newton_metre"].is_null(), slides, "{row}");
         }
     }
+    // Forces for 1 N and for 1 Nm are two lists, each from the greatest to the least.
+    let found = filtered(file, "--least-force 0.1 --does-task");
+    let turns = |r: &&Value| r["input"] == "turn";
+    assert!(found.iter().is_sorted_by_key(|r| turns(&r)));
+    for column in ["force_per_newton", "force_per_newton_metre"] {
+        let own = found.iter().filter(|r| !r[column].is_null());
+        let own = own.map(|r| -r[column].real()).collect_vec();
+        assert!(own.len() > 10 && own.is_sorted(), "{column}");
+    }
     let told = stdout_of(&["catalog", "query", file]);
     has_all(
         &told,
@@ -194,20 +203,29 @@ fn answers_are_sorted_by_what_is_asked() {
 #[test]
 fn an_empty_answer_says_what_is_in_the_way() {
     let file = all_of_six();
-    let greatest = "SELECT count(*) AS n, max(least_force) AS most FROM grippers WHERE turn <= 30";
-    let greatest = &query_rows(file, greatest)[0];
+    let greatest = |input: &str| {
+        let sql = format!(
+            "SELECT max(least_force) AS most FROM grippers WHERE turn <= 30 AND input = '{input}'"
+        );
+        query_rows(file, &sql)[0]["most"].real()
+    };
+    let count = query_rows(file, "SELECT count(*) AS n FROM grippers WHERE turn <= 30");
     let (code, _, told) = run_full(&format!(
         "catalog query {file} --least-force 1000 --turn 30"
     ));
     assert_eq!(code, Some(1));
-    let count = format!(
-        "without --least-force 1000: {}; the greatest least force is ",
-        greatest["n"]
-    );
-    let (_, most) = told.split_once(&count).unwrap_or_else(|| panic!("{told}"));
-    let most: f64 = most.lines().next().unwrap().parse().unwrap();
-    let exact = greatest["most"].real();
-    near(most, exact, 1e-3 * exact);
+    let (_, best) = told
+        .split_once(&format!("without --least-force 1000: {}; ", count[0]["n"]))
+        .unwrap_or_else(|| panic!("{told}"));
+    let best = best.lines().next().unwrap().split("; ");
+    let drives = [("1 N of a sliding", "slide"), ("1 Nm of a turning", "turn")];
+    for (said, (words, input)) in best.zip_eq(drives) {
+        let most = said
+            .strip_prefix(&format!("the greatest least force for {words} drive is "))
+            .unwrap_or_else(|| panic!("{told}"));
+        let exact = greatest(input);
+        near(most.parse().unwrap(), exact, 1e-3 * exact);
+    }
     // The turn alone is not: without it there is none, either.
     assert!(!told.contains("without --turn"), "{told}");
     let (_, _, told) = run_full(&format!(

@@ -13,7 +13,7 @@ pub(super) struct WantedGrippers {
     /// Only Pareto-optimal grippers: the view `front`.
     #[arg(long)]
     front: bool,
-    /// Minimum jaw force over the stroke, per 1 N of a sliding or 1 N·m of a rotary drive.
+    /// Minimum jaw force over the stroke, for 1 N of a sliding or 1 N·m of a rotary drive. Sliding drives are listed first.
     #[arg(long, value_name = "N", value_parser = parse_finite)]
     least_force: Option<f64>,
     /// Maximum ratio of the greatest jaw force to the least.
@@ -52,9 +52,10 @@ struct Filter {
     option: String,
     /// The condition in SQL.
     holds: String,
-    /// The best existing value in SQL and in words, and the order of answers with the best first. `None` if the bound is not a
-    /// number.
-    best: Option<[String; 3]>,
+    /// The best existing values, each in SQL and in words. None if the bound is not a number.
+    best: Vec<[String; 2]>,
+    /// The order of answers with the best first.
+    order: String,
 }
 
 impl Filter {
@@ -65,15 +66,24 @@ impl Filter {
             _ => ("min", "smallest", "ASC"),
         };
         let name = option.trim_start_matches('-').replace('-', " ");
-        let best = [
-            format!("{function}({column})"),
-            format!("the {word} {name}"),
-            format!("{column} {way}, "),
-        ];
+        let best_of = |rows: &str, of: &str| {
+            let sql = format!("{function}({column}) FILTER (WHERE {rows})");
+            [sql, format!("the {word} {name}{of}")]
+        };
+        // Forces for 1 N and for 1 N·m do not compare.
+        let (best, first) = match column {
+            "least_force" => {
+                let slides = best_of("input = 'slide'", " for 1 N of a sliding drive");
+                let turns = best_of("input = 'turn'", " for 1 Nm of a turning drive");
+                (vec![slides, turns], "input, ")
+            }
+            _ => (vec![best_of("1", "")], ""),
+        };
         Filter {
             option: format!("{option} {x}"),
             holds: format!("{column} {sign} {x}"),
-            best: Some(best),
+            order: format!("{first}{column} {way}, "),
+            best,
         }
     }
 }
@@ -97,7 +107,8 @@ impl WantedGrippers {
         let words = words.map(|(_, option, sql)| Filter {
             option: (*option).to_owned(),
             holds: (*sql).to_owned(),
-            best: None,
+            best: Vec::new(),
+            order: String::new(),
         });
         let numbers = numbers
             .iter()
@@ -114,10 +125,7 @@ impl WantedGrippers {
     /// bounds the first 25 of all, and of the drawn mechanisms.
     pub(super) fn sql_question(&self) -> String {
         let bounds = self.given_bounds();
-        let sorted = bounds
-            .iter()
-            .filter_map(|b| Some(b.best.as_ref()?[2].as_str()));
-        let sorted: String = sorted.collect();
+        let sorted: String = bounds.iter().map(|b| b.order.as_str()).collect();
         let order = format!(
             "ORDER BY coalesce(does_task = 'no', 0), {sorted}links, layout = 'generic', cost, transmission DESC, id"
         );
@@ -138,8 +146,9 @@ impl WantedGrippers {
             let others = bounds.iter().enumerate().filter(|(k, _)| *k != i);
             let others = others.map(|(_, b)| b.holds.as_str()).join(" AND ");
             let others = if others.is_empty() { "1" } else { &others };
-            let best = bound.best.as_ref().map_or("NULL", |[sql, ..]| sql);
-            let sql = format!("SELECT count(*), {best} FROM grippers WHERE {others}");
+            let best = bound.best.iter().map(|[sql, _]| format!(", {sql}"));
+            let best = best.collect::<String>();
+            let sql = format!("SELECT count(*){best} FROM grippers WHERE {others}");
             let (_, rows) = store.query_rows(&sql, None)?;
             let row = rows.first().map_or(&[][..], Vec::as_slice);
             let count = row.first().and_then(Value::as_u64).unwrap_or(0);
@@ -148,9 +157,10 @@ impl WantedGrippers {
             }
             found = true;
             out += &format!("  without {}: {count}", bound.option);
-            let best = row.get(1).and_then(Value::as_f64);
-            if let (Some([_, name, _]), Some(best)) = (&bound.best, best) {
-                out += &format!("; {name} is {}", four_digits(best));
+            for (value, [_, name]) in row[1..].iter().zip(&bound.best) {
+                if let Some(best) = value.as_f64() {
+                    out += &format!("; {name} is {}", four_digits(best));
+                }
             }
             out += "\n";
         }

@@ -118,7 +118,9 @@ function show() {
   if (key) {
     const sign = BIGGEST_FIRST.includes(key) ? -1 : 1;
     const value = (c) => (c[key] === null || c[key] === undefined ? Infinity : sign * Number(c[key]));
-    shown.sort((a, b) => value(a) - value(b));
+    // Forces for 1 N and for 1 Nm do not compare: sliding drives come first.
+    const kind = (c) => (key === 'force_min' && c.input !== 'slide' ? 1 : 0);
+    shown.sort((a, b) => kind(a) - kind(b) || value(a) - value(b));
   }
   rest();
   byId('cards').replaceChildren();
