@@ -54,10 +54,9 @@ impl SmallSystem {
         most.into_iter().fold(0.0, f64::max)
     }
 
-    /// Brings the rows to triangular form, and returns the sign of the determinant. `W` is the row stride, for which loops are unrolled,
-    /// or 0 for any.
-    fn eliminate_below<const W: usize>(&mut self) -> Option<f64> {
-        let (n, w) = (self.size, if W == 0 { self.width } else { W });
+    /// Brings the rows to triangular form, and returns the sign of the determinant.
+    fn eliminate_below(&mut self) -> Option<f64> {
+        let (n, w) = (self.size, self.width);
         let least = 1e-12 * self.largest_entry();
         let mut sign = 1.0;
         for c in 0..n {
@@ -76,19 +75,14 @@ impl SmallSystem {
             let (above, below) = self.entries.split_at_mut((c + 1) * w);
             let own = &above[c * w..];
             sign *= own[c].signum();
-            // Entries before the next column are not read again, and may change with their neighbours.
-            let begin = if W == 0 { (c + 1) / LANES * LANES } else { 0 };
-            let inverse = 1.0 / own[c];
-            let (lanes, _) = own[begin..].as_chunks::<LANES>();
-            for row in below.chunks_exact_mut(w) {
-                if row[c] != 0.0 {
-                    let factor = row[c] * inverse;
-                    let (row, _) = row[begin..].as_chunks_mut::<LANES>();
-                    for (x, o) in row.iter_mut().zip(lanes) {
-                        *x = std::array::from_fn(|k| x[k] - factor * o[k]);
-                    }
-                }
-            }
+            // Entries before the next column are not read again, and may change with their neighbours. Few lanes are unrolled.
+            let reduce = match (w - (c + 1) / LANES * LANES) / LANES {
+                1 => reduce_rows::<1>,
+                2 => reduce_rows::<2>,
+                3 => reduce_rows::<3>,
+                _ => reduce_rows::<0>,
+            };
+            reduce(own, below, c);
         }
         Some(sign)
     }
@@ -99,12 +93,7 @@ impl SmallSystem {
     /// # Complexity
     /// O(n³) for n unknowns.
     pub fn solve_all(&mut self) -> Option<f64> {
-        let sign = match self.width {
-            4 => self.eliminate_below::<4>(),
-            8 => self.eliminate_below::<8>(),
-            12 => self.eliminate_below::<12>(),
-            _ => self.eliminate_below::<0>(),
-        }?;
+        let sign = self.eliminate_below()?;
         let (n, w) = (self.size, self.width);
         for c in (0..n).rev() {
             let (above, own) = self.entries.split_at_mut(c * w);
@@ -119,6 +108,25 @@ impl SmallSystem {
             }
         }
         Some(sign)
+    }
+}
+
+/// Subtracts multiples of a pivot's row from the rows below, so that its column `c` is zero there. `N` is the number of lanes from the next
+/// column on, or 0 for any.
+fn reduce_rows<const N: usize>(own: &[f64], below: &mut [f64], c: usize) {
+    let begin = (c + 1) / LANES * LANES;
+    let inverse = 1.0 / own[c];
+    let (lanes, _) = own[begin..].as_chunks::<LANES>();
+    let count = if N == 0 { lanes.len() } else { N };
+    let lanes = &lanes[..count];
+    for row in below.chunks_exact_mut(own.len()) {
+        if row[c] != 0.0 {
+            let factor = row[c] * inverse;
+            let (row, _) = row[begin..].as_chunks_mut::<LANES>();
+            for (x, o) in row[..count].iter_mut().zip(lanes) {
+                *x = std::array::from_fn(|k| x[k] - factor * o[k]);
+            }
+        }
     }
 }
 

@@ -21,6 +21,8 @@ pub struct Bones {
     pub of_link: Vec<Vec<usize>>,
     /// Points of each link as bits.
     pub members: Vec<u32>,
+    /// Pairs of points of each moving link that are not on one axis by rule.
+    pub spans: Vec<[usize; 2]>,
     /// Points of all moving links with more than three points, as bits. Their places decide which of them are corners of the hull.
     pub hulled: u32,
     /// The links of each joint that has a point on both. For a slide, the link with the block comes first.
@@ -160,7 +162,15 @@ impl Bones {
             };
             Some([end(links[0])?, end(links[1])?])
         });
+        let together: Vec<u32> = (0..points).map(alone).collect();
+        let moving = of_link.iter().enumerate().filter(|(l, _)| *l != plan.frame);
+        let spans = moving.flat_map(|(_, points)| {
+            let ends = points.iter().enumerate();
+            ends.flat_map(|(i, &a)| points[..i].iter().map(move |&b| [a, b]))
+        });
+        let spans = spans.filter(|&[a, b]| together[a] >> b & 1 == 0).collect();
         Bones {
+            spans,
             halves: joint_halves(links, &plan),
             cylinder,
             rods: rods.collect(),
@@ -169,7 +179,7 @@ impl Bones {
             inward: plan.tips.iter().map(|t| unit(sub(centre, *t))).collect(),
             of_link,
             touching,
-            together: (0..points).map(alone).collect(),
+            together,
             joints: plan.joints,
             follows: plan.follows,
             tips: plan.tips,

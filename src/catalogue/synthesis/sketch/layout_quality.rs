@@ -115,17 +115,16 @@ impl Bones {
     /// Returns the ratio of the longest to the shortest link, and the cost of long and short links.
     fn length_cost(&self, at: &[Point]) -> (f64, f64) {
         let (mut longest, mut shortest, mut penalty) = (0.0_f64, f64::INFINITY, 0.0);
-        let moving = self.of_link.iter().enumerate();
-        for (_, points) in moving.filter(|(l, _)| *l != self.frame) {
-            for (i, &a) in points.iter().enumerate() {
-                for &b in points[..i].iter().filter(|&&b| !self.are_together(a, b)) {
-                    let d = length(sub(at[a], at[b]));
-                    (longest, shortest) = (longest.max(d), shortest.min(d));
-                    penalty += beyond_limit(d - LONG, 25.0) + beyond_limit(SHORT - d, 10.0);
-                }
+        for &[a, b] in &self.spans {
+            let apart = sub(at[a], at[b]);
+            let square = dot(apart, apart);
+            (longest, shortest) = (longest.max(square), shortest.min(square));
+            if !(SHORT * SHORT..LONG * LONG).contains(&square) {
+                let d = square.sqrt();
+                penalty += beyond_limit(d - LONG, 25.0) + beyond_limit(SHORT - d, 10.0);
             }
         }
-        (longest / shortest, penalty)
+        (longest.sqrt() / shortest.sqrt(), penalty)
     }
 
     /// Writes the sides of all moving links to `out`, link by link.
