@@ -80,7 +80,7 @@ function widen(step, n) {
 function nothingFound({ found, hopeless, wider }) {
   const opens = (step) => Number(step.allow.length + step.unloading.length > 0);
   const row = ([step, n]) => {
-    const made = element("button", { type: "button", class: "idea" }, `Show ${step.gives.replace(/^Allow more joint types: there are/, "the")}`);
+    const made = element("button", { type: "button", class: "idea offer" }, `Show ${step.gives.replace(/^Allow more joint types: there are/, "the")}`);
     made.addEventListener("click", () => widen(step, n));
     return element("li", {}, made);
   };

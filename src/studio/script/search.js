@@ -10,7 +10,7 @@ const optionName = (o) => {
 const searchOf = () => desk.look?.file?.search ?? {};
 const putSearch = (key, value) => change({ do: "put", path: ["search", key], value });
 
-/** Parts that are no joint type: a name, freedoms in the joint's frame, and words. */
+/** Parts that are not joint types: a name, freedoms in the joint's frame, and words. The first two are seats, the others go in series. */
 const PARTS = [
   ["ball-in-v-groove-x", ["rx", "ry", "rz", "tx"], "ball in a groove along x"],
   ["ball-in-v-groove-y", ["rx", "ry", "rz", "ty"], "ball in a groove along y"],
@@ -87,7 +87,7 @@ function seriesBoxes(joint) {
     const all = toggled(list, kind, on);
     return change(set("joint", joint.id, "unloading", all.length ? all : null));
   };
-  const boxes = [palette.find((t) => t.type === "spherical"), ...PARTS].map((t) => typeBox(t, list.some((o) => optionName(o) === t.type), take(t.type)));
+  const boxes = [palette.find((t) => t.type === "spherical"), ...PARTS.slice(2)].map((t) => typeBox(t, list.some((o) => optionName(o) === t.type), take(t.type)));
   return element("details", { open: list.length || seriesBoxes.open ? "" : null }, element("summary", {}, "And in series with it"), element("div", { class: "type-boxes" }, ...boxes));
 }
 
@@ -138,7 +138,7 @@ function typesAt(ids) {
     if (joint.options) return change(...give("options", toggled(joint.options, kind, on)));
     if (!on) return change(...give("forbid", [...forbid, kind]));
     if (forbid.includes(kind)) return change(...give("forbid", forbid.length > 1 ? toggled(forbid, kind, false) : null));
-    return change(...give("options", [...offered, kind]), ...give("forbid", null));
+    return change(...give("options", toggled(offered, kind, true)), ...give("forbid", null));
   };
   const fit = [...palette, ...PARTS].filter((t) => !NEED_MORE.includes(t.type) && t.type !== joint.type && own.free.every((f) => t.free.includes(f)));
   const names = offered.map(optionName);
