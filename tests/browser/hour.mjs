@@ -210,6 +210,12 @@ export function hourTests(test) {
       assert.match(await source(tab), /drives = "independent"/);
       const single = await tab.evaluate(() => singleChanges().map((e) => e.textContent).join(" "));
       assert.match(single, /removes \d of 3/);
+      await tab.evaluate(() => select([{ what: "joint", id: "2-3" }]));
+      await tab.locator("#thing details > summary").first().click();
+      await tab.locator("#thing details details > summary").click();
+      await tab.locator('#thing details details [data-type="floating-nut-z"]').click();
+      await settledOn(tab);
+      assert.deepEqual(await tab.evaluate(() => thing("joint", "2-3").unloading), [{ name: "floating-nut-z", freedoms: ["rx", "ry", "tx", "ty"] }]);
     });
     child.kill("SIGINT");
   });
