@@ -10,7 +10,7 @@ use crate::search::answer::single_changes::USUAL;
 use itertools::Itertools;
 
 /// Node budget of the search that tests whether they help.
-const NODES: usize = 100_000;
+const NODES: usize = 20_000;
 /// Number of the best variants whose joint types and parts are offered.
 const BEST: usize = 5;
 /// Joints in series with a screw, which keep its motion and let its nut tilt or shift.
@@ -25,17 +25,18 @@ const GROOVES: [&str; 2] = ["ball-in-v-groove-x", "ball-in-v-groove-y"];
 
 impl Outcome {
     /// Returns the request with more joint types or parts at some joints, if nothing was found and a search with these finds a variant.
-    /// The usual types come first, then all that need only a joint's own frame. Only those are offered that the best variants use.
+    /// The usual types come first, then all that need only a joint's own frame, at last those that have to be pressed together. Only
+    /// those are offered that the best variants use.
     pub fn would_help(&self) -> Option<Request> {
-        let usual = USUAL.iter().map(JointType::name).collect_vec();
-        let all = framed_types().map(JointType::name).collect_vec();
-        [usual, all]
-            .iter()
-            .find_map(|types| self.offer_types(types))
+        let pressed =
+            |t: &JointType| matches!(t, JointType::SphereOnPlane | JointType::CylinderOnPlane);
+        let firm = framed_types().filter(|t| !pressed(t)).collect_vec();
+        let lists = [USUAL.iter().collect(), firm, framed_types().collect_vec()];
+        lists.iter().find_map(|types| self.offer_types(types))
     }
 
     /// Returns the request with types that the best variants of a wider search use, if it finds any. Screws remain screws.
-    fn offer_types(&self, types: &[&str]) -> Option<Request> {
+    fn offer_types(&self, types: &[&JointType]) -> Option<Request> {
         let (m, asked) = (&*self.search.mechanism, &self.request);
         let mut wider = asked.clone();
         let changeable = |j: &Joint| {
@@ -54,8 +55,9 @@ impl Outcome {
             }
             let bolt = matches!(j.joint_type, JointType::Fixed | JointType::Spherical);
             let seats = GROOVES.iter().filter(|_| bolt);
-            let fits = |name: &&&str| named_part(name).is_some_and(|t| type_fits(m, id, &t));
-            let more = types.iter().chain(seats).filter(fits).copied();
+            let fits = |name: &&str| named_part(name).is_some_and(|t| type_fits(m, id, &t));
+            let types = types.iter().map(|t| t.name());
+            let more = types.chain(seats.copied()).filter(fits);
             let names = own_names(j).chain(more).map(str::to_owned).unique();
             let names = names.collect_vec();
             if !asked.options.is_empty() {
