@@ -142,7 +142,9 @@ fn a_file_states_the_condition_on_drives() {
     let ask = |keys: &str, more: &[&str]| {
         let more = [&["--count", "--format", "json", "-q"], more].concat();
         let (_, said, _) = run_on("search", "gantry.toml", &with(keys), &more);
-        serde_json::from_str::<Value>(&said).unwrap()
+        let mut found: Value = serde_json::from_str(&said).unwrap();
+        found["seconds"] = Value::Null;
+        found
     };
     let mobilities = |keys: &str, more: &[&str]| ask(keys, more)["admissible_by_mobility"].clone();
     assert_eq!(mobilities("", &[]), json!({ "1": "1" }));
