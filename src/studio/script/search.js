@@ -121,14 +121,21 @@ function showSearch() {
 
 /** Whether a search leaves a joint unchanged unless options are listed at it. */
 const stays = (joint) => joint.drive || joint.type === "fixed" || joint.state;
-/** The options that a search has at a joint. */
-const offeredAt = (joint) => joint.options ?? (stays(joint) ? [] : searchOf().options ?? []).filter((o) => !(joint.forbid ?? []).includes(optionName(o)));
+/** Whether a type or part, by its palette entry, has all freedoms of a joint's type. */
+const fitsAt = (joint, made) => palette.find((t) => t.type === joint.type)?.free.every((f) => made.free.includes(f));
+/** The options that a search has at a joint. Those of the common list that do not fit are skipped, as the search does. */
+function offeredAt(joint) {
+  const common = stays(joint) ? [] : searchOf().options ?? [];
+  const kept = (o) => {
+    const made = palette.find((t) => t.type === optionName(o));
+    return (!made || fitsAt(joint, made)) && !(joint.forbid ?? []).includes(optionName(o));
+  };
+  return joint.options ?? common.filter(kept);
+}
 
 /** The types that a search may put at some joints; what is ticked holds for their mirror images, too. */
 function typesAt(ids) {
   const joint = thing("joint", ids[0]);
-  const own = palette.find((t) => t.type === joint.type);
-  if (!own) return null;
   const images = (searchOf().mirror ?? []).filter((pair) => pair.some((id) => ids.includes(id))).flat();
   const all = [...new Set([...ids, ...images])];
   const offered = offeredAt(joint);
@@ -140,7 +147,7 @@ function typesAt(ids) {
     if (forbid.includes(kind)) return change(...give("forbid", forbid.length > 1 ? toggled(forbid, kind, false) : null));
     return change(...give("options", toggled(offered, kind, true)), ...give("forbid", null));
   };
-  const fit = [...palette, ...PARTS].filter((t) => !NEED_MORE.includes(t.type) && t.type !== joint.type && own.free.every((f) => t.free.includes(f)));
+  const fit = [...palette, ...PARTS].filter((t) => !NEED_MORE.includes(t.type) && t.type !== joint.type && fitsAt(joint, t));
   const names = offered.map(optionName);
   const fold = element("details", { class: "wide", open: typesAt.open ? "" : null },
     element("summary", {}, "A search may put here"),
