@@ -97,7 +97,7 @@ impl Outcome {
         Some(wider)
     }
 
-    /// Returns true if the usual types are offered, since the file lists none. They are not offered beside others that a request names.
+    /// Returns true if the usual types are offered, because the file lists none. A request that names other types excludes them.
     fn offers_usual(&self) -> bool {
         let m = &self.search.mechanism;
         let usual = |(id, j): (JointId, &Joint)| {
