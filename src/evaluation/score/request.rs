@@ -16,6 +16,7 @@ pub use crate::score::request::error::RequestError;
 use crate::score::request::prepare::{
     LooksRounded, Prepared, as_in_file, digits_of, nearest_exact, tell_moved,
 };
+pub use crate::score::request::unlisted::part_freedoms;
 use crate::search::question::conditions::{Conditions, InState, Symmetry};
 use crate::search::question::kept::Drives;
 use serde::{Deserialize, Deserializer};
@@ -150,8 +151,8 @@ pub struct Request {
     pub max_changes: Option<u32>,
     /// Whether outputs may move in other ways than now.
     pub allow_output_change: bool,
-    /// The condition on drives, unless outputs may gain motions.
-    pub drives: Drives,
+    /// The condition on drives, unless outputs may gain motions. `None` is that of the file.
+    pub drives: Option<Drives>,
     /// Links that must not gain a motion, besides the outputs; bodies that the searched state adds must be held there.
     pub hold: Vec<String>,
     /// Unloading joints offered besides those of the file.
@@ -212,7 +213,7 @@ impl Default for Request {
             max_mobility: None,
             max_changes: None,
             allow_output_change: false,
-            drives: Drives::Kept,
+            drives: None,
             hold: Vec::new(),
             unloading: Vec::new(),
             options: Vec::new(),
@@ -376,9 +377,9 @@ impl Request {
             max_mobility: self.max_mobility.or(file.max_mobility),
             max_changes: self.max_changes,
             keep_output: !self.allow_output_change,
-            drives: self.drives,
+            drives: self.drives.unwrap_or(file.drive_rule),
             symmetry,
-            throughout: !self.pose_only,
+            throughout: !self.pose_only && !file.pose_only,
             counted: self.counted,
             cheapest: self.cheapest_needed(&prepared.mechanism)?,
             estimate: (self.symmetry != Symmetry::OnePerOrbit).then_some(self.seed),

@@ -17,8 +17,8 @@ use crate::model::claim::Claim;
 use crate::model::joint_type::{Coupling, Freedom, JointType};
 use crate::model::loads::{ExternalForce, ExternalMoment, Face, Inertia, Misalignment, Stiffness};
 use crate::model::mechanism::{
-    Expected, Frame, Joint, JointId, JointOption, Link, Mechanism, Mode, PointOfInterest, Role,
-    StateId,
+    Drives, Expected, Frame, Joint, JointId, JointOption, Link, Mechanism, Mode, PointOfInterest,
+    Role, StateId,
 };
 use serde::ser::Error;
 use toml_edit::{DocumentMut, Item};
@@ -307,6 +307,8 @@ fn write_search(m: &Mechanism) -> SearchEntry {
         max_redundant: Some(spec.max_redundant).filter(|n| *n > 0),
         max_mobility: spec.max_mobility,
         symmetric: spec.symmetric,
+        drives: (spec.drive_rule != Drives::Kept).then(|| spec.drive_rule.word().to_owned()),
+        pose_only: spec.pose_only,
         costs: costs.map(|(n, c)| (n, cost_number(c))).collect(),
         ..SearchEntry::default()
     }

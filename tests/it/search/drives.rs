@@ -134,6 +134,45 @@ fn independent_drives_are_as_many_as_the_motions_that_they_decide() {
     assert_eq!((found.len(), search.mobility(found[0].key)), (1, 1));
 }
 
+/// The file states the condition on drives and on the motion, and the command line another one.
+#[test]
+fn a_file_states_the_condition_on_drives() {
+    let with = |keys: &str| format!("{}[search]\n{keys}\n", gantry());
+    let ask = |keys: &str, more: &[&str]| {
+        let more = [&["--count", "--format", "json", "-q"], more].concat();
+        let (_, said, _) = run_on("search", "gantry.toml", &with(keys), &more);
+        let mut found: Value = serde_json::from_str(&said).unwrap();
+        found["seconds"] = Value::Null;
+        found
+    };
+    let mobilities = |keys: &str, more: &[&str]| ask(keys, more)["admissible_by_mobility"].clone();
+    assert_eq!(mobilities("", &[]), json!({ "1": "1" }));
+    for word in ["kept", "free", "independent"] {
+        let [by_file, by_option] = [
+            ask(&format!("drives = \"{word}\""), &[]),
+            ask("", &["--drives", word]),
+        ];
+        assert_eq!(by_file, by_option, "{word}");
+    }
+    assert_eq!(
+        mobilities("drives = \"independent\"", &[]),
+        json!({ "2": "1" })
+    );
+    let other = mobilities("drives = \"independent\"", &["--drives", "kept"]);
+    assert_eq!(other, json!({ "1": "1" }));
+    assert_eq!(ask("pose_only = true", &[]), ask("", &["--pose-only"]));
+    // Both are written again.
+    let text = with("drives = \"independent\"\npose_only = true");
+    let m = mechanism_from_str("gantry.toml", &text).unwrap();
+    let entry = ozols::file::write::mechanism_file(&m).search;
+    assert_eq!(
+        (entry.drives.as_deref(), entry.pose_only),
+        (Some("independent"), true)
+    );
+    let (code, _, told) = run_on("search", "gantry.toml", &with("drives = \"kep\""), &[]);
+    assert!(code == Some(2) && told.contains("kept"), "{told}");
+}
+
 /// Where no variant has as many motions as drives, that is an answer and no error.
 #[test]
 fn nothing_found_with_independent_drives_is_an_answer() {

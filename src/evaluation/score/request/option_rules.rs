@@ -1,7 +1,7 @@
 //! Rules of a request for single links and joints: held links, and offered, allowed and forbidden options.
 
 use crate::model::mechanism::{JointId, JointOption, Mechanism, Parts, StateId};
-use crate::score::request::unlisted::framed_types;
+use crate::score::request::unlisted::{framed_types, named_part};
 use crate::score::request::{Inserts, JointOptions, Request, RequestError};
 use itertools::Itertools;
 
@@ -20,10 +20,9 @@ impl<'m> KnownOptions<'m> {
         KnownOptions { mechanism, names }
     }
 
-    /// Refuses names that no joint and no type has; a type that no joint is offered can be forbidden.
+    /// Refuses names that no joint and no type or part has; a type that no joint is offered can be forbidden.
     fn check_names(&self, names: &[String]) -> Result<(), RequestError> {
-        let is_type = |n: &str| framed_types().any(|t| t.name() == n);
-        let unknown = |n: &&String| !self.names.contains(&n.as_str()) && !is_type(n);
+        let unknown = |n: &&String| !self.names.contains(&n.as_str()) && named_part(n).is_none();
         match names.iter().find(unknown) {
             None => Ok(()),
             Some(option) => Err(RequestError::NoOption {
@@ -202,7 +201,7 @@ fn offer_unloading(mechanism: &mut Parts, at: JointId, name: &str) -> Result<(),
         known.state = None;
         return Ok(());
     }
-    let Some(joint_type) = framed_types().find(|t| t.name() == name) else {
+    let Some(joint_type) = named_part(name) else {
         let named = joint.unloading.iter().map(|u| u.name.clone());
         return Err(RequestError::NoUnloading {
             joint: joint.id.clone(),
@@ -212,8 +211,10 @@ fn offer_unloading(mechanism: &mut Parts, at: JointId, name: &str) -> Result<(),
                 .collect(),
         });
     };
-    joint
-        .unloading
-        .push(JointOption::in_frame_of(joint, joint_type));
+    let part = JointOption {
+        name: name.to_owned(),
+        ..JointOption::in_frame_of(joint, &joint_type)
+    };
+    joint.unloading.push(part);
     Ok(())
 }

@@ -152,7 +152,7 @@ impl Prepared {
 fn looks_measured(name: &str, w: &Rounded) -> String {
     if w.pi {
         format!(
-            "note: pi is not an exact number ({w}); its digits are used as written, and no rounding of them changes a figure"
+            "note: pi is not an exact number ({w}); its digits are used as written, and rounding them changes no figure"
         )
     } else {
         format!(

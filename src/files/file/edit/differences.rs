@@ -39,8 +39,7 @@ pub fn find_differences(
     }
     for (old, new) in before.joint.iter().zip(&after.joint) {
         let in_file = own.joint.iter().find(|j| j.id == old.id);
-        let listed = in_file.is_some_and(|j| j.options.is_some());
-        out.extend(joint_changes(old, new, listed));
+        out.extend(joint_changes(old, new, in_file));
     }
     for joint in after.joint.iter().skip(before.joint.len()) {
         out.push(Edit::Add {
@@ -52,8 +51,11 @@ pub fn find_differences(
     out
 }
 
-/// Returns the changes that turn one joint into another, including its options if the file lists some that the new type exceeds.
-fn joint_changes(old: &JointEntry, new: &JointEntry, listed: bool) -> Vec<Edit> {
+/// Returns the changes that turn one joint into another, including its options if the file lists some that the new type exceeds, and
+/// its axis if the file has none, as of a ball.
+fn joint_changes(old: &JointEntry, new: &JointEntry, in_file: Option<&JointEntry>) -> Vec<Edit> {
+    let listed = in_file.is_some_and(|j| j.options.is_some());
+    let lacks_axis = old.kind != new.kind && in_file.is_some_and(|j| j.axis.is_none());
     let set = |key: &str, value: Value| Edit::Set {
         what: Thing::Joint,
         id: old.id.clone(),
@@ -64,7 +66,7 @@ fn joint_changes(old: &JointEntry, new: &JointEntry, listed: bool) -> Vec<Edit> 
     let [was, is] = [old, new].map(changed_keys);
     for key in KEYS.split(' ') {
         let [was, is] = [&was, &is].map(|k| k.get(key).cloned().unwrap_or_default());
-        if was != is {
+        if was != is || (key == "axis" && lacks_axis && !is.is_null()) {
             out.push(set(key, is));
         }
     }

@@ -10,7 +10,9 @@ use crate::file::{Findings, Place};
 use crate::geom::extent::box_diagonal;
 use crate::geom::vector::to_vector;
 use crate::model::joint_type::JointType;
-use crate::model::mechanism::{Frame, Joint, JointId, JointOption, Parts, SearchSpec, StateId};
+use crate::model::mechanism::{
+    Drives, Frame, Joint, JointId, JointOption, Parts, SearchSpec, StateId,
+};
 use crate::model::ranking::{ClearanceSum, Limit, Order, Ranking, Term, TypeOverride};
 use itertools::Itertools;
 
@@ -112,6 +114,12 @@ pub(crate) fn read_search(file: &MechanismFile, mechanism: &Parts, out: &Finding
         max_redundant: file.search.max_redundant.unwrap_or(0),
         max_mobility: file.search.max_mobility,
         symmetric: file.search.symmetric,
+        drive_rule: at.read_word(
+            "drives",
+            &file.search.drives,
+            &Drives::ALL.map(|d| (d.word(), d)),
+        ),
+        pose_only: file.search.pose_only,
         ..SearchSpec::default()
     };
     let hold = at.key("hold");
