@@ -127,7 +127,10 @@ fn friction_and_bounds_keep_their_limits_in_print() {
         let arguments = [&["grip", "lever-gripper"], more].concat();
         let text = run_quiet(&arguments);
         assert!(text.starts_with("lever-gripper: can hold D"), "{text}");
-        let table = text.split("The four contact forces").nth(1).unwrap();
+        let table = text
+            .split("Contact forces in the worst case")
+            .nth(1)
+            .unwrap();
         let rows = table
             .lines()
             .filter(|l| l.contains("upper ") || l.contains("lower "));

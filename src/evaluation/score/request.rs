@@ -5,7 +5,7 @@ pub(in crate::score) mod error;
 pub(in crate::score) mod missing_options;
 pub(in crate::score) mod option_rules;
 pub mod prepare;
-pub(in crate::score) mod unlisted;
+pub mod unlisted;
 pub mod words;
 
 use crate::model::mechanism::{Mechanism, Mode, StateId};
@@ -16,7 +16,6 @@ pub use crate::score::request::error::RequestError;
 use crate::score::request::prepare::{
     LooksRounded, Prepared, as_in_file, digits_of, nearest_exact, tell_moved,
 };
-pub use crate::score::request::unlisted::part_freedoms;
 use crate::search::question::conditions::{Conditions, InState, Symmetry};
 use crate::search::question::kept::Drives;
 use serde::{Deserialize, Deserializer};

@@ -19,8 +19,8 @@ pub(in crate::search) mod within;
 use crate::linalg::modp::Residue;
 use crate::search::diagram::allowance::Allowance;
 use crate::search::diagram::completion::Ceiling;
-pub use crate::search::diagram::layer::DEAD;
 use crate::search::diagram::layer::{CUT, Merge, Nodes};
+pub use crate::search::diagram::layer::{DEAD, Layer};
 use crate::search::diagram::redundancy_so_far::{Limits, Redundancy, Spent};
 pub use crate::search::diagram::stop::Stop;
 use crate::search::diagram::transition::{Children, Worker};
@@ -57,19 +57,6 @@ impl Progress {
             layer,
         }
     }
-}
-
-/// Edges of one layer: `edges[node * choices + choice]`, an index into the next layer or [`DEAD`].
-#[derive(Debug, Clone)]
-pub struct Layer {
-    /// Index of the variable in the space.
-    pub variable: usize,
-    /// Number of nodes.
-    pub nodes: usize,
-    /// Number of choices.
-    pub choices: usize,
-    /// The edges.
-    pub edges: Vec<u32>,
 }
 
 /// A finished diagram.

@@ -93,7 +93,7 @@ fn an_object_is_held_by_name() {
     assert!(count_of(&["--allow-loose-object"]) > held);
     let hold = ["search", path, "--hold", "a"];
     assert_fails(&hold, "link a");
-    assert_fails(&hold, "in state clamped alone; add --state clamped");
+    assert_fails(&hold, "exists in state clamped only; search state clamped");
 }
 
 /// [Pogrebnyak 2018]: of the five external constraints three are friction that both jaws supply and two demand parallel
@@ -165,5 +165,5 @@ fn harm_has_a_price_and_a_term() {
     let v = run_search("gripper-10-loaded", &format!("{question} {ranked}"));
     assert_eq!(v["variants"][0]["scores"]["harmful"], 0, "{v}");
     let rank = "search gripper-10-loaded --rank harmful";
-    assert_fails(rank, "add --state, such as --state clamped");
+    assert_fails(rank, "search a state, such as clamped");
 }

@@ -28,7 +28,7 @@ pub(in crate::score) fn named_part(name: &str) -> Option<JointType> {
 ///
 /// # Examples
 /// ```
-/// use ozols::score::request::part_freedoms;
+/// use ozols::score::request::unlisted::part_freedoms;
 /// assert_eq!(part_freedoms("floating-nut-z").unwrap(), ["rx", "ry", "tx", "ty"]);
 /// assert_eq!(part_freedoms("spherical"), None); // a joint type
 /// ```

@@ -1,4 +1,4 @@
-//! A layer of the diagram while it is built: equal children become one node.
+//! A layer of the diagram. While it is built, equal children become one node.
 
 use crate::linalg::modp::Residue;
 use crate::search::diagram::redundancy_so_far::Spent;
@@ -9,6 +9,19 @@ use std::collections::TryReserveError;
 
 /// A missing edge: the choice leads nowhere admissible.
 pub const DEAD: u32 = u32::MAX;
+
+/// Edges of one layer: `edges[node * choices + choice]`, an index into the next layer or [`DEAD`].
+#[derive(Debug, Clone)]
+pub struct Layer {
+    /// Index of the variable in the space.
+    pub variable: usize,
+    /// Number of nodes.
+    pub nodes: usize,
+    /// Number of choices.
+    pub choices: usize,
+    /// The edges.
+    pub edges: Vec<u32>,
+}
 
 /// Nodes a layer keeps at least where the budget is no smaller, so that a search reaches the end.
 pub(in crate::search) const CUT: usize = 256;

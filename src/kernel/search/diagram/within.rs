@@ -3,8 +3,8 @@
 //! Each node has a path that leads to it. The nodes of the known diagram at the other end of that path are kept beside it. A choice that
 //! leads nowhere from there has no completion, whatever other paths lead to the node.
 
+use crate::search::diagram::layer::{DEAD, Layer};
 use crate::search::diagram::node_sets::{Set, add_node, collect_set, empty_set, nodes_in};
-use crate::search::diagram::{DEAD, Layer};
 
 /// Where the nodes of a layer are in a known diagram, which is followed from its first layer or from its last.
 pub(in crate::search) struct Within<'a> {
@@ -35,9 +35,10 @@ impl<'a> Within<'a> {
 
     /// Collects the steps over the layer that comes next.
     fn collect_steps(&mut self) {
-        let next = match self.forward {
-            true => self.layers.first(),
-            false => self.layers.last(),
+        let next = if self.forward {
+            self.layers.first()
+        } else {
+            self.layers.last()
         };
         let Some(layer) = next else { return };
         self.choices = layer.choices;
@@ -50,9 +51,10 @@ impl<'a> Within<'a> {
             .filter(|(_, to)| **to != DEAD)
         {
             let (above, choice, below) = (edge / layer.choices, edge % layer.choices, to as usize);
-            let (from, to) = match self.forward {
-                true => (above, below),
-                false => (below, above),
+            let (from, to) = if self.forward {
+                (above, below)
+            } else {
+                (below, above)
             };
             self.steps[from * layer.choices + choice].push(to);
         }
@@ -78,9 +80,10 @@ impl<'a> Within<'a> {
             (false, [rest @ .., last]) => (rest, last.nodes),
             (_, []) => return,
         };
-        let width = match self.forward {
-            true => layers.first().map_or(ends, |l| l.nodes),
-            false => ends,
+        let width = if self.forward {
+            layers.first().map_or(ends, |l| l.nodes)
+        } else {
+            ends
         };
         let mut at = vec![empty_set(0); nodes];
         for (edge, &to) in edges.iter().enumerate().filter(|(_, to)| **to != DEAD) {

@@ -28,11 +28,11 @@ fn unloading_joints_are_offered_by_name() {
     let free = run_search(path, "--unloading prismatic=2-4 --count");
     assert_eq!(parse_count(&free["space"]), 2 * four);
     for (rule, parts) in [
-        ("planar=4-a", &["joint 4-a", "add --state clamped"][..]),
-        ("planar", &["search one with --state"]),
-        ("rope=2-4", &["rope is no joint type", "spherical"]),
-        ("helical=2-4", &["helical is no joint type"]),
-        ("fixed=2-4", &["fixed is no joint type"]),
+        ("planar=4-a", &["joint 4-a", "search state clamped"][..]),
+        ("planar", &["search a state"]),
+        ("rope=2-4", &["rope is not a joint type", "spherical"]),
+        ("helical=2-4", &["helical is not a joint type"]),
+        ("fixed=2-4", &["fixed is not a joint type"]),
         ("planar=zz", &["no joint zz"]),
     ] {
         let text = refused(&["search", "gripper-10", "--unloading", rule]);
