@@ -102,7 +102,7 @@ impl Diagram {
     }
 }
 
-/// What is left out of a diagram.
+/// Edges that a diagram omits.
 pub(super) enum Omitted<'a, 'm> {
     /// Nothing.
     Nothing,

@@ -311,7 +311,7 @@ fn what_is_not_laid_out_is_refused() {
         --classics --links 4 | cannot be used with
         --generic-pairs | --pairs
         --jaws 3 --generic-pairs --symmetry generic --pairs slide --links 4..9 | at most 8 links
-        --jaws 3 --generic-pairs --symmetry generic --pairs slide --links 4 --parallel only | each side is in a plane of its own
+        --jaws 3 --generic-pairs --symmetry generic --pairs slide --links 4 --parallel only | each side has its own plane
         --jaws 3 --generic-pairs --symmetry generic --pairs slide --links 3 | three jaws need at least four links
         --jaws 3 --generic-pairs --symmetry generic --pairs slide --links 5 | the number of links is even
         --jaws 3 --generic-pairs --symmetry generic --links 4 | --pairs

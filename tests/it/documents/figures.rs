@@ -57,7 +57,7 @@ fn records_of_the_methods_are_those_of_the_survey() {
     says(
         "README.md",
         &format!(
-            "Of {all} published cases, counting formulas get {} right, double precision {}, and the default method all",
+            "Counting formulas get {} of {all} published cases right, double precision {}, and the default method all",
             right("count"),
             right("lu")
         ),

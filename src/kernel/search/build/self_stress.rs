@@ -27,7 +27,7 @@ pub(in crate::search) enum Wanted<'a> {
     Lasting(Option<&'a Diagram>),
 }
 
-/// Layers of a known diagram may have so many nodes; to follow wider ones takes longer than what they omit.
+/// Maximum number of nodes in a layer of a known diagram. Following a wider one takes longer than it saves.
 const FOLLOWED: usize = 1_024;
 
 impl<'a> Wanted<'a> {

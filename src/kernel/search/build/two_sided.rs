@@ -30,7 +30,7 @@ struct Side<'a> {
     stages: &'a [Adding],
     layers: Vec<Layer>,
     nodes: Nodes,
-    /// Where the nodes are in a known diagram.
+    /// The nodes of a known diagram that correspond to the nodes.
     known: Option<Within<'a>>,
 }
 

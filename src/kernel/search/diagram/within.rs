@@ -1,12 +1,12 @@
 //! A diagram that is built within a known one, which has all of its variants and others.
 //!
-//! Each node has a path that leads to it. The nodes of the known diagram at the other end of that path are kept beside it. A choice that
+//! Each node has a path that leads to it. The nodes of the known diagram at the end of the same path are stored with it. A choice that
 //! leads nowhere from there has no completion, whatever other paths lead to the node.
 
 use crate::search::diagram::layer::{DEAD, Layer};
 use crate::search::diagram::node_sets::{Set, add_node, collect_set, empty_set, nodes_in};
 
-/// Where the nodes of a layer are in a known diagram, which is followed from its first layer or from its last.
+/// The nodes of a known diagram that correspond to the nodes of a layer. It is followed from its first layer or from its last.
 pub(in crate::search) struct Within<'a> {
     layers: &'a [Layer],
     ends: usize,
@@ -73,7 +73,7 @@ impl<'a> Within<'a> {
         self.follow_edge(edge).next().is_some()
     }
 
-    /// Goes on to the next layer, which has so many nodes, over the edges to them.
+    /// Advances to the next layer along the edges to its nodes.
     pub(in crate::search) fn advance(&mut self, edges: &[u32], nodes: usize) {
         let (layers, ends) = match (self.forward, self.layers) {
             (true, [_, rest @ ..]) => (rest, self.ends),
