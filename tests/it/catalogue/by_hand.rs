@@ -92,7 +92,7 @@ fn a_jaw_that_turns_is_not_parallel() {
     let parallel = default_with(|t: &mut Task| t.motion = AskedMotion::Parallel);
     let turned = |turn| lacks(parallel, &StrokeFigures { turn, ..good() });
     assert_eq!(turned(0.9), None);
-    assert!(turned(1.1).unwrap().contains("turns by 1.1°"));
+    assert!(turned(1.1).unwrap().contains("rotates by 1.1°"));
 }
 
 /// Each limit of the stroke is kept at its value and broken just beyond it; what is 0 is not asked.

@@ -184,7 +184,7 @@ fn what_is_not_reached_is_said() {
             if f.ends[k].is_some() {
                 assert_eq!(f.margin[k], 0.0);
                 let said = f.shortfall.as_ref().unwrap().to_string();
-                has_all(&said, &[" mm where ", ": there "]);
+                has_all(&said, &[" mm required", ": there "]);
                 short += 1;
             }
             if k == 1 && f.ends[k] == Some(StrokeEnd::JawsTurnBack) {
