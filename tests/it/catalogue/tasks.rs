@@ -30,7 +30,10 @@ fn a_stroke_that_is_not_reached_has_a_reason_and_no_place_in_the_front() {
     assert!(short > 0 && all.len() > 20, "{short} of {}", all.len());
     let id = all.iter().find(|r| r["reached"] == 0).unwrap()["id"].word();
     let shown = stdout_of(&["catalog", "show", &file, id]);
-    has_all(&shown, &["Task: parts of 0 to 190 mm; ", "mm required: there"]);
+    has_all(
+        &shown,
+        &["Task: parts of 0 to 190 mm; ", "mm required: there"],
+    );
 }
 
 /// What is made for force has more of it than what is made for looks, and does as much of the task; distances that are asked are kept.
