@@ -30,10 +30,11 @@ const WEIGHT: i64 = 0x1e37_79b9_7f4a_7c15;
 /// Pairs of nodes tried at most, for each node of the budget.
 const PAIRS: usize = 500;
 
-/// The nodes of both halves of a part, the back half of which has so many stages.
+/// The nodes of both halves of a part, where they meet.
 pub(in crate::search) struct Met<'a> {
     pub(in crate::search) front: &'a Nodes,
     pub(in crate::search) back: &'a Nodes,
+    /// Number of stages of the back half.
     pub(in crate::search) stages: usize,
     /// Nodes of the front, and those of the back that may complete them. Others do not.
     pub(in crate::search) alike: Vec<[Vec<usize>; 2]>,
@@ -101,7 +102,8 @@ impl<'a> Halves<'a> {
         })
     }
 
-    /// Returns where both halves of a part begin in the known diagram, if there is one with one node before the part and one behind it.
+    /// Returns the two ends of a part in the known diagram. Returns `None` if no diagram is known, or if it does not have one node before the
+    /// part and one after it.
     pub(in crate::search) fn within_known(&self, part: usize) -> Option<[Within<'a>; 2]> {
         let known = self.known?;
         let (from, to) = (self.starts[part], self.starts[part + 1]);
@@ -149,7 +151,9 @@ impl<'a> Halves<'a> {
         if let Some(grouped) = grouped.filter(fewer) {
             return match_halves(self.field, width - 1, &grouped, halves.bytes, cancelled);
         }
-        if pairs / PAIRS > self.limits.nodes || pairs / 8 > halves.bytes {
+        // Each node of the front may have a set with a bit for each node of the back.
+        let bits = halves.front.len().saturating_mul(halves.back.len());
+        if pairs / PAIRS > self.limits.nodes || bits / 8 > halves.bytes {
             return None;
         }
         let mut of_node = vec![DEAD; halves.front.len()];
