@@ -30,12 +30,12 @@ fn files() -> impl Iterator<Item = &'static File<'static>> {
     folders.flat_map(Dir::files)
 }
 
-/// The name of the mechanism that a file holds.
+/// Returns the name of the mechanism in a file.
 fn name_of(file: &'static File<'static>) -> Option<&'static str> {
     file.path().file_name()?.to_str()?.strip_suffix(".toml")
 }
 
-/// Names of the built-in mechanisms, ascending.
+/// Returns the names of the built-in mechanisms, ascending.
 ///
 /// # Examples
 /// ```
@@ -49,7 +49,7 @@ pub fn names() -> Vec<&'static str> {
     names
 }
 
-/// The file of a built-in mechanism.
+/// Returns the file of a built-in mechanism, or `None` if there is none of this name.
 ///
 /// # Examples
 /// ```
@@ -61,7 +61,7 @@ pub fn text(name: &str) -> Option<&'static str> {
     files().find(|f| name_of(f) == Some(name))?.contents_utf8()
 }
 
-/// Every built-in mechanism by its name, ascending, with its file.
+/// Returns every built-in mechanism by its name, ascending, with its file.
 ///
 /// # Examples
 /// ```
@@ -76,7 +76,7 @@ pub fn all() -> Vec<(&'static str, &'static str)> {
     names().into_iter().filter_map(with).collect()
 }
 
-/// Names of the mechanisms of a family, ascending.
+/// Returns the names of the mechanisms of a family, ascending.
 fn members(folder: &str) -> Vec<&'static str> {
     let dir = CATALOGS.get_dir(folder).into_iter();
     let mut names: Vec<&str> = dir.flat_map(Dir::files).filter_map(name_of).collect();
@@ -84,7 +84,7 @@ fn members(folder: &str) -> Vec<&'static str> {
     names
 }
 
-/// Names of the built-in mechanisms by family, ascending in each.
+/// Returns the names of the built-in mechanisms by family, ascending in each.
 #[must_use]
 pub fn families() -> Vec<(&'static str, Vec<&'static str>)> {
     FAMILIES
@@ -92,7 +92,7 @@ pub fn families() -> Vec<(&'static str, Vec<&'static str>)> {
         .into()
 }
 
-/// Names of the built-in grippers, ascending.
+/// Returns the names of the built-in grippers, ascending.
 #[must_use]
 pub fn grippers() -> Vec<&'static str> {
     members("grippers")

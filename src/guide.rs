@@ -1,9 +1,12 @@
 //! The guide: what the program does, system by system, with outputs that the tests repeat.
 //!
-//! Start with [`first_hour`], or draw in the [`studio`]. Then one chapter for each system: [`structure`] (redundant constraints and the search for
-//! redesigns), [`grip`], [`kinetostatics`], [`drive`]; and one each for [`ranking`] under a workload, [`mobility`] when
-//! formulas and numbers fail, [`robots`] (import and export), [`assemblies`] of CAD programs, [`beside`] other tools, [`catalog`] (structures of grippers by enumeration), and [`speed`]. For programs: [`rust`] and [`python`]. Contributors:
-//! read [`architecture`] and [`adding`]; the [`changelog`] lists changes.
+//! Start with [`first_hour`], or draw in the [`studio`]. [`structure`] explains redundant constraints and the search for
+//! redesigns, [`ranking`] the order under a workload.
+//!
+//! - Files: [`robots`], [`assemblies`] of CAD programs, the [`catalog`] of grippers.
+//! - Forces: [`kinetostatics`], [`grip`], [`drive`].
+//! - How sure and how fast: [`mobility`], [`speed`], other tools ([`beside`]).
+//! - Programs: [`rust`], [`python`]. Contributors: [`architecture`], [`adding`], [`changelog`].
 //!
 //! Every block that begins with `$ ozols` is run by the tests (`tests/it/documents.rs`); `...` marks omitted lines.
 

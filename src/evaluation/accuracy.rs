@@ -1,4 +1,4 @@
-//! How right and how fast each method is, and where its numbers fail.
+//! Accuracy and speed of every rank method on the built-in mechanisms.
 //!
 //! The [`survey`] asks every method of [`crate::rank::method`] about mechanisms of known mobility; [`stability`] moves
 //! geometry, digits, size, unit and prime until answers turn wrong; [`searching`] compares the ways of searching.

@@ -3,7 +3,6 @@
 
 pub mod builder;
 pub mod costs;
-mod digits;
 #[doc(hidden)]
 pub mod disk;
 mod doubted;
@@ -14,13 +13,12 @@ pub mod loose;
 pub mod problem;
 pub mod read;
 pub mod schema;
-mod shape;
 pub mod template;
 pub mod text;
 pub mod write;
 
 use crate::file::locate::DocumentPath;
-use crate::file::problem::{ProblemKind, suggest_word};
+use crate::file::problem::{Found, ProblemKind, WarningKind, suggest_word};
 use crate::geom::expr::{Expr, ExprError};
 use itertools::Itertools;
 use std::cell::{Cell, RefCell};
@@ -39,6 +37,8 @@ pub(crate) const TOLD: usize = 100;
 pub(crate) struct Findings {
     told: RefCell<Vec<Finding>>,
     more: Cell<usize>,
+    /// The doubtful values found so far.
+    warned: RefCell<Found>,
     /// The values of the file's parameters.
     names: BTreeMap<String, Expr>,
     /// The parameters that an expression uses.
@@ -51,13 +51,9 @@ impl Findings {
         self.names = names;
     }
 
-    /// Returns the value of an expression. With `pi_is_a_number`, pi may be used outside of angles.
-    pub(crate) fn parse_expression(
-        &self,
-        text: &str,
-        pi_is_a_number: bool,
-    ) -> Result<Expr, ExprError> {
-        Expr::with_names(text, pi_is_a_number, &mut |word| {
+    /// Returns the value of an expression. If `pi` is true, pi may be used outside of angles.
+    pub(crate) fn parse_expression(&self, text: &str, pi: bool) -> Result<Expr, ExprError> {
+        Expr::with_names(text, pi, &mut |word| {
             let found = self.names.get(word)?;
             self.used.borrow_mut().insert(word.to_owned());
             Some(found.clone())
@@ -71,10 +67,8 @@ impl Findings {
 
     /// Reports parameters that no expression uses.
     pub(crate) fn tell_unused(&self) {
-        for name in self
-            .parameter_names()
-            .filter(|n| !self.used.borrow().contains(*n))
-        {
+        let used = self.used.borrow();
+        for name in self.parameter_names().filter(|n| !used.contains(*n)) {
             let at = self.key("parameter").key(name);
             at.add_problem(format!(
                 "parameter \"{name}\" is never used; use it in an expression in quotes, such as \"2*{name}\", or remove it"
@@ -110,10 +104,9 @@ impl Findings {
 
     /// Returns the result for the file, or the problems if there are any.
     pub(crate) fn finish<T>(self, made: T) -> Result<T, Vec<Finding>> {
-        if self.problem_count() == 0 {
-            Ok(made)
-        } else {
-            Err(self.into_findings())
+        match self.problem_count() {
+            0 => Ok(made),
+            _ => Err(self.into_findings()),
         }
     }
 }
@@ -182,6 +175,12 @@ impl<'f> Place<'f> {
         } else {
             self.out.more.set(self.out.more.get() + 1);
         }
+    }
+
+    /// Warns of a doubtful value at this place.
+    pub(crate) fn warn(&self, kind: impl Into<WarningKind>) {
+        let warning = (self.path.clone(), kind.into());
+        self.out.warned.borrow_mut().push(warning);
     }
 
     /// Reports an unknown word.

@@ -132,27 +132,23 @@ fn in_series(imported: &Imported, releases: &[(Release, String)]) -> Result<Stri
     let mut all: Vec<Freeing<'_>> = Vec::new();
     for (&part, list) in &freed {
         let part = &origin.robot.joints[part];
-        let e = part
-            .element
-            .ok_or_else(|| separate_file_error(origin, part))?;
-        let e = origin.element(e);
+        let e = part.element;
+        let e = origin.element(e.ok_or_else(|| separate_file_error(origin, part))?);
         if e.node().copy {
-            return Err(e.unsupported_error(
-                "it is a copy made by <replicate>",
-                "choose another joint, or write the copies out",
-            ));
+            let why = "it is a copy made by <replicate>";
+            return Err(e.unsupported_error(why, "choose another joint, or write the copies out"));
         }
         all.push((part, e, list));
     }
     free(origin, &all, &mut edits)?;
     for (element, why) in uncoupled {
-        uncouple(origin, element, &why, &mut edits)?;
+        uncouple(element, &why, &mut edits)?;
     }
     edits.apply_edits()
 }
 
 type Free = fn(&Origin, &[Freeing<'_>], &mut Edits<'_>) -> Result<(), ImportError>;
-type Uncouple = fn(&Origin, usize, &str, &mut Edits<'_>) -> Result<(), ImportError>;
+type Uncouple = fn(usize, &str, &mut Edits<'_>) -> Result<(), ImportError>;
 
 /// Returns the error for a joint that is defined in a separate file.
 fn separate_file_error(origin: &Origin, part: &Part) -> ImportError {

@@ -5,8 +5,8 @@
 //! the joints not chosen yet. It consists of the vectors that the choices add to the motions of the original joints,
 //! and the redundancy so far. The vectors are in the space dual to the self-stresses, restricted to what the remaining
 //! joints can still reach. Different choices with the same node have the same completions. So a space of 10^10 variants
-//! reduces to a few hundred nodes and is counted without visiting any variant. With a searched state, a node is the
-//! space of motions of the links that still have joints to choose.
+//! reduces to a few hundred nodes and is counted without visiting any variant. A searched state, drives and poses near the
+//! drawn one are further coordinates of the same space.
 
 pub mod answer;
 pub mod at_tolerance;

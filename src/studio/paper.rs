@@ -5,10 +5,11 @@ use crate::page::{LOOK, SHARED};
 use maud::{DOCTYPE, Markup, html};
 
 /// The studio's own scripts by idea, in the order they are run, after those that the report's page shares with it.
-const SCRIPTS: [&str; 20] = [
+const SCRIPTS: [&str; 21] = [
     include_str!("script/talk.js"),
     include_str!("script/things.js"),
     include_str!("script/number.js"),
+    include_str!("script/units.js"),
     include_str!("script/camera.js"),
     include_str!("script/preview.js"),
     include_str!("script/sheet.js"),

@@ -138,7 +138,7 @@ fn answer_post(asked: &Asked, path: &str, room: &Room) -> Result<Value, Refused>
             if let Some(m) = &reading.mechanism
                 && let Ok(found) = work::all_states(m)
             {
-                out["verdict"] = work::verdict_json(m, &found, 0);
+                out["verdict"] = work::verdict_json(m, (&found, &[]), 0);
             }
             Ok(out)
         }

@@ -4,6 +4,7 @@
 use super::idea;
 use super::room::{Found, Room};
 use crate::model::loads::Stroke;
+use crate::model::mechanism::Drives;
 use crate::model::mechanism::{Mechanism, StateId};
 use crate::page::moving::Moving;
 use crate::page::scenes::{moving_scene, still_scene};
@@ -11,17 +12,22 @@ use crate::page::verdict;
 use crate::redundancy::analysis::{Method, StateAnalysis, analyse_states};
 use crate::score::outcome::Outcome;
 use crate::score::outcome::variant::Variant;
+use crate::score::request::unlisted::part_freedoms;
 use crate::score::request::{List, Request};
 use crate::score::run::{Event, run};
+use crate::statics::reactions::Cycle;
+use crate::statics::reactions::drives::is_slide;
 use crate::statics::solve::{Model, SolvedReactions, solve_reactions};
 use crate::view::FORMAT;
 use crate::view::analysis::Analysis;
+use crate::view::analysis::suggestions::{Advice, advise_states};
 use crate::view::reactions::stroke::ReactionsOverStroke as Reactions;
 use crate::view::search::json;
 use crate::view::search::nothing_found::{hopeless_reasons, wider_requests};
 use crate::view::search::variant::symmetric_lines;
 use crate::view::search::why::rows_of_ideas;
 use serde_json::{Value, json};
+use std::collections::BTreeMap;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
 use std::sync::atomic::Ordering;
@@ -89,7 +95,14 @@ fn judge_and_search(room: &Room, revision: u64, m: &Arc<Mechanism>, to_motion: &
             return room.tell_found(revision, "verdict", &told);
         }
     };
-    room.tell_found(revision, "verdict", &verdict_json(m, &states, revision));
+    let ids: Vec<StateId> = m.state_ids().collect();
+    // Single changes are quick: they are shown while the search runs.
+    let advice = advise_states(m, &ids, &states).unwrap_or_default();
+    room.tell_found(
+        revision,
+        "verdict",
+        &verdict_json(m, (&states, &advice), revision),
+    );
     // The thread at the other end lives as long as this one.
     let _ = to_motion.send((revision, m.clone(), states.clone()));
     run_search(room, revision, m, &states);
@@ -128,8 +141,12 @@ pub(super) fn all_states(m: &Mechanism) -> Result<Vec<StateAnalysis>, String> {
 
 /// Returns the verdict for the page. It has the analysis of `ozols analyze --format json`, the text of the report, and the
 /// mechanism at rest.
-pub(super) fn verdict_json(m: &Mechanism, states: &[StateAnalysis], revision: u64) -> Value {
-    let analysis = Analysis::new(m, states, &[]);
+pub(super) fn verdict_json(
+    m: &Mechanism,
+    (states, advice): (&[StateAnalysis], &[Advice]),
+    revision: u64,
+) -> Value {
+    let analysis = Analysis::new(m, states, advice);
     let words = |s| json!({ "head": verdict::verdict_head(s), "text": verdict::state_sentences(s).join(" ") });
     let words: Vec<Value> = analysis.states.iter().map(words).collect();
     let scenes = states.iter().zip(m.state_ids()).map(|(found, state)| {
@@ -208,10 +225,10 @@ fn ideas_json(
     let words = |e: &dyn std::fmt::Display| e.to_string();
     let is_over = || room.is_over(revision);
     let remarks = outcome.make_remarks(&is_over).map_err(|e| words(&e))?;
-    let mut text = Vec::new();
     let variants = outcome.variants_unless(&is_over);
-    json::write_json(&mut text, &outcome, variants, &remarks, None).map_err(|e| words(&e))?;
-    let found: Value = serde_json::from_slice(&text).map_err(|e| words(&e))?;
+    let mut ideas = Vec::new();
+    let each = |v: &Variant<'_>| ideas.push(v.assignment().clone());
+    let found = json::search_value(&outcome, variants, &remarks, each).map_err(|e| words(&e))?;
     let marks = idea::idea_marks(m, states, &outcome, &found["variants"]);
     let wider = wider_requests(&outcome, &remarks).into_iter();
     // The pool is set here at each search.
@@ -228,11 +245,21 @@ fn ideas_json(
     // What the file can say is written into it; the rest is asked for by its number.
     let step = |(request, gives): &(Request, String)| {
         let [old, new] = [&outcome.request, request];
-        let more = &new.allow[old.allow.len().min(new.allow.len())..];
+        let entry = |name: &String| match part_freedoms(name) {
+            Some(freedoms) => json!({ "name": name, "freedoms": freedoms }),
+            None => json!(name),
+        };
+        let list = |names: &[String]| names.iter().map(entry).collect::<Value>();
+        let more = new.allow[old.allow.len()..].iter();
+        let nuts = new.unloading[old.unloading.len()..].iter();
         let in_file = Request {
             max_redundant: old.max_redundant,
             max_mobility: old.max_mobility,
+            drives: old.drives,
+            pose_only: old.pose_only,
             allow: old.allow.clone(),
+            forbid: old.forbid.clone(),
+            unloading: old.unloading.clone(),
             list: old.list,
             distinct: old.distinct,
             pool: old.pool,
@@ -243,14 +270,14 @@ fn ideas_json(
             "in_file": in_file == *old,
             "max_redundant": (new.max_redundant != old.max_redundant).then_some(new.max_redundant),
             "max_mobility": new.max_mobility.filter(|_| new.max_mobility != old.max_mobility),
-            "allow": more.iter().map(|o| json!([o.joint, o.names])).collect::<Value>(),
+            "drives": new.drives.filter(|_| new.drives != old.drives).map(Drives::word),
+            "pose_only": (new.pose_only != old.pose_only).then_some(new.pose_only),
+            "allow": more.map(|o| json!([o.joint, list(&o.names)])).collect::<Value>(),
+            // The joint that these are in series with stays what it is.
+            "unloading": nuts.map(|i| json!([i.joints[0], list(&i.names)])).collect::<Value>(),
         })
     };
-    let why = {
-        let ideas: Vec<_> = outcome.variants_unless(&is_over).collect();
-        let first: Vec<_> = ideas.iter().map(Variant::assignment).collect();
-        rows_of_ideas(&outcome, &first)
-    };
+    let why = rows_of_ideas(&outcome, &ideas.iter().collect::<Vec<_>>());
     let told = json!({
         "revision": revision,
         "found": found,
@@ -286,11 +313,28 @@ fn force_chart(m: &Mechanism, state: StateId) -> Value {
     match solve_reactions(m, state, stroke, Model::Spatial) {
         Ok(SolvedReactions::Spatial(found)) => {
             let svg = Reactions::new(m, state, &found).chart().map(|c| c.svg());
-            json!({ "svg": svg })
+            json!({ "svg": svg, "drives": drive_efforts(m, &found) })
         }
         Ok(SolvedReactions::Planar(_)) => Value::Null,
         Err(why) => json!({ "why": why.to_string() }),
     }
+}
+
+/// Returns the effort of each driven joint over the stroke: the unit, positions of the first drive, and values.
+fn drive_efforts(m: &Mechanism, found: &Cycle) -> Value {
+    let mut curves = BTreeMap::new();
+    for (at, solution) in &found.positions {
+        for joint in solution.iter().flat_map(|s| &s.reactions) {
+            if let Some((freedom, effort)) = joint.effort {
+                let unit = if is_slide(freedom) { "N" } else { "N·m" };
+                let id = &m.joints[joint.joint].id;
+                let curve = curves.entry(id).or_insert((unit, Vec::new(), Vec::new()));
+                curve.1.push(*at);
+                curve.2.push(effort);
+            }
+        }
+    }
+    json!(curves)
 }
 
 /// Returns the stroke, as far as the drive goes.

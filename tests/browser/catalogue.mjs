@@ -42,7 +42,7 @@ export function catalogueTests(test) {
       await tab.click("#filters summary");
       await tab.fill("#cost", "0.5");
       await tab.waitForFunction(() => document.querySelectorAll("#cards .card").length === 0);
-      assert.match(await tab.locator("#count").innerText(), /^None of \d+ grippers is like that: without “Redesign cost at most \(hinges\)” 2\.$/);
+      assert.match(await tab.locator("#count").innerText(), /^None of \d+ grippers matches: without “Redesign cost at most \(hinges\)” 2\.$/);
       await tab.fill("#turn", "0");
       await tab.waitForFunction(() => /Two or more filters exclude every gripper/.test(document.getElementById("count").textContent));
       await tab.click("#filters button[type=reset]");

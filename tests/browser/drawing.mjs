@@ -117,8 +117,8 @@ export function drawingTests(test) {
       await written("max_mobility = 1");
       await tab.waitForFunction(() => desk.ideas?.found?.variants.length && desk.ideas.found.variants.every((v) => v.mobility <= 1 && v.redundant <= 1));
       await tab.evaluate(() => select([{ what: "joint", id: "1-2" }]));
-      await tab.locator("#thing summary").click();
-      await box("#thing", "spherical").uncheck();
+      await tab.getByText("A search may put here").click();
+      await box("#thing .wide > .type-boxes", "spherical").uncheck();
       await written('forbid = ["spherical"]');
       await counted("of 18 variants");
       await tab.locator('#thing button:has-text("Never change it")').click();

@@ -84,7 +84,7 @@ test("filters narrow the list, and Escape widens it again", async () => {
     }
     await tab.fill("#find", "no such joint");
     await tab.waitForFunction(() => !document.querySelector("#variants tr[data-variant]"));
-    assert.match(await text(tab, "#variants tbody"), /No variant of the 200 listed passes/);
+    assert.match(await text(tab, "#variants tbody"), /None of the 200 variants listed matches/);
     await tab.keyboard.press("Escape");
     await tab.waitForFunction(() => document.querySelector("#variants tr[data-variant]"));
     assert.match(await text(tab, "#count"), /^200 listed of 21,817,629/);
@@ -310,7 +310,7 @@ test("a mechanism in space turns by keys, by mouse and by finger, and back", asy
     await open(bennett, { reducedMotion: "reduce", ...more }, async (tab) => {
       const first = await corners(tab);
       const name = await space(tab, "turn").getAttribute("aria-label");
-      assert.match(name, /arrow keys to turn/);
+      assert.match(name, /arrow keys to turn the view/);
       assert.ok(await space(tab, "home").isDisabled());
       await space(tab, "turn").focus();
       await tab.keyboard.press("ArrowRight");

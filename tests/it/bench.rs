@@ -7,14 +7,11 @@ use ozols::accuracy::searching::record::{self, Bracket, Record, Share, Trial, Wa
 use ozols::accuracy::searching::{MECHANISMS, TrialEffort, pictures, run_trial};
 use ozols::accuracy::study;
 use ozols::accuracy::timing::Stopwatch;
-use ozols::file::text::mechanism_from_str;
 use ozols::rank::numeric::Elimination;
-use ozols::score::request::{Check, List, Request};
 use ozols::search::check::brute::{Matrices, Seen};
 use ozols::search::check::brute_float::Approximate;
 use ozols::search::check::pruned::Pruned;
 use ozols::search::check::singular_values;
-use std::time::Duration;
 
 const EFFORT: TrialEffort = TrialEffort {
     looked: 400,
@@ -117,10 +114,7 @@ fn the_truth_is_what_is_known() {
 /// mechanism of its own, has.
 #[test]
 fn floating_point_looks_at_the_same_matrices() {
-    let clamped = Request {
-        max_external: Some(2),
-        ..Request::default()
-    };
+    let clamped = default_with(|r: &mut Request| r.max_external = Some(2));
     for (name, request) in [
         ("geared-gripper", Request::default()),
         ("3-rrr-planar", Request::default()),
@@ -151,16 +145,9 @@ fn floating_point_looks_at_the_same_matrices() {
 #[test]
 fn floating_point_is_wrong_about_a_hair() {
     let hair = "point = [\"20 + 1e-20\", 40, -20]";
-    let text = replace_once(
-        &run_quiet(&["show", "bennett"]),
-        "point = [20, 40, -20]",
-        hair,
-    );
-    let off = mechanism_from_str("bennett.toml", &text).unwrap();
-    let request = Request {
-        as_written: true,
-        ..Request::default()
-    };
+    let text = replace_once(&run_quiet("show bennett"), "point = [20, 40, -20]", hair);
+    let off = read(&text);
+    let request = default_with(|r: &mut Request| r.as_written = true);
     let t = tried(&off, &request, EFFORT);
     assert!(is_right(
         of(&t, Way::Diagram(Check::None)).variants.unwrap()
@@ -400,10 +387,7 @@ fn conditions_are_those_of_a_search_and_bad_ones_are_refused() {
         );
     }
     let list = List::Top(3);
-    let request = Request {
-        list,
-        ..Request::default()
-    };
+    let request = default_with(|r: &mut Request| r.list = list);
     let top = tried(&built_in("lever-gripper"), &request, EFFORT);
     assert_eq!(of(&top, Way::Pool(Some(1000))).best.unwrap().of, 3);
     assert!(MECHANISMS.len() >= 4 && MECHANISMS.contains(&"gripper-10"));

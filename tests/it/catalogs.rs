@@ -1,8 +1,8 @@
 //! Every built-in mechanism has the figures its file states, with their sources.
 
 use crate::common::*;
+use ozols::redundancy::StateFigures;
 use ozols::redundancy::analysis::Elimination;
-use ozols::redundancy::{StateFigures, state_figures};
 use serde_json::json as value;
 
 #[test]
@@ -122,7 +122,7 @@ fn friction_shared_by_the_jaws_is_told_from_harm() {
     ] {
         let m = built_in(name);
         let clamped = m.state_named("clamped").unwrap();
-        let s = &analyse_states(&m, &[clamped], Method::Modular).unwrap()[0];
+        let s = &analysed_in(&m, clamped);
         let external: Vec<StressVerdict> = s
             .self_stresses
             .iter()
@@ -151,7 +151,7 @@ fn friction_shared_by_the_jaws_is_told_from_harm() {
 /// What is listed is `catalogs/list.csv`. If this fails, correct the lines of it that differ.
 #[test]
 fn the_list_has_the_figures_of_the_files() {
-    let listed = run_json(&["list", "--format", "json"]);
+    let listed = run_json("list --format json");
     let mut computed: Vec<Value> = Vec::new();
     for (family, names) in builtin::families() {
         for name in names {

@@ -24,21 +24,16 @@ mod tasks;
 mod three_jaws;
 mod workload;
 
-use ozols::catalog::row::{Laid, StructureRow, structure_row};
-use ozols::catalog::spec::Spec;
-use ozols::chains::enumerate::list_chains;
+use ozols::analyze;
+use ozols::catalog::row::{Laid, StructureRow};
+use ozols::chains::Symmetry;
 use ozols::chains::roles::Subject;
-use ozols::chains::{Input, Symmetry};
 use ozols::file::schema::{Coordinate, DriveWord};
-use ozols::synthesis::figures::layout_figures;
 use ozols::synthesis::layout::{Layout, NoLayout};
 use ozols::synthesis::mechanism::mechanism_file;
 use ozols::synthesis::place::Place;
+use ozols::synthesis::structure::Form;
 use ozols::synthesis::structure::listed::hinged_structures;
-use ozols::synthesis::structure::{Form, Structure};
-use ozols::synthesis::task::Limits;
-use ozols::synthesis::workload::Workload;
-use ozols::{Request, analyze};
 use std::ops::Deref;
 use stroke::read_layout;
 
@@ -111,10 +106,7 @@ fn form_of(input: Input, symmetry: Symmetry, parallel: bool) -> (Input, Form) {
 }
 
 fn plain_spec(ideas: usize) -> Spec {
-    Spec {
-        ideas,
-        ..Spec::default()
-    }
+    default_with(|s: &mut Spec| s.ideas = ideas)
 }
 
 /// A structure a test lays out: places by joint.
@@ -230,7 +222,7 @@ fn the_drive_closes_the_jaws_as_fast_as_the_layout_says() {
 }
 
 /// Solves a square system given by columns.
-fn solve_square(columns: &[Vec<f64>], right: &[f64]) -> Vec<f64> {
+pub(crate) fn solve_square(columns: &[Vec<f64>], right: &[f64]) -> Vec<f64> {
     let n = right.len();
     assert_eq!(columns.len(), n);
     let mut rows: Vec<Vec<f64>> = (0..n)
@@ -312,10 +304,7 @@ fn the_mechanism_of_a_row_has_the_figures_of_the_row_when_it_is_read_again() {
         let again = ozols::from_toml(&laid.file).unwrap();
         let free = &analyze(&again).unwrap()[0];
         assert_eq!((free.mobility, free.redundant), laid.as_built);
-        let request = Request {
-            max_mobility: Some(1),
-            ..Request::default()
-        };
+        let request = default_with(|r: &mut Request| r.max_mobility = Some(1));
         let outcome = ozols::search(&again, &request).unwrap();
         assert_eq!(outcome.determinate.by_mobility_and_changes, laid.counts);
         assert_eq!(
@@ -348,11 +337,7 @@ fn why_a_structure_has_no_layout_is_said() {
     // `topology.md`: of 53 graph-symmetric ones 48 have no regular mirror layout.
     assert_eq!(whys.values().sum::<i32>(), 48, "{whys:?}");
     assert!(whys.contains_key("the drive cannot move"), "{whys:?}");
-    let strict = Limits {
-        ratio: 1.5,
-        crossings: 0,
-        ..Limits::default()
-    };
+    let strict = default_with(|l: &mut Limits| (l.ratio, l.crossings) = (1.5, 0));
     let turning = form_of(Input::Turn, Symmetry::Generic, false);
     let mut refused = 0;
     each_structure(6, &[turning], |_, s| {

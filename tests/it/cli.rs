@@ -33,7 +33,7 @@ fn assert_refused<L: Line + ?Sized>(args: &L, parts: &[&str]) -> String {
 }
 
 /// Runs a shell command in a folder; `ozols` stands for the program.
-fn run_shell(folder: &Path, words: &str) -> Output {
+fn run_shell(folder: impl AsRef<Path>, words: &str) -> Output {
     let words = words.replace("ozols", &format!("'{}'", env!("CARGO_BIN_EXE_ozols")));
     let mut sh = std::process::Command::new("sh");
     sh.args(["-c", &words]).current_dir(folder);
@@ -41,7 +41,7 @@ fn run_shell(folder: &Path, words: &str) -> Output {
 }
 
 /// Asserts that a shell command ends with exit code 2 and an error that contains these words.
-fn shell_fails(folder: &Path, words: &str, says: &str) {
+fn shell_fails(folder: impl AsRef<Path>, words: &str, says: &str) {
     let o = run_shell(folder, words);
     let said = utf8_text(&o.stderr);
     assert_eq!(o.status.code(), Some(2), "{words}: {said}");
@@ -49,7 +49,7 @@ fn shell_fails(folder: &Path, words: &str, says: &str) {
 }
 
 fn four_bar() -> String {
-    run_quiet(&["show", "four-bar"])
+    run_quiet("show four-bar")
 }
 
 // Exit codes.
@@ -64,7 +64,7 @@ fn exit_code_0_done() {
 
 #[test]
 fn exit_code_1_nothing_found() {
-    let o = run(&["search", "gripper-10", "--max-mobility", "0", "--quiet"]);
+    let o = run("search gripper-10 --max-mobility 0 --quiet");
     assert_eq!(
         (o.status.code(), utf8_text(&o.stderr).as_str()),
         (Some(1), "")
@@ -87,13 +87,13 @@ fn bad_arguments_end_with_exit_code_2() {
         search four-bar --memory much | such as 500M or 2G
         analyze four-bar --method svd --tolerance 2 | --tolerance
         search gripper-10 --method brute | 13841287201 & too many for brute force
-        search gripper-10 --options revolute,gearbox | --options & gearbox & universal-y
-        search gripper-10 --allow 2-3=gearbox | --allow & gearbox & universal-y
-        search gripper-10 --allow 2-3 | --allow needs names
-        search gripper-10 --allow x-y=revolute | --allow & no joint x-y
-        search gripper-10 --forbid 2-3=gearbox | --forbid & gearbox
-        search gripper-10 --forbid x-y | --forbid & no joint x-y
-        search gripper-10 --hold zz | --hold & no link zz
+        search gripper-10 --options revolute,gearbox | no joint of gripper-10 has an option named gearbox & universal-y
+        search gripper-10 --allow 2-3=gearbox | an option named gearbox & universal-y
+        search gripper-10 --allow 2-3 | name the options to allow at 2-3
+        search gripper-10 --allow x-y=revolute | gripper-10 has no joint x-y
+        search gripper-10 --forbid 2-3=gearbox | an option named gearbox
+        search gripper-10 --forbid x-y | gripper-10 has no joint x-y
+        search gripper-10 --hold zz | gripper-10 has no link zz to hold
         search gripper-10 --state zz | no state zz & free, clamped
         analyze gripper-10 --state zz | no state zz & free, clamped
         search four-bar --max-external 0 | no state besides free

@@ -1,14 +1,20 @@
 //! What several tests need: the program and what it says, closeness, a text with one thing changed.
 
+mod folder;
 pub(crate) mod lattice;
 mod names;
+mod prelude;
+mod turned;
 
 use assert_cmd::Command;
+pub(crate) use folder::*;
 pub(crate) use names::*;
 use ozols::linalg::echelon;
 use ozols::linalg::modp::Residue;
+pub(crate) use prelude::*;
 use std::hash::{BuildHasher, Hasher, RandomState};
 pub(crate) use tempfile::{TempDir, tempdir};
+pub(crate) use turned::*;
 
 /// A command line: its words, or a text with blanks between them.
 pub(crate) trait Line {
@@ -64,6 +70,24 @@ pub(crate) fn run<L: Line + ?Sized>(args: &L) -> Output {
 #[track_caller]
 pub(crate) fn has(text: &str, part: &str) {
     assert!(text.contains(part), "no {part:?} in {text}");
+}
+
+/// Asserts that a text does not contain a part, and shows the whole text if it does.
+#[track_caller]
+pub(crate) fn lacks(text: &str, part: &str) {
+    assert!(!text.contains(part), "{part:?} in {text}");
+}
+
+/// Asserts that a value has all keys of the wanted one with their values, at any depth; what it has besides is not looked at.
+#[track_caller]
+pub(crate) fn assert_includes(found: &Value, wanted: &Value) {
+    match (found, wanted) {
+        (Value::Object(f), Value::Object(w)) => {
+            let at = |key: &String| f.get(key).unwrap_or_else(|| panic!("no {key} in {found}"));
+            w.iter().for_each(|(k, v)| assert_includes(at(k), v));
+        }
+        _ => assert_eq!(found, wanted),
+    }
 }
 
 /// Asserts that a text contains all of several parts.
@@ -233,15 +257,41 @@ pub(crate) fn assert_fails<L: Line + ?Sized>(args: &L, says: &str) {
 }
 
 /// Runs a command on a file with this text and returns its exit code, standard output and standard error.
-pub(crate) fn run_on(
+pub(crate) fn run_on<L: Line + ?Sized>(
     command: &str,
     name: &str,
     content: &str,
-    more: &[&str],
+    more: &L,
 ) -> (Option<i32>, String, String) {
     let (_folder, path) = write_temporary(name, content);
-    let args = [&[command, path], more].concat();
-    run_full(&args)
+    run_full(&[&[command, path], &more.words()[..]].concat())
+}
+
+/// Returns what a command that succeeds says as JSON of a file with this text.
+#[track_caller]
+pub(crate) fn json_on<L: Line + ?Sized>(
+    command: &str,
+    name: &str,
+    content: &str,
+    more: &L,
+) -> Value {
+    let more = [&more.words()[..], &["--format", "json"]].concat();
+    let (code, said, told) = run_on(command, name, content, &more);
+    assert_eq!(code, Some(0), "{told}{said}");
+    serde_json::from_str(&said).unwrap()
+}
+
+/// Asserts that a command on a file with this text ends with exit code 2 and an error that contains these words.
+#[track_caller]
+pub(crate) fn assert_fails_on<L: Line + ?Sized>(
+    command: &str,
+    name: &str,
+    content: &str,
+    more: &L,
+    says: &str,
+) {
+    let (_folder, path) = write_temporary(name, content);
+    assert_fails(&[&[command, path], &more.words()[..]].concat(), says);
 }
 
 /// Returns the rows of a table: one a line, bars between their cells, and `\n` for the end of a line within a cell.
@@ -289,6 +339,45 @@ pub(crate) fn write_mechanism(head: &str, links: &str, joints: &str) -> String {
     out
 }
 
+/// Returns the file of a ring of links, the first the frame, the second the output: what stands before the links, and a joint a line
+/// from each link to the next as [`write_mechanism`] has it, without its name and links.
+pub(crate) fn write_ring(head: &str, joints: &[String]) -> String {
+    let n = joints.len();
+    let links = (0..n).map(|i| format!("{i}{}", if i == 1 { "*" } else { "" }));
+    let line = |(i, joint): (usize, &String)| format!("j{i} | {i} {} | {joint}", (i + 1) % n);
+    let joints = joints.iter().enumerate().map(line).join("\n");
+    write_mechanism(head, &links.collect_vec().join(" "), &joints)
+}
+
+/// Returns numbers with commas between them, as points and axes of [`write_mechanism`].
+pub(crate) fn commas<T: std::fmt::Debug>(numbers: impl IntoIterator<Item = T>) -> String {
+    numbers.into_iter().map(|x| format!("{x:?}")).join(", ")
+}
+
+/// Returns the mechanism of a file with this text, which must be valid.
+#[track_caller]
+pub(crate) fn read(text: &str) -> Mechanism {
+    mechanism_from_str("it.toml", text).unwrap_or_else(|e| panic!("{e}\n{text}"))
+}
+
+/// Returns the analysis of a state by exact ranks.
+pub(crate) fn analysed_in(m: &Mechanism, state: StateId) -> StateAnalysis {
+    let found = analyse_states(m, &[state], Method::Modular);
+    found.unwrap().remove(0)
+}
+
+/// Returns the analysis of the free state by exact ranks.
+pub(crate) fn analysed(m: &Mechanism) -> StateAnalysis {
+    analysed_in(m, StateId::FREE)
+}
+
+/// Returns a search and its diagrams.
+pub(crate) fn searched(m: &Mechanism, conditions: Conditions) -> (Search, Diagrams) {
+    let search = Search::new(exact_field(m, 0).unwrap(), m, conditions).unwrap();
+    let diagrams = search.build_diagrams(&|| false, &mut |_| {});
+    (search, diagrams)
+}
+
 /// Asserts that each command line of a table is refused with exit code 2 and these words, `&` between several of them.
 pub(crate) fn assert_all_fail(table: &str) {
     for [line, said] in read_cases::<2>(table) {
@@ -313,6 +402,26 @@ pub(crate) fn write_temporary(name: &str, content: impl AsRef<[u8]>) -> (TempDir
 /// Returns a new seed for each run; a failure names it.
 pub(crate) fn fresh_seed() -> u64 {
     RandomState::new().build_hasher().finish() % 1_000_000
+}
+
+/// Returns the rank of rows of doubles, by elimination with the largest pivot left.
+pub(crate) fn rank_of_rows(mut rows: Vec<Vec<f64>>) -> usize {
+    let width = rows.first().map_or(0, Vec::len);
+    for rank in 0..rows.len() {
+        let left = (rank..rows.len()).flat_map(|r| (0..width).map(move |c| (r, c)));
+        let largest = left.max_by(|&(r, c), &(s, d)| rows[r][c].abs().total_cmp(&rows[s][d].abs()));
+        let Some((r, c)) = largest.filter(|&(r, c)| rows[r][c].abs() > 1e-9) else {
+            return rank;
+        };
+        rows.swap(rank, r);
+        let pivot = rows[rank].clone();
+        for row in &mut rows[rank + 1..] {
+            let by = row[c] / pivot[c];
+            row.iter_mut().zip(&pivot).for_each(|(x, p)| *x -= by * p);
+            row[c] = 0.0;
+        }
+    }
+    rows.len()
 }
 
 /// Returns the rank of J over the field by writing it out.

@@ -6,7 +6,6 @@ mod exchange;
 
 use ozols::rank::method::NoAnswer;
 use ozols::rank::method::registry::by_name;
-use ozols::redundancy::analysis::StateAnalysis;
 
 /// Two joints on the frame, with couplings.
 fn pair(first: &str, second: &str, couplings: &str) -> String {
@@ -22,16 +21,6 @@ const SLIDE: &str = "type = \"prismatic\"\naxis = [1, 0, 0]";
 
 fn coupled(a: &str, b: &str, ratio: &str) -> String {
     format!("[[coupling]]\njoints = [\"{a}\", \"{b}\"]\nratio = {ratio}\n")
-}
-
-fn mechanism(text: &str) -> Mechanism {
-    mechanism_from_str("pair.toml", text).unwrap_or_else(|e| panic!("{e}"))
-}
-
-fn exact(m: &Mechanism) -> StateAnalysis {
-    analyse_states(m, &[StateId::FREE], Method::Modular)
-        .unwrap()
-        .remove(0)
 }
 
 fn problem(text: &str) -> String {
@@ -90,7 +79,7 @@ fn what_a_file_may_not_say() {
 #[test]
 fn options_that_cannot_be_coupled_are_not_offered() {
     let search = "[search]\noptions = [\"revolute\", \"cylindrical\", \"universal\", \"spherical\", \"planar\"]\n";
-    let m = mechanism(&pair(TURN, TURN, &(coupled("a", "b", "-1") + search)));
+    let m = read(&pair(TURN, TURN, &(coupled("a", "b", "-1") + search)));
     let names: Vec<&str> = m.joints[0]
         .options
         .iter()
@@ -104,7 +93,7 @@ fn options_that_cannot_be_coupled_are_not_offered() {
 fn axes_of_any_length_make_the_same_row() {
     use ozols::closure::coupling::coupling_coefficient;
     let of = |first: &str, second: &str| {
-        let m = mechanism(&pair(first, second, &coupled("a", "b", "\"-1/2\"")));
+        let m = read(&pair(first, second, &coupled("a", "b", "\"-1/2\"")));
         coupling_coefficient(&m, &m.couplings[0]).to_f64()
     };
     let long = "type = \"revolute\"\naxis = [0, 0, 3]";
@@ -120,17 +109,15 @@ fn axes_of_any_length_make_the_same_row() {
     assert!((of(measured, TURN) - 0.5 * length).abs() < 1e-15);
     // x and y of a frame are made of axis and reference, and longer still.
     let slot = "type = \"slotted\"\naxis = [0, 0, 2]\nreference = [1, 1, 0]";
-    let m = mechanism(&pair(slot, SLIDE, &coupled("a:tx", "b", "1")));
+    let m = read(&pair(slot, SLIDE, &coupled("a:tx", "b", "1")));
     assert!((coupling_coefficient(&m, &m.couplings[0]).to_f64() + 4.0 * 2f64.sqrt()).abs() < 1e-14);
 }
 
 /// A rack moves by the pitch radius for each radian of its pinion, over the stroke too.
 #[test]
 fn rack_and_pinion() {
-    use ozols::motion::follow::Follower;
-    use ozols::motion::pose::Pose;
-    let m = mechanism(&pair(TURN, SLIDE, &coupled("a", "b", "12.5")));
-    let s = exact(&m);
+    let m = read(&pair(TURN, SLIDE, &coupled("a", "b", "12.5")));
+    let s = analysed(&m);
     assert_eq!(
         (s.mobility, s.redundant, s.rows, s.finite.mobility),
         (1, 0, 1, 1)
@@ -149,13 +136,13 @@ fn rack_and_pinion() {
 #[test]
 fn gears_that_repeat_or_contradict() {
     let text = ozols::builtin::text("parallelogram-gripper").unwrap();
-    let base = exact(&mechanism(text));
+    let base = analysed(&read(text));
     let geared = |ratio: &str| {
         let coupling =
             format!("[[coupling]]\njoints = [\"3-0\", \"7-0\"]\nratio = {ratio}\n\n[search]");
         let text = text.replacen("[search]", &coupling, 1);
         let cut = text.find("[[expected]]").unwrap();
-        exact(&mechanism(&text[..cut]))
+        analysed(&read(&text[..cut]))
     };
     let repeats = geared("-1");
     assert_eq!(
@@ -185,8 +172,6 @@ fn gears_that_repeat_or_contradict() {
 /// Willis: the sun of an epicyclic gear turns four times as fast as the carrier where the ring has three times its teeth.
 #[test]
 fn the_carrier_follows_the_sun() {
-    use ozols::motion::follow::Follower;
-    use ozols::motion::pose::Pose;
     let m = built_in("planetary-gear");
     let pose = Pose::of_file(&m, StateId::FREE).unwrap();
     let mut follower = Follower::new(pose, 0, &[]);
@@ -200,7 +185,7 @@ fn the_carrier_follows_the_sun() {
     assert!((sun / carrier - 4.0).abs() < 1e-9);
     // One planet alone is not redundant.
     let text = ozols::builtin::text("planetary-gear").unwrap();
-    let s = exact(&m);
+    let s = analysed(&m);
     assert_eq!((s.mobility, s.redundant), (1, 2));
     assert!(
         s.finite.is_proven(),
@@ -214,7 +199,7 @@ fn the_carrier_follows_the_sun() {
     assert_ne!(other, text);
     let cut = other.find("[[expected]]").unwrap();
     assert_eq!(
-        exact(&mechanism(&other[..cut])).mobility,
+        analysed(&read(&other[..cut])).mobility,
         0,
         "a planet of other teeth locks it"
     );
@@ -261,9 +246,8 @@ fn every_method_counts_the_rows() {
 /// A certificate proves the rank with the coupling of its file, and of no other.
 #[test]
 fn certificates_hold_the_coupling() {
-    use ozols::rank::exact::certificate::{certify_state, closure_matrix, number_field};
     let text = ozols::builtin::text("geared-five-bar").unwrap();
-    let m = mechanism(text);
+    let m = read(text);
     let certificate = certify_state(&m, StateId::FREE).unwrap();
     assert_eq!(
         (certificate.rows, certificate.columns, certificate.rank),
@@ -276,9 +260,9 @@ fn certificates_hold_the_coupling() {
         ozols::verify::check_certificate(&of(&m), &certificate),
         Ok(4)
     );
-    let other = mechanism(&text.replacen("ratio = \"-1/2\"", "ratio = \"-1/3\"", 1));
+    let other = read(&text.replacen("ratio = \"-1/2\"", "ratio = \"-1/3\"", 1));
     assert!(ozols::verify::check_certificate(&of(&other), &certificate).is_err());
-    let without = mechanism(&text.replacen(
+    let without = read(&text.replacen(
         "[[coupling]]\njoints = [\"0-1\", \"0-4\"]\nratio = \"-1/2\"\ngear = true",
         "",
         1,
@@ -292,19 +276,14 @@ fn redesigns_of_a_geared_gripper() {
     let run = |name: &str| run_json(&["search", name, "--top", "3", "--format", "json"]);
     let geared = run("geared-five-bar");
     let best = &geared["variants"][0];
-    assert_eq!(
-        (&best["mobility"], &best["redundant"]),
-        (&1.into(), &0.into()),
-        "{best}"
-    );
+    assert_eq!(best["mobility"], 1, "{best}");
+    assert_eq!(best["redundant"], 0, "{best}");
     assert_eq!(run("geared-gripper")["variants"][0]["redundant"], 0);
 }
 
 #[test]
 fn couplings_have_mirror_images() {
-    use ozols::redundancy::analysis::exact_field;
-    use ozols::search::Search;
-    use ozols::search::question::conditions::{Conditions, Symmetry};
+    use ozols::search::question::conditions::Symmetry;
     let text = pair(
         TURN,
         TURN,
@@ -312,9 +291,8 @@ fn couplings_have_mirror_images() {
     )
     // Mirror images are both kept.
     .replace("id = \"1\"\n", "id = \"1\"\nrole = \"output\"\n");
-    let with = |ratio: &str| {
-        mechanism(&text.replacen("[search]", &(coupled("a", "b", ratio) + "[search]"), 1))
-    };
+    let with =
+        |ratio: &str| read(&text.replacen("[search]", &(coupled("a", "b", ratio) + "[search]"), 1));
     let request = || default_with(|c: &mut Conditions| c.symmetry = Symmetry::OnePerOrbit);
     let made = |m: &Mechanism| {
         Search::new(exact_field(m, 0).unwrap(), m, request())

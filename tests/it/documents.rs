@@ -12,8 +12,6 @@ use crate::robots::assemblies::make;
 use assert_cmd::Command;
 use snapbox::Assert;
 use snapbox::assert::Action;
-use std::io::{BufRead, BufReader};
-use std::process::Stdio;
 
 /// A command and the output written beneath it.
 struct Example {
@@ -126,7 +124,7 @@ fn the_commands_of_the_readme_run() {
     let readme = Path::new(env!("CARGO_MANIFEST_DIR")).join("README.md");
     let text = fs::read_to_string(readme).unwrap();
     let folder = tempdir().unwrap();
-    let robot = crate::common::run(&["export", "four-bar", "--to", "urdf"]).stdout;
+    let robot = crate::common::run("export four-bar --to urdf").stdout;
     fs::write(folder.path().join("robot.urdf"), robot).unwrap();
     let mut ran = Vec::new();
     for line in plain_commands(&text) {
@@ -204,4 +202,32 @@ fn the_pictures_are_what_the_program_draws() {
             "{name} is out of date: .ci/pictures makes it"
         );
     }
+}
+
+/// The chapter on the search names six files with their main functions. They exist, and are short enough to be read.
+#[test]
+fn the_search_is_explained_in_six_files() {
+    let guide = Path::new(env!("CARGO_MANIFEST_DIR")).join("src/guide");
+    let chapter = fs::read_to_string(guide.join("structure.md")).unwrap();
+    let (_, section) = chapter.split_once("\n## How the search works").unwrap();
+    let section = section.split("\n## ").next().unwrap();
+    let files = section.split("](../kernel/search/").skip(1);
+    let (mut lines, mut named) = (0, 0);
+    for (n, after) in files.enumerate() {
+        assert!(n < 6);
+        let (file, words) = after.split_once(')').unwrap();
+        let path = guide.join("../kernel/search").join(file);
+        let code = fs::read_to_string(&path).unwrap();
+        lines += code.lines().count();
+        // Up to the next entry, or to the end of the list.
+        let words = words.split("\n\n").next().unwrap();
+        let words = words.split("[`").next().unwrap();
+        for name in words.split('`').skip(1).step_by(2) {
+            let name = name.rsplit("::").next().unwrap();
+            assert!(code.contains(&format!("fn {name}")), "{file}: {name}");
+            named += 1;
+        }
+    }
+    assert!(lines <= 1_500, "{lines}");
+    assert!(named >= 12, "{named}");
 }

@@ -16,8 +16,7 @@ mod space;
 mod undriven;
 
 use self::reading::{collisions, covers, misread, outside, texts};
-use ozols::draw::{Drawing, Marks, Rect, Subject, kinematic, scheme};
-use ozols::search::question::conditions::InState;
+use ozols::draw::{Marks, Subject, scheme};
 use std::fmt::Write as _;
 
 /// A mechanism in its free state, to be drawn as it is.
@@ -157,8 +156,7 @@ fn variants_are_marked() {
         }),
         ..Conditions::default()
     };
-    let search = Search::new(exact_field(&m, 0).unwrap(), &m, request).unwrap();
-    let diagrams = search.build_diagrams(&|| false, &mut |_| {});
+    let (search, diagrams) = searched(&m, request);
     let first = search.cheapest_variants(&diagrams, 1).next();
     let (realized, marks) = Marks::of_variant(&search, &first.unwrap(), "variant 1");
     assert_eq!(marks.links, 11);
@@ -202,11 +200,7 @@ fn tilted(across: [f64; 3], up: [f64; 3]) -> Mechanism {
         )
     };
     let joints = joints.map(line).join("\n");
-    mechanism_from_str(
-        "tilted.toml",
-        &write_mechanism("name = \"tilted\"", "0 1 2 3*", &joints),
-    )
-    .unwrap()
+    read(&write_mechanism("name = \"tilted\"", "0 1 2 3*", &joints))
 }
 
 #[test]
@@ -271,8 +265,8 @@ fn command_line() {
     let svg = run_quiet("draw gripper-10 --state clamped");
     assert!(svg.contains("Kinematic scheme seen along z, state clamped"));
     // the same variant as in the list of `ozols search`
-    let list = run_json(&["search", "gripper-10", "--top", "2", "--format", "json"]);
-    let svg = run_quiet(&["draw", "gripper-10", "--variant", "2"]);
+    let list = run_json("search gripper-10 --top 2 --format json");
+    let svg = run_quiet("draw gripper-10 --variant 2");
     assert!(svg.contains("gripper-10, variant 2"));
     let changes = list["variants"][1]["changes"].list();
     assert!(!changes.is_empty());

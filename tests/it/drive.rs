@@ -62,6 +62,10 @@ fn cam_spring_gives_what_friction_takes() {
     let (e, eta, psi, s) = (1.7, 0.8, 0.4, 0.02);
     let spring = CamSpring::for_friction(e, eta, psi, s);
     near(spring.stroke_energy() * eta, e, 1e-14);
+    // The work of a spring let go from (1 + ψ0) S to ψ0 S, added up in steps.
+    let force = |i: i32| spring.rate * s * (psi + (f64::from(i) + 0.5) / 1000.0);
+    let work: f64 = (0..1000).map(|i| force(i) * s / 1000.0).sum();
+    near(spring.stroke_energy(), work, 1e-9);
     let as_printed = 0.5 * ((1.0 + psi * psi) - psi * psi) * spring.rate * s * s;
     assert!(
         (as_printed * eta - e).abs() > 0.4,

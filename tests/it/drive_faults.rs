@@ -6,30 +6,17 @@ use ozols::redundancy::motion::DriveFault;
 /// Returns a loop of hinges about z between as many links as there are points, the first of which is the frame.
 fn ring(points: &[[i64; 2]], driven: &[usize], output: usize) -> String {
     let n = points.len();
-    let mut text = "name = \"ring\"\n".to_owned();
-    for l in 0..n {
-        text += &format!("[[link]]\nid = \"{l}\"\n");
-        if l == 0 {
-            text += "role = \"frame\"\n";
-        } else if l == output {
-            text += "role = \"output\"\n";
-        }
-    }
-    for (j, [x, y]) in points.iter().enumerate() {
-        let next = (j + 1) % n;
-        text += &format!(
-            "[[joint]]\nid = \"j{j}\"\nlinks = [\"{j}\", \"{next}\"]\ntype = \"revolute\"\npoint = [{x}, {y}, 0]\naxis = [0, 0, 1]\n"
-        );
-        if driven.contains(&j) {
-            text += "drive = true\n";
-        }
-    }
-    text
+    let links = (0..n).map(|l| format!("{l}{}", if l == output { "*" } else { "" }));
+    let line = |(j, [x, y]): (usize, &[i64; 2])| {
+        let (next, drive) = ((j + 1) % n, driven.contains(&j));
+        format!("j{j} | {j} {next} | revolute | {x}, {y}, 0 | 0, 0, 1 | drive = {drive}")
+    };
+    let joints = points.iter().enumerate().map(line).join("\n");
+    write_mechanism("name = \"ring\"", &links.collect_vec().join(" "), &joints)
 }
 
 fn faults(text: &str) -> Vec<DriveFault> {
-    let m = mechanism_from_str("ring.toml", text).unwrap();
-    let mut all = analyse_states(&m, &[StateId::FREE], Method::Auto).unwrap();
+    let mut all = analyse_states(&read(text), &[StateId::FREE], Method::Auto).unwrap();
     all.remove(0).drives
 }
 
@@ -79,7 +66,7 @@ fn faults_of_drives_are_in_the_report() {
 /// A drive of a clamped gripper is meant to be locked, and a dead point is no idle motion.
 #[test]
 fn what_is_meant_is_no_fault() {
-    let clamped = run_json(&["analyze", "gripper-10", "--format", "json"]);
+    let clamped = run_json("analyze gripper-10 --format json");
     for state in clamped["states"].list() {
         assert_eq!(state["drives"].list().len(), 0, "{}", state["state"]);
     }
@@ -98,10 +85,10 @@ fn what_is_meant_is_no_fault() {
 #[test]
 fn check_names_faults_of_drives() {
     let open = [[0, 0], [1, 2], [4, 3], [3, 0]];
-    let (code, said, warned) = run_on("check", "ring.toml", &ring(&open, &[0, 3], 3), &[]);
+    let (code, said, warned) = run_on("check", "ring.toml", &ring(&open, &[0, 3], 3), "");
     assert_eq!(code, Some(0));
     assert!(said.starts_with("ring: valid, "), "{said}");
     has(&warned, "2 drives for 1 degree of freedom");
-    let (_, _, warned) = run_on("check", "ring.toml", &ring(&open, &[0], 3), &[]);
+    let (_, _, warned) = run_on("check", "ring.toml", &ring(&open, &[0], 3), "");
     assert!(!warned.contains("degree of freedom"), "{warned}");
 }

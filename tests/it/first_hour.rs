@@ -39,7 +39,7 @@ fn run_line(line: &str, folder: &Path) {
 
 fn run_examples(command: &str) {
     let help = match command {
-        "" => run_quiet(&["--help"]),
+        "" => run_quiet("--help"),
         c => run_quiet(&[c, "--help"]),
     };
     let examples = examples(&help);
@@ -81,7 +81,7 @@ fn examples_of_accuracy_run() {
 
 #[test]
 fn the_commands_are_all_here() {
-    let help = run_quiet(&["--help"]);
+    let help = run_quiet("--help");
     let commands = help.split("Commands:\n").nth(1).unwrap();
     let commands = commands.split("\n\n").next().unwrap();
     let mut named: Vec<&str> = commands
@@ -109,7 +109,7 @@ fn the_program_alone_says_where_to_begin() {
     }
     assert!(said.lines().count() < 12, "{said}");
     // An option without a command is still a mistake.
-    assert_eq!(run_full(&["--quiet"]).0, Some(2));
+    assert_eq!(run_full("--quiet").0, Some(2));
 }
 
 // explain
@@ -133,37 +133,16 @@ fn every_term_shows_itself_by_a_command_that_runs() {
 
 #[test]
 fn the_list_is_there_as_data() {
-    let rows: Value =
-        serde_json::from_str(&run_quiet(&["list", "gripper-10", "--format", "json"])).unwrap();
+    let rows = run_json("list gripper-10 --format json");
     let rows = rows.list();
-    let free = rows
-        .iter()
-        .find(|r| r["name"] == "gripper-10" && r["state"] == "free")
-        .unwrap();
-    for (key, value) in [
-        ("links", 10),
-        ("joints", 13),
-        ("contours", 4),
-        ("freedoms", 14),
-        ("mobility", 1),
-        ("redundant", 11),
-    ] {
-        assert_eq!(free[key], value, "{key}");
-    }
-    assert_eq!(free["family"], "grippers");
-    let csv = run_quiet(&["list", "gripper-10", "--format", "csv"]);
-    let lines: Vec<&str> = csv.lines().collect();
-    assert_eq!(
-        lines[0],
-        "name,family,state,links,joints,contours,freedoms,mobility,redundant,description"
-    );
-    assert_eq!(lines.len(), rows.len() + 1);
-    assert!(
-        lines
-            .iter()
-            .any(|l| l.starts_with("gripper-10,grippers,clamped,")),
-        "{csv}"
-    );
+    let is_free = |r: &&Value| r["name"] == "gripper-10" && r["state"] == "free";
+    let wanted = json!({ "family": "grippers", "links": 10, "joints": 13, "contours": 4, "freedoms": 14, "mobility": 1, "redundant": 11 });
+    assert_includes(rows.iter().find(is_free).unwrap(), &wanted);
+    let csv = run_quiet("list gripper-10 --format csv");
+    let head = "name,family,state,links,joints,contours,freedoms,mobility,redundant,description\n";
+    assert!(csv.starts_with(head), "{csv}");
+    assert_eq!(csv.lines().count(), rows.len() + 1);
+    has(&csv, "\ngripper-10,grippers,clamped,");
 }
 
 #[test]
@@ -179,7 +158,7 @@ fn joint_types_are_explained_with_their_picture() {
         let text = format!(
             "name = \"x\"\n[[link]]\nid = \"1\"\nrole = \"frame\"\n[[link]]\nid = \"2\"\nrole = \"output\"\n[[joint]]{joint}\n"
         );
-        let m = mechanism_from_str("x.toml", &text).unwrap_or_else(|e| panic!("{e}\n{text}"));
+        let m = read(&text);
         assert_eq!(m.joints[0].joint_type, t);
         for f in t.freedoms() {
             assert!(
@@ -208,7 +187,7 @@ fn joint_types_are_explained_with_their_picture() {
             assert_eq!(named.count(), 2, "{t}: {} in {texts:?}", f.name());
         }
     }
-    let all = run_quiet(&["explain"]);
+    let all = run_quiet("explain");
     for t in JointType::NAMED {
         assert!(all.contains(t.name()), "{t}");
     }
@@ -218,7 +197,7 @@ fn joint_types_are_explained_with_their_picture() {
 
 #[test]
 fn terms_are_explained_by_name_sign_and_list() {
-    let sigma = run_quiet(&["explain", "sigma"]);
+    let sigma = run_quiet("explain sigma");
     has_all(
         &sigma,
         &[
@@ -228,13 +207,13 @@ fn terms_are_explained_by_name_sign_and_list() {
             "source   O. G. Ozols",
         ],
     );
-    assert_eq!(run_quiet(&["explain", "σ"]), sigma);
-    assert_eq!(run_quiet(&["explain", "Σ"]), sigma);
+    assert_eq!(run_quiet("explain σ"), sigma);
+    assert_eq!(run_quiet("explain Σ"), sigma);
     assert_eq!(
-        run_quiet(&["explain", "redundant", "constraint"]),
-        run_quiet(&["explain", "redundant-constraint"])
+        run_quiet("explain redundant constraint"),
+        run_quiet("explain redundant-constraint")
     );
-    let all = run_quiet(&["explain"]);
+    let all = run_quiet("explain");
     let terms = Terms::builtin();
     assert!(terms.term.len() >= 40);
     for t in &terms.term {
@@ -260,12 +239,12 @@ fn every_shell_gets_a_script_and_bash_can_read_its_own() {
             assert!(script.contains(command), "{shell}: {command}");
         }
     }
-    let (_folder, path) = write_temporary("ozols.bash", run_quiet(&["completions", "bash"]));
+    let (_folder, path) = write_temporary("ozols.bash", run_quiet("completions bash"));
     let Ok(o) = Command::new("bash").arg("-n").arg(path).output() else {
         return; // no bash here
     };
     assert!(o.status.success(), "{}", utf8_text(&o.stderr));
-    assert_eq!(run_full(&["completions", "tcsh"]).0, Some(2));
+    assert_eq!(run_full("completions tcsh").0, Some(2));
 }
 
 // Colour.

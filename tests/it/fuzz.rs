@@ -18,8 +18,6 @@ mod mechanism_files;
 pub(crate) mod readers;
 mod robot_files;
 
-use proptest::prelude::*;
-use proptest::sample::{Index, select};
 use std::ops::Range;
 
 /// So many inputs as the variable `OZOLS_FUZZ` says; few where it says nothing.

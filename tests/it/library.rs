@@ -1,17 +1,13 @@
 //! The library by its front door: what a program gets is what the command writes.
 
 use crate::common::*;
-use ozols::model::ranking::Term;
 use ozols::score::outcome::remarks::Remarks;
-use ozols::score::request::{Check, JointOptions, List, Method};
+use ozols::score::request::{JointOptions, Method};
 use ozols::score::run::{self, Event};
-use ozols::search::diagram::Stop;
 use ozols::search::question::conditions::Symmetry;
-use ozols::view::search::csv;
-use ozols::view::search::json;
-use ozols::view::search::text;
-use ozols::{Error, Outcome, Request, Scheme};
-use std::sync::atomic::{AtomicBool, Ordering};
+use ozols::view::search::{csv, json, text};
+use ozols::{Error, Scheme};
+use std::sync::atomic::AtomicBool;
 
 fn search(name: &str, request: &Request) -> Outcome {
     ozols::search(&built_in(name), request).unwrap()
@@ -232,7 +228,7 @@ fn errors_read_as_those_of_the_command() {
     let m = built_in("four-bar");
     let why = ozols::search(&m, &request).unwrap_err();
     assert!(matches!(why, Error::Search(_)));
-    let printed = ozols(&["search", "four-bar", "--hold", "nosuch"]).output();
+    let printed = ozols("search four-bar --hold nosuch").output();
     let printed = String::from_utf8(printed.unwrap().stderr).unwrap();
     assert_eq!(printed.trim(), format!("error: {why}"));
     assert!(matches!(

@@ -4,20 +4,8 @@ use crate::common::*;
 use std::process::Command;
 
 /// Licences that ask for no more than that they are passed on.
-const ALLOWED: [&str; 12] = [
-    "0BSD",
-    "Apache-2.0",
-    "Apache-2.0 WITH LLVM-exception",
-    "BSD-2-Clause",
-    "BSD-3-Clause",
-    "BSL-1.0",
-    "CC0-1.0",
-    "ISC",
-    "MIT",
-    "Unicode-3.0",
-    "Unlicense",
-    "Zlib",
-];
+const ALLOWED: &str = "0BSD|Apache-2.0|Apache-2.0 WITH LLVM-exception|BSD-2-Clause|BSD-3-Clause|BSL-1.0|CC0-1.0\
+    |ISC|MIT|Unicode-3.0|Unlicense|Zlib";
 
 /// Whether a licence expression (SPDX) can be met by allowed ones.
 fn allowed(expression: &str) -> bool {
@@ -36,26 +24,16 @@ fn allowed(expression: &str) -> bool {
     }
     match text.strip_prefix('(').and_then(|t| t.strip_suffix(')')) {
         Some(inner) => allowed(inner),
-        None => ALLOWED.contains(&text),
+        None => ALLOWED.split('|').any(|a| a == text),
     }
 }
 
 #[test]
 fn licence_expressions_are_read() {
-    for yes in [
-        "MIT",
-        "GPL-3.0 OR MIT",
-        "(MIT OR GPL-3.0) AND Zlib",
-        "MIT/GPL-2.0",
-    ] {
+    for yes in "MIT|GPL-3.0 OR MIT|(MIT OR GPL-3.0) AND Zlib|MIT/GPL-2.0".split('|') {
         assert!(allowed(yes), "{yes}");
     }
-    for no in [
-        "GPL-3.0",
-        "MIT AND GPL-3.0",
-        "(GPL-3.0 OR LGPL-3.0) AND MIT",
-        "",
-    ] {
+    for no in "GPL-3.0|MIT AND GPL-3.0|(GPL-3.0 OR LGPL-3.0) AND MIT|".split('|') {
         assert!(!allowed(no), "{no}");
     }
 }

@@ -37,24 +37,22 @@ fn verdicts_have_colour_where_a_person_looks() {
 
 #[test]
 fn verdicts_come_first_and_primes_last() {
-    let said = run_quiet(&["analyze", "four-bar", "--verbose"]);
+    let said = run_quiet("analyze four-bar --verbose");
     let first = said.lines().next().unwrap();
     has(first, "3 redundant constraints");
-    let data = run_json(&["analyze", "four-bar", "--format", "json"]);
+    let data = run_json("analyze four-bar --format json");
     let prime = data["states"][0]["primes"][0].word();
     assert_eq!(prime.len(), 19);
     let digits: Vec<&str> = said.lines().filter(|l| l.contains(prime)).collect();
     assert_eq!(digits.len(), 1, "{digits:?}");
     let block = said.split("\n\n").nth(1).unwrap();
     assert_eq!(block.lines().last(), Some(digits[0]));
-    assert!(!run_quiet(&["search", "four-bar", "--options", "spherical"]).contains(prime));
-    let page = run_quiet(&["report", "four-bar"]);
+    assert!(!run_quiet("search four-bar --options spherical").contains(prime));
+    let page = run_quiet("report four-bar");
     let sure = page.split("How sure</h2>").nth(1).unwrap();
     let open = sure.split("<details>").next().unwrap();
-    assert!(
-        open.contains("rank proven") && !open.contains(prime),
-        "{open}"
-    );
+    has(open, "rank proven");
+    lacks(open, prime);
 }
 
 /// A slide across a frame, with an output that does not move with it.
@@ -69,7 +67,7 @@ fn slide(axis: &str) -> String {
 #[test]
 fn idle_motions_name_their_direction() {
     let idle = |axis: &str| {
-        let (_, said, err) = run_on("analyze", "slide.toml", &slide(axis), &[]);
+        let (_, said, err) = run_on("analyze", "slide.toml", &slide(axis), "");
         let found = said
             .lines()
             .find_map(|l| l.trim().strip_prefix("idle: ").map(str::to_owned));
@@ -85,29 +83,27 @@ fn idle_motions_name_their_direction() {
 
 #[test]
 fn a_mechanism_without_an_output_can_be_analysed() {
-    let own = replace_once(&run_quiet(&["show", "four-bar"]), "role = \"output\"", "");
-    let (code, said, _) = run_on("analyze", "own.toml", &own, &["--format", "json"]);
-    assert_eq!(code, Some(0));
-    let found: Value = serde_json::from_str(&said).unwrap();
-    let known = run_json(&["analyze", "four-bar", "--format", "json"]);
+    let own = replace_once(&run_quiet("show four-bar"), "role = \"output\"", "");
+    let found = json_on("analyze", "own.toml", &own, "");
+    let known = run_json("analyze four-bar --format json");
     for key in split_words("mobility redundant working_mobility local_mobility") {
         assert_eq!(found["states"][0][key], known["states"][0][key], "{key}");
     }
-    let (code, _, err) = run_on("check", "own.toml", &own, &[]);
+    let (code, _, err) = run_on("check", "own.toml", &own, "");
     assert_eq!(code, Some(0));
     has(&err, "no link has the role \"output\"");
     let (code, said, err) = run_on(
         "search",
         "own.toml",
         &own,
-        &["--options", "spherical,cylindrical", "--top", "1"],
+        "--options spherical,cylindrical --top 1",
     );
     assert_eq!(code, Some(0), "{said}{err}");
 }
 
 #[test]
 fn options_may_name_types_that_the_file_does_not_list() {
-    let own = run_quiet(&["show", "four-bar"]);
+    let own = run_quiet("show four-bar");
     assert!(!own.contains("sphere-in-cylinder"));
     let search = |more: &str| run_full(&format!("search four-bar --format json --top 3 {more}"));
     let (code, said, err) = search("--options sphere-in-cylinder");
@@ -119,22 +115,10 @@ fn options_may_name_types_that_the_file_does_not_list() {
     // a type that loses the present motion, and no type at all
     let (code, _, err) = search("--options prismatic");
     assert_eq!(code, Some(2));
-    has(&err, "prismatic does not allow the present motion");
+    has(&err, "prismatic does not allow the motion that a joint");
     let (code, _, err) = search("--options nonsuch");
     assert_eq!(code, Some(2));
-    has(&err, "no joint type is named so; there are: ");
-}
-
-#[test]
-fn where_nothing_is_found_types_that_would_help_are_named_and_do() {
-    let (code, said, _) = run_full("search four-bar --options cylindrical");
-    assert_eq!(code, Some(1));
-    let command = said
-        .lines()
-        .map(str::trim)
-        .find(|l| l.starts_with("ozols search") && l.contains("spherical"));
-    let command = command.unwrap_or_else(|| panic!("{said}"));
-    run_successful(command.strip_prefix("ozols ").unwrap());
+    has(&err, "no joint type has that name; there are: ");
 }
 
 #[test]
@@ -166,26 +150,15 @@ fn exported_variants_can_be_searched_again() {
 }
 
 #[test]
-fn a_catalogue_that_is_not_there_says_how_to_make_one() {
-    for line in ["query none.db", "show none.db x", "export none.db x"] {
-        assert_fails(
-            &format!("catalog {line}"),
-            "`ozols catalog build -o none.db` makes a catalogue",
-        );
-    }
-    assert!(!Path::new("none.db").exists());
-}
-
-#[test]
 fn directions_that_are_guessed_are_told() {
-    let own = run_quiet(&["show", "four-bar"]);
+    let own = run_quiet("show four-bar");
     let pin = replace_once(
         &own,
         "[search]",
         "[[joint]]\nid = \"pin\"\nlinks = [\"0\", \"2\"]\ntype = \"slotted\"\npoint = [50, 50, 0]\naxis = [0, 0, 1]\nreference = [1, 0, 0]\n\
          options = [OPTION]\n[search]",
     );
-    let told = |option: &str| run_on("check", "pin.toml", &pin.replace("OPTION", option), &[]).2;
+    let told = |option: &str| run_on("check", "pin.toml", &pin.replace("OPTION", option), "").2;
     let guessed = told("\"cylinder-on-plane\"");
     let words = guessed.split_whitespace().collect_vec().join(" ");
     has(
@@ -196,17 +169,10 @@ fn directions_that_are_guessed_are_told() {
     assert!(!stated.contains("taken along"), "{stated}");
 }
 
-#[test]
-fn the_commands_of_a_page_ask_for_ideas() {
-    let page = run_quiet(&["report", "four-bar", "--options", "spherical,cylindrical"]);
-    assert!(page.contains("--idea {}") && page.contains("--variant {}"));
-    assert!(!page.contains("--distinct --variant"));
-}
-
 /// Where another freedom moves, the one that is stopped is not "the one".
 #[test]
 fn freedoms_that_a_shaky_pose_stops_are_counted() {
-    let said = run_quiet(&["analyze", "lever-gripper", "--state", "clamped"]);
+    let said = run_quiet("analyze lever-gripper --state clamped");
     let words = "finite mobility 1: proven: 1 of 2 instantaneous freedoms is stopped by order 5";
     assert!(said.contains(words), "{said}");
 }

@@ -7,18 +7,14 @@ mod geared;
 mod proof;
 mod reasons;
 
-use ozols::model::ranking::{ClearanceSum, Limit, Order, Ranking, Term};
-use ozols::score::evaluation::elimination::Scratch;
-use ozols::score::evaluation::evaluate::Evaluator;
+use ozols::model::ranking::Ranking;
 use ozols::score::joint_types::JointTypes;
 use ozols::score::outcome::pareto::{dominates, fronts};
 use ozols::score::outcome::ranking::{RankedPool, Ranker, compare_ranked};
-use ozols::search::answer::k_best::Assignment;
-use proptest::prelude::*;
 
 fn loaded() -> Mechanism {
     let text = builtin::text("gripper-10-loaded").unwrap();
-    mechanism_from_str("gripper-10-loaded.toml", text).unwrap()
+    read(text)
 }
 
 fn search(m: &Mechanism, redundant: u32) -> Search {
@@ -357,12 +353,11 @@ fn the_catalogue_of_joint_types_is_whole() {
 /// a proof is said.
 #[test]
 fn a_pool_says_how_far_it_is_from_proven() {
-    use ozols::score::request::Request;
     let m = loaded();
-    let asked = |pool| Request {
-        pool: Some(pool),
-        list: ozols::score::request::List::Top(1),
-        ..Request::default()
+    let asked = |pool| {
+        default_with(|r: &mut Request| {
+            (r.pool, r.list) = (Some(pool), ozols::score::request::List::Top(1))
+        })
     };
     let first = |request: &Request| {
         let found = ozols::search(&m, request).unwrap();

@@ -21,9 +21,7 @@ fn data(page: &str) -> Value {
 #[test]
 fn the_data_are_those_of_the_search() {
     for name in ["gripper-10", "gripper-10-loaded"] {
-        let page = data(&run_quiet(&[
-            "report", name, "--top", "40", "--pool", "2000",
-        ]));
+        let page = data(&run_quiet(&format!("report {name} --top 40 --pool 2000")));
         let found = &page["search"];
         let list = run_json(&format!("search {name} --top 40 --pool 2000 --format json"));
         for (own, key) in [
@@ -79,7 +77,7 @@ fn the_data_are_those_of_the_search() {
 
 #[test]
 fn the_first_list_is_that_of_the_ideas() {
-    let page = data(&run_quiet(&["report", "gripper-10", "--top", "12"]));
+    let page = data(&run_quiet("report gripper-10 --top 12"));
     let list = run_json("search gripper-10 --top 12 --distinct --format json");
     let ideas = list["variants"].list();
     assert_eq!(page["ideas"]["cost"].list().len(), 12);
@@ -90,13 +88,7 @@ fn the_first_list_is_that_of_the_ideas() {
         assert_eq!(stands_for, &v["idea"]["variants"], "{i}");
     }
     assert_eq!(page["search"]["stands_for"][0], Value::Null);
-    let distinct = data(&run_quiet(&[
-        "report",
-        "gripper-10",
-        "--top",
-        "12",
-        "--distinct",
-    ]));
+    let distinct = data(&run_quiet("report gripper-10 --top 12 --distinct"));
     assert_eq!(distinct["ideas"], Value::Null, "it is one list already");
     assert_eq!(distinct["search"]["adds"], page["ideas"]["adds"]);
 }
@@ -115,9 +107,7 @@ fn figures_of_further_states_are_those_of_the_variant_analysed() {
 #[test]
 fn each_change_has_a_symbol() {
     for name in ["gripper-10", "gripper-10-planar", "bennett"] {
-        let page = data(&run_quiet(&[
-            "report", name, "--top", "12", "--pool", "2000",
-        ]));
+        let page = data(&run_quiet(&format!("report {name} --top 12 --pool 2000")));
         let (rows, scene) = (page["swaps"][0].list(), &page["scenes"][0]);
         assert_eq!(rows.len(), scene["swaps"].list().len(), "{name}");
         for chosen in page["search"]["choices"].list() {
@@ -153,11 +143,9 @@ fn the_same_bytes_for_any_number_of_threads() {
 
 #[test]
 fn a_file_is_written_and_needs_nothing_else() {
-    let folder = tempdir().unwrap();
-    let path = folder.path().join("report.html");
-    let file = path.to_str().unwrap();
-    assert_eq!(run_quiet(&["report", "gripper-10", "-o", file]), "");
-    let page = fs::read_to_string(&path).unwrap();
+    let folder = Folder::new();
+    assert_eq!(folder.succeed("report gripper-10 -o r.html").0, "");
+    let page = folder.text("r.html");
     assert!(page.starts_with("<!doctype html>") && page.ends_with("</html>\n"));
     assert!(page.contains("default-src 'none'"));
     assert!(!page.contains("{{"), "every part is filled in");
@@ -177,17 +165,17 @@ fn a_file_is_written_and_needs_nothing_else() {
 
 #[test]
 fn pages_say_what_is_not_there() {
-    let page = run_quiet(&["report", "slider-crank-determinate"]);
+    let page = run_quiet("report slider-crank-determinate");
     assert!(page.contains("Statically determinate") && page.contains("Nothing needs changing"));
-    let page = run_quiet(&["report", "tongs"]);
+    let page = run_quiet("report tongs");
     assert!(page.contains("Nothing to search: no joint has options"));
-    let page = run_quiet(&["report", "gripper-10", "--max-changes", "1"]);
+    let page = run_quiet("report gripper-10 --max-changes 1");
     has(
         &page,
         "variants remove them all and keep the motion of links 4 and 8",
     );
     // Where nothing is found it names what finds something, as the search does.
-    let next = run(&["search", "gripper-10", "--max-changes", "1"]);
+    let next = run("search gripper-10 --max-changes 1");
     let next = utf8_text(&next.stdout);
     let steps = next
         .lines()
@@ -218,11 +206,11 @@ fn bad_questions_are_refused_and_leave_no_file() {
 #[test]
 fn a_page_says_when_it_does_not_show_all_self_stresses() {
     let said = "of 37 self-stresses are here";
-    let jessen = run_quiet(&["report", "jessen-icosahedron", "--nodes", "2000"]);
+    let jessen = run_quiet("report jessen-icosahedron --nodes 2000");
     assert!(
         jessen.contains(&format!("The first 24 {said}")),
         "{}",
         jessen.len()
     );
-    assert!(!run_quiet(&["report", "gripper-10"]).contains("self-stresses are here"));
+    assert!(!run_quiet("report gripper-10").contains("self-stresses are here"));
 }

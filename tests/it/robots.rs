@@ -4,10 +4,10 @@ use crate::common::*;
 pub(crate) mod assemblies;
 mod every_pose;
 mod exports;
-pub(crate) mod fix;
+mod fix;
 pub(crate) mod ideas;
 mod lasting;
-mod lint;
+pub(crate) mod lint;
 mod masses;
 pub(crate) mod mjcf;
 mod models;
@@ -18,8 +18,8 @@ mod taken;
 mod unread;
 
 use ozols::file::write::mechanism_file;
-use ozols::redundancy::analysis::{Elimination, StateAnalysis};
-use ozols::robots::{Imported, Options, import};
+use ozols::redundancy::analysis::Elimination;
+use ozols::robots::Options;
 
 pub(crate) fn folder() -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("tests/data/robots")
@@ -36,7 +36,7 @@ pub(crate) fn read_model(path: &str, options: &Options) -> Imported {
 
 /// n, p, k, f, W, σ of the imported mechanism by singular values.
 pub(crate) fn numeric_figures(imported: &Imported, tolerance: f64) -> [i64; 6] {
-    let m = mechanism_from_str("imported.toml", &imported.toml().unwrap()).unwrap();
+    let m = read(&imported.toml().unwrap());
     // What is written is what was built.
     let entries = |m| mechanism_file(m).json();
     assert_eq!(entries(&m), entries(&imported.mechanism));
@@ -113,10 +113,9 @@ fn poses_are_composed() {
             i.toml().unwrap()
         );
     }
-    let turned = Options {
-        pose: vec![("p".to_owned(), vec![std::f64::consts::FRAC_PI_2])],
-        ..Options::default()
-    };
+    let turned = default_with(|o: &mut Options| {
+        o.pose = vec![("p".to_owned(), vec![std::f64::consts::FRAC_PI_2])]
+    });
     let i = import("arm.urdf", ARM.as_bytes(), &no_files, &turned).unwrap();
     has(&i.toml().unwrap(), "point = [-0.1, -0.2, 1]");
 }
@@ -229,35 +228,21 @@ fn too_many_links() {
 
 #[test]
 fn the_command() {
-    let file = folder().join("mimic_gripper.urdf");
-    let out = tempdir().unwrap();
-    let target = out.path().join("gripper.toml");
-    let run = |more: &[&str]| {
-        ozols(&[&["export", file.to_str().unwrap()][..], more].concat())
-            .output()
-            .unwrap()
-    };
-    let o = run(&["--to", "toml", "-o", target.to_str().unwrap()]);
-    assert_eq!((o.status.code(), o.stdout.len()), (Some(0), 0));
-    assert_eq!(run(&["--to", "toml", "--quiet"]).stderr.len(), 0);
-    assert!(
-        String::from_utf8(o.stderr)
-            .unwrap()
-            .contains("5 couplings of joints: W = 6 without, 1 with")
-    );
-    let checked = ozols(&["check", target.to_str().unwrap()])
-        .output()
-        .unwrap();
-    assert_eq!(checked.status.code(), Some(0));
-    let json: Value = serde_json::from_slice(&run(&["--to", "json"]).stdout).unwrap();
+    let dir = Folder::with("m.urdf", read_data("robots/mimic_gripper.urdf"));
+    let (out, told) = dir.succeed("export m.urdf --to toml -o gripper.toml");
+    assert_eq!(out, "");
+    has(&told, "5 couplings of joints: W = 6 without, 1 with");
+    assert_eq!(dir.succeed("export m.urdf --to toml --quiet").1, "");
+    dir.succeed("check gripper.toml");
+    let json: Value = serde_json::from_str(&dir.succeed("export m.urdf --to json").0).unwrap();
     assert_eq!(json["joint"][0]["type"], "revolute");
     for bad in [
-        &["--pose", "finger_joint"][..],
-        &["--pose", "x=1"],
-        &["--frame", "x"],
-        &["--working-link", "x"],
+        "--pose finger_joint",
+        "--pose x=1",
+        "--frame x",
+        "--working-link x",
     ] {
-        let o = run(&[&["--to", "toml"][..], bad].concat());
-        assert_eq!((o.status.code(), o.stdout.len()), (Some(2), 0), "{bad:?}");
+        let (code, out, _) = dir.run(&format!("export m.urdf --to toml {bad}"));
+        assert_eq!((code, out.as_str()), (Some(2), ""), "{bad}");
     }
 }

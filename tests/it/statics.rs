@@ -13,7 +13,7 @@ mod reactions;
 mod stability;
 mod structure;
 
-use ozols::statics::planar::{PairId, PlanarMechanism};
+use ozols::statics::planar::PairId;
 
 /// One joint of a test mechanism: "a-b" with R, or P and its direction, at a point.
 #[derive(Debug, Clone)]
@@ -81,7 +81,7 @@ pub(crate) fn planar_file_with(
 }
 
 pub(crate) fn read_planar(text: &str) -> Mechanism {
-    mechanism_from_str("t.toml", text).unwrap_or_else(|e| panic!("{e}\n{text}"))
+    read(text)
 }
 
 pub(crate) fn planar_mechanism(joints: &[J]) -> PlanarMechanism {
@@ -96,14 +96,24 @@ pub(crate) fn shears_text() -> &'static str {
     ozols::builtin::text("parallel-shears").unwrap()
 }
 
+/// Joints by their links and points, and by directions where they slide: `0-1 0 0, 1-2 3 1, 2-0 4 0 1 0`.
+pub(crate) fn joints_of(text: &str) -> Vec<J> {
+    let one = |piece: &str| {
+        let (ends, numbers) = piece.trim().split_once(' ').unwrap();
+        let (a, b) = ends.split_once('-').unwrap();
+        let n = split_words(numbers).into_iter().map(|x| x.parse().unwrap());
+        let n: Vec<f64> = n.collect();
+        let slide = (n.len() == 4).then(|| [n[2], n[3]]);
+        let links = (a.into(), b.into());
+        J {
+            links,
+            slide,
+            at: [n[0], n[1]],
+        }
+    };
+    text.split(',').map(one).collect()
+}
+
 pub(crate) fn four_bar_file() -> String {
-    planar_file(
-        &[
-            turning_joint("0", "1", 0.0, 0.0),
-            turning_joint("1", "2", 0.0, 1.0),
-            turning_joint("2", "3", 3.0, 3.0),
-            turning_joint("3", "0", 4.0, 0.0),
-        ],
-        "",
-    )
+    planar_file(&joints_of("0-1 0 0, 1-2 0 1, 2-3 3 3, 3-0 4 0"), "")
 }

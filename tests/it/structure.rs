@@ -8,9 +8,7 @@ use ozols::closure::contour::Contour;
 use ozols::closure::{Column, CouplingRow};
 use ozols::linalg::echelon;
 use ozols::linalg::modp::Residue;
-use ozols::rank::exact::modular;
 use ozols::redundancy::contour_shares::contour_shares;
-use proptest::prelude::*;
 
 /// (σ in the order given, least, greatest) of each contour, by a rank for each.
 fn shares_by_definition(exact: &ExactField, closure: &Closure<Residue>) -> Vec<[usize; 3]> {
@@ -153,6 +151,6 @@ proptest! {
     #![proptest_config(ProptestConfig { cases: 64, ..ProptestConfig::default() })]
     #[test]
     fn random_mechanisms(text in twin::random()) {
-        check(&mechanism_from_str("random.toml", &text).unwrap());
+        check(&read(&text));
     }
 }

@@ -26,7 +26,7 @@ fn count(cell: &str) -> u64 {
 /// The mobilities that no admissible variant has are one row, so that both columns add up to what the first lines say.
 #[test]
 fn variants_by_mobility_add_up() {
-    let text = run_quiet(&["search", "gripper-10", "--count"]);
+    let text = run_quiet("search gripper-10 --count");
     let (_, body) = rows(&text, "W ");
     assert!(
         body.last().unwrap()[0].starts_with("rest, 12 to "),
@@ -40,7 +40,7 @@ fn variants_by_mobility_add_up() {
 /// The conditioning of a variant and that with its drives held are two numbers with two names, and a note tells them apart.
 #[test]
 fn conditionings_have_their_own_names() {
-    let text = run_quiet(&["search", "gripper-10-loaded", "--top", "2", "--pool", "50"]);
+    let text = run_quiet("search gripper-10-loaded --top 2 --pool 50");
     let (head, _) = rows(&text, "cost ");
     assert!(
         head.contains(&"cond.") && head.contains(&"cond. held"),

@@ -76,7 +76,7 @@ pub enum SpecError {
     /// No form remains.
     #[error(
         "no layout is asked for: with two jaws a mirror image needs a slide and half a turn a turning input; three jaws are \
-         generic or threefold, and stand on parallelograms where each side is in a plane of its own, threefold with a slide"
+         generic or threefold, and stand on parallelograms where each side has its own plane, threefold with a slide"
     )]
     Nothing,
 }

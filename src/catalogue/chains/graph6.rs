@@ -58,20 +58,6 @@ pub fn write_graph(chain: &Chain) -> String {
         .collect()
 }
 
-/// Returns the permanent name of a chain: the text of its canonical numbering.
-///
-/// # Examples
-/// ```
-/// use ozols::chains::{chain::Chain, graph6::canonical_code};
-/// let ring = |joints: [(usize, usize); 4]| canonical_code(&Chain::with_hinges(4, joints));
-/// // However its links are numbered, a four-bar has one name.
-/// assert_eq!(ring([(0, 1), (1, 2), (2, 3), (3, 0)]), ring([(0, 2), (2, 1), (1, 3), (3, 0)]));
-/// ```
-#[must_use]
-pub fn canonical_code(chain: &Chain) -> String {
-    write_graph(&chain.canonical_form().0)
-}
-
 /// Returns the chain of hinges that a text represents.
 ///
 /// # Errors

@@ -171,7 +171,7 @@ pub(crate) fn look_at(
         } => origin.is_none_or(|o| o.can_be_freed(joint, (slides, direction))),
         Release::Coupling(_) => origin.is_none_or(|o| !o.is_assembly()),
     };
-    let inside = |pose: &Pose| origin.is_none_or(|o| o.is_inside(pose, m.length_unit.metres));
+    let inside = |pose: &Pose| origin.is_none_or(|o| o.is_inside(pose));
     let may = |r: &Release| written(r) && wanted(r);
     if !origin.is_some_and(Origin::is_of_this_pose) {
         return Ok(held_twice(m, &closes, &may, Some(&inside))?);

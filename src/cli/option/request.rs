@@ -69,9 +69,9 @@ pub(crate) struct Which {
     /// Also list variants that change the output motion.
     #[arg(long)]
     allow_output_change: bool,
-    /// Condition on the drives.
-    #[arg(long, value_enum, value_name = "WHAT", default_value_t = Drives::Kept)]
-    drives: Drives,
+    /// Condition on the drives [default: that of FILE, or kept].
+    #[arg(long, value_enum, value_name = "WHAT")]
+    drives: Option<Drives>,
     /// Link that must not gain a motion, or part that must be held (repeatable).
     #[arg(long, value_name = "LINK")]
     hold: Vec<String>,

@@ -5,7 +5,7 @@ pub(in crate::score) mod error;
 pub(in crate::score) mod missing_options;
 pub(in crate::score) mod option_rules;
 pub mod prepare;
-pub(in crate::score) mod unlisted;
+pub mod unlisted;
 pub mod words;
 
 use crate::model::mechanism::{Mechanism, Mode, StateId};
@@ -150,8 +150,8 @@ pub struct Request {
     pub max_changes: Option<u32>,
     /// Whether outputs may move in other ways than now.
     pub allow_output_change: bool,
-    /// The condition on drives, unless outputs may gain motions.
-    pub drives: Drives,
+    /// The condition on drives, unless outputs may gain motions. `None` is that of the file.
+    pub drives: Option<Drives>,
     /// Links that must not gain a motion, besides the outputs; bodies that the searched state adds must be held there.
     pub hold: Vec<String>,
     /// Unloading joints offered besides those of the file.
@@ -212,7 +212,7 @@ impl Default for Request {
             max_mobility: None,
             max_changes: None,
             allow_output_change: false,
-            drives: Drives::Kept,
+            drives: None,
             hold: Vec::new(),
             unloading: Vec::new(),
             options: Vec::new(),
@@ -309,7 +309,7 @@ impl Request {
         let settled = settle_states(mechanism, &states)?;
         tell_moved(&settled, tell);
         if settled.open.is_some() {
-            tell("written as it stands: the geometry that its digits mean is not exact, or they do not decide it (`ozols check` tells more)".to_owned());
+            tell("written unchanged: the intended geometry is not exact, or the digits do not decide it (see `ozols check`)".to_owned());
         }
         Ok(settled.snapped.unwrap_or_else(|| mechanism.clone()))
     }
@@ -376,9 +376,9 @@ impl Request {
             max_mobility: self.max_mobility.or(file.max_mobility),
             max_changes: self.max_changes,
             keep_output: !self.allow_output_change,
-            drives: self.drives,
+            drives: self.drives.unwrap_or(file.drive_rule),
             symmetry,
-            throughout: !self.pose_only,
+            throughout: !self.pose_only && !file.pose_only,
             counted: self.counted,
             cheapest: self.cheapest_needed(&prepared.mechanism)?,
             estimate: (self.symmetry != Symmetry::OnePerOrbit).then_some(self.seed),

@@ -33,7 +33,7 @@ const BRUTE_LIMIT: u64 = 1 << 32;
 /// How many of the best both primes must agree on where no number of them is asked for.
 const COMPARED: usize = 10;
 /// The note if counts are not split by their properties.
-const ONLY_TOTALS: &str = "note: counts by mobility, changes and the like would take more than the memory allowed (--memory); totals alone are given";
+const ONLY_TOTALS: &str = "note: counts by mobility, changes and the like would take more than the memory allowed; only totals are given";
 /// The note if the second opinion differs.
 const CONTRADICTED: &str = "warning: singular values contradict the exact counts, so variants are judged by singular values instead, and no figure is exact";
 
@@ -308,7 +308,7 @@ fn rank_pool(
     let mut speeds = search.mechanism.loads.drive_speeds.iter();
     if pool.is_some() && speeds.any(|s| *s != 0.0) {
         tell(Event::Note(
-            "note: variants are ranked at rest, without the inertia forces of drive_speed; `ozols statics --spatial` has them for one that is exported"
+            "note: variants are ranked at rest, without the inertia forces of drive_speed; export a variant to compute them"
                 .to_owned(),
         ));
     }

@@ -38,7 +38,7 @@ pub struct Builder {
 }
 
 impl Builder {
-    /// Starts a mechanism in space with its name and its unit of length: m, mm, cm, um or in.
+    /// Returns a builder of a mechanism in space with its name and its unit of length: m, mm, cm, um or in.
     #[must_use]
     pub fn new(name: &str, length_unit: &str) -> Builder {
         Builder {
@@ -109,7 +109,7 @@ impl Builder {
         self
     }
 
-    /// Changes other keys of the mechanism file: couplings, loads, states, a ranking.
+    /// Returns the builder with changes of other keys of the mechanism file: couplings, loads, states, a ranking.
     #[must_use]
     pub fn with(mut self, change: impl FnOnce(&mut MechanismFile)) -> Builder {
         change(&mut self.file);

@@ -43,13 +43,9 @@ pub fn costs_from_str(name: &str, text: &str, mechanism: &Parts) -> Result<CostS
 /// The names of costs that do not belong to a joint type.
 const OTHERS: [&str; 4] = ["change", "driven", "link", "harmful"];
 
-pub(crate) fn read_costs(
-    stated: &BTreeMap<String, f64>,
-    mechanism: &Parts,
-    at: &Place<'_>,
-) -> CostSpec {
+pub(crate) fn read_costs(stated: &BTreeMap<String, f64>, m: &Parts, at: &Place<'_>) -> CostSpec {
     let mut spec = CostSpec::default();
-    let offered = mechanism.joints.iter().flat_map(Joint::offered_options);
+    let offered = m.joints.iter().flat_map(Joint::offered_options);
     let offered: BTreeSet<&str> = offered.map(|o| o.name.as_str()).collect();
     for (name, &value) in stated {
         let at = at.key(name);
@@ -71,11 +67,8 @@ pub(crate) fn read_costs(
             }
             _ => {
                 let types = JointType::NAMED.iter().map(JointType::name);
-                let mut known: Vec<&str> = OTHERS
-                    .into_iter()
-                    .chain(types)
-                    .chain(JointType::CLASSES)
-                    .collect();
+                let known = OTHERS.into_iter().chain(types).chain(JointType::CLASSES);
+                let mut known: Vec<&str> = known.collect();
                 known.extend(&offered);
                 at.add_unknown_word("cost", name, known.iter().unique());
             }

@@ -41,10 +41,10 @@ pub fn read_bytes(path: &Path, limit: usize) -> io::Result<Vec<u8>> {
 pub fn at_most(path: &Path, limit: usize) -> io::Result<Vec<u8>> {
     let all = read_bytes(path, limit)?;
     if all.len() > limit {
-        Err(too_long(limit))
-    } else {
-        Ok(all)
+        let message = format!("it has more than the {limit} bytes allowed");
+        return Err(io::Error::new(ErrorKind::InvalidData, message));
     }
+    Ok(all)
 }
 
 /// Returns the text of a file.
@@ -66,13 +66,6 @@ pub fn open_regular(path: &Path) -> io::Result<File> {
     }
     note_read(path);
     File::open(path)
-}
-
-fn too_long(limit: usize) -> io::Error {
-    io::Error::new(
-        ErrorKind::InvalidData,
-        format!("it has more than the {limit} bytes allowed"),
-    )
 }
 
 /// A file, identified independently of its name if possible.

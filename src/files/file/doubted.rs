@@ -1,9 +1,9 @@
 //! Doubtful values of a file: ratios and pitches that are written as decimals and are nearly fractions. Also directions of options that are
 //! omitted and default to the joint's own, if they have another meaning there.
 
-use crate::file::locate::DocumentPath;
-use crate::file::problem::{Found, WarningKind, first_of};
+use crate::file::problem::{WarningKind, first_of};
 use crate::file::schema::{JointEntry, MechanismFile, OptionTable};
+use crate::file::{Findings, Place};
 use crate::format::four_digits;
 use crate::geom::expr::Expr;
 use crate::geom::vector::{across, length, sub, to_vector, unit};
@@ -17,37 +17,30 @@ use crate::rank::rounded::nearly_special::{
 };
 use crate::rank::rounded::verdict::{Meant, RankVerdict, rank_verdict};
 
-/// Returns the doubtful values of the couplings and screws of a mechanism.
-pub(super) fn find_doubtful(file: &MechanismFile, m: &Mechanism) -> Found {
-    let couplings = m.couplings.iter().enumerate().filter_map(|(i, c)| {
-        let doubt = doubt_of(c)?;
-        let message = format!(
-            "the ratio {} of {} is a decimal, known to within {}; write ratio = \"{}\" if that is intended, or another fraction",
-            c.ratio,
-            c.name(m),
-            four_digits(doubt.half),
-            doubt.fraction
-        );
-        let path = DocumentPath::root_key("coupling").entry_at(i).key("ratio");
-        Some((path, message.into()))
-    });
-    let screws = file.joint.iter().zip(&m.joints).enumerate();
-    let screws = screws.filter_map(|(i, (entry, joint))| {
-        entry.pitch.as_ref()?;
+/// Warns of doubtful values of the couplings and screws of a mechanism.
+pub(super) fn find_doubtful(file: &MechanismFile, m: &Mechanism, out: &Findings) {
+    for (at, c) in out.key("coupling").each_entry(&m.couplings) {
+        if let Some(doubt) = doubt_of(c) {
+            at.key("ratio").warn(format!(
+                "the ratio {} of {} is a decimal, known to within {}; write ratio = \"{}\" if that is intended, or another fraction",
+                c.ratio, c.name(m), four_digits(doubt.half), doubt.fraction
+            ));
+        }
+    }
+    let turn = Expr::from(2) * Expr::pi();
+    let joints = out.key("joint").each_entry(&file.joint).zip(&m.joints);
+    for ((at, _), joint) in joints.filter(|((_, entry), _)| entry.pitch.is_some()) {
         let pitch = &joint.frame.pitch;
-        let turn = Expr::from(2) * Expr::pi();
         // Screws are specified by their lead.
-        let lead = Expr::from_f64((pitch * &turn).to_f64()).ok()?;
-        let lead = doubt_ratio(&pitch.scaled_as_written(lead, turn.to_f64()))?;
-        let message = format!(
-            "the pitch {pitch} of joint \"{}\" is a decimal close to that of a simple lead; write lead = \"{}\" instead if that is intended",
-            joint.id,
-            lead.simple_fraction()?
-        );
-        let path = DocumentPath::root_key("joint").entry_at(i).key("pitch");
-        Some((path, message.into()))
-    });
-    couplings.chain(screws).collect()
+        let lead = Expr::from_f64((pitch * &turn).to_f64()).ok();
+        let lead = lead.and_then(|x| doubt_ratio(&pitch.scaled_as_written(x, turn.to_f64())));
+        if let Some(lead) = lead.as_ref().and_then(|x| x.simple_fraction()) {
+            at.key("pitch").warn(format!(
+                "the pitch {pitch} of joint \"{}\" is a decimal close to that of a simple lead; write lead = \"{lead}\" instead if that is intended",
+                joint.id
+            ));
+        }
+    }
 }
 
 /// Number of joints named in a list.
@@ -56,35 +49,33 @@ const SHOWN: usize = 8;
 /// A guessed direction of an option at a joint: the direction, what it is taken along, and the key that would set it.
 type Guess = (&'static str, &'static str, &'static str);
 
-/// Lists each option with guessed directions once, with the joints that have it.
-pub(crate) fn find_guessed(file: &MechanismFile, m: &Mechanism) -> Found {
-    let mut found: Vec<(DocumentPath, String, Guess, Vec<&str>)> = Vec::new();
-    for (i, (entry, joint)) in file.joint.iter().zip(&m.joints).enumerate() {
+/// Warns of each option with guessed directions once, with the joints that have it.
+pub(crate) fn find_guessed(file: &MechanismFile, m: &Mechanism, out: &Findings) {
+    let mut found: Vec<(Place<'_>, String, Guess, Vec<&str>)> = Vec::new();
+    for ((at, entry), joint) in out.key("joint").each_entry(&file.joint).zip(&m.joints) {
         let (list, at) = match &entry.options {
-            Some(list) => (list, DocumentPath::root_key("joint").entry_at(i)),
-            None => (&file.search.options, DocumentPath::root_key("search")),
+            Some(list) => (list, at),
+            None => (&file.search.options, out.key("search")),
         };
-        for (n, item) in list.iter().enumerate() {
-            let path = at.key("options").entry_at(n);
+        for (at, item) in at.key("options").each_entry(list) {
             let Some((name, guess)) = of_option(&item.as_table(), entry, joint) else {
                 continue;
             };
-            let same = found.iter_mut().find(|f| f.0 == path && f.2 == guess);
+            let same = found
+                .iter_mut()
+                .find(|f| f.0.path == at.path && f.2 == guess);
             match same {
                 Some(same) => same.3.push(&joint.id),
-                None => found.push((path, name, guess, vec![&joint.id])),
+                None => found.push((at, name, guess, vec![&joint.id])),
             }
         }
     }
-    let told = found.into_iter().map(|(path, option, guess, joints)| {
-        let (what, along, key) = guess;
+    for (at, option, (what, along, key), joints) in found {
         let joints = first_of(&joints, SHOWN);
-        let message = format!(
+        at.warn(format!(
             "the {what} of option \"{option}\" is not given and is taken along {along} at {joints}; write a table with `{key}` if another is intended: {{ type = \"{option}\", {key} = [...] }}"
-        );
-        (path, message.into())
-    });
-    told.collect()
+        ));
+    }
 }
 
 /// Returns the name of an option of a joint and its guessed direction there, or `None` if nothing is guessed.
@@ -177,32 +168,22 @@ fn by_default(m: &Mechanism) -> Option<WarningKind> {
     let half = uncertainties(m)?;
     let left = |(j, joint): &(JointId, &Joint)| {
         let given = |e: &Expr| e.is_written_whole() || e.half_unit().is_some();
+        let mut reference = joint.frame.reference.iter();
         let types = std::iter::once(&joint.joint_type)
             .chain(joint.offered_options().map(|o| &o.joint_type));
         half.frames[j.index()].axis != [0.0; 3]
             && types.into_iter().any(JointType::has_second_axis)
-            && joint
-                .frame
-                .reference
-                .iter()
-                .all(|e| !given(e) && e.as_rational().is_some())
+            && reference.all(|e| !given(e) && e.as_rational().is_some())
     };
     let all: Vec<(JointId, &Joint)> = m.joints_with_ids().filter(left).collect();
     let (_, first) = all.first()?;
     let axis = unit(to_vector(&first.frame.axis));
     let here = to_vector(&first.frame.point);
-    let others = m
-        .joints
-        .iter()
-        .map(|other| across(sub(to_vector(&other.frame.point), here), axis));
+    let others = m.joints.iter();
+    let others = others.map(|other| across(sub(to_vector(&other.frame.point), here), axis));
     let towards = others.max_by(|a, b| length(*a).total_cmp(&length(*b)))?;
-    let towards = if length(towards) > 0.0 {
-        unit(towards)
-    } else {
-        return None;
-    };
+    let [x, y, z] = Some(unit(towards)).filter(|_| length(towards) > 0.0)?;
     let ids: Vec<&str> = all.iter().map(|(_, j)| j.id.as_str()).collect();
-    let [x, y, z] = towards;
     let message = format!(
         "the second axes of {} use the default, which depends on the file's x, y and z; the same mechanism rotated in space has other axes; write them out, such as reference = [{x:.6}, {y:.6}, {z:.6}] at {}",
         first_of(&ids, TOLD),

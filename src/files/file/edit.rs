@@ -7,7 +7,7 @@ mod value;
 
 pub use change::{Edit, EditError, Thing};
 pub use differences::find_differences;
-use serde_json::Value;
+use serde_json::{Map, Value};
 use toml_edit::{ArrayOfTables, DocumentMut, Item, Table};
 
 /// Returns the text of a file after some changes, one after another.
@@ -44,14 +44,17 @@ pub fn apply_edits(text: &str, edits: &[Edit]) -> Result<String, EditError> {
     Ok(document.map_or(text, |d| d.to_string()))
 }
 
-fn parse_toml(text: &str) -> Result<DocumentMut, EditError> {
+/// The result of a change.
+type Edited<T> = Result<T, EditError>;
+
+fn parse_toml(text: &str) -> Edited<DocumentMut> {
     text.parse()
         .map_err(|e: toml_edit::TomlError| EditError::NoToml {
             why: e.message().trim().replace('\n', ", "),
         })
 }
 
-fn apply_edit(document: &mut DocumentMut, edit: &Edit) -> Result<(), EditError> {
+fn apply_edit(document: &mut DocumentMut, edit: &Edit) -> Edited<()> {
     match edit {
         Edit::Text { .. } => Ok(()),
         Edit::Set {
@@ -68,7 +71,7 @@ fn apply_edit(document: &mut DocumentMut, edit: &Edit) -> Result<(), EditError> 
 }
 
 /// Returns the tables of a kind; creates them if there are none.
-fn tables_of(document: &mut DocumentMut, what: Thing) -> Result<&mut ArrayOfTables, EditError> {
+fn tables_of(document: &mut DocumentMut, what: Thing) -> Edited<&mut ArrayOfTables> {
     let entry = document.entry(what.word());
     let item = entry.or_insert_with(|| Item::ArrayOfTables(ArrayOfTables::new()));
     item.as_array_of_tables_mut()
@@ -79,41 +82,30 @@ fn id_of(table: &Table) -> Option<&str> {
     table.get("id").and_then(Item::as_str)
 }
 
-fn table_of<'d>(
-    document: &'d mut DocumentMut,
-    what: Thing,
-    id: &str,
-) -> Result<&'d mut Table, EditError> {
+fn table_of<'d>(document: &'d mut DocumentMut, what: Thing, id: &str) -> Edited<&'d mut Table> {
     let all = tables_of(document, what)?;
     let found = all.iter_mut().find(|t| id_of(t) == Some(id));
-    found.ok_or_else(|| EditError::Gone {
-        what,
-        id: id.to_owned(),
-    })
+    let id = || id.to_owned();
+    found.ok_or_else(|| EditError::Gone { what, id: id() })
 }
 
 /// Checks that nothing else of its kind has this name.
-fn check_unused(document: &mut DocumentMut, what: Thing, id: &str) -> Result<(), EditError> {
-    if tables_of(document, what)?
-        .iter()
-        .any(|t| id_of(t) == Some(id))
-    {
-        return Err(EditError::Taken {
-            what,
-            id: id.to_owned(),
-        });
+fn check_unused(document: &mut DocumentMut, what: Thing, id: &str) -> Edited<()> {
+    let all = tables_of(document, what)?;
+    if !all.iter().any(|t| id_of(t) == Some(id)) {
+        return Ok(());
     }
-    Ok(())
+    let id = id.to_owned();
+    Err(EditError::Taken { what, id })
 }
 
-fn put_value(table: &mut Table, path: &[String], to: &Value) -> Result<(), EditError> {
+fn put_value(table: &mut Table, path: &[String], to: &Value) -> Edited<()> {
     match path {
         [] => Ok(()),
         [key] => value::set_value(table, key, to),
         [key, rest @ ..] => {
-            let inner = table
-                .entry(key)
-                .or_insert_with(|| Item::Table(implicit_table()));
+            let inner = table.entry(key);
+            let inner = inner.or_insert_with(|| Item::Table(implicit_table()));
             let Some(inner) = inner.as_table_mut() else {
                 return Err(EditError::NoValue {
                     what: key.clone(),
@@ -132,11 +124,7 @@ fn implicit_table() -> Table {
     table
 }
 
-fn add_table(
-    document: &mut DocumentMut,
-    what: Thing,
-    entry: &serde_json::Map<String, Value>,
-) -> Result<(), EditError> {
+fn add_table(document: &mut DocumentMut, what: Thing, entry: &Map<String, Value>) -> Edited<()> {
     if let Some(id) = entry.get("id").and_then(Value::as_str) {
         check_unused(document, what, id)?;
     }
@@ -149,12 +137,7 @@ fn add_table(
     Ok(())
 }
 
-fn rename_table(
-    document: &mut DocumentMut,
-    what: Thing,
-    id: &str,
-    to: &str,
-) -> Result<(), EditError> {
+fn rename_table(document: &mut DocumentMut, what: Thing, id: &str, to: &str) -> Edited<()> {
     if id == to {
         return Ok(());
     }
@@ -164,7 +147,7 @@ fn rename_table(
     Ok(())
 }
 
-fn remove_tables(document: &mut DocumentMut, items: &[(Thing, String)]) -> Result<(), EditError> {
+fn remove_tables(document: &mut DocumentMut, items: &[(Thing, String)]) -> Edited<()> {
     let mut all = items.to_vec();
     for (what, id) in items {
         table_of(document, *what, id)?;

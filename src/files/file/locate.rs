@@ -80,11 +80,8 @@ impl<'t> Document<'t> {
         if !json {
             return toml_edit::Document::parse(text).ok().map(Document::Toml);
         }
-        let parsed = jsonc_parser::parse_to_ast(
-            text,
-            &jsonc_parser::CollectOptions::default(),
-            &Default::default(),
-        );
+        let collect = jsonc_parser::CollectOptions::default();
+        let parsed = jsonc_parser::parse_to_ast(text, &collect, &Default::default());
         parsed.ok()?.value.map(Document::Json)
     }
 

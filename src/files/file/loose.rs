@@ -31,10 +31,8 @@ pub fn read_points(file: &MechanismFile) -> [Vec<Option<[f64; 3]>>; 2] {
 /// left, or all.
 #[must_use]
 pub fn connected_part(file: &MechanismFile) -> Option<MechanismFile> {
-    let frame = file
-        .link
-        .iter()
-        .find(|l| l.role.as_deref() == Some("frame"))?;
+    let mut links = file.link.iter();
+    let frame = links.find(|l| l.role.as_deref() == Some("frame"))?;
     let mut there = BTreeSet::from([frame.id.as_str()]);
     loop {
         let before = there.len();

@@ -48,15 +48,16 @@ impl<M: Into<String>> From<M> for ProblemKind {
 impl ProblemKind {
     /// Returns the error of a file that has only this problem, at the given place.
     pub(crate) fn in_file(self, file: &str, text: &str, span: Option<Range<usize>>) -> ImportError {
-        let (file, text) = (file.to_owned(), text.to_owned());
-        let problems = vec![Located { kind: self, span }];
         ImportError {
-            file,
-            text,
-            problems,
+            file: file.to_owned(),
+            text: text.to_owned(),
+            problems: vec![Located { kind: self, span }],
         }
     }
 }
+
+/// A problem or warning and the path of its item.
+type At<K> = (DocumentPath, K);
 
 /// A problem or warning and its place in a text.
 #[derive(Debug, Clone)]
@@ -69,11 +70,7 @@ pub struct Located<K> {
 
 impl<K: Display> Located<K> {
     /// Locates what was found at the paths of a text.
-    pub(crate) fn locate_all(
-        text: &str,
-        json: bool,
-        found: Vec<(DocumentPath, K)>,
-    ) -> Vec<Located<K>> {
+    pub(crate) fn locate_all(text: &str, json: bool, found: Vec<At<K>>) -> Vec<Located<K>> {
         let document = Document::new(text, json);
         let span = |path: &DocumentPath| document.as_ref().and_then(|d| d.find_span(path));
         let located = |(path, kind)| Located {
@@ -156,23 +153,11 @@ impl ImportError {
     ) -> ImportError {
         let mut problems = Located::locate_all(text, json, found);
         problems.sort_by_key(|p| p.span.as_ref().map_or(usize::MAX, |s| s.start));
-        let (file, text) = (file.to_owned(), text.to_owned());
         ImportError {
-            file,
-            text,
+            file: file.to_owned(),
+            text: text.to_owned(),
             problems,
         }
-    }
-
-    /// Returns line and column, from 1, of a byte.
-    #[must_use]
-    pub(crate) fn line_and_column(&self, at: usize) -> (usize, usize) {
-        let before = self.text.get(..at.min(self.text.len())).unwrap_or("");
-        let line = before.matches('\n').count() + 1;
-        (
-            line,
-            before.rsplit('\n').next().unwrap_or("").chars().count() + 1,
-        )
     }
 
     /// Returns true if the only problem is that nothing can move.
@@ -197,6 +182,14 @@ impl ImportError {
     }
 }
 
+/// Returns line and column of a byte of a text, both from 1.
+pub(crate) fn line_and_column(text: &str, at: usize) -> [usize; 2] {
+    let before = text.get(..at.min(text.len())).unwrap_or("");
+    let last = before.rsplit('\n').next().unwrap_or("");
+    let line = before.matches('\n').count() + 1;
+    [line, last.chars().count() + 1]
+}
+
 impl Display for ImportError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         for (i, p) in self.problems.iter().enumerate() {
@@ -205,7 +198,7 @@ impl Display for ImportError {
             }
             match &p.span {
                 Some(s) => {
-                    let (line, column) = self.line_and_column(s.start);
+                    let [line, column] = line_and_column(&self.text, s.start);
                     write!(f, "{}:{line}:{column}: {}", self.file, p.kind)?;
                 }
                 None => write!(f, "{}: {}", self.file, p.kind)?,

@@ -9,14 +9,13 @@ pub mod value;
 pub mod workload;
 
 use crate::file::read::coupling::read_couplings;
-use crate::file::read::joints::{check_connected, read_contours, read_links};
-use crate::file::read::joints::{read_joints, read_states};
+use crate::file::read::joints::{
+    check_connected, read_contours, read_joints, read_links, read_states,
+};
 use crate::file::read::resolve::zero_vector;
-use crate::file::read::search::read_search;
-use crate::file::read::search::{joint_types, read_ranking};
-use crate::file::read::value::LIMITS;
+use crate::file::read::search::{joint_types, read_ranking, read_search};
 use crate::file::read::value::quantity::read_tolerance;
-use crate::file::read::value::{ENTRIES, length_unit, with_parameters};
+use crate::file::read::value::{ENTRIES, LIMITS, length_unit, with_parameters};
 use crate::file::read::workload::drive::read_drive;
 use crate::file::read::workload::grip::read_grip;
 use crate::file::read::workload::loads::read_loads;
@@ -46,10 +45,8 @@ pub(crate) fn read_claims(file: &MechanismFile, out: &Findings) -> Vec<Claim> {
             evidence: c.evidence.clone(),
         })
     };
-    out.key("claim")
-        .each_entry(&file.claim)
-        .filter_map(claim)
-        .collect()
+    let all = out.key("claim").each_entry(&file.claim);
+    all.filter_map(claim).collect()
 }
 
 /// Returns true if no list of the file has too many entries; reports the first that has.

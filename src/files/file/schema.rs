@@ -284,6 +284,11 @@ pub struct SearchEntry {
     pub max_mobility: Option<i64>,
     /// Whether only variants that are their own mirror image are listed.
     pub symmetric: bool,
+    /// Condition on the drives: "kept" (default: outputs and drives move together as now), "free" (only the outputs keep their
+    /// motion) or "independent" (as many drives as degrees of freedom, and they determine the outputs).
+    pub drives: Option<String>,
+    /// Whether variants need to keep the motion in the drawn pose only, and not throughout.
+    pub pose_only: bool,
     /// Costs by option or type name, and `change`, `driven` (extra cost of changing a driven joint), `link` and `harmful` (cost
     /// of each harmful redundant constraint that a searched state adds).
     pub costs: BTreeMap<String, f64>,
@@ -343,10 +348,15 @@ impl MechanismFile {
     /// ```
     #[must_use]
     pub fn json(&self) -> Value {
-        let mut value = serde_json::to_value(self).unwrap_or_default();
-        strip_defaults(&mut value);
-        value
+        stripped_json(self)
     }
+}
+
+/// Returns a value as JSON, without values that equal their default.
+pub(crate) fn stripped_json(of: &impl Serialize) -> Value {
+    let mut value = serde_json::to_value(of).unwrap_or_default();
+    strip_defaults(&mut value);
+    value
 }
 
 /// Removes empty values: null, false, "" (except names) and empty tables and lists.

@@ -1,14 +1,16 @@
 //! Reading a mechanism from text. Control characters are not allowed in names, because they could control a terminal or break a
 //! table.
 
+use crate::file::locate::{Document, DocumentPath};
 use crate::file::problem::{ImportError, ProblemKind, is_json};
 use crate::file::read::build_mechanism;
-use crate::file::schema::MechanismFile;
-use crate::file::shape::wrong_shapes;
-use crate::file::{Finding, Findings, Place, digits, unknown_word};
+use crate::file::schema::{MechanismFile, json_schema};
+use crate::file::{Finding, Findings, Place, unknown_word};
+use crate::format::count_noun;
 use crate::model::mechanism::Mechanism;
-use serde_json::Value;
+use serde_json::{Map, Value};
 use std::ops::Range;
+use std::sync::LazyLock;
 
 /// Largest file read, in bytes.
 pub const MAX_BYTES: usize = 4 << 20;
@@ -99,21 +101,10 @@ pub fn read_file<T>(
     let mut file = parse(text).map_err(|(message, span)| {
         ProblemKind::from(with_remedy(message)).in_file(name, text, span)
     })?;
-    if let Some(Ok(kept)) = digits::quote_decimals(text, json, &values).map(|text| parse(&text)) {
+    if let Some(Ok(kept)) = quote_decimals(text, json, &values).map(|text| parse(&text)) {
         file = kept;
     }
-    // TOML and JSON allow control characters only as escapes.
-    let controls = if text.contains('\\') {
-        find_controls(&file)
-    } else {
-        Vec::new()
-    };
-    let made = if controls.is_empty() {
-        make(&file)
-    } else {
-        Err(controls)
-    };
-    made.map_err(located)
+    make(&file).map_err(located)
 }
 
 /// Returns the values of a file before they are given a meaning; `None` if it cannot be read.
@@ -158,15 +149,10 @@ fn with_remedy(message: String) -> String {
 
 fn from_json(text: &str) -> Result<MechanismFile, Syntax> {
     serde_json::from_str(text).map_err(|e| {
-        let line_start: usize = text
-            .split_inclusive('\n')
-            .take(e.line().saturating_sub(1))
-            .map(str::len)
-            .sum();
-        let line = text
-            .get(line_start..)
-            .and_then(|t| t.lines().next())
-            .unwrap_or("");
+        let line_start = text.split_inclusive('\n').take(e.line().saturating_sub(1));
+        let line_start: usize = line_start.map(str::len).sum();
+        let line = text.get(line_start..).and_then(|t| t.lines().next());
+        let line = line.unwrap_or("");
         let mut at = e.column().saturating_sub(1).min(line.len());
         while !line.is_char_boundary(at) {
             at -= 1;
@@ -181,45 +167,200 @@ fn from_json(text: &str) -> Result<MechanismFile, Syntax> {
     })
 }
 
-/// Texts of more than one line.
-const PROSE: [&str; 3] = ["description", "sources", "assumed"];
-
-/// Finds every control character in a file's strings and keys.
-///
-/// # Complexity
-/// The file is written out once as a value.
-pub(crate) fn find_controls(file: &MechanismFile) -> Vec<Finding> {
-    let out = Findings::default();
-    if let Ok(value) = serde_json::to_value(file) {
-        check_controls_below(&value, &out.root_place());
-    }
-    out.into_findings()
-}
-
-fn check_controls_below(value: &Value, at: &Place<'_>) {
-    match value {
-        Value::String(text) => check_text(text, at),
-        Value::Array(all) => at
-            .each_entry(all)
-            .for_each(|(at, value)| check_controls_below(value, &at)),
-        Value::Object(all) => {
-            for (key, value) in all {
-                check_text(key, at);
-                check_controls_below(value, &at.key(key));
-            }
-        }
-        Value::Null | Value::Bool(_) | Value::Number(_) => {}
-    }
-}
+/// Texts that may have more than one line.
+const PROSE: &str = "description sources assumed source says right scan evidence";
 
 fn check_text(text: &str, at: &Place<'_>) {
     let key = at.path.last_key().unwrap_or("the file");
-    let allowed = |c: char| PROSE.contains(&key) && (c == '\n' || c == '\t');
+    let allowed = |c: char| (c == '\n' || c == '\t') && PROSE.split(' ').any(|k| k == key);
     let found = text.chars().find(|&c| c.is_control() && !allowed(c));
     if let Some(found) = found {
         at.add_problem(format!(
             "{key} contains the control character {}; remove it",
             found.escape_unicode()
         ));
+    }
+}
+
+static SCHEMA: LazyLock<Value> = LazyLock::new(json_schema);
+
+/// Returns a problem for each list of a document whose length its schema excludes, for each key that it does not have, and for each
+/// control character. The TOML deserializer ignores the extra values of a list, and the JSON one calls them "trailing characters". Both
+/// stop at the first unknown key.
+fn wrong_shapes(document: &Value) -> Vec<Finding> {
+    let out = Findings::default();
+    check_value(&SCHEMA, document, "", &out.root_place());
+    out.into_findings()
+}
+
+/// Checks a value against its schema; `owner` names the innermost item with an id around it.
+fn check_value(schema: &Value, value: &Value, owner: &str, at: &Place<'_>) {
+    let all = schema_alternatives(schema);
+    match value {
+        Value::Array(items) => {
+            let lists = all.into_iter().filter(|s| is_list(s));
+            let (fit, not): (Vec<_>, Vec<_>) = lists.partition(|s| {
+                let [least, most] = length_limits(s);
+                (least..=most).contains(&items.len())
+            });
+            if let Some(schema) = fit.first().and_then(|s| s.get("items")) {
+                at.each_entry(items)
+                    .for_each(|(at, item)| check_value(schema, item, owner, &at));
+            } else if let (true, Some(schema)) = (fit.is_empty(), not.first()) {
+                let wanted = match length_limits(schema) {
+                    [least, most] if least == most => {
+                        format!("{}, no more and no fewer", count_noun(least, "value"))
+                    }
+                    [least, most] => format!("{least} to {}", count_noun(most, "value")),
+                };
+                at.add_problem(format!(
+                    "{} has {}; write {wanted}",
+                    list_name(at, owner),
+                    count_noun(items.len(), "value")
+                ));
+            }
+        }
+        Value::Object(entries) => {
+            let id = entries.get("id").and_then(Value::as_str);
+            let own =
+                id.map(|id| format!(" of {} \"{id}\"", at.path.last_key().unwrap_or_default()));
+            let owner = own.as_deref().unwrap_or(owner);
+            for (k, entry) in entries {
+                check_text(k, at);
+                match all.iter().find_map(|s| of_key(s, k)) {
+                    Some(Value::Bool(false)) => {
+                        let known = all.iter().filter_map(|s| s.get("properties")?.as_object());
+                        let problem = unknown_word("key", k, known.flat_map(Map::keys));
+                        at.key_name(k).add_problem(problem);
+                    }
+                    Some(schema) => check_value(schema, entry, owner, &at.key(k)),
+                    None => {}
+                }
+            }
+        }
+        Value::String(text) => check_text(text, at),
+        _ => {}
+    }
+}
+
+/// Returns what a schema may be: what it refers to, or each that it offers, or itself.
+fn schema_alternatives(schema: &Value) -> Vec<&Map<String, Value>> {
+    let Some(own) = schema.as_object() else {
+        return Vec::new();
+    };
+    if let Some(place) = own.get("$ref").and_then(Value::as_str) {
+        let referred = SCHEMA.pointer(place.trim_start_matches('#'));
+        return referred.map(schema_alternatives).unwrap_or_default();
+    }
+    match own.get("anyOf").and_then(Value::as_array) {
+        Some(offered) => offered.iter().flat_map(schema_alternatives).collect(),
+        None => vec![own],
+    }
+}
+
+/// Returns whether a schema is that of a list.
+fn is_list(schema: &Map<String, Value>) -> bool {
+    match schema.get("type") {
+        Some(Value::String(word)) => word == "array",
+        Some(Value::Array(words)) => words.iter().any(|w| w == "array"),
+        _ => false,
+    }
+}
+
+/// Returns the least and the greatest length of a list.
+fn length_limits(schema: &Map<String, Value>) -> [usize; 2] {
+    let limit = |name: &str| {
+        let stated = schema.get(name).and_then(Value::as_u64);
+        stated.and_then(|n| usize::try_from(n).ok())
+    };
+    let (least, most) = (limit("minItems"), limit("maxItems"));
+    [least.unwrap_or(0), most.unwrap_or(usize::MAX)]
+}
+
+/// Returns the schema of an entry of a table.
+fn of_key<'s>(schema: &'s Map<String, Value>, key: &str) -> Option<&'s Value> {
+    let known = schema.get("properties").and_then(|all| all.get(key));
+    known.or_else(|| schema.get("additionalProperties"))
+}
+
+/// Returns the name of a list in a message: its key, with its index if it is a list in a list, and its owner.
+fn list_name(at: &Place<'_>, owner: &str) -> String {
+    let place = at.path.last_index();
+    let place = place.map_or(String::new(), |i| format!("entry {} of ", i + 1));
+    format!("{place}{}{owner}", at.path.last_key().unwrap_or_default())
+}
+
+/// Tables and keys with coordinates.
+const GEOMETRY: [&str; 6] = [
+    "plane_normal",
+    "parameter",
+    "joint",
+    "coupling",
+    "point",
+    "search",
+];
+/// The keys of those tables whose numbers are coordinates.
+const COORDINATES: [&str; 6] = ["point", "axis", "reference", "lead", "pitch", "ratio"];
+
+/// Returns the text of a document with values `all` in which the coordinates that end with a zero are in quotes: expressions of the
+/// same value. Returns `None` if there are none. As a double 0.49400 is 0.494, which seems to be known less precisely.
+fn quote_decimals(text: &str, json: bool, all: &Value) -> Option<String> {
+    let digits = |c: char| c.is_ascii_digit() || c == '_' || c == '.';
+    let mut words = text.split(|c| !digits(c));
+    if !words.any(|w| w.contains('.') && w.ends_with('0')) {
+        return None;
+    }
+    let document = Document::new(text, json)?;
+    let mut found: Vec<(Range<usize>, String)> = Vec::new();
+    let tables = all.as_object()?.iter();
+    for (key, value) in tables.filter(|(k, _)| GEOMETRY.contains(&k.as_str())) {
+        let whole = ["plane_normal", "parameter"].contains(&key.as_str());
+        visit_decimals(
+            value,
+            &DocumentPath::root_key(key),
+            whole,
+            &mut |path, x| {
+                let span = document.find_span(path)?;
+                let written = text.get(span.clone())?.trim().replace('_', "");
+                let mantissa = written.split(['e', 'E']).next().unwrap_or("");
+                // A missing path has the span of what is around it, which is not this number.
+                if mantissa.contains('.') && mantissa.ends_with('0') && written.parse() == Ok(x) {
+                    found.push((span, written));
+                }
+                Some(())
+            },
+        );
+    }
+    found.sort_by_key(|(span, _)| span.start);
+    let mut out = text.to_owned();
+    for (span, written) in found.iter().rev() {
+        out.replace_range(span.clone(), &format!("\"{written}\""));
+    }
+    (!found.is_empty()).then_some(out)
+}
+
+/// Visits the decimals below a value that are coordinates; all of them are if it is `whole`.
+fn visit_decimals(
+    value: &Value,
+    at: &DocumentPath,
+    whole: bool,
+    visit: &mut dyn FnMut(&DocumentPath, f64) -> Option<()>,
+) {
+    match value {
+        Value::Number(n) if n.is_f64() && whole => {
+            n.as_f64().and_then(|x| visit(at, x));
+        }
+        Value::Array(list) => {
+            for (i, item) in list.iter().enumerate() {
+                visit_decimals(item, &at.entry_at(i), whole, visit);
+            }
+        }
+        Value::Object(table) => {
+            for (key, item) in table {
+                let whole = whole || COORDINATES.contains(&key.as_str());
+                visit_decimals(item, &at.key(key), whole, visit);
+            }
+        }
+        _ => {}
     }
 }

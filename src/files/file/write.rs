@@ -17,8 +17,8 @@ use crate::model::claim::Claim;
 use crate::model::joint_type::{Coupling, Freedom, JointType};
 use crate::model::loads::{ExternalForce, ExternalMoment, Face, Inertia, Misalignment, Stiffness};
 use crate::model::mechanism::{
-    Expected, Frame, Joint, JointId, JointOption, Link, Mechanism, Mode, PointOfInterest, Role,
-    StateId,
+    Drives, Expected, Frame, Joint, JointId, JointOption, Link, Mechanism, Mode, PointOfInterest,
+    Role, StateId,
 };
 use serde::ser::Error;
 use toml_edit::{DocumentMut, Item};
@@ -38,8 +38,13 @@ const LONGEST_COMMENT: usize = 110;
 /// ```
 #[must_use]
 pub fn mechanism_file(m: &Mechanism) -> MechanismFile {
-    let ids = |list: &[JointId]| list.iter().map(|&j| m.joints[j].id.clone()).collect();
     let stated = number::file_tolerance(m);
+    let joints = m.joints.iter();
+    let joints = joints.map(|j| write_joint(m, j, stated.as_ref()));
+    let contour = |list: &Vec<JointId>| ContourEntry {
+        joints: list.iter().map(|&j| m.joints[j].id.clone()).collect(),
+    };
+    let accuracy = m.loads.accuracy.as_ref();
     let (mode, plane_normal) = match &m.mode {
         Mode::Spatial => (None, None),
         Mode::Planar { normal } => (Some("planar".to_owned()), Some(write_direction(normal))),
@@ -70,25 +75,13 @@ pub fn mechanism_file(m: &Mechanism) -> MechanismFile {
         plane_normal,
         tolerance: stated.clone(),
         link: m.links.iter().map(link).collect(),
-        joint: m
-            .joints
-            .iter()
-            .map(|j| write_joint(m, j, stated.as_ref()))
-            .collect(),
+        joint: joints.collect(),
         coupling: m.couplings.iter().map(|c| write_coupling(m, c)).collect(),
-        contour: m
-            .contours
-            .iter()
-            .map(|c| ContourEntry { joints: ids(c) })
-            .collect(),
+        contour: m.contours.iter().map(contour).collect(),
         point: m.points.iter().map(point).collect(),
         search: write_search(m),
         workload: write_workload(m),
-        tolerances: m
-            .loads
-            .accuracy
-            .as_ref()
-            .map(|a| workload::write_accuracy(m, a)),
+        tolerances: accuracy.map(|a| workload::write_accuracy(m, a)),
         ranking: m.ranking.as_ref().map(|r| workload::write_ranking(m, r)),
         joint_types: workload::joint_types(m),
         expected: m.expected.iter().map(write_expected).collect(),
@@ -229,14 +222,8 @@ fn write_joint(m: &Mechanism, j: &Joint, stated: Option<&ToleranceEntry>) -> Joi
     let listed = listed.skip(usize::from(!j.options.first().is_some_and(own)));
     let options: Vec<OptionEntry> = listed.map(|o| write_option(m, o, &j.frame)).collect();
     let options = (!options.is_empty()).then_some(options);
-    let unloading = (!j.unloading.is_empty()).then(|| {
-        Unloading::List(
-            j.unloading
-                .iter()
-                .map(|o| write_option(m, o, &j.frame))
-                .collect(),
-        )
-    });
+    let unloading = j.unloading.iter().map(|o| write_option(m, o, &j.frame));
+    let unloading = (!j.unloading.is_empty()).then(|| Unloading::List(unloading.collect()));
     JointEntry {
         id: j.id.clone(),
         links: j.links.map(|l| m.links[l].id.clone()),
@@ -320,6 +307,8 @@ fn write_search(m: &Mechanism) -> SearchEntry {
         max_redundant: Some(spec.max_redundant).filter(|n| *n > 0),
         max_mobility: spec.max_mobility,
         symmetric: spec.symmetric,
+        drives: (spec.drive_rule != Drives::Kept).then(|| spec.drive_rule.word().to_owned()),
+        pose_only: spec.pose_only,
         costs: costs.map(|(n, c)| (n, cost_number(c))).collect(),
         ..SearchEntry::default()
     }
@@ -388,15 +377,15 @@ fn write_workload(m: &Mechanism) -> WorkloadEntry {
         radius: f.radius.map(decimal),
     };
     let by_type = loads.stiffness.iter();
+    let by_type = by_type.map(|(name, s)| (name.clone(), write_stiffness(*s)));
+    let drive = loads.drive.as_ref();
     let misaligned = loads.misalignments.iter();
     WorkloadEntry {
         gravity: loads.gravity.as_ref().map(write_vector),
         force: loads.forces.iter().map(|f| write_force(m, f)).collect(),
         moment: loads.moments.iter().map(moment).collect(),
         contact: loads.faces.iter().map(face).collect(),
-        stiffness: by_type
-            .map(|(name, s)| (name.clone(), write_stiffness(*s)))
-            .collect(),
+        stiffness: by_type.collect(),
         misalignment: misaligned.flat_map(|x| write_misalignment(m, x)).collect(),
         drive_speed: match &loads.drive_speeds[..] {
             [] => None,
@@ -409,10 +398,7 @@ fn write_workload(m: &Mechanism) -> WorkloadEntry {
             steps: i64::try_from(s.steps).unwrap_or(i64::MAX),
         }),
         grip: loads.grip.as_ref().map(|g| workload::write_grip(m, g)),
-        drive: loads
-            .drive
-            .as_ref()
-            .map(|d| workload::write_drive(d, m.length_unit.metres)),
+        drive: drive.map(|d| workload::write_drive(d, m.length_unit.metres)),
     }
 }
 

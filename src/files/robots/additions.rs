@@ -9,7 +9,8 @@ use crate::robots::description::kinematics::{link_places, spanning_tree};
 use crate::robots::description::{Part, Ratio, Robot};
 use crate::robots::sdf::joints::read_joint;
 use crate::robots::sdf::scene::{
-    Placed, SdfScene, absolute_name, insert, joint_end, moves_with, named_place, resolve_places,
+    Placed, Scoped, SdfScene, absolute_name, insert, joint_end, moves_with, named_place,
+    resolve_places,
 };
 use crate::robots::warning::{Read, list_known, unknown_name};
 use crate::robots::xml::element::Element;
@@ -40,15 +41,11 @@ pub(crate) fn add_coupling(e: Element<'_>, joints: [&str; 2], ratio: f64, robot:
         let [a, b] = c.joints.each_ref().map(String::as_str);
         (joints == [a, b] && c.ratio == ratio) || (joints == [b, a] && c.ratio * ratio == 1.0)
     };
+    let report = &mut robot.report;
     if robot.couplings.iter().any(same) {
-        robot
-            .report
-            .count_dropped("duplicate coupling", Some(joints[1]));
-        return;
+        return report.count_dropped("duplicate coupling", Some(joints[1]));
     }
-    robot
-        .report
-        .count_mapped("coupling of a plugin or controller");
+    report.count_mapped("coupling of a plugin or controller");
     robot.couplings.push(Ratio::new(joints, ratio, e));
 }
 
@@ -56,15 +53,10 @@ pub(crate) fn add_coupling(e: Element<'_>, joints: [&str; 2], ratio: f64, robot:
 ///
 /// # Errors
 /// Returns an error if a multiplier is not a number.
-pub(crate) fn read_plugin(
-    e: Element<'_>,
-    scope: &str,
-    scene: &SdfScene<'_>,
-    robot: &mut Robot,
-) -> Read<()> {
+pub(crate) fn read_plugin(at: &Scoped<'_>, scene: &SdfScene<'_>, robot: &mut Robot) -> Read<()> {
+    let (e, scope) = (at.0, at.1.as_str());
     if let (Some(leader), Some(follower)) = (child_text(e, "joint"), child_text(e, "mimicJoint")) {
-        let ratio = e.first_child("multiplier").map(|m| m.text_numbers::<1>());
-        let ratio = ratio.transpose()?.map_or(1.0, |[x]| x);
+        let ratio = e.child_number("multiplier")?.unwrap_or(1.0);
         let joints = [leader, follower].map(|j| absolute_name(scope, j));
         add_coupling(e, joints.each_ref().map(String::as_str), ratio, robot);
         return Ok(());
@@ -95,14 +87,10 @@ fn weld_links(e: Element<'_>, names: &[String; 2], scene: &SdfScene<'_>, robot: 
         return robot.report.leave_out_joint(&label_of(e), MOST_ROWS, what);
     };
     if a == b {
-        return robot
-            .report
-            .count_dropped("weld of one link to itself", Some(&names[0]));
+        let what = "weld of one link to itself";
+        return robot.report.count_dropped(what, Some(&names[0]));
     }
-    let sides = [
-        robot.places[a].inverse().then(&at),
-        robot.places[b].inverse().then(&at),
-    ];
+    let sides = [a, b].map(|l| robot.places[l].inverse().then(&at));
     let id = format!("weld-{}-{}", names[0], names[1]);
     let mut part = Part::new(&id, [a, b], sides, JointType::Fixed).said_by(e);
     part.closes = true;
@@ -241,19 +229,11 @@ fn names_world(joint: Element<'_>) -> bool {
 fn place_links<'a>(root: Element<'a>, robot: &Robot) -> Read<SdfScene<'a>> {
     let mut scene = SdfScene::default();
     scene.world = robot.links.iter().position(|l| l == "world").unwrap_or(0);
-    let model = Placed::new(
-        root,
-        "world".to_owned(),
-        RigidMotion::IDENTITY,
-        robot.links[0].clone(),
-    );
+    let (here, first) = (RigidMotion::IDENTITY, robot.links[0].clone());
+    let model = Placed::new(root, "world".to_owned(), here, first);
     insert(&mut scene, "__model__".to_owned(), model)?;
-    for (l, name) in robot
-        .links
-        .iter()
-        .enumerate()
-        .filter(|(_, n)| *n != "world")
-    {
+    let links = robot.links.iter().enumerate();
+    for (l, name) in links.filter(|(_, n)| *n != "world") {
         let mut link = Placed::new(root, "world".to_owned(), robot.places[l], name.clone());
         link.link = Some(l);
         insert(&mut scene, name.clone(), link)?;
@@ -268,9 +248,8 @@ fn add_joints<'a>(
     robot: &mut Robot,
 ) -> Read<()> {
     for &e in joints {
-        let shared = e
-            .attribute("name")
-            .is_some_and(|n| robot.frame(n).is_some());
+        let name = e.attribute("name");
+        let shared = name.is_some_and(|n| robot.frame(n).is_some());
         named_place(e, "", "__model__", shared, &mut scene)?;
     }
     resolve_places(&mut scene)?;
@@ -281,12 +260,11 @@ fn add_joints<'a>(
         read_joint(e, "", &scene, size, robot)?;
         // A joint between a link and the world closes no loop.
         let closes = !names_world(e);
-        robot.joints[first..]
-            .iter_mut()
-            .for_each(|p| p.closes = closes);
+        let new = robot.joints[first..].iter_mut();
+        new.for_each(|p| p.closes = closes);
     }
     for &e in plugins {
-        read_plugin(e, "", &scene, robot)?;
+        read_plugin(&(e, String::new()), &scene, robot)?;
     }
     Ok(())
 }

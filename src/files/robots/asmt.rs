@@ -4,20 +4,16 @@ use crate::geom::rigid::RigidMotion;
 use crate::geom::vector::length;
 use crate::robots::cad::holds::Holds;
 use crate::robots::cad::{Assembly, Connection, NO_LIMITS};
-use crate::robots::description::{Robot, Unit};
-use crate::robots::warning::{Options, Reader};
+use crate::robots::description::Robot;
 use crate::robots::warning::{
     Read, bad_value, list_known, missing_problem, unknown_name, unknown_word,
 };
-use crate::robots::xml::Document;
 use crate::robots::xml::element::Element;
+use crate::robots::xml::{Document, Input};
 use std::collections::BTreeMap;
 
 /// The beginnings of the first line of a file: that of OndselSolver, whose files are in millimetres, and the old one.
-const HEADS: [(&str, Unit); 2] = [
-    ("OndselSolver", Unit::Millimetre),
-    ("freeCAD: 3D CAD", Unit::Metre),
-];
+const HEADS: [(&str, &str); 2] = [("OndselSolver", "mm"), ("freeCAD: 3D CAD", "m")];
 /// Rows of results, after all rows that are read.
 const RESULTS: &str = "TimeSeries";
 /// Labels of the joints of contacts, which constrain nothing until parts touch.
@@ -32,34 +28,26 @@ pub(crate) fn is_one(text: &[u8]) -> bool {
 
 /// Reads the lines of a file into the arena.
 pub(crate) fn read_lines(document: &mut Document, name: &str, text: String) -> Read<usize> {
-    document.read_outline(name, text, 1, RESULTS)
+    document.read_outline(name, text, RESULTS)
 }
 
 /// Reads an assembly as a robot.
 ///
 /// # Errors
 /// Returns the first problem found, with its place.
-pub(crate) fn read_assembly(
-    document: &mut Document,
-    root: usize,
-    _: Reader<'_>,
-    options: &Options,
-) -> Read<Robot> {
-    let text = document.sources[0].text.as_str();
+pub(crate) fn read_assembly(input: Input<'_>) -> Read<Robot> {
+    let text = input.document.sources[0].text.as_str();
     let unit = HEADS.iter().find(|(head, _)| text.starts_with(head));
-    let unit = unit.map_or(Unit::Millimetre, |(_, unit)| *unit);
-    let root = document.element(root);
+    let unit = unit.map_or("mm", |(_, unit)| *unit);
+    let root = input.document.element(input.root);
     let name = name(root)?;
     let mut robot = Robot::new(name);
     let ground = read_pose(root)?;
     let mut parts = vec![("ground".to_owned(), ground)];
     let mut markers = BTreeMap::new();
     collect_markers(root, 0, &ground, name, &mut markers)?;
-    for part in root
-        .first_child("Parts")
-        .iter()
-        .flat_map(|p| p.children_named("Part"))
-    {
+    let all = root.first_child("Parts");
+    for part in all.iter().flat_map(|p| p.children_named("Part")) {
         part.check_room("parts", parts.len())?;
         let (own, place) = (self::name(part)?, ground.then(&read_pose(part)?));
         let path = format!("{name}/{own}");
@@ -68,26 +56,27 @@ pub(crate) fn read_assembly(
     }
     let sets = root.first_child("ConstraintSets");
     let mut connections = Vec::new();
-    let joints = sets.and_then(|s| s.first_child("Joints"));
-    for joint in joints.iter().flat_map(|j| j.children()) {
+    let within = |set: &str| -> Vec<Element<'_>> {
+        let found = sets.and_then(|s| s.first_child(set));
+        found.iter().flat_map(|s| s.children()).collect()
+    };
+    for joint in within("Joints") {
         joint.check_room("joints", connections.len())?;
         if joint.name().contains(CONTACT) {
-            robot
-                .report
-                .count_dropped("contact", joint.first_child("Name").map(|n| n.text()));
+            let name = joint.first_child("Name").map(|n| n.text());
+            robot.report.count_dropped("contact", name);
             continue;
         }
         connections.push(read_connection(joint, &markers)?);
     }
-    for set in ["Motions", "GeneralConstraintSets"] {
-        let found = sets.and_then(|s| s.first_child(set));
-        for e in found.iter().flat_map(|s| s.children()) {
-            let name = e.first_child("Name").map(|n| n.text());
-            robot.report.count_dropped(e.name(), name);
-        }
+    for e in ["Motions", "GeneralConstraintSets"]
+        .into_iter()
+        .flat_map(within)
+    {
+        let name = e.first_child("Name").map(|n| n.text());
+        robot.report.count_dropped(e.name(), name);
     }
-    let limits = sets.and_then(|s| s.first_child("Limits"));
-    for limit in limits.iter().flat_map(|s| s.children()) {
+    for limit in within("Limits") {
         robot.report.add_approximation(&label_of(limit), NO_LIMITS);
     }
     let assembly = Assembly {
@@ -96,7 +85,7 @@ pub(crate) fn read_assembly(
         parts,
         connections,
     };
-    Ok(assembly.to_robot(robot, options))
+    Ok(assembly.to_robot(robot, input.options))
 }
 
 /// Returns the child with a label, or an error if it is missing.
@@ -196,8 +185,7 @@ fn read_figure(e: Element<'_>, label: &str) -> Read<f64> {
 
 /// Returns the offset of a plane; 0 if the file gives none.
 fn read_offset(e: Element<'_>) -> Read<f64> {
-    e.first_child("offset")
-        .map_or(Ok(0.0), |_| read_figure(e, "offset"))
+    Ok(e.child_number("offset")?.unwrap_or(0.0))
 }
 
 fn read_constraint(e: Element<'_>) -> Read<Holds> {

@@ -7,13 +7,13 @@ pub(crate) mod holds;
 mod meet;
 pub(crate) mod retype;
 
+use crate::closure::tree::spanning_forest;
 use crate::geom::rigid::RigidMotion;
 use crate::geom::vector::length;
 use crate::model::joint_type::JointType;
 use crate::robots::cad::holds::Holds;
-use crate::robots::cad::meet::find_coupling;
-use crate::robots::cad::meet::{Meeting, find_meeting};
-use crate::robots::description::{Part, Robot, Unit, free_joint};
+use crate::robots::cad::meet::{Meeting, find_coupling, find_meeting};
+use crate::robots::description::{Part, Robot, free_joint};
 use crate::robots::warning::{CadCount, Options};
 
 /// Frames meet if they are apart by less than this, as a share of the assembly's size and in radians: solvers are as accurate as this.
@@ -54,7 +54,7 @@ impl Connection {
 #[derive(Debug, Clone)]
 pub(crate) struct Assembly {
     pub(crate) name: String,
-    pub(crate) unit: Unit,
+    pub(crate) unit: &'static str,
     /// Names and places.
     pub(crate) parts: Vec<(String, RigidMotion)>,
     pub(crate) connections: Vec<Connection>,
@@ -74,11 +74,9 @@ impl Assembly {
             link[p] = Some(robot.add_link(name, *place));
         }
         robot.world = link[0];
-        let known: Vec<(&Connection, [usize; 2])> = (self.connections.iter())
-            .filter_map(|c| Some((c, [link[c.parts[0]]?, link[c.parts[1]]?])))
-            .collect();
-        let (couplers, ties): (Vec<_>, Vec<_>) =
-            known.into_iter().partition(|(c, _)| c.holds.couples());
+        let known = self.connections.iter();
+        let known = known.filter_map(|c| Some((c, [link[c.parts[0]]?, link[c.parts[1]]?])));
+        let (couplers, ties): (Vec<_>, Vec<_>) = known.partition(|(c, _)| c.holds.couples());
         let mut rows = 0;
         for (c, links) in &ties {
             rows += c.holds.rows();
@@ -99,32 +97,19 @@ impl Assembly {
 
     /// Returns for each part whether a chain of joints connects it to the ground; the others are reported.
     fn find_tied(&self, robot: &mut Robot) -> Vec<bool> {
+        let ties = self.connections.iter().filter(|c| !c.holds.couples());
+        let ends = ties.map(|c| c.parts);
+        let (_, steps) = spanning_forest(self.parts.len(), ends, |_| false, [0]);
         let mut tied = vec![false; self.parts.len()];
         tied[0] = true;
-        let ties = || self.connections.iter().filter(|c| !c.holds.couples());
-        let mut more = true;
-        while std::mem::take(&mut more) {
-            for c in ties() {
-                let [a, b] = c.parts;
-                if tied[a] != tied[b] {
-                    (tied[a], tied[b], more) = (true, true, true);
-                }
-            }
+        steps.iter().for_each(|s| tied[s.link] = true);
+        let report = &mut robot.report;
+        for ((name, _), _) in self.parts.iter().zip(&tied).filter(|(_, t)| !**t) {
+            report.count_dropped("part that is not connected to the ground", Some(name));
         }
-        let loose = self.parts.iter().zip(&tied).filter(|(_, t)| !**t);
-        for ((name, _), _) in loose {
-            robot
-                .report
-                .count_dropped("part that is not connected to the ground", Some(name));
-        }
-        for c in self
-            .connections
-            .iter()
-            .filter(|c| !tied[c.parts[0]] || !tied[c.parts[1]])
-        {
-            robot
-                .report
-                .count_dropped("joint between floating parts", Some(&c.id));
+        let loose = |c: &&Connection| c.parts.iter().any(|&p| !tied[p]);
+        for c in self.connections.iter().filter(loose) {
+            report.count_dropped("joint between floating parts", Some(&c.id));
         }
         tied
     }
@@ -217,10 +202,8 @@ fn make_part(
     options: &Options,
 ) -> Part {
     let apart = m.near.inverse().then(&m.far);
-    let turn = match m.kind {
-        JointType::Spherical => 0.0,
-        _ => apart.angle(),
-    };
+    let ball = m.kind == JointType::Spherical;
+    let turn = if ball { 0.0 } else { apart.angle() };
     // By default a joint is at its first frame; with `assemble`, each part keeps its own frame.
     let far = if options.assemble { &m.far } else { &m.near };
     let sides = [
@@ -264,21 +247,16 @@ fn left_out(c: &Connection, why: &str, robot: &mut Robot) {
 }
 
 /// Describes a misfit, such as "0.02 mm and 1.2 degrees".
-pub(crate) fn describe_misfit([shift, turn]: [f64; 2], unit: Unit) -> String {
+pub(crate) fn describe_misfit([shift, turn]: [f64; 2], unit: &str) -> String {
     let number = |x: f64| match x {
         x if x >= 0.095 => format!("{x:.1}"),
         x => format!("{x:.1e}"),
     };
     let degrees = turn.to_degrees();
     match (shift > ROUNDED, degrees > ROUNDED) {
-        (true, true) => format!(
-            "{} {} and {} degrees",
-            number(shift),
-            unit.symbol(),
-            number(degrees)
-        ),
+        (true, true) => format!("{} {unit} and {} degrees", number(shift), number(degrees)),
         (false, true) => format!("{} degrees", number(degrees)),
-        (true, false) => format!("{} {}", number(shift), unit.symbol()),
-        (false, false) => format!("0 {}", unit.symbol()),
+        (true, false) => format!("{} {unit}", number(shift)),
+        (false, false) => format!("0 {unit}"),
     }
 }

@@ -13,10 +13,17 @@ use crate::file::problem::ImportError;
 use crate::geom::rigid::{RigidMotion, perpendicular};
 use crate::geom::vector::{Vector, X, Z, cross};
 use crate::model::joint_type::{Freedom, JointType};
-use crate::robots::warning::Read;
-use crate::robots::warning::Report;
+use crate::robots::warning::{Read, Report};
 use crate::robots::xml::element::Element;
 use std::collections::{BTreeMap, BTreeSet};
+
+/// A link and a place on it.
+pub(crate) type End = (usize, RigidMotion);
+
+/// The two ends of a joint.
+pub(crate) type Ends = [End; 2];
+/// The places of a joint on its two links.
+type Sides = [RigidMotion; 2];
 
 /// A joint between two links, or a constraint that closes a loop.
 #[derive(Debug, Clone)]
@@ -66,12 +73,7 @@ impl Part {
     }
 
     /// Creates a joint at rest with the axis z.
-    pub(crate) fn new(
-        id: &str,
-        links: [usize; 2],
-        sides: [RigidMotion; 2],
-        joint_type: JointType,
-    ) -> Part {
+    pub(crate) fn new(id: &str, links: [usize; 2], sides: Sides, joint_type: JointType) -> Part {
         Part {
             id: id.to_owned(),
             links,
@@ -96,21 +98,14 @@ impl Part {
     ///
     /// # Errors
     /// Returns an error if both places are on the same link.
-    pub(crate) fn new_closing(
-        e: Element<'_>,
-        id: &str,
-        ends: [(usize, RigidMotion); 2],
-        joint_type: JointType,
-    ) -> Read<Part> {
+    pub(crate) fn new_closing(e: Element<'_>, id: &str, ends: Ends, kind: JointType) -> Read<Part> {
         let links = ends.map(|end| end.0);
         if links[0] == links[1] {
             return Err(same_link(e));
         }
-        let part = Part::new(id, links, ends.map(|end| end.1), joint_type);
-        Ok(Part {
-            closes: true,
-            ..part.said_by(e)
-        })
+        let mut part = Part::new(id, links, ends.map(|end| end.1), kind).said_by(e);
+        part.closes = true;
+        Ok(part)
     }
 
     /// Sets the element of the joint.
@@ -203,8 +198,8 @@ pub(crate) struct Robot {
     pub(in crate::robots) frames: BTreeMap<String, (usize, RigidMotion)>,
     /// Places of links in the file, for links without another place.
     pub(in crate::robots) places: Vec<RigidMotion>,
-    /// The unit of its lengths.
-    pub(in crate::robots) unit: Unit,
+    /// The symbol of the unit of its lengths: m or mm.
+    pub(in crate::robots) unit: &'static str,
     /// The accuracy of places, in its unit and in radians, if it is better than the digits of its numbers.
     pub(in crate::robots) known_to: Option<[f64; 2]>,
     /// Whether a joint has freedoms that are valid at this pose only.
@@ -214,34 +209,7 @@ pub(crate) struct Robot {
     pub(in crate::robots) assembly: bool,
     /// Joint types that a search may use instead of a joint.
     pub(in crate::robots) options: &'static [JointType],
-    /// The links of elements.
-    pub(in crate::robots) said: BTreeMap<usize, usize>,
     pub(in crate::robots) report: Report,
-}
-
-/// A unit of lengths.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
-pub(crate) enum Unit {
-    #[default]
-    Metre,
-    Millimetre,
-}
-
-impl Unit {
-    /// Returns its symbol in mechanism files.
-    pub(crate) fn symbol(self) -> &'static str {
-        match self {
-            Unit::Metre => "m",
-            Unit::Millimetre => "mm",
-        }
-    }
-
-    pub(crate) fn metres(self) -> f64 {
-        match self {
-            Unit::Metre => 1.0,
-            Unit::Millimetre => 1e-3,
-        }
-    }
 }
 
 /// Joint types that a search may use instead of a joint, if a format has no list.
@@ -257,6 +225,7 @@ impl Robot {
         Robot {
             name: name.to_owned(),
             options: &OPTIONS,
+            unit: "m",
             ..Robot::default()
         }
     }
@@ -271,13 +240,8 @@ impl Robot {
         l
     }
 
-    /// Records the element of a link; links inserted between others have none.
-    pub(crate) fn said_by(&mut self, link: usize, e: Element<'_>) {
-        self.said.insert(e.id, link);
-    }
-
     /// Returns the link or frame of a name.
-    pub(crate) fn frame(&self, name: &str) -> Option<(usize, RigidMotion)> {
+    pub(crate) fn frame(&self, name: &str) -> Option<End> {
         self.frames.get(name).copied()
     }
 }

@@ -4,7 +4,7 @@ use crate::geom::rigid::RigidMotion;
 use crate::geom::vector::Vector;
 use crate::robots::description::Part;
 use crate::robots::description::origin::Origin;
-use crate::robots::description::physical::Light;
+use crate::robots::description::physical::{LIGHT_SDF, LIGHT_URDF};
 use crate::robots::mechanism::series_of_single_joints::{
     Names, escape_comment, escape_xml, format_numbers,
 };
@@ -22,7 +22,7 @@ pub(crate) type Freeing<'a> = (&'a Part, Element<'a>, Freed<'a>);
 
 /// Changes to the text of a description.
 pub(crate) struct Edits<'a> {
-    origin: &'a Origin,
+    pub(crate) origin: &'a Origin,
     /// File, replaced range, and replacement.
     list: Vec<(usize, Range<usize>, String)>,
     /// Lines to insert as the last children of an element.
@@ -107,19 +107,14 @@ impl<'a> Edits<'a> {
         for (id, lines) in std::mem::take(&mut self.children) {
             let e = self.origin.element(id);
             let (indent, newline) = self.find_layout(e);
-            let inner: String = lines
-                .iter()
-                .map(|l| format!("{newline}{indent}  {l}"))
-                .collect();
+            let inner = lines.iter().map(|l| format!("{newline}{indent}  {l}"));
+            let inner: String = inner.collect();
             let node = e.node();
             if node.close.is_empty() {
                 // <body .../> is opened.
                 let slash = node.span.end - 2..node.span.end;
-                self.replace_span(
-                    e,
-                    slash,
-                    format!(">{inner}{newline}{indent}</{}>", e.name()),
-                );
+                let opened = format!(">{inner}{newline}{indent}</{}>", e.name());
+                self.replace_span(e, slash, opened);
             } else {
                 let at = self.source_text(e)[..node.close.start].trim_end().len();
                 self.replace_span(e, at..at, inner);
@@ -135,11 +130,8 @@ impl<'a> Edits<'a> {
         if let Some((source, span, _)) = self.list.iter().find(|(s, ..)| *s != 0) {
             let source = &sources[*source];
             let message = "the change is in an included file; merge the files, for example by saving the model from MuJoCo as XML, or change joints of the main file only";
-            return Err(syntax_problem(message).in_file(
-                &source.name,
-                &source.text,
-                Some(span.clone()),
-            ));
+            let problem = syntax_problem(message);
+            return Err(problem.in_file(&source.name, &source.text, Some(span.clone())));
         }
         // The sort is stable: edits at one place keep their order.
         self.list.sort_by_key(|(_, span, _)| span.start);
@@ -147,11 +139,8 @@ impl<'a> Edits<'a> {
         for (_, span, by) in &self.list {
             if span.start < at {
                 let message = "two changes affect the same place; make them one at a time";
-                return Err(syntax_problem(message).in_file(
-                    &sources[0].name,
-                    text,
-                    Some(span.clone()),
-                ));
+                let problem = syntax_problem(message);
+                return Err(problem.in_file(&sources[0].name, text, Some(span.clone())));
             }
             out.push_str(&text[at..span.start]);
             out.push_str(by);
@@ -169,7 +158,6 @@ pub(crate) fn end_of(e: Element<'_>) -> usize {
 
 /// Gives joints freedoms. Inserted joints come before the joint: its child, its name and its followers stay.
 pub(crate) fn free_urdf(origin: &Origin, all: &[Freeing<'_>], edits: &mut Edits<'_>) -> Read<()> {
-    let light = Light::in_description(&origin.document).write_urdf();
     for &(part, e, freed) in all {
         // The first link of a loop states its place in its own attributes, a joint in a separate element.
         let (tag, at) = match e.name() {
@@ -177,9 +165,8 @@ pub(crate) fn free_urdf(origin: &Origin, all: &[Freeing<'_>], edits: &mut Edits<
             _ => ("link1", e.first_child("link1")),
         };
         let Some(end) = e.first_child(tag) else {
-            return Err(
-                e.unsupported_error("it has no end that can be changed", "choose another joint")
-            );
+            let why = "it has no end that can be changed";
+            return Err(e.unsupported_error(why, "choose another joint"));
         };
         let frame = origin.places[part.links[0]].then(&part.sides[0]);
         let mut from = end.required_attribute("link")?.to_owned();
@@ -193,16 +180,12 @@ pub(crate) fn free_urdf(origin: &Origin, all: &[Freeing<'_>], edits: &mut Edits<
             let between = edits.name(&format!("{}_{word}_link", part.id));
             let name = edits.name(&format!("{}_{word}", part.id));
             lines.push(format!("<!-- {why} -->"));
-            lines.push(format!(
-                "<link name=\"{}\">{light}</link>",
-                escape_xml(&between)
-            ));
+            let link = escape_xml(&between);
+            lines.push(format!("<link name=\"{link}\">{LIGHT_URDF}</link>"));
             lines.push(format!(
                 "<joint name=\"{}\" type=\"{kind}\"><parent link=\"{}\"/><child link=\"{}\"/>{place}<axis xyz=\"{}\"/>{limit}</joint>",
-                escape_xml(&name),
-                escape_xml(&from),
-                escape_xml(&between),
-                format_numbers(frame.inverse().map_direction(*direction)),
+                escape_xml(&name), escape_xml(&from), escape_xml(&between),
+                format_numbers(frame.inverse().map_direction(*direction))
             ));
             place.clear();
             from = between;
@@ -231,13 +214,8 @@ fn origin_of(at: Element<'_>) -> String {
 }
 
 /// Makes a `<mimic>` a comment.
-pub(crate) fn comment_out(
-    origin: &Origin,
-    element: usize,
-    why: &str,
-    edits: &mut Edits<'_>,
-) -> Read<()> {
-    let e = origin.element(element);
+pub(crate) fn comment_out(element: usize, why: &str, edits: &mut Edits<'_>) -> Read<()> {
+    let e = edits.origin.element(element);
     let raw = escape_comment(edits.raw_text(e));
     let span = e.node().span.start..end_of(e);
     edits.replace_span(e, span, format!("<!-- {why}; it was {raw} -->"));
@@ -246,43 +224,36 @@ pub(crate) fn comment_out(
 
 /// Gives joints freedoms.
 pub(crate) fn free_sdf(origin: &Origin, all: &[Freeing<'_>], edits: &mut Edits<'_>) -> Read<()> {
-    let light = Light::in_description(&origin.document).write_sdf();
     for &(part, e, freed) in all {
         let remedy = "choose another joint";
         let (Some(child), "joint") = (e.first_child("child"), e.name()) else {
             return Err(e.unsupported_error("no link can be inserted there", remedy));
         };
         let mut nodes = origin.document.nodes.iter();
-        let model = nodes
-            .position(|n| n.children.contains(&e.id))
-            .unwrap_or(origin.root);
-        let model = origin.element(model);
+        let model = nodes.position(|n| n.children.contains(&e.id));
+        let model = origin.element(model.unwrap_or(origin.root));
         let named = |l: &Element<'_>| l.attribute("name") == Some(child.text());
         let Some(link) = model.children_named("link").find(named) else {
             return Err(e.unsupported_error("its child is not a link of the same model", remedy));
         };
         let frame = axes_frame(origin, model, part, e)?;
-        let pose = |e: Element<'_>| {
-            e.first_child("pose")
-                .map_or("", |p| edits.raw_text(p))
-                .to_owned()
-        };
+        let pose = |e: Element<'_>| e.first_child("pose").map_or("", |p| edits.raw_text(p));
         let (link_pose, joint_pose) = (pose(link), pose(e));
         let mut lines = Vec::new();
         let mut chain = Vec::new();
         for (slides, direction, why) in freed {
-            let (kind, word) = if *slides {
-                ("prismatic", "slide")
-            } else {
-                ("revolute", "turn")
+            let (kind, word) = match slides {
+                true => ("prismatic", "slide"),
+                false => ("revolute", "turn"),
             };
-            let between = edits.name(&format!("{}_{word}_link", part.id.replace("::", "_")));
-            let name = edits.name(&format!("{}_{word}", part.id.replace("::", "_")));
+            let id = part.id.replace("::", "_");
+            let between = edits.name(&format!("{id}_{word}_link"));
+            let name = edits.name(&format!("{id}_{word}"));
             let axis = format_numbers(frame.inverse().map_direction(*direction));
             lines.push(format!("<!-- {why} -->"));
+            let link = escape_xml(&between);
             lines.push(format!(
-                "<link name=\"{}\">{link_pose}{light}</link>",
-                escape_xml(&between)
+                "<link name=\"{link}\">{link_pose}{LIGHT_SDF}</link>"
             ));
             chain.push((name, kind, between, axis));
         }
@@ -290,9 +261,7 @@ pub(crate) fn free_sdf(origin: &Origin, all: &[Freeing<'_>], edits: &mut Edits<'
             let next = chain.get(i + 1).map_or(child.text(), |c| &c.2);
             lines.push(format!(
                 "<joint name=\"{}\" type=\"{kind}\">{joint_pose}<parent>{}</parent><child>{}</child><axis><xyz>{axis}</xyz><limit><lower>-1e16</lower><upper>1e16</upper></limit></axis></joint>",
-                escape_xml(name),
-                escape_xml(between),
-                escape_xml(next),
+                escape_xml(name), escape_xml(between), escape_xml(next)
             ));
         }
         let inner = child.node().span.end..child.node().close.start;
@@ -303,20 +272,15 @@ pub(crate) fn free_sdf(origin: &Origin, all: &[Freeing<'_>], edits: &mut Edits<'
 }
 
 /// Returns the frame, in the world, in which axes of a joint's followers are given: of the joint, or of its model before SDF 1.5.
-fn axes_frame(
-    origin: &Origin,
-    model: Element<'_>,
-    part: &Part,
-    e: Element<'_>,
-) -> Read<RigidMotion> {
+fn axes_frame(of: &Origin, model: Element<'_>, part: &Part, e: Element<'_>) -> Read<RigidMotion> {
     // A joint with two axes that are not square is two parts; its child hangs on the last.
-    let mut parts = origin.robot.joints.iter().rev();
+    let mut parts = of.robot.joints.iter().rev();
     let last = parts.find(|p| p.element == Some(e.id)).unwrap_or(part);
     let to = last.links[1];
-    if !is_old(origin.element(origin.root)) {
-        return Ok(origin.places[to].then(&last.sides[1]));
+    if !is_old(of.element(of.root)) {
+        return Ok(of.places[to].then(&last.sides[1]));
     }
-    let back = origin.robot.places[to].then(&origin.places[to].inverse());
+    let back = of.robot.places[to].then(&of.places[to].inverse());
     let pose = model.first_child("pose").map(|p| p.text_numbers::<6>());
     let [_, _, _, roll, pitch, yaw] = pose.transpose()?.unwrap_or_default();
     let model = RigidMotion::roll_pitch_yaw([0.0; 3], [roll, pitch, yaw]);

@@ -7,14 +7,15 @@ mod reference;
 use crate::geom::rigid::RigidMotion;
 use crate::robots::cad::archive::Archive;
 use crate::robots::cad::{Assembly, Connection, NO_LIMITS};
-use crate::robots::description::{Robot, Unit};
+use crate::robots::description::Robot;
 use crate::robots::fcstd::distance::{Held, Shapes, Slide, joint_constraint, joint_frames};
 use crate::robots::fcstd::objects::{Object, Objects};
 use crate::robots::fcstd::reference::{Documents, Reference, read_reference};
-use crate::robots::warning::{Options, Reader};
-use crate::robots::warning::{Read, list_known, syntax_problem, too_many, unknown_name};
+use crate::robots::warning::{
+    Options, Read, Reader, list_known, syntax_problem, too_many, unknown_name,
+};
 use crate::robots::xml::element::Element;
-use crate::robots::xml::{self, Document};
+use crate::robots::xml::{self, Document, Input};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// The member of the archive that lists the objects.
@@ -32,12 +33,8 @@ const LIMITS: &str = "EnableLengthMin EnableLengthMax EnableAngleMin EnableAngle
 ///
 /// # Errors
 /// Returns the first problem found, with its place.
-pub(crate) fn read_document(
-    document: &mut Document,
-    root: usize,
-    read: Reader<'_>,
-    options: &Options,
-) -> Read<Robot> {
+pub(crate) fn read_document(input: Input<'_>) -> Read<Robot> {
+    let (document, root, read) = (input.document, input.root, input.read);
     let mut robot = Robot::new("");
     let roots = read_linked(document, root, read, &mut robot)?;
     let mut documents = Documents {
@@ -48,7 +45,7 @@ pub(crate) fn read_document(
         let objects = Objects::read_objects(document.element(*root))?;
         documents.linked.insert(file.clone(), objects);
     }
-    let assembly = choose_assembly(document, root, &documents.main, options, &mut robot)?;
+    let assembly = choose_assembly(document, root, &documents.main, input.options, &mut robot)?;
     let shapes = |member: &str| String::from_utf8(read(member).ok()?).ok();
     let reading = Assembling {
         documents: &documents,
@@ -56,8 +53,8 @@ pub(crate) fn read_document(
         joints: assembly_joints(&documents.main, &assembly),
         shapes: &shapes,
     };
-    let assembly = reading.read_assembly(document, root, &mut robot)?;
-    Ok(assembly.to_robot(robot, options))
+    let assembly = reading.read_assembly(document.element(root), &mut robot)?;
+    Ok(assembly.to_robot(robot, input.options))
 }
 
 /// Reads the documents that links lead to, with those that these lead to; their root elements by the names of their files.
@@ -78,23 +75,16 @@ fn read_linked(
         let bytes = match read(&file) {
             Ok(bytes) => bytes,
             Err(why) => {
-                robot.report.count_dropped(
-                    &format!("linked document that cannot be read ({why})"),
-                    Some(&file),
-                );
+                let what = format!("linked document that cannot be read ({why})");
+                robot.report.count_dropped(&what, Some(&file));
                 continue;
             }
         };
         let archive = Archive::find_archive(&file, &bytes);
-        let member = archive
-            .map(|a| a.read_member(DOCUMENT))
-            .transpose()?
-            .flatten();
-        let Some(member) = member else {
-            robot.report.count_dropped(
-                "linked document that is not a FreeCAD document",
-                Some(&file),
-            );
+        let member = archive.map(|a| a.read_member(DOCUMENT)).transpose()?;
+        let Some(member) = member.flatten() else {
+            let what = "linked document that is not a FreeCAD document";
+            robot.report.count_dropped(what, Some(&file));
             continue;
         };
         let name = format!("{file}/{DOCUMENT}");
@@ -153,10 +143,8 @@ fn choose_assembly<'a>(
     options: &Options,
     robot: &mut Robot,
 ) -> Read<Object<'a>> {
-    let all: Vec<Object<'a>> = (objects.all_objects())
-        .filter(|o| o.kind == "Assembly::AssemblyObject")
-        .copied()
-        .collect();
+    let all = (objects.all_objects()).filter(|o| o.kind == "Assembly::AssemblyObject");
+    let all: Vec<Object<'a>> = all.copied().collect();
     let root = document.element(root);
     if let Some(wanted) = &options.assembly {
         let named = |o: &&Object<'a>| o.label() == wanted || o.name == wanted;
@@ -203,26 +191,20 @@ struct Parts<'a> {
 }
 
 impl<'a> Assembling<'a, '_> {
-    fn read_assembly(
-        &self,
-        document: &'a Document,
-        root: usize,
-        robot: &mut Robot,
-    ) -> Read<Assembly> {
+    fn read_assembly(&self, root: Element<'a>, robot: &mut Robot) -> Read<Assembly> {
         let ended = self.joints_with_ends(robot)?;
         let grounded = self.grounded_parts(&ended, robot);
-        let Parts { parts, place } = self.find_parts(&ended, &grounded, document.element(root))?;
+        let Parts { parts, place } = self.find_parts(&ended, &grounded, root)?;
         let slides = slide_directions(&ended)?;
         let of = |end: &Reference<'_>| end.part.map_or(0, |p| place.get(p).copied().unwrap_or(0));
         let mut connections = Vec::new();
         let mut labels = BTreeSet::new();
         for (joint, word, ends) in &ended {
             let label = joint.label();
-            let id = if labels.insert(label) {
-                label.to_owned()
-            } else {
-                format!("{label} ({})", joint.name)
-            };
+            let mut id = label.to_owned();
+            if !labels.insert(label) {
+                id += &format!(" ({})", joint.name);
+            }
             let element = format!("joint \"{id}\"");
             let Some(found) = joint_constraint(word, joint, ends, &slides, self.shapes)? else {
                 let what = format!("omitted: its type {word} is not known");
@@ -243,19 +225,18 @@ impl<'a> Assembling<'a, '_> {
                 robot.report.add_approximation(&element, NO_LIMITS);
             }
             let [a, b] = [of(&ends[0]), of(&ends[1])];
+            let property = joint.find_property("JointType");
             connections.push(Connection {
                 id,
                 parts: if swap { [b, a] } else { [a, b] },
                 frames,
                 holds,
-                element: joint
-                    .find_property("JointType")
-                    .map_or(joint.listed.id, |p| p.id),
+                element: property.map_or(joint.listed.id, |p| p.id),
             });
         }
         Ok(Assembly {
             name: self.assembly.label().to_owned(),
-            unit: Unit::Millimetre,
+            unit: "mm",
             parts,
             connections,
         })

@@ -5,9 +5,10 @@ use crate::file::write::{self, mechanism_file};
 use crate::model::mechanism::Mechanism;
 use crate::robots::cad::archive::Archive;
 use crate::robots::description::Robot;
-use crate::robots::warning::{ExportError, Options, Read, Reader, syntax_problem};
-use crate::robots::xml::Document;
+use crate::robots::warning::{ExportError, Read, syntax_problem};
+use crate::robots::xml::Input;
 use crate::robots::{asmt, fcstd, graph, mjcf, sdf, urdf};
+use itertools::Itertools;
 
 /// A format of files.
 #[derive(Debug)]
@@ -24,8 +25,8 @@ pub struct Format {
     write: Option<FormatWriter>,
 }
 
-/// Reads the robot below the root element of a document; the files it includes are given by the reader.
-pub(crate) type Describe = fn(&mut Document, usize, Reader<'_>, &Options) -> Read<Robot>;
+/// Reads a robot.
+pub(crate) type Describe = fn(Input<'_>) -> Read<Robot>;
 
 /// Writer of a format.
 #[derive(Debug, Clone, Copy)]
@@ -52,85 +53,83 @@ impl From<String> for FormattedFile {
     }
 }
 
+/// Returns a format that is neither read nor written.
+const fn format(word: &'static str, name: &'static str, about: &'static str) -> Format {
+    Format {
+        word,
+        name,
+        about,
+        endings: &[],
+        read: None,
+        write: None,
+    }
+}
+
 /// All formats, with the root element of those that are read, and the writer of those that are written.
 static FORMATS: [Format; 9] = [
     Format {
-        word: "toml",
-        name: "TOML",
-        about: "The mechanism file, with the options of every joint",
-        endings: &[],
-        read: None,
         write: Some(FormatWriter::Mechanism(|m| {
             Ok(write::toml(&mechanism_file(m), &[])?.into())
         })),
+        ..format(
+            "toml",
+            "TOML",
+            "The mechanism file, with the options of every joint",
+        )
     },
     Format {
-        word: "json",
-        name: "JSON",
-        about: "The same as JSON",
-        endings: &[],
-        read: None,
         write: Some(FormatWriter::Mechanism(|m| {
             Ok(format!("{:#}\n", mechanism_file(m).json()).into())
         })),
+        ..format("json", "JSON", "The same as JSON")
     },
     Format {
-        word: "urdf",
-        name: "URDF",
-        about: "A spanning tree, loops as <loop_joint>",
         endings: &["urdf", "xacro", "xml"],
         read: Some(("robot", urdf::read_urdf)),
         write: Some(FormatWriter::Mechanism(urdf::write::write_urdf)),
+        ..format("urdf", "URDF", "A spanning tree, loops as <loop_joint>")
     },
     Format {
-        word: "mjcf",
-        name: "MJCF",
-        about: "Bodies; loops as connect and weld",
         endings: &["mjcf", "xml"],
         read: Some(("mujoco", mjcf::read_mujoco)),
         write: Some(FormatWriter::Mechanism(mjcf::write::write_mjcf)),
+        ..format("mjcf", "MJCF", "Bodies; loops as connect and weld")
     },
     Format {
-        word: "sdf",
-        name: "SDF",
-        about: "Loops closed by joints",
         endings: &["sdf", "world", "xml"],
         read: Some(("sdf", sdf::read_sdf)),
         write: Some(FormatWriter::Mechanism(|m| Ok(sdf::write::write_sdf(m)))),
+        ..format("sdf", "SDF", "Loops closed by joints")
     },
     Format {
-        word: "fcstd",
-        name: "FreeCAD",
-        about: "FILE, a FreeCAD document, with joints of other types",
         endings: &["fcstd"],
         read: Some(("Document", fcstd::read_document)),
         write: Some(FormatWriter::Own),
+        ..format(
+            "fcstd",
+            "FreeCAD",
+            "FILE, a FreeCAD document, with joints of other types",
+        )
     },
     Format {
-        word: "asmt",
-        name: "OndselSolver",
-        about: "FILE, an assembly of FreeCAD's solver, with joints of other types",
         endings: &["asmt"],
         read: Some(("Assembly", asmt::read_assembly)),
         write: Some(FormatWriter::Own),
+        ..format(
+            "asmt",
+            "OndselSolver",
+            "FILE, an assembly of FreeCAD's solver, with joints of other types",
+        )
     },
     Format {
-        word: "dot",
-        name: "DOT",
-        about: "Graphviz",
-        endings: &[],
-        read: None,
         write: Some(FormatWriter::Mechanism(|m| Ok(graph::write_dot(m).into()))),
+        ..format("dot", "DOT", "Graphviz")
     },
     Format {
-        word: "graphml",
-        name: "GraphML",
-        about: "GraphML, for graph programs",
-        endings: &[],
-        read: None,
         write: Some(FormatWriter::Mechanism(|m| {
             Ok(graph::write_graphml(m).into())
         })),
+        ..format("graphml", "GraphML", "GraphML, for graph programs")
     },
 ];
 
@@ -192,10 +191,7 @@ pub fn export(m: &Mechanism, word: &str) -> Result<FormattedFile, ExportError> {
         Some((format, FormatWriter::Own)) => Err(ExportError::Own { format }),
         None => Err(ExportError::Unknown {
             word: word.to_owned(),
-            known: writable_formats()
-                .map(|f| f.word)
-                .collect::<Vec<_>>()
-                .join(", "),
+            known: writable_formats().map(|f| f.word).join(", "),
         }),
     }
 }
@@ -246,94 +242,67 @@ pub(crate) fn of_root(element: &str) -> Option<(&'static Format, Describe)> {
 /// Lists the root elements that can be read.
 pub(crate) fn list_roots() -> String {
     let known = FORMATS.iter().filter_map(|f| Some((f.read?.0, f.name)));
-    let words: Vec<String> = known
-        .map(|(root, name)| format!("<{root}> ({name})"))
-        .collect();
-    let (last, first) = words
-        .split_last()
-        .map_or(("", &[][..]), |(l, f)| (l.as_str(), f));
-    format!("{} and {last}", first.join(", "))
+    let mut words = known.map(|(root, name)| format!("<{root}> ({name})"));
+    let all = words.join(", ");
+    let (first, last) = all.rsplit_once(", ").unwrap_or(("", &all));
+    format!("{first} and {last}")
 }
 
-/// A format that is not read: its name, the extensions of its files in lower case, the first bytes of its files, and what to do
-/// instead. The first bytes are empty if they do not identify the format.
-type Foreign = (&'static str, &'static str, &'static [u8], &'static str);
-
-const GEOMETRY: &str = "it has shapes and no joints; join the parts in FreeCAD's Assembly workbench and give the .FCStd, or write a mechanism file (`ozols new`)";
-const CAD: &str = "export a URDF with the program's exporter, or join the parts in FreeCAD's Assembly workbench and give the .FCStd";
-const SIMULATOR: &str = "export the model as URDF, SDF or MJCF from the program that wrote it";
-const TEMPLATE: &str = "expand it first, and give the resulting URDF, SDF or MJCF file";
-
-static FOREIGN: [Foreign; 38] = [
+/// Formats that are not read, by what to do instead: for each its name and the endings of its files in lower case.
+const FOREIGN: [(&str, &str); 7] = [
     (
-        "YAML",
-        "yaml yml",
-        b"",
         "give the robot description, and this file as its loop closures",
+        "YAML: yaml yml",
     ),
     (
-        "compressed",
-        "zip gz 7z",
-        b"",
         "unpack it and give the description inside",
+        "compressed: zip gz 7z",
     ),
-    ("STEP", "step stp stpz p21", b"ISO-10303-21", GEOMETRY),
-    ("IGES", "iges igs", b"", GEOMETRY),
     (
-        "Parasolid",
-        "x_t x_b xmt_txt xmt_bin",
-        b"**ABCDEFGHIJKLMNOPQRSTUVWXYZ",
-        GEOMETRY,
+        "it has shapes and no joints; join the parts in FreeCAD's Assembly workbench and give the .FCStd, or write a mechanism file (`ozols new`)",
+        "STEP: step stp stpz p21; IGES: iges igs; Parasolid: x_t x_b xmt_txt xmt_bin; ACIS: sat sab; \
+         BREP: brep brp; STL: stl; Wavefront OBJ: obj; COLLADA: dae; glTF: gltf glb; 3MF: 3mf; PLY: ply; \
+         VRML: wrl vrml; DXF: dxf; DWG: dwg; JT: jt; Rhino 3DM: 3dm; SketchUp: skp; 3DXML: 3dxml",
     ),
-    ("ACIS", "sat sab", b"ACIS BinaryFile", GEOMETRY),
-    ("BREP", "brep brp", b"DBRep_DrawableShape", GEOMETRY),
-    ("STL", "stl", b"", GEOMETRY),
-    ("Wavefront OBJ", "obj", b"", GEOMETRY),
-    ("COLLADA", "dae", b"", GEOMETRY),
-    ("glTF", "gltf glb", b"glTF", GEOMETRY),
-    ("3MF", "3mf", b"", GEOMETRY),
-    ("PLY", "ply", b"ply\n", GEOMETRY),
-    ("VRML", "wrl vrml", b"#VRML", GEOMETRY),
-    ("DXF", "dxf", b"", GEOMETRY),
-    ("DWG", "dwg", b"AC10", GEOMETRY),
-    ("JT", "jt", b"", GEOMETRY),
-    ("Rhino 3DM", "3dm", b"3D Geometry File Format", GEOMETRY),
-    ("SketchUp", "skp", b"", GEOMETRY),
-    ("3DXML", "3dxml", b"", GEOMETRY),
-    ("SolidWorks", "sldasm sldprt slddrw asmdot", b"", CAD),
-    ("CATIA", "catproduct catpart cgr", b"V5_CFV2", CAD),
-    ("Inventor", "iam ipt", b"", CAD),
-    ("Creo or NX", "prt asm neu", b"", CAD),
-    ("Solid Edge", "par psm", b"", CAD),
-    ("Fusion", "f3d f3z", b"", CAD),
-    ("KOMPAS-3D", "a3d m3d", b"", CAD),
     (
-        "OLE document (SolidWorks, Inventor and others)",
-        "",
-        b"\xd0\xcf\x11\xe0\xa1\xb1\x1a\xe1",
-        CAD,
+        "export a URDF with the program's exporter, or join the parts in FreeCAD's Assembly workbench and give the .FCStd",
+        "SolidWorks: sldasm sldprt slddrw asmdot; CATIA: catproduct catpart cgr; Inventor: iam ipt; \
+         Creo or NX: prt asm neu; Solid Edge: par psm; Fusion: f3d f3z; KOMPAS-3D: a3d m3d; \
+         OLE document (SolidWorks, Inventor and others):",
     ),
-    ("USD", "usd usda usdc usdz", b"#usda", SIMULATOR),
-    ("USD", "", b"PXR-USDC", SIMULATOR),
-    ("Blender", "blend", b"BLENDER", SIMULATOR),
-    ("Webots", "wbt proto", b"", SIMULATOR),
-    ("CoppeliaSim", "ttt ttm", b"", SIMULATOR),
-    ("OpenSim", "osim", b"", SIMULATOR),
-    ("Simulink", "slx mdl", b"", SIMULATOR),
-    ("Adams", "adm cmd", b"", SIMULATOR),
     (
-        "compiled MuJoCo",
-        "mjb",
-        b"",
+        "export the model as URDF, SDF or MJCF from the program that wrote it",
+        "USD: usd usda usdc usdz; Blender: blend; Webots: wbt proto; CoppeliaSim: ttt ttm; \
+         OpenSim: osim; Simulink: slx mdl; Adams: adm cmd",
+    ),
+    (
         "save the model from MuJoCo as XML and give that",
+        "compiled MuJoCo: mjb",
     ),
     (
-        "template (ERB, Jinja, EmPy)",
-        "erb jinja jinja2 j2 em",
-        b"",
-        TEMPLATE,
+        "expand it first, and give the resulting URDF, SDF or MJCF file",
+        "template (ERB, Jinja, EmPy): erb jinja jinja2 j2 em",
     ),
 ];
+
+/// The first bytes of files, and their formats.
+const BEGINNINGS: [(&[u8], &str); 14] = [
+    (b"ISO-10303-21", "STEP"),
+    (b"**ABCDEFGHIJKLMNOPQRSTUVWXYZ", "Parasolid"),
+    (b"ACIS BinaryFile", "ACIS"),
+    (b"DBRep_DrawableShape", "BREP"),
+    (b"glTF", "glTF"),
+    (b"ply\n", "PLY"),
+    (b"#VRML", "VRML"),
+    (b"AC10", "DWG"),
+    (b"3D Geometry File Format", "Rhino 3DM"),
+    (b"V5_CFV2", "CATIA"),
+    (OLE, "OLE document (SolidWorks, Inventor and others)"),
+    (b"#usda", "USD"),
+    (b"PXR-USDC", "USD"),
+    (b"BLENDER", "Blender"),
+];
+const OLE: &[u8] = b"\xd0\xcf\x11\xe0\xa1\xb1\x1a\xe1";
 
 /// Rejects a file of a format that is not read, by its first bytes or by its ending, which no mechanism file has.
 ///
@@ -348,32 +317,31 @@ static FOREIGN: [Foreign; 38] = [
 /// ```
 pub fn refuse_foreign(name: &str, bytes: &[u8]) -> Result<(), ImportError> {
     let path = std::path::Path::new(name);
-    let ending = path
-        .extension()
-        .unwrap_or_default()
-        .to_string_lossy()
-        .to_lowercase();
-    let begins = |f: &&Foreign| !f.2.is_empty() && bytes.starts_with(f.2);
-    let by_bytes = FOREIGN.iter().find(begins);
-    let ends = |f: &&Foreign| f.1.split(' ').any(|e| !e.is_empty() && e == ending);
-    let by_ending = || FOREIGN.iter().find(ends);
+    let ending = path.extension().unwrap_or_default().to_string_lossy();
+    let ending = ending.to_lowercase();
     // The first line of IGES ends in its section and number.
     let line = bytes.split(|b| *b == b'\n').next().unwrap_or_default();
     let is_iges = line.len() >= 80 && &line[72..80] == b"S      1";
-    let iges = || FOREIGN.iter().find(|f| is_iges && f.0 == "IGES");
-    match by_bytes.or_else(by_ending).or_else(iges) {
-        None => Ok(()),
-        Some((format, .., remedy)) => {
-            let message = format!("this is a {format} file, which is not read; {remedy}");
-            Err(syntax_problem(message).in_file(name, "", None))
-        }
-    }
+    let begins = BEGINNINGS.iter().find(|(b, _)| bytes.starts_with(b));
+    let begins = begins.map(|b| b.1).or(is_iges.then_some("IGES"));
+    let known = FOREIGN.iter().flat_map(|(remedy, formats)| {
+        let each = formats.split("; ").filter_map(|f| f.split_once(':'));
+        each.map(move |(format, endings)| (format, endings, remedy))
+    });
+    let is_it = |(format, endings, _): &(&str, &str, &&str)| match begins {
+        Some(found) => *format == found,
+        None => !ending.is_empty() && endings.split(' ').any(|e| e == ending),
+    };
+    let mut known = known.filter(is_it);
+    known.next().map_or(Ok(()), |(format, _, remedy)| {
+        let message = format!("this is a {format} file, which is not read; {remedy}");
+        Err(syntax_problem(message).in_file(name, "", None))
+    })
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use itertools::Itertools;
 
     #[test]
     fn words_and_root_elements_are_unique() {

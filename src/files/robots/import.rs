@@ -11,23 +11,19 @@ use crate::file::schema::{MechanismFile, ToleranceEntry};
 use crate::file::text::mechanism_from_str;
 use crate::file::write::{self, Comment};
 use crate::geom::extent::box_diagonal;
-use crate::geom::rigid::RigidMotion;
 use crate::model::mechanism::Mechanism;
 use crate::robots::asmt;
 use crate::robots::cad::archive::Archive;
-use crate::robots::description::kinematics::spanning_tree;
 use crate::robots::description::origin::Origin;
 use crate::robots::description::{Robot, coupling, digits, loops};
 use crate::robots::fcstd::DOCUMENT;
 use crate::robots::formats::{Format, list_roots, of_root, refuse_foreign};
+use crate::robots::mechanism::entries::Content;
 use crate::robots::mechanism::loop_closing::robot_size;
-use crate::robots::mechanism::{
-    Entries, apply_pose, check_held, close_loops, loop_options, make_entries, root_link,
-};
-use crate::robots::warning::{ExportError, syntax_problem};
-use crate::robots::warning::{Options, Reader, Report};
+use crate::robots::mechanism::{loop_options, make_entries, pose_robot};
+use crate::robots::warning::{ExportError, Options, Read, Reader, Report, syntax_problem};
 use crate::robots::xml::element::Element;
-use crate::robots::xml::{self, Document};
+use crate::robots::xml::{self, Document, Input};
 
 /// A mechanism and its origin.
 #[derive(Debug, Clone)]
@@ -119,28 +115,31 @@ pub fn import(
         _ => read(member),
     };
     let read: Reader<'_> = &inner;
-    let (format, mut robot) = read_described(&mut document, root, read, options)?;
+    let input = Input {
+        document: &mut document,
+        root,
+        read,
+        options,
+    };
+    let (format, mut robot) = read_described(input)?;
+    if robot.links.is_empty() {
+        return Err(document.element(root).missing_error("links"));
+    }
     let fail = |p: ProblemKind| p.in_file(name, "", None);
     match &options.loops {
         Some((side, bytes)) => loops::add_loops(side, bytes, &mut robot)?,
         None if format.word == "urdf" => loops::report_beside(name, read, &mut robot),
         None => {}
     }
-    apply_pose(&mut robot, options).map_err(fail)?;
-    let frame = root_link(&mut robot, options).map_err(fail)?;
-    let tree = spanning_tree(&robot, frame);
-    check_held(&robot, &tree).map_err(fail)?;
-    close_loops(&mut robot, &tree, options).map_err(fail)?;
-    let Entries {
-        mut file,
-        comments,
-        places,
-        joints,
-        couplings,
-    } = make_entries(&mut robot, &tree, name, format.name, options).map_err(fail)?;
+    let tree = pose_robot(&mut robot, options).map_err(fail)?;
+    let source = std::path::Path::new(name).file_name().unwrap_or_default();
+    let source = format!("{} ({})", source.to_string_lossy(), format.name);
+    let (mut file, comments, content) =
+        make_entries(&mut robot, &tree, &source, options).map_err(fail)?;
     file.assumed.clone_from(&robot.report.assumed);
-    file.tolerance = find_tolerance(document.element(root), &robot, &places, &joints);
-    let closes: Vec<bool> = joints.iter().map(|&j| robot.joints[j].closes).collect();
+    file.tolerance = find_tolerance(document.element(root), &robot, &content);
+    let closes = content.joints.iter().map(|&j| robot.joints[j].closes);
+    let closes: Vec<bool> = closes.collect();
     let mechanism = with_offers(&mut file, &comments, &closes)?;
     robot.report.kept = coupling::kept_couplings(&mechanism);
     Ok(Imported {
@@ -154,37 +153,30 @@ pub fn import(
             archive,
             root,
             robot,
-            places,
-            joints,
-            couplings,
+            places: content.places,
+            joints: content.joints,
+            couplings: content.couplings.iter().map(|u| u.said_by).collect(),
         },
     })
 }
 
 /// Returns the accuracy of a robot: from its reader, or from the digits of the numbers below its root element.
-fn find_tolerance(
-    root: Element<'_>,
-    robot: &Robot,
-    places: &[RigidMotion],
-    joints: &[usize],
-) -> Option<ToleranceEntry> {
+fn find_tolerance(root: Element<'_>, robot: &Robot, content: &Content) -> Option<ToleranceEntry> {
     if let Some(known) = robot.known_to {
         return digits::stated_tolerance(known);
     }
-    let at_joints = joints.iter().map(|&j| {
+    let at_joints = content.joints.iter().map(|&j| {
         let part = &robot.joints[j];
-        places[part.links[0]].then(&part.sides[0]).translation
+        content.places[part.links[0]]
+            .then(&part.sides[0])
+            .translation
     });
     digits::find_tolerance(root, robot_size(robot), box_diagonal(at_joints))
 }
 
 /// Returns the robot that the reader of its root element finds.
-fn read_described(
-    document: &mut Document,
-    root: usize,
-    read: Reader<'_>,
-    options: &Options,
-) -> Result<(&'static Format, Robot), ImportError> {
+fn read_described(input: Input<'_>) -> Read<(&'static Format, Robot)> {
+    let (document, root) = (&*input.document, input.root);
     let found = document.element(root).name().to_owned();
     let Some((format, describe)) = of_root(&found) else {
         let known = list_roots();
@@ -193,11 +185,7 @@ fn read_described(
         return Err(element.error_at(None, syntax_problem(message)));
     };
     check_expanded(document)?;
-    let robot = describe(document, root, read, options)?;
-    if robot.links.is_empty() {
-        return Err(document.element(root).missing_error("links"));
-    }
-    Ok((format, robot))
+    Ok((format, describe(input)?))
 }
 
 /// Rejects a template whose macros are not expanded, because no element contains their content.
@@ -221,11 +209,7 @@ fn check_expanded(document: &Document) -> Result<(), ImportError> {
 }
 
 /// Returns the mechanism of a file. Joints that close loops get options for searches, if these can be written.
-fn with_offers(
-    file: &mut MechanismFile,
-    comments: &[Comment],
-    closes: &[bool],
-) -> Result<Mechanism, ImportError> {
+fn with_offers(file: &mut MechanismFile, comments: &[Comment], closes: &[bool]) -> Read<Mechanism> {
     // Problems are shown in the text that would be written.
     let mechanism = build_mechanism(file).or_else(|_| {
         let text = write::toml(file, comments).unwrap_or_default();

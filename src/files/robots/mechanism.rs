@@ -14,17 +14,25 @@ use crate::geom::rigid::RigidMotion;
 use crate::model::joint_type::JointType;
 use crate::robots::description::kinematics::{Tree, link_places, spanning_tree};
 use crate::robots::description::{Part, Robot, coupling, free_joint};
-use crate::robots::mechanism::entries::{Bodies, Content};
-use crate::robots::mechanism::entries::{link_of, output_links};
+use crate::robots::mechanism::entries::{Content, link_of, merge_links, output_links};
 use crate::robots::mechanism::loop_closing::{
-    CLOSED, ROUNDED, close_numerically, loop_gaps, robot_size, worst_gap,
+    CLOSED, ROUNDED, close_numerically, joint_values, loop_gaps, robot_size, worst_gap,
 };
-use crate::robots::warning::Options;
-use crate::robots::warning::{bad_value, list_known, syntax_problem, unknown_name};
+use crate::robots::warning::{Found, Options, bad_value, list_known, syntax_problem, unknown_name};
 use itertools::Itertools;
 use std::collections::BTreeSet;
 
-pub(crate) fn apply_pose(robot: &mut Robot, options: &Options) -> Result<(), ProblemKind> {
+/// Puts a robot into its pose and closes its loops. Returns its tree.
+pub(crate) fn pose_robot(robot: &mut Robot, options: &Options) -> Found<Tree> {
+    apply_pose(robot, options)?;
+    let frame = root_link(robot, options)?;
+    let tree = spanning_tree(robot, frame);
+    check_held(robot, &tree)?;
+    close_loops(robot, &tree, options)?;
+    Ok(tree)
+}
+
+fn apply_pose(robot: &mut Robot, options: &Options) -> Found<()> {
     for (id, values) in &options.pose {
         let Some(joint) = robot.joints.iter_mut().find(|j| j.id == *id) else {
             let known = list_known("joints", robot.joints.iter().map(|j| &j.id));
@@ -41,27 +49,16 @@ pub(crate) fn apply_pose(robot: &mut Robot, options: &Options) -> Result<(), Pro
 }
 
 /// Returns the frame: the world if something is connected to it, otherwise the link that is no joint's child.
-pub(crate) fn root_link(robot: &mut Robot, options: &Options) -> Result<usize, ProblemKind> {
+fn root_link(robot: &mut Robot, options: &Options) -> Found<usize> {
     if let Some(name) = &options.frame {
         return link_of(robot, name);
     }
-    let child: BTreeSet<usize> = robot
-        .joints
-        .iter()
-        .filter(|j| !j.closes)
-        .map(|j| j.links[1])
-        .collect();
-    let held = |w: &usize| {
-        robot
-            .joints
-            .iter()
-            .any(|j| !j.closes && j.links.contains(w))
-    };
-    let root = robot
-        .world
-        .filter(held)
-        .or_else(|| (0..robot.links.len()).find(|l| !child.contains(l) && robot.world != Some(*l)))
-        .unwrap_or(0);
+    let in_tree = || robot.joints.iter().filter(|j| !j.closes);
+    let child: BTreeSet<usize> = in_tree().map(|j| j.links[1]).collect();
+    let held = |w: &usize| in_tree().any(|j| j.links.contains(w));
+    let free = |l: &usize| !child.contains(l) && robot.world != Some(*l);
+    let first = || (0..robot.links.len()).find(free);
+    let root = robot.world.filter(held).or_else(first).unwrap_or(0);
     // In engines, a model that is not connected to the world falls.
     let falls = robot.world.is_none_or(|w| !held(&w));
     let parts = loose_roots(robot, &spanning_tree(robot, root)).len();
@@ -79,9 +76,8 @@ pub(crate) fn root_link(robot: &mut Robot, options: &Options) -> Result<usize, P
     for &r in tree.roots.iter().skip(1) {
         let sides = [robot.places[r], RigidMotion::IDENTITY];
         let id = format!("floating-{}", robot.links[r]);
-        robot
-            .joints
-            .push(Part::new(&id, [world, r], sides, free_joint()));
+        let part = Part::new(&id, [world, r], sides, free_joint());
+        robot.joints.push(part);
         robot.report.count_mapped("floating base");
     }
     if apart && !options.floating {
@@ -104,17 +100,14 @@ fn loose_roots(robot: &Robot, tree: &Tree) -> Vec<usize> {
 }
 
 /// Checks that every link is connected to the frame.
-pub(crate) fn check_held(robot: &Robot, tree: &Tree) -> Result<(), ProblemKind> {
+fn check_held(robot: &Robot, tree: &Tree) -> Found<()> {
     let loose = loose_roots(robot, tree);
-    let loose: Vec<&str> = loose.iter().map(|&l| robot.links[l].as_str()).collect();
     if loose.is_empty() {
         return Ok(());
     }
-    let loose = loose
-        .iter()
-        .take(5)
-        .map(|l| format!("link \"{l}\""))
-        .join(", ");
+    let first = loose.iter().take(5);
+    let loose = first.map(|&l| format!("link \"{}\"", robot.links[l]));
+    let loose = loose.format(", ");
     let root = &robot.links[tree.roots[0]];
     Err(syntax_problem(format!(
         "no joint connects {loose} with {root}; add one, or set `floating` to let every such part float"
@@ -122,16 +115,12 @@ pub(crate) fn check_held(robot: &Robot, tree: &Tree) -> Result<(), ProblemKind> 
 }
 
 /// Closes the loops of a robot: as drawn, by moving joints, or not at all if the options ask for that.
-pub(crate) fn close_loops(
-    robot: &mut Robot,
-    tree: &Tree,
-    options: &Options,
-) -> Result<(), ProblemKind> {
+fn close_loops(robot: &mut Robot, tree: &Tree, options: &Options) -> Found<()> {
     if tree.loops.is_empty() {
         return Ok(());
     }
     let size = robot_size(robot);
-    let unit = robot.unit.symbol();
+    let unit = robot.unit;
     let first = worst_gap(&loop_gaps(robot, tree), size);
     let loops = count_noun(tree.loops.len(), "loop");
     if first <= CLOSED * size {
@@ -147,7 +136,7 @@ pub(crate) fn close_loops(
         robot.report.add_moved(note);
         return Ok(());
     }
-    let before: Vec<Vec<f64>> = robot.joints.iter().map(|j| j.values.clone()).collect();
+    let before = joint_values(robot);
     let (left, outside) = close_numerically(robot, tree);
     if left > ROUNDED * size {
         let widest = widest_gap(robot, tree, size);
@@ -188,7 +177,7 @@ fn moved_most(robot: &Robot, tree: &Tree, before: &[Vec<f64>]) -> String {
 
 /// Describes the loop with the widest gap.
 fn widest_gap(robot: &Robot, tree: &Tree, size: f64) -> String {
-    let unit = robot.unit.symbol();
+    let unit = robot.unit;
     let by = |g: &loop_closing::Gap| g.shift.max(g.turn * size);
     let gaps = loop_gaps(robot, tree);
     let most = gaps.iter().max_by(|a, b| by(a).total_cmp(&by(b)));
@@ -217,84 +206,50 @@ fn in_loops(robot: &Robot, tree: &Tree) -> BTreeSet<usize> {
     out
 }
 
-/// A mechanism file, and the parts of the robot that its parts are made of.
-#[derive(Debug)]
-pub(crate) struct Entries {
-    pub(in crate::robots) file: MechanismFile,
-    /// The comments above its entries.
-    pub(in crate::robots) comments: Vec<Comment>,
-    /// Places of the links in the pose found.
-    pub(in crate::robots) places: Vec<RigidMotion>,
-    /// The robot's joints, by joints of the mechanism.
-    pub(in crate::robots) joints: Vec<usize>,
-    /// The elements of its couplings.
-    pub(in crate::robots) couplings: Vec<usize>,
-}
-
-/// Returns the entries of the file called `file` of a `format`.
+/// Returns the entries of the mechanism file of a robot and their comments. `source` is the name of the file read, and of its format.
 pub(crate) fn make_entries(
     robot: &mut Robot,
     tree: &Tree,
-    file: &str,
-    format: &'static str,
+    source: &str,
     options: &Options,
-) -> Result<Entries, ProblemKind> {
-    let places = link_places(robot, tree);
+) -> Found<(MechanismFile, Vec<Comment>, Content)> {
     let (bodies, joints) = rigid_bodies(robot, tree)?;
-    let couplings = coupling::usable_couplings(robot, &joints);
-    let frame = bodies.of[tree.roots[0]];
-    let outputs = output_links(robot, &bodies, &joints, frame, options)?;
-    let mut report = std::mem::take(&mut robot.report);
-    report.outputs = (
-        outputs.iter().map(|&b| robot.links[b].clone()).collect(),
-        !options.outputs.is_empty(),
-    );
-    let used: BTreeSet<usize> = joints
-        .iter()
-        .flat_map(|&j| robot.joints[j].links.map(|l| bodies.of[l]))
-        .collect();
-    report.size = (used.len(), joints.len());
-    within_limits(used.len(), joints.len())?;
-    let limited = robot.joints.iter().filter(|j| j.limits.is_some());
-    limited.for_each(|j| report.count_dropped("limit of a joint", Some(&j.id)));
-    robot.report = report;
-    let file = std::path::Path::new(file).file_name();
-    let (file, comments) = entries::make_file(&Content {
-        robot,
-        file: &file.unwrap_or_default().to_string_lossy(),
-        format,
-        places: &places,
-        bodies: &bodies,
+    let frame = bodies[tree.roots[0]];
+    let content = Content {
+        places: link_places(robot, tree),
+        couplings: coupling::usable_couplings(robot, &joints),
+        outputs: output_links(robot, &bodies, &joints, frame, options)?,
+        bodies,
         frame,
-        outputs: &outputs,
-        joints: &joints,
-        couplings: &couplings,
-    });
-    Ok(Entries {
-        file,
-        comments,
-        places,
         joints,
-        couplings: couplings.iter().map(|u| u.said_by).collect(),
-    })
+    };
+    let named = content.outputs.iter().map(|&b| robot.links[b].clone());
+    let outputs = (named.collect(), !options.outputs.is_empty());
+    let ends = |&j: &usize| robot.joints[j].links.map(|l| content.bodies[l]);
+    let used: BTreeSet<usize> = content.joints.iter().flat_map(ends).collect();
+    let size = (used.len(), content.joints.len());
+    within_limits(size.0, size.1)?;
+    (robot.report.outputs, robot.report.size) = (outputs, size);
+    for j in robot.joints.iter().filter(|j| j.limits.is_some()) {
+        robot.report.count_dropped("limit of a joint", Some(&j.id));
+    }
+    let (file, comments) = entries::make_file(robot, source, &content);
+    Ok((file, comments, content))
 }
 
 /// Merges rigidly joined links to bodies and returns them with the joints between them. Joints within a body are reported and
 /// omitted.
-fn rigid_bodies(robot: &mut Robot, tree: &Tree) -> Result<(Bodies, Vec<usize>), ProblemKind> {
-    let kept = if robot.assembly {
-        in_loops(robot, tree)
-    } else {
-        BTreeSet::new()
-    };
+fn rigid_bodies(robot: &mut Robot, tree: &Tree) -> Found<(Vec<usize>, Vec<usize>)> {
+    let kept = robot.assembly.then(|| in_loops(robot, tree));
+    let kept = kept.unwrap_or_default();
     let fixed = |j: usize| robot.joints[j].joint_type == JointType::Fixed && !kept.contains(&j);
     let rigid = tree.steps.iter().filter(|s| fixed(s.joint));
-    let bodies = Bodies::new(robot.links.len(), rigid.map(|s| (s.from, s.link)));
+    let bodies = merge_links(robot.links.len(), rigid.map(|s| (s.from, s.link)));
     let in_tree: BTreeSet<usize> = tree.steps.iter().map(|s| s.joint).collect();
     let mut joints = Vec::new();
     let mut within = Vec::new();
     for (j, p) in robot.joints.iter().enumerate() {
-        let [a, b] = p.links.map(|l| bodies.of[l]);
+        let [a, b] = p.links.map(|l| bodies[l]);
         if a == b && !(in_tree.contains(&j) && fixed(j)) {
             within.push(p.id.clone());
         } else if a != b {
@@ -303,9 +258,8 @@ fn rigid_bodies(robot: &mut Robot, tree: &Tree) -> Result<(Bodies, Vec<usize>), 
     }
     for id in within {
         let what = "both ends are on one rigid body; omitted, with all its rows redundant";
-        robot
-            .report
-            .add_approximation(&format!("joint \"{id}\""), what);
+        let element = format!("joint \"{id}\"");
+        robot.report.add_approximation(&element, what);
     }
     if joints.is_empty() {
         let links = robot.links.len();
@@ -316,7 +270,7 @@ fn rigid_bodies(robot: &mut Robot, tree: &Tree) -> Result<(Bodies, Vec<usize>), 
 }
 
 /// Checks that there are no more links and joints than a mechanism file may have.
-fn within_limits(links: usize, joints: usize) -> Result<(), ProblemKind> {
+fn within_limits(links: usize, joints: usize) -> Found<()> {
     let all = [("links", links, LIMITS.0), ("joints", joints, LIMITS.1)];
     match all.iter().find(|(_, count, limit)| count > limit) {
         None => Ok(()),

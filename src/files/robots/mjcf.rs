@@ -5,7 +5,6 @@ mod equality;
 pub(super) mod fix;
 mod include;
 mod replicate;
-mod weights;
 pub(super) mod write;
 
 use crate::geom::rigid::RigidMotion;
@@ -13,11 +12,9 @@ use crate::geom::vector::{Vector, Z, length};
 use crate::model::joint_type::JointType;
 use crate::robots::additions::leave_out;
 use crate::robots::description::{Part, Robot, free_joint};
-use crate::robots::mjcf::context::{Context, read_compiler};
-use crate::robots::mjcf::context::{Defaults, Lookup};
-use crate::robots::warning::{Options, Reader};
+use crate::robots::mjcf::context::{Context, Defaults, Lookup, read_compiler};
 use crate::robots::warning::{Read, bad_value};
-use crate::robots::xml::Document;
+use crate::robots::xml::Input;
 use crate::robots::xml::element::Element;
 use std::collections::BTreeMap;
 
@@ -28,7 +25,8 @@ const SECTIONS: &str = "asset contact custom extension keyframe option sensor si
 /// Attributes of a joint's resistance to motion, which do not affect the kinematics.
 const RESISTANCE: &str = "damping stiffness springdamper armature frictionloss";
 
-/// An element still to be read: a body or frame, its link, its place there, and the class of its children.
+/// An element still to be read: a body, frame or joint, its link, its place there, and the class of its children.
+#[derive(Clone, Copy)]
 struct Waiting<'a> {
     element: Element<'a>,
     link: usize,
@@ -60,13 +58,9 @@ impl<'a> Waiting<'a> {
 }
 
 /// Reads a `<mujoco>` and the files it includes.
-pub(crate) fn read_mujoco(
-    document: &mut Document,
-    root: usize,
-    inner: Reader<'_>,
-    options: &Options,
-) -> Read<Robot> {
-    include::expand_includes(document, root, inner, !options.models.is_empty())?;
+pub(crate) fn read_mujoco(mut input: Input<'_>) -> Read<Robot> {
+    include::expand_includes(&mut input)?;
+    let (document, root) = (input.document, input.root);
     replicate::expand_replicates(document, root)?;
     let root = document.element(root);
     let name = root.attribute("model").unwrap_or("robot");
@@ -79,18 +73,15 @@ pub(crate) fn read_mujoco(
     let world = robot.add_link("world", RigidMotion::IDENTITY);
     robot.world = Some(world);
     for w in root.children_named("worldbody") {
-        robot.said_by(world, w);
         read_bodies(Waiting::at_world(w), &mut context, &mut robot)?;
     }
     for section in root.children() {
         match section.name() {
             "worldbody" | "compiler" | "default" => {}
             "equality" => equality::read_equalities(section, root, &context, &mut robot)?,
-            "actuator" => {
-                for a in section.children() {
-                    read_actuator(a, root, &mut robot);
-                }
-            }
+            "actuator" => section
+                .children()
+                .for_each(|a| read_actuator(a, root, &mut robot)),
             "deformable" => {
                 let what = "deformable bodies are not links; omitted";
                 robot.report.add_approximation(&section.label(), what);
@@ -114,12 +105,9 @@ fn read_actuator(a: Element<'_>, root: Element<'_>, robot: &mut Robot) {
         return;
     }
     let pulled = of_tendon(root, a);
-    let pulled = |j: &&mut Part| pulled.contains(&j.id.as_str());
-    robot
-        .joints
-        .iter_mut()
-        .filter(pulled)
-        .for_each(|j| j.pulled = true);
+    for j in &mut robot.joints {
+        j.pulled |= pulled.contains(&j.id.as_str());
+    }
     robot.report.count_dropped("actuator", name);
 }
 
@@ -128,9 +116,8 @@ fn of_tendon<'a>(root: Element<'a>, actuator: Element<'a>) -> Vec<&'a str> {
     let Some(name) = actuator.attribute("tendon") else {
         return Vec::new();
     };
-    let all = root
-        .children_named("tendon")
-        .flat_map(|s| s.children_named("fixed"));
+    let all = root.children_named("tendon");
+    let all = all.flat_map(|s| s.children_named("fixed"));
     let called = all.filter(|f| f.attribute("name") == Some(name));
     let joints = called.flat_map(|f| f.children_named("joint"));
     joints.filter_map(|j| j.attribute("joint")).collect()
@@ -145,22 +132,18 @@ fn read_bodies<'a>(start: Waiting<'a>, context: &mut Context<'a>, robot: &mut Ro
             match e.name() {
                 "body" => {
                     let place = w.place.then(&context.compiler.read_place(e)?);
-                    let link = read_body(e, w.link, place, inner(0, place).class, context, robot)?;
-                    robot.said_by(link, e);
+                    let link = read_body(inner(w.link, place), context, robot)?;
                     here.push(inner(link, RigidMotion::IDENTITY));
                 }
                 "frame" => {
-                    here.push(inner(
-                        w.link,
-                        w.place.then(&context.compiler.read_place(e)?),
-                    ));
+                    let place = w.place.then(&context.compiler.read_place(e)?);
+                    here.push(inner(w.link, place));
                 }
-                "site" => read_site(e, &w, context, robot)?,
+                "site" => read_site(inner(w.link, w.place), context, robot)?,
                 "joint" | "freejoint" if w.link != 0 => {}
                 "joint" | "freejoint" => {
-                    return Err(
-                        e.unsupported_error("the world cannot move", "put the joint into a body")
-                    );
+                    let remedy = "put the joint into a body";
+                    return Err(e.unsupported_error("the world cannot move", remedy));
                 }
                 "flexcomp" | "attach" => {
                     let what = "its result when the model is compiled is omitted; save the compiled model from MuJoCo as XML to include it";
@@ -170,10 +153,9 @@ fn read_bodies<'a>(start: Waiting<'a>, context: &mut Context<'a>, robot: &mut Ro
                     }
                 }
                 "composite" => {
+                    let why = "it makes bodies when the model is compiled";
                     let remedy = "save the compiled model from MuJoCo as XML and import that file";
-                    return Err(
-                        e.unsupported_error("it makes bodies when the model is compiled", remedy)
-                    );
+                    return Err(e.unsupported_error(why, remedy));
                 }
                 other => {
                     if other == "geom" {
@@ -188,42 +170,26 @@ fn read_bodies<'a>(start: Waiting<'a>, context: &mut Context<'a>, robot: &mut Ro
     Ok(())
 }
 
-fn read_site(
-    e: Element<'_>,
-    w: &Waiting<'_>,
-    context: &mut Context<'_>,
-    robot: &mut Robot,
-) -> Read<()> {
+fn read_site(w: Waiting<'_>, context: &mut Context<'_>, robot: &mut Robot) -> Read<()> {
+    let e = w.element;
     let place = w.place.then(&context.compiler.read_place(e)?);
     let Some(name) = e.attribute("name") else {
         robot.report.count_dropped("site", None);
         return Ok(());
     };
-    if context
-        .sites
-        .insert(name.to_owned(), (w.link, place))
-        .is_some()
-    {
+    let here = (w.link, place);
+    if context.sites.insert(name.to_owned(), here).is_some() {
         return Err(e.duplicate_error());
     }
-    robot
-        .frames
-        .entry(name.to_owned())
-        .or_insert((w.link, place));
+    robot.frames.entry(name.to_owned()).or_insert(here);
     robot.shown.insert(w.link);
     robot.report.count_mapped("site");
     Ok(())
 }
 
-/// Reads a body and its joints, in series through extra links if there are several.
-fn read_body<'a>(
-    e: Element<'a>,
-    parent: usize,
-    place: RigidMotion,
-    class: Option<&'a str>,
-    context: &Context<'a>,
-    robot: &mut Robot,
-) -> Read<usize> {
+/// Reads a body on its parent and its joints, in series through extra links if there are several.
+fn read_body<'a>(at: Waiting<'a>, context: &Context<'a>, robot: &mut Robot) -> Read<usize> {
+    let (e, parent, place) = (at.element, at.link, at.place);
     let name = match e.attribute("name") {
         Some(n) if robot.frame(n).is_some() && robot.links.iter().any(|l| l == n) => {
             return Err(e.duplicate_error());
@@ -235,20 +201,17 @@ fn read_body<'a>(
     e.check_room("joints", robot.joints.len())?;
     let world = robot.places[parent].then(&place);
     let mut joints = Vec::new();
-    own_joints(e, RigidMotion::IDENTITY, class, context, &mut joints)?;
+    let mut own = at;
+    own.place = RigidMotion::IDENTITY;
+    own_joints(own, context, &mut joints)?;
     robot.report.count_mapped("body");
     if joints.is_empty() {
         let link = robot.add_link(&name, world);
         // A hand or a recording moves it in six freedoms: it is a drive, and not part of the frame.
-        let mocap = e.attribute("mocap") == Some("true");
-        let kind = if mocap {
-            free_joint()
-        } else {
-            JointType::Fixed
-        };
         let sides = [place, RigidMotion::IDENTITY];
-        let mut part = Part::new(&name, [parent, link], sides, kind).said_by(e);
-        if mocap {
+        let mut part = Part::new(&name, [parent, link], sides, JointType::Fixed).said_by(e);
+        if e.attribute("mocap") == Some("true") {
+            part = Part::new(&name, [parent, link], sides, free_joint()).said_by(e);
             part.drive = true;
             robot.report.count_mapped("mocap body, as a drive");
         }
@@ -257,12 +220,9 @@ fn read_body<'a>(
     }
     let (mut from, mut at) = (parent, place);
     for (i, j) in joints.iter().enumerate() {
-        let link = if i + 1 == joints.len() {
-            robot.add_link(&name, world)
-        } else {
-            let between = format!("{name}~{}", i + 1);
-            robot.add_link(&between, world)
-        };
+        let between = format!("{name}~{}", i + 1);
+        let last = i + 1 == joints.len();
+        let link = robot.add_link(if last { &name } else { &between }, world);
         let part = read_joint(j, &name, [from, link], at, context, robot)?;
         robot.joints.push(part);
         (from, at) = (link, RigidMotion::IDENTITY);
@@ -273,34 +233,14 @@ fn read_body<'a>(
     Ok(from)
 }
 
-/// A joint of a body.
-struct OwnJoint<'a> {
-    element: Element<'a>,
-    /// The place of the frames around it in the body.
-    inner: RigidMotion,
-    /// The class of those frames.
-    class: Option<&'a str>,
-}
-
-/// Returns the joints of a body, including those in its frames.
-fn own_joints<'a>(
-    e: Element<'a>,
-    place: RigidMotion,
-    class: Option<&'a str>,
-    context: &Context<'a>,
-    out: &mut Vec<OwnJoint<'a>>,
-) -> Read<()> {
-    for c in e.children() {
+/// Returns the joints of a body, including those in its frames, with the places of these in the body and their classes.
+fn own_joints<'a>(at: Waiting<'a>, context: &Context<'a>, out: &mut Vec<Waiting<'a>>) -> Read<()> {
+    for c in at.element.children() {
         match c.name() {
-            "joint" | "freejoint" => out.push(OwnJoint {
-                element: c,
-                inner: place,
-                class,
-            }),
+            "joint" | "freejoint" => out.push(Waiting { element: c, ..at }),
             "frame" => {
-                let inner = place.then(&context.compiler.read_place(c)?);
-                let class = c.attribute("childclass").or(class);
-                own_joints(c, inner, class, context, out)?;
+                let place = at.place.then(&context.compiler.read_place(c)?);
+                own_joints(at.at_element(c, at.link, place), context, out)?;
             }
             _ => {}
         }
@@ -318,20 +258,16 @@ fn joint_id(e: Element<'_>, body: &str, word: &str, robot: &Robot) -> Read<Strin
 }
 
 fn read_joint<'a>(
-    own: &OwnJoint<'a>,
+    own: &Waiting<'a>,
     body: &str,
     links: [usize; 2],
     place: RigidMotion,
     context: &Context<'a>,
     robot: &mut Robot,
 ) -> Read<Part> {
-    let &OwnJoint {
-        element: e,
-        inner,
-        class,
-    } = own;
+    let (e, inner) = (own.element, own.place);
     let tag = if e.name() == "freejoint" { "" } else { "joint" };
-    let look = context.defaults.lookup(e, tag, class)?;
+    let look = context.defaults.lookup(e, tag, own.class)?;
     let word = if tag.is_empty() {
         "free"
     } else {
@@ -355,10 +291,9 @@ fn read_joint<'a>(
     if matches!(word, "hinge" | "slide") {
         let axis = read_axis(e, &look)?;
         part = part.with_axis(inner.map_direction(axis));
-        let unit = if word == "hinge" {
-            context.compiler.angle
-        } else {
-            1.0
+        let unit = match word {
+            "hinge" => context.compiler.angle,
+            _ => 1.0,
         };
         part.zero = look.numbers::<1>("ref")?.map_or(0.0, |[x]| x * unit);
         if let Some([low, high]) = look.numbers::<2>("range")? {

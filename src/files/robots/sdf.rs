@@ -11,37 +11,28 @@ use crate::geom::vector::length;
 use crate::model::joint_type::JointType;
 use crate::robots::additions::{ball_constraint, leave_out, read_plugin};
 use crate::robots::description::{Part, Robot};
-use crate::robots::sdf::include::Expanded;
-use crate::robots::sdf::joints::read_gearbox;
-use crate::robots::sdf::joints::{read_joint, read_weld};
+use crate::robots::sdf::joints::{read_gearbox, read_joint, read_weld};
 use crate::robots::sdf::scene::{
     Placed, SdfScene, absolute_name, insert, moves_with, named_place, read_pose, resolve_places,
 };
 use crate::robots::warning::Read;
-use crate::robots::warning::{Options, Reader};
-use crate::robots::xml::Document;
+use crate::robots::xml::Input;
 use crate::robots::xml::element::Element;
 
 /// Reads an `<sdf>`.
-pub(crate) fn read_sdf(
-    document: &mut Document,
-    root: usize,
-    inner: Reader<'_>,
-    options: &Options,
-) -> Read<Robot> {
-    let Expanded { old, scenery } = include::expand_includes(document, root, inner)?;
-    let root = document.element(root);
+pub(crate) fn read_sdf(mut input: Input<'_>) -> Read<Robot> {
+    let included = include::expand_includes(&mut input)?;
+    let root = input.document.element(input.root);
     let mut robot = Robot::new("robot");
-    for uri in &scenery {
-        robot
-            .report
-            .count_dropped("include of a light or floor", Some(uri));
+    let what = "include of a light or floor";
+    for uri in &included.scenery {
+        robot.report.count_dropped(what, Some(uri));
     }
     robot.world = Some(robot.add_link("world", RigidMotion::IDENTITY));
     robot.floats = true;
     let mut scene = SdfScene {
-        old_axes: old,
-        assemble: options.assemble,
+        old_axes: included.old,
+        assemble: input.options.assemble,
         ..SdfScene::default()
     };
     let among = of_worlds(root, &mut scene);
@@ -53,10 +44,10 @@ pub(crate) fn read_sdf(
     resolve_places(&mut scene)?;
     place_links(&scene, &mut robot);
     // Other elements of worlds are judged by the names that are known now.
-    let others = root
-        .children_named("world")
-        .flat_map(|w| w.children().collect::<Vec<_>>());
-    let others: Vec<Element<'_>> = others.filter(|e| !IN_WORLDS.contains(&e.name())).collect();
+    let worlds = root.children_named("world");
+    let others = worlds.flat_map(|w| w.children().collect::<Vec<_>>());
+    let others = others.filter(|e| !IN_WORLDS.contains(&e.name()));
+    let others: Vec<Element<'_>> = others.collect();
     read_joints(scene, &mut robot)?;
     for e in others {
         leave_out(e, None, &mut robot);
@@ -87,9 +78,8 @@ fn read_models<'a>(
     scene: &mut SdfScene<'a>,
     robot: &mut Robot,
 ) -> Read<()> {
-    let of_worlds = root
-        .children_named("world")
-        .flat_map(|w| w.children_named("model"));
+    let worlds = root.children_named("world");
+    let of_worlds = worlds.flat_map(|w| w.children_named("model"));
     let models: Vec<Element<'_>> = root.children_named("model").chain(of_worlds).collect();
     let Some(first) = models.first() else {
         return Err(root.missing_error("<model>"));
@@ -109,10 +99,8 @@ fn read_models<'a>(
             String::new()
         };
         read_model(m, &outer, &scope, scene, robot)?;
-        let nested: Vec<_> = m
-            .children_named("model")
-            .map(|n| (n, scope.clone(), true))
-            .collect();
+        let nested = m.children_named("model").map(|n| (n, scope.clone(), true));
+        let nested: Vec<_> = nested.collect();
         stack.extend(nested.into_iter().rev());
     }
     Ok(())
@@ -150,17 +138,17 @@ fn read_joints(mut scene: SdfScene<'_>, robot: &mut Robot) -> Read<()> {
         read_joint(e, &scope, &scene, size, robot)?;
     }
     // These couple joints that are read by now.
-    for (e, scope) in gearboxes {
-        read_gearbox(e, &scope, &scene, robot)?;
+    for e in gearboxes {
+        read_gearbox(&e, &scene, robot)?;
     }
-    for (e, scope) in std::mem::take(&mut scene.constraints) {
-        match e.name() {
-            "drake:weld_constraint" => read_weld(e, &scope, &scene, robot)?,
-            _ => ball_constraint(e, robot)?,
+    for at in std::mem::take(&mut scene.constraints) {
+        match at.0.name() {
+            "drake:weld_constraint" => read_weld(&at, &scene, robot)?,
+            _ => ball_constraint(at.0, robot)?,
         }
     }
-    for (e, scope) in std::mem::take(&mut scene.plugins) {
-        read_plugin(e, &scope, &scene, robot)?;
+    for at in std::mem::take(&mut scene.plugins) {
+        read_plugin(&at, &scene, robot)?;
     }
     for e in std::mem::take(&mut scene.unknown) {
         leave_out(e, None, robot);
@@ -186,9 +174,8 @@ fn read_model<'a>(
             "joint" => {
                 let wanted = e.attribute("name");
                 let others = ["link", "frame", "model"].into_iter();
-                let shared = others
-                    .flat_map(|tag| m.children_named(tag).collect::<Vec<_>>())
-                    .any(|o| o.attribute("name") == wanted);
+                let mut others = others.flat_map(|tag| m.children_named(tag).collect::<Vec<_>>());
+                let shared = others.any(|o| o.attribute("name") == wanted);
                 named_place(e, scope, &own, shared, scene)?;
             }
             "drake:joint" => {
@@ -222,9 +209,8 @@ fn own_frame<'a>(
         None if outer.is_empty() => "world".to_owned(),
         None => format!("{outer}__model__"),
     };
-    let canonical = m
-        .attribute("canonical_link")
-        .or_else(|| m.first_child("link").and_then(|l| l.attribute("name")));
+    let first = || m.first_child("link").and_then(|l| l.attribute("name"));
+    let canonical = m.attribute("canonical_link").or_else(first);
     let attached_to = canonical.map_or_else(|| "world".to_owned(), |c| format!("{scope}{c}"));
     let frame = Placed::new(m, relative_to, raw, attached_to);
     insert(scene, own.clone(), frame)?;
@@ -255,11 +241,9 @@ fn read_link<'a>(
             return Err(e.unsupported_error(why, "remove its pose, or give it another name"));
         }
         robot.report.count_mapped("link that is the world");
-        robot.said_by(0, e);
         return Ok(());
     }
     let link = robot.add_link(&name, RigidMotion::IDENTITY);
-    robot.said_by(link, e);
     let to = relative.map_or_else(|| own.to_owned(), |r| absolute_name(scope, r));
     let mut placed = Placed::new(e, to, raw, name.clone());
     placed.link = Some(link);

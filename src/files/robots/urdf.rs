@@ -9,9 +9,8 @@ use crate::robots::additions::{
     add_coupling, ball_constraint, leave_out, named_parts, read_gazebo,
 };
 use crate::robots::description::{Part, Ratio, Robot, free_joint, same_link};
-use crate::robots::warning::{Options, Reader};
 use crate::robots::warning::{Read, bad_value, list_known, unknown_name};
-use crate::robots::xml::Document;
+use crate::robots::xml::Input;
 use crate::robots::xml::element::Element;
 
 /// The elements of a joint that are read.
@@ -19,13 +18,8 @@ const OF_JOINTS: [&str; 6] = ["origin", "parent", "child", "axis", "limit", "mim
 const TYPES: &str = "revolute, continuous, prismatic, fixed, planar, floating";
 
 /// Reads a `<robot>`.
-pub(crate) fn read_urdf(
-    document: &mut Document,
-    root: usize,
-    _: Reader<'_>,
-    _: &Options,
-) -> Read<Robot> {
-    let root = document.element(root);
+pub(crate) fn read_urdf(input: Input<'_>) -> Read<Robot> {
+    let root = input.document.element(input.root);
     let mut robot = Robot::new(root.attribute("name").unwrap_or("robot"));
     for e in root.children_named("link") {
         read_link(e, &mut robot)?;
@@ -81,7 +75,6 @@ fn read_link(e: Element<'_>, robot: &mut Robot) -> Read<()> {
         return Err(e.duplicate_error());
     }
     let l = robot.add_link(name, RigidMotion::IDENTITY);
-    robot.said_by(l, e);
     for c in e.children() {
         if ["visual", "collision"].contains(&c.name()) {
             robot.shown.insert(l);
@@ -93,28 +86,23 @@ fn read_link(e: Element<'_>, robot: &mut Robot) -> Read<()> {
 
 /// Records the joints that a transmission drives.
 fn read_transmission(e: Element<'_>, robot: &mut Robot) {
-    for j in e
-        .children_named("joint")
-        .filter_map(|j| j.attribute("name"))
-    {
+    let driven = e.children_named("joint");
+    for j in driven.filter_map(|j| j.attribute("name")) {
         match robot.joints.iter_mut().find(|p| p.id == j) {
             Some(p) => {
                 p.drive = true;
-                robot
-                    .report
-                    .count_dropped("data of a transmission", Some(j));
+                let what = "data of a transmission";
+                robot.report.count_dropped(what, Some(j));
             }
             None => robot.report.count_dropped("transmission", Some(j)),
         }
     }
     // If there are more joints than actuators, they are coupled, unless they follow one another.
     let follows = |j: &String| robot.couplings.iter().any(|c| c.joints[1] == *j);
-    let named = named_parts(e, None, robot)
-        .into_iter()
-        .filter(|j| !follows(j));
-    let joints = named
-        .filter(|n| robot.joints.iter().any(|p| p.id == *n))
-        .count();
+    let named = named_parts(e, None, robot).into_iter();
+    let named = named.filter(|j| !follows(j));
+    let joints = named.filter(|n| robot.joints.iter().any(|p| p.id == *n));
+    let joints = joints.count();
     let actuators = e.children_named("actuator").count().max(1);
     for _ in actuators..joints {
         let what = format!(
@@ -169,13 +157,9 @@ fn read_constraint(e: Element<'_>, robot: &mut Robot) -> Read<()> {
         let at = at.map_or(Ok(RigidMotion::IDENTITY), read_place)?;
         *side = at.then(&RigidMotion::z_to(axis));
     }
-    let id = match e.attribute("name") {
-        Some(name) => name.to_owned(),
-        None => format!(
-            "constraint-{}-{}",
-            robot.links[links[0]], robot.links[links[1]]
-        ),
-    };
+    let [a, b] = links.map(|l| &robot.links[l]);
+    let unnamed = || format!("constraint-{a}-{b}");
+    let id = e.attribute("name").map_or_else(unnamed, str::to_owned);
     let ends = [(links[0], sides[0]), (links[1], sides[1])];
     let part = Part::new_closing(e, &id, ends, joint_type)?;
     robot.report.count_mapped("constraint");
@@ -204,16 +188,13 @@ pub(crate) fn read_origin(e: Element<'_>) -> Read<RigidMotion> {
 
 /// Returns the placement that an element with `xyz` and `rpy` gives.
 fn read_place(o: Element<'_>) -> Read<RigidMotion> {
+    let at = o.read_vector("xyz", [0.0; 3])?;
     if let Some(q) = o.read_numbers::<4>("quat_xyzw")? {
-        return Ok(RigidMotion::from_quaternion(
-            o.read_vector("xyz", [0.0; 3])?,
-            [q[3], q[0], q[1], q[2]],
-        ));
+        let q = [q[3], q[0], q[1], q[2]];
+        return Ok(RigidMotion::from_quaternion(at, q));
     }
-    Ok(RigidMotion::roll_pitch_yaw(
-        o.read_vector("xyz", [0.0; 3])?,
-        o.read_vector("rpy", [0.0; 3])?,
-    ))
+    let turn = o.read_vector("rpy", [0.0; 3])?;
+    Ok(RigidMotion::roll_pitch_yaw(at, turn))
 }
 
 /// Returns the link that a child element such as `<parent link="..."/>` names.
@@ -240,11 +221,9 @@ fn read_axis(e: Element<'_>) -> Read<Vector> {
 fn read_direction(e: Element<'_>, a: Element<'_>) -> Read<Vector> {
     let v = a.read_vector("xyz", X)?;
     if length(v) < 1e-9 {
-        let (found, want) = (
-            a.attribute("xyz").unwrap_or(""),
-            "give a direction such as 0 0 1",
-        );
-        return Err(a.error_at(Some("xyz"), bad_value(&e.label(), "the axis", found, want)));
+        let (found, want) = (a.attribute("xyz"), "give a direction such as 0 0 1");
+        let problem = bad_value(&e.label(), "the axis", found.unwrap_or(""), want);
+        return Err(a.error_at(Some("xyz"), problem));
     }
     Ok(v)
 }
@@ -312,20 +291,16 @@ fn read_limits(e: Element<'_>) -> Read<Option<(f64, f64)>> {
 fn loop_joint(e: Element<'_>, robot: &mut Robot) -> Read<()> {
     let name = e.required_attribute("name")?;
     // A vendor prints its sample with two <link1>: the second is meant to be <link2>.
-    let ends = e
-        .children()
-        .filter(|c| ["link1", "link2"].contains(&c.name()));
-    let mut ends: Vec<Element<'_>> = ends.collect();
+    let is_end = |c: &Element<'_>| ["link1", "link2"].contains(&c.name());
+    let mut ends: Vec<Element<'_>> = e.children().filter(is_end).collect();
     ends.sort_by_key(|c| c.name());
     let [first, second] = ends[..] else {
         let what = "<link1 link=\"...\"/> and <link2 link=\"...\"/>, one of each";
         return Err(e.missing_error(what));
     };
     let links = [named_link(e, first, robot)?, named_link(e, second, robot)?];
-    let ends = [
-        (links[0], read_place(first)?),
-        (links[1], read_place(second)?),
-    ];
+    let [one, two] = links;
+    let ends = [(one, read_place(first)?), (two, read_place(second)?)];
     let word = e.required_attribute("type")?;
     let joint_type = closing_type(word).ok_or_else(|| {
         let known = "revolute, continuous, prismatic, cylindrical, spherical, fixed";

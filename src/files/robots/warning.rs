@@ -168,10 +168,8 @@ impl Report {
     /// Describes what the mechanism lacks of the description: masses, shapes, limits and the like.
     #[must_use]
     pub fn left_behind(&self) -> Option<String> {
-        let kinds = self
-            .dropped
-            .iter()
-            .map(|(kind, (n, _))| format!("{kind} ({n})"));
+        let kinds = self.dropped.iter();
+        let kinds = kinds.map(|(kind, (n, _))| format!("{kind} ({n})"));
         let mut kinds: Vec<String> = kinds.collect();
         let more = kinds.len().saturating_sub(KINDS);
         kinds.truncate(KINDS);
@@ -185,11 +183,8 @@ impl Report {
     #[must_use]
     pub fn text(&self, file: &str) -> String {
         let (links, joints) = self.size;
-        let mut out = format!(
-            "{file}: {}, {}\n",
-            count_noun(links, "link"),
-            count_noun(joints, "joint")
-        );
+        let (links, joints) = (count_noun(links, "link"), count_noun(joints, "joint"));
+        let mut out = format!("{file}: {links}, {joints}\n");
         let mapped = self.mapped.iter().map(|(k, n)| format!("{n} {k}"));
         if !self.mapped.is_empty() {
             write_line(&mut out, "mapped", &mapped.format(", ").to_string());
@@ -198,14 +193,11 @@ impl Report {
             write_line(&mut out, "pose", p);
         }
         if let Some(kept) = &self.kept {
-            let n = match kept.couplings {
-                1 => "1 coupling of joints".to_owned(),
-                n => format!("{n} couplings of joints"),
-            };
+            let n = count_noun(kept.couplings, "coupling");
             let figures = kept.mobility.map_or(String::new(), |(without, with)| {
                 format!(": W = {without} without, {with} with")
             });
-            write_line(&mut out, "coupled", &format!("{n}{figures}"));
+            write_line(&mut out, "coupled", &format!("{n} of joints{figures}"));
         }
         out.push_str(&self.list_doubts());
         for (kind, (count, names)) in &self.dropped {
@@ -233,22 +225,16 @@ impl Report {
         let mut out = String::new();
         if self.coupling_rows > 0 {
             let n = self.coupling_rows;
-            let (rows, them) = if n == 1 {
-                ("row", "it")
-            } else {
-                ("rows", "them")
-            };
             let what = format!(
-                "{n} coupling {rows} between joint values: W is up to {n} too high without {them}, σ may be too low"
+                "{} between joint values: W is up to {n} too high, σ may be too low",
+                count_noun(n, "coupling row")
             );
             write_line(&mut out, "omitted", &what);
         }
         if self.constraint_rows > 0 {
             let n = self.constraint_rows;
-            let what = format!(
-                "{} of joints: W is up to {n} too high, σ may be too low",
-                count_noun(n, "row")
-            );
+            let rows = count_noun(n, "row");
+            let what = format!("{rows} of joints: W is up to {n} too high, σ may be too low");
             write_line(&mut out, "omitted", &what);
         }
         for n in &self.approximated {
@@ -265,6 +251,9 @@ fn write_line(out: &mut String, head: &str, what: &str) {
 
 /// The result of reading a part of a description, or the first problem with it.
 pub(crate) type Read<T> = Result<T, ImportError>;
+
+/// A result, or a problem whose place is not known yet.
+pub(crate) type Found<T> = Result<T, ProblemKind>;
 
 /// Returns a problem with the given message.
 pub(crate) fn syntax_problem(message: impl Into<String>) -> ProblemKind {

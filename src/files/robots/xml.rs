@@ -5,7 +5,9 @@ pub(crate) mod element;
 use crate::file::problem::ProblemKind;
 use crate::file::text;
 use crate::geom::vector::Vector;
-use crate::robots::warning::{Read, syntax_problem, too_deep, too_large, too_many};
+use crate::robots::warning::{
+    Options, Read, Reader as FileReader, syntax_problem, too_deep, too_large, too_many,
+};
 use quick_xml::Reader;
 use quick_xml::events::{BytesStart, Event};
 use std::ops::Range;
@@ -129,6 +131,14 @@ pub(crate) struct Document {
     pub(super) nodes: Vec<Node>,
 }
 
+/// A description to be read: its root element, the files that it includes, and how to read it.
+pub(crate) struct Input<'a> {
+    pub(crate) document: &'a mut Document,
+    pub(crate) root: usize,
+    pub(crate) read: FileReader<'a>,
+    pub(crate) options: &'a Options,
+}
+
 /// Returns bytes as text.
 pub(crate) fn decode_utf8(name: &str, bytes: &[u8]) -> Read<String> {
     if bytes.len() > MAX_BYTES {
@@ -142,45 +152,35 @@ impl Document {
     /// Reads a file into the arena; gives its root element.
     pub(crate) fn read(&mut self, name: &str, text: String) -> Read<usize> {
         let source = self.sources.len();
+        let total = text.len() + self.sources.iter().map(|s| s.text.len()).sum::<usize>();
+        if total > MAX_BYTES {
+            return Err(too_large(total, MAX_BYTES).in_file(name, "", None));
+        }
         let root = parse_xml(&text, source, &mut self.nodes).map_err(|(problem, at)| {
-            let at = (0..=at.min(text.len()))
-                .rev()
-                .find(|&i| text.is_char_boundary(i));
-            let at = at.unwrap_or(0);
+            let mut before = (0..=at.min(text.len())).rev();
+            let at = before.find(|&i| text.is_char_boundary(i)).unwrap_or(0);
             problem.in_file(name, &text, Some(at..at))
         })?;
         let name = name.to_owned();
         self.sources.push(Source { name, text });
         Ok(root)
     }
-
-    /// Returns an error if the files become too large with this number of further bytes.
-    pub(super) fn has_room(&self, bytes: usize) -> Result<(), String> {
-        let total: usize = self.sources.iter().map(|s| s.text.len()).sum();
-        if total + bytes > MAX_BYTES {
-            return Err(format!(
-                "the files have more than {MAX_BYTES} bytes together"
-            ));
-        }
-        Ok(())
-    }
 }
 
 type Located = (ProblemKind, usize);
+type Parsed<T> = Result<T, Located>;
 
 fn xml_problem(message: impl std::fmt::Display) -> ProblemKind {
     syntax_problem(format!("{message}; the file is not well-formed XML"))
 }
 
 /// Rejects control characters, which could control a terminal, except those that lay out the text.
-fn no_control(text: &str, layout: &[char]) -> Result<(), Located> {
+fn no_control(text: &str, layout: &[char]) -> Parsed<()> {
     let found = text.char_indices();
     let mut found = found.filter(|(_, c)| c.is_control() && !layout.contains(c));
     found.next().map_or(Ok(()), |(at, c)| {
-        let message = format!(
-            "the control character {} is not allowed",
-            c.escape_unicode()
-        );
+        let c = c.escape_unicode();
+        let message = format!("the control character {c} is not allowed");
         Err((xml_problem(message), at))
     })
 }
@@ -199,7 +199,7 @@ fn few_enough(depth: usize, elements: usize, attributes: usize) -> Result<(), Pr
     Ok(())
 }
 
-fn parse_xml(text: &str, source: usize, nodes: &mut Vec<Node>) -> Result<usize, Located> {
+fn parse_xml(text: &str, source: usize, nodes: &mut Vec<Node>) -> Parsed<usize> {
     no_control(text, &['\t', '\n', '\r'])?;
     let mut reader = Reader::from_str(text);
     let (mut open, mut root): (Vec<usize>, Option<usize>) = (Vec::new(), None);
@@ -271,19 +271,14 @@ fn append_text(text: &str, open: &[usize], nodes: &mut [Node]) {
     }
 }
 
-fn read_node(
-    tag: &BytesStart<'_>,
-    text: &str,
-    source: usize,
-    span: Range<usize>,
-) -> Result<Node, Located> {
+fn read_node(tag: &BytesStart<'_>, text: &str, source: usize, span: Range<usize>) -> Parsed<Node> {
     let start = text.as_ptr() as usize;
     let mut attributes: Vec<Attribute> = Vec::new();
     for found in tag.attributes().with_checks(false) {
         let found = found.map_err(|e| (xml_problem(e), span.start))?;
         let name: &str = found.key.as_ref();
-        let value = found
-            .normalized_value(quick_xml::XmlVersion::Implicit1_0)
+        let value = found.normalized_value(quick_xml::XmlVersion::Implicit1_0);
+        let value = value
             .map_err(|e| (xml_problem(e), span.start))?
             .into_owned();
         no_control(&value, &[]).map_err(|(problem, _)| (problem, span.start))?;

@@ -9,7 +9,7 @@ use crate::model::ranking::{Ranking, TypeOverride};
 use std::ops::Deref;
 use std::sync::Arc;
 
-pub use crate::model::search_spec::{CostSpec, Expected, SearchSpec};
+pub use crate::model::search_spec::{CostSpec, Drives, Expected, SearchSpec};
 pub use crate::model::{JointId, LinkId, StateId};
 
 /// Purpose of a link.

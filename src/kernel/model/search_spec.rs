@@ -2,6 +2,7 @@
 
 use crate::model::joint_type::CoupledFreedom;
 use crate::model::{JointId, LinkId};
+use serde::Deserialize;
 
 /// Stated figures of a mechanism, with their source.
 #[derive(Debug, Clone, Default)]
@@ -44,6 +45,35 @@ impl CostSpec {
     pub const LINK_MILLI: i64 = 1000;
 }
 
+/// The condition on the drives of a redesign.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Drives {
+    /// Outputs and drives move together as in the mechanism as built.
+    #[default]
+    Kept,
+    /// The outputs alone must keep their motion.
+    Free,
+    /// There are as many motions of the outputs as drives, and the drives decide them: each drive moves freely, and with all of them
+    /// locked the outputs rest.
+    Independent,
+}
+
+impl Drives {
+    /// All, the default first.
+    pub const ALL: [Drives; 3] = [Drives::Kept, Drives::Free, Drives::Independent];
+
+    /// Returns the word in files.
+    #[must_use]
+    pub fn word(self) -> &'static str {
+        match self {
+            Drives::Kept => "kept",
+            Drives::Free => "free",
+            Drives::Independent => "independent",
+        }
+    }
+}
+
 /// Search settings of the file.
 #[derive(Debug, Clone, Default)]
 pub struct SearchSpec {
@@ -62,6 +92,10 @@ pub struct SearchSpec {
     pub max_mobility: Option<i64>,
     /// Whether only variants are wanted that are their own mirror image.
     pub symmetric: bool,
+    /// Condition on the drives.
+    pub drive_rule: Drives,
+    /// Whether variants need to keep the motion in the drawn pose only.
+    pub pose_only: bool,
     /// Costs.
     pub costs: CostSpec,
     /// The driven freedoms that a search follows, in addition to the motions of outputs. They are set by a search, not

@@ -24,7 +24,7 @@ use crate::search::build::two_sided::two_sided;
 use crate::search::diagram::completion::Missing;
 use crate::search::diagram::layer::CUT;
 use crate::search::diagram::redundancy_so_far::Limits;
-use crate::search::diagram::{self, Diagram, Progress, Stop};
+use crate::search::diagram::{self, Diagram, Omitted, Progress, Stop};
 use crate::search::question::Question;
 use crate::search::question::throughout::PoseOnly;
 use num_bigint::BigUint;
@@ -154,7 +154,7 @@ fn build_lasting(
         question,
         order,
         &limits,
-        Wanted::Lasting,
+        Wanted::Lasting(Some(at_the_pose)),
         cancelled,
         progress,
     );
@@ -173,7 +173,7 @@ fn build_whole(
     question: &Question,
     order: &[usize],
     limits: &Limits,
-    wanted: Wanted,
+    wanted: Wanted<'_>,
     cancelled: &(dyn Fn() -> bool + Sync),
     progress: &mut (dyn FnMut(Progress) + Send),
 ) -> Diagram {
@@ -249,7 +249,7 @@ fn prove_cheapest(
             &stages,
             limits,
             root,
-            Some(ceiling),
+            Omitted::Above(ceiling),
             cancelled,
             progress,
         )

@@ -8,20 +8,23 @@ pub(in crate::search) mod between;
 pub(in crate::search) mod completion;
 pub(in crate::search) mod layer;
 pub(in crate::search) mod minimize;
+pub(in crate::search) mod node_sets;
 pub(in crate::search) mod reduced_rows;
 pub(crate) mod redundancy_so_far;
 pub(in crate::search) mod stage;
 pub(in crate::search) mod stop;
 pub(in crate::search) mod transition;
+pub(in crate::search) mod within;
 
 use crate::linalg::modp::Residue;
 use crate::search::diagram::allowance::Allowance;
 use crate::search::diagram::completion::Ceiling;
-pub use crate::search::diagram::layer::DEAD;
 use crate::search::diagram::layer::{CUT, Merge, Nodes};
+pub use crate::search::diagram::layer::{DEAD, Layer};
 use crate::search::diagram::redundancy_so_far::{Limits, Redundancy, Spent};
 pub use crate::search::diagram::stop::Stop;
 use crate::search::diagram::transition::{Children, Worker};
+use crate::search::diagram::within::Within;
 use crate::search::question::space::{Choice, Space};
 use rayon::prelude::*;
 
@@ -54,19 +57,6 @@ impl Progress {
             layer,
         }
     }
-}
-
-/// Edges of one layer: `edges[node * choices + choice]`, an index into the next layer or [`DEAD`].
-#[derive(Debug, Clone)]
-pub struct Layer {
-    /// Index of the variable in the space.
-    pub variable: usize,
-    /// Number of nodes.
-    pub nodes: usize,
-    /// Number of choices.
-    pub choices: usize,
-    /// The edges.
-    pub edges: Vec<u32>,
 }
 
 /// A finished diagram.
@@ -112,8 +102,17 @@ impl Diagram {
     }
 }
 
-/// Builds the diagram of a space along given stages, of variants that spend `root` before any choice. Under a ceiling,
-/// builds only the part that variants within the ceiling need.
+/// Edges that a diagram omits.
+pub(super) enum Omitted<'a, 'm> {
+    /// Nothing.
+    Nothing,
+    /// Whatever no variant within a cost needs.
+    Above(&'a mut Ceiling<'m>),
+    /// Whatever is not in a known diagram that has all wanted variants.
+    Outside(Within<'a>),
+}
+
+/// Builds the diagram of a space along given stages, of variants that spend `root` before any choice.
 ///
 /// `cancelled` is called between batches of nodes. Once it returns true, the remaining layers are cut to a few nodes, so
 /// that the paths found so far can still be completed. The result does not depend on the number of threads. Children are
@@ -127,7 +126,7 @@ pub(super) fn build_layers(
     stages: &[impl Carries],
     limits: &Limits,
     root: Spent,
-    mut ceiling: Option<&mut Ceiling<'_>>,
+    mut omitted: Omitted<'_, '_>,
     cancelled: &(dyn Fn() -> bool + Sync),
     progress: &mut (dyn FnMut(Progress) + Send),
 ) -> Diagram {
@@ -145,9 +144,10 @@ pub(super) fn build_layers(
             allowance.bytes,
             &nodes,
             allowance.begin_layer(&nodes, nodes.len() * choices.len(), stop),
-            |spent, matrix, least| {
-                let ceiling = ceiling.as_mut();
-                ceiling.is_some_and(|c| c.is_above(done + 1, spent, matrix, least))
+            |edge, spent, matrix, least| match &mut omitted {
+                Omitted::Nothing => false,
+                Omitted::Above(ceiling) => ceiling.is_above(done + 1, spent, matrix, least),
+                Omitted::Outside(known) => !known.has_edge(edge),
             },
             cancelled,
             &mut |layer| progress(Progress::in_layer(done, stages.len(), total, layer)),
@@ -160,6 +160,9 @@ pub(super) fn build_layers(
         let keep = allowance.kept_nodes(&next, choices.len(), stop, stages.len() - done);
         ways = carry_ways(&ways, &edges, choices.len(), next.len());
         ways = cut_down(&mut next, &mut edges, ways, keep);
+        if let Omitted::Outside(known) = &mut omitted {
+            known.advance(&edges, next.len());
+        }
         largest = largest.max(next.len());
         allowance.take_layer(next.len(), edges.len());
         layers.push(Layer {
@@ -230,7 +233,7 @@ pub(super) fn next_layer(
     bytes: usize,
     nodes: &Nodes,
     mut merge: Merge,
-    mut out: impl FnMut(&Spent, &[Residue], i64) -> bool,
+    mut out: impl FnMut(usize, &Spent, &[Residue], i64) -> bool,
     cancelled: &(dyn Fn() -> bool + Sync),
     told: &mut dyn FnMut(usize),
 ) -> Merge {

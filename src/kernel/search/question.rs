@@ -274,8 +274,7 @@ impl Question {
         let said = |l: LinkId| {
             let (body, state) = (&m.links[l].id, &m.states[s.state]);
             format!(
-                "warning: {body} is loose in state {state} of the mechanism as built, so no variant can hold it; \
-                 --allow-loose-object searches all the same"
+                "warning: {body} is loose in state {state} of the mechanism as built, so no variant can hold it; allow loose objects to search anyway"
             )
         };
         let loose = loose_bodies(&self.exact, m, s.state, &self.grasps)?;

@@ -14,7 +14,8 @@ use super::diagram::{Diagram, Stop};
 use super::question::Question;
 
 /// Returns the diagrams of a question that fit the limits, minimized: each as built from one end and from both ends. The second is `None`
-/// if more redundant constraints are allowed than every variant has.
+/// if more redundant constraints are allowed than every variant has. Those of variants that keep the motion throughout are built within the
+/// admissible ones from one end and not from the other, and the other way round.
 #[must_use]
 pub fn from_both_ends(question: &Question) -> Vec<[Option<Diagram>; 2]> {
     let (orders, limits, never) = (variable_orders(question), diagram_limits(question), || {
@@ -24,15 +25,26 @@ pub fn from_both_ends(question: &Question) -> Vec<[Option<Diagram>; 2]> {
     if !one_diagram(question) {
         both.push((&orders.admissible, Wanted::Admissible));
     }
-    let of = |(order, wanted): (&Vec<usize>, Wanted)| {
+    let of = |order: &[usize], [wanted, as_well]: [Wanted<'_>; 2]| {
         let one = in_self_stress_space(question, order, &limits, wanted, &never, &mut |_| {});
-        let halves = Halves::new(question, order, &limits, wanted);
+        let halves = Halves::new(question, order, &limits, as_well);
         let space = &question.space;
         let both = halves.and_then(|halves| two_sided(&halves, space, &never, &mut |_| {}));
         (one.stop == Stop::Exhausted)
             .then(|| [Some(one), both].map(|d| d.map(|d| minimize_diagram(d.layers, d.terminals))))
     };
-    both.into_iter().filter_map(of).collect()
+    let mut out: Vec<_> = both
+        .into_iter()
+        .filter_map(|(order, wanted)| of(order, [wanted, wanted]))
+        .collect();
+    let known = out.get(1).and_then(|[one, _]| one.clone());
+    if let (Some(known), Ok(_)) = (known, &question.throughout) {
+        let within = Wanted::Lasting(Some(&known));
+        let alone = Wanted::Lasting(None);
+        let ways = [[within, alone], [alone, within]].into_iter();
+        out.extend(ways.filter_map(|ways| of(&orders.admissible, ways)));
+    }
+    out
 }
 
 fn cheapest_variants<'d>(

@@ -265,7 +265,7 @@ class Mechanism:
         state: str | None = None,
         allow_loose_object: bool = False,
         allow_output_change: bool = False,
-        drives: str = "kept",
+        drives: str | None = None,
         hold: Iterable[str] = (),
         allow: Mapping[str, Iterable[str]] | None = None,
         forbid: Mapping[str, Iterable[str]] | Iterable[str] = (),

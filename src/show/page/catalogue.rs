@@ -194,7 +194,7 @@ pub fn catalogue_page(store: &Store, file: &str) -> Result<String, StoreError> {
                     noscript { p { "The cards need scripts; " code { "ozols catalog query " (file) } " lists the same." } }
                     (filter_form())
                     p.help {
-                        "Green: the driver, with the way it goes to close. Blue: the jaws; red arrows: how their tips close on the part, dashed. "
+                        "Green: driver and its closing direction. Blue: jaws. Red arrows: closing direction of the jaw tips. Dashed: the part. "
                         "Triangles on a line: hinges in the frame; a block between two lines: a slide on its guide; long and round: a slot; dashed and dotted: pitch circles."
                     }
                     p.note id="count" role="status" {}

@@ -87,6 +87,21 @@ async function addSlide(spot) {
   select([{ what: "joint", id: joint.entry.id }]);
 }
 
+/** Adds a screw on the frame with its nut at a link; it is the drive if there is none. */
+function addScrew([bearing, nut]) {
+  if (!nut) return null;
+  const link = linkOfSpot(nut);
+  if (!link || link === frameOf()) return say("Click the bearing first, then a pin or a link that carries the nut.", true);
+  const along = minus(nut.at, bearing.at).map(Math.abs);
+  const axis = along.map((x, i) => (i === along.indexOf(Math.max(...along)) ? 1 : 0));
+  const id = freeLink();
+  const also = [];
+  const drive = listOf("joint").some((j) => j.drive) ? {} : { drive: true };
+  const turns = newJoint([frameOf(), id], nut.point.map((c, i) => (axis[i] ? bearing.point[i] : c)), "revolute", also, { axis, ...drive });
+  const thread = newJoint([id, link], nut.point, "helical", also, { axis });
+  return change(add("link", { id }), turns, thread).then(() => select([{ what: "joint", id: thread.entry.id }]));
+}
+
 /** Adds a contact of a held part with a link, in a separate state. */
 async function addContact(spot) {
   const link = spot.pin ? partnerAt(spot.pin) : spot.link;

@@ -59,14 +59,14 @@ function seriesOf({ what, id }, scene) {
 }
 
 /** A curve with its range; a line marks the position of the slider. */
-function curve(words, x, y) {
+function curve(words, x, y, now = x[Math.min(player.now, x.length - 1)]) {
   const [w, h] = [330, 56];
   const [low, high] = [Math.min(...y), Math.max(...y)];
   const [from, to] = [Math.min(...x), Math.max(...x)];
-  const at = (i) => [4 + ((w - 8) * (x[i] - from)) / (to - from || 1), h - 4 - ((h - 8) * (y[i] - low)) / (high - low || 1)];
+  const across = (place) => 4 + ((w - 8) * (place - from)) / (to - from || 1);
+  const at = (i) => [across(x[i]), h - 4 - ((h - 8) * (y[i] - low)) / (high - low || 1)];
   const picture = svgElement("svg", { class: "ozd curve", viewBox: `0 0 ${w} ${h}`, role: "img", "aria-label": `${words}, from ${shortly(low)} to ${shortly(high)}` });
-  const [px] = at(Math.min(player.now, y.length - 1));
-  picture.append(svgElement("path", { class: "grid-line", d: `M${px.toFixed(1)} 0V${h}` }), svgElement("path", { class: "drawn", d: path(y.map((_, i) => at(i)), false) }));
+  picture.append(svgElement("path", { class: "grid-line", d: `M${across(now).toFixed(1)} 0V${h}` }), svgElement("path", { class: "drawn", d: path(y.map((_, i) => at(i)), false) }));
   return element("figure", {}, element("figcaption", {}, `${words}: ${shortly(low)} to ${shortly(high)}`), picture);
 }
 const shortly = (x) => String(Number(x.toPrecision(4)));
@@ -85,7 +85,9 @@ function showCurves() {
   };
   const head = all.length ? `${selection[0].what} ${selection[0].id} over the stroke` : "Stroke";
   const help = all.length ? [] : [element("p", { class: "help" }, "Select a joint, a point or a link to see its curves. The slider under the drawing has the position for the buttons.")];
-  refill(room, element("h2", {}, head), strokeButtons(), ...help, ...all.flatMap(one));
+  const force = all.length ? desk.force?.charts[desk.state]?.drives?.[selection[0].id] : null;
+  const effort = force ? [curve(`drive ${force[0] === "N" ? "force" : "torque"}, ${force[0]}`, force[1], force[2], move.at[player.now])] : [];
+  refill(room, element("h2", {}, head), strokeButtons(), ...help, ...effort, ...all.flatMap(one));
 }
 
 /** The steps of the tutorial: what to do, and when it is done. */

@@ -69,14 +69,18 @@ const ask = (wider) => inTurn("ask", { wider, revision: desk.ideas.revision });
 function widen(step, n) {
   if (!step.in_file || desk.file.kind !== "toml") return ask(n);
   const put = (key) => (step[key] === null ? [] : [{ do: "put", path: ["search", key], value: step[key] }]);
-  const options = step.allow.map(([id, names]) => set("joint", id, "options", [...offeredAt(thing("joint", id)), ...names]));
-  return change(...put("max_redundant"), ...put("max_mobility"), ...options);
+  const more = (list, wanted) => [...list, ...wanted.filter((w) => !list.some((o) => optionName(o) === optionName(w)))];
+  const options = step.allow.map(([id, wanted]) => set("joint", id, "options", more(offeredAt(thing("joint", id)), wanted)));
+  // a screw with a joint in series stays a screw
+  const series = step.unloading.flatMap(([id, wanted]) => [set("joint", id, "unloading", more(seriesAt(thing("joint", id)), wanted)), set("joint", id, "options", [])]);
+  return change(...["max_redundant", "max_mobility", "drives", "pose_only"].flatMap(put), ...options, ...series);
 }
 
 /** The reasons why nothing is found, with a button for each request that finds something. */
 function nothingFound({ found, hopeless, wider }) {
-  const row = (step, n) => {
-    const made = element("button", { type: "button", class: "idea" }, `Show ${step.gives.replace(/^Allow more joint types: there are/, "the")}`);
+  const opens = (step) => Number(step.allow.length + step.unloading.length > 0);
+  const row = ([step, n]) => {
+    const made = element("button", { type: "button", class: "idea offer" }, `Show ${step.gives.replace(/^Allow more joint types: there are/, "the")}`);
     made.addEventListener("click", () => widen(step, n));
     return element("li", {}, made);
   };
@@ -86,7 +90,7 @@ function nothingFound({ found, hopeless, wider }) {
     typesAt.open = true;
     select([{ what: "joint", id }]);
   });
-  return [element("p", { class: "help" }, words), element("ul", { class: "idea-list" }, ...wider.map(row)), element("div", { class: "acts" }, ...fixed.slice(0, 6).map(open), button("Search options", openOptions))];
+  return [element("p", { class: "help" }, words), element("ul", { class: "idea-list" }, ...wider.map((step, n) => [step, n]).sort(([a], [b]) => opens(b) - opens(a)).map(row)), element("div", { class: "acts" }, ...fixed.slice(0, 6).map(open), button("Search options", openOptions))];
 }
 
 function openOptions() {
@@ -109,6 +113,22 @@ function showForce() {
   room.replaceChildren(element("h2", {}, "Forces over the stroke"), picture ?? element("p", { class: "help" }, `There are none: ${chart.why ?? "no position has an equilibrium"}.`));
 }
 
+/** The condition on drives, in the sentence of the counts. */
+const KEPT = { kept: "keep the motion of outputs and drives", free: "keep the motion of outputs", independent: "have drives that determine the outputs, each freely" };
+
+/** After so many milliseconds without ideas, single changes are shown. */
+const PATIENCE = 500;
+
+/** Changes of one joint that remove some redundant constraints, while the search for whole redesigns runs. */
+function singleChanges() {
+  const all = desk.verdict.analysis.states[desk.state]?.suggestions?.changes ?? [];
+  const row = ({ text, joint, to, unloading }) => {
+    const known = !unloading && palette.some((t) => t.type === to);
+    return known ? button(text, () => setType([joint], to), "Apply this change to the file; Undo reverts it") : element("p", {}, text);
+  };
+  return all.length ? [element("p", { class: "help" }, "The search runs. Single changes that help:"), element("div", { class: "rows" }, ...all.slice(0, 5).map(row))] : [];
+}
+
 function showIdeas() {
   const room = byId("ideas");
   pointedAt.idea = null;
@@ -116,15 +136,16 @@ function showIdeas() {
   const value = desk.ideas;
   const part = (...inside) => room.replaceChildren(head, ...inside);
   if (!desk.verdict?.analysis?.states.some((s) => !isOpen(s))) return room.replaceChildren();
-  if (!value) return part();
+  // a short search would only make them flicker
+  if (!value) return part(...(performance.now() - desk.judgedAt > PATIENCE ? singleChanges() : []));
   const asked = value.asked ? [askedNow(value.asked)] : [];
   if (value.why) return part(...asked, element("p", { class: "help" }, `Redesigns were not searched: ${value.why}.`));
   const { found, notes } = value;
   compared = compared.filter((n) => n < found.variants.length);
-  if (found.space === "1" && !value.wider.length) return part(...asked, element("p", { class: "help" }, "No joint has a choice, so there is nothing to search. "), button("Search options", openOptions));
+  if (found.space === "1" && !value.wider.length) return part(...asked, element("p", { class: "help" }, "Nothing to search: no joint has options. "), button("Search options", openOptions));
   const left = searchOf().max_redundant;
   const goal = left ? `σ ≤ ${left}` : "σ = 0";
-  const counts = `${found.exact ? "" : "at least "}${grouped(found.lasting ?? found.admissible)} of ${grouped(found.space)} variants ${value.asked ? "are found" : `have ${goal} and keep the motion of outputs and drives`} ${found.lasting === null ? "in the drawn pose" : "throughout the motion"}.`;
+  const counts = `${found.exact ? "" : "at least "}${grouped(found.lasting ?? found.admissible)} of ${grouped(found.space)} variants ${value.asked ? "are found" : `have ${goal} and ${KEPT[searchOf().drives ?? "kept"]}`} ${found.lasting === null ? "in the drawn pose" : "throughout the motion"}.`;
   const stopped = found.stop === "interrupted" || (desk.stoppedAt === value.revision && !found.exact) ? ["The search was stopped: these are the ideas found until then."] : [];
   const none = found.variants.length ? [] : nothingFound(value);
   const divided = found.variants.some((v) => v.idea?.symmetric === false) && (found.variants.some((v) => v.idea?.symmetric) || value.symmetric);

@@ -2,7 +2,7 @@
 
 /** The keys in the help. */
 const KEYS = [
-  ["V B P G S J D K L O C", "tools: select, bar, plate, frame pin, slide, joint, drive, gears, force, output, clamped part"],
+  [Object.values(TOOLS).map((t) => t.key.toUpperCase()).join(" "), `tools: ${Object.values(TOOLS).map((t) => t.name).join(", ").toLowerCase()}`],
   ["arrow keys", "move the cursor (with a tool) or the selection by one grid step; with Shift by five"],
   ["Enter", "places a point at the cursor; a second time ends a plate"],
   ["Escape", "cancels the points, the tool or the selection; returns the mechanism to its drawn pose"],

@@ -49,7 +49,6 @@ async function exportAs(format) {
   return say(`${name} is in the downloads of the browser.`);
 }
 
-const UNITS = ["mm", "cm", "m", "in"];
 const VIEWS = [["xy", "z", () => lookAt("xy")], ["xz", "y", () => lookAt("xz")], ["yz", "x", () => lookAt("yz")], ["space", "a", lookAslant]];
 
 function tellViews() {
@@ -69,10 +68,11 @@ function makeViews() {
     redraw();
   }, "Grid, numbers and scale");
   grid.setAttribute("aria-pressed", true);
-  const units = element("select", { id: "unit", "aria-label": "Unit of length", title: "Unit of length: the numbers of the file stay" }, ...UNITS.map((u) => element("option", {}, u)));
-  units.addEventListener("change", () => change({ do: "put", path: ["length_unit"], value: units.value }));
+  const units = element("select", { id: "unit", "aria-label": "Unit of length", title: "Unit of length; the numbers of the file are converted" }, ...Object.keys(UNITS).map((u) => element("option", {}, u)));
+  const show = () => (units.value = desk.look.file?.length_unit ?? "m");
+  units.addEventListener("change", () => Promise.resolve(convertTo(units.value)).then(show));
   hear("look", () => {
-    units.value = desk.look.file?.length_unit ?? "m";
+    show();
     units.disabled = desk.file.kind !== "toml";
   });
   room.append(button("All", fitAll, "Fit all (F)"), grid, units);
@@ -122,8 +122,10 @@ async function begin() {
   });
   hear("verdict", () => {
     if (!hand.act) endPreview();
+    desk.judgedAt = performance.now();
     showVerdict();
     showIdeas();
+    setTimeout(() => desk.ideas ?? showIdeas(), PATIENCE + 50);
   });
   hear("motion", () => {
     if (!hand.act && player.pulled === null) takeScene();
@@ -133,7 +135,7 @@ async function begin() {
   hear("ideas", showIdeas);
   for (const name of ["look", "verdict", "motion", "progress", "ideas"]) hear(name, showWork);
   for (const name of ["force", "look", "state"]) hear(name, showForce);
-  for (const name of ["motion", "selection", "look", "state"]) hear(name, showCurves);
+  for (const name of ["motion", "selection", "look", "state", "force"]) hear(name, showCurves);
   for (const name of ["look", "verdict"]) hear(name, teach);
   hear("selection", () => {
     inspect();

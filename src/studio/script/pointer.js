@@ -29,7 +29,10 @@ const seenWith = (pin) => sheetPins.filter((p) => Math.hypot(...minus(p.paper, p
 /** The link that is meant, by its id. */
 function linkIdAt(paper) {
   const found = player.scene && player.stress === null ? linkAt(paper) : null;
-  if (found) return player.scene.names[found.link];
+  const name = found && player.scene.names[found.link];
+  // the stub of a link with one pin is as long as the picture: only the pin itself counts
+  const ends = name ? pinsOf(name).map((p) => toPaper(p.at)) : [];
+  if (name && !(isAtHome() && ends.every((p) => apart(p, ends[0]) < 3) && ends.length && apart(ends[0], paper) > 30)) return name;
   for (const link of looseLinks()) {
     const places = pinsOf(link.id).map((p) => toPaper(p.at));
     const round = places.length > 2 ? [...places, places[0]] : places;

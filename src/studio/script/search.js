@@ -10,15 +10,30 @@ const optionName = (o) => {
 const searchOf = () => desk.look?.file?.search ?? {};
 const putSearch = (key, value) => change({ do: "put", path: ["search", key], value });
 
+/** Parts that are not joint types: a name, freedoms in the joint's frame, and words. The first two are seats, the others go in series. */
+const PARTS = [
+  ["ball-in-v-groove-x", ["rx", "ry", "rz", "tx"], "ball in a groove along x"],
+  ["ball-in-v-groove-y", ["rx", "ry", "rz", "ty"], "ball in a groove along y"],
+  ["gimbal-z", ["rx", "ry"], "tilts both ways"],
+  ["sliding-gimbal-x", ["rx", "ry", "tx"], "tilts both ways, slides along x"],
+  ["sliding-gimbal-y", ["rx", "ry", "ty"], "tilts both ways, slides along y"],
+  ["floating-nut-z", ["rx", "ry", "tx", "ty"], "tilts and slides both ways"],
+].map(([kind, free, words]) => ({ type: kind, free, trade: [words], icon: "custom", about: `${words}, in the joint's own frame` }));
+/** The entry of a file for a type or a part. */
+const entryOf = (kind) => {
+  const part = PARTS.find((p) => p.type === kind);
+  return part ? { name: kind, freedoms: part.free } : kind;
+};
+
 /** A list of options with one more, or without it; other entries are unchanged. */
-const toggled = (list, kind, on) => (on ? [...list, kind] : list.filter((o) => optionName(o) !== kind));
+const toggled = (list, kind, on) => (on ? [...list, entryOf(kind)] : list.filter((o) => optionName(o) !== kind));
 
 /** A box to tick with a joint type: its symbol, its name and what the trade calls it. */
-function typeBox({ type: kind, trade, about }, on, take) {
+function typeBox({ type: kind, trade, about, icon }, on, take) {
   const box = element("input", { type: "checkbox", checked: on ? "" : null, "data-type": kind });
   box.addEventListener("change", () => take(box.checked));
   const names = trade.length ? element("small", {}, ` ${trade.join(", ").replaceAll("-", " ")}`) : "";
-  return element("label", { class: "type-box", title: about }, box, typeIcon(kind), element("span", {}, kind, names));
+  return element("label", { class: "type-box", title: about }, box, typeIcon(icon ?? kind), element("span", {}, kind, names));
 }
 
 function tick(words, on, take) {
@@ -62,12 +77,22 @@ function rankingFields() {
 /** Terms of a ranking: the word of the file, and a name. */
 const TERMS = [["peak-force", "largest joint force"], ["peak-moment", "largest joint moment"], ["conditioning", "distance from a singular pose"], ["output-error", "output error by clearance"], ["changes", "changed joints"], ["cost", "cost"], ["idle", "idle motions"]];
 
-/** Whether a search may add a joint in series at a joint, which unloads it. */
-function unloadingTick(joint) {
-  return tick("a search may add a ball joint in series here", joint.unloading, (on) => change(
-    ...(on && !searchOf().unloading ? [{ do: "put", path: ["search", "unloading"], value: ["spherical"] }] : []),
-    set("joint", joint.id, "unloading", on || null)));
+/** The joints that a search may add in series at a joint. */
+const seriesAt = (joint) => (joint.unloading === true ? searchOf().unloading ?? [] : joint.unloading || []);
+
+/** Boxes for the joints in series that a search may add at a joint. */
+function seriesBoxes(joint) {
+  const list = seriesAt(joint);
+  const take = (kind) => (on) => {
+    const all = toggled(list, kind, on);
+    return change(set("joint", joint.id, "unloading", all.length ? all : null));
+  };
+  const boxes = [palette.find((t) => t.type === "spherical"), ...PARTS.slice(2)].map((t) => typeBox(t, list.some((o) => optionName(o) === t.type), take(t.type)));
+  return element("details", { open: list.length || seriesBoxes.open ? "" : null }, element("summary", {}, "And in series with it"), element("div", { class: "type-boxes" }, ...boxes));
 }
+
+/** Conditions on the drives: the word of the file, and what it means. */
+const DRIVES = [["kept", "move the outputs as now"], ["independent", "independent: one for each degree of freedom"], ["free", "may lose their effect"]];
 
 /** The panel: types offered, and what is asked of a redesign. */
 function showSearch() {
@@ -85,6 +110,8 @@ function showSearch() {
     element("div", { class: "type-boxes", role: "group", "aria-label": "Joint types offered" }, ...boxes),
     numberField("Most redundant constraints left", search.max_redundant ?? 0, (n) => putSearch("max_redundant", n || null)),
     numberField("Largest mobility W", search.max_mobility, (n) => putSearch("max_mobility", n)),
+    choice("Drives", DRIVES, search.drives ?? "kept", (to) => putSearch("drives", to === "kept" ? null : to)),
+    tick("keep the motion in the drawn pose only", search.pose_only, (on) => putSearch("pose_only", on || null)),
     tick("symmetric redesigns only", search.symmetric, (on) => putSearch("symmetric", on || null)),
     linkTicks("Links that keep their motion, besides the outputs", search.hold ?? [], (list) => putSearch("hold", list.length ? list : null)),
     rankingFields(),
@@ -94,14 +121,21 @@ function showSearch() {
 
 /** Whether a search leaves a joint unchanged unless options are listed at it. */
 const stays = (joint) => joint.drive || joint.type === "fixed" || joint.state;
-/** The options that a search has at a joint. */
-const offeredAt = (joint) => joint.options ?? (stays(joint) ? [] : searchOf().options ?? []).filter((o) => !(joint.forbid ?? []).includes(optionName(o)));
+/** Whether a type or part, by its palette entry, has all freedoms of a joint's type. */
+const fitsAt = (joint, made) => palette.find((t) => t.type === joint.type)?.free.every((f) => made.free.includes(f));
+/** The options that a search has at a joint. Those of the common list that do not fit are skipped, as the search does. */
+function offeredAt(joint) {
+  const common = stays(joint) ? [] : searchOf().options ?? [];
+  const kept = (o) => {
+    const made = palette.find((t) => t.type === optionName(o));
+    return (!made || fitsAt(joint, made)) && !(joint.forbid ?? []).includes(optionName(o));
+  };
+  return joint.options ?? common.filter(kept);
+}
 
 /** The types that a search may put at some joints; what is ticked holds for their mirror images, too. */
 function typesAt(ids) {
   const joint = thing("joint", ids[0]);
-  const own = palette.find((t) => t.type === joint.type);
-  if (!own) return null;
   const images = (searchOf().mirror ?? []).filter((pair) => pair.some((id) => ids.includes(id))).flat();
   const all = [...new Set([...ids, ...images])];
   const offered = offeredAt(joint);
@@ -111,18 +145,19 @@ function typesAt(ids) {
     if (joint.options) return change(...give("options", toggled(joint.options, kind, on)));
     if (!on) return change(...give("forbid", [...forbid, kind]));
     if (forbid.includes(kind)) return change(...give("forbid", forbid.length > 1 ? toggled(forbid, kind, false) : null));
-    return change(...give("options", [...offered, kind]), ...give("forbid", null));
+    return change(...give("options", toggled(offered, kind, true)), ...give("forbid", null));
   };
-  const fit = palette.filter((t) => !NEED_MORE.includes(t.type) && t.type !== joint.type && own.free.every((f) => t.free.includes(f)));
+  const fit = [...palette, ...PARTS].filter((t) => !NEED_MORE.includes(t.type) && t.type !== joint.type && fitsAt(joint, t));
   const names = offered.map(optionName);
   const fold = element("details", { class: "wide", open: typesAt.open ? "" : null },
     element("summary", {}, "A search may put here"),
     stays(joint) && !joint.options ? element("p", { class: "help" }, "A search does not change this joint, unless a type is ticked.") : "",
+    fit.length ? "" : element("p", { class: "help" }, "No other joint type keeps its motion."),
     element("div", { class: "type-boxes" }, ...fit.map((t) => typeBox(t, names.includes(t.type), take(t.type)))),
     element("div", { class: "acts" },
       button("Never change it", () => change(...give("options", []), ...give("forbid", null))),
-      button("As everywhere", () => change(...give("options", null), ...give("forbid", null))),
-      ids.length === 1 ? unloadingTick(joint) : ""));
+      button("As everywhere", () => change(...give("options", null), ...give("forbid", null)))),
+    ids.length === 1 ? seriesBoxes(joint) : "");
   fold.addEventListener("toggle", () => (typesAt.open = fold.open));
   return fold;
 }

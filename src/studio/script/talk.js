@@ -16,6 +16,8 @@ const desk = {
   /** How things stand with the file. */
   file: null,
   revision: -1,
+  /** When the verdict came, in milliseconds. */
+  judgedAt: 0,
   /** The index of the shown state. */
   state: 0,
 };

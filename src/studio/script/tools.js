@@ -7,6 +7,7 @@ const TOOLS = {
   plate: { key: "p", name: "Plate", says: "Click the pins of the plate. To finish, click the first or last pin again or press Enter.", several: true, mark: "M3 16L10 3L17 13Z" },
   ground: { key: "g", name: "Frame pin", says: "Click a pin or a link to pivot it on the frame.", take: ([spot]) => ground(spot), mark: "M10 4L5 12H15ZM3 12H17M5 16L7 12M9 16L11 12M13 16L15 12" },
   slide: { key: "s", name: "Slide", says: "Click a pin, a link or the background to add a slide on the frame.", take: ([spot]) => addSlide(spot), mark: "M5 6H15V12H5ZM2 14H18" },
+  screw: { key: "w", name: "Screw", says: "Click the bearing of the screw on the frame, then the pin or link that carries its nut. Its form has the lead.", take: (spots) => addScrew(spots), mark: "M2 10H18M5 6L8 14M9 6L12 14M13 6L16 14" },
   joint: { key: "j", name: "Joint", says: "Click a pin of two links, or a link and then another.", take: (spots) => joinSpots(spots), mark: "M10 10m-5 0a5 5 0 1 0 10 0a5 5 0 1 0 -10 0" },
   drive: { key: "d", name: "Drive", says: "Click a joint to make it the drive, or to clear it.", take: ([spot]) => (spot.pin?.what === "joint" ? toggleDrive(spot.pin.id) : say("Click a joint.", true)), mark: "M10 3a7 7 0 1 1 -6 3M4 2V6H8" },
   gears: { key: "k", name: "Gears", says: "Click two joints: gears couple two hinges, a rack couples a slide and a hinge.", take: (spots) => meshJoints(spots), mark: "M7 10m-4 0a4 4 0 1 0 8 0a4 4 0 1 0 -8 0M15 10m-3 0a3 3 0 1 0 6 0a3 3 0 1 0 -6 0" },

@@ -1,10 +1,9 @@
 //! Figures of strokes and places that are put down by hand, and what follows from them.
 
 use super::{Drawn, each_structure, form_of, layout};
-use ozols::catalog::spec::Spec;
+use crate::common::*;
+use ozols::chains::Symmetry;
 use ozols::chains::chain::Joint;
-use ozols::chains::{Input, Symmetry};
-use ozols::synthesis::figures::layout_figures;
 use ozols::synthesis::layout::NoLayout;
 use ozols::synthesis::mechanism::mechanism_file;
 use ozols::synthesis::places;
@@ -13,9 +12,8 @@ use ozols::synthesis::sketch::Sketch;
 use ozols::synthesis::sketch::layout_quality::Looks;
 use ozols::synthesis::stroke::forces::ForceFigures;
 use ozols::synthesis::stroke::judge::StrokeFigures;
-use ozols::synthesis::structure::{Form, Structure};
-use ozols::synthesis::task::{AskedMotion, Limits, Task};
-use ozols::synthesis::workload::Workload;
+use ozols::synthesis::structure::Form;
+use ozols::synthesis::task::AskedMotion;
 
 /// The slider-crank of four links: driver, jaw, jaw that is hinged in the frame.
 fn slider_crank() -> Structure {
@@ -30,10 +28,7 @@ fn slider_crank() -> Structure {
 }
 
 fn for_task(task: Task) -> Limits {
-    Limits {
-        task,
-        ..Limits::default()
-    }
+    default_with(|l: &mut Limits| l.task = task)
 }
 
 /// A stroke that does what is asked of it by default.
@@ -85,10 +80,7 @@ fn the_force_ratio_is_the_greatest_rate_over_the_least() {
 #[test]
 fn a_force_is_asked_of_each_jaw() {
     let asked = |least_force| {
-        let task = Task {
-            least_force,
-            ..Task::default()
-        };
+        let task = default_with(|t: &mut Task| t.least_force = least_force);
         lacks(task, &good())
     };
     assert_eq!([asked(0.0), asked(0.5)], [None, None]);
@@ -97,13 +89,10 @@ fn a_force_is_asked_of_each_jaw() {
 
 #[test]
 fn a_jaw_that_turns_is_not_parallel() {
-    let parallel = Task {
-        motion: AskedMotion::Parallel,
-        ..Task::default()
-    };
+    let parallel = default_with(|t: &mut Task| t.motion = AskedMotion::Parallel);
     let turned = |turn| lacks(parallel, &StrokeFigures { turn, ..good() });
     assert_eq!(turned(0.9), None);
-    assert!(turned(1.1).unwrap().contains("turns by 1.1°"));
+    assert!(turned(1.1).unwrap().contains("rotates by 1.1°"));
 }
 
 /// Each limit of the stroke is kept at its value and broken just beyond it; what is 0 is not asked.
@@ -138,10 +127,7 @@ fn angle_joint_force_and_efficiency_are_asked_over_the_stroke() {
 #[test]
 fn room_is_asked_both_ways() {
     let in_a_room = |room| {
-        let task = Task {
-            room,
-            ..Task::default()
-        };
+        let task = default_with(|t: &mut Task| t.room = room);
         lacks(task, &good())
     };
     // It takes 100 by 80; nothing is asked where there stands 0.
@@ -289,11 +275,7 @@ fn what_is_not_asked_is_margin() {
     let mut laid = laid.unwrap().layout;
     let whole = layout_figures(&s, &laid).unwrap();
     assert_eq!(whole.openings, [0.0, 50.0]);
-    laid.limits.task = Task {
-        narrowest: 5.0,
-        widest: 44.0,
-        ..Task::default()
-    };
+    laid.limits.task = default_with(|t: &mut Task| (t.narrowest, t.widest) = (5.0, 44.0));
     let most = 0.2 * 39.0 + 1e-9;
     let [closing, opening] = layout_figures(&s, &laid).unwrap().margin;
     assert!((5.0..=most).contains(&closing), "{closing}");
@@ -319,10 +301,7 @@ fn laid(limits: &Limits, every: usize) -> Vec<Result<(Structure, Drawn), NoLayou
 
 #[test]
 fn no_more_crosses_than_may() {
-    let limits = Limits {
-        crossings: 0,
-        ..Limits::default()
-    };
+    let limits = default_with(|l: &mut Limits| l.crossings = 0);
     let found = laid(&limits, 3);
     let kept = found.iter().flatten().count();
     assert!(2 * kept > found.len(), "{kept} of {}", found.len());
@@ -337,11 +316,7 @@ fn no_more_crosses_than_may() {
 }
 
 fn strict() -> Limits {
-    Limits {
-        ratio: 3.0,
-        crossings: 0,
-        ..Limits::default()
-    }
+    default_with(|l: &mut Limits| (l.ratio, l.crossings) = (3.0, 0))
 }
 
 /// Of what the starts come to, places within the limits are taken before cheaper ones: of these structures a third at least have
@@ -376,11 +351,8 @@ fn links_weigh_where_there_is_gravity() {
     each_structure(4, &[(s.drive_input(), s.form)], |_, s| {
         let l = layout(&s, &Limits::default(), 1).unwrap();
         for (gravity, weighs) in [([0.0; 3], false), ([0.0, -9.81, 0.0], true)] {
-            let workload = Workload {
-                link_mass: 2.0,
-                gravity,
-                ..Workload::default()
-            };
+            let workload =
+                default_with(|w: &mut Workload| (w.link_mass, w.gravity) = (2.0, gravity));
             let file = mechanism_file(&s, &l, &Spec::default().option_menu().unwrap(), &workload);
             assert_eq!(file.workload.gravity.is_some(), weighs);
             let masses = file.link.iter().filter(|l| l.mass.is_some()).count();

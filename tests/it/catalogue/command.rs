@@ -75,31 +75,33 @@ pub(super) fn small_build(file: &str, more: &str) -> String {
 
 #[test]
 fn it_is_queried_shown_exported_and_drawn() {
-    let folder = tempdir().unwrap();
-    let [db, svg, toml, page] = ["g.db", "g.svg", "g.toml", "g.html"].map(|n| path_in(&folder, n));
-    has(&stdout_of(&small_build(&db, "")), "ozols catalog query");
-    let list = stdout_of(&["catalog", "query", &db]);
+    let folder = Folder::new();
+    let done = |line: &str| folder.succeed(&format!("catalog {line}")).0;
+    let free = || folder.json("analyze g.toml")["states"][0].clone();
+    let ask = |sql: &str| folder.run(&["catalog", "query", "g.db", sql, "--format", "csv"]);
+    let built = folder.succeed(&small_build("g.db", "")).0;
+    has(&built, "ozols catalog query");
+    let list = done("query g.db");
     let line = list.lines().find(|l| l.contains("mirror")).unwrap();
-    let id = line.split_whitespace().next().unwrap();
-    let shown = stdout_of(&["catalog", "show", &db, &id[..6]]);
+    let id = split_words(line)[0];
+    let shown = done(&format!("show g.db {}", &id[..6]));
     has(&shown, "W = 1, σ = 6; finite mobility 1, proven");
-    let told = run_json(&["catalog", "show", &db, id, "--json"]);
+    let told: Value = serde_json::from_str(&done(&format!("show g.db {id} --json"))).unwrap();
     assert_eq!(told["ideas"].list().len(), 3);
     assert_eq!(told["layout"]["mobility"], 1);
-    stdout_of(&["catalog", "show", &db, id, "--svg", &svg]);
-    let drawn = fs::read_to_string(&svg).unwrap();
-    has_all(&drawn, &["<svg", "tip-a", "tip-b"]);
-    stdout_of(&["catalog", "export", &db, id, "-o", &toml]);
-    assert_eq!(free_state(&toml)["redundant"], told["layout"]["redundant"]);
+    done(&format!("show g.db {id} --svg g.svg"));
+    has_all(&folder.text("g.svg"), &["<svg", "tip-a", "tip-b"]);
+    done(&format!("export g.db {id} -o g.toml"));
+    assert_eq!(free()["redundant"], told["layout"]["redundant"]);
     // Every idea carried out is determinate, and of mobility 1.
-    for k in ["1", "2", "3"] {
-        stdout_of(&["catalog", "export", &db, id, "--idea", k, "-o", &toml]);
-        let free = free_state(&toml);
-        assert_eq!([&free["mobility"], &free["redundant"]], [1, 0], "{k}");
+    for k in 1..=3 {
+        done(&format!("export g.db {id} --idea {k} -o g.toml"));
+        assert_eq!([&free()["mobility"], &free()["redundant"]], [1, 0], "{k}");
     }
-    stdout_of(&["catalog", "page", &db, "-o", &page]);
-    let html = fs::read_to_string(&page).unwrap();
-    assert!(html.contains("Content-Security-Policy") && !html.contains("http://localhost"));
+    done("page g.db -o g.html");
+    let html = folder.text("g.html");
+    has(&html, "Content-Security-Policy");
+    lacks(&html, "http://localhost");
     let cards = cards_of(&html);
     let place = cards.iter().position(|c| c["id"] == *id).unwrap();
     let card = &cards[place];
@@ -108,52 +110,48 @@ fn it_is_queried_shown_exported_and_drawn() {
     let chosen = &unpack_list(&script_data(&html)["chosen"][0])[place];
     assert_eq!(chosen["ideas"].list().len(), 3);
     has(chosen["mechanism"].word(), "[[joint]]");
-    let counts = "SELECT links, count(*) AS n FROM structures GROUP BY links";
-    let csv = stdout_of(&["catalog", "query", &db, counts, "--format", "csv"]);
+    let (_, csv, _) = ask("SELECT links, count(*) AS n FROM structures GROUP BY links");
     assert!(csv.starts_with("links,n\n6,"), "{csv}");
-    let nothing = "SELECT id FROM structures WHERE links = 5";
-    assert_eq!(run_full(&["catalog", "query", &db, nothing]).0, Some(1));
+    let (code, ..) = ask("SELECT id FROM structures WHERE links = 5");
+    assert_eq!(code, Some(1));
 }
 
 #[test]
 fn what_cannot_be_done_is_said() {
-    let folder = tempdir().unwrap();
-    let [db, other, missing, spec, s] =
-        ["g.db", "other.txt", "missing.db", "spec.toml", "s.db"].map(|n| path_in(&folder, n));
-    stdout_of(&format!("catalog build --links 4 --quiet -o {db}"));
     let text = "This is no database, though it is long enough to be looked at as one.".repeat(20);
-    fs::write(&other, &text).unwrap();
-    fs::write(&spec, "links = \"4\"\ncolour = \"red\"\n").unwrap();
+    let folder = Folder::with("other.txt", &text);
+    folder.put("spec.toml", "links = \"4\"\ncolour = \"red\"\n");
+    folder.succeed("catalog build --links 4 --quiet -o g.db");
     for [line, says] in read_cases::<2>(
         "
-        build --links 4 --ideas 2 -o DB | ideas differs
-        build --links 5 -o DB | even number
-        build --links 4..14 -o DB | 4 to 12
-        build --links 8..4 -o DB | not a range of even numbers
-        build --input push -o DB | none of slide, turn
-        build --input turn --symmetry mirror -o DB | a mirror image needs a slide
-        build --options glue -o DB | cylindrical
-        build --shard 3/2 -o DB | write a part as
-        build --aim strong -o DB | none of balanced, force
-        build --pulled-out 0.5 -o DB | pulled_out
-        build --efficiency 1.5 -o DB | efficiency
-        build --transmission 91 -o DB | transmission
-        build --pin-distance=-1 -o DB | pin_distance
-        build --least-force=-1 -o DB | least_force
-        build --widths 50 -o DB | such as 0..50
-        build --grip above -o DB | none of outside, inside
-        build --room 9 -o DB | such as 180x120
-        build --symmetry threefold --jaws 4 -o DB | jaws must be from 2 to 3
-        build --links 8 --symmetry threefold --jaws 2 -o DB | no layout is asked for
-        build --spec SPEC -o S | colour
-        build --links 4 -o OTHER | is not a catalogue
-        show DB nothing | no structure nothing
-        show DB 4- | the beginning of 2 structures
-        merge DB -o DB | one of the parts and the whole
-        query OTHER | is not a catalogue
-        query MISSING | missing.db
-        search tong gripper-11 -o MISSING | gripper-1
-        search -o MISSING | --grippers
+        build --links 4 --ideas 2 -o g.db | ideas differs
+        build --links 5 -o g.db | even number
+        build --links 4..14 -o g.db | 4 to 12
+        build --links 8..4 -o g.db | not a range of even numbers
+        build --input push -o g.db | none of slide, turn
+        build --input turn --symmetry mirror -o g.db | a mirror image needs a slide
+        build --options glue -o g.db | cylindrical
+        build --shard 3/2 -o g.db | write a part as
+        build --aim strong -o g.db | none of balanced, force
+        build --pulled-out 0.5 -o g.db | pulled_out
+        build --efficiency 1.5 -o g.db | efficiency
+        build --transmission 91 -o g.db | transmission
+        build --pin-distance=-1 -o g.db | pin_distance
+        build --least-force=-1 -o g.db | least_force
+        build --widths 50 -o g.db | such as 0..50
+        build --grip above -o g.db | none of outside, inside
+        build --room 9 -o g.db | such as 180x120
+        build --symmetry threefold --jaws 4 -o g.db | jaws must be from 2 to 3
+        build --links 8 --symmetry threefold --jaws 2 -o g.db | no layout is asked for
+        build --spec spec.toml -o s.db | colour
+        build --links 4 -o other.txt | is not a catalogue
+        show g.db nothing | no structure nothing
+        show g.db 4- | the beginning of 2 structures
+        merge g.db -o g.db | one of the parts and the whole
+        query other.txt | is not a catalogue
+        query missing.db | makes a catalogue
+        search tong gripper-11 -o missing.db | gripper-1
+        search -o missing.db | --grippers
         count --links 4..x | \"x\" is not a number of links
         count --links 8..4 | give the smaller number first
         count --links 9..6 | smaller number
@@ -168,76 +166,55 @@ fn what_cannot_be_done_is_said() {
         count --at-most 2 | --pairs
         ",
     ) {
-        let files = [
-            ("DB", &db),
-            ("OTHER", &other),
-            ("MISSING", &missing),
-            ("SPEC", &spec),
-            ("S", &s),
-        ];
-        let word = |w| files.iter().find(|f| f.0 == w).map_or(w, |f| f.1.as_str());
-        let words = line.split(' ').map(word).collect_vec();
-        assert_fails(&[&["catalog"], &words[..]].concat(), says);
+        folder.assert_fails(&format!("catalog {line}"), says);
     }
-    assert_fails(
-        &["catalog", "query", &db, "SELECT nonsense"],
-        "no such column",
-    );
-    assert_fails(&["catalog", "query", &db, "DELETE FROM ideas"], "readonly");
-    assert_eq!(fs::read_to_string(&other).unwrap(), text);
-    assert!(!Path::new(&missing).exists());
-    fs::write(&spec, "links = \"4\"\nideas = 2\ninputs = [\"slide\"]\n").unwrap();
-    let told = stdout_of(&format!("catalog build --spec {spec} -o {s} --quiet"));
+    for (sql, says) in [
+        ("SELECT nonsense", "no such column"),
+        ("DELETE FROM ideas", "readonly"),
+    ] {
+        folder.assert_fails(&["catalog", "query", "g.db", sql], says);
+    }
+    assert_eq!(folder.text("other.txt"), text);
+    assert!(!folder.path("missing.db").exists());
+    let spec = "links = \"4\"\nideas = 2\ninputs = [\"slide\"]\n";
+    folder.put("spec.toml", spec);
+    let (told, _) = folder.succeed("catalog build --spec spec.toml -o s.db --quiet");
     has(&told, "1 structures added");
 }
 
 #[test]
 fn drawn_mechanisms_stand_beside_the_structures() {
     let folder = tempdir().unwrap();
-    let [file, parts, merged, redesign, page] = [
-        "all.db",
-        "parts.db",
-        "merged.db",
-        "redesign.toml",
-        "page.html",
-    ]
-    .map(|n| path_in(&folder, n));
-    let drawn = |ideas| {
-        stdout_of(&format!(
-            "catalog search gripper-10 tongs --ideas {ideas} -o {file}"
-        ))
+    let names = ["all.db", "parts.db", "merged.db", "x.toml", "x.html"];
+    let [file, parts, merged, redesign, page] = names.map(|n| path_in(&folder, n));
+    let done = |line: &str| stdout_of(&format!("catalog {line}"));
+    let drawn = |ideas, says| {
+        let line = format!("search gripper-10 tongs --ideas {ideas} -o {file}");
+        has(&done(&line), says);
     };
-    has(&drawn(3), "2 mechanisms added");
+    drawn(3, "2 mechanisms added");
     // Asked for fewer ideas, it keeps no more.
-    has(&drawn(2), "2 mechanisms added");
-    has(&drawn(2), "0 mechanisms added");
+    drawn(2, "2 mechanisms added");
+    drawn(2, "0 mechanisms added");
     assert_eq!(query_lines(&file, "SELECT max(place) FROM ideas"), ["2"]);
     // The counts are those of `ozols search`.
     let sql = "SELECT links, joints, contours, input, mobility, redundant, finite, determinate, admissible, certainty, best_cost \
          FROM drawn WHERE name = 'gripper-10'";
-    assert_eq!(
-        query_lines(&file, sql),
-        ["10,13,4,,1,11,\"1, proven\",6340592477,7150020,exact,11.5"]
-    );
+    let counts = "10,13,4,,1,11,\"1, proven\",6340592477,7150020,exact,11.5";
+    assert_eq!(query_lines(&file, sql), [counts]);
     // It takes in structures, and is taken in.
     stdout_of(&small_build(&parts, ""));
-    has(
-        &stdout_of(&format!("catalog merge {file} {parts} -o {merged}")),
-        "drawn",
-    );
+    has(&done(&format!("merge {file} {parts} -o {merged}")), "drawn");
     stdout_of(&small_build(&file, ""));
     assert_eq!(dump_catalogue(&merged), dump_catalogue(&file));
-    has_all(
-        &stdout_of(&["catalog", "query", &merged]),
-        &["tongs", "mirror"],
-    );
-    let told = stdout_of(&["catalog", "show", &merged, "gripper-10"]);
+    has_all(&done(&format!("query {merged}")), &["tongs", "mirror"]);
+    let told = done(&format!("show {merged} gripper-10"));
     has_all(&told, &["6,340,592,477", "--idea 1"]);
-    stdout_of(&format!(
-        "catalog export {merged} gripper-10 --idea 1 -o {redesign}"
+    done(&format!(
+        "export {merged} gripper-10 --idea 1 -o {redesign}"
     ));
     assert_eq!(free_state(&redesign)["redundant"], 0);
-    stdout_of(&["catalog", "page", &merged, "-o", &page]);
+    done(&format!("page {merged} -o {page}"));
     let cards = cards_of(&fs::read_to_string(&page).unwrap());
     assert!(cards.iter().any(|c| c["name"] == "tongs"));
 }

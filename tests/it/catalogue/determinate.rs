@@ -2,24 +2,15 @@
 
 use super::{each_structure, form_of, generic_mechanism, layout, out_of_plane};
 use crate::common::*;
-use ozols::Request;
-use ozols::chains::chain::Chain;
-use ozols::chains::enumerate::list_chains;
 use ozols::chains::roles::Subject;
-use ozols::chains::{Input, Symmetry, graph6};
-use ozols::score::request::{Check, List};
+use ozols::chains::{Symmetry, graph6};
 use ozols::synthesis::structure::listed::hinged_structures;
-use ozols::synthesis::task::Limits;
 
 /// Determinate variants of W = 1 with the input joint unchanged, of each chain and input joint of so many links. They do not
 /// depend on the jaws, so that the chain's first layout serves every input, those of no essential gripper among them.
 fn with_the_input_unchanged(links: usize) -> Vec<(Chain, (usize, usize), BigUint)> {
     let mut out = Vec::new();
-    let request = Request {
-        list: List::Nothing,
-        check: Check::None,
-        ..Request::default()
-    };
+    let request = default_with(|r: &mut Request| (r.list, r.check) = (List::Nothing, Check::None));
     let turning = [form_of(Input::Turn, Symmetry::Generic, false)];
     for chain in list_chains(links, 1).unwrap() {
         let (chain, automorphisms) = chain.canonical_form();
@@ -87,7 +78,8 @@ fn determinate_variants_of_known_chains_are_as_published() {
             let asked = |k: &(usize, Option<&str>, u64, u64)| {
                 k.0 == links
                     && k.1.is_none_or(|c| {
-                        graph6::canonical_code(&graph6::read_graph(c).unwrap()) == code
+                        graph6::write_graph(&graph6::read_graph(c).unwrap().canonical_form().0)
+                            == code
                     })
             };
             if seen.contains(&code) || !known.iter().any(asked) {

@@ -3,7 +3,6 @@
 use super::command::{path_in, query_lines};
 use super::rows::all_of_six;
 use crate::common::*;
-use ozols::chains::classics::known_classics;
 use ozols::synthesis::recognize::{NoStructure, recognize_structure};
 
 /// Mechanisms of known schemes, as far as they are built in.

@@ -2,11 +2,7 @@
 
 use super::{Drawn, each_structure, form_of, layout, out_of_plane, plain_spec};
 use crate::common::*;
-use ozols::Request;
-use ozols::catalog::row::structure_row;
-use ozols::catalog::spec::Spec;
-use ozols::chains::{Input, Symmetry};
-use ozols::score::request::List;
+use ozols::chains::Symmetry;
 
 /// Every so many generic structures of eight links, laid out from a seed: the row counts what the twin counts at places of its own, and
 /// what a search of the row's own file counts, which knows nothing of other layouts. Gives how many are off the whole millimetres.
@@ -29,10 +25,7 @@ fn are_in_general_position(every: usize, seed: u64) -> usize {
         let said = (laid.variant_count(None), laid.variant_count(Some(1)));
         let told = format!("{}, seed {seed}", s.name());
         let own = ozols::from_toml(&laid.file).unwrap();
-        let request = Request {
-            list: List::Nothing,
-            ..Request::default()
-        };
+        let request = default_with(|r: &mut Request| r.list = List::Nothing);
         let alone = ozols::search(&own, &request).unwrap();
         assert_eq!(alone.determinate.total, said.0, "{told}");
         let [u, v] = s.structure.roles.input;

@@ -1,12 +1,12 @@
 //! A stroke that is given up before it is gone to its end would have cost too much, and no other is given up.
 
 use super::{each_structure, form_of, layout};
-use ozols::chains::{Input, Symmetry};
+use crate::common::*;
+use ozols::chains::Symmetry;
 use ozols::synthesis::place::Point;
 use ozols::synthesis::places::Places;
 use ozols::synthesis::sketch::Sketch;
 use ozols::synthesis::stroke::judge::Judge;
-use ozols::synthesis::task::Limits;
 
 #[test]
 fn a_stroke_is_given_up_only_where_it_costs_too_much() {

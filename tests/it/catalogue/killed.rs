@@ -7,7 +7,7 @@ use super::carried_on::scattered_numbers;
 use super::command::{path_in, small_build};
 use crate::common::*;
 use ozols::catalog::store::Store;
-use std::process::{Command, Stdio};
+use std::process::Command;
 
 /// The structures of four links, each a transaction.
 fn tiny(file: &str, more: &str) -> String {

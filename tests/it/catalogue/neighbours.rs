@@ -4,7 +4,6 @@ use super::rows::all_of_six;
 use crate::common::*;
 use ozols::catalog::neighbours::{FIGURES, find_neighbours};
 use ozols::catalog::store::Store;
-use ozols::chains::structure::PairStructure;
 use ozols::synthesis::recognize::recognize_structure;
 
 /// Whether a small structure is a large one without two links in a row: all ways to place the small one's links on the large one's.
@@ -71,7 +70,7 @@ fn two_links_less_are_those_that_taking_two_out_leaves() {
         .map(|r| {
             let id = r[0].as_str().unwrap().to_owned();
             let file = store.mechanism_text(&id).unwrap().unwrap();
-            let m = mechanism_from_str("laid-out.toml", &file).unwrap();
+            let m = read(&file);
             (id, recognize_structure(&m).unwrap().structure)
         })
         .collect();
@@ -163,8 +162,5 @@ fn what_a_neighbour_does_better_stands_in_the_catalogue() {
     }
     assert!(better > 0, "{near:?}");
     let said = stdout_of(&asked);
-    assert!(
-        said.contains("Similar structures in the catalogue"),
-        "{said}"
-    );
+    has(&said, "Similar structures in the catalogue");
 }

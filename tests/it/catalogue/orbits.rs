@@ -4,11 +4,8 @@ use super::command::{path_in, query_lines};
 use super::three_jaws::third;
 use super::{each_structure_of, form_of, plain_spec};
 use crate::common::*;
-use ozols::catalog::row::structure_row;
-use ozols::catalog::spec::Spec;
-use ozols::chains::{Input, Symmetry};
+use ozols::chains::Symmetry;
 use ozols::search::answer::orbit_counts::orbit_counts;
-use ozols::search::answer::search_counts::SearchCounts;
 use ozols::search::question::conditions::Symmetry as Asked;
 
 /// For each joint the one that stands where the symmetry carries it.
@@ -36,8 +33,7 @@ fn one_per_orbit(m: &Mechanism) -> BigUint {
         symmetry: Asked::OnePerOrbit,
         ..Conditions::default()
     };
-    let search = Search::new(exact_field(m, 0).unwrap(), m, conditions).unwrap();
-    let diagrams = search.build_diagrams(&|| false, &mut |_| {});
+    let (search, diagrams) = searched(m, conditions);
     let all = SearchCounts::of_diagrams(&search, &diagrams);
     let (counted, _) = orbit_counts(&search, all, &|| false).unwrap();
     counted.admissible.total
@@ -76,13 +72,10 @@ fn orbits_are_those_of_a_list_of_all_variants() {
                 _ => third([x, y]),
             });
             let order = if jaws == 3 { 3 } else { 2 };
-            let one = Conditions {
-                max_mobility: Some(1),
-                keep_output: false,
-                ..Conditions::default()
-            };
-            let search = Search::new(exact_field(&m, 0).unwrap(), &m, one).unwrap();
-            let diagrams = search.build_diagrams(&|| false, &mut |_| {});
+            let one = default_with(|c: &mut Conditions| {
+                (c.max_mobility, c.keep_output) = (Some(1), false)
+            });
+            let (search, diagrams) = searched(&m, one);
             // The option of each joint, and how many are changed.
             let list: BTreeSet<Vec<usize>> = search
                 .cheapest_variants(&diagrams, usize::MAX / 4)

@@ -1,7 +1,6 @@
 //! The slow twin of the catalogue's counts at places in general position.
 
-use ozols::chains::chain::Chain;
-
+use crate::common::*;
 /// Determinate variants of W = 1 with the input joint unchanged, by the theory alone, with none of the engine: a spanning tree of the chain's graph gives its contours, each
 /// added freedom is a column of three out-of-plane rows a contour, with the pins at random places modulo a prime, and all
 /// choices of the menu at all joints but the input are walked as long as their columns are independent.

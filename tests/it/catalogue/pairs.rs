@@ -9,8 +9,6 @@ mod two_slots;
 
 use ozols::chains::PairKind;
 use ozols::chains::census::{Census, Counted, DriveKind, Kinds, pair_census};
-use ozols::chains::chain::Chain;
-use ozols::chains::enumerate::list_chains;
 use ozols::chains::sharing::Menu;
 use ozols::chains::symmetric_census::{SymmetricKind, symmetric_grippers};
 
@@ -80,71 +78,43 @@ fn row(c: &Census) -> Vec<u64> {
     out
 }
 
-/// The published tables of symmetric grippers by choices, of three to six links; those of hinges and one input slide are the
-/// counts of hinged structures by two independent programs (half turn of ten links: 46 without a slide).
 #[test]
 fn as_many_symmetric_ones_as_are_published() {
-    let known: [(bool, bool, [[u64; 4]; 6]); 4] = [
+    // By symmetry and whether a jaw is driven: by choices, and of three to six links.
+    let known = [
         (
             false,
             false,
-            [
-                [0, 0, 0, 0],
-                [0, 0, 2, 2],
-                [0, 4, 5, 20],
-                [0, 3, 28, 147],
-                [0, 1, 69, 518],
-                [0, 0, 60, 1_303],
-            ],
+            "0 0 0 0, 0 0 2 2, 0 4 5 20, 0 3 28 147, 0 1 69 518, 0 0 60 1303",
         ),
         (
             false,
             true,
-            [
-                [0, 0, 0, 0],
-                [0, 0, 2, 0],
-                [0, 0, 5, 6],
-                [0, 1, 6, 23],
-                [0, 1, 12, 55],
-                [0, 0, 11, 123],
-            ],
+            "0 0 0 0, 0 0 2 0, 0 0 5 6, 0 1 6 23, 0 1 12 55, 0 0 11 123",
         ),
         (
             true,
             false,
-            [
-                [0, 0, 0, 2],
-                [0, 4, 0, 6],
-                [0, 4, 0, 66],
-                [0, 1, 17, 248],
-                [0, 0, 20, 264],
-                [0, 0, 8, 351],
-            ],
+            "0 0 0 2, 0 4 0 6, 0 4 0 66, 0 1 17 248, 0 0 20 264, 0 0 8 351",
         ),
         (
             true,
             true,
-            [
-                [0, 0, 0, 0],
-                [0, 0, 0, 0],
-                [0, 0, 0, 6],
-                [0, 1, 0, 8],
-                [0, 0, 0, 25],
-                [0, 0, 5, 34],
-            ],
+            "0 0 0 0, 0 0 0 0, 0 0 0 6, 0 1 0 8, 0 0 0 25, 0 0 5 34",
         ),
     ];
     for (i, links) in (3..=6).enumerate() {
         let found = symmetric_census(links, menu(5));
         for (half_turn, driven_jaw, counts) in known {
-            for (orbits, counts) in counts.iter().enumerate() {
+            for (orbits, counts) in counts.split(", ").enumerate() {
                 let kind = SymmetricKind {
                     half_turn,
                     driven_jaw,
                     orbits,
                 };
                 let found = found.get(&kind).copied().unwrap_or_default();
-                assert_eq!(found, counts[i], "{links} links, {kind:?}");
+                let wanted = counts.split(' ').nth(i).unwrap();
+                assert_eq!(found.to_string(), wanted, "{links} links, {kind:?}");
             }
         }
     }

@@ -4,11 +4,8 @@ use super::paired::twin_figures::filed::Gripper;
 use super::stroke::read_layout;
 use super::{Drawn, each_structure, each_structure_of, form_of, layout};
 use crate::common::*;
-use ozols::chains::{Input, Symmetry};
-use ozols::synthesis::figures::layout_figures;
+use ozols::chains::Symmetry;
 use ozols::synthesis::stroke::planes::Stacking;
-use ozols::synthesis::structure::Structure;
-use ozols::synthesis::task::Limits;
 
 type Point = [f64; 2];
 

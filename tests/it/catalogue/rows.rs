@@ -4,18 +4,11 @@ use super::carried_on::scattered_numbers;
 use super::command::{self, free_state, path_in};
 use super::paired::{Built, built};
 use crate::common::*;
-use ozols::Request;
-use ozols::model::ranking::ClearanceSum;
-use ozols::score::evaluation::elimination::Scratch;
-use ozols::score::evaluation::evaluate::Evaluator;
 
 /// All structures of four and six links, made once for the tests that look at them.
 pub(super) fn all_of_six() -> &'static str {
     static FILE: Built = OnceLock::new();
-    built(
-        &FILE,
-        &split_words("catalog build --links 4..6 --ideas 6 --quiet -o"),
-    )
+    built(&FILE, "--links 4..6 --ideas 6")
 }
 
 #[test]
@@ -133,10 +126,7 @@ fn areas_and_errors_are_in_millimetres() {
             );
         };
         is("area", side(0) * side(1));
-        let request = Request {
-            max_mobility: Some(1),
-            ..Request::default()
-        };
+        let request = default_with(|r: &mut Request| r.max_mobility = Some(1));
         let outcome = ozols::search(&m, &request).unwrap();
         let ideas = outcome
             .search

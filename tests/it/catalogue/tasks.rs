@@ -30,7 +30,10 @@ fn a_stroke_that_is_not_reached_has_a_reason_and_no_place_in_the_front() {
     assert!(short > 0 && all.len() > 20, "{short} of {}", all.len());
     let id = all.iter().find(|r| r["reached"] == 0).unwrap()["id"].word();
     let shown = stdout_of(&["catalog", "show", &file, id]);
-    has_all(&shown, &["Task: parts of 0 to 190 mm; ", "is asked: there"]);
+    has_all(
+        &shown,
+        &["Task: parts of 0 to 190 mm; ", "mm required: there"],
+    );
 }
 
 /// What is made for force has more of it than what is made for looks, and does as much of the task; distances that are asked are kept.
@@ -288,7 +291,7 @@ fn parts_are_held_from_inside_by_the_other_way() {
         let sql = "SELECT closes, force_min, tip_a_dx, tip_a_dy, mechanism FROM layouts ORDER BY structure";
         let all = query_rows(&file, sql);
         for row in &all {
-            let m = mechanism_from_str("m.toml", row["mechanism"].word()).unwrap();
+            let m = read(row["mechanism"].word());
             let up = m.loads.forces.iter().find(|f| to_vector(&f.point)[1] > 0.0);
             assert_eq!(to_vector(&up.unwrap().force)[1], pushes);
         }

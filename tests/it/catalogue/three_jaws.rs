@@ -4,12 +4,8 @@ use super::command::{free_state, path_in, query_lines};
 use super::stroke::read_layout;
 use super::{Drawn, each_structure_of, form_of, free_motions, layout, plain_spec};
 use crate::common::*;
-use ozols::catalog::row::structure_row;
+use ozols::chains::Symmetry;
 use ozols::chains::roles::Subject;
-use ozols::chains::{Input, Symmetry};
-use ozols::synthesis::figures::layout_figures;
-use ozols::synthesis::structure::Structure;
-use ozols::synthesis::task::Limits;
 
 pub(super) fn third([x, y]: [f64; 2]) -> [f64; 2] {
     let (sine, cosine) = (2.0 * PI / 3.0).sin_cos();

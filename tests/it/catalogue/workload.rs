@@ -4,12 +4,9 @@ use super::command::{path_in, query_rows};
 use super::stroke::read_layout;
 use super::{each_structure, form_of, layout};
 use crate::common::*;
-use ozols::catalog::spec::Spec;
-use ozols::chains::{Input, Symmetry};
+use ozols::chains::Symmetry;
 use ozols::file::write;
 use ozols::synthesis::mechanism::mechanism_file;
-use ozols::synthesis::task::Limits;
-use ozols::synthesis::workload::Workload;
 
 /// What the drive of a file bears, in N or N·m, by the equilibrium of all links.
 fn effort(file: &str) -> f64 {

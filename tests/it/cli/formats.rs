@@ -7,7 +7,7 @@ use crate::common::*;
 
 #[test]
 fn keys_of_analyze() {
-    let v = run_json(&["analyze", "gripper-10", "--format", "json"]);
+    let v = run_json("analyze gripper-10 --format json");
     assert_eq!(v["mechanism"], "gripper-10");
     let states = v["states"].list();
     assert_eq!(
@@ -151,6 +151,6 @@ fn symmetry_counts() {
 
 #[test]
 fn schema_is_json() {
-    let v = run_json(&["schema"]);
+    let v = run_json("schema");
     assert!(v["properties"]["joint"].is_object() && v["properties"]["link"].is_object());
 }

@@ -1,9 +1,8 @@
 //! Signals: what is said, what is left, and the exit code.
 
 use crate::common::*;
-use std::process::{Child, Command, Stdio};
+use std::process::{Child, Command};
 use std::thread::sleep;
-use std::time::{Duration, Instant};
 
 /// The exit codes of signals by name.
 const SIGNALS: [(&str, i32); 3] = [("INT", 130), ("TERM", 143), ("HUP", 129)];
@@ -21,7 +20,7 @@ fn signals() -> impl Iterator<Item = (&'static str, i32)> {
 const MANY: &str = "revolute,cylindrical,universal,spherical";
 
 /// Starts a command in a folder.
-fn start<L: Line + ?Sized>(folder: &Path, args: &L) -> Child {
+fn start<L: Line + ?Sized>(folder: &Folder, args: &L) -> Child {
     Command::new(env!("CARGO_BIN_EXE_ozols"))
         .args(args.words())
         .current_dir(folder)
@@ -55,12 +54,15 @@ fn interrupted(mut child: Child, signal: &str, mut ready: impl FnMut() -> bool) 
 }
 
 /// Bytes of the temporary file that a command is writing.
-fn written(folder: &Path) -> u64 {
-    let files = fs::read_dir(folder).unwrap().filter_map(Result::ok);
-    files
-        .filter(|f| f.file_name().to_string_lossy().starts_with(".tmp"))
-        .filter_map(|f| Some(f.metadata().ok()?.len()))
-        .sum()
+fn written(folder: &Folder) -> u64 {
+    let sizes = temporary(folder).into_iter();
+    let sizes = sizes.filter_map(|f| Some(fs::metadata(folder.path(&f)).ok()?.len()));
+    sizes.sum()
+}
+
+fn temporary(folder: &Folder) -> Vec<String> {
+    let all = folder.names().into_iter();
+    all.filter(|f| f.starts_with(".tmp")).collect()
 }
 
 /// Once wrong: code 0, not a word, and 102,736 of 25,761,436 rows under the final name.
@@ -68,15 +70,14 @@ fn written(folder: &Path) -> u64 {
 fn a_list_that_is_cut_short_says_so_at_its_end() {
     for (signal, code) in signals() {
         for format in ["csv", "jsonl", "json"] {
-            let folder = tempdir().unwrap();
-            let folder = folder.path();
+            let folder = &Folder::new();
             let line = format!("search gripper-10 --all --check prime --format {format} -o list");
             let child = start(folder, &line);
             let o = interrupted(child, signal, || written(folder) > 100_000);
             assert_eq!(o.status.code(), Some(code), "{signal} {format}");
-            assert!(utf8_text(&o.stderr).contains("interrupted by"), "{signal}");
-            assert_eq!(fs::read_dir(folder).unwrap().count(), 1, "{signal}");
-            let list = fs::read_to_string(folder.join("list")).unwrap();
+            has(&utf8_text(&o.stderr), "interrupted by");
+            assert_eq!(folder.names(), ["list"], "{signal}");
+            let list = folder.text("list");
             let last = list.lines().last().unwrap();
             match format {
                 // Rows alone: what reads them as a table is not to stumble.
@@ -85,12 +86,8 @@ fn a_list_that_is_cut_short_says_so_at_its_end() {
                     let end = format!(
                         "stopped early (interrupted): {given} of 21817629 admissible variants given\n"
                     );
-                    assert!(
-                        utf8_text(&o.stderr).contains(&end),
-                        "{}",
-                        utf8_text(&o.stderr)
-                    );
-                    assert!(!list.contains('#'));
+                    has(&utf8_text(&o.stderr), &end);
+                    lacks(&list, "#");
                 }
                 "jsonl" => {
                     let end: Value = serde_json::from_str(last).unwrap();
@@ -125,17 +122,14 @@ fn a_whole_list_has_no_such_end() {
 /// A list cut to the node budget is no whole list either.
 #[test]
 fn a_list_of_a_bounded_search_says_so_at_its_end() {
-    let args = ["search", "gripper-10", "--nodes", "50", "--top", "2"];
-    let csv = run_quiet(&[&args[..], &["--format", "csv", "--comment"]].concat());
+    let line = "search gripper-10 --nodes 50 --top 2 --format csv";
+    let csv = run_quiet(&format!("{line} --comment"));
     let last = csv.lines().last().unwrap();
     assert!(last.starts_with("# stopped early (node-budget): 2 of at least"));
     // Unless it is asked for in the list, it is said beside it.
-    let o = run(&[&args[..], &["--format", "csv"]].concat());
-    assert!(utf8_text(&o.stderr).starts_with("stopped early (node-budget): 2 of at least"));
-    assert_eq!(
-        csv.strip_suffix(&format!("{last}\n")).unwrap(),
-        utf8_text(&o.stdout)
-    );
+    let (_, plain, said) = run_full(line);
+    assert!(said.starts_with("stopped early (node-budget): 2 of at least"));
+    assert_eq!(csv.strip_suffix(&format!("{last}\n")).unwrap(), plain);
 }
 
 /// Work that has nothing to give before its end ends at once, and leaves nothing.
@@ -146,47 +140,34 @@ fn whatever_takes_long_ends_at_once() {
         &format!("search gripper-10 --method brute --options {MANY} -o x"),
         "accuracy -o x",
     ] {
-        let folder = tempdir().unwrap();
+        let folder = &Folder::new();
         let begun = Instant::now();
-        let child = start(folder.path(), args);
-        let ready = || begun.elapsed() > Duration::from_millis(400);
+        let child = start(folder, args);
         let mut sent = Instant::now();
         let o = interrupted(child, "INT", || {
             sent = Instant::now();
-            ready()
+            begun.elapsed() > Duration::from_millis(400)
         });
-        assert_eq!(
-            o.status.code(),
-            Some(130),
-            "{args:?} {}",
-            utf8_text(&o.stderr)
-        );
+        assert_eq!(o.status.code(), Some(130), "{args} {o:?}");
         assert_eq!(utf8_text(&o.stderr), "interrupted by Ctrl-C\n", "{args:?}");
         assert!(sent.elapsed() < Duration::from_secs(2), "{args:?}");
-        assert_eq!(written(folder.path()), 0);
-        assert!(!folder.path().join("x").is_file());
+        assert_eq!(written(folder), 0);
+        assert!(!folder.path("x").is_file());
     }
 }
 
 /// A ranking gives the best of what it scored, and poses what was looked at.
 #[test]
 fn a_ranking_and_poses_end_with_what_they_have() {
-    let folder = tempdir().unwrap();
+    let folder = &Folder::new();
     for args in [
         "search gripper-10-loaded --pool 100000000 --rank peak-force,conditioning --check none --format json",
         "search gripper-10 --poses 9000 --top 1000 --format json",
     ] {
         let begun = Instant::now();
-        let child = start(folder.path(), args);
-        let o = interrupted(child, "INT", || {
-            begun.elapsed() > Duration::from_millis(3000)
-        });
-        assert_eq!(
-            o.status.code(),
-            Some(130),
-            "{args:?} {}",
-            utf8_text(&o.stderr)
-        );
+        let child = start(folder, args);
+        let o = interrupted(child, "INT", || begun.elapsed() > Duration::from_secs(3));
+        assert_eq!(o.status.code(), Some(130), "{args} {o:?}");
         let found: Value = serde_json::from_slice(&o.stdout).unwrap();
         assert_eq!(found["variants_stop"], "interrupted", "{args:?}");
     }
@@ -196,14 +177,14 @@ fn a_ranking_and_poses_end_with_what_they_have() {
 #[cfg(target_os = "linux")]
 #[test]
 fn an_ignored_hangup_stays_ignored() {
-    let folder = tempdir().unwrap();
+    let folder = &Folder::new();
     let command = format!(
         "trap '' HUP; exec '{}' search gripper-10 --method brute --options {MANY}",
         env!("CARGO_BIN_EXE_ozols")
     );
     let mut child = Command::new("sh")
         .args(["-c", &command])
-        .current_dir(&folder)
+        .current_dir(folder)
         .stdout(Stdio::null())
         .stderr(Stdio::null())
         .spawn()
@@ -225,34 +206,28 @@ fn what_is_cut_short_takes_nobodys_place() {
         (list, "older.csv", "older.interrupted.csv"),
         (page, "older.html", "older.interrupted.html"),
     ] {
-        let folder = tempdir().unwrap();
-        let folder = folder.path();
-        fs::write(folder.join(name), "whole and finished").unwrap();
+        let folder = &Folder::new();
+        folder.put(name, "whole and finished");
         let begun = Instant::now();
         let o = interrupted(start(folder, line), "INT", || {
             written(folder) > 100_000 || line == page && begun.elapsed() > Duration::from_secs(4)
         });
         let said = utf8_text(&o.stderr);
         assert_eq!(o.status.code(), Some(130), "{said}");
-        assert_eq!(fs::read(folder.join(name)).unwrap(), b"whole and finished");
+        assert_eq!(folder.text(name), "whole and finished");
         assert!(said.contains(name) && said.contains(beside), "{said}");
-        assert!(fs::metadata(folder.join(beside)).unwrap().len() > 1000);
-        assert_eq!(fs::read_dir(folder).unwrap().count(), 2);
+        assert!(folder.bytes(beside).len() > 1000);
+        assert_eq!(folder.names().len(), 2);
     }
 }
 
 /// A run that is killed cannot clean up after itself.
 #[test]
 fn what_killed_runs_left_is_cleaned_by_the_next() {
-    let folder = tempdir().unwrap();
-    let folder = folder.path();
+    let folder = &Folder::new();
     let list = "search gripper-10 --all --check none --format csv -o list.csv";
     let [mut killed, mut going] = [(); 2].map(|()| start(folder, list));
-    let temporary = || {
-        let all = fs::read_dir(folder).unwrap().flatten();
-        all.filter(|f| f.file_name().to_string_lossy().starts_with(".tmp"))
-            .count()
-    };
+    let temporary = || temporary(folder).len();
     while temporary() < 2 {
         sleep(Duration::from_millis(5));
     }
@@ -260,17 +235,14 @@ fn what_killed_runs_left_is_cleaned_by_the_next() {
     killed.kill().unwrap();
     killed.wait().unwrap();
     assert_eq!(temporary(), 2);
-    fs::write(folder.join(".tmpother"), "somebody else's").unwrap();
+    folder.put(".tmpother", "somebody else's");
     let check = start(folder, "analyze four-bar -o x.txt");
     assert!(check.wait_with_output().unwrap().status.success());
     // That of the one that goes on is left, and so is what is none of ours.
     assert_eq!(temporary(), 2);
-    assert!(folder.join(".tmpother").exists() && folder.join("x.txt").exists());
+    assert!(folder.path(".tmpother").exists() && folder.path("x.txt").exists());
     going.kill().unwrap();
     going.wait().unwrap();
-    ozols(&["analyze", "four-bar", "-o", "x.txt"])
-        .current_dir(folder)
-        .assert()
-        .success();
+    folder.succeed("analyze four-bar -o x.txt");
     assert_eq!(temporary(), 1);
 }

@@ -4,63 +4,48 @@ use super::{four_bar, run_shell, shell_fails};
 use crate::common::*;
 
 /// Names of the files in a folder, with what they hold.
-fn held(folder: &Path) -> Vec<(String, Vec<u8>)> {
-    let all = fs::read_dir(folder).unwrap().map(Result::unwrap);
-    let files = all.filter(|f| f.path().is_file());
-    let mut files: Vec<_> = files
-        .map(|f| {
-            let name = f.file_name().into_string().unwrap();
-            (name, fs::read(f.path()).unwrap())
-        })
-        .collect();
-    files.sort();
-    files
+fn held(folder: &Folder) -> Vec<(String, Vec<u8>)> {
+    let files = folder
+        .names()
+        .into_iter()
+        .filter(|n| folder.path(n).is_file());
+    files.map(|n| (n.clone(), folder.bytes(&n))).collect()
 }
 
 /// Each is refused before anything is written.
 #[test]
 fn two_outputs_of_one_name_are_refused() {
-    let folder = tempdir().unwrap();
-    let folder = folder.path();
-    fs::create_dir(folder.join("sub")).unwrap();
-    let path = |name: &str| folder.join(name).display().to_string();
-    let pairs = [
-        ["x", "x"],
-        ["x", "./x"],
-        ["x", "sub/../x"],
-        ["sub/x", "sub//x"],
-        ["-", "-"],
-        ["x", &path("x")],
-    ];
-    let mut named = pairs.map(|pair| pair.map(str::to_owned)).to_vec();
+    let folder = Folder::new();
+    fs::create_dir(folder.path("sub")).unwrap();
+    let same = folder.path("x").display().to_string();
+    let mut named = ["x x", "x ./x", "x sub/../x", "sub/x sub//x", "- -"]
+        .map(str::to_owned)
+        .to_vec();
+    named.push(format!("x {same}"));
     #[cfg(unix)]
     {
-        std::os::unix::fs::symlink(folder.join("sub"), folder.join("link")).unwrap();
-        named.push(["sub/x", "link/x"].map(str::to_owned));
+        std::os::unix::fs::symlink(folder.path("sub"), folder.path("link")).unwrap();
+        named.push("sub/x link/x".to_owned());
     }
-    let commands: [(&[&str], &str); 6] = [
-        (&["analyze", "four-bar"], "--certificate"),
-        (&["analyze", "four-bar", "--stroke", "0..0.5:3"], "--svg"),
-        (&["statics", "parallel-shears"], "--svg"),
-        (&["drive", "torsion-module"], "--svg"),
-        (&["grip", "lever-gripper"], "--svg"),
-        (&["catalog", "show", "c.db", "x"], "--svg"),
-    ];
-    for (words, option) in commands {
-        for [one, other] in &named {
-            let all = [words, &[option, one, "-o", other]].concat();
-            let o = ozols(&all).current_dir(folder).output().unwrap();
-            let said = utf8_text(&o.stderr);
-            assert_eq!(o.status.code(), Some(2), "{all:?}: {said}");
-            assert!(said.contains("name two files"), "{all:?}: {said}");
-            assert_eq!(held(folder), [], "{all:?}");
-            assert_eq!(fs::read_dir(folder.join("sub")).unwrap().count(), 0);
+    let before = folder.names();
+    for words in [
+        "analyze four-bar --certificate",
+        "analyze four-bar --stroke 0..0.5:3 --svg",
+        "statics parallel-shears --svg",
+        "drive torsion-module --svg",
+        "grip lever-gripper --svg",
+        "catalog show c.db x --svg",
+    ] {
+        for pair in &named {
+            let (one, other) = pair.split_once(' ').unwrap();
+            folder.assert_fails(&format!("{words} {one} -o {other}"), "name two files");
+            assert_eq!(folder.names(), before, "{words} {pair}");
+            assert_eq!(fs::read_dir(folder.path("sub")).unwrap().count(), 0);
         }
     }
     // Two names are two files, and a device takes both.
-    let both = ["analyze", "four-bar", "--certificate", "c", "-o", "t"];
-    let o = ozols(&both).current_dir(folder).output().unwrap();
-    assert_eq!((o.status.code(), held(folder).len()), (Some(0), 2));
+    folder.succeed("analyze four-bar --certificate c -o t");
+    assert_eq!(held(&folder).len(), 2);
     #[cfg(unix)]
     run_quiet("analyze four-bar --certificate /dev/null -o /dev/null");
 }
@@ -68,25 +53,20 @@ fn two_outputs_of_one_name_are_refused() {
 /// A folder of charts has a page, which no other output replaces.
 #[test]
 fn an_output_among_the_charts_is_refused() {
-    let folder = tempdir().unwrap();
-    let charts = folder.path().join("charts");
-    let page = charts.join("index.html");
-    let [charts, page] = [charts, page].map(|p| p.display().to_string());
-    let line = format!("statics parallel-shears --stroke 0:360deg:12 --svg {charts} -o {page}");
-    assert_fails(&line, "already written by this command");
-    assert!(fs::read_to_string(&page).unwrap().starts_with("<!"));
+    let folder = Folder::new();
+    let line = "statics parallel-shears --stroke 0:360deg:12 --svg charts -o charts/index.html";
+    folder.assert_fails(line, "already written by this command");
+    assert!(folder.text("charts/index.html").starts_with("<!"));
 }
 
 /// The shell opens standard input and output: names say nothing of them, and what it has emptied is gone before the program begins.
 #[cfg(unix)]
 #[test]
 fn standard_input_and_output_are_files_like_others() {
-    let folder = tempdir().unwrap();
-    let folder = folder.path();
-    let (file, link) = (folder.join("f.toml"), folder.join("hard.toml"));
-    fs::write(&file, four_bar()).unwrap();
-    fs::hard_link(&file, &link).unwrap();
-    let before = held(folder);
+    let folder = Folder::new();
+    folder.put("f.toml", four_bar());
+    fs::hard_link(folder.path("f.toml"), folder.path("hard.toml")).unwrap();
+    let before = held(&folder);
     for words in [
         "ozols export - --to json -o f.toml < f.toml",
         "ozols export - --to json -o hard.toml < f.toml",
@@ -98,36 +78,26 @@ fn standard_input_and_output_are_files_like_others() {
         "ozols analyze four-bar -o f.toml >> f.toml",
         "ozols analyze four-bar -o hard.toml >> f.toml",
     ] {
-        shell_fails(folder, words, "another file");
-        assert!(held(folder) == before, "{words}");
+        shell_fails(&folder, words, "another file");
+        assert!(held(&folder) == before, "{words}");
     }
     // The shell empties it first.
-    shell_fails(folder, "ozols analyze - < f.toml > f.toml", "");
-    fs::write(&file, four_bar()).unwrap();
-    let o = run_shell(folder, "ozols export - --to json < f.toml > new.json");
+    shell_fails(&folder, "ozols analyze - < f.toml > f.toml", "");
+    folder.put("f.toml", four_bar());
+    let o = run_shell(&folder, "ozols export - --to json < f.toml > new.json");
     assert_eq!(o.status.code(), Some(0), "{}", utf8_text(&o.stderr));
 }
 
 /// What a description includes is read as well.
 #[test]
 fn an_included_file_is_not_written_over() {
-    let folder = tempdir().unwrap();
     let robot = include_str!("../../data/robots/gripper.xml");
-    let (main, part) = (
-        folder.path().join("main.xml"),
-        folder.path().join("part.xml"),
-    );
-    fs::write(&part, robot).unwrap();
-    fs::write(&main, "<mujoco><include file=\"part.xml\"/></mujoco>").unwrap();
-    let [main, part] = [main, part].map(|p| p.display().to_string());
-    run_quiet(&["analyze", &main, "-q"]);
-    for words in [
-        ["export", "--to=mjcf"],
-        ["export", "--to=toml"],
-        ["draw", "-q"],
-    ] {
-        assert_fails(&[words[0], &main, words[1], "-o", &part], "is the input");
-        assert_eq!(fs::read_to_string(&part).unwrap(), robot);
+    let folder = Folder::with("part.xml", robot);
+    folder.put("main.xml", "<mujoco><include file=\"part.xml\"/></mujoco>");
+    folder.succeed("analyze main.xml -q");
+    for words in ["export --to=mjcf", "export --to=toml", "draw -q"] {
+        folder.assert_fails(&format!("{words} main.xml -o part.xml"), "is the input");
+        assert_eq!(folder.text("part.xml"), robot);
     }
 }
 
@@ -135,8 +105,7 @@ fn an_included_file_is_not_written_over() {
 #[cfg(unix)]
 #[test]
 fn a_file_that_may_not_grow_is_an_error_with_its_name() {
-    let folder = tempdir().unwrap();
-    let folder = folder.path();
+    let folder = Folder::new();
     for [words, name] in read_cases::<2>(
         r"
         search gripper-10 --top 2000 --format csv -o list.csv | list.csv
@@ -152,29 +121,28 @@ fn a_file_that_may_not_grow_is_an_error_with_its_name() {
 ",
     ) {
         shell_fails(
-            folder,
+            &folder,
             &format!("ulimit -f 1; exec ozols {words} > said"),
             name,
         );
-        let _ = fs::remove_file(folder.join("said"));
+        let _ = fs::remove_file(folder.path("said"));
         // A database that was begun is carried on.
-        let left = held(folder).into_iter().map(|f| f.0);
+        let left = held(&folder).into_iter().map(|f| f.0);
         let left: Vec<String> = left.filter(|f| f != "c.db").collect();
         assert_eq!(left, [""; 0], "{words}");
     }
-    let o = run_shell(folder, "ozols catalog build --links 4 --ideas 1 -o c.db");
+    let o = run_shell(&folder, "ozols catalog build --links 4 --ideas 1 -o c.db");
     assert_eq!(o.status.code(), Some(0), "{}", utf8_text(&o.stderr));
 }
 
 #[cfg(target_os = "linux")]
 #[test]
 fn a_full_device_is_an_error_with_its_name() {
-    let folder = tempdir().unwrap();
-    let folder = folder.path();
+    let folder = Folder::new();
     let lines = "--help/--version//search --help/help search/analyze four-bar/search four-bar --format json/list/completions bash/schema";
     for words in lines.split('/') {
         shell_fails(
-            folder,
+            &folder,
             &format!("ozols {words} > /dev/full"),
             "cannot write standard output",
         );
@@ -185,12 +153,12 @@ fn a_full_device_is_an_error_with_its_name() {
         "search four-bar --format json",
     ] {
         shell_fails(
-            folder,
+            &folder,
             &format!("ozols {words} -o /dev/full"),
             "cannot write /dev/full",
         );
     }
     // Who reads no further is no failure.
-    let o = run_shell(folder, "(ozols --help; echo $? >&2) | true");
+    let o = run_shell(&folder, "(ozols --help; echo $? >&2) | true");
     assert_eq!(utf8_text(&o.stderr), "0\n");
 }

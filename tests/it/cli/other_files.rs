@@ -17,7 +17,7 @@ fn json_is_read_like_toml() {
     assert_eq!(from(path), from("four-bar"));
     assert_eq!(
         run_quiet(&["search", path, "--format", "json"]),
-        run_quiet(&["search", "four-bar", "--format", "json"])
+        run_quiet("search four-bar --format json")
     );
 }
 
@@ -48,11 +48,8 @@ fn files_that_are_no_text_are_refused() {
 
 /// Asserts that the bytes are refused with these words; there is no line to name.
 fn bad_bytes(bytes: &[u8], parts: &[&str]) {
-    let folder = tempdir().unwrap();
     for name in ["bad.toml", "bad.json"] {
-        let path = folder.path().join(name);
-        fs::write(&path, bytes).unwrap();
-        let said = assert_refused(&["check", path.to_str().unwrap()], parts);
-        assert!(said.contains(name));
+        let (_folder, path) = write_temporary(name, bytes);
+        has(&assert_refused(&["check", path], parts), name);
     }
 }

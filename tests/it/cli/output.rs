@@ -2,8 +2,6 @@
 
 use super::four_bar;
 use crate::common::*;
-use std::io::{BufRead, BufReader, Read};
-use std::process::Stdio;
 
 // Files written.
 
@@ -29,32 +27,20 @@ fn output_file_is_whole() {
 #[test]
 fn show_round_trips_through_standard_input() {
     let shown = four_bar();
-    let o = ozols(&["check", "-"])
-        .write_stdin(shown.clone())
-        .output()
-        .unwrap();
-    assert_eq!(
-        (o.status.code(), utf8_text(&o.stderr).as_str()),
-        (Some(0), "")
-    );
-    assert_eq!(utf8_text(&o.stdout), run_quiet(&["check", "four-bar"]));
-    let o = ozols(&["analyze", "-", "--format", "json"])
-        .write_stdin(shown)
-        .output()
-        .unwrap();
-    let mut read: Value = serde_json::from_slice(&o.stdout).unwrap();
-    let mut named = run_json(&["analyze", "four-bar", "--format", "json"]);
+    let (code, out, said) = run_with_input("check -", &shown);
+    assert_eq!((code, said.as_str()), (Some(0), ""));
+    assert_eq!(out, run_quiet("check four-bar"));
+    let (_, out, _) = run_with_input("analyze - --format json", &shown);
+    let mut read: Value = serde_json::from_str(&out).unwrap();
+    let mut named = run_json("analyze four-bar --format json");
     // What to do next names the file.
     for v in [&mut read, &mut named] {
         v["next"].take();
     }
     assert_eq!(read, named);
-    let o = ozols(&["check", "-"])
-        .write_stdin("x = [")
-        .output()
-        .unwrap();
-    assert_eq!(o.status.code(), Some(2));
-    assert!(utf8_text(&o.stderr).contains("standard input:1:"));
+    let (code, _, said) = run_with_input("check -", "x = [");
+    assert_eq!(code, Some(2));
+    has(&said, "standard input:1:");
 }
 
 // `ozols search ... | head -1`
@@ -121,7 +107,7 @@ fn output_through_a_symbolic_link() {
     assert!(fs::symlink_metadata(&link).unwrap().is_symlink());
     assert_eq!(
         fs::read_to_string(&real).unwrap(),
-        run_quiet(&["analyze", "four-bar"])
+        run_quiet("analyze four-bar")
     );
 }
 
@@ -129,7 +115,7 @@ fn output_through_a_symbolic_link() {
 
 #[test]
 fn a_search_says_how_long_it_took() {
-    let o = run(&["search", "four-bar", "--format", "json"]);
+    let o = run("search four-bar --format json");
     let whole = utf8_text(&o.stdout);
     let v: Value = serde_json::from_str(&whole).unwrap();
     let seconds = v["seconds"].real();
@@ -151,60 +137,47 @@ fn a_search_says_how_long_it_took() {
 /// Whatever a command reads stays as it is, by whatever name it is to be written over, and no catalogue is taken for an old result.
 #[test]
 fn what_is_read_is_not_written_over() {
-    let folder = tempdir().unwrap();
-    let at = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
-    let (file, robot, same, db) = (at("in.toml"), at("in.xml"), at("./in.toml"), at("c.db"));
-    fs::write(&file, four_bar()).unwrap();
-    let made = run(&["export", &file, "--to", "mjcf", "-o", &robot]);
-    assert_eq!(made.status.code(), Some(0));
-    run_quiet(&["catalog", "build", "--links", "4", "--quiet", "-o", &db]);
-    let id = run_quiet(&[
-        "catalog",
-        "query",
-        &db,
-        "SELECT structure FROM layouts LIMIT 1",
-        "--format",
-        "csv",
-    ]);
+    let folder = Folder::with("in.toml", four_bar());
+    folder.succeed("export in.toml --to mjcf -o in.xml");
+    folder.succeed("catalog build --links 4 --quiet -o c.db");
+    let sql = "SELECT structure FROM layouts LIMIT 1";
+    let (id, _) = folder.succeed(&["catalog", "query", "c.db", sql, "--format", "csv"]);
     let id = id.lines().nth(1).unwrap();
-    let read = || [&file, &robot, &db].map(|f| fs::read(f).unwrap());
+    let read = || ["in.toml", "in.xml", "c.db"].map(|f| folder.bytes(f));
     let before = read();
-    let over: [&[&str]; 17] = [
-        &["analyze", &file, "-o", &same],
-        &["analyze", &file, "--certificate", &file],
-        &["search", &file, "-o", &file],
-        &["draw", &file, "-o", &file],
-        &["report", &file, "-o", &file],
-        &["export", &file, "--to", "json", "-o", &file],
-        &["search", "four-bar", "--costs", &file, "-o", &file],
-        &["export", &robot, "--to", "toml", "-o", &robot],
-        &["export", &robot, "--to", "mjcf", "-o", &robot],
-        &["lint", &robot, "--format", "json", "-o", &robot],
-        &["fix", &robot, "-o", &robot],
-        &["catalog", "export", &db, id, "-o", &db],
-        &["catalog", "page", &db, "-o", &db],
-        &["catalog", "query", &db, "-o", &db],
-        &["catalog", "show", &db, id, "--svg", &db],
-        &["catalog", "count", "--links", "4", "-o", &db],
-        &["catalog", "find", "gripper-10", "--in", &db, "-o", &db],
-    ];
-    for words in over {
-        let o = run(words);
-        let said = utf8_text(&o.stderr);
-        assert_eq!(o.status.code(), Some(2), "{words:?}: {said}");
-        assert!(
-            said.contains("name another file to write") || words.contains(&"--costs"),
-            "{words:?}: {said}"
-        );
-        assert!(read() == before, "{words:?}");
+    for line in [
+        "analyze in.toml -o ./in.toml",
+        "analyze in.toml --certificate in.toml",
+        "search in.toml -o in.toml",
+        "draw in.toml -o in.toml",
+        "report in.toml -o in.toml",
+        "export in.toml --to json -o in.toml",
+        "search four-bar --costs in.toml -o in.toml",
+        "export in.xml --to toml -o in.xml",
+        "export in.xml --to mjcf -o in.xml",
+        "lint in.xml --format json -o in.xml",
+        "fix in.xml -o in.xml",
+        "catalog export c.db ID -o c.db",
+        "catalog page c.db -o c.db",
+        "catalog query c.db -o c.db",
+        "catalog show c.db ID --svg c.db",
+        "catalog count --links 4 -o c.db",
+        "catalog find gripper-10 --in c.db -o c.db",
+    ] {
+        let of_costs = line.contains("--costs");
+        let says = if of_costs {
+            ""
+        } else {
+            "name another file to write"
+        };
+        folder.assert_fails(&line.replace("ID", id), says);
+        assert!(read() == before, "{line}");
     }
 }
 
 #[test]
 fn a_robot_description_on_standard_input_is_told_from_toml() {
-    let xml = "\n<robot name='r'/>";
-    let o = ozols(&["analyze", "-"]).write_stdin(xml).output().unwrap();
-    let said = utf8_text(&o.stderr);
-    assert_eq!(o.status.code(), Some(2), "{said}");
+    let (code, _, said) = run_with_input("analyze -", "\n<robot name='r'/>");
+    assert_eq!(code, Some(2), "{said}");
     has(&said, "standard input is XML");
 }

@@ -2,7 +2,6 @@
 
 use crate::common::*;
 use ozols::closure::contour::{Contour, closed_walk};
-use ozols::rank::exact::field::field_of;
 use ozols::redundancy::contour_shares::Measured;
 use ozols::redundancy::contour_shares::{ContourShare, contour_shares};
 
@@ -48,27 +47,11 @@ fn in_order(m: &Mechanism, mut left: Vec<JointId>) -> Option<Contour> {
     left.is_empty().then(|| closed_walk(m, &order))?
 }
 
-/// Whether walks are independent, by elimination of how they pass joints.
+/// Whether walks are independent, by how they pass joints.
 fn independent(walks: &[&Contour], joints: &[JointId]) -> bool {
-    let row = |w: &&Contour| -> Vec<f64> {
-        let way = |j: &JointId| {
-            w.direction_of(*j)
-                .map_or(0.0, |d| if d { 1.0 } else { -1.0 })
-        };
-        joints.iter().map(way).collect()
-    };
-    let mut rows: Vec<Vec<f64>> = walks.iter().map(row).collect();
-    for i in 0..rows.len() {
-        let Some(c) = (0..joints.len()).find(|&c| rows[i][c].abs() > 1e-9) else {
-            return false;
-        };
-        let pivot = rows[i].clone();
-        for row in &mut rows[i + 1..] {
-            let by = row[c] / pivot[c];
-            row.iter_mut().zip(&pivot).for_each(|(x, p)| *x -= by * p);
-        }
-    }
-    true
+    let way = |d: Option<bool>| d.map_or(0.0, |d| if d { 1.0 } else { -1.0 });
+    let row = |w: &&Contour| joints.iter().map(|&j| way(w.direction_of(j))).collect();
+    rank_of_rows(walks.iter().map(row).collect()) == walks.len()
 }
 
 fn redundant(exact: &ExactField, m: &Mechanism, of: Vec<Contour>) -> usize {

@@ -1,13 +1,13 @@
 //! Couplings among the constraints that formulas count.
 
-use super::{SLIDE, coupled, exact, mechanism, pair};
+use super::{SLIDE, coupled, pair};
 use crate::common::*;
 
 /// A coupling is a constraint: Malyshev's formula counts it, and is W less σ with couplings as without, in every state.
 #[test]
 fn the_formula_counts_couplings() {
     // Five links, five hinges, a gear between two of them: 6·4 - 5·5 - 1.
-    assert_eq!(exact(&built_in("geared-five-bar")).formula_mobility, -2);
+    assert_eq!(analysed(&built_in("geared-five-bar")).formula_mobility, -2);
     for name in ozols::builtin::names() {
         let m = built_in(name);
         let states: Vec<StateId> = m.state_ids().collect();
@@ -34,7 +34,7 @@ fn a_state_may_add_couplings() {
             + coupling
     };
     let external = |text: &str| {
-        let m = mechanism(text);
+        let m = read(text);
         let found = analyse_states(&m, &[StateId::new(1)], Method::Modular).unwrap();
         found[0].external.unwrap()
     };
@@ -56,9 +56,9 @@ fn a_state_may_add_couplings() {
 /// order beyond which nothing stops a motion is not known of them.
 #[test]
 fn no_bound_on_the_order_is_taken_where_joints_are_coupled() {
-    use ozols::rank::finite::{How, Proof};
+    use ozols::rank::finite::Proof;
     let by_multiplicity = |m: &ozols::Mechanism| {
-        let how = exact(m).finite.how;
+        let how = analysed(m).finite.how;
         matches!(
             how,
             How::Submersion {
@@ -77,15 +77,15 @@ fn no_bound_on_the_order_is_taken_where_joints_are_coupled() {
         d | 0 3 | revolute | 100, 0, 0 | 0, 0, 1
         ",
     );
-    let geared = exact(&mechanism(&(text.clone() + &coupled("a", "d", "1"))));
+    let geared = analysed(&read(&(text.clone() + &coupled("a", "d", "1"))));
     assert_eq!(
         (geared.mobility, geared.redundant, geared.finite.mobility),
         (1, 4, 1)
     );
-    let bent = exact(&mechanism(&(text.clone() + &coupled("a", "b", "-1"))));
+    let bent = analysed(&read(&(text.clone() + &coupled("a", "b", "-1"))));
     assert_eq!((bent.mobility, bent.redundant), (1, 4));
     for coupling in [coupled("a", "d", "1"), coupled("a", "b", "-1")] {
-        assert!(!by_multiplicity(&mechanism(&(text.clone() + &coupling))));
+        assert!(!by_multiplicity(&read(&(text.clone() + &coupling))));
     }
     for name in ozols::builtin::names() {
         let m = built_in(name);
@@ -96,10 +96,6 @@ fn no_bound_on_the_order_is_taken_where_joints_are_coupled() {
 /// A rack with two pinions, and a sun with planets: a joint that several couplings tie is counted as by brute force.
 #[test]
 fn joints_of_several_couplings_are_counted_one_by_one() {
-    use ozols::redundancy::analysis::exact_field;
-    use ozols::search::Search;
-    use ozols::search::check::brute::every_variant;
-    use ozols::search::question::conditions::Conditions;
     for (name, ratio) in [
         ("rack-gripper", None),
         ("planetary-gear", None),
@@ -115,13 +111,10 @@ fn joints_of_several_couplings_are_counted_one_by_one() {
         assert!(m.joint_ids().any(tied), "{name}");
         for max_redundant in 0..5 {
             for keep_output in [false, true] {
-                let conditions = Conditions {
-                    max_redundant,
-                    keep_output,
-                    ..Conditions::default()
-                };
-                let s = Search::new(exact_field(&m, 0).unwrap(), &m, conditions).unwrap();
-                let d = s.build_diagrams(&|| false, &mut |_| {});
+                let conditions = default_with(|c: &mut Conditions| {
+                    (c.max_redundant, c.keep_output) = (max_redundant, keep_output)
+                });
+                let (s, d) = searched(&m, conditions);
                 let every = every_variant(&s).unwrap();
                 let found = (
                     s.count_variants(&d.determinate, false),

@@ -2,8 +2,6 @@
 
 use crate::accuracy::SURVEY;
 use crate::common::*;
-use ozols::chains::classics::known_classics;
-use ozols::rank::method::registry;
 
 /// Asserts that a document has these words, wherever its lines are broken.
 pub(crate) fn says(document: &str, words: &str) {
@@ -59,7 +57,7 @@ fn records_of_the_methods_are_those_of_the_survey() {
     says(
         "README.md",
         &format!(
-            "{all} cases of published mobility, of which counting formulas get {} right, double precision {}, and the default method all",
+            "Counting formulas get {} of {all} published cases right, double precision {}, and the default method all",
             right("count"),
             right("lu")
         ),
@@ -173,7 +171,7 @@ fn as_many_schemes_are_known_as_the_documents_say() {
 /// What friction takes of a swing, and that it does not do to feed just that.
 #[test]
 fn the_guide_has_the_energies_of_the_built_in_drive() {
-    let found = run_json(&["drive", "torsion-module", "--format", "json"]);
+    let found = run_json("drive torsion-module --format json");
     let energy = found["design"]["friction_energy"].real();
     says(
         "src/guide/drive.md",

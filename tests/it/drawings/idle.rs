@@ -1,7 +1,6 @@
 //! Idle freedoms as motions: what rests does so, joints stay together, and one sees what turns in its place.
 
 use crate::common::*;
-use ozols::motion::pose::Pose;
 use ozols::redundancy::local_mobility::animate_idle;
 
 #[test]
@@ -63,7 +62,7 @@ fn an_idle_freedom_moves_its_own_links_and_keeps_joints_together() {
 
 #[test]
 fn a_rod_that_spins_carries_a_flag() {
-    let svg = run_quiet(&["draw", "rssr", "--motion", "--idle", "1"]);
+    let svg = run_quiet("draw rssr --motion --idle 1");
     let doc = roxmltree::Document::parse(&svg).unwrap();
     let frames = doc.descendants().filter(|n| n.has_attribute("data-frame"));
     let flags: Vec<&str> = frames

@@ -1,7 +1,6 @@
 //! Self-stresses as arrows: what joints bear keeps every link in balance, and that is what is drawn.
 
 use crate::common::*;
-use ozols::geom::vector::add;
 use ozols::redundancy::stress::SelfStress;
 
 fn stresses(name: &str) -> (Mechanism, Vec<SelfStress>) {

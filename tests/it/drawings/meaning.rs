@@ -5,16 +5,11 @@ use super::places::all;
 use super::reading::{covers, texts};
 use crate::common::*;
 use crate::drawings::subject;
-use ozols::draw::{Drawing, Rect, kinematic};
 
 type Point = [f64; 2];
 
 fn drawn(m: &Mechanism) -> Drawing {
     kinematic(&subject(m))
-}
-
-fn read(text: &str) -> Mechanism {
-    mechanism_from_str("m.toml", text).unwrap()
 }
 
 /// Whether a segment passes through a rectangle.
@@ -290,7 +285,7 @@ fn circles_that_outputs_go_on_are_seen_as_such() {
 
 #[test]
 fn the_stroke_of_a_gripper_ends_where_its_jaws_meet() {
-    let svg = run_quiet(&["draw", "gripper-10", "--kind", "kinematic", "--motion"]);
+    let svg = run_quiet("draw gripper-10 --kind kinematic --motion");
     assert!(svg.contains("jaws meet at"), "the words say so");
     // The tips of both jaws come together at an end of their ways, and none of them crosses the middle.
     let ways = traces(&svg);

@@ -116,10 +116,7 @@ fn a_crank_goes_round_and_a_slide_goes_to_and_fro() {
     }
     let gripper = frames(&["gripper-10"]);
     assert!(gripper.svg.contains("infinite alternate"));
-    assert!(
-        gripper.svg.contains(" cm to "),
-        "the way of a slide has a unit"
-    );
+    has(&gripper.svg, " cm to ");
 }
 
 #[test]

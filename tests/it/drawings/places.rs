@@ -4,7 +4,7 @@
 use super::reading::{covers, moved};
 use super::subject;
 use crate::common::*;
-use ozols::draw::{Drawing, Sight, Subject, kinematic, kinematic_seen};
+use ozols::draw::{Sight, Subject, kinematic_seen};
 
 pub(super) type Point = [f64; 2];
 

@@ -3,29 +3,31 @@
 use crate::common::*;
 #[test]
 fn sizes_are_for_png() {
-    assert_fails(&["draw", "bennett", "--scale", "2"], "--scale and --width");
-    assert_fails(&["draw", "bennett", "--width", "90"], "--scale and --width");
+    assert_fails("draw bennett --scale 2", "--scale and --width");
+    assert_fails("draw bennett --width 90", "--scale and --width");
 }
 
 #[cfg(not(feature = "png"))]
 #[test]
 fn a_build_without_png_says_so() {
-    let dir = tempdir().unwrap();
-    let path = dir.path().join("x.PNG");
-    let path = path.to_str().unwrap();
-    assert_fails(&["draw", "bennett", "--png"], "--features png");
+    let dir = Folder::new();
+    dir.assert_fails("draw bennett --png", "--features png");
     // the name asks for it
-    assert_fails(&["draw", "bennett", "-o", path], "--features png");
-    assert_fails(&["explain", "spherical", "-o", path], "--features png");
-    assert_eq!(dir.path().read_dir().unwrap().count(), 0);
+    dir.assert_fails("draw bennett -o x.PNG", "--features png");
+    dir.assert_fails("explain spherical -o x.PNG", "--features png");
+    assert_eq!(dir.names(), [""; 0]);
 }
 
 #[cfg(feature = "png")]
 mod with_png {
     use crate::common::*;
     use crate::drawings::subject;
+    use ozols::draw::Sight;
+    use ozols::draw::Size;
+    use ozols::draw::Subject;
+    use ozols::draw::kinematic_seen;
     use ozols::draw::png::png;
-    use ozols::draw::{Drawing, Rect, Sight, Size, Subject, kinematic, kinematic_seen, scheme};
+    use ozols::draw::scheme;
     use resvg::tiny_skia::{self, Pixmap};
 
     fn drawings(name: &str) -> [Drawing; 2] {
@@ -69,11 +71,7 @@ mod with_png {
             ""
         };
         let joint = format!("0-1 | 0 1 | {joint_type} | 0, 0, 0 | 0, 0, 1 | {pitch}");
-        mechanism_from_str(
-            "one.toml",
-            &write_mechanism("name = \"one\"", "0 1*", &joint),
-        )
-        .unwrap()
+        read(&write_mechanism("name = \"one\"", "0 1*", &joint))
     }
 
     /// The symbol of a drawing's only joint in so many pixels, in black and white.
@@ -159,7 +157,7 @@ joint = [
 
     #[test]
     fn every_contour_is_seen_in_its_tint() {
-        let wishbone = mechanism_from_str("wishbone.toml", WISHBONE).unwrap();
+        let wishbone = read(WISHBONE);
         let names =
             split_words("door-two-hinges twin-rail-slide shaft-two-bearings gripper-10 bennett");
         for m in names.into_iter().map(built_in).chain([wishbone]) {
@@ -207,13 +205,10 @@ joint = [
 
     #[test]
     fn joint_types_are_explained_in_a_picture() {
-        let dir = tempdir().unwrap();
+        let dir = Folder::new();
         for t in JointType::NAMED {
-            let path = dir.path().join(format!("{t}.png"));
-            let done = run(&["explain", t.name(), "-o", path.to_str().unwrap()]);
-            let said = String::from_utf8_lossy(&done.stderr);
-            assert!(done.status.success(), "{t}: {said}");
-            let picture = Pixmap::decode_png(&fs::read(&path).unwrap()).unwrap();
+            dir.succeed(&format!("explain {} -o x.png", t.name()));
+            let picture = Pixmap::decode_png(&dir.bytes("x.png")).unwrap();
             let dark = picture.pixels().iter().filter(|p| p.red() < 150).count();
             assert!(dark > 500, "{t}: {dark}");
         }
@@ -221,22 +216,15 @@ joint = [
 
     #[test]
     fn command_line() {
-        let dir = tempdir().unwrap();
-        let path = dir.path().join("x.png");
-        let path = path.to_str().unwrap();
-        let done = run(&["draw", "four-bar", "-o", path, "--width", "321"]);
-        assert!(
-            done.status.success(),
-            "{}",
-            String::from_utf8_lossy(&done.stderr)
-        );
-        let file = fs::read(path).unwrap();
+        let dir = Folder::new();
+        dir.succeed("draw four-bar -o x.png --width 321");
+        let file = dir.bytes("x.png");
         let picture = Pixmap::decode_png(&file).unwrap();
         assert_eq!(picture.width(), 321);
-        let piped = run(&["draw", "four-bar", "--png", "--width", "321"]);
+        let piped = run("draw four-bar --png --width 321");
         assert_eq!(piped.stdout, file);
-        assert_fails(&["draw", "four-bar", "--png", "--scale", "0"], "--scale");
-        assert_fails(&["draw", "four-bar", "--png", "--width", "0"], "--width");
+        assert_fails("draw four-bar --png --scale 0", "--scale");
+        assert_fails("draw four-bar --png --width 0", "--width");
         assert_fails("draw four-bar --png --width 99999", "too large");
     }
 }

@@ -1,8 +1,6 @@
 //! A drawing read back from its SVG: where labels and lines are, what touches what.
 
 use crate::common::*;
-use ozols::draw::{Drawing, Rect};
-use ozols::redundancy::analysis::StateAnalysis;
 
 /// How far the groups round an element move it.
 pub(super) fn moved(n: roxmltree::Node<'_, '_>) -> [f64; 2] {

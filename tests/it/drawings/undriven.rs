@@ -1,7 +1,6 @@
 //! Motions of mechanisms in which no joint can be a drive: their working motion is shown.
 
 use crate::common::*;
-use ozols::motion::pose::Pose;
 use ozols::motion::working::working_way;
 
 #[test]

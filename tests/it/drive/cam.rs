@@ -5,7 +5,7 @@ use crate::common::*;
 /// The built-in module: its spring for this run, the pulses of its electromagnets, what they take.
 #[test]
 fn electromagnets_are_on_until_the_push_begins() {
-    let value = run_json(&["drive", "torsion-module", "--format", "json"]);
+    let value = run_json("drive torsion-module --format json");
     let cam = &value["design"]["cam"];
     // (13) for the 0.31 J fed, at an efficiency of 0.7.
     let energy = 0.31 / 0.7;
@@ -29,7 +29,7 @@ fn electromagnets_are_on_until_the_push_begins() {
     }
     let time = 8.0 * (programme[0]["duration"].real() + 0.3);
     near(magnet["mean_power"].real(), 8.0 * energy / time, 1e-9);
-    let text = run_quiet(&["drive", "torsion-module"]);
+    let text = run_quiet("drive torsion-module");
     has_all(
         &text,
         &["electromagnet: on at each release for", "J a cycle"],
@@ -54,7 +54,9 @@ fn the_drives_motion_is_what_the_grip_takes() {
     };
     let greatest = steps.iter().map(size).fold(0.0, f64::max);
     // r p² φ0, as `ozols drive` prints it, less what dry friction takes at the release.
-    let told = run_json(&["drive", "torsion-module", "--format", "json"])["design"]["motions"][0]["acceleration"].real();
+    let told =
+        run_json("drive torsion-module --format json")["design"]["motions"][0]["acceleration"]
+            .real();
     assert!(
         greatest < told && greatest > 0.97 * told,
         "{greatest} {told}"

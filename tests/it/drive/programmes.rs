@@ -6,7 +6,7 @@ mod repeated;
 use repeated::Bench;
 
 use ozols::drive::programme::{Endurance, Module};
-use ozols::drive::swing::{Disc, End, Feed, Latch};
+use ozols::drive::swing::{Disc, End, Latch};
 use ozols::model::drive::ProgrammeStep;
 
 /// Two discs on a latch at 0.8 rad, fed over the whole way.
@@ -192,7 +192,6 @@ fn samples_move_as_their_rates_say() {
 #[test]
 fn the_missing_angle_is_that_of_the_disc_that_misses_more() {
     use ozols::drive::driving::design_drive;
-    use ozols::file::read::workload::drive_from_bytes;
     let text = |first: &str, second: &str| {
         format!(
             "name = \"d\"\n[workload.drive]\nswing_angle = 90\nswing_time = 0.4\nshear_modulus = 8e10\n\
@@ -221,7 +220,6 @@ fn the_missing_angle_is_that_of_the_disc_that_misses_more() {
 #[test]
 fn payloads_are_flung_outwards_in_great_swings() {
     use ozols::drive::driving::design_drive;
-    use ozols::file::read::workload::drive_from_bytes;
     for angle in [40, 90, 114, 116, 170] {
         let text = format!(
             "name = \"d\"\n[workload.drive]\nswing_angle = {angle}\nswing_time = 0.7\nshear_modulus = 8e10\n\

@@ -2,8 +2,7 @@
 
 use crate::common::*;
 use ozols::drive::driving::{Design, design_drive};
-use ozols::drive::swing::{Feed, Latch};
-use ozols::file::read::workload::drive_from_bytes;
+use ozols::drive::swing::Latch;
 
 /// The heavier disc is the first or the second.
 fn designs(more: &str) -> [(Design, f64, usize); 2] {

@@ -9,7 +9,7 @@ fn a_template_of_every_built_in_mechanism_gives_its_figures() {
         let given = builtin::text(name).unwrap();
         let new = ozols::file::template::with_comments(given, name, "mine").unwrap();
         let figures = |text: &str| {
-            let m = mechanism_from_str("mine.toml", text).unwrap();
+            let m = read(text);
             let states: Vec<StateId> = m.state_ids().collect();
             let of = analyse_states(&m, &states, Method::Modular).unwrap();
             of.into_iter()
@@ -32,22 +32,20 @@ fn a_template_of_every_built_in_mechanism_gives_its_figures() {
 
 #[test]
 fn a_new_file_is_checked_and_analysed_like_the_one_it_is_made_of() {
-    let folder = tempdir().unwrap();
+    let folder = Folder::new();
     for from in
         split_words("four-bar gripper-10-loaded lever-gripper torsion-module parallel-shears")
     {
-        let path = folder.path().join(format!("my {from}.toml"));
-        let path = path.to_str().unwrap();
-        let said = run_quiet(&["new", path, "--from", from]);
+        let file = &format!("my {from}.toml");
+        let (said, _) = folder.succeed(&["new", file, "--from", from]);
         has(&said, "ozols check");
-        let (code, _, err) = run_full(&["check", path]);
-        assert_eq!((code, err.as_str()), (Some(0), ""), "{from}");
+        assert_eq!(folder.succeed(&["check", file]).1, "", "{from}");
         let analysis = |file: &str| {
-            let mut v = run_json(&["analyze", file, "--format", "json"]);
+            let mut v = folder.json(&["analyze", file]);
             v["next"].take(); // names the file
             (v["mechanism"].take(), v)
         };
-        let (name, mine) = analysis(path);
+        let (name, mine) = analysis(file);
         assert_eq!(name, format!("my {from}"));
         assert_eq!(mine, analysis(from).1);
     }
@@ -55,61 +53,44 @@ fn a_new_file_is_checked_and_analysed_like_the_one_it_is_made_of() {
 
 #[test]
 fn a_new_file_never_takes_the_place_of_another_unasked() {
-    let folder = tempdir().unwrap();
-    let path = folder.path().join("mine.toml");
-    let file = path.to_str().unwrap();
-    fs::write(&path, "mine").unwrap();
-    let (code, stdout, err) = run_full(&["new", file]);
-    assert_eq!((code, stdout.as_str()), (Some(2), ""));
-    has(&err, "already exists");
-    has(&err, "--force");
-    assert_eq!(fs::read_to_string(&path).unwrap(), "mine");
-    assert_eq!(run_quiet(&["new", file, "--force", "--quiet"]), "");
-    assert!(
-        fs::read_to_string(&path)
-            .unwrap()
-            .contains("\nname = \"mine\"")
-    );
+    let folder = Folder::with("mine.toml", "mine");
+    folder.assert_fails("new mine.toml", "already exists");
+    folder.assert_fails("new mine.toml", "--force");
+    assert_eq!(folder.text("mine.toml"), "mine");
+    let (out, said) = folder.succeed("new mine.toml --force --quiet");
+    assert_eq!(out + &said, "");
+    has(&folder.text("mine.toml"), "\nname = \"mine\"");
 }
 
 #[test]
 fn a_new_file_needs_a_known_mechanism_and_a_toml_name() {
-    let folder = tempdir().unwrap();
-    let path = folder.path().join("mine.toml");
-    for (from, meant) in [
-        ("fourbar", "four-bar"),
-        ("benett", "bennett"),
-        ("gripper10", "gripper-10"),
-    ] {
-        let (code, _, err) = run_full(&["new", path.to_str().unwrap(), "--from", from]);
-        assert_eq!(code, Some(2), "{err}");
-        assert!(err.contains("did you mean") && err.contains(meant), "{err}");
-        assert!(!path.exists());
+    let folder = Folder::new();
+    for [line, said] in read_cases::<2>(
+        "mine.toml --from fourbar | did you mean four-bar
+        mine.toml --from benett | did you mean bennett
+        mine.toml --from gripper10 | did you mean gripper-10
+        mine | mine.toml
+        mine.json | mine.toml",
+    ) {
+        folder.assert_fails(&format!("new {line}"), said);
     }
-    for name in ["mine", "mine.json"] {
-        let (code, _, err) = run_full(&["new", folder.path().join(name).to_str().unwrap()]);
-        assert_eq!(code, Some(2));
-        has(&err, "mine.toml");
-    }
-    assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 0);
+    assert_eq!(folder.names(), [""; 0]);
 }
 
 #[test]
 fn new_without_a_file_lists_what_to_start_from() {
-    let (code, said, err) = run_full(&["new"]);
+    let (code, said, err) = run_full("new");
     assert_eq!(code, Some(0));
-    assert_eq!(said, run_quiet(&["list"]));
+    assert_eq!(said, run_quiet("list"));
     has(&err, "ozols new mine.toml --from NAME");
-    let (code, _, err) = run_full(&["new", "--from", "four-bar"]);
-    assert_eq!(code, Some(2));
-    has(&err, "FILE");
+    assert_fails("new --from four-bar", "FILE");
 }
 
 // list
 
 #[test]
 fn the_list_is_by_family_and_can_be_narrowed() {
-    let all = run_quiet(&["list"]);
+    let all = run_quiet("list");
     for name in builtin::names() {
         assert!(
             all.lines()
@@ -138,9 +119,9 @@ fn the_list_is_by_family_and_can_be_narrowed() {
     assert_eq!(rows("list bennett"), found);
     assert_eq!(rows("list BENNETT rigid"), ["bennett-perturbed"]);
     assert!(rows("list robot").contains(&"delta".to_owned()));
-    let line = run_quiet(&["list", "four-bar"]);
+    let line = run_quiet("list four-bar");
     has(&line, "Planar crank-rocker four-bar as a spatial mechanism");
-    let (code, stdout, err) = run_full(&["list", "benett"]);
+    let (code, stdout, err) = run_full("list benett");
     assert_eq!((code, stdout.as_str()), (Some(1), ""));
     has(&err, "benett");
     has(&err, "did you mean bennett");

@@ -2,9 +2,7 @@
 
 use super::readers::certificates::{NAMES, WORDS, look_at, seeds};
 use super::{edits, runs, spoilt};
-use proptest::prelude::*;
-use proptest::sample::Index;
-use std::sync::LazyLock;
+use crate::common::*;
 
 /// The file of each mechanism.
 static FILES: LazyLock<Vec<Vec<u8>>> = LazyLock::new(seeds);

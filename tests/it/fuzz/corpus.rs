@@ -13,12 +13,10 @@ use super::{edits, spoilt};
 use crate::common::*;
 use fs::File;
 use proptest::prelude::any;
-use proptest::sample::Index;
 use proptest::strategy::{Strategy, ValueTree};
 use proptest::test_runner::TestRunner;
 use std::io::{Seek, Write};
 use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::time::{Duration, Instant};
 
 /// The longest that an input of a few kilobytes may take, in a build for tests beside others.
 const PATIENCE: Duration = Duration::from_secs(20);

@@ -4,8 +4,6 @@ use super::readers::expressions::{TOKENS, read};
 use super::runs;
 use crate::common::*;
 use ozols::geom::expr::ExprError;
-use proptest::prelude::*;
-use proptest::sample::select;
 
 /// Found by spoiling: short as it is, it was written at a length that cannot be read.
 #[test]

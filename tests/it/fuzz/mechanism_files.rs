@@ -4,8 +4,6 @@ use super::readers::mechanism_files::{WORDS, read};
 use super::{edits, runs, spoilt};
 use crate::common::*;
 use ozols::file::text::mechanism_from_bytes;
-use proptest::prelude::*;
-use proptest::sample::Index;
 
 fn built_in(which: Index) -> &'static str {
     let names = builtin::names();

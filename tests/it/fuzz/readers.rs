@@ -49,88 +49,42 @@ impl Reader {
 
 /// All of them; the last two go the whole way from a mechanism to its redesigns.
 pub(crate) const READERS: [Reader; 18] = {
-    use mechanism_files as mechanisms;
+    use certificates as proofs;
+    use differential as twin;
+    use expressions as terms;
+    use mechanism_files as files;
     use robot_files as robots;
+    use small_files as small;
     [
         Reader::new("asmt", &robots::WORDS, robots::none, |b| {
             robots::look("x.asmt", b)
         }),
-        Reader::new(
-            "certificates",
-            &certificates::WORDS,
-            certificates::seeds,
-            certificates::look,
-        ),
-        Reader::new(
-            "costs",
-            &mechanisms::WORDS,
-            small_files::costs_seeds,
-            small_files::costs,
-        ),
-        Reader::new(
-            "edits",
-            &mechanisms::WORDS,
-            small_files::edits_seeds,
-            small_files::edits,
-        ),
-        Reader::new(
-            "expressions",
-            &expressions::TOKENS,
-            expressions::seeds,
-            expressions::look,
-        ),
+        Reader::new("certificates", &proofs::WORDS, proofs::seeds, proofs::look),
+        Reader::new("costs", &files::WORDS, small::costs_seeds, small::costs),
+        Reader::new("edits", &files::WORDS, small::edits_seeds, small::edits),
+        Reader::new("expressions", &terms::TOKENS, terms::seeds, terms::look),
         Reader::new("fcstd", &robots::WORDS, robots::none, robots::look_fcstd),
-        Reader::new("json", &mechanisms::WORDS, mechanisms::json, |b| {
-            mechanisms::read("x.json", b)
+        Reader::new("json", &files::WORDS, files::json, |b| {
+            files::read("x.json", b)
         }),
         Reader::new("loops", &robots::WORDS, robots::loops, robots::look_loops),
         Reader::new("mjcf", &robots::WORDS, robots::mjcf, |b| {
             robots::look("x.xml", b)
         }),
-        Reader::new(
-            "motion",
-            &mechanisms::WORDS,
-            small_files::motion_seeds,
-            small_files::motion,
-        ),
+        Reader::new("motion", &files::WORDS, small::motion_seeds, small::motion),
         Reader::new("sdf", &robots::WORDS, robots::sdf, |b| {
             robots::look("x.sdf", b)
         }),
-        Reader::new(
-            "spec",
-            &mechanisms::WORDS,
-            small_files::spec_seeds,
-            small_files::spec,
-        ),
-        Reader::new("toml", &mechanisms::WORDS, mechanisms::toml, |b| {
-            mechanisms::read("x.toml", b)
+        Reader::new("spec", &files::WORDS, small::spec_seeds, small::spec),
+        Reader::new("toml", &files::WORDS, files::toml, |b| {
+            files::read("x.toml", b)
         }),
         Reader::new("urdf", &robots::WORDS, robots::urdf, |b| {
             robots::look("x.urdf", b)
         }),
-        Reader::new(
-            "words",
-            &expressions::TOKENS,
-            small_files::words_seeds,
-            small_files::words,
-        ),
-        Reader::new(
-            "workload",
-            &mechanisms::WORDS,
-            mechanisms::workloads,
-            mechanisms::workload,
-        ),
-        Reader::new(
-            "differential",
-            &[""],
-            differential::seeds,
-            differential::look,
-        ),
-        Reader::new(
-            "result",
-            &mechanisms::WORDS,
-            mechanisms::toml,
-            search_result::look,
-        ),
+        Reader::new("words", &terms::TOKENS, small::words_seeds, small::words),
+        Reader::new("workload", &files::WORDS, files::workloads, files::workload),
+        Reader::new("differential", &[""], twin::seeds, twin::look),
+        Reader::new("result", &files::WORDS, files::toml, search_result::look),
     ]
 };

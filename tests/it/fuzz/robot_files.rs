@@ -2,8 +2,7 @@
 
 use super::readers::robot_files::{FILES, WORDS, read};
 use super::{edits, runs, spoilt};
-use proptest::prelude::*;
-use proptest::sample::Index;
+use crate::common::*;
 
 proptest! {
     #![proptest_config(runs(512))]

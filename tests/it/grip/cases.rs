@@ -5,10 +5,8 @@ use crate::common::*;
 use ozols::file::read::workload::grip_from_bytes;
 use ozols::grip::arm_curves::{Varied, arm_curve};
 use ozols::grip::clamping::{DiameterRow, HoldVerdict, study_diameters};
-use ozols::grip::contact::{Gripper, Unholdable};
-use ozols::grip::holding::{HoldingOutcome, PartWrench, find_holding};
-use ozols::model::grip::{GripSpec, LeverDrive};
-use proptest::prelude::*;
+use ozols::grip::contact::Unholdable;
+use ozols::model::grip::GripSpec;
 
 fn spec(more: &str) -> GripSpec {
     let text = replace_once(SMALL, "friction = 0\n", "friction = 0.4\n");

@@ -9,12 +9,8 @@ use ozols::grip::clamping::{DiameterRow, HoldVerdict};
 use ozols::grip::jaw_loads::Gripping;
 use ozols::model::grip::PartMass;
 use ozols::model::loads::Loads;
-use ozols::motion::pose::Pose;
 
-use ozols::statics::reactions::drives::driven_freedoms;
-use ozols::statics::reactions::follow::follow_to;
-use ozols::statics::reactions::geometry::{Geometry, cross, dot};
-use ozols::statics::reactions::{JointReaction, Reactions, Solution};
+use ozols::statics::reactions::geometry::{cross, dot};
 
 fn text() -> &'static str {
     builtin::text("lever-gripper").unwrap()
@@ -55,21 +51,15 @@ fn effort(list: &[JointReaction]) -> f64 {
 /// `ozols grip` adds up lever moments and rates of the levers; statics solve for every joint.
 #[test]
 fn the_drive_bears_what_the_grip_asks() {
-    let grip = run_json(&["grip", "lever-gripper", "--format", "json"]);
+    let grip = run_json("grip lever-gripper --format json");
     for row in grip["diameters"].list() {
         let asked = number(&row["load"]["drive_effort"]);
         let diameter = (number(&row["diameter"]) * 1e3).round().to_string();
-        let run = |more: &[&str]| {
-            let args = split_words("statics lever-gripper --state clamped --format json");
-            let args: Vec<&str> = args
-                .iter()
-                .chain(&["--diameter", &diameter])
-                .chain(more)
-                .copied()
-                .collect();
-            run_json(&args)
+        let run = |more: &str| {
+            let clamped = "statics lever-gripper --state clamped --format json";
+            run_json(&format!("{clamped} --diameter {diameter} {more}"))
         };
-        let planar = run(&[]);
+        let planar = run("");
         let found = planar["positions"][0]["reactions"].list();
         let force = found.iter().find_map(|r| r["effort"].as_f64()).unwrap();
         assert!(
@@ -77,7 +67,7 @@ fn the_drive_bears_what_the_grip_asks() {
             "{diameter}: {force} {asked}"
         );
         assert_eq!(number(&planar["grip"]["drive_effort"]), asked);
-        let spatial = run(&["--spatial"]);
+        let spatial = run("--spatial");
         let found = spatial["reactions"].list();
         let force = found
             .iter()
@@ -204,22 +194,7 @@ fn reactions_are_linear_in_the_payload_and_vanish_with_it() {
 fn loads_follow_the_gripper_in_the_files_axes() {
     // A link that weighs, too: it feels the case in the file's axes.
     let before = mechanism_from_str("heavy", &weighed()).unwrap();
-    let mut m = before.clone();
-    let turn = [[2.0, -2.0, 1.0], [1.0, 2.0, 2.0], [-2.0, -1.0, 2.0]];
-    let turn = turn.map(|r: [f64; 3]| r.map(|x| x / 3.0));
-    let by = |v: &[Expr; 3], shift: [f64; 3]| -> [Expr; 3] {
-        let v = to_vector(v);
-        [0, 1, 2].map(|i| Expr::from_f64(dot(turn[i], v) + shift[i]).unwrap())
-    };
-    for j in &mut m.edit().joints {
-        j.frame.point = by(&j.frame.point, [30.0, -70.0, 20.0]);
-        j.frame.axis = by(&j.frame.axis, [0.0; 3]);
-        j.frame.reference = by(&j.frame.reference, [0.0; 3]);
-    }
-    let slider = m.link_named("3").unwrap();
-    let mut mass = m.links[slider].mass.clone().unwrap();
-    mass.centre = by(&mass.centre, [30.0, -70.0, 20.0]);
-    m.edit().links[slider].mass = Some(mass);
+    let m = turned_and_moved(&before, [30.0, -70.0, 20.0]);
     let (a, b) = (clamped(&before), clamped(&m));
     for (x, y) in a.study.rows.iter().zip(&b.study.rows) {
         let (p, q) = (solve(&a, x), solve(&b, y));
@@ -285,7 +260,7 @@ fn links_feel_the_case() {
 
 #[test]
 fn statics_say_which_loads_came_from_the_grip() {
-    let said = run_quiet(&["statics", "lever-gripper", "--state", "clamped"]);
+    let said = run_quiet("statics lever-gripper --state clamped");
     has_all(
         &said,
         &[
@@ -297,7 +272,7 @@ fn statics_say_which_loads_came_from_the_grip() {
         ],
     );
     // Empty jaws bear nothing.
-    let free = run_quiet(&["statics", "lever-gripper"]);
+    let free = run_quiet("statics lever-gripper");
     has(&free, "states no loads");
     let csv = run_quiet("statics lever-gripper --state clamped --spatial --format csv");
     assert!(

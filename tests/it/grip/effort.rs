@@ -1,8 +1,8 @@
 //! What a drive must do for two levers, by virtual work.
 
+use crate::common::*;
 use ozols::grip::drive_effort;
-use ozols::grip::holding::{ContactForce, Holding};
-use ozols::model::grip::LeverDrive;
+use ozols::grip::holding::Holding;
 use ozols::statics::transmission::Rates;
 
 /// Moments of 3 and 5 N·m on levers that turn 2 and 4 rad per metre of the drive take 26 N of it; levers with a drive each have no

@@ -5,12 +5,9 @@ use ozols::geom::vector::cross as cross3;
 mod polyhedral;
 
 use ozols::geom::vector::cross_plane as cross;
-use ozols::grip::contact::{Gripper, TouchingPose, Unholdable};
-use ozols::grip::holding::{
-    ContactForce, Holding, HoldingOutcome, PartWrench, Spatial, find_holding,
-};
+use ozols::grip::contact::{TouchingPose, Unholdable};
+use ozols::grip::holding::{Holding, Spatial};
 use ozols::grip::lever_arm::Lever;
-use ozols::model::grip::LeverDrive;
 
 const COUPLINGS: [LeverDrive; 3] = [
     LeverDrive::Coupled,

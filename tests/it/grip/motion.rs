@@ -32,12 +32,12 @@ fn every_step_has_its_own_least_force() {
     let moment = |i: usize| steps[i]["drive_moment_per_lever"].real();
     assert!(moment(2) < 0.2 * moment(0) && moment(3) < moment(0));
     // The step alone, as the one case of a file.
-    let file = run_json(&["grip", "lever-gripper", "--format", "json"]);
+    let file = run_json("grip lever-gripper --format json");
     assert!(file.get("motion").is_some_and(Value::is_null));
-    let shown = String::from_utf8(run(&["show", "lever-gripper"]).stdout).unwrap();
+    let shown = String::from_utf8(run("show lever-gripper").stdout).unwrap();
     let alone = shown.replace("any_acceleration = 5", "accelerations = [[5, 0, -2]]");
     assert_ne!(shown, alone);
-    let (_, said, errors) = run_on("grip", "alone.toml", &alone, &["--format", "json"]);
+    let (_, said, errors) = run_on("grip", "alone.toml", &alone, "--format json");
     let alone: Value = serde_json::from_str(&said).expect(&errors);
     let rows = alone["diameters"].list();
     let row = rows

@@ -1,12 +1,8 @@
 //! What singular values say of a geometry that is a little off is what exact arithmetic says of the one that is not.
 
 use crate::common::*;
-use chacha20::ChaCha8Rng;
-use chacha20::rand_core::{Rng, SeedableRng};
-use ozols::geom::Reals;
 use ozols::rank::numeric::Elimination;
 use ozols::rank::numeric::scaling::{Scaling, rank_of_values, scaled_matrix};
-use ozols::redundancy::analysis::StateAnalysis;
 
 /// The mechanism with every number off by some billionths; axes of planar models stay as they are.
 fn disturbed(m: &Mechanism) -> Mechanism {
@@ -72,12 +68,8 @@ fn figures_of_a_geometry_a_little_off_are_those_of_the_exact_one() {
         }
         let off = disturbed(&m);
         for state in m.state_ids() {
-            let exact = analyse_states(&m, &[state], Method::Modular)
-                .unwrap()
-                .remove(0);
-            let written = analyse_states(&off, &[state], Method::Modular)
-                .unwrap()
-                .remove(0);
+            let exact = analysed_in(&m, state);
+            let written = analysed_in(&off, state);
             // Where a special place is not left, numbers have nothing to say.
             if written.rank == exact.rank {
                 continue;

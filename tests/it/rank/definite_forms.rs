@@ -5,7 +5,6 @@
 //! opposite ones leaves nothing: that slide is free.
 
 use crate::common::*;
-use proptest::prelude::*;
 
 const QUARTICS: [[i64; 4]; 3] = [[1, 3, -2, -2], [1, 5, -3, -3], [-1, -4, 6, -1]];
 const SEXTIC: [i64; 5] = [9, 5, 1, -7, -8];
@@ -36,81 +35,47 @@ type Block = (Vec<i64>, &'static str, bool);
 
 /// One slide for each list of curvatures, with rods of length `unit` over each; lifts in rows, the last one of each fixed.
 fn forms(blocks: &[Block]) -> String {
-    let mut out = "name = \"forms\"\n[[link]]\nid = \"frame\"\nrole = \"frame\"\n".to_owned();
-    let mut joints = 0;
-    let mut joint = |out: &mut String, links: [&str; 2], kind: &str, at: String, axis: [i64; 3]| {
-        joints += 1;
-        *out += &format!(
-            "[[joint]]\nid = \"j{joints}\"\nlinks = {links:?}\ntype = {kind:?}\npoint = [{at}, 0]\naxis = {axis:?}\n"
-        );
+    let (mut links, mut all, mut rods) = ("frame".to_owned(), String::new(), 0);
+    let mut joint = |ends: [&str; 2], kind: &str, at: String, axis: &str| {
+        let n = all.lines().count();
+        all += &format!("j{n} | {} | {kind} | {at}, 0 | {axis}\n", ends.join(" "));
     };
-    let ([x, y, z], mut below, mut rods) =
-        ([[1, 0, 0], [0, 1, 0], [0, 0, 1]], "frame".to_owned(), 0);
+    let [x, y, z] = ["1, 0, 0", "0, 1, 0", "0, 0, 1"];
+    let mut below = "frame".to_owned();
     for (b, (curvatures, unit, ends)) in blocks.iter().enumerate() {
         let slide = format!("x{b}");
-        let role = if b == 0 { "role = \"output\"\n" } else { "" };
-        out += &format!("[[link]]\nid = {slide:?}\n{role}");
-        joint(
-            &mut out,
-            ["frame", &slide],
-            "prismatic",
-            format!("0, {b}"),
-            x,
-        );
+        links += &format!(" {slide}{}", if b == 0 { "*" } else { "" });
+        joint(["frame", &slide], "prismatic", format!("0, {b}"), x);
         for a in curvatures {
             rods += 1;
             let (rod, lift) = (format!("r{rods}"), format!("t{rods}"));
-            out += &format!("[[link]]\nid = {rod:?}\n[[link]]\nid = {lift:?}\n");
+            links += &format!(" {rod} {lift}");
             let mut carrier = slide.clone();
             if below != "frame" {
                 carrier = format!("c{rods}");
-                out += &format!("[[link]]\nid = {carrier:?}\n");
-                joint(
-                    &mut out,
-                    [&slide, &carrier],
-                    "prismatic",
-                    "4, 3".to_owned(),
-                    y,
-                );
-                joint(
-                    &mut out,
-                    [&below, &carrier],
-                    "prismatic",
-                    "4, 5".to_owned(),
-                    x,
-                );
+                links += &format!(" {carrier}");
+                joint([&slide, &carrier], "prismatic", "4, 3".to_owned(), y);
+                joint([&below, &carrier], "prismatic", "4, 5".to_owned(), x);
             }
             let at = 21 * rods;
-            joint(
-                &mut out,
-                [&carrier, &rod],
-                "revolute",
-                format!("{at}, 3"),
-                z,
-            );
+            joint([&carrier, &rod], "revolute", format!("{at}, 3"), z);
             let end = format!("{at}, \"3-({unit})/({a})\"");
-            joint(&mut out, [&rod, &lift], "revolute", end, z);
-            joint(
-                &mut out,
-                [&below, &lift],
-                "prismatic",
-                format!("{at}, 5"),
-                y,
-            );
+            joint([&rod, &lift], "revolute", end, z);
+            joint([&below, &lift], "prismatic", format!("{at}, 5"), y);
             below = lift;
         }
         if *ends || b + 1 == blocks.len() {
-            joint(&mut out, [&below, "frame"], "fixed", "0, 0".to_owned(), z);
+            joint([&below, "frame"], "fixed", "0, 0".to_owned(), z);
             below = "frame".to_owned();
         }
     }
-    out
+    write_mechanism("name = \"forms\"", &links, &all)
 }
 
 /// The least and the most that the finite mobility is said to be.
 fn range(blocks: &[Block]) -> (usize, usize) {
     let text = forms(blocks);
-    let m = mechanism_from_str("forms.toml", &text).unwrap_or_else(|e| panic!("{e}\n{text}"));
+    let m = read(&text);
     let method = Method::Auto;
     let found = analyse_states(&m, &[StateId::FREE], method)
         .unwrap()

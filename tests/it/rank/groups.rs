@@ -1,29 +1,15 @@
 //! Groups of displacements by hand, and what does not depend on how a file is written.
 
 use crate::common::*;
-use ozols::rank::exact::field::field_of;
 use ozols::rank::finite::bonds;
-use ozols::rank::finite::displacement_group::whole_group;
 
 /// A ring of links with these joints: type, point and axis, and lines of more.
 fn ring(joints: &[(&str, [i32; 3], [i32; 3], &str)]) -> Mechanism {
-    let mut text = "name = \"ring\"\n".to_owned();
-    let count = joints.len();
-    for n in 0..count {
-        let role = match n {
-            0 => "role = \"frame\"",
-            1 => "role = \"output\"",
-            _ => "",
-        };
-        text += &format!("[[link]]\nid = \"{n}\"\n{role}\n");
-    }
-    for (n, (kind, point, axis, more)) in joints.iter().enumerate() {
-        text += &format!(
-            "[[joint]]\nid = \"j{n}\"\nlinks = [\"{n}\", \"{}\"]\ntype = \"{kind}\"\npoint = {point:?}\naxis = {axis:?}\n{more}\n",
-            (n + 1) % count
-        );
-    }
-    mechanism_from_str("ring.toml", &text).unwrap()
+    let line = |(kind, point, axis, more): &(&str, [i32; 3], [i32; 3], &str)| {
+        format!("{kind} | {} | {} | {more}", commas(point), commas(axis))
+    };
+    let joints = joints.iter().map(line).collect_vec();
+    read(&write_ring("name = \"ring\"", &joints))
 }
 
 fn group(m: &Mechanism) -> String {
@@ -31,59 +17,28 @@ fn group(m: &Mechanism) -> String {
     whole_group(&exact, m, StateId::FREE).unwrap().name()
 }
 
-/// About one axis: turns, screws of one pitch, or both and so all of a cylinder's. About parallel ones: a plane, screws of one pitch
-/// with the slides across them, or turns and all slides.
 #[test]
 fn groups_about_one_direction_have_their_names() {
-    let z = [0, 0, 1];
     let (here, there, aside) = ([0, 0, 0], [7, 0, 0], [0, 9, 0]);
-    let screw = "pitch = 3";
+    let turn = |at| ("revolute", at, [0, 0, 1], "");
+    let screw = |at| ("helical", at, [0, 0, 1], "pitch = 3");
+    let slide = ("prismatic", here, [0, 0, 1], "");
+    let in_series = "screws of one pitch and slides across them (3)";
     for (joints, name) in [
         (
-            vec![("revolute", here, z, ""), ("revolute", [0, 0, 5], z, "")],
+            &[turn(here), turn([0, 0, 5])][..],
             "the turns about one axis (1)",
         ),
+        (&[screw(here), screw([0, 0, 5])], "one screw (1)"),
+        (&[screw(here), slide, turn(here)], "a group of dimension 2"),
+        (&[turn(here), turn(there), turn(aside)], "one plane (3)"),
+        (&[screw(here), screw(there), screw(aside)], in_series),
         (
-            vec![
-                ("helical", here, z, screw),
-                ("helical", [0, 0, 5], z, screw),
-            ],
-            "one screw (1)",
-        ),
-        (
-            vec![
-                ("helical", here, z, screw),
-                ("prismatic", here, z, ""),
-                ("revolute", here, z, ""),
-            ],
-            "a group of dimension 2",
-        ),
-        (
-            vec![
-                ("revolute", here, z, ""),
-                ("revolute", there, z, ""),
-                ("revolute", aside, z, ""),
-            ],
-            "one plane (3)",
-        ),
-        (
-            vec![
-                ("helical", here, z, screw),
-                ("helical", there, z, screw),
-                ("helical", aside, z, screw),
-            ],
-            "screws of one pitch and slides across them (3)",
-        ),
-        (
-            vec![
-                ("helical", here, z, screw),
-                ("revolute", there, z, ""),
-                ("revolute", aside, z, ""),
-            ],
+            &[screw(here), turn(there), turn(aside)],
             "a Schoenflies group (4)",
         ),
     ] {
-        assert_eq!(group(&ring(&joints)), name, "{joints:?}");
+        assert_eq!(group(&ring(joints)), name, "{joints:?}");
     }
 }
 

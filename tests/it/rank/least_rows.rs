@@ -3,8 +3,6 @@
 use crate::common::*;
 use crate::search::twin;
 use ozols::rank::reduce::sufficient_rows::{LeastRows, Motions};
-use proptest::prelude::*;
-use std::fmt::Write;
 
 /// The least rows, by the first prime, have the rank of all rows by the second, and no part has more rank than rows.
 fn check(m: &Mechanism, state: StateId) -> LeastRows {
@@ -66,7 +64,7 @@ fn a_cylindrical_drive_costs_one_row_out_of_the_plane() {
     };
     assert_eq!(figures(0), ("in plane", "z", [12, 12, 12, 0]));
     assert_eq!(figures(1), ("out of plane", "z", [4, 12, 1, 11]));
-    let text = run_quiet(&["analyze", "gripper-10", "--state", "free", "--verbose"]);
+    let text = run_quiet("analyze gripper-10 --state free --verbose");
     has(
         &text,
         "; all joints move in a plane with normal z (12 of 12 rows, rank 12, σ = 0) or out of it (4 of 12 rows, rank 1, \
@@ -74,54 +72,32 @@ fn a_cylindrical_drive_costs_one_row_out_of_the_plane() {
     );
 }
 
-/// Loops that share no joint are judged each for itself: a four-bar in a plane and a spherical one of three rows each, and a
-/// general loop of six.
 #[test]
 fn blocks_are_judged_one_by_one() {
-    let mut text = "name = \"three\"\n".to_owned();
-    let loops: [&[[[i64; 3]; 2]]; 3] = [
-        &[
-            [[0, 0, 0], [0, 0, 1]],
-            [[1, 5, 0], [0, 0, 1]],
-            [[7, 6, 0], [0, 0, 1]],
-            [[8, 1, 0], [0, 0, 1]],
-        ],
-        &[
-            [[0, 0, 0], [1, 0, 0]],
-            [[0, 0, 0], [1, 2, 0]],
-            [[0, 0, 0], [1, 3, 4]],
-            [[0, 0, 0], [0, 1, 5]],
-        ],
-        &[
-            [[0, 0, 0], [1, 0, 0]],
-            [[1, 3, 2], [1, 2, 0]],
-            [[5, 1, 1], [1, 3, 4]],
-            [[2, 2, 7], [0, 1, 5]],
-            [[1, 8, 3], [2, 1, 1]],
-            [[4, 4, 9], [3, 1, 2]],
-            [[3, 4, 8], [3, 1, 7]],
-        ],
+    let loops = [
+        "0, 0, 0 | 0, 0, 1 / 1, 5, 0 | 0, 0, 1 / 7, 6, 0 | 0, 0, 1 / 8, 1, 0 | 0, 0, 1",
+        "0, 0, 0 | 1, 0, 0 / 0, 0, 0 | 1, 2, 0 / 0, 0, 0 | 1, 3, 4 / 0, 0, 0 | 0, 1, 5",
+        "0, 0, 0 | 1, 0, 0 / 1, 3, 2 | 1, 2, 0 / 5, 1, 1 | 1, 3, 4 / 2, 2, 7 | 0, 1, 5 / 1, 8, 3 | 2, 1, 1 \
+         / 4, 4, 9 | 3, 1, 2 / 3, 4, 8 | 3, 1, 7",
     ];
-    let mut joints = String::new();
-    writeln!(text, "[[link]]\nid = \"f\"\nrole = \"frame\"").unwrap();
+    let (mut links, mut joints) = ("f".to_owned(), String::new());
     for (l, hinges) in loops.iter().enumerate() {
-        for i in 1..hinges.len() {
-            writeln!(text, "[[link]]\nid = \"{l}-{i}\"\nrole = \"output\"").unwrap();
-        }
+        let hinges = hinges.split(" / ").collect_vec();
         let link = |i: usize| match i % hinges.len() {
             0 => "f".to_owned(),
             i => format!("{l}-{i}"),
         };
-        for (i, [point, axis]) in hinges.iter().enumerate() {
+        for (i, hinge) in hinges.iter().enumerate() {
             let (a, b) = (link(i), link(i + 1));
-            writeln!(
-                joints,
-                "[[joint]]\nid = \"{l}{i}\"\nlinks = [\"{a}\", \"{b}\"]\ntype = \"revolute\"\npoint = {point:?}\naxis = {axis:?}"
-            )
-            .unwrap();
+            links += &if i == 0 {
+                String::new()
+            } else {
+                format!(" {a}*")
+            };
+            joints += &format!("{l}{i} | {a} {b} | revolute | {hinge}\n");
         }
     }
-    let m = mechanism_from_str("three.toml", &(text + &joints)).unwrap();
+    let m = read(&write_mechanism("name = \"three\"", &links, &joints));
     let found = check(&m, StateId::FREE);
     let rows: Vec<usize> = found.blocks.iter().map(|b| b.parts[0].rows).collect();
     assert_eq!(rows, [3, 3, 6]);
@@ -134,28 +110,16 @@ fn blocks_are_judged_one_by_one() {
     );
 }
 
-/// Hinges along lines of one plane move nothing in it, though their group is of six dimensions.
 #[test]
 fn hinges_on_a_flat_sheet_move_out_of_it_alone() {
-    let mut text = "name = \"sheet\"\n[[link]]\nid = \"0\"\nrole = \"frame\"\n".to_owned();
     let creases = [
-        [[0, 0], [1, 0]],
-        [[3, 1], [1, 2]],
-        [[1, 4], [3, -1]],
-        [[2, 7], [1, 5]],
+        "0, 0, 0 | 1, 0",
+        "3, 1, 0 | 1, 2",
+        "1, 4, 0 | 3, -1",
+        "2, 7, 0 | 1, 5",
     ];
-    for i in 1..4 {
-        writeln!(text, "[[link]]\nid = \"{i}\"\nrole = \"output\"").unwrap();
-    }
-    for (i, [[x, y], [a, b]]) in creases.iter().enumerate() {
-        let next = (i + 1) % 4;
-        writeln!(
-            text,
-            "[[joint]]\nid = \"j{i}\"\nlinks = [\"{i}\", \"{next}\"]\ntype = \"revolute\"\npoint = [{x}, {y}, 0]\naxis = [{a}, {b}, 0]"
-        )
-        .unwrap();
-    }
-    let m = mechanism_from_str("sheet.toml", &text).unwrap();
+    let creases = creases.map(|c| format!("revolute | {c}, 0"));
+    let m = read(&write_ring("name = \"sheet\"", &creases));
     let found = check(&m, StateId::FREE);
     assert_eq!(found.rows(), 3);
     let words = found.describe_rows(&m, |c| c.to_string());
@@ -172,16 +136,8 @@ fn reactions_in_a_plane_without_redundant_constraints_are_determined() {
     ) {
         let analysis = run_json(&["analyze", name, "--state", "free", "--format", "json"]);
         let parts = analysis["states"][0]["least_rows"].list();
-        let args = [
-            "statics",
-            name,
-            "--state",
-            "free",
-            "--spatial",
-            "--format",
-            "json",
-        ];
-        let reactions = run_json(&args);
+        let line = format!("statics {name} --state free --spatial --format json");
+        let reactions = run_json(&line);
         assert_eq!(reactions["unique"], false, "{name}");
         assert_eq!(
             parts.len() % 2,
@@ -202,7 +158,7 @@ fn reactions_in_a_plane_without_redundant_constraints_are_determined() {
         }
     }
     assert!(seen > 40, "{seen}");
-    let text = run_quiet(&["statics", "four-bar", "--spatial"]);
+    let text = run_quiet("statics four-bar --spatial");
     has(&text, "Left open by the self-stresses: Fz, Mx and My of ");
     has(&text, "; all other components are unique");
     // A third rod is redundant in the plane.
@@ -220,35 +176,25 @@ proptest! {
     #![proptest_config(ProptestConfig { cases: 64, ..ProptestConfig::default() })]
     #[test]
     fn random_mechanisms_need_no_more(text in twin::random()) {
-        let m = mechanism_from_str("random.toml", &text).unwrap();
+        let m = read(&text);
         for state in m.state_ids() {
             check(&m, state);
         }
     }
 }
 
-/// Screws of one pitch about one direction make a group of three dimensions that is no plane, and coaxial ones are no turns.
 #[test]
 fn screws_are_not_called_turns() {
-    let words = |joints: &[[i64; 2]]| {
-        let mut text = "name = \"screws\"\n[[link]]\nid = \"0\"\nrole = \"frame\"\n".to_owned();
-        for i in 1..joints.len() {
-            writeln!(text, "[[link]]\nid = \"{i}\"\nrole = \"output\"").unwrap();
-        }
-        for (i, [x, y]) in joints.iter().enumerate() {
-            let next = (i + 1) % joints.len();
-            writeln!(
-                text,
-                "[[joint]]\nid = \"j{i}\"\nlinks = [\"{i}\", \"{next}\"]\ntype = \"helical\"\npitch = 1\npoint = [{x}, {y}, 0]\naxis = [0, 0, 1]"
-            )
-            .unwrap();
-        }
-        let m = mechanism_from_str("screws.toml", &text).unwrap();
+    let words = |places: &[&str]| {
+        let screws = places
+            .iter()
+            .map(|p| format!("helical | {p}, 0 | 0, 0, 1 | pitch = 1"));
+        let m = read(&write_ring("name = \"screws\"", &screws.collect_vec()));
         check(&m, StateId::FREE).describe_rows(&m, |c| c.to_string())
     };
-    let parallel = words(&[[0, 0], [3, 0], [4, 4], [0, 5]]);
+    let parallel = words(&["0, 0", "3, 0", "4, 4", "0, 5"]);
     has(&parallel, "screws of one pitch and slides across them (3)");
-    let coaxial = words(&[[2, 1], [2, 1]]);
+    let coaxial = words(&["2, 1", "2, 1"]);
     has(&coaxial, "one screw (1), so 1 row per contour is enough");
 }
 
@@ -259,7 +205,7 @@ fn joints_outside_contours_are_not_spoken_for() {
     let arm = "[[link]]\nid = \"arm\"\n[[joint]]\nid = \"shoulder\"\nlinks = [\"2\", \"arm\"]\ntype = \"revolute\"\n\
                point = [1, 2, 3]\naxis = [1, 2, 3]\n";
     let without_figures = four_bar.split("[[expected]]").next().unwrap();
-    let m = mechanism_from_str("arm.toml", &format!("{without_figures}\n{arm}")).unwrap();
+    let m = read(&format!("{without_figures}\n{arm}"));
     let words = check(&m, StateId::FREE).describe_rows(&m, |c| c.to_string());
     assert!(
         words.starts_with(
@@ -275,14 +221,13 @@ fn joints_outside_contours_are_not_spoken_for() {
     );
 }
 
-/// Geared arms have no contour to tell rows of.
 #[test]
 fn couplings_without_contours_are_not_told_of() {
-    let text = "name = \"geared arms\"\n[[link]]\nid = \"0\"\nrole = \"frame\"\n[[link]]\nid = \"a\"\nrole = \"output\"\n[[link]]\n\
-                id = \"b\"\n[[joint]]\nid = \"A\"\nlinks = [\"0\", \"a\"]\ntype = \"revolute\"\npoint = [0, 0, 0]\naxis = [0, 0, 1]\n\
-                [[joint]]\nid = \"B\"\nlinks = [\"0\", \"b\"]\ntype = \"revolute\"\npoint = [3, 0, 0]\naxis = [0, 0, 1]\n\
-                [[coupling]]\njoints = [\"A\", \"B\"]\nratio = -2\n";
-    let m = mechanism_from_str("arms.toml", text).unwrap();
+    let arms = "
+        A | 0 a | revolute | 0, 0, 0 | 0, 0, 1
+        B | 0 b | revolute | 3, 0, 0 | 0, 0, 1";
+    let geared = "[[coupling]]\njoints = [\"A\", \"B\"]\nratio = -2\n";
+    let m = read(&(write_mechanism("name = \"geared arms\"", "0 a* b", arms) + geared));
     assert_eq!(
         check(&m, StateId::FREE).describe_rows(&m, |c| c.to_string()),
         ""

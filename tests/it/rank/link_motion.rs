@@ -41,7 +41,7 @@ fn outputs_move_as_published() {
 /// A dimension is that of the twists, no more than the working mobility, and equal to it where there is one output.
 #[test]
 fn dimensions_are_those_of_the_exact_kernel() {
-    let all = run_json(&["list", "--format", "json"]);
+    let all = run_json("list --format json");
     let names: BTreeSet<&str> = all.list().iter().map(|m| m["name"].word()).collect();
     let mut named = 0;
     for name in names {
@@ -86,10 +86,10 @@ fn screws_and_connectivity() {
         let of = |v: &Value| v["twists"][0][k].real().abs();
         near(of(&there), of(&back), 1e-9);
     }
-    let o = run(&["analyze", "four-bar", "--link", "nowhere"]);
-    assert_eq!(o.status.code(), Some(2));
-    let said = String::from_utf8(o.stderr).unwrap();
-    has(&said, "has no link nowhere; it has: 0, 1, 2, 3");
+    assert_fails(
+        "analyze four-bar --link nowhere",
+        "has no link nowhere; it has: 0, 1, 2, 3",
+    );
 }
 
 /// What a joint carries of a self-stress is named as a moment where it has no force, and as a force along a line through its point where
@@ -120,10 +120,8 @@ fn wrenches_are_named() {
             }
         }
     }
-    assert!(
-        seen.contains("moment") && seen.contains("force through"),
-        "{seen:?}"
-    );
+    let named = ["moment", "force through"].map(str::to_owned);
+    assert!(named.iter().all(|n| seen.contains(n)), "{seen:?}");
 }
 
 /// A robot of three legs has Gogu's four numbers, which are W, σ, and the motions of its platform and of what that does not feel.

@@ -4,20 +4,9 @@
 use crate::common::*;
 mod proven;
 
-use chacha20::ChaCha8Rng;
-use chacha20::rand_core::{Rng, SeedableRng};
-use ozols::geom::rigid::RigidMotion;
-use ozols::model::mechanism::Frame;
-use ozols::motion::pose::Pose;
-use ozols::rank::exact::field::field_of;
-use ozols::rank::exact::modular;
-use ozols::rank::finite::local_dimension;
-use ozols::rank::finite::{How, finite_mobility, followed_mobility};
-use ozols::rank::method::auto::decide_state;
+use ozols::rank::finite::{finite_mobility, followed_mobility, local_dimension};
 use ozols::rank::method::generic;
-use ozols::rank::method::registry;
 use ozols_dense::Matrix;
-use proptest::prelude::*;
 
 /// The mechanism as another program would write it: turned, shifted by up to `away` of its size and scaled in doubles, with
 /// `noise` on every number.
@@ -158,7 +147,7 @@ fn what_is_proven_is_found_by_following_the_motion_too() {
 /// A group of fewer dimensions needs fewer rows, and the rank stays; the dimension is that of the span at random places.
 #[test]
 fn groups_need_no_more_rows_than_dimensions() {
-    use ozols::rank::finite::displacement_group::{GroupKind, whole_group};
+    use ozols::rank::finite::displacement_group::GroupKind;
     let mut fewer = 0;
     for name in builtin::names() {
         let m = built_in(name);

@@ -2,7 +2,6 @@
 
 use crate::common::*;
 use ozols::closure::contour::contour_basis;
-use proptest::prelude::*;
 
 type Three = [i64; 3];
 
@@ -65,22 +64,20 @@ impl Ring {
         }
     }
 
+    /// The file, by what [`write_mechanism`] has of each joint behind its links.
     fn text(&self, mode: &str, joints: &[String]) -> String {
         let ring = self.joints.len() - usize::from(self.twice);
-        let mut out = format!("name = \"ring\"\n{mode}\n");
-        for i in 0..ring {
-            let role = match i {
-                0 => "role = \"frame\"",
-                1 => "role = \"output\"",
-                _ => "",
-            };
-            out += &format!("[[link]]\nid = \"l{i}\"\n{role}\n");
-        }
-        for (i, joint) in joints.iter().enumerate() {
+        let links = (0..ring).map(|i| format!("{i}{}", if i == 1 { "*" } else { "" }));
+        let line = |(i, joint): (usize, &String)| {
             let [a, b] = self.links(i);
-            out += &format!("[[joint]]\nid = \"j{i}\"\nlinks = [\"l{a}\", \"l{b}\"]\n{joint}\n");
-        }
-        out
+            format!("j{i} | {a} {b} | {joint}")
+        };
+        let joints = joints.iter().enumerate().map(line).join("\n");
+        write_mechanism(
+            &format!("name = \"ring\"\n{mode}"),
+            &links.collect_vec().join(" "),
+            &joints,
+        )
     }
 
     /// In planar mode, the frames as they are.
@@ -90,14 +87,13 @@ impl Ring {
             .iter()
             .map(|j| {
                 let names: Vec<&str> = j.types.iter().map(|&t| TYPES[t].0).collect();
-                format!(
-                    "type = {:?}\npoint = {:?}\naxis = {:?}\nreference = {:?}\noptions = {:?}",
-                    names[0],
-                    j.point,
-                    j.axis,
+                let [point, axis] = [j.point, j.axis].map(commas);
+                let more = format!(
+                    "reference = {:?}\\noptions = {:?}",
                     j.reference,
                     &names[1..]
-                )
+                );
+                format!("{} | {point} | {axis} | {more}", names[0])
             })
             .collect();
         let mode = format!("mode = \"planar\"\nplane_normal = {:?}", self.normal);
@@ -110,7 +106,7 @@ impl Ring {
             .joints
             .iter()
             .zip(choice)
-            .map(|(j, &t)| format!("{}\npoint = {:?}", self.in_plane(j, t), j.point))
+            .map(|(j, &t)| self.in_plane(j, t))
             .collect();
         self.text("", &pairs)
     }
@@ -157,12 +153,12 @@ impl Ring {
             [0, 0, 1]
         };
         let reference = along.first().copied().unwrap_or(any);
-        let kind = if freedoms.is_empty() {
-            "type = \"fixed\"".to_owned()
-        } else {
-            format!("type = \"custom\"\nfreedoms = {freedoms:?}")
+        let (kind, more) = match freedoms.len() {
+            0 => ("fixed", String::new()),
+            _ => ("custom", format!("\\nfreedoms = {freedoms:?}")),
         };
-        format!("{kind}\naxis = {n:?}\nreference = {reference:?}")
+        let [point, axis] = [j.point, n].map(commas);
+        format!("{kind} | {point} | {axis} | reference = {reference:?}{more}")
     }
 }
 
@@ -216,14 +212,9 @@ fn ring() -> impl Strategy<Value = Ring> {
 /// How many variants there are by mobility, of all with few enough redundant constraints and of the admissible ones.
 fn counts(m: &Mechanism, max_redundant: u32) -> [BTreeMap<i64, num_bigint::BigUint>; 2] {
     let conditions = default_with(|c: &mut Conditions| c.max_redundant = max_redundant);
-    let search = Search::new(exact_field(m, 0).unwrap(), m, conditions).unwrap();
-    let found = search.build_diagrams(&|| false, &mut |_| {});
+    let (search, found) = searched(m, conditions);
     [(&found.determinate, false), (&found.admissible, true)]
         .map(|(diagram, filter)| search.count_variants(diagram, filter).by_mobility)
-}
-
-fn read(text: &str) -> Mechanism {
-    mechanism_from_str("ring.toml", text).unwrap_or_else(|e| panic!("{e}\n{text}"))
 }
 
 proptest! {
@@ -234,7 +225,7 @@ proptest! {
         prop_assume!(choices.len() <= 16);
         let plane = read(&ring.planar());
         let contours = contour_basis(&plane, StateId::FREE).len();
-        let of = |m: &Mechanism| analyse_states(m, &[StateId::FREE], Method::Modular).unwrap().remove(0);
+        let of = |m: &Mechanism| analysed(m);
         let in_space = |choice: &Vec<usize>| of(&read(&ring.spatial(choice)));
         let (a, b) = (of(&plane), in_space(&choices[0]));
         prop_assert_eq!(a.mobility, b.mobility);

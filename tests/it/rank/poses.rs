@@ -1,17 +1,10 @@
 //! Poses of small mechanisms, by hand: screws, couplings, paths, ways and what a plane leaves out.
 
 use crate::common::*;
-use ozols::geom::Reals;
 use ozols::geom::extent::Extent;
-use ozols::geom::rigid::RigidMotion;
 use ozols::motion::drive_range::Way;
 use ozols::motion::jaws::jaws_meet;
-use ozols::motion::pose::Pose;
 use ozols::motion::working::working_way;
-
-fn read(text: &str) -> Mechanism {
-    mechanism_from_str("it.toml", text).unwrap_or_else(|e| panic!("{e}"))
-}
 
 /// A nut of 10 mm lead goes 10 mm a turn, whatever the size of what it belongs to.
 #[test]
@@ -185,7 +178,6 @@ fn a_pin_stays_on_its_link() {
 /// A link between two guides in a line slides between them alone, one between two hinges in a line turns.
 #[test]
 fn idle_motions_slide_or_turn() {
-    use ozols::redundancy::analysis::{Method, analyse_states};
     for (kind, turns) in [("prismatic", false), ("revolute", true)] {
         let m = read(&format!(
             "name = \"idle\"\nlink = [{{ id = \"0\", role = \"frame\" }}, {{ id = \"1\" }}, {{ id = \"2\", role = \"output\" }}]\n\

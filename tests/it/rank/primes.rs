@@ -1,42 +1,20 @@
 //! Coordinates that hold large primes as factors are no zeros: a four-bar with one hinge tilted by such a number.
 
 use crate::common::*;
-use ozols::rank::exact::certificate::certify_state;
-use proptest::prelude::*;
 
 /// The two smallest primes above 2^61 that are 1 modulo 4, which every search took once.
 const FIRST: [u64; 2] = [2_305_843_009_213_693_973, 2_305_843_009_213_694_009];
 
 fn tilted(by: &str) -> Mechanism {
-    let hinge = |id: &str, at: &str, axis: &str, more: &str| {
-        let links: Vec<&str> = id.split('-').collect();
-        format!(
-            "[[joint]]\nid = {id:?}\nlinks = {links:?}\ntype = \"revolute\"\npoint = {at}\naxis = {axis}\n{more}\n"
-        )
-    };
-    let links = [("0", "frame"), ("1", ""), ("2", ""), ("3", "output")].map(|(id, role)| {
-        let role = if role.is_empty() {
-            String::new()
-        } else {
-            format!("role = {role:?}")
-        };
-        format!("[[link]]\nid = {id:?}\n{role}\n")
-    });
-    let up = "[0, 0, 1]";
-    let joints = [
-        hinge("0-1", "[0, 0, 0]", up, "drive = true"),
-        hinge("1-2", "[0, 30, 0]", up, ""),
-        hinge("2-3", "[80, 90, 0]", &format!("[0, \"{by}\", 1]"), ""),
-        hinge("3-0", "[120, 0, 0]", up, ""),
-    ];
-    let options =
-        "[search]\noptions = [\"revolute\", \"cylindrical\", \"universal\", \"spherical\"]\n";
-    let text = format!(
-        "name = \"tilted\"\n{}{}{options}",
-        links.concat(),
-        joints.concat()
+    let options = "[\"revolute\", \"cylindrical\", \"universal\", \"spherical\"]";
+    let joints = format!(
+        "0-1 | 0 1 | revolute | 0, 0, 0 | 0, 0, 1 | drive = true
+         1-2 | 1 2 | revolute | 0, 30, 0 | 0, 0, 1
+         2-3 | 2 3 | revolute | 80, 90, 0 | 0, \"{by}\", 1
+         3-0 | 3 0 | revolute | 120, 0, 0 | 0, 0, 1"
     );
-    mechanism_from_str("tilted.toml", &text).unwrap_or_else(|e| panic!("{e}\n{text}"))
+    let head = format!("name = \"tilted\"\n[search]\noptions = {options}");
+    read(&write_mechanism(&head, "0 1 2 3*", &joints))
 }
 
 /// By hand: three parallel hinges and one that is not lock each other, whatever the tilt is. The counts are those of a tilt of 1.
@@ -46,8 +24,7 @@ fn is_locked(m: &Mechanism) {
         .remove(0);
     assert_eq!((found.mobility, found.redundant, found.rank), (0, 2, 4));
     assert_eq!(certify_state(m, StateId::FREE).unwrap().rank, 4);
-    let search = Search::new(exact_field(m, 0).unwrap(), m, Conditions::default()).unwrap();
-    let built = search.build_diagrams(&|| false, &mut |_| {});
+    let (search, built) = searched(m, Conditions::default());
     let counts = [(&built.determinate, false), (&built.admissible, true)]
         .map(|(diagram, filter)| search.count_variants(diagram, filter).total);
     assert_eq!(counts, [52u8.into(), 11u8.into()]);

@@ -1,9 +1,7 @@
 //! Releases of what is held twice: by virtual work, and by hand.
 
 use crate::common::*;
-use ozols::model::mechanism::Frame;
-use ozols::redundancy::release::{Release, added_freedoms};
-use ozols::redundancy::state_figures;
+use ozols::redundancy::release::added_freedoms;
 use ozols::redundancy::stressed::Stressed;
 
 fn stressed(m: &Mechanism) -> Vec<Stressed<'_>> {

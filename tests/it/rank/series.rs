@@ -1,8 +1,6 @@
 //! Power series of the poses near a pose, by hand: what really moves is stopped at no order, and two toggles at a known one.
 
 use crate::common::*;
-use ozols::motion::pose::Pose;
-use ozols::rank::exact::field::field_of;
 use ozols::rank::finite::higher_order::HigherOrder;
 
 fn series(m: &Mechanism, rank: usize) -> Option<HigherOrder> {
@@ -59,7 +57,7 @@ fn two_toggles_are_stopped_at_the_third_order() {
         d-0 | d 0 | revolute | 26, 50, 0 | 0, 0, 1
         ",
     );
-    let m = mechanism_from_str("toggles.toml", &text).unwrap();
+    let m = read(&text);
     let series = series(&m, 4).unwrap();
     assert_eq!(
         [1, 2].map(|k| series.isolating_degree(k)),

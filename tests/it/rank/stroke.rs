@@ -1,16 +1,7 @@
 //! Variants in other poses of the present motion.
 
 use crate::common::*;
-const BALANCE: [&str; 8] = [
-    "search",
-    "roberval-balance",
-    "--pose-only",
-    "--format",
-    "json",
-    "--all",
-    "--seed",
-    "3",
-];
+const BALANCE: &str = "search roberval-balance --pose-only --format json --all --seed 3";
 
 fn changes(v: &Value) -> Vec<(String, String)> {
     let word = |x: &Value| x.word().to_owned();
@@ -24,7 +15,7 @@ fn changes(v: &Value) -> Vec<(String, String)> {
 /// with the frame, happens to point at the ball.
 #[test]
 fn variants_that_are_right_in_the_pose_of_the_file_only_are_marked() {
-    let v = run_json(&[&BALANCE[..], &["--poses", "4"]].concat());
+    let v = run_json(&format!("{BALANCE} --poses 4"));
     assert_eq!(v["poses"], serde_json::json!({"asked": 4, "reached": 4}));
     let variants = v["variants"].list();
     assert!(variants.iter().all(|x| x["lucky"].is_boolean()));
@@ -44,8 +35,8 @@ fn variants_that_are_right_in_the_pose_of_the_file_only_are_marked() {
     .map(|(j, t)| (j.to_owned(), t.to_owned()));
     assert!(lucky.iter().any(|x| changes(x) == one));
     // The same variant, exactly, here and with the arms turned by a 3-4-5 triangle's angle.
-    let text = run_quiet(&["show", "roberval-balance"]);
-    let m = mechanism_from_str("it.toml", &text).unwrap();
+    let text = run_quiet("show roberval-balance");
+    let m = read(&text);
     for (turned, working) in [(false, 1), (true, 2)] {
         let mut m = m.clone();
         for (joint, to) in &one {
@@ -60,7 +51,7 @@ fn variants_that_are_right_in_the_pose_of_the_file_only_are_marked() {
                 m.edit().joints[j].frame.point = [x, y, 0].map(|c: i64| c.into());
             }
         }
-        let found = &analyse_states(&m, &[StateId::FREE], Method::Modular).unwrap()[0];
+        let found = &analysed(&m);
         assert_eq!(
             (found.mobility, found.redundant, found.working_mobility),
             (2, 0, working)
@@ -71,7 +62,7 @@ fn variants_that_are_right_in_the_pose_of_the_file_only_are_marked() {
 /// With the second pin in the rocker it points at the ball always.
 #[test]
 fn which_link_has_which_pin_matters() {
-    let text = run_quiet(&["show", "roberval-balance"]);
+    let text = run_quiet("show roberval-balance");
     let swapped = text.replace("links = [\"3\", \"0\"]", "links = [\"0\", \"3\"]");
     assert_ne!(text, swapped);
     let (_folder, path) = write_temporary("swapped.toml", swapped);
@@ -97,10 +88,8 @@ fn marked_variants_are_said_to_be_of_this_pose_only() {
 
 #[test]
 fn poses_do_not_depend_on_threads_and_need_a_motion() {
-    let run = |threads: &str| {
-        run_quiet(&[&BALANCE[..], &["--poses", "3", "--threads", threads]].concat())
-    };
-    assert!(run("1") == run("2"));
+    let run = |threads| run_quiet(&format!("{BALANCE} --poses 3 --threads {threads}"));
+    assert!(run(1) == run(2));
     let o = ozols("search bennett-perturbed --poses 2 --format json")
         .output()
         .unwrap();
@@ -109,6 +98,6 @@ fn poses_do_not_depend_on_threads_and_need_a_motion() {
     let v: Value = serde_json::from_slice(&o.stdout).unwrap();
     assert_eq!(v["poses"]["reached"], 0);
     assert!(v["variants"].list().iter().all(|x| x["lucky"].is_null()));
-    let v = run_json(&["search", "four-bar", "--format", "json"]);
+    let v = run_json("search four-bar --format json");
     assert!(v["poses"].is_null() && v["variants"][0]["lucky"].is_null());
 }

@@ -1,7 +1,6 @@
 //! Singular poses near the ends of a stroke.
 
 use crate::common::*;
-use ozols::motion::pose::Pose;
 use ozols::rank::stroke::analysis::{StrokeRequest, analyse_stroke};
 
 /// A singular pose is found wherever the stroke ends: the parallelogram is flat at 90° to either side of the pose of the file.
@@ -47,7 +46,7 @@ fn driven_slider() -> Mechanism {
         d | 0 3 | prismatic | \"sqrt(8316)\", 0, 0 | 1, 0, 0 | drive = true
         ",
     );
-    mechanism_from_str("pump.toml", &text).unwrap()
+    read(&text)
 }
 
 #[test]
@@ -107,7 +106,7 @@ fn a_pose_that_falls_in_rank_is_told_in_the_files_unit() {
         d | 0 3 | prismatic | 66, \"18-sqrt(1116)\", 0 | 0, 1, 0 | drive = true
         ",
     );
-    let m = mechanism_from_str("fold.toml", &text).unwrap();
+    let m = read(&text);
     let pose = Pose::of_file(&m, StateId::FREE).unwrap();
     let joint = m.joint_named("d").unwrap();
     let request = StrokeRequest {

@@ -1,9 +1,8 @@
 //! Poses over a stroke: against closed forms, and as the command shows them.
 
 use crate::common::*;
-use crate::statics::{planar_file, read_planar, turning_joint};
-use ozols::motion::follow::{Follower, Why, stroke_positions};
-use ozols::motion::pose::Pose;
+use crate::statics::{joints_of, planar_file, read_planar};
+use ozols::motion::follow::{Why, stroke_positions};
 use ozols::rank::stroke::analysis::{StrokeFigures, StrokeRequest, analyse_stroke};
 use std::f64::consts::FRAC_PI_2;
 
@@ -95,16 +94,10 @@ fn four_bar_over_a_turn() {
 /// 3 + 4 > 3 + √10: no link turns fully. The crank stops where coupler and rocker come to lie in line.
 #[test]
 fn a_four_bar_that_does_not_turn_stops_at_its_dead_points() {
-    let text = planar_file(
-        &[
-            turning_joint("0", "1", 0.0, 0.0),
-            turning_joint("1", "2", 0.0, 3.0),
-            turning_joint("2", "3", 3.0, 3.0),
-            turning_joint("3", "0", 4.0, 0.0),
-        ],
+    let m = read_planar(&planar_file(
+        &joints_of("0-1 0 0, 1-2 0 3, 2-3 3 3, 3-0 4 0"),
         "",
-    );
-    let m = read_planar(&text);
+    ));
     let reach = 3.0 + 10f64.sqrt();
     let limit = ((16.0 + 9.0 - reach * reach) / 24.0).acos();
     for (to, at) in [(TAU, limit - FRAC_PI_2), (-TAU, -limit - FRAC_PI_2)] {
@@ -235,10 +228,8 @@ fn a_flat_parallelogram_does_not_guess() {
 fn the_gripper_keeps_its_redundancy() {
     let v = run_json("analyze gripper-10 --stroke -0.5:0.5:20 --format json");
     let stroke = &v["stroke"];
-    assert_eq!(
-        (&stroke["stop"], &stroke["unit"]),
-        (&Value::Null, &"cm".into())
-    );
+    assert_eq!(&stroke["stop"], &Value::Null);
+    assert_eq!(stroke["unit"], "cm");
     let poses = stroke["poses"].list();
     assert_eq!(poses.len(), 21);
     for p in poses {
@@ -279,7 +270,7 @@ fn the_number_of_steps_does_not_matter() {
 
 #[test]
 fn the_command() {
-    let text = run_quiet(&["analyze", "parallelogram", "--stroke", "0:180deg:6"]);
+    let text = run_quiet("analyze parallelogram --stroke 0:180deg:6");
     has_all(
         &text,
         &[

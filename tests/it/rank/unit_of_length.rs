@@ -1,8 +1,6 @@
 //! The unit of length says nothing: all lengths times a power of ten, and every word of the analysis stays.
 
 use crate::common::*;
-use ozols::model::mechanism::Frame;
-use proptest::prelude::*;
 
 /// A length that is written with `exponent` zeros more.
 fn times(e: &Expr, exponent: i32) -> Expr {
@@ -98,7 +96,7 @@ proptest! {
     #![proptest_config(crate::fuzz::runs(8))]
     #[test]
     fn plates_on_legs_do_not_depend_on_their_unit_of_length(text in plate(), exponent in -6i32..7) {
-        let m = mechanism_from_str("plate.toml", &text).unwrap();
+        let m = read(&text);
         prop_assert_eq!(said(&m), said(&scaled(&m, exponent)));
     }
 }

@@ -2,13 +2,10 @@
 
 use super::{cheapest, loaded, near, search};
 use crate::common::*;
-use ozols::model::ranking::ClearanceSum;
-use ozols::score::evaluation::evaluate::Evaluator;
-use ozols::search::answer::k_best::Assignment;
 
 #[test]
 fn the_command_changes_the_order_and_says_why() {
-    let v = run_json(&["search", "gripper-10-loaded", "--format", "json"]);
+    let v = run_json("search gripper-10-loaded --format json");
     let ranking = &v["ranking"];
     assert_eq!(ranking["order"], "weighted");
     assert_eq!(ranking["pool"], 20_000);
@@ -25,7 +22,7 @@ fn the_command_changes_the_order_and_says_why() {
         reason.starts_with("rank 1 was ") && reason.contains("instead of"),
         "{reason}"
     );
-    let text = run_quiet(&["search", "gripper-10-loaded", "--pool", "20000"]);
+    let text = run_quiet("search gripper-10-loaded --pool 20000");
     has(&text, "rank 1 was ");
     has(&text, "ranked under the workload");
     let csv = run_quiet("search gripper-10-loaded --format csv --top 3 --pool 300");
@@ -41,7 +38,7 @@ fn the_command_changes_the_order_and_says_why() {
         "{csv}"
     );
     // Without a [ranking], the scores stay empty and the order is that of cost.
-    let plain = run_json(&["search", "gripper-10", "--top", "1", "--format", "json"]);
+    let plain = run_json("search gripper-10 --top 1 --format json");
     assert!(plain.get("ranking").is_some_and(|r| r.is_null()));
     assert_eq!(plain["variants"][0]["scores"], serde_json::json!({}));
     // Asked for on the command line.
@@ -91,7 +88,7 @@ fn joint_types_can_be_overridden() {
     let text = format!(
         "{text}\n[joint_types.revolute]\ncapacity_force = 96\n[joint_types.spherical]\ncost = 7\n"
     );
-    let weak = mechanism_from_str("weak.toml", &text).unwrap();
+    let weak = read(&text);
     let strong = loaded();
     let of = |m: &Mechanism| {
         let s = search(m, 11);

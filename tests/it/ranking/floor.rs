@@ -3,12 +3,8 @@
 
 use super::{cheapest, near, search};
 use crate::common::*;
-use ozols::model::loads::{ExternalForce, ExternalMoment, MassProperties};
-use ozols::model::ranking::{ClearanceSum, Term, TypeOverride};
-use ozols::score::evaluation::elimination::Scratch;
-use ozols::score::evaluation::evaluate::Evaluator;
+use ozols::model::ranking::TypeOverride;
 use ozols::score::evaluation::terms::Scores;
-use ozols::statics::reactions::Unsolved;
 
 fn vector(v: [i64; 3]) -> [Expr; 3] {
     v.map(Expr::from)
@@ -185,7 +181,7 @@ fn play_in_series_adds_up() {
     let text = builtin::text("slider-crank-determinate").unwrap();
     let ball = "type = \"spherical\"\n";
     let text = text.replacen(ball, &format!("{ball}unloading = [\"spherical\"]\n"), 1);
-    let series = mechanism_from_str("series.toml", &text).unwrap();
+    let series = read(&text);
     let mut m = as_built("slider-crank-determinate", [30, -70, 45]);
     let at = m.joint_named("2-3").unwrap();
     m.edit().joints[at].unloading = series.joints[at].unloading.clone();

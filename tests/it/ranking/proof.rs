@@ -3,13 +3,8 @@
 use super::loaded;
 use crate::common::*;
 use chacha20::ChaCha20Rng;
-use chacha20::rand_core::{Rng, SeedableRng};
-use ozols::model::ranking::{ClearanceSum, Limit, Order, Ranking, Term};
-use ozols::score::evaluation::elimination::Scratch;
-use ozols::score::evaluation::evaluate::Evaluator;
+use ozols::model::ranking::Ranking;
 use ozols::score::evaluation::terms::Scores;
-use ozols::score::outcome::Outcome;
-use ozols::score::request::{Check, List, Request};
 use std::collections::HashMap;
 
 const TOP: usize = 12;

@@ -2,7 +2,6 @@
 
 use super::{TERMS, loaded, ranked, ranking};
 use crate::common::*;
-use ozols::model::ranking::{Limit, Order, Term};
 use ozols::score::outcome::ranking::RankedPool;
 
 fn pool() -> RankedPool {

@@ -3,13 +3,8 @@
 use super::expr;
 use crate::common::*;
 use crate::reactions::greatest_force;
-use ozols::model::loads::{Inertia, MassProperties, Stroke};
-use ozols::motion::pose::Pose;
-use ozols::statics::cycle::planar_statics;
 use ozols::statics::reactions::cycle::{Cycle, solve_cycle};
-use ozols::statics::reactions::follow::follow_to;
 use ozols::statics::reactions::geometry::{cross, dot};
-use ozols::statics::reactions::{JointReaction, Uniqueness, Unsolved};
 
 /// A built-in mechanism with masses beside its joints, gravity, and a drive at a speed.
 fn moving(name: &str, speed: f64, inertia: impl Fn(f64) -> Inertia) -> Mechanism {

@@ -1,9 +1,6 @@
 //! Drives that name their freedom: what is held is what the file says, in every state.
 
 use crate::common::*;
-use ozols::motion::pose::Pose;
-use ozols::statics::reactions::drives::driven_freedoms;
-use ozols::statics::reactions::geometry::Geometry;
 
 /// The gripper's slider, which slides along its guide and may turn about it.
 fn gripper(drive: &str) -> String {
@@ -21,7 +18,7 @@ fn held(m: &Mechanism, state: StateId) -> Vec<Freedom> {
 #[test]
 fn the_freedom_named_is_held_in_every_state() {
     for (word, freedom) in [("\"tz\"", Freedom::Tz), ("\"rz\"", Freedom::Rz)] {
-        let m = mechanism_from_str("g.toml", &gripper(word)).unwrap();
+        let m = read(&gripper(word));
         assert!(m.states.len() > 1);
         for state in 0..m.states.len() {
             assert_eq!(held(&m, StateId::new(state)), [freedom], "{word} {state}");
@@ -36,11 +33,11 @@ fn strokes_and_files_keep_it() {
         "analyze",
         "g.toml",
         &gripper("\"tz\""),
-        &["--state", "free", "--stroke", "0:0.1:2"],
+        "--state free --stroke 0:0.1:2",
     );
     assert_eq!(code, Some(0));
     has(&said, "0-1:tz");
-    let (code, said, _) = run_on("export", "g.toml", &gripper("\"tz\""), &["--to", "toml"]);
+    let (code, said, _) = run_on("export", "g.toml", &gripper("\"tz\""), "--to toml");
     assert_eq!(code, Some(0));
     has(&said, "drive = \"tz\"");
 }
@@ -48,7 +45,7 @@ fn strokes_and_files_keep_it() {
 #[test]
 fn a_freedom_that_the_joint_has_not_is_refused() {
     for word in ["\"ty\"", "\"sideways\""] {
-        let (code, _, complaint) = run_on("check", "g.toml", &gripper(word), &[]);
+        let (code, _, complaint) = run_on("check", "g.toml", &gripper(word), "");
         assert_eq!(code, Some(2));
         has(&complaint, "freedom to drive");
         has(&complaint, "rz, tz");

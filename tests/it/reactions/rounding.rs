@@ -1,8 +1,6 @@
 //! Figures of forces that are rounding and nothing else are 0, in text, JSON and CSV.
 
 use crate::common::*;
-use chacha20::ChaCha8Rng;
-use chacha20::rand_core::{Rng, SeedableRng};
 use std::fmt::Write;
 
 /// Loads are of 1 N and more and lengths of 1 mm and more: what is smaller is rounding.
@@ -71,27 +69,13 @@ fn loaded(dice: &mut ChaCha8Rng) -> String {
 
 /// Every number below the keys of forces, moments and accelerations.
 fn figures(value: &Value, of_force: bool, out: &mut Vec<f64>) {
-    const KEYS: [&str; 15] = [
-        "force",
-        "moment",
-        "force_magnitude",
-        "moment_magnitude",
-        "global_force",
-        "global_moment",
-        "effort",
-        "normal",
-        "along_face",
-        "tilting",
-        "magnitude",
-        "acceleration",
-        "angular_acceleration",
-        "inertia_force",
-        "inertia_moment",
-    ];
+    const KEYS: &str = "
+        force moment force_magnitude moment_magnitude global_force global_moment effort normal
+        along_face tilting magnitude acceleration angular_acceleration inertia_force inertia_moment";
     match value {
         Value::Object(map) => {
             for (k, v) in map {
-                figures(v, KEYS.contains(&k.as_str()), out);
+                figures(v, split_words(KEYS).contains(&k.as_str()), out);
             }
         }
         Value::Array(list) => list.iter().for_each(|v| figures(v, of_force, out)),

@@ -1,8 +1,6 @@
 //! Twists of links: each is carried by all before it.
 
 use crate::common::*;
-use ozols::motion::pose::Pose;
-use ozols::statics::reactions::geometry::Geometry;
 
 /// Three hinges about z in a row, at speeds 1, -3 and 5: links turn at 1, -2 and 3. By hand, a point at the height of the hinges and
 /// 20 before the first goes at minus the sum of speed times distance.
@@ -20,7 +18,7 @@ fn a_link_is_carried_by_all_before_it() {
         "0 1 2 3*",
         &(1..4).map(joint).join("\n"),
     );
-    let m = mechanism_from_str("arm.toml", &text).unwrap();
+    let m = read(&text);
     let pose = Pose::of_file(&m, StateId::FREE).unwrap();
     let geometry = Geometry::new(&m, StateId::FREE, &pose).unwrap();
     let twists = geometry.link_twists(m.links.len(), &[1.0, -3.0, 5.0]);

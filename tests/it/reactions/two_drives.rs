@@ -1,10 +1,6 @@
 //! Over a stroke further drives move at the ratio of their speeds to the first drive's, slides in the file's unit.
 
 use crate::common::*;
-use ozols::motion::pose::Pose;
-use ozols::statics::reactions::drives::driven_freedoms;
-use ozols::statics::reactions::follow::follow_to;
-use ozols::statics::reactions::geometry::Geometry;
 
 /// A crane: it turns, its boom tilts, and a hook runs along the boom, in millimetres.
 fn crane() -> String {
@@ -21,7 +17,7 @@ fn crane() -> String {
 
 #[test]
 fn drives_move_at_the_ratio_of_their_speeds() {
-    let mut m = mechanism_from_str("crane.toml", &crane()).unwrap();
+    let mut m = read(&crane());
     m.edit().loads.drive_speeds = vec![0.5, -0.25, 100.0];
     let pose = Pose::of_file(&m, StateId::FREE).unwrap();
     let geometry = Geometry::new(&m, StateId::FREE, &pose).unwrap();

@@ -16,25 +16,28 @@ fn contact<'a>(v: &'a Value, name: &str) -> &'a Value {
     all.iter().find(|c| c["contact"] == name).unwrap()
 }
 
-/// A part of 1 kg between two faces of the frame, along y above and below it; gravity as asked for.
-fn between(gravity: &str) -> String {
-    let text = write_mechanism(
-        "name = \"vice\"",
-        "0 handle* part!",
-        "
-        hinge | 0 handle | revolute | 0, 0.3, 0 | 0, 0, 1 | drive = true
-        above | 0 part | fixed | 0, 0.1, 0 | 0, 1, 0 | state = \"clamped\"
-        below | part 0 | fixed | 0, -0.1, 0 | 0, 1, 0 | state = \"clamped\"
-        ",
-    );
+/// A part of 1 kg with faces of the frame, along y above it and below it; gravity as asked for.
+fn held_by(faces: &[&str], gravity: &str) -> String {
+    let mut joints =
+        "hinge | 0 handle | revolute | 0, 0.3, 0 | 0, 0, 1 | drive = true\n".to_owned();
+    let mut contacts = String::new();
+    for face in faces {
+        let (ends, y) = if *face == "above" {
+            ("0 part", "0.1")
+        } else {
+            ("part 0", "-0.1")
+        };
+        joints += &format!("{face} | {ends} | fixed | 0, {y}, 0 | 0, 1, 0 | state = \"clamped\"\n");
+        contacts += &format!("[[workload.contact]]\njoint = \"{face}\"\nfriction = 0.2\n");
+    }
+    let text = write_mechanism("name = \"vice\"", "0 handle* part!", &joints);
     let heavy = "role = \"object\"\nmass = 1\ncentre = [0, 0, 0]";
-    let contact = |id: &str| format!("[[workload.contact]]\njoint = \"{id}\"\nfriction = 0.2\n");
-    replace_once(&text, "role = \"object\"", heavy)
-        + &format!(
-            "[workload]\ngravity = {gravity}\n{}{}",
-            contact("above"),
-            contact("below")
-        )
+    let workload = format!("[workload]\ngravity = {gravity}\n{contacts}");
+    replace_once(&text, "role = \"object\"", heavy) + &workload
+}
+
+fn between(gravity: &str) -> String {
+    held_by(&["above", "below"], gravity)
 }
 
 /// By hand: as joints two faces share the weight, the upper one by pulling; as faces the lower one bears it all.
@@ -76,18 +79,9 @@ fn a_part_that_hangs_needs_its_pressure() {
     assert!(contact(&faces, "above")["normal"].real().abs() < 1e-6);
 }
 
-/// One face above, nothing below: it cannot hold, and no reactions are given.
 #[test]
 fn what_slips_off_is_told_and_not_solved() {
-    let content = between("[0, -9.81, 0]");
-    let start = content.find("[[joint]]\nid = \"below\"").unwrap();
-    let end = content.find("[workload]").unwrap();
-    let content = format!("{}{}", &content[..start], &content[end..]);
-    let content = replace_once(
-        &content,
-        "[[workload.contact]]\njoint = \"below\"\nfriction = 0.2\n",
-        "",
-    );
+    let content = held_by(&["above"], "[0, -9.81, 0]");
     let (code, said, errors) = statics(&content, &["--state", "clamped", "--unilateral"]);
     assert_eq!((code, errors.as_str()), (Some(1), ""));
     has(&said, "slips, lifts off or tilts");
@@ -198,7 +192,7 @@ fn what_tips_and_twists_shares_the_face() {
 /// The built-in gripper: with the forces that stand for the part left in the clamped state, its pads pulled with 54 N.
 #[test]
 fn the_gripper_no_longer_pulls_at_its_part() {
-    let text = run_quiet(&["show", "gripper-10-loaded"]);
+    let text = run_quiet("show gripper-10-loaded");
     let doubled = text.replace("state = \"free\"\n\n", "\n");
     assert_ne!(text, doubled);
     let (_, said, _) = statics(&doubled, &["--state", "clamped"]);
@@ -223,41 +217,17 @@ fn the_gripper_no_longer_pulls_at_its_part() {
     }
     // The part is in equilibrium; the free state still bears the forces that stand for it.
     part.iter().for_each(|x| near(*x, 0.0, 1e-9));
-    let free = run_quiet(&["statics", "gripper-10-loaded"]);
+    let free = run_quiet("statics gripper-10-loaded");
     has(&free, "Drive 0-1 holds tz: force -53.333 N");
 }
 
-/// In one piece with the free state's twin: where every contact pushes already, both ways agree.
 #[test]
 fn contacts_that_push_anyway_change_nothing() {
-    let content = between("[0, -9.81, 0]");
-    let pressed = content.replace(
-        "[workload]\n",
-        "[workload]\n[[workload.force]]\nlink = \"part\"\npoint = [0, 0.05, 0]\nforce = [0, -20, 0]\nstate = [\"clamped\"]\n",
-    );
-    let pressed = replace_once(
-        &pressed,
-        "[workload]\n[[workload.force]]",
-        "[[workload.force]]",
-    );
-    let pressed = replace_once(
-        &pressed,
-        "state = [\"clamped\"]\n",
-        "state = [\"clamped\"]\n[workload]\n",
-    );
-    let start = pressed.find("[[joint]]\nid = \"above\"").unwrap();
-    let end = pressed.find("[[joint]]\nid = \"below\"").unwrap();
-    let pressed = format!("{}{}", &pressed[..start], &pressed[end..]);
-    let pressed = replace_once(
-        &pressed,
-        "[[workload.contact]]\njoint = \"above\"\nfriction = 0.2\n",
-        "",
-    );
-    let [a, b] = [
-        &["--state", "clamped"][..],
-        &["--state", "clamped", "--unilateral"],
-    ]
-    .map(|more| solved(&pressed, more));
+    let force = "[[workload.force]]\nlink = \"part\"\npoint = [0, 0.05, 0]\nforce = [0, -20, 0]\nstate = [\"clamped\"]\n";
+    let pressed = held_by(&["below"], "[0, -9.81, 0]") + force;
+    let clamped = ["--state", "clamped"];
+    let [a, b] =
+        [&clamped[..], &["--state", "clamped", "--unilateral"]].map(|more| solved(&pressed, more));
     assert_eq!(a["reactions"], b["reactions"]);
     near(contact(&b, "below")["normal"].real(), 29.81, 1e-9);
 }
@@ -277,7 +247,7 @@ fn words_that_are_no_states_or_contacts_are_refused() {
         assert_eq!(code, Some(2), "{to}");
         assert!(errors.contains(part), "{to}: {errors}");
     }
-    let (code, _, errors) = statics(&run_quiet(&["show", "four-bar"]), &["--unilateral"]);
+    let (code, _, errors) = statics(&run_quiet("show four-bar"), &["--unilateral"]);
     assert_eq!(code, Some(2));
     has(&errors, "--unilateral is for contacts with a clamped part");
 }
@@ -285,7 +255,7 @@ fn words_that_are_no_states_or_contacts_are_refused() {
 /// What a file says of states and contacts, its export says again.
 #[test]
 fn states_of_forces_and_contacts_are_exported() {
-    let again = run_quiet(&["export", "gripper-10-loaded", "--to", "toml"]);
+    let again = run_quiet("export gripper-10-loaded --to toml");
     assert_eq!(again.matches("[[workload.contact]]").count(), 2, "{again}");
     assert_eq!(again.matches("state = [\"free\"]").count(), 4);
 }

@@ -7,7 +7,7 @@ mod retyped;
 mod told;
 mod wrong;
 
-use ozols::robots::{Imported, Options, import};
+use ozols::robots::Options;
 
 /// What is read of bytes under a name, with no files beside.
 pub(crate) fn read(name: &str, bytes: &[u8], options: &Options) -> Imported {

@@ -9,7 +9,6 @@ use crate::common::*;
 use crate::fuzz::runs;
 use ozols::redundancy::duplicate_constraints::held_twice;
 use ozols::redundancy::other_poses::Where;
-use proptest::prelude::*;
 use std::fmt::Write;
 
 type V = [f64; 3];
@@ -50,39 +49,25 @@ impl Joint {
 /// Legs of two joints from the frame to one platform.
 type Legs = Vec<[Joint; 2]>;
 
-/// Rows and rank of the closure matrix, by elimination with the largest pivot left.
+/// Rows and rank of the closure matrix.
 fn rows_and_rank(legs: &Legs, size: f64) -> (usize, usize) {
-    let rows = 6 * (legs.len() - 1);
-    let mut columns: Vec<Vec<f64>> = Vec::new();
-    for (n, leg) in legs.iter().enumerate() {
-        for t in leg.iter().flat_map(|j| j.twists()) {
-            let t: Vec<f64> = (0..6)
-                .map(|i| if i < 3 { t[i] } else { t[i] / size })
-                .collect();
-            let of = |c: usize| match n {
-                0 => t.clone(),
-                n if n == c + 1 => t.iter().map(|x| -x).collect(),
-                _ => vec![0.0; 6],
-            };
-            columns.push((0..legs.len() - 1).flat_map(of).collect());
-        }
-    }
-    let mut rank = 0;
-    while let Some((c, r)) = (rank..columns.len())
-        .flat_map(|c| (0..rows).map(move |r| (c, r)))
-        .max_by(|&(c, r), &(d, s)| columns[c][r].abs().total_cmp(&columns[d][s].abs()))
-        .filter(|&(c, r)| columns[c][r].abs() > 1e-9)
-    {
-        columns.swap(rank, c);
-        let pivot = columns[rank].clone();
-        for other in &mut columns[rank + 1..] {
-            let by = other[r] / pivot[r];
-            other.iter_mut().zip(&pivot).for_each(|(x, p)| *x -= by * p);
-            other[r] = 0.0;
-        }
-        rank += 1;
-    }
-    (rows, rank)
+    let contours = legs.len() - 1;
+    let column = |n: usize, t: [f64; 6]| -> Vec<f64> {
+        let t = [0, 1, 2, 3, 4, 5].map(|i| if i < 3 { t[i] } else { t[i] / size });
+        let of = |c: usize| match n {
+            0 => t,
+            n if n == c + 1 => t.map(|x| -x),
+            _ => [0.0; 6],
+        };
+        (0..contours).flat_map(of).collect()
+    };
+    let twists = |(n, leg): (usize, &[Joint; 2])| {
+        let all = leg.iter().flat_map(|j| j.twists());
+        all.map(move |t| (n, t)).collect_vec()
+    };
+    let columns = legs.iter().enumerate().flat_map(twists);
+    let columns = columns.map(|(n, t)| column(n, t)).collect();
+    (6 * contours, rank_of_rows(columns))
 }
 
 /// The mechanism as a file, its numbers with so many decimals, or whole.
@@ -298,7 +283,7 @@ proptest! {
             .map(|leg| leg.map(|j| j.mapped(&map)))
             .collect();
         let text = file(&drawn, decimals);
-        let m = mechanism_from_str("m.toml", &text).unwrap();
+        let m = read(&text);
         let found = held_twice(&m, &|_| false, &|_| true, Some(&|_| true)).unwrap();
         if decimals.is_some() {
             // Coarse digits may leave a figure open, and may not make it wrong.

@@ -5,49 +5,9 @@ mod physical;
 
 use crate::robots::read_robot;
 use ozols::redundancy::analysis::Elimination;
-use ozols::robots::formats;
-use proptest::prelude::*;
 
 fn all() -> impl Iterator<Item = Mechanism> {
     builtin::names().into_iter().map(built_in)
-}
-
-// Everything but the spelling survives: a second export is the first, and both analyse alike.
-#[test]
-fn toml_and_json() {
-    for m in all() {
-        let toml = formats::write(&m, "toml").unwrap();
-        let json = ozols::file::write::mechanism_file(&m).json().to_string();
-        for (name, text) in [("x.toml", &toml), ("x.json", &json)] {
-            let back = mechanism_from_str(name, text)
-                .unwrap_or_else(|e| panic!("{}: {e}\n{text}", m.name));
-            assert_eq!(formats::write(&back, "toml").unwrap(), toml, "{}", m.name);
-            let names = |m: &Mechanism| {
-                let all = m
-                    .joints
-                    .iter()
-                    .flat_map(|j| j.options.iter().chain(&j.unloading));
-                all.map(|o| (o.name.clone(), o.cost_milli)).collect_vec()
-            };
-            assert_eq!(names(&back), names(&m), "{}", m.name);
-            let states: Vec<StateId> = m.state_ids().collect();
-            let figures = |m: &Mechanism| {
-                let all = analyse_states(m, &states, Method::Modular).unwrap();
-                all.iter()
-                    .map(|s| {
-                        (
-                            s.state.clone(),
-                            s.links,
-                            s.freedoms,
-                            s.mobility,
-                            s.redundant,
-                        )
-                    })
-                    .collect_vec()
-            };
-            assert_eq!(figures(&back), figures(&m), "{}", m.name);
-        }
-    }
 }
 
 /// The whole model in words; coordinates as expressions.
@@ -55,12 +15,14 @@ fn model(m: &Mechanism) -> String {
     format!("{m:#?}")
 }
 
+/// Asserts that the mechanism comes back from each of its own formats as it was, and that a second export is the first.
 fn comes_back(m: &Mechanism) {
     let toml = formats::write(m, "toml").unwrap();
     let json = ozols::file::write::mechanism_file(m).json().to_string();
     for (name, text) in [("x.toml", &toml), ("x.json", &json)] {
         let back =
             mechanism_from_str(name, text).unwrap_or_else(|e| panic!("{}: {e}\n{text}", m.name));
+        assert_eq!(formats::write(&back, "toml").unwrap(), toml, "{}", m.name);
         let (back, m) = (model(&back), model(m));
         if let Some((i, (a, b))) =
             (back.lines().zip(m.lines()).enumerate()).find(|(_, (a, b))| a != b)
@@ -132,7 +94,7 @@ fn import_undoes_export_of_rich_workloads() {
         ),
     ];
     for text in texts {
-        let m = mechanism_from_str("x.toml", &text).unwrap_or_else(|e| panic!("{e}\n{text}"));
+        let m = read(&text);
         comes_back(&m);
     }
 }
@@ -148,18 +110,6 @@ proptest! {
     }
 }
 
-#[test]
-fn searches_alike() {
-    let folder = tempdir().unwrap();
-    let file = folder.path().join("g.toml");
-    run_quiet(&format!(
-        "export gripper-10 --to toml -o {}",
-        file.display()
-    ));
-    let count = |f: &str| run_quiet(&["search", f, "--top", "3", "--format", "json"]);
-    assert_eq!(count(file.to_str().unwrap()), count("gripper-10"));
-}
-
 /// W and σ of the free state by singular values.
 fn figures(m: &Mechanism) -> (usize, usize) {
     let s =
@@ -169,7 +119,7 @@ fn figures(m: &Mechanism) -> (usize, usize) {
 
 fn back(name: &str, text: &str) -> Mechanism {
     let i = read_robot(name, text);
-    mechanism_from_str("x.toml", &i.toml().unwrap()).unwrap()
+    read(&i.toml().unwrap())
 }
 
 // MJCF, URDF and SDF keep loops: W and σ of the free state survive the way there and back, and masses are written.
@@ -232,7 +182,7 @@ fn graphs() {
         assert_eq!(xml.matches("<edge ").count(), m.joints.len());
     }
     let tricky = "name = \"a\\\"b<&>\"\n[[link]]\nid = \"<0>\"\nrole = \"frame\"\n[[link]]\nid = \"\\\"&--\\\\\"\nrole = \"output\"\n[[joint]]\nid = \"]]>-->\"\nlinks = [\"<0>\", \"\\\"&--\\\\\"]\ntype = \"revolute\"\npoint = [0, 0, 0]\naxis = [0, 0, 1]\ndrive = true\n";
-    let m = mechanism_from_str("t.toml", tricky).unwrap();
+    let m = read(tricky);
     assert!(
         formats::write(&m, "dot")
             .unwrap()
@@ -263,42 +213,8 @@ fn the_command() {
             "{to}"
         );
     }
-    let o = ozols(&["export", "nowhere", "--to", "dot"])
-        .output()
-        .unwrap();
+    let o = ozols("export nowhere --to dot").output().unwrap();
     assert_eq!(o.status.code(), Some(2));
-}
-
-// Masses, gravity, forces, speed and stroke are written, too: the statics of the copy are those of the file.
-#[test]
-fn the_workload_survives() {
-    let folder = tempdir().unwrap();
-    for to in ["toml", "json"] {
-        let file = folder.path().join(format!("shears.{to}"));
-        let file = file.to_str().unwrap();
-        run_quiet(&["export", "parallel-shears", "--to", to, "-o", file]);
-        let statics = |f: &str| run_quiet(&["statics", f, "--format", "json"]);
-        assert_eq!(statics(file), statics("parallel-shears"));
-    }
-    let shears = all().find(|m| m.name == "parallel-shears").unwrap();
-    let text = formats::write(&shears, "toml").unwrap();
-    let back = mechanism_from_str("x.toml", &text).unwrap();
-    assert_eq!(back.loads.stroke, shears.loads.stroke);
-    assert_eq!(back.loads.drive_speeds, shears.loads.drive_speeds);
-    for (a, b) in back.links.iter().zip(&shears.links) {
-        let all = |l: &ozols::model::mechanism::Link| {
-            l.mass.as_ref().map(|p| {
-                (
-                    p.mass,
-                    p.centre.each_ref().map(ToString::to_string),
-                    p.inertia,
-                )
-            })
-        };
-        assert_eq!(all(a), all(b));
-    }
-    let forces = |m: &Mechanism| format!("{:?}", m.loads.forces);
-    assert_eq!(forces(&back), forces(&shears));
 }
 
 /// A description in which every kind of thing stands that a mechanism has no words for.
@@ -312,35 +228,8 @@ const RICH: &str = "<mujoco><option timestep='0.001'/><asset><mesh name='m' vert
 // mechanism file.
 #[test]
 fn what_is_lost_is_named() {
-    let dir = tempdir().unwrap();
-    let path = |name: &str| dir.path().join(name).display().to_string();
-    fs::write(path("rich.xml"), RICH).unwrap();
-    let lost = [
-        "Imported from rich.xml (MJCF)",
-        "armature (1)",
-        "asset (1)",
-        "damping (1)",
-        "data of an actuator (1)",
-        "geom (2)",
-        "inertial (1)",
-        "limit of a joint (1)",
-        "option (1)",
-        "sensor (1)",
-    ];
-    let run = |words: &[&str]| {
-        let found = ozols(words).output().unwrap();
-        let told = String::from_utf8(found.stderr).unwrap();
-        assert!(found.status.success(), "{told}");
-        told
-    };
-    run(&[
-        "export",
-        &path("rich.xml"),
-        "--to",
-        "toml",
-        "-o",
-        &path("rich.toml"),
-    ]);
+    let dir = Folder::with("rich.xml", RICH);
+    dir.succeed("export rich.xml --to toml -o rich.toml");
     for (to, made_up) in [
         ("urdf", "limits of 1 m"),
         ("sdf", "weigh 1 kg"),
@@ -348,20 +237,23 @@ fn what_is_lost_is_named() {
         ("toml", ""),
     ] {
         for from in ["rich.xml", "rich.toml"] {
-            let file = path(&format!("out.{to}"));
-            let told = run(&["export", &path(from), "--to", to, "-o", &file]);
-            let text = fs::read_to_string(&file).unwrap();
-            for what in lost {
-                assert!(text.contains(what), "{from} as {to}: {what}\n{text}");
+            let line = format!("export {from} --to {to} -o out.{to}");
+            let (_, told) = dir.succeed(&line);
+            let text = dir.text(&format!("out.{to}"));
+            has(&text, "Imported from rich.xml (MJCF)");
+            for what in
+                "armature,asset,damping,data of an actuator,inertial,limit of a joint,option,sensor"
+                    .split(',')
+            {
+                has(&text, &format!("{what} (1)"));
             }
-            assert!(
-                text.contains(made_up) && told.contains(made_up),
-                "{to}: {told}"
-            );
+            has(&text, "geom (2)");
+            has(&text, made_up);
+            has(&told, made_up);
             // Of a mechanism file this is no news.
             let geoms = if to == "toml" { "2 geom (" } else { "geom (2)" };
             assert_eq!(told.contains(geoms), from == "rich.xml", "{told}");
-            assert!(run(&["export", &path(from), "--to", to, "-o", &file, "-q"]).is_empty());
+            assert_eq!(dir.succeed(&format!("{line} -q")).1, "");
         }
     }
 }

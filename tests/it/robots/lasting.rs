@@ -1,6 +1,7 @@
 //! Robots: only what is redundant over the motion is let go; what is so at one pose passes by itself.
 
 use crate::common::*;
+use crate::robots::lint::linted;
 use crate::robots::mjcf::mjcf;
 
 /// A four-bar of lengths 1, 2, 1.5 and 1.5 with all pins in a line, its second joint of a kind. On a ball it has nothing
@@ -15,26 +16,18 @@ fn in_line(elbow: &str, range: &str) -> String {
     ))
 }
 
-fn json(text: &str) -> (Option<i32>, Value) {
-    let (code, out, err) = run_on("lint", "m.xml", text, &["--format", "json"]);
-    let v: Value = serde_json::from_str(&out).unwrap_or_else(|_| panic!("{err}"));
-    (code, v["files"][0].clone())
-}
-
 // Once taken for a fault, and the arm "mended" where it was stretched out.
 #[test]
 fn what_is_redundant_at_one_pose_only_is_a_note() {
     let text = in_line("type='ball'", "");
-    let (code, found) = json(&text);
+    let (code, found) = linted("m.xml", &text);
     assert_eq!(code, Some(0), "{found}");
-    assert_eq!(
-        (&found["redundant"], &found["redundant_over_motion"]),
-        (&1.into(), &0.into())
-    );
+    assert_eq!(found["redundant"], 1);
+    assert_eq!(found["redundant_over_motion"], 0);
     assert_eq!(found["findings"][0]["row"], "x");
     assert_eq!(found["findings"][0]["lasts"], false);
     assert_eq!(found["cheapest"], serde_json::json!([]));
-    let (code, out, _) = run_on("lint", "m.xml", &text, &[]);
+    let (code, out, _) = run_on("lint", "m.xml", &text, "");
     assert_eq!(code, Some(0));
     has_all(
         &out,
@@ -46,7 +39,7 @@ fn what_is_redundant_at_one_pose_only_is_a_note() {
         ],
     );
     assert!(!out.contains("ozols fix"), "{out}");
-    let (code, out, told) = run_on("fix", "m.xml", &text, &[]);
+    let (code, out, told) = run_on("fix", "m.xml", &text, "");
     assert_eq!((code, out.as_str()), (Some(0), text.as_str()), "{told}");
     has(&told, "at this pose only");
 }
@@ -54,22 +47,20 @@ fn what_is_redundant_at_one_pose_only_is_a_note() {
 #[test]
 fn only_what_lasts_is_let_go() {
     let text = in_line("", "");
-    let (code, found) = json(&text);
+    let (code, found) = linted("m.xml", &text);
     assert_eq!(code, Some(1));
-    assert_eq!(
-        (&found["redundant"], &found["redundant_over_motion"]),
-        (&2.into(), &1.into())
-    );
+    assert_eq!(found["redundant"], 2);
+    assert_eq!(found["redundant_over_motion"], 1);
     let lasts: Vec<bool> = (found["findings"].list().iter())
         .map(|f| f["lasts"].as_bool().unwrap())
         .collect();
     assert_eq!(lasts, [true, false]);
-    let (code, out, told) = run_on("fix", "m.xml", &text, &[]);
+    let (code, out, told) = run_on("fix", "m.xml", &text, "");
     assert_eq!(code, Some(0), "{told}");
     has(&told, "1 release\n");
     has(&told, "slide along z");
     has(&told, "1 redundant at this pose only");
-    let (code, found) = json(&out);
+    let (code, found) = linted("m.xml", &out);
     assert_eq!(code, Some(0), "{found}");
 }
 
@@ -80,7 +71,7 @@ fn poses_are_inside_the_limits() {
         "range='-2 2' limited='true'",
         "range='40 50' limited='true'",
     ] {
-        let (code, found) = json(&in_line("type='ball'", range));
+        let (code, found) = linted("m.xml", in_line("type='ball'", range));
         assert_eq!(code, Some(0), "{range}: {found}");
         assert_eq!(found["redundant_over_motion"], 0, "{range}");
         let over = found["over_motion"].word();
@@ -114,13 +105,10 @@ fn two_connects_for_a_hinge_ask_for_one_of_their_rows() {
     let text = mjcf(&format!(
         "<worldbody>{bodies}</worldbody><equality>{connects}</equality>"
     ));
-    let (code, found) = json(&text);
+    let (code, found) = linted("m.xml", &text);
     assert_eq!(code, Some(1), "{found}");
-    assert_eq!(
-        (&found["redundant"], &found["redundant_over_motion"]),
-        (&4.into(), &2.into()),
-        "{found}"
-    );
+    assert_eq!(found["redundant"], 4, "{found}");
+    assert_eq!(found["redundant_over_motion"], 2, "{found}");
     let cheapest: Vec<&str> = (found["cheapest"].list().iter())
         .map(|c| c.word())
         .collect();
@@ -133,7 +121,7 @@ fn two_connects_for_a_hinge_ask_for_one_of_their_rows() {
         assert!(at.iter().any(|a| words.starts_with(a)), "{words}");
     }
     assert_eq!(found["outside_limits"].list().len(), 2);
-    let (_, out, _) = run_on("lint", "m.xml", &text, &[]);
+    let (_, out, _) = run_on("lint", "m.xml", &text, "");
     has_all(
         &out,
         &[
@@ -163,13 +151,11 @@ fn mocap_bodies_are_drives() {
         <equality><weld name='grasp' body1='hand' body2='l5'/></equality>",
         "</body>".repeat(6)
     ));
-    let (code, found) = json(&text);
+    let (code, found) = linted("m.xml", &text);
     assert_eq!(code, Some(0), "{found}");
-    assert_eq!(
-        (&found["redundant"], &found["mobility"]),
-        (&0.into(), &6.into())
-    );
-    let (_, out, told) = run_on("export", "m.xml", &text, &["--to", "toml"]);
+    assert_eq!(found["redundant"], 0);
+    assert_eq!(found["mobility"], 6);
+    let (_, out, told) = run_on("export", "m.xml", &text, "--to toml");
     has(&told, "1 mocap body, as a drive");
     has(&out, "drive = true");
 }

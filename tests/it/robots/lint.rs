@@ -1,41 +1,41 @@
 //! `ozols lint`: what a description holds twice, by line, where on its motion, and how sure that is.
 
 use crate::common::*;
-use crate::robots::fix::gripper;
 use crate::robots::mjcf::mjcf;
 use crate::robots::{folder, legs};
+
+/// The exit code of lint and what its JSON has of one file with this text.
+pub(crate) fn linted(name: &str, text: impl AsRef<[u8]>) -> (Option<i32>, Value) {
+    let line = ["lint", name, "--format", "json"];
+    let (code, out, err) = Folder::with(name, text).run(&line);
+    let v: Value = serde_json::from_str(&out).unwrap_or_else(|_| panic!("{err}"));
+    (code, v["files"][0].clone())
+}
 
 // Each connect of the gripper closes a planar loop of three hinges: its row across the plane is held twice.
 #[test]
 fn lint_names_each_redundant_row_with_its_line() {
-    let (code, out, _) = run_full(&["lint", &gripper(), "--format", "json"]);
+    let (code, file) = linted("gripper.xml", read_data("robots/gripper.xml"));
     assert_eq!(code, Some(1));
-    let v: Value = serde_json::from_str(&out).unwrap();
-    let file = &v["files"][0];
-    assert_eq!(file["file"], gripper());
+    assert_eq!(file["file"], "gripper.xml");
     let found: Vec<(&str, &str, u64)> = file["findings"]
         .list()
         .iter()
         .map(|f| (f["constraint"].word(), f["row"].word(), f["line"].whole()))
         .collect();
     assert_eq!(found, [("connect-1", "y", 65), ("connect-2", "y", 66)]);
-    assert_eq!(
-        file["findings"][0]["duplicates"],
-        serde_json::json!([
-            "right_crank_joint",
-            "right_rocker_joint",
-            "right_finger_joint"
-        ])
-    );
-    assert_eq!(file["findings"][0]["assembly"], "force along y");
+    let first = &file["findings"][0];
+    let held = json!([
+        "right_crank_joint",
+        "right_rocker_joint",
+        "right_finger_joint"
+    ]);
+    assert_eq!(first["duplicates"], held);
+    assert_eq!(first["assembly"], "force along y");
     // Its coordinates are decimals: what is proven over the motion is so of the geometry that is meant.
     assert_eq!(file["over_motion_kind"], "proven");
-    let remedies = file["findings"][0]["remedies"].list();
-    assert!(
-        remedies[0]
-            .word()
-            .contains("slide along y: revolute -> cylindrical")
-    );
+    let remedy = first["remedies"][0].word();
+    has(remedy, "slide along y: revolute -> cylindrical");
 }
 
 #[test]
@@ -66,127 +66,95 @@ fn four_bar(ends: [&str; 3], anchor: &str) -> String {
 #[test]
 fn lint_tells_a_special_pose_from_the_motion() {
     let text = four_bar(["1 0 0", "1.5 0 0", "0 0 1"], "2 0 0");
-    let (code, out, _) = run_on("lint", "m.xml", &text, &["--format", "json"]);
+    let (code, file) = linted("m.xml", &text);
     assert_eq!(code, Some(1));
-    let v: Value = serde_json::from_str(&out).unwrap();
-    let file = &v["files"][0];
-    assert_eq!(
-        (&file["redundant"], &file["over_motion_kind"]),
-        (&2.into(), &"pose".into())
-    );
-    let rows = file["findings"].list().iter();
-    let rows: Vec<&str> = rows.map(|f| f["row"].word()).collect();
-    assert_eq!(rows, ["z", "x"]);
-    let (_, out, _) = run_on("lint", "m.xml", &text, &[]);
-    has(&out, "elsewhere in the motion 1");
+    assert_eq!(file["redundant"], 2);
+    assert_eq!(file["over_motion_kind"], "pose");
+    let rows = file["findings"].list().iter().map(|f| f["row"].word());
+    assert_eq!(rows.collect_vec(), ["z", "x"]);
+    has(file["over_motion"].word(), "elsewhere in the motion 1");
 }
 
-// Axes that are parallel but for their last digits: nobody can say whether they are meant to be. No command is offered that
-// would be refused.
+/// A four-bar whose axes are parallel but for their last digits.
+fn nearly_parallel() -> String {
+    let anchor = "1.70002 0.3 0.00001";
+    four_bar(["0 1 0", "2.00003 0 0", "0 0.00002 1"], anchor)
+}
+
+// Nobody can say whether they are meant to be. No command is offered that would be refused.
 #[test]
 fn lint_does_not_decide_what_digits_leave_open() {
-    let text = four_bar(
-        ["0 1 0", "2.00003 0 0", "0 0.00002 1"],
-        "1.70002 0.3 0.00001",
-    );
-    let (code, out, _) = run_on("lint", "m.xml", &text, &[]);
+    let text = nearly_parallel();
+    let (code, out, _) = run_on("lint", "m.xml", &text, "");
     assert_eq!(code, Some(1));
     has(&out, "0 to 1 redundant constraints (undecided");
     has(&out, "what is redundant is so at this pose");
-    assert!(!out.contains("ozols fix"), "{out}");
-    let (code, _, told) = run_on("fix", "m.xml", &text, &[]);
-    assert_eq!(code, Some(2));
-    has(&told, "undecided");
-    has(&told, "--pose");
+    lacks(&out, "ozols fix");
+    assert_fails_on("fix", "m.xml", &text, "", "undecided");
+    assert_fails_on("fix", "m.xml", &text, "", "--pose");
 }
 
 // Text and JSON name one figure, also where digits leave that of the pose open.
 #[test]
 fn text_and_json_say_the_same_of_the_motion() {
-    let texts = [
-        four_bar(["1 0 0", "1.5 0 0", "0 0 1"], "2 0 0"),
-        four_bar(["1 0 0", "1.500001 0.000003 0", "0 0 1"], "2 0 0"),
-        four_bar(
-            ["0 1 0", "2.00003 0 0", "0 0.00002 1"],
-            "1.70002 0.3 0.00001",
-        ),
-    ];
-    for text in &texts {
-        let (_, out, _) = run_on("lint", "m.xml", text, &["--format", "json"]);
-        let v: Value = serde_json::from_str(&out).unwrap();
-        let file = &v["files"][0];
+    let in_line = four_bar(["1 0 0", "1.5 0 0", "0 0 1"], "2 0 0");
+    let nearly = four_bar(["1 0 0", "1.500001 0.000003 0", "0 0 1"], "2 0 0");
+    for text in [in_line, nearly, nearly_parallel()] {
+        let (_, file) = linted("m.xml", &text);
         let lasting = file["redundant_over_motion"].whole();
         let over = file["over_motion"].as_str().unwrap_or_default();
         if let Some((_, rest)) = over.split_once("elsewhere in the motion ") {
             assert!(rest.starts_with(&format!("{lasting},")), "{over} {lasting}");
         }
-        let (_, out, _) = run_on("lint", "m.xml", text, &[]);
-        assert!(over.is_empty() || out.contains(over), "{out}");
+        let (_, out, _) = run_on("lint", "m.xml", &text, "");
+        has(&out, over);
         let most = file["redundant_at_most"].whole();
         let passing = format!("{} of them at this pose only", most - lasting);
-        assert_eq!(
-            out.contains(&passing),
-            lasting > 0 && lasting < most,
-            "{out}"
-        );
+        let some = lasting > 0 && lasting < most;
+        assert_eq!(out.contains(&passing), some, "{out}");
     }
 }
 
 // Loops that slide move: the sentence said that none does, and the kind was "rigid".
 #[test]
 fn loops_that_slide_move() {
-    let rods = |lengths: &[[i32; 3]], axis: [i32; 3], scale: i32| {
-        let mut text =
-            "name = \"rods\"\n[[link]]\nid = \"f\"\nrole = \"frame\"\n[[link]]\nid = \"c\"\nrole = \"output\"\n"
-                .to_owned();
-        for (n, at) in lengths.iter().enumerate() {
-            let at = at.map(|x| x * scale);
-            text += &format!(
-                "[[joint]]\nid = \"j{n}\"\nlinks = [\"f\", \"c\"]\ntype = \"cylindrical\"\npoint = {at:?}\naxis = {axis:?}\n"
-            );
-        }
-        text
+    let rods = |places: &[[i32; 3]], axis: &str, scale: i32| {
+        let line = |(n, at): (usize, &[i32; 3])| {
+            let at = commas(at.map(|x| x * scale));
+            format!("j{n} | f c | cylindrical | {at} | {axis}")
+        };
+        places.iter().enumerate().map(line).join("\n")
     };
+    let head = "name = \"rods\"";
     let pillars = [[0, 0, 0], [3, 0, 0], [0, 4, 1], [5, 7, 2]];
-    for (count, axis, scale) in [(2, [1, 2, 2], 1), (3, [0, 0, 1], 80), (4, [2, -1, 5], 1000)] {
-        let text = rods(&pillars[..count], axis, scale);
-        let (code, out, _) = run_on("lint", "m.toml", &text, &["--format", "json"]);
+    for (count, axis, scale) in [(2, "1, 2, 2", 1), (3, "0, 0, 1", 80), (4, "2, -1, 5", 1000)] {
+        let text = write_mechanism(head, "f c*", &rods(&pillars[..count], axis, scale));
+        let (code, file) = linted("m.toml", &text);
         assert_eq!(code, Some(1));
-        let v: Value = serde_json::from_str(&out).unwrap();
-        let file = &v["files"][0];
         let sigma = 3 + 4 * (count - 2);
-        assert_eq!(
-            (&file["mobility"], &file["redundant_over_motion"]),
-            (&1.into(), &sigma.into())
-        );
+        assert_eq!(file["mobility"], 1);
+        assert_eq!(file["redundant_over_motion"], sigma);
         assert_eq!(file["over_motion_kind"], "proven");
-        let (_, out, _) = run_on("analyze", "m.toml", &text, &[]);
-        assert!(
-            !out.contains("nothing else does even instantaneously"),
-            "{out}"
-        );
+        let (_, out, _) = run_on("analyze", "m.toml", &text, "");
+        lacks(&out, "nothing else does even instantaneously");
     }
     // What cannot move but for a hinge beside the loop is still said to have loops at rest.
-    let truss = rods(&pillars[..2], [1, 0, 0], 1)
-        .replacen("axis = [1, 0, 0]", "axis = [0, 1, 0]", 1)
-        .replace("cylindrical", "revolute");
-    let hinge = "[[link]]\nid = \"h\"\n[[joint]]\nid = \"k\"\nlinks = [\"f\", \"h\"]\ntype = \"revolute\"\npoint = [9, 9, 9]\naxis = [0, 0, 1]\n";
-    let (_, out, _) = run_on("lint", "m.toml", &(truss + hinge), &["--format", "json"]);
-    let v: Value = serde_json::from_str(&out).unwrap();
-    assert_eq!(v["files"][0]["over_motion_kind"], "rigid", "{out}");
+    let truss = "
+        j0 | f c | revolute | 0, 0, 0 | 0, 1, 0
+        j1 | f c | revolute | 3, 0, 0 | 1, 0, 0
+        k | f h | revolute | 9, 9, 9 | 0, 0, 1";
+    let (_, file) = linted("m.toml", write_mechanism(head, "f c* h", truss));
+    assert_eq!(file["over_motion_kind"], "rigid");
 }
 
 // Four legs with a loop each, nothing redundant: lint says so, and a search of millions of variants has its answer, the
 // mechanism as it is, within a few thousand nodes.
 #[test]
 fn nothing_redundant_is_said_at_once() {
-    let text = legs(4);
-    let (code, out, _) = run_on("lint", "m.xml", &text, &[]);
-    assert_eq!(code, Some(0), "{out}");
+    let dir = Folder::with("m.xml", legs(4));
+    let (out, _) = dir.succeed("lint m.xml");
     has(&out, "no redundant constraints (σ = 0, W = 12)");
-    let more = ["--nodes", "20000", "--top", "3", "--allow-output-change"];
-    let (code, out, told) = run_on("search", "m.xml", &text, &more);
-    assert_eq!(code, Some(0), "{told}");
+    let (out, _) = dir.succeed("search m.xml --nodes 20000 --top 3 --allow-output-change");
     has(&out, "none: the original mechanism");
     has(&out, "16,777,216 of 16,777,216 variants have σ = 0");
 }
@@ -197,37 +165,25 @@ const WELDED: &str = "<robot name='w'><link name='a'/><link name='b'/><joint nam
 // Once lost: one file that could not be read took the findings of all the others with it.
 #[test]
 fn lint_goes_on_over_files_that_cannot_be_looked_at() {
-    let at = tempdir().unwrap();
-    let put = |name: &str, text: &str| {
-        let path = at.path().join(name);
-        fs::write(&path, text).unwrap();
-        path.to_str().unwrap().to_owned()
-    };
-    let (bad, welded) = (put("bad.urdf", "<robot"), put("welded.urdf", WELDED));
-    let all = ["lint", &bad, "nowhere.xml", &gripper(), &welded];
-    let (code, out, err) = run_full(&all);
+    let dir = Folder::with("bad.urdf", "<robot");
+    dir.put("welded.urdf", WELDED);
+    dir.put("gripper.xml", read_data("robots/gripper.xml"));
+    let all = "lint bad.urdf nowhere.xml gripper.xml welded.urdf";
+    let (code, out, err) = dir.run(all);
     assert_eq!(code, Some(2));
     // A colon or a gap of the line that named the file once stood alone before the reason.
-    let reason = |file: &str| {
-        let before = format!("{file}: not examined: ");
-        let line = out.lines().find_map(|l| l.strip_prefix(&before)).unwrap();
-        line.to_owned()
-    };
-    assert!(reason(&bad).starts_with("1:1: syntax error"), "{out}");
-    assert!(
-        reason("nowhere.xml").starts_with("neither a file nor a built-in mechanism"),
-        "{out}"
-    );
-    has(
-        &out,
-        &format!("{welded}: no redundant constraints: nothing can move"),
-    );
-    has(&out, "2 redundant constraints");
+    for line in [
+        "bad.urdf: not examined: 1:1: syntax error",
+        "nowhere.xml: not examined: neither a file nor a built-in mechanism",
+        "welded.urdf: no redundant constraints: nothing can move",
+        "2 redundant constraints",
+    ] {
+        has(&out, line);
+    }
     has(&err, "bad.urdf");
     has(&err, "nowhere.xml");
-    assert!(!err.contains("welded"), "{err}");
-    let (_, out, _) = run_full(&[&all[..], &["--format", "json"]].concat());
-    let v: Value = serde_json::from_str(&out).unwrap();
+    lacks(&err, "welded");
+    let v = dir.json(all);
     assert_eq!(v["files"].list().len(), 1);
     assert_eq!(v["passed_over"].list().len(), 3);
 }
@@ -235,72 +191,32 @@ fn lint_goes_on_over_files_that_cannot_be_looked_at() {
 // Once refused.
 #[test]
 fn what_cannot_move_has_nothing_redundant() {
-    let (code, out, err) = run_on("lint", "w.urdf", WELDED, &[]);
-    assert_eq!((code, err.as_str()), (Some(0), ""));
-    has(
-        &out,
-        "no redundant constraints: nothing can move: all 2 links",
-    );
-    let (code, out, _) = run_on("lint", "w.urdf", WELDED, &["--format", "json"]);
-    assert_eq!(code, Some(0));
-    let v: Value = serde_json::from_str(&out).unwrap();
-    assert_eq!(v["passed_over"][0]["rigid"], true);
+    let dir = Folder::with("w.urdf", WELDED);
+    let (out, err) = dir.succeed("lint w.urdf");
+    assert_eq!(err, "");
+    let said = "no redundant constraints: nothing can move: all 2 links";
+    has(&out, said);
+    assert_eq!(dir.json("lint w.urdf")["passed_over"][0]["rigid"], true);
     // Where nothing is passed over, there is no word of it.
-    let (_, out, _) = run_full(&["lint", &gripper(), "--format", "json"]);
-    assert!(!out.contains("passed_over"));
+    dir.put("gripper.xml", read_data("robots/gripper.xml"));
+    let v = dir.json("lint gripper.xml");
+    assert_eq!(v.get("passed_over"), None);
 }
 
 // Every command over many files reports each, and does the rest.
 #[test]
 fn many_files_are_each_reported() {
-    let at = tempdir().unwrap();
-    let file = at.path().join("some.db");
-    let file = file.to_str().unwrap();
-    let words = [
-        "catalog",
-        "search",
-        "nosuch",
-        "four-bar",
-        "nowhere.toml",
-        "--ideas",
-        "1",
-        "-o",
-        file,
-    ];
-    let (code, out, err) = run_full(&words);
-    assert_eq!(code, Some(2));
-    has(&err, "nosuch is neither");
-    has(&err, "nowhere.toml is neither");
-    has(&out, "1 mechanisms added");
-    let words = [
-        "bench",
-        "nosuch",
-        "four-bar-planar",
-        "--quick",
-        "--format",
-        "csv",
-    ];
-    let (code, out, err) = run_full(&words);
-    assert_eq!(code, Some(2));
-    assert!(
-        err.contains("nosuch is neither") && out.contains("four-bar-planar"),
-        "{out}{err}"
-    );
-    let merged = at.path().join("merged.db");
-    let words = [
-        "catalog",
-        "merge",
-        "nowhere.db",
-        file,
-        "-o",
-        merged.to_str().unwrap(),
-    ];
-    let (code, out, err) = run_full(&words);
-    assert_eq!(code, Some(2));
-    assert!(
-        err.contains("nowhere.db") && out.contains("1 structures added"),
-        "{out}{err}"
-    );
+    let dir = Folder::new();
+    for [line, failed, done] in read_cases::<3>(
+        "catalog search nosuch four-bar nowhere.toml --ideas 1 -o some.db | nosuch is neither | 1 mechanisms added
+        bench nosuch four-bar-planar --quick --format csv | nosuch is neither | four-bar-planar
+        catalog merge nowhere.db some.db -o merged.db | nowhere.db | 1 structures added",
+    ) {
+        let (code, out, err) = dir.run(line);
+        assert_eq!(code, Some(2), "{line}");
+        has(&err, failed);
+        has(&out, done);
+    }
 }
 
 #[cfg(unix)]

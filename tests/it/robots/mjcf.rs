@@ -2,7 +2,7 @@
 
 use crate::common::*;
 use crate::robots::{message_of, no_files, numeric_figures, read_robot};
-use ozols::robots::{Options, import};
+use ozols::robots::Options;
 
 // MuJoCo's values count from `ref`, where the model is as drawn; the pose is in radians whatever the file's unit.
 #[test]
@@ -216,23 +216,19 @@ fn mjcf_errors() {
 #[cfg(unix)]
 #[test]
 fn includes_on_disk() {
-    let out = tempdir().unwrap();
-    let inner = out.path().join("inner");
-    fs::create_dir(&inner).unwrap();
     let part = "<mujoco><worldbody><body name='a'><joint/></body></worldbody></mujoco>";
-    fs::write(out.path().join("secret.xml"), part).unwrap();
-    fs::write(inner.join("part.xml"), part).unwrap();
-    std::os::unix::fs::symlink(out.path().join("secret.xml"), inner.join("link.xml")).unwrap();
+    let out = Folder::with("secret.xml", part);
+    out.put("inner/part.xml", part);
+    std::os::unix::fs::symlink(out.path("secret.xml"), out.path("inner/link.xml")).unwrap();
     for (file, code) in [
         ("part.xml", 0),
         ("link.xml", 2),
         ("../secret.xml", 2),
         ("missing.xml", 2),
     ] {
-        let main = inner.join("main.xml");
-        fs::write(&main, mjcf(&format!("<include file='{file}'/>"))).unwrap();
-        let o = run(&["export", main.to_str().unwrap(), "--to", "toml"]);
-        assert_eq!(o.status.code(), Some(code), "{file}");
+        out.put("inner/main.xml", mjcf(&format!("<include file='{file}'/>")));
+        let (found, ..) = out.run("export inner/main.xml --to toml");
+        assert_eq!(found, Some(code), "{file}");
     }
 }
 

@@ -3,8 +3,6 @@
 use crate::common::*;
 use crate::robots::mjcf::{mjcf, toml_of};
 use crate::robots::read_robot;
-use ozols::geom::vector::Vector;
-use ozols::robots::formats;
 
 #[test]
 fn frames_of_mjcf_are_within_each_other_and_axes_are_squared() {
@@ -115,7 +113,7 @@ fn joints_to_the_world_are_turned_round() {
         )
     };
     let axes = |kind: &str| {
-        let m = mechanism_from_str("m.toml", &file(kind)).unwrap();
+        let m = read(&file(kind));
         let text = formats::write(&m, "sdf").unwrap();
         let all = text.split("expressed_in=\"__model__\">").skip(1);
         let all = all.map(|t| t.split('<').next().unwrap().to_owned());

@@ -4,7 +4,7 @@
 use crate::common::*;
 use crate::robots::mjcf::{mjcf, toml_of};
 use crate::robots::{folder, message_of, no_files, numeric_figures, read_robot};
-use ozols::robots::{Options, import};
+use ozols::robots::Options;
 
 /// W and σ.
 fn w_sigma(name: &str, text: &str) -> (i64, i64) {
@@ -18,10 +18,9 @@ fn types_of_joints_beside_the_description() {
     // The leg's ankle and rods turn about two axes: by hand W = 4, two motors of the leg and two of the foot. As hinges they
     // hold the foot but for its pitch, and most of it twice.
     let leg = |side: &str| {
-        let options = Options {
-            loops: Some(("leg.yaml".to_owned(), side.as_bytes().to_vec())),
-            ..Options::default()
-        };
+        let options = default_with(|o: &mut Options| {
+            o.loops = Some(("leg.yaml".to_owned(), side.as_bytes().to_vec()))
+        });
         let bytes = fs::read(folder().join("leg.urdf")).unwrap();
         import("leg.urdf", &bytes, &no_files, &options).unwrap()
     };
@@ -36,10 +35,9 @@ fn types_of_joints_beside_the_description() {
       <joint name='q' type='revolute'><parent link='b'/><child link='c'/><origin xyz='1 0 0'/></joint></robot>";
     let with = |names: &str, types: &str| {
         let side = format!("closed_loop: []\njoint_name: {names}\njoint_type: {types}\n");
-        let options = Options {
-            loops: Some(("robot.yaml".to_owned(), side.into_bytes())),
-            ..Options::default()
-        };
+        let options = default_with(|o: &mut Options| {
+            o.loops = Some(("robot.yaml".to_owned(), side.into_bytes()))
+        });
         import("r.urdf", urdf.as_bytes(), &no_files, &options)
             .map(|i| i.toml().unwrap())
             .map_err(|e| e.to_string())
@@ -64,38 +62,21 @@ fn types_of_joints_beside_the_description() {
 
 #[test]
 fn sdf_includes_of_models() {
-    let dir = tempdir().unwrap();
-    let put = |name: &str, text: &str| {
-        let path = dir.path().join(name);
-        fs::create_dir_all(path.parent().unwrap()).unwrap();
-        fs::write(&path, text).unwrap();
-        path.display().to_string()
-    };
     // Axes of files before 1.5 are in the model's frame: those of this one file alone.
     let arm = "<sdf version='1.4'><model name='arm'><pose>0 0 9 0 0 0</pose><link name='a'><pose>1 0 0 0 0 1.5707963267948966</pose></link>
       <joint name='j' type='revolute'><parent>world</parent><child>a</child><axis><xyz>1 0 0</xyz></axis></joint></model></sdf>";
-    put("models/arm/model.sdf", arm);
-    put(
-        "models/self/model.sdf",
-        "<sdf version='1.7'><model name='s'><include><uri>model://self</uri></include></model></sdf>",
-    );
-    put(
-        "models/two/model.sdf",
-        "<sdf version='1.7'><model name='a'/><model name='b'/></sdf>",
-    );
-    put("secret/model.sdf", arm);
-    let models = dir.path().join("models").display().to_string();
+    let own = "<sdf version='1.7'><model name='s'><include><uri>model://self</uri></include></model></sdf>";
+    let two = "<sdf version='1.7'><model name='a'/><model name='b'/></sdf>";
+    let dir = Folder::with("models/arm/model.sdf", arm);
+    dir.put("models/self/model.sdf", own);
+    dir.put("models/two/model.sdf", two);
+    dir.put("secret/model.sdf", arm);
     let world = |include: &str| {
         let text = format!(
             "<sdf version='1.7'>\n<world name='w'>\n<include>{include}</include></world></sdf>"
         );
-        let file = put("main/world.sdf", &text);
-        let o = run(&["export", &file, "--to", "toml", "--models", &models]);
-        (
-            o.status.code(),
-            String::from_utf8(o.stdout).unwrap(),
-            String::from_utf8(o.stderr).unwrap(),
-        )
+        dir.put("main/world.sdf", text);
+        dir.run("export main/world.sdf --to toml --models models")
     };
     let (code, toml, told) =
         world("<uri>model://arm</uri><name>left</name><pose>0 0 2 0 0 0</pose>");
@@ -258,34 +239,21 @@ fn links_named_world() {
 // MJCF includes lead out of the file's folder only into a folder that is named.
 #[test]
 fn includes_within_a_named_root() {
-    let dir = tempdir().unwrap();
     let part = "<mujoco><worldbody><body name='a'><joint/></body></worldbody></mujoco>";
-    for (name, text) in [
-        ("root/part.xml", part.to_owned()),
-        ("secret.xml", part.to_owned()),
-        ("root/arm/main.xml", mjcf("<include file='../part.xml'/>")),
-        (
-            "root/arm/bad.xml",
-            mjcf("<include file='../../secret.xml'/>"),
-        ),
+    let dir = Folder::with("root/part.xml", part);
+    dir.put("secret.xml", part);
+    dir.put("root/arm/main.xml", mjcf("<include file='../part.xml'/>"));
+    dir.put(
+        "root/arm/bad.xml",
+        mjcf("<include file='../../secret.xml'/>"),
+    );
+    for (line, code) in [
+        ("main.xml --models root", 0),
+        ("main.xml", 2),
+        ("bad.xml --models root", 2),
     ] {
-        let path = dir.path().join(name);
-        fs::create_dir_all(path.parent().unwrap()).unwrap();
-        fs::write(path, text).unwrap();
-    }
-    let root = dir.path().join("root").display().to_string();
-    for (file, models, code) in [
-        ("root/arm/main.xml", true, 0),
-        ("root/arm/main.xml", false, 2),
-        ("root/arm/bad.xml", true, 2),
-    ] {
-        let file = dir.path().join(file).display().to_string();
-        let mut words = vec!["export", &file, "--to", "toml"];
-        if models {
-            words.extend(["--models", &root]);
-        }
-        let o = run(&words);
-        assert_eq!(o.status.code(), Some(code), "{file}");
+        let (found, ..) = dir.run(&format!("export --to toml root/arm/{line}"));
+        assert_eq!(found, Some(code), "{line}");
     }
 }
 

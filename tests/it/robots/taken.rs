@@ -4,14 +4,11 @@ use crate::common::*;
 use crate::robots::mjcf::mjcf;
 
 /// W, σ and the notes of `lint` on a text.
-fn linted(name: &str, text: &str, more: &[&str]) -> (u64, u64, String) {
-    let words = [&["--format", "json"], more].concat();
-    let (_, out, err) = run_on("lint", name, text, &words);
-    let v: Value = serde_json::from_str(&out).unwrap_or_else(|_| panic!("{err}"));
+fn linted(name: &str, text: &str, more: &str) -> (u64, u64, String) {
+    let v = Folder::with(name, text).json(&format!("lint {name} {more}"));
     let file = &v["files"][0];
-    let of = |key: &str| file[key].as_u64().unwrap_or_else(|| panic!("{out}{err}"));
     let notes = format!("{} {}", file["approximated"], file["moved"]);
-    (of("mobility"), of("redundant"), notes)
+    (file["mobility"].whole(), file["redundant"].whole(), notes)
 }
 
 fn sdf(inner: &str) -> String {
@@ -26,43 +23,39 @@ const HELD: &str = "<joint name='held' type='fixed'><parent>world</parent><child
 #[test]
 fn joints_may_be_called_as_links() {
     let text = sdf(&format!("<model name='m'>{LINKS}{HELD}{HINGE}</model>"));
-    assert_eq!(linted("m.sdf", &text, &[]).0, 1);
+    assert_eq!(linted("m.sdf", &text, "").0, 1);
     // But not as another joint.
     let twice = text.replace("name='held'", "name='b'");
-    let (code, _, err) = run_on("lint", "m.sdf", &twice, &[]);
-    assert_eq!(code, Some(2), "{err}");
+    assert_fails_on("lint", "m.sdf", &twice, "", "");
 }
 
 // A model that nothing holds falls; a static one stands, and so does one with a link that is held on purpose.
 #[test]
 fn models_that_nothing_holds_float() {
     let of = |more: &str| sdf(&format!("<model name='m'>{more}{LINKS}{HINGE}</model>"));
-    let (w, _, notes) = linted("m.sdf", &of(""), &[]);
+    let (w, _, notes) = linted("m.sdf", &of(""), "");
     assert_eq!(w, 7);
     has(&notes, "floats with 6 freedoms");
-    assert_eq!(linted("m.sdf", &of(""), &["--frame", "a"]).0, 1);
-    assert_eq!(linted("m.sdf", &of(HELD), &[]).0, 1);
-    let (code, out, _) = run_on("lint", "m.sdf", &of("<static>true</static>"), &[]);
+    assert_eq!(linted("m.sdf", &of(""), "--frame a").0, 1);
+    assert_eq!(linted("m.sdf", &of(HELD), "").0, 1);
+    let (code, out, _) = run_on("lint", "m.sdf", &of("<static>true</static>"), "");
     assert_eq!(code, Some(0), "{out}");
 }
 
 #[test]
 fn lights_and_floors_are_no_mechanisms() {
-    let at = tempdir().unwrap();
-    let model = format!("<model name='m'>{LINKS}{HELD}{HINGE}</model>");
-    let include = |uri: &str| format!("<include><uri>{uri}</uri></include>");
-    let lamp = at.path().join("lamp.sdf");
-    fs::write(&lamp, sdf("<light name='l' type='point'/>")).unwrap();
-    let world = |uri: &str| sdf(&format!("<world name='w'>{}{model}</world>", include(uri)));
+    let folder = Folder::with("lamp.sdf", sdf("<light name='l' type='point'/>"));
     for (uri, code) in [
         ("model://sun", 0),
         ("model://ground_plane", 0),
         ("lamp.sdf", 0),
         ("model://nowhere", 2),
     ] {
-        let file = at.path().join("w.sdf");
-        fs::write(&file, world(uri)).unwrap();
-        let (found, out, err) = run_full(&["lint", file.to_str().unwrap()]);
+        let include = format!("<include><uri>{uri}</uri></include>");
+        let model = format!("<model name='m'>{LINKS}{HELD}{HINGE}</model>");
+        let world = format!("<world name='w'>{include}{model}</world>");
+        folder.put("w.sdf", sdf(&world));
+        let (found, out, err) = folder.run("lint w.sdf");
         assert_eq!(found, Some(code), "{uri}: {out}{err}");
     }
 }
@@ -76,10 +69,9 @@ fn joints_and_frames_of_a_world_are_read() {
         <frame name='eye' attached_to='m::b'><pose>1 0 0 0 0 0</pose></frame>
         <joint name='between' type='revolute'><parent>eye</parent><child>n::c</child><axis><xyz>0 1 0</xyz></axis></joint></world>"
     ));
-    assert_eq!(linted("w.sdf", &text, &[]).0, 2);
+    assert_eq!(linted("w.sdf", &text, "").0, 2);
     let wrong = text.replace("<parent>eye", "<parent>ear");
-    let (code, _, err) = run_on("lint", "w.sdf", &wrong, &[]);
-    assert!(code == Some(2) && err.contains("\"ear\""), "{err}");
+    assert_fails_on("lint", "w.sdf", &wrong, "", "\"ear\"");
 }
 
 #[test]
@@ -99,11 +91,11 @@ fn gearboxes_are_couplings() {
             hinge("two", "c")
         ))
     };
-    assert_eq!(linted("m.sdf", &of("a"), &[]).0, 1);
-    let (_, out, _) = run_on("export", "m.sdf", &of("a"), &["--to", "toml"]);
+    assert_eq!(linted("m.sdf", &of("a"), "").0, 1);
+    let (_, out, _) = run_on("export", "m.sdf", &of("a"), "--to toml");
     has(&out, "ratio = -3");
     // What has no such hinges is left out, and said.
-    let (w, _, notes) = linted("m.sdf", &of("b"), &[]);
+    let (w, _, notes) = linted("m.sdf", &of("b"), "");
     assert!(w == 2 && notes.contains("gears"), "{notes}");
 }
 
@@ -112,7 +104,7 @@ fn urdf_may_hang_on_a_world_that_it_does_not_name() {
     let text = "<robot name='r'><link name='a'/><link name='b'/>
         <joint name='held' type='fixed'><parent link='world'/><child link='a'/></joint>
         <joint name='j' type='continuous'><parent link='a'/><child link='b'/><axis xyz='0 0 1'/></joint></robot>";
-    assert_eq!(linted("r.urdf", text, &[]).0, 1);
+    assert_eq!(linted("r.urdf", text, "").0, 1);
 }
 
 // They were refused; what hangs on them is left out, and said.
@@ -123,7 +115,7 @@ fn what_mujoco_makes_of_flexible_and_attached_parts_is_left_out() {
         <flexcomp name='cloth' type='grid' count='3 3 1'/><attach model='other' prefix='p_'/></body></worldbody>
         <deformable><skin/></deformable>",
     );
-    let (w, _, notes) = linted("m.xml", &text, &[]);
+    let (w, _, notes) = linted("m.xml", &text, "");
     assert_eq!(w, 1);
     has_all(&notes, &["cloth", "attach", "deformable"]);
 }
@@ -136,9 +128,14 @@ fn polynomials_are_taken_by_their_derivative() {
         <equality><joint joint1='y' joint2='x' polycoef='0 1 0.5'/></equality>",
     );
     for (pose, ratio) in [("x=0", "ratio = 1"), ("x=1", "ratio = 2")] {
-        let (w, _, notes) = linted("m.xml", &text, &["--pose", pose]);
+        let (w, _, notes) = linted("m.xml", &text, &format!("--pose {pose}"));
         assert!(w == 1 && notes.contains("at this pose is used"), "{notes}");
-        let (_, out, _) = run_on("export", "m.xml", &text, &["--to", "toml", "--pose", pose]);
+        let (_, out, _) = run_on(
+            "export",
+            "m.xml",
+            &text,
+            &format!("--to toml --pose {pose}"),
+        );
         assert!(out.contains(ratio), "{out}");
     }
 }
@@ -155,11 +152,11 @@ fn sdf_never_has_the_world_for_a_child() {
             <body name='c' pos='0 1 0'><joint name='j3' axis='{axes}'/></body></body></body></worldbody>
             <equality>{closing}</equality>"
         ));
-        let (w, sigma, _) = linted("m.xml", &text, &[]);
-        let (code, out, err) = run_on("export", "m.xml", &text, &["--to", "sdf"]);
+        let (w, sigma, _) = linted("m.xml", &text, "");
+        let (code, out, err) = run_on("export", "m.xml", &text, "--to sdf");
         assert_eq!(code, Some(0), "{err}");
         assert!(!out.contains("<child>world"), "{out}");
-        let (w2, sigma2, _) = linted("m.sdf", &out, &[]);
+        let (w2, sigma2, _) = linted("m.sdf", &out, "");
         assert_eq!((w2, sigma2), (w, sigma), "{out}");
     }
 }
@@ -182,9 +179,9 @@ fn lint_says_what_is_not_as_drawn() {
             .replace("name='b'", "name='j'")
     ));
     for (name, text, more, words) in [
-        ("m.xml", &open, &["--pose", "j1=0.5"][..], "closed to"),
-        ("m.sdf", &drake, &[], "of Drake that is not read"),
-        ("m.sdf", &apart, &[], "1.000 m apart"),
+        ("m.xml", &open, "--pose j1=0.5", "closed to"),
+        ("m.sdf", &drake, "", "of Drake that is not read"),
+        ("m.sdf", &apart, "", "1.000 m apart"),
     ] {
         let (_, out, err) = run_on("lint", name, text, more);
         let told = out.lines().find(|l| l.contains(words));

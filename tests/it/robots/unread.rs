@@ -1,16 +1,16 @@
 //! Loops and couplings that stand where a reader does not look first: they are read, or they are reported and counted.
 
 use crate::common::*;
+use crate::robots::lint;
 use crate::robots::mjcf::mjcf;
 use crate::robots::no_files;
-use ozols::robots::{Options, import};
+use ozols::robots::Options;
 
-/// The exit code of `lint`, what it found in a file, and its text.
-fn linted(name: &str, text: &str, more: &[&str]) -> (Option<i32>, Value, String) {
-    let (code, out, err) = run_on("lint", name, text, &[&["--format", "json"], more].concat());
-    let v: Value = serde_json::from_str(&out).unwrap_or_else(|_| panic!("{err}"));
-    let (_, out, err) = run_on("lint", name, text, more);
-    (code, v["files"][0].clone(), out + &err)
+/// The exit code of lint, what its JSON has of a file with this text, and what it says otherwise.
+fn linted(name: &str, text: &str) -> (Option<i32>, Value, String) {
+    let (code, file) = lint::linted(name, text);
+    let (_, out, err) = run_on("lint", name, text, "");
+    (code, file, out + &err)
 }
 
 /// A rectangle of sides of these lengths as a chain of three hinges, its plane turned by `tilt` about x, and `more` elements: the end of
@@ -70,10 +70,9 @@ fn each_way_to_close_a_loop_is_read() {
             chain(lengths, 3.0 * x(3), &filled)
         };
         let truth = {
-            let options = Options {
-                loops: Some(("side.toml".to_owned(), side.clone().into_bytes())),
-                ..Options::default()
-            };
+            let options = default_with(|o: &mut Options| {
+                o.loops = Some(("side.toml".to_owned(), side.clone().into_bytes()))
+            });
             let i = import("x.urdf", at("").as_bytes(), &no_files, &options)
                 .unwrap_or_else(|e| panic!("seed {seed}: {e}"));
             ozols::analyze(&i.mechanism).unwrap()[0].clone()
@@ -115,7 +114,7 @@ fn each_way_to_couple_joints_is_read() {
     let control = "<ros2_control name='c' type='system'><joint name='j2'><param name='mimic'>j1</param>\
         <param name='multiplier'>-0.5</param></joint></ros2_control>";
     for more in [plugin, control, &format!("{plugin}{control}")] {
-        let (code, file, text) = linted("x.urdf", &chain([0.4, 0.3], 0.0, more), &[]);
+        let (code, file, text) = linted("x.urdf", &chain([0.4, 0.3], 0.0, more));
         let found = (&file["mobility"], &file["left_out"], code);
         assert_eq!(found, (&2.into(), &0.into(), Some(0)), "{text}");
     }
@@ -137,7 +136,7 @@ fn what_could_hold_is_reported_and_what_could_not_is_not() {
         "<transmission name='t'><type>x</type><joint name='j1'/><joint name='j2'/><actuator name='m'/></transmission>".to_owned(),
     ];
     for more in &holds {
-        let (code, file, text) = linted("x.urdf", &chain([0.4, 0.3], 0.0, more), &[]);
+        let (code, file, text) = linted("x.urdf", &chain([0.4, 0.3], 0.0, more));
         assert_eq!(code, Some(1), "{more}: {text}");
         assert!(file["left_out"].as_u64() > Some(0), "{more}: {text}");
         assert_eq!(file["certainty_kind"], "as-read", "{more}");
@@ -158,7 +157,7 @@ fn what_could_hold_is_reported_and_what_could_not_is_not() {
         "<material name='red'><color rgba='1 0 0 1'/></material>".to_owned(),
     ];
     for more in &harmless {
-        let (code, file, text) = linted("x.urdf", &chain([0.4, 0.3], 0.0, more), &[]);
+        let (code, file, text) = linted("x.urdf", &chain([0.4, 0.3], 0.0, more));
         let found = (&file["left_out"], &file["certainty_kind"], code);
         assert_eq!(
             found,
@@ -171,91 +170,61 @@ fn what_could_hold_is_reported_and_what_could_not_is_not() {
 // The file of loops may be left out by mistake: that it is there is said, with its rows.
 #[test]
 fn loops_beside_a_description_are_named() {
-    let at = tempdir().unwrap();
-    let put = |name: &str, text: &str| {
-        let path = at.path().join(name).display().to_string();
-        fs::write(&path, text).unwrap();
-        path
-    };
-    let urdf = put(
-        "arm.urdf",
-        &chain(
-            [0.4, 0.3],
-            0.0,
-            "<link name='tip'/><joint name='t' type='fixed'><parent link='r'/><child link='tip'/><origin xyz='0.4 0 0'/></joint>",
-        ),
-    );
-    let side = put("robot.yaml", "closed_loop: [[tip, nowhere]]\ntype: [6d]\n");
-    run_successful(&["lint", &urdf]);
-    fs::write(&side, "closed_loop: [[tip, base]]\ntype: [3d]\n").unwrap();
-    let (code, out, _) = run_full(&["lint", &urdf]);
-    assert!(
-        code == Some(1) && out.contains("give robot.yaml as `loops`") && out.contains("3 rows"),
-        "{out}"
-    );
+    let tip = "<link name='tip'/><joint name='t' type='fixed'><parent link='r'/><child link='tip'/><origin xyz='0.4 0 0'/></joint>";
+    let dir = Folder::with("arm.urdf", chain([0.4, 0.3], 0.0, tip));
+    let loops = |b: &str, kind: &str| format!("closed_loop: [[tip, {b}]]\ntype: [{kind}]\n");
+    dir.put("robot.yaml", loops("nowhere", "6d"));
+    dir.succeed("lint arm.urdf");
+    dir.put("robot.yaml", loops("base", "3d"));
+    let (code, out, _) = dir.run("lint arm.urdf");
+    assert_eq!(code, Some(1));
+    has(&out, "give robot.yaml as `loops`");
+    has(&out, "3 rows");
     // With the file every command that takes a description reads the same.
-    let with = ["--loops", &side, "--format", "json"];
-    let (code, out, err) = run_full(&[&["analyze", &urdf], &with[..]].concat());
-    let v: Value = serde_json::from_str(&out).unwrap_or_else(|_| panic!("{err}"));
-    assert_eq!(
-        (code, v["assumptions"].as_array().map(Vec::len)),
-        (Some(0), Some(0))
-    );
-    let (w, sigma) = (
-        v["states"][0]["mobility"].clone(),
-        v["states"][0]["redundant"].clone(),
-    );
-    let (_, out, _) = run_full(&[&["lint", &urdf], &with[..]].concat());
-    let v: Value = serde_json::from_str(&out).unwrap();
-    assert_eq!(
-        (&v["files"][0]["mobility"], &v["files"][0]["redundant"]),
-        (&w, &sigma)
-    );
-    let out = at.path().join("out").display().to_string();
-    for words in [
-        &["search", "FILE", "--top", "1"][..],
-        &["check", "FILE"],
-        &["draw", "FILE", "-o", &out],
-        &["export", "FILE", "--to", "toml"],
-        &["report", "FILE", "-o", &out],
-        &["analyze", "FILE"],
+    let v = dir.json("analyze arm.urdf --loops robot.yaml");
+    assert_eq!(v["assumptions"].list().len(), 0);
+    let state = &v["states"][0];
+    let file = &dir.json("lint arm.urdf --loops robot.yaml")["files"][0];
+    assert_eq!(file["mobility"], state["mobility"]);
+    assert_eq!(file["redundant"], state["redundant"]);
+    for line in [
+        "search arm.urdf --top 1",
+        "check arm.urdf",
+        "draw arm.urdf -o out",
+        "export arm.urdf --to toml",
+        "report arm.urdf -o out",
+        "analyze arm.urdf",
     ] {
-        let words: Vec<&str> = words
-            .iter()
-            .map(|w| if *w == "FILE" { urdf.as_str() } else { w })
-            .collect();
-        let (_, err) = run_successful(&[&words[..], &["--loops", &side]].concat());
-        assert!(!err.contains("robot.yaml beside"), "{words:?}: {err}");
+        let (_, err) = dir.succeed(&format!("{line} --loops robot.yaml"));
+        lacks(&err, "robot.yaml beside");
     }
-    let (code, _, err) = run_full(&["analyze", "four-bar", "--loops", &side]);
-    assert!(
-        code == Some(2) && err.contains("--loops is for robot descriptions"),
-        "{err}"
-    );
+    let built_in = "analyze four-bar --loops robot.yaml";
+    dir.assert_fails(built_in, "--loops is for robot descriptions");
 }
 
 // Each with its name and what to do instead; none with a complaint about TOML.
 #[test]
 fn foreign_formats_are_named() {
-    for (name, text, words) in [
-        ("part.STEP", "ISO-10303-21;\nHEADER;\n", "STEP"),
-        ("part.toml", "ISO-10303-21;\nHEADER;\n", "STEP"),
-        ("part.igs", "x", "IGES"),
-        ("a.SLDASM", "\u{1}\u{2}", "SolidWorks"),
-        ("a.CATProduct", "V5_CFV2", "CATIA"),
-        ("a.usda", "#usda 1.0", "USD"),
-        ("a.x_t", "**ABC", "Parasolid"),
-        ("robot.yaml", "closed_loop: []", "loop closures"),
-    ] {
-        for command in ["analyze", "lint", "check", "search", "fix"] {
-            let (code, _, err) = run_on(command, name, text, &[]);
+    let refused = |commands: &str, name: &str, text: &str, parts: &[&str]| {
+        for command in split_words(commands) {
+            let (code, _, err) = run_on(command, name, text, "");
             assert_eq!(code, Some(2), "{command} {name}: {err}");
-            assert!(
-                err.contains(words) && err.contains("not read"),
-                "{command} {name}: {err}"
-            );
-            assert!(!err.contains("TOML"), "{command} {name}: {err}");
+            has_all(&err, parts);
+            lacks(&err, "TOML");
         }
+    };
+    for [name, text, words] in read_cases::<3>(
+        "part.STEP | ISO-10303-21;\\nHEADER;\\n | STEP
+        part.toml | ISO-10303-21;\\nHEADER;\\n | STEP
+        part.igs | x | IGES
+        a.SLDASM | \u{1}\u{2} | SolidWorks
+        a.CATProduct | V5_CFV2 | CATIA
+        a.usda | #usda 1.0 | USD
+        a.x_t | **ABC | Parasolid
+        robot.yaml | closed_loop: [] | loop closures",
+    ) {
+        let commands = "analyze lint check search fix";
+        refused(commands, name, text, &[words, "not read"]);
     }
     let xacro = "<robot name='r' xmlns:xacro='http://www.ros.org/wiki/xacro'>\n<xacro:arm side='left'/><link name='a'/></robot>";
     let numbers = "<robot name='r'><link name='a'/><link name='b'/><joint name='j' type='continuous'><parent link='a'/><child link='b'/><origin xyz='${x} 0 0'/></joint></robot>";
@@ -264,20 +233,14 @@ fn foreign_formats_are_named() {
         ("r.urdf.xacro", xacro),
         ("r.urdf", numbers),
     ] {
-        for command in ["analyze", "lint"] {
-            let (code, _, err) = run_on(command, name, text, &[]);
-            assert!(
-                code == Some(2) && err.contains("xacro FILE"),
-                "{command} {name}: {err}"
-            );
-        }
+        refused("analyze lint", name, text, &["xacro FILE"]);
     }
     // Expanded, such a file often still names the macros' namespace.
     let plain = chain([0.4, 0.3], 0.0, "").replace(
         "<robot ",
         "<robot xmlns:xacro='http://www.ros.org/wiki/xacro' ",
     );
-    assert_eq!(run_on("lint", "r.urdf", &plain, &[]).0, Some(0));
+    assert_eq!(run_on("lint", "r.urdf", &plain, "").0, Some(0));
 }
 
 // An equality of a fixed tendon is a row between joint values: MuJoCo's Jacobian has the row, and W is by as much less.
@@ -321,32 +284,31 @@ fn equalities_of_fixed_tendons_couple() {
         (&three, "<tendon tendon1='s'/>", 3, 1, ""),
     ] {
         let text = finger(tendons, equalities);
-        let (code, file, told) = linted("x.xml", &text, &[]);
+        let (code, file, told) = linted("x.xml", &text);
         let found = (&file["mobility"], &file["left_out"]);
         assert_eq!(found, (&w.into(), &left_out.into()), "{equalities}: {told}");
         assert_eq!(code, Some(i32::from(left_out > 0)), "{told}");
-        let (_, toml, _) = run_on("export", "x.xml", &text, &["--to", "toml"]);
+        let (_, toml, _) = run_on("export", "x.xml", &text, "--to toml");
         assert!(toml.contains(ratio), "{toml}");
     }
     let (code, _, err) = run_on(
         "lint",
         "x.xml",
         &finger(&pair, "<tendon tendon1='nowhere'/>"),
-        &[],
+        "",
     );
     assert!(code == Some(2) && err.contains("nowhere"), "{err}");
 }
 
-// A joint put in has an armature of ten times what the links beside it weigh, wherever it stands: MuJoCo's loops stay closed then, which
-// tests/peers asks of MuJoCo.
+// An inserted joint has an armature larger than any robot's mass: MuJoCo's loops stay closed then, which tests/peers/softness.py measures.
 #[test]
 fn joints_put_in_have_an_armature() {
     let text = "<mujoco><worldbody><body name='a'><joint name='j1'/><geom type='capsule' size='.05' fromto='0 0 0 0 1 0'/>
         <body name='b' pos='0 1 0'><joint name='j2'/><geom type='box' size='1 .25 .02' pos='1 .25 0' mass='16'/></body></body>
         <body name='c' pos='2 0 0'><joint name='j3'/><geom type='sphere' size='.1' mass='12'/></body></worldbody>
         <equality><connect name='e' body1='b' body2='c' anchor='2 0.5 0'/></equality></mujoco>";
-    let (code, out, err) = run_on("fix", "x.xml", text, &["--at", "e"]);
+    let (code, out, err) = run_on("fix", "x.xml", text, "--at e");
     assert_eq!(code, Some(0), "{err}");
-    has(&out, "type=\"slide\" armature=\"280\"");
+    has(&out, "type=\"slide\" armature=\"1000\"");
     has(&out, "<inertial pos=\"2 0.5 0\"");
 }

@@ -1,10 +1,8 @@
 //! Mechanisms of blocks that meet in a link at most: what is said of them is what brute force says, counts multiply, and
 //! nodes add up.
 
+use super::beyond_budget::search;
 use crate::common::*;
-use ozols::search::build::Diagrams;
-use ozols::search::check::brute::every_variant;
-use proptest::prelude::*;
 use std::fmt::Write;
 
 /// A mechanism under construction.
@@ -62,13 +60,6 @@ impl Written {
         }
         out + &self.joints
     }
-}
-
-fn search(text: &str, conditions: Conditions) -> (Search, Diagrams) {
-    let m = mechanism_from_str("blocks.toml", text).unwrap();
-    let search = Search::new(exact_field(&m, 0).unwrap(), m, conditions).unwrap();
-    let diagrams = search.build_diagrams(&|| false, &mut |_| {});
-    (search, diagrams)
 }
 
 const TWO: &str = "[\"revolute\", \"cylindrical\"]";

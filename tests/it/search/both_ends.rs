@@ -4,16 +4,15 @@ use crate::common::*;
 use crate::search::beyond_budget::{ladder, search};
 use crate::search::families::scissor_lift;
 use crate::search::twin::look_at_variant;
-use ozols::search::build::Diagrams;
-use ozols::search::diagram::{Diagram, Stop};
-use ozols::search::question::Question;
+use ozols::search::diagram::Diagram;
 use ozols::search::testing::from_both_ends;
-use proptest::prelude::*;
 use std::fmt::Write;
 
 /// Conditions within so many nodes.
 fn within(nodes: usize, keep_output: bool) -> Conditions {
-    default_with(|c: &mut Conditions| (c.nodes, c.keep_output) = (nodes, keep_output))
+    default_with(|c: &mut Conditions| {
+        (c.nodes, c.keep_output, c.throughout) = (nodes, keep_output, keep_output);
+    })
 }
 
 /// Whether a diagram has no two nodes that lead on alike.
@@ -38,7 +37,7 @@ fn coupled(text: &str, other: usize, ratio: i64) -> String {
 
 /// The diagrams of a mechanism without redundant constraints, as made of motions of links from one end, and from both.
 fn pairs(text: &str, keep_output: bool) -> Vec<[Option<Diagram>; 2]> {
-    let m = mechanism_from_str("ladder.toml", text).unwrap();
+    let m = read(text);
     let exact = exact_field(&m, 0).unwrap();
     from_both_ends(&Question::new(exact, m, within(200_000, keep_output)).unwrap())
 }
@@ -232,7 +231,7 @@ fn blocks_are_built_from_both_ends_one_after_another() {
 
 #[test]
 fn a_search_of_halves_stops_when_it_is_told_to() {
-    let m = mechanism_from_str("ladder.toml", &ladder(4, 1, true)).unwrap();
+    let m = read(&ladder(4, 1, true));
     let exact = exact_field(&m, 0).unwrap();
     let search = Search::new(exact, m, within(20_000, true)).unwrap();
     let within = |most: usize| {

@@ -1,65 +1,50 @@
 //! Costs in a file of their own: printed, changed, taken, and refused where they are none.
 
 use crate::common::*;
-use ozols::search::question::conditions::InState;
 
-/// A folder with the table of costs, changed, and the path to it.
-fn table(from: &str, to: &str) -> (tempfile::TempDir, String) {
-    let folder = tempdir().unwrap();
-    let path = folder.path().join("costs.toml");
-    fs::write(
-        &path,
-        replace_once(&run_quiet(&["show", "costs"]), from, to),
+/// A folder with the table of costs, changed.
+fn table(from: &str, to: &str) -> Folder {
+    Folder::with(
+        "costs.toml",
+        replace_once(&run_quiet("show costs"), from, to),
     )
-    .unwrap();
-    let path = path.to_str().unwrap().to_owned();
-    (folder, path)
 }
 
 #[test]
 fn the_table_that_is_printed_changes_nothing() {
-    let (_folder, path) = table("change = 1\n", "change = 1.0\n");
-    let with = run_quiet(&["search", "gripper-10", "--format", "csv", "--costs", &path]);
-    assert_eq!(
-        with,
-        run_quiet(&["search", "gripper-10", "--format", "csv"])
-    );
-    assert!(!run_quiet(&["list"]).contains("\n costs "));
+    let folder = table("change = 1\n", "change = 1.0\n");
+    let line = "search gripper-10 --format csv";
+    let (with, _) = folder.succeed(&format!("{line} --costs costs.toml"));
+    assert_eq!(with, run_quiet(line));
+    lacks(&run_quiet("list"), "\n costs ");
 }
 
 #[test]
 fn a_type_that_is_dear_is_chosen_no_more() {
-    let first = |more: &[&str]| {
-        let args = ["search", "gripper-10", "--top", "1", "--format", "json"];
-        run_json(&[&args, more].concat())["variants"][0].clone()
+    let folder = table("\nspherical = 2\n", "\nspherical = 90\n");
+    let first = |more: &str| {
+        folder.json(&format!("search gripper-10 --top 1 {more}"))["variants"][0].clone()
     };
-    let has = |v: &Value, t: &str| v["changes"].to_string().contains(t);
-    let before = first(&[]);
-    let (_folder, path) = table("\nspherical = 2\n", "\nspherical = 90\n");
-    let after = first(&["--costs", &path]);
-    assert!(has(&before, "spherical") && !has(&after, "spherical"));
+    let has_ball = |v: &Value| v["changes"].to_string().contains("spherical");
+    let (before, after) = (first(""), first("--costs costs.toml"));
+    assert!(has_ball(&before) && !has_ball(&after));
     assert_ne!(before["cost"], after["cost"]);
     // the page says how it was made
-    let page = run_quiet(&["report", "four-bar", "--costs", &path]);
-    assert!(page.contains(&format!("--costs {path}")));
+    let (page, _) = folder.succeed("report four-bar --costs costs.toml");
+    has(&page, "--costs costs.toml");
 }
 
 #[test]
 fn the_costs_of_a_file_stand_where_the_table_says_nothing() {
-    let folder = tempdir().unwrap();
-    let at = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
-    let own = run_quiet(&["show", "gripper-10"]) + "\n[search.costs]\nlink = 7\nspherical = 3\n";
-    fs::write(at("own.toml"), own).unwrap();
-    fs::write(at("costs.toml"), "spherical = 2\n").unwrap();
-    let cost = |more: &[&str]| {
-        let allow = ["--options", "spherical", "--top", "1", "--format", "json"];
-        let file = at("own.toml");
-        run_json(&[&["search", file.as_str()], &allow[..], more].concat())["variants"][0]["cost"]
-            .clone()
+    let own = run_quiet("show gripper-10") + "\n[search.costs]\nlink = 7\nspherical = 3\n";
+    let folder = Folder::with("own.toml", own);
+    folder.put("costs.toml", "spherical = 2\n");
+    let cost = |more: &str| {
+        let line = format!("search own.toml --options spherical --top 1 {more}");
+        folder.json(&line)["variants"][0]["cost"].real()
     };
-    let costs = at("costs.toml");
-    let (with, without) = (cost(&["--costs", &costs]), cost(&[]));
-    assert!(with.real() < without.real(), "{with} {without}");
+    let (with, without) = (cost("--costs costs.toml"), cost(""));
+    assert!(with < without, "{with} {without}");
 }
 
 #[test]
@@ -73,41 +58,32 @@ fn what_is_no_cost_is_refused_with_its_line_and_a_remedy() {
         spherical = 2\n | spherical 2\n | each line is a name and a number
 "#,
     ) {
-        let (_folder, path) = table(from, to);
-        let o = run(&["search", "gripper-10", "--costs", &path]);
-        let err = utf8_text(&o.stderr);
-        assert_eq!(o.status.code(), Some(2), "{to}");
-        let words = err.split_whitespace().collect_vec().join(" ");
-        assert!(words.contains(said), "{to}: {err}");
-        let printed = fs::read_to_string(&path).unwrap();
-        let line = printed
-            .lines()
-            .position(|l| l.starts_with(to.trim_end()))
-            .unwrap()
-            + 1;
-        assert!(err.contains(&format!("costs.toml:{line}:")), "{to}: {err}");
+        let folder = table(from, to);
+        let (code, _, err) = folder.run("search gripper-10 --costs costs.toml");
+        assert_eq!(code, Some(2), "{to}");
+        has(&split_words(&err).join(" "), said);
+        has(
+            &err,
+            &place_of("costs.toml", &folder.text("costs.toml"), to.trim_end()),
+        );
     }
-    let o = run(&["search", "gripper-10", "--costs", "no/such.toml"]);
-    assert_eq!(o.status.code(), Some(2));
-    assert!(utf8_text(&o.stderr).contains("`ozols show costs > no/such.toml` writes one"));
+    assert_fails(
+        "search gripper-10 --costs no/such.toml",
+        "`ozols show costs > no/such.toml` writes one",
+    );
 }
 
 /// A joint that the file describes by its freedoms is a hinge with more of them: what it costs above a hinge does not depend on
 /// what a hinge costs.
 #[test]
 fn a_custom_joint_costs_a_hinge_at_the_files_price_and_more() {
-    let folder = tempdir().unwrap();
     let list = |price: &str| {
-        let text = run_quiet(&["show", "four-bar"]);
-        let cut = text.find("[search]").unwrap();
-        let text = format!(
-            "{}[search]\noptions = [\"revolute\", {{ freedoms = [\"rz\", \"rx\", \"ry\"], name = \"loose\" }}]\n[search.costs]\n\
-             revolute = {price}\n",
-            &text[..cut]
-        );
-        let path = folder.path().join(format!("{price}.toml"));
-        fs::write(&path, text).unwrap();
-        let v = run_json(&["search", path.to_str().unwrap(), "--format", "json"]);
+        let text = run_quiet("show four-bar");
+        let (before, _) = text.split_once("[search]").unwrap();
+        let options = r#"["revolute", { freedoms = ["rz", "rx", "ry"], name = "loose" }]"#;
+        let text =
+            format!("{before}[search]\noptions = {options}\n[search.costs]\nrevolute = {price}\n");
+        let v = json_on("search", "m.toml", &text, "");
         let all = v["variants"].list().iter();
         all.map(|v| v["cost"].real()).collect_vec()
     };
@@ -124,13 +100,10 @@ fn harm_costs_what_the_file_says_to_the_thousandth() {
     for (name, price) in [("tongs", 1730), ("tongs-pad", 1), ("tongs", 333)] {
         let mut m = built_in(name);
         m.edit().search.costs.harmful_milli = Some(price);
-        let conditions = Conditions {
-            state: Some(InState::holding(StateId::new(1))),
-            max_redundant: 9,
-            ..Conditions::default()
-        };
-        let s = Search::new(exact_field(&m, 0).unwrap(), &m, conditions).unwrap();
-        let diagrams = s.build_diagrams(&|| false, &mut |_| {});
+        let conditions = default_with(|c: &mut Conditions| {
+            (c.state, c.max_redundant) = (Some(InState::holding(StateId::new(1))), 9)
+        });
+        let (s, diagrams) = searched(&m, conditions);
         let mut harms = 0;
         for v in s.cheapest_variants(&diagrams, 300) {
             let choices = s.space.variables.iter().zip(&v.choices);
@@ -157,12 +130,8 @@ fn choices_cost_what_the_formula_says() {
     (costs.change_milli, costs.link_milli) = (Some(1300), Some(700));
     costs.by_type_milli = prices.map(|(name, p)| (name.to_owned(), p)).to_vec();
     m.edit().search.costs = costs;
-    let ball = m.joints.iter().flat_map(|j| &j.options);
-    let ball = ball
-        .clone()
-        .find(|o| o.name == "spherical")
-        .unwrap()
-        .clone();
+    let mut options = m.joints.iter().flat_map(|j| &j.options);
+    let ball = options.find(|o| o.name == "spherical").unwrap().clone();
     for j in m.edit().joints.iter_mut().filter(|j| !j.drive) {
         j.unloading = vec![ball.clone()];
     }
@@ -218,11 +187,11 @@ fn present_joints_cost_what_the_list_says() {
     let before = ["\"prismatic\"", "\"spherical\"", "\"cylindrical\""];
     let cost = |options: &str| {
         let text = replace_once(
-            &run_quiet(&["show", "four-bar"]),
+            &run_quiet("show four-bar"),
             "options = [\"revolute\", \"cylindrical\", \"universal\", \"spherical\"]",
             &format!("options = [{options}]"),
         );
-        let m = mechanism_from_str("four-bar.toml", &text).unwrap();
+        let m = read(&text);
         let joint = &m.joints[1];
         assert_eq!(joint.options[0].name, "stock", "{options}");
         joint.options[0].cost_milli

@@ -3,7 +3,6 @@
 //! The counts of built-in mechanisms are those of a trial that looked at every variant over another prime field, with code of its own.
 
 use crate::common::*;
-use ozols::search::check::brute::every_variant;
 use ozols::search::question::conditions::SearchError;
 use ozols::search::question::kept::Drives;
 
@@ -75,7 +74,7 @@ fn jack() -> String {
 
 #[test]
 fn a_bush_in_place_of_a_lead_screw_is_no_redesign_and_costs_no_less_than_nothing() {
-    let m = mechanism_from_str("jack.toml", &jack()).unwrap();
+    let m = read(&jack());
     assert_eq!(
         [Drives::Free, Drives::Kept].map(|d| admissible(&m, d)),
         [2, 1]
@@ -116,7 +115,7 @@ fn gantry() -> String {
 
 #[test]
 fn independent_drives_are_as_many_as_the_motions_that_they_decide() {
-    let m = mechanism_from_str("gantry.toml", &gantry()).unwrap();
+    let m = read(&gantry());
     // By hand: the slide keeps the one motion of the beam, the slot gives it a turn.
     for (drives, mobility) in [(Drives::Kept, 1), (Drives::Independent, 2)] {
         let search = search(&m, drives).unwrap();
@@ -135,6 +134,45 @@ fn independent_drives_are_as_many_as_the_motions_that_they_decide() {
     assert_eq!((found.len(), search.mobility(found[0].key)), (1, 1));
 }
 
+/// The file states the condition on drives and on the motion, and the command line another one.
+#[test]
+fn a_file_states_the_condition_on_drives() {
+    let with = |keys: &str| format!("{}[search]\n{keys}\n", gantry());
+    let ask = |keys: &str, more: &[&str]| {
+        let more = [&["--count", "--format", "json", "-q"], more].concat();
+        let (_, said, _) = run_on("search", "gantry.toml", &with(keys), &more);
+        let mut found: Value = serde_json::from_str(&said).unwrap();
+        found["seconds"] = Value::Null;
+        found
+    };
+    let mobilities = |keys: &str, more: &[&str]| ask(keys, more)["admissible_by_mobility"].clone();
+    assert_eq!(mobilities("", &[]), json!({ "1": "1" }));
+    for word in ["kept", "free", "independent"] {
+        let [by_file, by_option] = [
+            ask(&format!("drives = \"{word}\""), &[]),
+            ask("", &["--drives", word]),
+        ];
+        assert_eq!(by_file, by_option, "{word}");
+    }
+    assert_eq!(
+        mobilities("drives = \"independent\"", &[]),
+        json!({ "2": "1" })
+    );
+    let other = mobilities("drives = \"independent\"", &["--drives", "kept"]);
+    assert_eq!(other, json!({ "1": "1" }));
+    assert_eq!(ask("pose_only = true", &[]), ask("", &["--pose-only"]));
+    // Both are written again.
+    let text = with("drives = \"independent\"\npose_only = true");
+    let m = mechanism_from_str("gantry.toml", &text).unwrap();
+    let entry = ozols::file::write::mechanism_file(&m).search;
+    assert_eq!(
+        (entry.drives.as_deref(), entry.pose_only),
+        (Some("independent"), true)
+    );
+    let (code, _, told) = run_on("search", "gantry.toml", &with("drives = \"kep\""), &[]);
+    assert!(code == Some(2) && told.contains("kept"), "{told}");
+}
+
 /// Where no variant has as many motions as drives, that is an answer and no error.
 #[test]
 fn nothing_found_with_independent_drives_is_an_answer() {
@@ -147,7 +185,7 @@ fn nothing_found_with_independent_drives_is_an_answer() {
 
 #[test]
 fn independent_drives_are_refused_where_they_cannot_be() {
-    let built = mechanism_from_str("gantry.toml", &gantry()).unwrap();
+    let built = read(&gantry());
     let mut none = built.clone();
     none.edit().joints.iter_mut().for_each(|j| j.drive = false);
     let refused = search(&none, Drives::Independent).map(|_| ()).unwrap_err();
@@ -158,7 +196,7 @@ fn independent_drives_are_refused_where_they_cannot_be() {
     let slotted = gantry()
         .replace("type = \"fixed\"", "type = \"slotted\"")
         .replace(options, "");
-    let mut slotted = mechanism_from_str("gantry.toml", &slotted).unwrap();
+    let mut slotted = read(&slotted);
     slotted.edit().joints[1].drive = false;
     let refused = search(&slotted, Drives::Independent)
         .map(|_| ())

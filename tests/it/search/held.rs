@@ -93,7 +93,7 @@ fn an_object_is_held_by_name() {
     assert!(count_of(&["--allow-loose-object"]) > held);
     let hold = ["search", path, "--hold", "a"];
     assert_fails(&hold, "link a");
-    assert_fails(&hold, "in state clamped alone; add --state clamped");
+    assert_fails(&hold, "exists in state clamped only; search state clamped");
 }
 
 /// [Pogrebnyak 2018]: of the five external constraints three are friction that both jaws supply and two demand parallel
@@ -147,8 +147,8 @@ fn harmful_constraints_are_counted() {
 /// A price on harm puts variants with a pad first, and a ranking may count it.
 #[test]
 fn harm_has_a_price_and_a_term() {
-    let question = ["--state", "clamped", "--top", "1"];
-    let first = |path: &str| run_search(path, &question)["variants"][0].clone();
+    let question = "--state clamped --top 1";
+    let first = |path: &str| run_search(path, question)["variants"][0].clone();
     let (_folder, path) = write_temporary("m.toml", gripper_with_pads());
     assert_eq!(first(path)["external_harmful"], 2);
     let priced = replace_once(
@@ -161,14 +161,9 @@ fn harm_has_a_price_and_a_term() {
     assert_eq!(v["external_harmful"], 0, "{v}");
     // Two harmful ones at 3 each cost more than a pad at 4.
     assert_eq!(v["cost"].real() - 4.0, first(path)["cost"].real());
-    let ranked = [
-        "--rank",
-        "harmful,cost=0.01",
-        "--options",
-        "revolute,sphere-in-cylinder",
-    ];
-    let v = run_search("gripper-10-loaded", &[&question[..], &ranked].concat());
+    let ranked = "--rank harmful,cost=0.01 --options revolute,sphere-in-cylinder";
+    let v = run_search("gripper-10-loaded", &format!("{question} {ranked}"));
     assert_eq!(v["variants"][0]["scores"]["harmful"], 0, "{v}");
     let rank = "search gripper-10-loaded --rank harmful";
-    assert_fails(rank, "add --state, such as --state clamped");
+    assert_fails(rank, "search a state, such as clamped");
 }

@@ -7,10 +7,8 @@ mod textbook;
 mod toggle;
 mod why;
 
-use ozols::model::mechanism::JointOption;
+use ozols::search;
 use ozols::search::answer::ideas::Idea;
-use ozols::search::answer::k_best::Assignment;
-use ozols::{Outcome, Request, search};
 
 /// Every simple cycle of the mechanism's graph, as the set of its joints.
 fn cycles(m: &Mechanism) -> BTreeSet<BTreeSet<JointId>> {
@@ -269,19 +267,15 @@ fn ideas_are_those_of_a_list_of_all_variants() {
         ),
     ] {
         let m = built_in(name);
-        let request = Request {
-            options: names(options),
-            max_mobility,
-            ..Request::default()
-        };
+        let request = default_with(|r: &mut Request| {
+            (r.options, r.max_mobility) = (names(options), max_mobility)
+        });
         agrees(&m, &request, images);
     }
     let gripper = built_in("gripper-10");
-    let request = Request {
-        options: names(&["spherical", "sphere-in-cylinder"]),
-        max_mobility: Some(1),
-        ..Request::default()
-    };
+    let request = default_with(|r: &mut Request| {
+        (r.options, r.max_mobility) = (names(&["spherical", "sphere-in-cylinder"]), Some(1))
+    });
     let id = |j: JointId| gripper.joints[j].id.as_str();
     let free = gripper.joints_in(StateId::FREE).collect_vec();
     let pairs = gripper.search.mirror.iter().filter(|p| free.contains(&p.0));
@@ -293,33 +287,23 @@ fn ideas_are_those_of_a_list_of_all_variants() {
 /// minimal or not.
 #[test]
 fn of_a_search_cut_short_ideas_are_bounds_and_none_is_proven_the_cheapest() {
-    let args = ["search", "gripper-10", "--distinct", "--top", "3"];
-    let with = |more: &[&'static str]| [&args[..], more].concat();
-    let short = run_quiet(&with(&["--nodes", "60"]));
+    let line = "search gripper-10 --distinct --top 3";
+    let short = run_quiet(&format!("{line} --nodes 60"));
     has(&short, "variants are valid but may not be the cheapest");
-    assert!(
-        !short.contains("Proven the cheapest") && !short.contains(" minimal"),
-        "{short}"
-    );
-    let whole = run_json(&with(&["--format", "json"]));
-    let cut = run_json(&with(&["--nodes", "60", "--format", "json"]));
-    assert!(
-        cut["variants_proven"].is_null(),
-        "{}",
-        cut["variants_proven"]
-    );
+    has(&short, "at least");
+    lacks(&short, "Proven the cheapest");
+    lacks(&short, " minimal");
+    let whole = run_json(&format!("{line} --format json"));
+    let cut = run_json(&format!("{line} --nodes 60 --format json"));
+    assert_eq!(cut["variants_proven"], Value::Null);
     for (data, exact) in [(&whole, true), (&cut, false)] {
         let ideas = data["variants"].list().iter().map(|v| &v["idea"]);
         assert!(ideas.clone().all(|i| i["exact"] == exact));
         assert_eq!(ideas.count(), 3);
     }
-    assert_eq!(parse_count(&whole["variants"][2]["idea"]["variants"]), 840);
-    let known = cut["variants"].list().iter();
-    let known = known.map(|v| parse_count(&v["idea"]["variants"]));
-    assert!(
-        known.clone().all(|n| n > 0 && short.contains("at least")),
-        "{short}"
-    );
+    let known = |of: &Value, n: usize| parse_count(&of["variants"][n]["idea"]["variants"]);
+    assert_eq!(known(&whole, 2), 840);
+    assert!((0..3).all(|n| known(&cut, n) > 0));
 }
 
 /// The ways of sharing out the freedoms of the cheapest redesign of the gripper: each half alike.
@@ -362,42 +346,26 @@ fn an_idea_says_what_is_added_where() {
 /// The text gives ideas where all variants are counted and the list is a short one, and says how to go on with them.
 #[test]
 fn people_are_told_ideas_and_programs_variants() {
-    let search = |more: &[&str]| {
-        let args = ["search", "four-bar", "--quiet"];
-        let o = run(&[&args, more].concat());
-        assert_eq!(o.status.code(), Some(0), "{more:?}");
-        utf8_text(&o.stdout)
-    };
-    let plain = search(&[]);
-    assert_eq!(plain, search(&["--distinct"]));
-    has(&plain, "stands for");
-    has(&plain, "--idea 1");
-    let every = search(&["--no-distinct"]);
-    assert!(
-        !every.contains("stands for") && every.contains("--variant 1"),
-        "{every}"
-    );
-    let idea = |more: &[&str]| -> Value {
-        let said = search(&[&["--format", "json"], more].concat());
+    let search = |more: &str| run_successful(&format!("search four-bar --quiet {more}")).0;
+    let plain = search("");
+    assert_eq!(plain, search("--distinct"));
+    has_all(&plain, &["stands for", "--idea 1"]);
+    let every = search("--no-distinct");
+    lacks(&every, "stands for");
+    has(&every, "--variant 1");
+    let idea = |more: &str| -> Value {
+        let said = search(&format!("--format json {more}"));
         let found: Value = serde_json::from_str(&said).unwrap();
         found["variants"][0]["idea"].clone()
     };
-    assert!(idea(&[]).is_null());
-    assert!(idea(&["--distinct"]).is_object());
+    assert!(idea("").is_null());
+    assert!(idea("--distinct").is_object());
     // A long list is not for reading, and one cut short proves nothing of ideas.
-    assert!(!search(&["--top", "101"]).contains("stands for"));
-    let cut = run(&["search", "gripper-10", "--nodes", "60", "--top", "3"]);
-    assert!(!utf8_text(&cut.stdout).contains("stands for"));
-    let exported = |which: &[&str]| {
-        let o = run(&[&["export", "four-bar", "--to", "toml"], which].concat());
-        assert_eq!(o.status.code(), Some(0), "{which:?}");
-        utf8_text(&o.stdout)
-    };
-    assert_eq!(
-        exported(&["--idea", "2"]),
-        exported(&["--distinct", "--variant", "2"])
-    );
-    assert_ne!(exported(&["--idea", "2"]), exported(&["--variant", "2"]));
-    let both = run(&["draw", "four-bar", "--idea", "2", "--variant", "2"]);
-    assert_eq!(both.status.code(), Some(2));
+    lacks(&search("--top 101"), "stands for");
+    let cut = run_full("search gripper-10 --nodes 60 --top 3").1;
+    lacks(&cut, "stands for");
+    let exported = |which: &str| run_successful(&format!("export four-bar --to toml {which}")).0;
+    assert_eq!(exported("--idea 2"), exported("--distinct --variant 2"));
+    assert_ne!(exported("--idea 2"), exported("--variant 2"));
+    assert_fails("draw four-bar --idea 2 --variant 2", "");
 }

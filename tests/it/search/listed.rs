@@ -2,9 +2,6 @@
 
 use super::beyond_budget::ladder;
 use crate::common::*;
-use ozols::Request;
-use ozols::score::request::{Check, List};
-use ozols::search::answer::counts::Counts;
 use ozols::search::question::conditions::Symmetry;
 
 /// A variant is proven to be among the cheapest where its cost is one up to which all are known, and that is so of the last such cost.
@@ -12,7 +9,7 @@ use ozols::search::question::conditions::Symmetry;
 fn as_many_are_proven_as_cost_no_more_than_what_is_known() {
     let mut at_the_limit = 0;
     for (contours, nodes) in [(4, 60), (4, 120), (5, 80), (5, 200), (5, 500), (6, 1000)] {
-        let m = mechanism_from_str("ladder.toml", &ladder(contours, 3, false)).unwrap();
+        let m = read(&ladder(contours, 3, false));
         let request = Request {
             nodes,
             list: List::Top(60),
@@ -70,41 +67,6 @@ fn as_many_orbits_are_proven_as_are_asked_for() {
     let (whole, bounded) = (search(&[]), search(&["--no-count", "--nodes", "80"]));
     assert_eq!(bounded["variants_proven"], 190);
     assert_eq!(costs(&bounded), costs(&whole));
-}
-
-/// What is counted by W, by changes, by redundant constraints and by freedoms is the same variants each time.
-#[test]
-fn counts_by_one_figure_are_sums_of_those_by_two() {
-    for name in ["four-bar", "slider-crank-spatial", "gripper-10"] {
-        let request = Request {
-            max_redundant: 2,
-            list: List::Nothing,
-            check: Check::None,
-            ..Request::default()
-        };
-        let outcome = ozols::search(&built_in(name), &request).unwrap();
-        for counts in [&outcome.determinate, &outcome.admissible] {
-            let Counts {
-                total,
-                by_mobility_and_changes,
-                ..
-            } = counts;
-            let mut by_changes = BTreeMap::<u32, BigUint>::new();
-            let mut by_mobility = BTreeMap::<i64, BigUint>::new();
-            for (&(w, changes), n) in by_mobility_and_changes {
-                *by_changes.entry(changes).or_default() += n;
-                *by_mobility.entry(w).or_default() += n;
-            }
-            assert_eq!(by_changes, counts.by_changes, "{name}");
-            assert_eq!(by_mobility, counts.by_mobility, "{name}");
-            assert_eq!(counts.by_redundant.values().sum::<BigUint>(), *total);
-            assert_eq!(counts.by_freedoms.values().sum::<BigUint>(), *total);
-            assert!(
-                counts.by_changes.len() > 2 && counts.by_redundant.len() > 1,
-                "{name}"
-            );
-        }
-    }
 }
 
 /// All links but a clamped part are there without it, the frame first of all.

@@ -3,9 +3,7 @@
 use crate::common::*;
 use num_traits::Zero;
 use ozols::search::answer::why_none::{Relaxation, find_obstacles, find_relaxations};
-use ozols::search::diagram::Stop;
 use std::fmt::Write;
-use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// Plates in a plane, in rows and columns, each on hinges with its neighbours at places drawn from a seed; and how many
 /// hinges there are.
@@ -51,7 +49,7 @@ fn what_the_plane_decides_takes_no_step() {
     for (rows, columns) in [(3, 4), (4, 4), (4, 5)] {
         let (text, joints) = mesh(rows, columns, fresh_seed());
         let short = 2 * joints - 3 * (rows * columns - 1);
-        let m = mechanism_from_str("mesh.toml", &text).unwrap();
+        let m = read(&text);
         let search = Search::new(exact_field(&m, 0).unwrap(), m, Conditions::default()).unwrap();
         let asked = AtomicUsize::new(0);
         let count = || {

@@ -55,7 +55,7 @@ fn a_plane_has_its_directions_and_moments_at_the_joints() {
         near(joint(stress, "left")["share"].real(), left, 1e-12);
         near(joint(stress, "right")["share"].real(), right, 1e-12);
     }
-    let (_, text, _) = run_on("analyze", "m.toml", &slides(), &["--verbose"]);
+    let (_, text, _) = run_on("analyze", "m.toml", &slides(), "--verbose");
     has(&text, "right 83 %, left 17 %");
     assert!(!text.contains("force along x"), "{text}");
 }
@@ -163,17 +163,13 @@ fn what_a_state_adds_is_counted_without_what_is_there_already() {
     let external = stresses.iter().filter(|s| s["external"] == true).count();
     assert_eq!(clamped["external"]["redundant_by_rank"], 4);
     assert_eq!((external, stresses.len()), (4, 8), "{stresses:#?}");
-    let said = run_quiet(&["analyze", "gripper-10", "--state", "clamped"]);
+    let said = run_quiet("analyze gripper-10 --state clamped");
     has(&said, "External: σ = ");
 }
 
 /// What joints bear of a self-stress: nothing along or about what they leave free, and every link is in equilibrium.
 #[test]
 fn joints_bear_what_they_can_and_links_are_in_equilibrium() {
-    use ozols::geom::vector::{Vector, add};
-    use ozols::model::joint_type::Freedom;
-    use ozols::model::mechanism::Role;
-    use ozols::redundancy::analysis::{Method, analyse_states};
     let mut seen = 0;
     for name in ozols::builtin::names() {
         let m = built_in(name);

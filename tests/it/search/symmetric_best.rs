@@ -2,16 +2,15 @@
 
 use crate::common::*;
 /// Returns what a search of the gripper says with more flags.
-fn found(more: &[&str]) -> Value {
-    let args = ["search", "gripper-10", "--format", "json"];
-    run_json(&[&args[..], more].concat())
+fn found(more: &str) -> Value {
+    run_json(&format!("search gripper-10 --format json {more}"))
 }
 
 /// The redesign that the literature of the gripper would build: mirror images alike, one redundant constraint left, cost 11, one motion.
 /// Eleven freedoms make it determinate, which pairs of joints cannot add.
 #[test]
 fn the_gripper_has_a_symmetric_redesign_with_one_constraint_left() {
-    let all = found(&[]);
+    let all = found("");
     let best = all["symmetric"].list();
     let row = |v: &Value| [&v["redundant"], &v["cost"], &v["mobility"]].map(Value::to_string);
     let rows: Vec<_> = best.iter().map(row).collect();
@@ -20,28 +19,19 @@ fn the_gripper_has_a_symmetric_redesign_with_one_constraint_left() {
         "{rows:?}"
     );
     for (left, v) in best.iter().enumerate() {
-        let most = left.to_string();
-        let flags = [
-            "--symmetric",
-            "--max-redundant",
-            &most,
-            "--top",
-            "5000",
-            "--check",
-            "none",
-        ];
-        let list = found(&flags);
+        let list = found(&format!(
+            "--symmetric --max-redundant {left} --top 5000 --check none"
+        ));
         let variants = list["variants"].list();
         let first = variants.iter().find(|v| v["redundant"] == left);
         assert_eq!(v["changes"], first.unwrap()["changes"], "σ = {left}");
         assert_eq!(row(v), row(first.unwrap()), "σ = {left}");
     }
-    let text = run_quiet(&["search", "gripper-10"]);
+    let text = run_quiet("search gripper-10");
     let said = "that takes 11 more freedoms, and joints that are images of each other gain them 2 at a time";
     assert!(text.contains(said), "{text}");
-    let flags = ["--symmetric", "--max-mobility", "1", "--count"];
-    let none = ozols(&[&["search", "gripper-10"][..], &flags].concat()).output();
-    assert_eq!(none.unwrap().status.code(), Some(1));
+    let none = run("search gripper-10 --symmetric --max-mobility 1 --count");
+    assert_eq!(none.status.code(), Some(1));
 }
 
 /// Of equal cost ideas that are their own images come first.
@@ -97,69 +87,38 @@ fn thirds_of_a_turn_are_found() {
 
 /// A platform on three legs alike, turned in space and rounded to so many decimals, with options for all joints.
 fn three_legs(digits: usize, turned: bool, options: &str) -> String {
-    let (w, x, y, z) = if turned {
-        (0.8, 0.36, -0.48, 0.0)
+    let by = if turned {
+        [0.8, 0.36, -0.48, 0.0]
     } else {
-        (1.0, 0.0, 0.0, 0.0)
+        [1.0, 0.0, 0.0, 0.0]
     };
-    let rotate = |v: [f64; 3]| {
-        let rows = [
-            [
-                1.0 - 2.0 * (y * y + z * z),
-                2.0 * (x * y - z * w),
-                2.0 * (x * z + y * w),
-            ],
-            [
-                2.0 * (x * y + z * w),
-                1.0 - 2.0 * (x * x + z * z),
-                2.0 * (y * z - x * w),
-            ],
-            [
-                2.0 * (x * z - y * w),
-                2.0 * (y * z + x * w),
-                1.0 - 2.0 * (x * x + y * y),
-            ],
-        ];
-        rows.map(|r| r.iter().zip(v).map(|(a, b)| a * b).sum::<f64>())
-    };
+    let turn = RigidMotion::from_quaternion([0.0; 3], by);
     let write = |v: [f64; 3]| {
-        let [a, b, c] = rotate(v);
-        format!("[{a:.digits$}, {b:.digits$}, {c:.digits$}]")
+        turn.map_direction(v)
+            .map(|x| format!("{x:.digits$}"))
+            .join(", ")
     };
-    let mut out = format!(
-        "name = \"three-legs\"\n[search]\noptions = {options}\n[[link]]\nid = \"0\"\nrole = \"frame\"\n[[link]]\nid = \"p\"\nrole = \"output\"\n"
-    );
+    let (mut links, mut joints) = ("0 p*".to_owned(), String::new());
     for leg in 0..3 {
-        let (sine, cosine) = (f64::from(leg) * std::f64::consts::TAU / 3.0).sin_cos();
+        let (sine, cosine) = (f64::from(leg) * TAU / 3.0).sin_cos();
         let point = |r: f64, z: f64| write([r * cosine, r * sine, z]);
         let axis = write([-sine, cosine, 0.0]);
-        out += &format!("[[link]]\nid = \"a{leg}\"\n[[link]]\nid = \"b{leg}\"\n");
+        links += &format!(" a{leg} b{leg}");
         for (from, to, kind, place) in [
+            ("0", &*format!("a{leg}"), "revolute", point(10.0, 0.0)),
             (
-                "0".to_owned(),
-                format!("a{leg}"),
-                "revolute",
-                point(10.0, 0.0),
-            ),
-            (
-                format!("a{leg}"),
-                format!("b{leg}"),
+                &format!("a{leg}"),
+                &format!("b{leg}"),
                 "revolute",
                 point(13.0, 8.0),
             ),
-            (
-                format!("b{leg}"),
-                "p".to_owned(),
-                "spherical",
-                point(5.0, 12.0),
-            ),
+            (&format!("b{leg}"), "p", "spherical", point(5.0, 12.0)),
         ] {
-            out += &format!(
-                "[[joint]]\nid = \"{from}-{to}\"\nlinks = [\"{from}\", \"{to}\"]\ntype = \"{kind}\"\npoint = {place}\naxis = {axis}\n"
-            );
+            joints += &format!("{from}-{to} | {from} {to} | {kind} | {place} | {axis}\n");
         }
     }
-    out
+    let head = format!("name = \"three-legs\"\n[search]\noptions = {options}");
+    write_mechanism(&head, &links, &joints)
 }
 
 /// Rounded coordinates of three legs alike are symmetric within their digits, turned in space or not, and symmetric redesigns are those of
@@ -170,15 +129,8 @@ fn rounded_legs_are_symmetric_within_their_digits() {
         for digits in [4, 5, 6, 8] {
             let text = three_legs(digits, turned, "[\"cylindrical\", \"spherical\"]");
             let (_folder, path) = write_temporary("legs.toml", text);
-            let all = run_json(&[
-                "search",
-                path,
-                "--all",
-                "--format",
-                "json",
-                "-q",
-                "--pose-only",
-            ]);
+            let line = format!("search {path} --all --format json -q --pose-only");
+            let all = run_json(&line);
             let changes = |v: &Value| {
                 let one = |c: &Value| (c["joint"].word().to_owned(), c["to"].word().to_owned());
                 v["changes"].list().iter().map(one).collect::<Vec<_>>()
@@ -192,15 +144,7 @@ fn rounded_legs_are_symmetric_within_their_digits() {
                 alike.values().all(|n| *n == 3)
             };
             let wanted = all["variants"].list().iter().filter(is_alike).count();
-            let args = [
-                "--symmetric",
-                "--all",
-                "--format",
-                "json",
-                "-q",
-                "--pose-only",
-            ];
-            let found = run_json(&[&["search", path][..], &args].concat());
+            let found = run_json(&format!("{line} --symmetric"));
             assert_eq!(found["space"], "9", "{digits} {turned}");
             assert_eq!(found["variants"].list().len(), wanted, "{digits} {turned}");
             let best = all["symmetric"].list();
@@ -255,17 +199,9 @@ fn open_second_axes_are_carried_along_by_thirds_of_a_turn() {
         let (_folder, path) = write_temporary("tripteron.toml", text);
         let allow = ["s1-a1", "s2-a2", "s3-a3"]
             .map(|j| format!("--allow={j}=cylindrical,universal,spherical"));
-        let mut args = vec![
-            "search",
-            path,
-            "--symmetric",
-            "--count",
-            "--format",
-            "json",
-            "-q",
-            "--pose-only",
-        ];
-        args.extend(allow.iter().map(String::as_str));
+        let allow = allow.join(" ");
+        let args =
+            format!("search {path} --symmetric --count --format json -q --pose-only {allow}");
         let found: Value = serde_json::from_slice(&run(&args).stdout).unwrap();
         ["space", "determinate", "admissible"].map(|k| found[k].clone())
     };
@@ -274,11 +210,8 @@ fn open_second_axes_are_carried_along_by_thirds_of_a_turn() {
 
 #[test]
 fn mechanisms_without_symmetry_have_no_symmetric_redesigns() {
-    for more in [
-        &["search", "watt-six-bar"][..],
-        &["search", "gripper-10", "--count"],
-    ] {
-        let v = run_json(&[more, &["--format", "json"]].concat());
-        assert!(v["symmetric"].is_null(), "{more:?}");
+    for line in ["search watt-six-bar", "search gripper-10 --count"] {
+        let v = run_json(&format!("{line} --format json"));
+        assert!(v["symmetric"].is_null(), "{line}");
     }
 }

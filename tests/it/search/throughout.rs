@@ -4,17 +4,13 @@
 
 use crate::common::*;
 use crate::search::varied::random;
-use itertools::Itertools;
 use ozols::search::answer::everywhere::count_everywhere;
-use ozols::search::answer::k_best::Assignment;
-use ozols::search::build::Diagrams;
-use ozols::search::check::brute::{Matrices, MatricesAlong, Seen, every_variant, judge_variant};
+use ozols::search::check::brute::{Matrices, MatricesAlong, Seen, judge_variant};
 use ozols::search::check::other_poses::reach_poses;
 use ozols::search::check::singular_values::certify_variants;
 use ozols::search::diagram::Diagram;
 use ozols::search::question::conditions::Symmetry;
 use ozols::search::question::throughout::PoseOnly;
-use proptest::prelude::*;
 
 /// Returns a search over the prime that is the `nth`, which is asked what lasts.
 fn search(m: &Mechanism, nth: usize, symmetry: Symmetry) -> Search {
@@ -62,8 +58,7 @@ fn assert_as_in_poses(m: &Mechanism, poses: usize) {
         .cheapest_variants(&diagrams, usize::MAX / 4)
         .map(|v| v.choices)
         .collect();
-    let here = Search::new(exact_field(m, 0).unwrap(), m, Conditions::default()).unwrap();
-    let diagrams = here.build_diagrams(&|| false, &mut |_| {});
+    let (here, diagrams) = searched(m, Conditions::default());
     let all = here.cheapest_variants(&diagrams, 1000).collect();
     let stroke = reach_poses(&here, poses, 1, &|| false).unwrap();
     for v in certify_variants(&here, all, false, Some(&stroke), &|| false) {
@@ -181,7 +176,7 @@ fn variants_work_beside_the_drawn_pose_that_are_singular_there() {
         let m = ozols::built_in(name).unwrap();
         assert_eq!(count_beside(&m), count_in_poses(&m), "{name}");
     }
-    let text = run_quiet(&["search", "watt-six-bar", "--count"]);
+    let text = run_quiet("search watt-six-bar --count");
     let said = "206 more keep it in all poses near the drawn one, which is singular for these";
     assert!(text.contains(said), "{text}");
 }
@@ -189,7 +184,7 @@ fn variants_work_beside_the_drawn_pose_that_are_singular_there() {
 /// None of the variants of the gripper that move in one way alone loses its motion, and every symmetric count is of symmetric ones.
 #[test]
 fn the_gripper_loses_no_variant_with_one_motion() {
-    let v = run_json(&["search", "gripper-10", "--count", "--format", "json"]);
+    let v = run_json("search gripper-10 --count --format json");
     assert_eq!(v["lasting_by_mobility"]["1"], "7150020");
     assert_eq!(v["admissible_by_mobility"]["1"], "7150020");
     let args = ["search", "gripper-10", "--count", "--format", "json"];
@@ -238,7 +233,7 @@ fn the_drawn_pose_alone_is_searched_where_that_is_asked() {
     assert_eq!(all["admissible"], pose["admissible"]);
     assert_eq!(all["lasting"], "5");
     assert!(pose["lasting"].is_null() && pose["pose_only"].is_string());
-    let o = run(&["search", "sarrus"]);
+    let o = run("search sarrus");
     let text = String::from_utf8(o.stdout).unwrap();
     assert!(text.starts_with("sarrus: 5 of 3,125 variants"), "{text}");
 }
@@ -247,7 +242,7 @@ proptest! {
     #![proptest_config(ProptestConfig { cases: case_count(48), max_shrink_iters: 200, max_global_rejects: 1 << 20, ..ProptestConfig::default() })]
     #[test]
     fn random_mechanisms_are_as_one_by_one_and_in_poses(text in random()) {
-        let m = mechanism_from_str("varied.toml", &text).unwrap();
+        let m = read(&text);
         let search = search(&m, 0, Symmetry::All);
         prop_assume!(search.pose_only().is_none() && search.size() <= 256u32.into());
         counted(&m);

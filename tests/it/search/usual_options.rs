@@ -134,7 +134,7 @@ fn symmetric_variants_of_joints_at_one_place_are_found() {
 #[test]
 fn an_unsymmetric_mechanism_is_refused() {
     let text = replace_once(&hand(3, ""), "[-20, 30, 0]", "[-21, 30, 0]");
-    let (code, said, _) = run_on("search", "hand.toml", &text, &["--symmetric"]);
+    let (code, said, _) = run_on("search", "hand.toml", &text, "--symmetric");
     assert_eq!((code, said.as_str()), (Some(2), ""));
 }
 
@@ -178,8 +178,85 @@ fn every_subset_of_freedoms_is_a_choice() {
         "ball-in-v-groove-x",
         "blade-flexure-x",
         "floating-nut-x",
+        "gimbal-x",
         "wire-flexure-x",
     ];
     assert_eq!(parts, with_turn);
     assert!(at_one.contains("rz+ty") && !at_one.contains("blade-flexure-z"));
+}
+
+/// A screw jack as built has no better joint types: a nut that floats is offered in series, and the same by brute force is the one variant.
+#[test]
+fn a_floating_nut_is_offered_where_types_do_not_help() {
+    let jack = write_mechanism(
+        "name = \"jack\"",
+        "base screw table*",
+        "
+        motor | base screw | revolute | 0, 0, 0 | 0, 0, 1 | drive = true
+        nut | screw table | helical | 0, 0, 50 | 0, 0, 1 | lead = 5
+        rail | table base | prismatic | 40, 0, 50 | 0, 0, 1
+        ",
+    );
+    let more = ["--format", "json", "-q"];
+    let (code, said, _) = run_on("search", "jack.toml", &jack, &more);
+    let found: Value = serde_json::from_str(&said).unwrap();
+    assert_eq!(code, Some(1));
+    let nuts = &found["offers"].list().last().unwrap()["unloading"];
+    assert!(
+        nuts.list().contains(&json!("floating-nut-z")),
+        "{}",
+        found["offers"]
+    );
+    let nut = ["--unloading", "floating-nut-z=nut", "--forbid", "nut"];
+    for method in ["diagram", "brute"] {
+        let more = [&more[..], &nut, &["--method", method]].concat();
+        let (_, said, _) = run_on("search", "jack.toml", &jack, &more);
+        let found: Value = serde_json::from_str(&said).unwrap();
+        assert_eq!(parse_count(&found["admissible"]), 1, "{method}");
+        assert_eq!(found["admissible_by_mobility"], json!({ "1": "1" }));
+    }
+    let (code, _, told) = run_on(
+        "search",
+        "jack.toml",
+        &jack,
+        &["--unloading", "floating=nut"],
+    );
+    assert!(code == Some(2) && told.contains("floating"), "{told}");
+}
+
+/// A beam bolted to two slides needs a seat with a direction, and the seat that is offered gives what the search then finds.
+#[test]
+fn a_ball_in_a_groove_is_offered_at_a_bolt() {
+    let beam = write_mechanism(
+        "name = \"beam\"",
+        "bed left right beam*",
+        "
+        drive | bed left | prismatic | 0, -25, 0 | 1, 0, 0 | drive = true
+        guide | bed right | prismatic | 0, 25, 0 | 1, 0, 0
+        bolt-1 | left beam | fixed | 0, -25, 0 | 0, 0, 1
+        bolt-2 | right beam | fixed | 0, 25, 0 | 0, 0, 1
+        ",
+    );
+    let more = ["--format", "json", "-q"];
+    let (_, said, _) = run_on("search", "beam.toml", &beam, &more);
+    let found: Value = serde_json::from_str(&said).unwrap();
+    let allow = found["offers"].list().iter().flat_map(|o| {
+        let names = o["options"].list().iter().map(Value::word).join(",");
+        [
+            "--allow".to_owned(),
+            format!("{}={names}", o["joint"].word()),
+        ]
+    });
+    let allow = allow.collect_vec();
+    assert!(allow.concat().contains("ball-in-v-groove-y"), "{allow:?}");
+    let allow = allow.iter().map(String::as_str);
+    let args = more.into_iter().chain(allow).collect_vec();
+    let (code, said, _) = run_on("search", "beam.toml", &beam, &args);
+    let found: Value = serde_json::from_str(&said).unwrap();
+    assert_eq!(code, Some(0));
+    let best = &found["variants"][0];
+    assert_eq!(
+        (&best["mobility"], &best["redundant"]),
+        (&json!(1), &json!(0))
+    );
 }

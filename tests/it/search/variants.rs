@@ -25,17 +25,13 @@ fn listed(file: &str, flags: &str, k: usize) -> Value {
 
 #[test]
 fn an_exported_variant_has_the_figures_of_the_list() {
-    let folder = tempdir().unwrap();
     let mut pads = 0;
     for (file, flags, places) in LISTS {
         for &k in places {
             let variant = listed(file, flags, k);
-            let path = folder.path().join("v.toml");
-            let path = path.to_str().unwrap();
-            run_quiet(&format!(
-                "export {file} --variant {k} --to toml -o {path} {flags}"
-            ));
-            let found = run_json(&["analyze", path, "--format", "json"]);
+            let line = format!("export {file} --variant {k} --to toml {flags}");
+            let written = run_quiet(&line);
+            let found = json_on("analyze", "v.toml", &written, "");
             for key in ["mobility", "redundant"] {
                 assert_eq!(found["states"][0][key], variant[key], "{file} {flags} {k}");
             }
@@ -44,7 +40,6 @@ fn an_exported_variant_has_the_figures_of_the_list() {
                 assert_eq!(e["redundant_by_rank"].as_u64(), Some(external));
                 assert_eq!(e["agree"], true);
             }
-            let written = fs::read_to_string(path).unwrap();
             pads += usize::from(written.contains("a-8 unloading"));
             for change in variant["changes"].list() {
                 let mut lines = written.lines();
@@ -52,7 +47,7 @@ fn an_exported_variant_has_the_figures_of_the_list() {
                 has(head, change["joint"].word());
             }
             // What is a mechanism of its own is exported again like any other.
-            run_quiet(&["export", path, "--to", "toml"]);
+            assert_eq!(run_on("export", "v.toml", &written, "--to toml").0, Some(0));
         }
     }
     assert_eq!(pads, 2);
@@ -175,23 +170,18 @@ fn orbits_are_listed_however_few_are_asked_for_and_sampled_alike() {
 /// A list of all variants is by cost whatever ranking a file has, and so is the command that leads on from it.
 #[test]
 fn what_follows_a_list_of_all_variants_is_of_that_list() {
-    let text = run_quiet(&["search", "lever-gripper", "--all"]);
+    let text = run_quiet("search lever-gripper --all");
     let next = text
         .lines()
         .find(|l| l.contains("ozols export lever-gripper"))
         .unwrap();
     has(next, "--rank cost --variant 1");
-    let folder = tempdir().unwrap();
-    let to = folder.path().join("one.toml");
-    run_quiet(&format!(
-        "export lever-gripper --rank cost --variant 1 --to toml -o {}",
-        to.display()
-    ));
-    let all = run_quiet(&["search", "lever-gripper", "--all", "--format", "csv"]);
+    let one = run_quiet("export lever-gripper --rank cost --variant 1 --to toml");
+    let all = run_quiet("search lever-gripper --all --format csv");
     let mut lines = all.lines();
     let heads: Vec<&str> = lines.next().unwrap().split(',').collect();
     let first: Vec<&str> = lines.next().unwrap().split(',').collect();
-    let exported = mechanism_from_str("one.toml", &fs::read_to_string(to).unwrap()).unwrap();
+    let exported = read(&one);
     let joints = heads
         .iter()
         .zip(&first)
@@ -209,16 +199,14 @@ fn what_follows_a_list_of_all_variants_is_of_that_list() {
 /// A type that one joint has already is offered at the others, as if the file listed it, and one that none is offered may be forbidden.
 #[test]
 fn a_type_that_a_joint_has_is_offered_at_the_others() {
-    let four_bar = run_quiet(&["show", "four-bar"]);
+    let four_bar = run_quiet("show four-bar");
     let text = replace_once(
         &four_bar,
         "id = \"3-0\"\nlinks = [\"3\", \"0\"]\ntype = \"revolute\"",
         "id = \"3-0\"\nlinks = [\"3\", \"0\"]\ntype = \"spherical\"",
     );
-    let searched = |text: &str, more: &[&str]| -> Value {
-        let words = [&["--count", "--format", "json"], more].concat();
-        let (_, stdout, stderr) = run_on("search", "it.toml", text, &words);
-        serde_json::from_str(&stdout).unwrap_or_else(|e| panic!("{e}: {stderr}"))
+    let searched = |text: &str, more: &str| {
+        Folder::with("it.toml", text).json(&format!("search it.toml --count {more}"))
     };
     let start = text.find("[search]").unwrap();
     let rest = text[start..].find("options = ").unwrap() + start;
@@ -230,16 +218,16 @@ fn a_type_that_a_joint_has_is_offered_at_the_others() {
         ("cylindrical,spherical", "[\"cylindrical\", \"spherical\"]"),
     ] {
         let [told, wanted] = [
-            searched(&file, &["--options", types]),
-            searched(&listing(list), &[]),
+            searched(&file, &format!("--options {types}")),
+            searched(&listing(list), ""),
         ];
         for key in ["space", "admissible", "determinate"] {
             assert_eq!(told[key], wanted[key], "{types} {key}");
         }
         assert!(parse_count(&told["determinate"]) > 0);
     }
-    let none = searched(&file, &["--forbid", "1-2=universal"]);
-    assert_eq!(none["space"], searched(&file, &[])["space"]);
+    let none = searched(&file, "--forbid 1-2=universal");
+    assert_eq!(none["space"], searched(&file, "")["space"]);
 }
 
 #[test]

@@ -2,15 +2,12 @@
 //! joints, mirror images, limits on W and on changes; and the two checks of the search on all of them.
 
 use crate::common::*;
+use crate::fuzz::readers::differential::assert_as_the_twins;
 use crate::search::twin::{Twin, all_variants, look_at_variant};
-use ozols::search::answer::counts::Counts;
 use ozols::search::answer::orbit_counts;
-use ozols::search::answer::search_counts::SearchCounts;
-use ozols::search::check::brute::every_variant;
 use ozols::search::check::second_prime::{Verdict, build_both, compare_primes};
 use ozols::search::check::singular_values;
 use ozols::search::question::conditions::Symmetry;
-use proptest::prelude::*;
 
 /// Joint types with the options that contain them.
 const KINDS: [(&str, &str); 9] = [
@@ -211,7 +208,7 @@ fn tally<'a>(list: impl Iterator<Item = &'a Twin>) -> BTreeMap<(i64, u32), BigUi
 }
 
 /// Counts of a search over two primes, which must agree, and what its list says.
-fn searched(
+fn over_two_primes(
     m: &Mechanism,
     request: &Conditions,
 ) -> Result<(Counts, Counts, Vec<Choice>), TestCaseError> {
@@ -252,10 +249,9 @@ proptest! {
         most in prop::option::of(0i64..4),
         changes in prop::option::of(0u32..4),
     ) {
-        let m = mechanism_from_str("varied.toml", &text).unwrap();
+        let m = read(&text);
         let all = all_variants(&m, false);
         prop_assume!(all.len() <= 48);
-        let present = look_at_variant(&m, false, &vec![(0, None); m.joints.len()]);
         let request = Conditions {
             max_redundant: allowed,
             keep_output: keep,
@@ -263,116 +259,108 @@ proptest! {
             max_changes: changes,
             ..Conditions::default()
         };
-        let (determinate, admissible, list) = searched(&m, &request)?;
+        over_two_primes(&m, &request)?;
         let seen: Vec<Twin> = all.iter().map(|c| look_at_variant(&m, false, c)).collect();
-        let good = |t: &&Twin| t.internal <= allowed;
-        let better = |t: &&Twin| {
-            good(t)
-                && (!keep || t.motion == present.motion)
-                && most.is_none_or(|w| t.mobility <= w)
-                && changes.is_none_or(|c| t.changes <= c)
-        };
-        prop_assert_eq!(&determinate.by_mobility_and_changes, &tally(seen.iter().filter(good)));
-        prop_assert_eq!(&admissible.by_mobility_and_changes, &tally(seen.iter().filter(better)));
-        let want: BTreeSet<&Choice> =
-            all.iter().zip(&seen).filter(|(_, t)| better(t)).map(|(c, _)| c).collect();
-        prop_assert_eq!(want, list.iter().collect::<BTreeSet<_>>());
         let search = Search::new(exact_field(&m, 0).unwrap(), &m, request).unwrap();
-        let every = every_variant(&search).unwrap();
-        prop_assert_eq!((determinate, admissible), (every.determinate, every.admissible));
+        assert_as_the_twins(&m, &search, &all, &seen, &text);
     }
+}
+
+/// Searches of variants that are their own images and of one of each orbit, against all variants looked at: each joint of a group is
+/// carried to the next one.
+fn orbits_agree(
+    m: &Mechanism,
+    groups: &[Vec<JointId>],
+    asked: &Conditions,
+) -> Result<(), TestCaseError> {
+    let image = |c: &Choice| {
+        let mut out = c.clone();
+        for group in groups {
+            for (i, &j) in group.iter().enumerate() {
+                out[group[(i + 1) % group.len()]] = c[j];
+            }
+        }
+        out
+    };
+    let all = all_variants(m, false);
+    prop_assume!(m.search.mirror.is_empty() || all.len() <= 40);
+    let seen = all
+        .iter()
+        .map(|c| (c.clone(), look_at_variant(m, false, c)));
+    let seen: BTreeMap<Choice, Twin> = seen.collect();
+    for (c, t) in &seen {
+        let i = &seen[&image(c)];
+        prop_assert_eq!(
+            (t.internal, t.mobility, t.motion),
+            (i.internal, i.mobility, i.motion)
+        );
+    }
+    let orbit = |c: &Choice| {
+        let round = std::iter::successors(Some(c.clone()), |c| Some(image(c)));
+        round.take(groups[0].len()).collect::<BTreeSet<_>>()
+    };
+    let own = |c: &Choice| orbit(c).len() == 1;
+    let first = |c: &Choice| orbit(c).first() == Some(c);
+    let present = &seen[&all[0]];
+    let good = |t: &Twin| t.internal <= asked.max_redundant;
+    let better = |t: &Twin| {
+        let moves = !asked.keep_output || t.motion == present.motion;
+        good(t) && moves && asked.max_mobility.is_none_or(|w| t.mobility <= w)
+    };
+    let of = |test: &dyn Fn(&Twin) -> bool, which: &dyn Fn(&Choice) -> bool| {
+        tally(
+            seen.iter()
+                .filter(|(c, t)| which(c) && test(t))
+                .map(|(_, t)| t),
+        )
+    };
+    let symmetric = Conditions {
+        symmetry: Symmetry::SymmetricOnly,
+        ..asked.clone()
+    };
+    let (determinate, admissible, list) = over_two_primes(m, &symmetric)?;
+    prop_assert_eq!(&determinate.by_mobility_and_changes, &of(&good, &own));
+    prop_assert_eq!(&admissible.by_mobility_and_changes, &of(&better, &own));
+    prop_assert!(list.iter().all(own));
+    let one = Conditions {
+        symmetry: Symmetry::OnePerOrbit,
+        ..asked.clone()
+    };
+    let search = Search::new(exact_field(m, 0).unwrap(), m, one.clone()).unwrap();
+    let (determinate, admissible, list) = over_two_primes(m, &one)?;
+    let all = SearchCounts {
+        determinate,
+        admissible,
+        ..SearchCounts::default()
+    };
+    let (counts, _) = orbit_counts::orbit_counts(&search, all, &|| false).unwrap();
+    prop_assert_eq!(
+        &counts.determinate.by_mobility_and_changes,
+        &of(&good, &first)
+    );
+    prop_assert_eq!(
+        &counts.admissible.by_mobility_and_changes,
+        &of(&better, &first)
+    );
+    let orbits: BTreeSet<BTreeSet<Choice>> = list.iter().map(orbit).collect();
+    prop_assert_eq!(orbits.len(), list.len());
+    prop_assert_eq!(counts.admissible.total, BigUint::from(list.len()));
+    Ok(())
 }
 
 proptest! {
     #![proptest_config(ProptestConfig { cases: case_count(16), max_shrink_iters: 200, max_global_rejects: 1 << 20, ..ProptestConfig::default() })]
-    #[test]
-    fn mirror_images(text in mirrored(), allowed in 0u32..4, most in prop::option::of(1i64..4)) {
-        let m = mechanism_from_str("mirrored.toml", &text).unwrap();
-        let all = all_variants(&m, false);
-        prop_assume!(all.len() <= 40);
-        let present = look_at_variant(&m, false, &vec![(0, None); m.joints.len()]);
-        let image = |c: &Choice| {
-            let mut out = c.clone();
-            for &(a, b) in &m.search.mirror {
-                (out[a], out[b]) = (c[b], c[a]);
-            }
-            out
-        };
-        let seen: BTreeMap<Choice, Twin> = all.iter().map(|c| (c.clone(), look_at_variant(&m, false, c))).collect();
-        for (c, t) in &seen {
-            let i = &seen[&image(c)];
-            prop_assert_eq!((t.internal, t.mobility, t.motion), (i.internal, i.mobility, i.motion));
-        }
-        let good = |t: &Twin| t.internal <= allowed;
-        let better =
-            |t: &Twin| good(t) && t.motion == present.motion && most.is_none_or(|w| t.mobility <= w);
-        let request = Conditions { max_redundant: allowed, max_mobility: most, ..Conditions::default() };
-        // Those that are their own image.
-        let own = |c: &Choice| image(c) == *c;
-        let symmetric = Conditions { symmetry: Symmetry::SymmetricOnly, ..request.clone() };
-        let (determinate, admissible, list) = searched(&m, &symmetric)?;
-        let of = |test: &dyn Fn(&Twin) -> bool, which: &dyn Fn(&Choice) -> bool| {
-            tally(seen.iter().filter(|(c, t)| which(c) && test(t)).map(|(_, t)| t))
-        };
-        prop_assert_eq!(&determinate.by_mobility_and_changes, &of(&good, &own));
-        prop_assert_eq!(&admissible.by_mobility_and_changes, &of(&better, &own));
-        prop_assert!(list.iter().all(own));
-        // One of each pair.
-        let orbit = Conditions { symmetry: Symmetry::OnePerOrbit, ..request };
-        let search = Search::new(exact_field(&m, 0).unwrap(), &m, orbit.clone()).unwrap();
-        let (determinate, admissible, list) = searched(&m, &orbit)?;
-        let all = SearchCounts { determinate, admissible, ..SearchCounts::default() };
-        let (SearchCounts { determinate, admissible, .. }, _) = orbit_counts::orbit_counts(&search, all, &|| false).unwrap();
-        let first = |c: &Choice| *c <= image(c);
-        prop_assert_eq!(&determinate.by_mobility_and_changes, &of(&good, &first));
-        prop_assert_eq!(&admissible.by_mobility_and_changes, &of(&better, &first));
-        let pairs: BTreeSet<Choice> = list.iter().map(|c| c.clone().min(image(c))).collect();
-        prop_assert_eq!((pairs.len(), list.len()), (list.len(), list.len()));
-        prop_assert_eq!(admissible.total, BigUint::from(list.len()));
-    }
-}
 
-proptest! {
-    #![proptest_config(ProptestConfig { cases: case_count(16), max_shrink_iters: 200, max_global_rejects: 1 << 20, ..ProptestConfig::default() })]
     #[test]
-    fn parts_of_a_turn(text in carried_round(), allowed in 0u32..4) {
-        let m = mechanism_from_str("round.toml", &text).unwrap();
-        let all = all_variants(&m, false);
-        let image = |c: &Choice| {
-            let mut out = c.clone();
-            for group in &m.search.turn {
-                for (i, &j) in group.iter().enumerate() {
-                    out[group[(i + 1) % group.len()]] = c[j];
-                }
-            }
-            out
-        };
-        let seen: BTreeMap<Choice, Twin> = all.iter().map(|c| (c.clone(), look_at_variant(&m, false, c))).collect();
-        for (c, t) in &seen {
-            let i = &seen[&image(c)];
-            prop_assert_eq!((t.internal, t.mobility, t.motion), (i.internal, i.mobility, i.motion));
-        }
-        // The least of each orbit, and how many are in it.
-        let orbit = |c: &Choice| {
-            let round = std::iter::successors(Some(c.clone()), |c| Some(image(c)));
-            round.take(m.search.turn[0].len()).collect::<BTreeSet<_>>()
-        };
-        let good = |t: &Twin| t.internal <= allowed;
-        let of = |which: &dyn Fn(&Choice) -> bool| {
-            tally(seen.iter().filter(|(c, t)| which(c) && good(t)).map(|(_, t)| t))
-        };
-        let request = Conditions { max_redundant: allowed, keep_output: false, ..Conditions::default() };
-        let symmetric = Conditions { symmetry: Symmetry::SymmetricOnly, ..request.clone() };
-        let (determinate, _, list) = searched(&m, &symmetric)?;
-        prop_assert_eq!(&determinate.by_mobility_and_changes, &of(&|c| orbit(c).len() == 1));
-        prop_assert!(list.iter().all(|c| orbit(c).len() == 1));
-        let one = Conditions { symmetry: Symmetry::OnePerOrbit, ..request };
-        let search = Search::new(exact_field(&m, 0).unwrap(), &m, one.clone()).unwrap();
-        let (determinate, admissible, list) = searched(&m, &one)?;
-        let all = SearchCounts { determinate, admissible, ..SearchCounts::default() };
-        let (SearchCounts { determinate, admissible, .. }, _) = orbit_counts::orbit_counts(&search, all, &|| false).unwrap();
-        prop_assert_eq!(&determinate.by_mobility_and_changes, &of(&|c| orbit(c).first() == Some(c)));
-        let orbits: BTreeSet<BTreeSet<Choice>> = list.iter().map(orbit).collect();
-        prop_assert_eq!((orbits.len(), BigUint::from(list.len())), (list.len(), admissible.total));
+    fn mirror_images(text in mirrored(), max_redundant in 0u32..4, max_mobility in prop::option::of(1i64..4)) {
+        let m = read(&text);
+        let pairs = m.search.mirror.iter().map(|&(a, b)| vec![a, b]).collect_vec();
+        orbits_agree(&m, &pairs, &Conditions { max_redundant, max_mobility, ..Conditions::default() })?;
+    }
+
+    #[test]
+    fn parts_of_a_turn(text in carried_round(), max_redundant in 0u32..4) {
+        let m = read(&text);
+        orbits_agree(&m, &m.search.turn, &Conditions { max_redundant, keep_output: false, ..Conditions::default() })?;
     }
 }

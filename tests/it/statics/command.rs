@@ -1,6 +1,6 @@
 //! `ozols statics` as its users meet it.
 
-use super::{planar_file_with, turning_joint};
+use super::{joints_of, planar_file_with};
 use crate::common::*;
 
 #[test]
@@ -24,7 +24,7 @@ fn bad_loads_are_refused_at_their_line() {
         "#,
     ) {
         let text = replace_once(super::shears_text(), from, to);
-        let (code, _, said) = run_on("statics", "bad.toml", &text, &[]);
+        let (code, _, said) = run_on("statics", "bad.toml", &text, "");
         assert_eq!(code, Some(2), "{to}: {said}");
         has(&said, &place_of("bad.toml", &text, line));
         parts.split(" & ").for_each(|part| has(&said, part));
@@ -97,35 +97,23 @@ fn structure_under_every_drive() {
 
 #[test]
 fn charts_and_stability_go_to_folders() {
-    let folder = tempdir().unwrap();
-    let [charts, stability] = ["charts", "stability"].map(|n| folder.path().join(n));
-    run_quiet(&format!(
-        "statics parallel-shears --stroke 0:6.28:8 --svg {}",
-        charts.display()
-    ));
+    let folder = Folder::new();
+    folder.succeed("statics parallel-shears --stroke 0:6.28:8 --svg charts");
     let names = "group-4-6-7-10.svg group-5-8-9-11.csv guide-4-6-7-10.svg group-2-3.svg drive.svg methods.svg index.html";
     for name in split_words(names) {
-        assert!(charts.join(name).is_file(), "{name}");
+        folder.bytes(&format!("charts/{name}"));
     }
-    let text = run_quiet(&format!("statics --stability -o {}", stability.display()));
+    let (text, _) = folder.succeed("statics --stability -o stability");
     for name in split_words("parallel-rods across-guide at-delta no-guide-reaction") {
         has(&text, name);
-        assert!(
-            stability.join(format!("stability-{name}.svg")).is_file(),
-            "{name}"
-        );
+        folder.bytes(&format!("stability/stability-{name}.svg"));
     }
 }
 
 /// A double-rocker driven towards its dead point: the cycle ends there, and says so.
 #[test]
 fn a_dead_point_ends_the_cycle_with_exit_code_1() {
-    let joints = [
-        turning_joint("0", "1", 0.0, 0.0),
-        turning_joint("1", "2", 0.0, 2.0),
-        turning_joint("2", "3", 2.0, 2.5),
-        turning_joint("3", "0", 3.0, 0.0),
-    ];
+    let joints = joints_of("0-1 0 0, 1-2 0 2, 2-3 2 2.5, 3-0 3 0");
     let mass = |l: &str| (l == "2").then_some((1.0, [1.0, 2.25], 0.1));
     let text = planar_file_with(&joints, &mass, "[workload]\ngravity = [0, -9.81, 0]\n");
     let on = |more: &[&str]| {

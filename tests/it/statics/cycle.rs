@@ -1,9 +1,8 @@
 //! Positions over a cycle.
 
-use super::{four_bar_file, planar_file, read_planar, shears_text, sliding_joint, turning_joint};
+use super::{four_bar_file, joints_of, planar_file, read_planar, shears_text};
 use crate::common::*;
-use ozols::model::loads::Stroke;
-use ozols::statics::cycle::{Statics, planar_statics};
+use ozols::statics::cycle::Statics;
 use ozols::statics::planar::PairKind;
 use ozols::statics::pose::Pose;
 
@@ -64,38 +63,18 @@ fn shears_go_round_and_their_knives_meet() {
 /// Sliding drives, drives between moving bodies, pins in slots, two drives at once.
 #[test]
 fn drives_of_every_kind_move_as_they_should() {
-    let boom = [
-        sliding_joint("2", "3", 1.0, 1.0, [1.0, 1.0]),
-        turning_joint("0", "1", 0.0, 1.0),
-        turning_joint("0", "2", 0.5, 0.5),
-        turning_joint("3", "1", 3.0, 2.7),
-    ];
-    let slider = [
-        sliding_joint("0", "1", 0.0, 0.0, [1.0, 0.5]),
-        turning_joint("1", "2", 0.0, 1.0),
-        turning_joint("2", "3", 2.0, 2.5),
-        turning_joint("3", "0", 3.0, 0.0),
-    ];
-    let two_slides = [
-        turning_joint("0", "1", 0.0, 0.0),
-        sliding_joint("1", "2", 1.0, 0.5, [1.0, 0.3]),
-        sliding_joint("2", "3", 2.0, 1.0, [0.2, 1.0]),
-        turning_joint("3", "0", 3.0, 0.0),
-    ];
-    for joints in [&boom, &slider, &two_slides] {
-        over(&planar_file(joints, ""), [0.1, 0.1], 1, &[1.0]);
+    for joints in [
+        "2-3 1 1 1 1, 0-1 0 1, 0-2 0.5 0.5, 3-1 3 2.7",
+        "0-1 0 0 1 0.5, 1-2 0 1, 2-3 2 2.5, 3-0 3 0",
+        "0-1 0 0, 1-2 1 0.5 1 0.3, 2-3 2 1 0.2 1, 3-0 3 0",
+    ] {
+        over(&planar_file(&joints_of(joints), ""), [0.1, 0.1], 1, &[1.0]);
     }
     over(&four_bar_file(), [0.0, 1.0], 5, &[1.0]);
     let slotted = ozols::builtin::text("lever-slot-gripper").unwrap();
     over(slotted, [2.0, 4.0], 2, &[20.0]);
     let five = planar_file(
-        &[
-            turning_joint("0", "1", 0.0, 0.0),
-            turning_joint("1", "2", 0.0, 1.0),
-            turning_joint("2", "3", 2.0, 3.0),
-            turning_joint("3", "4", 4.0, 1.0),
-            turning_joint("4", "0", 4.0, 0.0),
-        ],
+        &joints_of("0-1 0 0, 1-2 0 1, 2-3 2 3, 3-4 4 1, 4-0 4 0"),
         "",
     );
     let at = five.rfind("drive = false").unwrap();
@@ -125,17 +104,10 @@ fn drives_turn_about_the_normal() {
 /// With coupler and rocker in a line the crank goes no further.
 #[test]
 fn at_a_dead_point_there_are_no_speeds() {
-    for (beside, dead) in [(0.0, true), (1e-14, true), (0.5, false)] {
-        let text = planar_file(
-            &[
-                turning_joint("0", "1", 0.0, 0.0),
-                turning_joint("1", "2", 0.0, 1.0),
-                turning_joint("2", "3", 2.0, 1.0 + beside),
-                turning_joint("3", "0", 4.0, 1.0),
-            ],
-            "[workload]\ndrive_speed = 1.0\n",
-        );
-        let s = planar_statics(&read_planar(&text), StateId::FREE, None).unwrap();
+    for (beside, dead) in [("1", true), ("1.00000000000001", true), ("1.5", false)] {
+        let joints = joints_of(&format!("0-1 0 0, 1-2 0 1, 2-3 2 {beside}, 3-0 4 1"));
+        let m = read_planar(&planar_file(&joints, "[workload]\ndrive_speed = 1.0\n"));
+        let s = planar_statics(&m, StateId::FREE, None).unwrap();
         assert_eq!((s.moments.is_empty(), s.dead.is_some()), (dead, dead));
         assert!(s.dead.is_none_or(|d| d.group == Some(0)), "{beside}");
     }

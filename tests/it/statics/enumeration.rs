@@ -1,8 +1,7 @@
 //! All Assur groups of 2, 4 and 6 links, found among all ways to join that many links.
 
 use crate::common::*;
-use ozols::statics::assur::decompose_groups;
-use ozols::statics::planar::{Body, Pair, PairKind, PlanarMechanism};
+use ozols::statics::planar::{Body, Pair, PairKind};
 
 /// Links 1 to n with these inner pairs, and so many pairs of each link to the frame.
 fn group(n: usize, inner: &[(usize, usize)], outer: &[usize]) -> PlanarMechanism {

@@ -74,7 +74,7 @@ fn tangential_reactions_are_the_moments_over_the_rods() {
             near(told, -moment / length, 1e-9 * (1.0 + told.abs()));
         }
     }
-    let text = run_quiet(&["statics", "parallel-shears", "--stroke", "0:360deg:2"]);
+    let text = run_quiet("statics parallel-shears --stroke 0:360deg:2");
     has_all(
         &text,
         &["R46τ", "R47τ", "R34τ", "inertia force, N", "ε, rad/s²"],
@@ -91,21 +91,13 @@ fn visible(svg: &str, name: &str) -> bool {
 /// Every plan closes, and those of the δ-point method add up as those of the full solve do.
 #[test]
 fn force_plans_close_beside_those_of_the_full_solve() {
-    let folder = tempdir().unwrap();
-    let at = folder.path().join("plans");
-    run_quiet(&format!(
-        "statics parallel-shears --stroke 0:360deg:36 --svg {}",
-        at.display()
-    ));
+    let folder = Folder::new();
+    folder.succeed("statics parallel-shears --stroke 0:360deg:36 --svg plans");
     for group in ["4-6-7-10", "5-8-9-11"] {
-        let svg = fs::read_to_string(at.join(format!("force-plan-{group}.svg"))).unwrap();
-        let names = [
-            "R34τ", "R34n", "R0/10", "R64τ", "R64n", "R46τ", "R47τ", "Fи4", "G4", "P10",
-        ];
-        for name in names {
-            assert!(svg.contains(name), "{group} {name}");
-        }
-        let table = fs::read_to_string(at.join(format!("force-plan-{group}.csv"))).unwrap();
+        let [svg, table] =
+            ["svg", "csv"].map(|e| folder.text(&format!("plans/force-plan-{group}.{e}")));
+        let names = "R34τ R34n R0/10 R64τ R64n R46τ R47τ Fи4 G4 P10";
+        has_all(&svg, &split_words(names));
         let mut sums: BTreeMap<String, ([f64; 2], f64)> = BTreeMap::new();
         for line in table.lines().skip(1) {
             // The plan's title has a comma and stands in quotes.
@@ -124,11 +116,11 @@ fn force_plans_close_beside_those_of_the_full_solve() {
         }
     }
     // A chart's sentence stands in the chart, and not a second time over it.
-    let page = fs::read_to_string(at.join("index.html")).unwrap();
+    let page = folder.text("plans/index.html");
     assert!(page.contains("with its sign") && !page.contains("<p>D = 3-4"));
     assert!(page.contains("force plans of group 4-6-7-10"));
     for file in ["tangential-4-6-7-10", "accelerations", "inertia-forces"] {
-        assert!(at.join(format!("{file}.svg")).exists(), "{file}");
+        folder.bytes(&format!("plans/{file}.svg"));
     }
 }
 
@@ -136,7 +128,6 @@ fn force_plans_close_beside_those_of_the_full_solve() {
 /// do not.
 #[test]
 fn the_force_plan_is_of_the_pose_with_most_load_from_outside() {
-    use ozols::model::mechanism::StateId;
     use ozols::statics::kinetostatics::LoadSource;
     use ozols::statics::solve::{Model, SolvedReactions, solve_reactions};
     let m = built_in("parallel-shears");

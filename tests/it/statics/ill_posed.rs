@@ -1,35 +1,28 @@
 //! Linkages that are no Assur groups are told by how much.
 
 use crate::common::*;
-use ozols::statics::assur::{AssurError, decompose_groups};
-use ozols::statics::planar::PlanarMechanism;
+use ozols::statics::assur::AssurError;
 
 /// Joints of a type between links in the plane of x and y, the first of them driven.
-fn refused(joints: &[(&str, &str, &str, [i32; 2])]) -> AssurError {
-    let mut text = "name = \"it\"\nlink = [{ id = \"0\", role = \"frame\" }, { id = \"a\" }, { id = \"b\", role = \"output\" }, { id = \"c\" }]\n".to_owned();
-    if !joints.iter().any(|j| j.1 == "c" || j.2 == "c") {
-        text = text.replace(", { id = \"c\" }", "");
-    }
-    for (i, (kind, from, to, [x, y])) in joints.iter().enumerate() {
-        let drive = if i == 0 { "drive = true\n" } else { "" };
-        text += &format!(
-            "[[joint]]\nid = \"j{i}\"\nlinks = [\"{from}\", \"{to}\"]\ntype = \"{kind}\"\npoint = [{x}, {y}, 0]\naxis = [0, 0, 1]\n{drive}"
-        );
-    }
-    let m = mechanism_from_str("it.toml", &text).unwrap();
+fn refused(joints: &str) -> AssurError {
+    let links = if joints.contains(" c ") {
+        "0 a b* c"
+    } else {
+        "0 a b*"
+    };
+    let m = read(&write_mechanism("name = \"it\"", links, joints));
     let planar = PlanarMechanism::new(&m, StateId::FREE).unwrap();
-    let drives = planar.driven_pairs();
-    decompose_groups(&planar, &drives).unwrap_err()
+    decompose_groups(&planar, &planar.driven_pairs()).unwrap_err()
 }
 
 /// With its drive locked the crank is one body with the frame, and so is what is fixed to it: a hinge holds two rows again.
 #[test]
 fn a_hinge_within_a_body_is_two_constraints_too_many() {
-    let said = refused(&[
-        ("revolute", "0", "a", [0, 0]),
-        ("fixed", "a", "b", [1, 0]),
-        ("revolute", "a", "b", [2, 0]),
-    ]);
+    let said = refused(
+        "0 | 0 a | revolute | 0, 0, 0 | 0, 0, 1 | drive = true
+         1 | a b | fixed | 1, 0, 0 | 0, 0, 1
+         2 | a b | revolute | 2, 0, 0 | 0, 0, 1",
+    );
     let AssurError::Overconstrained { bodies, excess } = said else {
         panic!("{said}");
     };
@@ -39,15 +32,15 @@ fn a_hinge_within_a_body_is_two_constraints_too_many() {
 /// With the drive locked, two links on hinges of the crank keep a turn each.
 #[test]
 fn every_loose_link_of_a_chain_counts() {
-    let said = refused(&[
-        ("revolute", "0", "a", [0, 0]),
-        ("revolute", "a", "b", [1, 0]),
-        ("revolute", "a", "c", [2, 0]),
-    ]);
-    let AssurError::Underconstrained { freedoms, .. } = said else {
-        panic!("{said}");
-    };
-    assert_eq!(freedoms, 2);
+    let said = refused(
+        "0 | 0 a | revolute | 0, 0, 0 | 0, 0, 1 | drive = true
+         1 | a b | revolute | 1, 0, 0 | 0, 0, 1
+         2 | a c | revolute | 2, 0, 0 | 0, 0, 1",
+    );
+    assert!(
+        matches!(said, AssurError::Underconstrained { freedoms: 2, .. }),
+        "{said}"
+    );
 }
 
 /// Four links in a closed contour have that one, dyads none.

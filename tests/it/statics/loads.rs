@@ -2,10 +2,7 @@
 
 use super::read_planar;
 use crate::common::*;
-use ozols::model::loads::{ExternalForce, Inertia, MassProperties};
-use ozols::statics::cycle::planar_statics;
 use ozols::statics::kinetostatics::LoadSource;
-use ozols::statics::planar::PlanarMechanism;
 use ozols::statics::solve::{Model, SolvedReactions, solve_reactions};
 
 /// A four-bar 0-1-2-3 drawn by x and y, stood in the plane of `along` and `up`.

@@ -1,12 +1,9 @@
 //! Assembly forces of inaccurate joints, against a twin by displacements: each joint is a spring in its constrained directions, and the
 //! links move to where the energy is least. The program uses self-stresses, so the two share no equations.
 
+use crate::catalogue::solve_square;
 use crate::common::*;
-use ozols::geom::vector::to_vector;
-use ozols::model::joint_type::JointType;
 use ozols::model::loads::{Accuracy, Tolerances};
-use ozols::model::mechanism::{Mechanism, StateId};
-use ozols::model::ranking::Term;
 use ozols::statics::reactions::misfit::{Misfit, misfit, misfit_force};
 
 const TOLERANCES: Tolerances = Tolerances {
@@ -30,25 +27,6 @@ impl Normal {
         };
         (0..12).map(|_| unit()).sum::<f64>() - 6.0
     }
-}
-
-/// Solves a positive definite system.
-fn solve(mut a: Vec<Vec<f64>>, mut b: Vec<f64>) -> Vec<f64> {
-    let n = b.len();
-    for c in 0..n {
-        for r in c + 1..n {
-            let factor = a[r][c] / a[c][c];
-            let pivot = a[c].clone();
-            for (x, p) in a[r].iter_mut().zip(&pivot) {
-                *x -= factor * p;
-            }
-            b[r] -= factor * b[c];
-        }
-    }
-    for c in (0..n).rev() {
-        b[c] = (b[c] - (c + 1..n).map(|k| a[c][k] * b[k]).sum::<f64>()) / a[c][c];
-    }
-    b
 }
 
 /// The mean and the mean square of the force at each joint of a mechanism of hinges and tubes about z and balls, by displacements of the
@@ -106,6 +84,11 @@ fn forces_by_displacements(m: &Mechanism, samples: usize) -> Vec<[f64; 2]> {
     for (n, row) in stiff.iter_mut().enumerate() {
         row[n] += if n / 6 == frame.index() { 1e12 } else { 1e-3 };
     }
+    // By columns as by rows, for it is symmetric.
+    let unit = |n: usize| (0..free).map(|k| f64::from(u8::from(k == n))).collect_vec();
+    let inverse = (0..free)
+        .map(|n| solve_square(&stiff, &unit(n)))
+        .collect_vec();
     let mut random = Normal(7);
     let mut sums = vec![[0.0; 2]; points.len()];
     for _ in 0..samples {
@@ -130,7 +113,10 @@ fn forces_by_displacements(m: &Mechanism, samples: usize) -> Vec<[f64; 2]> {
                 *b += k * x * e;
             }
         }
-        let moved = solve(stiff.clone(), right);
+        let moved = inverse
+            .iter()
+            .map(|row| row.iter().zip(&right).map(|(a, b)| a * b).sum());
+        let moved: Vec<f64> = moved.collect();
         for ((sum, rows), errors) in sums.iter_mut().zip(&rows).zip(&errors) {
             let force = rows
                 .iter()

@@ -2,10 +2,8 @@
 
 use super::{read_planar, shears_text};
 use crate::common::*;
-use ozols::model::loads::Stroke;
 use ozols::statics::contour_group::equilibrium;
 use ozols::statics::contour_group::pose::GroupPose;
-use ozols::statics::cycle::planar_statics;
 use ozols::statics::pose::{cross, dot, length, minus, plus, quarter_turn};
 
 /// Moment of the loads on one link about a point: ΣF l + ΣM.

@@ -2,13 +2,11 @@
 
 use super::{read_planar, shears_text};
 use crate::common::*;
-use ozols::model::loads::Stroke;
 use ozols::statics::contour_group::pose::GroupPose;
 use ozols::statics::contour_group::stability::{
     DistanceErrors, Failure, at_distance, sample_errors,
 };
 use ozols::statics::contour_group::{delta_point, equilibrium, projective};
-use ozols::statics::cycle::planar_statics;
 
 fn base() -> GroupPose {
     let at = Stroke {

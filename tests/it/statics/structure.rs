@@ -3,72 +3,30 @@
 use crate::common::*;
 mod grown;
 
-use super::{
-    J, pair_named, planar_file, planar_mechanism, read_planar, sliding_joint, turning_joint,
-};
-use ozols::statics::assur::{AssurError, Decomposition, decompose_alternatives, decompose_groups};
+use super::{J, joints_of, pair_named, planar_mechanism, read_planar};
+use ozols::statics::assur::{AssurError, Decomposition, decompose_alternatives};
 use ozols::statics::assur_class::Kind;
-use ozols::statics::planar::{BodyId, PlanarMechanism};
+use ozols::statics::planar::BodyId;
 
-fn four_bar() -> Vec<J> {
-    vec![
-        turning_joint("0", "1", 0., 0.),
-        turning_joint("1", "2", 0., 1.),
-        turning_joint("2", "3", 3., 3.),
-        turning_joint("3", "0", 4., 0.),
-    ]
-}
+const FOUR_BAR: &str = "0-1 0 0, 1-2 0 1, 2-3 3 3, 3-0 4 0";
 
 /// Stephenson III: a four-bar 0-1-2-3 whose coupler carries the dyad 4-5.
 fn stephenson() -> Vec<J> {
-    let mut all = four_bar();
-    all.extend([
-        turning_joint("2", "4", 2., 4.),
-        turning_joint("4", "5", 6., 5.),
-        turning_joint("5", "0", 7., 0.),
-    ]);
-    all
+    joints_of(&format!("{FOUR_BAR}, 2-4 2 4, 4-5 6 5, 5-0 7 0"))
 }
 
 /// Watt I: four-bar 0-1-2-3, dyad 4-5 on coupler and rocker.
 fn watt() -> Vec<J> {
-    let mut all = four_bar();
-    all.extend([
-        turning_joint("2", "4", 2., 4.),
-        turning_joint("4", "5", 6., 5.),
-        turning_joint("5", "3", 5., 2.),
-    ]);
-    all
+    joints_of(&format!("{FOUR_BAR}, 2-4 2 4, 4-5 6 5, 5-3 5 2"))
 }
 
 /// Theo Jansen's leg: crank 1, and dyads (2, 3), (4, 5), (6, 7).
-fn jansen() -> Vec<J> {
-    vec![
-        turning_joint("0", "1", 0., 0.),
-        turning_joint("1", "2", 15., 0.),
-        turning_joint("2", "3", -30., 41.),
-        turning_joint("3", "0", -38., -8.),
-        turning_joint("1", "4", 15., 0.),
-        turning_joint("4", "5", -20., -45.),
-        turning_joint("5", "0", -38., -8.),
-        turning_joint("3", "6", -78., -5.),
-        turning_joint("6", "7", -62., -42.),
-        turning_joint("7", "5", -20., -45.),
-    ]
-}
+const JANSEN: &str = "0-1 0 0, 1-2 15 0, 2-3 -30 41, 3-0 -38 -8, 1-4 15 0, 4-5 -20 -45, 5-0 -38 -8, 3-6 -78 -5, \
+    6-7 -62 -42, 7-5 -20 -45";
 
 /// The four-link group with a closed contour: 4 (D; F, K), rods 6 and 7, slider 10 (M, L; guide), on a crank 3.
-fn closed_contour() -> Vec<J> {
-    vec![
-        turning_joint("0", "3", -2., 5.),
-        turning_joint("3", "4", 0., 5.),
-        turning_joint("4", "6", -1., 3.),
-        turning_joint("4", "7", 1., 3.),
-        turning_joint("6", "9", -0.6, 1.),
-        turning_joint("7", "9", 0.5, 1.),
-        sliding_joint("0", "9", 0., 0., [0., 1.]),
-    ]
-}
+const CLOSED_CONTOUR: &str =
+    "0-3 -2 5, 3-4 0 5, 4-6 -1 3, 4-7 1 3, 6-9 -0.6 1, 7-9 0.5 1, 0-9 0 0 0 1";
 
 fn decomposed(joints: &[J]) -> (PlanarMechanism, Decomposition) {
     let m = planar_mechanism(joints);
@@ -153,117 +111,64 @@ fn by_brute_force(m: &PlanarMechanism, driven: &[BodyId]) -> Vec<Vec<BodyId>> {
 
 #[test]
 fn published_mechanisms_have_their_published_groups() {
-    let (m, d) = decomposed(&four_bar());
-    assert_eq!(words(&m, &d), ["2+3: class II, order 2, dyad RRR"]);
+    const DYAD: &str = "class II, order 2, dyad RRR";
+    let groups = |joints: &[J], wanted: &[&str]| {
+        let (m, d) = decomposed(joints);
+        assert_eq!(words(&m, &d), wanted);
+        laws(&m, &d);
+    };
+    let dyads = |all: &[&str]| all.iter().map(|d| format!("{d}: {DYAD}")).collect_vec();
+    let as_dyads = |joints: &[J], all: &[&str]| {
+        let all = dyads(all);
+        groups(joints, &all.iter().map(String::as_str).collect_vec());
+    };
+    as_dyads(&joints_of(FOUR_BAR), &["2+3"]);
     // Norton, Design of Machinery; Artobolevsky: with the crank of the four-bar driving, Stephenson's
     // chain is of class II, driven from the dyad's side of class III.
-    let (m, d) = decomposed(&stephenson());
-    assert_eq!(
-        words(&m, &d),
-        [
-            "2+3: class II, order 2, dyad RRR",
-            "4+5: class II, order 2, dyad RRR"
-        ]
-    );
+    as_dyads(&stephenson(), &["2+3", "4+5"]);
+    let m = planar_mechanism(&stephenson());
     let d = decompose_groups(&m, &[pair_named(&m, "5-0")]).unwrap();
     assert_eq!(words(&m, &d), ["1+2+3+4: class III, order 3, triad"]);
     laws(&m, &d);
-    let (m, d) = decomposed(&watt());
-    assert_eq!(d.highest_class(), 2);
-    assert_eq!(d.groups.len(), 2);
-    laws(&m, &d);
-    let (m, d) = decomposed(&jansen());
-    assert_eq!(
-        words(&m, &d),
-        [
-            "2+3: class II, order 2, dyad RRR",
-            "4+5: class II, order 2, dyad RRR",
-            "6+7: class II, order 2, dyad RRR"
-        ]
-    );
-    laws(&m, &d);
+    as_dyads(&watt(), &["2+3", "4+5"]);
+    as_dyads(&joints_of(JANSEN), &["2+3", "4+5", "6+7"]);
     // [Bychkov, Dvornikov & Zhukov 2018] and the paper of 2004 they cite: four links in a closed contour, class IV.
-    let (m, d) = decomposed(&closed_contour());
-    assert_eq!(
-        words(&m, &d),
-        ["4+6+7+9: class IV, order 2, four links in a closed contour"]
-    );
-    laws(&m, &d);
+    let closed = "4+6+7+9: class IV, order 2, four links in a closed contour";
+    groups(&joints_of(CLOSED_CONTOUR), &[closed]);
 }
 
-/// Artobolevsky's table of dyads.
 #[test]
 fn dyads_have_their_species() {
-    let dyad = |a: bool, b: bool, c: bool| {
-        let joint = |x: &str, y: &str, at: (f64, f64), slide: bool, along| {
-            if slide {
-                sliding_joint(x, y, at.0, at.1, along)
-            } else {
-                turning_joint(x, y, at.0, at.1)
-            }
-        };
-        vec![
-            turning_joint("0", "1", 0., 0.),
-            joint("1", "2", (0., 1.), a, [1., 0.]),
-            joint("2", "3", (3., 3.), b, [1., 2.]),
-            joint("3", "0", (4., 0.), c, [0., 1.]),
-        ]
-    };
     for (pairs, species) in [
-        ((false, false, false), 1),
-        ((false, false, true), 2),
-        ((true, false, false), 2),
-        ((false, true, false), 3),
-        ((true, false, true), 4),
-        ((true, true, false), 5),
-        ((false, true, true), 5),
+        ("RRR", 1),
+        ("RRP", 2),
+        ("PRR", 2),
+        ("RPR", 3),
+        ("PRP", 4),
+        ("PPR", 5),
+        ("RPP", 5),
     ] {
-        let (_, d) = decomposed(&dyad(pairs.0, pairs.1, pairs.2));
-        assert_eq!(d.groups[0].class.kind, Kind::Dyad(species), "{pairs:?}");
+        let along = |i: usize, d: &'static str| if &pairs[i..=i] == "P" { d } else { "" };
+        let [a, b, c] = [along(0, "1 0"), along(1, "1 2"), along(2, "0 1")];
+        let dyad = format!("0-1 0 0, 1-2 0 1 {a}, 2-3 3 3 {b}, 3-0 4 0 {c}");
+        let (_, d) = decomposed(&joints_of(&dyad));
+        assert_eq!(d.groups[0].class.kind, Kind::Dyad(species), "{pairs}");
     }
 }
 
 #[test]
 fn groups_of_six_links_are_classified() {
     // Two bodies of three pairs joined, two leashes each: class III, order 4.
-    let chain = vec![
-        turning_joint("0", "1", 0., 0.),
-        turning_joint("1", "a", 1., 0.),
-        turning_joint("a", "S", 2., 1.),
-        turning_joint("0", "b", 1., 3.),
-        turning_joint("b", "S", 2., 3.),
-        turning_joint("S", "T", 4., 2.),
-        turning_joint("T", "c", 6., 1.),
-        turning_joint("c", "0", 7., 0.),
-        turning_joint("T", "d", 6., 3.),
-        turning_joint("d", "0", 7., 4.),
-    ];
-    let (_, d) = decomposed(&chain);
-    assert_eq!(
-        (d.groups.len(), d.highest_class(), d.groups[0].class.order),
-        (1, 3, 4)
-    );
-    assert_eq!(
-        (
-            d.groups[0].class.contours,
-            &d.groups[0].class.composition[..]
-        ),
-        (0, &[4, 2][..])
-    );
+    let chain =
+        "0-1 0 0, 1-a 1 0, a-S 2 1, 0-b 1 3, b-S 2 3, S-T 4 2, T-c 6 1, c-0 7 0, T-d 6 3, d-0 7 4";
+    let (_, d) = decomposed(&joints_of(chain));
+    let class = &d.groups[0].class;
+    assert_eq!((d.groups.len(), d.highest_class(), class.order), (1, 3, 4));
+    assert_eq!((class.contours, &class.composition[..]), (0, &[4, 2][..]));
     // A contour of five bodies, three of them with an outer pair and one carrying a leash ring: class V, order 3.
-    let ring = vec![
-        turning_joint("0", "1", 0., 0.),
-        turning_joint("1", "a", 1., 0.),
-        turning_joint("a", "b", 2., 2.),
-        turning_joint("b", "c", 4., 3.),
-        turning_joint("c", "d", 6., 2.),
-        turning_joint("d", "e", 6., 0.),
-        turning_joint("e", "a", 3., -1.),
-        turning_joint("c", "0", 5., 5.),
-        turning_joint("d", "f", 8., 1.),
-        turning_joint("f", "0", 9., 0.),
-    ];
-    let (_, d) = decomposed(&ring);
+    let ring =
+        "0-1 0 0, 1-a 1 0, a-b 2 2, b-c 4 3, c-d 6 2, d-e 6 0, e-a 3 -1, c-0 5 5, d-f 8 1, f-0 9 0";
+    let (_, d) = decomposed(&joints_of(ring));
     assert_eq!((d.groups.len(), d.highest_class()), (1, 5));
     assert_eq!(d.groups[0].class.order, 3);
 }
@@ -273,32 +178,14 @@ fn the_drive_decides_the_groups() {
     let m = planar_mechanism(&stephenson());
     let found = decompose_alternatives(&m, &m.driven_pairs());
     assert_eq!(found.len(), m.pairs.len());
-    let at_frame = found
+    let class = |d: &Result<Decomposition, _>| d.as_ref().unwrap().highest_class();
+    let classes = found
         .iter()
-        .take(3)
-        .map(|(q, _)| m.pairs[*q].name.as_str())
-        .collect_vec();
-    assert_eq!(at_frame, ["0-1", "3-0", "5-0"]);
-    let classes: Vec<(&str, usize)> = found
-        .iter()
-        .map(|(q, d)| {
-            (
-                m.pairs[*q].name.as_str(),
-                d.as_ref().unwrap().highest_class(),
-            )
-        })
-        .collect();
+        .map(|(q, d)| format!("{} {}", m.pairs[*q].name, class(d)));
+    // Those at the frame first.
     assert_eq!(
-        classes,
-        [
-            ("0-1", 2),
-            ("3-0", 2),
-            ("5-0", 3),
-            ("1-2", 2),
-            ("2-3", 2),
-            ("2-4", 3),
-            ("4-5", 3)
-        ]
+        classes.collect_vec().join(", "),
+        "0-1 2, 3-0 2, 5-0 3, 1-2 2, 2-3 2, 2-4 3, 4-5 3"
     );
     for (_, d) in found {
         laws(&m, &d.unwrap());
@@ -307,23 +194,17 @@ fn the_drive_decides_the_groups() {
 
 #[test]
 fn drives_that_do_not_fit_are_refused_with_names() {
-    let m = planar_mechanism(&four_bar());
+    let m = planar_mechanism(&joints_of(FOUR_BAR));
     let none = decompose_groups(&m, &[]).unwrap_err();
-    assert_eq!(
-        none,
-        AssurError::Underconstrained {
-            bodies: "1, 2, 3".into(),
-            freedoms: 1
-        }
-    );
+    let (bodies, freedoms) = ("1, 2, 3".into(), 1);
+    assert_eq!(none, AssurError::Underconstrained { bodies, freedoms });
     let two = decompose_groups(&m, &[0, 3]).unwrap_err();
     let AssurError::Overconstrained { excess: 1, bodies } = two else {
         panic!("{two}")
     };
     assert_eq!(bodies, "2");
     // A third rod on a parallelogram is redundant in the plane too.
-    let text = ozols::builtin::text("parallelogram-3-rods-planar").unwrap();
-    let m = PlanarMechanism::new(&read_planar(text), StateId::FREE).unwrap();
+    let m = PlanarMechanism::new(&built_in("parallelogram-3-rods-planar"), StateId::FREE).unwrap();
     assert!(matches!(
         decompose_groups(&m, &m.driven_pairs()),
         Err(AssurError::Overconstrained { excess: 1, .. })
@@ -333,37 +214,19 @@ fn drives_that_do_not_fit_are_refused_with_names() {
 #[test]
 fn several_drives_and_drives_between_moving_bodies() {
     // Five-bar with two cranks.
-    let mut five = planar_mechanism(&[
-        turning_joint("0", "1", 0., 0.),
-        turning_joint("1", "2", 0., 1.),
-        turning_joint("2", "3", 2., 3.),
-        turning_joint("3", "4", 4., 1.),
-        turning_joint("4", "0", 4., 0.),
-    ]);
+    let mut five = planar_mechanism(&joints_of("0-1 0 0, 1-2 0 1, 2-3 2 3, 3-4 4 1, 4-0 4 0"));
     five.pairs[4].drive = true;
     let d = decompose_groups(&five, &five.driven_pairs()).unwrap();
-    assert_eq!(
-        (d.driven.len(), words(&five, &d)),
-        (2, vec!["2+3: class II, order 2, dyad RRR".to_owned()])
-    );
+    assert_eq!(d.driven.len(), 2);
+    assert_eq!(words(&five, &d), ["2+3: class II, order 2, dyad RRR"]);
     laws(&five, &d);
     // A boom raised by a cylinder: the cylinder and its rod are one block of the dyad.
-    let boom = planar_mechanism(&[
-        sliding_joint("2", "3", 1., 1., [1., 1.]),
-        turning_joint("0", "1", 0., 1.),
-        turning_joint("0", "2", 0.5, 0.5),
-        turning_joint("3", "1", 3., 3.),
-    ]);
+    let boom = planar_mechanism(&joints_of("2-3 1 1 1 1, 0-1 0 1, 0-2 0.5 0.5, 3-1 3 3"));
     let d = decompose_groups(&boom, &boom.driven_pairs()).unwrap();
-    assert_eq!(d.groups[0].class.to_string(), "class II, order 2, dyad RRR");
-    assert_eq!(
-        (
-            d.groups[0].blocks.len(),
-            d.groups[0].bodies.len(),
-            d.groups[0].locked.len()
-        ),
-        (2, 3, 1)
-    );
+    let group = &d.groups[0];
+    assert_eq!(group.class.to_string(), "class II, order 2, dyad RRR");
+    let counts = [group.blocks.len(), group.bodies.len(), group.locked.len()];
+    assert_eq!(counts, [2, 3, 1]);
     laws(&boom, &d);
 }
 

@@ -2,8 +2,6 @@
 
 use super::served::Served;
 use crate::common::*;
-use proptest::prelude::*;
-use proptest::sample::select;
 
 /// Values that fit a key of a file now and then, and mostly do not.
 fn value() -> impl Strategy<Value = Value> {
@@ -84,7 +82,7 @@ proptest! {
     #[test]
     fn is_refused_or_can_be_undone(all in prop::collection::vec(sent(), 40)) {
         let folder = tempdir().unwrap();
-        let own = run_quiet(&["show", "gripper-10"]);
+        let own = run_quiet("show gripper-10");
         fs::write(folder.path().join("mine.toml"), &own).unwrap();
         let s = Served::new(folder.path(), &["mine.toml"]);
         let now = || s.status()["revision"].clone();

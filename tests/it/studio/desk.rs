@@ -7,54 +7,46 @@ fn spherical(joint: &str) -> Value {
     json!({ "edits": [{ "do": "set", "what": "joint", "id": joint, "key": "type", "value": "spherical" }], "revision": null })
 }
 
-fn names(folder: &Path) -> Vec<String> {
-    let all = fs::read_dir(folder).unwrap();
-    let mut all: Vec<String> = all
-        .map(|f| f.unwrap().file_name().into_string().unwrap())
-        .collect();
-    all.sort();
-    all
+/// A folder with a mechanism file, and its text.
+fn own_file(name: &str) -> (Folder, String) {
+    let own = run_quiet(&format!("show {name}"));
+    (Folder::with("mine.toml", &own), own)
+}
+
+/// The text after a change of a joint's type.
+fn edited(s: &Served, joint: &str) -> String {
+    s.done("edit", &spherical(joint))["text"].word().to_owned()
 }
 
 #[test]
 fn every_change_can_be_undone_to_the_byte() {
-    let folder = tempdir().unwrap();
-    let own = run_quiet(&["show", "gripper-10"]);
-    fs::write(folder.path().join("mine.toml"), &own).unwrap();
-    let s = Served::new(folder.path(), &["mine.toml"]);
-    let mut texts = vec![own.clone()];
-    for joint in ["1-2", "2-3", "4-5", "5-1", "1-6", "6-7", "8-9"] {
-        texts.push(s.done("edit", &spherical(joint))["text"].word().to_owned());
-    }
+    let (folder, own) = own_file("gripper-10");
+    let s = Served::new(&folder, &["mine.toml"]);
+    let mut texts = vec![own];
+    texts.extend(
+        split_words("1-2 2-3 4-5 5-1 1-6 6-7 8-9")
+            .iter()
+            .map(|j| edited(&s, j)),
+    );
     for text in texts.iter().rev().skip(1) {
         assert_eq!(s.done("undo", &json!({}))["text"], text.as_str());
     }
     assert_eq!(s.status()["desk"]["saved"], true);
-    assert_eq!(
-        names(folder.path()),
-        ["mine.toml"],
-        "what is saved is not kept twice"
-    );
-    assert_eq!(
-        s.done("undo", &json!({}))["text"],
-        Value::Null,
-        "there is no step before the first"
-    );
+    // What is saved is not kept twice, and there is no step before the first.
+    assert_eq!(folder.names(), ["mine.toml"]);
+    assert_eq!(s.done("undo", &json!({}))["text"], Value::Null);
     for text in texts.iter().skip(1) {
         assert_eq!(s.done("redo", &json!({}))["text"], text.as_str());
     }
     s.done("save", &json!({ "name": null }));
-    assert_eq!(
-        fs::read_to_string(folder.path().join("mine.toml")).unwrap(),
-        texts[7]
-    );
-    assert_eq!(names(folder.path()), ["mine.toml"]);
+    assert_eq!(folder.text("mine.toml"), texts[7]);
+    assert_eq!(folder.names(), ["mine.toml"]);
 }
 
 #[test]
 fn a_text_that_is_made_of_an_older_one_is_refused() {
-    let folder = tempdir().unwrap();
-    let s = Served::new(folder.path(), &["four-bar"]);
+    let folder = Folder::new();
+    let s = Served::new(&folder, &["four-bar"]);
     let first = s.status()["revision"].clone();
     s.done("edit", &spherical("1-2"));
     let whole = |revision: &Value| json!({ "edits": [{ "do": "text", "text": "name = \"x\"" }], "revision": revision });
@@ -62,96 +54,73 @@ fn a_text_that_is_made_of_an_older_one_is_refused() {
     window.next("look");
     assert_eq!(s.post("edit", &whole(&first)).0, 409);
     let sent = window.next("look")["text"].word().to_owned();
-    assert!(
-        sent.contains("spherical"),
-        "whoever was late gets what there is"
-    );
+    has(&sent, "spherical");
     s.done("edit", &whole(&s.status()["revision"]));
 }
 
 #[test]
 fn what_another_program_writes_is_taken_in_or_told() {
-    let folder = tempdir().unwrap();
-    let file = folder.path().join("mine.toml");
-    let own = run_quiet(&["show", "four-bar"]);
-    fs::write(&file, &own).unwrap();
-    let s = Served::new(folder.path(), &["mine.toml"]);
+    let (folder, own) = own_file("four-bar");
+    let s = Served::new(&folder, &["mine.toml"]);
+    let text_after = |what: &str, with: Value| s.done(what, &with)["text"].word().to_owned();
     // Nothing unsaved: taken in, and a step of undo.
-    let theirs = own.replace("# coupler, 100 mm", "# theirs");
-    fs::write(&file, &theirs).unwrap();
+    folder.put("mine.toml", own.replace("# coupler, 100 mm", "# theirs"));
     s.until(|v| v["revision"] == 2);
-    assert_eq!(s.done("undo", &json!({}))["text"], own.as_str());
-    let mine = s.done("edit", &spherical("1-2"))["text"].word().to_owned();
+    assert_eq!(text_after("undo", json!({})), own);
+    let mine = edited(&s, "1-2");
     // Something unsaved: told, and nothing written over.
     let again = own.replace("# coupler, 100 mm", "# again");
-    fs::write(folder.path().join("mine.toml~"), &again).unwrap();
-    fs::rename(folder.path().join("mine.toml~"), &file).unwrap();
+    folder.put("mine.toml~", &again);
+    fs::rename(folder.path("mine.toml~"), folder.path("mine.toml")).unwrap();
     s.until(|v| v["desk"]["conflict"] == true);
     assert_eq!(s.post("save", &json!({ "name": null })).0, 409);
-    assert_eq!(fs::read_to_string(&file).unwrap(), again);
-    let kept = s.done("settle", &json!({ "yes": true }));
-    assert_eq!(kept["text"], mine.as_str());
-    assert_eq!(
-        s.done("undo", &json!({}))["text"],
-        again.as_str(),
-        "theirs is a step away"
-    );
+    assert_eq!(folder.text("mine.toml"), again);
+    assert_eq!(text_after("settle", json!({ "yes": true })), mine);
+    // Theirs is a step away.
+    assert_eq!(text_after("undo", json!({})), again);
     s.done("redo", &json!({}));
     s.done("save", &json!({ "name": null }));
-    assert_eq!(fs::read_to_string(&file).unwrap(), mine);
+    assert_eq!(folder.text("mine.toml"), mine);
     // The other way round.
-    let unsaved = s.done("edit", &spherical("2-3"))["text"].word().to_owned();
-    fs::write(&file, &own).unwrap();
+    let unsaved = edited(&s, "2-3");
+    folder.put("mine.toml", &own);
     s.until(|v| v["desk"]["conflict"] == true);
-    assert_eq!(
-        s.done("settle", &json!({ "yes": false }))["text"],
-        own.as_str()
-    );
-    assert_eq!(s.done("undo", &json!({}))["text"], unsaved.as_str());
+    assert_eq!(text_after("settle", json!({ "yes": false })), own);
+    assert_eq!(text_after("undo", json!({})), unsaved);
 }
 
 #[test]
 fn work_of_a_killed_program_is_offered() {
-    let folder = tempdir().unwrap();
-    let own = run_quiet(&["show", "four-bar"]);
-    fs::write(folder.path().join("mine.toml"), &own).unwrap();
-    let mut first = Served::new(folder.path(), &["mine.toml"]);
-    let mine = first.done("edit", &spherical("1-2"))["text"]
-        .word()
-        .to_owned();
+    let (folder, own) = own_file("four-bar");
+    let served = || Served::new(&folder, &["mine.toml"]);
+    let mut first = served();
+    let mine = edited(&first, "1-2");
     // Another at work on the same file keeps its own, and takes that of the first for nobody's but its.
-    let second = Served::new(folder.path(), &["mine.toml"]);
+    let second = served();
     assert_eq!(second.status()["desk"]["left"], Value::Null);
-    second.done("edit", &spherical("2-3"));
-    assert_eq!(
-        names(folder.path()),
-        ["mine.toml", "mine.toml.autosave", "mine.toml.autosave-2"]
-    );
+    edited(&second, "2-3");
+    let all = ["mine.toml", "mine.toml.autosave", "mine.toml.autosave-2"];
+    assert_eq!(folder.names(), all);
     first.end(Some("-KILL"));
     drop(second);
-    let third = Served::new(folder.path(), &["mine.toml"]);
-    assert_eq!(third.status()["desk"]["left"], "mine.toml.autosave");
-    assert_eq!(
-        third.done("restore", &json!({ "yes": true }))["text"],
-        mine.as_str()
-    );
+    let third = served();
+    assert_eq!(third.status()["desk"]["left"], all[1]);
+    let restored = third.done("restore", &json!({ "yes": true }));
+    assert_eq!(restored["text"], mine.as_str());
     assert_eq!(third.done("undo", &json!({}))["text"], own.as_str());
     drop(third);
     // The work of the second is still there; thrown away, it is gone.
-    let fourth = Served::new(folder.path(), &["mine.toml"]);
-    assert_eq!(fourth.status()["desk"]["left"], "mine.toml.autosave-2");
+    let fourth = served();
+    assert_eq!(fourth.status()["desk"]["left"], all[2]);
     fourth.done("restore", &json!({ "yes": false }));
-    assert_eq!(names(folder.path()), ["mine.toml"]);
-    assert_eq!(
-        fs::read_to_string(folder.path().join("mine.toml")).unwrap(),
-        own
-    );
+    assert_eq!(folder.names(), ["mine.toml"]);
+    assert_eq!(folder.text("mine.toml"), own);
 }
 
 #[test]
 fn it_ends_with_its_last_window_and_with_ctrl_c() {
-    let folder = tempdir().unwrap();
-    let mut s = Served::new(folder.path(), &["four-bar"]);
+    let folder = Folder::new();
+    let mut s = Served::new(&folder, &["four-bar"]);
     let (mut one, two) = (s.window(), s.window());
     one.next("look");
     s.until(|v| v["windows"] == 2);
@@ -159,19 +128,15 @@ fn it_ends_with_its_last_window_and_with_ctrl_c() {
     s.until(|v| v["windows"] == 1);
     drop(one);
     assert_eq!(s.end(None), Some(0));
-    let mut s = Served::new(folder.path(), &["four-bar"]);
+    let mut s = Served::new(&folder, &["four-bar"]);
     assert_eq!(s.end(Some("-INT")), Some(130));
-    assert_eq!(
-        names(folder.path()),
-        [""; 0],
-        "what was not changed leaves nothing"
-    );
+    // What was not changed leaves nothing.
+    assert_eq!(folder.names(), [""; 0]);
 }
 
 #[test]
 fn what_cannot_be_opened_is_told() {
-    let folder = tempdir().unwrap();
-    fs::create_dir(folder.path().join("sub")).unwrap();
+    let folder = Folder::with("sub/x", "");
     for [file, words] in read_cases::<2>(
         r"
         - | standard input cannot be saved
@@ -181,81 +146,65 @@ fn what_cannot_be_opened_is_told() {
         new.json | neither a file nor a built-in mechanism
 ",
     ) {
-        let mut command = ozols(&["studio", "--no-open", file]);
-        let o = command.current_dir(folder.path()).output().unwrap();
-        assert_eq!(o.status.code(), Some(2), "{file}");
-        assert!(
-            utf8_text(&o.stderr).contains(words),
-            "{file}: {}",
-            utf8_text(&o.stderr)
-        );
+        folder.assert_fails(&["studio", "--no-open", file], words);
     }
 }
 
 #[test]
 fn a_file_that_is_wrong_is_opened_to_be_mended() {
-    let folder = tempdir().unwrap();
-    let own = run_quiet(&["show", "four-bar"]);
-    fs::write(
-        folder.path().join("mine.toml"),
-        own.replacen("revolute", "revolut", 1),
-    )
-    .unwrap();
-    let s = Served::new(folder.path(), &["mine.toml"]);
+    let own = run_quiet("show four-bar");
+    let folder = Folder::with("mine.toml", own.replacen("revolute", "revolut", 1));
+    folder.put("bytes.toml", [0xff, 0xfe]);
+    let s = Served::new(&folder, &["mine.toml"]);
     let look = s.window().next("look");
     let told = &look["told"][0];
     assert_eq!(told["about"], json!(["joint", 0]), "{told}");
-    assert!(told["words"].word().contains("unknown joint type"));
-    let mended = s.done("edit", &spherical("0-1"));
-    assert_eq!(mended["whole"], true);
-    fs::write(folder.path().join("bytes.toml"), [0xff, 0xfe]).unwrap();
-    let s = Served::new(folder.path(), &["bytes.toml"]);
+    has(told["words"].word(), "unknown joint type");
+    assert_eq!(s.done("edit", &spherical("0-1"))["whole"], true);
+    let s = Served::new(&folder, &["bytes.toml"]);
     let look = s.window().next("look");
-    assert!(look["told"][0]["words"].word().contains("not UTF-8"));
+    has(look["told"][0]["words"].word(), "not UTF-8");
 }
 
 /// All names for unsaved work are taken, so that it cannot be kept: the page is told so until it is saved or kept.
 #[test]
 fn work_that_cannot_be_kept_is_told_until_it_is_saved() {
-    let folder = tempdir().unwrap();
-    fs::write(
-        folder.path().join("mine.toml"),
-        run_quiet(&["show", "four-bar"]),
-    )
-    .unwrap();
-    let taken = |n: usize| match n {
-        1 => folder.path().join("mine.toml.autosave"),
-        _ => folder.path().join(format!("mine.toml.autosave-{n}")),
+    let (folder, _) = own_file("four-bar");
+    let number = |n: usize| {
+        if n == 1 {
+            String::new()
+        } else {
+            format!("-{n}")
+        }
     };
     for n in 1..=20 {
-        fs::create_dir(taken(n)).unwrap();
+        fs::create_dir(folder.path(&format!("mine.toml.autosave{}", number(n)))).unwrap();
     }
-    let mut s = Served::new(folder.path(), &["mine.toml"]);
-    let trouble = |s: &Served| s.status()["desk"]["trouble"].clone();
-    s.done("edit", &spherical("1-2"));
-    assert!(trouble(&s).is_string());
-    s.done("save", &json!({ "name": null }));
-    assert_eq!(trouble(&s), Value::Null);
-    s.done("edit", &spherical("2-3"));
-    assert!(trouble(&s).is_string());
-    s.done("save", &json!({ "name": "other.toml" }));
-    assert_eq!(trouble(&s), Value::Null);
+    let mut s = Served::new(&folder, &["mine.toml"]);
+    let is_told = |s: &Served| s.status()["desk"]["trouble"].is_string();
+    for (joint, name) in [("1-2", Value::Null), ("2-3", json!("other.toml"))] {
+        edited(&s, joint);
+        assert!(is_told(&s));
+        s.done("save", &json!({ "name": name }));
+        assert!(!is_told(&s));
+    }
+    // That is saved, too.
     s.done("undo", &json!({}));
-    assert_eq!(trouble(&s), Value::Null, "that is saved, too");
+    assert!(!is_told(&s));
     // With the last window closed the program is the one place where the work is.
-    let mine = s.done("edit", &spherical("0-1"))["text"].word().to_owned();
-    assert!(trouble(&s).is_string());
+    let mine = edited(&s, "0-1");
+    assert!(is_told(&s));
     let mut window = s.window();
     window.next("look");
     drop(window);
     s.until(|v| v["windows"] == 0);
     for _ in 0..60 {
-        std::thread::sleep(std::time::Duration::from_millis(100));
+        std::thread::sleep(Duration::from_millis(100));
         assert!(s.runs(), "the work is lost");
     }
-    fs::remove_dir(taken(7)).unwrap();
+    fs::remove_dir(folder.path("mine.toml.autosave-7")).unwrap();
     assert_eq!(s.end(None), Some(0));
-    assert_eq!(fs::read_to_string(taken(7)).unwrap(), mine);
+    assert_eq!(folder.text("mine.toml.autosave-7"), mine);
 }
 
 /// A limit on the size of files stands for a full disk; its signal ended the program once, and the work with it.
@@ -263,36 +212,23 @@ fn work_that_cannot_be_kept_is_told_until_it_is_saved() {
 #[test]
 fn a_full_disk_takes_no_work() {
     use std::process::Command;
-    let folder = tempdir().unwrap();
-    let own = run_quiet(&["show", "four-bar"]);
-    fs::write(folder.path().join("mine.toml"), &own).unwrap();
+    let (folder, own) = own_file("four-bar");
     let mut shell = Command::new("sh");
-    shell.args([
-        "-c",
-        "ulimit -S -f 1; exec \"$0\" \"$@\"",
-        env!("CARGO_BIN_EXE_ozols"),
-    ]);
-    let s = Served::run_by(shell, folder.path(), &["mine.toml"]);
-    let mine = s.done("edit", &spherical("1-2"))["text"].word().to_owned();
-    let told = s.status()["desk"]["trouble"].word().to_owned();
-    has(&told, "mine.toml.autosave");
+    let limited = "ulimit -S -f 1; exec \"$0\" \"$@\"";
+    shell.args(["-c", limited, env!("CARGO_BIN_EXE_ozols")]);
+    let s = Served::run_by(shell, &folder, &["mine.toml"]);
+    let mine = edited(&s, "1-2");
+    has(s.status()["desk"]["trouble"].word(), "mine.toml.autosave");
     let (code, told) = s.post("save", &json!({ "name": null }));
     assert_eq!(code, 422);
-    assert!(told["refused"].word().contains("mine.toml: "), "{told}");
-    assert_eq!(names(folder.path()), ["mine.toml"]);
-    assert_eq!(
-        fs::read_to_string(folder.path().join("mine.toml")).unwrap(),
-        own
-    );
-    let raised = Command::new("prlimit")
-        .args(["--fsize=unlimited", "--pid", &s.process()])
-        .status();
-    assert!(raised.unwrap().success());
+    has(told["refused"].word(), "mine.toml: ");
+    assert_eq!(folder.names(), ["mine.toml"]);
+    assert_eq!(folder.text("mine.toml"), own);
+    let mut raise = Command::new("prlimit");
+    let raised = raise.args(["--fsize=unlimited", "--pid", &s.process()]);
+    assert!(raised.status().unwrap().success());
     s.done("save", &json!({ "name": null }));
     assert_eq!(s.status()["desk"]["trouble"], Value::Null);
-    assert_eq!(
-        fs::read_to_string(folder.path().join("mine.toml")).unwrap(),
-        mine
-    );
-    assert_eq!(names(folder.path()), ["mine.toml"]);
+    assert_eq!(folder.text("mine.toml"), mine);
+    assert_eq!(folder.names(), ["mine.toml"]);
 }

@@ -2,18 +2,23 @@
 
 use super::served::Served;
 use crate::common::*;
-use std::io::{Read, Write};
+use std::io::Write;
 use std::net::TcpStream;
-use std::time::Duration;
 
 fn status(s: &Served, request: &str) -> u16 {
     s.raw(request.as_bytes()).0
 }
 
+/// A studio of the four-bar, and the empty folder that it runs in.
+fn served() -> (Folder, Served) {
+    let folder = Folder::new();
+    let s = Served::new(&folder, &["four-bar"]);
+    (folder, s)
+}
+
 #[test]
 fn who_has_not_the_token_or_comes_from_elsewhere_is_refused() {
-    let folder = tempdir().unwrap();
-    let s = Served::new(folder.path(), &["four-bar"]);
+    let (_folder, s) = served();
     let (host, token) = (&s.host, &s.token);
     let get =
         |path: &str, headers: &str| status(&s, &format!("GET {path} HTTP/1.1\r\n{headers}\r\n"));
@@ -63,8 +68,7 @@ fn who_has_not_the_token_or_comes_from_elsewhere_is_refused() {
 
 #[test]
 fn requests_are_bounded() {
-    let folder = tempdir().unwrap();
-    let s = Served::new(folder.path(), &["four-bar"]);
+    let (_folder, s) = served();
     let head = s.head("POST", "edit");
     let long = format!("{head}X: {}\r\n\r\n", "x".repeat(40 << 10));
     assert_eq!(status(&s, &long), 431);
@@ -99,78 +103,56 @@ fn requests_are_bounded() {
 
 #[test]
 fn no_path_leads_out_of_the_file() {
-    let folder = tempdir().unwrap();
-    fs::write(folder.path().join("secret.toml"), "name = \"secret\"\n").unwrap();
-    let s = Served::new(folder.path(), &["four-bar"]);
+    let folder = Folder::with("secret.toml", "name = \"secret\"\n");
+    let s = Served::new(&folder, &["four-bar"]);
     for path in split_words(
-"secret.toml ../secret.toml ..%2fsecret.toml picture/../../secret.toml picture/secret.svg export/../secret.toml
-            //etc/passwd",
-) {
+        "secret.toml ../secret.toml ..%2fsecret.toml picture/../../secret.toml picture/secret.svg
+         export/../secret.toml //etc/passwd",
+    ) {
         let (code, body) = s.get(path);
         assert_eq!(code, 404, "{path}");
-        assert!(!body.contains("secret\""), "{body}");
+        lacks(&body, "secret\"");
     }
-    for name in [
-        "../out.toml",
-        "/tmp/out.toml",
-        "sub/out.toml",
-        "out.txt",
-        ".out.toml",
-        "secret.toml",
-        "",
-        ".toml",
-        "a\nb.toml",
-        "c:\\out.toml",
-    ] {
+    let names = "../out.toml|/tmp/out.toml|sub/out.toml|out.txt|.out.toml|secret.toml||.toml|a\nb.toml|c:\\out.toml";
+    for name in names.split('|') {
         let (code, told) = s.post("save", &json!({ "name": name }));
         assert_eq!(code, 422, "{name}: {told}");
     }
     assert_eq!(s.post("begin", &json!({ "name": "../secret" })).0, 422);
-    let left: Vec<_> = fs::read_dir(folder.path()).unwrap().collect();
-    assert_eq!(left.len(), 1);
+    assert_eq!(folder.names(), ["secret.toml"]);
     s.done("save", &json!({ "name": "fine name.toml" }));
-    assert!(folder.path().join("fine name.toml").is_file());
+    assert!(folder.path("fine name.toml").is_file());
 }
 
 #[test]
 fn every_answer_keeps_others_out() {
-    let folder = tempdir().unwrap();
-    let s = Served::new(folder.path(), &["four-bar"]);
-    let mut stream = std::net::TcpStream::connect(&s.host).unwrap();
+    let (_folder, s) = served();
+    let mut stream = TcpStream::connect(&s.host).unwrap();
     let asked = format!("{}\r\n", s.head("GET", ""));
-    std::io::Write::write_all(&mut stream, asked.as_bytes()).unwrap();
+    stream.write_all(asked.as_bytes()).unwrap();
     let mut page = String::new();
-    std::io::Read::read_to_string(&mut stream, &mut page).unwrap();
-    has_all(
-        &page,
-        &[
-            "default-src 'none'; script-src 'self'; style-src 'self'",
-            "frame-ancestors 'none'",
-            "X-Content-Type-Options: nosniff",
-            "Referrer-Policy: no-referrer",
-            "Cache-Control: no-store",
-            "Cross-Origin-Resource-Policy: same-origin",
-        ],
-    );
-    // Nothing is run that does not come from an address of its own, and nothing comes from elsewhere.
-    assert!(!page.contains("<script>") && !page.contains("<style"));
-    for handler in [
-        " onclick=",
-        " onload=",
-        "javascript:",
-        "http-equiv",
-        "https://",
+    stream.read_to_string(&mut page).unwrap();
+    for part in [
+        "default-src 'none'; script-src 'self'; style-src 'self'",
+        "frame-ancestors 'none'",
+        "X-Content-Type-Options: nosniff",
+        "Referrer-Policy: no-referrer",
+        "Cache-Control: no-store",
+        "Cross-Origin-Resource-Policy: same-origin",
     ] {
-        assert!(!page.contains(handler), "{handler}");
+        has(&page, part);
     }
-    assert!(!s.get("studio.js").1.contains("https://"));
+    // Nothing is run that does not come from an address of its own, and nothing comes from elsewhere.
+    for part in "<script>|<style| onclick=| onload=|javascript:|http-equiv|https://".split('|') {
+        lacks(&page, part);
+    }
+    lacks(&s.get("studio.js").1, "https://");
 }
 
 /// Who sends a byte now and then is let go as early as who sends none.
 #[test]
 fn a_head_that_never_ends_is_let_go() {
-    let folder = tempdir().unwrap();
-    let s = Served::new(folder.path(), &["four-bar"]);
+    let (_folder, s) = served();
     let mut stream = TcpStream::connect(&s.host).unwrap();
     stream
         .set_read_timeout(Some(Duration::from_millis(250)))
@@ -189,8 +171,7 @@ fn a_head_that_never_ends_is_let_go() {
 /// Connections of others take no place of the windows, however many there are, and whether they say something or not.
 #[test]
 fn a_crowd_at_the_door_keeps_nobody_out() {
-    let folder = tempdir().unwrap();
-    let s = Served::new(folder.path(), &["four-bar"]);
+    let (_folder, s) = served();
     let mut window = s.window();
     window.next("look");
     let other = format!(

@@ -3,8 +3,6 @@
 use crate::common::*;
 use crate::fuzz::runs;
 use ozols::file::edit::{Edit, Thing, apply_edits};
-use proptest::prelude::*;
-use proptest::sample::{Index, select};
 
 fn set(what: Thing, id: &str, key: &str, value: Value) -> Edit {
     let (id, key) = (id.to_owned(), key.to_owned());
@@ -14,10 +12,6 @@ fn set(what: Thing, id: &str, key: &str, value: Value) -> Edit {
         key,
         value,
     }
-}
-
-fn read(text: &str) -> Mechanism {
-    mechanism_from_str("edited.toml", text).unwrap_or_else(|e| panic!("{e}\n{text}"))
 }
 
 /// What is written behind each `#`.
@@ -91,10 +85,7 @@ fn loads_and_couplings_are_tables_whose_comments_stay() {
     assert_eq!(read(&one).loads.forces.len(), 1);
     let noted = one.replace("link = \"2\"\n", "link = \"2\" # the coupler\n");
     let two = put(&noted, json!([force("2", -20.0), force("3", 5.0)]));
-    assert!(
-        two.contains("# the coupler") && two.contains("-20.0"),
-        "{two}"
-    );
+    has_all(&two, &["# the coupler", "-20.0"]);
     assert_eq!(read(&two).loads.forces.len(), 2);
     assert_eq!(
         put(&put(&two, json!([])), Value::Null)

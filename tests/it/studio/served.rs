@@ -1,10 +1,9 @@
 //! The program, served, and a plain client of it.
 
 use crate::common::*;
-use std::io::{BufRead, BufReader, Read, Write};
+use std::io::Write;
 use std::net::TcpStream;
-use std::process::{Child, Command, Stdio};
-use std::time::{Duration, Instant};
+use std::process::{Child, Command};
 
 /// Longer than any machine takes.
 const LONG: Duration = Duration::from_secs(120);
@@ -24,12 +23,12 @@ impl Drop for Served {
 }
 
 impl Served {
-    pub(super) fn new(folder: &Path, args: &[&str]) -> Served {
+    pub(super) fn new(folder: impl AsRef<Path>, args: &[&str]) -> Served {
         Served::run_by(Command::new(env!("CARGO_BIN_EXE_ozols")), folder, args)
     }
 
     /// The same by a command that runs the program with the arguments that follow.
-    pub(super) fn run_by(mut command: Command, folder: &Path, args: &[&str]) -> Served {
+    pub(super) fn run_by(mut command: Command, folder: impl AsRef<Path>, args: &[&str]) -> Served {
         let mut child = command
             .args(["studio", "--no-open", "--quiet"])
             .args(args)

@@ -17,7 +17,7 @@ from pathlib import Path
 
 # ozols lists no more, and counts them.
 MOST_LISTED = 14
-BEGIN, END = "<!-- chains beside geng -->", "<!-- end -->"
+BEGIN, END = "<!-- chains and geng -->", "<!-- end -->"
 
 
 def timed(command: str, times: int) -> tuple[str, float, float]:

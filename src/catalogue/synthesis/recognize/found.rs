@@ -45,7 +45,7 @@ pub enum NoStructure {
     #[error("{0} joints are driven where one is to be: mark it with drive = true")]
     Drives(usize),
     /// The driven joint is neither a hinge nor a slide.
-    #[error("the driven joint is no hinge and no slide in the plane of motion")]
+    #[error("the driven joint is neither a hinge nor a slide in the plane of motion")]
     DriveKind,
     /// A thread of a screw of an unknown kind.
     #[error(

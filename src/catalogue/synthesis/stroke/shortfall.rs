@@ -31,7 +31,7 @@ impl Limits {
         for (n, (goes, asked)) in far.into_iter().enumerate() {
             if let Some(why) = f.ends[n] {
                 let (reached, why) = (f.reached[n], why.words());
-                let words = format!("{goes} to {reached:.1} mm where {asked} mm is asked: {why}");
+                let words = format!("{goes} to {reached:.1} mm; {asked} mm required: {why}");
                 return Some(Shortfall {
                     is_of_reach: true,
                     words,
@@ -63,7 +63,7 @@ impl Limits {
                 "the greatest force of a jaw is {ratio:.1} times the least where {most} are allowed"
             )
         } else if task.motion == AskedMotion::Parallel && turn > PARALLEL {
-            format!("a jaw turns by {turn:.1}° where it is to be parallel")
+            format!("a jaw rotates by {turn:.1}°; it must stay parallel")
         } else if task.motion == AskedMotion::Swinging && !swings {
             "a jaw that is to swing has no hinge in the frame".to_owned()
         } else if (0..2).any(|k| room[k] > 0.0 && f.size[k] > room[k] + NOISE) {

@@ -110,7 +110,7 @@ pub(super) fn run_show(a: &Show) -> anyhow::Result<Done> {
     let file = plain::escape_control(&a.file.display().to_string()).into_owned();
     let export = format!("ozols catalog export {file} {id}");
     text += &format!(
-        "\nThe mechanism, and with idea 1 carried out:\n\n  {export} -o gripper.toml\n  {export} --idea 1 -o redesign.toml\n"
+        "\nExport the mechanism, or idea 1:\n\n  {export} -o gripper.toml\n  {export} --idea 1 -o redesign.toml\n"
     );
     a.to.write_all_of(text)
 }

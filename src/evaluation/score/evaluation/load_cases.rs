@@ -43,9 +43,7 @@ pub enum CaseError {
     )]
     Drives(usize),
     /// The drive does not go on to the part.
-    #[error(
-        "the drive cannot be followed to {0}, where the levers fit a part; look at `ozols analyze --stroke`"
-    )]
+    #[error("the drive cannot be followed to {0}, where the levers fit a part; analyze its stroke")]
     OutOfReach(f64),
 }
 

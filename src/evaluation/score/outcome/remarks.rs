@@ -2,7 +2,7 @@
 
 use crate::score::outcome::Outcome;
 use crate::score::outcome::symmetric::SymmetricBest;
-use crate::score::request::{JointOptions, Request};
+use crate::score::request::{Inserts, JointOptions, Request};
 use crate::search::answer::why_none::{Hopeless, Relaxation};
 use crate::search::question::conditions::SearchError;
 use crate::search::question::kept::Drives;
@@ -28,6 +28,12 @@ impl Remarks {
         let allow = self.offered.as_ref().map(|r| &r.allow[..]);
         allow.map_or(&[], |all| &all[asked.allow.len()..])
     }
+
+    /// Returns the joints in series that it offers besides those.
+    pub fn offered_unloading<'r>(&'r self, asked: &Request) -> &'r [Inserts] {
+        let inserts = self.offered.as_ref().map(|r| &r.unloading[..]);
+        inserts.map_or(&[], |all| &all[asked.unloading.len()..])
+    }
 }
 
 /// Returns a request with one condition eased.
@@ -47,7 +53,7 @@ pub fn ease_request(request: &Request, how: Relaxation) -> Request {
         Relaxation::Mobility(n) => out.max_mobility = Some(n),
         Relaxation::Changes(n) => out.max_changes = Some(n),
         Relaxation::OutputChange => out.allow_output_change = true,
-        Relaxation::FreeDrives => out.drives = Drives::Free,
+        Relaxation::FreeDrives => out.drives = Some(Drives::Free),
         Relaxation::LooseObject => out.allow_loose_object = true,
         Relaxation::PoseOnly => out.pose_only = true,
     }

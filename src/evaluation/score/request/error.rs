@@ -15,13 +15,13 @@ use thiserror::Error;
 #[non_exhaustive]
 pub enum RequestError {
     /// A pool that is none, or too large.
-    #[error("--pool must be from 1 to {most}")]
+    #[error("the pool must be from 1 to {most} variants")]
     Pool {
         /// The largest pool.
         most: usize,
     },
     /// No such link.
-    #[error("--hold: {mechanism} has no link {link}")]
+    #[error("{mechanism} has no link {link} to hold")]
     NoLink {
         /// Name of the mechanism.
         mechanism: String,
@@ -29,20 +29,16 @@ pub enum RequestError {
         link: String,
     },
     /// No such joint.
-    #[error("{flag}: {mechanism} has no joint {joint}")]
+    #[error("{mechanism} has no joint {joint}")]
     NoJoint {
-        /// Which part of the request.
-        flag: &'static str,
         /// Name of the mechanism.
         mechanism: String,
         /// The joint asked for.
         joint: String,
     },
     /// No such option.
-    #[error("{flag}: no joint of {mechanism} has an option named {option}, and no joint type is named so; there are: {}", known.join(", "))]
+    #[error("no joint of {mechanism} has an option named {option}, and no joint type has that name; there are: {}", known.join(", "))]
     NoOption {
-        /// Which part of the request.
-        flag: &'static str,
         /// Name of the mechanism.
         mechanism: String,
         /// The option asked for.
@@ -52,25 +48,23 @@ pub enum RequestError {
     },
     /// A type that no joint can take.
     #[error(
-        "{flag}: {option} does not allow the present motion of a joint of {mechanism} that it is meant for; name another type, or joints that it suits"
+        "{option} does not allow the motion that a joint of {mechanism} has now; name another type or other joints"
     )]
     LosesMotion {
-        /// Which part of the request.
-        flag: &'static str,
         /// Name of the mechanism.
         mechanism: String,
         /// The type.
         option: String,
     },
     /// A joint to which nothing is allowed.
-    #[error("--allow needs names of options: --allow {joint}=revolute,spherical")]
+    #[error("name the options to allow at {joint}, such as {joint}=revolute,spherical")]
     NoNames {
         /// The joint.
         joint: String,
     },
     /// A type that cannot be put in series.
     #[error(
-        "--unloading: {word} is no joint type to put in series at {joint}; there are: {}", known.join(", ")
+        "{word} is not a joint type that can be put in series at {joint}; there are: {}", known.join(", ")
     )]
     NoUnloading {
         /// The joint.
@@ -82,17 +76,15 @@ pub enum RequestError {
     },
     /// Unloading joints for a state that is not searched.
     #[error(
-        "--unloading {names} is meant for the joints that a state adds; search one with --state, or name joints: --unloading {names}=JOINT"
+        "unloading joints {names} without a place go to the joints that a state adds; search a state, or name joints: {names}=JOINT"
     )]
     NoPlace {
         /// The names given.
         names: String,
     },
     /// A joint or link that takes no part.
-    #[error("{flag}: {item} of {mechanism} takes no part in this search, it is there in state {} alone; add --state {}", states.join(", "), states[0])]
+    #[error("{item} of {mechanism} exists in state {} only; search state {}", states.join(", "), states[0])]
     Absent {
-        /// Which part of the request.
-        flag: &'static str,
         /// Name of the mechanism.
         mechanism: String,
         /// The joint or link, such as "link a".
@@ -102,7 +94,7 @@ pub enum RequestError {
     },
     /// Ranking by what only a state shows.
     #[error(
-        "ranking by harmful constraints needs the state that they are in; add --state, such as --state {state}"
+        "ranking by harmful constraints needs the state that adds them; search a state, such as {state}"
     )]
     HarmfulWhere {
         /// A state that there is.
@@ -129,7 +121,7 @@ pub enum RequestError {
     Costs(#[from] ImportError),
     /// Orbits of variants that are judged by singular values.
     #[error(
-        "--one-per-orbit needs exact geometry, and what is meant by these coordinates is not there exactly; {CURE}"
+        "one variant per symmetry orbit needs exact geometry, and these coordinates have none; {CURE}"
     )]
     NumericOrbits,
     /// The geometry has no image in a prime field.
@@ -165,6 +157,6 @@ pub enum RunError {
         why: ScoreError,
     },
     /// Too many variants to examine each.
-    #[error("{0} variants are too many for brute force; use --method diagram, or fewer --options")]
+    #[error("{0} variants are too many for brute force; use the diagram, or fewer options")]
     TooMany(BigUint),
 }

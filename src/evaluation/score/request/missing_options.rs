@@ -1,86 +1,124 @@
-//! Joint types that would help if a search finds nothing.
+//! Joint types and parts that would help if a search finds nothing.
 
-use crate::geom::vector::{Vector, across, cross, dot, length, scale, sub, to_vector, unit};
-use crate::model::joint_type::{Freedom, JointType};
-use crate::model::mechanism::{Joint, JointId, Mechanism};
-use crate::redundancy::duplicate_constraints::held_twice;
-use crate::redundancy::release::Release;
+use crate::model::joint_type::JointType;
+use crate::model::mechanism::{Joint, JointId, Mechanism, StateId};
 use crate::score::outcome::Outcome;
-use crate::score::request::unlisted::{framed_types, type_fits};
-use crate::score::request::{Check, JointOptions, List, Request};
+use crate::score::request::unlisted::{framed_types, named_part, type_fits};
+use crate::score::request::{Check, Inserts, JointOptions, List, Request};
 use crate::score::run::run;
+use crate::search::answer::single_changes::USUAL;
 use itertools::Itertools;
 
 /// Node budget of the search that tests whether they help.
-const NODES: usize = 100_000;
-/// A direction further than this from a span is outside.
-const OUTSIDE: f64 = 1e-6;
+const NODES: usize = 20_000;
+/// Number of the best variants whose joint types and parts are offered.
+const BEST: usize = 5;
+/// Joints in series with a screw, which keep its motion and let its nut tilt or shift.
+const NUTS: [&str; 4] = [
+    "gimbal-z",
+    "sliding-gimbal-x",
+    "sliding-gimbal-y",
+    "floating-nut-z",
+];
+/// Seats in place of a bolt or a ball.
+const GROOVES: [&str; 2] = ["ball-in-v-groove-x", "ball-in-v-groove-y"];
 
 impl Outcome {
-    /// Returns the request with more joint types at some joints, if nothing was found and a search with these types finds a variant. The
-    /// types are the cheapest ones with the cheapest freedoms that remove redundant constraints and add no motion.
+    /// Returns the request with more joint types or parts at some joints, if nothing was found and a search with these finds a variant.
+    /// The usual types come first, then all that need only a joint's own frame, at last those that have to be pressed together. Only
+    /// those are offered that the best variants use.
     pub fn would_help(&self) -> Option<Request> {
-        let wider = self.widen_request(self.cheapest_freedoms()?);
-        self.finds_variant(&wider).then_some(wider)
+        let pressed =
+            |t: &JointType| matches!(t, JointType::SphereOnPlane | JointType::CylinderOnPlane);
+        let firm = framed_types().filter(|t| !pressed(t)).collect_vec();
+        let lists = [USUAL.iter().collect(), firm, framed_types().collect_vec()];
+        lists.iter().find_map(|types| self.offer_types(types))
     }
 
-    /// Returns the joint types that free the cheapest duplicate constraints.
-    fn cheapest_freedoms(&self) -> Option<Vec<JointOptions>> {
-        let m = &self.search.mechanism;
-        // What no type has could not be named.
-        let free = |r: &Release| match *r {
-            Release::Freedom {
-                joint,
-                slides,
-                direction,
-            } => {
-                !m.joints[joint].drive
-                    && cheapest_type(m, joint, &[FreedMotion { slides, direction }]).is_some()
-            }
-            Release::Coupling(_) => false,
+    /// Returns the request with types that the best variants of a wider search use, if it finds any. Screws remain screws.
+    fn offer_types(&self, types: &[&JointType]) -> Option<Request> {
+        let (m, asked) = (&*self.search.mechanism, &self.request);
+        let mut wider = asked.clone();
+        let changeable = |j: &Joint| {
+            let named = asked.allow.iter().any(|rule| rule.joint == j.id);
+            j.is_in(StateId::FREE) && !j.drive && !named
         };
-        let held = held_twice(m, &|_| false, &free, None).ok()?;
-        if held.cheapest.is_empty() || held.cheapest.len() < held.range().1 {
-            return None;
+        for (id, j) in m.joints_with_ids().filter(|(_, j)| changeable(j)) {
+            let joint = j.id.clone();
+            if j.joint_type == JointType::Helical {
+                wider.unloading.push(Inserts {
+                    names: NUTS.map(str::to_owned).to_vec(),
+                    joints: vec![joint.clone()],
+                });
+                wider.forbid.push(all_changes(joint));
+                continue;
+            }
+            let bolt = matches!(j.joint_type, JointType::Fixed | JointType::Spherical);
+            let seats = GROOVES.iter().filter(|_| bolt);
+            let fits = |name: &&str| named_part(name).is_some_and(|t| type_fits(m, id, &t));
+            let types = types.iter().map(|t| t.name());
+            let more = types.chain(seats.copied()).filter(fits);
+            let names = own_names(j).chain(more).map(str::to_owned).unique();
+            let names = names.collect_vec();
+            if !asked.options.is_empty() {
+                wider.options.extend(names);
+            } else if !names.is_empty() {
+                wider.allow.push(JointOptions { joint, names });
+            }
         }
-        let releases = held.cheapest.iter().map(|&i| held.releases[i].1);
-        let of = releases.filter_map(|r| match r {
-            Release::Freedom {
-                joint,
-                slides,
-                direction,
-            } => Some((joint, FreedMotion { slides, direction })),
-            Release::Coupling(_) => None,
-        });
-        of.into_group_map()
-            .into_iter()
-            .sorted_by_key(|(joint, _)| *joint)
-            .map(|(joint, freed)| cheapest_type(m, joint, &freed))
-            .collect()
+        let used = self.changes_found(&wider)?;
+        let is_used = |joint: Option<&str>, name: &str| {
+            let here = |id: &str| joint.is_none_or(|j| j == id);
+            let mut parts = used.iter().filter(|(id, _)| here(id));
+            parts.any(|(_, to)| to.split(" + unloading ").any(|part| part == name))
+        };
+        let usual = self.offers_usual();
+        let new = |rule: &JointOptions| {
+            let joint = m.joint_named(&rule.joint).map(|j| &m.joints[j]);
+            let listed = |n: &String| joint.is_some_and(|j| own_names(j).contains(&n.as_str()));
+            !rule.names.is_empty() && (usual || !rule.names.iter().all(listed))
+        };
+        let names = wider.options.into_iter().unique();
+        let names = names.filter(|n| asked.options.contains(n) || is_used(None, n));
+        wider.options = names.collect();
+        let mut rules = wider.allow.split_off(asked.allow.len());
+        for rule in &mut rules {
+            rule.names.retain(|n| is_used(Some(&rule.joint), n));
+        }
+        wider.allow.extend(rules.into_iter().filter(new));
+        wider.forbid.truncate(asked.forbid.len());
+        for mut insert in wider.unloading.split_off(asked.unloading.len()) {
+            insert.names.retain(|n| is_used(Some(&insert.joints[0]), n));
+            if !insert.names.is_empty() {
+                wider.forbid.push(all_changes(insert.joints[0].clone()));
+                wider.unloading.push(insert);
+            }
+        }
+        Some(wider)
     }
 
-    /// Returns the request with more joint types: at all joints if it names types for all, else at the given joints.
-    fn widen_request(&self, allow: Vec<JointOptions>) -> Request {
-        let mut wider = self.request.clone();
-        if wider.options.is_empty() {
-            wider.allow.extend(allow);
-        } else {
-            let more = allow.into_iter().flat_map(|a| a.names);
-            wider.options = wider.options.into_iter().chain(more).unique().collect();
-        }
-        wider
+    /// Returns true if the usual types are offered, because the file lists none. A request that names other types excludes them.
+    fn offers_usual(&self) -> bool {
+        let m = &self.search.mechanism;
+        let usual = |(id, j): (JointId, &Joint)| {
+            let fits = |t: &&JointType| **t != j.joint_type && type_fits(m, id, t);
+            let names = USUAL.iter().filter(fits).map(JointType::name);
+            j.options.len() < 2 || names.eq(own_names(j))
+        };
+        m.joints_with_ids().all(usual)
     }
 
-    /// Returns whether a wider request finds a variant.
-    fn finds_variant(&self, wider: &Request) -> bool {
+    /// Returns the changes of the best variants of a wider request: joints by name, and what they become. `None` if it finds no variant.
+    fn changes_found(&self, wider: &Request) -> Option<Vec<(String, String)>> {
         // What is prepared already is not prepared again.
         let trial = Request {
             hold: Vec::new(),
-            unloading: Vec::new(),
+            unloading: wider.unloading[self.request.unloading.len()..].to_vec(),
             costs: None,
             as_written: true,
             rank: Vec::new(),
-            list: List::Top(1),
+            list: List::Top(BEST),
+            distinct: true,
             check: Check::None,
             poses: 0,
             nodes: NODES.min(wider.nodes),
@@ -88,47 +126,24 @@ impl Outcome {
         };
         let mut unranked = Mechanism::clone(&self.search.mechanism);
         unranked.edit().ranking = None;
-        run(unranked, &trial, &|| false, &mut |_| {})
-            .is_ok_and(|found| found.variants().next().is_some())
+        let found = run(unranked, &trial, &|| false, &mut |_| {}).ok()?;
+        let variants = found.variants().collect_vec();
+        let changes = variants.iter().flat_map(|v| v.list_changes());
+        let id = |j: JointId| self.search.mechanism.joints[j].id.clone();
+        let changes = changes.map(|c| (id(c.joint), c.to)).collect();
+        (!variants.is_empty()).then_some(changes)
     }
 }
 
-/// A motion that a joint is to be given.
-#[derive(Clone, Copy)]
-struct FreedMotion {
-    slides: bool,
-    direction: Vector,
+/// Returns the names of a joint's options, without that of the original joint.
+fn own_names(j: &Joint) -> impl Iterator<Item = &str> {
+    j.options.iter().skip(1).map(|o| o.name.as_str())
 }
 
-/// Returns the cheapest type that has the motions that a joint needs.
-fn cheapest_type(m: &Mechanism, joint: JointId, freed: &[FreedMotion]) -> Option<JointOptions> {
-    let here = &m.joints[joint];
-    // A contact at a point or a line has to be pressed together.
-    let pressed =
-        |t: &JointType| matches!(t, JointType::SphereOnPlane | JointType::CylinderOnPlane);
-    let cheap = framed_types().sorted_by_key(|t| (pressed(t), t.default_cost_milli()));
-    let mut fits =
-        cheap.filter(|t| freed.iter().all(|&f| has_motion(here, t, f)) && type_fits(m, joint, t));
-    Some(JointOptions {
-        joint: here.id.clone(),
-        names: vec![fits.next()?.name().to_owned()],
-    })
-}
-
-/// Returns whether a type in a joint's frame turns about, or slides along, a direction.
-fn has_motion(joint: &Joint, of: &JointType, freed: FreedMotion) -> bool {
-    let z = unit(to_vector(&joint.frame.axis));
-    let x = unit(across(to_vector(&joint.frame.reference), z));
-    let y = cross(z, x);
-    let axes = of
-        .freedoms()
-        .iter()
-        .filter_map(|f| match (f, freed.slides) {
-            (Freedom::Rx, false) | (Freedom::Tx, true) => Some(x),
-            (Freedom::Ry, false) | (Freedom::Ty, true) => Some(y),
-            (Freedom::Rz, false) | (Freedom::Tz, true) => Some(z),
-            _ => None,
-        });
-    let rest = axes.fold(freed.direction, |rest, a| sub(rest, scale(a, dot(rest, a))));
-    length(rest) < OUTSIDE
+/// Returns the rule that forbids all changes of a joint.
+fn all_changes(joint: String) -> JointOptions {
+    JointOptions {
+        joint,
+        names: Vec::new(),
+    }
 }

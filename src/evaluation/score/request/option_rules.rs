@@ -1,7 +1,7 @@
 //! Rules of a request for single links and joints: held links, and offered, allowed and forbidden options.
 
 use crate::model::mechanism::{JointId, JointOption, Mechanism, Parts, StateId};
-use crate::score::request::unlisted::framed_types;
+use crate::score::request::unlisted::{framed_types, named_part};
 use crate::score::request::{Inserts, JointOptions, Request, RequestError};
 use itertools::Itertools;
 
@@ -20,14 +20,12 @@ impl<'m> KnownOptions<'m> {
         KnownOptions { mechanism, names }
     }
 
-    /// Refuses names of a flag that no joint has and no type; a type that no joint is offered can be forbidden.
-    fn check_names(&self, names: &[String], flag: &'static str) -> Result<(), RequestError> {
-        let is_type = |n: &str| framed_types().any(|t| t.name() == n);
-        let unknown = |n: &&String| !self.names.contains(&n.as_str()) && !is_type(n);
+    /// Refuses names that no joint and no type or part has; a type that no joint is offered can be forbidden.
+    fn check_names(&self, names: &[String]) -> Result<(), RequestError> {
+        let unknown = |n: &&String| !self.names.contains(&n.as_str()) && named_part(n).is_none();
         match names.iter().find(unknown) {
             None => Ok(()),
             Some(option) => Err(RequestError::NoOption {
-                flag,
                 mechanism: self.mechanism.name.clone(),
                 option: option.clone(),
                 known: (self.names.iter().map(|k| (*k).to_owned()))
@@ -48,27 +46,25 @@ struct OptionRule<'r> {
 }
 
 impl<'r> OptionRule<'r> {
-    /// Reads the rules of one flag.
+    /// Reads the rules that allow options, or those that forbid them.
     fn read_rules(
         list: &'r [JointOptions],
         allow: bool,
         mechanism: &Mechanism,
         known: &KnownOptions<'_>,
     ) -> Result<Vec<OptionRule<'r>>, RequestError> {
-        let flag = if allow { "--allow" } else { "--forbid" };
         let mut rules = Vec::with_capacity(list.len());
         for JointOptions { joint: id, names } in list {
             let joint = mechanism
                 .joint_named(id)
                 .ok_or_else(|| RequestError::NoJoint {
-                    flag,
                     mechanism: mechanism.name.clone(),
                     joint: id.clone(),
                 })?;
             if allow && names.is_empty() {
                 return Err(RequestError::NoNames { joint: id.clone() });
             }
-            known.check_names(names, flag)?;
+            known.check_names(names)?;
             rules.push(OptionRule {
                 joint,
                 names,
@@ -103,7 +99,7 @@ impl Request {
         }
         let known = KnownOptions::of(mechanism);
         if !self.wants_any() {
-            known.check_names(&self.options, "--options")?;
+            known.check_names(&self.options)?;
         }
         let mut rules = OptionRule::read_rules(&self.allow, true, mechanism, &known)?;
         rules.extend(OptionRule::read_rules(
@@ -116,7 +112,7 @@ impl Request {
             let joints = mechanism.joint_ids();
             let joints = joints.filter(|&j| mechanism.joints[j].links.contains(&l));
             let item = || format!("link {}", mechanism.links[l].id);
-            self.takes_part(mechanism, "--hold", &joints.collect_vec(), item)?;
+            self.takes_part(mechanism, &joints.collect_vec(), item)?;
         }
         mechanism.edit().search.hold.extend(held);
         for (id, joint) in mechanism.joint_ids().zip(&mut mechanism.edit().joints) {
@@ -139,7 +135,6 @@ impl Request {
     fn takes_part(
         &self,
         mechanism: &Mechanism,
-        flag: &'static str,
         joints: &[JointId],
         item: impl Fn() -> String,
     ) -> Result<(), RequestError> {
@@ -154,7 +149,6 @@ impl Request {
             return Ok(());
         }
         Err(RequestError::Absent {
-            flag,
             mechanism: mechanism.name.clone(),
             item: item(),
             states,
@@ -179,12 +173,11 @@ impl Request {
                     let id = |joint: &String| {
                         let id = mechanism.joint_named(joint);
                         let id = id.ok_or_else(|| RequestError::NoJoint {
-                            flag: "--unloading",
                             mechanism: mechanism.name.clone(),
                             joint: joint.clone(),
                         })?;
                         let item = || format!("joint {joint}");
-                        self.takes_part(mechanism, "--unloading", &[id], item)?;
+                        self.takes_part(mechanism, &[id], item)?;
                         Ok(id)
                     };
                     named.iter().map(id).collect::<Result<_, RequestError>>()?
@@ -208,7 +201,7 @@ fn offer_unloading(mechanism: &mut Parts, at: JointId, name: &str) -> Result<(),
         known.state = None;
         return Ok(());
     }
-    let Some(joint_type) = framed_types().find(|t| t.name() == name) else {
+    let Some(joint_type) = named_part(name) else {
         let named = joint.unloading.iter().map(|u| u.name.clone());
         return Err(RequestError::NoUnloading {
             joint: joint.id.clone(),
@@ -218,8 +211,10 @@ fn offer_unloading(mechanism: &mut Parts, at: JointId, name: &str) -> Result<(),
                 .collect(),
         });
     };
-    joint
-        .unloading
-        .push(JointOption::in_frame_of(joint, joint_type));
+    let part = JointOption {
+        name: name.to_owned(),
+        ..JointOption::in_frame_of(joint, &joint_type)
+    };
+    joint.unloading.push(part);
     Ok(())
 }

@@ -140,7 +140,7 @@ impl Prepared {
             tell(format!("warning: {differ}; {CURE}"));
         } else {
             tell(format!(
-                "warning: {differ}. What is meant is not there for exact arithmetic, so variants are judged by singular values, \
+                "warning: {differ}. Exact arithmetic cannot represent the intended geometry, so variants are judged by singular values, \
                  and no figure is exact; {CURE}"
             ));
         }
@@ -152,12 +152,12 @@ impl Prepared {
 fn looks_measured(name: &str, w: &Rounded) -> String {
     if w.pi {
         format!(
-            "note: pi is no exact number ({w}); its digits are taken at their word, and no rounding of them changes a figure"
+            "note: pi is not an exact number ({w}); its digits are used as written, and rounding them changes no figure"
         )
     } else {
         format!(
-            "warning: the coordinates of {name} look measured ({w}). Exact and tolerant ranks agree on it as it \
-             is, but the search uses the coordinates as written; {CURE}"
+            "warning: the coordinates of {name} look measured ({w}). Exact and tolerant ranks agree for the original \
+             mechanism, but the search uses the coordinates as written; {CURE}"
         )
     }
 }

@@ -15,6 +15,36 @@ pub(in crate::score) fn framed_types() -> impl Iterator<Item = &'static JointTyp
     JointType::NAMED.iter().filter(fits)
 }
 
+/// Returns the type of a name: one that needs only a joint's own frame, or a part by its freedoms in that frame, such as
+/// `ball-in-v-groove-x`.
+pub(in crate::score) fn named_part(name: &str) -> Option<JointType> {
+    let sets = || (1..6).flat_map(|n| FRAME_FREEDOMS.into_iter().combinations(n));
+    let part = || sets().find(|set| name_of_set(set) == name);
+    let framed = framed_types().find(|t| t.name() == name).cloned();
+    framed.or_else(|| part().map(JointType::Custom))
+}
+
+/// Returns the freedoms of a part, as files have them; `None` if the name is not that of a part.
+///
+/// # Examples
+/// ```
+/// use ozols::score::request::unlisted::part_freedoms;
+/// assert_eq!(part_freedoms("floating-nut-z").unwrap(), ["rx", "ry", "tx", "ty"]);
+/// assert_eq!(part_freedoms("spherical"), None); // a joint type
+/// ```
+pub fn part_freedoms(name: &str) -> Option<Vec<&'static str>> {
+    match named_part(name)? {
+        JointType::Custom(set) => Some(set.iter().map(|f| f.name()).collect()),
+        _ => None,
+    }
+}
+
+/// The freedoms in a joint's frame.
+const FRAME_FREEDOMS: [Freedom; 6] = {
+    use Freedom::{Rx, Ry, Rz, Tx, Ty, Tz};
+    [Rx, Ry, Rz, Tx, Ty, Tz]
+};
+
 /// The word for every set of freedoms.
 const ANY: &str = "any";
 
@@ -48,12 +78,11 @@ impl Request {
     /// Offers every set of freedoms in its own frame at each joint that may change, except the set of all: 30 in
     /// addition to the original one at a hinge in space. A set that is a type has its name.
     fn offer_any(&self, mechanism: &mut Mechanism) {
-        use Freedom::{Rx, Ry, Rz, Tx, Ty, Tz};
         let changeable = |j: &JointId| is_changeable(&mechanism.joints[*j]);
         let all: Vec<JointId> = mechanism.joint_ids().filter(changeable).collect();
         let mechanism = &mut *mechanism.edit();
         for id in all {
-            let of_space = [Rx, Ry, Rz, Tx, Ty, Tz].into_iter();
+            let of_space = FRAME_FREEDOMS.into_iter();
             let own: Vec<Freedom> = of_space.filter(|&f| in_plane(mechanism, id, f)).collect();
             for set in own
                 .iter()
@@ -125,16 +154,15 @@ impl Request {
                 .flat_map(|j| j.options.iter().skip(1));
             offered.map(|o| o.name.clone()).unique().collect()
         };
-        let of_type = |name: &&String| framed_types().find(|t| t.name() == name.as_str()).cloned();
         let new = |name: &&String| !listed.contains(name);
-        let mut wanted: Vec<(&'static str, String, JointType, Vec<JointId>)> = Vec::new();
+        let mut wanted: Vec<(String, JointType, Vec<JointId>)> = Vec::new();
         for name in self.options.iter().filter(new).unique() {
-            if let Some(t) = of_type(&name) {
+            if let Some(t) = named_part(name) {
                 let all = mechanism
                     .joints_with_ids()
                     .filter(|(_, j)| is_changeable(j));
                 let all = all.map(|(id, _)| id).collect();
-                wanted.push(("--options", name.clone(), t, all));
+                wanted.push((name.clone(), t, all));
             }
         }
         for rule in &self.allow {
@@ -143,20 +171,19 @@ impl Request {
             };
             for name in &rule.names {
                 let there = mechanism.joints[at].options.iter().any(|o| o.name == *name);
-                if let (Some(t), false) = (of_type(&name), there) {
-                    wanted.push(("--allow", name.clone(), t, vec![at]));
+                if let (Some(t), false) = (named_part(name), there) {
+                    wanted.push((name.clone(), t, vec![at]));
                 }
             }
         }
         let mut parts = mechanism.edit();
-        for (flag, name, joint_type, at) in wanted {
+        for (name, joint_type, at) in wanted {
             let mut taken = false;
             for id in at {
                 taken |= offer_type(&mut parts, id, &joint_type);
             }
             if !taken {
                 return Err(RequestError::LosesMotion {
-                    flag,
                     mechanism: parts.name.clone(),
                     option: name,
                 });
@@ -194,11 +221,17 @@ fn name_of_set(set: &[Freedom]) -> String {
             ([true, true], [true, false]) => "ball-in-v-groove",
             ([false, true], [true, false]) => "blade-flexure",
             ([false, false], [true, true]) => "floating-nut",
+            ([false, false], [true, false]) => "gimbal",
             _ => return None,
         };
         Some(format!("{name}-{}", all[i].2))
     };
-    let named = (0..3).find_map(part);
+    // A gimbal about the joint's axis that slides along one of its pins.
+    let sliding = |i: usize| {
+        let alike = (0..3).all(|k| free(k) == [k != 2, k == i]);
+        alike.then(|| format!("sliding-gimbal-{}", all[i].2))
+    };
+    let named = (0..3).find_map(part).or_else(|| (0..2).find_map(sliding));
     named.unwrap_or_else(|| set.iter().map(|f| f.name()).join("+"))
 }
 

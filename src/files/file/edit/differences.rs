@@ -1,7 +1,7 @@
 //! The differences between two mechanisms, as changes to the file of the first: a redesign that keeps all comments.
 
 use super::change::{Edit, Thing};
-use crate::file::schema::{JointEntry, MechanismFile};
+use crate::file::schema::{JointEntry, MechanismFile, stripped_json};
 use serde_json::{Map, Value};
 
 /// The keys of a joint that a redesign may change.
@@ -39,8 +39,7 @@ pub fn find_differences(
     }
     for (old, new) in before.joint.iter().zip(&after.joint) {
         let in_file = own.joint.iter().find(|j| j.id == old.id);
-        let listed = in_file.is_some_and(|j| j.options.is_some());
-        out.extend(joint_changes(old, new, listed));
+        out.extend(joint_changes(old, new, in_file));
     }
     for joint in after.joint.iter().skip(before.joint.len()) {
         out.push(Edit::Add {
@@ -52,8 +51,11 @@ pub fn find_differences(
     out
 }
 
-/// Returns the changes that turn one joint into another, including its options if the file lists some that the new type exceeds.
-fn joint_changes(old: &JointEntry, new: &JointEntry, listed: bool) -> Vec<Edit> {
+/// Returns the changes that turn one joint into another, including its options if the file lists some that the new type exceeds, and
+/// its axis if the file has none, as of a ball.
+fn joint_changes(old: &JointEntry, new: &JointEntry, in_file: Option<&JointEntry>) -> Vec<Edit> {
+    let listed = in_file.is_some_and(|j| j.options.is_some());
+    let lacks_axis = old.kind != new.kind && in_file.is_some_and(|j| j.axis.is_none());
     let set = |key: &str, value: Value| Edit::Set {
         what: Thing::Joint,
         id: old.id.clone(),
@@ -64,15 +66,14 @@ fn joint_changes(old: &JointEntry, new: &JointEntry, listed: bool) -> Vec<Edit> 
     let [was, is] = [old, new].map(changed_keys);
     for key in KEYS.split(' ') {
         let [was, is] = [&was, &is].map(|k| k.get(key).cloned().unwrap_or_default());
-        if was != is {
+        if was != is || (key == "axis" && lacks_axis && !is.is_null()) {
             out.push(set(key, is));
         }
     }
     if let Some(kept) = new.options.as_ref().filter(|_| listed)
         && old.kind != new.kind
     {
-        let value = serde_json::to_value(kept).unwrap_or_default();
-        out.push(set("options", without_nothing(value)));
+        out.push(set("options", stripped_json(kept)));
     }
     out
 }
@@ -84,13 +85,14 @@ fn put_changes(before: &MechanismFile, after: &MechanismFile) -> Vec<Edit> {
         value,
     };
     let mut out = Vec::new();
-    if before.search.mirror != after.search.mirror {
-        let mirror = serde_json::to_value(&after.search.mirror).unwrap_or_default();
-        out.push(put(&["search", "mirror"], mirror));
-    }
-    if before.search.turn != after.search.turn {
-        let turn = serde_json::to_value(&after.search.turn).unwrap_or_default();
-        out.push(put(&["search", "turn"], turn));
+    let searches = [before, after].map(|f| stripped_json(&f.search));
+    for key in ["mirror", "turn"] {
+        let [was, is] = searches.each_ref().map(|s| &s[key]);
+        if was != is {
+            let none = || Value::Array(Vec::new());
+            let value = Some(is.clone()).filter(|v| !v.is_null());
+            out.push(put(&["search", key], value.unwrap_or_else(none)));
+        }
     }
     // A basis that is omitted is computed again.
     let count = |f: &MechanismFile| f.contour.iter().map(|c| c.joints.len()).sum::<usize>();
@@ -102,27 +104,11 @@ fn put_changes(before: &MechanismFile, after: &MechanismFile) -> Vec<Edit> {
 
 /// Returns an entry without values that equal their default.
 fn changed_keys(joint: &JointEntry) -> Map<String, Value> {
-    let value = without_nothing(serde_json::to_value(joint).unwrap_or_default());
-    let map = match value {
+    let map = match stripped_json(joint) {
         Value::Object(map) => map,
         _ => Map::new(),
     };
     // A written joint lists all options; those of the file are listed elsewhere.
     let told = |k: &str| !matches!(k, "options" | "unloading" | "forbid" | "tolerance");
     map.into_iter().filter(|(k, _)| told(k)).collect()
-}
-
-fn without_nothing(value: Value) -> Value {
-    match value {
-        Value::Object(map) => {
-            let kept = map.into_iter().filter(|(_, v)| {
-                !v.is_null()
-                    && *v != Value::Bool(false)
-                    && v.as_array().is_none_or(|a| !a.is_empty())
-            });
-            Value::Object(kept.map(|(k, v)| (k, without_nothing(v))).collect())
-        }
-        Value::Array(list) => Value::Array(list.into_iter().map(without_nothing).collect()),
-        other => other,
-    }
 }

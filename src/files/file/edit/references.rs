@@ -4,31 +4,25 @@ use super::change::Thing;
 use toml_edit::{Array, DocumentMut, Item, Table, Value};
 
 /// Lists of ids: their paths, and the kinds of items that they name. `*` is every table of a list.
-const LISTS: [(&[&str], Thing); 9] = [
+const LISTS: [(&[&str], Thing); 7] = [
     (&["joint", "*", "links"], Thing::Link),
     (&["search", "hold"], Thing::Link),
     (&["search", "mirror"], Thing::Joint),
     (&["search", "turn"], Thing::Joint),
-    (&["contour", "*", "joints"], Thing::Joint),
-    (&["coupling", "*", "joints"], Thing::Joint),
     (&["workload", "grip", "contacts"], Thing::Joint),
     (&["workload", "grip", "lever_joints"], Thing::Joint),
     (&["workload", "drive", "disc_link"], Thing::Link),
 ];
 
-/// Tables of lists that name one item by a key, and have no meaning without it.
-const TABLES: [(&[&str], &str, Thing); 5] = [
+/// Tables of lists that name items by a key, and have no meaning without one of them.
+const TABLES: [(&[&str], &str, Thing); 7] = [
     (&["point"], "link", Thing::Link),
+    (&["contour"], "joints", Thing::Joint),
+    (&["coupling"], "joints", Thing::Joint),
     (&["workload", "force"], "link", Thing::Link),
     (&["workload", "moment"], "link", Thing::Link),
     (&["workload", "contact"], "joint", Thing::Joint),
     (&["workload", "misalignment"], "joint", Thing::Joint),
-];
-
-/// Lists in which a removed name removes its neighbours: a pair needs both.
-const TOGETHER: [(&[&str], &str, Thing); 2] = [
-    (&["contour"], "joints", Thing::Joint),
-    (&["coupling"], "joints", Thing::Joint),
 ];
 
 fn id_of(table: &Table) -> Option<&str> {
@@ -102,8 +96,7 @@ pub(super) fn remove_references(root: &mut Table, what: Thing, id: &str) {
             }
         });
     }
-    let single = TABLES.iter().map(|t| (t.0, t.1, t.2));
-    for (path, key, _) in single.chain(TOGETHER).filter(|(.., of)| *of == what) {
+    for (path, key, _) in TABLES.iter().filter(|(.., of)| *of == what) {
         visit_path(root, path, &mut |item| {
             if let Some(tables) = item.as_array_of_tables_mut() {
                 tables.retain(|t| {

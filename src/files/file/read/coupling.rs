@@ -72,27 +72,13 @@ fn read_end(mechanism: &Parts, word: &str, at: &Place<'_>) -> Option<CoupledFree
 }
 
 /// Returns the freedom that a word names, or the only one of its joint.
-fn freedom_of(
-    mechanism: &Parts,
-    joint: JointId,
-    word: Option<&str>,
-) -> Result<CoupledFreedom, ProblemKind> {
-    let (id, t) = (
-        mechanism.joints[joint].id.clone(),
-        &mechanism.joints[joint].joint_type,
-    );
-    let coupled: Vec<Freedom> = t
-        .freedoms()
-        .iter()
-        .copied()
-        .filter(|&f| is_definite(t, f) && in_plane(mechanism, joint, f))
-        .collect();
-    let known = || {
-        coupled
-            .iter()
-            .map(|f| format!("{id}:{}", f.name()))
-            .collect_vec()
-    };
+fn freedom_of(m: &Parts, j: JointId, word: Option<&str>) -> Result<CoupledFreedom, ProblemKind> {
+    let named = &m.joints[j];
+    let (id, t) = (&named.id, &named.joint_type);
+    let coupled = t.freedoms().iter().copied();
+    let coupled = coupled.filter(|&f| is_definite(t, f) && in_plane(m, j, f));
+    let coupled: Vec<Freedom> = coupled.collect();
+    let known = || coupled.iter().map(|f| format!("{id}:{}", f.name()));
     let freedom = match (word, t.freedoms(), coupled.as_slice()) {
         (_, _, []) => {
             return Err(format!(
@@ -117,7 +103,7 @@ fn freedom_of(
             }
         },
     };
-    Ok(CoupledFreedom { joint, freedom })
+    Ok(CoupledFreedom { joint: j, freedom })
 }
 
 /// Returns true if a freedom has a coordinate. A spherical joint's rotation about one of its axes has none, because the three

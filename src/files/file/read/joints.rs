@@ -1,6 +1,7 @@
 //! The joints: ends, type, place, the states they act in.
 
 use crate::closure::contour::closed_walk;
+use crate::closure::tree::spanning_forest;
 use crate::file::problem::ProblemKind;
 use crate::file::read::resolve::{
     check_frame, joint_type, missing_message, motion_name, read_option, takes_no,
@@ -25,10 +26,8 @@ const MOST_STATES: usize = 100;
 pub(crate) fn read_states(file: &MechanismFile, out: &Findings) -> Vec<String> {
     let named = file.joint.iter().filter_map(|j| j.state.as_ref());
     let named = named.flat_map(|w| w.word_list()).cloned();
-    let mut states = std::iter::once("free".to_owned())
-        .chain(named)
-        .unique()
-        .collect_vec();
+    let states = std::iter::once("free".to_owned()).chain(named).unique();
+    let mut states = states.collect_vec();
     out.key("joint")
         .count_within(MOST_STATES, states.len(), "states");
     states.truncate(MOST_STATES);
@@ -148,18 +147,12 @@ fn read_place(entry: &JointEntry, joint_type: &JointType, at: &Place<'_>) -> Fra
     let (joint, kind) = (&entry.id, &entry.kind);
     let missing = |what| at.add_problem(missing_message(joint, kind, what));
     let point = at.key("point").read_vector(&entry.point);
-    let axis = entry
-        .axis
-        .as_ref()
-        .map(|v| at.key("axis").read_direction(v));
+    let axis = at.read_given("axis", entry.axis.as_ref(), Place::read_direction);
     if axis.is_none() && !matches!(joint_type, JointType::Spherical | JointType::Fixed) {
         missing("an axis, such as axis = [0, 0, 1]");
     }
     let axis = axis.unwrap_or_else(|| [0, 0, 1].map(Expr::from));
-    let reference = entry
-        .reference
-        .as_ref()
-        .map(|v| at.key("reference").read_direction(v));
+    let reference = at.read_given("reference", entry.reference.as_ref(), Place::read_direction);
     let screws = joint_type.freedoms().contains(&Freedom::Screw);
     let stated = [("pitch", &entry.pitch), ("lead", &entry.lead)];
     match (stated.into_iter().find(|s| s.1.is_some()), screws) {
@@ -217,10 +210,8 @@ pub(crate) fn read_links(file: &MechanismFile, out: &Findings) -> Vec<Link> {
 /// all motions.
 fn mark_outputs(file: &MechanismFile, links: &mut [Link]) {
     let is_free = |w: &Words| w.word_list().iter().any(|s| s == "free");
-    let free = file
-        .joint
-        .iter()
-        .filter(|j| j.state.as_ref().is_none_or(is_free));
+    let free = file.joint.iter();
+    let free = free.filter(|j| j.state.as_ref().is_none_or(is_free));
     let there: BTreeSet<&String> = free.flat_map(|j| &j.links).collect();
     for link in links {
         if link.role == Role::Inner && there.contains(&link.id) {
@@ -239,22 +230,15 @@ pub(crate) fn check_connected(mechanism: &Parts, out: &Findings) {
         }
     }
     for (s, state) in mechanism.states_with_ids() {
-        let mut reached = vec![mechanism.frame_link()];
-        let mut next = 0;
         let joints: Vec<JointId> = mechanism.joints_in(s).collect();
-        while let Some(&l) = reached.get(next) {
-            next += 1;
-            for &j in &joints {
-                let [a, b] = mechanism.joints[j].links;
-                for (from, to) in [(a, b), (b, a)] {
-                    if from == l && !reached.contains(&to) {
-                        reached.push(to);
-                    }
-                }
-            }
-        }
+        let ends = joints
+            .iter()
+            .map(|&j| mechanism.joints[j].links.map(LinkId::index));
+        let (count, frame) = (mechanism.links.len(), mechanism.frame_link());
+        let (_, steps) = spanning_forest(count, ends, |_| false, [frame.index()]);
+        let reached: BTreeSet<usize> = steps.iter().map(|s| s.link).collect();
         let all = mechanism.links_with_ids();
-        for (l, link) in all.filter(|(l, _)| !reached.contains(l)) {
+        for (l, link) in all.filter(|(l, _)| *l != frame && !reached.contains(&l.index())) {
             let here = joints
                 .iter()
                 .any(|&j| mechanism.joints[j].links.contains(&l));

@@ -113,21 +113,16 @@ pub(crate) fn joint_type(
             return Some(JointType::Custom(list));
         }
         ("custom", None) => {
-            at.add_problem(missing_message(
-                joint,
-                kind,
-                "freedoms, such as freedoms = [\"rz\", \"tx\"]",
-            ));
+            let what = "freedoms, such as freedoms = [\"rz\", \"tx\"]";
+            at.add_problem(missing_message(joint, kind, what));
         }
         (_, Some(_)) if known.is_some() => {
-            at.key("freedoms")
-                .add_problem(takes_no(joint, kind, "freedoms"));
+            let problem = takes_no(joint, kind, "freedoms");
+            at.key("freedoms").add_problem(problem);
         }
         _ => {
-            let known = JointType::NAMED
-                .iter()
-                .map(JointType::name)
-                .chain(["custom"]);
+            let known = JointType::NAMED.iter().map(JointType::name);
+            let known = known.chain(["custom"]);
             at.key("type").add_unknown_word("joint type", kind, known);
         }
     }
@@ -192,11 +187,9 @@ pub(crate) fn read_option(
         }
         known.map(StateId::new)
     });
+    let name = table.name.clone();
     Some(JointOption {
-        name: table
-            .name
-            .clone()
-            .unwrap_or_else(|| motion_name(&joint_type)),
+        name: name.unwrap_or_else(|| motion_name(&joint_type)),
         joint_type,
         frame,
         cost_milli: table.cost.and_then(|c| at.key("cost").read_cost(c)),
@@ -206,15 +199,9 @@ pub(crate) fn read_option(
 
 /// Returns the frame of an option; values that its table omits are those of the joint.
 fn option_frame(joint: &str, present: &Frame, table: &OptionTable, at: &Place<'_>) -> Frame {
-    let axis = table
-        .axis
-        .as_ref()
-        .map(|v| at.key("axis").read_direction(v));
+    let axis = at.read_given("axis", table.axis.as_ref(), Place::read_direction);
     let axis = axis.unwrap_or_else(|| present.axis.clone());
-    let reference = table
-        .reference
-        .as_ref()
-        .map(|v| at.key("reference").read_direction(v));
+    let reference = at.read_given("reference", table.reference.as_ref(), Place::read_direction);
     let own = || Some(present.reference.clone()).filter(|r| !are_parallel(r, &axis));
     let reference = reference.or_else(own);
     let pitch = at.read_pitch(&table.pitch, &table.lead);
@@ -225,13 +212,9 @@ fn option_frame(joint: &str, present: &Frame, table: &OptionTable, at: &Place<'_
         return check_frame(joint, point, axis, reference, pitch, at);
     }
     // These directions are already checked.
-    let reference = present.reference.clone();
-    Frame {
-        point,
-        axis,
-        reference,
-        pitch,
-    }
+    let mut frame = present.clone();
+    (frame.point, frame.pitch) = (point, pitch);
+    frame
 }
 
 /// Returns true if one joint allows every motion of another at the same place, computed exactly over a prime field. `None` if the

@@ -10,7 +10,9 @@ use crate::file::{Findings, Place};
 use crate::geom::extent::box_diagonal;
 use crate::geom::vector::to_vector;
 use crate::model::joint_type::JointType;
-use crate::model::mechanism::{Frame, Joint, JointId, JointOption, Parts, SearchSpec, StateId};
+use crate::model::mechanism::{
+    Drives, Frame, Joint, JointId, JointOption, Parts, SearchSpec, StateId,
+};
 use crate::model::ranking::{ClearanceSum, Limit, Order, Ranking, Term, TypeOverride};
 use itertools::Itertools;
 
@@ -78,12 +80,9 @@ fn read_allowed_option(
     // A bad entry of the common list would be reported once per joint.
     let before = at.out.problem_count();
     let option = read_option(&entry.id, present, item, states, at)?;
-    (at.out.problem_count() == before
-        && !entry
-            .forbid
-            .iter()
-            .any(|f| *f == option.name || JointType::word_of_trade(f) == option.name))
-    .then_some(option)
+    let is_it = |f: &String| *f == option.name || JointType::word_of_trade(f) == option.name;
+    let allowed = !entry.forbid.iter().any(is_it);
+    (at.out.problem_count() == before && allowed).then_some(option)
 }
 
 /// Joints that differ by more than this are not mirror images, regardless of the rounding of their coordinates. As an angle in radians, and
@@ -115,6 +114,12 @@ pub(crate) fn read_search(file: &MechanismFile, mechanism: &Parts, out: &Finding
         max_redundant: file.search.max_redundant.unwrap_or(0),
         max_mobility: file.search.max_mobility,
         symmetric: file.search.symmetric,
+        drive_rule: at.read_word(
+            "drives",
+            &file.search.drives,
+            &Drives::ALL.map(|d| (d.word(), d)),
+        ),
+        pose_only: file.search.pose_only,
         ..SearchSpec::default()
     };
     let hold = at.key("hold");
@@ -170,8 +175,8 @@ const MOST: usize = 100;
 fn read_term(word: &str, at: &Place<'_>) -> Option<Term> {
     let found = Term::from_name(word);
     if found.is_none() {
-        at.key("term")
-            .add_unknown_word("term", word, Term::ALL.map(Term::name));
+        let at = at.key("term");
+        at.add_unknown_word("term", word, Term::ALL.map(Term::name));
     }
     found
 }
@@ -180,26 +185,14 @@ fn read_term(word: &str, at: &Place<'_>) -> Option<Term> {
 pub(crate) fn read_ranking(file: &MechanismFile, m: &Parts, out: &Findings) -> Option<Ranking> {
     let entry = file.ranking.as_ref()?;
     let at = &out.key("ranking");
+    let sums = [("worst", ClearanceSum::Worst), ("rms", ClearanceSum::Rms)];
     Some(Ranking {
         order: at.read_word("order", &entry.order, &Order::ALL.map(|(o, w)| (w, o))),
-        clearance: read_clearance(entry, at),
+        clearance: at.read_word("clearance", &entry.clearance, &sums),
         terms: read_terms(entry, &at.key("terms")),
         limits: read_limits(entry, &at.key("limits")),
         states: ranked_states(entry, m, &at.key("states")),
     })
-}
-
-/// Returns the rule for adding clearances.
-fn read_clearance(entry: &RankingEntry, at: &Place<'_>) -> ClearanceSum {
-    match entry.clearance.as_deref() {
-        None | Some("worst") => ClearanceSum::Worst,
-        Some("rms") => ClearanceSum::Rms,
-        Some(word) => {
-            let at = at.key("clearance");
-            at.add_unknown_word("sum of clearances", word, ["worst", "rms"]);
-            ClearanceSum::Worst
-        }
-    }
 }
 
 /// Returns the terms with their weights.
@@ -250,11 +243,8 @@ fn ranked_states(entry: &RankingEntry, m: &Parts, at: &Place<'_>) -> Vec<StateId
         let found = m.state_named(word).filter(counts);
         if found.is_none() {
             let what = "state to rank in (free, or one with the contacts of [workload.grip])";
-            at.add_unknown_word(
-                what,
-                word,
-                m.state_ids().filter(counts).map(|s| &m.states[s]),
-            );
+            let known = m.state_ids().filter(counts).map(|s| &m.states[s]);
+            at.add_unknown_word(what, word, known);
         }
         states.extend(found);
     }
@@ -286,18 +276,17 @@ pub(crate) fn joint_types(
         check_figures(entry, &at);
         let milli = entry.cost.and_then(|c| at.key("cost").read_cost(c));
         costs.extend(milli.map(|milli| (name.to_owned(), milli)));
-        let says = TypeOverride {
-            name: name.to_owned(),
-            capacity_force: entry.capacity_force,
-            capacity_moment: entry.capacity_moment,
-            clearance: entry.clearance,
-        };
+        let says = [entry.capacity_force, entry.capacity_moment, entry.clearance];
         // An entry with only a cost does not change the capacity of the type.
-        let nothing = TypeOverride {
-            name: name.to_owned(),
-            ..TypeOverride::default()
-        };
-        found.extend((says != nothing).then_some(says));
+        if says.iter().any(Option::is_some) {
+            let [capacity_force, capacity_moment, clearance] = says;
+            found.push(TypeOverride {
+                name: name.to_owned(),
+                capacity_force,
+                capacity_moment,
+                clearance,
+            });
+        }
     }
     (found, costs)
 }
@@ -305,15 +294,11 @@ pub(crate) fn joint_types(
 /// Checks that the capacities of a type are in range.
 fn check_figures(entry: &JointTypeEntry, at: &Place<'_>) {
     let above = (f64::MIN_POSITIVE, "a number above 0, up to 1e12");
+    let from_zero = (0.0, "a number from 0 to 1e12");
     for (k, what, value, (least, allowed)) in [
         ("capacity_force", "capacity", entry.capacity_force, above),
         ("capacity_moment", "capacity", entry.capacity_moment, above),
-        (
-            "clearance",
-            "clearance",
-            entry.clearance,
-            (0.0, "a number from 0 to 1e12"),
-        ),
+        ("clearance", "clearance", entry.clearance, from_zero),
     ] {
         if let Some(x) = value.filter(|x| !(least..=1e12).contains(x)) {
             at.key(k).add_bad_value(what, x, allowed);

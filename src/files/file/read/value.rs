@@ -3,6 +3,7 @@
 
 pub(crate) mod quantity;
 
+use crate::file::read::value::quantity::Given;
 use crate::file::schema::{Coordinate, MechanismFile, Words};
 use crate::file::{Findings, Place};
 use crate::geom::expr::{Expr, ExprError, WORDS, WrittenNumber};
@@ -180,11 +181,7 @@ impl Place<'_> {
     }
 
     /// Returns the pitch of a screw per radian, from the pitch or from the lead, which is per turn; `None` if neither is given.
-    pub(crate) fn read_pitch(
-        &self,
-        pitch: &Option<Coordinate>,
-        lead: &Option<Coordinate>,
-    ) -> Option<Expr> {
+    pub(crate) fn read_pitch(&self, pitch: &Given, lead: &Given) -> Option<Expr> {
         if pitch.is_some() && lead.is_some() {
             self.add_excluded_key("lead", "pitch");
         }
@@ -199,6 +196,16 @@ impl Place<'_> {
         }
         let pitch = lead.div(&turn)?;
         Some(lead.scaled_as_written(pitch, 1.0 / std::f64::consts::TAU))
+    }
+
+    /// Returns what is read from the value of a key, if it is given.
+    pub(crate) fn read_given<T, R>(
+        &self,
+        key: &str,
+        value: Option<&T>,
+        read: impl FnOnce(&Self, &T) -> R,
+    ) -> Option<R> {
+        value.map(|v| read(&self.key(key), v))
     }
 
     fn in_range(&self, e: Expr) -> Expr {

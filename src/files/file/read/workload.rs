@@ -7,11 +7,10 @@ pub mod motion;
 pub mod trajectory;
 
 use crate::file::problem::ImportError;
-use crate::file::read::build_mechanism;
-use crate::file::read::read_claims;
 use crate::file::read::value::{length_unit, with_parameters};
 use crate::file::read::workload::drive::read_drive;
 use crate::file::read::workload::grip::read_grip;
+use crate::file::read::{build_mechanism, read_claims};
 use crate::file::schema::MechanismFile;
 use crate::file::text::{read_file, text_of};
 use crate::file::{Finding, Findings};
@@ -98,12 +97,9 @@ pub fn tables_alone(
 
 /// Returns the names of the independent tables that a file has.
 pub(crate) fn workload_tables(file: &MechanismFile) -> Vec<&'static str> {
-    let tables = [
-        ("grip", file.workload.grip.is_some()),
-        ("drive", file.workload.drive.is_some()),
-    ];
-    let there = tables.into_iter().filter(|(_, there)| *there);
-    there.map(|(n, _)| n).collect()
+    let grip = file.workload.grip.as_ref().map(|_| "grip");
+    let drive = file.workload.drive.as_ref().map(|_| "drive");
+    grip.into_iter().chain(drive).collect()
 }
 
 fn read_workload<T>(
@@ -112,11 +108,8 @@ fn read_workload<T>(
     (name, example): (&str, &str),
 ) -> Result<WorkloadFile<T>, Vec<Finding>> {
     let out = with_parameters(file);
-    let mechanism = if file.link.is_empty() && file.joint.is_empty() {
-        None
-    } else {
-        Some(build_mechanism(file)?)
-    };
+    let alone = file.link.is_empty() && file.joint.is_empty();
+    let mechanism = (!alone).then(|| build_mechanism(file)).transpose()?;
     let length_unit = length_unit(file, &out);
     let spec = table(file, length_unit.metres, mechanism.as_deref(), &out);
     let claims = read_claims(file, &out);
@@ -125,15 +118,15 @@ fn read_workload<T>(
             "the file has no [workload.{name}] table; `ozols show {example}` prints one to start from"
         ));
     }
-    match spec {
-        Some(spec) if out.problem_count() == 0 => Ok(WorkloadFile {
-            name: file.name.clone(),
-            sources: file.sources.clone(),
-            claims,
-            length_unit,
-            mechanism,
-            spec,
-        }),
-        _ => Err(out.into_findings()),
-    }
+    let Some(spec) = spec else {
+        return Err(out.into_findings());
+    };
+    out.finish(WorkloadFile {
+        name: file.name.clone(),
+        sources: file.sources.clone(),
+        claims,
+        length_unit,
+        mechanism,
+        spec,
+    })
 }

@@ -1,7 +1,7 @@
 //! Numbers that are written as they were read: those of the geometry, with their stated accuracy, and those in the units of a file.
 
 use crate::file::schema::{Coordinate, ToleranceEntry};
-use crate::geom::expr::{Digits, End, Expr, WrittenNumber, half_of};
+use crate::geom::expr::{End, Expr, WrittenNumber, half_of};
 use crate::geom::vector::{length, to_vector};
 use crate::model::mechanism::Mechanism;
 use crate::model::rounded::ratio::doubt_ratio;
@@ -71,16 +71,13 @@ fn is_chosen(value: &BigRational) -> bool {
 
 /// Returns a decimal whose last digit is 0, with all its digits.
 fn with_zeros(value: &BigRational, written: WrittenNumber) -> Option<String> {
-    let WrittenNumber::Decimal(
-        digits @ Digits {
-            places,
-            end: End::Zero,
-            ..
-        },
-    ) = written
-    else {
+    let WrittenNumber::Decimal(digits) = written else {
         return None;
     };
+    if digits.end != End::Zero {
+        return None;
+    }
+    let places = digits.places;
     let width = usize::try_from(places)
         .ok()
         .filter(|p| (1..=100).contains(p))?;
@@ -163,13 +160,8 @@ pub(super) fn point_tolerance(
 ) -> Option<Coordinate> {
     let halves = point.iter().filter_map(stated_half);
     let half = write_number(halves.reduce(f64::max)?, 1.0);
-    let size = |c: &Coordinate| match c {
-        Coordinate::Integer(x) => x.to_string(),
-        Coordinate::Decimal(x) => x.to_string(),
-        Coordinate::Expression(x) => x.clone(),
-    };
-    let of_file = file.and_then(|t| t.length.as_ref()).map(size);
-    (of_file != Some(size(&half))).then_some(half)
+    let of_file = file.and_then(|t| t.length.as_ref());
+    (of_file != Some(&half)).then_some(half)
 }
 
 /// Removes errors in the last bits of a value that was multiplied by a length and divided again.

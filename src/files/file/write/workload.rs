@@ -114,10 +114,8 @@ pub(crate) fn write_drive(spec: &DriveSpec, metres: f64) -> DriveEntry {
 
 /// Writes the programme: as a number of swings if it is regular, otherwise step by step.
 fn write_programme(entry: &mut DriveEntry, steps: &[ProgrammeStep]) {
-    let swings = steps
-        .iter()
-        .filter(|s| matches!(s, ProgrammeStep::Swing(_)))
-        .count();
+    let is_swing = |s: &&ProgrammeStep| matches!(s, ProgrammeStep::Swing(_));
+    let swings = steps.iter().filter(is_swing).count();
     let dwell = match steps {
         [ProgrammeStep::Swing(_), ProgrammeStep::Dwell(time), ..] if *time > 0.0 => Some(*time),
         _ => None,

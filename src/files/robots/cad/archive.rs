@@ -34,16 +34,13 @@ impl Archive {
         syntax_problem(message).in_file(&self.name, "", None)
     }
 
-    fn open_zip(&self) -> Result<ZipArchive<Cursor<&[u8]>>, ImportError> {
-        ZipArchive::new(Cursor::new(&self.bytes[..])).map_err(|e| self.archive_error(&e))
-    }
-
     /// Returns the bytes of a member, or `None` if it does not exist.
     ///
     /// # Errors
     /// Returns an error if the archive is broken, or if the member is larger than a description may be.
     pub(crate) fn read_member(&self, member: &str) -> Result<Option<Vec<u8>>, ImportError> {
-        let mut archive = self.open_zip()?;
+        let archive = ZipArchive::new(Cursor::new(&self.bytes[..]));
+        let mut archive = archive.map_err(|e| self.archive_error(&e))?;
         let found = match archive.by_name(member) {
             Ok(found) => found,
             Err(ZipError::FileNotFound) => return Ok(None),
@@ -52,10 +49,8 @@ impl Archive {
         let mut out = Vec::new();
         // The size in a header may be wrong.
         let limit = MAX_BYTES as u64 + 1;
-        found
-            .take(limit)
-            .read_to_end(&mut out)
-            .map_err(|e| self.archive_error(&ZipError::Io(e)))?;
+        let read = found.take(limit).read_to_end(&mut out);
+        read.map_err(|e| self.archive_error(&ZipError::Io(e)))?;
         if out.len() > MAX_BYTES {
             let name = format!("{}:{member}", self.name);
             return Err(too_large(out.len(), MAX_BYTES).in_file(&name, "", None));
@@ -68,16 +63,18 @@ impl Archive {
     /// # Errors
     /// Returns an error if the archive is broken.
     pub(crate) fn with_member(&self, member: &str, content: &[u8]) -> Result<Vec<u8>, ImportError> {
-        let mut archive = self.open_zip()?;
+        let done = self.replace_member(member, content);
+        done.map_err(|e| self.archive_error(&e))
+    }
+
+    fn replace_member(&self, member: &str, content: &[u8]) -> Result<Vec<u8>, ZipError> {
+        let mut archive = ZipArchive::new(Cursor::new(&self.bytes[..]))?;
         let mut out = ZipWriter::new(Cursor::new(Vec::new()));
-        out.set_raw_comment(archive.comment().into())
-            .map_err(|e| self.archive_error(&e))?;
+        out.set_raw_comment(archive.comment().into())?;
         for at in 0..archive.len() {
-            let old = archive
-                .by_index_raw(at)
-                .map_err(|e| self.archive_error(&e))?;
-            if old.name().map_err(|e| self.archive_error(&e))? != member {
-                out.raw_copy_file(old).map_err(|e| self.archive_error(&e))?;
+            let old = archive.by_index_raw(at)?;
+            if old.name()? != member {
+                out.raw_copy_file(old)?;
                 continue;
             }
             let mut options =
@@ -85,29 +82,20 @@ impl Archive {
             if let Some(time) = old.last_modified() {
                 options = options.last_modified_time(time);
             }
-            out.start_file(member, options)
-                .map_err(|e| self.archive_error(&e))?;
-            out.write_all(content)
-                .map_err(|e| self.archive_error(&ZipError::Io(e)))?;
+            out.start_file(member, options)?;
+            out.write_all(content)?;
         }
-        let done = out.finish().map_err(|e| self.archive_error(&e))?;
-        Ok(done.into_inner())
+        Ok(out.finish()?.into_inner())
     }
 }
 
 impl Document {
-    /// Reads a file laid out by tabs into the arena from a line on; gives its first label. Lines from one on that `ends` are not
-    /// read.
-    pub(crate) fn read_outline(
-        &mut self,
-        name: &str,
-        text: String,
-        from: usize,
-        ends: &str,
-    ) -> Read<usize> {
+    /// Reads a file laid out by tabs into the arena from its second line on; gives its first label. Lines from one that `ends` on
+    /// are not read.
+    pub(crate) fn read_outline(&mut self, name: &str, text: String, ends: &str) -> Read<usize> {
         let source = self.sources.len();
         let root = self.nodes.len();
-        let nodes = read_lines(&text, source, root, from, ends)
+        let nodes = read_lines(&text, source, root, ends)
             .map_err(|(problem, at)| problem.in_file(name, &text, Some(at..at)))?;
         self.nodes.extend(nodes);
         let name = name.to_owned();
@@ -119,13 +107,7 @@ impl Document {
 type Located = (ProblemKind, usize);
 
 /// Returns the lines as nodes, whose places in the arena begin at `first`.
-fn read_lines(
-    text: &str,
-    source: usize,
-    first: usize,
-    from: usize,
-    ends: &str,
-) -> Result<Vec<Node>, Located> {
+fn read_lines(text: &str, source: usize, first: usize, ends: &str) -> Result<Vec<Node>, Located> {
     let mut nodes: Vec<Node> = Vec::new();
     let mut open: Vec<usize> = Vec::new();
     let mut at = 0;
@@ -134,7 +116,7 @@ fn read_lines(
         at += line.len();
         let depth = line.len() - line.trim_start_matches('\t').len();
         let word = line.trim();
-        if n < from || word.is_empty() {
+        if n == 0 || word.is_empty() {
             continue;
         }
         if word.starts_with(ends) {
@@ -190,7 +172,7 @@ mod tests {
         let text = "head\r\nA\r\n\tB\r\n\t\t1\t2\t\r\n\t\t3\r\n\tC\r\n\tEnd\r\n";
         let mut document = Document::default();
         let root = document
-            .read_outline("x", text.to_owned(), 1, "End")
+            .read_outline("x", text.to_owned(), "End")
             .unwrap_or_else(|e| panic!("{e}"));
         let a = document.element(root);
         assert_eq!(a.name(), "A");
@@ -202,7 +184,7 @@ mod tests {
     #[test]
     fn a_line_too_deep_is_named() {
         let mut document = Document::default();
-        let found = document.read_outline("x", "A\n\t\tB\n".to_owned(), 0, "End");
+        let found = document.read_outline("x", "head\nA\n\t\tB\n".to_owned(), "End");
         assert!(found.is_err_and(|e| e.to_string().contains("one tab deeper")));
     }
 }

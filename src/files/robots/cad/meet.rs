@@ -23,6 +23,9 @@ pub(crate) struct Meeting {
     pub(super) here_only: bool,
 }
 
+/// A joint, or the reason why there is none.
+type Met = Result<Meeting, &'static str>;
+
 /// Returns a frame at a point, with a z and an x made perpendicular to it.
 fn make_frame(point: Vector, z: Vector, x: Vector) -> RigidMotion {
     let z = unit_or_z(z);
@@ -51,35 +54,29 @@ fn tilt_to(m: &RigidMotion, z: Vector) -> RigidMotion {
         sine if sine > 0.0 => RigidMotion::from_turn(about, sine.atan2(dot(from, z))),
         _ => RigidMotion::IDENTITY,
     };
-    let turned = RigidMotion {
-        translation: [0.0; 3],
-        ..*m
-    };
-    RigidMotion {
-        translation: m.translation,
-        ..turn.then(&turned)
-    }
+    at_point(turn.then(&at_point(*m, [0.0; 3])), m.translation)
+}
+
+/// Returns a frame moved to a point.
+fn at_point(m: RigidMotion, translation: Vector) -> RigidMotion {
+    RigidMotion { translation, ..m }
 }
 
 /// Returns the orientation of J that is nearest to I among those along the same lines: a cosine of 0 also holds for a flipped
 /// part.
-fn nearest_rotation(i: &RigidMotion, j: &RigidMotion) -> [Vector; 3] {
+fn nearest_frame(i: &RigidMotion, j: &RigidMotion) -> RigidMotion {
     let [x, y] = [0, 1].map(|k| {
         let a = frame_axis(j, k);
         scale(a, dot(a, frame_axis(i, k)).signum())
     });
-    make_frame([0.0; 3], cross(x, y), x).rotation
+    make_frame([0.0; 3], cross(x, y), x)
 }
 
 /// Returns the joint that connects two frames at their pose, given in the world.
 ///
 /// # Errors
 /// Returns the reason, in words, if it constrains nothing that can be determined at this pose.
-pub(crate) fn find_meeting(
-    holds: Holds,
-    i: &RigidMotion,
-    j: &RigidMotion,
-) -> Result<Meeting, &'static str> {
+pub(crate) fn find_meeting(holds: Holds, i: &RigidMotion, j: &RigidMotion) -> Met {
     let (x, z) = (frame_axis(i, 0), frame_axis(i, 2));
     let (oi, oj) = (i.translation, j.translation);
     let d = sub(oj, oi);
@@ -90,10 +87,7 @@ pub(crate) fn find_meeting(
     let zj = scale(zj, if dot(zj, z) < 0.0 { -1.0 } else { 1.0 });
     let at = |point| make_frame(point, z, x);
     let tilted = |point| tilt_to(&at(point), zj);
-    let as_j = |point| RigidMotion {
-        rotation: nearest_rotation(i, j),
-        translation: point,
-    };
+    let as_j = |point| at_point(nearest_frame(i, j), point);
     let simple = Meeting::new;
     Ok(match holds {
         Holds::Fixed => simple(JointType::Fixed, at(oi), as_j(oj)),
@@ -149,11 +143,9 @@ impl Meeting {
     }
 }
 
-fn at_this_pose(m: Meeting) -> Meeting {
-    Meeting {
-        here_only: true,
-        ..m
-    }
+fn at_this_pose(mut m: Meeting) -> Meeting {
+    m.here_only = true;
+    m
 }
 
 /// Returns a joint that constrains only a direction.
@@ -168,7 +160,7 @@ fn three_slides() -> JointType {
 }
 
 /// Returns the joint that keeps two z axes perpendicular and the origins together, or J's line in a plane: z is I's, x is J's z.
-fn square_joint(holds: Holds, i: &RigidMotion, j: &RigidMotion) -> Result<Meeting, &'static str> {
+fn square_joint(holds: Holds, i: &RigidMotion, j: &RigidMotion) -> Met {
     let (z, line, oj) = (frame_axis(i, 2), frame_axis(j, 2), j.translation);
     if length(cross(z, line)) < FLAT {
         return Err("its two axes are parallel, but must be at a right angle");
@@ -182,39 +174,30 @@ fn square_joint(holds: Holds, i: &RigidMotion, j: &RigidMotion) -> Result<Meetin
             let near = make_frame(add_scaled(oj, gap, z), z, line);
             Meeting::new(JointType::CylinderOnPlane, near, far)
         }
-        _ => Meeting::new(
-            JointType::Universal,
-            make_frame(i.translation, z, line),
-            far,
-        ),
+        _ => {
+            let near = make_frame(i.translation, z, line);
+            Meeting::new(JointType::Universal, near, far)
+        }
     })
 }
 
 /// Returns the joint that constrains the rotation about one line, Ix·Jy + Iy·Jx = 0; the line moves as the joint turns.
-fn constant_velocity_joint(i: &RigidMotion, j: &RigidMotion) -> Result<Meeting, &'static str> {
-    let n = add(
-        cross(frame_axis(j, 1), frame_axis(i, 0)),
-        cross(frame_axis(j, 0), frame_axis(i, 1)),
-    );
+fn constant_velocity_joint(i: &RigidMotion, j: &RigidMotion) -> Met {
+    let normal = |a, b| cross(frame_axis(j, a), frame_axis(i, b));
+    let n = add(normal(1, 0), normal(0, 1));
     if length(n) < FLAT {
         return Err("its two shafts are placed so that it constrains no rotation");
     }
     let sum = dot(frame_axis(i, 0), frame_axis(j, 1)) + dot(frame_axis(i, 1), frame_axis(j, 0));
     let near = make_frame(i.translation, n, frame_axis(i, 0));
-    let off = RigidMotion::from_turn(n, sum / length(n)).then(&RigidMotion {
-        translation: [0.0; 3],
-        ..near
-    });
-    let far = RigidMotion {
-        translation: j.translation,
-        ..off
-    };
+    let off = RigidMotion::from_turn(n, sum / length(n)).then(&at_point(near, [0.0; 3]));
+    let far = at_point(off, j.translation);
     let kind = JointType::Custom(vec![Freedom::Rx, Freedom::Ry]);
     Ok(at_this_pose(Meeting::new(kind, near, far)))
 }
 
 /// Returns the joint that fixes the angle between two z axes: it constrains the rotation about their common normal.
-fn angle_joint(i: &RigidMotion, j: &RigidMotion, cosine: f64) -> Result<Meeting, &'static str> {
+fn angle_joint(i: &RigidMotion, j: &RigidMotion, cosine: f64) -> Met {
     use Freedom::{Rx, Ry, Tx, Ty, Tz};
     let (a, b) = (frame_axis(i, 2), frame_axis(j, 2));
     let n = cross(a, b);
@@ -225,19 +208,14 @@ fn angle_joint(i: &RigidMotion, j: &RigidMotion, cosine: f64) -> Result<Meeting,
     }
     let off = length(n).atan2(dot(a, b)) - cosine.clamp(-1.0, 1.0).acos();
     let near = make_frame(i.translation, n, a);
-    let far = RigidMotion {
-        translation: i.translation,
-        ..RigidMotion::from_turn(n, off).then(&RigidMotion {
-            translation: [0.0; 3],
-            ..near
-        })
-    };
+    let turned = RigidMotion::from_turn(n, off).then(&at_point(near, [0.0; 3]));
+    let far = at_point(turned, i.translation);
     let kind = JointType::Custom(vec![Rx, Ry, Tx, Ty, Tz]);
     Ok(at_this_pose(Meeting::new(kind, near, far)))
 }
 
 /// Returns the joint that fixes a distance of points or of lines, along the direction from one to the other.
-fn distance_joint(holds: Holds, i: &RigidMotion, j: &RigidMotion) -> Result<Meeting, &'static str> {
+fn distance_joint(holds: Holds, i: &RigidMotion, j: &RigidMotion) -> Met {
     use Freedom::{Rz, Ty, Tz};
     let (z, oj) = (frame_axis(i, 2), j.translation);
     let d = sub(oj, i.translation);
@@ -259,26 +237,22 @@ fn distance_joint(holds: Holds, i: &RigidMotion, j: &RigidMotion) -> Result<Meet
     let zj = scale(zj, if dot(zj, z) < 0.0 { -1.0 } else { 1.0 });
     let lines = |kind, slip: f64| {
         let near = make_frame(add_scaled(point, -slip, z), z, u);
-        let far = RigidMotion {
-            translation: oj,
-            ..tilt_to(&near, zj)
-        };
+        let far = at_point(tilt_to(&near, zj), oj);
         Meeting::new(kind, near, far)
     };
     Ok(at_this_pose(match holds {
         Holds::LineLine(_) => lines(JointType::Custom(vec![Rz, Ty, Tz]), 0.0),
         Holds::Hinges(_) => lines(JointType::Custom(vec![Rz, Ty]), along),
-        _ => Meeting::new(
-            JointType::SphereOnPlane,
-            make_frame(point, u, z),
-            make_frame(oj, u, z),
-        ),
+        _ => {
+            let [near, far] = [point, oj].map(|at| make_frame(at, u, z));
+            Meeting::new(JointType::SphereOnPlane, near, far)
+        }
     }))
 }
 
 /// Returns the contact of two gears at the pitch point on the line of centres. They do not slip normal to that line. The pitch point of a
 /// belt is outside.
-fn gear_joint(i: &RigidMotion, j: &RigidMotion, [a, b]: [f64; 2]) -> Result<Meeting, &'static str> {
+fn gear_joint(i: &RigidMotion, j: &RigidMotion, [a, b]: [f64; 2]) -> Met {
     use Freedom::{Rx, Ry, Tx, Ty, Tz};
     let z = frame_axis(i, 2);
     let d = sub(j.translation, i.translation);
@@ -294,11 +268,8 @@ fn gear_joint(i: &RigidMotion, j: &RigidMotion, [a, b]: [f64; 2]) -> Result<Meet
     }
     let point = add_scaled(i.translation, a / (a + b), d);
     let there = make_frame(point, cross(z, d), z);
-    Ok(at_this_pose(Meeting::new(
-        JointType::SphereOnPlane,
-        there,
-        there,
-    )))
+    let contact = Meeting::new(JointType::SphereOnPlane, there, there);
+    Ok(at_this_pose(contact))
 }
 
 /// Rates below this fraction of the other count as zero.

@@ -22,18 +22,23 @@ const SAME: f64 = 1e-4;
 /// figure.
 type SimpleType = (&'static str, &'static str);
 
+const CYLINDRICAL: SimpleType = ("Cylindrical", "CylindricalJoint");
+
 /// The turns and the slides that each of these types leaves.
 const SIMPLE: [([Left; 2], SimpleType); 6] = [
     ([Left::None, Left::None], ("Fixed", "FixedJoint")),
     ([Left::Along, Left::None], ("Revolute", "RevoluteJoint")),
     ([Left::None, Left::Along], ("Slider", "TranslationalJoint")),
-    (
-        [Left::Along, Left::Along],
-        ("Cylindrical", "CylindricalJoint"),
-    ),
+    ([Left::Along, Left::Along], CYLINDRICAL),
     ([Left::All, Left::None], ("Ball", "SphericalJoint")),
     ([Left::Along, Left::All], ("Parallel", "ParallelAxesJoint")),
 ];
+
+/// Freedoms, each a slide or a turn and its direction.
+type Freedoms = [(bool, Vector)];
+
+/// The freedoms that each joint gets.
+type ByJoint = BTreeMap<JointId, Vec<(bool, Vector)>>;
 
 /// The turns, or the slides, that a joint allows.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -84,19 +89,14 @@ impl Origin {
 
 /// Returns a joint with additional freedoms, each a translation or a rotation and its direction in the world. `None` if there is
 /// no such type.
-pub(crate) fn simple_type(
-    origin: &Origin,
-    joint: JointId,
-    more: &[(bool, Vector)],
-) -> Option<SimpleType> {
+fn simple_type(origin: &Origin, joint: JointId, more: &Freedoms) -> Option<SimpleType> {
     let part = origin.part_of(joint);
     let frame = origin.places[part.links[0]].then(&part.sides[0]);
     let axis = frame.map_direction(part.axis);
     let own = part.joint_type.freedoms().iter();
-    let own: Vec<(bool, Vector)> = own
-        .filter(|f| **f != Freedom::Screw)
-        .map(|&f| (f.is_slide(), frame.map_direction(part.direction(f))))
-        .collect();
+    let own = own.filter(|f| **f != Freedom::Screw);
+    let own = own.map(|&f| (f.is_slide(), frame.map_direction(part.direction(f))));
+    let own: Vec<(bool, Vector)> = own.collect();
     if own.len() < part.joint_type.freedoms().len() {
         return None;
     }
@@ -107,7 +107,7 @@ pub(crate) fn simple_type(
 }
 
 /// Returns the type with these freedoms, each a translation or a rotation and its direction, about an axis.
-fn type_with(freedoms: &[(bool, Vector)], axis: Vector) -> Option<SimpleType> {
+fn type_with(freedoms: &Freedoms, axis: Vector) -> Option<SimpleType> {
     let left = |slides: bool| {
         let all = freedoms.iter().filter(|(s, _)| *s == slides);
         let all: Vec<Vector> = all.map(|(_, d)| *d).collect();
@@ -131,15 +131,13 @@ pub(crate) fn retype_joints(imported: &Imported, releases: &[(Release, String)])
             continue;
         };
         let Some((freecad, ondsel)) = simple_type(origin, joint, &more) else {
-            let why = format!(
-                "{} has no joint type with the required freedoms",
-                imported.format.name
-            );
+            let format = imported.format.name;
+            let why = format!("{format} has no joint type with the required freedoms");
             return Err(retype_error(part, element, why));
         };
         match imported.format.word {
             "asmt" => edits.replace_span(element, element.node().span.clone(), ondsel.to_owned()),
-            _ => set_enumeration(origin, part, element, freecad, &mut edits)?,
+            _ => set_enumeration(part, element, freecad, &mut edits)?,
         }
     }
     let text = edits.apply_edits()?;
@@ -156,11 +154,8 @@ fn retype_error(part: &Part, element: Element<'_>, why: String) -> ImportError {
 }
 
 /// Returns the freedoms that each joint gets.
-fn by_joint(
-    origin: &Origin,
-    releases: &[(Release, String)],
-) -> Read<BTreeMap<JointId, Vec<(bool, Vector)>>> {
-    let mut out: BTreeMap<JointId, Vec<(bool, Vector)>> = BTreeMap::new();
+fn by_joint(origin: &Origin, releases: &[(Release, String)]) -> Read<ByJoint> {
+    let mut out = ByJoint::new();
     for (release, _) in releases {
         match *release {
             Release::Freedom {
@@ -170,11 +165,9 @@ fn by_joint(
             } => out.entry(joint).or_default().push((slides, direction)),
             Release::Coupling(q) => {
                 let element = origin.element(origin.couplings[q]);
+                let why = "it couples joints, so its type cannot be changed";
                 let remedy = "suppress the joint in the CAD program, or choose another joint";
-                return Err(element.unsupported_error(
-                    "it couples joints, so its type cannot be changed",
-                    remedy,
-                ));
+                return Err(element.unsupported_error(why, remedy));
             }
         }
     }
@@ -182,26 +175,20 @@ fn by_joint(
 }
 
 /// Returns the index of a type in the list next to it, as FreeCAD writes it.
-fn set_enumeration(
-    origin: &Origin,
-    part: &Part,
-    property: Element<'_>,
-    word: &str,
-    edits: &mut Edits<'_>,
-) -> Read<()> {
-    let list = property.first_child("CustomEnumList");
+fn set_enumeration(part: &Part, e: Element<'_>, word: &str, edits: &mut Edits<'_>) -> Read<()> {
+    let list = e.first_child("CustomEnumList");
     let mut words = list.iter().flat_map(|l| l.children_named("Enum"));
-    let place = words.position(|e| e.attribute("value") == Some(word));
-    let (Some(integer), Some(place)) = (property.first_child("Integer"), place) else {
+    let place = words.position(|w| w.attribute("value") == Some(word));
+    let (Some(integer), Some(place)) = (e.first_child("Integer"), place) else {
         let why = format!("this version of FreeCAD has no joint type {word}");
-        return Err(retype_error(part, property, why));
+        return Err(retype_error(part, e, why));
     };
     edits.set_attribute(integer, "value", &place.to_string())?;
     // FreeCAD then solves the assembly again when it opens the file.
-    let root = origin.element(origin.root);
+    let root = edits.origin.element(edits.origin.root);
     let has = |o: &Element<'_>| {
         let all = o.first_child("Properties");
-        all.is_some_and(|p| p.children().any(|c| c.id == property.id))
+        all.is_some_and(|p| p.children().any(|c| c.id == e.id))
     };
     let data = root.first_child("ObjectData");
     let name = data.and_then(|d| d.children_named("Object").find(has)?.attribute("name"));

@@ -4,7 +4,7 @@
 use crate::closure::Closure;
 use crate::closure::tree::spanning_forest;
 use crate::geom::Reals;
-use crate::model::joint_type::{Coupling, Freedom};
+use crate::model::joint_type::Freedom;
 use crate::model::mechanism::{JointId, Mechanism, StateId};
 use crate::rank::rounded::verdict::rank_verdict;
 use crate::robots::description::Robot;
@@ -31,10 +31,8 @@ pub(crate) struct Usable {
 pub(crate) fn usable_couplings(robot: &mut Robot, written: &[usize]) -> Vec<Usable> {
     let mut out: Vec<Usable> = Vec::new();
     for coupling in robot.couplings.clone() {
-        let found = coupling
-            .joints
-            .each_ref()
-            .map(|id| robot.joints.iter().position(|j| j.id == *id));
+        let found = coupling.joints.each_ref();
+        let found = found.map(|id| robot.joints.iter().position(|j| j.id == *id));
         let (leader, follower) = (&coupling.joints[0], &coupling.joints[1]);
         let one = |j: usize| {
             let freedoms = robot.joints[j].joint_type.freedoms();
@@ -65,12 +63,11 @@ pub(crate) fn usable_couplings(robot: &mut Robot, written: &[usize]) -> Vec<Usab
                         );
                         robot.report.add_approximation(&coupling.element, what);
                     }
-                    let (said_by, gear) = (coupling.said_by, coupling.gear);
                     out.push(Usable {
                         ends,
                         ratio,
-                        said_by,
-                        gear,
+                        said_by: coupling.said_by,
+                        gear: coupling.gear,
                     });
                     continue;
                 }
@@ -144,11 +141,7 @@ pub(crate) fn find_mimics(m: &Mechanism, written: &[bool]) -> (Vec<Option<Follow
     }
     let left = m.couplings.iter().zip(&said).filter(|(_, s)| !**s);
     let present = left.filter(|(c, _)| m.couplings_in(StateId::FREE).any(|x| x.ends == c.ends));
-    let unsaid = |c: &Coupling| {
-        format!(
-            "coupled, which a mimic joint cannot represent: {}",
-            c.name(m)
-        )
-    };
-    (follows, present.map(|(c, _)| unsaid(c)).collect())
+    let what = "coupled, which a mimic joint cannot represent";
+    let unsaid = present.map(|(c, _)| format!("{what}: {}", c.name(m)));
+    (follows, unsaid.collect())
 }

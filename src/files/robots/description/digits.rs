@@ -42,11 +42,8 @@ pub(crate) fn find_tolerance(root: Element<'_>, size: f64, across: f64) -> Optio
         direction,
         turn,
     } = found.largest_half_units()?;
-    let most = if across > 0.0 {
-        MOST * across
-    } else {
-        f64::INFINITY
-    };
+    let share = MOST * across;
+    let most = if across > 0.0 { share } else { f64::INFINITY };
     let shift = length.max(turn * size).max(LEAST * size).min(most);
     let turned = direction.max(turn).min(MOST);
     stated_tolerance([shift, if turned > 0.0 { turned.max(LEAST) } else { 0.0 }])

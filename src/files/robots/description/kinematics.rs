@@ -7,7 +7,6 @@ use crate::model::joint_type::Freedom;
 use crate::robots::description::{Part, Robot};
 
 /// A spanning tree, or forest, of the links.
-#[derive(Debug)]
 pub(crate) struct Tree {
     /// Roots, the frame first.
     pub(in crate::robots) roots: Vec<usize>,
@@ -60,13 +59,9 @@ fn freedom_motion(part: &Part, freedom: Freedom, value: f64) -> RigidMotion {
 
 /// Returns the displacement of a joint: its child's side in its parent's.
 pub(crate) fn joint_motion(part: &Part) -> RigidMotion {
-    part.joint_type
-        .freedoms()
-        .iter()
-        .zip(&part.values)
-        .fold(RigidMotion::IDENTITY, |pose, (&f, &v)| {
-            pose.then(&freedom_motion(part, f, v))
-        })
+    let moves = part.joint_type.freedoms().iter().zip(&part.values);
+    let moves = moves.map(|(&f, &v)| freedom_motion(part, f, v));
+    moves.fold(RigidMotion::IDENTITY, |pose, by| pose.then(&by))
 }
 
 /// Returns the places of all links.
@@ -74,14 +69,10 @@ pub(crate) fn link_places(robot: &Robot, tree: &Tree) -> Vec<RigidMotion> {
     let mut out = robot.places.clone();
     for s in &tree.steps {
         let p = &robot.joints[s.joint];
-        let across = p.sides[0]
-            .then(&joint_motion(p))
-            .then(&p.sides[1].inverse());
-        out[s.link] = if s.forward {
-            out[s.from].then(&across)
-        } else {
-            out[s.from].then(&across.inverse())
-        };
+        let moved = p.sides[0].then(&joint_motion(p));
+        let across = moved.then(&p.sides[1].inverse());
+        let across = if s.forward { across } else { across.inverse() };
+        out[s.link] = out[s.from].then(&across);
     }
     out
 }

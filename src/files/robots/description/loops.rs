@@ -6,15 +6,13 @@
 //!   and `joint_type: [...]` of the joints whose types differ from the URDF;
 //! - Drake's list of `ball_constraint_body_A`, `ball_constraint_p_AP`, `..._body_B`, `..._p_BQ`.
 
-use crate::file::problem::ProblemKind;
 use crate::file::text::decode_utf8;
 use crate::geom::rigid::RigidMotion;
 use crate::geom::vector::{Vector, X, Y, Z, length};
 use crate::model::joint_type::JointType;
-use crate::robots::description::{Part, Robot};
-use crate::robots::warning::Reader;
+use crate::robots::description::{End, Part, Robot};
 use crate::robots::warning::{
-    Read, list_known, syntax_problem, too_large, unknown_name, unknown_word,
+    Found, Read, Reader, list_known, syntax_problem, too_large, unknown_name, unknown_word,
 };
 use serde_json::{Map, Value};
 
@@ -28,10 +26,8 @@ pub(crate) fn add_loops(name: &str, bytes: &[u8], robot: &mut Robot) -> Read<()>
         if bytes.len() > MAX_BYTES {
             return Err(too_large(bytes.len(), MAX_BYTES));
         }
-        read_loops(
-            &parse_loops(name, decode_utf8(bytes)?).map_err(syntax_problem)?,
-            robot,
-        )
+        let found = parse_loops(name, decode_utf8(bytes)?);
+        read_loops(&found.map_err(syntax_problem)?, robot)
     };
     added().map_err(|p| p.in_file(name, "", None))
 }
@@ -44,11 +40,8 @@ pub(crate) fn report_beside(name: &str, read: Reader<'_>, robot: &mut Robot) {
     let endings = ["yaml", "yml", "json", "toml"];
     let own = endings.map(|e| format!("{stem}.{e}"));
     let others = ["robot.yaml", "robot.yml"].map(str::to_owned);
-    for (is_own, file) in own
-        .map(|f| (true, f))
-        .into_iter()
-        .chain(others.map(|f| (false, f)))
-    {
+    let own = own.map(|f| (true, f)).into_iter();
+    for (is_own, file) in own.chain(others.map(|f| (false, f))) {
         let Some(bytes) = read(&file).ok().filter(|b| has_loops(&file, b)) else {
             continue;
         };
@@ -66,32 +59,23 @@ pub(crate) fn report_beside(name: &str, read: Reader<'_>, robot: &mut Robot) {
         let what = format!(
             "it defines closed loops of this robot, which are omitted; give {file} as `loops` to read them"
         );
-        robot
-            .report
-            .leave_out_joint(&format!("{file} next to it"), rows, what);
+        let element = format!("{file} next to it");
+        robot.report.leave_out_joint(&element, rows, what);
         return;
     }
 }
 
 /// Returns true if a file has one of the forms that define loops.
 fn has_loops(name: &str, bytes: &[u8]) -> bool {
-    let text = std::str::from_utf8(bytes)
-        .ok()
-        .filter(|t| t.len() <= MAX_BYTES);
-    match text.and_then(|t| parse_loops(name, t).ok()) {
-        Some(Value::Object(o)) => {
-            let full = |k: &str| {
-                o.get(k)
-                    .and_then(Value::as_array)
-                    .is_some_and(|l| !l.is_empty())
-            };
-            full("closed_loop") || full("loop") || full("joint_name")
-        }
-        Some(Value::Array(all)) => all
-            .iter()
-            .any(|v| v.get("ball_constraint_body_A").is_some()),
-        _ => false,
-    }
+    let text = std::str::from_utf8(bytes).ok();
+    let text = text.filter(|t| t.len() <= MAX_BYTES);
+    let Some(found) = text.and_then(|t| parse_loops(name, t).ok()) else {
+        return false;
+    };
+    let full = |k: &str| found[k].as_array().is_some_and(|l| !l.is_empty());
+    let mut entries = found.as_array().into_iter().flatten();
+    ["closed_loop", "loop", "joint_name"].into_iter().any(full)
+        || entries.any(|v| v.get("ball_constraint_body_A").is_some())
 }
 
 fn parse_loops(name: &str, text: &str) -> Result<Value, String> {
@@ -106,7 +90,7 @@ fn parse_loops(name: &str, text: &str) -> Result<Value, String> {
     }
 }
 
-fn read_loops(value: &Value, robot: &mut Robot) -> Result<(), ProblemKind> {
+fn read_loops(value: &Value, robot: &mut Robot) -> Found<()> {
     match value {
         Value::Object(o) if o.contains_key("closed_loop") => read_pairs(o, robot),
         Value::Object(o) if o.contains_key("loop") => {
@@ -123,7 +107,7 @@ fn read_loops(value: &Value, robot: &mut Robot) -> Result<(), ProblemKind> {
     }
 }
 
-fn read_list<'a>(o: &'a Map<String, Value>, key: &str) -> Result<&'a [Value], ProblemKind> {
+fn read_list<'a>(o: &'a Map<String, Value>, key: &str) -> Found<&'a [Value]> {
     match o.get(key) {
         None => Ok(&[]),
         Some(Value::Array(items)) => Ok(items),
@@ -133,7 +117,7 @@ fn read_list<'a>(o: &'a Map<String, Value>, key: &str) -> Result<&'a [Value], Pr
     }
 }
 
-fn read_word<'a>(v: Option<&'a Value>, what: &str) -> Result<&'a str, ProblemKind> {
+fn read_word<'a>(v: Option<&'a Value>, what: &str) -> Found<&'a str> {
     v.and_then(Value::as_str).ok_or_else(|| {
         syntax_problem(format!(
             "{what} is missing or not a word; write it in quotes"
@@ -142,7 +126,7 @@ fn read_word<'a>(v: Option<&'a Value>, what: &str) -> Result<&'a str, ProblemKin
 }
 
 /// Returns the link and place of a name: of a link or frame, or of the child's side of a joint.
-fn find_place(element: &str, name: &str, robot: &Robot) -> Result<End, ProblemKind> {
+fn find_place(element: &str, name: &str, robot: &Robot) -> Found<End> {
     if let Some(j) = robot.joints.iter().find(|j| j.id == name) {
         return Ok((j.links[1], j.sides[1]));
     }
@@ -152,7 +136,7 @@ fn find_place(element: &str, name: &str, robot: &Robot) -> Result<End, ProblemKi
     })
 }
 
-fn joint_type(element: &str, word: &str) -> Result<JointType, ProblemKind> {
+fn joint_type(element: &str, word: &str) -> Found<JointType> {
     Ok(match word.to_lowercase().as_str() {
         "6d" | "fixed" | "weld" => JointType::Fixed,
         "3d" | "spherical" | "ball" => JointType::Spherical,
@@ -163,23 +147,15 @@ fn joint_type(element: &str, word: &str) -> Result<JointType, ProblemKind> {
     })
 }
 
-/// A link and a place on it.
-type End = (usize, RigidMotion);
-
-fn add_closure(
-    element: &str,
-    ends: [End; 2],
-    kind: JointType,
-    robot: &mut Robot,
-) -> Result<(), ProblemKind> {
+fn add_closure(id: &str, ends: [End; 2], kind: JointType, robot: &mut Robot) -> Found<()> {
     let links = ends.map(|e| e.0);
     if links[0] == links[1] {
         return Err(syntax_problem(format!(
-            "{element} connects link \"{}\" to itself; name two different links",
+            "{id} connects link \"{}\" to itself; name two different links",
             robot.links[links[0]]
         )));
     }
-    let mut part = Part::new(element, links, ends.map(|e| e.1), kind);
+    let mut part = Part::new(id, links, ends.map(|e| e.1), kind);
     part.closes = true;
     part.comment = Some("closes a loop".to_owned());
     robot.report.count_mapped("loop closure");
@@ -188,7 +164,7 @@ fn add_closure(
 }
 
 /// Gives the joints of `joint_name` the kinds of `joint_type`, which URDF cannot represent.
-fn retype_joints(o: &Map<String, Value>, robot: &mut Robot) -> Result<(), ProblemKind> {
+fn retype_joints(o: &Map<String, Value>, robot: &mut Robot) -> Found<()> {
     let (names, types) = (read_list(o, "joint_name")?, read_list(o, "joint_type")?);
     if names.len() != types.len() {
         return Err(syntax_problem(format!(
@@ -198,10 +174,8 @@ fn retype_joints(o: &Map<String, Value>, robot: &mut Robot) -> Result<(), Proble
         )));
     }
     for (name, kind) in names.iter().zip(types) {
-        let (name, kind) = (
-            read_word(Some(name), "joint_name")?,
-            read_word(Some(kind), "joint_type")?,
-        );
+        let name = read_word(Some(name), "joint_name")?;
+        let kind = read_word(Some(kind), "joint_type")?;
         let Some(joint) = robot.joints.iter_mut().find(|j| j.id == name) else {
             let known = list_known("joints", robot.joints.iter().map(|j| &j.id));
             return Err(unknown_name("joint_name", "joint", name, &known));
@@ -221,10 +195,8 @@ fn retype_joints(o: &Map<String, Value>, robot: &mut Robot) -> Result<(), Proble
             _ => None,
         };
         let Some((new, first, second)) = new else {
-            let (joint, known) = (
-                format!("joint \"{name}\""),
-                "SPHERICAL, FIXED, CARDAN, UJOINT_XY and the like",
-            );
+            let joint = format!("joint \"{name}\"");
+            let known = "SPHERICAL, FIXED, CARDAN, UJOINT_XY and the like";
             return Err(unknown_word(&joint, "joint_type", kind, known));
         };
         joint.values = vec![0.0; new.freedoms().len()];
@@ -237,7 +209,7 @@ fn retype_joints(o: &Map<String, Value>, robot: &mut Robot) -> Result<(), Proble
 }
 
 /// Reads the form of example-parallel-robots.
-fn read_pairs(o: &Map<String, Value>, robot: &mut Robot) -> Result<(), ProblemKind> {
+fn read_pairs(o: &Map<String, Value>, robot: &mut Robot) -> Found<()> {
     retype_joints(o, robot)?;
     let types = read_list(o, "type")?;
     for (i, pair) in read_list(o, "closed_loop")?.iter().enumerate() {
@@ -267,34 +239,23 @@ fn read_pairs(o: &Map<String, Value>, robot: &mut Robot) -> Result<(), ProblemKi
 }
 
 /// Reads numbers as a list, or as text with spaces as in Drake.
-fn read_vector(v: Option<&Value>, what: &str) -> Result<Option<Vector>, ProblemKind> {
-    let bad = || {
-        syntax_problem(format!(
-            "{what} is not three finite numbers; write [0, 0, 1]"
-        ))
-    };
-    let numbers: Vec<f64> = match v {
+fn read_vector(v: Option<&Value>, what: &str) -> Found<Option<Vector>> {
+    let numbers: Option<Vec<f64>> = match v {
         None => return Ok(None),
-        Some(Value::String(s)) => {
-            let read: Result<Vec<f64>, _> = s.split_whitespace().map(str::parse).collect();
-            read.map_err(|_| bad())?
-        }
-        Some(Value::Array(items)) => items.iter().filter_map(Value::as_f64).collect(),
-        Some(_) => return Err(bad()),
+        Some(Value::String(s)) => s.split_whitespace().map(|w| w.parse().ok()).collect(),
+        Some(Value::Array(items)) => items.iter().map(Value::as_f64).collect(),
+        Some(_) => None,
     };
-    match numbers[..] {
-        [x, y, z] if [x, y, z].iter().all(|c| c.abs() <= 1e9) => Ok(Some([x, y, z])),
-        _ => Err(bad()),
+    match numbers.as_deref() {
+        Some(&[x, y, z]) if [x, y, z].iter().all(|c| c.abs() <= 1e9) => Ok(Some([x, y, z])),
+        _ => Err(syntax_problem(format!(
+            "{what} is not three finite numbers; write [0, 0, 1]"
+        ))),
     }
 }
 
 /// Reads an end of a loop: the keys of its link, frame or joint, of a point there and of an axis.
-fn read_end(
-    element: &str,
-    item: &Value,
-    keys: [&str; 3],
-    robot: &Robot,
-) -> Result<End, ProblemKind> {
+fn read_end(element: &str, item: &Value, keys: [&str; 3], robot: &Robot) -> Found<End> {
     let [name, point, axis] = keys.map(|k| (item.get(k), format!("{k} of {element}")));
     let (link, frame) = find_place(element, read_word(name.0, &name.1)?, robot)?;
     let at = read_vector(point.0, &point.1)?.unwrap_or([0.0; 3]);
@@ -310,13 +271,12 @@ fn read_end(
 }
 
 /// Reads a ball constraint of Drake.
-fn read_ball(i: usize, item: &Value, robot: &mut Robot) -> Result<(), ProblemKind> {
+fn read_ball(i: usize, item: &Value, robot: &mut Robot) -> Found<()> {
     let element = format!("ball-{}", i + 1);
     let end = |keys| read_end(&element, item, keys, robot);
-    let ends = [
-        end(["ball_constraint_body_A", "ball_constraint_p_AP", ""])?,
-        end(["ball_constraint_body_B", "ball_constraint_p_BQ", ""])?,
-    ];
+    let a = end(["ball_constraint_body_A", "ball_constraint_p_AP", ""])?;
+    let b = end(["ball_constraint_body_B", "ball_constraint_p_BQ", ""])?;
+    let ends = [a, b];
     add_closure(&element, ends, JointType::Spherical, robot)
 }
 
@@ -326,11 +286,9 @@ const KEYS: [&str; 8] = [
 ];
 
 /// Reads a `[[loop]]`.
-fn read_loop(i: usize, item: &Value, robot: &mut Robot) -> Result<(), ProblemKind> {
-    let element = match item.get("id").and_then(Value::as_str) {
-        Some(id) => id.to_owned(),
-        None => format!("loop-{}", i + 1),
-    };
+fn read_loop(i: usize, item: &Value, robot: &mut Robot) -> Found<()> {
+    let id = item.get("id").and_then(Value::as_str);
+    let element = id.map_or_else(|| format!("loop-{}", i + 1), str::to_owned);
     let mut keys = item.as_object().into_iter().flat_map(Map::keys);
     if let Some(key) = keys.find(|k| !KEYS.contains(&k.as_str())) {
         return Err(syntax_problem(format!(
@@ -343,9 +301,7 @@ fn read_loop(i: usize, item: &Value, robot: &mut Robot) -> Result<(), ProblemKin
         some => joint_type(&element, read_word(some, "type")?)?,
     };
     let end = |keys| read_end(&element, item, keys, robot);
-    let ends = [
-        end(["a", "point_a", "axis_a"])?,
-        end(["b", "point_b", "axis_b"])?,
-    ];
+    let [a, b] = [["a", "point_a", "axis_a"], ["b", "point_b", "axis_b"]];
+    let ends = [end(a)?, end(b)?];
     add_closure(&element, ends, kind, robot)
 }

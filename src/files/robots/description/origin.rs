@@ -1,5 +1,6 @@
 //! The places of the parts of a mechanism in its description.
 
+use crate::file::problem::line_and_column;
 use crate::format::three_digits;
 use crate::geom::rigid::RigidMotion;
 use crate::model::mechanism::JointId;
@@ -71,18 +72,14 @@ impl Origin {
         self.part_of(joint).drive || self.part_of(joint).pulled
     }
 
-    /// Returns true if all joints of one freedom are within their limits in a pose; `metres` is the mechanism's unit of length.
+    /// Returns true if all joints of one freedom are within their limits in a pose.
     #[must_use]
-    pub fn is_inside(&self, pose: &Pose, metres: f64) -> bool {
+    pub fn is_inside(&self, pose: &Pose) -> bool {
         pose.columns.iter().all(|c| {
-            let unit = if c.freedom.is_slide() {
-                pose.length * metres / self.robot.unit.metres()
-            } else {
-                1.0
-            };
-            self.part_of(c.joint)
-                .exceeded_limits(c.moved * unit)
-                .is_none()
+            let slides = c.freedom.is_slide();
+            let unit = if slides { pose.length } else { 1.0 };
+            let part = self.part_of(c.joint);
+            part.exceeded_limits(c.moved * unit).is_none()
         })
     }
 
@@ -93,11 +90,7 @@ impl Origin {
         let words = |p: &Part| {
             let [value, low, high] = p.exceeded_limits(0.0)?.map(|x| three_digits(x + p.zero));
             let slides = p.joint_type.freedoms().iter().any(|f| f.is_slide());
-            let unit = if slides {
-                self.robot.unit.symbol()
-            } else {
-                "rad"
-            };
+            let unit = if slides { self.robot.unit } else { "rad" };
             Some(format!(
                 "{} is at {value} {unit}, outside its limits {low} to {high}",
                 p.id
@@ -147,14 +140,9 @@ impl Origin {
     fn element_place(&self, id: usize) -> ElementPlace {
         let node = self.element(id).node();
         let source = &self.document.sources[node.source];
-        let before = &source.text[..node.span.start];
-        let line = before.rfind('\n').map_or(0, |n| n + 1);
         ElementPlace {
             file: source.name.clone(),
-            at: [
-                before.matches('\n').count() + 1,
-                before[line..].chars().count() + 1,
-            ],
+            at: line_and_column(&source.text, node.span.start),
             tag: self.element(id).name().to_owned(),
         }
     }

@@ -11,7 +11,7 @@ use crate::robots::warning::Read;
 const SINE: f64 = 1e-3;
 
 /// Returns the kind of an element by its name and that of its object, if its shape does not define it.
-pub(crate) fn by_name(element: &str, object: &str) -> Option<ShapeKind> {
+fn by_name(element: &str, object: &str) -> Option<ShapeKind> {
     if element.starts_with("Vertex") {
         return Some(ShapeKind::Vertex);
     }
@@ -28,11 +28,7 @@ pub(crate) fn by_name(element: &str, object: &str) -> Option<ShapeKind> {
 }
 
 /// Returns the constraint between two kinds, at frames in the assembly and with the distance of the joint.
-pub(crate) fn distance_constraint(
-    kinds: [Option<ShapeKind>; 2],
-    frames: [RigidMotion; 2],
-    value: f64,
-) -> Held {
+fn distance_constraint(kinds: Kinds, frames: [RigidMotion; 2], value: f64) -> Held {
     use ShapeKind::{Circle, Curve, Cylinder, Line, Plane, Sphere, Surface, Torus, Vertex};
     let [a, b] = kinds.map(|k| k.unwrap_or(Surface));
     let constraint = |a: ShapeKind, b: ShapeKind, swap: bool| {
@@ -66,10 +62,8 @@ pub(crate) fn distance_constraint(
         (planes.unwrap_or(Holds::Planar(value)), false)
     });
     let found = Held {
-        holds,
-        frames,
         swap,
-        doubt: None,
+        ..Held::new(holds, frames)
     };
     match kinds {
         [Some(_), Some(_)] => found,
@@ -79,11 +73,7 @@ pub(crate) fn distance_constraint(
 
 /// Returns the distance of one frame from the plane of the other, along its normal; with `swap` the plane is the second.
 fn height_above_plane(frames: &[RigidMotion; 2], swap: bool) -> f64 {
-    let [plane, other] = if swap {
-        [&frames[1], &frames[0]]
-    } else {
-        [&frames[0], &frames[1]]
-    };
+    let [plane, other] = [swap, !swap].map(|second| &frames[usize::from(second)]);
     let z = plane.rotation.map(|row| row[2]);
     dot(sub(other.translation, plane.translation), z)
 }
@@ -96,7 +86,7 @@ fn circle_radius(k: ShapeKind) -> f64 {
 }
 
 /// Determines unknown kinds of faces from the directions of the two frames at a solved pose, as far as possible.
-fn guess_constraint(kinds: [Option<ShapeKind>; 2], found: Held) -> Held {
+fn guess_constraint(kinds: Kinds, found: Held) -> Held {
     let frames = &found.frames;
     let [z, line] = frames.map(|m| m.rotation.map(|row| row[2]));
     let swap = kinds[1] == Some(ShapeKind::Plane);
@@ -122,17 +112,14 @@ fn guess_constraint(kinds: [Option<ShapeKind>; 2], found: Held) -> Held {
 }
 
 /// Returns the frame of a rack, with x along its direction of sliding and y away from the pinion.
-pub(crate) fn rack_frame(rack: &RigidMotion, pinion: &RigidMotion, slide: [f64; 3]) -> RigidMotion {
+fn rack_frame(rack: &RigidMotion, pinion: &RigidMotion, slide: [f64; 3]) -> RigidMotion {
     let z = pinion.rotation.map(|row| row[2]);
     let x = crate::geom::rigid::unit_or_z(add_scaled(slide, -dot(slide, z), z));
     let y = cross(z, x);
     let to_rack = sub(rack.translation, pinion.translation);
     // The teeth are on the side of the pinion where the rack is.
-    let (x, y) = if dot(to_rack, y) > 0.0 {
-        (x.map(|c| -c), y.map(|c| -c))
-    } else {
-        (x, y)
-    };
+    let sign = if dot(to_rack, y) > 0.0 { -1.0 } else { 1.0 };
+    let [x, y] = [x, y].map(|v| v.map(|c| sign * c));
     RigidMotion {
         rotation: [0, 1, 2].map(|i| [x[i], y[i], z[i]]),
         translation: rack.translation,
@@ -143,7 +130,6 @@ pub(crate) fn rack_frame(rack: &RigidMotion, pinion: &RigidMotion, slide: [f64; 
 pub(crate) type Shapes<'a> = &'a dyn Fn(&str) -> Option<String>;
 
 /// The constraint of a joint, its frames in the assembly, and whether its two parts are swapped; or why it cannot be represented.
-#[derive(Debug)]
 pub(crate) struct Held {
     pub(crate) holds: Holds,
     pub(crate) frames: [RigidMotion; 2],
@@ -151,17 +137,30 @@ pub(crate) struct Held {
     pub(crate) doubt: Option<&'static str>,
 }
 
+impl Held {
+    fn new(holds: Holds, frames: [RigidMotion; 2]) -> Held {
+        Held {
+            holds,
+            frames,
+            swap: false,
+            doubt: None,
+        }
+    }
+}
+
 /// The direction of a slide, and the part that has it: racks slide along one.
 pub(crate) type Slide<'a> = (Option<&'a str>, [f64; 3]);
+
+/// The two ends of a joint.
+type Ends<'a> = [Reference<'a>; 2];
+/// The kinds of two elements, as far as they are known.
+type Kinds = [Option<ShapeKind>; 2];
 
 /// Returns the two frames of a joint in the assembly.
 ///
 /// # Errors
 /// Returns an error if a number of a placement is invalid.
-pub(crate) fn joint_frames(
-    joint: &Object<'_>,
-    ends: &[Reference<'_>; 2],
-) -> Read<[RigidMotion; 2]> {
+pub(crate) fn joint_frames(joint: &Object<'_>, ends: &Ends<'_>) -> Read<[RigidMotion; 2]> {
     let mut out = [RigidMotion::IDENTITY; 2];
     for (i, end) in ends.iter().enumerate() {
         let own = joint.read_placement(&format!("Placement{}", i + 1))?;
@@ -178,18 +177,13 @@ pub(crate) fn joint_frames(
 pub(crate) fn joint_constraint(
     word: &str,
     joint: &Object<'_>,
-    ends: &[Reference<'_>; 2],
+    ends: &Ends<'_>,
     slides: &[Slide<'_>],
     shapes: Shapes<'_>,
 ) -> Read<Option<Held>> {
     let frames = joint_frames(joint, ends)?;
     let figure = |name: &str| -> Read<f64> { Ok(joint.property_number(name)?.unwrap_or(0.0)) };
-    let plain = |holds| Held {
-        holds,
-        frames,
-        swap: false,
-        doubt: None,
-    };
+    let plain = |holds| Held::new(holds, frames);
     Ok(Some(match word {
         "Fixed" => plain(Holds::Fixed),
         "Revolute" => plain(Holds::Revolute),
@@ -236,7 +230,7 @@ fn kind_of(end: &Reference<'_>, shapes: Shapes<'_>) -> Option<ShapeKind> {
 /// Returns the rack and pinion; the rack is the part with a slide across the pinion's axis.
 fn rack_and_pinion(
     radius: f64,
-    ends: &[Reference<'_>; 2],
+    ends: &Ends<'_>,
     frames: [RigidMotion; 2],
     slides: &[Slide<'_>],
 ) -> Held {
@@ -251,21 +245,17 @@ fn rack_and_pinion(
         (None, found) => (1, found),
     };
     let Some(direction) = found else {
+        let doubt =
+            "neither part has a slider; the first is treated as the rack, along x of its frame";
         return Held {
-            holds: Holds::RackPinion(radius),
-            frames,
-            swap: false,
-            doubt: Some(
-                "neither part has a slider; the first is treated as the rack, along x of its frame",
-            ),
+            doubt: Some(doubt),
+            ..Held::new(Holds::RackPinion(radius), frames)
         };
     };
     let there = rack_frame(&frames[i], &frames[1 - i], direction);
     Held {
-        holds: Holds::RackPinion(radius),
-        frames: [there, frames[1 - i]],
         swap: i == 1,
-        doubt: None,
+        ..Held::new(Holds::RackPinion(radius), [there, frames[1 - i]])
     }
 }
 
@@ -285,7 +275,7 @@ pub(crate) enum ShapeKind {
 }
 
 /// Returns the kind of an element, such as `Face3`. `None` if the shape does not define it.
-pub(crate) fn element_kind(shape: &str, element: &str) -> Option<ShapeKind> {
+fn element_kind(shape: &str, element: &str) -> Option<ShapeKind> {
     let number = |prefix: &str| element.strip_prefix(prefix)?.parse::<usize>().ok();
     let (tag, place) = match (number("Face"), number("Edge")) {
         (Some(n), _) => ("Fa", n),
@@ -402,11 +392,7 @@ fn geometry_line<'a>(text: &'a str, heading: &str, n: usize) -> Option<&'a str> 
     let mut lines = body.lines();
     for _ in 1..n {
         let kind: usize = lines.next()?.split_whitespace().next()?.parse().ok()?;
-        let simple = match heading {
-            "Surfaces" => (1..=5).contains(&kind),
-            _ => (1..=5).contains(&kind),
-        };
-        if !simple {
+        if !(1..=5).contains(&kind) {
             return None;
         }
     }
@@ -414,25 +400,17 @@ fn geometry_line<'a>(text: &'a str, heading: &str, n: usize) -> Option<&'a str> 
 }
 
 fn of_geometry(heading: &str, line: &str) -> Option<ShapeKind> {
-    let words: Vec<f64> = line
-        .split_whitespace()
-        .filter_map(|w| w.parse().ok())
-        .collect();
-    let last = words.last().copied()?;
-    #[allow(
-        clippy::cast_possible_truncation,
-        reason = "a small whole number or none"
-    )]
-    let kind = *words.first()? as i64;
+    let (kind, rest) = line.trim().split_once(' ')?;
+    let last = rest.rsplit(' ').find_map(|w| w.parse().ok())?;
     Some(match (heading, kind) {
-        ("Surfaces", 1) => ShapeKind::Plane,
-        ("Surfaces", 2) => ShapeKind::Cylinder(last),
-        ("Surfaces", 3) => ShapeKind::Cone,
-        ("Surfaces", 4) => ShapeKind::Sphere(last),
-        ("Surfaces", 5) => ShapeKind::Torus(last),
+        ("Surfaces", "1") => ShapeKind::Plane,
+        ("Surfaces", "2") => ShapeKind::Cylinder(last),
+        ("Surfaces", "3") => ShapeKind::Cone,
+        ("Surfaces", "4") => ShapeKind::Sphere(last),
+        ("Surfaces", "5") => ShapeKind::Torus(last),
         ("Surfaces", _) => ShapeKind::Surface,
-        (_, 1) => ShapeKind::Line,
-        (_, 2) => ShapeKind::Circle(last),
+        (_, "1") => ShapeKind::Line,
+        (_, "2") => ShapeKind::Circle(last),
         _ => ShapeKind::Curve,
     })
 }

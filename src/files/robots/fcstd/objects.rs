@@ -18,7 +18,6 @@ pub(crate) struct Object<'a> {
 }
 
 /// The objects of a document, in its order.
-#[derive(Debug)]
 pub(crate) struct Objects<'a> {
     list: Vec<Object<'a>>,
     by_name: BTreeMap<&'a str, usize>,
@@ -30,11 +29,9 @@ impl<'a> Objects<'a> {
     /// Returns the objects below the root element of `Document.xml`.
     pub(crate) fn read_objects(root: Element<'a>) -> Read<Objects<'a>> {
         let data = root.first_child("ObjectData");
-        let data: BTreeMap<&str, Element<'a>> = data
-            .iter()
-            .flat_map(|d| d.children_named("Object"))
-            .filter_map(|e| Some((e.attribute("name")?, e)))
-            .collect();
+        let data = data.iter().flat_map(|d| d.children_named("Object"));
+        let data = data.filter_map(|e| Some((e.attribute("name")?, e)));
+        let data: BTreeMap<&str, Element<'a>> = data.collect();
         let mut out = Objects {
             list: Vec::new(),
             by_name: BTreeMap::new(),
@@ -120,10 +117,8 @@ impl<'a> Object<'a> {
             _ => vec![value],
         };
         let name = |e: &Element<'a>| e.attribute("value").or_else(|| e.attribute("name"));
-        all.iter()
-            .filter_map(name)
-            .filter(|n| !n.is_empty())
-            .collect()
+        let all = all.iter().filter_map(name);
+        all.filter(|n| !n.is_empty()).collect()
     }
 
     /// Returns its placement relative to its parent.
@@ -159,11 +154,8 @@ impl<'a> Object<'a> {
         };
         let found = index.required_attribute("value")?;
         let list = property.first_child("CustomEnumList");
-        let words: Vec<&str> = list
-            .iter()
-            .flat_map(|l| l.children_named("Enum"))
-            .filter_map(|e| e.attribute("value"))
-            .collect();
+        let words = list.iter().flat_map(|l| l.children_named("Enum"));
+        let words: Vec<&str> = words.filter_map(|e| e.attribute("value")).collect();
         let at = found.parse::<usize>().ok();
         at.and_then(|i| words.get(i).copied())
             .map(Some)

@@ -7,7 +7,6 @@ use crate::robots::xml::element::Element;
 use std::collections::BTreeMap;
 
 /// The documents read: the first is the one with the assembly, the others those that it links to, by the name of their file.
-#[derive(Debug)]
 pub(crate) struct Documents<'a> {
     pub(crate) main: Objects<'a>,
     pub(crate) linked: BTreeMap<String, Objects<'a>>,
@@ -85,10 +84,8 @@ fn element_path<'a>(
     assembly: &Object<'a>,
     objects: &Objects<'a>,
 ) -> Vec<&'a str> {
-    let sub = link
-        .children_named("Sub")
-        .next()
-        .and_then(|s| s.attribute("value"));
+    let sub = link.children_named("Sub").next();
+    let sub = sub.and_then(|s| s.attribute("value"));
     let mut names: Vec<&str> = sub.unwrap_or("").split('.').collect();
     // FreeCAD 1.0 begins at the assembly or above, 1.1 at the part or within a group.
     if let Some(at) = names.iter().position(|n| *n == assembly.name) {
@@ -209,10 +206,8 @@ fn follow_names<'a>(
         let found = documents.document_of(at.file).and_then(|o| o.get(name));
         if is_body(&at.object) || name.is_empty() {
             // Features of a body; the last existing one has the shape.
-            out.shape = found
-                .and_then(Object::shape_member)
-                .filter(|_| at.file.is_empty())
-                .or(out.shape);
+            let own = found.filter(|_| at.file.is_empty());
+            out.shape = own.and_then(Object::shape_member).or(out.shape);
             continue;
         }
         let Some(o) = found else {

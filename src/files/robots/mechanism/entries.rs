@@ -1,7 +1,6 @@
 //! The entries of the mechanism file of a robot.
 
 use crate::closure::tree::spanning_forest;
-use crate::file::problem::ProblemKind;
 use crate::file::schema::{
     Coordinate, CouplingEntry, DriveWord, JointEntry, LinkEntry, MechanismFile, OptionEntry,
     SearchEntry,
@@ -14,38 +13,26 @@ use crate::robots::description::coupling::Usable;
 use crate::robots::description::kinematics::world_axes;
 use crate::robots::description::{Part, Robot};
 use crate::robots::mechanism::series_of_single_joints::Names;
-use crate::robots::warning::{Options, list_known, syntax_problem, unknown_name};
+use crate::robots::warning::{Found, Options, list_known, syntax_problem, unknown_name};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Longest name in a mechanism file, in characters.
 const LONGEST: usize = 64;
 
-/// The links after merging those that are rigidly joined.
-#[derive(Debug)]
-pub(crate) struct Bodies {
-    /// For each link of the robot the link that represents it.
-    pub(in crate::robots) of: Vec<usize>,
-}
-
-impl Bodies {
-    /// Merges along the fixed joints of the tree.
-    pub(crate) fn new(links: usize, fixed: impl Iterator<Item = (usize, usize)>) -> Bodies {
-        let mut of: Vec<usize> = (0..links).collect();
-        // The steps of a tree lead away from its roots, so that `from` is already settled.
-        for (from, to) in fixed {
-            of[to] = of[from];
-        }
-        Bodies { of }
+/// Merges links along the fixed joints of a tree. Returns for each link of the robot the link that represents it.
+pub(crate) fn merge_links(links: usize, fixed: impl Iterator<Item = (usize, usize)>) -> Vec<usize> {
+    let mut of: Vec<usize> = (0..links).collect();
+    // The steps of a tree lead away from its roots, so that `from` is already settled.
+    for (from, to) in fixed {
+        of[to] = of[from];
     }
+    of
 }
 
 /// Returns a name that fits a mechanism file: unique, not empty, short, without control characters.
 fn fitting_name(names: &mut Names, wanted: &str) -> String {
-    let plain: String = wanted
-        .chars()
-        .filter(|c| !c.is_control())
-        .take(LONGEST)
-        .collect();
+    let plain = wanted.chars().filter(|c| !c.is_control()).take(LONGEST);
+    let plain: String = plain.collect();
     let plain = if plain.is_empty() {
         "unnamed".to_owned()
     } else {
@@ -57,43 +44,38 @@ fn fitting_name(names: &mut Names, wanted: &str) -> String {
     })
 }
 
-/// The content of the file.
-#[derive(Debug)]
-pub(crate) struct Content<'a> {
-    pub(in crate::robots) robot: &'a Robot,
-    /// Name of the file read, and of its format.
-    pub(in crate::robots) file: &'a str,
-    pub(in crate::robots) format: &'static str,
-    pub(in crate::robots) places: &'a [RigidMotion],
-    pub(in crate::robots) bodies: &'a Bodies,
+/// The names of bodies.
+type Ids = BTreeMap<usize, String>;
+
+/// The bodies, joints and couplings of a mechanism, as parts of the robot.
+pub(crate) struct Content {
+    /// Places of the links in the pose found.
+    pub(in crate::robots) places: Vec<RigidMotion>,
+    /// For each link of the robot the link that represents it.
+    pub(in crate::robots) bodies: Vec<usize>,
     pub(in crate::robots) frame: usize,
     /// Bodies that are outputs.
-    pub(in crate::robots) outputs: &'a [usize],
-    /// Joints to write, in order.
-    pub(in crate::robots) joints: &'a [usize],
+    pub(in crate::robots) outputs: Vec<usize>,
+    /// The robot's joints, by joints of the mechanism.
+    pub(in crate::robots) joints: Vec<usize>,
     /// Joints that lead and follow.
-    pub(in crate::robots) couplings: &'a [Usable],
-}
-
-impl Content<'_> {
-    /// Returns true if the rates of a joint matter; its axis then has length 1, so that they are exact.
-    fn is_coupled(&self, joint: usize) -> bool {
-        self.couplings.iter().any(|u| u.ends.contains(&joint))
-    }
+    pub(in crate::robots) couplings: Vec<Usable>,
 }
 
 /// Returns the entries of the file and the comments above them.
-pub(crate) fn make_file(c: &Content<'_>) -> (MechanismFile, Vec<Comment>) {
+pub(crate) fn make_file(robot: &Robot, source: &str, c: &Content) -> (MechanismFile, Vec<Comment>) {
     let mut comments = Vec::new();
-    let (links, ids) = make_links(c, &mut comments);
+    let (links, ids) = make_links(robot, c, &mut comments);
     let (mut names, mut joint_ids, mut joints) = (Names::default(), BTreeMap::new(), Vec::new());
-    for &j in c.joints {
-        let id = fitting_name(&mut names, &c.robot.joints[j].id);
+    for &j in &c.joints {
+        let id = fitting_name(&mut names, &robot.joints[j].id);
         joint_ids.insert(j, id.clone());
-        if let Some(what) = &c.robot.joints[j].comment {
+        // The rates of a coupled joint matter; its axis has length 1, so that they are exact.
+        let coupled = c.couplings.iter().any(|u| u.ends.contains(&j));
+        if let Some(what) = &robot.joints[j].comment {
             comments.push(Comment::new("joint", joints.len(), what));
         }
-        joints.push(make_joint(j, id, c, &ids));
+        joints.push(make_joint(&robot.joints[j], c, id, coupled, &ids));
     }
     let coupling = |u: &Usable| CouplingEntry {
         joints: u.ends.map(|j| joint_ids[&j].clone()),
@@ -102,11 +84,11 @@ pub(crate) fn make_file(c: &Content<'_>) -> (MechanismFile, Vec<Comment>) {
     };
     let what = "Joint types that a search may use instead; edit freely.";
     comments.push(Comment::new("search", 0, what));
-    let options = c.robot.options.iter().map(|t| t.name().to_owned());
+    let options = robot.options.iter().map(|t| t.name().to_owned());
     let file = MechanismFile {
-        name: one_line(&c.robot.name),
-        description: describe_source(c),
-        length_unit: Some(c.robot.unit.symbol().to_owned()),
+        name: one_line(&robot.name),
+        description: describe_source(robot, source),
+        length_unit: Some(robot.unit.to_owned()),
         link: links,
         joint: joints,
         coupling: c.couplings.iter().map(coupling).collect(),
@@ -124,8 +106,8 @@ fn one_line(s: &str) -> String {
 }
 
 /// Describes the source of the mechanism, and what was omitted in the conversion.
-fn describe_source(c: &Content<'_>) -> String {
-    let report = &c.robot.report;
+fn describe_source(robot: &Robot, source: &str) -> String {
+    let report = &robot.report;
     let left_out = match (report.coupling_rows, report.constraint_rows) {
         (0, 0) => "",
         (_, 0) => " Some couplings of joints are omitted.",
@@ -133,32 +115,26 @@ fn describe_source(c: &Content<'_>) -> String {
     };
     let left_behind = report.left_behind();
     let left_behind = left_behind.map_or(String::new(), |t| format!(" {}", one_line(&t)));
-    let (file, format) = (one_line(c.file), c.format);
-    format!("Imported from {file} ({format}).{left_out}{left_behind}")
+    let source = one_line(source);
+    format!("Imported from {source}.{left_out}{left_behind}")
 }
 
 /// Returns the links, the frame first, with the names of their bodies.
-fn make_links(
-    c: &Content<'_>,
-    comments: &mut Vec<Comment>,
-) -> (Vec<LinkEntry>, BTreeMap<usize, String>) {
+fn make_links(robot: &Robot, c: &Content, comments: &mut Vec<Comment>) -> (Vec<LinkEntry>, Ids) {
     let mut merged: BTreeMap<usize, Vec<&str>> = BTreeMap::new();
-    for (l, &b) in c.bodies.of.iter().enumerate() {
+    for (l, &b) in c.bodies.iter().enumerate() {
         if l != b {
-            merged.entry(b).or_default().push(&c.robot.links[l]);
+            merged.entry(b).or_default().push(&robot.links[l]);
         }
     }
-    let ends = |&j: &usize| c.robot.joints[j].links.map(|l| c.bodies.of[l]);
+    let ends = |&j: &usize| robot.joints[j].links.map(|l| c.bodies[l]);
     let used: BTreeSet<usize> = c.joints.iter().flat_map(ends).collect();
     let order = std::iter::once(c.frame).chain(used.into_iter().filter(|&b| b != c.frame));
     let (mut names, mut ids, mut links) = (Names::default(), BTreeMap::new(), Vec::new());
     for b in order {
-        let id = fitting_name(&mut names, &c.robot.links[b]);
-        let role = if b == c.frame {
-            Some("frame")
-        } else {
-            c.outputs.contains(&b).then_some("output")
-        };
+        let id = fitting_name(&mut names, &robot.links[b]);
+        let frame = (b == c.frame).then_some("frame");
+        let role = frame.or(c.outputs.contains(&b).then_some("output"));
         if let Some(with) = merged.get(&b) {
             let text = format!("with {}, fixed to it", with.join(", "));
             comments.push(Comment::new("link", links.len(), &text));
@@ -181,17 +157,13 @@ fn clean_number(x: f64) -> Coordinate {
 
 /// Returns a direction for the file: with its own length unless that is extreme.
 fn file_direction(v: Vector) -> Vector {
-    if (0.1..=10.0).contains(&length(v)) {
-        v
-    } else {
-        unit_or_z(v)
-    }
+    let usual = (0.1..=10.0).contains(&length(v));
+    if usual { v } else { unit_or_z(v) }
 }
 
-fn make_joint(j: usize, id: String, c: &Content<'_>, ids: &BTreeMap<usize, String>) -> JointEntry {
-    let p: &Part = &c.robot.joints[j];
+fn make_joint(p: &Part, c: &Content, id: String, coupled: bool, ids: &Ids) -> JointEntry {
     let place = c.places[p.links[0]].then(&p.sides[0]);
-    let axes = world_axes(p, c.places);
+    let axes = world_axes(p, &c.places);
     let about = |f: &[Freedom]| {
         let found = axes.iter().find(|a| f.contains(&a.freedom));
         found.map(|a| a.direction)
@@ -199,20 +171,23 @@ fn make_joint(j: usize, id: String, c: &Content<'_>, ids: &BTreeMap<usize, Strin
     let axis = || {
         let z = about(&[Freedom::Rz, Freedom::Tz, Freedom::Screw]);
         let z = z.unwrap_or_else(|| place.map_direction(p.axis));
-        let z = if c.is_coupled(j) {
+        let z = if coupled {
             unit_or_z(z)
         } else {
             file_direction(z)
         };
         z.map(clean_number)
     };
-    let second = || Some(place.map_direction(p.second));
+
     let ball = matches!(p.joint_type, JointType::Spherical | JointType::Fixed);
     let universal = p.joint_type == JointType::Universal;
+    let second = || place.map_direction(p.second);
+    let second = p.joint_type.has_second_axis().then(second);
+    let reference = about(&[Freedom::Rx]).filter(|_| universal).or(second);
     let screws = p.joint_type.freedoms().contains(&Freedom::Screw);
     JointEntry {
         id,
-        links: p.links.map(|l| ids[&c.bodies.of[l]].clone()),
+        links: p.links.map(|l| ids[&c.bodies[l]].clone()),
         kind: p.joint_type.name().to_owned(),
         freedoms: match &p.joint_type {
             JointType::Custom(list) => Some(list.iter().map(|f| f.name().to_owned()).collect()),
@@ -220,10 +195,7 @@ fn make_joint(j: usize, id: String, c: &Content<'_>, ids: &BTreeMap<usize, Strin
         },
         point: place.translation.map(clean_number),
         axis: (!ball).then(axis),
-        reference: about(&[Freedom::Rx])
-            .filter(|_| universal)
-            .or_else(|| second().filter(|_| p.joint_type.has_second_axis()))
-            .map(|x| file_direction(x).map(clean_number)),
+        reference: reference.map(|x| file_direction(x).map(clean_number)),
         pitch: screws.then(|| clean_number(p.pitch)),
         drive: DriveWord::Driven(p.drive),
         ..JointEntry::default()
@@ -236,7 +208,7 @@ const NAMES: &str = "foot feet toe hand palm tool tool0 tcp ee eef effector flan
 /// Words that may follow them.
 const IDLE: &str = "link body frame left right l r front rear";
 
-pub(crate) fn link_of(robot: &Robot, name: &str) -> Result<usize, ProblemKind> {
+pub(crate) fn link_of(robot: &Robot, name: &str) -> Found<usize> {
     robot.links.iter().position(|l| l == name).ok_or_else(|| {
         let known = list_known("links", &robot.links);
         unknown_name("the command line", "link", name, &known)
@@ -247,14 +219,14 @@ pub(crate) fn link_of(robot: &Robot, name: &str) -> Result<usize, ProblemKind> {
 /// effectors by name, ends of chains with a shape or a site, all ends, the farthest link from the frame.
 pub(crate) fn output_links(
     robot: &Robot,
-    bodies: &Bodies,
+    bodies: &[usize],
     joints: &[usize],
     frame: usize,
     options: &Options,
-) -> Result<Vec<usize>, ProblemKind> {
+) -> Found<Vec<usize>> {
     let mut out = Vec::new();
     for name in &options.outputs {
-        let b = bodies.of[link_of(robot, name)?];
+        let b = bodies[link_of(robot, name)?];
         if b == frame {
             return Err(syntax_problem(format!(
                 "link \"{name}\" is the frame or fixed to it; name a link that moves"
@@ -270,31 +242,28 @@ pub(crate) fn output_links(
     Ok(out)
 }
 
-fn guess_outputs(robot: &Robot, bodies: &Bodies, joints: &[usize], frame: usize) -> Vec<usize> {
+fn guess_outputs(robot: &Robot, bodies: &[usize], joints: &[usize], frame: usize) -> Vec<usize> {
     let ends = joints
         .iter()
-        .map(|&j| robot.joints[j].links.map(|l| bodies.of[l]));
+        .map(|&j| robot.joints[j].links.map(|l| bodies[l]));
     let n = robot.links.len();
     let mut joints_at = vec![0; n];
     ends.clone().flatten().for_each(|b| joints_at[b] += 1);
     let moves = |b: usize| b != frame && joints_at[b] > 0;
-    let named = (0..n).filter(|&l| moves(bodies.of[l]) && is_effector(&robot.links[l]));
-    let named: Vec<usize> = named.map(|l| bodies.of[l]).collect();
+    let named = (0..n).filter(|&l| moves(bodies[l]) && is_effector(&robot.links[l]));
+    let named: Vec<usize> = named.map(|l| bodies[l]).collect();
     let floating = joints.iter().map(|&j| &robot.joints[j]);
     // A body that is driven in all six freedoms is an input, not an output.
     let floating = floating.filter(|p| p.joint_type.freedoms().len() == 6 && !p.drive);
-    let floating = floating.flat_map(|p| p.links.map(|l| bodies.of[l]));
+    let floating = floating.flat_map(|p| p.links.map(|l| bodies[l]));
     let floating: Vec<usize> = floating.filter(|&b| b != frame).collect();
     if !named.is_empty() {
         return [named, floating].concat();
     }
-    let shown: BTreeSet<usize> = robot.shown.iter().map(|&l| bodies.of[l]).collect();
+    let shown: BTreeSet<usize> = robot.shown.iter().map(|&l| bodies[l]).collect();
     let leaves: Vec<usize> = (0..n).filter(|&b| moves(b) && joints_at[b] == 1).collect();
-    let with: Vec<usize> = leaves
-        .iter()
-        .copied()
-        .filter(|b| shown.contains(b))
-        .collect();
+    let with = leaves.iter().copied().filter(|b| shown.contains(b));
+    let with: Vec<usize> = with.collect();
     let leaves = if with.is_empty() { leaves } else { with };
     if !leaves.is_empty() || !floating.is_empty() {
         return [leaves, floating].concat();

@@ -32,28 +32,24 @@ pub(crate) struct Gap {
 
 /// Returns the size of the robot: the largest distance between joints of one link, for weighing angles against lengths.
 pub(crate) fn robot_size(robot: &Robot) -> f64 {
-    robot
-        .joints
-        .iter()
-        .flat_map(|j| j.sides.iter().map(|s| length(s.translation)))
-        .fold(1e-3, f64::max)
+    let sides = robot.joints.iter().flat_map(|j| &j.sides);
+    sides.map(|s| length(s.translation)).fold(1e-3, f64::max)
 }
 
 /// Returns the difference between the two sides of a loop joint: a shift and a rotation vector, in the world.
 fn loop_mismatch(robot: &Robot, places: &[RigidMotion], j: usize) -> (Vector, Vector) {
-    let p = &robot.joints[j];
-    let near = places[p.links[0]].then(&p.sides[0]).then(&joint_motion(p));
-    let far = places[p.links[1]].then(&p.sides[1]);
-    let turn = near.inverse().then(&far).rotation_vector();
-    let spherical = free_turns(robot, j) == 3;
-    (
-        sub(far.translation, near.translation),
-        if spherical {
-            [0.0; 3]
-        } else {
-            near.map_direction(turn)
-        },
-    )
+    let [near, far] = loop_sides(&robot.joints[j], places);
+    let turn = match free_turns(robot, j) {
+        3 => [0.0; 3],
+        _ => near.map_direction(near.inverse().then(&far).rotation_vector()),
+    };
+    (sub(far.translation, near.translation), turn)
+}
+
+/// Returns the places of the two sides of a loop joint, the first moved by the joint.
+fn loop_sides(p: &Part, places: &[RigidMotion]) -> [RigidMotion; 2] {
+    let [a, b] = [0, 1].map(|i| places[p.links[i]].then(&p.sides[i]));
+    [a.then(&joint_motion(p)), b]
 }
 
 fn free_turns(robot: &Robot, j: usize) -> usize {
@@ -64,17 +60,12 @@ fn free_turns(robot: &Robot, j: usize) -> usize {
 /// Returns the gaps of all loops.
 pub(crate) fn loop_gaps(robot: &Robot, tree: &Tree) -> Vec<Gap> {
     let places = link_places(robot, tree);
-    tree.loops
-        .iter()
-        .map(|&joint| {
-            let (shift, turn) = loop_mismatch(robot, &places, joint);
-            Gap {
-                joint,
-                shift: length(shift),
-                turn: length(turn),
-            }
-        })
-        .collect()
+    let gap = |&joint: &usize| {
+        let (shift, turn) = loop_mismatch(robot, &places, joint);
+        let (shift, turn) = (length(shift), length(turn));
+        Gap { joint, shift, turn }
+    };
+    tree.loops.iter().map(gap).collect()
 }
 
 /// Returns the largest gap as a length.
@@ -91,16 +82,11 @@ pub(crate) fn worst_gap(gaps: &[Gap], size: f64) -> f64 {
 /// one that breaks the fewest limits, then the first that comes as near as rounded coordinates allow; otherwise the values stay.
 pub(crate) fn close_numerically(robot: &mut Robot, tree: &Tree) -> (f64, usize) {
     let size = robot_size(robot);
-    let first: Vec<Vec<f64>> = robot.joints.iter().map(|j| j.values.clone()).collect();
-    let set = |robot: &mut Robot, values: &[Vec<f64>]| {
-        for (j, v) in robot.joints.iter_mut().zip(values) {
-            j.values.clone_from(v);
-        }
-    };
+    let first = joint_values(robot);
     let mut best: Option<(usize, f64, Vec<Vec<f64>>)> = None;
     let mut near = None;
     for start in 0..STARTS {
-        set(robot, &first);
+        set_values(robot, &first);
         if start > 0 {
             set_start(robot, start);
         }
@@ -108,13 +94,9 @@ pub(crate) fn close_numerically(robot: &mut Robot, tree: &Tree) -> (f64, usize) 
         if left > ROUNDED * size || (left > CLOSED * size && near.is_some()) {
             continue;
         }
-        let broken = robot
-            .joints
-            .iter_mut()
-            .map(wind_back)
-            .filter(|inside| !inside)
-            .count();
-        let values = robot.joints.iter().map(|j| j.values.clone()).collect();
+        let inside = robot.joints.iter_mut().map(wind_back);
+        let broken = inside.filter(|inside| !inside).count();
+        let values = joint_values(robot);
         if left > CLOSED * size {
             near = Some((broken, left, values));
             continue;
@@ -128,13 +110,24 @@ pub(crate) fn close_numerically(robot: &mut Robot, tree: &Tree) -> (f64, usize) 
     }
     match best.or(near) {
         Some((broken, left, values)) => {
-            set(robot, &values);
+            set_values(robot, &values);
             (left, broken)
         }
         None => {
-            set(robot, &first);
+            set_values(robot, &first);
             (worst_gap(&loop_gaps(robot, tree), size), 0)
         }
+    }
+}
+
+/// Returns the values of all joints.
+pub(crate) fn joint_values(robot: &Robot) -> Vec<Vec<f64>> {
+    robot.joints.iter().map(|j| j.values.clone()).collect()
+}
+
+fn set_values(robot: &mut Robot, values: &[Vec<f64>]) {
+    for (j, v) in robot.joints.iter_mut().zip(values) {
+        j.values.clone_from(v);
     }
 }
 
@@ -177,16 +170,11 @@ fn set_start(robot: &mut Robot, start: usize) {
 
 /// Minimises the gaps by Levenberg-Marquardt with the exact twists as derivatives.
 fn minimise_gaps(robot: &mut Robot, tree: &Tree, size: f64) -> f64 {
-    let offsets: Vec<usize> = robot
-        .joints
-        .iter()
-        .scan(0, |n, j| {
-            let first = *n;
-            *n += j.values.len();
-            Some(first)
-        })
-        .collect();
-    let unknowns: usize = robot.joints.iter().map(|j| j.values.len()).sum();
+    let (mut offsets, mut unknowns) = (Vec::new(), 0);
+    for j in &robot.joints {
+        offsets.push(unknowns);
+        unknowns += j.values.len();
+    }
     let mut left = worst_gap(&loop_gaps(robot, tree), size);
     if unknowns == 0 || unknowns > MAX_UNKNOWNS {
         return left;
@@ -211,26 +199,20 @@ fn minimise_gaps(robot: &mut Robot, tree: &Tree, size: f64) -> f64 {
             damping *= 10.0;
             continue;
         };
-        let before: Vec<Vec<f64>> = robot.joints.iter().map(|j| j.values.clone()).collect();
+        let before = joint_values(robot);
         let longest = change.iter().fold(0.0, |a: f64, x| a.max(x.abs()));
-        let shrink = if longest > LONGEST {
-            LONGEST / longest
-        } else {
-            1.0
-        };
+        let shrink = (LONGEST / longest).min(1.0);
         for (j, &first) in robot.joints.iter_mut().zip(&offsets) {
             for (i, (v, f)) in j.values.iter_mut().zip(j.joint_type.freedoms()).enumerate() {
                 *v += shrink * change[first + i] * if f.is_slide() { size } else { 1.0 };
             }
         }
-        let after = self::gap_cost(robot, tree, size);
+        let after = gap_cost(robot, tree, size);
         if after < cost {
             (cost, damping) = (after, (damping / 5.0).max(1e-15));
             left = worst_gap(&loop_gaps(robot, tree), size);
         } else {
-            for (j, v) in robot.joints.iter_mut().zip(before) {
-                j.values = v;
-            }
+            set_values(robot, &before);
             damping = (damping * 4.0).max(1e-12);
         }
     }
@@ -240,13 +222,11 @@ fn minimise_gaps(robot: &mut Robot, tree: &Tree, size: f64) -> f64 {
 fn gap_cost(robot: &Robot, tree: &Tree, size: f64) -> f64 {
     let places = link_places(robot, tree);
     let square = |v: Vector| dot(v, v);
-    tree.loops
-        .iter()
-        .map(|&j| {
-            let (shift, turn) = loop_mismatch(robot, &places, j);
-            square(scale(shift, 1.0 / size)) + square(turn)
-        })
-        .sum()
+    let cost = |&j: &usize| {
+        let (shift, turn) = loop_mismatch(robot, &places, j);
+        square(scale(shift, 1.0 / size)) + square(turn)
+    };
+    tree.loops.iter().map(cost).sum()
 }
 
 /// Returns the derivative of "near side less far side" and the mismatch to be corrected.
@@ -269,11 +249,7 @@ fn linearise_gaps(
             residual[(6 * n + 3 + i, 0)] = turn[i];
         }
         let p = &robot.joints[j];
-        let near = places[p.links[0]]
-            .then(&p.sides[0])
-            .then(&joint_motion(p))
-            .translation;
-        let far = places[p.links[1]].then(&p.sides[1]).translation;
+        let [near, far] = loop_sides(p, &places).map(|side| side.translation);
         let mut put = |joint: usize, at: Vector, sign: f64| {
             let part = &robot.joints[joint];
             for (i, a) in world_axes(part, &places).iter().enumerate() {

@@ -76,11 +76,8 @@ fn option_table(kind: &JointType, more: &[(bool, Vector)]) -> OptionEntry {
         (_, Some(y)) if dot(d, y).abs() > 0.5 => 'y',
         _ => 'z',
     };
-    let mut freedoms: Vec<String> = kind
-        .freedoms()
-        .iter()
-        .map(|f| f.name().to_owned())
-        .collect();
+    let freedoms = kind.freedoms().iter().map(|f| f.name().to_owned());
+    let mut freedoms: Vec<String> = freedoms.collect();
     let mut names = Vec::new();
     for &(slides, d) in more {
         freedoms.push(format!("{}{}", if slides { 't' } else { 'r' }, letter(d)));

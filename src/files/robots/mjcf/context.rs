@@ -15,7 +15,6 @@ pub(super) struct Compiler {
 }
 
 /// The data that the sections of a file share.
-#[derive(Debug)]
 pub(super) struct Context<'a> {
     pub(super) compiler: Compiler,
     pub(crate) defaults: Defaults<'a>,
@@ -43,63 +42,53 @@ pub(super) fn read_compiler(root: Element<'_>) -> Read<Compiler> {
             seq.clone_into(&mut out.eulerseq);
         }
         if c.attribute("coordinate") == Some("global") {
-            return Err(c.unsupported_error(
-                "global coordinates",
-                "save the model with MuJoCo 2.3 or later",
-            ));
+            let remedy = "save the model with MuJoCo 2.3 or later";
+            return Err(c.unsupported_error("global coordinates", remedy));
         }
     }
     Ok(out)
 }
 
+/// The five forms of an orientation.
+const ORIENTATIONS: [&str; 5] = ["quat", "axisangle", "xyaxes", "zaxis", "euler"];
+
 impl Compiler {
     /// Returns the placement given by `pos` and one of the five forms of orientation.
     pub(super) fn read_place(&self, e: Element<'_>) -> Read<RigidMotion> {
-        Ok(RigidMotion {
-            translation: e.read_vector("pos", [0.0; 3])?,
-            ..self.read_rotation(e)?
-        })
+        let mut out = self.read_rotation(e)?;
+        out.translation = e.read_vector("pos", [0.0; 3])?;
+        Ok(out)
     }
 
     /// Returns the rotation given by one of the five forms.
     pub(super) fn read_rotation(&self, e: Element<'_>) -> Read<RigidMotion> {
-        let zero = |name: &str| {
+        let nonzero = |name: &str, size: f64| {
             let want = "give a direction or quaternion that is not zero";
             let found = e.attribute(name).unwrap_or("");
-            e.error_at(Some(name), bad_value(&e.label(), name, found, want))
+            let problem = || e.error_at(Some(name), bad_value(&e.label(), name, found, want));
+            (size >= 1e-9).then_some(()).ok_or_else(problem)
         };
-        let ways = ["quat", "axisangle", "xyaxes", "zaxis", "euler"];
-        let given: Vec<&str> = ways
-            .into_iter()
-            .filter(|w| e.attribute(w).is_some())
-            .collect();
+        let given = ORIENTATIONS.into_iter();
+        let given: Vec<&str> = given.filter(|w| e.attribute(w).is_some()).collect();
         if given.len() > 1 {
             let why = format!("it has two orientations, {}", given.join(" and "));
             return Err(e.unsupported_error(&why, "keep one"));
         }
         let mut pose = RigidMotion::IDENTITY;
         if let Some(q) = e.read_numbers::<4>("quat")? {
-            if q.iter().all(|x| x.abs() < 1e-9) {
-                return Err(zero("quat"));
-            }
+            nonzero("quat", q.iter().fold(0.0, |most, x| x.abs().max(most)))?;
             pose = RigidMotion::from_quaternion([0.0; 3], q);
         } else if let Some([x, y, z, angle]) = e.read_numbers::<4>("axisangle")? {
-            if length([x, y, z]) < 1e-9 {
-                return Err(zero("axisangle"));
-            }
+            nonzero("axisangle", length([x, y, z]))?;
             pose = pose.then(&RigidMotion::from_turn([x, y, z], angle * self.angle));
         } else if let Some([a, b, c, d, f, g]) = e.read_numbers::<6>("xyaxes")? {
             let x = unit_or_z([a, b, c]);
             let y = sub([d, f, g], scale(x, dot(x, [d, f, g])));
-            if length([a, b, c]) < 1e-9 || length(y) < 1e-9 {
-                return Err(zero("xyaxes"));
-            }
+            nonzero("xyaxes", length([a, b, c]).min(length(y)))?;
             let (y, z) = (unit_or_z(y), cross(x, unit_or_z(y)));
             pose.rotation = [0, 1, 2].map(|i| [x[i], y[i], z[i]]);
         } else if let Some(z) = e.read_numbers::<3>("zaxis")? {
-            if length(z) < 1e-9 {
-                return Err(zero("zaxis"));
-            }
+            nonzero("zaxis", length(z))?;
             pose = pose.then(&RigidMotion::z_to(z));
         } else if let Some(angles) = e.read_numbers::<3>("euler")? {
             pose = pose.then(&self.euler_rotation(angles));
@@ -118,24 +107,23 @@ impl Compiler {
             };
             let step = RigidMotion::from_turn(about, angle * self.angle);
             // Small letters turn with the frame, capitals about the fixed axes.
-            turn = if axis.is_lowercase() {
-                turn.then(&step)
-            } else {
-                step.then(&turn)
-            };
+            let moves = axis.is_lowercase();
+            let (first, then) = if moves { (turn, step) } else { (step, turn) };
+            turn = first.then(&then);
         }
         turn
     }
 }
 
+/// The name of a class, if there is one.
+type Class<'a> = Option<&'a str>;
+
 /// The classes: for each the class around it and its `<default>` elements.
-#[derive(Debug)]
 pub(crate) struct Defaults<'a> {
     classes: BTreeMap<&'a str, (Option<&'a str>, Vec<Element<'a>>)>,
 }
 
 /// The elements in which an element's attributes are looked up: itself, then its classes from the innermost out.
-#[derive(Debug)]
 pub(crate) struct Lookup<'a> {
     places: Vec<Element<'a>>,
 }
@@ -159,23 +147,16 @@ impl<'a> Defaults<'a> {
                 return Err(d.error_at(Some("class"), syntax_problem(message)));
             }
             entry.1.push(d);
-            stack.extend(
-                d.children_named("default")
-                    .map(|inner| (inner, Some(class))),
-            );
+            let inner = d.children_named("default");
+            stack.extend(inner.map(|inner| (inner, Some(class))));
         }
         Ok(Defaults { classes })
     }
 
     /// Returns the elements that hold the attributes of an element. The first is the element itself. The second is `tag` in its class,
     /// otherwise in the class of the bodies around it, otherwise in the main one.
-    pub(crate) fn lookup(
-        &self,
-        e: Element<'a>,
-        tag: &str,
-        childclass: Option<&'a str>,
-    ) -> Read<Lookup<'a>> {
-        let given = e.attribute("class").or(childclass);
+    pub(crate) fn lookup(&self, e: Element<'a>, tag: &str, class: Class<'a>) -> Read<Lookup<'a>> {
+        let given = e.attribute("class").or(class);
         if let Some(c) = given
             && !self.classes.contains_key(c)
         {
@@ -184,12 +165,8 @@ impl<'a> Defaults<'a> {
         }
         let mut places = vec![e];
         // A class is only ever within one that was read before, so that this ends; the bound is for repeated names.
-        let outermost = || {
-            self.classes
-                .iter()
-                .find(|(_, (outer, _))| outer.is_none())
-                .map(|(c, _)| *c)
-        };
+        let mut all = self.classes.iter();
+        let outermost = || all.find(|(_, (outer, _))| outer.is_none()).map(|(c, _)| *c);
         let mut next = given.or_else(outermost);
         for _ in 0..=self.classes.len() {
             let Some((outer, elements)) = next.and_then(|c| self.classes.get(c)) else {

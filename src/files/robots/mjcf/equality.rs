@@ -3,7 +3,7 @@
 use crate::geom::rigid::RigidMotion;
 use crate::model::joint_type::JointType;
 use crate::robots::description::kinematics::joint_motion;
-use crate::robots::description::{Part, Ratio, Robot};
+use crate::robots::description::{End, Part, Ratio, Robot};
 use crate::robots::mjcf::context::Context;
 use crate::robots::warning::{Read, bad_value, list_known};
 use crate::robots::xml::element::Element;
@@ -33,19 +33,17 @@ pub(crate) fn read_equalities(
             }
             "weld" => {
                 let ends = read_ends(e, context, robot)?;
-                let scale = look.numbers::<1>("torquescale")?;
-                if scale == Some([0.0]) {
-                    // Without torque it is a ball at its anchor, which is given in the second body.
-                    let at = RigidMotion::from_translation(look.vector("anchor", [0.0; 3])?);
-                    let [(one, first), (two, second)] = ends;
-                    let ends = match e.attribute("site1") {
-                        Some(_) => ends,
-                        None => [(one, first.then(&second.inverse()).then(&at)), (two, at)],
-                    };
-                    add_closing(e, &id, ends, JointType::Spherical, robot)?;
-                } else {
-                    add_closing(e, &id, ends, JointType::Fixed, robot)?;
+                let (mut ends, mut kind) = (ends, JointType::Fixed);
+                if look.numbers::<1>("torquescale")? == Some([0.0]) {
+                    kind = JointType::Spherical;
+                    if e.attribute("site1").is_none() {
+                        // Without torque it is a ball at its anchor, which is given in the second body.
+                        let at = RigidMotion::from_translation(look.vector("anchor", [0.0; 3])?);
+                        let [(one, first), (two, second)] = ends;
+                        ends = [(one, first.then(&second.inverse()).then(&at)), (two, at)];
+                    }
                 }
+                add_closing(e, &id, ends, kind, robot)?;
             }
             "joint" => read_coupling(e, robot)?,
             "tendon" => read_tendons(e, root, robot)?,
@@ -53,9 +51,7 @@ pub(crate) fn read_equalities(
                 let what = "it holds a deformable body, which is omitted";
                 robot.report.add_approximation(&e.label(), what);
             }
-            "distance" => {
-                return Err(e.unsupported_error("it is not a joint", "remove it"));
-            }
+            "distance" => return Err(e.unsupported_error("it is not a joint", "remove it")),
             _ => {
                 let what = "an equality of an unknown kind; omitted";
                 robot.report.leave_out_joint(&e.label(), 6, what);
@@ -64,8 +60,6 @@ pub(crate) fn read_equalities(
     }
     Ok(())
 }
-
-type End = (usize, RigidMotion);
 
 fn read_ends(e: Element<'_>, context: &Context<'_>, robot: &Robot) -> Read<[End; 2]> {
     if e.attribute("site1").is_some() || e.attribute("site2").is_some() {
@@ -91,9 +85,8 @@ fn read_ends(e: Element<'_>, context: &Context<'_>, robot: &Robot) -> Read<[End;
     };
     let (one, two) = (body("body1")?, body("body2")?);
     let as_drawn = |at: RigidMotion| {
-        robot.places[two]
-            .inverse()
-            .then(&robot.places[one].then(&at))
+        let there = robot.places[one].then(&at);
+        robot.places[two].inverse().then(&there)
     };
     if e.name() == "connect" {
         e.required_attribute("anchor")?;
@@ -101,16 +94,14 @@ fn read_ends(e: Element<'_>, context: &Context<'_>, robot: &Robot) -> Read<[End;
         return Ok([(one, at), (two, as_drawn(at))]);
     }
     // The place of body 2 in body 1; a zero quaternion means the place in the model as drawn.
-    match e.read_numbers::<7>("relpose")? {
-        Some([x, y, z, quat @ ..]) if quat != [0.0; 4] => Ok([
-            (one, RigidMotion::from_quaternion([x, y, z], quat)),
-            (two, RigidMotion::IDENTITY),
-        ]),
-        _ => Ok([
-            (one, RigidMotion::IDENTITY),
-            (two, as_drawn(RigidMotion::IDENTITY)),
-        ]),
-    }
+    let here = RigidMotion::IDENTITY;
+    Ok(match e.read_numbers::<7>("relpose")? {
+        Some([x, y, z, quat @ ..]) if quat != [0.0; 4] => {
+            let place = RigidMotion::from_quaternion([x, y, z], quat);
+            [(one, place), (two, here)]
+        }
+        _ => [(one, here), (two, as_drawn(here))],
+    })
 }
 
 fn add_closing(
@@ -204,12 +195,11 @@ fn read_tendons(e: Element<'_>, root: Element<'_>, robot: &mut Robot) -> Read<()
     Ok(())
 }
 
+/// The coefficients of joints.
+type Row<'a> = BTreeMap<&'a str, f64>;
+
 /// Returns the coefficients of the joints whose sum is the length of a tendon. `None` if it is not a `<fixed>` tendon.
-fn tendon_length<'a>(
-    e: Element<'a>,
-    key: &'static str,
-    root: Element<'a>,
-) -> Read<Option<BTreeMap<&'a str, f64>>> {
+fn tendon_length<'a>(e: Element<'a>, key: &str, root: Element<'a>) -> Read<Option<Row<'a>>> {
     let name = e.required_attribute(key)?;
     let all = root
         .children_named("tendon")
@@ -242,20 +232,13 @@ fn read_polynomial(e: Element<'_>) -> Read<[f64; 5]> {
     let Some(text) = e.attribute("polycoef") else {
         return Ok(out);
     };
-    let words: Vec<&str> = text.split_whitespace().collect();
-    let read: Option<Vec<f64>> = words
-        .iter()
-        .map(|w| w.parse::<f64>().ok().filter(|x| x.abs() <= 1e9))
-        .collect();
-    match read {
-        Some(read) if read.len() <= out.len() => {
-            out[..read.len()].copy_from_slice(&read);
-            Ok(out)
-        }
-        _ => {
-            let want = "give at most 5 finite numbers";
-            let problem = bad_value(&e.label(), "polycoef", text, want);
-            Err(e.error_at(Some("polycoef"), problem))
-        }
-    }
+    let number = |w: &str| w.parse::<f64>().ok().filter(|x| x.abs() <= 1e9);
+    let read: Option<Vec<f64>> = text.split_whitespace().map(number).collect();
+    let Some(read) = read.filter(|r| r.len() <= out.len()) else {
+        let want = "give at most 5 finite numbers";
+        let problem = bad_value(&e.label(), "polycoef", text, want);
+        return Err(e.error_at(Some("polycoef"), problem));
+    };
+    out[..read.len()].copy_from_slice(&read);
+    Ok(out)
 }

@@ -2,24 +2,23 @@
 //! two sides of a `<connect>` or `<weld>`. Keyframes get the numbers of the new joints.
 
 use crate::geom::rigid::RigidMotion;
-use crate::geom::vector::{Vector, dot, sub};
+use crate::geom::vector::Vector;
 use crate::robots::description::Part;
 use crate::robots::description::origin::Origin;
-use crate::robots::description::physical::Light;
+use crate::robots::description::physical::LIGHT_MJCF;
 use crate::robots::edit::{Edits, Freed, Freeing};
 use crate::robots::mechanism::series_of_single_joints::{escape_xml, format_numbers};
-use crate::robots::mjcf::context::Defaults;
-use crate::robots::mjcf::context::read_compiler;
-use crate::robots::mjcf::weights::{self, Weight};
+use crate::robots::mjcf::context::{Defaults, read_compiler};
 use crate::robots::warning::Read;
 use crate::robots::xml::element::Element;
-use std::collections::BTreeMap;
 
-/// Armature if the weights of links are unknown, in kg and kg·m²: too much is harmless, too little is not.
-const HEAVY: f64 = 10.0;
-/// Armature as a multiple of the weight of links. In a ladder of four loops, joints differ from those of the original model by 1.4e-3 rad
-/// after half a second at 1, and by 4e-4 at 10.
-const TIMES: f64 = 10.0;
+/// Armature of a new joint, in kg for a slide and in kg·m² for a hinge: more than any robot weighs. MuJoCo softens a constraint by the
+/// mean weight of its bodies in all directions, so a light body in between would let the loop open. The new joint does not move while the
+/// loop stays closed, so its armature changes no motion, however large it is.
+const ARMATURE: f64 = 1000.0;
+
+/// Attributes that limit the force of the actuators of a joint.
+const LIMITED_FORCE: [&str; 2] = ["actuatorfrcrange", "actuatorfrclimited"];
 
 /// Gives joints freedoms.
 pub(crate) fn free_joints(origin: &Origin, all: &[Freeing<'_>], edits: &mut Edits<'_>) -> Read<()> {
@@ -28,21 +27,19 @@ pub(crate) fn free_joints(origin: &Origin, all: &[Freeing<'_>], edits: &mut Edit
         origin,
         defaults: Defaults::read(root)?,
         parents: find_parents(origin),
-        // Errors in shapes and masses do not matter for the kinematics.
-        weights: weights::read_weights(root, &origin.robot).unwrap_or_default(),
         inserted: Vec::new(),
     };
-    for &(part, e, freed) in all {
+    for joint in all {
+        let &(_, e, freed) = joint;
         // A connect that may slide in three directions has no constraints.
         let slides = freed.iter().filter(|f| f.0).count();
         if e.name() == "connect" && slides == 3 {
             let why = "ozols fix: disabled, because other joints impose the same constraints";
-            deactivate(origin, e.id, why, edits)?;
+            deactivate(e.id, why, edits)?;
             continue;
         }
-        match (e.name(), e.attribute("site1")) {
-            ("connect" | "weld", Some(site)) => file.at_site(e, part, site, freed, edits)?,
-            ("connect" | "weld", None) => file.at_body(e, part, freed, edits)?,
+        match e.name() {
+            "connect" | "weld" => file.at_closure(joint, edits)?,
             _ => file.in_body(e, freed, edits)?,
         }
     }
@@ -50,13 +47,8 @@ pub(crate) fn free_joints(origin: &Origin, all: &[Freeing<'_>], edits: &mut Edit
 }
 
 /// Removes an equality of joints.
-pub(crate) fn deactivate(
-    origin: &Origin,
-    element: usize,
-    why: &str,
-    edits: &mut Edits<'_>,
-) -> Read<()> {
-    let e = origin.element(element);
+pub(crate) fn deactivate(element: usize, why: &str, edits: &mut Edits<'_>) -> Read<()> {
+    let e = edits.origin.element(element);
     edits.set_attribute(e, "active", "false")?;
     edits.insert_after(e, &[format!("<!-- {why} -->")]);
     Ok(())
@@ -73,12 +65,13 @@ enum KeyframeMark {
     Site(usize),
 }
 
+/// The numbers of `qpos` and of `qvel` before each mark.
+type Marks = Vec<(KeyframeMark, [usize; 2])>;
+
 struct MjcfFile<'a> {
     origin: &'a Origin,
     defaults: Defaults<'a>,
     parents: Vec<Option<usize>>,
-    /// The weights of the links, in their frames.
-    weights: BTreeMap<usize, Weight>,
     /// Inserted joints.
     inserted: Vec<(KeyframeMark, usize)>,
 }
@@ -118,44 +111,13 @@ impl<'a> MjcfFile<'a> {
             (&["frictionloss"], "frictionloss=\"0\""),
             (&["ref"], "ref=\"0\""),
             (&["springref"], "springref=\"0\""),
-            (
-                &["actuatorfrcrange", "actuatorfrclimited"],
-                "actuatorfrclimited=\"false\"",
-            ),
+            (&LIMITED_FORCE, "actuatorfrclimited=\"false\""),
         ] {
             if set.iter().any(says) {
                 out += &format!(" {back}");
             }
         }
         Ok(out)
-    }
-
-    /// Returns the armature of a new joint next to a part, in kg for a slide and in kg·m² for a hinge. It is ten times that of the links
-    /// that the part joins. MuJoCo softens a constraint by the mean weight of its bodies in all directions. A light body in between, or a
-    /// thin one that may turn, would let the loop open. The new joint does not move while the loop stays closed, so its armature changes no
-    /// motion.
-    fn armature(&self, part: &Part, slides: bool, point: Vector) -> String {
-        let felt = |(link, w): (usize, &Weight)| {
-            let at = self.origin.places[link].then(&w.place).translation;
-            let far = sub(at, point);
-            let about = w.tensor[..3].iter().sum::<f64>() / 2.0 + w.mass * dot(far, far);
-            if slides { w.mass } else { about }
-        };
-        let joined = part
-            .links
-            .iter()
-            .filter_map(|&l| Some(felt((l, self.weights.get(&l)?))));
-        let joined: f64 = joined.sum();
-        let all = || {
-            self.weights
-                .iter()
-                .map(|(&l, w)| felt((l, w)))
-                .fold(0.0, f64::max)
-        };
-        // Two digits are enough; a larger value does no harm.
-        let most = [joined, all(), HEAVY].into_iter().find(|x| *x > 0.0);
-        let rounded = format!("{:.1e}", TIMES * most.unwrap_or(HEAVY)).parse::<f64>();
-        rounded.unwrap_or(HEAVY).to_string()
     }
 
     /// Writes the new joints of a joint, in a frame at a place in the world.
@@ -177,13 +139,11 @@ impl<'a> MjcfFile<'a> {
                 ("hinge", "turn")
             };
             let name = edits.name(&format!("{}_{word}", part.id));
-            let armature = self.armature(part, *slides, point);
             out.push(format!("<!-- {why} -->"));
             out.push(format!(
-                "<joint name=\"{}\" type=\"{kind}\" armature=\"{armature}\" pos=\"{}\" axis=\"{}\"{neutral}/>",
-                escape_xml(&name),
-                format_numbers(inside.map_point(point)),
-                format_numbers(inside.map_direction(*direction)),
+                "<joint name=\"{}\" type=\"{kind}\" armature=\"{ARMATURE}\" pos=\"{}\" axis=\"{}\"{neutral}/>",
+                escape_xml(&name), format_numbers(inside.map_point(point)),
+                format_numbers(inside.map_direction(*direction))
             ));
         }
         Ok(out)
@@ -206,13 +166,12 @@ impl<'a> MjcfFile<'a> {
             return Err(e.unsupported_error("its body has joints in a <frame>", "choose another"));
         }
         let frame = self.origin.places[link.links[1]];
-        let point = self.origin.places[part.links[1]]
-            .then(&part.sides[1])
-            .translation;
+        let at = self.origin.places[part.links[1]].then(&part.sides[1]);
+        let point = at.translation;
         let lines = self.write_joints(part, point, &frame, body, freed, edits)?;
         edits.insert_after(last, &lines);
-        self.inserted
-            .push((KeyframeMark::Joint(last.id), freed.len()));
+        let mark = KeyframeMark::Joint(last.id);
+        self.inserted.push((mark, freed.len()));
         Ok(())
     }
 
@@ -227,130 +186,84 @@ impl<'a> MjcfFile<'a> {
         all.find(|e| e.name() == tag && (name.is_none() || e.attribute("name") == name))
     }
 
-    /// Inserts a body that moves on the first body and is held in its place.
-    fn at_body(
-        &mut self,
-        e: Element<'a>,
-        part: &Part,
-        freed: Freed<'_>,
-        edits: &mut Edits<'_>,
-    ) -> Read<()> {
+    /// Inserts a body that moves on the first body and is held in its place. If sites are held together, it has a copy of the first.
+    fn at_closure(&mut self, joint: &Freeing<'a>, edits: &mut Edits<'_>) -> Read<()> {
+        let &(part, e, freed) = joint;
         let (robot, one) = (&self.origin.robot, part.links[0]);
-        let body = if robot.world == Some(one) {
-            self.find_named("worldbody", None)
-        } else {
-            self.find_named("body", Some(&robot.links[one]))
-        };
-        let body =
-            body.ok_or_else(|| e.unsupported_error("its first body has no name", "give it one"))?;
-        let frame = self.origin.places[one];
-        let point = frame.then(&part.sides[0]).translation;
+        let at = self.origin.places[one].then(&part.sides[0]);
+        let point = at.translation;
         let between = edits.name(&format!("{}_between", part.id));
-        let inner = self.write_joints(part, point, &frame, body, freed, edits)?;
-        let at = frame.inverse().map_point(point);
-        edits.append_child(body, &self.write_body(&between, at, inner, None));
-        edits.set_attribute(e, "body1", &between)?;
-        self.inserted
-            .push((KeyframeMark::Within(body.id), freed.len()));
-        Ok(())
-    }
-
-    /// Inserts a body with a copy of the first site, if sites are held together.
-    fn at_site(
-        &mut self,
-        e: Element<'a>,
-        part: &Part,
-        site: &str,
-        freed: Freed<'_>,
-        edits: &mut Edits<'_>,
-    ) -> Read<()> {
+        let Some(site) = e.attribute("site1") else {
+            let body = if robot.world == Some(one) {
+                self.find_named("worldbody", None)
+            } else {
+                self.find_named("body", Some(&robot.links[one]))
+            };
+            let body = body
+                .ok_or_else(|| e.unsupported_error("its first body has no name", "give it one"))?;
+            let frame = self.origin.places[one];
+            let inner = self.write_joints(part, point, &frame, body, freed, edits)?;
+            let inside = frame.inverse().map_point(point);
+            edits.append_child(body, &write_body(&between, inside, inner, None));
+            let mark = KeyframeMark::Within(body.id);
+            self.inserted.push((mark, freed.len()));
+            return edits.set_attribute(e, "body1", &between);
+        };
         let found = self.find_named("site", Some(site)).ok_or_else(|| {
             e.unsupported_error("its first site has no element", "choose another")
         })?;
-        let around = self.parent_of(found);
         let root = self.origin.element(self.origin.root);
         let own = read_compiler(root)?.read_place(found)?;
-        let at = self.origin.places[part.links[0]].then(&part.sides[0]);
         let frame = at.then(&own.inverse());
-        let between = edits.name(&format!("{}_between", part.id));
-        let inner = self.write_joints(part, at.translation, &frame, around, freed, edits)?;
+        let around = self.parent_of(found);
+        let inner = self.write_joints(part, point, &frame, around, freed, edits)?;
         let copy = edits.name(&format!("{site}_between"));
         let raw = edits.raw_text(found);
         let Some(span) = found.value_span("name") else {
-            return Err(found.unsupported_error(
-                "its name has character references",
-                "write it as plain text",
-            ));
+            let why = "its name has character references";
+            return Err(found.unsupported_error(why, "write it as plain text"));
         };
         let start = found.node().span.start;
         let (before, after) = (&raw[..span.start - start], &raw[span.end - start..]);
         let copied = format!("{before}{}{after}", escape_xml(&copy));
-        let inside = frame.inverse().map_point(at.translation);
-        edits.insert_after(
-            found,
-            &self.write_body(&between, inside, inner, Some(copied)),
-        );
-        edits.set_attribute(e, "site1", &copy)?;
-        self.inserted
-            .push((KeyframeMark::Site(found.id), freed.len()));
-        Ok(())
-    }
-
-    /// Writes the lines of an inserted body, with its mass at its joints.
-    fn write_body(
-        &self,
-        name: &str,
-        at: Vector,
-        inner: Vec<String>,
-        site: Option<String>,
-    ) -> Vec<String> {
-        let mut out = vec![format!("<body name=\"{}\">", escape_xml(name))];
-        let light = Light::in_description(&self.origin.document).write_mjcf(at);
-        let inner = std::iter::once(light).chain(inner).chain(site);
-        out.extend(inner.map(|l| format!("  {l}")));
-        out.push("</body>".to_owned());
-        out
+        let inside = frame.inverse().map_point(point);
+        edits.insert_after(found, &write_body(&between, inside, inner, Some(copied)));
+        let mark = KeyframeMark::Site(found.id);
+        self.inserted.push((mark, freed.len()));
+        edits.set_attribute(e, "site1", &copy)
     }
 
     /// Zeros for the new joints in the positions and speeds of keyframes.
     fn extend_keyframes(&self, edits: &mut Edits<'_>) -> Read<()> {
         let root = self.origin.element(self.origin.root);
-        let keys = root
-            .children_named("keyframe")
-            .flat_map(|k| k.children_named("key").collect::<Vec<_>>());
+        let keys = root.children_named("keyframe");
+        let keys = keys.flat_map(|k| k.children_named("key").collect::<Vec<_>>());
         let keys: Vec<Element<'a>> = keys.collect();
         if keys.is_empty() {
             return Ok(());
         }
-        let mut walk = Walk {
-            file: self,
-            sizes: [0, 0],
-            marks: Vec::new(),
-        };
+        let (mut total, mut marks) = ([0, 0], Vec::new());
         for w in root.children_named("worldbody") {
-            walk.walk_below(w);
+            self.walk_below(w, &mut total, &mut marks);
         }
         for key in keys {
             for (which, attribute) in ["qpos", "qvel"].into_iter().enumerate() {
                 let Some(text) = key.attribute(attribute) else {
                     continue;
                 };
-                if text.split_whitespace().count() != walk.sizes[which] {
-                    let why = format!("{attribute} has not {} numbers", walk.sizes[which]);
+                if text.split_whitespace().count() != total[which] {
+                    let why = format!("{attribute} has not {} numbers", total[which]);
                     return Err(key.unsupported_error(&why, "correct or remove the keyframe"));
                 }
                 let Some(span) = key.value_span(attribute) else {
-                    return Err(key.unsupported_error(
-                        "it has character references",
-                        "write it as plain text",
-                    ));
+                    let why = "it has character references";
+                    return Err(key.unsupported_error(why, "write it as plain text"));
                 };
-                let starts = word_starts(
-                    &edits.raw_text(key)
-                        [span.start - key.node().span.start..span.end - key.node().span.start],
-                );
+                let start = key.node().span.start;
+                let starts =
+                    word_starts(&edits.raw_text(key)[span.start - start..span.end - start]);
                 for (mark, count) in &self.inserted {
-                    let place = walk.marks.iter().find(|(m, _)| m == mark);
+                    let place = marks.iter().find(|(m, _)| m == mark);
                     let Some((_, sizes)) = place else { continue };
                     let zeros = " 0".repeat(*count);
                     match starts.get(sizes[which]) {
@@ -365,6 +278,38 @@ impl<'a> MjcfFile<'a> {
         }
         Ok(())
     }
+
+    /// Walks through bodies in the order of MuJoCo, depth first, each with its own joints first, and marks the numbers of `qpos` and of
+    /// `qvel` so far.
+    fn walk_below(&self, e: Element<'a>, sizes: &mut [usize; 2], marks: &mut Marks) {
+        let is_joint = |c: &Element<'_>| ["joint", "freejoint"].contains(&c.name());
+        for j in e.children().filter(is_joint) {
+            let part = self.part_of(j.id);
+            let freedoms = part.map_or(0, |p| p.joint_type.freedoms().len());
+            // A ball's and a free joint's turns are quaternions.
+            sizes[0] += freedoms + usize::from(freedoms > 1);
+            sizes[1] += freedoms;
+            marks.push((KeyframeMark::Joint(j.id), *sizes));
+        }
+        for c in e.children() {
+            match c.name() {
+                "body" | "frame" => self.walk_below(c, sizes, marks),
+                "site" => marks.push((KeyframeMark::Site(c.id), *sizes)),
+                _ => {}
+            }
+        }
+        marks.push((KeyframeMark::Within(e.id), *sizes));
+    }
+}
+
+/// Writes the lines of an inserted body, with its mass at its joints.
+fn write_body(name: &str, at: Vector, inner: Vec<String>, site: Option<String>) -> Vec<String> {
+    let mut out = vec![format!("<body name=\"{}\">", escape_xml(name))];
+    let light = format!("<inertial pos=\"{}\" {LIGHT_MJCF}/>", format_numbers(at));
+    let inner = std::iter::once(light).chain(inner).chain(site);
+    out.extend(inner.map(|l| format!("  {l}")));
+    out.push("</body>".to_owned());
+    out
 }
 
 /// Returns the starts of the words of a text.
@@ -384,38 +329,4 @@ fn find_parents(origin: &Origin) -> Vec<Option<usize>> {
         }
     }
     out
-}
-
-/// Bodies in the order of MuJoCo, depth first, each with its own joints first.
-struct Walk<'f, 'a> {
-    file: &'f MjcfFile<'a>,
-    /// Numbers of `qpos` and of `qvel` so far.
-    sizes: [usize; 2],
-    marks: Vec<(KeyframeMark, [usize; 2])>,
-}
-
-impl<'a> Walk<'_, 'a> {
-    fn walk_below(&mut self, e: Element<'a>) {
-        for j in e
-            .children()
-            .filter(|c| ["joint", "freejoint"].contains(&c.name()))
-        {
-            let freedoms = self
-                .file
-                .part_of(j.id)
-                .map_or(0, |p| p.joint_type.freedoms().len());
-            // A ball's and a free joint's turns are quaternions.
-            self.sizes[0] += freedoms + usize::from(freedoms > 1);
-            self.sizes[1] += freedoms;
-            self.marks.push((KeyframeMark::Joint(j.id), self.sizes));
-        }
-        for c in e.children() {
-            match c.name() {
-                "body" | "frame" => self.walk_below(c),
-                "site" => self.marks.push((KeyframeMark::Site(c.id), self.sizes)),
-                _ => {}
-            }
-        }
-        self.marks.push((KeyframeMark::Within(e.id), self.sizes));
-    }
 }

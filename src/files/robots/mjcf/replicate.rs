@@ -53,11 +53,8 @@ fn make_copies(document: &mut Document, id: usize, compiler: &Compiler) -> Read<
     };
     let separator = e.attribute("sep").unwrap_or("").to_owned();
     let digits = (count - 1).to_string().len();
-    let (inner, mut place, mut out) = (
-        document.nodes[id].children.clone(),
-        RigidMotion::IDENTITY,
-        Vec::new(),
-    );
+    let inner = document.nodes[id].children.clone();
+    let (mut place, mut out) = (RigidMotion::IDENTITY, Vec::new());
     for i in 0..count {
         let suffix = format!("{separator}{i:0digits$}");
         let r = place.rotation;

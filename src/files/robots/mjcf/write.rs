@@ -13,7 +13,6 @@ use crate::robots::mechanism::series_of_single_joints::{
     single_freedoms,
 };
 use crate::robots::warning::ExportError;
-use crate::statics::reactions::Unsolved;
 use crate::statics::reactions::drives::driven_freedoms;
 use crate::statics::reactions::geometry::Geometry;
 use std::collections::BTreeMap;
@@ -27,6 +26,7 @@ pub(crate) fn write_mjcf(m: &Mechanism) -> Result<FormattedFile, ExportError> {
     let mut w = MjcfWriter {
         m,
         bodies: vec![None; m.links.len()],
+        own: BTreeMap::new(),
         between: BTreeMap::new(),
         children: BTreeMap::new(),
         parts: BTreeMap::new(),
@@ -43,18 +43,15 @@ pub(crate) fn write_mjcf(m: &Mechanism) -> Result<FormattedFile, ExportError> {
         let at = joint_axes(m, &m.joints[s.joint]).point;
         w.bodies[s.link] = Some((w.body_names.fit_name(&m.links[s.link].id), at));
         let sign = if s.forward { 1.0 } else { -1.0 };
-        w.children
-            .entry(s.from)
-            .or_default()
-            .push((s.link, s.joint, sign));
+        let here = w.children.entry(s.from).or_default();
+        here.push((s.link, s.joint, sign));
     }
     let mut bodies = String::new();
     // Joint by joint in the order of the file, so that names are fitted in it.
     let tree: Vec<(LinkId, JointId, f64)> = w.children.values().flatten().copied().collect();
-    let mut own: BTreeMap<LinkId, Vec<String>> = BTreeMap::new();
     for (link, joint, sign) in tree {
         let lines = w.write_joints(joint, sign, [0.0; 3]);
-        own.insert(link, lines);
+        w.own.insert(link, lines);
     }
     let closing: Vec<JointId> = m.joints_in(StateId::FREE).filter(|&j| !used[j]).collect();
     for &j in &closing {
@@ -66,7 +63,7 @@ pub(crate) fn write_mjcf(m: &Mechanism) -> Result<FormattedFile, ExportError> {
         w.write_closing(j);
     }
     w.write_couplings();
-    w.write_bodies(frame, 2, &own, &mut bodies);
+    w.write_bodies(frame, 2, &mut bodies);
     let mut out = format!("<mujoco model=\"{}\">\n", escape_xml(&m.name));
     let mut told = left_out(m);
     if m.links[frame].id != "world" {
@@ -96,6 +93,8 @@ struct MjcfWriter<'a> {
     m: &'a Mechanism,
     /// Names and origins of the links.
     bodies: Vec<Option<(String, Vector)>>,
+    /// Lines of the joints that hold a link.
+    own: BTreeMap<LinkId, Vec<String>>,
     /// Lines of the small bodies on a link.
     between: BTreeMap<LinkId, Vec<String>>,
     /// The children of a link, each with its joint and the sense in which it is passed.
@@ -169,16 +168,10 @@ impl MjcfWriter<'_> {
     /// moves in the same way. MuJoCo softens a weld by the weight of its bodies, and would let the loop open at a very light one. A body
     /// welded to the frame does not move: it weighs as much as the link `other`.
     fn weight_attributes(&self, link: LinkId, other: LinkId, at: Vector) -> String {
-        let of = if link == self.m.frame_link() {
-            other
-        } else {
-            link
-        };
-        let parts = if of == link {
-            self.parts.get(&of).copied().unwrap_or(1.0)
-        } else {
-            1.0
-        };
+        let fixed = link == self.m.frame_link();
+        let of = if fixed { other } else { link };
+        let own = self.parts.get(&of).copied().unwrap_or(1.0);
+        let parts = if fixed { 1.0 } else { own };
         let i = moving_inertial(self.m, of, at);
         format!(
             "pos=\"{}\" mass=\"{}\" fullinertia=\"{}\"",
@@ -262,11 +255,9 @@ impl MjcfWriter<'_> {
     /// Motors of the driven joints, each on the freedom that statics have its drive hold: a slider may turn about its guide.
     fn write_motors(&self) -> Vec<String> {
         let (m, free) = (self.m, StateId::FREE);
-        let held = Pose::of_file(m, free)
-            .and_then(|pose| Geometry::new(m, free, &pose))
-            .map_err(Unsolved::from)
-            .and_then(|g| driven_freedoms(m, &g))
-            .unwrap_or_default();
+        let geometry = Pose::of_file(m, free).and_then(|pose| Geometry::new(m, free, &pose));
+        let held = geometry.ok().and_then(|g| driven_freedoms(m, &g).ok());
+        let held = held.unwrap_or_default();
         let drives = m.joints_in(free).filter(|&j| m.joints[j].drive);
         let motors = drives.filter_map(|j| {
             let of_drive = held.iter().find(|(k, _)| *k == j);
@@ -280,13 +271,7 @@ impl MjcfWriter<'_> {
     }
 
     /// Writes the bodies on a link.
-    fn write_bodies(
-        &self,
-        link: LinkId,
-        depth: usize,
-        own: &BTreeMap<LinkId, Vec<String>>,
-        out: &mut String,
-    ) {
+    fn write_bodies(&self, link: LinkId, depth: usize, out: &mut String) {
         let indent = "  ".repeat(depth);
         let (_, from) = self.body_of(link);
         for line in self.between.get(&link).into_iter().flatten() {
@@ -302,10 +287,10 @@ impl MjcfWriter<'_> {
             let _ = writeln!(out, "{indent}<body name=\"{name}\" pos=\"{pos}\">{role}");
             let weight = self.weight_attributes(child, child, at);
             let _ = writeln!(out, "{indent}  <inertial {weight}/>");
-            for line in own.get(&child).into_iter().flatten() {
+            for line in self.own.get(&child).into_iter().flatten() {
                 let _ = writeln!(out, "{indent}  {line}");
             }
-            self.write_bodies(child, depth + 1, own, out);
+            self.write_bodies(child, depth + 1, out);
             let _ = writeln!(out, "{indent}</body>");
         }
     }

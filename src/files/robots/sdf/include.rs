@@ -1,10 +1,9 @@
 //! `<include>`: the model of another file in place of the element, under the name and at the place that it gives.
 
 use crate::file::problem::ImportError;
-use crate::robots::warning::Reader;
-use crate::robots::warning::{Read, unsupported_problem};
+use crate::robots::warning::{Read, Reader, unsupported_problem};
 use crate::robots::xml::element::Element;
-use crate::robots::xml::{self, Document};
+use crate::robots::xml::{self, Document, Input};
 
 /// Maximum depth of nested files, and number of includes.
 const LIMITS: (usize, usize) = (16, 1000);
@@ -13,24 +12,27 @@ const LIMITS: (usize, usize) = (16, 1000);
 const SCENERY: [&str; 2] = ["model://sun", "model://ground_plane"];
 
 /// The result of expanding the includes.
-pub(super) struct Expanded {
+pub(super) struct Expanded<'r> {
+    read: Reader<'r>,
+    /// The number of includes.
+    count: usize,
     /// For each file, true if it is older than SDF 1.5.
     pub(super) old: Vec<bool>,
     /// Includes that are omitted, because nothing in them moves.
     pub(super) scenery: Vec<String>,
 }
 
-/// Puts models in place of all `<include>` elements below `root`.
-pub(super) fn expand_includes(
-    document: &mut Document,
-    root: usize,
-    read: Reader<'_>,
-) -> Read<Expanded> {
-    let mut old = vec![is_old(document.element(root))];
-    let mut scenery = Vec::new();
-    let mut count = 0;
+/// Puts models in place of all `<include>` elements below the root.
+pub(super) fn expand_includes<'r>(input: &mut Input<'r>) -> Read<Expanded<'r>> {
+    let document = &mut *input.document;
+    let mut out = Expanded {
+        read: input.read,
+        count: 0,
+        old: vec![is_old(document.element(input.root))],
+        scenery: Vec::new(),
+    };
     // With the names of the files that are open.
-    let mut stack = vec![(root, Vec::<String>::new())];
+    let mut stack = vec![(input.root, Vec::<String>::new())];
     while let Some((id, open)) = stack.pop() {
         let children = document.nodes[id].children.clone();
         let mut all = Vec::with_capacity(children.len());
@@ -41,10 +43,10 @@ pub(super) fn expand_includes(
                 stack.push((c, open.clone()));
                 continue;
             }
-            count += 1;
-            let (model, uri) = read_included(document, c, &open, count, read, &mut old)?;
+            out.count += 1;
+            let (model, uri) = out.read_model(document, c, &open)?;
             let Some(model) = model else {
-                scenery.push(uri);
+                out.scenery.push(uri);
                 continue;
             };
             let mut names = open.clone();
@@ -54,7 +56,7 @@ pub(super) fn expand_includes(
         }
         document.nodes[id].children = all;
     }
-    Ok(Expanded { old, scenery })
+    Ok(out)
 }
 
 /// Returns true if the version is before 1.5; 1.11 comes after 1.9.
@@ -66,54 +68,42 @@ pub(crate) fn is_old(root: Element<'_>) -> bool {
     version.is_some_and(|v| v < (1, 5))
 }
 
-/// Returns the model that an include names, with the settings of the include, and the name. `None` for a light or the floor.
-fn read_included(
-    document: &mut Document,
-    id: usize,
-    open: &[String],
-    count: usize,
-    read: Reader<'_>,
-    old: &mut Vec<bool>,
-) -> Read<(Option<usize>, String)> {
-    let e = document.element(id);
-    let uri = e.first_child("uri").map(|u| u.text().to_owned());
-    let Some(uri) = uri.filter(|u| !u.is_empty()) else {
-        return Err(e.missing_error("<uri>"));
-    };
-    may_be_included(e, &uri, open, count)?;
-    let bytes = match read(&uri) {
-        Ok(bytes) => bytes,
-        Err(_) if SCENERY.contains(&uri.trim_end_matches('/')) => return Ok((None, uri)),
-        Err(error) => {
-            let why = format!("it cannot be read ({error})");
-            let remedy = "give the folder of its model as `models`";
-            return Err(include_error(e, &uri, &why, remedy));
+/// A model, and the name of its include.
+type Found = (Option<usize>, String);
+
+impl Expanded<'_> {
+    /// Returns the model that an include names, with the settings of the include, and the name. `None` for a light or the floor.
+    fn read_model(&mut self, document: &mut Document, id: usize, open: &[String]) -> Read<Found> {
+        let e = document.element(id);
+        let uri = e.first_child("uri").map(|u| u.text().to_owned());
+        let Some(uri) = uri.filter(|u| !u.is_empty()) else {
+            return Err(e.missing_error("<uri>"));
+        };
+        may_be_included(e, &uri, open, self.count)?;
+        let bytes = match (self.read)(&uri) {
+            Ok(bytes) => bytes,
+            Err(_) if SCENERY.contains(&uri.trim_end_matches('/')) => return Ok((None, uri)),
+            Err(error) => {
+                let why = format!("it cannot be read ({error})");
+                let remedy = "give the folder of its model as `models`";
+                return Err(include_error(e, &uri, &why, remedy));
+            }
+        };
+        let inner = document.read(&uri, xml::decode_utf8(&uri, &bytes)?)?;
+        let found = document.element(inner);
+        self.old.push(is_old(found));
+        let models: Vec<usize> = found.children_named("model").map(|m| m.id).collect();
+        if models.is_empty() && found.first_child("light").is_some() {
+            return Ok((None, uri));
         }
-    };
-    if let Err(why) = document.has_room(bytes.len()) {
-        return Err(include_error(
-            e,
-            &uri,
-            &why,
-            "remove everything that is not kinematics",
-        ));
+        let [model] = models[..] else {
+            let (e, remedy) = (document.element(id), "name a file with one model");
+            let why = "the file does not have exactly one <model>";
+            return Err(include_error(e, &uri, why, remedy));
+        };
+        said_by_include(document, id, model);
+        Ok((Some(model), uri))
     }
-    let inner = document.read(&uri, xml::decode_utf8(&uri, &bytes)?)?;
-    let found = document.element(inner);
-    old.push(is_old(found));
-    let models: Vec<usize> = found.children_named("model").map(|m| m.id).collect();
-    if models.is_empty() && found.first_child("light").is_some() {
-        return Ok((None, uri));
-    }
-    let [model] = models[..] else {
-        let (e, why) = (
-            document.element(id),
-            "the file does not have exactly one <model>",
-        );
-        return Err(include_error(e, &uri, why, "name a file with one model"));
-    };
-    said_by_include(document, id, model);
-    Ok((Some(model), uri))
 }
 
 fn include_error(e: Element<'_>, uri: &str, why: &str, remedy: &str) -> ImportError {

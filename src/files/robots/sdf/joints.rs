@@ -4,7 +4,9 @@ use crate::geom::rigid::{RigidMotion, unit_or_z};
 use crate::geom::vector::{Vector, Z, cross, dot, length, sub};
 use crate::model::joint_type::JointType;
 use crate::robots::description::{Part, Ratio, Robot, free_joint, same_link};
-use crate::robots::sdf::scene::{SdfScene, absolute_name, joint_end, locate_name, of_joint};
+use crate::robots::sdf::scene::{
+    Scoped, SdfScene, absolute_name, joint_end, locate_name, of_joint,
+};
 use crate::robots::warning::{Read, bad_value};
 use crate::robots::xml::element::Element;
 
@@ -72,18 +74,12 @@ pub(crate) fn read_joint(
     let joint_type = joint_type(e, word)?;
     let far = length(sub(parent_world.translation, world.translation));
     let apart = is_frame(&absolute_name(scope, parent_name), scene) && far > APART * size;
-    let on_parent = if apart && scene.assemble {
-        RigidMotion {
-            translation: parent_world.translation,
-            ..world
-        }
-    } else {
-        world
-    };
-    let sides = [
-        robot.places[parent].inverse().then(&on_parent),
-        robot.places[child].inverse().then(&world),
-    ];
+    let mut on_parent = world;
+    if apart && scene.assemble {
+        on_parent.translation = parent_world.translation;
+    }
+    let on = |link: usize, at: &RigidMotion| robot.places[link].inverse().then(at);
+    let sides = [on(parent, &on_parent), on(child, &world)];
     let mut part = Part::new(&name, [parent, child], sides, joint_type).said_by(e);
     robot.report.count_mapped(word);
     left_out(e, &name, robot);
@@ -164,10 +160,8 @@ fn read_mimic(e: Element<'_>, name: &str, scope: &str, robot: &mut Robot) -> Rea
         return Ok(None);
     };
     let leader = absolute_name(scope, m.required_attribute("joint")?);
-    let ratio = match m.first_child("multiplier") {
-        Some(x) => x.text_numbers::<1>()?[0],
-        None => m.read_numbers::<1>("multiplier")?.map_or(1.0, |[x]| x),
-    };
+    let ratio = m.read_numbers::<1>("multiplier")?.map_or(1.0, |[x]| x);
+    let ratio = m.child_number("multiplier")?.unwrap_or(ratio);
     robot.couplings.push(Ratio {
         said_by: m.id,
         ..Ratio::new([&leader, name], ratio, e)
@@ -195,8 +189,8 @@ pub(crate) fn read_limits(e: Element<'_>) -> Read<Option<(f64, f64)>> {
 
 /// Metres per radian: `screw_thread_pitch` is metres per turn, `thread_pitch` minus radians per metre.
 pub(crate) fn screw_pitch(e: Element<'_>) -> Read<f64> {
-    if let Some(p) = e.first_child("screw_thread_pitch") {
-        return Ok(p.text_numbers::<1>()?[0] / std::f64::consts::TAU);
+    if let Some(lead) = e.child_number("screw_thread_pitch")? {
+        return Ok(lead / std::f64::consts::TAU);
     }
     let Some(p) = e.first_child("thread_pitch") else {
         return Err(e.missing_error("<screw_thread_pitch>"));
@@ -211,12 +205,8 @@ pub(crate) fn screw_pitch(e: Element<'_>) -> Read<f64> {
 }
 
 /// Reads a universal joint, or two revolute ones if the axes are not perpendicular.
-pub(crate) fn two_axes(
-    e: Element<'_>,
-    mut part: Part,
-    [first, second]: [Vector; 2],
-    robot: &mut Robot,
-) -> Read<()> {
+fn two_axes(e: Element<'_>, mut part: Part, axes: [Vector; 2], robot: &mut Robot) -> Read<()> {
+    let [first, second] = axes;
     let (a, b) = (unit_or_z(first), unit_or_z(second));
     if length(cross(a, b)) < 1e-9 {
         return Err(e.unsupported_error("its two axes are parallel", "give two directions"));
@@ -228,32 +218,23 @@ pub(crate) fn two_axes(
     }
     let between = robot.add_link(&format!("{}~1", part.id), RigidMotion::IDENTITY);
     let [parent, child] = part.links;
-    let one = Part::new(
-        &part.id,
-        [parent, between],
-        [part.sides[0], RigidMotion::IDENTITY],
-        JointType::Revolute,
-    );
-    let two = Part::new(
-        &format!("{}~2", part.id),
-        [between, child],
-        [RigidMotion::IDENTITY, part.sides[1]],
-        JointType::Revolute,
-    );
     // Axes that are not square: two hinges in series are the same.
     robot.report.count_mapped("joint of two oblique axes");
-    robot.joints.push(one.with_axis(first).said_by(e));
-    robot.joints.push(two.with_axis(second).said_by(e));
+    let [near, far] = part.sides;
+    let mut hinge = |id: &str, links, sides, axis| {
+        let part = Part::new(id, links, sides, JointType::Revolute);
+        robot.joints.push(part.with_axis(axis).said_by(e));
+    };
+    let here = RigidMotion::IDENTITY;
+    hinge(&part.id, [parent, between], [near, here], first);
+    let second_id = format!("{}~2", part.id);
+    hinge(&second_id, [between, child], [here, far], second);
     Ok(())
 }
 
 /// Reads Drake's weld of two frames.
-pub(crate) fn read_weld(
-    e: Element<'_>,
-    scope: &str,
-    scene: &SdfScene<'_>,
-    robot: &mut Robot,
-) -> Read<()> {
+pub(crate) fn read_weld(at: &Scoped<'_>, scene: &SdfScene<'_>, robot: &mut Robot) -> Read<()> {
+    let (e, scope) = (at.0, at.1.as_str());
     let mut ends = [(0, RigidMotion::IDENTITY); 2];
     for (x, tag) in ends.iter_mut().zip(["parent", "child"]) {
         let (c, name) = joint_end(e, tag)?;
@@ -274,29 +255,19 @@ pub(crate) fn read_weld(
 
 /// Couples the hinges of the parent and of the child on the reference body: the child turns the other way, faster by the gear
 /// ratio. If there are no such hinges, the gearbox is omitted and reported.
-pub(crate) fn read_gearbox(
-    e: Element<'_>,
-    scope: &str,
-    scene: &SdfScene<'_>,
-    robot: &mut Robot,
-) -> Read<()> {
+pub(crate) fn read_gearbox(at: &Scoped<'_>, scene: &SdfScene<'_>, robot: &mut Robot) -> Read<()> {
+    let (e, scope) = (at.0, at.1.as_str());
     let name = format!("{scope}{}", e.required_attribute("name")?);
     let world = of_joint(scene, e, &name).unwrap_or(RigidMotion::IDENTITY);
-    let times = match e.first_child("gearbox_ratio") {
-        Some(r) => r.text_numbers::<1>()?[0],
-        None => 1.0,
-    };
+    let times = e.child_number("gearbox_ratio")?.unwrap_or(1.0);
     let (_, on) = joint_end(e, "gearbox_reference_body")?;
     let (on, _) = locate_name(e, &absolute_name(scope, on), scene)?;
     let mut found = Vec::new();
     for (tag, way) in [("parent", "axis"), ("child", "axis2")] {
         let (c, link) = joint_end(e, tag)?;
         let (link, _) = locate_name(c, &absolute_name(scope, link), scene)?;
-        let way = if e.first_child(way).is_some() {
-            way
-        } else {
-            "axis"
-        };
+        let stated = e.first_child(way).is_some();
+        let way = if stated { way } else { "axis" };
         let about = read_axis(e, way, scope, scene, &world)?;
         found.extend(find_hinge(robot, [on, link], about));
     }

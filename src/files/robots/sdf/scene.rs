@@ -3,6 +3,7 @@
 use crate::file::problem::ImportError;
 use crate::geom::rigid::RigidMotion;
 use crate::geom::vector::scale;
+use crate::robots::description::End;
 use crate::robots::warning::{Read, list_known, unknown_name};
 use crate::robots::xml::element::Element;
 use std::collections::BTreeMap;
@@ -40,11 +41,14 @@ impl<'a> Placed<'a> {
     }
 }
 
+/// An element and the scope of its names.
+pub(crate) type Scoped<'a> = (Element<'a>, String);
+
 #[derive(Default)]
 pub(crate) struct SdfScene<'a> {
     pub(super) placed: BTreeMap<String, Placed<'a>>,
-    pub(super) joints: Vec<(Element<'a>, String)>,
-    pub(crate) constraints: Vec<(Element<'a>, String)>,
+    pub(super) joints: Vec<Scoped<'a>>,
+    pub(crate) constraints: Vec<Scoped<'a>>,
     /// Links of static models.
     pub(super) fixed: Vec<usize>,
     /// By file, whether axes are given in the model's frame: before SDF 1.5.
@@ -52,7 +56,7 @@ pub(crate) struct SdfScene<'a> {
     /// Whether joints put their parent frame onto the child.
     pub(super) assemble: bool,
     /// Plugins of models and worlds, each with its scope.
-    pub(super) plugins: Vec<(Element<'a>, String)>,
+    pub(super) plugins: Vec<Scoped<'a>>,
     /// Elements of models that are not known.
     pub(super) unknown: Vec<Element<'a>>,
     /// The link that is the world.
@@ -91,10 +95,8 @@ pub(crate) fn insert<'a>(scene: &mut SdfScene<'a>, name: String, p: Placed<'a>) 
 
 pub(crate) fn unknown_name_error(e: Element<'_>, name: &str, scene: &SdfScene<'_>) -> ImportError {
     let known = list_known("names", scene.placed.keys());
-    e.error_at(
-        None,
-        unknown_name(&e.label(), "link or frame", name, &known),
-    )
+    let problem = unknown_name(&e.label(), "link or frame", name, &known);
+    e.error_at(None, problem)
 }
 
 /// Works out all places in the world.
@@ -138,17 +140,12 @@ pub(crate) fn resolve_places(scene: &mut SdfScene<'_>) -> Read<()> {
 }
 
 /// Returns the link that a name moves with, and the name's place in the world.
-pub(crate) fn moves_with(
-    scene: &SdfScene<'_>,
-    name: &str,
-) -> Result<(usize, RigidMotion), Option<String>> {
+pub(crate) fn moves_with(scene: &SdfScene<'_>, name: &str) -> Result<End, Option<String>> {
     if name == "world" {
         return Ok((scene.world, RigidMotion::IDENTITY));
     }
-    let first = scene
-        .placed
-        .get(name)
-        .ok_or_else(|| Some(name.to_owned()))?;
+    let find = |n: &str| scene.placed.get(n).ok_or_else(|| Some(n.to_owned()));
+    let first = find(name)?;
     let world = first.world.unwrap_or(RigidMotion::IDENTITY);
     let mut at = first;
     for _ in 0..=scene.placed.len() {
@@ -158,25 +155,18 @@ pub(crate) fn moves_with(
         if at.attached_to == "world" {
             return Ok((scene.world, world));
         }
-        at = scene
-            .placed
-            .get(&at.attached_to)
-            .ok_or_else(|| Some(at.attached_to.clone()))?;
+        at = find(&at.attached_to)?;
     }
     Err(None)
 }
 
-pub(crate) fn locate_name(
-    e: Element<'_>,
-    name: &str,
-    scene: &SdfScene<'_>,
-) -> Read<(usize, RigidMotion)> {
+pub(crate) fn locate_name(e: Element<'_>, name: &str, scene: &SdfScene<'_>) -> Read<End> {
     moves_with(scene, name).map_err(|missing| match missing {
         Some(n) => unknown_name_error(e, &n, scene),
-        None => e.unsupported_error(
-            &format!("{name} is attached to itself through other elements"),
-            "attach it to a link",
-        ),
+        None => {
+            let why = format!("{name} is attached to itself through other elements");
+            e.unsupported_error(&why, "attach it to a link")
+        }
     })
 }
 
@@ -221,31 +211,20 @@ pub(crate) fn read_pose(e: Element<'_>) -> Read<(RigidMotion, Option<&str>)> {
     let Some(p) = e.first_child("pose") else {
         return Ok((RigidMotion::IDENTITY, None));
     };
-    let relative = p
-        .attribute("relative_to")
-        .or(p.attribute("frame"))
-        .filter(|r| !r.is_empty());
+    let relative = p.attribute("relative_to").or(p.attribute("frame"));
+    let relative = relative.filter(|r| !r.is_empty());
     if p.text().is_empty() {
         return Ok((RigidMotion::IDENTITY, relative));
     }
     if p.attribute("rotation_format") == Some("quat_xyzw") {
         let [a, b, c, x, y, z, w] = p.text_numbers::<7>()?;
-        return Ok((
-            RigidMotion::from_quaternion([a, b, c], [w, x, y, z]),
-            relative,
-        ));
+        let place = RigidMotion::from_quaternion([a, b, c], [w, x, y, z]);
+        return Ok((place, relative));
     }
     let [x, y, z, roll, pitch, yaw] = p.text_numbers::<6>()?;
-    let degrees = p
-        .attribute("degrees")
-        .is_some_and(|d| ["true", "1"].contains(&d));
-    let turn = scale(
-        [roll, pitch, yaw],
-        if degrees {
-            std::f64::consts::PI / 180.0
-        } else {
-            1.0
-        },
-    );
+    let degrees = p.attribute("degrees");
+    let degrees = degrees.is_some_and(|d| ["true", "1"].contains(&d));
+    let degree = std::f64::consts::PI / 180.0;
+    let turn = scale([roll, pitch, yaw], if degrees { degree } else { 1.0 });
     Ok((RigidMotion::roll_pitch_yaw([x, y, z], turn), relative))
 }

@@ -3,8 +3,7 @@
 use crate::model::joint_type::JointType;
 use crate::model::mechanism::{JointId, LinkId, Mechanism, Role, StateId};
 use crate::robots::description::coupling::{Follows, find_mimics};
-use crate::robots::description::physical::Light;
-use crate::robots::description::physical::{left_out, moving_inertial, write_head};
+use crate::robots::description::physical::{LIGHT_SDF, left_out, moving_inertial, write_head};
 use crate::robots::formats::FormattedFile;
 use crate::robots::mechanism::series_of_single_joints::{
     JointAxes, Names, Single, clean_number, escape_comment, escape_xml, format_numbers, joint_axes,
@@ -20,8 +19,6 @@ struct SdfWriter<'a> {
     links: Vec<Option<String>>,
     ids: Vec<String>,
     follows: Vec<Option<Follows>>,
-    /// A link without its own mass.
-    light: String,
     head: String,
     body: String,
 }
@@ -45,7 +42,6 @@ pub(crate) fn write_sdf(m: &Mechanism) -> FormattedFile {
         links: vec![None; m.links.len()],
         ids: vec![String::new(); m.joints.len()],
         follows,
-        light: Light::in_mechanism(m).write_sdf(),
         head: String::new(),
         body: String::new(),
     };
@@ -95,16 +91,13 @@ impl SdfWriter<'_> {
         let Some(n) = self.links[l].clone().filter(|n| n != WORLD) else {
             return;
         };
-        let stated = link
-            .mass
-            .as_ref()
-            .map(|_| moving_inertial(self.m, l, [0.0; 3]));
+        let stated = link.mass.as_ref();
+        let stated = stated.map(|_| moving_inertial(self.m, l, [0.0; 3]));
         let weight = stated.map_or("/>".to_owned(), |i| {
             let [xx, yy, zz, xy, xz, yz] = i.tensor.map(clean_number);
             format!(
                 "><inertial><pose>{} 0 0 0</pose><mass>{}</mass><inertia><ixx>{xx}</ixx><iyy>{yy}</iyy><izz>{zz}</izz><ixy>{xy}</ixy><ixz>{xz}</ixz><iyz>{yz}</iyz></inertia></inertial></link>",
-                format_numbers(i.centre),
-                i.mass
+                format_numbers(i.centre), i.mass
             )
         });
         let _ = writeln!(self.head, "    <link name=\"{}\"{weight}", escape_xml(&n));
@@ -143,13 +136,8 @@ impl SdfWriter<'_> {
     }
 
     /// Writes freedoms in series, through light links; a fixed joint if there are none.
-    fn write_series(
-        &mut self,
-        j: JointId,
-        all: &[Single],
-        [mut from, end]: [String; 2],
-        at: [f64; 3],
-    ) {
+    fn write_series(&mut self, j: JointId, all: &[Single], ends: [String; 2], at: [f64; 3]) {
+        let [mut from, end] = ends;
         let id = self.ids[j].clone();
         if all.is_empty() {
             write_joint(&mut self.body, &id, "fixed", [&from, &end], at, "");
@@ -159,12 +147,8 @@ impl SdfWriter<'_> {
                 end.clone()
             } else {
                 let to = self.names.fit_name(&format!("{id}~{}", i + 1));
-                let light = &self.light;
-                let _ = writeln!(
-                    self.head,
-                    "    <link name=\"{}\">{light}</link>",
-                    escape_xml(&to)
-                );
+                let link = escape_xml(&to);
+                let _ = writeln!(self.head, "    <link name=\"{link}\">{LIGHT_SDF}</link>");
                 to
             };
             let part = match i {
@@ -211,10 +195,10 @@ fn sdf_joint(t: &JointType, p: &JointAxes, back: bool) -> Option<(&'static str, 
             };
             single_joint(single)
         }
-        JointType::Universal => (
-            "universal",
-            write_axis("axis", first) + &write_axis("axis2", second),
-        ),
+        JointType::Universal => {
+            let axes = write_axis("axis", first) + &write_axis("axis2", second);
+            ("universal", axes)
+        }
         JointType::Spherical => ("ball", String::new()),
         JointType::Fixed => ("fixed", String::new()),
         _ => return None,
@@ -239,6 +223,6 @@ fn write_joint(out: &mut String, id: &str, kind: &str, ends: [&str; 2], at: [f64
         out,
         "    <joint name=\"{}\" type=\"{kind}\">\n      <pose relative_to=\"__model__\">{} 0 0 0</pose>\n      <parent>{parent}</parent>\n      <child>{child}</child>\n{more}    </joint>\n",
         escape_xml(id),
-        format_numbers(at),
+        format_numbers(at)
     );
 }

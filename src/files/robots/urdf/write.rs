@@ -5,8 +5,9 @@ use crate::geom::vector::sub;
 use crate::model::joint_type::JointType;
 use crate::model::mechanism::{JointId, Link, LinkId, Mechanism, StateId};
 use crate::robots::description::coupling::{Follows, find_mimics};
-use crate::robots::description::physical::Light;
-use crate::robots::description::physical::{self, GRAM, left_out, link_inertial, moving_inertial};
+use crate::robots::description::physical::{
+    GRAM, LIGHT_URDF, left_out, link_inertial, moving_inertial, write_head,
+};
 use crate::robots::formats::FormattedFile;
 use crate::robots::mechanism::series_of_single_joints::{
     Names, Single, clean_number, escape_comment, escape_xml, format_numbers, joint_axes,
@@ -18,8 +19,6 @@ use std::fmt::Write;
 /// The content of a file.
 struct UrdfWriter<'a> {
     m: &'a Mechanism,
-    /// A link without its own mass.
-    light: String,
     links: Names,
     joints: Names,
     /// Name of each written link, and the place of its frame.
@@ -39,7 +38,6 @@ struct UrdfWriter<'a> {
 pub(crate) fn write_urdf(m: &Mechanism) -> Result<FormattedFile, ExportError> {
     let mut w = UrdfWriter {
         m,
-        light: Light::in_mechanism(m).write_urdf(),
         links: Names::default(),
         joints: Names::default(),
         placed: vec![None; m.links.len()],
@@ -86,8 +84,7 @@ impl UrdfWriter<'_> {
             let [xx, yy, zz, xy, xz, yz] = i.tensor.map(clean_number);
             format!(
                 "><inertial><origin xyz=\"{}\"/><mass value=\"{}\"/><inertia ixx=\"{xx}\" ixy=\"{xy}\" ixz=\"{xz}\" iyy=\"{yy}\" iyz=\"{yz}\" izz=\"{zz}\"/></inertial></link>",
-                format_numbers(i.centre),
-                i.mass
+                format_numbers(i.centre), i.mass
             )
         });
         let _ = writeln!(self.head, "  <link name=\"{}\"{weight}", escape_xml(&name));
@@ -98,12 +95,8 @@ impl UrdfWriter<'_> {
     /// Writes a light link between the freedoms of a joint, and returns its name.
     fn write_between(&mut self, id: &str, place: usize) -> String {
         let name = self.links.fit_name(&format!("{id}~{place}~link"));
-        let light = &self.light;
-        let _ = writeln!(
-            self.head,
-            "  <link name=\"{}\">{light}</link>",
-            escape_xml(&name)
-        );
+        let link = escape_xml(&name);
+        let _ = writeln!(self.head, "  <link name=\"{link}\">{LIGHT_URDF}</link>");
         name
     }
 
@@ -124,7 +117,7 @@ impl UrdfWriter<'_> {
         // The child moves in the opposite direction if the joint is passed backwards.
         let sign = if step.forward { 1.0 } else { -1.0 };
         let parts = joint_kinds(self.m, j, sign)?;
-        for (i, (kind, axis)) in parts.iter().enumerate() {
+        for (i, joint) in parts.iter().enumerate() {
             let held = if i + 1 == parts.len() {
                 child.clone()
             } else {
@@ -135,7 +128,7 @@ impl UrdfWriter<'_> {
                 _ => self.joints.fit_name(&format!("{id}~{}", i + 1)),
             };
             let ends = [holder.as_str(), held.as_str()];
-            self.body += &tree_joint(&part, kind, ends, at, *axis, &self.write_mimic(j));
+            self.body += &tree_joint(&part, joint, ends, at, &self.write_mimic(j));
             (holder, at) = (held, [0.0; 3]);
         }
         self.write_driven(j, &id);
@@ -148,9 +141,8 @@ impl UrdfWriter<'_> {
         let joint = &self.m.joints[j];
         let p = joint_axes(self.m, joint);
         let id = self.ids[j].clone();
-        let [(mut a, mut from), (b, to)] = joint
-            .links
-            .map(|l| self.placed[l].clone().unwrap_or_default());
+        let placed = joint.links.map(|l| self.placed[l].clone());
+        let [(mut a, mut from), (b, to)] = placed.map(Option::unwrap_or_default);
         let mut parts = match joint.joint_type {
             JointType::Spherical => vec![("spherical", None)],
             _ => joint_kinds(self.m, j, 1.0)?,
@@ -164,11 +156,11 @@ impl UrdfWriter<'_> {
                 remedy: "write MJCF instead",
             });
         }
-        for (i, (kind, axis)) in parts.iter().enumerate() {
+        for (i, kind) in parts.iter().enumerate() {
             let between = self.write_between(&id, i + 1);
             let part = self.joints.fit_name(&format!("{id}~{}", i + 1));
             let ends = [a.as_str(), between.as_str()];
-            self.body += &tree_joint(&part, kind, ends, sub(p.point, from), *axis, "");
+            self.body += &tree_joint(&part, kind, ends, sub(p.point, from), "");
             (a, from) = (between, p.point);
         }
         let axis = closes.1.map_or(String::new(), |d| {
@@ -182,7 +174,7 @@ impl UrdfWriter<'_> {
             escape_xml(&a),
             format_numbers(sub(p.point, from)),
             escape_xml(&b),
-            format_numbers(sub(p.point, to)),
+            format_numbers(sub(p.point, to))
         );
         self.write_driven(j, &id);
         Ok(())
@@ -207,12 +199,10 @@ impl UrdfWriter<'_> {
             told.push(GRAM.to_owned());
         }
         if self.body.contains(LIMIT) {
-            told.push(
-                "sliding joints get placeholder limits of 1 m, because URDF requires limits"
-                    .to_owned(),
-            );
+            let what = "sliding joints get placeholder limits of 1 m, because URDF requires limits";
+            told.push(what.to_owned());
         }
-        let (name, above) = (escape_xml(&m.name), physical::write_head(m, "  ", &told));
+        let (name, above) = (escape_xml(&m.name), write_head(m, "  ", &told));
         let (head, body) = (self.head, self.body);
         let text = format!(
             "<?xml version=\"1.0\"?>\n<robot name=\"{name}\">\n{above}{head}{body}</robot>\n"
@@ -248,20 +238,12 @@ fn joint_kinds(m: &Mechanism, j: JointId, sign: f64) -> Result<Vec<Kind>, Export
             remedy: "write SDF instead",
         }),
     };
-    single_freedoms(&joint.joint_type, &p)
-        .into_iter()
-        .map(single)
-        .collect()
+    let all = single_freedoms(&joint.joint_type, &p).into_iter();
+    all.map(single).collect()
 }
 
-fn tree_joint(
-    id: &str,
-    kind: &str,
-    ends: [&str; 2],
-    at: [f64; 3],
-    axis: Option<[f64; 3]>,
-    more: &str,
-) -> String {
+fn tree_joint(id: &str, joint: &Kind, ends: [&str; 2], at: [f64; 3], more: &str) -> String {
+    let &(kind, axis) = joint;
     let [parent, child] = ends.map(escape_xml);
     let axis = axis.map_or(String::new(), |d| {
         format!("    <axis xyz=\"{}\"/>\n", format_numbers(d))
@@ -273,6 +255,6 @@ fn tree_joint(
     format!(
         "  <joint name=\"{}\" type=\"{kind}\">\n    <parent link=\"{parent}\"/>\n    <child link=\"{child}\"/>\n    <origin xyz=\"{}\"/>\n{axis}{limit}{more}  </joint>\n",
         escape_xml(id),
-        format_numbers(at),
+        format_numbers(at)
     )
 }

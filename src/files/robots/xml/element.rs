@@ -132,14 +132,8 @@ impl<'a> Element<'a> {
     }
 
     /// Returns the error for an attribute or text that names something unknown.
-    pub(crate) fn unknown_name(
-        self,
-        key: &str,
-        what: &str,
-        name: &str,
-        known: &str,
-    ) -> ImportError {
-        self.error_at(Some(key), unknown_name(&self.label(), what, name, known))
+    pub(crate) fn unknown_name(self, key: &str, what: &str, id: &str, known: &str) -> ImportError {
+        self.error_at(Some(key), unknown_name(&self.label(), what, id, known))
     }
 }
 
@@ -161,6 +155,12 @@ impl Element<'_> {
         self.parse_numbers("the text", self.text())
     }
 
+    /// Returns the number in the text of a child, if there is one.
+    pub(crate) fn child_number(self, tag: &str) -> Read<Option<f64>> {
+        let found = self.first_child(tag).map(|c| c.text_numbers::<1>());
+        Ok(found.transpose()?.map(|[x]| x))
+    }
+
     fn parse_numbers<const N: usize>(self, what: &str, text: &str) -> Read<[f64; N]> {
         let bad = || {
             let want = match N {
@@ -174,11 +174,8 @@ impl Element<'_> {
         let mut out = [0.0; N];
         let mut words = text.split_whitespace();
         for x in &mut out {
-            *x = words
-                .next()
-                .and_then(|w| w.parse::<f64>().ok())
-                .filter(|x| x.abs() <= MAX_NUMBER)
-                .ok_or_else(bad)?;
+            let found = words.next().and_then(|w| w.parse::<f64>().ok());
+            *x = found.filter(|x| x.abs() <= MAX_NUMBER).ok_or_else(bad)?;
         }
         if words.next().is_some() {
             return Err(bad());

@@ -26,13 +26,6 @@ pub struct Estimate {
 }
 
 impl Estimate {
-    /// Returns half the width of the interval, relative to the mean.
-    #[must_use]
-    pub fn relative_reach(&self) -> f64 {
-        let [least, most] = self.between;
-        (most - least) / 2.0 / self.mean
-    }
-
     /// Returns the estimate with its bounds limited: at least `counted`, and no more than `possible`.
     #[must_use]
     pub(in crate::search) fn clamp_to_bounds(

@@ -4,6 +4,10 @@
 //! but it works in every other pose. Its columns along the motion are series modulo t^m. Let T(m) be the span of their multiples by
 //! 1, t, ..., t^(m-1). The rank next to the drawn pose is then dim T(m) - dim T(m-1) for a large m. The same difference of the parts
 //! that close all contours is the dimension of the kept motion. Two lanes count both, one for each span.
+//!
+//! Over the power series, the vectors of some choices span a module. The two lanes miss as many more coordinates than each other as its
+//! cokernel has elementary divisors t^e with e >= m. A larger module of more coordinates has a cokernel with the first one as an image,
+//! which has at least as many. So choices that miss any have no completion.
 
 use crate::linalg::echelon::Echelon;
 use crate::linalg::modp::{Field, Residue};
@@ -30,7 +34,7 @@ struct Lane<'a> {
 
 impl Lane<'_> {
     /// Returns the rows after a choice of a variable, and how many of the coordinates that no later variable reaches are missed.
-    fn take_choice(&self, at: usize, choice: usize, rows: &Rows) -> (Rows, i64) {
+    fn take_choice(&self, at: usize, choice: usize, rows: &Rows) -> (Rows, usize) {
         let ends = |before: usize| self.space.contours.partition_point(|c| c.to < before);
         let (done, gap) = (ends(at), ends(at + 1) - ends(at));
         let added = self.space.added[at][choice].iter().map(|v| &v[done..]);
@@ -40,10 +44,9 @@ impl Lane<'_> {
         pivots.sort_unstable();
         let met = pivots.partition_point(|p| *p < gap);
         let left = span.reduced_rows().split_off(met);
-        let missed = i64::try_from(gap - met).unwrap_or(i64::MAX);
         (
             left.into_iter().map(|mut r| r.split_off(gap)).collect(),
-            missed,
+            gap - met,
         )
     }
 }
@@ -68,23 +71,26 @@ pub fn count_everywhere(question: &Question, lasting: &Diagram) -> Option<BigUin
         field: question.exact.field(),
         space,
     });
-    let start = i64::from(spaces[0].lasting) - i64::from(spaces[1].lasting);
-    let mut layer = BTreeMap::from([((start, [Rows::new(), Rows::new()]), BigUint::one())]);
+    if spaces[0].lasting > spaces[1].lasting {
+        return Some(BigUint::zero());
+    }
+    let mut layer = BTreeMap::from([([Rows::new(), Rows::new()], BigUint::one())]);
     for (at, &variable) in order.iter().enumerate() {
-        let mut next: BTreeMap<(i64, [Rows; 2]), BigUint> = BTreeMap::new();
-        for ((missed, rows), count) in layer {
+        let mut next: BTreeMap<[Rows; 2], BigUint> = BTreeMap::new();
+        for (rows, count) in layer {
             for choice in 0..question.space.variables[variable].choices.len() {
                 let [(a, more), (b, less)] =
                     [0, 1].map(|i| lanes[i].take_choice(at, choice, &rows[i]));
-                *next.entry((missed + more - less, [a, b])).or_default() += &count;
+                if more == less {
+                    *next.entry([a, b]).or_default() += &count;
+                }
             }
-        }
-        if next.len() > NODES {
-            return None;
+            if next.len() > NODES {
+                return None;
+            }
         }
         layer = next;
     }
-    let works = |(missed, [a, b]): &(i64, [Rows; 2])| missed.is_zero() && a.len() == b.len();
-    let working = layer.iter().filter(|(node, _)| works(node));
+    let working = layer.iter().filter(|([a, b], _)| a.len() == b.len());
     Some(working.map(|(_, count)| count).sum())
 }

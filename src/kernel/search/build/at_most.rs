@@ -45,7 +45,7 @@ pub(in crate::search) fn at_most(
     question: &Question,
     order: &[usize],
     limits: &Limits,
-    wanted: Wanted,
+    wanted: Wanted<'_>,
     cancelled: &(dyn Fn() -> bool + Sync),
 ) -> Option<AtMost> {
     let field = question.exact.field();

@@ -29,7 +29,7 @@ pub(super) fn estimate_counts(
         if !diagram.stop.is_cut() || question.conditions.state.is_some() {
             return None;
         }
-        let filter = wanted == Wanted::Admissible;
+        let filter = matches!(wanted, Wanted::Admissible);
         let of = at_most(question, order, limits, wanted, cancelled)?;
         let samples = SetSamples::draw_pilot(question, &of, seed, filter, cancelled)?;
         let found = samples.estimate_count(cancelled)?;

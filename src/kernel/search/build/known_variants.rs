@@ -124,7 +124,7 @@ impl End {
             let mut children = Children::new(choices);
             let (matrix, spent) = (self.spaces.matrix(space), &self.spaces.spent[space]);
             stage.push_children(&mut worker, matrix, spent, &mut children);
-            merge.take_children(&children, &self.spaces, |_| 0, |_, _, _| false);
+            merge.take_children(&children, &self.spaces, |_| 0, |_, _, _, _| false);
             let found = &merge.edges[space * choices..];
             for &&(choice, node) in &ways {
                 if found[choice] == DEAD {

@@ -19,7 +19,8 @@ use crate::search::diagram::minimize::minimize_diagram;
 use crate::search::diagram::redundancy_so_far::{Limits, Role, Spent};
 use crate::search::diagram::stage::{Columns, LaneStage, Stage};
 use crate::search::diagram::transition::{Children, Worker};
-use crate::search::diagram::{self, Carries, Diagram, Progress};
+use crate::search::diagram::within::Within;
+use crate::search::diagram::{self, Carries, Diagram, Omitted, Progress};
 use crate::search::question::Question;
 use crate::search::question::conditions::InState;
 use crate::search::question::space::{Choice, Face, Variable};
@@ -34,7 +35,7 @@ pub(in crate::search) fn in_self_stress_space(
     question: &Question,
     order: &[usize],
     limits: &Limits,
-    wanted: Wanted,
+    wanted: Wanted<'_>,
     cancelled: &(dyn Fn() -> bool + Sync),
     progress: &mut (dyn FnMut(Progress) + Send),
 ) -> Diagram {
@@ -43,7 +44,10 @@ pub(in crate::search) fn in_self_stress_space(
         return empty_diagram(question, order);
     }
     let space = &question.space;
-    let built = diagram::build_layers(space, &stages, limits, root, None, cancelled, progress);
+    let omitted = wanted.known().map_or(Omitted::Nothing, |known| {
+        Omitted::Outside(Within::new(&known.layers, known.terminals.len(), true))
+    });
+    let built = diagram::build_layers(space, &stages, limits, root, omitted, cancelled, progress);
     let stop = built.stop;
     let smallest = minimize_diagram(built.layers, built.terminals);
     Diagram { stop, ..smallest }
@@ -72,7 +76,7 @@ impl<'a> Lanes<'a> {
         question: &Question,
         order: &[usize],
         limits: &'a Limits,
-        wanted: Wanted,
+        wanted: Wanted<'_>,
     ) -> Lanes<'a> {
         let field = question.exact.field();
         let free = Lane {
@@ -83,7 +87,7 @@ impl<'a> Lanes<'a> {
         let state = question
             .conditions
             .state
-            .filter(|_| wanted != Wanted::Determinate);
+            .filter(|_| !matches!(wanted, Wanted::Determinate));
         let more = state.map_or_else(Vec::new, |s| of_state(question, order, s));
         let roles: Vec<Role> = more.iter().map(|lane| lane.role).collect();
         let mut root = Spent::within_mechanism(free.space.lasting);

@@ -16,14 +16,28 @@ use crate::search::reduce::lifetimes::Lifetime;
 use crate::search::reduce::self_stress_space::{ClosingRows, SelfStressSpace};
 
 /// Which variants a diagram has.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(in crate::search) enum Wanted {
+#[derive(Debug, Clone, Copy)]
+pub(in crate::search) enum Wanted<'a> {
     /// Those that are determinate in the free state, whatever becomes of the motion of outputs and drives.
     Determinate,
     /// Those of them that keep this motion in the drawn pose, where it is to be kept, and do what is asked of the searched state.
     Admissible,
-    /// Those of them that keep it throughout the motion of the mechanism as built.
-    Lasting,
+    /// Those of them that keep it throughout the motion of the mechanism as built; within the diagram of the admissible ones, if that is
+    /// given.
+    Lasting(Option<&'a Diagram>),
+}
+
+/// Maximum number of nodes in a layer of a known diagram. Following a wider one takes longer than it saves.
+const FOLLOWED: usize = 1_024;
+
+impl<'a> Wanted<'a> {
+    /// Returns a diagram in the same order that has all wanted variants, if there is one that is worth following.
+    pub(in crate::search) fn known(self) -> Option<&'a Diagram> {
+        match self {
+            Wanted::Lasting(known) => known.filter(|d| d.largest_layer <= FOLLOWED),
+            _ => None,
+        }
+    }
 }
 
 /// Returns the limits of the diagrams of a question.
@@ -45,12 +59,12 @@ pub(in crate::search) fn diagram_limits(question: &Question) -> Limits {
 pub(in crate::search) fn self_stress_space(
     question: &Question,
     order: &[usize],
-    wanted: Wanted,
+    wanted: Wanted<'_>,
 ) -> SelfStressSpace {
-    if let (Wanted::Lasting, Ok(along)) = (wanted, &question.throughout) {
+    if let (Wanted::Lasting(_), Ok(along)) = (wanted, &question.throughout) {
         return space_along_motion(question, along, order, ORDER);
     }
-    let keeps = wanted != Wanted::Determinate && question.conditions.keep_output;
+    let keeps = !matches!(wanted, Wanted::Determinate) && question.conditions.keep_output;
     let kept = keeps.then_some(&question.kept);
     let field = question.exact.field();
     let (mechanism, space) = (&question.mechanism, &question.space);

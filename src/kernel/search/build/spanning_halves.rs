@@ -6,14 +6,17 @@
 
 use crate::linalg::echelon::Echelon;
 use crate::linalg::modp::{Field, Residue};
-use crate::search::build::completing_sets::{Numbered, Set, completing_sets};
+use crate::search::build::completing_sets::{Numbered, completing_sets};
 use crate::search::build::matching_halves::{Grouped, count_lookups, match_halves};
 use crate::search::build::self_stress::{Wanted, flat_stages, self_stress_space};
 use crate::search::build::spanning_pairs::{Bases, ZeroForms};
 use crate::search::diagram::layer::Nodes;
+use crate::search::diagram::node_sets::{Set, add_node, empty_set, nodes_in};
 use crate::search::diagram::reduced_rows::{Arithmetic, Rows};
 use crate::search::diagram::redundancy_so_far::Limits;
 use crate::search::diagram::stage::Adding;
+use crate::search::diagram::within::Within;
+use crate::search::diagram::{DEAD, Diagram};
 use crate::search::question::Question;
 use crate::search::reduce::lifetimes::Lifetime;
 use crate::search::reduce::self_stress_space::SelfStressSpace;
@@ -23,6 +26,21 @@ const A_PAIR: usize = 5;
 /// Base of the checksum of the motions of kept links: the sum of their coordinates, each times a power of this. A nonzero
 /// motion has the sum zero as rarely as a nonzero number has the residue zero.
 const WEIGHT: i64 = 0x1e37_79b9_7f4a_7c15;
+
+/// Pairs of nodes tried at most, for each node of the budget.
+const PAIRS: usize = 500;
+
+/// The nodes of both halves of a part, where they meet.
+pub(in crate::search) struct Met<'a> {
+    pub(in crate::search) front: &'a Nodes,
+    pub(in crate::search) back: &'a Nodes,
+    /// Number of stages of the back half.
+    pub(in crate::search) stages: usize,
+    /// Nodes of the front, and those of the back that may complete them. Others do not.
+    pub(in crate::search) alike: Vec<[Vec<usize>; 2]>,
+    /// Bytes that the sets may take.
+    pub(in crate::search) bytes: usize,
+}
 
 /// A question in the space dual to self-stresses, from both ends.
 pub(in crate::search) struct Halves<'a> {
@@ -37,6 +55,8 @@ pub(in crate::search) struct Halves<'a> {
     keeps: bool,
     /// The start of each part, and at the end the number of variables.
     starts: Vec<usize>,
+    /// A diagram that has all wanted variants, in the same order.
+    known: Option<&'a Diagram>,
     /// The stages of each part, between which nothing is carried on, from the front and from the back.
     pub(in crate::search) parts: Vec<[Vec<Adding>; 2]>,
 }
@@ -47,7 +67,7 @@ impl<'a> Halves<'a> {
         question: &Question,
         order: &[usize],
         limits: &'a Limits,
-        wanted: Wanted,
+        wanted: Wanted<'a>,
     ) -> Option<Self> {
         let field = question.exact.field();
         let front = known_by_one_number(field, self_stress_space(question, order, wanted));
@@ -78,45 +98,82 @@ impl<'a> Halves<'a> {
             parts: parts.collect(),
             starts,
             contours: front.contours,
+            known: wanted.known(),
         })
     }
 
-    /// Returns how the nodes of the front half of a part meet those of the back half, which consists of the last `stages` stages.
+    /// Returns the two ends of a part in the known diagram. Returns `None` if no diagram is known, or if it does not have one node before the
+    /// part and one after it.
+    pub(in crate::search) fn within_known(&self, part: usize) -> Option<[Within<'a>; 2]> {
+        let known = self.known?;
+        let (from, to) = (self.starts[part], self.starts[part + 1]);
+        let nodes_at = |at: usize| {
+            known
+                .layers
+                .get(at)
+                .map_or(known.terminals.len(), |l| l.nodes)
+        };
+        let layers = &known.layers[from..to];
+        (nodes_at(from) == 1 && nodes_at(to) == 1)
+            .then(|| [true, false].map(|forward| Within::new(layers, 1, forward)))
+    }
+
+    /// Returns for each node of the front half of a part the number of the set of nodes of the back half that complete it, or [`DEAD`].
+    /// Also returns the different sets. Returns `None` if there are too many pairs, if the sets take too many bytes, or if cancelled.
     ///
     /// # Complexity
-    /// O(s³) field operations for each node, for s self-stresses that both halves reach.
-    pub(in crate::search) fn meet_halves(
+    /// O(s³) field operations for each node, for s self-stresses that both halves reach; and that of [`match_halves`], or that of
+    /// [`Bases::completing_nodes`] for each node of the front.
+    pub(in crate::search) fn join_halves(
         &self,
         part: usize,
-        [front, back]: [&Nodes; 2],
-        stages: usize,
-    ) -> Meeting {
-        let packed = self.meeting_rows(part, stages);
-        let back: Vec<_> = (0..back.len())
-            .map(|node| packed.back_rows(back, node))
-            .collect();
-        let pairs = front.len().saturating_mul(back.len());
+        halves: &Met<'_>,
+        cancelled: &(dyn Fn() -> bool + Sync),
+    ) -> Option<(Vec<u32>, Vec<Set>)> {
+        let packed = self.meeting_rows(part, halves.stages);
+        let width = packed.width();
+        let rows_of_front = |node| packed.front_rows(halves.front, node);
+        let rows_of_back = |node| packed.back_rows(halves.back, node);
+        let back: Vec<_> = (0..halves.back.len()).map(rows_of_back).collect();
+        let pairs = halves
+            .alike
+            .iter()
+            .map(|[f, b]| f.len().saturating_mul(b.len()));
+        let pairs = pairs.fold(0, usize::saturating_add);
         let grouped = self.keeps.then(|| {
-            let front = (0..front.len()).map(|node| packed.front_rows(front, node));
+            let front = (0..halves.front.len()).map(rows_of_front);
             [
                 Grouped::group_nodes(front),
                 Grouped::group_nodes(back.iter().cloned()),
             ]
         });
         let fewer = |[front, back]: &[Grouped; 2]| count_lookups(front, back) / A_PAIR < pairs;
-        let nodes = match grouped.filter(fewer) {
-            Some(grouped) => Compared::Grouped(grouped),
-            None => Compared::Pairs(Bases::new(
-                self.field,
-                back.iter().map(Vec::as_slice),
-                self.keeps,
-            )),
-        };
-        Meeting {
-            packed,
-            pairs,
-            nodes,
+        if let Some(grouped) = grouped.filter(fewer) {
+            return match_halves(self.field, width - 1, &grouped, halves.bytes, cancelled);
         }
+        // Each node of the front may have a set with a bit for each node of the back.
+        let bits = halves.front.len().saturating_mul(halves.back.len());
+        if pairs / PAIRS > self.limits.nodes || bits / 8 > halves.bytes {
+            return None;
+        }
+        let mut of_node = vec![DEAD; halves.front.len()];
+        let mut numbered = Numbered::default();
+        for [fronts, backs] in &halves.alike {
+            let rows = backs.iter().map(|&node| &back[node][..]);
+            let bases = Bases::new(self.field, rows, self.keeps);
+            let completing = |n: usize| {
+                let forms = ZeroForms::new(self.field, &rows_of_front(fronts[n]), width);
+                let own = bases.completing_nodes(&forms);
+                let mut set = empty_set(back.len());
+                nodes_in(&own).for_each(|node| add_node(&mut set, backs[node]));
+                set
+            };
+            let sets = completing_sets(fronts.len(), completing, cancelled)?;
+            for (&node, set) in fronts.iter().zip(sets) {
+                of_node[node] = numbered.number_of(set);
+            }
+        }
+        Some((of_node, numbered.all))
     }
 
     /// Returns how the rows of nodes are read where the halves of a part meet, with the last `stages` stages in the back half.
@@ -218,64 +275,5 @@ impl PackedRows {
         };
         let rows = self.front_rows(nodes, node).into_iter().map(from_back);
         Echelon::from_vectors(self.field, rows).reduced_rows()
-    }
-}
-
-/// How the nodes of both halves of a part meet.
-pub(in crate::search) struct Meeting {
-    packed: PackedRows,
-    pairs: usize,
-    nodes: Compared,
-}
-
-/// The nodes of both halves if they are looked up, which takes less time if many of them span the same; otherwise those of the back half.
-enum Compared {
-    Grouped([Grouped; 2]),
-    Pairs(Bases),
-}
-
-impl Meeting {
-    /// Returns the number of pairs of nodes to compare; 0 if nodes are looked up.
-    pub(in crate::search) fn count_pairs(&self) -> usize {
-        match self.nodes {
-            Compared::Grouped(_) => 0,
-            Compared::Pairs(_) => self.pairs,
-        }
-    }
-
-    /// Returns for each node of the front the number of the set of nodes of the back that complete it, or [`DEAD`]. Also
-    /// returns the different sets. `None` if they take more than the given bytes, or if cancelled.
-    ///
-    /// # Complexity
-    /// That of [`matched`] or that of [`Bases::completing`] for each node of the front.
-    ///
-    /// [`DEAD`]: crate::search::diagram::DEAD
-    pub(in crate::search) fn join_nodes(
-        &self,
-        front: &Nodes,
-        bytes: usize,
-        cancelled: &(dyn Fn() -> bool + Sync),
-    ) -> Option<(Vec<u32>, Vec<Set>)> {
-        let (field, width) = (self.packed.field, self.packed.width());
-        let back = match &self.nodes {
-            Compared::Grouped(nodes) => {
-                return match_halves(field, width - 1, nodes, bytes, cancelled);
-            }
-            Compared::Pairs(back) => back,
-        };
-        if self.pairs / 8 > bytes {
-            return None;
-        }
-        let of_node = |node: usize| {
-            let rows = self.packed.front_rows(front, node);
-            back.completing_nodes(&ZeroForms::new(field, &rows, width))
-        };
-        let sets = completing_sets(front.len(), of_node, cancelled)?;
-        let mut numbered = Numbered::default();
-        let of_node = sets
-            .into_iter()
-            .map(|set| numbered.number_of(set))
-            .collect();
-        Some((of_node, numbered.all))
     }
 }

@@ -8,7 +8,7 @@
 
 use crate::linalg::echelon::Echelon;
 use crate::linalg::modp::{Field, Residue};
-use crate::search::build::completing_sets::{Set, add_node, empty_set};
+use crate::search::diagram::node_sets::{Set, add_node, empty_set};
 use hashbrown::HashMap;
 use std::borrow::Cow;
 use std::ops::Range;

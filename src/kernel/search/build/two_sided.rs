@@ -10,31 +10,35 @@
 //! An automaton reversed, made deterministic, and that once more, is minimal: Brzozowski, "Canonical regular expressions and
 //! minimal state graphs for definite events" (1962).
 
-use crate::search::build::completing_sets::{
-    Numbered, Set, add_node, collect_set, contains_node, empty_set, nodes_in,
-};
-use crate::search::build::spanning_halves::{Halves, Meeting};
+use crate::search::build::completing_sets::Numbered;
+use crate::search::build::spanning_halves::{Halves, Met};
 use crate::search::diagram::layer::{Merge, Nodes};
 use crate::search::diagram::minimize::minimize_diagram;
+use crate::search::diagram::node_sets::{
+    Set, add_node, collect_set, contains_node, empty_set, nodes_in,
+};
 use crate::search::diagram::redundancy_so_far::{Redundancy, Spent};
 use crate::search::diagram::stage::Adding;
+use crate::search::diagram::within::Within;
 use crate::search::diagram::{Carries, DEAD, Diagram, Layer, Progress, Stop, next_layer};
 use crate::search::question::space::Space;
 use rayon::prelude::*;
+use std::collections::BTreeMap;
 
-/// Pairs of nodes tried at most, for each node of the budget.
-const PAIRS: usize = 500;
 /// Layers from one end, as far as they have come.
 struct Side<'a> {
     stages: &'a [Adding],
     layers: Vec<Layer>,
     nodes: Nodes,
+    /// The nodes of a known diagram that correspond to the nodes.
+    known: Option<Within<'a>>,
 }
 
 impl<'a> Side<'a> {
-    fn new(stages: &'a [Adding], already: u32) -> Self {
+    fn new(stages: &'a [Adding], already: u32, known: Option<Within<'a>>) -> Self {
         Side {
             stages,
+            known,
             layers: Vec::new(),
             nodes: Nodes::root_node(Spent::within_mechanism(already)),
         }
@@ -56,16 +60,19 @@ impl<'a> Side<'a> {
     }
 }
 
-/// Both halves of a part, where they meet.
-struct Met<'a> {
-    front: Side<'a>,
-    back: Side<'a>,
-}
-
-impl Met<'_> {
-    fn held_bytes(&self) -> usize {
-        self.front.held_bytes() + self.back.held_bytes()
+/// Returns nodes of the front that are at the same node of a known diagram, with the nodes of the back that it leads to; all nodes if no
+/// diagram is known.
+fn find_alike(front: &Side<'_>, back: &Side<'_>) -> Vec<[Vec<usize>; 2]> {
+    let (Some(from), Some(to)) = (&front.known, &back.known) else {
+        return vec![[front, back].map(|side| (0..side.nodes.len()).collect())];
+    };
+    let mut alike: BTreeMap<usize, [Vec<usize>; 2]> = BTreeMap::new();
+    for (end, known) in [from, to].into_iter().enumerate() {
+        for (node, at) in known.at.iter().enumerate() {
+            nodes_in(at).for_each(|at| alike.entry(at).or_default()[end].push(node));
+        }
     }
+    alike.into_values().collect()
 }
 
 /// Returns the whole diagram of a question whose variants have no redundant constraints except those that all have, part by part. Returns
@@ -90,31 +97,27 @@ pub(in crate::search) fn two_sided(
                 ..now
             });
         };
-        let met = build_halves(question, space, ends, cancelled, told)?;
+        let halves = build_halves(question, space, (parts.len(), ends), cancelled, told)?;
         done += ends[0].len();
-        total += met.front.nodes.len() + met.back.nodes.len();
-        parts.push(met);
+        total += halves.iter().map(|side| side.nodes.len()).sum::<usize>();
+        parts.push(halves);
     }
-    let held: usize = parts.iter().map(Met::held_bytes).sum();
+    let held: usize = parts.iter().flatten().map(Side::held_bytes).sum();
     let left = question.limits.bytes.checked_sub(held)?;
-    let met = parts.into_iter().enumerate().map(|(part, met)| {
-        let nodes = [&met.front.nodes, &met.back.nodes];
-        let meeting = question.meet_halves(part, nodes, met.back.layers.len());
-        (met, meeting)
-    });
-    let parts: Vec<(Met<'_>, Meeting)> = met.collect();
-    let pairs = parts.iter().map(|(_, meeting)| meeting.count_pairs());
-    let pairs = pairs.fold(0, usize::saturating_add);
-    if pairs / PAIRS > question.limits.nodes {
-        return None;
-    }
     let most = question.limits.nodes;
     let mut layers: Vec<Layer> = Vec::new();
     let mut total = 1;
-    for (met, meeting) in parts {
-        let (of_front, sets) = meeting.join_nodes(&met.front.nodes, left / 4, cancelled)?;
-        let (back, sets) = without_twins(met.back.layers, sets);
-        let found = put_together(met.front.layers, &of_front, &back, sets, most)?;
+    for (part, [front, back]) in parts.into_iter().enumerate() {
+        let met = Met {
+            front: &front.nodes,
+            back: &back.nodes,
+            stages: back.layers.len(),
+            alike: find_alike(&front, &back),
+            bytes: left / 4,
+        };
+        let (of_front, sets) = question.join_halves(part, &met, cancelled)?;
+        let (back, sets) = without_twins(back.layers, sets);
+        let found = put_together(front.layers, &of_front, &back, sets, most)?;
         total += found.iter().map(|l| l.nodes).sum::<usize>();
         if total > most {
             return None;
@@ -131,14 +134,15 @@ pub(in crate::search) fn two_sided(
 fn build_halves<'a>(
     question: &'a Halves<'_>,
     space: &Space,
-    ends: &'a [Vec<Adding>; 2],
+    (part, ends): (usize, &'a [Vec<Adding>; 2]),
     cancelled: &(dyn Fn() -> bool + Sync),
     told: &mut dyn FnMut(Progress),
-) -> Option<Met<'a>> {
+) -> Option<[Side<'a>; 2]> {
     let limits = question.limits;
-    let [mut front, mut back] = ends
-        .each_ref()
-        .map(|stages| Side::new(stages, question.already));
+    let known = question.within_known(part);
+    let [from, to] = known.map_or([None, None], |ends| ends.map(Some));
+    let mut front = Side::new(&ends[0], question.already, from);
+    let mut back = Side::new(&ends[1], question.already, to);
     let mut total = 2;
     let of = ends[0].len();
     for done in 0..of {
@@ -155,7 +159,7 @@ fn build_halves<'a>(
         advance_side(space, side, room, bytes, cancelled, told)?;
         total += side.nodes.len();
     }
-    Some(Met { front, back })
+    Some([front, back])
 }
 
 /// Carries a side over its next stage, to no more than `room` nodes within so many bytes.
@@ -170,18 +174,22 @@ fn advance_side(
     let stage = side.next_stage();
     let choices = &space.variables[stage.variable()].choices;
     let edges = side.nodes.len() * choices.len();
+    let known = &side.known;
     let merge = next_layer(
         stage,
         choices,
         bytes,
         &side.nodes,
         Merge::new(room, bytes, Stop::Exhausted, edges),
-        |_, _, _| false,
+        |edge, _, _, _| known.as_ref().is_some_and(|k| !k.has_edge(edge)),
         cancelled,
         told,
     );
     if merge.stop != Stop::Exhausted {
         return None;
+    }
+    if let Some(known) = &mut side.known {
+        known.advance(&merge.edges, merge.next.len());
     }
     side.layers.push(Layer {
         variable: stage.variable(),

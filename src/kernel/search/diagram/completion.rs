@@ -77,7 +77,9 @@ impl Missing {
     ) -> Missing {
         let lanes = || stages.iter().map(|s| &s.lanes[0].all);
         let gaps: usize = lanes().map(|columns| columns.closing).sum();
-        let allowed = limits.internal.min(u32::try_from(gaps).unwrap_or(u32::MAX));
+        let gaps = u32::try_from(gaps).unwrap_or(u32::MAX);
+        // Coordinates that no variant reaches are redundant from the start.
+        let allowed = limits.internal.min(root.internal().saturating_add(gaps));
         let spare = allowed as usize;
         let widths = lanes().map(|columns| columns.width - columns.closing);
         let width: Vec<usize> = std::iter::once(0).chain(widths).collect();

@@ -1,4 +1,4 @@
-//! A layer of the diagram while it is built: equal children become one node.
+//! A layer of the diagram. While it is built, equal children become one node.
 
 use crate::linalg::modp::Residue;
 use crate::search::diagram::redundancy_so_far::Spent;
@@ -9,6 +9,19 @@ use std::collections::TryReserveError;
 
 /// A missing edge: the choice leads nowhere admissible.
 pub const DEAD: u32 = u32::MAX;
+
+/// Edges of one layer: `edges[node * choices + choice]`, an index into the next layer or [`DEAD`].
+#[derive(Debug, Clone)]
+pub struct Layer {
+    /// Index of the variable in the space.
+    pub variable: usize,
+    /// Number of nodes.
+    pub nodes: usize,
+    /// Number of choices.
+    pub choices: usize,
+    /// The edges.
+    pub edges: Vec<u32>,
+}
 
 /// Nodes a layer keeps at least where the budget is no smaller, so that a search reaches the end.
 pub(in crate::search) const CUT: usize = 256;
@@ -132,13 +145,13 @@ impl Merge {
     }
 
     /// Adds the children of some nodes, after those of the nodes before them. Skips children that are excluded by a test of
-    /// three values: the redundancy spent, the child's matrix, and the least cost of this path to it.
+    /// four values: the number of the edge, the redundancy spent, the child's matrix, and the least cost of this path to it.
     pub(in crate::search) fn take_children(
         &mut self,
         part: &Children,
         parents: &Nodes,
         cost: impl Fn(usize) -> i64,
-        mut out: impl FnMut(&Spent, &[Residue], i64) -> bool,
+        mut out: impl FnMut(usize, &Spent, &[Residue], i64) -> bool,
     ) {
         let choices = part.choices;
         if part.short {
@@ -154,7 +167,7 @@ impl Merge {
             let at = self.edges.len();
             let parent = at / choices;
             let least = parents.least[parent] + cost(at % choices);
-            if out(spent, matrix, least) {
+            if out(at, spent, matrix, least) {
                 self.edges.push(DEAD);
                 continue;
             }

@@ -1,6 +1,7 @@
 //! The conditions that variants must meet, and a search made ready for them.
 
 use crate::geom::exact::ExactError;
+pub use crate::model::mechanism::Drives;
 use crate::model::mechanism::StateId;
 use crate::rank::numeric::DEFAULT_TOLERANCE;
 use crate::search::question::as_written::Written;
@@ -21,20 +22,6 @@ pub enum Symmetry {
     SymmetricOnly,
     /// One of each variant and its mirror image.
     OnePerOrbit,
-}
-
-/// The condition on the drives of a redesign.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Drives {
-    /// Outputs and drives move together as in the mechanism as built.
-    #[default]
-    Kept,
-    /// The outputs alone must keep their motion.
-    Free,
-    /// There are as many motions of the outputs as drives, and the drives decide them: each drive moves freely, and with all of them
-    /// locked the outputs rest.
-    Independent,
 }
 
 /// A state that takes part, and what variants must be like in it.

@@ -48,7 +48,7 @@ pub enum MirrorError {
     },
     /// Links that are not alike to the search.
     #[error(
-        "links {first} and {second} are images of each other, but only one of them is an output or held; treat both alike, or search without symmetry"
+        "links {first} and {second} are images of each other, but only one of them is an output or held; treat both in the same way, or search without symmetry"
     )]
     UnlikeLinks {
         /// One link.

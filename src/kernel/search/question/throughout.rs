@@ -76,7 +76,7 @@ pub enum PoseOnly {
     #[error("the closure equations are too many to expand")]
     TooLarge,
     /// An option that has the motion of the joint as built only in the drawn pose.
-    #[error("{option} at {joint} does not follow the present joint")]
+    #[error("{option} at {joint} does not follow the original joint")]
     Option {
         /// The joint.
         joint: String,

@@ -113,7 +113,7 @@ impl Kinematic<'_> {
         [
             row(
                 false,
-                "force on the link it is beside; a point or a cross from its end",
+                "force on the link next to it; a point or a cross from its end",
             ),
             row(
                 true,

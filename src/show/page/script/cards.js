@@ -129,7 +129,7 @@ function show() {
   const n = data.cards.length;
   byId('count').textContent = shown.length === n ? `All ${grouped(n)} grippers.`
     : shown.length ? `${grouped(shown.length)} of ${grouped(n)} grippers.`
-    : `None of ${grouped(n)} grippers is like that: ${inTheWay(asked)}.`;
+    : `None of ${grouped(n)} grippers matches: ${inTheWay(asked)}.`;
 }
 
 unpacked(packed.cards).then((cards) => {

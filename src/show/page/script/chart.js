@@ -156,7 +156,7 @@ function drawChart() {
     const part = shown.length === view.order.length ? "" : `The ${grouped(shown.length)} of ${grouped(view.order.length)} variants that have both figures. `;
     const best = front.length === 1
       ? "The larger dot is best in both."
-      : `No other variant is as good in both as one of the ${front.length} that the line joins; arrow keys walk along it.`;
+      : `The line joins the ${front.length} Pareto-optimal variants; use the arrow keys to step along it.`;
     byId("chart-words").textContent = `${part}${best}`;
   } else {
     byId("chart-words").textContent = "No variant has both figures.";

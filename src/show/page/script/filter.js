@@ -82,7 +82,7 @@ function wish(word) {
 /** For a filter that nothing passes: what would, and where there is more. */
 function insteadOfNothing() {
   const asked = criteria();
-  const parts = [element("p", {}, `No ${noun().toLowerCase()} of the ${grouped(total)} listed passes the filter.`)];
+  const parts = [element("p", {}, `None of the ${grouped(total)} ${noun().toLowerCase()}s listed matches the filter.`)];
   const without = asked.map((c) => [c, countOf(asked.filter((other) => other !== c))]).filter(([, n]) => n > 0);
   for (const [c, n] of asked.length > 1 ? without : []) {
     parts.push(button(`Without ${c.words}: ${grouped(n)}`, () => drop(c)), " ");

@@ -80,7 +80,7 @@ function draw(i) {
 /** Whether the pictures can be turned, for who cannot see that. */
 function tellTurns(turns) {
   for (const turn of document.querySelectorAll(".turn")) {
-    const words = turns ? "Drag a link to move it, drag next to it or press the arrow keys to turn it; Home for the first view" : "A still drawing";
+    const words = turns ? "Drag a link to move it. Drag the background or use the arrow keys to turn the view; Home resets it" : "A still drawing";
     turn.setAttribute("aria-label", words);
     turn.setAttribute("role", "group");
     if (turns) {

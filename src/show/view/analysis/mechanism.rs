@@ -99,7 +99,7 @@ fn describe_search(m: &Mechanism) -> String {
     let open = options.iter().copied().filter(|n| *n > 1).collect_vec();
     let places = m.joints.iter().filter(|j| !j.unloading.is_empty()).count();
     if open.is_empty() && places == 0 {
-        return "search: nothing to choose: no joint has an option with more freedoms than it has; list some under [search]"
+        return "search: nothing to choose: no joint has an option with more freedoms than its own type; list some under [search]"
             .to_owned();
     }
     let variants: BigUint = options.into_iter().map(BigUint::from).product();

@@ -43,7 +43,7 @@ fn to_remove(s: &State<'_>, file: &str) -> Option<NextCommand> {
             "search",
             file,
             "",
-            &format!("every redesign that removes all {of}, cheapest first"),
+            &format!("list the redesigns that remove all {of}, cheapest first"),
         )),
         (false, n) => {
             let best = found.list.first();
@@ -57,7 +57,9 @@ fn to_remove(s: &State<'_>, file: &str) -> Option<NextCommand> {
                 "search",
                 file,
                 &(typed_option("max-external", left) + &state),
-                &format!("redesigns that leave at most {left} of the {of} external, too"),
+                &format!(
+                    "also limit the redundant constraints added by clamping to {left} of {of}"
+                ),
             ))
         }
         (true, _) if !found.list.is_empty() => Some(NextCommand {

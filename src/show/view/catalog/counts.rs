@@ -85,7 +85,7 @@ pub fn hinged_row(links: usize, mobility: usize, chains: u64, census: Option<&Ce
 const HINGED_LEGEND: &str = "\
 Counted up to isomorphism.
 Drive: a frame, and a driver joined to it. Jaws are neither.
-Essential: no smaller moving part holds frame, driver and jaws.
+Essential: no smaller mobile subchain contains frame, driver and jaws.
 Truss: with a part hinged to both jaws the chain is rigid and has no rigid subchain.
 Graph symmetric: swapping the jaws twice, or carrying three round once, changes nothing, frame and driver in place.
 Mirror, half turn, threefold: placed symmetrically and otherwise generically (random modulo a prime), the chain has one motion, in which the input and the jaws move, the jaws relative to each other.
@@ -231,12 +231,12 @@ pub fn pair_rows(links: usize, all: &BTreeMap<Kinds, Census>) -> Vec<CountRow> {
 }
 
 const PAIR_LEGEND: &str = "\
-All up to isomorphism; hinges, slides and two slots between the same links leave one freedom, gear pairs (racks, too) and slots (pins in slots, cams, wedges) two.
+Counted up to isomorphism. Hinges, slides and two slots between the same links leave one freedom; gear pairs, racks, and slots (pins in slots, cams, wedges) leave two.
 A chain has one motion in nearly all places, in which every two links move; a gear pair has a carrier.
 Columns: the input, a hinge or a slide, is at the frame or between two moving links; a jaw is one of its links (driven), or apart from it.
-Essential: no smaller moving part holds frame, input joint and jaws; the rows below it count only these.
+Essential: no smaller mobile subchain contains frame, input joint and jaws; the rows below it count only these.
 Only translate: both jaws keep their attitude in nearly all places. Graph symmetric: swapping the jaws changes nothing, frame
-and input joint in place. Mirror, half turn: they move so in places so symmetric, otherwise generic (drawn at random modulo a prime).
+and input joint in place. Mirror, half turn: they move so if placed symmetrically and otherwise generically (random modulo a prime).
 ";
 
 /// Returns the counts of each number of links as a paragraph and a table.

@@ -112,9 +112,9 @@ Determinate variants ({certainty}): {determinate}, of these {admissible} that ke
 
 ";
 
-const STROKE: &str = "Over the stroke: forces 1 : {force_ratio}, worst transmission angle {transmission}°, \
-at most {pin_force} N in a joint for 1 N of each jaw, efficiency from {efficiency}, a box of {width} by {height} mm; \
-{margin_closing} and {margin_opening} mm more to the ends of the motion\n";
+const STROKE: &str = "Over the stroke: force ratio {force_ratio}, smallest transmission angle {transmission}°, \
+largest joint force {pin_force} N for 1 N at each jaw, efficiency at least {efficiency}, bounding box {width} x {height} mm; \
+{margin_closing} and {margin_opening} mm left to the ends of the motion\n";
 
 impl StructureData {
     /// Returns the verdict, a sentence: whether it is statically determinate as built, and whether it fulfils its task.
@@ -183,10 +183,10 @@ impl StructureData {
         out += &match &self.planes {
             None => String::new(),
             Some(of) if !has_value(of, "planes") => {
-                "Over the stroke something meets in whatever planes the links lie\n".to_owned()
+                "Links collide over the stroke in every set of planes\n".to_owned()
             }
             Some(of) => fill_template(
-                "Over the stroke nothing meets in {planes} planes, links from the back: {links}\n",
+                "No collisions over the stroke with the links in {planes} planes (back to front: {links})\n",
                 of,
             ),
         };

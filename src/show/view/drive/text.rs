@@ -175,7 +175,7 @@ fn write_losses(out: &mut Report, d: &Drive<'_>, design: &Design) {
             four_digits(design.friction_energy),
         );
         out.add_line(format!(
-            "  without the cam a swing ends Δφ = {missing} short: δ = {delta} a swing (6), E_fr = {energy} J (12)"
+            "  without the cam each swing stops Δφ = {missing} short (δ = {delta} per swing (6), E_fr = {energy} J (12))"
         ));
     }
     out.add_line(needed_feed(design));

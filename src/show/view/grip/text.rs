@@ -45,7 +45,7 @@ impl GripReport<'_> {
         let held =
             hardest.and_then(|d| Some((d.hardest.as_ref()?.held_forces()?, d.pose.as_ref()?)));
         if let Some((held, pose)) = held {
-            out.add_line("\n  The four contact forces in that case:\n");
+            out.add_line("\n  Contact forces in the worst case:\n");
             write_contacts(&mut out, held, pose, self.load_friction());
         }
         let motion = self.motion.as_ref().map(|m| m.text(width));

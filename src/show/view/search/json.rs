@@ -50,6 +50,30 @@ pub fn for_each_variant<'a, E>(
     })
 }
 
+/// Returns an outcome with its variants and the remarks as one value, and passes each variant to `each`.
+///
+/// # Errors
+/// No error is known.
+pub fn search_value<'o>(
+    outcome: &'o Outcome,
+    mut variants: Variants<'o>,
+    remarks: &Remarks,
+    mut each: impl FnMut(&Variant<'o>),
+) -> serde_json::Result<Value> {
+    let mut list = Vec::new();
+    for_each_variant(outcome, variants.by_ref(), |v, data| {
+        each(v);
+        list.push(serde_json::to_value(data)?);
+        serde_json::Result::Ok(())
+    })?;
+    let tail = tail_json(outcome, &variants, remarks, None);
+    Ok(join_objects([
+        search_json(outcome),
+        json!({ "variants": list }),
+        tail,
+    ]))
+}
+
 /// Writes an outcome with its variants and the remarks as one value; `seconds` where somebody has a
 /// clock, asked once all else is written. No other key differs between runs.
 ///
@@ -279,9 +303,10 @@ pub(crate) fn tail_json(
         };
         out["relaxations"] = remarks.eased.iter().map(eased).collect();
         let offers = remarks.offered_options(&outcome.request).iter();
-        out["offers"] = offers
-            .map(|o| json!({ "joint": o.joint, "options": o.names }))
-            .collect();
+        let offers = offers.map(|o| json!({ "joint": o.joint, "options": o.names }));
+        let nuts = remarks.offered_unloading(&outcome.request).iter();
+        let nuts = nuts.map(|i| json!({ "joint": i.joints.join(","), "unloading": i.names }));
+        out["offers"] = offers.chain(nuts).collect();
         out["least_redundant"] = json!(why.least_redundant);
         out["unchanged"] = json!(named(&why.unchanged));
         out["frozen"] = json!(named(&why.frozen));

@@ -74,11 +74,16 @@ pub fn wider_requests(outcome: &Outcome, remarks: &Remarks) -> Vec<(Request, Str
     let offered = remarks.offered.iter().map(|wider| {
         let all = remarks.offered_options(&outcome.request).iter();
         let each = all.map(|o| format!("{} at {}", o.names.join(" or "), o.joint));
+        let nuts = remarks.offered_unloading(&outcome.request).iter();
+        let nuts = nuts.map(|i| {
+            let (names, joints) = (i.names.join(" or "), i.joints.join(" and "));
+            format!("{names} in series with {joints}")
+        });
         let asked = &outcome.request.options;
         let everywhere = wider.options.iter().filter(|o| !asked.contains(o)).cloned();
         let words = format!(
             "Allow more joint types: there are redesigns with {}",
-            everywhere.chain(each).join(", ")
+            everywhere.chain(each).chain(nuts).join(", ")
         );
         (wider.clone(), words)
     });

@@ -81,7 +81,7 @@ pub(crate) fn reasons_against(outcome: &Outcome) -> Vec<String> {
     }
     if let Some([least, most]) = &said.scenes {
         out.push(format!(
-            "Not exact: the digits allow scenes with {} determinate and {} admissible variants; give more digits, or state \
+            "Not exact: within its digits the geometry has {} determinate and {} admissible variants; give more digits or a \
              [tolerance]",
             format_span(group_thousands(&least.0), group_thousands(&most.0)),
             format_span(group_thousands(&least.1), group_thousands(&most.1))
@@ -89,7 +89,7 @@ pub(crate) fn reasons_against(outcome: &Outcome) -> Vec<String> {
     }
     if out.is_empty() && !said.confirms() {
         out.push(match said.count_undecided() {
-            0 => "Not exact: it is not decided what the digits of the file mean".to_owned(),
+            0 => "Not exact: the digits of the file do not decide the geometry".to_owned(),
             n => format!(
                 "Not exact: the digits of the file do not decide {} of the variants asked about",
                 group_thousands(n)
@@ -115,8 +115,8 @@ fn describe_agreement(said: &SecondOpinion) -> String {
         many => format!("; the digits do not decide {} of them", n(many)),
     };
     format!(
-        "Singular values of the coordinates in the file, at tolerance {:.0e}, contradict at none of {} listed, {} admissible and \
-         {} of all variants drawn (narrowest gap {:.0e}{open})",
+        "Cross-checked with singular values of the file's coordinates (tolerance {:.0e}): no contradiction among {} listed, \
+         {} admissible and {} random variants (narrowest gap {:.0e}{open})",
         said.digits.tolerance,
         n(said.listed.asked),
         n(said.admissible.asked),

@@ -2,7 +2,6 @@
 
 use crate::score::request::{JointOptions, List, Request};
 use crate::search::question::conditions::Symmetry;
-use crate::search::question::kept::Drives;
 use crate::view::prelude::*;
 use std::fmt::Display;
 
@@ -89,11 +88,6 @@ pub fn request_flags(mechanism: &Mechanism, r: &Request) -> String {
     // All variants are listed by cost, whatever ranking the file has.
     let by_cost = r.list == List::All && r.rank.is_empty() && mechanism.ranking.is_some();
     let rank = rank.chain(by_cost.then(|| "cost".to_owned()));
-    let drives = match r.drives {
-        Drives::Kept => None,
-        Drives::Free => Some("free"),
-        Drives::Independent => Some("independent"),
-    };
     let pool = r.pool.map(|n| n.to_string());
     let valued = [
         ("max-redundant", some(r.max_redundant)),
@@ -104,7 +98,7 @@ pub fn request_flags(mechanism: &Mechanism, r: &Request) -> String {
         ("max-changes", r.max_changes.map(|c| c.to_string())),
         ("rank", list(rank.collect())),
         ("pool", pool),
-        ("drives", drives.map(str::to_owned)),
+        ("drives", r.drives.map(|d| d.word().to_owned())),
         ("costs", r.costs.as_ref().map(|c| c.name.clone())),
     ]
     .into_iter()

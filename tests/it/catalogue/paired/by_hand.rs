@@ -2,23 +2,16 @@
 
 use super::number;
 use crate::common::*;
-use ozols::chains::classics::known_classics;
-use ozols::synthesis::figures::{LayoutFigures, layout_figures};
+use ozols::synthesis::figures::LayoutFigures;
 use ozols::synthesis::layout::{Layout, most_symmetric};
 use ozols::synthesis::place::direction::WholeDirection;
 use ozols::synthesis::places::{Places, Teeth};
 use ozols::synthesis::rules::Rules;
 use ozols::synthesis::sketch::Sketch;
-use ozols::synthesis::structure::Structure;
-use ozols::synthesis::task::{Limits, Task};
 
 /// The task of `forces.json`: tips 30 mm apart when closed, each opens by 10 mm. They are drawn closed.
 fn published_task() -> Task {
-    Task {
-        narrowest: 29.999,
-        widest: 50.0,
-        ..Task::default()
-    }
+    default_with(|t: &mut Task| (t.narrowest, t.widest) = (29.999, 50.0))
 }
 
 /// Tips are drawn so much farther ahead than there, in mm.
@@ -83,10 +76,7 @@ impl ByHand {
 
     fn figures(mut self) -> LayoutFigures {
         self.rules.settle_joints(&mut self.at);
-        let limits = Limits {
-            task: published_task(),
-            ..Limits::default()
-        };
+        let limits = default_with(|l: &mut Limits| l.task = published_task());
         let sketch = Sketch::new(&self.paired, self.rules.clone(), limits);
         let layout = Layout {
             looks: sketch.drawn_figures(&self.at).unwrap(),

@@ -39,8 +39,5 @@ fn flat_faces_are_redundant_in_the_plane_already() {
         format!("\"{}\"", flat["determinate"])
     );
     let found = stdout_of(&["catalog", "find", &toml]);
-    assert!(
-        found.contains("Known as wedge-flat-faces") && found.contains("5 slides"),
-        "{found}"
-    );
+    has_all(&found, &["Known as wedge-flat-faces", "5 slides"]);
 }

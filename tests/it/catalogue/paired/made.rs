@@ -10,8 +10,8 @@ use crate::common::*;
 /// Every structure of four links with pairs, laid out freely.
 fn free() -> &'static str {
     static FILE: Built = OnceLock::new();
-    let line = "catalog build --pairs slide,gear,slot --generic-pairs --symmetry generic --links 4 --ideas 0 --quiet -o";
-    built(&FILE, &split_words(line))
+    let pairs = "--pairs slide,gear,slot --generic-pairs --symmetry generic";
+    built(&FILE, &format!("{pairs} --links 4 --ideas 0"))
 }
 
 #[test]
@@ -57,15 +57,7 @@ fn prices_and_actuators_are_as_by_hand() {
         all.iter()
             .all(|r| number(r, "actuator") > number(r, "widest") - number(r, "narrowest") - 0.01)
     );
-    let asked = stdout_of(&[
-        "catalog",
-        "query",
-        known(),
-        "--price",
-        "8",
-        "--format",
-        "csv",
-    ]);
+    let asked = stdout_of(&format!("catalog query {} --price 8 --format csv", known()));
     assert_eq!(asked.lines().count(), 2, "{asked}");
 }
 
@@ -157,30 +149,14 @@ fn what_looks_like_a_screw_is_told_from_one() {
 #[test]
 fn redesigns_are_found_in_their_plane() {
     let folder = tempdir().unwrap();
-    for scheme in [
-        "wedge-flat-faces",
-        "wedge-hook",
-        "screw-two-nuts",
-        "toggle-sliding-jaws",
-    ] {
+    let toml = path_in(&folder, "idea.toml");
+    for scheme in split_words("wedge-flat-faces wedge-hook screw-two-nuts toggle-sliding-jaws") {
+        let id = first_of(scheme);
         for idea in 1..=4 {
-            let idea = idea.to_string();
-            let id = first_of(scheme);
-            let toml = path_in(&folder, "idea.toml");
-            if run_full(&[
-                "catalog",
-                "export",
-                known(),
-                &id,
-                "--idea",
-                &idea,
-                "-o",
-                &toml,
-            ])
-            .0 == Some(0)
-            {
+            let line = format!("catalog export {} {id} --idea {idea} -o {toml}", known());
+            if run_full(&line).0 == Some(0) {
                 let found = stdout_of(&["catalog", "find", &toml, "--in", known()]);
-                assert!(found.contains(&id), "{scheme} {idea}: {found}");
+                has(&found, &id);
             }
         }
     }

@@ -4,10 +4,8 @@
 use super::number;
 use crate::common::*;
 use ozols::chains::PairKind;
-use ozols::chains::classics::known_classics;
-use ozols::synthesis::figures::layout_figures;
 use ozols::synthesis::layout::{lay_out, most_symmetric};
-use ozols::synthesis::task::{Aim, Limits, Task};
+use ozols::synthesis::task::Aim;
 
 /// The limits of `forces.json`: pins at 3 mm to 40 mm from the middle, tips 20 mm ahead of hinges and 30 mm apart when closed, each opening by
 /// 10 mm. They are drawn closed, so that all has the room of a rounding.

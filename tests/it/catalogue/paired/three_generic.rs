@@ -6,8 +6,8 @@ pub(in super::super) mod every_way;
 use super::super::carried_on::scattered_numbers;
 use super::super::command::{cards_of, dump_catalogue, path_in, query_lines};
 use super::{Built, LAID, built, pulls_as_its_file_says, query_rows};
+use ozols::chains::PairKind;
 use ozols::chains::sharing::Menu;
-use ozols::chains::{PairKind, structure::PairStructure};
 use ozols::synthesis::structure::listed::generic_structures;
 
 const BUILD: &str = "catalog build --jaws 3 --symmetry generic --generic-pairs --quiet -o";
@@ -15,8 +15,8 @@ const BUILD: &str = "catalog build --jaws 3 --symmetry generic --generic-pairs -
 /// Every structure of four links with two pairs at most that are no hinges.
 pub(super) fn free() -> &'static str {
     static FILE: Built = OnceLock::new();
-    let more = split_words("catalog build --pairs slide,gear,slot --at-most 2 --links 4 --ideas 2");
-    built(&FILE, &[&more[..], &split_words(BUILD)[2..]].concat())
+    let pairs = "--jaws 3 --symmetry generic --generic-pairs --pairs slide,gear,slot";
+    built(&FILE, &format!("{pairs} --at-most 2 --links 4 --ideas 2"))
 }
 
 /// As many as there are by trying all, and these: every chain of labelled links, every choice of roles, up to every numbering.

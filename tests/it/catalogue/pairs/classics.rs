@@ -3,12 +3,9 @@
 use super::menu;
 use crate::common::*;
 use ozols::chains::PairKind;
-use ozols::chains::chain::Chain;
-use ozols::chains::classics::known_classics;
 use ozols::chains::motion::moves_throughout;
 use ozols::chains::roles::Subject;
 use ozols::chains::visit::visit_pair_chains;
-use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// What independent programs say of a scheme, a line of `tests/data/schemes.csv`.
 pub(in super::super) struct SchemeFigures {

@@ -6,7 +6,6 @@ use flate2::read::GzDecoder;
 use ozols::chains::PairKind;
 use ozols::chains::roles::{Roles, Subject};
 use ozols::chains::visit::visit_pair_chains;
-use std::io::Read;
 use std::sync::Mutex;
 
 /// The letters of a numbering, and the roles in it.

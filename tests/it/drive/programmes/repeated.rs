@@ -2,10 +2,7 @@
 
 use super::{drive, steps};
 use crate::common::*;
-use chacha20::ChaCha8Rng;
-use chacha20::rand_core::{Rng, SeedableRng};
 use ozols::drive::programme::{Endurance, Module};
-use ozols::drive::swing::Feed;
 
 /// Discs in absolute angles, with grooves and cams cut where they are: what is left of the drive when formulas are.
 pub(super) struct Bench<'a> {

@@ -1,10 +1,11 @@
 //! Small mechanisms made of bytes, searched as the program does and by looking at every variant: the counts are the same.
 
 use super::mechanism_files::told;
-use super::slow_search::{Choice, Twin, all_variants, look_at_variant as look_at};
+use super::slow_search::{Choice, Twin, all_variants, look_at_variant as look_at, suits_state};
 use crate::common::*;
 use ozols::Mechanism;
 use ozols::search::answer::counts::Counts;
+use ozols::search::build::Diagrams;
 use ozols::search::check::brute::every_variant;
 use std::fmt::Write;
 
@@ -160,20 +161,36 @@ fn told_by<K: Ord + Clone, N: ToString>(counts: &BTreeMap<K, N>) -> Tally<K> {
 /// The counts of a diagram are those of the variants that are meant.
 fn same(what: &str, counts: &Counts, seen: &[&Twin], text: &str) {
     let all = || seen.iter().copied();
+    let both = told_by(&counts.by_mobility_and_changes);
     assert_eq!(
-        told_by(&counts.by_mobility_and_changes),
+        both,
         tally(all(), |f| (f.mobility, f.changes)),
         "{what} by W and changes of\n{text}"
     );
+    for (by, told, wanted) in [
+        (
+            "σ",
+            told_by(&counts.by_redundant),
+            tally(all(), |f| f.internal),
+        ),
+        (
+            "f",
+            told_by(&counts.by_freedoms),
+            tally(all(), |f| f.freedoms),
+        ),
+        (
+            "changes",
+            told_by(&counts.by_changes),
+            tally(all(), |f| f.changes),
+        ),
+    ] {
+        assert_eq!(told, wanted, "{what} by {by} of\n{text}");
+    }
+    let by_mobility = told_by(&counts.by_mobility);
     assert_eq!(
-        told_by(&counts.by_redundant),
-        tally(all(), |f| f.internal),
-        "{what} by σ of\n{text}"
-    );
-    assert_eq!(
-        told_by(&counts.by_freedoms),
-        tally(all(), |f| f.freedoms),
-        "{what} by f of\n{text}"
+        by_mobility,
+        tally(all(), |f| f.mobility),
+        "{what} by W of\n{text}"
     );
     assert_eq!(
         counts.total.to_string(),
@@ -214,21 +231,26 @@ pub(crate) fn look(bytes: &[u8]) -> String {
         Ok(search) => search,
         Err(e) => return e.to_string(),
     };
-    compare(&m, &search, &all, &seen, &text)
+    let diagrams = assert_as_the_twins(&m, &search, &all, &seen, &text);
+    let wanted = search.count_variants(&diagrams.admissible, true);
+    format!("{wanted} of {} variants", all.len())
 }
 
-fn compare(
+/// Asserts that a search counts just those variants that are meant, lists each of them once, the cheapest first, and says of each what
+/// it has; the first variant is the mechanism as it is. Returns the diagrams of the search.
+pub(crate) fn assert_as_the_twins(
     m: &Mechanism,
     search: &Search,
     all: &[Vec<Choice>],
     seen: &[Twin],
     text: &str,
-) -> String {
+) -> Diagrams {
     let asked = &search.conditions;
     assert_eq!(search.size().to_string(), all.len().to_string(), "{text}");
     let determinate = |f: &Twin| f.internal <= asked.max_redundant;
     let admissible = |f: &Twin| {
         determinate(f)
+            && suits_state(asked.state, f)
             && (!asked.keep_output || f.motion == seen[0].motion)
             && asked.max_mobility.is_none_or(|most| f.mobility <= most)
             && asked.max_changes.is_none_or(|most| f.changes <= most)
@@ -248,19 +270,26 @@ fn compare(
     let mut last = 0;
     let mut given = Vec::new();
     for v in search.cheapest_variants(&diagrams, usize::MAX / 4) {
-        assert!(v.key.cost() >= last, "{text}");
-        last = v.key.cost();
+        let key = v.key;
+        assert!(key.cost() >= last, "{text}");
+        last = key.cost();
         let mut choices: Vec<Choice> = vec![(0, None); m.joints.len()];
         for (variable, &c) in search.space.variables.iter().zip(&v.choices) {
             let c = &variable.choices[c];
             choices[variable.joints[0].index()] = (c.option, c.unloading);
         }
         let at = all.iter().position(|a| *a == choices).unwrap();
-        let figures = &seen[at];
-        assert!(admissible(figures), "{choices:?} of\n{text}");
+        let f = &seen[at];
+        assert!(admissible(f), "{choices:?} of\n{text}");
         assert_eq!(
-            (v.key.internal(), v.key.freedoms(), v.key.changes()),
-            (figures.internal, figures.freedoms, figures.changes),
+            (
+                key.internal(),
+                key.external(),
+                key.harmful(),
+                key.freedoms(),
+                key.changes()
+            ),
+            (f.internal, f.external, f.harmful, f.freedoms, f.changes),
             "{choices:?} of\n{text}"
         );
         given.push(at);
@@ -268,7 +297,7 @@ fn compare(
     given.sort_unstable();
     given.dedup();
     assert_eq!(given.len(), wanted.len(), "{text}");
-    format!("{} of {} variants", wanted.len(), all.len())
+    diagrams
 }
 
 /// A mechanism of a few hinges, and what bytes in order come to.

@@ -7,6 +7,7 @@ use num_rational::BigRational;
 use num_traits::{One, Zero};
 use ozols::model::joint_type::CoupledFreedom;
 use ozols::model::mechanism::Frame;
+use ozols::search::question::conditions::InState;
 
 pub(crate) type Q = BigRational;
 
@@ -405,4 +406,13 @@ pub(crate) fn all_variants(m: &Mechanism, clamped: bool) -> Vec<Vec<Choice>> {
             .collect();
     }
     out
+}
+
+/// Whether a variant is what it must be in the searched state.
+pub(crate) fn suits_state(state: Option<InState>, t: &Twin) -> bool {
+    state.is_none_or(|s| {
+        s.max_external.is_none_or(|most| t.external <= most as i32)
+            && s.max_harmful.is_none_or(|most| t.harmful <= most)
+            && (t.held || !s.hold_objects)
+    })
 }

@@ -3,10 +3,6 @@
 use super::refused::run;
 use super::{built_in, text};
 use crate::common::*;
-use ozols::model::ranking::{ClearanceSum, Term};
-use ozols::score::evaluation::elimination::Scratch;
-use ozols::score::evaluation::evaluate::Evaluator;
-use ozols::search::answer::k_best::Assignment;
 
 fn pool(s: &Search, n: usize) -> Vec<Assignment> {
     let d = s.build_diagrams(&|| false, &mut |_| {});
@@ -57,11 +53,11 @@ fn variants_are_scored_by_the_worst_part() {
 
 #[test]
 fn the_ranking_states_its_states() {
-    let v = run_json(&["search", "lever-gripper", "--format", "json"]);
+    let v = run_json("search lever-gripper --format json");
     assert_eq!(v["ranking"]["grip"][0]["state"], "clamped");
     assert_eq!(v["ranking"]["grip"][0]["held"].list().len(), 5);
     assert!(v["variants"][0]["scores"]["by_cost"].whole() > 1);
-    let said = run_quiet(&["search", "lever-gripper"]);
+    let said = run_quiet("search lever-gripper");
     has(
         &said,
         "Loads of state clamped from the grip: contact forces of the worst case of 5 parts, D = 30 to 50 mm",

@@ -4,10 +4,8 @@ use super::{COUPLINGS, assert_statics, cross3, force, held, lever, pose, pull};
 use crate::common::*;
 use microlp::{ComparisonOp, OptimizationDirection, Problem};
 use ozols::geom::vector::cross_plane as cross;
-use ozols::grip::contact::{Gripper, TouchingPose};
-use ozols::grip::holding::{ContactForce, HoldingOutcome, PartWrench, Spatial, find_holding};
-use ozols::model::grip::LeverDrive;
-use proptest::prelude::*;
+use ozols::grip::contact::TouchingPose;
+use ozols::grip::holding::Spatial;
 
 /// Drive moment with each friction cone replaced by `facets` edges on it (too few forces, so too much moment), or by edges
 /// outside it (`outer`); `None` where it cannot be held.

@@ -5,8 +5,8 @@ use crate::common::*;
 use num_rational::BigRational;
 use ozols::linalg::number_ring::{Element, NumberRing};
 use ozols::rank::exact::certificate::{Budget, Certificate, certify_matrix};
+use ozols::verify::Flaw;
 use ozols::verify::matrix::MatrixOverRing;
-use ozols::verify::{self, Flaw};
 
 /// The kinds of corruption that make a certificate false, or say something other than it did, whatever the matrix:
 /// - a kernel entry changed (the column of a pivot is not zero, so the product with J changes), dropped, doubled, or

@@ -4,12 +4,9 @@ use super::built_in;
 use crate::common::*;
 use crate::rank::finite_traps::{all::all as traps, judged, judged_in};
 use crate::rank::rounded::cases::cases;
-use chacha20::ChaCha8Rng;
-use chacha20::rand_core::{Rng, SeedableRng};
-use ozols::rank::exact::field::field_of;
-use ozols::rank::finite::displacement_group::{GroupKind, whole_group};
+use ozols::rank::finite::displacement_group::GroupKind;
 use ozols::rank::finite::independent_parts::lock_idle;
-use ozols::rank::finite::{Finite, How, Proof, followed_mobility};
+use ozols::rank::finite::{Finite, Proof, followed_mobility};
 use std::fmt::Write;
 
 fn proof(name: &str) -> Option<Proof> {
@@ -35,34 +32,44 @@ fn what_rests_is_locked_and_the_rest_is_a_group() {
     assert_eq!(proof("gripper-10"), Some(Proof::Resting));
 }
 
-/// Legs that move in whole groups, and what those have in common [Hervé 1978].
+/// Legs that move in whole groups, and what those have in common [Hervé 1978]; legs that could do more than the platform asks of them
+/// [Hervé 1999; Kong & Gosselin 2007]; bars of a parallelogram, which slide on a circle; contours that hold nothing twice between them;
+/// contours of up to six hinges that counting gives no motion, pins in a plane beyond need and folded plates, not stopped up to the
+/// order beyond which nothing can.
 #[test]
-fn legs_are_groups_and_platforms_move_in_what_they_share() {
-    for name in ["sarrus", "sarrus-three-legs", "3-crr", "tripteron"] {
-        assert_eq!(proof(name), Some(Proof::Bonds), "{name}");
+fn each_kind_of_motion_has_its_proof() {
+    for (names, by) in [
+        ("sarrus sarrus-three-legs 3-crr tripteron", Proof::Bonds),
+        ("4-upu quadrupteron", Proof::Bonds),
+        ("orthoglide delta-parallelograms y-star", Proof::Bonds),
+        ("exechon", Proof::Contours),
+        (
+            "bennett goldberg-5r goldberg-6r myard-5r bricard-box altmann",
+            Proof::Multiplicity,
+        ),
+        (
+            "bricard-line-symmetric bricard-plane-symmetric bricard-trihedral",
+            Proof::Multiplicity,
+        ),
+        (
+            "schatz-turbula two-bennetts miura-ori bricard-octahedron",
+            Proof::Multiplicity,
+        ),
+        (
+            "parallelogram-3-rods parallelogram-3-rods-planar",
+            Proof::Multiplicity,
+        ),
+        (
+            "kempe-translator roberts-cognates dixon-k33 dixon-k44",
+            Proof::Multiplicity,
+        ),
+        ("hoberman-ring-6", Proof::Multiplicity),
+    ] {
+        for name in split_words(names) {
+            assert_eq!(proof(name), Some(by), "{name}");
+        }
     }
-}
-
-/// Legs that could do more than the platform asks of them are held to what it does [Hervé 1999; Kong & Gosselin 2007].
-#[test]
-fn legs_are_held_to_the_subgroup_that_they_use() {
-    for name in ["4-upu", "quadrupteron"] {
-        assert_eq!(proof(name), Some(Proof::Bonds), "{name}");
-    }
-}
-
-/// Bars of a parallelogram slide on a circle, within the group of a leg.
-#[test]
-fn parallelograms_in_legs_are_circles_of_slides() {
-    for name in ["orthoglide", "delta-parallelograms", "y-star"] {
-        assert_eq!(proof(name), Some(Proof::Bonds), "{name}");
-    }
-}
-
-/// Contours that hold nothing twice between them, each proven for itself.
-#[test]
-fn contours_are_judged_one_by_one() {
-    assert_eq!(proof("exechon"), Some(Proof::Contours));
+    assert_eq!(proof("bennett-perturbed"), None);
 }
 
 /// Where branches cross, or turn back in a cusp.
@@ -89,9 +96,7 @@ fn a_taut_chain_is_proven_to_rest() {
     let taut = traps()
         .into_iter()
         .filter(|t| t.name.starts_with("taut-chain"));
-    let all: Vec<_> = taut
-        .map(|t| judged(&mechanism_from_str("x.toml", &t.text).unwrap()).1)
-        .collect();
+    let all: Vec<_> = taut.map(|t| judged(&read(&t.text)).1).collect();
     assert!(
         all.len() > 4 && all.iter().all(Finite::is_proven),
         "{all:?}"
@@ -103,37 +108,6 @@ fn a_taut_chain_is_proven_to_rest() {
 fn platforms_on_rods_are_proven_by_their_multiplicity() {
     let (_, found) = judged(&built_in("griffis-duffy"));
     assert!(found.is_proven() && found.mobility == 7, "{found:?}");
-}
-
-/// Single contours of up to six hinges that counting gives no motion: not stopped up to the order beyond which nothing can.
-#[test]
-fn overconstrained_contours_are_proven_by_their_multiplicity() {
-    for name in split_words(
-"bennett goldberg-5r goldberg-6r myard-5r bricard-box bricard-line-symmetric bricard-plane-symmetric
-            bricard-trihedral schatz-turbula altmann two-bennetts",
-) {
-        assert_eq!(proof(name), Some(Proof::Multiplicity), "{name}");
-    }
-    assert_eq!(proof("bennett-perturbed"), None);
-}
-
-/// Pins in a plane beyond need, whose equal lengths no group knows of.
-#[test]
-fn redundant_rods_in_a_plane_are_proven_by_their_multiplicity() {
-    for name in split_words(
-"parallelogram-3-rods parallelogram-3-rods-planar kempe-translator roberts-cognates dixon-k33 dixon-k44
-            hoberman-ring-6",
-) {
-        assert_eq!(proof(name), Some(Proof::Multiplicity), "{name}");
-    }
-}
-
-/// Folded plates, whose vertices are spherical contours, each of which holds some of what the others hold.
-#[test]
-fn plates_are_proven_by_their_multiplicity() {
-    for name in ["miura-ori", "bricard-octahedron"] {
-        assert_eq!(proof(name), Some(Proof::Multiplicity), "{name}");
-    }
 }
 
 /// Planar and spherical built-ins, in every state.
@@ -180,7 +154,7 @@ fn ways_of_a_part_are_split_off_where_its_faces_let_it_go() {
     let (x, y) = ([1, 0, 0], [0, 1, 0]);
     for (faces, second, idle) in [(false, x, 1), (false, y, 0), (true, x, 3), (true, y, 3)] {
         let text = between(faces, [(0, x), (7, second)]);
-        let m = mechanism_from_str("x.toml", &text).unwrap();
+        let m = read(&text);
         let exact = field_of(&m, StateId::FREE, 0).unwrap();
         let mut locked = m.clone();
         let found = lock_idle(&exact, &mut locked, StateId::FREE).unwrap();
@@ -232,7 +206,7 @@ fn most_further_mechanisms_are_proven() {
         .filter(|c| judged(&c.mechanism).0 == usize::try_from(c.mobility).unwrap())
         .map(|c| (c.name, c.mechanism, c.finite));
     let traps = traps().into_iter().map(|t| {
-        let mechanism = mechanism_from_str("x.toml", &t.text).unwrap();
+        let mechanism = read(&t.text);
         (t.name, mechanism, i64::try_from(t.truth).unwrap())
     });
     let (mut all, mut open) = (0, Vec::new());
@@ -255,70 +229,57 @@ fn most_further_mechanisms_are_proven() {
 /// A closed chain of hinges and slides with small whole coordinates: many are special by chance.
 fn chain(random: &mut ChaCha8Rng) -> String {
     let mut below = |n: u32| random.next_u32() % n;
-    let joints = 4 + below(3) as usize;
+    let joints = 4 + below(3);
     let flat = below(2) == 0;
-    let mut text = String::from("name = \"chain\"\n");
-    for l in 0..joints {
-        let role = ["role = \"frame\"\n", "role = \"output\"\n"]
-            .get(l)
-            .unwrap_or(&"");
-        write!(text, "[[link]]\nid = \"{l}\"\n{role}").unwrap();
-    }
     let directions = [
-        [1, 0, 0],
-        [0, 1, 0],
-        [0, 0, 1],
-        [0, 1, 1],
-        [1, 1, 0],
-        [1, 2, 2],
+        "1, 0, 0", "0, 1, 0", "0, 0, 1", "0, 1, 1", "1, 1, 0", "1, 2, 2",
     ];
-    for j in 0..joints {
-        let kind = if below(6) == 0 {
-            "prismatic"
-        } else {
-            "revolute"
-        };
+    let joint = |_| {
+        let kind = ["prismatic", "revolute"][usize::from(below(6) > 0)];
         let point = [(); 3].map(|()| below(4));
         let axis = directions[below(if flat { 2 } else { 6 }) as usize];
-        write!(
-            text,
-            "[[joint]]\nid = \"j{j}\"\nlinks = [\"{j}\", \"{}\"]\ntype = \"{kind}\"\npoint = {point:?}\naxis = {axis:?}\n",
-            (j + 1) % joints
-        )
-        .unwrap();
-    }
-    text
+        format!("{kind} | {} | {axis}", commas(point))
+    };
+    write_ring("name = \"chain\"", &(0..joints).map(joint).collect_vec())
 }
 
-/// Proof and pursuit share nothing but the file: on chains at random they never contradict each other.
-#[test]
-fn proofs_of_random_chains_are_not_contradicted_by_following_them() {
-    let mut random = ChaCha8Rng::seed_from_u64(7);
-    let (mut moving, mut stopped, mut orders) = (0, 0, 0);
-    for case in 0..1500 {
-        let text = chain(&mut random);
-        let m = mechanism_from_str("x.toml", &text).unwrap();
+/// Proof and pursuit share nothing but the file: on mechanisms at random they never contradict each other. Returns how often each kind
+/// of proof was found.
+fn proofs_and_pursuit(
+    cases: usize,
+    seed: u64,
+    text: fn(&mut ChaCha8Rng) -> String,
+) -> BTreeMap<&'static str, usize> {
+    let mut random = ChaCha8Rng::seed_from_u64(seed);
+    let mut found_by = BTreeMap::new();
+    for case in 0..cases {
+        let text = text(&mut random);
+        let m = read(&text);
         let (instantaneous, found) = judged(&m);
-        if instantaneous == 0 || !found.is_proven() {
+        if instantaneous == 0 {
             continue;
         }
-        let by_motion = followed_mobility(&m, StateId::FREE, instantaneous, 0.0).unwrap();
-        assert!(
-            by_motion.could_be(i64::try_from(found.mobility).unwrap()),
-            "{case}: {found:?} {by_motion:?}\n{text}"
-        );
-        match found.how {
-            How::Submersion { by, .. } => {
-                moving += 1;
-                orders += usize::from(by == Proof::Multiplicity);
-            }
-            How::Stopped { .. } => stopped += 1,
-            _ => {}
+        *found_by.entry(found.as_word()).or_insert(0) += 1;
+        if found.is_proven() {
+            let by_motion = followed_mobility(&m, StateId::FREE, instantaneous, 0.0).unwrap();
+            let mobility = i64::try_from(found.mobility).unwrap();
+            assert!(
+                by_motion.could_be(mobility),
+                "{case}: {found:?} {by_motion:?}\n{text}"
+            );
         }
     }
+    found_by
+}
+
+#[test]
+fn proofs_of_random_chains_are_not_contradicted_by_following_them() {
+    let found_by = proofs_and_pursuit(1500, 7, chain);
+    let count = |word: &str| found_by.get(word).copied().unwrap_or(0);
+    let counts = ["submersion", "multiplicity", "second-order"].map(count);
     assert!(
-        moving > 60 && stopped > 20 && orders > 3,
-        "{moving} {stopped} {orders}"
+        counts[0] > 50 && counts[1] > 3 && counts[2] > 5,
+        "{found_by:?}"
     );
 }
 
@@ -379,26 +340,7 @@ fn two_contours(random: &mut ChaCha8Rng) -> String {
 fn proofs_of_random_contours_are_not_contradicted_by_following_them() {
     let cases = std::env::var("OZOLS_FUZZ").map_or(600, |n| n.parse().unwrap());
     let seed = std::env::var("OZOLS_SEED").map_or(11, |n| n.parse().unwrap());
-    let mut random = ChaCha8Rng::seed_from_u64(seed);
-    let mut found_by = BTreeMap::new();
-    for case in 0..cases {
-        let text = two_contours(&mut random);
-        let m = mechanism_from_str("x.toml", &text).unwrap();
-        let (instantaneous, found) = judged(&m);
-        if instantaneous == 0 {
-            continue;
-        }
-        *found_by.entry(found.as_word()).or_insert(0) += 1;
-        if !found.is_proven() {
-            continue;
-        }
-        let by_motion = followed_mobility(&m, StateId::FREE, instantaneous, 0.0).unwrap();
-        assert!(
-            by_motion.could_be(i64::try_from(found.mobility).unwrap()),
-            "{case}: {found:?} {by_motion:?}\n{text}"
-        );
-    }
-
+    let found_by = proofs_and_pursuit(cases, seed, two_contours);
     for word in ["submersion", "multiplicity", "singular", "second-order"] {
         assert!(
             found_by.get(word).is_some_and(|&n| n >= 3),

@@ -2,8 +2,8 @@
 
 use crate::common::*;
 use crate::robots::no_files;
-use ozols::model::rounded::{Uncertainties, looks_rounded, uncertainties};
-use ozols::robots::{Options, import};
+use ozols::model::rounded::{Uncertainties, looks_rounded};
+use ozols::robots::Options;
 
 /// A door on two hinges, with these two points and axes.
 pub(crate) fn door(points: [&str; 2], axes: [&str; 2], more: &str) -> String {
@@ -315,16 +315,20 @@ fn absurd_tolerances_are_refused_where_they_stand() {
         ("[tolerance]\nangle = 0.5\n", 4),
     ] {
         let text = door(["[0, 0, 0]", "[0, 0, 120]"], [Z, Z], more);
-        let (code, _, stderr) = run_on("check", "door.toml", &text, &[]);
-        assert_eq!(code, Some(2), "{more}");
-        has(&stderr, &format!("door.toml:{line}:"));
+        assert_fails_on(
+            "check",
+            "door.toml",
+            &text,
+            "",
+            &format!("door.toml:{line}:"),
+        );
     }
     let text = door(["[0, 0, 0]", "[0, 0, 120]"], [Z, Z], "").replacen(
         "axis =",
         "tolerance = -2\naxis =",
         1,
     );
-    let (code, _, stderr) = run_on("check", "door.toml", &text, &[]);
+    let (code, _, stderr) = run_on("check", "door.toml", &text, "");
     assert_eq!(code, Some(2));
     has(&stderr, "tolerance -2 is out of range");
     has(&stderr, "help: ");
@@ -351,12 +355,7 @@ fn what_is_written_again_says_the_same() {
         "[tolerance]\ndirection = 1e-6\n",
     );
     for text in [stated, own, turned] {
-        let (code, again, stderr) = run_on(
-            "export",
-            "door.toml",
-            &text,
-            &["--to", "toml", "--as-written"],
-        );
+        let (code, again, stderr) = run_on("export", "door.toml", &text, "--to toml --as-written");
         assert_eq!(code, Some(0), "{stderr}");
         assert_eq!(known(&again), known(&text), "{again}");
         assert!(known(&again).is_some());

@@ -2,7 +2,6 @@
 
 use super::digits::{Z, door, read};
 use crate::common::*;
-use ozols::model::rounded::uncertainties;
 
 #[test]
 fn decimal_ratios_that_are_all_but_fractions_are_doubted() {
@@ -17,7 +16,7 @@ fn decimal_ratios_that_are_all_but_fractions_are_doubted() {
             )
             + &format!("[[coupling]]\njoints = [\"h0\", \"h1\"]\nratio = {ratio}\n")
     };
-    let told = |ratio: &str| run_on("check", "gears.toml", &gears(ratio), &[]);
+    let told = |ratio: &str| run_on("check", "gears.toml", &gears(ratio), "");
     for (ratio, fraction) in [("-0.6667", "-2/3"), ("1.4286", "10/7")] {
         let (code, _, stderr) = told(ratio);
         assert_eq!(code, Some(0), "{stderr}");
@@ -40,7 +39,7 @@ fn a_pitch_that_is_all_but_that_of_a_simple_lead_is_doubted() {
                 "[[joint]]\nid = \"s\"\nlinks = [\"0\", \"door\"]\ntype = \"helical\"\npoint = [0, 0, 0]\naxis = [0, 0, 1]\n{pitch}\n"
             )
     };
-    let told = |pitch: &str| run_on("check", "screw.toml", &screw(pitch), &[]).2;
+    let told = |pitch: &str| run_on("check", "screw.toml", &screw(pitch), "").2;
     has(&told("pitch = 0.7958"), "write lead = \"5\"");
     for fine in ["lead = 5", "pitch = 0.8", "pitch = \"5/(2*pi)\""] {
         assert!(!told(fine).contains("simple lead"), "{}", told(fine));

@@ -5,8 +5,6 @@
 
 use super::search_numeric::small_request;
 use crate::common::*;
-use ozols::geom::rigid::RigidMotion;
-use ozols::rank::method::auto::decide_state;
 use rayon::prelude::*;
 
 type Vector = [f64; 3];
@@ -153,7 +151,7 @@ const FAMILIES: [Family; 6] = [
 
 /// What is said of a file: W and finite mobility, each with the most it can be; `None` where W is not decided.
 fn said(text: &str) -> Option<(usize, [usize; 2])> {
-    let m = mechanism_from_str("it.toml", text).unwrap();
+    let m = read(text);
     let found = decide_state(&m, StateId::FREE).unwrap();
     let w = found.verdict.figures_at(found.verdict.rank()).0;
     let finite = [found.finite.mobility, found.finite.at_most()];
@@ -256,7 +254,7 @@ fn a_count_is_exact_only_where_all_that_is_asked_is_decided() {
             + &joint("slot", "[\"0\", \"b\"]", "slotted", askew, [1.0, 0.0, 0.0], "options = [\"planar\", \"cylinder-on-plane\"]")
             + &joint("slide", "[\"0\", \"a\"]", "prismatic", [1.0, 0.0, 0.0], Z, "")
             + &joint("hinge", "[\"a\", \"b\"]", "revolute", Z, [1.0, 0.0, 0.0], "options = []");
-        let m = mechanism_from_str("it.toml", &file).unwrap();
+        let m = read(&file);
         let Ok(found) = ozols::search(&m, &small_request()) else {
             continue;
         };

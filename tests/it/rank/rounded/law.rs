@@ -8,9 +8,6 @@ use super::search_numeric::{plain_built_in, small_request, turned_bare};
 use crate::common::*;
 use ozols::accuracy::said;
 use ozols::accuracy::special::SpecialKind;
-use ozols::rank::method::auto::decide_state;
-use ozols::score::outcome::Outcome;
-use ozols::score::request::Request;
 use rayon::prelude::*;
 
 /// Digits after the point.
@@ -173,51 +170,6 @@ fn most_built_ins_at_six_decimals_are_decided() {
     );
 }
 
-/// A door on two hinges along z, the second off by so many units of its last digit.
-fn door(decimals: usize, along: [f64; 2], off: f64) -> Mechanism {
-    let unit = 10f64.powi(-i32::try_from(decimals).unwrap());
-    let angle = along[0] * TAU;
-    let (x, y) = (1.0 + along[1], 2.0 - along[0]);
-    let (u, v) = (x + off * unit * angle.cos(), y + off * unit * angle.sin());
-    let joints = format!(
-        "low | 0 door | revolute | {x:.decimals$}, {y:.decimals$}, {:.decimals$} | 0, 0, 1
-         high | 0 door | revolute | {u:.decimals$}, {v:.decimals$}, {:.decimals$} | 0, 0, 1",
-        0.25, 2.25
-    );
-    mechanism_from_str(
-        "door.toml",
-        &write_mechanism("name = \"door\"", "0 door*", &joints),
-    )
-    .unwrap()
-}
-
-#[test]
-fn offsets_beyond_the_digits_are_kept() {
-    let mut noise = Noise::new(5, 0);
-    for decimals in 4..=12 {
-        for off in [2.5, 4.0, 13.0, 137.0, 1000.0] {
-            let along = [noise.draw_uniform(), noise.draw_uniform()];
-            let m = door(decimals, along, off);
-            let d = decide_state(&m, StateId::FREE).unwrap();
-            let w = d.verdict.figures_at(d.verdict.rank()).0;
-            let sure = d.verdict.is_decided() && d.finite.is_proven();
-            assert!(
-                !(w == 1 && sure),
-                "{off} units at {decimals} decimals: {}",
-                d.line
-            );
-        }
-        let m = door(decimals, [0.3, noise.draw_uniform()], 0.0);
-        let d = decide_state(&m, StateId::FREE).unwrap();
-        assert_eq!(
-            d.verdict.figures_at(d.verdict.rank()).0,
-            1,
-            "{decimals}: {}",
-            d.line
-        );
-    }
-}
-
 /// Offsets of 3, 5 and 10 units with 11 to 14 decimals, as the guide tells: up to eleven all are kept, and beyond doubles end.
 #[test]
 #[allow(clippy::print_stdout, reason = "the table is what it is run for")]
@@ -236,7 +188,7 @@ fn offsets_near_the_end_of_doubles() {
             let lost = all.par_iter().filter(|(k, kind, i)| {
                 let mut noise = Noise::new(3, i * SpecialKind::ALL.len() + k);
                 let text = kind.text(units, decimals, i % 2 == 1, &mut noise);
-                let m = mechanism_from_str("off.toml", &text).unwrap();
+                let m = read(&text);
                 let found = decide_state(&m, StateId::FREE).ok();
                 let [w, finite] = said::Said::of_decision(found.as_ref(), kind.true_figures(true));
                 w.max(finite) >= said::Said::Hedged
@@ -269,7 +221,7 @@ fn offsets_of_a_unit_and_a_half_are_not_proven_away() {
                     continue;
                 }
                 let text = kind.text(units, decimals, turned, &mut Noise::new(seed, i));
-                let m = mechanism_from_str("off.toml", &text).unwrap();
+                let m = read(&text);
                 let found = decide_state(&m, StateId::FREE).ok();
                 let [w, finite] = said::Said::of_decision(found.as_ref(), kind.true_figures(true));
                 assert!(

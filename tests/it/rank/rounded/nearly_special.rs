@@ -1,8 +1,6 @@
 //! What is nearly special in small mechanisms, against what is exact by hand: directions, places and reach.
 
 use crate::common::*;
-use ozols::geom::vector::{Vector, dot, unit};
-use ozols::rank::rounded::mechanism_size;
 use ozols::rank::rounded::nearly_special::{NearJoint, Reach, Relation, nearly_special};
 
 /// A chain of joints, each with its type, point and axis.
@@ -18,11 +16,11 @@ fn chain(joints: &[(&str, Vector, Vector)]) -> Mechanism {
         )
     };
     let joints = joints.iter().enumerate().map(line).join("\n");
-    mechanism_from_str(
-        "chain.toml",
-        &write_mechanism("name = \"chain\"\nlength_unit = \"m\"", &links, &joints),
-    )
-    .unwrap()
+    read(&write_mechanism(
+        "name = \"chain\"\nlength_unit = \"m\"",
+        &links,
+        &joints,
+    ))
 }
 
 fn near(m: &Mechanism, tolerance: f64) -> Vec<NearJoint> {

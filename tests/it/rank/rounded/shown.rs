@@ -3,10 +3,6 @@
 use super::digits::door;
 use super::search_numeric::{small_request, turned_bare, without_options};
 use crate::common::*;
-use ozols::model::rounded::uncertainties;
-use ozols::rank::method::auto::decide_state;
-use ozols::score::outcome::Outcome;
-use ozols::score::request::{List, Request};
 
 fn read(text: &str) -> Mechanism {
     without_options(mechanism_from_str("it.toml", text).unwrap_or_else(|e| panic!("{text}: {e}")))

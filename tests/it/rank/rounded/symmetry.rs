@@ -3,7 +3,6 @@
 
 use super::search_numeric::{small_request, turned_bare, without_options};
 use crate::common::*;
-use ozols::score::request::Request;
 use ozols::search::question::conditions::Symmetry;
 
 const BOTH: [Symmetry; 2] = [Symmetry::SymmetricOnly, Symmetry::OnePerOrbit];
@@ -27,7 +26,7 @@ fn two_rockers() -> Mechanism {
     let turn = "turn = [[\"a\", \"a2\"], [\"b\", \"b2\"], [\"c\", \"c2\"]]";
     let head = format!("name = \"two-rockers\"\n[search]\noptions = [\"revolute\"]\n{turn}");
     let file = write_mechanism(&head, "0 shaft* rod rod2 rocker rocker2", &joints);
-    mechanism_from_str("x.toml", &file).unwrap()
+    read(&file)
 }
 
 /// Turned files that have the counts of the exact one, of all at these decimals; none has others and calls them exact.
@@ -75,7 +74,7 @@ fn joints_that_become_each_other_by_half_a_turn_do_so_in_turned_files() {
 #[test]
 fn a_stated_image_that_is_off_by_more_than_the_digits_is_refused() {
     let text = builtin::text("gripper-slider-two-fingers").unwrap();
-    let exact = without_options(mechanism_from_str("x.toml", text).unwrap());
+    let exact = without_options(read(text));
     for (seed, symmetry) in [1, 2].into_iter().zip(BOTH) {
         let mut m = turned_bare(&exact, 6, &mut Noise::new(seed, 0));
         let joint = m.search.mirror[1].0;

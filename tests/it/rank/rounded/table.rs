@@ -3,8 +3,6 @@
 use super::cases::{Case, cases};
 use crate::common::*;
 use crate::documents::figures::{between, says};
-use ozols::accuracy::change::turned_and_rounded;
-use ozols::rank::method::auto::decide_state;
 use ozols::rank::rounded::verdict::rank_verdict;
 use rayon::prelude::*;
 

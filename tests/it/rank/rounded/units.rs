@@ -2,15 +2,11 @@
 
 use super::search_numeric::{plain_built_in, turned_bare};
 use crate::common::*;
-use ozols::geom::Reals;
 use ozols::meant::mechanism::{Meant, recover_mechanism};
 use ozols::meant::mechanism::{describe_relations, moved_joints};
-use ozols::model::rounded::uncertainties;
 use ozols::rank::numeric::scaling::{Scaling, scaled_matrix};
-use ozols::rank::rounded::mechanism_size;
 use ozols::rank::rounded::nearly_special::rounding_reach;
-use ozols::rank::rounded::verdict::rank_verdict;
-use ozols::rank::rounded::verdict::settle_states;
+use ozols::rank::rounded::verdict::{rank_verdict, settle_states};
 use ozols_dense::singular_values;
 
 fn measured(name: &str, decimals: usize) -> Mechanism {

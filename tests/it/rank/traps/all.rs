@@ -1,7 +1,6 @@
 //! Mechanisms whose finite mobility is hard to tell, each with what it is in truth and where that comes from.
 
 use crate::common::*;
-use std::fmt::Write;
 
 /// A trap.
 pub(crate) struct Trap {
@@ -34,12 +33,8 @@ impl Sketch {
         self.link(a);
         self.link(b);
         self.count += 1;
-        writeln!(
-            self.joints,
-            "[[joint]]\nid = \"j{}\"\nlinks = [\"{a}\", \"{b}\"]\ntype = \"{kind}\"\npoint = {point:?}\naxis = {axis:?}\n",
-            self.count
-        )
-        .unwrap();
+        let (n, [point, axis]) = (self.count, [point, axis].map(commas));
+        self.joints += &format!("j{n} | {a} {b} | {kind} | {point} | {axis}\n");
         self
     }
 
@@ -49,20 +44,9 @@ impl Sketch {
     }
 
     fn done(&self, name: &str, truth: usize, source: &'static str) -> Trap {
-        let mut text = format!("name = \"{name}\"\n");
-        if self.planar {
-            text += "mode = \"planar\"\n";
-        }
-        let last = self.links.len() - 1;
-        for (i, link) in self.links.iter().enumerate() {
-            let role = match i {
-                0 => "role = \"frame\"\n",
-                i if i == last => "role = \"output\"\n",
-                _ => "",
-            };
-            write!(text, "[[link]]\nid = \"{link}\"\n{role}\n").unwrap();
-        }
-        text += &self.joints;
+        let mode = if self.planar { "mode = \"planar\"" } else { "" };
+        let links = self.links.join(" ") + "*";
+        let text = write_mechanism(&format!("name = \"{name}\"\n{mode}"), &links, &self.joints);
         Trap {
             name: name.to_owned(),
             text,
@@ -79,28 +63,13 @@ const TACHI: &str = "T. Tachi, J. IASS 50 (2009) 173-179: a degree-four vertex f
 fn sheet(m: usize, n: usize, corner: impl Fn(usize, usize) -> Point) -> Sketch {
     let mut s = Sketch::default();
     let panel = |i: usize, j: usize| format!("f{i}x{j}");
-    let mut crease = |a: String, b: String, p: Point, q: Point| {
-        let axis = [0, 1, 2].map(|k| q[k] - p[k]);
-        s.joint("revolute", [&a, &b], p, axis);
-    };
-    for i in 0..m {
-        for j in 0..n {
-            if i + 1 < m {
-                crease(
-                    panel(i, j),
-                    panel(i + 1, j),
-                    corner(i + 1, j),
-                    corner(i + 1, j + 1),
-                );
-            }
-            if j + 1 < n {
-                crease(
-                    panel(i, j),
-                    panel(i, j + 1),
-                    corner(i, j + 1),
-                    corner(i + 1, j + 1),
-                );
-            }
+    for (i, j) in (0..m).cartesian_product(0..n) {
+        // The crease to the next panel begins at the corner of that panel's name.
+        let next = [[i + 1, j], [i, j + 1]].into_iter();
+        for [k, l] in next.filter(|&[k, l]| k < m && l < n) {
+            let (p, q) = (corner(k, l), corner(i + 1, j + 1));
+            let axis = [0, 1, 2].map(|x| q[x] - p[x]);
+            s.joint("revolute", [&panel(i, j), &panel(k, l)], p, axis);
         }
     }
     s

@@ -80,7 +80,7 @@ fn a_rod_that_is_a_hair_longer_is_never_said_to_move() {
 #[test]
 fn both_bounds_are_told() {
     let said = |text: &str| -> Value {
-        let (code, said, _) = run_on("analyze", "it.toml", text, &["--format", "json"]);
+        let (code, said, _) = run_on("analyze", "it.toml", text, "--format json");
         assert_eq!(code, Some(0));
         serde_json::from_str::<Value>(&said).unwrap()["states"][0].clone()
     };

@@ -1,9 +1,6 @@
 //! Random geared mechanisms of one drive, as files, and loads on them.
 
 use crate::common::*;
-use chacha20::ChaCha8Rng;
-use chacha20::rand_core::{Rng, SeedableRng};
-use ozols::model::loads::{ExternalForce, ExternalMoment};
 
 /// Numbers that are the same for the same seed.
 pub(super) struct Random(ChaCha8Rng);

@@ -2,7 +2,6 @@
 //! solved by complete elimination. It reads points, axes, links and ratios of the model and shares no other code with it.
 
 use crate::common::*;
-use ozols::statics::reactions::Solution;
 
 type V = [f64; 3];
 

@@ -1,5 +1,6 @@
 //! FreeCAD documents made for tests: as little of one as a reader needs, packed as FreeCAD packs it.
 
+use crate::common::split_words;
 use std::io::{Cursor, Write};
 use zip::write::SimpleFileOptions;
 use zip::{CompressionMethod, ZipWriter};
@@ -61,21 +62,9 @@ pub(crate) fn grounded(part: &str) -> Object {
 }
 
 /// Joint types in the order of FreeCAD 1.0.
-pub(crate) const TYPES: [&str; 13] = [
-    "Fixed",
-    "Revolute",
-    "Cylindrical",
-    "Slider",
-    "Ball",
-    "Distance",
-    "Parallel",
-    "Perpendicular",
-    "Angle",
-    "RackPinion",
-    "Screw",
-    "Gears",
-    "Belt",
-];
+pub(crate) const TYPES: &str = "
+    Fixed Revolute Cylindrical Slider Ball Distance Parallel Perpendicular Angle RackPinion
+    Screw Gears Belt";
 
 /// The property of a type, with the list that it is a place in.
 pub(crate) fn joint_type(word: &str, list: &[&str]) -> String {
@@ -115,7 +104,7 @@ pub(crate) fn joint(name: &str, word: &str, ends: [(&str, Place); 2], more: &str
         };
         reference(i + 1, "Assembly", &path) + &placed
     });
-    let kind = joint_type(word, &TYPES);
+    let kind = joint_type(word, &split_words(TYPES));
     (
         name.to_owned(),
         "App::FeaturePython",

@@ -3,9 +3,8 @@
 use super::make::{HINGES, fcstd, four_bar};
 use super::{figures, read};
 use crate::common::*;
-use ozols::redundancy::release::Release;
 use ozols::robots::{Options, apply_releases};
-use std::io::{Cursor, Read};
+use std::io::Cursor;
 use zip::ZipArchive;
 
 /// Name and bytes of each member, in order.
@@ -21,115 +20,82 @@ fn members(bytes: &[u8]) -> Vec<(String, Vec<u8>)> {
         .collect()
 }
 
+/// The figures of a document in the folder.
+fn figures_of(dir: &Folder, name: &str) -> (usize, usize) {
+    figures(&read(name, &dir.bytes(name), &Options::default()))
+}
+
 // Two joints get another type: a number each, and a mark that FreeCAD is to solve them anew.
 #[test]
 fn fix_changes_types_and_nothing_else() {
-    let dir = tempdir().unwrap();
-    let path = |name: &str| dir.path().join(name).display().to_string();
-    let (old, new) = (path("x.FCStd"), path("fixed.FCStd"));
-    fs::write(&old, fcstd(&four_bar(HINGES))).unwrap();
-    run_successful(&["fix", &old, "-o", &new]);
-    let [before, after] = [&old, &new].map(|p| fs::read(p).unwrap());
-    let i = read("fixed.FCStd", &after, &Options::default());
-    assert_eq!(figures(&i), (1, 0));
-    let [was, is] = [&before, &after].map(|b| members(b));
+    let dir = Folder::with("x.FCStd", fcstd(&four_bar(HINGES)));
+    dir.succeed("fix x.FCStd -o new.FCStd");
+    assert_eq!(figures_of(&dir, "new.FCStd"), (1, 0));
+    // What is fixed is written as it is.
+    dir.succeed("fix new.FCStd -o again.FCStd");
+    let [was, is, again] = ["x.FCStd", "new.FCStd", "again.FCStd"].map(|f| members(&dir.bytes(f)));
+    assert_eq!(again, is);
     assert_eq!(was[1..], is[1..]);
     assert_eq!(was[0].0, is[0].0);
-    let [was, is] = [&was[0].1, &is[0].1].map(|b| String::from_utf8(b.clone()).unwrap());
+    let [was, is] = [&was, &is].map(|m| utf8_text(&m[0].1));
     let differ = was.lines().zip(is.lines()).filter(|(a, b)| a != b);
-    let differ: Vec<(&str, &str)> = differ.collect();
-    assert_eq!(differ.len(), 4, "{differ:?}");
+    assert_eq!(differ.count(), 4, "{is}");
     assert_eq!(is.matches(" Touched=\"1\"").count(), 2);
     assert_eq!(is.replace(" Touched=\"1\"", "").len(), was.len());
-    // What is fixed is written as it is.
-    run_successful(&["fix", &new, "-o", &path("again.FCStd")]);
-    let again = fs::read(path("again.FCStd")).unwrap();
-    assert_eq!(members(&again), members(&after));
 }
 
 #[test]
 fn fix_keeps_to_the_joints_that_may_be_changed() {
-    let dir = tempdir().unwrap();
-    let path = |name: &str| dir.path().join(name).display().to_string();
-    let (old, new) = (path("x.FCStd"), path("fixed.FCStd"));
-    fs::write(&old, fcstd(&four_bar(HINGES))).unwrap();
-    run_successful(&["fix", &old, "--at", "B", "--at", "C", "-o", &new]);
-    let i = read("x", &fs::read(&new).unwrap(), &Options::default());
+    let dir = Folder::with("x.FCStd", fcstd(&four_bar(HINGES)));
+    dir.succeed("fix x.FCStd --at B --at C -o new.FCStd");
+    let i = read("x", &dir.bytes("new.FCStd"), &Options::default());
     assert_eq!(figures(&i), (1, 0));
     for j in &i.mechanism.joints {
         let changed = j.joint_type.name() != "revolute";
         assert_eq!(changed, ["B", "C"].contains(&j.id.as_str()), "{}", j.id);
     }
-    let (code, _, said) = run_full(&["fix", &old, "--at", "B", "-o", &path("no.FCStd")]);
-    assert_eq!(code, Some(2));
-    has(&said, "no choice of joint types");
-    let (code, _, said) = run_full(&["fix", &old, "--at", "Z"]);
-    assert_eq!(code, Some(2));
-    has(&said, "no such joint");
-}
-
-// A search may be asked for types that FreeCAD has no joint for; those are not written.
-#[test]
-fn types_that_freecad_has_not_are_refused() {
-    let dir = tempdir().unwrap();
-    let old = dir.path().join("x.FCStd").display().to_string();
-    fs::write(&old, fcstd(&four_bar(HINGES))).unwrap();
-    let words = [
-        "fix",
-        &old,
-        "--idea",
-        "1",
-        "--options",
-        "sphere-in-cylinder",
-    ];
-    let (code, _, said) = run_full(&words);
-    assert_eq!(code, Some(2), "{said}");
-    has(&said, "has no joint type");
+    // A search may be asked for types that FreeCAD has no joint for; those are not written.
+    for [more, said] in read_cases::<2>(
+        "--at B -o no.FCStd | no choice of joint types
+        --at Z | no such joint
+        --idea 1 --options sphere-in-cylinder | has no joint type",
+    ) {
+        dir.assert_fails(&format!("fix x.FCStd {more}"), said);
+    }
 }
 
 // export writes the same document as fix, of a variant or as it is, and of nothing but a document.
 #[test]
 fn export_writes_the_owners_document() {
-    let dir = tempdir().unwrap();
-    let path = |name: &str| dir.path().join(name).display().to_string();
-    let (old, new, same) = (path("x.FCStd"), path("new.FCStd"), path("same.FCStd"));
-    fs::write(&old, fcstd(&four_bar(HINGES))).unwrap();
-    for (more, out) in [(&["--idea", "1"][..], &new), (&[], &same)] {
-        let words = [&["export", &old, "--to", "fcstd", "-o", out], more].concat();
-        run_successful(&words);
-    }
-    let [old_bytes, new_bytes, same_bytes] = [&old, &new, &same].map(|p| fs::read(p).unwrap());
-    assert_eq!(members(&same_bytes), members(&old_bytes));
-    assert_eq!(figures(&read("x", &new_bytes, &Options::default())), (1, 0));
-    for (file, to, said) in [
-        ("gripper-10", "fcstd", "is not a file"),
-        (old.as_str(), "asmt", "is not one"),
-    ] {
-        let (code, _, told) = run_full(&["export", file, "--to", to]);
-        assert_eq!(code, Some(2));
-        assert!(told.contains(said), "{told}");
-    }
+    let dir = Folder::with("x.FCStd", fcstd(&four_bar(HINGES)));
+    dir.succeed("export x.FCStd --to fcstd -o new.FCStd --idea 1");
+    dir.succeed("export x.FCStd --to fcstd -o same.FCStd");
+    let [old, same] = ["x.FCStd", "same.FCStd"].map(|f| members(&dir.bytes(f)));
+    assert_eq!(same, old);
+    assert_eq!(figures_of(&dir, "new.FCStd"), (1, 0));
+    dir.assert_fails("export gripper-10 --to fcstd", "is not a file");
+    dir.assert_fails("export x.FCStd --to asmt", "is not one");
 }
 
 // The label of a joint is its type there.
 #[test]
 fn asmt_files_get_other_labels() {
-    let dir = tempdir().unwrap();
-    let path = |name: &str| dir.path().join(name).display().to_string();
-    let old = path("x.asmt");
     // Two hinges at one place between the same two parts: five rows are held twice, and no other type lets only those go.
     let text = super::ondsel::asmt("OndselSolver", "Revolute", "");
     let at = text.find("\t\tMotions").unwrap();
     let from = text.find("\t\t\tRevoluteJoint").unwrap();
     let second = text[from..at].replace("\tJ\n", "\tK\n");
     let twice = format!("{}{second}{}", &text[..at], &text[at..]);
-    fs::write(&old, &twice).unwrap();
-    let (code, out, said) = run_full(&["lint", &old]);
+    let (code, out, said) = run_on("lint", "x.asmt", &twice, "");
     assert_eq!(code, Some(1), "{said}");
     has(&out, "5 redundant constraints");
-    let (code, _, said) = run_full(&["fix", &old, "-o", &path("y.asmt")]);
-    assert_eq!(code, Some(2));
-    has(&said, "no choice of joint types");
+    assert_fails_on(
+        "fix",
+        "x.asmt",
+        &twice,
+        "-o y.asmt",
+        "no choice of joint types",
+    );
     let i = read("x.asmt", twice.as_bytes(), &Options::default());
     let slide = |direction: [f64; 3]| {
         let joint = i.mechanism.joint_ids().next().unwrap();

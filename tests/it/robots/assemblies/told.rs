@@ -6,15 +6,11 @@ use super::make::{
 };
 use super::{figures, read};
 use crate::common::*;
+use crate::robots::lint::linted;
 use ozols::robots::Options;
 
 fn lint(objects: &[Object]) -> (Option<i32>, Value) {
-    let dir = tempdir().unwrap();
-    let path = dir.path().join("x.FCStd").display().to_string();
-    fs::write(&path, fcstd(objects)).unwrap();
-    let (code, out, said) = run_full(&["lint", &path, "--format", "json"]);
-    let v: Value = serde_json::from_str(&out).unwrap_or_else(|e| panic!("{e} {said}"));
-    (code, v["files"][0].clone())
+    linted("x.FCStd", fcstd(objects))
 }
 
 // Four hinges of a planar loop hold the way along z and the turns about x and y twice; a ball and a cylindrical joint let that
@@ -157,57 +153,32 @@ fn couplings_have_their_ratios() {
 #[test]
 fn distance_and_angle_joints_hold_what_the_table_says() {
     let tilted = Place([0.0, 0.0, 40.0], 'x', 30.0);
-    let shape = |kinds: [&str; 2]| kinds.map(str::to_owned);
-    let one = |word: &str, ends: [String; 2], place: Place, more: &str| {
-        let [a, b] = ends.map(|e| if e.is_empty() { "Edge1".to_owned() } else { e });
-        let (a, b) = (format!("Base.{a}"), format!("Arm.{b}"));
+    let up = Place([0.0, 0.0, 40.0], 'x', 0.0);
+    let (distance, angle) = (|d| number("Distance", d), |a| number("Angle", a));
+    for (word, shape, place, more, held) in [
+        ("Distance", "Vertex1", up, distance(40.0), (1, 1)),
+        ("Distance", "Vertex1", HERE, distance(0.0), (3, 0)),
+        ("Parallel", "Edge1", up, String::new(), (2, 0)),
+        ("Angle", "Edge1", tilted, angle(30.0), (1, 1)),
+        ("Angle", "Edge1", tilted, distance(30.0), (1, 1)),
+        ("Angle", "Edge1", up, distance(0.0), (2, 0)),
+        // Faces of unknown kind: taken as planes, and said.
+        ("Distance", "Face1", up, distance(40.0), (3, 1)),
+    ] {
+        let [base, arm] = ["Base", "Arm"].map(|p| format!("{p}.{shape}"));
         let objects = assembled(
             "Assembly",
             &[
                 part("Base", HERE),
                 part("Arm", place),
                 grounded("Base"),
-                joint("J", word, [(&a, HERE), (&b, HERE)], more),
+                joint("J", word, [(&base, HERE), (&arm, HERE)], &more),
             ],
         );
         let i = read("x.FCStd", &fcstd(&objects), &Options::default());
-        (6 - figures(&i).0, i.report.approximated.len())
-    };
-    let distance = |d: f64| number("Distance", d);
-    let up = Place([0.0, 0.0, 40.0], 'x', 0.0);
-    assert_eq!(
-        one(
-            "Distance",
-            shape(["Vertex1", "Vertex1"]),
-            up,
-            &distance(40.0)
-        ),
-        (1, 1)
-    );
-    assert_eq!(
-        one(
-            "Distance",
-            shape(["Vertex1", "Vertex1"]),
-            HERE,
-            &distance(0.0)
-        ),
-        (3, 0)
-    );
-    assert_eq!(one("Parallel", shape(["", ""]), up, ""), (2, 0));
-    assert_eq!(
-        one("Angle", shape(["", ""]), tilted, &number("Angle", 30.0)),
-        (1, 1)
-    );
-    assert_eq!(
-        one("Angle", shape(["", ""]), tilted, &distance(30.0)),
-        (1, 1)
-    );
-    assert_eq!(one("Angle", shape(["", ""]), up, &distance(0.0)), (2, 0));
-    // Faces of unknown kind: taken as planes, and said.
-    assert_eq!(
-        one("Distance", shape(["Face1", "Face1"]), up, &distance(40.0)),
-        (3, 1)
-    );
+        let found = (6 - figures(&i).0, i.report.approximated.len());
+        assert_eq!(found, held, "{word} {shape}");
+    }
 }
 
 /// A shape with a plane as its first face and a cylinder of 1.5 mm as its second.

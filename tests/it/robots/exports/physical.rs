@@ -1,7 +1,6 @@
 //! Masses and inertias as each format has them.
 
 use crate::common::*;
-use ozols::robots::formats;
 
 /// Of six numbers of inertia the last three differ in order from format to format: xy, yz, zx here; xy, xz, yz in URDF, SDF and
 /// MuJoCo's `fullinertia`. Centres are in metres, from the link's own origin where links have one at their joint.
@@ -10,7 +9,7 @@ fn masses_and_products_of_inertia_are_in_the_formats_own_order() {
     let text = "name = \"arm\"\nlength_unit = \"mm\"\n[[link]]\nid = \"0\"\nrole = \"frame\"\n[[link]]\nid = \"1\"\nrole = \"output\"\n\
         mass = 2.5\ncentre = [10, 20, 30]\ninertia = [1.5, 2.5, 3.5, 0.25, -0.5, 0.75]\n[[joint]]\nid = \"A\"\n\
         links = [\"0\", \"1\"]\ntype = \"revolute\"\npoint = [4, 8, 16]\naxis = [0, 1, 0]\n";
-    let m = mechanism_from_str("arm.toml", text).unwrap();
+    let m = read(text);
     let [xx, yy, zz, xy, yz, zx] = [1.5, 2.5, 3.5, 0.25, -0.5, 0.75];
     let entries = [
         ("ixx", xx),
@@ -127,7 +126,7 @@ fn a_link_that_weighs_nothing_weighs_a_gram() {
             "name = \"arm\"\nlength_unit = \"mm\"\n[[link]]\nid = \"0\"\nrole = \"frame\"\n[[link]]\nid = \"1\"\nrole = \"output\"\n\
              {mass}\n[[joint]]\nid = \"A\"\nlinks = [\"0\", \"1\"]\ntype = \"revolute\"\npoint = [4, 8, 16]\naxis = [0, 1, 0]\n"
         );
-        let m = mechanism_from_str("arm.toml", &text).unwrap();
+        let m = read(&text);
         let mjcf = formats::write(&m, "mjcf").unwrap();
         let xml = roxmltree::Document::parse(&mjcf).unwrap();
         let mut all = xml.descendants().filter(|n| n.has_tag_name("inertial"));

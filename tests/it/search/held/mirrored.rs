@@ -71,18 +71,13 @@ fn what_has_no_image_is_told() {
 /// All variants are those that are their own images, and pairs of others.
 #[test]
 fn orbits_of_the_clamped_gripper() {
-    let question = [
-        "--max-external",
-        "2",
-        "--options",
-        "revolute,spherical,sphere-in-cylinder",
-        "--count",
-    ];
-    let admissible = |more: &[&str]| {
-        parse_count(&run_search("gripper-10", &[&question[..], more].concat())["admissible"])
+    let options = "--options revolute,spherical,sphere-in-cylinder";
+    let admissible = |more: &str| {
+        let question = format!("--max-external 2 {options} --count {more}");
+        parse_count(&run_search("gripper-10", &question)["admissible"])
     };
-    let (all, own) = (admissible(&[]), admissible(&["--symmetric"]));
-    assert_eq!(2 * admissible(&["--one-per-orbit"]), all + own);
+    let (all, own) = (admissible(""), admissible("--symmetric"));
+    assert_eq!(2 * admissible("--one-per-orbit"), all + own);
     assert!(all > 0);
 }
 
@@ -111,7 +106,7 @@ fn joints_without_a_partner_and_skew_axes_say_which_plane_it_is() {
         let head =
             "name = \"on the plane\"\n[search]\nmirror = [[\"u0\", \"l0\"], [\"u1\", \"l1\"]]";
         let text = write_mechanism(head, "f s u* l*", &joints);
-        let m = mechanism_from_str("on-the-plane.toml", &text).unwrap();
+        let m = read(&text);
         let conditions = default_with(|c: &mut Conditions| c.symmetry = Symmetry::SymmetricOnly);
         let search = Search::new(exact_field(&m, 0).unwrap(), &m, conditions);
         assert!(search.is_ok(), "{axis:?}: {:?}", search.err());

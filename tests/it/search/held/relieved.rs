@@ -28,11 +28,11 @@ fn unloading_joints_are_offered_by_name() {
     let free = run_search(path, "--unloading prismatic=2-4 --count");
     assert_eq!(parse_count(&free["space"]), 2 * four);
     for (rule, parts) in [
-        ("planar=4-a", &["joint 4-a", "add --state clamped"][..]),
-        ("planar", &["search one with --state"]),
-        ("rope=2-4", &["rope is no joint type", "spherical"]),
-        ("helical=2-4", &["helical is no joint type"]),
-        ("fixed=2-4", &["fixed is no joint type"]),
+        ("planar=4-a", &["joint 4-a", "search state clamped"][..]),
+        ("planar", &["search a state"]),
+        ("rope=2-4", &["rope is not a joint type", "spherical"]),
+        ("helical=2-4", &["helical is not a joint type"]),
+        ("fixed=2-4", &["fixed is not a joint type"]),
         ("planar=zz", &["no joint zz"]),
     ] {
         let text = refused(&["search", "gripper-10", "--unloading", rule]);
@@ -124,7 +124,7 @@ fn variants_say_where_their_redundant_constraints_are() {
         "{csv}"
     );
     assert!(lines.next().unwrap().contains(" to "), "{csv}");
-    let none = run_quiet(&["search", "gripper-10", "--top", "2", "--verbose"]);
+    let none = run_quiet("search gripper-10 --top 2 --verbose");
     has(&none, "No loop has a redundant constraint left");
 }
 
@@ -189,15 +189,10 @@ fn where_no_option_can_help_that_is_said() {
 /// on its jaw, and 2 redundant constraints round a part [Pogrebnyak 2018, by the external formula 12 - (4 - 0) - 6].
 #[test]
 fn pads_stay_on_their_jaws_when_the_part_is_gone() {
-    use ozols::model::mechanism::StateId;
-    use ozols::redundancy::analysis::{Method, analyse_states, exact_field};
-    use ozols::search::Search;
-    use ozols::search::question::conditions::{Conditions, InState};
     let m = built_in("tongs");
     let state = StateId::new(1);
     let conditions = default_with(|c: &mut Conditions| c.state = Some(InState::holding(state)));
-    let s = Search::new(exact_field(&m, 0).unwrap(), &m, conditions).unwrap();
-    let diagrams = s.build_diagrams(&|| false, &mut |_| {});
+    let (s, diagrams) = searched(&m, conditions);
     let mut padded = 0;
     for v in s.cheapest_variants(&diagrams, 100) {
         let variant = realize_variant(&s, &v.choices);

@@ -4,9 +4,6 @@ use crate::common::*;
 use crate::fuzz::runs;
 use crate::search::twin::less::does_with_less;
 use crate::search::twin::{all_variants, look_at_variant, random, suits_state};
-use ozols::model::mechanism::JointOption;
-use ozols::search::question::conditions::InState;
-use proptest::prelude::*;
 
 /// What the search counts, and what a look at each pair does.
 fn both(m: &Mechanism, conditions: Conditions) -> (Option<BigUint>, usize) {
@@ -32,8 +29,7 @@ fn both(m: &Mechanism, conditions: Conditions) -> (Option<BigUint>, usize) {
         .collect();
     let beyond = |v| admissible.iter().any(|less| does_with_less(m, less, v));
     let minimal = admissible.iter().filter(|v| !beyond(v)).count();
-    let search = Search::new(exact_field(m, 0).unwrap(), m, conditions).unwrap();
-    let diagrams = search.build_diagrams(&|| false, &mut |_| {});
+    let (search, diagrams) = searched(m, conditions);
     (search.count_minimal(&diagrams), minimal)
 }
 
@@ -43,7 +39,7 @@ proptest! {
     fn minimal_variants_are_counted_as_by_a_look_at_each_pair(
         text in random(), most in 0u32..3, keep in any::<bool>(), w in 0i64..5,
     ) {
-        let m = mechanism_from_str("random.toml", &text).unwrap();
+        let m = read(&text);
         let clamped = m.states.len() > 1;
         prop_assume!(all_variants(&m, clamped).len() <= if clamped { 24 } else { 64 });
         let conditions = Conditions {
@@ -123,14 +119,14 @@ fn equal_options_do_not_rule_each_other_out() {
 /// is minimal; that some of the rest are, too, is seen where a ball has nothing smaller in its place.
 #[test]
 fn what_moves_in_one_way_without_redundancy_is_minimal() {
-    let whole = run_json(&["search", "gripper-10", "--format", "json"]);
+    let whole = run_json("search gripper-10 --format json");
     assert_eq!(whole["admissible_by_mobility"]["1"], whole["minimal"]);
     assert_eq!(parse_count(&whole["minimal"]), 7_150_020);
     let balls = ["--options", "spherical", "--format", "json"];
     let balls = run_json(&[&["search", "gripper-10"][..], &balls].concat());
     assert!(balls["admissible_by_mobility"]["1"].is_null());
     assert!(parse_count(&balls["minimal"]) > 0);
-    let text = run_quiet(&["search", "gripper-10", "--count"]);
+    let text = run_quiet("search gripper-10 --count");
     has(
         &text,
         "7,150,020 minimal; the other 14,667,609 are one of these plus idle motion",

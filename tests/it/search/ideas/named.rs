@@ -1,7 +1,7 @@
 //! An idea and a variant of the same number are two mechanisms, and each says which it is.
 
 use crate::common::*;
-use ozols::score::request::{Inserts, Request};
+use ozols::score::request::Inserts;
 use ozols::search::answer::ideas::Idea;
 
 fn named(which: &str, k: &str) -> (String, String) {
@@ -34,12 +34,12 @@ fn what_is_not_there_is_called_what_was_asked_for() {
 
 #[test]
 fn the_page_gives_commands_that_say_which() {
-    let page = run_quiet(&["report", "four-bar"]);
+    let page = run_quiet("report four-bar");
     for one in ["idea", "variant"] {
         let file = format!("--{one} {{}} -o four-bar-{one}-{{}}.svg");
         assert!(page.contains(&file), "{one}");
     }
-    let ideas = run_quiet(&["report", "four-bar", "--distinct"]);
+    let ideas = run_quiet("report four-bar --distinct");
     assert!(ideas.contains("--idea {} -o four-bar-idea-{}.svg"));
     assert!(!ideas.contains("four-bar-variant-{}"));
 }

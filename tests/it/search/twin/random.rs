@@ -2,7 +2,6 @@
 
 use crate::common::*;
 use crate::fuzz::readers::slow_search::{Q, axes, dot};
-use proptest::prelude::*;
 
 const TYPES: [&str; 6] = [
     "revolute",
@@ -106,7 +105,7 @@ pub(super) fn random_coupled() -> impl Strategy<Value = Option<String>> {
             .replace("type = \"fixed\"", "type = \"revolute\"\naxis = [0, 2, 0]")
             .replace("axis = [1, 2, -1]", "axis = [1, 2, -2]")
             .replace("axis = [0, 1, 0]", "axis = [0, 3, 0]");
-        let m = mechanism_from_str("random.toml", &text).unwrap();
+        let m = read(&text);
         let mut ends = Vec::new();
         for (j, joint) in m.joints_with_ids() {
             let ball = joint.joint_type == JointType::Spherical;

@@ -1,11 +1,10 @@
 //! Chains grown from Assur groups decompose into them again.
 
-use super::{J, planar_file, read_planar, sliding_joint, turning_joint};
+use super::super::{J, planar_file, read_planar, sliding_joint, turning_joint};
 use super::{by_brute_force, laws};
 use crate::common::*;
-use ozols::statics::assur::{decompose_alternatives, decompose_groups};
-use ozols::statics::planar::{PairKind, PlanarMechanism};
-use proptest::prelude::*;
+use ozols::statics::assur::decompose_alternatives;
+use ozols::statics::planar::PairKind;
 
 /// Chains grown group by group: dyads, triads and closed contours hung on bodies that are already there.
 fn grown() -> impl Strategy<Value = (Vec<J>, usize)> {

@@ -9,6 +9,9 @@ use crate::model::mechanism::{Frame, Joint, Parts};
 use std::f64::consts::PI;
 use std::fmt::Display;
 
+/// A number that a file may give.
+pub(crate) type Given = Option<Coordinate>;
+
 /// The allowed range of a value.
 #[derive(Clone, Copy)]
 pub(crate) enum Bound {
@@ -44,13 +47,7 @@ impl Bound {
 
 impl Place<'_> {
     /// Returns a number times `unit`; 1 if it is not valid, which is reported.
-    pub(crate) fn read_value(
-        &self,
-        what: &'static str,
-        c: &Coordinate,
-        unit: f64,
-        bound: Bound,
-    ) -> f64 {
+    pub(crate) fn read_value(&self, what: &str, c: &Coordinate, unit: f64, bound: Bound) -> f64 {
         let before = self.out.problem_count();
         let value = self.read_coordinate(c).to_f64();
         if self.out.problem_count() > before {
@@ -64,54 +61,32 @@ impl Place<'_> {
     }
 
     /// Returns the number of a key of the table at this place, times `unit`.
-    pub(crate) fn read_figure(
-        &self,
-        k: &'static str,
-        c: &Coordinate,
-        unit: f64,
-        bound: Bound,
-    ) -> f64 {
+    pub(crate) fn read_figure(&self, k: &str, c: &Coordinate, unit: f64, bound: Bound) -> f64 {
         self.key(k).read_value(k, c, unit, bound)
     }
 
     /// Returns a number that may be missing.
-    pub(crate) fn read_optional(
-        &self,
-        k: &'static str,
-        c: &Option<Coordinate>,
-        unit: f64,
-        bound: Bound,
-    ) -> Option<f64> {
+    pub(crate) fn read_optional(&self, k: &str, c: &Given, unit: f64, bound: Bound) -> Option<f64> {
         c.as_ref().map(|c| self.read_figure(k, c, unit, bound))
     }
 
     /// Returns a number above 0 that may be missing.
-    pub(crate) fn read_positive(
-        &self,
-        k: &'static str,
-        c: &Option<Coordinate>,
-        unit: f64,
-    ) -> Option<f64> {
+    pub(crate) fn read_positive(&self, k: &str, c: &Given, unit: f64) -> Option<f64> {
         self.read_optional(k, c, unit, Bound::Positive)
     }
 
     /// Returns a number of 0 or more that may be missing.
-    pub(crate) fn not_negative(
-        &self,
-        k: &'static str,
-        c: &Option<Coordinate>,
-        unit: f64,
-    ) -> Option<f64> {
+    pub(crate) fn not_negative(&self, k: &str, c: &Given, unit: f64) -> Option<f64> {
         self.read_optional(k, c, unit, Bound::NotNegative)
     }
 
     /// Returns a number of items from 1 to `most`; reports any other.
     pub(crate) fn number_of(
         &self,
-        what: &'static str,
+        what: &str,
         count: impl Copy + Display + TryInto<usize>,
         most: usize,
-        allowed: &'static str,
+        allowed: &str,
     ) -> Option<usize> {
         let found = count.try_into().ok().filter(|n| (1..=most).contains(n));
         if found.is_none() {
@@ -126,7 +101,7 @@ impl Place<'_> {
     }
 
     /// Returns an angle in radians: a number of degrees, or "120deg", "2.1rad", "pi/3", "2*pi/3".
-    pub(crate) fn read_angle(&self, what: &'static str, c: &Coordinate) -> f64 {
+    pub(crate) fn read_angle(&self, what: &str, c: &Coordinate) -> f64 {
         let (inner, unit) = match c {
             Coordinate::Expression(text) => match angle_text(text) {
                 Some(found) => found,
@@ -143,13 +118,7 @@ impl Place<'_> {
     }
 
     /// Returns an angle in radians that must be in a range of degrees.
-    pub(crate) fn angle_in(
-        &self,
-        k: &'static str,
-        c: &Coordinate,
-        range: [f64; 2],
-        allowed: &'static str,
-    ) -> f64 {
+    pub(crate) fn angle_in(&self, k: &str, c: &Coordinate, range: [f64; 2], allowed: &str) -> f64 {
         let found = self.key(k).read_angle(k, c);
         if (range[0]..=range[1]).contains(&found.to_degrees()) {
             return found;
@@ -159,7 +128,7 @@ impl Place<'_> {
     }
 
     /// Reports an angle that is not allowed.
-    pub(crate) fn bad_angle(&self, what: &'static str, angle: f64, allowed: &'static str) {
+    pub(crate) fn bad_angle(&self, what: &str, angle: f64, allowed: &str) {
         let degrees = format!("{} degrees", angle.to_degrees());
         self.add_bad_value(what, degrees, allowed);
     }
@@ -167,7 +136,7 @@ impl Place<'_> {
     /// Returns the meaning of a word. If no word is given, it is that of the first known one.
     pub(crate) fn read_word<T: Copy>(
         &self,
-        k: &'static str,
+        k: &str,
         given: &Option<String>,
         known: &[(&'static str, T)],
     ) -> T {
@@ -223,28 +192,19 @@ const MOST_SHIFT: f64 = 0.1;
 pub(crate) fn read_tolerance(file: &MechanismFile, m: &mut Parts, out: &Findings) {
     let across = box_diagonal(m.joints.iter().map(|j| to_vector(&j.frame.point)));
     // Joints that are all in one place have no size.
-    let most = if across > 0.0 {
-        MOST_SHIFT * across
-    } else {
-        f64::INFINITY
-    };
+    let tenth = MOST_SHIFT * across;
+    let most = if across > 0.0 { tenth } else { f64::INFINITY };
     let allowed = "0, or at most a tenth of the distance across the joints";
-    let shift = |at: Place<'_>, c: &Option<Coordinate>| at.read_stated(c, most, allowed);
-    let (of_file, at) = (
-        file.tolerance.clone().unwrap_or_default(),
-        out.key("tolerance"),
-    );
+    let shift = |at: Place<'_>, c: &Given| at.read_stated(c, most, allowed);
+    let of_file = file.tolerance.clone().unwrap_or_default();
+    let at = out.key("tolerance");
     let lengths = shift(at.key("length"), &of_file.length);
-    let of_joints: Vec<Option<f64>> = out
-        .key("joint")
-        .each_entry(&file.joint)
-        .map(|(at, j)| shift(at.key("tolerance"), &j.tolerance))
-        .collect();
-    let of_points: Vec<Option<f64>> = out
-        .key("point")
-        .each_entry(&file.point)
-        .map(|(at, p)| shift(at.key("tolerance"), &p.tolerance))
-        .collect();
+    let of_joints = out.key("joint").each_entry(&file.joint);
+    let of_joints = of_joints.map(|(at, j)| shift(at.key("tolerance"), &j.tolerance));
+    let of_joints: Vec<Option<f64>> = of_joints.collect();
+    let of_points = out.key("point").each_entry(&file.point);
+    let of_points = of_points.map(|(at, p)| shift(at.key("tolerance"), &p.tolerance));
+    let of_points: Vec<Option<f64>> = of_points.collect();
     let at = at.key("direction");
     let directions = at.read_stated(&of_file.direction, MOST_TURN, "0, or at most 0.1 rad");
     for (joint, own) in m.joints.iter_mut().zip(of_joints) {
@@ -257,7 +217,7 @@ pub(crate) fn read_tolerance(file: &MechanismFile, m: &mut Parts, out: &Findings
 
 impl Place<'_> {
     /// Returns a tolerance; `None` if it is missing or not valid.
-    fn read_stated(&self, c: &Option<Coordinate>, most: f64, allowed: &'static str) -> Option<f64> {
+    fn read_stated(&self, c: &Given, most: f64, allowed: &str) -> Option<f64> {
         let before = self.out.problem_count();
         let value = self.read_coordinate(c.as_ref()?).to_f64();
         if self.out.problem_count() > before {
@@ -324,10 +284,8 @@ fn set_half(e: &mut Expr, half: Option<f64>) {
 }
 
 fn is_number(e: &Expr) -> bool {
-    matches!(
-        e.written(),
-        WrittenNumber::Decimal(_) | WrittenNumber::Whole
-    )
+    use WrittenNumber::{Decimal, Whole};
+    matches!(e.written(), Decimal(_) | Whole)
 }
 
 fn is_whole(e: &Expr) -> bool {

@@ -65,10 +65,8 @@ fn read_diameters(t: &Place<'_>, e: &DriveEntry, unit: f64) -> Vec<f64> {
 /// Returns the angle missing after a swing without the cam, if it was measured.
 fn missing_angle(t: &Place<'_>, e: &DriveEntry, twist: f64) -> Option<f64> {
     let key = "missing_angle";
-    let missing = e
-        .missing_angle
-        .as_ref()
-        .map(|c| t.key(key).read_angle(key, c));
+    let missing = e.missing_angle.as_ref();
+    let missing = missing.map(|c| t.key(key).read_angle(key, c));
     if let Some(found) = missing.filter(|m| !(0.0..twist).contains(m)) {
         let allowed = "an angle from 0 to below half the swing";
         t.key(key).bad_angle(key, found, allowed);
@@ -122,10 +120,8 @@ pub(crate) fn read_drive(
 /// Returns the cam's push over a swing of `twist` to either side.
 fn read_push(t: &Place<'_>, e: &DriveEntry, twist: f64) -> Push {
     let key = "feed_from";
-    let from = e
-        .feed_from
-        .as_ref()
-        .map_or(0.0, |c| t.key(key).read_angle(key, c));
+    let from = e.feed_from.as_ref();
+    let from = from.map_or(0.0, |c| t.key(key).read_angle(key, c));
     if !(-twist..twist).contains(&from) {
         let allowed = "an angle within the swing, 0 being its middle";
         t.key(key).bad_angle(key, from, allowed);
@@ -174,26 +170,8 @@ fn link_inertia(t: &Place<'_>, id: &str, unit: f64, mechanism: Option<&Parts>) -
     Some(about + body.mass * (dot(from, from) - along * along).max(0.0))
 }
 
-/// Returns the inertia of the bare disc, from its figure or its link.
-fn disc_inertia(
-    t: &Place<'_>,
-    e: &DriveEntry,
-    unit: f64,
-    mechanism: Option<&Parts>,
-) -> Option<f64> {
-    let disc = t.not_negative("disc_inertia", &e.disc_inertia, 1.0);
-    match (disc, &e.disc_link) {
-        (Some(_), Some(_)) => {
-            t.add_excluded_key("disc_link", "disc_inertia");
-            disc
-        }
-        (None, Some(id)) => Some(link_inertia(t, id, unit, mechanism).unwrap_or(1.0)),
-        (_, None) => disc,
-    }
-}
-
 /// Inertias of the discs with what they carry, and the payload.
-pub(crate) fn read_inertias(
+fn read_inertias(
     t: &Place<'_>,
     e: &DriveEntry,
     unit: f64,
@@ -201,7 +179,14 @@ pub(crate) fn read_inertias(
 ) -> ([f64; 2], Option<Payload>) {
     let mass = t.read_positive("payload_mass", &e.payload_mass, 1.0);
     let radius = t.not_negative("payload_radius", &e.payload_radius, unit);
-    let disc = disc_inertia(t, e, unit, mechanism);
+    let stated = t.not_negative("disc_inertia", &e.disc_inertia, 1.0);
+    let linked = e.disc_link.as_ref();
+    if stated.is_some() && linked.is_some() {
+        t.add_excluded_key("disc_link", "disc_inertia");
+    }
+    let linked = linked.filter(|_| stated.is_none());
+    let linked = linked.map(|id| link_inertia(t, id, unit, mechanism).unwrap_or(1.0));
+    let disc = stated.or(linked);
     let whole = t.read_positive("inertia", &e.inertia, 1.0);
     match (mass, radius) {
         (Some(_), None) => t.add_missing_key("payload_mass", "payload_radius"),
@@ -212,45 +197,28 @@ pub(crate) fn read_inertias(
     let mass = mass.or(whole.map(|_| 0.0));
     let payload = mass.zip(radius);
     let payload = payload.map(|(mass, radius)| Payload { mass, radius });
-    let Some(first) = loaded_inertia(t, whole, disc, payload) else {
-        return ([1.0; 2], payload);
-    };
-    let second = t.read_positive("second_inertia", &e.second_inertia, 1.0);
-    ([first, second.unwrap_or(first)], payload)
-}
-
-/// Returns the inertia of a disc with its payload: the given sum, or the sum of both; `None` if neither has an inertia.
-fn loaded_inertia(
-    t: &Place<'_>,
-    whole: Option<f64>,
-    disc: Option<f64>,
-    payload: Option<Payload>,
-) -> Option<f64> {
-    match (whole, disc) {
-        (Some(i), None) => return Some(i),
-        (Some(_), Some(_)) => t.add_excluded_key("disc_inertia", "inertia"),
-        (None, Some(disc)) => {
-            let sum = disc + payload.map_or(0.0, |p| p.mass * p.radius * p.radius);
-            if sum <= 0.0 {
-                let allowed = "a disc or a payload with an inertia above 0";
-                t.key("disc_inertia").add_bad_value("inertia", sum, allowed);
-                return None;
-            }
-            return Some(sum);
-        }
+    let sum = disc.map(|i| i + payload.map_or(0.0, |p| p.mass * p.radius * p.radius));
+    match (whole, sum) {
         (None, None) => {
             let other = "inertia, or disc_inertia with payload_mass and payload_radius";
             add_lacking(t, other);
         }
+        (Some(_), Some(_)) => t.add_excluded_key("disc_inertia", "inertia"),
+        (None, Some(sum)) if sum <= 0.0 => {
+            let allowed = "a disc or a payload with an inertia above 0";
+            t.key("disc_inertia").add_bad_value("inertia", sum, allowed);
+        }
+        _ => {}
     }
-    Some(1.0)
+    let first = whole.or(sum).unwrap_or(1.0);
+    let second = t.read_positive("second_inertia", &e.second_inertia, 1.0);
+    ([first, second.unwrap_or(first)], payload)
 }
 
 /// Maximum number of steps of a programme.
 pub(in crate::file::read) const MOST: usize = 10_000;
 
 /// Returns the given number of swings, of both discs in turn or only of the second, with a dwell after each if one is given.
-#[must_use]
 pub(crate) fn regular_programme(
     stepwise: bool,
     swings: usize,
@@ -266,7 +234,7 @@ pub(crate) fn regular_programme(
 }
 
 /// Returns the steps of a file: those it lists, or the number of swings it asks for.
-pub(crate) fn read_programme(t: &Place<'_>, e: &DriveEntry) -> Vec<ProgrammeStep> {
+fn read_programme(t: &Place<'_>, e: &DriveEntry) -> Vec<ProgrammeStep> {
     let time = Bound::Range(0.0, 1e6, "a time from 0 to 1e6 s");
     let dwell = t.read_optional("dwell", &e.dwell, 1.0, time);
     let Some(list) = &e.programme else {
@@ -313,16 +281,10 @@ fn parse_step(text: &str) -> Option<ProgrammeStep> {
         "1" => Some(ProgrammeStep::Swing(0)),
         "2" => Some(ProgrammeStep::Swing(1)),
         other => {
-            let time = other
-                .strip_prefix("wait")?
-                .trim()
-                .trim_end_matches('s')
-                .trim_end()
-                .parse::<f64>()
-                .ok()?;
-            (0.0..=1e6)
-                .contains(&time)
-                .then_some(ProgrammeStep::Dwell(time))
+            let time = other.strip_prefix("wait")?.trim();
+            let time: f64 = time.trim_end_matches('s').trim_end().parse().ok()?;
+            let allowed = (0.0..=1e6).contains(&time);
+            allowed.then_some(ProgrammeStep::Dwell(time))
         }
     }
 }

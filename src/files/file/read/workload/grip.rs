@@ -131,27 +131,21 @@ fn read_load(t: &Place<'_>, e: &GripEntry, unit: f64) -> Option<GripLoad> {
     let coefficient = Bound::Range(0.0, 10.0, "a coefficient from 0 to 10");
     let factor = Bound::Range(1.0, 1000.0, "a factor from 1 to 1000");
     let centre = e.centre_of_mass.as_ref();
+    let safety = t.read_optional("safety", &e.safety, 1.0, factor);
     Some(GripLoad {
         mass,
         centre_of_mass: centre.map_or([0.0; 3], |v| t.key("centre_of_mass").read_reals(v, unit)),
         gravity,
         accelerations,
         friction: t.read_figure("friction", friction, 1.0, coefficient),
-        safety: t
-            .read_optional("safety", &e.safety, 1.0, factor)
-            .unwrap_or(1.0),
+        safety: safety.unwrap_or(1.0),
         levers: t.read_word("levers", &e.levers, &kinds),
     })
 }
 
-fn read_transmission(
-    t: &Place<'_>,
-    e: &GripEntry,
-    unit: f64,
-    mechanism: Option<&Parts>,
-) -> Transmission {
+fn read_transmission(t: &Place<'_>, e: &GripEntry, unit: f64, m: Option<&Parts>) -> Transmission {
     let arm = t.read_positive("drive_arm", &e.drive_arm, unit);
-    match (arm, &e.lever_joints, mechanism) {
+    match (arm, &e.lever_joints, m) {
         (Some(_), Some(_), _) => t.add_excluded_key("lever_joints", "drive_arm"),
         (Some(arm), None, _) => return Transmission::Arm(arm),
         (None, None, _) => {}
@@ -191,66 +185,8 @@ fn contacts_go_with(t: &Place<'_>, spec: &GripSpec) {
     }
 }
 
-/// The joints of a clamped part and of the levers that clamp it.
-struct Clamp<'a> {
-    mechanism: &'a Parts,
-    /// The joints of the levers, upper and lower.
-    levers: [JointId; 2],
-    /// Upper far, upper near, lower far, lower near.
-    contacts: [JointId; 4],
-    /// The clamped object, if the first contact has one.
-    part: Option<LinkId>,
-}
-
-impl Clamp<'_> {
-    /// Checks that each contact is between the part and its lever, and that all act in the same states.
-    fn check_contacts(&self, at: &Place<'_>) {
-        let m = self.mechanism;
-        for (i, (at, &j)) in at.each_entry(&self.contacts).enumerate() {
-            let joint = &m.joints[j];
-            let lever = &m.joints[self.levers[i / 2]];
-            let touches = joint.links.iter().any(|&l| Some(l) == self.part);
-            let shared = |l: &LinkId| lever.links.contains(l) && *l != m.frame_link();
-            let allowed = if !touches || !joint.links.iter().any(shared) {
-                match i / 2 {
-                    0 => {
-                        "a joint between the part (a link of role \"object\") and the link that turns in the first of lever_joints"
-                    }
-                    _ => {
-                        "a joint between the part (a link of role \"object\") and the link that turns in the second of lever_joints"
-                    }
-                }
-            } else if joint.states.is_none() || joint.states != m.joints[self.contacts[0]].states {
-                "one with the same `state` as the other contacts, such as state = \"clamped\""
-            } else {
-                continue;
-            };
-            at.add_bad_value("contact", format!("{:?}", joint.id), allowed);
-        }
-    }
-
-    /// Checks that the levers turn on the frame.
-    fn check_pivots(&self, at: &Place<'_>) {
-        let m = self.mechanism;
-        for (at, &j) in at.each_entry(&self.levers) {
-            if !m.joints[j].links.contains(&m.frame_link()) {
-                let allowed = "a joint at the frame: with contacts, the pivots stand still";
-                at.add_bad_value("lever joint", format!("{:?}", m.joints[j].id), allowed);
-            }
-        }
-    }
-
-    /// Returns true if there are four contacts and nothing else holds the part.
-    fn holds_alone(&self) -> bool {
-        let m = self.mechanism;
-        let further = |j: JointId| {
-            self.part.is_some_and(|p| m.joints[j].links.contains(&p)) && !self.contacts.contains(&j)
-        };
-        !m.joint_ids().any(further) && self.contacts.iter().all_unique()
-    }
-}
-
-/// Returns the joints that represent the contacts; each joins the part to its lever.
+/// Returns the joints that represent the contacts: upper far, upper near, lower far, lower near. Each joins the part to its lever, and
+/// all act in the same states.
 fn read_contacts(t: &Place<'_>, e: &GripEntry, spec: &GripSpec, m: &Parts) -> Option<[JointId; 4]> {
     let ids = e.contacts.as_ref()?;
     let Transmission::Joints(levers) = spec.transmission else {
@@ -263,17 +199,33 @@ fn read_contacts(t: &Place<'_>, e: &GripEntry, spec: &GripSpec, m: &Parts) -> Op
     contacts_go_with(t, spec);
     let at = t.key("contacts");
     let contacts: [JointId; 4] = read_joints(&at, ids, m).try_into().ok()?;
-    let held =
-        |l: &LinkId| m.links[*l].role == Role::Object && m.joints[contacts[0]].links.contains(l);
-    let clamp = Clamp {
-        mechanism: m,
-        levers,
-        contacts,
-        part: m.link_ids().find(held),
-    };
-    clamp.check_contacts(&at);
-    clamp.check_pivots(&t.key("lever_joints"));
-    if !clamp.holds_alone() {
+    let first = &m.joints[contacts[0]];
+    let held = |l: &LinkId| m.links[*l].role == Role::Object && first.links.contains(l);
+    let part = m.link_ids().find(held);
+    let of_part = |j: &JointId| part.is_some_and(|p| m.joints[*j].links.contains(&p));
+    for (i, (at, &j)) in at.each_entry(&contacts).enumerate() {
+        let (joint, lever) = (&m.joints[j], &m.joints[levers[i / 2]]);
+        let shared = |l: &LinkId| lever.links.contains(l) && *l != m.frame_link();
+        let allowed = if !of_part(&j) || !joint.links.iter().any(shared) {
+            let which = ["first", "second"][i / 2];
+            &format!(
+                "a joint between the part (a link of role \"object\") and the link that turns in the {which} of lever_joints"
+            )
+        } else if joint.states.is_none() || joint.states != first.states {
+            "one with the same `state` as the other contacts, such as state = \"clamped\""
+        } else {
+            continue;
+        };
+        at.add_bad_value("contact", format!("{:?}", joint.id), allowed);
+    }
+    for (at, &j) in t.key("lever_joints").each_entry(&levers) {
+        if !m.joints[j].links.contains(&m.frame_link()) {
+            let allowed = "a joint at the frame: with contacts, the pivots stand still";
+            at.add_bad_value("lever joint", format!("{:?}", m.joints[j].id), allowed);
+        }
+    }
+    let further = m.joint_ids().any(|j| of_part(&j) && !contacts.contains(&j));
+    if further || !contacts.iter().all_unique() {
         let allowed =
             "all four joints of the part, each once, and no other joint may hold the part";
         at.add_bad_value("list of contacts", format!("{ids:?}"), allowed);
@@ -311,6 +263,7 @@ pub(crate) fn read_grip(
     let mounting_angle = t.angle_in("mounting_angle", &e.mounting_angle, [0.0, 179.0], allowed);
     let diameter = t.read_figure("diameter", &e.diameter, unit, Bound::Positive);
     let pivots = read_pivots(t, e, unit);
+    let width = t.not_negative("lever_width", &e.lever_width, unit);
     let mut spec = GripSpec {
         lever_length: t.read_figure("lever_length", &e.lever_length, unit, Bound::Positive),
         prism_angle,
@@ -319,9 +272,7 @@ pub(crate) fn read_grip(
         diameters: read_diameters(t, e, unit, diameter),
         pivots,
         face_length: t.read_positive("face_length", &e.face_length, unit),
-        lever_width: t
-            .not_negative("lever_width", &e.lever_width, unit)
-            .unwrap_or(0.0),
+        lever_width: width.unwrap_or(0.0),
         may_cross: e.levers_cross,
         load: read_load(t, e, unit),
         transmission: read_transmission(t, e, unit, mechanism),

@@ -49,10 +49,7 @@ fn read_inertia(entry: Option<&InertiaEntry>, at: &Place<'_>) -> Option<Inertia>
 
 /// Returns the mass of a link, if its entry gives one.
 pub(crate) fn read_mass(entry: &LinkEntry, at: &Place<'_>) -> Option<MassProperties> {
-    let centre = entry
-        .centre
-        .as_ref()
-        .map(|c| at.key("centre").read_vector(c));
+    let centre = at.read_given("centre", entry.centre.as_ref(), Place::read_vector);
     let inertia = read_inertia(entry.inertia.as_ref(), &at.key("inertia"));
     if let Some(x) = entry.mass.filter(|&x| !is_in_range(x)) {
         at.key("mass").add_bad_value("mass", x, NOT_NEGATIVE);
@@ -70,9 +67,8 @@ pub(crate) fn read_mass(entry: &LinkEntry, at: &Place<'_>) -> Option<MassPropert
         (None, _) => "mass, in kg",
     };
     let link = &entry.id;
-    at.add_problem(format!(
-        "link \"{link}\" has incomplete mass data; add {what}"
-    ));
+    let problem = format!("link \"{link}\" has incomplete mass data; add {what}");
+    at.add_problem(problem);
     None
 }
 
@@ -81,9 +77,7 @@ pub(crate) fn read_loads(file: &MechanismFile, mechanism: &Parts, out: &Findings
     let (at, entry) = (&out.key("workload"), &file.workload);
     let forces = at.key("force");
     let forces = forces.first_entries(MAX_FORCES, &entry.force, "forces");
-    let forces = forces
-        .filter_map(|(at, f)| read_force(f, mechanism, &at))
-        .collect();
+    let forces = forces.filter_map(|(at, f)| read_force(f, mechanism, &at));
     let moments = read_moments(entry, mechanism, &at.key("moment"));
     let stiffness = read_stiffness(entry, &at.key("stiffness"));
     let faces = read_faces(entry, mechanism, &at.key("contact"));
@@ -91,21 +85,15 @@ pub(crate) fn read_loads(file: &MechanismFile, mechanism: &Parts, out: &Findings
     let speeds = entry.drive_speed.as_ref();
     let drive_speeds = drive_speeds(speeds, mechanism, &at.key("drive_speed"));
     Loads {
-        gravity: entry
-            .gravity
-            .as_ref()
-            .map(|g| at.key("gravity").read_vector(g)),
-        forces,
+        gravity: at.read_given("gravity", entry.gravity.as_ref(), Place::read_vector),
+        forces: forces.collect(),
         moments,
         faces,
         stiffness,
         misalignments,
         accuracy: read_accuracy(file, mechanism, &out.key("tolerances")),
         drive_speeds,
-        stroke: entry
-            .stroke
-            .as_ref()
-            .map(|s| read_stroke(s, &at.key("stroke"))),
+        stroke: at.read_given("stroke", entry.stroke.as_ref(), read_stroke),
         // These name joints and links; they are read once all of those are.
         grip: None,
         drive: None,
@@ -148,7 +136,7 @@ fn drive_speeds(entry: Option<&Quantities>, mechanism: &Parts, at: &Place<'_>) -
     speeds
 }
 
-fn read_stroke(s: &StrokeEntry, at: &Place<'_>) -> Stroke {
+fn read_stroke(at: &Place<'_>, s: &StrokeEntry) -> Stroke {
     let from = at.key("from").read_position(&s.from);
     let to = at.key("to").read_position(&s.to);
     let allowed = "a whole number from 1 to 100000";
@@ -162,11 +150,7 @@ fn read_stroke(s: &StrokeEntry, at: &Place<'_>) -> Stroke {
 }
 
 /// Returns the external moments.
-pub(crate) fn read_moments(
-    entry: &WorkloadEntry,
-    m: &Parts,
-    at: &Place<'_>,
-) -> Vec<ExternalMoment> {
+fn read_moments(entry: &WorkloadEntry, m: &Parts, at: &Place<'_>) -> Vec<ExternalMoment> {
     let mut found = Vec::new();
     for (at, e) in at.first_entries(MAX_FORCES, &entry.moment, "moments") {
         let moment = at.key("moment").read_vector(&e.moment);
@@ -182,7 +166,7 @@ pub(crate) fn read_moments(
 }
 
 /// Returns the faces of contacts.
-pub(crate) fn read_faces(entry: &WorkloadEntry, m: &Parts, at: &Place<'_>) -> Vec<Face> {
+fn read_faces(entry: &WorkloadEntry, m: &Parts, at: &Place<'_>) -> Vec<Face> {
     let mut found = Vec::new();
     for (at, e) in at.first_entries(MAX_FORCES, &entry.contact, "contacts") {
         let Some(joint) = at.key("joint").find_joint(m, &e.joint) else {
@@ -191,8 +175,8 @@ pub(crate) fn read_faces(entry: &WorkloadEntry, m: &Parts, at: &Place<'_>) -> Ve
         if object_at(m, joint).is_none() {
             let faces = m.joint_ids().filter(|&j| object_at(m, j).is_some());
             let what = "contact (a fixed or planar joint, or one on a plane, with a link of the role object)";
-            at.key("joint")
-                .add_unknown_word(what, &e.joint, faces.map(|j| &m.joints[j].id));
+            let known = faces.map(|j| &m.joints[j].id);
+            at.key("joint").add_unknown_word(what, &e.joint, known);
         }
         let range = Bound::Range(0.0, 10.0, "a number from 0 to 10");
         found.push(Face {
@@ -205,40 +189,31 @@ pub(crate) fn read_faces(entry: &WorkloadEntry, m: &Parts, at: &Place<'_>) -> Ve
 }
 
 /// Returns the stiffness by joint type.
-pub(crate) fn read_stiffness(entry: &WorkloadEntry, at: &Place<'_>) -> Vec<(String, Stiffness)> {
+fn read_stiffness(entry: &WorkloadEntry, at: &Place<'_>) -> Vec<(String, Stiffness)> {
     let each = entry.stiffness.iter().map(|(name, s)| {
         let at = at.key(name);
         let (linear, angular) = (s.linear, s.angular);
         for (k, value) in [("linear", linear), ("angular", angular)] {
             if !(value > 0.0 && value <= 1e18) {
-                at.key(k)
-                    .add_bad_value("stiffness", value, "a number above 0, up to 1e18");
+                let allowed = "a number above 0, up to 1e18";
+                at.key(k).add_bad_value("stiffness", value, allowed);
             }
         }
         if name != "default" && name != "custom" && JointType::from_name(name).is_none() {
             let types = JointType::NAMED.iter().map(JointType::name);
             at.add_unknown_word("joint type", name, types.chain(["custom", "default"]));
         }
-        (
-            JointType::word_of_trade(name).to_owned(),
-            Stiffness { linear, angular },
-        )
+        let name = JointType::word_of_trade(name).to_owned();
+        (name, Stiffness { linear, angular })
     });
     each.collect()
 }
 
 /// Returns the misaligned joints.
-pub(crate) fn read_misalignments(
-    entry: &WorkloadEntry,
-    m: &Parts,
-    at: &Place<'_>,
-) -> Vec<Misalignment> {
+fn read_misalignments(entry: &WorkloadEntry, m: &Parts, at: &Place<'_>) -> Vec<Misalignment> {
     let mut found = Vec::new();
     for (at, e) in at.first_entries(MAX_FORCES, &entry.misalignment, "misalignments") {
-        let angle = e
-            .angle
-            .as_ref()
-            .map(|angle| at.key("angle").read_turn(angle));
+        let angle = at.read_given("angle", e.angle.as_ref(), Place::read_turn);
         if angle.is_some() == e.length.is_some() {
             at.add_bad_value("misalignment", &e.joint, "either an angle or a length");
         }
@@ -265,15 +240,14 @@ pub(crate) fn read_misalignments(
 }
 
 /// Returns the accuracy of the joints, if the file states it.
-pub(crate) fn read_accuracy(file: &MechanismFile, m: &Parts, at: &Place<'_>) -> Option<Accuracy> {
+fn read_accuracy(file: &MechanismFile, m: &Parts, at: &Place<'_>) -> Option<Accuracy> {
     let entry = file.tolerances.as_ref()?;
     let mut out = Accuracy::default();
+    let of_fit = at.key("fit");
     if let Some(fit) = &entry.fit {
         match Tolerances::named(fit) {
             Some(named) => out.usual = named,
-            None => at
-                .key("fit")
-                .add_unknown_word("fit", fit, Tolerances::NAMES),
+            None => of_fit.add_unknown_word("fit", fit, Tolerances::NAMES),
         }
     }
     let read = |at: &Place<'_>,

@@ -43,27 +43,21 @@ pub struct NoStroke(String);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub fn parse_stroke(text: &str) -> Result<Stroke, NoStroke> {
-    let parts: Vec<&str> = text.split(':').collect();
-    let parsed = match parts[..] {
-        [from, to, steps] => parse_position(from)
-            .zip(parse_position(to))
-            .zip(steps.parse::<usize>().ok()),
-        _ => None,
+    let parse = || {
+        let (from, rest) = text.split_once(':')?;
+        let (to, steps) = rest.split_once(':')?;
+        let (from, to) = (parse_position(from)?, parse_position(to)?);
+        let steps = steps.parse().ok().filter(|n| (1..=MAX_STEPS).contains(n))?;
+        Some(Stroke { from, to, steps })
     };
-    match parsed {
-        Some(((from, to), steps)) if (1..=MAX_STEPS).contains(&steps) => {
-            Ok(Stroke { from, to, steps })
-        }
-        _ => Err(NoStroke(text.to_owned())),
-    }
+    parse().ok_or_else(|| NoStroke(text.to_owned()))
 }
 
 fn with_units(text: &str, units: &[(&str, f64)]) -> Option<f64> {
     let text = text.trim();
-    let (number, factor) = units
-        .iter()
-        .find_map(|(u, f)| text.strip_suffix(u).map(|n| (n.trim_end(), *f)))
-        .unwrap_or((text, 1.0));
+    let mut units = units.iter();
+    let found = units.find_map(|(u, f)| Some((text.strip_suffix(u)?.trim_end(), *f)));
+    let (number, factor) = found.unwrap_or((text, 1.0));
     let value = number.parse::<f64>().ok()? * factor;
     (value.abs() <= LARGEST).then_some(value)
 }
@@ -74,8 +68,8 @@ impl Place<'_> {
         &self,
         q: &Quantity,
         parse: fn(&str) -> Option<f64>,
-        what: &'static str,
-        allowed: &'static str,
+        what: &str,
+        allowed: &str,
     ) -> f64 {
         let (value, shown) = match q {
             Quantity::Number(x) => (Some(*x).filter(|x| x.abs() <= LARGEST), x.to_string()),

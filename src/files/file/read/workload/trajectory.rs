@@ -79,14 +79,9 @@ pub fn read_trajectory(
         .comment(Some(b'#'))
         .from_reader(bytes);
     let at = |line: usize, what: String| TrajectoryError(format!("{file}:{line}: {what}"));
-    let head = |what: String| {
-        at(
-            1,
-            format!(
-                "{what}; columns are ax, ay, az in m/s², and optionally gx, gy, gz in m/s², time in s, diameter"
-            ),
-        )
-    };
+    let columns =
+        "columns are ax, ay, az in m/s², and optionally gx, gy, gz in m/s², time in s, diameter";
+    let head = |what: String| at(1, format!("{what}; {columns}"));
     let names = reader.headers().map_err(|e| head(e.to_string()))?.clone();
     check_names(&names).map_err(head)?;
     let mut out = Vec::new();

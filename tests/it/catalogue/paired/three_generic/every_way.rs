@@ -4,7 +4,6 @@
 use super::super::super::free_motions;
 use crate::common::*;
 use ozols::chains::PairKind;
-use ozols::chains::structure::PairStructure;
 
 /// What joins each two links, a letter or `-`: (0, 1), (0, 2), (1, 2) and so on.
 type Joined = Vec<char>;

@@ -1,0 +1,37 @@
+//! Sets of the nodes of a layer.
+
+/// A set of nodes of a layer.
+pub(in crate::search) type Set = Box<[u64]>;
+
+/// Returns true if a node is in a set.
+pub(in crate::search) fn contains_node(set: &Set, node: usize) -> bool {
+    set[node / 64] >> (node % 64) & 1 == 1
+}
+
+/// Returns an empty set of nodes.
+pub(in crate::search) fn empty_set(nodes: usize) -> Set {
+    vec![0; nodes.div_ceil(64)].into_boxed_slice()
+}
+
+/// Puts a node into a set.
+pub(in crate::search) fn add_node(set: &mut Set, node: usize) {
+    set[node / 64] |= 1 << (node % 64);
+}
+
+/// Returns the set of the nodes that pass a test.
+pub(in crate::search) fn collect_set(nodes: usize, mut is_in: impl FnMut(usize) -> bool) -> Set {
+    let mut out = empty_set(nodes);
+    (0..nodes)
+        .filter(|&n| is_in(n))
+        .for_each(|n| add_node(&mut out, n));
+    out
+}
+
+/// Returns the nodes of a set in ascending order.
+pub(in crate::search) fn nodes_in(set: &[u64]) -> impl Iterator<Item = usize> {
+    set.iter().enumerate().flat_map(|(place, &word)| {
+        let more = |bits: &u64| Some(bits & (bits - 1)).filter(|b| *b != 0);
+        let left = std::iter::successors(Some(word).filter(|b| *b != 0), more);
+        left.map(move |bits| 64 * place + bits.trailing_zeros() as usize)
+    })
+}

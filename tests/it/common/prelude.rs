@@ -1,0 +1,73 @@
+//! Names of the program that tests of several rooms need.
+
+pub(crate) use chacha20::ChaCha8Rng;
+pub(crate) use chacha20::rand_core::{Rng, SeedableRng};
+pub(crate) use ozols::accuracy::change::turned_and_rounded;
+pub(crate) use ozols::catalog::row::structure_row;
+pub(crate) use ozols::catalog::spec::Spec;
+pub(crate) use ozols::chains::Input;
+pub(crate) use ozols::chains::chain::Chain;
+pub(crate) use ozols::chains::classics::known_classics;
+pub(crate) use ozols::chains::enumerate::list_chains;
+pub(crate) use ozols::chains::structure::PairStructure;
+pub(crate) use ozols::draw::{Drawing, Rect, kinematic};
+pub(crate) use ozols::drive::swing::Feed;
+pub(crate) use ozols::file::read::workload::drive_from_bytes;
+pub(crate) use ozols::geom::Reals;
+pub(crate) use ozols::geom::rigid::RigidMotion;
+pub(crate) use ozols::geom::vector::{Vector, add};
+pub(crate) use ozols::grip::contact::Gripper;
+pub(crate) use ozols::grip::holding::{ContactForce, HoldingOutcome, PartWrench, find_holding};
+pub(crate) use ozols::model::grip::LeverDrive;
+pub(crate) use ozols::model::loads::{
+    ExternalForce, ExternalMoment, Inertia, MassProperties, Stroke,
+};
+pub(crate) use ozols::model::mechanism::{Frame, JointOption};
+pub(crate) use ozols::model::ranking::{ClearanceSum, Limit, Order, Term};
+pub(crate) use ozols::model::rounded::uncertainties;
+pub(crate) use ozols::motion::follow::Follower;
+pub(crate) use ozols::motion::pose::Pose;
+pub(crate) use ozols::rank::exact::certificate::{certify_state, closure_matrix, number_field};
+pub(crate) use ozols::rank::exact::field::field_of;
+pub(crate) use ozols::rank::exact::modular;
+pub(crate) use ozols::rank::finite::How;
+pub(crate) use ozols::rank::finite::displacement_group::whole_group;
+pub(crate) use ozols::rank::method::auto::decide_state;
+pub(crate) use ozols::rank::method::registry;
+pub(crate) use ozols::rank::rounded::mechanism_size;
+pub(crate) use ozols::redundancy::analysis::StateAnalysis;
+pub(crate) use ozols::redundancy::release::Release;
+pub(crate) use ozols::redundancy::state_figures;
+pub(crate) use ozols::robots::{Imported, formats, import};
+pub(crate) use ozols::score::evaluation::elimination::Scratch;
+pub(crate) use ozols::score::evaluation::evaluate::Evaluator;
+pub(crate) use ozols::score::request::{Check, List};
+pub(crate) use ozols::search::answer::counts::Counts;
+pub(crate) use ozols::search::answer::k_best::Assignment;
+pub(crate) use ozols::search::answer::search_counts::SearchCounts;
+pub(crate) use ozols::search::build::Diagrams;
+pub(crate) use ozols::search::check::brute::every_variant;
+pub(crate) use ozols::search::diagram::Stop;
+pub(crate) use ozols::search::question::Question;
+pub(crate) use ozols::search::question::conditions::InState;
+pub(crate) use ozols::statics::assur::decompose_groups;
+pub(crate) use ozols::statics::cycle::planar_statics;
+pub(crate) use ozols::statics::planar::PlanarMechanism;
+pub(crate) use ozols::statics::reactions::drives::driven_freedoms;
+pub(crate) use ozols::statics::reactions::follow::follow_to;
+pub(crate) use ozols::statics::reactions::geometry::Geometry;
+pub(crate) use ozols::statics::reactions::{
+    JointReaction, Reactions, Solution, Uniqueness, Unsolved,
+};
+pub(crate) use ozols::synthesis::figures::layout_figures;
+pub(crate) use ozols::synthesis::structure::Structure;
+pub(crate) use ozols::synthesis::task::{Limits, Task};
+pub(crate) use ozols::synthesis::workload::Workload;
+pub(crate) use ozols::{Outcome, Request, verify};
+pub(crate) use proptest::prelude::*;
+pub(crate) use proptest::sample::{Index, select};
+pub(crate) use std::io::{BufRead, BufReader, Read};
+pub(crate) use std::process::Stdio;
+pub(crate) use std::sync::LazyLock;
+pub(crate) use std::sync::atomic::{AtomicUsize, Ordering};
+pub(crate) use std::time::{Duration, Instant};

@@ -1,0 +1,46 @@
+//! A mechanism in other axes of the file.
+
+use super::*;
+use ozols::statics::reactions::geometry::dot;
+
+/// Returns the mechanism with its places, directions and loads turned by a matrix of thirds, and then moved.
+pub(crate) fn turned_and_moved(m: &Mechanism, shift: [f64; 3]) -> Mechanism {
+    let turn = [[2.0, -2.0, 1.0], [1.0, 2.0, 2.0], [-2.0, -1.0, 2.0]];
+    let turn = turn.map(|r: [f64; 3]| r.map(|x| x / 3.0));
+    let by = |v: &mut [Expr; 3], shift: [f64; 3]| {
+        let from = to_vector(v);
+        *v = [0, 1, 2].map(|i| {
+            format!("{:.15}", dot(turn[i], from) + shift[i])
+                .parse()
+                .unwrap()
+        });
+    };
+    let mut out = m.clone();
+    let mut parts = out.edit();
+    for j in &mut parts.joints {
+        by(&mut j.frame.point, shift);
+        by(&mut j.frame.axis, [0.0; 3]);
+        by(&mut j.frame.reference, [0.0; 3]);
+    }
+    for mass in parts.links.iter_mut().filter_map(|l| l.mass.as_mut()) {
+        by(&mut mass.centre, shift);
+        if let Some(Inertia::Tensor([xx, yy, zz, xy, yz, zx])) = mass.inertia {
+            let rows = [[xx, xy, zx], [xy, yy, yz], [zx, yz, zz]];
+            let of = |i: usize, k: usize| dot(turn[i], rows.map(|r| dot(r, turn[k])));
+            let places = [(0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (2, 0)];
+            mass.inertia = Some(Inertia::Tensor(places.map(|(i, k)| of(i, k))));
+        }
+    }
+    for f in &mut parts.loads.forces {
+        by(&mut f.point, shift);
+        by(&mut f.force, [0.0; 3]);
+    }
+    for m in &mut parts.loads.moments {
+        by(&mut m.moment, [0.0; 3]);
+    }
+    if let Some(gravity) = &mut parts.loads.gravity {
+        by(gravity, [0.0; 3]);
+    }
+    drop(parts);
+    out
+}
