@@ -227,13 +227,18 @@ pub fn build_rows<B: Send>(
             ControlFlow::Break(b) => Err(Ok(b)),
         }
     };
-    let all = work.structures.par_iter().try_for_each(|(_, together)| {
-        let Some(first) = together.iter().find(|s| !skip(&s.id())) else {
-            return Ok(());
+    let all = work.structures.par_iter().try_for_each(|(pair, together)| {
+        let search = |s: &Structure| General::search_general(s, spec).map_err(failed);
+        let mut to_do = together.iter().filter(|s| !skip(&s.id()));
+        let shared = match pair {
+            Some(_) => to_do.next().map_or(Ok(None), search)?,
+            None => None,
         };
-        let general = General::search_general(first, spec).map_err(failed)?;
-        let each = together.par_iter();
-        each.try_for_each(|s| one(s, general.as_ref()))
+        together.par_iter().try_for_each(|s| match pair {
+            Some(_) => one(s, shared.as_ref()),
+            None if skip(&s.id()) => Ok(()),
+            None => one(s, search(s)?.as_ref()),
+        })
     });
     match all {
         Ok(()) => Ok(None),

@@ -1,4 +1,5 @@
-//! The determinate variants that all layouts of a chain and its input share if their pins are in general position.
+//! The determinate variants that all layouts of a chain and its input share if their pins are in general position, as far as the symmetry
+//! and the parallelograms of a structure leave them free.
 //!
 //! A variant is determinate if the columns that it adds have the full rank. At special places a rank is lower than at nearly
 //! all places, never higher. So a variant that is determinate at some place is determinate in general position. One search, at
@@ -6,8 +7,9 @@
 //! one prime shows whether a layout has them, because modulo a prime a rank is never higher either. A minimal diagram is the
 //! only one of its variants in an order of variables, so diagrams are compared edge by edge.
 
+use crate::catalog::row::Symmetric;
 use crate::catalog::spec::Spec;
-use crate::catalog::{RowError, built_mechanism, prepare_search};
+use crate::catalog::{RowError, built_mechanism, prepare_search, search_request};
 use crate::chains::chain::Chain;
 use crate::chains::roles::Roles;
 use crate::chains::structure::PairStructure;
@@ -42,6 +44,8 @@ pub struct General {
     ideas: Mutex<Vec<(IdeaBasis, Vec<Idea>)>>,
     /// Counts of the determinate variants by W and number of changes.
     pub counts: BTreeMap<(i64, u32), BigUint>,
+    /// Those that are their own image under the symmetry of the structure.
+    pub(super) symmetric: Symmetric,
 }
 
 /// A chain of hinges and its input. Layouts of structures with the same pair have the same determinate variants in general position.
@@ -79,21 +83,39 @@ impl InputPair {
     }
 }
 
-/// Returns a structure with its pins at random places. The same number gives the same places.
-fn at_random(structure: &Structure, spec: &Spec, number: usize) -> Result<Mechanism, RowError> {
+/// Returns the structure whose places stand for those of a structure, with its rules. `None` if it has other pairs than hinges, or thirds of
+/// a turn, or no rules.
+fn places_in_general(structure: &Structure) -> Option<(Structure, Rules)> {
+    if let Some(pair) = InputPair::of_structure(structure) {
+        let first = pair.pair_structure(structure.form);
+        let swap = (0..first.structure.chain.links()).collect();
+        let rules = Rules::new(&first, &Lay { swap, bits: 0 }).ok()?;
+        return Some((first, rules));
+    }
+    let form = structure.form;
+    let lay = (form.hinges && form.symmetry != Symmetry::Threefold)
+        .then(|| structure.hinged_lay().ok())
+        .flatten()?;
+    let rules = Rules::new(structure, &lay).ok()?;
+    Some((structure.clone(), rules))
+}
+
+/// Returns a structure with its pins at random places that keep its rules. The same number gives the same places.
+fn at_random(
+    structure: &Structure,
+    rules: &Rules,
+    spec: &Spec,
+    number: usize,
+) -> Result<Mechanism, RowError> {
     let PairStructure { chain, roles } = &structure.structure;
     let [u, v] = roles.input;
     let mut random = random_of(&format!("{} {u}-{v} {number}", graph6::write_graph(chain)));
-    // Halved, so that differences of places are equally small.
-    let mut coordinate = || f64::from(random.next_u32().cast_signed() / 2);
-    let swap = (0..chain.links()).collect();
-    let rules = Rules::new(structure, &Lay { swap, bits: 0 }).map_err(|why| RowError::File {
-        structure: structure.name(),
-        why: why.to_string(),
-    })?;
+    // A fraction, so that differences of places and corners of parallelograms are small, too.
+    let mut coordinate = || f64::from(random.next_u32().cast_signed() / 8);
     let points = rules.joints.iter().map(|_| [coordinate(), coordinate()]);
-    let at = Places::of_hinges(points.collect());
-    let file = bare_file(structure, &rules, &at, &spec.option_menu()?);
+    let mut at = Places::of_hinges(points.collect());
+    rules.settle_joints(&mut at);
+    let file = bare_file(structure, rules, &at, &spec.option_menu()?);
     built_mechanism(&structure.name(), &file)
 }
 
@@ -109,8 +131,9 @@ fn same_diagrams(a: &Diagram, b: &Diagram) -> bool {
 }
 
 impl General {
-    /// Searches the pair of a structure at two random places, each over a prime; both must agree. Returns `None` if the structure
-    /// is laid out in special places, or if the node budget ends the search.
+    /// Searches the pair of a structure at two random places, each over a prime; both must agree. A structure that is symmetric or has
+    /// parallelograms is searched by itself, at places that keep its rules. Returns `None` if it has other pairs than hinges, if it has no
+    /// such places, or if the node budget ends the search.
     ///
     /// # Errors
     /// Returns an error if the specification is wrong, or the program fails.
@@ -122,13 +145,12 @@ impl General {
     /// # Complexity
     /// Two searches.
     pub fn search_general(structure: &Structure, spec: &Spec) -> Result<Option<General>, RowError> {
-        let Some(pair) = InputPair::of_structure(structure) else {
+        let Some((first, rules)) = places_in_general(structure) else {
             return Ok(None);
         };
-        let first = pair.pair_structure(structure.form);
         for number in 0..PAIRS_OF_PLACES {
             let over = |prime: usize| {
-                let places = at_random(&first, spec, 2 * number + prime)?;
+                let places = at_random(&first, &rules, spec, 2 * number + prime)?;
                 prepare_search(places, spec, prime)
             };
             let (one, two) = (over(0)?, over(1)?);
@@ -140,10 +162,12 @@ impl General {
                 return Ok(None);
             }
             if same_diagrams(diagram, &twin) {
+                let request = search_request(spec);
                 return Ok(Some(General {
                     counts: one.count_variants(diagram, false).by_mobility_and_changes,
                     minimal: one.minimal_variants(&diagrams),
                     idea_variants: one.idea_variants(&diagrams),
+                    symmetric: Symmetric::search_symmetric(&one.mechanism, &request)?,
                     ideas: Mutex::default(),
                     diagram: diagrams.determinate,
                 }));

@@ -254,8 +254,8 @@ fn in_general_position(
         if let Some(search) = general.certify_layout(as_file.built.clone(), spec)? {
             let variants = Variants {
                 counts: general.counts.clone(),
-                symmetric: Symmetric::without_symmetry(),
-                exact: true,
+                symmetric: general.symmetric.clone(),
+                exact: general.symmetric.exact,
                 ideas: idea_rows(
                     &search,
                     general.cached_ideas(&search, SEEN * spec.ideas),

@@ -63,12 +63,19 @@ pub struct Frame {
 impl Frame {
     /// Returns true if two frames are written identically; `false` decides nothing.
     pub fn is_same(&self, other: &Frame) -> bool {
-        let same = |a: &[Expr; 3], b: &[Expr; 3]| a.iter().zip(b).all(|(a, b)| a.is_same(b));
-        same(&self.point, &other.point)
-            && same(&self.axis, &other.axis)
-            && same(&self.reference, &other.reference)
+        self.has_same_axis(other)
+            && are_same(&self.reference, &other.reference)
             && self.pitch.is_same(&other.pitch)
     }
+
+    /// Returns true if the points and axes of two frames are written identically; `false` decides nothing.
+    pub fn has_same_axis(&self, other: &Frame) -> bool {
+        are_same(&self.point, &other.point) && are_same(&self.axis, &other.axis)
+    }
+}
+
+fn are_same(a: &[Expr; 3], b: &[Expr; 3]) -> bool {
+    a.iter().zip(b).all(|(a, b)| a.is_same(b))
 }
 
 /// A realizable joint that a search may use at a joint.

@@ -52,15 +52,14 @@ impl FoundPlaces {
 }
 
 /// Maximum number of starts of a search for places, for each lay.
-pub(in crate::synthesis) const STARTS: u32 = 12;
-/// Number of best starts that are completed if none becomes good. More are completed if none of these keeps the limits of the drawing.
-const TO_THE_END: usize = 3;
+pub(in crate::synthesis) const STARTS: u32 = 10;
+/// Number of best starts that go on if none becomes good. More go on if none of these keeps the limits of the drawing.
+const GO_ON: usize = 6;
 
 /// Returns the best places of some starts of a structure of this name; `None` if all end in singular poses.
 ///
-/// The first good places are enough. Starts that lag behind are paused. If the stroke is the reason, the next start begins with the same
-/// drawing, reheated, since drawings from random places take most of the time. If none becomes good, the best go on until one fulfils the
-/// task and can be built.
+/// The first good places are enough. Starts that lag behind are paused. If none becomes good, the best go on until one fulfils the task and
+/// can be built. Those that still lag far behind are given up.
 pub(in crate::synthesis) fn best_of_starts<'a>(
     sketch: &Sketch<'a>,
     judge: &mut Judge<'a>,
@@ -68,15 +67,15 @@ pub(in crate::synthesis) fn best_of_starts<'a>(
     seed: u64,
     first: u32,
 ) -> Option<FoundPlaces> {
-    let aim = sketch.limits.task.aim;
+    let thresholds = match sketch.limits.task.aim {
+        Aim::Balanced => &LAGGING,
+        Aim::Force => &NEVER,
+    };
     let mut raced = Vec::new();
-    let mut drawn = None;
     for start in first..first + STARTS {
         let random = random_for(name, seed, start);
-        let mut search = Annealing::new(sketch, random, start, drawn.take());
-        search.advance(judge, aim == Aim::Balanced);
-        let lagged = search.paused && !search.reheated;
-        drawn = search.drawn.take().filter(|_| lagged);
+        let mut search = Annealing::new(sketch, random, start);
+        search.advance(judge, thresholds);
         let Some(found) = search.judge_places(judge) else {
             continue;
         };
@@ -88,11 +87,12 @@ pub(in crate::synthesis) fn best_of_starts<'a>(
     raced.sort_by(|(a, _), (b, _)| a.compare_places(b));
     let mut best: Option<FoundPlaces> = None;
     for (n, (mut found, mut search)) in raced.into_iter().enumerate() {
-        if n >= TO_THE_END && best.as_ref().is_some_and(|b| b.within) {
+        if n >= GO_ON && best.as_ref().is_some_and(|b| b.within) {
             break;
         }
         if search.paused {
-            search.advance(judge, false);
+            search.advance(judge, &HOPELESS);
+            search.paused = false;
             let Some(ended) = search.judge_places(judge) else {
                 continue;
             };
@@ -126,19 +126,16 @@ struct Phase {
     warmth: [f64; 2],
 }
 
-/// Temperature at the beginning of the motion phase if a start begins with the drawing of another.
-const REHEATED: f64 = 0.8;
-
 /// Places only, which is cheap; then also the motion of the drawn pose; then the whole stroke, slightly reheated.
 const PHASES: [Phase; 3] = [
     Phase {
         look: Look::Places,
-        moves: 700,
+        moves: 600,
         warmth: [1.0, 0.47],
     },
     Phase {
         look: Look::Motion,
-        moves: 500,
+        moves: 300,
         warmth: [0.47, 0.0],
     },
     Phase {
@@ -148,9 +145,29 @@ const PHASES: [Phase; 3] = [
     },
 ];
 
-/// Thresholds for pausing a start: a number of moves that evaluate strokes, and the lowest cost after them over the cost of good places.
-/// Few starts beyond a threshold become good: one in twelve for hinged structures.
-const LAGGING: [(usize, f64); 4] = [(50, 7.0), (100, 4.0), (150, 3.0), (200, 2.0)];
+/// Thresholds at which a start lags behind, on its lowest cost over the cost of good places.
+struct Thresholds {
+    /// For the drawing.
+    drawn: f64,
+    /// After some moves that evaluate strokes.
+    strokes: &'static [(usize, f64)],
+}
+
+/// Thresholds for pausing a start. Of those whose drawing lags one in twenty becomes good, of those whose stroke lags one in twelve.
+const LAGGING: Thresholds = Thresholds {
+    drawn: 1.0,
+    strokes: &[(50, 7.0), (100, 4.0), (150, 3.0), (200, 2.0)],
+};
+/// Thresholds for giving up a start that goes on. One in twenty beyond them would fulfil the task.
+const HOPELESS: Thresholds = Thresholds {
+    drawn: f64::INFINITY,
+    strokes: &[(300, 3.5), (400, 3.0), (500, 2.5), (600, 2.0)],
+};
+/// Thresholds of a search for the greatest force, all of whose starts come to their end.
+const NEVER: Thresholds = Thresholds {
+    drawn: f64::INFINITY,
+    strokes: &[],
+};
 
 /// Width of the limits within which places are accepted, as a multiple of the usual width.
 const WITHIN: f64 = 1.0;
@@ -181,9 +198,6 @@ struct Annealing<'s, 'a> {
     seen: SeenSides,
     /// The cheapest places of the phase.
     best: (f64, Places),
-    /// The places with which the stroke phase began, and whether the search began with those of another.
-    drawn: Option<Places>,
-    reheated: bool,
     /// The phase in which the search goes on, and the number of its moves so far.
     phase: usize,
     step: usize,
@@ -192,21 +206,13 @@ struct Annealing<'s, 'a> {
 }
 
 impl<'s, 'a> Annealing<'s, 'a> {
-    fn new(
-        sketch: &'s Sketch<'a>,
-        mut random: ChaCha8Rng,
-        start: u32,
-        drawn: Option<Places>,
-    ) -> Self {
-        let reheated = drawn.is_some();
-        let at = drawn.unwrap_or_else(|| sketch.first_places(&mut random));
+    fn new(sketch: &'s Sketch<'a>, mut random: ChaCha8Rng, start: u32) -> Self {
+        let at = sketch.first_places(&mut random);
         Annealing {
             before: at.clone(),
             seen: SeenSides::default(),
             best: (f64::INFINITY, at.clone()),
-            drawn: None,
-            phase: usize::from(reheated),
-            reheated,
+            phase: 0,
             step: 0,
             paused: false,
             now: f64::INFINITY,
@@ -283,14 +289,15 @@ impl<'s, 'a> Annealing<'s, 'a> {
         stroke.is_some_and(|f| self.sketch.limits.find_shortfall(&f, swings).is_none())
     }
 
-    /// Returns true if the lowest cost is still too high after so many moves that evaluate strokes.
-    fn is_lagging(&self) -> bool {
-        let bound = LAGGING.iter().find(|(after, _)| *after == self.step);
+    /// Returns true if the lowest cost is still too high after so many moves.
+    fn is_lagging(&self, thresholds: &Thresholds) -> bool {
+        let mut strokes = thresholds.strokes.iter();
+        let bound = strokes.find(|(after, _)| *after == self.step);
         bound.is_some_and(|(_, times)| self.best.0 > times * self.sketch.good_cost())
     }
 
-    /// Goes on until the end of the search, or, if it races, until it lags behind.
-    fn advance(&mut self, judge: &mut Judge<'a>, races: bool) {
+    /// Goes on until the end of the search, or until it lags behind.
+    fn advance(&mut self, judge: &mut Judge<'a>, thresholds: &Thresholds) {
         self.paused = false;
         let phases: &[&[Phase]] = match self.sketch.limits.task.aim {
             Aim::Balanced => &[&PHASES],
@@ -300,7 +307,7 @@ impl<'s, 'a> Annealing<'s, 'a> {
         };
         let phases = phases.iter().copied().flatten().skip(self.phase);
         for phase in phases {
-            self.advance_phase(judge, phase, races);
+            self.advance_phase(judge, phase, thresholds);
             if self.paused {
                 return;
             }
@@ -308,25 +315,21 @@ impl<'s, 'a> Annealing<'s, 'a> {
     }
 
     /// Goes on to the end of a phase, unless the search is paused.
-    fn advance_phase(&mut self, judge: &mut Judge<'a>, phase: &Phase, races: bool) {
+    fn advance_phase(&mut self, judge: &mut Judge<'a>, phase: &Phase, thresholds: &Thresholds) {
         let strokes = phase.look == Look::Stroke;
         if self.step == 0 {
             // The stroke phases begin with the best places of the drawing phases.
             if strokes || matches!(phase.look, Look::Force(_)) {
                 self.at.clone_from(&self.best.1);
-                self.drawn = Some(self.at.clone());
             }
             let cost = self.place_cost(judge, phase.look, f64::INFINITY);
             self.now = cost.unwrap_or(f64::INFINITY);
             self.best = (self.now, self.at.clone());
         }
-        let [mut from, to] = phase.warmth;
-        if self.reheated && phase.look == Look::Motion {
-            from = REHEATED;
-        }
+        let [from, to] = phase.warmth;
         let mut good = self.step == 0 && self.is_good(judge, phase.look);
         while !good && self.step < phase.moves {
-            if races && strokes && self.is_lagging() {
+            if strokes && self.is_lagging(thresholds) {
                 self.paused = true;
                 return;
             }
@@ -338,9 +341,8 @@ impl<'s, 'a> Annealing<'s, 'a> {
             good = self.best.0 < before && self.is_good(judge, phase.look);
         }
         (self.phase, self.step) = (self.phase + 1, 0);
-        // Of starts whose drawing costs more than good places with their stroke, one in twenty becomes good.
         let drawn = matches!(phase.look, Look::Places | Look::Motion);
-        self.paused = races && drawn && self.best.0 > self.sketch.good_cost();
+        self.paused = drawn && self.best.0 > thresholds.drawn * self.sketch.good_cost();
     }
 
     /// Tries other places.

@@ -9,8 +9,9 @@ use crate::synthesis::sketch::Sketch;
 use crate::synthesis::structure::Structure;
 use chacha20::rand_core::Rng;
 
-/// Returns the layout with its pins moved by less than half a millimetre each, to thousandths. The result is the same for the same seed and
-/// number. Sliding pins stay on their line.
+/// Returns the layout with its pins moved by less than half a millimetre each, to thousandths, and by less the greater the number is. The
+/// result is the same for the same seed and number. Pins keep the rules of the structure: sliding pins stay on their line, and images stay
+/// images.
 ///
 /// `None` if the new layout breaks the limits, loses the task that the old one fulfils, or loses its assignment of layers.
 ///
@@ -24,15 +25,22 @@ pub(crate) fn nearby_layout(
     number: u32,
 ) -> Option<Layout> {
     let mut random = random_of(&format!("{} {seed} beside {number}", structure.name()));
-    // From -499 to 499.
-    let mut off = || (random.next_u32() % (FINE - 1).cast_unsigned()).cast_signed() + 1 - FINE / 2;
+    // Layouts at the very edge of a limit lose the task by large moves. From -499 to 499 at first, from -15 to 15 at last.
+    let reach = (FINE / 2 - 1) >> (number / 4).min(5);
+    let range = 2 * reach.cast_unsigned() + 1;
+    let mut off = || (random.next_u32() % range).cast_signed() - reach;
     let sketch = Sketch::new(structure, layout.rules.clone(), layout.limits);
     let slides = structure.drive_input() == Input::Slide;
     let mut at = layout.at.clone();
-    for pin in (0..sketch.rules.joints.len()).filter(|&pin| pin != sketch.input || !slides) {
+    let movable = sketch.rules.movable_joints();
+    for pin in movable.filter(|&pin| pin != sketch.input || !slides) {
         let place = layout.rules.exact_place(&layout.at.points, pin);
         let fine = [off(), off()];
         at.points[pin] = Place { fine, ..place }.real();
+    }
+    layout.rules.settle_joints(&mut at);
+    for pin in 0..layout.rules.joints.len() {
+        at.points[pin] = layout.rules.exact_place(&at.points, pin).real();
     }
     let looks = sketch.drawn_figures(&at)?;
     let moved = Layout {

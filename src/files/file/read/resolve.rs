@@ -235,7 +235,13 @@ pub fn contains_option(wide: &JointOption, narrow: &JointOption) -> Option<bool>
         return Some(true);
     }
     let freedoms = [wide, narrow].map(|o| o.joint_type.freedoms());
-    if wide.frame.is_same(&narrow.frame) && freedoms[1].iter().all(|f| freedoms[0].contains(f)) {
+    let is_of_axis = |f: &Freedom| matches!(f, Freedom::Rz | Freedom::Tz);
+    let same = if freedoms[1].iter().all(is_of_axis) {
+        wide.frame.has_same_axis(&narrow.frame)
+    } else {
+        wide.frame.is_same(&narrow.frame)
+    };
+    if same && freedoms[1].iter().all(|f| freedoms[0].contains(f)) {
         return Some(true);
     }
     contains_rates(wide, narrow, &[])
