@@ -2,14 +2,11 @@
 //! that a catalogue makes of its mechanisms.
 
 pub mod build;
-pub mod drawn;
 #[cfg(feature = "store")]
 pub mod find;
 pub mod general;
 #[cfg(feature = "store")]
 mod insert;
-#[cfg(feature = "store")]
-pub mod neighbours;
 pub mod row;
 pub mod spec;
 #[cfg(feature = "store")]

@@ -11,7 +11,6 @@ mod find;
 mod general;
 mod given_up;
 mod killed;
-mod neighbours;
 mod orbits;
 mod out_of_plane;
 mod paired;

@@ -52,7 +52,7 @@ pub fn find_entries(
 
 impl Entry {
     /// Creates the entry of a row that begins with id and form.
-    pub(super) fn new(row: &[Value]) -> Entry {
+    fn new(row: &[Value]) -> Entry {
         let word = |v: &Value| v.as_str().unwrap_or_default().to_owned();
         Entry {
             id: word(&row[0]),
@@ -63,14 +63,10 @@ impl Entry {
     fn has_word(&self, word: &str) -> bool {
         self.form.contains(word)
     }
-
-    pub(super) fn is_symmetric(&self) -> bool {
-        !self.form.contains("generic")
-    }
 }
 
 /// Returns the structure of a row that begins as those of [`STRUCTURES`].
-pub(super) fn read_structure(row: &[Value]) -> Option<PairStructure> {
+fn read_structure(row: &[Value]) -> Option<PairStructure> {
     let chain = graph6::read_graph(row.get(2)?.as_str()?).ok()?;
     let slides = row.get(3)?.as_str()? == "slide";
     let link = |i: usize| usize::try_from(row.get(i)?.as_u64()?).ok();

@@ -1,6 +1,5 @@
 //! Insertion of a row into the tables.
 
-use crate::catalog::drawn::{DrawnMechanism, mobility_words};
 use crate::catalog::row::{IdeaRow, Laid, StructureRow, Symmetric};
 use crate::chains::census::Kinds;
 use crate::chains::classics::classics_of;
@@ -8,6 +7,7 @@ use crate::chains::graph6;
 use crate::format;
 use crate::geom::vector::box_sides;
 use crate::model::ranking::Term;
+use crate::rank::finite::{Finite, How};
 use crate::synthesis::stroke::planes::Stacking;
 use crate::synthesis::stroke::walk::StrokeEnd;
 use itertools::Itertools;
@@ -205,40 +205,16 @@ fn insert_planes(t: &Transaction<'_>, id: &str, stacking: &Stacking) -> rusqlite
     )
 }
 
-/// Inserts a drawn mechanism.
-pub(super) fn insert_drawn(t: &Transaction<'_>, d: &DrawnMechanism) -> rusqlite::Result<()> {
-    let all: BigUint = d.counts.values().sum();
-    insert_row(
-        t,
-        "drawn",
-        &[
-            ("id", &d.id),
-            ("name", &d.name),
-            ("description", &d.description),
-            ("links", &to_integer(d.size[0])),
-            ("joints", &to_integer(d.size[1])),
-            ("contours", &to_integer(d.size[2])),
-            ("mode", &d.mode),
-            ("input", &d.input),
-            ("mechanism", &d.file),
-            ("mobility", &to_integer(d.as_built.0)),
-            ("redundant", &to_integer(d.as_built.1)),
-            ("finite", &d.finite),
-            ("determinate", &count_value(&all)),
-            ("admissible", &count_value(&d.admissible)),
-            ("certainty", &certainty_word(d.exact)),
-            ("ideas_asked", &to_integer(d.ideas_asked)),
-            ("best_cost", &best_cost(&d.ideas).map(from_milli)),
-        ],
-    )?;
-    // Another search of the same mechanism may have kept more.
-    for table in ["counts", "ideas"] {
-        t.execute(
-            &format!("DELETE FROM {table} WHERE structure = ?1"),
-            [&d.id],
-        )?;
-    }
-    insert_found(t, &d.id, &d.counts, &d.symmetric, &d.ideas)
+/// Returns the mobility with the weakest word that applies to it.
+fn mobility_words(finite: &Finite) -> String {
+    let word = match finite.how {
+        _ if finite.numeric => "numeric",
+        _ if finite.is_proven() => "proven",
+        How::Traced { .. } => "followed",
+        How::Bound { .. } => "bound",
+        _ => "undecided",
+    };
+    format!("{}, {word}", finite.format_figure())
 }
 
 fn certainty_word(exact: bool) -> &'static str {

@@ -98,36 +98,17 @@ CREATE TABLE classics ( -- well-known schemes that have a structure
   about TEXT NOT NULL,             -- what it is
   PRIMARY KEY (structure, id)
 ) WITHOUT ROWID;
-CREATE TABLE drawn (               -- mechanisms that were drawn, searched with the options of their files
-  id TEXT PRIMARY KEY,             -- drawn-, and the beginning of the SHA-256 of the file
-  name TEXT NOT NULL,
-  description TEXT NOT NULL,
-  links INTEGER NOT NULL,          -- of the free state
-  joints INTEGER NOT NULL,
-  contours INTEGER NOT NULL,
-  mode TEXT NOT NULL,              -- spatial, or planar: nothing out of the plane is counted, so that less is redundant
-  input TEXT,                      -- slide, turn; NULL unless one joint of one freedom is driven
-  mechanism TEXT NOT NULL,         -- the mechanism file, TOML
-  mobility INTEGER NOT NULL,       -- W as built
-  redundant INTEGER NOT NULL,      -- sigma as built
-  finite TEXT NOT NULL,            -- the full-cycle mobility, and how it is known
-  determinate NOT NULL,            -- variants with sigma = 0
-  admissible NOT NULL,             -- of these, those that keep the output motion and have at most the full-cycle mobility
-  certainty TEXT NOT NULL,         -- "exact" or "at least"
-  ideas_asked INTEGER NOT NULL,    -- how many ideas were to be kept
-  best_cost REAL                   -- of the cheapest of these; of those found, if the certainty is "at least"
-) WITHOUT ROWID;
 CREATE TABLE counts (
-  structure TEXT NOT NULL,         -- of structures, or of drawn
+  structure TEXT NOT NULL,
   mobility INTEGER NOT NULL,
   changes INTEGER NOT NULL,
   variants NOT NULL,               -- determinate variants of this mobility and so many changes
-  orbits NOT NULL,                 -- these up to the symmetry of the layout, or of a drawn file; the same number without a symmetry
+  orbits NOT NULL,                 -- these up to the symmetry of the layout; the same number without a symmetry
   symmetric NOT NULL,              -- of the variants those that are their own image, an orbit each; the rest are two to an orbit, three if threefold
   PRIMARY KEY (structure, mobility, changes)
 ) WITHOUT ROWID;
 CREATE TABLE ideas (
-  structure TEXT NOT NULL,         -- of structures, or of drawn
+  structure TEXT NOT NULL,
   place INTEGER NOT NULL,          -- from 1: symmetric ones first, then the cheapest, which is always among them
   changes TEXT NOT NULL,           -- the first variant of the idea: jaw-a.link-1, jaw-b.link-3 -> spherical
   choices TEXT NOT NULL,           -- its options, joint by joint, 0 if unchanged

@@ -2,7 +2,6 @@
 
 mod build;
 mod chains;
-mod drawn;
 mod look;
 mod merge;
 mod task;
@@ -25,8 +24,6 @@ enum What {
     Chains(chains::Chains),
     /// Lay out, search and score every structure and store it in a database; resumes an interrupted build.
     Build(Box<build::Build>),
-    /// Search existing mechanisms and store them with the structures.
-    Search(drawn::SearchDrawn),
     /// Merge the parts of a catalogue.
     Merge(merge::Merge),
     /// Find the structure of a mechanism, its known name, and its entry in a catalogue.
@@ -46,7 +43,6 @@ pub(crate) fn run_catalog(args: &Global, a: &Catalog) -> anyhow::Result<Done> {
         What::Count(c) => chains::count(args, c),
         What::Chains(c) => chains::list(c),
         What::Build(b) => build::run_build(args, b),
-        What::Search(s) => drawn::run_search_drawn(args, s),
         What::Merge(m) => merge::run_merge(m),
         What::Find(f) => look::run_find(f),
         What::Query(q) => look::run_query(q),

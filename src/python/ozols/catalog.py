@@ -1,6 +1,6 @@
 """Catalogues of gripper structures: building them, on many machines if needed, and opening them as tables.
 
-A catalogue is an SQLite file with the tables ``structures``, ``layouts``, ``drawn``, ``counts`` and ``ideas``
+A catalogue is an SQLite file with the tables ``structures``, ``layouts``, ``counts`` and ``ideas``
 (``ozols catalog query FILE "SELECT sql FROM sqlite_schema"`` explains every column).
 """
 
@@ -31,13 +31,12 @@ if TYPE_CHECKING:
 TABLES = {
     "structures": "id",
     "layouts": "structure",
-    "drawn": "id",
     "counts": "structure, mobility, changes",
     "ideas": "structure, place",
 }
 #: Columns of counts of variants: numbers, or their digits as text beyond 63 bits.
-COUNTS = {"determinate", "determinate_w1", "admissible", "variants"}
-#: The tables of structures, each with the column of the structure. Rows of drawn mechanisms do not count.
+COUNTS = {"determinate", "determinate_w1", "variants"}
+#: The tables of structures, each with the column of the structure.
 BUILT = {"structures": "id", "layouts": "structure", "counts": "structure", "ideas": "structure"}
 
 
@@ -59,7 +58,7 @@ class Catalog:
 
     @property
     def spec(self) -> str:
-        """The specification of its structures as TOML, or an empty string if it has drawn mechanisms only."""
+        """The specification of its structures as TOML, or an empty string if it is incomplete."""
         return self._meta.get("spec", "")
 
     def close(self) -> None:
@@ -81,8 +80,8 @@ class Catalog:
         return [id for (id,) in self._db.execute("SELECT id FROM structures ORDER BY id")]
 
     def mechanism(self, id: str) -> Mechanism:
-        """Returns the layout of a structure, or a drawn mechanism."""
-        sql = "SELECT mechanism FROM layouts WHERE structure = ?1 UNION ALL SELECT mechanism FROM drawn WHERE id = ?1"
+        """Returns the layout of a structure."""
+        sql = "SELECT mechanism FROM layouts WHERE structure = ?1"
         found = self._db.execute(sql, [id]).fetchone()
         if found is None:
             raise _native.Error(f"{self.path} has no layout of a structure {id}")

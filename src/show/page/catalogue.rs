@@ -64,10 +64,6 @@ const MORE: [(&str, &str, &str, &str); 8] = [
 ];
 /// Grippers whose files and ideas are unpacked together.
 const TOGETHER: usize = 64;
-/// The columns of a card of a drawn mechanism.
-const DRAWN: &str = "SELECT id, name, description, mode, links, joints, contours, input, mechanism, mobility, redundant, finite, \
-     CAST(determinate AS TEXT) AS determinate, CAST(admissible AS TEXT) AS determinate_w1, certainty, best_cost, 1 AS drawn \
-     FROM drawn ORDER BY links, best_cost, id";
 const IDEAS: &str = "SELECT structure, place, changes, cost, change_count AS changed, CAST(variants AS TEXT) AS variants, peak_force, \
      peak_moment FROM ideas ORDER BY structure, place";
 const WITHOUT: &str = "SELECT no_layout AS why, count(*) AS n FROM structures WHERE no_layout IS NOT NULL GROUP BY 1 ORDER BY 2 DESC, 1";
@@ -78,7 +74,7 @@ fn query_maps(store: &Store, sql: &str) -> Result<Vec<Map<String, Value>>, Store
     Ok(rows.into_iter().map(map).collect())
 }
 
-/// Returns each structure with a layout and each drawn mechanism: the data of its card, and its files and ideas,
+/// Returns each structure with a layout: the data of its card, and its files and ideas,
 /// which the page shows once it is chosen.
 fn read_cards(store: &Store) -> Result<Vec<(Value, Value)>, StoreError> {
     let mut ideas: BTreeMap<String, Vec<Map<String, Value>>> = BTreeMap::new();
@@ -88,10 +84,7 @@ fn read_cards(store: &Store) -> Result<Vec<(Value, Value)>, StoreError> {
         }
     }
     let mut cards = Vec::new();
-    for mut card in query_maps(store, CARD)?
-        .into_iter()
-        .chain(query_maps(store, DRAWN)?)
-    {
+    for mut card in query_maps(store, CARD)? {
         let text = card.remove("mechanism");
         let id = card.get("id").and_then(Value::as_str).unwrap_or_default();
         let of = ideas.remove(id).unwrap_or_default();
@@ -232,7 +225,7 @@ fn filter_form() -> maud::Markup {
             label { input type="checkbox" id="does"; " Does the task" }
             label { "Number of links " select id="links" { option value="" { "all" } } }
             (select("input", "Driver", &[("", "all"), ("slide", "slides"), ("turn", "turns")]))
-            (select("symmetry", "Symmetry", &[("", "all"), ("mirror", "mirror image"), ("half-turn", "half turn"), ("threefold", "threefold"), ("generic", "generic"), ("drawn", "drawn")]))
+            (select("symmetry", "Symmetry", &[("", "all"), ("mirror", "mirror image"), ("half-turn", "half turn"), ("threefold", "threefold"), ("generic", "generic")]))
             (select("sides", "Number of jaws", &[("", "all"), ("2", "2"), ("3", "3")]))
             (select("jaws", "Jaw motion", &[("", "all"), ("parallel", "parallel"), ("swinging", "swinging"), ("floating", "floating")]))
             @for one in &OFTEN { (number(one)) }

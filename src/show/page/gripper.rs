@@ -144,13 +144,11 @@ impl<'a> View<'a> {
         })
     }
 
-    /// Returns the gripping points of the jaws, or `None` if one is unknown. In a drawn mechanism, a force may show the
-    /// position of the part.
+    /// Returns the gripping points of the jaws, or `None` if one is unknown.
     fn jaw_tips(&self, m: &Mechanism, jaws: &[LinkId]) -> Option<Vec<[f64; 2]>> {
         let tip = |jaw: &LinkId| {
-            let points = m.points.iter().map(|p| (p.link, &p.point));
-            let forces = m.loads.forces.iter().map(|f| (f.link, &f.point));
-            let (_, at) = points.chain(forces).find(|(l, _)| l == jaw)?;
+            let mut points = m.points.iter().map(|p| (p.link, &p.point));
+            let (_, at) = points.find(|(l, _)| l == jaw)?;
             let at = to_vector(at);
             let aside = self.folded && !is_in_plane(at);
             Some(flat_xy(round_x(at, i32::from(aside))))

@@ -39,20 +39,3 @@ pub(super) fn scattered_numbers(seed: u64) -> impl Iterator<Item = u64> {
         x >> 33
     })
 }
-
-/// What is there stays as it is: no idea of another search of the same mechanism is mixed into it.
-#[test]
-fn merging_keeps_the_first_search_of_a_mechanism_whole() {
-    let folder = tempdir().unwrap();
-    let [two, three] = ["2", "3"].map(|ideas| {
-        let file = path_in(&folder, &format!("{ideas}.db"));
-        stdout_of(&format!(
-            "catalog search tongs four-bar --quiet --ideas {ideas} -o {file}"
-        ));
-        file
-    });
-    let merged = path_in(&folder, "merged.db");
-    stdout_of(&format!("catalog merge {two} {three} -o {merged}"));
-    assert_eq!(dump_catalogue(&merged), dump_catalogue(&two));
-    assert_ne!(dump_catalogue(&two), dump_catalogue(&three));
-}

@@ -54,7 +54,6 @@ pub(super) fn dump_catalogue(file: &str) -> String {
         "strokes ORDER BY structure",
         "pairs ORDER BY structure",
         "classics ORDER BY structure, id",
-        "drawn ORDER BY id",
         "counts ORDER BY structure, mobility, changes",
         "ideas ORDER BY structure, place",
     ]
@@ -180,43 +179,6 @@ fn what_cannot_be_done_is_said() {
     folder.put("spec.toml", spec);
     let (told, _) = folder.succeed("catalog build --spec spec.toml -o s.db --quiet");
     has(&told, "1 structures added");
-}
-
-#[test]
-fn drawn_mechanisms_stand_beside_the_structures() {
-    let folder = tempdir().unwrap();
-    let names = ["all.db", "parts.db", "merged.db", "x.toml", "x.html"];
-    let [file, parts, merged, redesign, page] = names.map(|n| path_in(&folder, n));
-    let done = |line: &str| stdout_of(&format!("catalog {line}"));
-    let drawn = |ideas, says| {
-        let line = format!("search gripper-10 tongs --ideas {ideas} -o {file}");
-        has(&done(&line), says);
-    };
-    drawn(3, "2 mechanisms added");
-    // Asked for fewer ideas, it keeps no more.
-    drawn(2, "2 mechanisms added");
-    drawn(2, "0 mechanisms added");
-    assert_eq!(query_lines(&file, "SELECT max(place) FROM ideas"), ["2"]);
-    // The counts are those of `ozols search`.
-    let sql = "SELECT links, joints, contours, input, mobility, redundant, finite, determinate, admissible, certainty, best_cost \
-         FROM drawn WHERE name = 'gripper-10'";
-    let counts = "10,13,4,,1,11,\"1, proven\",6340592477,7150020,exact,11.5";
-    assert_eq!(query_lines(&file, sql), [counts]);
-    // It takes in structures, and is taken in.
-    stdout_of(&small_build(&parts, ""));
-    has(&done(&format!("merge {file} {parts} -o {merged}")), "drawn");
-    stdout_of(&small_build(&file, ""));
-    assert_eq!(dump_catalogue(&merged), dump_catalogue(&file));
-    has_all(&done(&format!("query {merged}")), &["tongs", "mirror"]);
-    let told = done(&format!("show {merged} gripper-10"));
-    has_all(&told, &["6,340,592,477", "--idea 1"]);
-    done(&format!(
-        "export {merged} gripper-10 --idea 1 -o {redesign}"
-    ));
-    assert_eq!(free_state(&redesign)["redundant"], 0);
-    done(&format!("page {merged} -o {page}"));
-    let cards = cards_of(&fs::read_to_string(&page).unwrap());
-    assert!(cards.iter().any(|c| c["name"] == "tongs"));
 }
 
 /// Balls alone make no four-bar determinate, which needs a slide along its hinges: one in series with a hinge, on a link of its

@@ -54,17 +54,13 @@ fn what_fails_the_quick_check_is_refused_by_every_command() {
         "catalog", "build", "--links", "4", "--ideas", "2", "--quiet", "-o",
     ];
     stdout_of(&[&build[..], &[&good]].concat());
-    stdout_of(&format!("catalog search four-bar --ideas 2 -q -o {good}"));
     let bytes = fs::read(&good).unwrap();
     let ids = "SELECT structure FROM layouts LIMIT 1";
     let id = stdout_of(&["catalog", "query", &good, ids, "--format", "csv"]);
     let id = id.lines().nth(1).unwrap();
     let [file, whole, page] = ["bad.db", "whole.db", "page.html"].map(|n| path_in(&folder, n));
-    let commands: [&[&str]; 9] = [
+    let commands: [&[&str]; 8] = [
         &[&build[..], &[&file]].concat(),
-        &[
-            "catalog", "search", "four-bar", "--ideas", "2", "-q", "-o", &file,
-        ],
         &["catalog", "merge", &file, "-o", &whole],
         &["catalog", "merge", &good, "-o", &file],
         &["catalog", "query", &file],

@@ -1,6 +1,5 @@
 //! An open catalogue: reading and adding rows.
 
-use crate::catalog::drawn::DrawnMechanism;
 use crate::catalog::insert;
 use crate::catalog::row::StructureRow;
 use crate::catalog::store::version::{LARGEST_ANSWER, StoreError};
@@ -139,31 +138,12 @@ impl Store {
         })
     }
 
-    /// Returns true if a drawn mechanism is stored with this number of ideas.
-    ///
-    /// # Errors
-    /// Returns an error if the file cannot be read.
-    pub fn has_drawn(&self, id: &str, ideas: usize) -> Stored<bool> {
-        let sql = "SELECT 1 FROM drawn WHERE id = ?1 AND ideas_asked = ?2";
-        let ideas = i64::try_from(ideas).unwrap_or(i64::MAX);
-        Ok(self.value::<i64>(sql, params![id, ideas])?.is_some())
-    }
-
-    /// Adds a drawn mechanism with all its data, completely or not at all, in place of an earlier search of it.
-    ///
-    /// # Errors
-    /// Returns an error if the file cannot be written.
-    pub fn add_drawn(&mut self, drawn: &DrawnMechanism) -> Stored<()> {
-        self.transact(|t| insert::insert_drawn(t, drawn))
-    }
-
     /// Returns the whole id, given its beginning.
     ///
     /// # Errors
     /// Returns an error if there is no such id, or several.
     pub fn find_id(&self, id: &str) -> Stored<String> {
-        let sql = "SELECT id FROM (SELECT id, name FROM structures UNION ALL SELECT id, name FROM drawn) \
-                   WHERE substr(id, 1, length(?1)) = ?1 OR name = ?1 ORDER BY id";
+        let sql = "SELECT id FROM structures WHERE substr(id, 1, length(?1)) = ?1 OR name = ?1 ORDER BY id";
         let found = self.column(sql, [id])?;
         match &found[..] {
             [one] if !id.is_empty() => Ok(one.clone()),
@@ -225,8 +205,7 @@ impl Store {
     /// # Errors
     /// Returns an error if the file cannot be read.
     pub fn mechanism_text(&self, id: &str) -> Stored<Option<String>> {
-        let sql = "SELECT mechanism FROM layouts WHERE structure = ?1 \
-                   UNION ALL SELECT mechanism FROM drawn WHERE id = ?1";
+        let sql = "SELECT mechanism FROM layouts WHERE structure = ?1";
         self.value(sql, [id])
     }
 

@@ -17,7 +17,7 @@ const FINEST: u64 = 100_000;
 pub struct Merged {
     /// Number of parts merged.
     pub taken: usize,
-    /// Number of structures and drawn mechanisms added.
+    /// Number of structures added.
     pub added: usize,
     /// Missing parts. Empty if all structures exist.
     pub missing: Vec<Shard>,
@@ -29,23 +29,16 @@ impl Merged {
     /// Merges a part into the whole, and opens the whole if necessary.
     fn take_in(&mut self, path: &Path, whole: Option<Store>, part: &Path) -> Stored<Store> {
         let from = Store::open_readonly(part)?;
-        let spec = from.meta_value("spec")?;
-        let is_finished = spec.is_none() || !from.finished_parts()?.is_empty();
-        let whole = match (whole, spec) {
-            (Some(whole), None) => whole,
-            // A file with only drawn mechanisms can be merged with any catalogue.
-            (None, None) => Store::open_writable(path)?,
-            (whole, Some(text)) => {
-                let spec = toml::from_str::<Spec>(&text);
-                spec.map_err(|_| StoreError::Other(part.to_owned()))?;
-                match whole {
-                    Some(mut whole) if whole.meta_value("spec")?.is_some() => {
-                        whole.be_of(&text)?;
-                        whole
-                    }
-                    _ => Store::writable_of(path, Some(&text))?,
-                }
+        let other = || StoreError::Other(part.to_owned());
+        let text = from.meta_value("spec")?.ok_or_else(other)?;
+        toml::from_str::<Spec>(&text).map_err(|_| other())?;
+        let is_finished = !from.finished_parts()?.is_empty();
+        let whole = match whole {
+            Some(mut whole) => {
+                whole.be_of(&text)?;
+                whole
             }
+            None => Store::writable_of(path, &text)?,
         };
         self.added += whole.take_in(part)?;
         self.taken += 1;
@@ -116,14 +109,13 @@ impl Store {
             // Existing rows stay unchanged, without ideas of another search.
             self.db.execute_batch(
                 "BEGIN IMMEDIATE;
-                 CREATE TEMP TABLE there AS SELECT id FROM main.structures UNION ALL SELECT id FROM main.drawn;",
+                 CREATE TEMP TABLE there AS SELECT id FROM main.structures;",
             )?;
-            let count = "SELECT (SELECT count(*) FROM part.structures WHERE id NOT IN there) \
-                         + (SELECT count(*) FROM part.drawn WHERE id NOT IN there)";
+            let count = "SELECT count(*) FROM part.structures WHERE id NOT IN there";
             let added: i64 = self.db.query_row(count, [], |r| r.get(0))?;
             let of_structures = "layouts counts ideas strokes planes pairs classics".split(' ');
-            let tables = [("structures", "id"), ("drawn", "id")].into_iter();
-            for (table, id) in tables.chain(of_structures.map(|table| (table, "structure"))) {
+            let structures = std::iter::once(("structures", "id"));
+            for (table, id) in structures.chain(of_structures.map(|table| (table, "structure"))) {
                 let rows = format!("SELECT * FROM part.{table} WHERE {id} NOT IN there");
                 (self.db).execute_batch(&format!("INSERT INTO main.{table} {rows}"))?;
             }

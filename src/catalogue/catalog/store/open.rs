@@ -64,19 +64,11 @@ impl Store {
     /// # Errors
     /// Returns an error if the file is not a catalogue, or holds another one.
     pub fn open_or_create(path: &Path, spec: &Spec) -> Stored<Store> {
-        Store::writable_of(path, Some(&spec.to_canonical()))
+        Store::writable_of(path, &spec.to_canonical())
     }
 
-    /// Opens a catalogue for writing, or creates an empty one.
-    ///
-    /// # Errors
-    /// Returns an error if the file is not a catalogue.
-    pub fn open_writable(path: &Path) -> Stored<Store> {
-        Store::writable_of(path, None)
-    }
-
-    /// Opens or creates a catalogue, with a specification if one is given.
-    pub(super) fn writable_of(path: &Path, spec: Option<&str>) -> Stored<Store> {
+    /// Opens or creates a catalogue of a specification.
+    pub(super) fn writable_of(path: &Path, spec: &str) -> Stored<Store> {
         let flags = OpenFlags::SQLITE_OPEN_READ_WRITE | OpenFlags::SQLITE_OPEN_CREATE;
         let db = open_connection(path, flags)?;
         // Rolls back the remains of a killed command, and locks out others that would create the tables.
@@ -94,9 +86,7 @@ impl Store {
             path: path.to_owned(),
             db,
         };
-        if let Some(spec) = spec {
-            store.be_of(spec)?;
-        }
+        store.be_of(spec)?;
         let done = store.db.execute_batch("COMMIT");
         store.check_result(done)?;
         Ok(store)

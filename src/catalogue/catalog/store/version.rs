@@ -101,7 +101,7 @@ pub enum StoreError {
 /// Application id of catalogues: "ozcg".
 const APPLICATION: i64 = 0x6f7a_6367;
 /// Version of the tables. It is raised with every change of the tables, or of the meaning of a specification.
-pub(super) const VERSION: i64 = 11;
+pub(super) const VERSION: i64 = 12;
 
 /// The tables, with the meaning of each column. The file includes these comments, too (`.schema` shows them).
 const TABLES: &str = include_str!("../tables.sql");

@@ -207,17 +207,12 @@ pub(super) fn run_build(args: &Global, a: &Build) -> anyhow::Result<Done> {
     if !interrupt::is_pending() {
         store.finish_part(part, all)?;
     }
-    report_built(&store, &a.output, count, "structures")
+    report_built(&store, &a.output, count)
 }
 
 /// Reports how much a catalogue holds after `added` entries were added, and whether it was interrupted.
-pub(super) fn report_built(
-    store: &Store,
-    path: &Path,
-    added: usize,
-    what: &str,
-) -> anyhow::Result<Done> {
-    let mut text = built_text(store, path, added, what, output::output_width(None))?;
+pub(super) fn report_built(store: &Store, path: &Path, added: usize) -> anyhow::Result<Done> {
+    let mut text = built_text(store, path, added, output::output_width(None))?;
     if interrupt::is_pending() {
         let path = path.display();
         text += &format!("\nInterrupted: the same command continues with {path}.\n");

@@ -3,7 +3,6 @@
 use super::wanted::WantedGrippers;
 use crate::api::Scheme;
 use crate::catalog::find::find_entries;
-use crate::catalog::neighbours::find_neighbours;
 use crate::catalog::store::Store;
 use crate::cli::prelude::*;
 use crate::format::plain;
@@ -13,7 +12,7 @@ use crate::search::Search;
 use crate::search::check::variant_mechanism;
 use crate::search::question::conditions::Conditions;
 use crate::synthesis::recognize::recognize_structure;
-use crate::view::catalog::find::{FoundData, InCatalogue};
+use crate::view::catalog::find::FoundData;
 use crate::view::catalog::query::QueryAnswer;
 use crate::view::catalog::structures::StructureData;
 
@@ -194,18 +193,9 @@ pub(super) fn run_find(a: &Find) -> anyhow::Result<Done> {
     })?;
     let store = a.within.as_deref().map(open_catalogue).transpose()?;
     let part = found.structure.essential_links();
-    let essential = found.structure.part_of(&part);
-    let known = store.map(|s| -> anyhow::Result<InCatalogue> {
+    let known = store.map(|s| {
         let whole = found.whole.part_of(&found.whole.essential_links());
-        Ok(InCatalogue {
-            entries: find_entries(&s, &whole, found.made_as)?,
-            // Three sides that are alike are not compared.
-            neighbours: if found.side_count() == 3 {
-                Vec::new()
-            } else {
-                find_neighbours(&s, &essential)?
-            },
-        })
+        find_entries(&s, &whole, found.made_as)
     });
     let data = FoundData::new(&found, &part, known.transpose()?);
     a.to.write_all_of(if a.json {

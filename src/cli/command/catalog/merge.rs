@@ -34,7 +34,7 @@ pub(super) fn run_merge(a: &Merge) -> anyhow::Result<Done> {
     }
     let whole = &a.output;
     let store = Store::open_readonly(whole)?;
-    report_built(&store, whole, merged.added, "structures")?;
+    report_built(&store, whole, merged.added)?;
     if !merged.missing.is_empty() {
         output::print_note(&describe_missing(&merged, whole));
     }

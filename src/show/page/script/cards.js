@@ -26,13 +26,12 @@ const least = (c) => (c.certainty === 'exact' ? '' : 'at least ');
 const motions = (c) => [c.jaw_a_motion, c.jaw_b_motion, c.jaw_c_motion].filter((m) => m);
 const jawsOf = (c) => [...new Set(motions(c))].join(' and ');
 const unit = (c) => (c.input === 'slide' ? 'N per N' : 'N per Nm');
-const formOf = (c) => c.drawn ? `drawn (${c.mode}), ${c.contours} contours${c.input ? ', driver ' + c.input + 's' : ''}` : `${c.input === 'slide' ? 'sliding' : 'turning'} driver, ${c.symmetry}${c.parallel ? ', parallelograms' : ''}`;
+const formOf = (c) => `${c.input === 'slide' ? 'sliding' : 'turning'} driver, ${c.symmetry}${c.parallel ? ', parallelograms' : ''}`;
 
 const does = (c) => c.reached === 1 && !c.shortfall;
 
 /** The scheme's name, the mechanism's, or links, driver and jaws. */
 function titleOf(c) {
-  if (c.drawn) return c.name;
   const [scheme] = (c.classics || '').split(', ');
   const title = scheme ? scheme.replaceAll('-', ' ') : `${c.links} links, driver ${c.input}s, jaws ${jawsOf(c)}`;
   return (title + (c.jaw_c_motion ? ', three jaws' : '')).replace(/^./, (first) => first.toUpperCase());
@@ -43,9 +42,9 @@ function cardOf(c) {
   const button = element('button', { class: 'card', type: 'button', 'data-id': c.id },
     gripper(c, titleOf(c)),
     element('b', {}, titleOf(c)),
-    c.drawn ? null : element('span', { class: does(c) ? 'does' : 'lacks' }, task),
-    element('span', {}, c.drawn || c.classics ? `${c.links} links, ${formOf(c)}` : `${c.symmetry} layout${c.parallel ? ', parallelograms' : ''}`),
-    element('span', {}, c.drawn ? c.description : `${c.classics ? `jaws ${jawsOf(c)}, ` : ''}${short(c.force_min)} ${unit(c)} at least, transmission angle from ${short(c.transmission)}°`),
+    element('span', { class: does(c) ? 'does' : 'lacks' }, task),
+    element('span', {}, c.classics ? `${c.links} links, ${formOf(c)}` : `${c.symmetry} layout${c.parallel ? ', parallelograms' : ''}`),
+    element('span', {}, `${c.classics ? `jaws ${jawsOf(c)}, ` : ''}${short(c.force_min)} ${unit(c)} at least, transmission angle from ${short(c.transmission)}°`),
     element('span', {}, `${least(c)}${grouped(c.determinate_w1)} redesign${c.determinate_w1 === '1' ? '' : 's'}, from cost ${short(c.best_cost)}`),
     element('span', {}, c.id));
   button.addEventListener('click', () => choose(c, button));
@@ -60,13 +59,13 @@ const number = (keeps) => (c, v) => keeps(c, Number(v));
 const FILTERS = {
   links: (c, v) => String(c.links) === v,
   input: (c, v) => c.input === v,
-  symmetry: (c, v) => (c.drawn ? 'drawn' : c.symmetry) === v,
-  sides: (c, v) => !c.drawn && (c.jaw_c_motion ? '3' : '2') === v,
-  jaws: (c, v) => !c.drawn && motions(c).every((m) => m === v),
+  symmetry: (c, v) => c.symmetry === v,
+  sides: (c, v) => (c.jaw_c_motion ? '3' : '2') === v,
+  jaws: (c, v) => motions(c).every((m) => m === v),
   price: number((c, v) => c.price > 0 && c.price <= v),
   pin: number((c, v) => c.pin_force > 0 && c.pin_force <= v),
   efficiency: number((c, v) => c.efficiency >= v),
-  stroke: number((c, v) => !c.drawn && c.opening_max - c.opening_min >= v),
+  stroke: number((c, v) => c.opening_max - c.opening_min >= v),
   travel: number((c, v) => c.travel > 0 && c.travel <= v),
   actuator: number((c, v) => c.actuator > 0 && c.actuator <= v),
   width: number((c, v) => c.width > 0 && c.width <= v),
@@ -74,8 +73,8 @@ const FILTERS = {
   cost: number((c, v) => c.best_cost !== null && c.best_cost <= v),
   transmission: number((c, v) => c.transmission >= v),
   force: number((c, v) => c.force_min >= v),
-  ratio: number((c, v) => !c.drawn && c.force_max <= v * c.force_min),
-  turn: number((c, v) => !c.drawn && c.jaw_turn <= v),
+  ratio: number((c, v) => c.force_max <= v * c.force_min),
+  turn: number((c, v) => c.jaw_turn <= v),
   planes: number((c, v) => c.planes > 0 && c.planes <= v),
   does,
   front: (c) => c.front === 1,

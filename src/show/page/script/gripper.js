@@ -84,7 +84,7 @@ function gripper(card, title, changed, elsewhere) {
     const beside = (k) => [x + 11 * (left + k * u), y + 11 * (up + k * v)];
     out.push(svgElement('path', { class: 'drive', d: d.slides ? straight(beside(-s), beside(s)) : round([x, y], 10, s) }));
   }
-  if (!card.drawn && !elsewhere) out.push(...arrows(card, tips));
+  if (!elsewhere) out.push(...arrows(card, tips));
   for (const [name, word] of changed || []) {
     const i = d.names.indexOf(name);
     if (i < 0) continue;

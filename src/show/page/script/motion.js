@@ -101,7 +101,7 @@ function opening(d, tips) {
 /** Pins and tips until the jaws grip: from the widest opening to the narrowest, or in a hole the other way; none of what is not laid out by a catalogue, or does not move. */
 function framesOf(card) {
   const d = card.drawing;
-  if (!d || card.drawn || !d.tips || d.driver === null || !(card.travel > 0)) return [];
+  if (!d || !d.tips || d.driver === null || !(card.travel > 0)) return [];
   const scale = d.scale, still = new Array(3 * d.links.length).fill(0);
   const step = ((d.slides ? scale : 1) * card.travel) / STEPS;
   const slack = (card.opening_max - card.opening_min) / STEPS;

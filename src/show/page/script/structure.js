@@ -11,7 +11,7 @@ function changesOf(idea) {
 function figuresOf(c) {
   const drive = c.input === 'slide' ? 'mm' : 'rad';
   const ends = [['closing', c.ends_closing], ['opening', c.ends_opening]].filter((e) => e[1]).map((e) => `${e[0]}: ${e[1]}`);
-  const rows = c.drawn ? [['Mechanism', c.name], ['', c.description], ['Form', `${c.links} links, ${c.joints} joints, ${formOf(c)}`]] : [
+  const rows = [
     ['Structure', `${c.id}: ${c.name}`],
     ...(c.classics ? [[c.jaw_c_motion ? 'With two jaws known as' : 'Known as', c.classics]] : []),
     ['Form', `${c.links} links, ${formOf(c)}; ${c.jaws_at_frame} jaws at the frame${c.truss ? '; a truss with the part' : ''}${c.drawing && c.drawing.folded ? '; of three sides two are drawn, opposite each other' : ''}`],
@@ -30,7 +30,7 @@ function figuresOf(c) {
   ];
   return rows.concat([
     ['As built', `W = ${c.mobility}, σ = ${c.redundant}; finite mobility ${c.finite}`],
-    ['Without redundant', `${least(c)}${grouped(c.determinate)} assignments, ${grouped(c.determinate_w1)} of them ${c.drawn ? 'that move as it does now' : 'with W = 1'}`],
+    ['Without redundant', `${least(c)}${grouped(c.determinate)} assignments, ${grouped(c.determinate_w1)} of them with W = 1`],
   ]);
 }
 

@@ -1,7 +1,6 @@
 //! The structure of a mechanism, for people and as data.
 
 use crate::catalog::find::Entry;
-use crate::catalog::neighbours::{BetterFigure, FIGURES, Neighbour};
 use crate::chains::PairKind;
 use crate::chains::census::Kinds;
 use crate::chains::classics::{Classic, classics_of};
@@ -22,22 +21,13 @@ pub struct FoundData<'a> {
     motion: Option<(bool, Symmetries)>,
     /// Well-known schemes of this structure, or of its essential part if it is not essential.
     classics: Vec<&'static Classic>,
-    /// Its entries and neighbours in the given catalogue.
-    known: Option<InCatalogue>,
-}
-
-/// Entries of a catalogue for a structure.
-#[derive(Debug, Clone)]
-pub struct InCatalogue {
-    /// The structure itself, or its essential part.
-    pub entries: Vec<Entry>,
-    /// Structures next to it.
-    pub neighbours: Vec<Neighbour>,
+    /// Its entries in the given catalogue, or those of its essential part.
+    known: Option<Vec<Entry>>,
 }
 
 impl<'a> FoundData<'a> {
     /// Finds what is known of a mechanism's structure and of the smallest part of it that holds all roles, given by its links.
-    pub fn new(found: &'a Recognized, part: &'a [usize], known: Option<InCatalogue>) -> Self {
+    pub fn new(found: &'a Recognized, part: &'a [usize], known: Option<Vec<Entry>>) -> Self {
         let PairStructure { chain, roles } = &found.structure;
         let automorphisms = chain.automorphisms();
         let subject = Subject::new(chain, &automorphisms);
@@ -57,7 +47,7 @@ impl<'a> FoundData<'a> {
     /// Returns true if something is known by it: a well-known scheme, or an entry of the catalogue asked.
     pub fn is_known(&self) -> bool {
         let known = self.known.as_ref();
-        !self.classics.is_empty() || known.is_some_and(|k| !k.entries.is_empty())
+        !self.classics.is_empty() || known.is_some_and(|k| !k.is_empty())
     }
 
     /// Returns the number of hinges, slides, gears and slots.
@@ -110,8 +100,7 @@ impl<'a> FoundData<'a> {
             "half_turn": symmetries.map(|s| s.half_turn),
             "half_turn_but_input": symmetries.map(|s| s.half_turn_but_input),
             "classics": self.classics,
-            "catalogue": self.known.as_ref().map(|k| &k.entries),
-            "neighbours": self.known.as_ref().map(|k| &k.neighbours),
+            "catalogue": self.known,
         })
     }
 
@@ -164,14 +153,14 @@ impl<'a> FoundData<'a> {
         let Some(known) = &self.known else {
             return out.text();
         };
-        if known.entries.is_empty() {
+        if known.is_empty() {
             out.add_line("Not in this catalogue.");
         }
-        for entry in &known.entries {
+        for entry in known {
             let (id, form) = (&entry.id, &entry.form);
             out.add_line(format!("In the catalogue: {id}, laid out as {form}."));
         }
-        out.text() + &fit_lines(&neighbours_text(&known.neighbours), width)
+        out.text()
     }
 
     /// Returns how it moves in nearly all places.
@@ -221,48 +210,5 @@ fn layout_symmetries(subject: &Subject<'_>, roles: &Roles, threaded: bool) -> Sy
             ..Symmetries::default()
         },
         own => own,
-    }
-}
-
-/// The maximum number of neighbours in the text; JSON has all.
-const NAMED: usize = 8;
-
-/// Returns a line for each of the first neighbours; an empty text if none is better.
-fn neighbours_text(all: &[Neighbour]) -> String {
-    let useful = all.iter().filter(|n| !n.better.is_empty()).collect_vec();
-    if useful.is_empty() {
-        return String::new();
-    }
-    let mut out = String::from(
-        "Similar structures in the catalogue, and where they are better than each of its layouts:\n",
-    );
-    for n in useful.iter().take(NAMED) {
-        let relation = match n.relation {
-            "other-roles" => "other roles".to_owned(),
-            "fewer-links" => format!("{} links less", n.links),
-            _ => format!("{} links more", n.links),
-        };
-        let better = n.better.iter().map(describe_better).join("; ");
-        out += &format!("  {}, {}, {relation}: {better}\n", n.id, n.form);
-    }
-    if useful.len() > NAMED {
-        let json = typed_option("json", "");
-        out += &format!("  and {} more, which {json} has\n", useful.len() - NAMED);
-    }
-    out
-}
-
-fn describe_better(better: &BetterFigure) -> String {
-    let known = FIGURES.iter().find(|f| f.column == better.figure);
-    let (name, unit) = known.map_or((better.figure, ""), |f| (f.name, f.unit));
-    let space = if unit.is_empty() || unit == "°" {
-        ""
-    } else {
-        " "
-    };
-    let value = format!("{}{space}{unit}", four_digits(better.value));
-    match better.own {
-        Some(own) => format!("{name} {value}, here {} at best", four_digits(own)),
-        None => format!("{name} {value}"),
     }
 }

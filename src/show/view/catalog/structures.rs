@@ -16,7 +16,7 @@ type Row = Map<String, Value>;
 /// Rows of a catalogue about a structure.
 #[derive(Debug, Clone, serde::Serialize)]
 pub struct StructureData {
-    /// The row of `structures`, or of `drawn`.
+    /// The row of `structures`.
     pub structure: Row,
     /// The row of `pairs`; `None` of one of hinges and a driver that slides in the frame.
     pub pairs: Option<Row>,
@@ -63,7 +63,6 @@ impl StructureData {
             Ok(rows.into_iter().map(map).collect())
         };
         let mut structure = maps("SELECT * FROM structures WHERE id = ?1")?;
-        structure.extend(maps("SELECT * FROM drawn WHERE id = ?1")?);
         let ideas = maps("SELECT * FROM ideas WHERE structure = ?1 ORDER BY place")?;
         let changes = ideas.iter().filter_map(|i| i.get("changes")?.as_str());
         Ok(StructureData {
@@ -103,15 +102,6 @@ fn text_of<'a>(row: &'a Row, key: &str) -> Option<Cow<'a, str>> {
     row.get(key).and_then(Value::as_str).map(escape_control)
 }
 
-const DRAWN: &str = "\
-{name}, drawn ({mode})
-{description}
-LINKS, JOINTS, CONTOURS; driver: {input}
-As built: W = {mobility}, σ = {redundant}; finite mobility {finite}
-Determinate variants ({certainty}): {determinate}, of these {admissible} that keep the output motion and have no more mobility than that
-
-";
-
 const STROKE: &str = "Over the stroke: force ratio {force_ratio}, smallest transmission angle {transmission}°, \
 largest joint force {pin_force} N for 1 N at each jaw, efficiency at least {efficiency}, bounding box {width} x {height} mm; \
 {margin_closing} and {margin_opening} mm left to the ends of the motion\n";
@@ -122,7 +112,6 @@ impl StructureData {
         let id = cell_of(&self.structure, "id");
         let row = match &self.layout {
             Some(layout) => layout,
-            None if self.is_drawn() => &self.structure,
             None => {
                 return format!(
                     "{id}: no layout, {}\n",
@@ -143,20 +132,6 @@ impl StructureData {
             "{id}: {sigma} as built, W = {}{task}\n",
             cell_of(row, "mobility")
         )
-    }
-
-    /// Returns the figures of a drawn mechanism.
-    fn drawn_text(&self) -> String {
-        let nouns = [
-            ("LINKS", "link"),
-            ("JOINTS", "joint"),
-            ("CONTOURS", "contour"),
-        ];
-        let template = nouns.iter().fold(DRAWN.to_owned(), |text, (slot, noun)| {
-            let count = cell_of(&self.structure, &format!("{noun}s"));
-            text.replace(slot, &plural_of(&count, noun))
-        });
-        fill_template(&template, &self.structure)
     }
 
     /// Returns the figures of a structure with a layout, or what it is made of.
@@ -283,13 +258,8 @@ impl StructureData {
             n => format!("The {n} first ideas, symmetric ones before others"),
         };
         // A determinate variant of mobility 1 adds freedoms to joints that are not driven, so the motion as built is its only one.
-        let keeps = if self.is_drawn() {
-            ""
-        } else {
-            "; each keeps the drive and the motion as built"
-        };
         let line = format!(
-            "{which}{found}{keeps}; each represents {least}the given number of variants, and the first of these is exported:\n"
+            "{which}{found}; each keeps the drive and the motion as built; each represents {least}the given number of variants, and the first of these is exported:\n"
         );
         let keys = "place | cost | variants | peak_force | peak_moment | changes";
         let row = |i: &Row| keys.split(" | ").map(|k| cell_of(i, k)).collect();
@@ -309,23 +279,12 @@ impl StructureData {
 
     /// Returns true if there is a mechanism of it.
     pub fn has_layout(&self) -> bool {
-        self.layout.is_some() || self.is_drawn()
-    }
-
-    /// Returns true if it is a drawn mechanism and no structure that was laid out.
-    fn is_drawn(&self) -> bool {
-        self.structure.contains_key("mechanism")
+        self.layout.is_some()
     }
 
     /// Returns all of it for people, the verdict first.
     pub fn text(&self, width: Option<u16>) -> String {
-        let is_drawn = self.is_drawn();
-        let figures = if is_drawn {
-            self.drawn_text()
-        } else {
-            self.structure_text()
-        };
-        let head = fit_lines(&(self.verdict_line() + &figures), width);
+        let head = fit_lines(&(self.verdict_line() + &self.structure_text()), width);
         if self.has_layout() {
             head + &self.ideas_text(width)
         } else {
@@ -342,7 +301,6 @@ pub fn built_text(
     store: &Store,
     file: &Path,
     added: usize,
-    what: &str,
     width: Option<u16>,
 ) -> Result<String, StoreError> {
     let (names, rows) = store.query_rows(
@@ -350,7 +308,6 @@ pub fn built_text(
          sum(no_layout IS NULL) AS 'laid out', sum(reached AND shortfall IS NULL) AS 'do the task', \
          sum(determinate_w1) AS 'determinate, W = 1', min(best_cost) AS 'least cost' \
          FROM structures s LEFT JOIN layouts l ON l.structure = id LEFT JOIN strokes k ON k.structure = id GROUP BY 1, 2, 3 \
-         UNION ALL SELECT links, input, 'drawn', count(*), NULL, NULL, sum(admissible), min(best_cost) FROM drawn GROUP BY 1, 2 \
          ORDER BY 1, 2, 3",
         None,
     )?;
@@ -359,6 +316,6 @@ pub fn built_text(
     let path = file.display().to_string();
     let path = escape_control(&path);
     Ok(format!(
-        "{table}\n{n} {what} added to {path}. Go on with\n\n  ozols catalog query {path}\n  ozols catalog page {path} -o grippers.html\n"
+        "{table}\n{n} structures added to {path}. Go on with\n\n  ozols catalog query {path}\n  ozols catalog page {path} -o grippers.html\n"
     ))
 }

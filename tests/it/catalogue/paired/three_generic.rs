@@ -103,9 +103,6 @@ fn what_is_laid_out_has_an_id_of_its_own_and_is_found() {
             panic!("{id}: {found}");
         };
         assert_eq!(entry["id"], id);
-        // What is near has three jaws, too.
-        let near = found["neighbours"].as_array().unwrap();
-        assert!(near.iter().all(|n| ids.contains(n["id"].as_str().unwrap())));
     }
 }
 
