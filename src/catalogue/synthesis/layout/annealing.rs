@@ -52,7 +52,7 @@ impl FoundPlaces {
 }
 
 /// Maximum number of starts of a search for places, for each lay.
-pub(in crate::synthesis) const STARTS: u32 = 10;
+pub(in crate::synthesis) const STARTS: u32 = 12;
 /// Number of best starts that go on if none becomes good. More go on if none of these keeps the limits of the drawing.
 const GO_ON: usize = 6;
 
@@ -70,6 +70,12 @@ pub(in crate::synthesis) fn best_of_starts<'a>(
     let thresholds = match sketch.limits.task.aim {
         Aim::Balanced => &LAGGING,
         Aim::Force => &NEVER,
+    };
+    // With other pairs than hinges, good places cost so little that many beyond the thresholds do the task.
+    let go_on = if sketch.structure.form.hinges {
+        &HOPELESS
+    } else {
+        &NEVER
     };
     let mut raced = Vec::new();
     for start in first..first + STARTS {
@@ -91,7 +97,7 @@ pub(in crate::synthesis) fn best_of_starts<'a>(
             break;
         }
         if search.paused {
-            search.advance(judge, &HOPELESS);
+            search.advance(judge, go_on);
             search.paused = false;
             let Some(ended) = search.judge_places(judge) else {
                 continue;
@@ -158,12 +164,12 @@ const LAGGING: Thresholds = Thresholds {
     drawn: 1.0,
     strokes: &[(50, 7.0), (100, 4.0), (150, 3.0), (200, 2.0)],
 };
-/// Thresholds for giving up a start that goes on. One in twenty beyond them would fulfil the task.
+/// Thresholds for giving up a start that goes on, for hinged structures. One in twenty beyond them would fulfil the task.
 const HOPELESS: Thresholds = Thresholds {
     drawn: f64::INFINITY,
     strokes: &[(300, 3.5), (400, 3.0), (500, 2.5), (600, 2.0)],
 };
-/// Thresholds of a search for the greatest force, all of whose starts come to their end.
+/// No thresholds: all starts come to their end.
 const NEVER: Thresholds = Thresholds {
     drawn: f64::INFINITY,
     strokes: &[],
