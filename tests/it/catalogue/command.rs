@@ -149,8 +149,6 @@ fn what_cannot_be_done_is_said() {
         merge g.db -o g.db | one of the parts and the whole
         query other.txt | is not a catalogue
         query missing.db | makes a catalogue
-        search tong gripper-11 -o missing.db | gripper-1
-        search -o missing.db | --grippers
         count --links 4..x | \"x\" is not a number of links
         count --links 8..4 | give the smaller number first
         count --links 9..6 | smaller number

@@ -82,7 +82,7 @@ fn an_empty_file_is_a_catalogue_to_be_made() {
     // Some other program's database is not touched.
     change(&folder, "other.db", "CREATE TABLE x (y);");
     let bytes = folder.bytes("other.db");
-    for line in ["query", "build --links 4 -o", "search four-bar -o"] {
+    for line in ["query", "build --links 4 -o"] {
         let line = format!("catalog {line} other.db");
         folder.assert_fails(&line, "is not a catalogue of ozols");
     }

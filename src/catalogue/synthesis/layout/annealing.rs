@@ -71,12 +71,6 @@ pub(in crate::synthesis) fn best_of_starts<'a>(
         Aim::Balanced => &LAGGING,
         Aim::Force => &NEVER,
     };
-    // With other pairs than hinges, good places cost so little that many beyond the thresholds do the task.
-    let go_on = if sketch.structure.form.hinges {
-        &HOPELESS
-    } else {
-        &NEVER
-    };
     let mut raced = Vec::new();
     for start in first..first + STARTS {
         let random = random_for(name, seed, start);
@@ -97,7 +91,10 @@ pub(in crate::synthesis) fn best_of_starts<'a>(
             break;
         }
         if search.paused {
-            search.advance(judge, go_on);
+            // With other pairs than hinges, good places cost so little that many beyond the thresholds do the task.
+            let kept = best.as_ref().is_some_and(|b| b.within);
+            let gives_up = kept && sketch.structure.form.hinges;
+            search.advance(judge, if gives_up { &HOPELESS } else { &NEVER });
             search.paused = false;
             let Some(ended) = search.judge_places(judge) else {
                 continue;
