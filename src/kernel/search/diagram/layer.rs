@@ -23,6 +23,22 @@ pub struct Layer {
     pub edges: Vec<u32>,
 }
 
+impl Layer {
+    /// Returns for each node, and each choice, the next nodes; from the `next` next nodes back if not `forward`.
+    pub(in crate::search) fn list_steps(&self, next: usize, forward: bool) -> Vec<Vec<usize>> {
+        let from = if forward { self.nodes } else { next };
+        let mut steps = vec![Vec::new(); from * self.choices];
+        for (edge, &to) in self.edges.iter().enumerate().filter(|(_, to)| **to != DEAD) {
+            let (mut ends, choice) = ([edge / self.choices, to as usize], edge % self.choices);
+            if !forward {
+                ends.reverse();
+            }
+            steps[ends[0] * self.choices + choice].push(ends[1]);
+        }
+        steps
+    }
+}
+
 /// Nodes a layer keeps at least where the budget is no smaller, so that a search reaches the end.
 pub(in crate::search) const CUT: usize = 256;
 
