@@ -12,7 +12,6 @@ pub(in crate::search) mod node_sets;
 pub(in crate::search) mod reduced_rows;
 pub(crate) mod redundancy_so_far;
 pub(in crate::search) mod stage;
-pub(in crate::search) mod stop;
 pub(in crate::search) mod transition;
 pub(in crate::search) mod within;
 
@@ -20,9 +19,8 @@ use crate::linalg::modp::Residue;
 use crate::search::diagram::allowance::Allowance;
 use crate::search::diagram::completion::Ceiling;
 use crate::search::diagram::layer::{CUT, Merge, Nodes};
-pub use crate::search::diagram::layer::{DEAD, Layer};
+pub use crate::search::diagram::layer::{DEAD, Layer, Stop};
 use crate::search::diagram::redundancy_so_far::{Limits, Redundancy, Spent};
-pub use crate::search::diagram::stop::Stop;
 use crate::search::diagram::transition::{Children, Worker};
 use crate::search::diagram::within::Within;
 use crate::search::question::space::{Choice, Space};

@@ -11,7 +11,7 @@ use crate::redundancy::contour_shares::contour_shares;
 use crate::redundancy::local_mobility::idle_motions;
 use crate::redundancy::motion::motion_basis;
 use crate::score::outcome::variant::Variant;
-use crate::search::answer::freedom_patterns;
+use crate::search::answer::ideas::freedom_patterns;
 use crate::search::check::singular_values::CHECKED;
 use crate::search::check::variant_mechanism;
 use crate::search::question::space::{Choice, Variable, choice_name};

@@ -6,12 +6,13 @@
 
 use crate::linalg::echelon::Echelon;
 use crate::linalg::modp::{Field, Residue};
-use crate::search::build::completing_sets::{Numbered, completing_sets};
 use crate::search::build::matching_halves::{Grouped, count_lookups, match_halves};
 use crate::search::build::self_stress::{Wanted, flat_stages, self_stress_space};
 use crate::search::build::spanning_pairs::{Bases, ZeroForms};
 use crate::search::diagram::layer::Nodes;
-use crate::search::diagram::node_sets::{Set, add_node, empty_set, nodes_in};
+use crate::search::diagram::node_sets::{
+    Numbered, Set, add_node, completing_sets, empty_set, nodes_in,
+};
 use crate::search::diagram::reduced_rows::{Arithmetic, Rows};
 use crate::search::diagram::redundancy_so_far::Limits;
 use crate::search::diagram::stage::Adding;

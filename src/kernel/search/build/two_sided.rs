@@ -10,12 +10,11 @@
 //! An automaton reversed, made deterministic, and that once more, is minimal: Brzozowski, "Canonical regular expressions and
 //! minimal state graphs for definite events" (1962).
 
-use crate::search::build::completing_sets::Numbered;
 use crate::search::build::spanning_halves::{Halves, JoinedSides};
 use crate::search::diagram::layer::{Merge, Nodes};
 use crate::search::diagram::minimize::minimize_diagram;
 use crate::search::diagram::node_sets::{
-    Set, add_node, collect_set, contains_node, empty_set, nodes_in,
+    Numbered, Set, add_node, collect_set, contains_node, empty_set, nodes_in,
 };
 use crate::search::diagram::redundancy_so_far::{Redundancy, Spent};
 use crate::search::diagram::stage::Adding;

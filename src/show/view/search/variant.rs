@@ -4,7 +4,7 @@ use crate::redundancy::contour_shares::ContourShare;
 use crate::score::outcome::symmetric::{SymmetricBest, SymmetricRedesign};
 use crate::score::outcome::variant::{Change, Variant, in_words, list_changes};
 use crate::search::Search;
-use crate::search::answer::freedom_patterns;
+use crate::search::answer::ideas::freedom_patterns;
 use crate::search::check::other_poses::{Figures, OverStroke};
 use crate::view::prelude::*;
 use crate::view::search::ranking;
