@@ -1,6 +1,6 @@
 //! Sets of the nodes of a layer, and of the nodes of one half of a diagram that complete those of the other.
 
-use crate::search::diagram::DEAD;
+use crate::search::diagram::layer::DEAD;
 use hashbrown::HashMap;
 use rayon::prelude::*;
 

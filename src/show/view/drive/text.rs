@@ -1,6 +1,6 @@
 //! A torsional drive for people: the bar, whether it runs its programme, and why.
 
-use crate::drive::cam::CamDesign;
+use crate::drive::driving::CamDesign;
 use crate::drive::driving::{DampingFrom, Design};
 use crate::drive::programme::{Endurance, Event, PATIENCE, Ran};
 use crate::drive::swing::{End, Swing};
