@@ -114,11 +114,11 @@ impl End {
             let taken = from.collect_vec();
             let mut wanted = vec![false; choices];
             taken.iter().for_each(|(choice, _)| wanted[*choice] = true);
-            worker.restrict_choices(&wanted);
+            worker.restrict_choices(wanted);
             let mut children = Children::new(choices);
             let (matrix, spent) = (self.spaces.matrix(space), &self.spaces.spent[space]);
             stage.push_children(&mut worker, matrix, spent, &mut children);
-            merge.take_children(&children, &self.spaces, |_| 0, |_, _, _, _| false);
+            merge.take_children(&children, &self.spaces, |_| 0, |_, _, _| false);
             let found = &merge.edges[space * choices..];
             for &(choice, node) in &taken {
                 if found[choice] == DEAD {

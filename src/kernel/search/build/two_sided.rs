@@ -19,7 +19,7 @@ use crate::search::diagram::node_sets::{
 use crate::search::diagram::redundancy_so_far::{Redundancy, Spent};
 use crate::search::diagram::stage::Adding;
 use crate::search::diagram::within::Within;
-use crate::search::diagram::{Carries, DEAD, Diagram, Layer, Progress, Stop, next_layer};
+use crate::search::diagram::{Carries, DEAD, Diagram, Expanded, Layer, Progress, Stop, next_layer};
 use crate::search::question::space::Space;
 use rayon::prelude::*;
 use std::collections::BTreeMap;
@@ -173,14 +173,17 @@ fn advance_side(
     let stage = side.next_stage();
     let choices = &space.variables[stage.variable()].choices;
     let edges = side.nodes.len() * choices.len();
-    let known = &side.known;
+    let from = Expanded {
+        nodes: &side.nodes,
+        choices,
+        known: side.known.as_ref(),
+        bytes,
+    };
     let merge = next_layer(
         stage,
-        choices,
-        bytes,
-        &side.nodes,
+        &from,
         Merge::new(room, bytes, Stop::Exhausted, edges),
-        |edge, _, _, _| known.as_ref().is_some_and(|k| !k.has_edge(edge)),
+        |_, _, _| false,
         cancelled,
         told,
     );

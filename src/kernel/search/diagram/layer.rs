@@ -160,13 +160,13 @@ impl Merge {
     }
 
     /// Adds the children of some nodes, after those of the nodes before them. Skips children that are excluded by a test of
-    /// four values: the number of the edge, the redundancy spent, the child's matrix, and the least cost of this path to it.
+    /// three values: the redundancy spent, the child's matrix, and the least cost of this path to it.
     pub(in crate::search) fn take_children(
         &mut self,
         part: &Children,
         parents: &Nodes,
         cost: impl Fn(usize) -> i64,
-        mut out: impl FnMut(usize, &Spent, &[Residue], i64) -> bool,
+        mut out: impl FnMut(&Spent, &[Residue], i64) -> bool,
     ) {
         let choices = part.choices;
         if part.short {
@@ -182,7 +182,7 @@ impl Merge {
             let at = self.edges.len();
             let parent = at / choices;
             let least = parents.least[parent] + cost(at % choices);
-            if out(at, spent, matrix, least) {
+            if out(spent, matrix, least) {
                 self.edges.push(DEAD);
                 continue;
             }
