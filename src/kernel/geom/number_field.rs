@@ -248,12 +248,6 @@ impl Scalars for NumberField {
     fn mul(&self, a: Element, b: Element) -> Element {
         self.ring.mul(&a, &b)
     }
-    fn dot(&self, a: [Element; 3], b: [Element; 3]) -> Element {
-        self.ring.dot(&a, &b)
-    }
-    fn cross(&self, a: [Element; 3], b: [Element; 3]) -> [Element; 3] {
-        self.ring.cross(&a, &b)
-    }
 }
 
 #[cfg(test)]

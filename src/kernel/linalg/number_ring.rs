@@ -16,7 +16,6 @@ use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::{One, Zero};
 
-use crate::linalg::common_denominator;
 use crate::linalg::modp::{Field, Residue};
 pub use element::Element;
 
@@ -138,31 +137,6 @@ impl NumberRing {
         let product =
             self.integral_product(&a.integral_coordinates(&x), &b.integral_coordinates(&y));
         Element::from_integral(product, &(x * y))
-    }
-
-    /// Computes the scalar product. Fractions are reduced once, not after each sum. O(1) products.
-    #[must_use]
-    pub fn dot(&self, a: &[Element; 3], b: &[Element; 3]) -> Element {
-        let ((a, x), (b, y)) = (over_one(a), over_one(b));
-        let mut sum = Vec::new();
-        for (a, b) in a.iter().zip(&b) {
-            combine_integers(&mut sum, self.integral_product(a, b), |s, p| *s += p);
-        }
-        Element::from_integral(sum, &(x * y))
-    }
-
-    /// Computes the vector product, reduced like [`NumberRing::dot`]. O(1) products.
-    #[must_use]
-    pub fn cross(&self, a: &[Element; 3], b: &[Element; 3]) -> [Element; 3] {
-        let ((a, x), (b, y)) = (over_one(a), over_one(b));
-        let below = x * y;
-        let product = |i: usize, j: usize| self.integral_product(&a[i], &b[j]);
-        let minor = |i, j| {
-            let mut difference = product(i, j);
-            combine_integers(&mut difference, product(j, i), |s, p| *s -= p);
-            Element::from_integral(difference, &below)
-        };
-        [minor(1, 2), minor(2, 0), minor(0, 1)]
     }
 
     /// Multiplies integral combinations of the monomials, given by their coordinates. Returns the coordinates of the product, possibly
@@ -329,15 +303,6 @@ fn combine_entries(
     Element::new(out)
 }
 
-/// Returns elements as integral coordinates over one denominator.
-fn over_one(all: &[Element; 3]) -> ([Vec<BigInt>; 3], BigInt) {
-    let below = common_denominator(all.iter().flat_map(|x| &x.0));
-    (
-        all.each_ref().map(|x| x.integral_coordinates(&below)),
-        below,
-    )
-}
-
 /// Combines coordinates with others, one by one; either list may be shorter. O(length).
 pub fn combine_integers(of: &mut Vec<BigInt>, by: Vec<BigInt>, with: impl Fn(&mut BigInt, BigInt)) {
     of.resize(of.len().max(by.len()), BigInt::zero());
@@ -420,11 +385,6 @@ mod tests {
             prop_assert!((value(&r.mul(&a, &b)) - value(&a) * value(&b)).abs() < 1e-6);
             prop_assert!((value(&r.sub(&a, &b)) - value(&a) + value(&b)).abs() < 1e-9);
             prop_assert_eq!(r.sub(&a, &a), Element::default());
-            let (left, right) = ([a.clone(), b.clone(), c.clone()], [c.clone(), a.clone(), r.mul(&a, &b)]);
-            let times = |i: usize, j: usize| r.mul(&left[i], &right[j]);
-            prop_assert_eq!(r.dot(&left, &right), r.add(&times(0, 0), &r.add(&times(1, 1), &times(2, 2))));
-            let minor = |i, j| r.sub(&times(i, j), &times(j, i));
-            prop_assert_eq!(r.cross(&left, &right), [minor(1, 2), minor(2, 0), minor(0, 1)]);
             match r.inverse(&a) {
                 Some(i) => prop_assert_eq!(r.mul(&a, &i), Element::from_integer(1)),
                 None => prop_assert!(a.is_zero()),

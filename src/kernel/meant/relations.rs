@@ -377,7 +377,6 @@ impl<'a> Finder<'a> {
 /// Number of relations expected by chance above which one is doubtful.
 const CHANCE: f64 = 0.02;
 
-#[allow(clippy::cast_precision_loss, reason = "counts are small")]
 fn as_f64(n: usize) -> f64 {
     n as f64
 }

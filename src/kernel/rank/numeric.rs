@@ -4,7 +4,7 @@
 pub mod scaling;
 pub(in crate::rank) mod values;
 
-use super::method::{About, Answer, Certainty, MobilityMethod, NoAnswer, RankOfJ};
+use super::method::{Answer, Certainty, MobilityMethod, NoAnswer, RankOfJ};
 use crate::closure::Closure;
 use crate::geom::Reals;
 use crate::model::mechanism::{Mechanism, StateId};
@@ -55,11 +55,10 @@ impl Elimination {
         Elimination::Svd,
     ];
 
-    /// Returns the elimination of a method, if it is one.
+    /// Returns its name as a method.
     #[must_use]
-    pub fn of_method(method: &dyn MobilityMethod) -> Option<Elimination> {
-        let mut all = Elimination::ALL.into_iter();
-        all.find(|e| e.about() == method.about())
+    pub fn name(self) -> &'static str {
+        [LU32, LU, QR32, QR, SVD][self as usize].name
     }
 
     /// Returns the relative tolerance that suits its number format.
@@ -149,64 +148,64 @@ pub(crate) fn rank_with_tolerance(
     Elimination::Svd.rank_of_closure(closure, tolerance)
 }
 
-const CUBIC: &str = "O(6k f min(6k, f))";
-const BY_PIVOTS: &str =
-    "right at this pose if the pivots are clear of the tolerance, for coordinates near 1";
-const BY_DIAGONAL: &str = "right at this pose if the diagonal entries of R are clear of the tolerance, for coordinates near 1";
-const OF_LU: &str = "Higham, Accuracy and Stability of Numerical Algorithms, 2002, ch. 9";
-const OF_QR: &str = "Golub & Van Loan, Matrix Computations, 2013, 5.4.2";
+/// LU with full pivoting in single precision, as a method.
+pub(in crate::rank) const LU32: MobilityMethod = MobilityMethod {
+    name: "lu32",
+    title: "f32 LU, full pivoting",
+    help: "LU with full pivoting in single precision",
+    rank: RankOfJ::Numeric(Elimination::Lu32),
+    answer: |mechanism, state| Elimination::Lu32.answer(mechanism, state),
+    ..LU
+};
 
-impl MobilityMethod for Elimination {
-    fn about(&self) -> &'static About {
-        match self {
-            Elimination::Lu32 => &About {
-                name: "lu32",
-                title: "f32 LU, full pivoting",
-                help: "LU with full pivoting in single precision",
-                guarantee: BY_PIVOTS,
-                complexity: CUBIC,
-                source: OF_LU,
-                rank: RankOfJ::Numeric,
-            },
-            Elimination::Lu => &About {
-                name: "lu",
-                title: "f64 LU, full pivoting",
-                help: "LU with full pivoting in double precision",
-                guarantee: BY_PIVOTS,
-                complexity: CUBIC,
-                source: OF_LU,
-                rank: RankOfJ::Numeric,
-            },
-            Elimination::Qr32 => &About {
-                name: "qr32",
-                title: "f32 QR, column pivoting",
-                help: "Column-pivoted QR in single precision",
-                guarantee: BY_DIAGONAL,
-                complexity: CUBIC,
-                source: OF_QR,
-                rank: RankOfJ::Numeric,
-            },
-            Elimination::Qr => &About {
-                name: "qr",
-                title: "f64 QR, column pivoting",
-                help: "Column-pivoted QR in double precision",
-                guarantee: BY_DIAGONAL,
-                complexity: CUBIC,
-                source: OF_QR,
-                rank: RankOfJ::Numeric,
-            },
-            Elimination::Svd => &About {
-                name: "svd",
-                title: "f64 singular values",
-                help: "Singular values in double precision, with the gap",
-                guarantee: "right at this pose if the gap in the singular values contains the tolerance",
-                complexity: "O(6k f min(6k, f)), about 10 times LU",
-                source: "Golub & Van Loan, Matrix Computations, 2013, 5.5.8",
-                rank: RankOfJ::Numeric,
-            },
-        }
-    }
-    fn answer(&self, mechanism: &Mechanism, state: StateId) -> Result<Answer, NoAnswer> {
+/// LU with full pivoting in double precision, as a method.
+pub(in crate::rank) const LU: MobilityMethod = MobilityMethod {
+    name: "lu",
+    title: "f64 LU, full pivoting",
+    help: "LU with full pivoting in double precision",
+    guarantee: "right at this pose if the pivots are clear of the tolerance, for coordinates near 1",
+    complexity: "O(6k f min(6k, f))",
+    source: "Higham, Accuracy and Stability of Numerical Algorithms, 2002, ch. 9",
+    rank: RankOfJ::Numeric(Elimination::Lu),
+    answer: |mechanism, state| Elimination::Lu.answer(mechanism, state),
+};
+
+/// Column-pivoted QR in single precision, as a method.
+pub(in crate::rank) const QR32: MobilityMethod = MobilityMethod {
+    name: "qr32",
+    title: "f32 QR, column pivoting",
+    help: "Column-pivoted QR in single precision",
+    rank: RankOfJ::Numeric(Elimination::Qr32),
+    answer: |mechanism, state| Elimination::Qr32.answer(mechanism, state),
+    ..QR
+};
+
+/// Column-pivoted QR in double precision, as a method.
+pub(in crate::rank) const QR: MobilityMethod = MobilityMethod {
+    name: "qr",
+    title: "f64 QR, column pivoting",
+    help: "Column-pivoted QR in double precision",
+    guarantee: "right at this pose if the diagonal entries of R are clear of the tolerance, for coordinates near 1",
+    complexity: "O(6k f min(6k, f))",
+    source: "Golub & Van Loan, Matrix Computations, 2013, 5.4.2",
+    rank: RankOfJ::Numeric(Elimination::Qr),
+    answer: |mechanism, state| Elimination::Qr.answer(mechanism, state),
+};
+
+/// Singular values of the scaled J, as a method.
+pub(in crate::rank) const SVD: MobilityMethod = MobilityMethod {
+    name: "svd",
+    title: "f64 singular values",
+    help: "Singular values in double precision, with the gap",
+    guarantee: "right at this pose if the gap in the singular values contains the tolerance",
+    complexity: "O(6k f min(6k, f)), about 10 times LU",
+    source: "Golub & Van Loan, Matrix Computations, 2013, 5.5.8",
+    rank: RankOfJ::Numeric(Elimination::Svd),
+    answer: |mechanism, state| Elimination::Svd.answer(mechanism, state),
+};
+
+impl Elimination {
+    fn answer(self, mechanism: &Mechanism, state: StateId) -> Result<Answer, NoAnswer> {
         let closure = Closure::new(&Reals, mechanism, state)?;
         let tolerance = self.default_tolerance();
         let rank = self

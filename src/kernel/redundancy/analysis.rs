@@ -41,15 +41,14 @@ impl Method {
     /// Returns the rank method for a method from the list of all names. `tolerance` replaces the default in floating
     /// point. Returns `None` for a method that only gives a mobility.
     #[must_use]
-    pub fn of_method(method: &dyn MobilityMethod, tolerance: Option<f64>) -> Option<Method> {
-        match method.about().rank {
+    pub fn of_method(method: &MobilityMethod, tolerance: Option<f64>) -> Option<Method> {
+        match method.rank {
             RankOfJ::Chosen => Some(Method::Auto),
             RankOfJ::Exact => Some(Method::Modular),
-            RankOfJ::Numeric => {
-                let elimination = Elimination::of_method(method)?;
-                let tolerance = tolerance.unwrap_or(elimination.default_tolerance());
-                Some(Method::Numeric(elimination, tolerance))
-            }
+            RankOfJ::Numeric(by) => Some(Method::Numeric(
+                by,
+                tolerance.unwrap_or(by.default_tolerance()),
+            )),
             RankOfJ::NotFound => None,
         }
     }
@@ -433,7 +432,7 @@ fn analyse_exactly(
         idle,
         self_stresses: self_stresses(exact, mechanism, &closure)?,
         left_out: closure.left_out.clone(),
-        method: modular::Modular.name(),
+        method: modular::MODULAR.name,
         certainty,
         choice: None,
         snapped: Vec::new(),

@@ -1,29 +1,18 @@
 //! A finite mobility with the evidence for it, and its proof by ranks and groups.
-//!
-//! A freedom with speed 0 in every instantaneous motion takes no part in any of them. If it is locked, the null space
-//! of J is as large as before. A proven motion of the locked mechanism is also a motion of the whole mechanism, and no
-//! motion exceeds the instantaneous mobility. So the finite mobility of a pose is proven if it is that of the mechanism
-//! with such freedoms locked. An example is the spatial slider of a planar linkage that could turn about its guide, but
-//! does not.
 
 use crate::closure::Closure;
 use crate::geom::exact::{ExactError, ExactField};
-use crate::linalg::echelon::{Echelon, transpose};
+use crate::linalg::echelon::Echelon;
 use crate::linalg::modp::Residue;
-use crate::model::joint_type::{Freedom, JointType};
-use crate::model::mechanism::{JointId, Mechanism};
-use crate::rank::exact::modular;
+use crate::model::mechanism::Mechanism;
 use crate::rank::finite::bonds;
 use crate::rank::finite::displacement_group::group_dimension;
-use itertools::Itertools;
 
 /// Proof that a pose is a regular one of its motion. If several apply, the one with the most conditions comes last.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Proof {
     /// J has the full rank of the groups its contours move in and of its couplings.
     Groups,
-    /// J has that rank with the freedoms locked that are at rest to first order.
-    Resting,
     /// Chains and legs reduce to single joints, [`crate::rank::finite::bonds`].
     Bonds,
     /// No motion is stopped up to the highest order that could stop it.
@@ -32,17 +21,17 @@ pub enum Proof {
     Contours,
 }
 
-/// Evidence for a finite mobility.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+/// Evidence for a finite mobility, in the order of what it leaves open.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum How {
     /// Nothing moves even instantaneously.
     Rigid,
     /// The motion is a manifold of all that moves instantaneously: the pose is a regular one. Proven.
     Submersion {
-        /// The required rank.
-        dimension: usize,
         /// The proof.
         by: Proof,
+        /// The required rank.
+        dimension: usize,
     },
     /// Instantaneous motions are stopped by second or higher order: a shaky pose. Proven.
     Stopped {
@@ -63,23 +52,12 @@ pub enum How {
         /// Whether the pose of the file is a regular one of its motion.
         regular: bool,
     },
+    /// Not followed, because the mechanism is too large: at most the instantaneous mobility.
+    Bound,
     /// Neither proof nor numerical following decides.
-    Undecided {
-        /// The largest dimension of a motion that was found.
-        from: usize,
-        /// The largest dimension that is not excluded.
-        to: usize,
-    },
+    Undecided,
     /// Coordinates are rounded too coarsely to distinguish a motion from a shaky pose, or to determine the rank of J.
-    Rounded {
-        /// Upper bound of the mobility.
-        to: usize,
-    },
-    /// Not followed, because the mechanism is too large.
-    Bound {
-        /// Upper bound of the mobility: the instantaneous mobility.
-        to: usize,
-    },
+    Rounded,
 }
 
 impl Proof {
@@ -89,9 +67,6 @@ impl Proof {
             Proof::Groups => {
                 format!("J has the full rank {dimension} of the displacement groups of its loops")
             }
-            Proof::Resting => format!(
-                "with the resting joints locked, J has the full rank {dimension} of the displacement groups of its loops"
-            ),
             Proof::Bonds => "chains of joints generate whole displacement groups".to_owned(),
             Proof::Multiplicity => {
                 "no obstruction exists up to the highest order at which one could occur".to_owned()
@@ -109,6 +84,8 @@ impl Proof {
 pub struct Finite {
     /// Dimension of the motion. If undecided, its lower bound: the motion that certainly exists.
     pub mobility: usize,
+    /// Upper bound of the dimension.
+    most: usize,
     /// The evidence.
     pub how: How,
     /// Whether the rank of J that it is based on is numeric.
@@ -117,8 +94,14 @@ pub struct Finite {
 
 impl Finite {
     pub(super) fn new(mobility: usize, how: How) -> Finite {
+        Finite::between(mobility, mobility, how)
+    }
+
+    /// Creates the result for a dimension within bounds.
+    pub(crate) fn between(mobility: usize, most: usize, how: How) -> Finite {
         Finite {
             mobility,
+            most,
             how,
             numeric: false,
         }
@@ -129,15 +112,10 @@ impl Finite {
         Finite::new(mobility, How::Submersion { dimension, by })
     }
 
-    /// Creates the result for rounded coordinates that only give an upper bound `to` on the instantaneous mobility.
-    pub(in crate::rank) fn from_rounded(to: usize) -> Finite {
-        Finite::new(0, How::Rounded { to })
-    }
-
     /// Returns true if the mobility is a range.
     #[must_use]
     pub fn is_undecided(&self) -> bool {
-        self.at_most() > self.mobility
+        self.most > self.mobility
     }
 
     /// Returns the same mobility, based on a numeric rank.
@@ -162,10 +140,7 @@ impl Finite {
     /// Returns the upper bound.
     #[must_use]
     pub fn at_most(&self) -> usize {
-        match self.how {
-            How::Undecided { to, .. } | How::Rounded { to } | How::Bound { to } => to,
-            _ => self.mobility,
-        }
+        self.most
     }
 
     /// Returns true if the mobility can have this value.
@@ -219,17 +194,19 @@ impl Finite {
                     "the drawn pose is singular or shaky"
                 }
             ),
-            How::Undecided { from, to } => format!(
-                "undecided: between {from} and {to}; neither a proof nor the numerical continuation decides"
-            ),
-            How::Rounded { to } => format!(
-                "undecided: between {} and {to}; coordinates are rounded too coarsely to distinguish a motion from a shaky pose",
-                self.mobility
-            ),
-            How::Bound { to } => format!(
-                "undecided: between {} and {to}, the instantaneous mobility; too large for numerical continuation",
-                self.mobility
-            ),
+            How::Undecided | How::Rounded | How::Bound => {
+                let (from, to) = (self.mobility, self.most);
+                let why = match self.how {
+                    How::Bound => {
+                        ", the instantaneous mobility; too large for numerical continuation"
+                    }
+                    How::Rounded => {
+                        "; coordinates are rounded too coarsely to distinguish a motion from a shaky pose"
+                    }
+                    _ => "; neither a proof nor the numerical continuation decides",
+                };
+                format!("undecided: between {from} and {to}{why}")
+            }
         };
         match self.how {
             How::Rigid if self.numeric => format!("{line}, by the numeric rank"),
@@ -248,7 +225,7 @@ impl Finite {
             How::Rigid if self.mobility > 0 => "free",
             How::Rigid => "rigid",
             How::Submersion { by, .. } => match by {
-                Proof::Groups | Proof::Resting => "submersion",
+                Proof::Groups => "submersion",
                 Proof::Bonds => "bonds",
                 Proof::Multiplicity => "multiplicity",
                 Proof::Contours => "contours",
@@ -257,85 +234,49 @@ impl Finite {
             How::Stopped { order: 2, .. } => "second-order",
             How::Stopped { .. } => "higher-order",
             How::Traced { .. } => "traced",
-            How::Undecided { .. } | How::Rounded { .. } => "undecided",
-            How::Bound { .. } => "bound",
+            How::Undecided | How::Rounded => "undecided",
+            How::Bound => "bound",
         }
     }
 
     /// Adds the finite mobility of an independent part, or of the idle freedoms of a part.
     pub(super) fn combine_with(self, other: Finite) -> Finite {
-        use How::{Bound, Rigid, Rounded, Singular, Stopped, Submersion, Traced, Undecided};
-        let from = self.mobility + other.mobility;
-        let to = self.at_most() + other.at_most();
+        use How::{Singular, Stopped, Submersion, Traced};
         // The one that leaves more open decides.
-        let openness = |f: &Finite| match f.how {
-            Rigid => 0,
-            Submersion { .. } => 1,
-            Stopped { .. } => 2,
-            Singular { .. } => 3,
-            Traced { .. } => 4,
-            Bound { .. } => 5,
-            Undecided { .. } => 6,
-            Rounded { .. } => 7,
-        };
-        let (open, clear) = if openness(&self) < openness(&other) {
-            (other.how, self.how)
-        } else {
-            (self.how, other.how)
-        };
-        let how = match (open, clear) {
-            (Rounded { .. }, _) => Rounded { to },
-            (Undecided { .. }, _) => Undecided { from, to },
-            (how, Rigid) => how,
-            (Bound { .. }, _) => Bound { to },
+        let (clear, open) = (self.how.min(other.how), self.how.max(other.how));
+        let how = match (clear, open) {
             (
                 Submersion {
-                    dimension: a,
-                    by: x,
+                    dimension: more, ..
                 },
-                Submersion {
-                    dimension: b,
-                    by: y,
-                },
-            ) => {
-                let (dimension, by) = (a + b, x.max(y));
-                Submersion { dimension, by }
-            }
+                Submersion { dimension, by },
+            ) => Submersion {
+                dimension: dimension + more,
+                by,
+            },
+            (Stopped { motions: more, .. }, Stopped { order, motions }) => Stopped {
+                order,
+                motions: motions + more,
+            },
             (
                 Traced {
-                    poses: a,
-                    regular: x,
+                    poses: more,
+                    regular: too,
                 },
-                Traced {
-                    poses: b,
-                    regular: y,
-                },
-            ) => {
-                let (poses, regular) = (a + b, x && y);
-                Traced { poses, regular }
-            }
-            (Traced { poses, .. }, Stopped { .. } | Singular { .. }) => {
-                let regular = false;
-                Traced { poses, regular }
-            }
-            (Singular { order: a }, Singular { order: b }) => Singular { order: a.max(b) },
-            (
-                Stopped {
-                    order: a,
-                    motions: x,
-                },
-                Stopped {
-                    order: b,
-                    motions: y,
-                },
-            ) => {
-                let (order, motions) = (a.max(b), x + y);
-                Stopped { order, motions }
-            }
-            (how, _) => how,
+                Traced { poses, regular },
+            ) => Traced {
+                poses: poses + more,
+                regular: regular && too,
+            },
+            (Stopped { .. } | Singular { .. }, Traced { poses, .. }) => Traced {
+                poses,
+                regular: false,
+            },
+            (_, how) => how,
         };
         Finite {
-            mobility: from,
+            mobility: self.mobility + other.mobility,
+            most: self.most + other.most,
             how,
             numeric: self.numeric || other.numeric,
         }
@@ -376,8 +317,7 @@ pub(super) fn group_dimensions(
     Ok(dimension)
 }
 
-/// Works as [`by_ranks`], also with the freedoms locked that are at rest to first order, and with chains and legs
-/// reduced to single joints.
+/// Works as [`by_ranks`], also with chains and legs reduced to single joints.
 pub(super) fn prove_regular(
     exact: &ExactField,
     mechanism: &Mechanism,
@@ -387,61 +327,11 @@ pub(super) fn prove_regular(
     if let Some(known) = by_ranks(exact, mechanism, closure, rank)? {
         return Ok(Some(known));
     }
+    // The motion of groups that are restricted is a lower bound, and the instantaneous motion an upper one.
     let instantaneous = closure.columns.len() - rank;
-    let moving = match lock_resting(exact, mechanism, closure) {
-        Some(locked) => {
-            let own = Closure::new(exact, &locked, closure.state)?;
-            if let Some(found) = by_ranks(exact, &locked, &own, modular::rank_modulo(exact, &own))?
-                && let How::Submersion { dimension, .. } = found.how
-                && found.mobility == instantaneous
-            {
-                return Ok(Some(Finite::regular_pose(
-                    instantaneous,
-                    dimension,
-                    Proof::Resting,
-                )));
-            }
-            bonds::mobility_by_bonds(exact, &locked, &own)?
-        }
-        None => bonds::mobility_by_bonds(exact, mechanism, closure)?,
-    };
-    // The motion with freedoms locked is a lower bound, and the instantaneous motion an upper one.
-    let moving = moving.filter(|&m| m == instantaneous);
-    Ok(moving.map(|m| Finite::regular_pose(m, rank, Proof::Bonds)))
-}
-
-/// Returns the mechanism with every freedom locked that rests in all instantaneous motions, or `None` if none does.
-///
-/// # Complexity
-/// One elimination of J by rows, O((6k)² f).
-fn lock_resting(
-    exact: &ExactField,
-    mechanism: &Mechanism,
-    closure: &Closure<Residue>,
-) -> Option<Mechanism> {
-    let rows = Echelon::from_vectors(exact.field(), transpose(&closure.dense_columns(exact)));
-    // A row of the reduced form with no entry other than its pivot means that this freedom has speed 0.
-    let alone = |row: &Vec<Residue>| row.iter().positions(|&x| x != 0).exactly_one().ok();
-    let coupled = |c: &usize| {
-        let joint = closure.columns[*c].joint;
-        mechanism.couplings_of(joint).next().is_some()
-    };
-    let rows = rows.reduced_rows();
-    let resting = rows.iter().filter_map(alone).filter(|c| !coupled(c));
-    let resting = resting.map(|c| (closure.columns[c].joint, closure.columns[c].freedom));
-    let resting: Vec<(JointId, Freedom)> = resting.collect();
-    if resting.is_empty() {
-        return None;
-    }
-    let mut out = mechanism.clone();
-    for (j, joint) in mechanism.joint_ids().zip(&mut out.parts_mut().joints) {
-        let mut kept = joint.joint_type.freedoms().to_vec();
-        kept.retain(|&f| !resting.contains(&(j, f)));
-        if kept.len() < joint.joint_type.freedoms().len() {
-            joint.joint_type = JointType::Custom(kept);
-        }
-    }
-    Some(out)
+    let moving = bonds::mobility_by_bonds(exact, mechanism, closure)?;
+    let regular = |m| Finite::regular_pose(m, rank, Proof::Bonds);
+    Ok(moving.filter(|&m| m == instantaneous).map(regular))
 }
 
 fn in_words(order: usize) -> String {
