@@ -95,7 +95,7 @@ pub(crate) fn finite_known(
         }
         let idle = independent_parts::lock_idle(exact, &mut part, state)?;
         if idle > 0 {
-            total.mobility += idle;
+            total = total.combine_with(Finite::new(idle, How::Rigid));
             own = Closure::new(exact, &part, state)?;
             rank = modular::rank_modulo(exact, &own);
         }

@@ -1,6 +1,7 @@
 //! Common interface of all mobility methods; [`crate::rank::method::registry`] lists them.
 
 pub mod auto;
+mod floating_point;
 pub(crate) mod formulas;
 pub mod generic;
 pub mod registry;

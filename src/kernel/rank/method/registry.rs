@@ -3,9 +3,9 @@
 use crate::rank::exact::{modular::MODULAR, rational::RATIONAL};
 use crate::rank::method::MobilityMethod;
 use crate::rank::method::auto::{AUTO, FINITE};
+use crate::rank::method::floating_point::{LU, LU32, QR, QR32, SVD};
 use crate::rank::method::formulas::{LOOPS, PLANAR, SPATIAL};
 use crate::rank::method::generic::GENERIC;
-use crate::rank::numeric::{LU, LU32, QR, QR32, SVD};
 
 /// Every method, the cheapest kind first.
 pub const ALL: [&MobilityMethod; 13] = [
