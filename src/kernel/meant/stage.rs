@@ -45,8 +45,7 @@ pub(super) struct Stage<'a> {
 /// Returns the number of decimals that leave two digits beyond an error.
 fn decimal_places(error: f64) -> u32 {
     let digits = (-error.log10()).ceil() + 2.0;
-    let digits = digits.clamp(4.0, 22.0) as u32;
-    digits
+    digits.clamp(4.0, 22.0) as u32
 }
 
 impl<'a> Stage<'a> {

@@ -157,7 +157,8 @@ fn exact_mobility(
         return Ok(found);
     }
     let Some(mut found) = follow_motion(pose, instantaneous, shaky) else {
-        return Ok(too_large(instantaneous - usize::from(shaky)));
+        let most = instantaneous - usize::from(shaky);
+        return Ok(Finite::between(0, most, How::Bound));
     };
     // A coordinate that begins to move with a high power of the path length pushes with a higher one, if at all, which
     // doubles do not resolve. Then only the upper bound counts.
@@ -185,11 +186,6 @@ fn follow_motion(pose: &Pose, instantaneous: usize, shaky: bool) -> Option<Trace
     }
     let budget = (WORK / work.max(1)).clamp(40, CLOSINGS);
     local_dimension::mobility_by_following(pose, instantaneous, shaky, budget)
-}
-
-/// Returns the result for a pose that is not followed: at most the instantaneous mobility.
-fn too_large(to: usize) -> Finite {
-    Finite::between(0, to, How::Bound)
 }
 
 /// Converts the result of following the motion.
@@ -230,7 +226,7 @@ pub fn followed_mobility(
     }
     let pose = Pose::of_file(mechanism, state)?.with_accuracy(accuracy);
     let found = follow_motion(&pose, instantaneous, false);
-    Ok(found.map_or(too_large(instantaneous), of_pursuit))
+    Ok(found.map_or(Finite::between(0, instantaneous, How::Bound), of_pursuit))
 }
 
 /// Returns the motion of a part that the rounding of its coordinates leaves open.

@@ -156,7 +156,7 @@ impl Answer {
     }
 }
 
-pub(in crate::rank) fn to_i64(x: usize) -> i64 {
+pub(crate) fn to_i64(x: usize) -> i64 {
     i64::try_from(x).unwrap_or(i64::MAX)
 }
 
