@@ -369,10 +369,8 @@ impl Stresses for Measured<'_> {
 
     fn count_carried(&self, weights: &[i64]) -> usize {
         let dim = self.closure.dim;
-        // Relative weights keep zeros below the limit.
-        let largest = weights.iter().map(|w| w.abs()).max().unwrap_or(1).max(1) as f64;
         let sum = Matrix::from_fn(dim, self.stresses.ncols(), |r, s| {
-            let of = |(j, &w): (usize, &i64)| w as f64 / largest * self.stresses[(dim * j + r, s)];
+            let of = |(j, &w): (usize, &i64)| w as f64 * self.stresses[(dim * j + r, s)];
             weights.iter().enumerate().map(of).sum()
         });
         count_above(&sum, self.unloaded)

@@ -1,18 +1,29 @@
 //! A finite mobility with the evidence for it, and its proof by ranks and groups.
+//!
+//! A freedom with speed 0 in every instantaneous motion takes no part in any of them. If it is locked, the null space
+//! of J is as large as before. A proven motion of the locked mechanism is also a motion of the whole mechanism, and no
+//! motion exceeds the instantaneous mobility. So the finite mobility of a pose is proven if it is that of the mechanism
+//! with such freedoms locked. An example is the spatial slider of a planar linkage that could turn about its guide, but
+//! does not.
 
 use crate::closure::Closure;
 use crate::geom::exact::{ExactError, ExactField};
-use crate::linalg::echelon::Echelon;
+use crate::linalg::echelon::{Echelon, transpose};
 use crate::linalg::modp::Residue;
-use crate::model::mechanism::Mechanism;
+use crate::model::joint_type::{Freedom, JointType};
+use crate::model::mechanism::{JointId, Mechanism};
+use crate::rank::exact::modular;
 use crate::rank::finite::bonds;
 use crate::rank::finite::displacement_group::group_dimension;
+use itertools::Itertools;
 
 /// Proof that a pose is a regular one of its motion. If several apply, the one with the most conditions comes last.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Proof {
     /// J has the full rank of the groups its contours move in and of its couplings.
     Groups,
+    /// J has that rank with the freedoms locked that are at rest to first order.
+    Resting,
     /// Chains and legs reduce to single joints, [`crate::rank::finite::bonds`].
     Bonds,
     /// No motion is stopped up to the highest order that could stop it.
@@ -67,6 +78,9 @@ impl Proof {
             Proof::Groups => {
                 format!("J has the full rank {dimension} of the displacement groups of its loops")
             }
+            Proof::Resting => format!(
+                "with the resting joints locked, J has the full rank {dimension} of the displacement groups of its loops"
+            ),
             Proof::Bonds => "chains of joints generate whole displacement groups".to_owned(),
             Proof::Multiplicity => {
                 "no obstruction exists up to the highest order at which one could occur".to_owned()
@@ -225,7 +239,7 @@ impl Finite {
             How::Rigid if self.mobility > 0 => "free",
             How::Rigid => "rigid",
             How::Submersion { by, .. } => match by {
-                Proof::Groups => "submersion",
+                Proof::Groups | Proof::Resting => "submersion",
                 Proof::Bonds => "bonds",
                 Proof::Multiplicity => "multiplicity",
                 Proof::Contours => "contours",
@@ -317,7 +331,8 @@ pub(super) fn group_dimensions(
     Ok(dimension)
 }
 
-/// Works as [`by_ranks`], also with chains and legs reduced to single joints.
+/// Works as [`by_ranks`], also with the freedoms locked that are at rest to first order, and with chains and legs
+/// reduced to single joints.
 pub(super) fn prove_regular(
     exact: &ExactField,
     mechanism: &Mechanism,
@@ -327,11 +342,61 @@ pub(super) fn prove_regular(
     if let Some(known) = by_ranks(exact, mechanism, closure, rank)? {
         return Ok(Some(known));
     }
-    // The motion of groups that are restricted is a lower bound, and the instantaneous motion an upper one.
     let instantaneous = closure.columns.len() - rank;
-    let moving = bonds::mobility_by_bonds(exact, mechanism, closure)?;
-    let regular = |m| Finite::regular_pose(m, rank, Proof::Bonds);
-    Ok(moving.filter(|&m| m == instantaneous).map(regular))
+    let moving = match lock_resting(exact, mechanism, closure) {
+        Some(locked) => {
+            let own = Closure::new(exact, &locked, closure.state)?;
+            if let Some(found) = by_ranks(exact, &locked, &own, modular::rank_modulo(exact, &own))?
+                && let How::Submersion { dimension, .. } = found.how
+                && found.mobility == instantaneous
+            {
+                return Ok(Some(Finite::regular_pose(
+                    instantaneous,
+                    dimension,
+                    Proof::Resting,
+                )));
+            }
+            bonds::mobility_by_bonds(exact, &locked, &own)?
+        }
+        None => bonds::mobility_by_bonds(exact, mechanism, closure)?,
+    };
+    // The motion with freedoms locked is a lower bound, and the instantaneous motion an upper one.
+    let moving = moving.filter(|&m| m == instantaneous);
+    Ok(moving.map(|m| Finite::regular_pose(m, rank, Proof::Bonds)))
+}
+
+/// Returns the mechanism with every freedom locked that rests in all instantaneous motions, or `None` if none does.
+///
+/// # Complexity
+/// One elimination of J by rows, O((6k)² f).
+fn lock_resting(
+    exact: &ExactField,
+    mechanism: &Mechanism,
+    closure: &Closure<Residue>,
+) -> Option<Mechanism> {
+    let rows = Echelon::from_vectors(exact.field(), transpose(&closure.dense_columns(exact)));
+    // A row of the reduced form with no entry other than its pivot means that this freedom has speed 0.
+    let alone = |row: &Vec<Residue>| row.iter().positions(|&x| x != 0).exactly_one().ok();
+    let coupled = |c: &usize| {
+        let joint = closure.columns[*c].joint;
+        mechanism.couplings_of(joint).next().is_some()
+    };
+    let rows = rows.reduced_rows();
+    let resting = rows.iter().filter_map(alone).filter(|c| !coupled(c));
+    let resting = resting.map(|c| (closure.columns[c].joint, closure.columns[c].freedom));
+    let resting: Vec<(JointId, Freedom)> = resting.collect();
+    if resting.is_empty() {
+        return None;
+    }
+    let mut out = mechanism.clone();
+    for (j, joint) in mechanism.joint_ids().zip(&mut out.parts_mut().joints) {
+        let mut kept = joint.joint_type.freedoms().to_vec();
+        kept.retain(|&f| !resting.contains(&(j, f)));
+        if kept.len() < joint.joint_type.freedoms().len() {
+            joint.joint_type = JointType::Custom(kept);
+        }
+    }
+    Some(out)
 }
 
 fn in_words(order: usize) -> String {
