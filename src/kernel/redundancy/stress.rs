@@ -8,7 +8,7 @@
 
 use crate::closure::{Closure, Column};
 use crate::geom::exact::{ExactError, ExactField};
-use crate::linalg::echelon::{Echelon, linear_combination, linear_relations, transpose};
+use crate::linalg::echelon::{Echelon, linear_combination, linear_relations};
 use crate::linalg::modp::Residue;
 use crate::model::joint_type::{Freedom, JointType};
 use crate::model::mechanism::{JointId, Mechanism, Mode, StateId};
@@ -62,21 +62,10 @@ pub struct SelfStress {
 /// at which no other vector has an entry, and they are sorted by their ends.
 ///
 /// # Complexity
-/// One elimination of J by rows, see [`relations`].
+/// One elimination of J.
 #[must_use]
 pub(crate) fn stress_basis(exact: &ExactField, closure: &Closure<Residue>) -> Vec<Vec<Residue>> {
-    let columns = closure.dense_columns(exact);
-    let mut rows = if columns.is_empty() {
-        vec![vec![0]; closure.rows()]
-    } else {
-        transpose(&columns)
-    };
-    // With the coordinates reversed, the reduced form uses the earliest possible contours.
-    rows.reverse();
-    let mut stresses = linear_relations(exact.field(), &rows);
-    stresses.iter_mut().for_each(|v| v.reverse());
-    stresses.reverse();
-    stresses
+    Echelon::from_vectors(exact.field(), closure.dense_columns(exact)).null_space(closure.rows())
 }
 
 /// The self-stresses of a state, with those that load none of its added joints separate from the others.

@@ -75,7 +75,6 @@ impl<'a> Shares<'a> {
             .joints_in(of.state)
             .map(|j| [0, 1, 2].map(|i| mechanism.joints[j].frame.point[i].to_f64()))
             .collect();
-        #[allow(clippy::cast_precision_loss, reason = "a count of joints")]
         let count = points.len().max(1) as f64;
         let middle = [0, 1, 2].map(|i| points.iter().map(|p| p[i]).sum::<f64>() / count);
         let square = |p: &[f64; 3]| dot(sub(*p, middle), sub(*p, middle));

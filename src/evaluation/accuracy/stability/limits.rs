@@ -39,7 +39,7 @@ pub(super) fn study_size(effort: Effort, progress: Progress<'_>) -> Study {
             _ => make_lift(sizes[v] - 1),
         };
         let mut slow = slow.lock().unwrap_or_else(PoisonError::into_inner);
-        let ask = |method: &&dyn MobilityMethod| {
+        let ask = |method: &&MobilityMethod| {
             if slow.contains(&(method.name(), case)) {
                 return None;
             }

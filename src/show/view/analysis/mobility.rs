@@ -11,7 +11,7 @@ pub struct ByMethod<'a> {
     /// The mechanism.
     pub mechanism: &'a Mechanism,
     /// The method.
-    pub method: &'a dyn MobilityMethod,
+    pub method: &'a MobilityMethod,
     /// Its answers.
     pub answers: Vec<(StateId, Answer)>,
 }
@@ -42,7 +42,7 @@ impl ByMethod<'_> {
                 "mobility": mobility,
                 "redundant": redundant,
                 "method": self.method.name(),
-                "certainty": self.method.about().guarantee,
+                "certainty": self.method.guarantee,
             })
         };
         json!({
@@ -54,7 +54,7 @@ impl ByMethod<'_> {
 
     /// Returns it for people, with what the answers are worth, where the method is from and what it takes.
     pub fn text(&self) -> String {
-        let (name, about) = (&self.mechanism.name, self.method.about());
+        let (name, about) = (&self.mechanism.name, self.method);
         let line = |(state, size, [mobility, redundant]): (&str, StructureSize, [i64; 2])| {
             format!(
                 "{name}, state {state}: mobility {mobility} by {}, so σ = W + {} - f = {redundant}\n",
