@@ -134,10 +134,6 @@ fn in_series(imported: &Imported, releases: &[(Release, String)]) -> Result<Stri
         let part = &origin.robot.joints[part];
         let e = part.element;
         let e = origin.element(e.ok_or_else(|| separate_file_error(origin, part))?);
-        if e.node().copy {
-            let why = "it is a copy made by <replicate>";
-            return Err(e.unsupported_error(why, "choose another joint, or write the copies out"));
-        }
         all.push((part, e, list));
     }
     free(origin, &all, &mut edits)?;

@@ -14,18 +14,42 @@ use toml_edit::{Decor, DocumentMut, InlineTable, Item, Table, TomlError};
 const COLUMNS: usize = 100;
 
 /// Advice on what to edit, by the path of the key; the schema describes each key.
-const ADVICE: [&str; 11] = [
-    "description: Describe your mechanism.",
-    "sources: Give your own sources, or delete this.",
-    "link: Begin each with [[link]]. Exactly one is the frame, at least one an output.",
-    "joint: Begin each with [[joint]]. Points, axes and types are what to edit first.",
-    "joint.point: Each coordinate is a number, or an exact expression in quotes such as \"sqrt(3)/2\", \"cos(36deg)\", \"1/3\".",
-    "contour: Optional; by default the shortest loops are used. Edit these when you add or remove joints, or delete them.",
-    "search: List the joint types that you can make.",
-    "search.mirror: Delete this if your mechanism is not symmetric.",
-    "tolerances: How accurately the joints are made: a named fit, or position and angle.",
-    "ranking: Without this table the cheapest variants come first.",
-    "expected: They hold for the built-in mechanism: `ozols check` reports where yours differs. Change or delete them.",
+const ADVICE: [(&str, &str); 11] = [
+    ("description", "Describe your mechanism."),
+    ("sources", "Give your own sources, or delete this."),
+    (
+        "link",
+        "Begin each with [[link]]. Exactly one is the frame, at least one an output.",
+    ),
+    (
+        "joint",
+        "Begin each with [[joint]]. Points, axes and types are what to edit first.",
+    ),
+    (
+        "joint.point",
+        "Each coordinate is a number, or an exact expression in quotes such as \"sqrt(3)/2\", \"cos(36deg)\", \"1/3\".",
+    ),
+    (
+        "contour",
+        "Optional; by default the shortest loops are used. Edit these when you add or remove joints, or delete them.",
+    ),
+    ("search", "List the joint types that you can make."),
+    (
+        "search.mirror",
+        "Delete this if your mechanism is not symmetric.",
+    ),
+    (
+        "tolerances",
+        "How accurately the joints are made: a named fit, or position and angle.",
+    ),
+    (
+        "ranking",
+        "Without this table the cheapest variants come first.",
+    ),
+    (
+        "expected",
+        "They hold for the built-in mechanism: `ozols check` reports where yours differs. Change or delete them.",
+    ),
 ];
 
 /// Returns the text of a mechanism file without claims of publications and without expected figures.
@@ -182,10 +206,8 @@ fn resolve_schema<'s>(root: &'s Value, property: &'s Value) -> Option<&'s Value>
 /// Explains a key and what to edit.
 fn explain_key(out: &mut String, property: &Value, inner: &Value, path: &str) {
     let own = property["description"].as_str().unwrap_or_default();
-    let advice = ADVICE.iter().filter_map(|a| a.split_once(": "));
-    let advice = advice.into_iter().find(|(p, _)| *p == path);
     let mut text = own.to_owned();
-    if let Some((_, advice)) = advice {
+    if let Some((_, advice)) = ADVICE.iter().find(|(key, _)| *key == path) {
         text = format!("{text} {advice}");
     }
     write_comment(out, &text);
@@ -344,8 +366,7 @@ mod tests {
     #[test]
     fn every_advice_is_of_a_key_that_exists() {
         let root = crate::file::schema::json_schema();
-        for advice in super::ADVICE {
-            let (path, _) = advice.split_once(": ").unwrap();
+        for (path, _) in super::ADVICE {
             let mut schema = &root;
             for key in path.split('.') {
                 let next = &schema["properties"][key];

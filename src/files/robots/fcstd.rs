@@ -150,7 +150,7 @@ fn choose_assembly<'a>(
         let named = |o: &&Object<'a>| o.label() == wanted || o.name == wanted;
         return all.iter().find(named).copied().ok_or_else(|| {
             let known = list_known("assemblies", all.iter().map(Object::label));
-            let problem = unknown_name("--assembly", "assembly", wanted, &known);
+            let problem = unknown_name("the option `assembly`", "assembly", wanted, &known);
             root.error_at(None, problem)
         });
     }

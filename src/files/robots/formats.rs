@@ -66,7 +66,7 @@ const fn format(word: &'static str, name: &'static str, about: &'static str) -> 
 }
 
 /// All formats, with the root element of those that are read, and the writer of those that are written.
-static FORMATS: [Format; 9] = [
+static FORMATS: [Format; 8] = [
     Format {
         write: Some(FormatWriter::Mechanism(|m| {
             Ok(write::toml(&mechanism_file(m), &[])?.into())
@@ -125,12 +125,6 @@ static FORMATS: [Format; 9] = [
         write: Some(FormatWriter::Mechanism(|m| Ok(graph::write_dot(m).into()))),
         ..format("dot", "DOT", "Graphviz")
     },
-    Format {
-        write: Some(FormatWriter::Mechanism(|m| {
-            Ok(graph::write_graphml(m).into())
-        })),
-        ..format("graphml", "GraphML", "GraphML, for graph programs")
-    },
 ];
 
 /// Returns true if a format can only be written from files read in it, with joints changed.
@@ -151,7 +145,7 @@ pub fn is_own(word: &str) -> bool {
 /// # Examples
 /// ```
 /// let words: Vec<&str> = ozols::robots::formats::writable_formats().map(|f| f.word).collect();
-/// assert!(["toml", "json", "urdf", "mjcf", "sdf", "dot", "graphml"].iter().all(|w| words.contains(w)));
+/// assert!(["toml", "json", "urdf", "mjcf", "sdf", "dot"].iter().all(|w| words.contains(w)));
 /// ```
 pub fn writable_formats() -> impl Iterator<Item = &'static Format> {
     FORMATS.iter().filter(|f| f.write.is_some())

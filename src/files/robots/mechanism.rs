@@ -51,7 +51,7 @@ fn apply_pose(robot: &mut Robot, options: &Options) -> Found<()> {
 /// Returns the frame: the world if something is connected to it, otherwise the link that is no joint's child.
 fn root_link(robot: &mut Robot, options: &Options) -> Found<usize> {
     if let Some(name) = &options.frame {
-        return link_of(robot, name);
+        return link_of(robot, name, "frame");
     }
     let in_tree = || robot.joints.iter().filter(|j| !j.closes);
     let child: BTreeSet<usize> = in_tree().map(|j| j.links[1]).collect();

@@ -4,7 +4,6 @@ mod context;
 mod equality;
 pub(super) mod fix;
 mod include;
-mod replicate;
 pub(super) mod write;
 
 use crate::geom::rigid::RigidMotion;
@@ -61,7 +60,6 @@ impl<'a> Waiting<'a> {
 pub(crate) fn read_mujoco(mut input: Input<'_>) -> Read<Robot> {
     include::expand_includes(&mut input)?;
     let (document, root) = (input.document, input.root);
-    replicate::expand_replicates(document, root)?;
     let root = document.element(root);
     let name = root.attribute("model").unwrap_or("robot");
     let mut robot = Robot::new(name);
@@ -152,7 +150,10 @@ fn read_bodies<'a>(start: Waiting<'a>, context: &mut Context<'a>, robot: &mut Ro
                         _ => robot.report.add_approximation(&e.label(), what),
                     }
                 }
-                "composite" => {
+                "replicate" if e.children().all(|c| c.is_one_of("geom site light camera")) => {
+                    robot.report.count_dropped("replicate", None);
+                }
+                "composite" | "replicate" => {
                     let why = "it makes bodies when the model is compiled";
                     let remedy = "save the compiled model from MuJoCo as XML and import that file";
                     return Err(e.unsupported_error(why, remedy));

@@ -232,28 +232,6 @@ fn includes_on_disk() {
     }
 }
 
-// Each copy stands where the step takes it from the one before, in that one's own axes: round a square, as MuJoCo has it.
-#[test]
-fn mjcf_replicates_go_round() {
-    let t = toml_of(
-        "m.xml",
-        &mjcf(
-            "<worldbody><replicate count='3' offset='1 0 0' euler='0 0 90' sep='-'>
-             <body name='b' pos='0 0 2'><joint name='j' axis='1 0 0'/></body></replicate></worldbody>",
-        ),
-    );
-    for (name, place) in [
-        ("j-0", "point = [0, 0, 2]\naxis = [1, 0, 0]"),
-        ("j-1", "point = [1, 0, 2]\naxis = [0, 1, 0]"),
-        ("j-2", "point = [1, 1, 2]\naxis = [-1, 0, 0]"),
-    ] {
-        let joint = t
-            .split("[[joint]]")
-            .find(|x| x.contains(&format!("id = \"{name}\"")));
-        assert!(joint.is_some_and(|j| j.contains(place)), "{name}\n{t}");
-    }
-}
-
 // Two rods of length 1 drawn straight are to reach a place at 1.5: the elbow goes the way its range allows, and a range is
 // counted as the joint's values are, from `ref`.
 #[test]

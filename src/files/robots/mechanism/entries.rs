@@ -208,10 +208,11 @@ const NAMES: &str = "foot feet toe hand palm tool tool0 tcp ee eef effector flan
 /// Words that may follow them.
 const IDLE: &str = "link body frame left right l r front rear";
 
-pub(crate) fn link_of(robot: &Robot, name: &str) -> Found<usize> {
+/// Returns the link that an option names.
+pub(crate) fn link_of(robot: &Robot, name: &str, option: &str) -> Found<usize> {
     robot.links.iter().position(|l| l == name).ok_or_else(|| {
         let known = list_known("links", &robot.links);
-        unknown_name("the command line", "link", name, &known)
+        unknown_name(&format!("the option `{option}`"), "link", name, &known)
     })
 }
 
@@ -226,7 +227,7 @@ pub(crate) fn output_links(
 ) -> Found<Vec<usize>> {
     let mut out = Vec::new();
     for name in &options.outputs {
-        let b = bodies[link_of(robot, name)?];
+        let b = bodies[link_of(robot, name, "working_link")?];
         if b == frame {
             return Err(syntax_problem(format!(
                 "link \"{name}\" is the frame or fixed to it; name a link that moves"
