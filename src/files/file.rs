@@ -18,15 +18,13 @@ pub mod text;
 pub mod write;
 
 use crate::file::locate::DocumentPath;
-use crate::file::problem::{Found, ProblemKind, WarningKind, suggest_word};
+pub(crate) use crate::file::problem::Finding;
+use crate::file::problem::{ProblemKind, suggest_word};
 use crate::geom::expr::{Expr, ExprError};
 use itertools::Itertools;
 use std::cell::{Cell, RefCell};
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Display;
-
-/// A problem and the path of the item it concerns.
-pub(crate) type Finding = (DocumentPath, ProblemKind);
 
 /// Maximum number of reported problems. A file of a few megabytes can have a hundred thousand, and each is located and drawn.
 pub(crate) const TOLD: usize = 100;
@@ -38,7 +36,7 @@ pub(crate) struct Findings {
     told: RefCell<Vec<Finding>>,
     more: Cell<usize>,
     /// The doubtful values found so far.
-    warned: RefCell<Found>,
+    warned: RefCell<Vec<Finding>>,
     /// The values of the file's parameters.
     names: BTreeMap<String, Expr>,
     /// The parameters that an expression uses.
@@ -178,7 +176,7 @@ impl<'f> Place<'f> {
     }
 
     /// Warns of a doubtful value at this place.
-    pub(crate) fn warn(&self, kind: impl Into<WarningKind>) {
+    pub(crate) fn warn(&self, kind: impl Into<ProblemKind>) {
         let warning = (self.path.clone(), kind.into());
         self.out.warned.borrow_mut().push(warning);
     }

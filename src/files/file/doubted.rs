@@ -1,7 +1,7 @@
 //! Doubtful values of a file: ratios and pitches that are written as decimals and are nearly fractions. Also directions of options that are
 //! omitted and default to the joint's own, if they have another meaning there.
 
-use crate::file::problem::{WarningKind, first_of};
+use crate::file::problem::{ProblemKind, first_of};
 use crate::file::schema::{JointEntry, MechanismFile, OptionTable};
 use crate::file::{Findings, Place};
 use crate::format::four_digits;
@@ -135,7 +135,7 @@ const NEARLY: f64 = 1e-4;
 const TOLD: usize = 5;
 
 /// Returns the doubtful values.
-pub(super) fn find_rounding(m: &Mechanism) -> Vec<WarningKind> {
+pub(super) fn find_rounding(m: &Mechanism) -> Vec<ProblemKind> {
     let mut out = Vec::new();
     if let Some(rounded) = looks_rounded(m).filter(|r| r.digits.is_some() && !r.pi) {
         let message = format!(
@@ -157,14 +157,14 @@ pub(super) fn find_rounding(m: &Mechanism) -> Vec<WarningKind> {
     let all = nearly_special_relations(m);
     if !all.is_empty() {
         let what = first_of(&all, TOLD);
-        out.push(WarningKind::NearlySpecial { what });
+        out.push(ProblemKind::NearlySpecial { what });
     }
     out
 }
 
 /// Returns a warning about second axes that use the default while other axes are rounded. They depend on the file's x, y and z,
 /// so the same mechanism rotated in space has others.
-fn by_default(m: &Mechanism) -> Option<WarningKind> {
+fn by_default(m: &Mechanism) -> Option<ProblemKind> {
     let half = uncertainties(m)?;
     let left = |(j, joint): &(JointId, &Joint)| {
         let given = |e: &Expr| e.is_written_whole() || e.half_unit().is_some();
@@ -192,7 +192,7 @@ fn by_default(m: &Mechanism) -> Option<WarningKind> {
     Some(message.into())
 }
 
-fn of_verdict(found: &RankVerdict) -> WarningKind {
+fn of_verdict(found: &RankVerdict) -> ProblemKind {
     let figures = |rank: usize| {
         let (w, sigma) = found.figures_at(rank);
         format!("W = {w}, σ = {sigma}")

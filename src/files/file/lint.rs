@@ -2,12 +2,12 @@
 
 use crate::closure::contour::{Contour, contour_basis};
 use crate::file::doubted::{find_doubtful, find_guessed, find_rounding};
-use crate::file::problem::{Found, ImportError, WarningKind, Warnings, first_of};
+use crate::file::problem::{ImportError, ProblemKind, Warnings, first_of};
 use crate::file::read::build_mechanism;
 use crate::file::read::workload::workload_tables;
 use crate::file::schema::{JointEntry, LinkEntry, MechanismFile, OptionEntry, Unloading};
 use crate::file::text::{read_file, text_of};
-use crate::file::{Findings, Place};
+use crate::file::{Finding, Findings, Place};
 use crate::format::four_digits;
 use crate::geom::expr::Expr;
 use crate::geom::extent::box_diagonal;
@@ -60,15 +60,21 @@ pub fn check_file(name: &str, bytes: &[u8]) -> Result<Checked, ImportError> {
     let text = text_of(name, bytes)?;
     read_file(name, text, |file| {
         let mechanism = build_mechanism(file)?;
+        let mut warnings = Warnings {
+            file: name.to_owned(),
+            text: text.to_owned(),
+            warnings: Vec::new(),
+        };
+        warnings.add(find_warnings(file, &mechanism));
         Ok(Checked {
             tables: workload_tables(file),
-            warnings: Warnings::new(name, text, find_warnings(file, &mechanism)),
+            warnings,
             mechanism,
         })
     })
 }
 
-fn find_warnings(file: &MechanismFile, m: &Mechanism) -> Found {
+fn find_warnings(file: &MechanismFile, m: &Mechanism) -> Vec<Finding> {
     let out = &Findings::default();
     if m.name.trim().is_empty() {
         let empty = "the name is empty; give one, because every answer begins with it";
@@ -141,7 +147,7 @@ fn check_lengths(file: &MechanismFile, m: &Mechanism, out: &Findings) {
     // A pair reported with its line is not reported again.
     let told = check_places(m, across, out);
     let rounded = find_rounding(m).into_iter();
-    let rounded = rounded.filter(|k| !(told && matches!(k, WarningKind::NearlySpecial { .. })));
+    let rounded = rounded.filter(|k| !(told && matches!(k, ProblemKind::NearlySpecial { .. })));
     rounded.for_each(|kind| out.key("joint").warn(kind));
 }
 
@@ -186,11 +192,11 @@ fn check_contours(m: &Mechanism, out: &Findings) {
         .collect();
     let open: Vec<JointId> = m.joint_ids().filter(|&j| !walked[j]).collect();
     if !walked.contains(&true) {
-        out.key("joint").warn(WarningKind::NoContour);
+        out.key("joint").warn(ProblemKind::NoContour);
     } else if let Some(&first) = open.first() {
         let names = open.iter().map(|&j| m.joints[j].id.as_str()).collect_vec();
         let joints = first_of(&names, SHOWN);
-        joint_place(out, first).warn(WarningKind::OpenChain { joints });
+        joint_place(out, first).warn(ProblemKind::OpenChain { joints });
     }
     let named = m.contours.iter();
     let named = named.map(|c| c.iter().copied().sorted().collect_vec());
@@ -205,7 +211,7 @@ fn check_contours(m: &Mechanism, out: &Findings) {
 fn check_structure(file: &MechanismFile, m: &Mechanism, out: &Findings) {
     let marked = |l: &LinkEntry| l.role.as_deref() == Some("output");
     if !file.link.iter().any(marked) {
-        out.key("link").warn(WarningKind::NoOutput);
+        out.key("link").warn(ProblemKind::NoOutput);
     }
     let objects = m.links_with_ids().filter(|(_, l)| l.role == Role::Object);
     for (l, link) in objects {
@@ -271,7 +277,7 @@ fn check_search(file: &MechanismFile, m: &Mechanism, out: &Findings) {
         let mut offered = m.joints.iter().flat_map(|j| &j.options);
         if changeable && !offered.any(|o| o.name == name) {
             let option = name.to_owned();
-            at.warn(WarningKind::UselessOption { option });
+            at.warn(ProblemKind::UselessOption { option });
         }
     }
     let lists_none = file.search.unloading.is_empty();

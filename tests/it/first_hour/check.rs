@@ -86,7 +86,7 @@ fn check_doubts_what_is_likely_a_slip() {
 #[test]
 fn check_doubts_built_in_mechanisms_only_with_reason() {
     use ozols::file::lint::check_file;
-    use ozols::file::problem::WarningKind;
+    use ozols::file::problem::ProblemKind;
     let mut doubted = 0;
     for name in builtin::names() {
         let text = builtin::text(name).unwrap();
@@ -94,14 +94,14 @@ fn check_doubts_built_in_mechanisms_only_with_reason() {
         doubted += usize::from(!checked.warnings.warnings.is_empty());
         for d in &checked.warnings.warnings {
             let known = match &d.kind {
-                WarningKind::UselessOption { option } => {
+                ProblemKind::UselessOption { option } => {
                     let named = |n: &String| n == option;
                     let m = &checked.mechanism;
                     !m.joints
                         .iter()
                         .any(|j| j.options.iter().any(|o| named(&o.name)))
                 }
-                WarningKind::OpenChain { .. } => name == "pantograph",
+                ProblemKind::OpenChain { .. } => name == "pantograph",
                 _ => false,
             };
             assert!(known, "{name}: {}", checked.warnings.render(false));

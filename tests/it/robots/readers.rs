@@ -53,7 +53,7 @@ fn types_of_joints_beside_the_description() {
         ("[nowhere]", "[SPHERICAL]", "\"nowhere\""),
         ("[p]", "[UJOINT_XX]", "\"UJOINT_XX\""),
         ("[p]", "[]", "joint_name has 1 entries and joint_type 0"),
-        ("p", "[]", "joint_name is not a list"),
+        ("p", "[]", "joint_name: invalid type"),
     ] {
         let e = with(names, types).unwrap_err();
         assert!(e.contains("robot.yaml") && e.contains(words), "{e}");
