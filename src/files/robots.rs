@@ -9,6 +9,7 @@ mod fcstd;
 pub mod formats;
 mod graph;
 mod import;
+mod include;
 mod mechanism;
 mod mjcf;
 mod sdf;

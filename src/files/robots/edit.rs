@@ -5,10 +5,10 @@ use crate::geom::vector::Vector;
 use crate::robots::description::Part;
 use crate::robots::description::origin::Origin;
 use crate::robots::description::physical::{LIGHT_SDF, LIGHT_URDF};
+use crate::robots::include::is_old;
 use crate::robots::mechanism::series_of_single_joints::{
     Names, escape_comment, escape_xml, format_numbers,
 };
-use crate::robots::sdf::include::is_old;
 use crate::robots::warning::{Read, syntax_problem};
 use crate::robots::xml::element::Element;
 use std::collections::BTreeMap;

@@ -3,7 +3,6 @@
 mod context;
 mod equality;
 pub(super) mod fix;
-mod include;
 pub(super) mod write;
 
 use crate::geom::rigid::RigidMotion;
@@ -11,6 +10,7 @@ use crate::geom::vector::{Vector, Z, length};
 use crate::model::joint_type::JointType;
 use crate::robots::additions::leave_out;
 use crate::robots::description::{Part, Robot, free_joint};
+use crate::robots::include::expand_files;
 use crate::robots::mjcf::context::{Context, Defaults, Lookup, read_compiler};
 use crate::robots::warning::{Read, bad_value};
 use crate::robots::xml::Input;
@@ -58,7 +58,7 @@ impl<'a> Waiting<'a> {
 
 /// Reads a `<mujoco>` and the files it includes.
 pub(crate) fn read_mujoco(mut input: Input<'_>) -> Read<Robot> {
-    include::expand_includes(&mut input)?;
+    expand_files(&mut input)?;
     let (document, root) = (input.document, input.root);
     let root = document.element(root);
     let name = root.attribute("model").unwrap_or("robot");
@@ -291,7 +291,7 @@ fn read_joint<'a>(
     let mut part = Part::new(&id, links, [place.then(&at), at], joint_type).said_by(e);
     if matches!(word, "hinge" | "slide") {
         let axis = read_axis(e, &look)?;
-        part = part.with_axis(inner.map_direction(axis));
+        part.set_axis(inner.map_direction(axis));
         let unit = match word {
             "hinge" => context.compiler.angle,
             _ => 1.0,

@@ -139,9 +139,6 @@ fn has_ends(e: Element<'_>) -> bool {
 /// those of the child.
 fn read_constraint(e: Element<'_>, robot: &mut Robot) -> Read<()> {
     let links = [end_link(e, "parent", robot)?, end_link(e, "child", robot)?];
-    if links[0] == links[1] {
-        return Err(same_link(e));
-    }
     let word = e.attribute("type").unwrap_or("");
     let Some(joint_type) = closing_type(word) else {
         leave_out(e, None, robot);
@@ -161,9 +158,7 @@ fn read_constraint(e: Element<'_>, robot: &mut Robot) -> Read<()> {
     let unnamed = || format!("constraint-{a}-{b}");
     let id = e.attribute("name").map_or_else(unnamed, str::to_owned);
     let ends = [(links[0], sides[0]), (links[1], sides[1])];
-    let part = Part::new_closing(e, &id, ends, joint_type)?;
-    robot.report.count_mapped("constraint");
-    robot.joints.push(part);
+    robot.close_loop(e, &id, ends, joint_type, "constraint")?;
     Ok(())
 }
 
@@ -252,7 +247,7 @@ fn read_joint(e: Element<'_>, robot: &mut Robot) -> Read<()> {
     };
     let mut part = Part::new(name, links, sides, joint_type).said_by(e);
     if matches!(word, "revolute" | "continuous" | "prismatic" | "planar") {
-        part = part.with_axis(read_axis(e)?);
+        part.set_axis(read_axis(e)?);
     }
     if part.joint_type == JointType::Universal {
         (part.axis, part.second) = (X, Y);
@@ -306,8 +301,8 @@ fn loop_joint(e: Element<'_>, robot: &mut Robot) -> Read<()> {
         let known = "revolute, continuous, prismatic, cylindrical, spherical, fixed";
         e.unknown_word("type", word, known)
     })?;
-    let part = Part::new_closing(e, name, ends, joint_type)?.with_axis(read_axis(e)?);
-    robot.report.count_mapped("loop_joint");
-    robot.joints.push(part);
+    let axis = read_axis(e)?;
+    let part = robot.close_loop(e, name, ends, joint_type, "loop_joint")?;
+    part.set_axis(axis);
     Ok(())
 }

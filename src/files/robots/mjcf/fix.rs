@@ -8,7 +8,7 @@ use crate::robots::description::origin::Origin;
 use crate::robots::description::physical::LIGHT_MJCF;
 use crate::robots::edit::{Edits, Freed, Freeing};
 use crate::robots::mechanism::series_of_single_joints::{escape_xml, format_numbers};
-use crate::robots::mjcf::context::{Defaults, read_compiler};
+use crate::robots::mjcf::context::read_compiler;
 use crate::robots::warning::Read;
 use crate::robots::xml::element::Element;
 
@@ -17,15 +17,13 @@ use crate::robots::xml::element::Element;
 /// loop stays closed, so its armature changes no motion, however large it is.
 const ARMATURE: f64 = 1000.0;
 
-/// Attributes that limit the force of the actuators of a joint.
-const LIMITED_FORCE: [&str; 2] = ["actuatorfrcrange", "actuatorfrclimited"];
+/// Attributes that undo the defaults of the classes around a new joint.
+const NEUTRAL: &str = "limited=\"false\" stiffness=\"0\" springdamper=\"0 0\" frictionloss=\"0\" ref=\"0\" springref=\"0\"";
 
 /// Gives joints freedoms.
 pub(crate) fn free_joints(origin: &Origin, all: &[Freeing<'_>], edits: &mut Edits<'_>) -> Read<()> {
-    let root = origin.element(origin.root);
     let mut file = MjcfFile {
         origin,
-        defaults: Defaults::read(root)?,
         parents: find_parents(origin),
         inserted: Vec::new(),
     };
@@ -70,18 +68,12 @@ type Marks = Vec<(KeyframeMark, [usize; 2])>;
 
 struct MjcfFile<'a> {
     origin: &'a Origin,
-    defaults: Defaults<'a>,
     parents: Vec<Option<usize>>,
     /// Inserted joints.
     inserted: Vec<(KeyframeMark, usize)>,
 }
 
 impl<'a> MjcfFile<'a> {
-    fn parent_of(&self, e: Element<'a>) -> Element<'a> {
-        let parent = self.parents[e.id].unwrap_or(self.origin.root);
-        self.origin.element(parent)
-    }
-
     /// Returns the body, or world, around an element.
     fn body_around(&self, id: usize) -> Element<'a> {
         let mut at = self.parents[id];
@@ -92,61 +84,6 @@ impl<'a> MjcfFile<'a> {
             at = self.parents[id];
         }
         self.origin.element(at.unwrap_or(self.origin.root))
-    }
-
-    /// Returns attributes that undo defaults of the surrounding classes for a new joint.
-    fn neutral_attributes(&self, around: Element<'a>) -> Read<String> {
-        let (mut at, mut class) = (Some(around.id), None);
-        while let (Some(id), None) = (at, class) {
-            class = self.origin.element(id).attribute("childclass");
-            at = self.parents[id];
-        }
-        let look = self.defaults.lookup(around, "joint", class)?;
-        let mut out = String::new();
-        let says = |set: &&str| look.attribute(set).is_some();
-        for (set, back) in [
-            (&["range", "limited"][..], "limited=\"false\""),
-            (&["stiffness"], "stiffness=\"0\""),
-            (&["springdamper"], "springdamper=\"0 0\""),
-            (&["frictionloss"], "frictionloss=\"0\""),
-            (&["ref"], "ref=\"0\""),
-            (&["springref"], "springref=\"0\""),
-            (&LIMITED_FORCE, "actuatorfrclimited=\"false\""),
-        ] {
-            if set.iter().any(says) {
-                out += &format!(" {back}");
-            }
-        }
-        Ok(out)
-    }
-
-    /// Writes the new joints of a joint, in a frame at a place in the world.
-    fn write_joints(
-        &self,
-        part: &Part,
-        point: Vector,
-        frame: &RigidMotion,
-        around: Element<'a>,
-        freed: Freed<'_>,
-        edits: &mut Edits<'_>,
-    ) -> Read<Vec<String>> {
-        let neutral = self.neutral_attributes(around)?;
-        let (mut out, inside) = (Vec::new(), frame.inverse());
-        for (slides, direction, why) in freed {
-            let (kind, word) = if *slides {
-                ("slide", "slide")
-            } else {
-                ("hinge", "turn")
-            };
-            let name = edits.name(&format!("{}_{word}", part.id));
-            out.push(format!("<!-- {why} -->"));
-            out.push(format!(
-                "<joint name=\"{}\" type=\"{kind}\" armature=\"{ARMATURE}\" pos=\"{}\" axis=\"{}\"{neutral}/>",
-                escape_xml(&name), format_numbers(inside.map_point(point)),
-                format_numbers(inside.map_direction(*direction))
-            ));
-        }
-        Ok(out)
     }
 
     /// Inserts joints after the joints of a body.
@@ -168,7 +105,7 @@ impl<'a> MjcfFile<'a> {
         let frame = self.origin.places[link.links[1]];
         let at = self.origin.places[part.links[1]].then(&part.sides[1]);
         let point = at.translation;
-        let lines = self.write_joints(part, point, &frame, body, freed, edits)?;
+        let lines = write_joints(part, point, &frame, freed, edits);
         edits.insert_after(last, &lines);
         let mark = KeyframeMark::Joint(last.id);
         self.inserted.push((mark, freed.len()));
@@ -202,7 +139,7 @@ impl<'a> MjcfFile<'a> {
             let body = body
                 .ok_or_else(|| e.unsupported_error("its first body has no name", "give it one"))?;
             let frame = self.origin.places[one];
-            let inner = self.write_joints(part, point, &frame, body, freed, edits)?;
+            let inner = write_joints(part, point, &frame, freed, edits);
             let inside = frame.inverse().map_point(point);
             edits.append_child(body, &write_body(&between, inside, inner, None));
             let mark = KeyframeMark::Within(body.id);
@@ -215,8 +152,7 @@ impl<'a> MjcfFile<'a> {
         let root = self.origin.element(self.origin.root);
         let own = read_compiler(root)?.read_place(found)?;
         let frame = at.then(&own.inverse());
-        let around = self.parent_of(found);
-        let inner = self.write_joints(part, point, &frame, around, freed, edits)?;
+        let inner = write_joints(part, point, &frame, freed, edits);
         let copy = edits.name(&format!("{site}_between"));
         let raw = edits.raw_text(found);
         let Some(span) = found.value_span("name") else {
@@ -309,6 +245,38 @@ fn write_body(name: &str, at: Vector, inner: Vec<String>, site: Option<String>) 
     let inner = std::iter::once(light).chain(inner).chain(site);
     out.extend(inner.map(|l| format!("  {l}")));
     out.push("</body>".to_owned());
+    out
+}
+
+/// Writes the new joints of a joint, in a frame at a place in the world.
+fn write_joints(
+    part: &Part,
+    point: Vector,
+    frame: &RigidMotion,
+    freed: Freed<'_>,
+    edits: &mut Edits<'_>,
+) -> Vec<String> {
+    let (mut out, inside) = (Vec::new(), frame.inverse());
+    // Releases of MuJoCo before 3.0 do not know this attribute.
+    let mut sources = edits.origin.document.sources.iter();
+    let force = match sources.any(|s| s.text.contains("actuatorfrc")) {
+        true => " actuatorfrclimited=\"false\"",
+        false => "",
+    };
+    for (slides, direction, why) in freed {
+        let (kind, word) = if *slides {
+            ("slide", "slide")
+        } else {
+            ("hinge", "turn")
+        };
+        let name = edits.name(&format!("{}_{word}", part.id));
+        out.push(format!("<!-- {why} -->"));
+        out.push(format!(
+            "<joint name=\"{}\" type=\"{kind}\" armature=\"{ARMATURE}\" pos=\"{}\" axis=\"{}\" {NEUTRAL}{force}/>",
+            escape_xml(&name), format_numbers(inside.map_point(point)),
+            format_numbers(inside.map_direction(*direction))
+        ));
+    }
     out
 }
 

@@ -91,7 +91,7 @@ pub(crate) fn read_joint(
             let second = read_axis(e, "axis2", scope, scene, &world)?;
             return two_axes(e, part, [local(first), local(second)], robot);
         }
-        _ => part = part.with_axis(local(read_axis(e, "axis", scope, scene, &world)?)),
+        _ => part.set_axis(local(read_axis(e, "axis", scope, scene, &world)?)),
     }
     if word == "screw" {
         part.pitch = screw_pitch(e)?;
@@ -222,8 +222,9 @@ fn two_axes(e: Element<'_>, mut part: Part, axes: [Vector; 2], robot: &mut Robot
     robot.report.count_mapped("joint of two oblique axes");
     let [near, far] = part.sides;
     let mut hinge = |id: &str, links, sides, axis| {
-        let part = Part::new(id, links, sides, JointType::Revolute);
-        robot.joints.push(part.with_axis(axis).said_by(e));
+        let mut part = Part::new(id, links, sides, JointType::Revolute).said_by(e);
+        part.set_axis(axis);
+        robot.joints.push(part);
     };
     let here = RigidMotion::IDENTITY;
     hinge(&part.id, [parent, between], [near, here], first);
@@ -246,10 +247,8 @@ pub(crate) fn read_weld(at: &Scoped<'_>, scene: &SdfScene<'_>, robot: &mut Robot
         joint_end(e, "parent")?.1,
         joint_end(e, "child")?.1
     );
-    let mut part = Part::new_closing(e, &id, ends, JointType::Fixed)?;
+    let part = robot.close_loop(e, &id, ends, JointType::Fixed, "weld constraint")?;
     part.comment = Some("closes a loop: <drake:weld_constraint>".to_owned());
-    robot.report.count_mapped("weld constraint");
-    robot.joints.push(part);
     Ok(())
 }
 
