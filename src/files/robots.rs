@@ -12,6 +12,7 @@ mod import;
 mod include;
 mod mechanism;
 mod mjcf;
+mod prelude;
 mod sdf;
 mod urdf;
 mod warning;
@@ -24,16 +25,11 @@ pub use crate::robots::warning::{CadCount, Kept, Note, Options, Reader, Report};
 pub use description::origin::{ElementPlace, Origin};
 pub use import::{Imported, import};
 
-use crate::file::problem::ImportError;
-use crate::geom::vector::Vector;
-use crate::model::mechanism::{JointId, Mechanism};
 use crate::redundancy::release::{Release, added_freedoms};
 use crate::robots::cad::retype;
-use crate::robots::description::Part;
 use crate::robots::edit::{Edits, Freeing, comment_out, free_sdf, free_urdf};
 use crate::robots::mechanism::series_of_single_joints::escape_comment;
-use crate::robots::warning::unsupported_problem;
-use std::collections::BTreeMap;
+use crate::robots::prelude::*;
 
 /// Returns the freedoms that a redesign adds to the joints of a mechanism.
 ///

@@ -2,19 +2,13 @@
 //! close a loop or couple joints are reported and counted; the others (friction, colours, publishers) have no effect on the
 //! kinematics.
 
-use crate::geom::rigid::RigidMotion;
-use crate::geom::vector::length;
-use crate::model::joint_type::JointType;
 use crate::robots::description::kinematics::{link_places, spanning_tree};
-use crate::robots::description::{Ratio, Robot};
+use crate::robots::prelude::*;
 use crate::robots::sdf::joints::read_joint;
 use crate::robots::sdf::scene::{
     Placed, Scoped, SdfScene, absolute_name, insert, joint_end, moves_with, named_place,
     resolve_places,
 };
-use crate::robots::warning::{Read, list_known, unknown_name};
-use crate::robots::xml::element::Element;
-use std::collections::BTreeSet;
 
 /// Rows that an element of unknown meaning may constrain: all freedoms between two links.
 const MOST_ROWS: usize = 6;

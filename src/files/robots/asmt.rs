@@ -1,16 +1,8 @@
 //! OndselSolver's assemblies, `.asmt`: parts with markers, and joints between two markers each.
 
-use crate::geom::rigid::RigidMotion;
-use crate::geom::vector::length;
 use crate::robots::cad::holds::Holds;
 use crate::robots::cad::{Assembly, Connection, NO_LIMITS};
-use crate::robots::description::Robot;
-use crate::robots::warning::{
-    Read, bad_value, list_known, missing_problem, unknown_name, unknown_word,
-};
-use crate::robots::xml::element::Element;
-use crate::robots::xml::{Document, Input};
-use std::collections::BTreeMap;
+use crate::robots::prelude::*;
 
 /// The beginnings of the first line of a file: that of OndselSolver, whose files are in millimetres, and the old one.
 const HEADS: [(&str, &str); 2] = [("OndselSolver", "mm"), ("freeCAD: 3D CAD", "m")];

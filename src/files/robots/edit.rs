@@ -1,17 +1,12 @@
 //! Edits of a description by spans of its text. Everything else stays unchanged, byte for byte.
 
-use crate::geom::rigid::RigidMotion;
-use crate::geom::vector::Vector;
-use crate::robots::description::Part;
 use crate::robots::description::origin::Origin;
 use crate::robots::description::physical::{LIGHT_SDF, LIGHT_URDF};
 use crate::robots::include::is_old;
 use crate::robots::mechanism::series_of_single_joints::{
     Names, escape_comment, escape_xml, format_numbers,
 };
-use crate::robots::warning::{Read, syntax_problem};
-use crate::robots::xml::element::Element;
-use std::collections::BTreeMap;
+use crate::robots::prelude::*;
 use std::ops::Range;
 
 /// The freedoms that a joint gets: whether each slides, its direction in the world, and the reason, in words.

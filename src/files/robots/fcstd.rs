@@ -4,19 +4,12 @@ mod distance;
 mod objects;
 mod reference;
 
-use crate::geom::rigid::RigidMotion;
 use crate::robots::cad::archive::Archive;
 use crate::robots::cad::{Assembly, Connection, NO_LIMITS};
-use crate::robots::description::Robot;
 use crate::robots::fcstd::distance::{Held, Shapes, Slide, joint_constraint, joint_frames};
 use crate::robots::fcstd::objects::{Object, Objects};
 use crate::robots::fcstd::reference::{Documents, Reference, read_reference};
-use crate::robots::warning::{
-    Options, Read, Reader, list_known, syntax_problem, too_many, unknown_name,
-};
-use crate::robots::xml::element::Element;
-use crate::robots::xml::{self, Document, Input};
-use std::collections::{BTreeMap, BTreeSet};
+use crate::robots::prelude::*;
 
 /// The member of the archive that lists the objects.
 pub(crate) const DOCUMENT: &str = "Document.xml";
@@ -88,7 +81,7 @@ fn read_linked(
             continue;
         };
         let name = format!("{file}/{DOCUMENT}");
-        let inner = document.read(&name, xml::decode_utf8(&name, &member)?)?;
+        let inner = document.read(&name, decode_utf8(&name, &member)?)?;
         out.insert(file, inner);
         for more in linked_files(document, inner)? {
             if seen.insert(more.clone()) {

@@ -1,14 +1,9 @@
 //! The formats of files, with their readers and writers.
 
-use crate::file::problem::ImportError;
 use crate::file::write::{self, mechanism_file};
-use crate::model::mechanism::Mechanism;
 use crate::robots::cad::archive::Archive;
-use crate::robots::description::Robot;
-use crate::robots::warning::{ExportError, Read, syntax_problem};
-use crate::robots::xml::Input;
+use crate::robots::prelude::*;
 use crate::robots::{asmt, fcstd, graph, mjcf, sdf, urdf};
-use itertools::Itertools;
 
 /// A format of files.
 #[derive(Debug)]

@@ -1,7 +1,6 @@
 //! The graph of links and joints as Graphviz DOT.
 
-use crate::model::mechanism::{LinkId, Mechanism, Role};
-use std::fmt::Write;
+use crate::robots::prelude::*;
 
 /// Writes links as nodes (the frame with a double outline, outputs filled) and joints as edges with their class.
 pub(super) fn write_dot(m: &Mechanism) -> String {

@@ -1,9 +1,6 @@
 //! `<include>`: the content of another MJCF file, or the model of another SDF file, in place of the element.
 
-use crate::file::problem::ImportError;
-use crate::robots::warning::{Read, Reader, unsupported_problem};
-use crate::robots::xml::element::Element;
-use crate::robots::xml::{self, Document, Input};
+use crate::robots::prelude::*;
 
 /// Maximum depth of nested files, and number of includes.
 const LIMITS: (usize, usize) = (16, 1000);
@@ -58,7 +55,7 @@ fn expand_below(
                 let remedy = "put it in the folder of the file, or give a folder that contains both as `models`";
                 include_error(e, &file, &why, remedy)
             })?;
-            let inner = document.read(&file, xml::decode_utf8(&file, &bytes)?)?;
+            let inner = document.read(&file, decode_utf8(&file, &bytes)?)?;
             let names = [open, &[file]].concat();
             expand_below(document, read, inner, &names, count)?;
             all.append(&mut document.nodes[inner].children);
@@ -156,7 +153,7 @@ impl Expanded<'_> {
                 return Err(include_error(e, &uri, &why, remedy));
             }
         };
-        let inner = document.read(&uri, xml::decode_utf8(&uri, &bytes)?)?;
+        let inner = document.read(&uri, decode_utf8(&uri, &bytes)?)?;
         let found = document.element(inner);
         self.old.push(is_old(found));
         let models: Vec<usize> = found.children_named("model").map(|m| m.id).collect();

@@ -5,17 +5,10 @@ mod equality;
 pub(super) mod fix;
 pub(super) mod write;
 
-use crate::geom::rigid::RigidMotion;
-use crate::geom::vector::{Vector, Z, length};
-use crate::model::joint_type::JointType;
 use crate::robots::additions::leave_out;
-use crate::robots::description::{Part, Robot, free_joint};
 use crate::robots::include::expand_files;
 use crate::robots::mjcf::context::{Context, Defaults, Lookup, read_compiler};
-use crate::robots::warning::{Read, bad_value};
-use crate::robots::xml::Input;
-use crate::robots::xml::element::Element;
-use std::collections::BTreeMap;
+use crate::robots::prelude::*;
 
 /// Sections without constraints; equalities look up in them what they use.
 const SECTIONS: &str = "asset contact custom extension keyframe option sensor size statistic \

@@ -5,19 +5,13 @@ pub(super) mod joints;
 pub(super) mod scene;
 pub(super) mod write;
 
-use crate::geom::rigid::RigidMotion;
-use crate::geom::vector::length;
-use crate::model::joint_type::JointType;
 use crate::robots::additions::{ball_constraint, leave_out, read_plugin};
-use crate::robots::description::{Part, Robot};
 use crate::robots::include::expand_models;
+use crate::robots::prelude::*;
 use crate::robots::sdf::joints::{read_gearbox, read_joint, read_weld};
 use crate::robots::sdf::scene::{
     Placed, SdfScene, absolute_name, insert, moves_with, named_place, read_pose, resolve_places,
 };
-use crate::robots::warning::Read;
-use crate::robots::xml::Input;
-use crate::robots::xml::element::Element;
 
 /// Reads an `<sdf>`.
 pub(crate) fn read_sdf(mut input: Input<'_>) -> Read<Robot> {

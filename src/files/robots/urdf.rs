@@ -2,16 +2,10 @@
 
 pub(super) mod write;
 
-use crate::geom::rigid::RigidMotion;
-use crate::geom::vector::{Vector, X, Y, length};
-use crate::model::joint_type::JointType;
 use crate::robots::additions::{
     add_coupling, ball_constraint, leave_out, named_parts, read_gazebo,
 };
-use crate::robots::description::{Part, Ratio, Robot, free_joint, same_link};
-use crate::robots::warning::{Read, bad_value, list_known, unknown_name};
-use crate::robots::xml::Input;
-use crate::robots::xml::element::Element;
+use crate::robots::prelude::*;
 
 /// The elements of a joint that are read.
 const OF_JOINTS: [&str; 6] = ["origin", "parent", "child", "axis", "limit", "mimic"];

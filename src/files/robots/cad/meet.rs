@@ -1,10 +1,7 @@
 //! A joint of an assembly at a pose: its type, and its frame on I and on J. The two differ by the misfit.
 
-use crate::geom::rigid::{RigidMotion, perpendicular, unit_or_z};
-use crate::geom::vector::{Vector, add, add_scaled, cross, dot, length, scale, sub};
-use crate::model::joint_type::{Freedom, JointType};
 use crate::robots::cad::holds::Holds;
-use crate::robots::description::{Part, Ratio};
+use crate::robots::prelude::*;
 
 /// Sines and lengths below this have no direction.
 const FLAT: f64 = 1e-6;

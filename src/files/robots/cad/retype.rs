@@ -1,19 +1,11 @@
 //! Joints of an assembly of a CAD program changed to another of its types.
 
-use crate::file::problem::ImportError;
-use crate::geom::rigid::unit_or_z;
-use crate::geom::vector::{Vector, add_scaled, cross, dot, length};
-use crate::model::joint_type::Freedom;
-use crate::model::mechanism::JointId;
 use crate::redundancy::release::Release;
-use crate::robots::description::Part;
 use crate::robots::description::origin::Origin;
 use crate::robots::edit::Edits;
 use crate::robots::fcstd::DOCUMENT;
 use crate::robots::import::Imported;
-use crate::robots::warning::{Read, unsupported_problem};
-use crate::robots::xml::element::Element;
-use std::collections::BTreeMap;
+use crate::robots::prelude::*;
 
 /// Sines below this count as zero.
 const SAME: f64 = 1e-4;

@@ -4,10 +4,8 @@
 use crate::closure::Closure;
 use crate::closure::tree::spanning_forest;
 use crate::geom::Reals;
-use crate::model::joint_type::Freedom;
-use crate::model::mechanism::{JointId, Mechanism, StateId};
 use crate::rank::rounded::verdict::rank_verdict;
-use crate::robots::description::Robot;
+use crate::robots::prelude::*;
 use crate::robots::warning::Kept;
 
 /// Maximum work of singular values, rows · columns · the lesser of them, for which the figures are reported.

@@ -7,13 +7,7 @@
 //! - Drake's list of `ball_constraint_body_A`, `ball_constraint_p_AP`, `..._body_B`, `..._p_BQ`.
 
 use crate::file::text::decode_utf8;
-use crate::geom::rigid::RigidMotion;
-use crate::geom::vector::{Vector, X, Y, Z, length};
-use crate::model::joint_type::JointType;
-use crate::robots::description::{End, Part, Robot};
-use crate::robots::warning::{
-    Found, Read, Reader, list_known, syntax_problem, too_large, unknown_name, unknown_word,
-};
+use crate::robots::prelude::*;
 use serde::de::{DeserializeOwned, Error};
 use serde::{Deserialize, Deserializer};
 use serde_json::Value;

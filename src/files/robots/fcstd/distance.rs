@@ -1,11 +1,9 @@
 //! The constraint of a distance joint, by the kinds of its two elements.
 
-use crate::geom::rigid::RigidMotion;
-use crate::geom::vector::{add_scaled, cross, dot, length, sub};
 use crate::robots::cad::holds::Holds;
 use crate::robots::fcstd::objects::Object;
 use crate::robots::fcstd::reference::Reference;
-use crate::robots::warning::Read;
+use crate::robots::prelude::*;
 
 /// Below this two directions are one, and a line lies in a plane.
 const SINE: f64 = 1e-3;

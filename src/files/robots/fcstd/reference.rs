@@ -1,10 +1,7 @@
 //! The reference of a joint: the part that moves, the frame's place in it, and the element of its shape.
 
-use crate::geom::rigid::RigidMotion;
 use crate::robots::fcstd::objects::{Object, Objects};
-use crate::robots::warning::Read;
-use crate::robots::xml::element::Element;
-use std::collections::BTreeMap;
+use crate::robots::prelude::*;
 
 /// The documents read: the first is the one with the assembly, the others those that it links to, by the name of their file.
 pub(crate) struct Documents<'a> {

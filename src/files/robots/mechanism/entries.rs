@@ -6,15 +6,10 @@ use crate::file::schema::{
     SearchEntry,
 };
 use crate::file::write::{Comment, plain_number};
-use crate::geom::rigid::{RigidMotion, unit_or_z};
-use crate::geom::vector::{Vector, length};
-use crate::model::joint_type::{Freedom, JointType};
 use crate::robots::description::coupling::Usable;
 use crate::robots::description::kinematics::world_axes;
-use crate::robots::description::{Part, Robot};
 use crate::robots::mechanism::series_of_single_joints::Names;
-use crate::robots::warning::{Found, Options, list_known, syntax_problem, unknown_name};
-use std::collections::{BTreeMap, BTreeSet};
+use crate::robots::prelude::*;
 
 /// Longest name in a mechanism file, in characters.
 const LONGEST: usize = 64;

@@ -1,10 +1,8 @@
 //! Joints in metres and double precision, taken apart into single freedoms.
 
-use crate::geom::vector::{Vector, across, cross, to_vector, unit};
-use crate::model::joint_type::{Freedom, JointType};
-use crate::model::mechanism::{Joint, Mechanism};
-use std::collections::BTreeSet;
-use std::fmt::Write;
+use crate::geom::vector::{across, unit};
+use crate::model::mechanism::Joint;
+use crate::robots::prelude::*;
 
 /// A joint's place: origin in metres, unit axes x, y, z.
 pub(crate) struct JointAxes {

@@ -1,13 +1,8 @@
 //! Equality constraints: the loops and couplings of MJCF.
 
-use crate::geom::rigid::RigidMotion;
-use crate::model::joint_type::JointType;
 use crate::robots::description::kinematics::joint_motion;
-use crate::robots::description::{End, Part, Ratio, Robot};
 use crate::robots::mjcf::context::Context;
-use crate::robots::warning::{Read, bad_value, list_known};
-use crate::robots::xml::element::Element;
-use std::collections::BTreeMap;
+use crate::robots::prelude::*;
 
 pub(crate) fn read_equalities(
     section: Element<'_>,

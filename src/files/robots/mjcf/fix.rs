@@ -1,16 +1,12 @@
 //! Joints of one more freedom in an MJCF file. `<joint>`s are added to a body behind its own joints, and bodies are inserted between the
 //! two sides of a `<connect>` or `<weld>`. Keyframes get the numbers of the new joints.
 
-use crate::geom::rigid::RigidMotion;
-use crate::geom::vector::Vector;
-use crate::robots::description::Part;
 use crate::robots::description::origin::Origin;
 use crate::robots::description::physical::LIGHT_MJCF;
 use crate::robots::edit::{Edits, Freed, Freeing};
 use crate::robots::mechanism::series_of_single_joints::{escape_xml, format_numbers};
 use crate::robots::mjcf::context::read_compiler;
-use crate::robots::warning::Read;
-use crate::robots::xml::element::Element;
+use crate::robots::prelude::*;
 
 /// Armature of a new joint, in kg for a slide and in kg·m² for a hinge: more than any robot weighs. MuJoCo softens a constraint by the
 /// mean weight of its bodies in all directions, so a light body in between would let the loop open. The new joint does not move while the
@@ -259,9 +255,10 @@ fn write_joints(
     let (mut out, inside) = (Vec::new(), frame.inverse());
     // Releases of MuJoCo before 3.0 do not know this attribute.
     let mut sources = edits.origin.document.sources.iter();
-    let force = match sources.any(|s| s.text.contains("actuatorfrc")) {
-        true => " actuatorfrclimited=\"false\"",
-        false => "",
+    let force = if sources.any(|s| s.text.contains("actuatorfrc")) {
+        " actuatorfrclimited=\"false\""
+    } else {
+        ""
     };
     for (slides, direction, why) in freed {
         let (kind, word) = if *slides {

@@ -2,9 +2,6 @@
 //! small body on joints that is welded.
 
 use crate::closure::tree::spanning_tree;
-use crate::geom::vector::{Vector, sub};
-use crate::model::joint_type::{Freedom, JointType};
-use crate::model::mechanism::{JointId, LinkId, Mechanism, Role, StateId};
 use crate::motion::pose::Pose;
 use crate::robots::description::physical::{GRAM, left_out, moving_inertial, write_head};
 use crate::robots::formats::FormattedFile;
@@ -12,11 +9,9 @@ use crate::robots::mechanism::series_of_single_joints::{
     Names, Single, clean_number, escape_comment, escape_xml, format_numbers, joint_axes,
     single_freedoms,
 };
-use crate::robots::warning::ExportError;
+use crate::robots::prelude::*;
 use crate::statics::reactions::drives::driven_freedoms;
 use crate::statics::reactions::geometry::Geometry;
-use std::collections::BTreeMap;
-use std::fmt::Write;
 
 /// Writes the mechanism's free state as MJCF; bodies have the global axes, and their origin at the joint that holds them.
 ///

@@ -1,14 +1,9 @@
 //! The joints and constraints of an SDF file.
 
-use crate::geom::rigid::{RigidMotion, unit_or_z};
-use crate::geom::vector::{Vector, Z, cross, dot, length, sub};
-use crate::model::joint_type::JointType;
-use crate::robots::description::{Part, Ratio, Robot, free_joint, same_link};
+use crate::robots::prelude::*;
 use crate::robots::sdf::scene::{
     Scoped, SdfScene, absolute_name, joint_end, locate_name, of_joint,
 };
-use crate::robots::warning::{Read, bad_value};
-use crate::robots::xml::element::Element;
 
 pub(crate) const TYPES: &str =
     "revolute, continuous, prismatic, screw, universal, revolute2, ball, fixed, floating, gearbox";

@@ -1,9 +1,6 @@
 //! URDF: a spanning tree of the free state; the joints that close loops are `<loop_joint>`s.
 
 use crate::closure::tree::{TreeStep, spanning_tree};
-use crate::geom::vector::sub;
-use crate::model::joint_type::JointType;
-use crate::model::mechanism::{JointId, Link, LinkId, Mechanism, StateId};
 use crate::robots::description::coupling::{Follows, find_mimics};
 use crate::robots::description::physical::{
     GRAM, LIGHT_URDF, left_out, link_inertial, moving_inertial, write_head,
@@ -13,8 +10,7 @@ use crate::robots::mechanism::series_of_single_joints::{
     Names, Single, clean_number, escape_comment, escape_xml, format_numbers, joint_axes,
     single_freedoms,
 };
-use crate::robots::warning::ExportError;
-use std::fmt::Write;
+use crate::robots::prelude::*;
 
 /// The content of a file.
 struct UrdfWriter<'a> {
