@@ -10,6 +10,7 @@ pub mod edit;
 pub mod lint;
 pub mod locate;
 pub mod loose;
+mod prelude;
 pub mod problem;
 pub mod read;
 pub mod schema;

@@ -1,13 +1,9 @@
 //! A mechanism built in code.
 
+use crate::file::prelude::*;
 use crate::file::problem::ImportError;
-use crate::file::schema::{
-    Coordinate, DriveWord, JointEntry, LinkEntry, MechanismFile, OptionEntry,
-};
 use crate::file::text::mechanism_from_str;
 use crate::file::write::role_word;
-use crate::model::joint_type::JointType;
-use crate::model::mechanism::{Mechanism, Role};
 
 /// Builds a mechanism joint by joint, with the rules and the messages of a mechanism file.
 ///

@@ -1,14 +1,10 @@
 //! Doubtful values of a file: ratios and pitches that are written as decimals and are nearly fractions. Also directions of options that are
 //! omitted and default to the joint's own, if they have another meaning there.
 
-use crate::file::problem::{ProblemKind, first_of};
-use crate::file::schema::{JointEntry, MechanismFile, OptionTable};
-use crate::file::{Findings, Place};
+use crate::file::prelude::*;
+use crate::file::problem::first_of;
 use crate::format::four_digits;
-use crate::geom::expr::Expr;
-use crate::geom::vector::{across, length, sub, to_vector, unit};
-use crate::model::joint_type::JointType;
-use crate::model::mechanism::{Joint, JointId, Mechanism};
+use crate::geom::vector::{across, unit};
 use crate::model::rounded::ratio::{doubt_of, doubt_ratio};
 use crate::model::rounded::{looks_rounded, uncertainties};
 use crate::rank::rounded::mechanism_size;

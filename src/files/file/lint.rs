@@ -2,21 +2,15 @@
 
 use crate::closure::contour::{Contour, contour_basis};
 use crate::file::doubted::{find_doubtful, find_guessed, find_rounding};
-use crate::file::problem::{ImportError, ProblemKind, Warnings, first_of};
+use crate::file::prelude::*;
+use crate::file::problem::{ImportError, Warnings, first_of};
 use crate::file::read::build_mechanism;
 use crate::file::read::workload::workload_tables;
-use crate::file::schema::{JointEntry, LinkEntry, MechanismFile, OptionEntry, Unloading};
 use crate::file::text::{read_file, text_of};
-use crate::file::{Finding, Findings, Place};
 use crate::format::four_digits;
-use crate::geom::expr::Expr;
 use crate::geom::extent::box_diagonal;
-use crate::geom::vector::{length, sub, to_vector};
-use crate::model::joint_type::JointType;
-use crate::model::mechanism::{Joint, JointId, Mechanism, Role, StateId};
 use crate::model::ranking::Term;
 use crate::model::rounded::looks_rounded;
-use itertools::Itertools;
 
 /// Metres across, without a stated unit, beyond which the unit was probably forgotten.
 const FORGOTTEN_UNIT: f64 = 10.0;

@@ -1,8 +1,7 @@
 //! Information on an incomplete file: the places of its items, and the part of it that is connected to the frame.
 
+use crate::file::prelude::*;
 use crate::file::read::value::with_parameters;
-use crate::file::schema::{Coordinate, MechanismFile};
-use std::collections::BTreeSet;
 
 /// Returns the places of joints and of points of interest as numbers; `None` for those with an invalid expression.
 ///

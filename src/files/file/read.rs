@@ -8,6 +8,7 @@ pub(crate) mod search;
 pub mod value;
 pub mod workload;
 
+use crate::file::prelude::*;
 use crate::file::read::coupling::read_couplings;
 use crate::file::read::joints::{
     check_connected, read_contours, read_joints, read_links, read_states,
@@ -19,14 +20,10 @@ use crate::file::read::value::{ENTRIES, LIMITS, length_unit, with_parameters};
 use crate::file::read::workload::drive::read_drive;
 use crate::file::read::workload::grip::read_grip;
 use crate::file::read::workload::loads::read_loads;
-use crate::file::schema::{ClaimEntry, MechanismFile};
-use crate::file::{Finding, Findings, Place};
 use crate::format::join_or;
-use crate::geom::expr::Expr;
 use crate::model::claim::{Claim, Topic};
 use crate::model::loads::Loads;
-use crate::model::mechanism::{Expected, Mechanism, Mode, Parts, PointOfInterest, SearchSpec};
-use itertools::Itertools;
+use crate::model::mechanism::{Expected, Mode, PointOfInterest, SearchSpec};
 
 /// Returns the claims of a file; reports those of an unknown topic.
 pub(crate) fn read_claims(file: &MechanismFile, out: &Findings) -> Vec<Claim> {

@@ -2,12 +2,12 @@
 //! table.
 
 use crate::file::locate::Document;
-use crate::file::problem::{ImportError, ProblemKind, is_json};
+use crate::file::prelude::*;
+use crate::file::problem::{ImportError, is_json};
 use crate::file::read::build_mechanism;
-use crate::file::schema::{MechanismFile, json_schema};
-use crate::file::{Finding, Findings, Place, unknown_word};
+use crate::file::schema::json_schema;
+use crate::file::unknown_word;
 use crate::format::count_noun;
-use crate::model::mechanism::Mechanism;
 use serde_json::{Map, Value};
 use std::sync::LazyLock;
 use toml::Spanned;

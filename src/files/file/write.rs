@@ -3,23 +3,13 @@
 mod number;
 mod workload;
 
+use crate::file::prelude::*;
 use crate::file::read::resolve::motion_name;
-use crate::file::schema::{
-    ClaimEntry, ContactEntry, ContourEntry, Coordinate, CouplingEntry, DriveWord, ExpectedEntry,
-    ForceEntry, InertiaEntry, JointEntry, LinkEntry, MechanismFile, MisalignmentEntry, MomentEntry,
-    OptionEntry, OptionTable, PointEntry, Quantities, Quantity, SearchEntry, StiffnessEntry,
-    StrokeEntry, ToleranceEntry, Unloading, Words, WorkloadEntry,
-};
 pub(crate) use crate::file::write::number::plain_number;
 use crate::file::write::number::{write_component, write_coordinate, write_ratio};
-use crate::geom::expr::Expr;
 use crate::model::claim::Claim;
-use crate::model::joint_type::{Coupling, Freedom, JointType};
 use crate::model::loads::{ExternalForce, ExternalMoment, Face, Inertia, Misalignment, Stiffness};
-use crate::model::mechanism::{
-    Drives, Expected, Frame, Joint, JointId, JointOption, Link, Mechanism, Mode, PointOfInterest,
-    Role, StateId,
-};
+use crate::model::mechanism::{Drives, Expected, Mode, PointOfInterest};
 use serde::ser::Error;
 use toml_edit::{DocumentMut, Item};
 

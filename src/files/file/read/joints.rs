@@ -2,22 +2,13 @@
 
 use crate::closure::contour::closed_walk;
 use crate::closure::tree::spanning_forest;
-use crate::file::problem::ProblemKind;
+use crate::file::prelude::*;
 use crate::file::read::resolve::{
     check_frame, joint_type, missing_message, motion_name, read_option, takes_no,
 };
 use crate::file::read::search::read_options;
 use crate::file::read::value::LIMITS;
 use crate::file::read::workload::loads::read_mass;
-use crate::file::schema::{DriveWord, JointEntry, MechanismFile, Unloading, Words};
-use crate::file::{Findings, Place};
-use crate::geom::expr::Expr;
-use crate::model::joint_type::{Freedom, JointType};
-use crate::model::mechanism::{
-    Frame, Joint, JointId, JointOption, Link, LinkId, Parts, Role, StateId,
-};
-use itertools::Itertools;
-use std::collections::BTreeSet;
 
 /// Maximum number of states of a mechanism.
 const MOST_STATES: usize = 100;

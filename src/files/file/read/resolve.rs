@@ -2,16 +2,10 @@
 
 use crate::closure::coupling::length_ratio;
 use crate::closure::twist::{MotionSpace, joint_twists};
-use crate::file::Place;
-use crate::file::schema::{OptionEntry, OptionTable};
+use crate::file::prelude::*;
 use crate::geom::Scalars;
 use crate::geom::exact::ExactField;
-use crate::geom::expr::Expr;
-use crate::geom::vector::to_vector;
 use crate::linalg::echelon::Echelon;
-use crate::model::joint_type::{Freedom, JointType};
-use crate::model::mechanism::{Frame, JointOption, StateId};
-use itertools::Itertools;
 
 pub(crate) fn zero_vector3() -> [Expr; 3] {
     [0, 0, 0].map(Expr::from)

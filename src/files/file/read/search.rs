@@ -2,19 +2,12 @@
 
 use crate::closure::isometry::Isometry;
 use crate::file::costs::read_costs;
-use crate::file::problem::ProblemKind;
+use crate::file::prelude::*;
 use crate::file::read::resolve::{contains_option, read_option};
 use crate::file::read::value::{LIMITS, used_twice};
-use crate::file::schema::{JointEntry, JointTypeEntry, MechanismFile, OptionEntry, RankingEntry};
-use crate::file::{Findings, Place};
 use crate::geom::extent::box_diagonal;
-use crate::geom::vector::to_vector;
-use crate::model::joint_type::JointType;
-use crate::model::mechanism::{
-    Drives, Frame, Joint, JointId, JointOption, Parts, SearchSpec, StateId,
-};
+use crate::model::mechanism::{Drives, SearchSpec};
 use crate::model::ranking::{ClearanceSum, Limit, Order, Ranking, Term, TypeOverride};
-use itertools::Itertools;
 
 /// Returns the options of a joint, the original one first. Options of the joint's own list must contain the original motion;
 /// those of the common list that do not are skipped.

@@ -3,15 +3,12 @@
 
 pub(crate) mod quantity;
 
+use crate::file::prelude::*;
 use crate::file::read::value::quantity::Given;
-use crate::file::schema::{Coordinate, MechanismFile, Words};
-use crate::file::{Findings, Place};
-use crate::geom::expr::{Expr, ExprError, WORDS, WrittenNumber};
-use crate::model::mechanism::{JointId, LengthUnit, Link, LinkId, Parts, StateId};
-use itertools::Itertools;
+use crate::geom::expr::{ExprError, WORDS, WrittenNumber};
+use crate::model::mechanism::LengthUnit;
 use num_bigint::BigInt;
 use num_rational::BigRational;
-use std::collections::BTreeMap;
 
 /// Maximum number of links, of joints (and of contours), and of options of one joint in a file.
 pub(crate) const LIMITS: (usize, usize, usize) = (2000, 4000, 64);

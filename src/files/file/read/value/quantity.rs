@@ -1,11 +1,8 @@
 //! Numbers with a meaning: angles, and values that must lie in a range.
 
-use crate::file::schema::{Coordinate, MechanismFile};
-use crate::file::{Findings, Place};
-use crate::geom::expr::{End, Expr, WrittenNumber};
+use crate::file::prelude::*;
+use crate::geom::expr::{End, WrittenNumber};
 use crate::geom::extent::box_diagonal;
-use crate::geom::vector::{length, to_vector};
-use crate::model::mechanism::{Frame, Joint, Parts};
 use std::f64::consts::PI;
 use std::fmt::Display;
 

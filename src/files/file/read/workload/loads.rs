@@ -1,19 +1,13 @@
 //! Masses of links and the `[workload]` table.
 
+use crate::file::prelude::*;
 use crate::file::read::value::quantity::Bound;
 use crate::file::read::value::used_twice;
 use crate::file::read::workload::motion::{LARGEST, MAX_FORCES, MAX_STEPS};
-use crate::file::schema::{
-    Coordinate, ForceEntry, InertiaEntry, LinkEntry, MechanismFile, Quantities, Quantity,
-    StrokeEntry, WorkloadEntry,
-};
-use crate::file::{Findings, Place};
-use crate::model::joint_type::JointType;
 use crate::model::loads::{
     Accuracy, ExternalForce, ExternalMoment, Face, Inertia, Loads, MassProperties, Misalignment,
     Stiffness, Stroke, Tolerances,
 };
-use crate::model::mechanism::Parts;
 use crate::statics::reactions::contact::object_at;
 
 /// The allowed range of inertias and masses.
