@@ -10,14 +10,11 @@ use crate::file::text::{read_file, text_of};
 use crate::format::four_digits;
 use crate::geom::extent::box_diagonal;
 use crate::model::ranking::Term;
-use crate::model::rounded::looks_rounded;
 
 /// Metres across, without a stated unit, beyond which the unit was probably forgotten.
 const FORGOTTEN_UNIT: f64 = 10.0;
 /// Metres across that a mechanism is hardly smaller or larger than.
 const SIZES: (f64, f64) = (1e-5, 1e2);
-/// Places of joints on one link nearer than this fraction of the whole were probably meant to be one.
-const SAME_PLACE: f64 = 1e-6;
 /// Names shown of a list.
 const SHOWN: usize = 8;
 
@@ -105,10 +102,6 @@ fn joint_point(j: &Joint) -> [f64; 3] {
     to_vector(&j.frame.point)
 }
 
-fn distance(a: [f64; 3], b: [f64; 3]) -> f64 {
-    length(sub(a, b))
-}
-
 /// Returns the diagonal of the box around the joints, in the file's unit.
 ///
 /// # Examples
@@ -138,34 +131,8 @@ fn check_lengths(file: &MechanismFile, m: &Mechanism, out: &Findings) {
             m.length_unit.symbol
         ));
     }
-    // A pair reported with its line is not reported again.
-    let told = check_places(m, across, out);
     let rounded = find_rounding(m).into_iter();
-    let rounded = rounded.filter(|k| !(told && matches!(k, ProblemKind::NearlySpecial { .. })));
     rounded.for_each(|kind| out.key("joint").warn(kind));
-}
-
-/// Finds joints of one link that are nearly in one place, and returns true if there are any. If many digits show that coordinates
-/// were measured, reports that instead.
-fn check_places(m: &Mechanism, across: f64, out: &Findings) -> bool {
-    if looks_rounded(m).is_some_and(|r| r.digits.is_some()) {
-        return false;
-    }
-    let mut told = false;
-    for (a, b) in m.joint_ids().tuple_combinations() {
-        let [i, j] = [a, b].map(|j| &m.joints[j]);
-        let apart = distance(joint_point(i), joint_point(j));
-        let near = apart > 0.0 && apart < SAME_PLACE * across;
-        if near && i.links.iter().any(|l| j.links.contains(l)) {
-            told = true;
-            let unit = m.length_unit.symbol;
-            joint_place(out, b).key("point").warn(format!(
-                "joints \"{}\" and \"{}\" are {} {unit} apart in a mechanism of {} {unit}; give both the same point if they should coincide",
-                i.id, j.id, four_digits(apart), four_digits(across)
-            ));
-        }
-    }
-    told
 }
 
 fn joint_place(out: &Findings, j: JointId) -> Place<'_> {

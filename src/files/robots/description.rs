@@ -125,6 +125,25 @@ pub(crate) fn free_joint() -> JointType {
     JointType::Custom(vec![Tx, Ty, Tz, Rx, Ry, Rz])
 }
 
+/// Returns the joint type of a word, if it is among those `known` in a format, which are separated by commas.
+pub(crate) fn joint_of_word(word: &str, known: &str) -> Option<JointType> {
+    if !known.split(", ").any(|k| k == word) {
+        return None;
+    }
+    Some(match word {
+        "revolute" | "continuous" | "hinge" => JointType::Revolute,
+        "prismatic" | "slider" | "slide" => JointType::Prismatic,
+        "cylindrical" => JointType::Cylindrical,
+        "screw" => JointType::Helical,
+        "universal" | "revolute2" => JointType::Universal,
+        "spherical" | "ball" | "point" | "3d" => JointType::Spherical,
+        "planar" => JointType::Planar,
+        "fixed" | "weld" | "6d" => JointType::Fixed,
+        "floating" | "free" => free_joint(),
+        _ => return None,
+    })
+}
+
 /// Rate of one joint over that of another.
 #[derive(Debug, Clone)]
 pub(crate) struct Ratio {

@@ -14,6 +14,8 @@ use crate::robots::prelude::*;
 const SECTIONS: &str = "asset contact custom extension keyframe option sensor size statistic \
     tendon visual";
 
+const TYPES: &str = "hinge, slide, ball, free";
+
 /// Attributes of a joint's resistance to motion, which do not affect the kinematics.
 const RESISTANCE: &str = "damping stiffness springdamper armature frictionloss";
 
@@ -267,13 +269,8 @@ fn read_joint<'a>(
     } else {
         look.attribute("type").map_or("hinge", |(_, t)| t)
     };
-    let joint_type = match word {
-        "hinge" => JointType::Revolute,
-        "slide" => JointType::Prismatic,
-        "ball" => JointType::Spherical,
-        "free" => free_joint(),
-        _ => return Err(e.unknown_word("type", word, "hinge, slide, ball, free")),
-    };
+    let joint_type = joint_of_word(word, TYPES);
+    let joint_type = joint_type.ok_or_else(|| e.unknown_word("type", word, TYPES))?;
     let id = joint_id(e, body, word, robot)?;
     let pos = look.vector("pos", [0.0; 3])?;
     let at = if word == "free" {

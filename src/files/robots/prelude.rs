@@ -7,7 +7,9 @@ pub(crate) use crate::geom::vector::{
 };
 pub(crate) use crate::model::joint_type::{Freedom, JointType};
 pub(crate) use crate::model::mechanism::{JointId, Link, LinkId, Mechanism, Role, StateId};
-pub(crate) use crate::robots::description::{End, Part, Ratio, Robot, free_joint, same_link};
+pub(crate) use crate::robots::description::{
+    End, Part, Ratio, Robot, free_joint, joint_of_word, same_link,
+};
 pub(crate) use crate::robots::warning::{
     ExportError, Found, Options, Read, Reader, bad_value, list_known, missing_problem,
     syntax_problem, too_large, too_many, unknown_name, unknown_word, unsupported_problem,

@@ -151,6 +151,11 @@ impl Place<'_> {
         self.in_range(self.read_number(c, false))
     }
 
+    /// Returns a number in the range of lengths that may contain pi.
+    pub(crate) fn read_irrational(&self, c: &Coordinate) -> Expr {
+        self.in_range(self.read_number(c, true))
+    }
+
     /// Returns three numbers in the range of lengths.
     pub(crate) fn read_vector(&self, v: &[Coordinate; 3]) -> [Expr; 3] {
         [0, 1, 2].map(|i| self.entry_at(i).read_coordinate(&v[i]))
@@ -183,8 +188,7 @@ impl Place<'_> {
             self.add_excluded_key("lead", "pitch");
         }
         if let Some(c) = pitch {
-            let at = self.key("pitch");
-            return Some(at.in_range(at.read_number(c, true)));
+            return Some(self.key("pitch").read_irrational(c));
         }
         let lead = self.key("lead").read_coordinate(lead.as_ref()?);
         let turn = Expr::from(2) * Expr::pi();

@@ -14,7 +14,7 @@ use serde_json::Value;
 
 /// Largest file, in bytes.
 const MAX_BYTES: usize = 1 << 20;
-const TYPES: &str = "revolute, prismatic, cylindrical, spherical (3d), fixed (6d)";
+const TYPES: &str = "revolute, prismatic, cylindrical, spherical, ball, 3d, fixed, weld, 6d";
 
 /// Adds the closures that the file names.
 pub(crate) fn add_loops(name: &str, bytes: &[u8], robot: &mut Robot) -> Read<()> {
@@ -196,14 +196,8 @@ fn find_place(element: &str, name: &str, robot: &Robot) -> Found<End> {
 }
 
 fn joint_type(element: &str, word: &str) -> Found<JointType> {
-    Ok(match word.to_lowercase().as_str() {
-        "6d" | "fixed" | "weld" => JointType::Fixed,
-        "3d" | "spherical" | "ball" => JointType::Spherical,
-        "revolute" => JointType::Revolute,
-        "prismatic" => JointType::Prismatic,
-        "cylindrical" => JointType::Cylindrical,
-        _ => return Err(unknown_word(element, "type", word, TYPES)),
-    })
+    let found = joint_of_word(&word.to_lowercase(), TYPES);
+    found.ok_or_else(|| unknown_word(element, "type", word, TYPES))
 }
 
 fn add_closure(id: &str, ends: [End; 2], kind: JointType, robot: &mut Robot) -> Found<()> {

@@ -5,8 +5,7 @@ use crate::robots::sdf::scene::{
     Scoped, SdfScene, absolute_name, joint_end, locate_name, of_joint,
 };
 
-pub(crate) const TYPES: &str =
-    "revolute, continuous, prismatic, screw, universal, revolute2, ball, fixed, floating, gearbox";
+pub(crate) const TYPES: &str = "revolute, continuous, hinge, prismatic, screw, universal, revolute2, ball, fixed, floating, gearbox";
 /// Distance of a parent frame from the joint, as a fraction of the lengths in the file, beyond which the joint moves to it.
 pub(crate) const APART: f64 = 1e-6;
 
@@ -66,7 +65,8 @@ pub(crate) fn read_joint(
     }
     let world = of_joint(scene, e, &name).unwrap_or(RigidMotion::IDENTITY);
     let local = |d: Vector| world.inverse().map_direction(d);
-    let joint_type = joint_type(e, word)?;
+    let joint_type = joint_of_word(word, TYPES);
+    let joint_type = joint_type.ok_or_else(|| e.unknown_word("type", word, TYPES))?;
     let far = length(sub(parent_world.translation, world.translation));
     let apart = is_frame(&absolute_name(scope, parent_name), scene) && far > APART * size;
     let mut on_parent = world;
@@ -107,19 +107,6 @@ pub(crate) fn read_joint(
 /// frame.
 fn is_frame(name: &str, scene: &SdfScene<'_>) -> bool {
     scene.placed.get(name).is_some_and(|p| p.link.is_none())
-}
-
-fn joint_type(e: Element<'_>, word: &str) -> Read<JointType> {
-    Ok(match word {
-        "revolute" | "continuous" | "hinge" => JointType::Revolute,
-        "prismatic" => JointType::Prismatic,
-        "screw" => JointType::Helical,
-        "universal" | "revolute2" => JointType::Universal,
-        "ball" => JointType::Spherical,
-        "fixed" => JointType::Fixed,
-        "floating" => free_joint(),
-        _ => return Err(e.unknown_word("type", word, TYPES)),
-    })
 }
 
 /// Reports the elements of a joint that are not read.
