@@ -89,11 +89,11 @@ fn of_option(table: &OptionTable, entry: &JointEntry, joint: &Joint) -> Option<(
         JointType::Universal => "the first pin",
         _ => "the joint's own axis",
     };
+    use JointType::{CylinderOnPlane, Planar, SphereOnPlane};
+    let has_plane = matches!(present, Planar | CylinderOnPlane | SphereOnPlane);
     let ball = *present == JointType::Spherical && entry.axis.is_none();
     let guess = match option {
-        JointType::CylinderOnPlane | JointType::SphereOnPlane
-            if table.axis.is_none() && !has_plane(present) =>
-        {
+        CylinderOnPlane | SphereOnPlane if table.axis.is_none() && !has_plane => {
             ("normal of the plane", line, "axis")
         }
         JointType::SphereInCylinder if table.axis.is_none() && ball => ("tube", line, "axis"),
@@ -115,14 +115,6 @@ fn of_option(table: &OptionTable, entry: &JointEntry, joint: &Joint) -> Option<(
         _ => return None,
     };
     Some((name.to_owned(), guess))
-}
-
-/// Returns true if the axis of a type is the normal of a plane.
-fn has_plane(of: &JointType) -> bool {
-    matches!(
-        of,
-        JointType::Planar | JointType::CylinderOnPlane | JointType::SphereOnPlane
-    )
 }
 
 /// Joints nearer to special than this, in radians and sizes of the mechanism, were probably meant to be special.

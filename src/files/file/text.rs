@@ -159,27 +159,26 @@ fn check_value(schema: &Value, value: &Spanned<DeValue<'_>>, owner: &str, at: &P
     let all = schema_alternatives(schema);
     match value.get_ref() {
         DeValue::Array(items) => {
-            let lists = all.into_iter().filter(|s| is_list(s));
-            let (fit, not): (Vec<_>, Vec<_>) = lists.partition(|s| {
-                let [least, most] = length_limits(s);
-                (least..=most).contains(&items.len())
-            });
-            if let Some(schema) = fit.first().and_then(|s| s.get("items")) {
-                at.each_entry(items)
-                    .for_each(|(at, item)| check_value(schema, item, owner, &at));
-            } else if let (true, Some(schema)) = (fit.is_empty(), not.first()) {
-                let wanted = match length_limits(schema) {
-                    [least, most] if least == most => {
-                        format!("{}, no more and no fewer", count_noun(least, "value"))
-                    }
-                    [least, most] => format!("{least} to {}", count_noun(most, "value")),
-                };
-                at.add_problem(format!(
-                    "{} has {}; write {wanted}",
-                    list_name(at, owner),
-                    count_noun(items.len(), "value")
-                ));
+            let Some((list, item)) = all.iter().find_map(|s| Some((s, s.get("items")?))) else {
+                return;
+            };
+            let limit = |name: &str| list.get(name).and_then(Value::as_u64);
+            let (least, most) = (limit("minItems").unwrap_or(0), limit("maxItems"));
+            let (count, most) = (items.len() as u64, most.unwrap_or(u64::MAX));
+            if (least..=most).contains(&count) {
+                let items = at.each_entry(items);
+                return items.for_each(|(at, value)| check_value(item, value, owner, &at));
             }
+            let wanted = if least == most {
+                format!("{least} values, no more and no fewer")
+            } else {
+                format!("{least} to {most} values")
+            };
+            at.add_problem(format!(
+                "{} has {}; write {wanted}",
+                list_name(at, owner),
+                count_noun(items.len(), "value")
+            ));
         }
         DeValue::Table(entries) => {
             let id = entries.get("id").and_then(|id| id.get_ref().as_str());
@@ -218,25 +217,6 @@ fn schema_alternatives(schema: &Value) -> Vec<&Map<String, Value>> {
         Some(offered) => offered.iter().flat_map(schema_alternatives).collect(),
         None => vec![own],
     }
-}
-
-/// Returns whether a schema is that of a list.
-fn is_list(schema: &Map<String, Value>) -> bool {
-    match schema.get("type") {
-        Some(Value::String(word)) => word == "array",
-        Some(Value::Array(words)) => words.iter().any(|w| w == "array"),
-        _ => false,
-    }
-}
-
-/// Returns the least and the greatest length of a list.
-fn length_limits(schema: &Map<String, Value>) -> [usize; 2] {
-    let limit = |name: &str| {
-        let stated = schema.get(name).and_then(Value::as_u64);
-        stated.and_then(|n| usize::try_from(n).ok())
-    };
-    let (least, most) = (limit("minItems"), limit("maxItems"));
-    [least.unwrap_or(0), most.unwrap_or(usize::MAX)]
 }
 
 /// Returns the schema of an entry of a table.

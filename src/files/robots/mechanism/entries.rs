@@ -5,7 +5,7 @@ use crate::file::schema::{
     Coordinate, CouplingEntry, DriveWord, JointEntry, LinkEntry, MechanismFile, OptionEntry,
     SearchEntry,
 };
-use crate::file::write::{Comment, plain_number};
+use crate::file::write::{Comment, freedom_names, plain_number};
 use crate::robots::description::coupling::Usable;
 use crate::robots::description::kinematics::world_axes;
 use crate::robots::mechanism::series_of_single_joints::Names;
@@ -184,10 +184,7 @@ fn make_joint(p: &Part, c: &Content, id: String, coupled: bool, ids: &Ids) -> Jo
         id,
         links: p.links.map(|l| ids[&c.bodies[l]].clone()),
         kind: p.joint_type.name().to_owned(),
-        freedoms: match &p.joint_type {
-            JointType::Custom(list) => Some(list.iter().map(|f| f.name().to_owned()).collect()),
-            _ => None,
-        },
+        freedoms: freedom_names(&p.joint_type),
         point: place.translation.map(clean_number),
         axis: (!ball).then(axis),
         reference: reference.map(|x| file_direction(x).map(clean_number)),

@@ -4,8 +4,10 @@ use crate::file::schema::{Coordinate, JointEntry, MechanismFile, OptionEntry, Op
 use crate::rank::rounded::verdict::rank_verdict;
 use crate::redundancy::release::Release;
 use crate::redundancy::stressed::Stressed;
-use crate::robots::description::coupling::LARGEST;
 use crate::robots::prelude::*;
+
+/// Maximum work of singular values, rows · columns · the lesser of them, for which options are sought.
+const LARGEST: usize = 2_000_000_000;
 
 /// Gives the joints that close loops their own options: more freedom along each direction of their self-stresses, and along all
 /// of them. Returns true if there are any.

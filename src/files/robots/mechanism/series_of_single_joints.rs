@@ -93,6 +93,12 @@ pub(crate) fn escape_xml(text: &str) -> String {
     quick_xml::escape::escape(text).into_owned()
 }
 
+/// Returns the attributes of an element, each with a blank before it; values are escaped.
+pub(crate) fn write_attributes<'t>(all: impl IntoIterator<Item = (&'t str, &'t str)>) -> String {
+    let one = |(name, value)| format!(" {name}=\"{}\"", escape_xml(value));
+    all.into_iter().map(one).collect()
+}
+
 /// Escapes text for a comment.
 pub(crate) fn escape_comment(text: &str) -> String {
     text.replace("--", "- -")

@@ -4,8 +4,7 @@
 use crate::robots::description::origin::Origin;
 use crate::robots::description::physical::LIGHT_MJCF;
 use crate::robots::edit::{Edits, Freed, Freeing};
-use crate::robots::mechanism::series_of_single_joints::{escape_xml, format_numbers};
-use crate::robots::mjcf::context::read_compiler;
+use crate::robots::mechanism::series_of_single_joints::{format_numbers, write_attributes};
 use crate::robots::prelude::*;
 
 /// Armature of a new joint, in kg for a slide and in kg·m² for a hinge: more than any robot weighs. MuJoCo softens a constraint by the
@@ -55,8 +54,6 @@ enum KeyframeMark {
     Joint(usize),
     /// Behind all elements within a body or the world.
     Within(usize),
-    /// Behind a site.
-    Site(usize),
 }
 
 /// The numbers of `qpos` and of `qvel` before each mark.
@@ -119,50 +116,49 @@ impl<'a> MjcfFile<'a> {
         all.find(|e| e.name() == tag && (name.is_none() || e.attribute("name") == name))
     }
 
-    /// Inserts a body that moves on the first body and is held in its place. If sites are held together, it has a copy of the first.
+    /// Inserts a body that moves on the first body and is held in its place. If sites are held together, it has one in place of the
+    /// first.
     fn at_closure(&mut self, joint: &Freeing<'a>, edits: &mut Edits<'_>) -> Read<()> {
         let &(part, e, freed) = joint;
         let (robot, one) = (&self.origin.robot, part.links[0]);
-        let at = self.origin.places[one].then(&part.sides[0]);
-        let point = at.translation;
+        let site = e.attribute("site1");
+        let body = if let Some(site) = site {
+            let found = self.find_named("site", Some(site));
+            found.map(|found| self.body_around(found.id))
+        } else if robot.world == Some(one) {
+            self.find_named("worldbody", None)
+        } else {
+            self.find_named("body", Some(&robot.links[one]))
+        };
+        let body =
+            body.ok_or_else(|| e.unsupported_error("its first body has no name", "give it one"))?;
+        let frame = self.origin.places[one];
+        let at = part.sides[0];
         let between = edits.name(&format!("{}_between", part.id));
-        let Some(site) = e.attribute("site1") else {
-            let body = if robot.world == Some(one) {
-                self.find_named("worldbody", None)
-            } else {
-                self.find_named("body", Some(&robot.links[one]))
-            };
-            let body = body
-                .ok_or_else(|| e.unsupported_error("its first body has no name", "give it one"))?;
-            let frame = self.origin.places[one];
-            let inner = write_joints(part, point, &frame, freed, edits);
-            let inside = frame.inverse().map_point(point);
-            edits.append_child(body, &write_body(&between, inside, inner, None));
-            let mark = KeyframeMark::Within(body.id);
-            self.inserted.push((mark, freed.len()));
-            return edits.set_attribute(e, "body1", &between);
-        };
-        let found = self.find_named("site", Some(site)).ok_or_else(|| {
-            e.unsupported_error("its first site has no element", "choose another")
-        })?;
-        let root = self.origin.element(self.origin.root);
-        let own = read_compiler(root)?.read_place(found)?;
-        let frame = at.then(&own.inverse());
+        let place = format_numbers(at.translation);
+        let own = write_attributes([("name", &*between)]);
+        let mut lines = vec![
+            format!("<body{own}>"),
+            format!("  <inertial pos=\"{place}\" {LIGHT_MJCF}/>"),
+        ];
+        let point = frame.map_point(at.translation);
         let inner = write_joints(part, point, &frame, freed, edits);
-        let copy = edits.name(&format!("{site}_between"));
-        let raw = edits.raw_text(found);
-        let Some(span) = found.value_span("name") else {
-            let why = "its name has character references";
-            return Err(found.unsupported_error(why, "write it as plain text"));
-        };
-        let start = found.node().span.start;
-        let (before, after) = (&raw[..span.start - start], &raw[span.end - start..]);
-        let copied = format!("{before}{}{after}", escape_xml(&copy));
-        let inside = frame.inverse().map_point(point);
-        edits.insert_after(found, &write_body(&between, inside, inner, Some(copied)));
-        let mark = KeyframeMark::Site(found.id);
+        lines.extend(inner.into_iter().map(|l| format!("  {l}")));
+        if let Some(site) = site {
+            let copy = edits.name(&format!("{site}_between"));
+            let [x, y] = [0, 1].map(|k| format_numbers(at.rotation.map(|row| row[k])));
+            let axes = format!("{x} {y}");
+            let own = [("name", &*copy), ("pos", &*place), ("xyaxes", &*axes)];
+            lines.push(format!("  <site{}/>", write_attributes(own)));
+            edits.set_attribute(e, "site1", &copy)?;
+        } else {
+            edits.set_attribute(e, "body1", &between)?;
+        }
+        lines.push("</body>".to_owned());
+        edits.append_child(body, &lines);
+        let mark = KeyframeMark::Within(body.id);
         self.inserted.push((mark, freed.len()));
-        edits.set_attribute(e, "site1", &copy)
+        Ok(())
     }
 
     /// Zeros for the new joints in the positions and speeds of keyframes.
@@ -224,24 +220,12 @@ impl<'a> MjcfFile<'a> {
             marks.push((KeyframeMark::Joint(j.id), *sizes));
         }
         for c in e.children() {
-            match c.name() {
-                "body" | "frame" => self.walk_below(c, sizes, marks),
-                "site" => marks.push((KeyframeMark::Site(c.id), *sizes)),
-                _ => {}
+            if ["body", "frame"].contains(&c.name()) {
+                self.walk_below(c, sizes, marks);
             }
         }
         marks.push((KeyframeMark::Within(e.id), *sizes));
     }
-}
-
-/// Writes the lines of an inserted body, with its mass at its joints.
-fn write_body(name: &str, at: Vector, inner: Vec<String>, site: Option<String>) -> Vec<String> {
-    let mut out = vec![format!("<body name=\"{}\">", escape_xml(name))];
-    let light = format!("<inertial pos=\"{}\" {LIGHT_MJCF}/>", format_numbers(at));
-    let inner = std::iter::once(light).chain(inner).chain(site);
-    out.extend(inner.map(|l| format!("  {l}")));
-    out.push("</body>".to_owned());
-    out
 }
 
 /// Writes the new joints of a joint, in a frame at a place in the world.
@@ -268,10 +252,17 @@ fn write_joints(
         };
         let name = edits.name(&format!("{}_{word}", part.id));
         out.push(format!("<!-- {why} -->"));
+        let pos = format_numbers(inside.map_point(point));
+        let axis = format_numbers(inside.map_direction(*direction));
+        let own = [
+            ("name", &*name),
+            ("type", kind),
+            ("pos", &pos),
+            ("axis", &axis),
+        ];
+        let own = write_attributes(own);
         out.push(format!(
-            "<joint name=\"{}\" type=\"{kind}\" armature=\"{ARMATURE}\" pos=\"{}\" axis=\"{}\" {NEUTRAL}{force}/>",
-            escape_xml(&name), format_numbers(inside.map_point(point)),
-            format_numbers(inside.map_direction(*direction))
+            "<joint{own} armature=\"{ARMATURE}\" {NEUTRAL}{force}/>"
         ));
     }
     out
