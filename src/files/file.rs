@@ -30,8 +30,8 @@ use std::fmt::Display;
 /// Maximum number of reported problems. A file of a few megabytes can have a hundred thousand, and each is located and drawn.
 pub(crate) const TOLD: usize = 100;
 
-/// The problems found so far with their places: the first of them, and the number of further ones. Expressions are read here too, so
-/// it has the named numbers of the file.
+/// The problems found so far with their places: the first of them, and the number of further ones. Also the named numbers and the
+/// states of the file, which its entries name.
 #[derive(Default)]
 pub(crate) struct Findings {
     told: RefCell<Vec<Finding>>,
@@ -40,6 +40,8 @@ pub(crate) struct Findings {
     warned: RefCell<Vec<Finding>>,
     /// The values of the file's parameters.
     names: BTreeMap<String, Expr>,
+    /// The names of the states, `free` first.
+    pub(crate) states: Vec<String>,
     /// The parameters that an expression uses.
     used: RefCell<BTreeSet<String>>,
 }

@@ -75,15 +75,15 @@ fn few_enough(file: &MechanismFile, out: &Findings) -> bool {
 /// # Ok::<(), ozols::Error>(())
 /// ```
 pub fn build_mechanism(file: &MechanismFile) -> Result<Mechanism, Vec<Finding>> {
-    let out = with_parameters(file);
+    let mut out = with_parameters(file);
     if !few_enough(file, &out) {
         return Err(out.into_findings());
     }
     let length_unit = length_unit(file, &out);
     let mode = read_mode(file, &out);
     let links = read_links(file, &out);
-    let states = read_states(file, &out);
-    let joints = read_joints(file, &links, &states, &out);
+    out.states = read_states(file, &out);
+    let joints = read_joints(file, &links, &out);
     if out.problem_count() > 0 {
         return Err(out.into_findings());
     }
@@ -96,7 +96,7 @@ pub fn build_mechanism(file: &MechanismFile) -> Result<Mechanism, Vec<Finding>> 
         links,
         joints,
         couplings: Vec::new(),
-        states,
+        states: out.states.clone(),
         contours: Vec::new(),
         search: SearchSpec::default(),
         loads: Loads::default(),

@@ -167,7 +167,6 @@ pub(crate) fn read_option(
     joint: &str,
     present: &Frame,
     entry: &OptionEntry,
-    states: &[String],
     at: &Place<'_>,
 ) -> Option<JointOption> {
     let table = entry.as_table();
@@ -175,9 +174,10 @@ pub(crate) fn read_option(
     let joint_type = joint_type(joint, kind, table.freedoms.as_ref(), at)?;
     let frame = option_frame(joint, present, &table, at);
     let state = table.state.as_ref().and_then(|name| {
-        let known = states.iter().position(|s| s == name);
+        let known = at.out.states.iter().position(|s| s == name);
         if known.is_none() {
-            at.key("state").add_unknown_word("state", name, states);
+            at.key("state")
+                .add_unknown_word("state", name, &at.out.states);
         }
         known.map(StateId::new)
     });

@@ -16,7 +16,6 @@ pub(crate) fn read_options(
     entry: &JointEntry,
     present: &JointOption,
     changeable: bool,
-    states: &[String],
     at: &Place<'_>,
 ) -> Vec<JointOption> {
     let (list, from) = match &entry.options {
@@ -26,7 +25,7 @@ pub(crate) fn read_options(
     };
     let (mut options, mut listed) = (vec![present.clone()], false);
     for (at, item) in from.key("options").first_entries(LIMITS.2, list, "options") {
-        let Some(option) = read_allowed_option(entry, item, &present.frame, states, &at) else {
+        let Some(option) = read_allowed_option(entry, item, &present.frame, &at) else {
             continue;
         };
         let contained = contains_option(&option, present);
@@ -67,12 +66,11 @@ fn read_allowed_option(
     entry: &JointEntry,
     item: &OptionEntry,
     present: &Frame,
-    states: &[String],
     at: &Place<'_>,
 ) -> Option<JointOption> {
     // A bad entry of the common list would be reported once per joint.
     let before = at.out.problem_count();
-    let option = read_option(&entry.id, present, item, states, at)?;
+    let option = read_option(&entry.id, present, item, at)?;
     let is_it = |f: &String| *f == option.name || JointType::word_of_trade(f) == option.name;
     let allowed = !entry.forbid.iter().any(is_it);
     (at.out.problem_count() == before && allowed).then_some(option)

@@ -123,12 +123,13 @@ impl Place<'_> {
     }
 
     /// Returns the states that an entry names; `None` if it names none, which means all.
-    pub(crate) fn find_states(&self, m: &Parts, named: Option<&Words>) -> Option<Vec<StateId>> {
+    pub(crate) fn find_states(&self, named: Option<&Words>) -> Option<Vec<StateId>> {
+        let known = &self.out.states;
         let mut found = Vec::new();
         for word in named?.word_list() {
-            match m.state_named(word) {
-                Some(state) => found.push(state),
-                None => self.add_unknown_word("state", word, m.states.iter().take(LISTED)),
+            match known.iter().position(|s| s == word) {
+                Some(state) => found.push(StateId::new(state)),
+                None => self.add_unknown_word("state", word, known.iter().take(LISTED)),
             }
         }
         Some(found)

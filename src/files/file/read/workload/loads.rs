@@ -105,7 +105,7 @@ fn read_force(f: &ForceEntry, mechanism: &Parts, at: &Place<'_>) -> Option<Exter
         at.key("to")
             .add_bad_value("end of the range", to, "at or after its beginning");
     }
-    let states = at.key("state").find_states(mechanism, f.state.as_ref());
+    let states = at.key("state").find_states(f.state.as_ref());
     Some(ExternalForce {
         link: at.key("link").read_link(&mechanism.links, &f.link)?,
         point,
@@ -149,7 +149,7 @@ fn read_moments(entry: &WorkloadEntry, m: &Parts, at: &Place<'_>) -> Vec<Externa
     for (at, e) in at.first_entries(MAX_FORCES, &entry.moment, "moments") {
         let moment = at.key("moment").read_vector(&e.moment);
         let link = at.key("link").read_link(&m.links, &e.link);
-        let states = at.key("state").find_states(m, e.state.as_ref());
+        let states = at.key("state").find_states(e.state.as_ref());
         found.extend(link.map(|link| ExternalMoment {
             link,
             moment,
