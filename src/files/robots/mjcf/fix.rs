@@ -237,13 +237,16 @@ fn write_joints(
     edits: &mut Edits<'_>,
 ) -> Vec<String> {
     let (mut out, inside) = (Vec::new(), frame.inverse());
-    // Releases of MuJoCo before 3.0 do not know this attribute.
-    let mut sources = edits.origin.document.sources.iter();
-    let force = if sources.any(|s| s.text.contains("actuatorfrc")) {
-        " actuatorfrclimited=\"false\""
-    } else {
-        ""
-    };
+    let (origin, mut neutral) = (edits.origin, String::new());
+    let root = origin.element(origin.root);
+    if root.first_child("default").is_some() {
+        neutral = format!(" {NEUTRAL}");
+        // Releases of MuJoCo before 3.0 do not know this attribute.
+        let mut sources = origin.document.sources.iter();
+        if sources.any(|s| s.text.contains("actuatorfrc")) {
+            neutral += " actuatorfrclimited=\"false\"";
+        }
+    }
     for (slides, direction, why) in freed {
         let (kind, word) = if *slides {
             ("slide", "slide")
@@ -261,9 +264,7 @@ fn write_joints(
             ("axis", &axis),
         ];
         let own = write_attributes(own);
-        out.push(format!(
-            "<joint{own} armature=\"{ARMATURE}\" {NEUTRAL}{force}/>"
-        ));
+        out.push(format!("<joint{own} armature=\"{ARMATURE}\"{neutral}/>"));
     }
     out
 }
