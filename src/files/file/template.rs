@@ -89,14 +89,15 @@ pub fn without_claims(text: &str) -> Result<String, TomlError> {
 pub fn with_comments(text: &str, from: &str, name: &str) -> Result<String, TomlError> {
     let mut document: DocumentMut = text.parse()?;
     document.remove("claim");
+    let (root, text) = (json_schema(), document.to_string());
+    let whole = toml::from_str(&text).unwrap_or_default();
+    let mut document: DocumentMut = comment_lines(&text, &root, &whole).parse()?;
+    // Last, because a name may have several lines.
     if let Some(old) = document.get_mut("name").and_then(Item::as_value_mut) {
         let decor = old.decor().clone();
         *old = name.into();
         *old.decor_mut() = decor;
     }
-    let (root, text) = (json_schema(), document.to_string());
-    let whole = toml::from_str(&text).unwrap_or_default();
-    let body = comment_lines(&text, &root, &whole);
     let mut head = String::new();
     let mut say = |text: &str| write_comment(&mut head, text);
     say(&format!(
@@ -113,7 +114,7 @@ pub fn with_comments(text: &str, from: &str, name: &str) -> Result<String, TomlE
         ));
     }
     head.push('\n');
-    Ok(head + &body)
+    Ok(head + &document.to_string())
 }
 
 /// Returns the lines of a text, with a comment above the first table and the first key of each kind: before the comments that it has.
