@@ -61,7 +61,7 @@ pub(crate) enum Command {
     /// Draw and edit a mechanism in the browser; verdict and ideas update with every change.
     #[command(after_help = examples::STUDIO)]
     Studio(studio::StudioArgs),
-    /// Write a mechanism, robot description or CAD assembly in another format: TOML, JSON, URDF, MJCF, SDF, DOT, GraphML.
+    /// Write a mechanism, robot description or CAD assembly in another format: TOML, JSON, URDF, MJCF, SDF, DOT.
     #[command(after_help = examples::EXPORT)]
     Export(export::Export),
     /// Measure accuracy and speed of every rank method on the built-in mechanisms.

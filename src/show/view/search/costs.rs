@@ -14,13 +14,11 @@ const HEAD: &str = "\
 # the cost of its type, `link` and `change`.
 #
 #   ozols show costs > costs.toml
-#   ozols search FILE --costs costs.toml
-#
-# `report`, `draw`, `export` and `fix` take it, too. If a line is
-# missing, [search.costs] of FILE holds, or the default. The cost at one
+# A search takes this file as its costs; `report`, `draw`, `export` and
+# `fix` take it, too. If a line is missing, [search.costs] of FILE holds, or the default. The cost at one
 # option of FILE stays. A custom joint costs a revolute joint, and
 # CUSTOM for each freedom beyond the first. Names of FILE's options may be
-# here, too, and classes of the sets of `--options any`: CLASSES.
+# here, too, and classes of the sets of the option `any`: CLASSES.
 ";
 
 /// Returns the default costs as TOML.
