@@ -2,33 +2,7 @@
 
 use maud::{PreEscaped, html};
 
-const STYLE: &str = "
-:root{color-scheme:light dark;--ink:#1c2126;--soft:#59636e;--back:#fff;--rule:#e3e7eb;--link:#0b4a83}
-@media screen and (prefers-color-scheme:dark){
-:root{--ink:#e8ebee;--soft:#a3adb7;--back:#15191d;--rule:#2b3239;--link:#8cc4f5}
-}
-*{box-sizing:border-box}
-html{-webkit-text-size-adjust:100%}
-body{margin:0 auto;padding:2rem 1.25rem 4rem;max-width:66rem;color:var(--ink);background:var(--back);
-font:1rem/1.5 system-ui,-apple-system,'Segoe UI',Roboto,'Helvetica Neue',Arial,sans-serif}
-h1{font-size:1.75rem;line-height:1.2;margin:0 0 1rem}
-h2{position:absolute;width:1px;height:1px;margin:0;overflow:hidden;clip-path:inset(50%)}
-p{margin:0 0 1rem;max-width:42rem;color:var(--soft)}
-a{color:var(--link)}
-nav ul{margin:0;padding:0;list-style:none;columns:18rem;column-gap:2rem}
-section{margin-top:2rem;padding-top:1.5rem;border-top:1px solid var(--rule);scroll-margin-top:1rem}
-.wide{overflow-x:auto;margin:0 -1.25rem}
-.wide p{margin:0 1.25rem 1rem}
-.wide svg{display:block;height:auto;max-width:max(100%,36rem)}
-@media print{
-@page{margin:15mm}
-body{padding:0;max-width:none;font-size:10pt}
-nav{display:none}
-.wide{break-after:avoid}
-.wide{overflow:visible;margin:0 -5mm}
-.wide svg{max-width:100%}
-}
-";
+const STYLE: &str = include_str!("page.css");
 
 /// Returns one self-contained HTML page: under the title, each part with its heading, an SVG, which is written as it is given, and a
 /// sentence. Pictures show their headings themselves, so those of the parts are for screen readers and the table of contents.

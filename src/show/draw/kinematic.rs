@@ -16,6 +16,7 @@ pub(super) mod scene;
 
 use self::arrow::Arrow;
 use self::body::{Body, Marked};
+use self::loads::known_loads;
 use super::subject::Subject;
 use crate::draw::place::projection::Sight;
 use crate::draw::place::projection::{JointInSpace, Projection, Vector};
@@ -83,8 +84,7 @@ pub fn kinematic_stressed(
     name: &str,
 ) -> Drawing {
     let mut drawn = Kinematic::new(subject, sight);
-    drawn.arrows = drawn.arrows_of(stress);
-    drawn.shows = Some(name.to_owned());
+    drawn.show_stress(name, stress);
     drawn.draw_sheet()
 }
 
@@ -134,6 +134,8 @@ struct MovingPicture {
     /// Lines on links that move.
     lines: Vec<(&'static str, [Point; 2])>,
     circles: Vec<Vec<Point>>,
+    /// The arrows of a self-stress.
+    arrows: Vec<Arrow>,
 }
 
 /// A scheme under way.
@@ -180,6 +182,12 @@ impl Kinematic<'_> {
             mean(dirs.into_iter())
         };
         Some(add(at, scale(unit(away), 48.0)))
+    }
+
+    /// Adds the arrows of a self-stress at the pose of the file, and its name.
+    fn show_stress(&mut self, name: &str, stress: &SelfStress) {
+        self.arrows = self.arrows_of(&known_loads(stress), None);
+        self.shows = Some(name.to_owned());
     }
 
     fn is_frame(&self, link: LinkId) -> bool {

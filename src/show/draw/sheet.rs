@@ -1,6 +1,6 @@
 //! The sheet a drawing is on: title, style, legend, and a record of every label and symbol.
 
-pub(in crate::draw) mod shapes;
+pub(crate) mod shapes;
 
 pub(super) use shapes::Shape;
 

@@ -2,10 +2,8 @@
 
 use super::contents::{Page, Redesigns};
 use crate::format::count_noun;
-use crate::search::check::second_prime::{PrimeCheck, Verdict};
 use crate::view::analysis::{Analysis, State};
-use crate::view::search::stopped_early;
-use crate::view::search::text;
+use crate::view::search::{counts, text};
 use maud::{Markup, html};
 
 pub(super) fn certainty_html(page: &Page<'_>, analysis: &Analysis<'_>) -> Markup {
@@ -51,19 +49,7 @@ fn state_lines(s: &State<'_>) -> Vec<String> {
 
 fn search_lines(r: &Redesigns<'_>) -> Vec<String> {
     let found = r.found;
-    let mut lines = Vec::new();
-    match found.check {
-        Some(PrimeCheck {
-            verdict: Verdict::Agree,
-            ..
-        }) => lines.push("Checked: two runs with different primes agree".to_owned()),
-        Some(_) => lines.push("Not checked by a second prime: interrupted".to_owned()),
-        None => lines.push("One prime, no cross-check".to_owned()),
-    }
-    let early = stopped_early::stopped_line(found);
-    lines.push(early.unwrap_or_else(|| "All variants were counted".to_owned()));
-    lines.extend(stopped_early::estimate_line(found));
-    lines.extend(stopped_early::more_line(found));
+    let mut lines = counts::certainty_lines(found);
     if let Some((why, verdicts)) = &found.measured {
         let written = verdicts.iter().all(|v| v.is_as_written());
         let searched = if written {

@@ -192,6 +192,7 @@ impl Moving {
             way: &self.way,
             words: &self.words,
             unit: (self.unit.0, &self.unit.1),
+            stress: None,
         }
     }
 }

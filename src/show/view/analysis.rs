@@ -232,7 +232,7 @@ impl State<'_> {
     }
 
     /// Returns the contours that pass a self-stress round.
-    pub(crate) fn contours_of(&self, t: &SelfStress) -> Vec<String> {
+    fn contours_of(&self, t: &SelfStress) -> Vec<String> {
         let contours = t
             .contours
             .iter()
@@ -250,7 +250,7 @@ impl State<'_> {
 }
 
 /// Returns "harmless" or "harmful".
-pub(crate) fn harm_word(t: &SelfStress) -> &'static str {
+fn harm_word(t: &SelfStress) -> &'static str {
     match t.verdict {
         StressVerdict::Harmless => "harmless",
         StressVerdict::Harmful => "harmful",
@@ -264,7 +264,7 @@ fn axis_names(flags: [bool; 3]) -> Vec<&'static str> {
 }
 
 /// Returns whether the formula and the ranks say the same of what a state adds.
-pub(crate) fn ranks_agree(e: &External) -> bool {
+fn ranks_agree(e: &External) -> bool {
     e.redundant == e.by_rank
 }
 

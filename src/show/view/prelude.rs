@@ -6,7 +6,7 @@ pub(crate) use crate::format::{
 pub(crate) use crate::model::mechanism::{JointId, LinkId, Mechanism, Mode, Role, StateId};
 pub(crate) use crate::score::outcome::Outcome;
 pub(crate) use crate::view::terminal::layout::{
-    Report, fit_lines, row_cells, text_table, unit_prefix,
+    Report, Table, fit_lines, row_cells, text_table, unit_prefix,
 };
 pub(crate) use crate::view::terminal::next_commands::typed_option;
 pub(crate) use crate::view::{as_read, certainty_kind, format_span, join_objects};

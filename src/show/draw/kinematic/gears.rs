@@ -16,7 +16,7 @@ type PitchCurve = (usize, Vec<Vector>);
 impl Kinematic<'_> {
     /// Returns the pitch circles and lines of a coupling on paper with the joints at the given places, each as a closed line; empty
     /// if gears cannot make it.
-    pub(in crate::draw) fn pitch_curves(
+    pub(crate) fn pitch_curves(
         &self,
         coupling: &Coupling,
         places: &[JointInSpace],
@@ -28,7 +28,7 @@ impl Kinematic<'_> {
     }
 
     /// Returns the pitch circles in space, or the circle of a pinion and the pitch line of its rack.
-    pub(in crate::draw) fn pitch_curves_in_space(
+    pub(crate) fn pitch_curves_in_space(
         &self,
         coupling: &Coupling,
         places: &[JointInSpace],
@@ -42,7 +42,7 @@ impl Kinematic<'_> {
     }
 
     /// Returns the lines between joints for couplings without circles.
-    pub(in crate::draw) fn coupling_lines(&self) -> Vec<(Point, Point)> {
+    pub(crate) fn coupling_lines(&self) -> Vec<(Point, Point)> {
         let m = self.subject.mechanism;
         let place = |j| self.spots.iter().find(|s| s.joint == j).map(|s| s.at);
         let all = m.couplings_in(self.subject.state);

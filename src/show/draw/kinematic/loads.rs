@@ -2,12 +2,28 @@
 
 use super::Kinematic;
 use super::arrow::{Arrow, arrow_outline};
+use crate::closure::contour::Contour;
+use crate::draw::kinematic::moving::sliding::Carried;
 use crate::draw::place::projection::sub as sub3;
-use crate::draw::place::projection::{Vector, add as add3, along_z, norm as norm3, scale as times};
+use crate::draw::place::projection::{
+    Vector, add as add3, along_z, frame_in_numbers, norm as norm3, scale as times,
+};
 use crate::draw::sheet::{Shape, Sheet, Swatch};
 use crate::format::decimals;
-use crate::redundancy::stress::SelfStress;
+use crate::geom::expr::Expr;
+use crate::model::mechanism::{JointId, Mechanism};
+use crate::redundancy::stress::{JointWrench, SelfStress};
+use crate::redundancy::stress_loads::Borne;
 use crate::svg::plane::{Point, Rect, bounds_of};
+
+/// What a joint bears.
+type Load = (JointId, Borne);
+
+/// Returns the loads of a self-stress at the pose of the file, as far as they are known.
+pub(super) fn known_loads(stress: &SelfStress) -> Vec<Load> {
+    let known = |w: &JointWrench| Some((w.joint, w.borne?));
+    stress.joints.iter().filter_map(known).collect()
+}
 
 /// The length of the greatest arrow, in pixels.
 const LONGEST: f64 = 60.0;
@@ -18,24 +34,24 @@ const ASIDE: f64 = 15.0;
 impl Kinematic<'_> {
     /// Returns the arrows of a self-stress on all links except the frame. Lengths have one scale, and moments are divided by
     /// the size of the mechanism.
-    pub(super) fn arrows_of(&self, stress: &SelfStress) -> Vec<Arrow> {
+    pub(super) fn arrows_of(&self, loads: &[Load], pose: Option<&Carried<'_>>) -> Vec<Arrow> {
         let m = self.subject.mechanism;
-        let borne = stress.joints.iter().filter_map(|w| Some((w, w.borne?)));
-        let sizes = borne
-            .clone()
-            .flat_map(|(_, b)| [norm3(b.force), norm3(b.moment)]);
+        let sizes = loads.iter();
+        let sizes = sizes.flat_map(|(_, b)| [norm3(b.force), norm3(b.moment)]);
         let greatest = sizes.fold(0.0, f64::max);
         let mut out = Vec::new();
-        for (wrench, b) in borne {
-            let Some(i) = self.spots.iter().position(|s| s.joint == wrench.joint) else {
+        for (id, b) in loads {
+            let Some(i) = self.spots.iter().position(|s| s.joint == *id) else {
                 continue;
             };
-            let joint = &m.joints[wrench.joint];
+            let joint = &m.joints[*id];
             for (end, sign) in [(0, -1.0), (1, 1.0)] {
                 if self.is_frame(joint.links[end]) {
                     continue;
                 }
                 let link = self.link_row(joint.links[end]);
+                let at = self.beside_joint(link, self.places[i].point);
+                let at = pose.map_or(at, |c| c.carried_point(joint.links[end], at));
                 for (what, vector, turns) in [("force", b.force, false), ("moment", b.moment, true)]
                 {
                     let along = times(vector, sign * LONGEST / greatest);
@@ -46,7 +62,7 @@ impl Kinematic<'_> {
                     let [link_id, joint_id] = [&m.links[joint.links[end]].id, &joint.id];
                     out.push(Arrow {
                         link,
-                        at: self.beside_joint(link, self.places[i].point),
+                        at,
                         along,
                         turns,
                         tip: format!(
@@ -57,6 +73,42 @@ impl Kinematic<'_> {
             }
         }
         out
+    }
+
+    /// Returns the arrows of a self-stress in each of some poses, the pose of the file being that at `start`.
+    pub(super) fn arrows_along(
+        &self,
+        stress: &SelfStress,
+        poses: &[Carried<'_>],
+        start: usize,
+    ) -> Vec<Vec<Arrow>> {
+        let (m, state) = (self.subject.mechanism, self.subject.state);
+        let moved = |pose: &Carried<'_>| {
+            let mut moved = m.clone();
+            for (i, spot) in self.spots.iter().enumerate() {
+                let (rides, guides) = self.carrier_links(i);
+                let frame = &mut moved.edit().joints[spot.joint].frame;
+                let place = pose.carried_place(rides, guides, &frame_in_numbers(frame));
+                let exact = |v: Vector| v.map(|x| Expr::from_f64(x).unwrap_or(Expr::from(0)));
+                frame.point = exact(place.point);
+                (frame.axis, frame.reference) = (exact(place.z), exact(place.x));
+            }
+            moved
+        };
+        let moved: Vec<Mechanism> = poses.iter().map(moved).collect();
+        let Some(found) = self.subject.analysis else {
+            return Vec::new();
+        };
+        let contours = found.per_contour.iter().map(|c| c.contour.clone());
+        let contours: Vec<Contour> = contours.collect();
+        let (of, count) = ((state, &*contours), found.self_stresses.len());
+        let loads = stress.loads_along((&moved, start), of, count);
+        let arrows = |(c, all): (&Carried<'_>, &Vec<Borne>)| {
+            let known = stress.joints.iter().filter(|_| !all.is_empty());
+            let known: Vec<Load> = known.map(|w| (w.joint, all[w.joint])).collect();
+            self.arrows_of(&known, Some(c))
+        };
+        poses.iter().zip(&loads).map(arrows).collect()
     }
 
     /// Returns a point slightly off a joint, towards the middle of a link.

@@ -2,10 +2,11 @@
 //!
 //! All lengths are pixels of the drawing it belongs to, from the point whose place on paper is its origin.
 
-pub(in crate::draw::kinematic) mod part;
+pub(crate) mod part;
 mod standing;
 
 use super::arrow::Arrow;
+use super::loads::known_loads;
 use super::moving::{Moved, flag_row, poses_of};
 use super::{Kinematic, MovingPicture, Words};
 use crate::draw::kinematic::moving::sliding::Carried;
@@ -89,7 +90,7 @@ pub fn kinematic_scene(subject: &Subject<'_>, sight: &Sight, shown: Shown<'_>) -
     let mut area = rest.room_of(&frames, start);
     let mut arrows = Vec::new();
     for (name, stress) in shown.stresses {
-        let own = rest.arrows_of(stress);
+        let own = rest.arrows_of(&known_loads(stress), None);
         area = rest.arrow_room(&own).map_or(area, |r| area.with(&r));
         let arrows_of: Value = own.iter().map(|a| rest.load_json(a)).collect();
         scene

@@ -8,7 +8,7 @@ use crate::rank::stroke::request::drive_or_any;
 use std::f64::consts::PI;
 
 /// Returns the joints whose drive slides them without turning, each with the axis of its frame.
-pub(in crate::draw) fn driven_slides(m: &Mechanism, state: StateId) -> Vec<(JointId, usize)> {
+pub(crate) fn driven_slides(m: &Mechanism, state: StateId) -> Vec<(JointId, usize)> {
     let driven = m.joints_in(state).filter(|&j| m.joints[j].drive);
     driven
         .filter_map(|j| Some((j, slide_axis_of(driven_freedom(m, state, j)?)?)))
@@ -45,7 +45,7 @@ fn driven_freedom(m: &Mechanism, state: StateId, joint: JointId) -> Option<Freed
 }
 
 /// Returns the arrow around a driving pair that turns. It is not a full circle, because that means a second joint.
-pub(in crate::draw) fn round_arrow(mark: &str, radius: f64) -> Vec<Shape> {
+pub(crate) fn round_arrow(mark: &str, radius: f64) -> Vec<Shape> {
     const FROM: f64 = 0.25 * PI;
     const TO: f64 = 1.85 * PI;
     let on = |angle: f64, r: f64| [r * angle.cos(), r * angle.sin()];

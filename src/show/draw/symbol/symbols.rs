@@ -17,7 +17,7 @@ static SYMBOLS: LazyLock<BTreeMap<String, Vec<Piece>>> = LazyLock::new(|| {
 
 /// Returns the distance from the axis of a joint to the side of the part that slides along it. `None` for joints without
 /// such a slide.
-pub(in crate::draw) fn side_of_slide(joint: &JointType) -> Option<f64> {
+pub(crate) fn side_of_slide(joint: &JointType) -> Option<f64> {
     match joint {
         JointType::Prismatic => Some(5.0),
         JointType::Cylindrical | JointType::Helical => Some(5.5),
@@ -28,7 +28,7 @@ pub(in crate::draw) fn side_of_slide(joint: &JointType) -> Option<f64> {
 }
 
 /// Returns the symbol of a joint at the origin, scaled by `size`; `mark` is added to the classes.
-pub(in crate::draw) fn symbol_shapes(
+pub(crate) fn symbol_shapes(
     joint: &JointType,
     pose: &PaperPose,
     mark: &str,
@@ -39,17 +39,17 @@ pub(in crate::draw) fn symbol_shapes(
 }
 
 /// Returns the pieces of a joint's symbol, from the back to the front.
-pub(in crate::draw) fn symbol_pieces(joint: &JointType) -> &'static [Piece] {
+pub(crate) fn symbol_pieces(joint: &JointType) -> &'static [Piece] {
     &SYMBOLS[joint.name()]
 }
 
 /// Returns the straight arrow of a joint that slides along one of its axes, outside the hatching of a rail.
-pub(in crate::draw) fn slide_arrow(axis: usize) -> &'static [Piece] {
+pub(crate) fn slide_arrow(axis: usize) -> &'static [Piece] {
     &SYMBOLS[["drive x", "drive y", "drive z"][axis]]
 }
 
 /// Returns the bounding rectangle of some shapes.
-pub(in crate::draw) fn shapes_extent(shapes: &[Shape]) -> Rect {
+pub(crate) fn shapes_extent(shapes: &[Shape]) -> Rect {
     let own = shapes.iter().map(|s| match s {
         Shape::Path { points, .. } => bounds_of(points).grown_by(0.7),
         Shape::Circle { at, radius, .. } => {
@@ -63,7 +63,7 @@ pub(in crate::draw) fn shapes_extent(shapes: &[Shape]) -> Rect {
 mod tests {
     use super::*;
     use crate::draw::place::projection;
-    use crate::geom::vector::{X, Y, Z};
+    use crate::geom::vector::{X, Y, Z, unit};
 
     #[test]
     fn each_type_of_joint_has_a_symbol_of_its_own_from_every_side() {
@@ -73,7 +73,14 @@ mod tests {
             PaperPose::of_axes([X, Y, Z], &along_z),
             PaperPose::of_axes([Y, Z, X], &along_z),
             PaperPose::of_axes([Z, X, Y], &along_z),
-            PaperPose::of_axes([X, Y, Z], &projection::isometric_view()),
+            PaperPose::of_axes(
+                [
+                    unit([1.0, -1.0, 0.0]),
+                    unit([1.0, 1.0, -2.0]),
+                    unit([1.0; 3]),
+                ],
+                &along_z,
+            ),
         ] {
             let drawn = types.each_ref().map(|t| {
                 let mut shapes = symbol_shapes(t, &pose, "", 1.0);

@@ -22,26 +22,11 @@ pub(super) const IDEAS: &str =
 pub(super) fn counts_text(outcome: &Outcome, width: Option<u16>, verbose: bool) -> String {
     let verbose = verbose || matches!(outcome.request.list, List::Nothing | List::Top(0));
     let mut out = Report::new(width);
-    write_verdict(&mut out, outcome, verbose);
-    let exact = outcome.numeric.is_none();
-    // Two primes that agree on rounded digits prove nothing.
-    let check = outcome.check.filter(|_| outcome.is_confirmed());
-    let check = check.map(|check| match check.verdict {
-        Verdict::Agree => "Checked: two runs with different primes agree",
-        Verdict::Interrupted => "Not checked by a second prime: interrupted",
-    });
-    let lines = minimal_line(outcome).filter(|_| verbose).into_iter();
-    let lines = lines
-        .chain(numeric::numeric_lines(outcome))
-        .chain(second_opinion::opinion_lines(outcome));
-    let lines = lines.chain(check.map(str::to_owned));
-    let lines = lines.chain(
-        exact
-            .then(|| stopped_early::stopped_line(outcome))
-            .flatten(),
-    );
-    let lines = lines.chain(stopped_early::estimate_line(outcome));
-    let lines = lines.chain(exact.then(|| stopped_early::more_line(outcome)).flatten());
+    let mechanism = &outcome.search.mechanism.name;
+    out.add_line(format!("{mechanism}: {}", verdict_line(outcome)));
+    let minimal = minimal_line(outcome).filter(|_| verbose);
+    let lines = pose_lines(outcome, verbose).into_iter().chain(minimal);
+    let lines = lines.chain(certainty_lines(outcome));
     lines.for_each(|line| out.add_line(format!("  {line}")));
     let table = if verbose {
         by_mobility(outcome, width)
@@ -49,6 +34,27 @@ pub(super) fn counts_text(outcome: &Outcome, width: Option<u16>, verbose: bool) 
         String::new()
     };
     out.text() + &fit_lines(&table, width)
+}
+
+/// Returns how sure the counts are, and what would give more.
+pub(crate) fn certainty_lines(outcome: &Outcome) -> Vec<String> {
+    let exact = outcome.numeric.is_none();
+    // Two primes that agree on rounded digits prove nothing.
+    let check = outcome.check.filter(|_| outcome.is_confirmed());
+    let check = check.map(|check| match check.verdict {
+        Verdict::Agree => "Checked: two runs with different primes agree".to_owned(),
+        Verdict::Interrupted => "Not checked by a second prime: interrupted".to_owned(),
+    });
+    let lines = numeric::numeric_lines(outcome).into_iter();
+    let lines = lines
+        .chain(second_opinion::opinion_lines(outcome))
+        .chain(check);
+    let stopped = exact.then(|| stopped_early::stopped_line(outcome));
+    let more = exact.then(|| stopped_early::more_line(outcome));
+    let lines = lines
+        .chain(stopped.flatten())
+        .chain(stopped_early::estimate_line(outcome));
+    lines.chain(more.flatten()).collect()
 }
 
 /// Returns "σ = 0", or the number of redundant constraints allowed.
@@ -68,15 +74,9 @@ fn keep_motion(mechanism: &Mechanism) -> &'static str {
     }
 }
 
-/// Returns how many variants meet all conditions, and how many have few enough redundant constraints, if counts are asked for.
-fn write_verdict(out: &mut Report, outcome: &Outcome, verbose: bool) {
-    let least = if outcome.is_counted() {
-        ""
-    } else {
-        "at least "
-    };
-    let (conditions, condition) = (&outcome.search.conditions, redundancy_condition(outcome));
-    let (mechanism, size) = (&outcome.search.mechanism.name, outcome.search.size());
+/// Returns what variants have to meet besides the number of redundant constraints, in words.
+fn further_conditions(outcome: &Outcome) -> Vec<String> {
+    let conditions = &outcome.search.conditions;
     let more = [
         conditions
             .keep_output
@@ -86,8 +86,18 @@ fn write_verdict(out: &mut Report, outcome: &Outcome, verbose: bool) {
             .max_changes
             .map(|c| format!("change at most {}", count_noun(c as usize, "joint"))),
     ];
-    let told = in_state(&outcome.search, false);
-    let more = more.into_iter().flatten().chain(told).collect_vec();
+    let more = more.into_iter().flatten();
+    more.chain(in_state(&outcome.search)).collect()
+}
+
+/// Returns how many variants meet all conditions: "12 of 64 variants have σ = 0".
+pub(crate) fn verdict_line(outcome: &Outcome) -> String {
+    let least = if outcome.is_counted() {
+        ""
+    } else {
+        "at least "
+    };
+    let (condition, more) = (redundancy_condition(outcome), further_conditions(outcome));
     let all = match more.split_last() {
         None => format!("have {condition}"),
         Some((last, rest)) => {
@@ -95,45 +105,44 @@ fn write_verdict(out: &mut Report, outcome: &Outcome, verbose: bool) {
             format!("{} and {last}", head.collect_vec().join(", "))
         }
     };
+    let listed = &outcome.listed_counts().total;
     let good = if let Some(found) = &outcome.numeric {
         format!("numeric: {}", numeric::from_to(&found.admissible))
-    } else if outcome.listed_counts().total.is_zero() && least.is_empty() {
+    } else if listed.is_zero() && least.is_empty() {
         "none".to_owned()
     } else if !outcome.is_confirmed() {
-        format!(
-            "not exact: {least}{}",
-            group_thousands(&outcome.listed_counts().total)
-        )
+        format!("not exact: {least}{}", group_thousands(listed))
     } else {
         let [_, estimate] = outcome.estimates();
-        let listed = &outcome.listed_counts().total;
         stopped_early::format_count(listed, outcome.is_counted(), estimate)
     };
-    let of = plural_of(&group_thousands(&size), "variant");
-    out.add_line(format!("{mechanism}: {good} of {of} {all}"));
-    if size == BigUint::from(1u8) {
-        out.add_line(
-            "  no joint has an option with more freedoms than its own type; list some under [search], for example options = \
-             [\"cylindrical\", \"spherical\"]"
-        );
-    }
+    let of = plural_of(&group_thousands(outcome.search.size()), "variant");
+    format!("{good} of {of} {all}")
+}
+
+/// Returns what else there is to say of the counts: nothing to choose, other poses, and the number of determinate variants.
+pub(crate) fn pose_lines(outcome: &Outcome, verbose: bool) -> Vec<String> {
+    let fixed = (outcome.search.size() == BigUint::from(1u8)).then(|| {
+        "no joint has an option with more freedoms than its own type; list some under [search], for example options = \
+         [\"cylindrical\", \"spherical\"]"
+            .to_owned()
+    });
     let beside = verbose.then(|| but_in_the_pose(outcome)).flatten();
-    for line in in_the_pose(outcome).into_iter().chain(beside) {
-        out.add_line(format!("  {line}"));
-    }
-    if !more.is_empty() && (verbose || outcome.listed_counts().total.is_zero()) {
+    let wanted = verbose || outcome.listed_counts().total.is_zero();
+    let before = (wanted && !further_conditions(outcome).is_empty()).then(|| {
         let determinate = match &outcome.numeric {
             Some(found) => numeric::from_to(&found.determinate),
             None => determinate_count(outcome),
         };
-        out.add_line(format!(
-            "  {determinate} with {condition} before the other conditions"
-        ));
-    }
+        let condition = redundancy_condition(outcome);
+        format!("{determinate} with {condition} before the other conditions")
+    });
+    let lines = fixed.into_iter().chain(in_the_pose(outcome));
+    lines.chain(beside).chain(before).collect()
 }
 
 /// Describes where variants keep the motion, as far as it is known.
-pub(crate) fn where_kept(outcome: &Outcome) -> &'static str {
+fn where_kept(outcome: &Outcome) -> &'static str {
     match &outcome.lasting {
         Ok(_) => " throughout the motion",
         Err(PoseOnly::Rests | PoseOnly::Numeric) => "",
@@ -278,17 +287,12 @@ fn minimal_line(outcome: &Outcome) -> Option<String> {
     ))
 }
 
-/// Returns the conditions in a searched state: "hold a in state clamped" and "have external σ ≤ 2, harmful ≤ 0 in it"; of `one` variant, "holds" and "has".
-pub(crate) fn in_state(search: &Search, one: bool) -> Vec<String> {
+/// Returns the conditions in a searched state: "hold a in state clamped" and "have external σ ≤ 2, harmful ≤ 0 in it".
+fn in_state(search: &Search) -> Vec<String> {
     let Some(s) = search.conditions.state else {
         return Vec::new();
     };
     let m = &search.mechanism;
-    let (hold, have) = if one {
-        ("holds", "has")
-    } else {
-        ("hold", "have")
-    };
     let state = format!("in state {}", m.states[s.state]);
     let held = search
         .held_bodies()
@@ -300,12 +304,12 @@ pub(crate) fn in_state(search: &Search, one: bool) -> Vec<String> {
     ];
     let limits = limits.into_iter().flatten().join(", ");
     match (held.is_empty(), limits.is_empty()) {
-        (true, true) => vec![format!("{have} any external σ {state}")],
-        (true, false) => vec![format!("{have} {limits} {state}")],
-        (false, true) => vec![format!("{hold} {held} {state}")],
+        (true, true) => vec![format!("have any external σ {state}")],
+        (true, false) => vec![format!("have {limits} {state}")],
+        (false, true) => vec![format!("hold {held} {state}")],
         (false, false) => vec![
-            format!("{hold} {held} {state}"),
-            format!("{have} {limits} in it"),
+            format!("hold {held} {state}"),
+            format!("have {limits} in it"),
         ],
     }
 }

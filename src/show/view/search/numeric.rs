@@ -20,14 +20,6 @@ pub(crate) fn from_to(bracket: &Bracket) -> String {
     )
 }
 
-/// Returns the number of admissible variants: "12", or "12 to 15".
-pub(crate) fn admissible_range(outcome: &Outcome) -> String {
-    match &outcome.numeric {
-        Some(found) => from_to(&found.admissible),
-        None => group_thousands(&outcome.admissible.total),
-    }
-}
-
 /// Returns the counts by mobility for people: "12", or "12 to 15".
 pub(crate) fn by_mobility(bracket: &Bracket, of: &[i64]) -> String {
     let sum = |c: &Counts| -> BigUint { of.iter().filter_map(|w| c.by_mobility.get(w)).sum() };

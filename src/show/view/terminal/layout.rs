@@ -1,6 +1,6 @@
 //! Text fitted to a terminal: tables whose columns give way where they can, lines that break between words.
 
-use comfy_table::{ColumnConstraint, ContentArrangement, Table, TableComponent, Width, presets};
+use comfy_table::{ColumnConstraint, ContentArrangement, TableComponent, Width, presets};
 use console::measure_text_width;
 use itertools::Itertools;
 use std::fmt::Display;
@@ -29,9 +29,38 @@ impl Report {
         self.add_line(text_table(heads, rows, self.width));
     }
 
+    /// Adds a table, if there is one, after an empty line.
+    pub(crate) fn add_part(&mut self, table: Option<Table>) {
+        if let Some(Table { heads, rows }) = table {
+            self.add_line("");
+            self.add_table(&heads, rows);
+        }
+    }
+
     /// Returns the text; lines that are too long are broken between words.
     pub(crate) fn text(self) -> String {
         fit_lines(&self.text, self.width)
+    }
+}
+
+/// A table for texts and pages.
+#[derive(Debug)]
+pub(crate) struct Table {
+    /// The heads, separated by ` | `.
+    pub(crate) heads: String,
+    /// The rows.
+    pub(crate) rows: Vec<Vec<String>>,
+}
+
+impl Table {
+    /// Creates a table of at least one row.
+    pub(crate) fn of(
+        heads: impl Into<String>,
+        rows: impl IntoIterator<Item = Vec<String>>,
+    ) -> Option<Table> {
+        let rows: Vec<Vec<String>> = rows.into_iter().collect();
+        let heads = heads.into();
+        (!rows.is_empty()).then_some(Table { heads, rows })
     }
 }
 
@@ -85,7 +114,7 @@ pub fn table_of(header: &[&str], rows: Vec<Vec<String>>, width: Option<u16>) -> 
 }
 
 fn render_table(header: &[&str], rows: Vec<Vec<String>>, widths: Option<Vec<usize>>) -> String {
-    let mut table = Table::new();
+    let mut table = comfy_table::Table::new();
     table
         .load_preset(presets::NOTHING)
         .set_style(TableComponent::HeaderLines, '-')

@@ -19,15 +19,15 @@ const STILL: f64 = 2.0;
 const UPRIGHT: f64 = 0.05;
 
 /// A line on a link that moves: what a block slides along, or a flag that shows it turn.
-pub(in crate::draw::kinematic) struct LinkLine {
-    pub(in crate::draw::kinematic) class: &'static str,
-    pub(in crate::draw::kinematic) link: LinkId,
-    pub(in crate::draw::kinematic) ends: [Vector; 2],
+pub(crate) struct LinkLine {
+    pub(crate) class: &'static str,
+    pub(crate) link: LinkId,
+    pub(crate) ends: [Vector; 2],
 }
 
 impl Kinematic<'_> {
     /// Returns the points of a link that its shape passes through.
-    pub(in crate::draw::kinematic) fn points_in_space(&self, link: usize) -> Vec<Vector> {
+    pub(crate) fn points_in_space(&self, link: usize) -> Vec<Vector> {
         let whole = &self.links[link];
         let own = whole.1.iter().map(|&i| self.places[i].point);
         let own = own.chain(self.points_of(whole.0).map(|p| p.place));
@@ -35,17 +35,14 @@ impl Kinematic<'_> {
     }
 
     /// Returns the middle of those points.
-    pub(in crate::draw::kinematic) fn middle_in_space(&self, link: usize) -> Vector {
+    pub(crate) fn middle_in_space(&self, link: usize) -> Vector {
         let points = self.points_in_space(link);
         let sum = points.iter().fold([0.0; 3], |s, &p| add3(s, p));
         times(sum, 1.0 / points.len() as f64)
     }
 
     /// Returns the lines on links that move over some poses. Rails are as long as the travel of their blocks.
-    pub(in crate::draw::kinematic) fn moving_lines(
-        &mut self,
-        poses: &[Carried<'_>],
-    ) -> Vec<LinkLine> {
+    pub(crate) fn moving_lines(&mut self, poses: &[Carried<'_>]) -> Vec<LinkLine> {
         let slides = self.slide_ranges(poses);
         self.lengthen_rails(&slides);
         let mut lines = self.guide_lines(&slides);
@@ -103,7 +100,7 @@ impl Kinematic<'_> {
     }
 
     /// Returns the shape of a link at the pose in the file.
-    pub(in crate::draw::kinematic) fn body_at_rest(&self, row: usize) -> Body {
+    pub(crate) fn body_at_rest(&self, row: usize) -> Body {
         self.body_in(row, |p| p)
     }
 
@@ -123,7 +120,7 @@ impl Kinematic<'_> {
     }
 
     /// Returns the picture of a pose, or of the pose of the file.
-    pub(in crate::draw::kinematic) fn picture_in(
+    pub(crate) fn picture_in(
         &self,
         pose: Option<&Carried<'_>>,
         lines: &[LinkLine],
@@ -151,16 +148,12 @@ impl Kinematic<'_> {
                 .flat_map(|c| self.pitch_curves(c, &places))
                 .collect(),
             places,
+            arrows: Vec::new(),
         }
     }
 
     /// Draws everything but the symbols of joints; parts that are `named` stand in groups that say what each is.
-    pub(in crate::draw::kinematic) fn draw_picture(
-        &self,
-        sheet: &mut Sheet,
-        picture: &MovingPicture,
-        named: bool,
-    ) {
+    pub(crate) fn draw_picture(&self, sheet: &mut Sheet, picture: &MovingPicture, named: bool) {
         for (l, body) in &picture.bodies {
             let (look, d) = (
                 self.link_classes(*l, body),

@@ -9,17 +9,17 @@ use crate::model::mechanism::LinkId;
 use crate::motion::pose::Pose;
 
 /// The displacement of the links in a pose.
-pub(in crate::draw::kinematic) struct Carried<'p> {
-    pub(in crate::draw::kinematic) pose: &'p Pose,
-    pub(in crate::draw::kinematic) links: &'p [RigidMotion],
+pub(crate) struct Carried<'p> {
+    pub(crate) pose: &'p Pose,
+    pub(crate) links: &'p [RigidMotion],
 }
 
 impl Carried<'_> {
-    pub(in crate::draw::kinematic) fn carried_point(&self, link: LinkId, p: Vector) -> Vector {
+    pub(crate) fn carried_point(&self, link: LinkId, p: Vector) -> Vector {
         self.pose.carry_point(self.links, link, p)
     }
 
-    pub(in crate::draw::kinematic) fn carried_place(
+    pub(crate) fn carried_place(
         &self,
         link: LinkId,
         frame: LinkId,
@@ -33,10 +33,7 @@ impl Carried<'_> {
 impl Kinematic<'_> {
     /// Returns how far along its axis each joint slides from its position at rest, over all poses. `None` for joints that do
     /// not slide.
-    pub(in crate::draw::kinematic) fn slide_ranges(
-        &self,
-        poses: &[Carried<'_>],
-    ) -> Vec<Option<[f64; 2]>> {
+    pub(crate) fn slide_ranges(&self, poses: &[Carried<'_>]) -> Vec<Option<[f64; 2]>> {
         let one = |i: usize| {
             let along = self.slide_axis(i)?;
             let (rides, guides) = self.carrier_links(i);
@@ -54,7 +51,7 @@ impl Kinematic<'_> {
     }
 
     /// Returns the direction that a joint slides in. `None` unless there is exactly one.
-    pub(in crate::draw::kinematic) fn slide_axis(&self, i: usize) -> Option<Vector> {
+    pub(crate) fn slide_axis(&self, i: usize) -> Option<Vector> {
         let joint = &self.subject.mechanism.joints[self.spots[i].joint];
         let place = &self.places[i];
         let freedoms = joint.joint_type.freedoms();
@@ -72,7 +69,7 @@ impl Kinematic<'_> {
     /// Returns the link that the symbol of a joint moves with, and the link that it slides along. A block moves with a link
     /// that has no other shape, and preferably not with the frame. A slot belongs to the second link, and the pin in it to
     /// the first.
-    pub(in crate::draw::kinematic) fn carrier_links(&self, i: usize) -> (LinkId, LinkId) {
+    pub(crate) fn carrier_links(&self, i: usize) -> (LinkId, LinkId) {
         let joint = &self.subject.mechanism.joints[self.spots[i].joint];
         let [a, b] = joint.links;
         if joint.joint_type.freedoms().contains(&Freedom::Tx) {
@@ -97,7 +94,7 @@ impl Kinematic<'_> {
     }
 
     /// Rails are as long as what slides along them needs.
-    pub(in crate::draw::kinematic) fn lengthen_rails(&mut self, slides: &[Option<[f64; 2]>]) {
+    pub(crate) fn lengthen_rails(&mut self, slides: &[Option<[f64; 2]>]) {
         for (i, &range) in slides.iter().enumerate() {
             let (Some(range), Some(axis)) = (range, self.slide_axis(i)) else {
                 continue;

@@ -7,7 +7,7 @@ use crate::model::mechanism::JointId;
 use serde_json::{Value, json};
 
 /// Returns the ground below a joint.
-pub(in crate::draw::kinematic) fn ground_below(reach: f64) -> Vec<Shape> {
+pub(crate) fn ground_below(reach: f64) -> Vec<Shape> {
     let strokes = (0..5).map(|i| {
         let x = 10.0 - 5.0 * f64::from(i);
         Shape::line("fine", vec![[x, reach], [x - 4.0, reach + 6.0]])
@@ -20,7 +20,7 @@ pub(in crate::draw::kinematic) fn ground_below(reach: f64) -> Vec<Shape> {
 impl Kinematic<'_> {
     /// Returns what a type leaves free at a joint: its freedoms in order, where slides go along axes of the second link where turns come
     /// before them.
-    pub(in crate::draw::kinematic) fn pair_json(&self, i: usize, of: &JointType) -> Value {
+    pub(crate) fn pair_json(&self, i: usize, of: &JointType) -> Value {
         let joint = &self.subject.mechanism.joints[self.spots[i].joint];
         let free = of.freedoms();
         let screws = free.contains(&Freedom::Screw);
@@ -40,7 +40,7 @@ impl Kinematic<'_> {
 
     /// Returns a coupling between joints of a scene, in radians and pixels: the changes of the two freedoms times their
     /// factors add up to 0. Returns `None` if a joint is not drawn.
-    pub(in crate::draw::kinematic) fn tie_json(
+    pub(crate) fn tie_json(
         &self,
         coupling: &Coupling,
         row: impl Fn(JointId) -> Option<usize>,

@@ -180,10 +180,7 @@ impl Kinematic<'_> {
 
     /// Makes room for what a swap puts at a joint, and returns that with the number of the joint's spot and its axes; `None` if
     /// the joint is not drawn.
-    pub(in crate::draw::kinematic) fn make_room(
-        &mut self,
-        swap: &Swap<'_>,
-    ) -> Option<(usize, Symbol, JointInSpace)> {
+    pub(crate) fn make_room(&mut self, swap: &Swap<'_>) -> Option<(usize, Symbol, JointInSpace)> {
         let i = self.spots.iter().position(|s| s.joint == swap.joint)?;
         let place = projection::frame_in_numbers(&swap.option.frame);
         let of = &swap.option.joint_type;
@@ -194,11 +191,7 @@ impl Kinematic<'_> {
     }
 
     /// Returns the symbols of swaps in a scene whose joints start with the points of interest, and makes room for them.
-    pub(in crate::draw::kinematic) fn swap_in(
-        &mut self,
-        scene: &mut Scene,
-        swaps: &[Swap<'_>],
-    ) -> Vec<Value> {
+    pub(crate) fn swap_in(&mut self, scene: &mut Scene, swaps: &[Swap<'_>]) -> Vec<Value> {
         let order = self.outer_first();
         let mut out = Vec::new();
         for swap in swaps {

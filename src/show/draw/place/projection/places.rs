@@ -111,7 +111,7 @@ fn middle_between(
 }
 
 /// Returns where on the line p + t·z the line q + s·w meets it.
-pub(in crate::draw) fn meeting_parameter(
+pub(crate) fn meeting_parameter(
     p: Vector,
     z: Vector,
     q: Vector,

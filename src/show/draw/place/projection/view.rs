@@ -103,11 +103,6 @@ pub(super) fn all_views() -> Vec<View> {
     out
 }
 
-/// Returns the first isometric view.
-pub(crate) fn isometric_view() -> View {
-    upright_view([1.0, 1.0, 1.0].map(|x: f64| x / 3f64.sqrt()), "isometric")
-}
-
 /// Returns the view along z.
 pub(crate) fn along_z() -> View {
     all_views()[0]
