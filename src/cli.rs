@@ -82,7 +82,7 @@ pub fn run_with(words: impl IntoIterator<Item = OsString>) -> u8 {
         Command::Search(a) => command::search::run_search(&args.global, a),
         Command::Statics(a) => command::statics::run_statics(&args.global, a),
         Command::Grip(a) => command::grip::run_grip(a),
-        Command::Drive(a) => command::drive::run_drive(a),
+        Command::Drive(a) => command::grip::run_drive(a),
         Command::Verify(a) => command::verify::run_verify(&args.global, a),
         Command::Lint(a) => command::lint::run_lint(a),
         Command::Fix(a) => command::fix::run_fix(a),
@@ -94,7 +94,7 @@ pub fn run_with(words: impl IntoIterator<Item = OsString>) -> u8 {
         Command::Bench(a) => command::bench::run(&args.global, a),
         Command::Catalog(a) => command::catalog::run_catalog(&args.global, a),
         Command::Check(a) => command::check::run_check(&args.global, a),
-        Command::New(a) => command::new::run_new(&args.global, a),
+        Command::New(a) => command::list::run_new(&args.global, a),
         Command::List(a) => command::list::run_list(a),
         Command::Show(a) => command::check::run_show(a),
         Command::Schema => command::check::print_schema(),
@@ -190,7 +190,7 @@ fn say_parsed(e: &clap::Error) -> u8 {
 
 /// Reports an error, if any, and returns the exit code.
 fn exit_code(result: anyhow::Result<Done>) -> u8 {
-    terminal::spinner::hide_spinner();
+    terminal::progress::hide_spinner();
     let interrupted = |code| terminal::interrupt::exit_code().unwrap_or(code);
     match result {
         Ok(Done::Found) => interrupted(0),
@@ -209,7 +209,7 @@ const THREADS: usize = 1024;
 
 fn apply_globals(args: &Global) -> anyhow::Result<()> {
     terminal::interrupt::listen_for_signals()?;
-    terminal::spinner::show_spinner(args.quiet);
+    terminal::progress::show_spinner(args.quiet);
     if args.quiet {
         terminal::output::hush_notes();
     }

@@ -5,16 +5,13 @@ pub(crate) mod analyze;
 pub(crate) mod bench;
 pub(crate) mod catalog;
 pub(crate) mod check;
-pub(crate) mod clamped;
 pub(crate) mod draw;
-pub(crate) mod drive;
 pub(crate) mod explain;
 pub(crate) mod export;
 pub(crate) mod fix;
 pub(crate) mod grip;
 pub(crate) mod lint;
 pub(crate) mod list;
-pub(crate) mod new;
 pub(crate) mod report;
 pub(crate) mod search;
 pub(crate) mod statics;
@@ -36,7 +33,7 @@ pub(crate) enum Command {
     /// Compute what a lever gripper can hold.
     Grip(grip::Grip),
     /// Size a torsional drive of two discs and run its programme.
-    Drive(drive::Drive),
+    Drive(grip::Drive),
     /// Check the certificates of rank that `ozols analyze --certificate` wrote.
     Verify(verify::Verify),
     /// Report redundant constraints in robot descriptions and CAD assemblies, with line and fix.
@@ -58,7 +55,7 @@ pub(crate) enum Command {
     /// Enumerate kinematic chains and gripper structures, and build catalogues of them.
     Catalog(catalog::Catalog),
     /// Write a commented mechanism file to start from.
-    New(new::New),
+    New(list::New),
     /// Check a mechanism file: summary, errors and warnings.
     Check(File),
     /// List the built-in mechanisms.

@@ -2,7 +2,7 @@
 
 use crate::cli::option::request::Which;
 use crate::cli::option::variant::Chosen;
-use crate::cli::option::{picture, variant};
+use crate::cli::option::{self as picture, variant};
 use crate::cli::prelude::*;
 use crate::draw::{self, Drawing, Moved, Sight, Size, Subject};
 use crate::page::moving::Moving;

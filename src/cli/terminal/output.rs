@@ -5,7 +5,7 @@ pub(crate) mod kept;
 
 pub(crate) use beside::{cut_short, remove_unfinished};
 
-use crate::cli::terminal::{Done, spinner};
+use crate::cli::terminal::{Done, progress};
 use crate::file::problem::ImportError;
 use crate::format::plain::{escape_control, escape_except_colours};
 use crate::{api, view};
@@ -160,7 +160,7 @@ pub(crate) fn print_note(text: &str) {
 
 /// Says something on standard error, even where only errors are wanted.
 pub(crate) fn print_message(text: &str) {
-    spinner::hide_spinner();
+    progress::hide_spinner();
     let _ = write!(std::io::stderr().lock(), "{}", escape_control(text));
 }
 
@@ -299,7 +299,7 @@ impl Standard {
 
 impl Write for Standard {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-        spinner::hide_spinner();
+        progress::hide_spinner();
         let Some(line) = &mut self.line else {
             return self.out.write(bytes);
         };

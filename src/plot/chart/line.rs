@@ -1,11 +1,11 @@
 //! Series over two axes, as SVG and as CSV.
 
-use super::axes::PlotAxes;
+use super::axis::PlotAxes;
 use super::axis::{AxisFit, Room, Ruler};
 use super::data::{Chart, Series, Style};
 use super::drawn::{self, DrawnSeries, LEAD, SAMPLE, STEP};
 use super::frame::{self, Head};
-use crate::chart::style::{COLOURS, PAD, TICK, WIDTH};
+use crate::chart::frame::{COLOURS, PAD, TICK, WIDTH};
 use crate::format::csv;
 use crate::svg::text;
 

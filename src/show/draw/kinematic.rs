@@ -1,22 +1,17 @@
 //! The kinematic scheme: links and the symbols of joints where the coordinates have them.
 
 mod arcs;
-mod arrow;
-mod axes;
 mod body;
-mod facets;
 mod gears;
 mod legend;
 mod loads;
 pub(super) mod moving;
 mod naming;
 mod on_paper;
-mod points;
 pub(super) mod scene;
 
-use self::arrow::Arrow;
 use self::body::{Body, Marked};
-use self::loads::known_loads;
+use self::loads::{Arrow, known_loads};
 use super::subject::Subject;
 use crate::draw::place::projection::Sight;
 use crate::draw::place::projection::{JointInSpace, Projection, Vector};

@@ -1,6 +1,5 @@
 //! The structural scheme: links as polygons, joints as circles with their class, contours tinted by what is redundant.
 
-mod contours;
 mod naming;
 
 use super::subject::{Mark, Subject, roominess};

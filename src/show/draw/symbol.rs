@@ -1,6 +1,5 @@
 //! Symbols of joints, gears and the frame.
 
-pub(crate) mod drive;
 pub(crate) mod ground;
 pub(crate) mod pieces;
 pub(crate) mod placed;

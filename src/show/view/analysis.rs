@@ -1,15 +1,12 @@
 //! An analysis as JSON, as text and on the page; the keys of JSON are a stable contract.
 
-pub mod idle;
 pub mod link_motions;
 pub mod mechanism;
 pub mod mobility;
-pub mod next;
 pub mod suggestions;
 pub(crate) mod text;
 
 use crate::geom::expr::PI_DIGITS;
-use crate::model::claim::Topic;
 use crate::rank::reduce::axis_names::Direction;
 use crate::rank::reduce::sufficient_rows::{LeastRows, Motions};
 use crate::redundancy::analysis::{ContourShare, CouplingShare, External, StateAnalysis};
@@ -17,7 +14,6 @@ use crate::redundancy::link_motion::LinkMotion;
 use crate::redundancy::local_mobility::Idle;
 use crate::redundancy::stress::{JointWrench, SelfStress, StressVerdict};
 use crate::view::analysis::suggestions::Advice;
-use crate::view::claims::claims_about;
 use crate::view::prelude::*;
 use crate::view::stroke::StrokeData;
 
@@ -131,7 +127,7 @@ impl State<'_> {
         let (m, s) = (self.mechanism, self.found);
         let most = s.at_most();
         let fault = |d| {
-            let (kind, joint, text) = idle::drive_fault(m, d);
+            let (kind, joint, text) = link_motions::drive_fault(m, d);
             json!({ "kind": kind, "joint": joint, "text": text })
         };
         let left_out = |&(j, freedoms): &(JointId, usize)| json!({ "joint": self.joint_name(j), "freedoms": freedoms });
@@ -206,7 +202,7 @@ impl State<'_> {
             "moving": i.moving.iter().map(|&j| self.joint_name(j)).collect::<Value>(),
             // Joints whose points it leaves at rest.
             "through": i.through.iter().map(|&j| self.joint_name(j)).collect::<Value>(),
-            "text": idle::describe_idle(self.mechanism, i),
+            "text": link_motions::describe_idle(self.mechanism, i),
         })
     }
 

@@ -1,7 +1,6 @@
 //! Joint reactions of any mechanism, in a pose or over a stroke, as JSON and CSV. Forces in N, moments in N·m about the joints'
 //! points, each first link on second, in the joint's own frame.
 
-pub(crate) mod chart;
 pub(crate) mod couplings;
 pub mod misfit;
 pub mod stroke;

@@ -1,10 +1,9 @@
 //! A kinematic scheme over the way of its drive: one picture a pose, shown one after the other.
 
 pub(crate) mod frame;
-pub(crate) mod sliding;
 
 use super::{Kinematic, MovingPicture, Spot, Words};
-use crate::draw::kinematic::moving::sliding::Carried;
+use crate::draw::kinematic::moving::frame::Carried;
 use crate::draw::place::projection::JointInSpace;
 use crate::draw::place::projection::Sight;
 use crate::draw::sheet::{Drawing, Shape, Sheet, Swatch};

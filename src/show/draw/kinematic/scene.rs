@@ -2,14 +2,13 @@
 //!
 //! All lengths are pixels of the drawing it belongs to, from the point whose place on paper is its origin.
 
-pub(crate) mod part;
 mod standing;
 
-use super::arrow::Arrow;
+use super::loads::Arrow;
 use super::loads::known_loads;
 use super::moving::{Moved, flag_row, poses_of};
 use super::{Kinematic, MovingPicture, Words};
-use crate::draw::kinematic::moving::sliding::Carried;
+use crate::draw::kinematic::moving::frame::Carried;
 use crate::draw::place::projection::Sight;
 use crate::draw::place::projection::{Vector, sub};
 use crate::draw::sheet::{Drawing, Swatch};

@@ -4,7 +4,7 @@ use crate::draw::place::projection::{JointInSpace, ONE_PLACE, View};
 use crate::draw::sheet::{ROW, Shape, Sheet};
 use crate::draw::subject::{Mark, Subject};
 use crate::draw::symbol::pieces::{PaperPose, Piece};
-use crate::draw::symbol::{drive, symbols};
+use crate::draw::symbol::symbols;
 use crate::model::joint_type::JointType;
 use crate::model::mechanism::{Joint, JointId, JointOption};
 use crate::svg::plane::{Point, Rect, plane_norm, sub};
@@ -84,7 +84,7 @@ impl Symbol {
         let mark = mark.mark_class();
         let below = self
             .ring
-            .map(|r| drive::round_arrow(mark, r))
+            .map(|r| symbols::round_arrow(mark, r))
             .unwrap_or_default();
         let arrow = self.slide.map_or(&[][..], symbols::slide_arrow);
         let own = symbols::symbol_pieces(&self.of).iter().chain(arrow);

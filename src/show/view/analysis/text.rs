@@ -1,11 +1,9 @@
 //! An analysis for people: the verdict first, then where each figure comes from.
 
 use super::{Analysis, State, axis_names, harm_word, ranks_agree};
-use crate::model::claim::Topic;
 use crate::redundancy::analysis::{ContourShare, CouplingShare, External};
 use crate::redundancy::stress::{JointWrench, SelfStress, StressVerdict};
-use crate::view::analysis::{idle, link_motions, suggestions};
-use crate::view::claims;
+use crate::view::analysis::{link_motions, suggestions};
 use crate::view::prelude::*;
 use std::collections::BTreeSet;
 
@@ -34,11 +32,11 @@ impl Analysis<'_> {
                 .map(|x| suggestions::advice_text(s.mechanism, s.found, x, width));
             out.text() + &advice.unwrap_or_default()
         });
-        let published = claims::claims_about(&self.mechanism.claims, Topic::Structure);
+        let published = claims_about(&self.mechanism.claims, Topic::Structure);
         let published = if verbose {
-            claims::claims_text(&published, width)
+            claims_text(&published, width)
         } else {
-            claims::count_claims(&published)
+            count_claims(&published)
         };
         fit_lines(&(states.collect_vec().join("\n") + &published), width)
     }
@@ -246,13 +244,13 @@ impl State<'_> {
     /// Returns the faults of the drives in words.
     pub(crate) fn drive_faults(&self) -> impl Iterator<Item = String> {
         let faults = self.found.drives.iter();
-        faults.map(|f| idle::drive_fault(self.mechanism, f).2)
+        faults.map(|f| link_motions::drive_fault(self.mechanism, f).2)
     }
 
     /// Returns the idle motions in words, each text once.
     pub(crate) fn idle_motions(&self) -> Vec<String> {
-        let words = |i| idle::describe_idle(self.mechanism, i);
-        idle::told_once(self.found.idle.iter().map(words))
+        let words = |i| link_motions::describe_idle(self.mechanism, i);
+        link_motions::told_once(self.found.idle.iter().map(words))
     }
 
     /// Returns the chosen method with the reason, its changes of coordinates, and the primes.

@@ -12,7 +12,7 @@ use crate::view::prelude::*;
 use crate::view::reactions::Reactions;
 use crate::view::reactions::stroke::ReactionsOverStroke;
 use crate::view::statics::StaticsData;
-use crate::view::statics::csv::statics_csv;
+use crate::view::statics::statics_csv;
 
 /// Reactions in a plane, in one pose, or over a stroke.
 #[derive(Debug)]
