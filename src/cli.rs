@@ -190,7 +190,7 @@ fn say_parsed(e: &clap::Error) -> u8 {
 
 /// Reports an error, if any, and returns the exit code.
 fn exit_code(result: anyhow::Result<Done>) -> u8 {
-    terminal::progress::hide_spinner();
+    terminal::output::hide_spinner();
     let interrupted = |code| terminal::interrupt::exit_code().unwrap_or(code);
     match result {
         Ok(Done::Found) => interrupted(0),
@@ -209,7 +209,7 @@ const THREADS: usize = 1024;
 
 fn apply_globals(args: &Global) -> anyhow::Result<()> {
     terminal::interrupt::listen_for_signals()?;
-    terminal::progress::show_spinner(args.quiet);
+    terminal::output::show_spinner(args.quiet);
     if args.quiet {
         terminal::output::hush_notes();
     }

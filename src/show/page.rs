@@ -9,10 +9,10 @@ use crate::redundancy::AnalysisError;
 use crate::view::analysis::Analysis;
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
-pub use contents::{Commands, Page, Redesigns, SHOWN};
+pub use contents::{Commands, Page, Redesigns};
 use itertools::Itertools;
 use maud::{Markup, PreEscaped, html};
-pub use scenes::{named_swaps, state_swaps};
+pub use scenes::{SHOWN, named_swaps, state_swaps};
 use serde_json::Value;
 use sha2::{Digest, Sha256};
 

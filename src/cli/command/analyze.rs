@@ -8,7 +8,7 @@ use crate::rank::rounded::verdict::rank_verdict;
 use crate::rank::stroke::request::AskedStroke;
 use crate::redundancy::analysis::{Method, StateAnalysis, analyse_states};
 use crate::view::analysis::mobility::ByMethod;
-use crate::view::analysis::suggestions::next as steps;
+use crate::view::analysis::mobility::next as steps;
 use crate::view::analysis::{Analysis, State, suggestions};
 use crate::view::stroke::StrokeData;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};

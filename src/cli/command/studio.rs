@@ -2,7 +2,6 @@
 
 use crate::api::{self, MAX_DESCRIPTION_BYTES};
 use crate::cli::prelude::*;
-use crate::cli::terminal::progress;
 use crate::score::request::Request;
 use crate::studio::{Opening, Studio};
 use crate::{builtin, robots};
@@ -64,7 +63,7 @@ pub(crate) fn run_studio(global: &Global, a: &StudioArgs) -> anyhow::Result<Done
         None => "cannot open the studio".to_owned(),
     })?;
     let address = studio.page_address();
-    progress::hide_spinner();
+    output::hide_spinner();
     output::write_bytes(None, format!("{address}\n"))?;
     if !a.no_open && !open_browser(&address) {
         output::print_note("no browser could be started; open the address above in one\n");

@@ -10,7 +10,7 @@ use crate::search::diagram::Progress;
 use crate::search::question::conditions::Conditions;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::io::IsTerminal;
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 /// Says what a search noticed.
@@ -63,13 +63,13 @@ impl SearchWatch {
         search(&interrupt::is_pending, &mut |event| match event {
             Event::Note(text) => print_line(text),
             Event::Building(p) => {
-                hide_spinner();
+                output::hide_spinner();
                 interrupt::be_patient();
                 bar.show_diagram(p);
             }
             Event::Built => {
                 bar.clear();
-                show_spinner(*quiet);
+                output::show_spinner(*quiet);
                 // What was found so far is still given, unless it is a list without end; another signal stops the giving.
                 if request.list != List::All {
                     interrupt::clear_pending();
@@ -107,7 +107,7 @@ impl Bar {
 
     /// Shows how far a run of known length has come.
     pub(crate) fn show_step(&mut self, what: &str, done: usize, of: usize) {
-        hide_spinner();
+        output::hide_spinner();
         self.set_progress("", done, of, what.to_owned());
     }
 
@@ -134,42 +134,4 @@ impl Bar {
             bar.finish_and_clear();
         }
     }
-}
-
-/// The state of the spinner: how often work began or ended, and the bar.
-static WORKING: Mutex<(u64, Option<ProgressBar>)> = Mutex::new((0, None));
-
-/// Shows on a terminal that work continues, after a second and until [`rest`].
-pub(crate) fn show_spinner(quiet: bool) {
-    if quiet || !std::io::stderr().is_terminal() {
-        return;
-    }
-    let mut shown = lock_working();
-    shown.0 += 1;
-    let began = shown.0;
-    std::thread::spawn(move || {
-        std::thread::sleep(Duration::from_secs(1));
-        let mut shown = lock_working();
-        if shown.0 == began {
-            let bar = ProgressBar::with_draw_target(None, ProgressDrawTarget::stderr());
-            let style = ProgressStyle::with_template("{elapsed_precise} {spinner} working");
-            bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_spinner()));
-            bar.set_elapsed(Duration::from_secs(1));
-            bar.enable_steady_tick(Duration::from_millis(100));
-            shown.1 = Some(bar);
-        }
-    });
-}
-
-/// Takes away what [`show`] shows: something is written.
-pub(crate) fn hide_spinner() {
-    let mut shown = lock_working();
-    shown.0 += 1;
-    if let Some(bar) = shown.1.take() {
-        bar.finish_and_clear();
-    }
-}
-
-fn lock_working() -> MutexGuard<'static, (u64, Option<ProgressBar>)> {
-    WORKING.lock().unwrap_or_else(PoisonError::into_inner)
 }

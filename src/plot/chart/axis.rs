@@ -1,11 +1,8 @@
 //! Ranges, ticks and their labels.
 
-use crate::chart::data::Scale;
-use crate::chart::frame::{self, PAD, TICK, WIDTH};
+use crate::chart::data::{self, Scale, TICK};
 use crate::format::with_minus_sign;
-use crate::svg::plane::Rect;
 use crate::svg::text;
-use crate::svg::xml::Xml;
 
 /// The range of an axis with its ticks; positions are fractions of the axis from its low end.
 #[derive(Clone, Debug)]
@@ -64,7 +61,7 @@ impl Label {
     /// Returns its width in pixels.
     pub(super) fn label_width(&self) -> f64 {
         let power = self.power.as_deref().unwrap_or_default();
-        text::text_width(&self.base, TICK) + text::text_width(power, frame::RAISED)
+        text::text_width(&self.base, TICK) + text::text_width(power, data::RAISED)
     }
 }
 
@@ -152,7 +149,7 @@ impl Ruler {
         let mut end = f64::NEG_INFINITY;
         for (at, label) in labels {
             let (middle, half) = (at * length, label.label_width() / 2.0);
-            if middle - half < end + frame::GAP {
+            if middle - half < end + data::GAP {
                 return true;
             }
             end = middle + half;
@@ -176,7 +173,7 @@ impl Ruler {
         for tick in &mut self.ticks {
             let half = tick.label.as_ref().map_or(0.0, Label::label_width) / 2.0;
             let (from, to) = (tick.at * length - half, tick.at * length + half);
-            if from < -before || to > length + after || from < end + frame::GAP {
+            if from < -before || to > length + after || from < end + data::GAP {
                 tick.label = None;
             } else {
                 end = to;
@@ -276,7 +273,7 @@ fn decimal_label(whole: i64, exponent: i32, most: i64) -> Label {
     if top < 6 && exponent >= -4 {
         let size = whole.unsigned_abs() as f64 * power_of_ten(exponent);
         let digits = format!("{size:.0$}", (-exponent).max(0) as usize);
-        return Label::plain_label(format!("{sign}{}", frame::group_thousands(&digits)));
+        return Label::plain_label(format!("{sign}{}", data::group_thousands(&digits)));
     }
     let decimals = (top - exponent).max(0);
     let mantissa = whole.unsigned_abs() as f64 / power_of_ten(decimals);
@@ -345,58 +342,5 @@ fn decade_label(exponent: i32, plain: bool) -> Label {
         power_of_ten(exponent),
         (-exponent).max(0) as usize
     );
-    Label::plain_label(frame::group_thousands(&digits))
-}
-
-/// A horizontal axis, a vertical axis, and the rectangle that they span.
-#[derive(Debug)]
-pub(super) struct PlotAxes {
-    pub(super) plot: Rect,
-    height: f64,
-    x: Ruler,
-    y: Ruler,
-}
-
-impl PlotAxes {
-    /// Creates axes of this `height` that start at `top` and end at `right`. They begin behind the labels of the
-    /// vertical axis. `across` creates the ruler for the remaining space.
-    pub(super) fn new(
-        top: f64,
-        height: f64,
-        right: f64,
-        y: Ruler,
-        across: impl FnOnce(Room) -> Ruler,
-    ) -> Self {
-        let labels = y.ticks.iter().filter_map(|t| t.label.as_ref());
-        let left = labels.map(Label::label_width).fold(0.0, f64::max);
-        let left = (PAD + left + 8.0).max(48.0);
-        let room = Room::Across(right - left, left - 4.0, WIDTH - right - 4.0);
-        PlotAxes {
-            plot: Rect::new(left, top, right, top + height),
-            height,
-            x: across(room),
-            y,
-        }
-    }
-
-    /// Draws the axes with their names.
-    pub(super) fn draw_axes(&self, xml: &mut Xml, across: &str, up: &str) {
-        let plot = &self.plot;
-        let label = text::cut_text(up, TICK, WIDTH - 2.0 * PAD);
-        frame::begin_text(xml, "name", (PAD, plot.top - 14.0), "").write_text(&label);
-        frame::draw_up(xml, &self.y, plot);
-        frame::draw_across(xml, &self.x, across, plot);
-        let corners = [plot.left, plot.right].map(|x| (x, plot.bottom));
-        frame::draw_stroke(xml, "axis", corners[0], corners[1]);
-    }
-
-    /// Returns the position of a point in the picture, or `None` if it cannot be shown.
-    pub(super) fn place_point(&self, x: f64, y: f64) -> Option<(f64, f64)> {
-        let (across, up) = (self.x.place_value(x)?, self.y.place_value(y)?);
-        let plot = &self.plot;
-        Some((
-            plot.left + across * (plot.right - plot.left),
-            plot.bottom - up * self.height,
-        ))
-    }
+    Label::plain_label(data::group_thousands(&digits))
 }

@@ -2,7 +2,7 @@
 
 use super::data::{Series, Style};
 use super::frame;
-use crate::chart::frame::{COLOURS, PAD, TICK, WIDTH};
+use crate::chart::data::{COLOURS, PAD, TICK, WIDTH};
 use crate::format::six_digits;
 use crate::svg::labels::{self, Wish};
 use crate::svg::plane::Rect;

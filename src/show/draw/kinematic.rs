@@ -10,8 +10,7 @@ mod naming;
 mod on_paper;
 pub(super) mod scene;
 
-use self::body::{Body, Marked};
-use self::loads::{Arrow, known_loads};
+use self::body::{Arrow, Body, Marked, known_loads};
 use super::subject::Subject;
 use crate::draw::place::projection::Sight;
 use crate::draw::place::projection::{JointInSpace, Projection, Vector};

@@ -14,9 +14,6 @@ use crate::view::terminal::next_commands::NextCommand;
 use maud::{Markup, html};
 use serde_json::{Value, json};
 
-/// Idle freedoms, and self-stresses, of a state that are shown in space.
-pub const SHOWN: usize = 24;
-
 /// Everything a page tells.
 #[derive(Debug)]
 pub struct Page<'a> {

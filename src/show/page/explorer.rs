@@ -1,7 +1,8 @@
 //! The parts that the script fills: the stage with the original mechanism and the chosen one, moved by one slider, and
 //! the frame of the redesigns with filters, table and chart.
 
-use super::contents::{Page, Redesigns, SHOWN};
+use super::contents::{Page, Redesigns};
+use super::scenes::SHOWN;
 use crate::view::analysis::Analysis;
 use crate::view::search::nothing_found::hopeless_reasons;
 use crate::view::search::variant::symmetric_lines;

@@ -2,13 +2,15 @@
 
 use crate::draw::{Drawing, Moved, Scene, Shown, Sight, Subject, Swap, kinematic_scene};
 use crate::model::mechanism::{JointId, Mechanism, StateId};
-use crate::page::contents::SHOWN;
 use crate::page::moving::Moving;
 use crate::redundancy::analysis::StateAnalysis;
 use crate::redundancy::stress::SelfStress;
 use crate::score::outcome::Outcome;
 use crate::search::question::space::choice_name;
 use crate::view::analysis::Analysis;
+
+/// Idle freedoms, and self-stresses, of a state that are shown in space.
+pub const SHOWN: usize = 24;
 
 /// Returns the mechanism in space in each state, or `None` if its pose has no numbers.
 ///

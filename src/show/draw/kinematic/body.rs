@@ -1,15 +1,16 @@
 //! The shape of a link: a bar where its joints are in a row, a plate where they are not; and the points of interest on links, those of
 //! the file and the faces of jaws.
 
-use crate::draw::kinematic::Kinematic;
-use crate::draw::kinematic::moving::frame::Carried;
-use crate::draw::place::projection::{Vector, add as add3, finite_vector, scale as times};
-use crate::draw::sheet::{Sheet, Swatch};
+use crate::draw::place::projection::{Vector, View, finite_vector, norm as norm3};
+use crate::draw::sheet::{Shape, Sheet};
 use crate::draw::symbol::pieces::convex_hull;
 use crate::draw::symbol::placed::one_place;
-use crate::model::mechanism::{LinkId, Mechanism, StateId};
+use crate::model::mechanism::{JointId, LinkId, Mechanism, StateId};
 use crate::motion::jaws::jaw_faces;
+use crate::redundancy::stress::{JointWrench, SelfStress};
+use crate::redundancy::stress_loads::Borne;
 use crate::svg::plane::{Point, add, cross, dot, mean, path_data, plane_norm, scale, sub, unit};
+use std::f64::consts::{PI, TAU};
 
 /// A plate thinner than this, in pixels, is a bar.
 const THIN: f64 = 2.0;
@@ -198,87 +199,90 @@ pub(super) fn draw_mark(sheet: &mut Sheet, at: Point) {
     sheet.draw_path("ink", &path_data(&mark_corners(at), true));
 }
 
-impl Kinematic<'_> {
-    /// Returns the points of a link.
-    pub(super) fn points_of(&self, link: LinkId) -> impl Iterator<Item = &Marked> {
-        self.points.iter().filter(move |p| p.link == link)
-    }
+/// An arrow with a greater part of it towards the reader is seen from its end.
+const END_ON: f64 = 0.9;
+/// A moment seen from its end is an arc whose radius is this part of the arrow's length.
+const ARC: f64 = 0.3;
+/// A head's length.
+const HEAD: f64 = 8.0;
 
-    /// Returns all points of the paths.
-    pub(super) fn traced_points(&self) -> impl Iterator<Item = Point> + '_ {
-        self.traces.0.iter().flatten().copied()
-    }
+/// An arrow in space.
+#[derive(Debug, Clone)]
+pub(super) struct Arrow {
+    /// The place of its link among those drawn.
+    pub(super) link: usize,
+    /// Its start.
+    pub(super) at: Vector,
+    /// From its beginning to its tip, in pixels; a moment turns about it to the right.
+    pub(super) along: Vector,
+    /// Whether it is a moment.
+    pub(super) turns: bool,
+    /// Its tooltip.
+    pub(super) tip: String,
+}
 
-    pub(super) fn draw_traces(&self, sheet: &mut Sheet) {
-        let (ways, closed) = &self.traces;
-        for way in ways {
-            sheet.draw_path("trace", &path_data(way, *closed));
-        }
+/// Returns the shapes of an arrow that begins at a point of the paper.
+pub(super) fn arrow_outline(at: Point, arrow: &Arrow, view: &View) -> Vec<Shape> {
+    let class = if arrow.turns { "moment" } else { "force" };
+    let to = view.flat_vector(arrow.along);
+    let (length, toward) = (norm3(arrow.along), dot(arrow.along, view.toward));
+    if arrow.turns && toward.abs() > END_ON * length {
+        let radius = ARC * length;
+        // to the left as seen from its tip; y goes down on paper
+        let on = |i: i32| {
+            let angle = -toward.signum() * 1.5 * PI * f64::from(i) / 24.0;
+            add(at, [radius * angle.cos(), radius * angle.sin()])
+        };
+        let arc: Vec<Point> = (0..=24).map(on).collect();
+        let back = unit(sub(arc[22], arc[24]));
+        let head = arrow_head(arc[24], back, (0.8 * radius).min(HEAD), class);
+        return vec![Shape::line(class, arc), head];
     }
-
-    /// Returns the legend rows of points and their paths.
-    pub(super) fn point_rows(&self) -> Vec<(Swatch, String)> {
-        let mut out = Vec::new();
-        if !self.points.is_empty() {
-            let mark = |s: &mut Sheet| draw_mark(s, [0.0; 2]);
-            let text = "point of interest, or face of a jaw".to_owned();
-            out.push((Swatch::Symbol(mark), text));
-        }
-        if !self.traces.0.is_empty() {
-            let of = if self.points.is_empty() {
-                "way of a point of the output"
-            } else {
-                "way of a point"
-            };
-            out.push((Swatch::line("trace"), of.to_owned()));
-        }
-        out
-    }
-
-    /// Returns the path of each point that is shown.
-    pub(super) fn traced_ways(&self, poses: &[Carried<'_>]) -> Vec<Vec<Point>> {
-        let tips = self.traced_tips().into_iter();
-        let of = tips.map(|(link, tip)| {
-            let at = |c: &Carried<'_>| self.projection.flat_point(c.carried_point(link, tip));
-            poses.iter().map(at).collect()
+    if toward.abs() > END_ON * length {
+        // the point of an arrow that comes, the feathers of one that goes
+        let (d, r) = (0.07 * length, 0.1 * length);
+        let rim = (0..=24).map(|i| {
+            let angle = TAU * f64::from(i) / 24.0;
+            add(at, [r * angle.cos(), r * angle.sin()])
         });
-        of.collect()
+        let line = |points: Vec<Point>| Shape::line(class, points);
+        let inside = if toward > 0.0 {
+            vec![Shape::circle(format!("{class} head"), at, 0.3 * r)]
+        } else {
+            [-1.0, 1.0]
+                .map(|s| line(vec![add(at, [-d, -s * d]), add(at, [d, s * d])]))
+                .to_vec()
+        };
+        return [vec![line(rim.collect())], inside].concat();
     }
+    let tip = add(at, to);
+    let back = scale(unit(to), -1.0);
+    let size = (0.6 * plane_norm(to)).min(HEAD);
+    let mut out = vec![Shape::line(class, vec![at, tip])];
+    out.push(arrow_head(tip, back, size, class));
+    if arrow.turns {
+        out.push(arrow_head(
+            add(tip, scale(back, 0.8 * size)),
+            back,
+            size,
+            class,
+        ));
+    }
+    out
+}
 
-    /// Returns the points of interest. For an output link without any, returns its free end, or its joints except those
-    /// on the frame.
-    pub(super) fn traced_tips(&self) -> Vec<(LinkId, Vector)> {
-        let moving = self.points.iter().filter(|p| !self.is_frame(p.link));
-        let mut out: Vec<(LinkId, Vector)> = moving.map(|p| (p.link, p.place)).collect();
-        let bare = |l: LinkId| self.is_output(l) && self.points_of(l).next().is_none();
-        for (row, (l, of)) in self.links.iter().enumerate() {
-            if !bare(*l) {
-                continue;
-            }
-            let mut seen: Vec<Point> = Vec::new();
-            for &i in of {
-                let spot = &self.spots[i];
-                let links = self.subject.mechanism.joints[spot.joint].links;
-                let grounded = links.iter().any(|&l| self.is_frame(l));
-                if !grounded && !seen.iter().any(|&p| one_place(p, spot.at)) {
-                    seen.push(spot.at);
-                    out.push((*l, self.places[i].point));
-                }
-            }
-            out.extend(self.loose_in_space(row).map(|p| (*l, p)));
-        }
-        out
-    }
+fn arrow_head(tip: Point, back: Point, size: f64, class: &str) -> Shape {
+    let side = scale([-back[1], back[0]], 0.4 * size);
+    let foot = add(tip, scale(back, size));
+    let corners = vec![tip, add(foot, side), sub(foot, side)];
+    Shape::path(format!("{class} head"), corners, true)
+}
 
-    /// Returns the free end of a link with one joint.
-    pub(super) fn loose_in_space(&self, link: usize) -> Option<Vector> {
-        let of = &self.links[link].1;
-        let off = sub(self.loose_end(link)?, self.spots[of[0]].at);
-        let (view, scale) = (&self.projection.view, self.projection.scale);
-        let across = add3(
-            times(view.right, off[0] / scale),
-            times(view.up, -off[1] / scale),
-        );
-        Some(add3(self.places[of[0]].point, across))
-    }
+/// What a joint bears.
+pub(super) type Load = (JointId, Borne);
+
+/// Returns the loads of a self-stress at the pose of the file, as far as they are known.
+pub(super) fn known_loads(stress: &SelfStress) -> Vec<Load> {
+    let known = |w: &JointWrench| Some((w.joint, w.borne?));
+    stress.joints.iter().filter_map(known).collect()
 }

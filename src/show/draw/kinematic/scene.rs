@@ -4,8 +4,7 @@
 
 mod standing;
 
-use super::loads::Arrow;
-use super::loads::known_loads;
+use super::body::{Arrow, known_loads};
 use super::moving::{Moved, flag_row, poses_of};
 use super::{Kinematic, MovingPicture, Words};
 use crate::draw::kinematic::moving::frame::Carried;
