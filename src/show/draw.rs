@@ -8,6 +8,7 @@ mod kinematic;
 mod place;
 #[cfg(feature = "png")]
 pub mod png;
+mod prelude;
 mod scheme;
 mod sheet;
 mod subject;

@@ -1,13 +1,8 @@
 //! Finished values as JSON that says which contract it keeps and as text for people, with how sure they are: figures that rest on what a
 //! reader took for granted are those of the file as read.
 
-use crate::format::count_noun;
-use crate::model::claim::{Claim, Topic};
-use crate::model::mechanism::Mechanism;
+use crate::model::claim::Claim;
 use crate::view::prelude::*;
-use serde::Serialize;
-use serde_json::Value;
-use std::fmt::Display;
 
 pub mod accuracy;
 pub mod analysis;

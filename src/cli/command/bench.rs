@@ -9,7 +9,6 @@ use crate::accuracy::timing::Stopwatch;
 use crate::cli::option::request::Which;
 use crate::cli::prelude::*;
 use crate::cli::terminal::{charts, machine};
-use crate::score::request::{List, Request};
 use crate::search::question::conditions::Symmetry;
 use crate::view::accuracy::bench_text;
 use serde_json::json;

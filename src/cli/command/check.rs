@@ -1,6 +1,5 @@
 //! `ozols check`, `show`, `schema` and `completions`.
 
-use crate::builtin;
 use crate::cli::prelude::*;
 use crate::file::lint::{check_file, mechanism_size};
 use crate::file::locate::DocumentPath;
@@ -8,7 +7,6 @@ use crate::file::problem::Warnings;
 use crate::file::read::workload::tables_alone;
 use crate::grip::jaw_loads::{Gripping, JawError};
 use crate::model::mechanism::Expected;
-use crate::redundancy::analysis::{Method, StateAnalysis, analyse_states};
 use crate::view::analysis::link_motions::drive_fault;
 use crate::view::analysis::mechanism::describe_mechanism;
 use crate::view::search::variant;

@@ -6,7 +6,6 @@ use crate::cli::option::{self as picture, variant};
 use crate::cli::prelude::*;
 use crate::draw::{self, Drawing, Moved, Sight, Size, Subject};
 use crate::page::moving::Moving;
-use crate::redundancy::analysis::{Method, StateAnalysis, analyse_states};
 use crate::redundancy::stress::SelfStress;
 use crate::view::analysis::Analysis;
 

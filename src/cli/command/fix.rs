@@ -1,14 +1,11 @@
 //! `ozols fix`.
 
-use crate::api::{self, MAX_DESCRIPTION_BYTES};
 use crate::cli::command::types::{TypePlan, plan_variant};
 use crate::cli::command::{lint, types};
 use crate::cli::option::reading::{Reading, import_description};
 use crate::cli::option::request::Which;
 use crate::cli::option::variant::{Chosen, print_note};
 use crate::cli::prelude::*;
-use crate::redundancy::analysis::StateAnalysis;
-use crate::redundancy::release::Release;
 use crate::robots::{self, Imported};
 use crate::view::lint::{TypeChange, describe_release};
 

@@ -1,10 +1,8 @@
 //! `ozols grip`.
 
-use crate::api::MAX_DESCRIPTION_BYTES;
 use crate::cli::prelude::*;
 use crate::cli::terminal::charts;
 use crate::drive::driving::design_drive;
-use crate::file::disk;
 use crate::file::read::workload::trajectory::read_trajectory;
 use crate::file::read::workload::{WorkloadFile, drive_from_bytes, grip_from_bytes};
 use crate::grip::analyse_grip;

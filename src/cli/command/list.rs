@@ -1,6 +1,5 @@
 //! `ozols list`.
 
-use crate::builtin;
 use crate::cli::prelude::*;
 use crate::file::template;
 use crate::format::{csv, did_you_mean};

@@ -1,10 +1,7 @@
 //! `ozols studio`.
 
-use crate::api::{self, MAX_DESCRIPTION_BYTES};
 use crate::cli::prelude::*;
-use crate::score::request::Request;
 use crate::studio::{Opening, Studio};
-use crate::{builtin, robots};
 use std::process::{Command, Stdio};
 
 #[derive(Debug, ClapArgs)]

@@ -3,9 +3,7 @@
 use crate::cli::option::variant;
 use crate::cli::prelude::*;
 use crate::geom::vector::Vector;
-use crate::redundancy::release::Release;
 use crate::robots::{Origin, find_releases};
-use crate::score::request::Request;
 use crate::score::run::Event;
 use crate::view::lint::TypeChange;
 use anyhow::anyhow;

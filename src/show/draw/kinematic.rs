@@ -1,5 +1,13 @@
 //! The kinematic scheme: links and the symbols of joints where the coordinates have them.
 
+use crate::draw::kinematic::body::{Arrow, Body, Marked, known_loads};
+use crate::draw::place::projection::Projection;
+use crate::draw::prelude::*;
+use crate::draw::sheet::{Caption, plan_sheet};
+use crate::draw::subject;
+use crate::draw::symbol::ground::Ground;
+use crate::draw::symbol::placed::{Swap, Symbol};
+
 mod arcs;
 mod body;
 mod gears;
@@ -9,18 +17,6 @@ pub(super) mod moving;
 mod naming;
 mod on_paper;
 pub(super) mod scene;
-
-use self::body::{Arrow, Body, Marked, known_loads};
-use super::subject::Subject;
-use crate::draw::place::projection::Sight;
-use crate::draw::place::projection::{JointInSpace, Projection, Vector};
-use crate::draw::sheet::{Anchor, Caption, Drawing, Sheet, Swatch, plan_sheet};
-use crate::draw::subject;
-use crate::draw::symbol::ground::Ground;
-use crate::draw::symbol::placed::{Swap, Symbol};
-use crate::model::mechanism::{JointId, LinkId, Role};
-use crate::redundancy::stress::SelfStress;
-use crate::svg::plane::{Point, Rect, add, mean, scale, sub, unit};
 
 /// The room below for the axes and the scale.
 const STRIP: f64 = 84.0;

@@ -1,11 +1,5 @@
 //! An analysis as JSON, as text and on the page; the keys of JSON are a stable contract.
 
-pub mod link_motions;
-pub mod mechanism;
-pub mod mobility;
-pub mod suggestions;
-pub(crate) mod text;
-
 use crate::geom::expr::PI_DIGITS;
 use crate::rank::reduce::axis_names::Direction;
 use crate::rank::reduce::sufficient_rows::{LeastRows, Motions};
@@ -16,6 +10,12 @@ use crate::redundancy::stress::{JointWrench, SelfStress, StressVerdict};
 use crate::view::analysis::suggestions::Advice;
 use crate::view::prelude::*;
 use crate::view::stroke::StrokeData;
+
+pub mod link_motions;
+pub mod mechanism;
+pub mod mobility;
+pub mod suggestions;
+pub(crate) mod text;
 
 /// The analysis of a mechanism.
 #[derive(Debug)]

@@ -1,7 +1,6 @@
 //! A torsional drive: what was found of it, from which text, JSON and charts are made. SI units, angles in radians; the keys are a
 //! stable contract.
 
-use crate::chart::{Axis, Chart, Series, Style};
 use crate::drive::driving::{Design, Driving};
 use crate::drive::programme::{Endurance, Event, Ran, RunMoment};
 use crate::drive::swing::End;

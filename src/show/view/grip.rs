@@ -1,9 +1,7 @@
 //! A gripper over its diameters: what was found of it, from which text, JSON and charts are made. SI units, angles in radians; the
 //! keys are a stable contract.
 
-use crate::chart::{Axis, Chart, Series, Style};
 use crate::file::read::workload::WorkloadFile;
-use crate::format::four_digits;
 use crate::grip::arm_curves::{Varied, arm_curve};
 use crate::grip::clamping::{DiameterRow, Hardest, HoldVerdict};
 use crate::grip::contact::TouchingPose;

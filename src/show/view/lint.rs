@@ -1,18 +1,14 @@
 //! Redundant constraints of robot descriptions, as text and JSON.
 
-mod finding;
-
-pub use finding::PassedOver;
-pub use finding::{Finding, describe_release};
-pub use finding::{Misfit, TypeChange};
-
 use crate::redundancy::duplicate_constraints::HeldTwice;
 use crate::redundancy::release::Duplicate;
 use crate::robots::{CadCount, Imported, Origin, Report};
 use crate::view::prelude::*;
 use crate::view::with_assumptions;
-pub use finding::NONE;
+pub use finding::{Finding, Misfit, NONE, PassedOver, TypeChange, describe_release};
 use finding::{LintWords, describe_count, describe_then};
+
+mod finding;
 
 /// Notes told of how a file was read.
 const NOTES: usize = 6;

@@ -1,7 +1,6 @@
 //! Statics of a planar mechanism as JSON, text, CSV and charts. SI units; the keys of JSON are a stable contract, and numbers
 //! that do not exist are null.
 
-use crate::format::csv::write_table;
 use crate::statics::assur::{Decomposition, Group};
 use crate::statics::contour_group::ContourGroup;
 use crate::statics::contour_group::pose::{GroupPose, GroupReactions};

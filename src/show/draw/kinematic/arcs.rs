@@ -3,12 +3,9 @@
 
 use crate::draw::kinematic::Kinematic;
 use crate::draw::place::projection::places::meeting_parameter;
-use crate::draw::place::projection::{
-    JointInSpace, Vector, add, cross, dot, norm, scale as times, sub,
-};
+use crate::draw::place::projection::{cross, norm, scale as times};
+use crate::draw::prelude::*;
 use crate::geom::vector::unit;
-use crate::model::joint_type::JointType;
-use crate::svg::plane::Point;
 
 /// The pieces of an arc.
 const PIECES: i32 = 16;

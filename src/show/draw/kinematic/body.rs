@@ -1,16 +1,14 @@
 //! The shape of a link: a bar where its joints are in a row, a plate where they are not; and the points of interest on links, those of
 //! the file and the faces of jaws.
 
-use crate::draw::place::projection::{Vector, View, finite_vector, norm as norm3};
-use crate::draw::sheet::{Shape, Sheet};
+use crate::draw::place::projection::{finite_vector, norm as norm3};
+use crate::draw::prelude::*;
 use crate::draw::symbol::pieces::convex_hull;
 use crate::draw::symbol::placed::one_place;
-use crate::model::mechanism::{JointId, LinkId, Mechanism, StateId};
 use crate::motion::jaws::jaw_faces;
-use crate::redundancy::stress::{JointWrench, SelfStress};
+use crate::redundancy::stress::JointWrench;
 use crate::redundancy::stress_loads::Borne;
-use crate::svg::plane::{Point, add, cross, dot, mean, path_data, plane_norm, scale, sub, unit};
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::PI;
 
 /// A plate thinner than this, in pixels, is a bar.
 const THIN: f64 = 2.0;

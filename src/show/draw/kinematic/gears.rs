@@ -1,11 +1,9 @@
 //! Joints that gears couple, as their pitch circles, and a rack as its pitch line, which touches the circle of its pinion.
 
 use crate::draw::kinematic::Kinematic;
-use crate::draw::place::projection::{self, JointInSpace, add, cross, dot, norm, scale, sub};
-use crate::geom::vector::Vector;
-use crate::model::joint_type::{CoupledFreedom, Coupling, Freedom};
-use crate::svg::plane::Point;
-use std::f64::consts::TAU;
+use crate::draw::place::projection::{self, cross, norm};
+use crate::draw::prelude::*;
+use crate::model::joint_type::CoupledFreedom;
 
 /// The greatest radius of a gear that is drawn, in distances of the axes.
 const LARGEST: f64 = 6.0;

@@ -2,13 +2,11 @@
 
 use crate::draw::kinematic::{Kinematic, Spot};
 use crate::draw::place::projection;
-use crate::draw::sheet::{Anchor, PAD, Shape, Sheet, Swatch};
+use crate::draw::prelude::*;
+use crate::draw::sheet::PAD;
 use crate::draw::symbol::ground::Ground;
 use crate::format::decimals;
-use crate::model::joint_type::JointType;
 use crate::svg::labels::{self, Wish};
-use crate::svg::plane::{Rect, add, plane_norm, scale};
-use std::fmt::Write as _;
 
 impl Kinematic<'_> {
     pub(super) fn legend_rows(&self) -> Vec<(Swatch, String)> {

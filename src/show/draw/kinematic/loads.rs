@@ -5,15 +5,12 @@ use crate::draw::kinematic::Kinematic;
 use crate::draw::kinematic::body::{Arrow, Load, arrow_outline};
 use crate::draw::kinematic::moving::frame::Carried;
 use crate::draw::place::projection::{
-    Vector, add as add3, along_z, frame_in_numbers, norm as norm3, scale as times, sub as sub3,
+    add as add3, along_z, frame_in_numbers, norm as norm3, scale as times, sub as sub3,
 };
-use crate::draw::sheet::{Shape, Sheet, Swatch};
+use crate::draw::prelude::*;
 use crate::format::decimals;
 use crate::geom::expr::Expr;
-use crate::model::mechanism::Mechanism;
-use crate::redundancy::stress::SelfStress;
 use crate::redundancy::stress_loads::Borne;
-use crate::svg::plane::{Point, Rect, bounds_of};
 
 /// The length of the greatest arrow, in pixels.
 const LONGEST: f64 = 60.0;

@@ -1,21 +1,14 @@
 //! A kinematic scheme over the way of its drive: one picture a pose, shown one after the other.
 
-pub(crate) mod frame;
-
-use super::{Kinematic, MovingPicture, Spot, Words};
 use crate::draw::kinematic::moving::frame::Carried;
-use crate::draw::place::projection::JointInSpace;
-use crate::draw::place::projection::Sight;
-use crate::draw::sheet::{Drawing, Shape, Sheet, Swatch};
-use crate::draw::subject::Subject;
+use crate::draw::kinematic::{Kinematic, MovingPicture, Spot, Words};
+use crate::draw::prelude::*;
 use crate::draw::symbol::placed::Symbol;
-use crate::model::joint_type::JointType;
 use crate::motion::drive_range::Way;
 use crate::motion::pose::Pose;
-use crate::redundancy::stress::SelfStress;
-use crate::svg::plane::{Rect, bounds_of};
 use std::collections::BTreeMap;
-use std::fmt::Write as _;
+
+pub(crate) mod frame;
 
 /// Pictures a second.
 pub(crate) const RATE: usize = 30;

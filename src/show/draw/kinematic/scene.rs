@@ -2,24 +2,18 @@
 //!
 //! All lengths are pixels of the drawing it belongs to, from the point whose place on paper is its origin.
 
-mod standing;
-
-use super::body::{Arrow, known_loads};
-use super::moving::{Moved, flag_row, poses_of};
-use super::{Kinematic, MovingPicture, Words};
+use crate::draw::kinematic::body::{Arrow, known_loads};
 use crate::draw::kinematic::moving::frame::Carried;
-use crate::draw::place::projection::Sight;
-use crate::draw::place::projection::{Vector, sub};
-use crate::draw::sheet::{Drawing, Swatch};
-use crate::draw::subject::Subject;
+use crate::draw::kinematic::moving::{Moved, flag_row, poses_of};
+use crate::draw::kinematic::{Kinematic, MovingPicture, Words};
+use crate::draw::prelude::*;
 use crate::draw::symbol::pieces::{Piece, round_hundredth};
 use crate::draw::symbol::placed::Swap;
-use crate::model::mechanism::LinkId;
 use crate::motion::pose::Pose;
-use crate::redundancy::stress::SelfStress;
-use crate::svg::plane::{Point, Rect};
 use serde::Serialize;
 use serde_json::{Value, json};
+
+mod standing;
 
 /// A scheme in space.
 #[derive(Debug, Clone, Serialize)]

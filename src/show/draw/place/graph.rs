@@ -1,7 +1,7 @@
 //! The graph of a structural scheme: links are hyperedges over the joints. If the drawn mechanism has a mirror
 //! symmetry, so has its scheme.
 
-use crate::svg::plane::{Point, cross, dot, mean, plane_norm, sub, unit};
+use crate::draw::prelude::*;
 
 /// Links as lists of joints, and the contours that should be empty.
 #[derive(Debug)]

@@ -2,8 +2,7 @@
 
 use crate::draw::place::Dice;
 use crate::draw::place::graph::{Graph, Mirror, Net};
-use crate::svg::plane::{Point, add, mean, plane_norm, scale, sub};
-use std::f64::consts::TAU;
+use crate::draw::prelude::*;
 
 /// Where to begin.
 #[derive(Debug)]

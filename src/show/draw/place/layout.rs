@@ -10,7 +10,7 @@
 use crate::draw::place::graph::{Graph, Mirror, Net, build_net};
 use crate::draw::place::initial_layout::{self, Start};
 use crate::draw::place::layout_penalty::Crowding;
-use crate::svg::plane::{Point, add, dot, mean, plane_norm, scale, sub, unit};
+use crate::draw::prelude::*;
 
 /// A finished layout; the unit of length is about the length of a bar.
 #[derive(Debug, Clone)]

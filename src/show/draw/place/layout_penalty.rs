@@ -2,10 +2,8 @@
 
 use crate::draw::place::Dice;
 use crate::draw::place::graph::{Graph, Mirror, joint_ring, link_radius};
-use crate::svg::plane::{
-    Point, add, are_apart, cross, is_inside, mean, plane_norm, polygon_area, segments_cross, sub,
-    to_segment,
-};
+use crate::draw::prelude::*;
+use crate::svg::plane::{are_apart, polygon_area, segments_cross};
 
 /// Joints nearer than this are too near.
 const JOINTS: f64 = 0.62;

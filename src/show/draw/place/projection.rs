@@ -1,20 +1,17 @@
 //! Where joints are shown and from which side.
 
-pub(crate) mod places;
-mod view;
-
 pub use crate::draw::place::projection::view::Sight;
 use crate::draw::place::projection::view::{FLAT, all_views, face_on, unit_or};
 pub(crate) use crate::draw::place::projection::view::{View, along_z};
+use crate::draw::prelude::*;
 use crate::geom::expr::Expr;
 use crate::geom::extent::box_diagonal;
 pub(crate) use crate::geom::vector::{Vector, add, cross, dot, length as norm, scale, sub};
-use crate::geom::vector::{X, Y, Z};
-use crate::model::joint_type::JointType;
-use crate::model::mechanism::{Frame, JointId, LinkId, Mechanism};
-use crate::svg::plane::{
-    Point, Rect, are_apart, bounds_of, plane_norm as norm2, segments_cross, sub as sub2, to_segment,
-};
+use crate::model::mechanism::Frame;
+use crate::svg::plane::{are_apart, plane_norm as norm2, segments_cross, sub as sub2};
+
+pub(crate) mod places;
+mod view;
 
 /// Joints nearer than this on paper, in pixels, are in one place.
 pub(crate) const ONE_PLACE: f64 = 1.5;

@@ -1,14 +1,10 @@
 //! Placement of the names of joints and links and of the numbers of contours.
 
+use crate::draw::prelude::*;
 use crate::draw::scheme::{Scheme, Share};
 use crate::draw::sheet::shapes::{HALF, grid_points, outline_sides, rounded_path};
-use crate::draw::sheet::{SMALL, Sheet};
-use crate::model::mechanism::Role;
 use crate::svg::labels::{AvoidedLine, LabelPlace, Wish, place_labels};
-use crate::svg::plane::{
-    Point, Rect, add, is_inside, mean, plane_norm, polygon_area, scale, sub, to_segment, unit,
-};
-use crate::svg::text::{shorten_names, text_width};
+use crate::svg::plane::polygon_area;
 
 impl Scheme<'_> {
     /// Returns the places and texts of the ids of joints and links and of the numbers of contours, in this order.

@@ -1,8 +1,7 @@
 //! Shapes of a drawing: paths and circles; polygons and bars with round corners, their hatching, and points within them.
 
-use crate::svg::plane::{Point, add, bounds_of, cross, dot, is_inside, scale, sub, unit};
+use crate::draw::prelude::*;
 use crate::svg::xml::format_number;
-use std::fmt::Write as _;
 
 /// A finished piece of drawing.
 #[derive(Debug, Clone)]

@@ -1,12 +1,7 @@
 //! The ground of a kinematic scheme: where the frame is, once for all joints of one place.
 
-use crate::draw::sheet::Sheet;
+use crate::draw::prelude::*;
 use crate::draw::symbol::placed::one_place;
-use crate::model::mechanism::LinkId;
-use crate::svg::plane::{
-    Point, Rect, add, bounds_of, dot, path_data, plane_norm, scale, sub, unit,
-};
-use std::f64::consts::TAU;
 
 /// Half the hatched line under a pivot.
 const PIVOT: f64 = 11.0;

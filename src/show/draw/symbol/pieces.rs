@@ -1,10 +1,7 @@
 //! Pieces of symbols in the frame of a joint, and how they look from a side.
 
-use crate::draw::place::projection::{JointInSpace, Vector, View, dot};
-use crate::draw::sheet::Shape;
-use crate::svg::plane::{Point, add, cross, mean, plane_norm, scale, sub, unit};
+use crate::draw::prelude::*;
 use serde::{Deserialize, Serialize};
-use std::f64::consts::TAU;
 
 /// A joint's frame on paper.
 #[derive(Debug, Clone, Copy)]

@@ -1,13 +1,11 @@
 //! The symbol of a joint in a drawing, with its drive, its size among others at the same place, and swaps.
 
-use crate::draw::place::projection::{JointInSpace, ONE_PLACE, View};
-use crate::draw::sheet::{ROW, Shape, Sheet};
-use crate::draw::subject::{Mark, Subject};
+use crate::draw::place::projection::ONE_PLACE;
+use crate::draw::prelude::*;
+use crate::draw::sheet::ROW;
 use crate::draw::symbol::pieces::{PaperPose, Piece};
 use crate::draw::symbol::symbols;
-use crate::model::joint_type::JointType;
-use crate::model::mechanism::{Joint, JointId, JointOption};
-use crate::svg::plane::{Point, Rect, plane_norm, sub};
+use crate::model::mechanism::JointOption;
 
 /// The symbol of a joint, at the origin.
 pub(crate) struct Symbol {

@@ -1,12 +1,9 @@
 //! The symbols of joints, in the joints' own frames.
 
-use crate::draw::sheet::Shape;
+use crate::draw::prelude::*;
 use crate::draw::symbol::pieces::{PaperPose, Piece};
-use crate::model::joint_type::{Freedom, JointType};
-use crate::model::mechanism::{JointId, Mechanism, StateId};
 use crate::motion::pose::Pose;
 use crate::rank::stroke::request::drive_or_any;
-use crate::svg::plane::{Rect, bounds_of};
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
 use std::sync::LazyLock;

@@ -7,7 +7,7 @@ use crate::search::answer::single_changes::USUAL_UNLOADING;
 use crate::view::analysis::State;
 use crate::view::analysis::suggestions::{Advice, concerned_count};
 use crate::view::prelude::*;
-use crate::view::terminal::next_commands::{NextCommand, file_name, shell_word};
+use crate::view::terminal::next_commands::{file_name, shell_word};
 
 /// Answers of a method for states of a mechanism.
 #[derive(Debug)]

@@ -1,11 +1,11 @@
 //! An analysis for people: the verdict first, then where each figure comes from.
 
-use super::{Analysis, State, axis_names, harm_word, ranks_agree};
 use crate::redundancy::analysis::{ContourShare, CouplingShare, External};
 use crate::redundancy::stress::{JointWrench, SelfStress, StressVerdict};
-use crate::view::analysis::{link_motions, suggestions};
+use crate::view::analysis::{
+    Analysis, State, axis_names, harm_word, link_motions, ranks_agree, suggestions,
+};
 use crate::view::prelude::*;
-use std::collections::BTreeSet;
 
 /// Maximum number of motions in a text; JSON has all.
 const MOTIONS: usize = 6;

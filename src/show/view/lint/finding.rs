@@ -1,7 +1,6 @@
 //! A redundant constraint of a robot description in words, and files that were skipped.
 
 use crate::format::plain::escape_line;
-use crate::format::three_digits;
 use crate::geom::vector::Vector;
 use crate::redundancy::duplicate_constraints::HeldTwice;
 use crate::redundancy::release::{Duplicate, Release, released_type};

@@ -1,14 +1,11 @@
 //! Joint reactions over a stroke.
 
-use crate::chart::{Axis, Chart, Series, Style};
-use crate::format::csv::write_table;
 use crate::statics::reactions::drives::is_slide;
 use crate::statics::reactions::{Cycle, JointReaction, NEARLY_SINGULAR};
 use crate::view::prelude::*;
 use crate::view::reactions::couplings::{effort_unit, write_greatest};
 use crate::view::reactions::text::{ADD_LOADS, pushing_remedy};
 use crate::view::reactions::{HEADS, Reactions, is_possible, touch_word};
-use std::collections::BTreeMap;
 
 /// Reactions by position of the first drive.
 #[derive(Debug)]

@@ -1,18 +1,12 @@
 //! Head of a search for people: how many variants there are, how that was checked, and their mobilities.
 
-use crate::score::request::List;
-use crate::search::Search;
 use crate::search::answer::estimate::{Drawn, Estimate};
 use crate::search::check::second_prime::Verdict;
 use crate::search::check::singular_values::Summary;
-use crate::search::diagram::Stop;
 use crate::search::question::throughout::PoseOnly;
 use crate::view::prelude::*;
 use crate::view::search::{numeric, second_opinion};
-use itertools::Itertools;
-use num_bigint::BigUint;
-use num_traits::{One, Zero};
-use std::collections::{BTreeMap, BTreeSet};
+use num_traits::One;
 
 /// Maximum number of mobilities in a text; JSON and the page have them all.
 const MOBILITIES: usize = 12;

@@ -3,9 +3,6 @@
 use crate::search::answer::counts::Counts;
 use crate::search::at_tolerance::{AtTolerance, Bracket, Sampled, Share};
 use crate::view::prelude::*;
-use num_bigint::BigUint;
-use num_traits::Zero;
-use std::collections::BTreeSet;
 
 /// Returns a number or a range: "12", or "12 to 15".
 pub(crate) fn from_to(bracket: &Bracket) -> String {

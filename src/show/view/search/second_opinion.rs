@@ -1,6 +1,5 @@
 //! What singular values of the coordinates in a file say of the counts of a search, as text and as data.
 
-use crate::score::outcome::variant::{in_words, list_changes};
 use crate::search::answer::k_best::Assignment;
 use crate::search::answer::keys::Key;
 use crate::search::check::second_opinion::{Contradiction, SecondOpinion};

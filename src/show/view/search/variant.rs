@@ -1,12 +1,10 @@
 //! A variant as data, by the same contract as the search it is of, and the cheapest symmetric redesigns for people and as data.
 
-use crate::format::format_cost;
 use crate::model::joint_type::JointType;
 use crate::model::mechanism::CostSpec;
 use crate::redundancy::contour_shares::ContourShare;
 use crate::score::outcome::symmetric::{SymmetricBest, SymmetricRedesign};
-use crate::score::outcome::variant::{Change, Variant, in_words, list_changes};
-use crate::search::Search;
+use crate::score::outcome::variant::Change;
 use crate::search::answer::freedom_patterns;
 use crate::search::check::other_poses::{Figures, OverStroke};
 use crate::search::question::cost::CostTable;

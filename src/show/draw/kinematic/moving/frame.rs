@@ -2,17 +2,12 @@
 
 use crate::draw::kinematic::body::{Body, Marked, draw_mark};
 use crate::draw::kinematic::{Kinematic, MovingPicture};
-use crate::draw::place::projection::{
-    JointInSpace, Vector, add as add3, cross, norm, scale as times, sub, sub as sub3,
-};
-use crate::draw::sheet::{Sheet, Swatch};
+use crate::draw::place::projection::{add as add3, cross, norm, scale as times, sub as sub3};
+use crate::draw::prelude::*;
 use crate::draw::symbol::placed::one_place;
 use crate::geom::rigid::RigidMotion;
-use crate::geom::vector::{dot, unit};
-use crate::model::joint_type::Freedom;
-use crate::model::mechanism::LinkId;
+use crate::geom::vector::unit;
 use crate::motion::pose::Pose;
-use crate::svg::plane::{Point, path_data};
 
 /// The length of a flag, in pixels.
 const FLAG: f64 = 26.0;

@@ -2,17 +2,11 @@
 
 use crate::draw::kinematic::scene::{Scene, round_fine, scene_pixels};
 use crate::draw::kinematic::{Kinematic, body};
-use crate::draw::place::projection::{
-    self, JointInSpace, Vector, View, add, cross, dot, norm, scale, sub,
-};
-use crate::draw::sheet::Shape;
-use crate::draw::subject::Mark;
+use crate::draw::place::projection::{self, cross, norm};
+use crate::draw::prelude::*;
 use crate::draw::symbol::ground::Ground;
 use crate::draw::symbol::pieces::Piece;
 use crate::draw::symbol::placed::{self, Swap, Symbol, one_place};
-use crate::geom::vector::{X, Y, Z};
-use crate::model::joint_type::{Coupling, Freedom, JointType};
-use crate::model::mechanism::JointId;
 use serde_json::{Value, json};
 
 /// Half the length of the guide that a ground shows in turned views, in pixels.

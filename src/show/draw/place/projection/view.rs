@@ -1,7 +1,7 @@
 //! Sides to look from: those that are asked for by name, and those that are chosen from.
 
-use crate::geom::vector::{Vector, X, Y, Z, cross, dot, length as norm, scale, sub};
-use crate::svg::plane::Point;
+use crate::draw::prelude::*;
+use crate::geom::vector::{cross, length as norm};
 
 /// The requested direction of view of a kinematic scheme. The program chooses the rest.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
