@@ -43,7 +43,6 @@ impl Chart {
         for d in &drawn {
             drawn::draw_body(&mut xml, d);
         }
-        drawn::beside_points(&mut xml, &drawn, &axes.plot);
         drawn::name_in_margin(&mut xml, &drawn, &axes.plot);
         for (n, line) in note.iter().enumerate() {
             let y = foot + 16.0 * n as f64;
@@ -66,10 +65,7 @@ impl Chart {
     /// Returns the axes below `top`, as high as the names of series in the margin require, and as wide as those leave
     /// space for.
     fn make_axes(&self, top: f64, shown: &[Numbered]) -> PlotAxes {
-        let lone = |s: &Series| {
-            s.style == Style::Points && s.points.iter().filter(|p| self.shows_point(p)).count() == 1
-        };
-        let beside = shown.iter().filter(|(_, s)| !lone(s) && !s.name.is_empty());
+        let beside = shown.iter().filter(|(_, s)| !s.name.is_empty());
         let longest = beside
             .clone()
             .map(|(_, s)| text::text_width(&s.name, TICK))

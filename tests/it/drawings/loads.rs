@@ -231,7 +231,6 @@ fn a_self_stress_that_is_not_there_is_told() {
         draw gripper-10 --self-stress 12 | self-stresses 1 to 11
         draw gripper-10 --self-stress 0 | self-stresses 1 to 11
         draw stewart-gough --self-stress 1 | no self-stress
-        draw gripper-10 --self-stress 1 --motion | cannot be used with
         draw gripper-10 --motion --idle 1 | no idle freedom
         draw gripper-10 --idle 1 | --motion
         ",
