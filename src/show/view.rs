@@ -120,7 +120,8 @@ pub(crate) fn count_claims(claims: &[&Claim]) -> String {
 }
 
 /// Returns the same with a table of the claims.
-pub(crate) fn claims_text(claims: &[&Claim], width: Option<u16>) -> String {
+pub(crate) fn claims_text(all: &[Claim], topic: Topic, width: Option<u16>) -> String {
+    let claims = claims_about(all, topic);
     if claims.is_empty() {
         return String::new();
     }
@@ -132,5 +133,5 @@ pub(crate) fn claims_text(claims: &[&Claim], width: Option<u16>) -> String {
         row_cells([&c.source, &c.says, &claim_verdict(c), &why])
     });
     let table = text_table("where | claim | so | evidence", rows, width);
-    format!("{}\n{table}\n", count_claims(claims))
+    fit_lines(&format!("{}\n{table}\n", count_claims(&claims)), width)
 }

@@ -20,14 +20,6 @@ const ADVICE: [&str; 3] = [
     "For a ranking leave --pool to its default: the cheapest 20,000 are scored, and then all that could still win.",
 ];
 
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-enum BenchFormat {
-    Text,
-    Json,
-    /// One line per method and mechanism.
-    Csv,
-}
-
 #[derive(Debug, ClapArgs)]
 pub(crate) struct Bench {
     /// Paths or names of built-in mechanisms [default: six built-in ones, a planar ladder of ten loops, a
@@ -51,7 +43,7 @@ pub(crate) struct Bench {
     quick: bool,
     /// Output format.
     #[arg(long, value_enum, default_value = "text")]
-    format: BenchFormat,
+    format: TextJsonOrCsv,
     /// Write charts, the table and a page to this folder, with index.html as the start page.
     #[arg(long, short, value_name = "DIR", conflicts_with = "format")]
     output: Option<PathBuf>,
@@ -151,11 +143,11 @@ pub(crate) fn run(args: &Global, a: &Bench) -> anyhow::Result<Done> {
     }
     let machine = machine::this_machine();
     let mut text = match a.format {
-        BenchFormat::Text => bench_text(&trials, &ADVICE, &machine, output::output_width(None)),
-        BenchFormat::Json => output::json_text(
+        TextJsonOrCsv::Text => bench_text(&trials, &ADVICE, &machine, output::output_width(None)),
+        TextJsonOrCsv::Json => output::json_text(
             &json!({"machine": machine, "mechanisms": trials, "ways": record::trial_rows(&trials)}),
         )?,
-        BenchFormat::Csv => record::trials_csv(&trials),
+        TextJsonOrCsv::Csv => record::trials_csv(&trials),
     };
     if let Some(folder) = &a.output {
         let command = std::env::args().collect::<Vec<_>>().join(" ");

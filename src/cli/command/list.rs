@@ -12,15 +12,7 @@ pub(crate) struct List {
     words: Vec<String>,
     /// Output format.
     #[arg(long, value_enum, default_value = "text")]
-    format: ListFormat,
-}
-
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-enum ListFormat {
-    Text,
-    Json,
-    /// One line per state of each mechanism.
-    Csv,
+    format: TextJsonOrCsv,
 }
 
 /// Output of `--format csv` for all mechanisms; reading and ranking every file takes twenty times as long. A test compares it
@@ -56,9 +48,9 @@ pub(crate) fn run_list(a: &List) -> anyhow::Result<Done> {
         return Ok(Done::Nothing);
     }
     match a.format {
-        ListFormat::Text => write_list(a, rows),
-        ListFormat::Json => output::write_bytes(None, output::json_text(&rows)?),
-        ListFormat::Csv => output::write_bytes(None, csv::write_records(rows)),
+        TextJsonOrCsv::Text => write_list(a, rows),
+        TextJsonOrCsv::Json => output::write_bytes(None, output::json_text(&rows)?),
+        TextJsonOrCsv::Csv => output::write_bytes(None, csv::write_records(rows)),
     }
 }
 
@@ -66,7 +58,7 @@ pub(crate) fn run_list(a: &List) -> anyhow::Result<Done> {
 pub(crate) fn list_all() -> anyhow::Result<Done> {
     run_list(&List {
         words: Vec::new(),
-        format: ListFormat::Text,
+        format: TextJsonOrCsv::Text,
     })
 }
 

@@ -19,7 +19,7 @@ use crate::view::reactions::misfit::MisfitView;
 use crate::view::statics::force_plans::force_plans_of;
 use crate::view::statics::told::{ToldReactions, ToldStatics};
 use crate::view::statics::{Structures, charts as drawn};
-use args::{Statics, StaticsFormat, StaticsMethod};
+use args::{Statics, StaticsMethod};
 
 pub(crate) mod args;
 
@@ -117,9 +117,9 @@ fn run_misfit(
         found: &misfit(m, state, &accuracy, seed)?,
     };
     a.write_text(match a.format {
-        StaticsFormat::Text => view.text(output::output_width(a.output.as_deref())),
-        StaticsFormat::Json => output::json_text(&view.json())?,
-        StaticsFormat::Csv => bail!("assembly forces have no CSV; use --format json"),
+        TextJsonOrCsv::Text => view.text(output::output_width(a.output.as_deref())),
+        TextJsonOrCsv::Json => output::json_text(&view.json())?,
+        TextJsonOrCsv::Csv => bail!("assembly forces have no CSV; use --format json"),
     })?;
     Ok(Done::Found)
 }
@@ -151,8 +151,8 @@ fn report_loose(
     a: &Statics,
 ) -> anyhow::Result<Done> {
     a.write_text(match a.format {
-        StaticsFormat::Json => output::json_text(&NotHeld::because(m, state, &why.to_string()))?,
-        StaticsFormat::Csv | StaticsFormat::Text => {
+        TextJsonOrCsv::Json => output::json_text(&NotHeld::because(m, state, &why.to_string()))?,
+        TextJsonOrCsv::Csv | TextJsonOrCsv::Text => {
             format!("{}, state {}: {why}\n", m.name, a.state)
         }
     })?;
@@ -217,9 +217,9 @@ fn run_groups(m: &Mechanism, state: StateId, a: &Statics) -> anyhow::Result<Done
         found: &found,
     };
     a.write_text(match a.format {
-        StaticsFormat::Json => output::json_text(&shown.json())?,
-        StaticsFormat::Csv => bail!("--groups has no CSV; use --format json"),
-        StaticsFormat::Text => shown.text(output::output_width(a.output.as_deref())),
+        TextJsonOrCsv::Json => output::json_text(&shown.json())?,
+        TextJsonOrCsv::Csv => bail!("--groups has no CSV; use --format json"),
+        TextJsonOrCsv::Text => shown.text(output::output_width(a.output.as_deref())),
     })?;
     Ok(Done::found_or_nothing(
         found.iter().any(|x| x.found.is_ok()),
@@ -317,8 +317,8 @@ pub(crate) fn run_clamped(g: &Gripping, a: &Statics) -> anyhow::Result<Done> {
 fn not_held(g: &Gripping, a: &Statics) -> anyhow::Result<Done> {
     let shown = NotHeld::new(g);
     a.write_text(match a.format {
-        StaticsFormat::Json => output::json_text(&shown)?,
-        StaticsFormat::Csv | StaticsFormat::Text => shown.text(),
+        TextJsonOrCsv::Json => output::json_text(&shown)?,
+        TextJsonOrCsv::Csv | TextJsonOrCsv::Text => shown.text(),
     })?;
     Ok(Done::Nothing)
 }

@@ -1,7 +1,7 @@
 //! The shape of a link: a bar where its joints are in a row, a plate where they are not; and the points of interest on links, those of
 //! the file and the faces of jaws.
 
-use crate::draw::place::projection::{finite_vector, norm as norm3};
+use crate::draw::place::projection::{finite_vector, norm};
 use crate::draw::prelude::*;
 use crate::draw::symbol::pieces::convex_hull;
 use crate::draw::symbol::placed::one_place;
@@ -223,7 +223,7 @@ pub(super) struct Arrow {
 pub(super) fn arrow_outline(at: Point, arrow: &Arrow, view: &View) -> Vec<Shape> {
     let class = if arrow.turns { "moment" } else { "force" };
     let to = view.flat_vector(arrow.along);
-    let (length, toward) = (norm3(arrow.along), dot(arrow.along, view.toward));
+    let (length, toward) = (norm(arrow.along), dot(arrow.along, view.toward));
     if arrow.turns && toward.abs() > END_ON * length {
         let radius = ARC * length;
         // to the left as seen from its tip; y goes down on paper

@@ -4,9 +4,7 @@ use crate::closure::contour::Contour;
 use crate::draw::kinematic::Kinematic;
 use crate::draw::kinematic::body::{Arrow, Load, arrow_outline};
 use crate::draw::kinematic::moving::frame::Carried;
-use crate::draw::place::projection::{
-    add as add3, along_z, frame_in_numbers, norm as norm3, scale as times, sub as sub3,
-};
+use crate::draw::place::projection::{along_z, frame_in_numbers, norm, scale as times};
 use crate::draw::prelude::*;
 use crate::format::decimals;
 use crate::geom::expr::Expr;
@@ -24,7 +22,7 @@ impl Kinematic<'_> {
     pub(super) fn arrows_of(&self, loads: &[Load], pose: Option<&Carried<'_>>) -> Vec<Arrow> {
         let m = self.subject.mechanism;
         let sizes = loads.iter();
-        let sizes = sizes.flat_map(|(_, b)| [norm3(b.force), norm3(b.moment)]);
+        let sizes = sizes.flat_map(|(_, b)| [norm(b.force), norm(b.moment)]);
         let greatest = sizes.fold(0.0, f64::max);
         let mut out = Vec::new();
         for (id, b) in loads {
@@ -42,10 +40,10 @@ impl Kinematic<'_> {
                 for (what, vector, turns) in [("force", b.force, false), ("moment", b.moment, true)]
                 {
                     let along = times(vector, sign * LONGEST / greatest);
-                    if norm3(along) < SHORTEST {
+                    if norm(along) < SHORTEST {
                         continue;
                     }
-                    let share = decimals(norm3(vector) / greatest, 2);
+                    let share = decimals(norm(vector) / greatest, 2);
                     let [link_id, joint_id] = [&m.links[joint.links[end]].id, &joint.id];
                     out.push(Arrow {
                         link,
@@ -100,14 +98,14 @@ impl Kinematic<'_> {
 
     /// Returns a point slightly off a joint, towards the middle of a link.
     fn beside_joint(&self, link: usize, joint: Vector) -> Vector {
-        let inward = sub3(self.middle_in_space(link), joint);
-        let far = norm3(inward) * self.projection.scale;
+        let inward = sub(self.middle_in_space(link), joint);
+        let far = norm(inward) * self.projection.scale;
         let share = if far > 0.0 {
             (ASIDE / far).min(0.5)
         } else {
             0.0
         };
-        add3(joint, times(inward, share))
+        add(joint, times(inward, share))
     }
 
     /// Returns the shapes of an arrow on paper.

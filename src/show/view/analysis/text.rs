@@ -32,11 +32,11 @@ impl Analysis<'_> {
                 .map(|x| suggestions::advice_text(s.mechanism, s.found, x, width));
             out.text() + &advice.unwrap_or_default()
         });
-        let published = claims_about(&self.mechanism.claims, Topic::Structure);
+        let claims = &self.mechanism.claims;
         let published = if verbose {
-            claims_text(&published, width)
+            claims_text(claims, Topic::Structure, width)
         } else {
-            count_claims(&published)
+            count_claims(&claims_about(claims, Topic::Structure))
         };
         fit_lines(&(states.collect_vec().join("\n") + &published), width)
     }

@@ -18,11 +18,7 @@ pub fn drive_text(d: &Drive<'_>, width: Option<u16>) -> String {
         Some(design) => write_design(&mut out, d, design),
         None => write_refusal(&mut out, d),
     }
-    out.text()
-        + &fit_lines(
-            &claims_text(&claims_about(&d.file.claims, Topic::Drive), width),
-            width,
-        )
+    out.text() + &claims_text(&d.file.claims, Topic::Drive, width)
 }
 
 /// Returns a length in the file's unit, with its symbol.

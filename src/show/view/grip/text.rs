@@ -47,8 +47,8 @@ impl GripReport<'_> {
             write_contacts(&mut out, held, pose, self.load_friction());
         }
         let motion = self.motion.as_ref().map(|m| m.text(width));
-        let claims = claims_text(&claims_about(&self.file.claims, Topic::Grip), width);
-        out.text() + &motion.unwrap_or_default() + &fit_lines(&claims, width)
+        let claims = claims_text(&self.file.claims, Topic::Grip, width);
+        out.text() + &motion.unwrap_or_default() + &claims
     }
 
     /// Returns a length in the file's unit, with its symbol.

@@ -165,22 +165,7 @@ pub(crate) fn symmetric_data(found: &SymmetricBest) -> Value {
     found.best.iter().map(one).collect()
 }
 
-const HEAD: &str = "\
-# What a redesign costs, in revolute joints: the default costs, orders of
-# magnitude for machined parts. For each joint that it changes, a search adds
-# the cost of the new type less that of the original one, and `change`, and
-# `driven` where a drive holds the joint; for each joint that it puts in series,
-# the cost of its type, `link` and `change`.
-#
-#   ozols show costs > costs.toml
-#   ozols search FILE --costs costs.toml
-#
-# `report`, `draw`, `export` and `fix` take it, too. If a line is
-# missing, [search.costs] of FILE holds, or the default. The cost at one
-# option of FILE stays. A custom joint costs a revolute joint, and
-# CUSTOM for each freedom beyond the first. Names of FILE's options may be
-# here, too, and classes of the sets of `--options any`: CLASSES.
-";
+const HEAD: &str = include_str!("costs.toml");
 
 /// Returns the default costs as TOML.
 ///

@@ -94,8 +94,7 @@ impl StaticsData<'_> {
                 "\nThe motion stops at {at}: {who} is at a dead point (condition {condition})."
             ));
         }
-        let claims = claims_about(&self.of.claims, Topic::Statics);
-        out.text() + &fit_lines(&claims_text(&claims, width), width)
+        out.text() + &claims_text(&self.of.claims, Topic::Statics, width)
     }
 
     /// Adds the groups as a table.

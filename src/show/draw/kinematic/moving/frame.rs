@@ -2,7 +2,7 @@
 
 use crate::draw::kinematic::body::{Body, Marked, draw_mark};
 use crate::draw::kinematic::{Kinematic, MovingPicture};
-use crate::draw::place::projection::{add as add3, cross, norm, scale as times, sub as sub3};
+use crate::draw::place::projection::{cross, norm, scale as times};
 use crate::draw::prelude::*;
 use crate::draw::symbol::placed::one_place;
 use crate::geom::rigid::RigidMotion;
@@ -35,7 +35,7 @@ impl Kinematic<'_> {
     /// Returns the middle of those points.
     pub(crate) fn middle_in_space(&self, link: usize) -> Vector {
         let points = self.points_in_space(link);
-        let sum = points.iter().fold([0.0; 3], |s, &p| add3(s, p));
+        let sum = points.iter().fold([0.0; 3], |s, &p| add(s, p));
         times(sum, 1.0 / points.len() as f64)
     }
 
@@ -53,7 +53,7 @@ impl Kinematic<'_> {
         let one = |(i, range): (usize, &Option<[f64; 2]>)| {
             let (range, axis) = ((*range)?, self.slide_axis(i)?);
             let (_, link) = self.carrier_links(i);
-            let ends = range.map(|x| add3(self.places[i].point, times(axis, x)));
+            let ends = range.map(|x| add(self.places[i].point, times(axis, x)));
             let class = "guide";
             let there = !self.is_frame(link) && range[1] > range[0];
             there.then_some(LinkLine { class, link, ends })
@@ -85,12 +85,12 @@ impl Kinematic<'_> {
             let side = cross(about, view.toward);
             let out = if norm(side) > 0.1 {
                 let side = unit(side);
-                unit(add3(side, cross(about, side)))
+                unit(add(side, cross(about, side)))
             } else {
                 unit(sub(view.up, times(about, dot(view.up, about))))
             };
             let from = self.middle_in_space(row);
-            let to = add3(from, times(out, FLAG / self.projection.scale));
+            let to = add(from, times(out, FLAG / self.projection.scale));
             let (class, ends) = ("flag", [from, to]);
             Some(LinkLine { class, link, ends })
         };
@@ -213,7 +213,7 @@ impl Kinematic<'_> {
             let (rides, guides) = self.carrier_links(i);
             let place = &self.places[i];
             let of = poses.iter().map(|c| {
-                let apart = sub3(
+                let apart = sub(
                     c.carried_point(rides, place.point),
                     c.carried_point(guides, place.point),
                 );
@@ -366,10 +366,10 @@ impl Kinematic<'_> {
         let of = &self.links[link].1;
         let off = sub(self.loose_end(link)?, self.spots[of[0]].at);
         let (view, scale) = (&self.projection.view, self.projection.scale);
-        let across = add3(
+        let across = add(
             times(view.right, off[0] / scale),
             times(view.up, -off[1] / scale),
         );
-        Some(add3(self.places[of[0]].point, across))
+        Some(add(self.places[of[0]].point, across))
     }
 }
