@@ -227,11 +227,7 @@ fn of_search(imported: &Imported, a: &Fix, k: usize) -> anyhow::Result<(StateAna
             "nothing is redundant, so {} {k} of the search would only add mobility; use --max-mobility to apply it nevertheless",
             request.noun_of_one()
         ));
-        let plan = TypePlan {
-            releases: Vec::new(),
-            mobility: before.mobility,
-            redundant: 0,
-        };
+        let plan = TypePlan::unchanged(before.mobility);
         return Ok((before, plan));
     }
     Ok((before, plan_variant(m, request, k, print_note)?))
@@ -242,11 +238,7 @@ fn other_types(imported: &Imported, a: &Fix) -> anyhow::Result<(StateAnalysis, T
     let mut m = imported.mechanism.clone();
     let before = api::analyze(&m)?.remove(0);
     if before.redundant == 0 && before.at_most().is_none() {
-        let plan = TypePlan {
-            releases: Vec::new(),
-            mobility: before.mobility,
-            redundant: 0,
-        };
+        let plan = TypePlan::unchanged(before.mobility);
         return Ok((before, plan));
     }
     check_names(&m, &a.at)?;

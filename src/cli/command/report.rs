@@ -144,12 +144,12 @@ fn join_words(words: &[&str]) -> String {
 
 /// Returns the options that made the list of the page.
 fn list_options(mechanism: &Mechanism, a: &Report, request: &Request) -> String {
-    let mut more = vec![request_flags(mechanism, request)];
-    if request.poses > 0 {
-        more.push(format!("--poses {}", request.poses));
-    }
-    more.push(format!("--top {}", a.top));
-    more.iter().filter(|m| !m.is_empty()).join(" ")
+    let poses = match request.poses {
+        0 => String::new(),
+        n => format!("--poses {n}"),
+    };
+    let top = format!("--top {}", a.top);
+    join_words(&[&request_flags(mechanism, request), &poses, &top])
 }
 
 /// Returns the commands about one variant or idea, called `name`, with `{}` for its number.

@@ -217,30 +217,15 @@ fn wrap_line(line: &str, width: usize) -> String {
         return line.to_owned();
     }
     let margin = line.len() - line.trim_start_matches(' ').len();
-    let (mut out, mut at) = (line[..margin].to_owned(), margin);
-    // Runs of spaces within a line are columns and are kept where they do not end it.
-    let mut gap = 0;
-    for word in line[margin..].split(' ') {
-        if word.is_empty() {
-            gap += 1;
-            continue;
-        }
-        let size = measure_text_width(word);
-        let fresh = out.trim_start().is_empty();
-        if !fresh && at + gap + size > width {
-            out.truncate(out.trim_end_matches(' ').len());
-            out.push('\n');
-            out.push_str(&" ".repeat(margin + 2));
-            at = margin + 2;
-        } else if !fresh {
-            out.push_str(&" ".repeat(gap));
-            at += gap;
-        }
-        out.push_str(word);
-        at += size;
-        gap = 1;
-    }
-    out
+    let indent = " ".repeat(margin + 2);
+    let options = textwrap::Options::new(width)
+        .initial_indent(&line[..margin])
+        .subsequent_indent(&indent)
+        .break_words(false)
+        .word_separator(textwrap::WordSeparator::AsciiSpace)
+        .word_splitter(textwrap::WordSplitter::NoHyphenation)
+        .wrap_algorithm(textwrap::WrapAlgorithm::FirstFit);
+    textwrap::fill(&line[margin..], options)
 }
 
 /// Returns the factor to divide by and the unit prefix for values up to `greatest`.
