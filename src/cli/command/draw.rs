@@ -43,8 +43,8 @@ pub(crate) struct Draw {
     /// With --motion, animate this idle freedom instead of the drive (number from `ozols analyze`).
     #[arg(long, value_name = "K", requires = "motion", conflicts_with_all = ["stroke", "drive"])]
     idle: Option<usize>,
-    /// Show a self-stress in the kinematic scheme as arrows on the links that it loads (number from `ozols analyze`). Straight
-    /// arrows are forces; arrows with two heads, arcs if seen from their end, are moments.
+    /// Show a self-stress in the kinematic scheme as arrows on the links that it loads (number from `ozols analyze`), with --motion
+    /// in every frame. Straight arrows are forces; arrows with two heads, arcs if seen from their end, are moments.
     #[arg(long, value_name = "K")]
     self_stress: Option<usize>,
     /// Range of the drive from the drawn pose, as FROM:TO:STEPS, for example 0:90deg:60 or -5:5:60 (lengths in the file's unit)
