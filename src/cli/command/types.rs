@@ -22,7 +22,7 @@ pub(crate) struct TypePlan {
 }
 
 impl TypePlan {
-    /// Returns the plan that changes nothing, where nothing is redundant.
+    /// Returns the plan that changes nothing.
     pub(crate) fn unchanged(mobility: usize) -> TypePlan {
         TypePlan {
             releases: Vec::new(),

@@ -62,9 +62,12 @@ pub struct SelfStress {
 }
 
 impl SelfStress {
-    /// Returns the load on each joint in other poses, each a mechanism with its joints there: in each the self-stress nearest to that
-    /// of the pose before, from this one at `start` on to both ends. It is empty where there is none. `count` is the number of
-    /// independent self-stresses, and `contours` are those of the analysis.
+    /// Returns the load on each joint in other poses; each pose is a mechanism with its joints moved. Each pose has the self-stress that
+    /// is nearest to that of the pose before it, beginning with this one at `start`. The list is empty for a pose without any. `count`
+    /// is the number of independent self-stresses, and `contours` are those of the analysis.
+    ///
+    /// # Complexity
+    /// One singular value decomposition of J for each pose.
     #[must_use]
     pub fn loads_along(
         &self,
