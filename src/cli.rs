@@ -31,7 +31,7 @@ struct Args {
     global: Global,
 }
 
-/// What stands below the help of the program (`ozols`) and of each command, and what the program says without arguments (`first`).
+/// The text below the help of the program (`ozols`) and of each command, and the text without arguments (`first`).
 const EXAMPLES: &str = include_str!("cli/examples.txt");
 
 /// Returns the examples with the names of their commands.

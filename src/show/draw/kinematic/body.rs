@@ -276,7 +276,7 @@ fn arrow_head(tip: Point, back: Point, size: f64, class: &str) -> Shape {
     Shape::path(format!("{class} head"), corners, true)
 }
 
-/// What a joint bears.
+/// The load of a joint.
 pub(super) type Load = (JointId, Borne);
 
 /// Returns the loads of a self-stress at the pose of the file, as far as they are known.
