@@ -14,7 +14,6 @@ fn a_build_without_png_says_so() {
     dir.assert_fails("draw bennett --png", "--features png");
     // the name asks for it
     dir.assert_fails("draw bennett -o x.PNG", "--features png");
-    dir.assert_fails("explain spherical -o x.PNG", "--features png");
     assert_eq!(dir.names(), [""; 0]);
 }
 
@@ -200,17 +199,6 @@ joint = [
             Size::Width(u32::MAX),
         ] {
             assert!(png(&d, size).is_err(), "{size:?}");
-        }
-    }
-
-    #[test]
-    fn joint_types_are_explained_in_a_picture() {
-        let dir = Folder::new();
-        for t in JointType::NAMED {
-            dir.succeed(&format!("explain {} -o x.png", t.name()));
-            let picture = Pixmap::decode_png(&dir.bytes("x.png")).unwrap();
-            let dark = picture.pixels().iter().filter(|p| p.red() < 150).count();
-            assert!(dark > 500, "{t}: {dark}");
         }
     }
 
