@@ -355,8 +355,9 @@ impl Tree {
             out
         };
         let mut cycle = path(x);
+        cycle.reverse();
         cycle.push(graph[e].joint);
-        cycle.extend(path(y).into_iter().rev());
+        cycle.extend(path(y));
         cycle
     }
 }
