@@ -324,23 +324,6 @@ fn an_idea_says_what_is_added_where() {
             ["turn about x", "turn about y", "slide along z"].contains(&a.freedom.as_str())
         }));
     }
-    // The joints of the outer rod's contour are in series; the slider's joint is in series with none.
-    let series = |id: &str| {
-        let j = gripper.joint_named(id).unwrap();
-        let groups = ideas.iter().flat_map(|i| &i.added);
-        groups
-            .filter(|a| a.joints.contains(&j))
-            .map(|a| a.joints.clone())
-            .next()
-            .unwrap_or_default()
-    };
-    let ids = |joints: Vec<JointId>| {
-        joints
-            .into_iter()
-            .map(|j| gripper.joints[j].id.clone())
-            .collect_vec()
-    };
-    assert_eq!(ids(series("2-4")), ["2-4", "4-5", "5-1"]);
 }
 
 /// The text gives ideas where all variants are counted and the list is a short one, and says how to go on with them.

@@ -77,27 +77,6 @@ fn variants_in_every_format_and_drawn() {
     );
 }
 
-#[test]
-fn a_search_says_what_to_do_next() {
-    let text = run_quiet("search gripper-10 --max-mobility 1 --hold 5 --top 1");
-    assert!(text.starts_with("gripper-10: "), "{text}");
-    assert!(
-        text.lines()
-            .next()
-            .unwrap()
-            .contains(" of 13,841,287,201 variants have σ = 0")
-    );
-    let flags = "--max-mobility 1 --hold 5";
-    for part in [
-        format!("\n    ozols draw gripper-10 {flags} --idea 1 -o gripper-10-idea-1.svg\n"),
-        format!(
-            "\n    ozols export gripper-10 {flags} --idea 1 --to toml -o gripper-10-idea-1.toml\n"
-        ),
-    ] {
-        assert!(text.contains(&part), "no {part:?} in {text}");
-    }
-}
-
 // Every condition said to help does, and nothing less would.
 #[test]
 fn what_would_help_where_nothing_is_found() {

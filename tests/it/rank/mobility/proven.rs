@@ -4,7 +4,6 @@ use super::built_in;
 use crate::common::*;
 use crate::rank::finite_traps::{all::all as traps, judged, judged_in};
 use crate::rank::rounded::cases::cases;
-use ozols::rank::finite::displacement_group::GroupKind;
 use ozols::rank::finite::independent_parts::lock_idle;
 use ozols::rank::finite::{Finite, Proof, followed_mobility};
 use std::fmt::Write;
@@ -108,28 +107,6 @@ fn a_taut_chain_is_proven_to_rest() {
 fn platforms_on_rods_are_proven_by_their_multiplicity() {
     let (_, found) = judged(&built_in("griffis-duffy"));
     assert!(found.is_proven() && found.mobility == 7, "{found:?}");
-}
-
-/// Planar and spherical built-ins, in every state.
-#[test]
-fn most_built_ins_of_one_group_are_proven() {
-    let (mut all, mut open) = (0, Vec::new());
-    for name in builtin::names() {
-        let m = built_in(name);
-        for state in m.state_ids() {
-            let exact = field_of(&m, state, 0).unwrap();
-            let kind = whole_group(&exact, &m, state).unwrap().kind();
-            let planar = matches!(m.mode, Mode::Planar { .. }) || kind == GroupKind::Planar;
-            if planar || kind == GroupKind::Spherical {
-                all += 1;
-                if !judged_in(&m, state).1.is_proven() {
-                    open.push(format!("{name}, {}", m.states[state]));
-                }
-            }
-        }
-    }
-    assert!(all > 35, "{all}");
-    assert_eq!(open, [""; 0]);
 }
 
 fn between(part_has_faces: bool, edges: [(i32, [i32; 3]); 2]) -> String {

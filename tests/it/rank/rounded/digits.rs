@@ -307,31 +307,26 @@ fn what_is_stated_goes_before_digits() {
 
 #[test]
 fn absurd_tolerances_are_refused_where_they_stand() {
-    for (more, line) in [
-        ("[tolerance]\nlength = -1\n", 4),
-        ("[tolerance]\nlength = 100\n", 4),
-        ("[tolerance]\ndirection = 0.5\n", 4),
-        ("[tolerance]\ndirection = \"two\"\n", 4),
-        ("[tolerance]\nangle = 0.5\n", 4),
+    for stated in [
+        "length = -1",
+        "length = 100",
+        "direction = 0.5",
+        "direction = \"two\"",
+        "angle = 0.5",
     ] {
-        let text = door(["[0, 0, 0]", "[0, 0, 120]"], [Z, Z], more);
-        assert_fails_on(
-            "check",
-            "door.toml",
-            &text,
-            "",
-            &format!("door.toml:{line}:"),
-        );
+        let more = format!("[tolerance]\n{stated}\n");
+        let text = door(["[0, 0, 0]", "[0, 0, 120]"], [Z, Z], &more);
+        assert_fails_on("check", "door.toml", &text, "", "door.toml:4:");
     }
-    let text = door(["[0, 0, 0]", "[0, 0, 120]"], [Z, Z], "").replacen(
-        "axis =",
-        "tolerance = -2\naxis =",
-        1,
+    let text = door(["[0, 0, 0]", "[0, 0, 120]"], [Z, Z], "");
+    let text = replace_once(&text, "axis =", "tolerance = -2\naxis =");
+    assert_fails_on(
+        "check",
+        "door.toml",
+        &text,
+        "",
+        "tolerance -2 is out of range",
     );
-    let (code, _, stderr) = run_on("check", "door.toml", &text, "");
-    assert_eq!(code, Some(2));
-    has(&stderr, "tolerance -2 is out of range");
-    has(&stderr, "help: ");
 }
 
 #[test]

@@ -109,31 +109,6 @@ fn what_is_meant_is_exported_exactly_and_what_is_written_on_demand() {
     assert_eq!(same(&written), same(&file));
 }
 
-/// A door on two coaxial hinges, each with nine digits of its own.
-fn door() -> String {
-    let joints = "
-        low | 0 door | revolute | 0.123456789, 0.234567891, 0.345678912 | 0.267261242, 0.534522484, 0.801783726
-        high | 0 door | revolute | 0.657979273, 1.303612859, 1.949246364 | 0.267261243, 0.534522483, 0.801783726";
-    write_mechanism("name = \"door\"", "0 door*", joints)
-        + "[search]\noptions = [\"spherical\", \"sphere-in-cylinder\"]\n"
-}
-
-#[test]
-fn a_door_on_measured_hinges_has_the_redesigns_of_the_exact_one() {
-    let counts = |file: &str| {
-        let (code, stdout, stderr) = run_on("search", "door.toml", file, "--format json");
-        assert_eq!(code, Some(0), "{stderr}");
-        value(&stdout)["admissible"].clone()
-    };
-    let exact = door()
-        .replace("0.123456789, 0.234567891, 0.345678912", "0, 0, 0")
-        .replace("0.657979273, 1.303612859, 1.949246364", "0, 0, 2")
-        .replace("0.267261242, 0.534522484, 0.801783726", "0, 0, 1")
-        .replace("0.267261243, 0.534522483, 0.801783726", "0, 0, 1");
-    assert_eq!(counts(&exact), "2");
-    assert_eq!(counts(&door()), "2");
-}
-
 /// A wishbone on two bolts, its ball, and the upright on a second ball and a rod: dimensions to 0.01 mm.
 fn wishbone() -> String {
     write_mechanism(
@@ -168,16 +143,6 @@ fn nothing_further_than_its_reach_is_nearly_special() {
             && x.relations.contains(&(Relation::Coaxial, Some(front)))
     };
     assert!(bolts.iter().any(coaxial), "{bolts:?}");
-}
-
-#[test]
-fn check_says_what_is_nearly_special() {
-    let (_, _, stderr) = run_on("check", "wishbone.toml", &wishbone(), "");
-    has(&stderr, "LF and LR are 0.00");
-    has(&stderr, "from coaxial");
-    for name in ["four-bar", "bennett", "delta", "gripper-10"] {
-        has(&utf8_text(&run(&["check", name]).stdout), ": valid\n");
-    }
 }
 
 #[test]
