@@ -1,5 +1,6 @@
 //! Holding forces against closed forms, a polyhedral linear programme and plain statics.
 
+use super::lever;
 use crate::common::*;
 use ozols::geom::vector::cross as cross3;
 mod polyhedral;
@@ -7,17 +8,12 @@ mod polyhedral;
 use ozols::geom::vector::cross_plane as cross;
 use ozols::grip::contact::{TouchingPose, Unholdable};
 use ozols::grip::holding::{Holding, Spatial};
-use ozols::grip::lever_arm::Lever;
 
 const COUPLINGS: [LeverDrive; 3] = [
     LeverDrive::Coupled,
     LeverDrive::Equal,
     LeverDrive::Independent,
 ];
-
-fn lever(length: f64, prism: f64, mounting: f64) -> Lever {
-    Lever::new(length, prism.to_radians(), mounting.to_radians()).unwrap()
-}
 
 fn pose() -> TouchingPose {
     Gripper::with_nominal(lever(0.1, 120.0, 30.0), 0.04)

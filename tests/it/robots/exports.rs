@@ -205,18 +205,6 @@ fn graphs() {
     }
 }
 
-#[test]
-fn the_command() {
-    for to in ["toml", "json", "urdf", "mjcf", "sdf", "dot", "graphml"] {
-        assert!(
-            run_quiet(&["export", "four-bar", "--to", to, "-q"]).len() > 200,
-            "{to}"
-        );
-    }
-    let o = ozols("export nowhere --to dot").output().unwrap();
-    assert_eq!(o.status.code(), Some(2));
-}
-
 /// A description in which every kind of thing stands that a mechanism has no words for.
 const RICH: &str = "<mujoco><option timestep='0.001'/><asset><mesh name='m' vertex='0 0 0 1 0 0 0 1 0 0 0 1'/></asset>
   <worldbody><body name='a'><inertial pos='0 0 0' mass='3' diaginertia='1 1 1'/>

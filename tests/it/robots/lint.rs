@@ -38,19 +38,6 @@ fn lint_names_each_redundant_row_with_its_line() {
     has(remedy, "slide along y: revolute -> cylindrical");
 }
 
-#[test]
-fn exit_codes_say_what_was_found() {
-    // Nothing redundant: 0, and nothing is searched. Not readable: 2.
-    let urdf = folder().join("mimic_gripper.urdf");
-    let (out, _) = run_successful(&["lint", urdf.to_str().unwrap()]);
-    has(&out, "no redundant constraints (σ = 0, W = 1)");
-    assert_eq!(run_full("lint nowhere.xml").0, Some(2));
-    // Mechanism files have names, too.
-    let (code, out, _) = run_full("lint gripper-10");
-    assert_eq!(code, Some(1));
-    has(&out, "11 redundant constraints");
-}
-
 /// A four-bar of hinges at these places, closed by a connect at an anchor of its second link.
 fn four_bar(ends: [&str; 3], anchor: &str) -> String {
     let [elbow, other, axis] = ends;
