@@ -1,7 +1,7 @@
 //! Poses over a stroke: against closed forms, and as the command shows them.
 
 use crate::common::*;
-use crate::statics::{joints_of, planar_file, read_planar};
+use crate::statics::{joints_of, planar_file};
 use ozols::motion::follow::{Why, stroke_positions};
 use ozols::rank::stroke::analysis::{StrokeFigures, StrokeRequest, analyse_stroke};
 use std::f64::consts::FRAC_PI_2;
@@ -94,7 +94,7 @@ fn four_bar_over_a_turn() {
 /// 3 + 4 > 3 + √10: no link turns fully. The crank stops where coupler and rocker come to lie in line.
 #[test]
 fn a_four_bar_that_does_not_turn_stops_at_its_dead_points() {
-    let m = read_planar(&planar_file(
+    let m = read(&planar_file(
         &joints_of("0-1 0 0, 1-2 0 3, 2-3 3 3, 3-0 4 0"),
         "",
     ));
