@@ -10,55 +10,6 @@ fn stresses(name: &str) -> (Mechanism, Vec<SelfStress>) {
     (m, stresses)
 }
 
-#[test]
-fn what_joints_bear_of_a_self_stress_keeps_each_link_in_balance() {
-    let (mut links, mut spatial) = (0, 0);
-    for name in builtin::names() {
-        let (m, stresses) = stresses(name);
-        for stress in &stresses {
-            let loads: Vec<_> = stress
-                .joints
-                .iter()
-                .filter_map(|w| Some((w.joint, w.borne?)))
-                .collect();
-            let whole: f64 = loads.iter().map(|(_, b)| b.energy_share()).sum();
-            assert!(
-                loads.is_empty() || (whole - 1.0).abs() < 1e-9,
-                "{name}: {whole}"
-            );
-            for l in m.link_ids() {
-                let (mut force, mut moment) = ([0.0; 3], [0.0; 3]);
-                let mut there = false;
-                for &(j, b) in &loads {
-                    let joint = &m.joints[j];
-                    let sign = match joint.links {
-                        [a, _] if a == l => -1.0,
-                        [_, a] if a == l => 1.0,
-                        _ => continue,
-                    };
-                    there = true;
-                    let (f, own) = (scale(b.force, sign), scale(b.moment, sign * stress.size));
-                    force = add(force, f);
-                    moment = add(moment, add(own, cross(to_vector(&joint.frame.point), f)));
-                }
-                links += usize::from(there);
-                spatial += usize::from(there && name == "bennett");
-                // the zeros of a stress are exact, its numbers are doubles
-                let far = m
-                    .joints
-                    .iter()
-                    .map(|j| length(to_vector(&j.frame.point)))
-                    .fold(stress.size, f64::max);
-                assert!(length(force) < 1e-7, "{name}: {force:?}");
-                assert!(length(moment) < 1e-7 * far, "{name}: {moment:?} of {far}");
-            }
-        }
-    }
-    assert!(links > 500, "{links}");
-    // three self-stresses of four links
-    assert_eq!(spatial, 12);
-}
-
 /// An arrow of a drawing: its link, its tip in words, and from its beginning to its end where it is drawn straight.
 struct Drawn {
     link: String,
