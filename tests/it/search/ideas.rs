@@ -10,63 +10,15 @@ mod why;
 use ozols::search;
 use ozols::search::answer::ideas::Idea;
 
-/// Every simple cycle of the mechanism's graph, as the set of its joints.
-fn cycles(m: &Mechanism) -> BTreeSet<BTreeSet<JointId>> {
-    fn walk(
-        m: &Mechanism,
-        start: usize,
-        path: &mut Vec<(JointId, usize)>,
-        out: &mut BTreeSet<BTreeSet<JointId>>,
-    ) {
-        let here = path.last().map_or(start, |p| p.1);
-        for j in m.joints_in(StateId::FREE) {
-            let [a, b] = m.joints[j].links.map(|l| l.index());
-            let to = match here {
-                h if h == a => b,
-                h if h == b => a,
-                _ => continue,
-            };
-            if path.iter().any(|p| p.0 == j) {
-                continue;
-            }
-            if to == start {
-                out.insert(path.iter().map(|p| p.0).chain([j]).collect());
-            } else if !path.iter().any(|p| p.1 == to) {
-                path.push((j, to));
-                walk(m, start, path, out);
-                path.pop();
-            }
-        }
-    }
-    let mut out = BTreeSet::new();
-    for start in 0..m.links.len() {
-        walk(m, start, &mut Vec::new(), &mut out);
-    }
-    out
-}
-
 /// The freedoms of an option by what they are and where they point, either way.
 fn freedoms(o: &JointOption) -> Vec<(bool, [i64; 3])> {
-    let z = unit(to_vector(&o.frame.axis));
-    let r = to_vector(&o.frame.reference);
-    let along = z.iter().zip(&r).map(|(a, b)| a * b).sum::<f64>();
-    let x = unit([0, 1, 2].map(|i| r[i] - along * z[i]));
-    let y = cross(z, x);
-    o.joint_type
-        .freedoms()
-        .iter()
-        .map(|f| {
-            let axis = match f {
-                Freedom::Rx | Freedom::Tx => x,
-                Freedom::Ry | Freedom::Ty => y,
-                _ => z,
-            };
-            #[allow(clippy::cast_possible_truncation, reason = "a unit vector")]
-            let d = axis.map(|c| (c * 1e5).round() as i64);
-            let back = d.iter().find(|c| **c != 0).is_some_and(|c| *c < 0);
-            (f.is_turn(), if back { d.map(|c| -c) } else { d })
-        })
-        .collect()
+    let one = |f: &Freedom| {
+        #[allow(clippy::cast_possible_truncation, reason = "a unit vector")]
+        let d = direction_of(&o.frame, *f).map(|c| (c * 1e5).round() as i64);
+        let back = d.iter().find(|c| **c != 0).is_some_and(|c| *c < 0);
+        (f.is_turn(), if back { d.map(|c| -c) } else { d })
+    };
+    o.joint_type.freedoms().iter().map(one).collect()
 }
 
 type Pattern = BTreeMap<(BTreeSet<JointId>, (bool, [i64; 3])), usize>;
@@ -79,7 +31,7 @@ struct Twin<'o> {
 impl<'o> Twin<'o> {
     fn new(outcome: &'o Outcome) -> Twin<'o> {
         let m = &outcome.search.mechanism;
-        let cycles = cycles(m);
+        let cycles = simple_cycles(m, StateId::FREE);
         let on = |j: JointId| cycles.iter().map(|c| c.contains(&j)).collect_vec();
         let series = |j: JointId| {
             m.joints_in(StateId::FREE)

@@ -162,18 +162,10 @@ fn joints_bear_what_they_can_and_links_are_in_equilibrium() {
             for at in &stress.joints {
                 let Some(borne) = at.borne else { continue };
                 let joint = &m.joints[at.joint];
-                let z = unit(to_vector(&joint.frame.axis));
-                let reference = to_vector(&joint.frame.reference);
-                let x = unit(add(reference, scale(z, -dot(reference, z))));
-                let axes = [x, cross(z, x), z];
                 let free = |f: &Freedom| match f {
-                    Freedom::Rx => dot(borne.moment, axes[0]),
-                    Freedom::Ry => dot(borne.moment, axes[1]),
-                    Freedom::Rz => dot(borne.moment, axes[2]),
-                    Freedom::Tx => dot(borne.force, axes[0]),
-                    Freedom::Ty => dot(borne.force, axes[1]),
-                    Freedom::Tz => dot(borne.force, axes[2]),
                     Freedom::Screw => 0.0,
+                    f if f.is_turn() => dot(borne.moment, direction_of(&joint.frame, *f)),
+                    f => dot(borne.force, direction_of(&joint.frame, *f)),
                 };
                 for f in joint.joint_type.freedoms() {
                     assert!(free(f).abs() < 1e-7, "{name} {} {f:?}: {borne:?}", joint.id);

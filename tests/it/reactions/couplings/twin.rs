@@ -25,22 +25,10 @@ pub(super) struct Twin {
 
 /// Directions of a joint's freedoms: (whether it is a slide, the direction).
 fn freedoms(m: &Mechanism, j: JointId) -> Vec<(Freedom, bool, V)> {
-    let frame = &m.joints[j].frame;
-    let z = unit(to_vector(&frame.axis));
-    let r = to_vector(&frame.reference);
-    let x = unit(sub(r, scale(z, dot(r, z))));
-    let y = cross(z, x);
-    let one = |f: &Freedom| match f {
-        Freedom::Rx => (*f, false, x),
-        Freedom::Ry => (*f, false, y),
-        Freedom::Rz => (*f, false, z),
-        Freedom::Tx => (*f, true, x),
-        Freedom::Ty => (*f, true, y),
-        Freedom::Tz => (*f, true, z),
-        Freedom::Screw => panic!("no screws here"),
-    };
     assert_ne!(m.joints[j].joint_type, JointType::Fixed);
-    m.joints[j].joint_type.freedoms().iter().map(one).collect()
+    let own = m.joints[j].joint_type.freedoms().iter();
+    own.map(|&f| (f, f.is_slide(), direction_of(&m.joints[j].frame, f)))
+        .collect()
 }
 
 /// Where two pitch circles touch and the direction across their centre line, from their radii: centres apart by the sum of
