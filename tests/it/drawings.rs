@@ -142,28 +142,6 @@ fn variants_are_marked() {
     }
 }
 
-/// A four-bar in the plane that these two vectors span.
-fn tilted(across: [f64; 3], up: [f64; 3]) -> Mechanism {
-    let normal = cross(across, up);
-    let at = |x: f64, y: f64| [0, 1, 2].map(|i| 7.0 + across[i] * x + up[i] * y);
-    let vector = |v: [f64; 3]| v.map(|x| format!("{x:?}")).join(", ");
-    let joints = [
-        ("0-1 | 0 1", 0.0, 0.0),
-        ("1-2 | 1 2", 0.0, 2.0),
-        ("2-3 | 2 3", 5.0, 4.0),
-        ("3-0 | 3 0", 6.0, 0.0),
-    ];
-    let line = |(links, x, y)| {
-        format!(
-            "{links} | revolute | {} | {}",
-            vector(at(x, y)),
-            vector(normal)
-        )
-    };
-    let joints = joints.map(line).join("\n");
-    read(&write_mechanism("name = \"tilted\"", "0 1 2 3*", &joints))
-}
-
 #[test]
 fn a_plane_is_seen_face_on() {
     for (across, up, name) in [
@@ -172,7 +150,8 @@ fn a_plane_is_seen_face_on() {
         ([3.0, 4.0, 0.0], [0.0, 0.0, 5.0], "seen face-on"),
         ([1.0, 2.0, 2.0], [2.0, 1.0, -2.0], "seen face-on"),
     ] {
-        let m = tilted(across, up);
+        let corners = [[0.0, 0.0], [0.0, 2.0], [5.0, 4.0], [6.0, 0.0]];
+        let m = four_bar_in_plane([across, up], [7.0; 3], corners, false);
         let d = kinematic(&subject(&m));
         assert!(
             d.svg.contains(&format!("Kinematic scheme {name}")),

@@ -44,3 +44,20 @@ pub(crate) fn turned_and_moved(m: &Mechanism, shift: [f64; 3]) -> Mechanism {
     drop(parts);
     out
 }
+
+/// Returns a four-bar with these corners in a plane through a point, which two vectors span; the first hinge has the motor, or none.
+pub(crate) fn four_bar_in_plane(
+    [across, up]: [Vector; 2],
+    origin: Vector,
+    corners: [[f64; 2]; 4],
+    driven: bool,
+) -> Mechanism {
+    let normal = commas(cross(across, up));
+    let line = |(i, [x, y]): (usize, [f64; 2])| {
+        let at = commas(add_scaled(add_scaled(origin, x, across), y, up));
+        let (next, drive) = ((i + 1) % 4, driven && i == 0);
+        format!("{i}-{next} | {i} {next} | revolute | {at} | {normal} | drive = {drive}")
+    };
+    let joints = corners.into_iter().enumerate().map(line).join("\n");
+    read(&write_mechanism("name = \"tilted\"", "0 1 2 3*", &joints))
+}

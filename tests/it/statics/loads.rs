@@ -6,29 +6,8 @@ use ozols::statics::solve::{Model, SolvedReactions, solve_reactions};
 
 /// A four-bar 0-1-2-3 drawn by x and y, stood in the plane of `along` and `up`.
 fn four_bar(along: [f64; 3], up: [f64; 3]) -> Mechanism {
-    let normal = cross(along, up);
-    let joints = [
-        ("0-1 | 0 1", 0.0, 0.0),
-        ("1-2 | 1 2", 0.0, 1.0),
-        ("2-3 | 2 3", 3.0, 3.0),
-        ("3-0 | 3 0", 4.0, 0.0),
-    ];
-    let vector = |v: [f64; 3]| v.map(|x| format!("{x:?}")).join(", ");
-    let line = |(n, (links, x, y)): (usize, (&str, f64, f64))| {
-        let p = [0, 1, 2].map(|i| x * along[i] + y * up[i]);
-        format!(
-            "{links} | revolute | {} | {} | drive = {}",
-            vector(p),
-            vector(normal),
-            n == 0
-        )
-    };
-    let joints = joints.into_iter().enumerate().map(line).join("\n");
-    read(&write_mechanism(
-        "name = \"leans\"\nlength_unit = \"m\"",
-        "0 1 2* 3",
-        &joints,
-    ))
+    let corners = [[0.0, 0.0], [0.0, 1.0], [3.0, 3.0], [4.0, 0.0]];
+    four_bar_in_plane([along, up], [0.0; 3], corners, true)
 }
 
 fn exact(v: [f64; 3]) -> [Expr; 3] {

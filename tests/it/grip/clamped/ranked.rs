@@ -63,12 +63,12 @@ fn the_ranking_states_its_states() {
             &format!("order = \"weighted\"\nstates = {states}"),
         )
     };
-    let (code, said, _) = run(&with("[\"free\"]"), &["search", "FILE", "--format", "json"]);
+    let (code, said, _) = run(&with("[\"free\"]"), "search FILE --format json");
     assert_eq!(code, Some(0));
     let said: Value = serde_json::from_str(&said).unwrap();
     assert_eq!(said["ranking"]["grip"].list().len(), 0);
     assert_eq!(said["variants"][0]["scores"]["peak-force"], 0.0);
-    let (code, _, errors) = run(&with("[\"clampt\"]"), &["search", "FILE"]);
+    let (code, _, errors) = run(&with("[\"clampt\"]"), "search FILE");
     assert_eq!(code, Some(2));
     has(&errors, "clampt");
     has(&errors, "known: free, clamped");
@@ -78,7 +78,7 @@ fn the_ranking_states_its_states() {
         "order = \"weighted\"",
         "order = \"weighted\"\nstates = [\"clamped\"]",
     );
-    let (code, _, errors) = run(&loaded, &["check", "FILE"]);
+    let (code, _, errors) = run(&loaded, "check FILE");
     assert_eq!(code, Some(2));
     has(&errors, "with the contacts of [workload.grip]");
 }

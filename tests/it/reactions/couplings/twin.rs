@@ -13,6 +13,17 @@ struct Push {
     moment: V,
 }
 
+impl Push {
+    fn new(link: LinkId, force: V, at: V, moment: V) -> Push {
+        Push {
+            link,
+            force,
+            at,
+            moment,
+        }
+    }
+}
+
 /// The equations of the pose of the file; lengths in metres.
 pub(super) struct Twin {
     rows: Vec<Vec<f64>>,
@@ -104,19 +115,9 @@ impl Twin {
             for i in 0..3 {
                 for (link, sign) in m.joints[j].links.into_iter().zip([-1.0, 1.0]) {
                     let force = scale(e(i), sign);
-                    let push = Push {
-                        link,
-                        force,
-                        at,
-                        moment: [0.0; 3],
-                    };
+                    let push = Push::new(link, force, at, [0.0; 3]);
                     put(&mut out.rows, 6 * n + i, push);
-                    let push = Push {
-                        link,
-                        force: [0.0; 3],
-                        at,
-                        moment: force,
-                    };
+                    let push = Push::new(link, [0.0; 3], at, force);
                     put(&mut out.rows, 6 * n + 3 + i, push);
                 }
             }
@@ -139,16 +140,8 @@ impl Twin {
             if let Some((first, second, at, way)) = mesh {
                 for (link, sign) in [(first, 1.0), (second, -1.0)] {
                     let force = scale(way, sign);
-                    put(
-                        &mut out.rows,
-                        column,
-                        Push {
-                            link,
-                            force,
-                            at,
-                            moment: [0.0; 3],
-                        },
-                    );
+                    let push = Push::new(link, force, at, [0.0; 3]);
+                    put(&mut out.rows, column, push);
                 }
                 continue;
             }
@@ -169,16 +162,7 @@ impl Twin {
                     } else {
                         (none, along)
                     };
-                    put(
-                        &mut out.rows,
-                        column,
-                        Push {
-                            link,
-                            force,
-                            at,
-                            moment,
-                        },
-                    );
+                    put(&mut out.rows, column, Push::new(link, force, at, moment));
                 }
             }
         }
