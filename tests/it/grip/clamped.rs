@@ -96,10 +96,7 @@ fn the_contact_forces_do_the_work_of_the_drive_and_no_other() {
         let work = |pose: &Pose| -> f64 {
             let each = loads.forces.iter().map(|f| {
                 let p = to_vector(&f.point);
-                let at = [0, 1, 2].map(|i| (p[i] - pose.middle[i]) / pose.length);
-                let to = pose.links[f.link]
-                    .map_point(at)
-                    .map(|x| x * pose.length * metres);
+                let to = pose.carry_point(&pose.links, f.link, p).map(|x| x * metres);
                 dot(to_vector(&f.force), to)
             });
             each.sum()
@@ -131,9 +128,7 @@ fn jaws_bear_the_part() {
             let force = to_vector(&f.force);
             let p = to_vector(&f.point);
             let pose = &fit.pose;
-            let at = [0, 1, 2].map(|i| (p[i] - pose.middle[i]) / pose.length);
-            let to = pose.links[f.link].map_point(at);
-            let to = [0, 1, 2].map(|i| (pose.middle[i] + pose.length * to[i]) * 1e-3);
+            let to = pose.carry_point(&pose.links, f.link, p).map(|x| x * 1e-3);
             let arm = [to[0] - centre[0], to[1] - centre[1], to[2]];
             let moment = cross(arm, force);
             for i in 0..3 {

@@ -31,7 +31,6 @@ fn as_measured(m: &Mechanism, seed: u64, noise: f64, away: f64) -> Mechanism {
         let reference = turned(&joint.frame.reference);
         let axis = turned(&joint.frame.axis);
         let mut number = |x: f64, of: f64| Expr::from_f64(x + noise * of * random.draw_uniform());
-        let length = |v: [f64; 3]| v.iter().map(|x| x * x).sum::<f64>().sqrt();
         joint.frame = Frame {
             point: [0, 1, 2].map(|i| number(scale * (point[i] + shift[i]), scale * size).unwrap()),
             axis: axis.map(|x| number(x, length(axis)).unwrap()),

@@ -81,27 +81,6 @@ fn lint_does_not_decide_what_digits_leave_open() {
     assert_fails_on("fix", "m.xml", &text, "", "--pose");
 }
 
-// Text and JSON name one figure, also where digits leave that of the pose open.
-#[test]
-fn text_and_json_say_the_same_of_the_motion() {
-    let in_line = four_bar(["1 0 0", "1.5 0 0", "0 0 1"], "2 0 0");
-    let nearly = four_bar(["1 0 0", "1.500001 0.000003 0", "0 0 1"], "2 0 0");
-    for text in [in_line, nearly, nearly_parallel()] {
-        let (_, file) = linted("m.xml", &text);
-        let lasting = file["redundant_over_motion"].whole();
-        let over = file["over_motion"].as_str().unwrap_or_default();
-        if let Some((_, rest)) = over.split_once("elsewhere in the motion ") {
-            assert!(rest.starts_with(&format!("{lasting},")), "{over} {lasting}");
-        }
-        let (_, out, _) = run_on("lint", "m.xml", &text, "");
-        has(&out, over);
-        let most = file["redundant_at_most"].whole();
-        let passing = format!("{} of them at this pose only", most - lasting);
-        let some = lasting > 0 && lasting < most;
-        assert_eq!(out.contains(&passing), some, "{out}");
-    }
-}
-
 // Loops that slide move: the sentence said that none does, and the kind was "rigid".
 #[test]
 fn loops_that_slide_move() {

@@ -240,11 +240,6 @@ fn ideas_are_those_of_a_list_of_all_variants() {
 #[test]
 fn of_a_search_cut_short_ideas_are_bounds_and_none_is_proven_the_cheapest() {
     let line = "search gripper-10 --distinct --top 3";
-    let short = run_quiet(&format!("{line} --nodes 60"));
-    has(&short, "variants are valid but may not be the cheapest");
-    has(&short, "at least");
-    lacks(&short, "Proven the cheapest");
-    lacks(&short, " minimal");
     let whole = run_json(&format!("{line} --format json"));
     let cut = run_json(&format!("{line} --nodes 60 --format json"));
     assert_eq!(cut["variants_proven"], Value::Null);
@@ -284,10 +279,8 @@ fn people_are_told_ideas_and_programs_variants() {
     let search = |more: &str| run_successful(&format!("search four-bar --quiet {more}")).0;
     let plain = search("");
     assert_eq!(plain, search("--distinct"));
-    has_all(&plain, &["stands for", "--idea 1"]);
-    let every = search("--no-distinct");
-    lacks(&every, "stands for");
-    has(&every, "--variant 1");
+    has(&plain, "stands for");
+    lacks(&search("--no-distinct"), "stands for");
     let idea = |more: &str| -> Value {
         let said = search(&format!("--format json {more}"));
         let found: Value = serde_json::from_str(&said).unwrap();
@@ -295,10 +288,6 @@ fn people_are_told_ideas_and_programs_variants() {
     };
     assert!(idea("").is_null());
     assert!(idea("--distinct").is_object());
-    // A long list is not for reading, and one cut short proves nothing of ideas.
-    lacks(&search("--top 101"), "stands for");
-    let cut = run_full("search gripper-10 --nodes 60 --top 3").1;
-    lacks(&cut, "stands for");
     let exported = |which: &str| run_successful(&format!("export four-bar --to toml {which}")).0;
     assert_eq!(exported("--idea 2"), exported("--distinct --variant 2"));
     assert_ne!(exported("--idea 2"), exported("--variant 2"));

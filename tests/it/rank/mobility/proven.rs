@@ -6,7 +6,6 @@ use crate::rank::finite_traps::{all::all as traps, judged, judged_in};
 use crate::rank::rounded::cases::cases;
 use ozols::rank::finite::independent_parts::lock_idle;
 use ozols::rank::finite::{Finite, Proof, followed_mobility};
-use std::fmt::Write;
 
 fn proof(name: &str) -> Option<Proof> {
     match judged(&built_in(name)).1 {
@@ -87,26 +86,6 @@ fn motions_through_singular_poses_are_proven() {
             "{name}"
         );
     }
-}
-
-/// A chain pulled taut: its self-stress is a tension, whose work is definite.
-#[test]
-fn a_taut_chain_is_proven_to_rest() {
-    let taut = traps()
-        .into_iter()
-        .filter(|t| t.name.starts_with("taut-chain"));
-    let all: Vec<_> = taut.map(|t| judged(&read(&t.text)).1).collect();
-    assert!(
-        all.len() > 4 && all.iter().all(Finite::is_proven),
-        "{all:?}"
-    );
-}
-
-/// A platform on six rods: a quadric each.
-#[test]
-fn platforms_on_rods_are_proven_by_their_multiplicity() {
-    let (_, found) = judged(&built_in("griffis-duffy"));
-    assert!(found.is_proven() && found.mobility == 7, "{found:?}");
 }
 
 fn between(part_has_faces: bool, edges: [(i32, [i32; 3]); 2]) -> String {
@@ -191,6 +170,11 @@ fn most_further_mechanisms_are_proven() {
         all += 1;
         let (_, found) = judged(&mechanism);
         assert!(found.could_be(truth), "{name}: {found:?}");
+        // A chain pulled taut: its self-stress is a tension, whose work is definite.
+        assert!(
+            found.is_proven() || !name.starts_with("taut-chain"),
+            "{name}"
+        );
         if !found.is_proven() {
             open.push(format!("{name}: {}", found.describe()));
         }
@@ -265,9 +249,7 @@ fn proofs_of_random_chains_are_not_contradicted_by_following_them() {
 fn two_contours(random: &mut ChaCha8Rng) -> String {
     let mut below = |n: u32| random.next_u32() % n;
     let kind = below(3);
-    let mut text = String::from(
-        "name = \"two-contours\"\n[[link]]\nid = \"a\"\nrole = \"frame\"\n[[link]]\nid = \"b\"\nrole = \"output\"\n",
-    );
+    let (mut links, mut lines) = ("a b*".to_owned(), String::new());
     let mut joints: Vec<(&str, [u32; 3], [u32; 3])> = Vec::new();
     for leg in 0..3 {
         if leg > 0 && below(2) == 0 {
@@ -298,18 +280,14 @@ fn two_contours(random: &mut ChaCha8Rng) -> String {
         };
         for (j, (of, point, axis)) in joints.iter().enumerate() {
             if j > 0 {
-                write!(text, "[[link]]\nid = \"{}\"\n", link(j)).unwrap();
+                links += &format!(" {}", link(j));
             }
-            write!(
-                text,
-                "[[joint]]\nid = \"{leg}.{j}\"\nlinks = [\"{}\", \"{}\"]\ntype = \"{of}\"\npoint = {point:?}\naxis = {axis:?}\n",
-                link(j),
-                link(j + 1)
-            )
-            .unwrap();
+            let (from, to, [point, axis]) =
+                (link(j), link(j + 1), [point, axis].map(|v| commas(*v)));
+            lines += &format!("{leg}.{j} | {from} {to} | {of} | {point} | {axis}\n");
         }
     }
-    text
+    write_mechanism("name = \"two-contours\"", &links, &lines)
 }
 
 /// The same of two contours, of which most hold something twice or are at singular poses.

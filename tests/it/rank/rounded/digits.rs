@@ -1,9 +1,7 @@
 //! Each number of a file is known to half a unit of its last digit, as it is written there.
 
 use crate::common::*;
-use crate::robots::no_files;
 use ozols::model::rounded::{Uncertainties, looks_rounded};
-use ozols::robots::Options;
 
 /// A door on two hinges, with these two points and axes.
 pub(crate) fn door(points: [&str; 2], axes: [&str; 2], more: &str) -> String {
@@ -367,7 +365,7 @@ fn urdf(first: &str, second: &str, axis: &str) -> String {
 }
 
 fn of_robot(name: &str, text: &str) -> Option<Uncertainties> {
-    let imported = import(name, text.as_bytes(), &no_files, &Options::default()).unwrap();
+    let imported = crate::robots::read_robot(name, text);
     // What is written says the same.
     let toml = imported.toml().unwrap();
     let again = mechanism_from_str("r.toml", &toml).unwrap();

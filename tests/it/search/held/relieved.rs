@@ -139,9 +139,6 @@ fn a_joint_of_the_free_state_alone_counts_in_it_alone() {
 /// The clamped search has advice as any other.
 #[test]
 fn what_helps_a_clamped_search_is_said() {
-    let (code, text, _) = run_full("search gripper-10 --max-external 0 --max-mobility 4 -q");
-    assert_eq!(code, Some(1));
-    has(&text, "--max-external 2 --max-mobility 4\n");
     // What balls alone hold turns between them, in the mechanism as it is and in every variant.
     let loose = gripper_with_pads().replace("type = \"fixed\"", "type = \"spherical\"");
     let loose = &loose[..loose.find("[[expected]]").unwrap()];
