@@ -1,6 +1,7 @@
 //! What several tests need: the program and what it says, closeness, a text with one thing changed.
 
 mod folder;
+mod graph;
 pub(crate) mod lattice;
 mod names;
 mod prelude;
@@ -8,6 +9,7 @@ mod turned;
 
 use assert_cmd::Command;
 pub(crate) use folder::*;
+pub(crate) use graph::*;
 pub(crate) use names::*;
 pub(crate) use prelude::*;
 use std::hash::{BuildHasher, Hasher, RandomState};

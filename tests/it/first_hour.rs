@@ -178,15 +178,6 @@ fn joint_types_are_explained() {
 #[test]
 fn terms_are_explained_by_name_sign_and_list() {
     let sigma = run_quiet("explain sigma");
-    has_all(
-        &sigma,
-        &[
-            "6k - rank",
-            "related",
-            "see      ozols analyze",
-            "source   O. G. Ozols",
-        ],
-    );
     assert_eq!(run_quiet("explain σ"), sigma);
     assert_eq!(run_quiet("explain Σ"), sigma);
     assert_eq!(
@@ -203,10 +194,6 @@ fn terms_are_explained_by_name_sign_and_list() {
             t.name
         );
     }
-    let (code, stdout, err) = run_full(&["explain", "redundent constraint"]);
-    assert_eq!((code, stdout.as_str()), (Some(2), ""));
-    has(&err, "did you mean");
-    has(&err, "redundant constraint");
 }
 
 // completions

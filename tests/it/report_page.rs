@@ -201,16 +201,3 @@ fn bad_questions_are_refused_and_leave_no_file() {
     );
     assert!(!Path::new("refused.html").exists());
 }
-
-/// What a page has not room for it says, with the command that shows it.
-#[test]
-fn a_page_says_when_it_does_not_show_all_self_stresses() {
-    let said = "of 37 self-stresses are here";
-    let jessen = run_quiet("report jessen-icosahedron --nodes 2000");
-    assert!(
-        jessen.contains(&format!("The first 24 {said}")),
-        "{}",
-        jessen.len()
-    );
-    assert!(!run_quiet("report gripper-10").contains("self-stresses are here"));
-}

@@ -155,18 +155,3 @@ fn side_files() {
         assert!(e.contains(words), "{words}: {e}");
     }
 }
-
-// A description stands wherever a FILE does; what is not exact is said on standard error.
-#[test]
-fn descriptions_as_files() {
-    let file = folder().join("gripper.xml");
-    let o = run(&format!(
-        "analyze {} --method svd --format json",
-        file.display()
-    ));
-    assert_eq!(o.status.code(), Some(0));
-    assert!(!utf8_text(&o.stderr).contains("coupling"));
-    let v: Value = serde_json::from_slice(&o.stdout).unwrap();
-    assert_eq!(v["states"][0]["redundant"], 2);
-    assert_eq!(v["states"][0]["mobility"], 1);
-}

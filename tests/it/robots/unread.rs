@@ -88,13 +88,7 @@ fn each_way_to_close_a_loop_is_read() {
             ("twice", TWICE),
             ("detachable", LUG),
         ] {
-            let i = import(
-                "x.urdf",
-                at(text).as_bytes(),
-                &no_files,
-                &Options::default(),
-            )
-            .unwrap_or_else(|e| panic!("{name}, seed {seed} case {case}: {e}"));
+            let i = crate::robots::read_robot("x.urdf", &at(text));
             let found = &ozols::analyze(&i.mechanism).unwrap()[0];
             assert_eq!(
                 (found.mobility, found.redundant),
