@@ -123,7 +123,7 @@ impl Reply {
         methods: &[&MobilityMethod],
         all: &[(&Mechanism, StateId, Truth)],
     ) -> Vec<Option<Reply>> {
-        methods.iter().map(|m| Reply::of_method(*m, all)).collect()
+        methods.iter().map(|m| Reply::of_method(m, all)).collect()
     }
 }
 

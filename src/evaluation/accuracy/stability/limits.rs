@@ -48,7 +48,7 @@ pub(super) fn study_size(effort: Effort, progress: Progress<'_>) -> Study {
                 repeat: if v < 4 { 5 } else { 1 },
             };
             let all = [(&m, StateId::FREE, Truth::new(1, 1))];
-            let (reply, time) = watch.time_repeatedly(|| Reply::of_method(*method, &all));
+            let (reply, time) = watch.time_repeatedly(|| Reply::of_method(method, &all));
             if time.median > patience {
                 slow.insert((method.name(), case));
             }
