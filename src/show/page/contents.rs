@@ -25,7 +25,7 @@ pub struct Page<'a> {
     pub redesigns: Result<Redesigns<'a>, String>,
     /// The same search as a list of ideas, each by its first variant, where the redesigns are not one already.
     pub ideas: Option<Redesigns<'a>>,
-    /// The mechanism in space in each state, if there is more to see than in a drawing; with at most [`SHOWN`] idle
+    /// The mechanism in space in each state, if there is more to see than in a drawing; with at most `SHOWN` idle
     /// freedoms and self-stresses.
     pub scenes: Vec<Option<(Drawing, Scene)>>,
     /// How to get the same from the command line.

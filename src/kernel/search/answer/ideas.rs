@@ -3,7 +3,7 @@
 //!
 //! Ideas come in order of cost. At equal cost, ideas whose shown variant is its own image come first, then those with fewer
 //! kinds of inserted joints. The next are those that keep the drive and the pivots in the frame
-//! ([`change_weights`]), then those with less mobility and fewer changes. For mechanisms
+//! (`change_weights`), then those with less mobility and fewer changes. For mechanisms
 //! with more than 24 joints, ideas are in order of cost only. If more than 512 ideas have one cost, each group of 512 is
 //! ordered on its own.
 
