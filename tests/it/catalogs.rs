@@ -103,13 +103,6 @@ fn every_built_in_mechanism_has_the_figures_it_states() {
     assert!(wrong.is_empty(), "{wrong:#?}");
 }
 
-#[test]
-fn there_are_enough_mechanisms_and_the_gripper_is_among_them() {
-    let names = builtin::names();
-    assert!(names.len() >= 109, "{names:?}");
-    assert!(names.contains(&"gripper-10") && names.contains(&"gripper-10-redesign"));
-}
-
 /// [Pogrebnyak 2018]: three of the five external constraints are friction doubled by the two jaws, two demand parallel
 /// faces; with an unloading joint two are left, both harmless.
 #[test]

@@ -15,37 +15,19 @@ fn text(links: usize, edges: &[(usize, usize)]) -> String {
 }
 
 /// Total length of a minimum cycle basis: all simple cycles as edge sets, shortest first, kept while independent.
-fn least_total(links: usize, edges: &[(usize, usize)]) -> usize {
-    let mut cycles: Vec<u32> = (1u32..1 << edges.len())
-        .filter(|set| {
-            let chosen: Vec<_> = (0..edges.len())
-                .filter(|i| set >> i & 1 == 1)
-                .map(|i| edges[i])
-                .collect();
-            let degree = |l: usize| chosen.iter().filter(|(a, b)| *a == l || *b == l).count();
-            let used: Vec<usize> = (0..links).filter(|&l| degree(l) > 0).collect();
-            let mut reached = vec![used[0]];
-            for _ in 0..links {
-                for (a, b) in &chosen {
-                    if reached.contains(a) != reached.contains(b) {
-                        reached.push(if reached.contains(a) { *b } else { *a });
-                    }
-                }
-            }
-            used.iter().all(|&l| degree(l) == 2) && used.iter().all(|l| reached.contains(l))
-        })
-        .collect();
-    cycles.sort_by_key(|c| c.count_ones());
-    let (mut basis, mut total): (Vec<u32>, u32) = (Vec::new(), 0);
-    for cycle in cycles {
-        let reduced = basis.iter().fold(cycle, |c, b| c.min(c ^ b));
+fn least_total(m: &Mechanism) -> usize {
+    let edges = |c: &Vec<JointId>| c.iter().map(|j| 1u32 << j.index()).sum::<u32>();
+    let cycles = simple_cycles(m, StateId::FREE);
+    let (mut basis, mut total): (Vec<u32>, usize) = (Vec::new(), 0);
+    for cycle in cycles.iter().sorted_by_key(|c| c.len()) {
+        let reduced = basis.iter().fold(edges(cycle), |c, b| c.min(c ^ b));
         if reduced != 0 {
             basis.push(reduced);
             basis.sort_unstable_by(|a, b| b.cmp(a));
-            total += cycle.count_ones();
+            total += cycle.len();
         }
     }
-    total as usize
+    total
 }
 
 proptest! {
@@ -63,40 +45,8 @@ proptest! {
         prop_assert_eq!(basis.len(), edges.len() + 1 - links);
         // Each begins at its first joint in the file.
         prop_assert!(basis.iter().all(|c| c.joints.iter().min() == c.joints.first()));
-        prop_assert_eq!(basis.iter().map(|c| c.joints.len()).sum::<usize>(), least_total(links, &edges));
+        prop_assert_eq!(basis.iter().map(|c| c.joints.len()).sum::<usize>(), least_total(&m));
     }
-}
-
-/// What `ozols list` tells of a state is what an analysis finds.
-#[test]
-fn figures_told_at_once_are_those_of_the_analysis() {
-    for name in ozols::builtin::names() {
-        let m = built_in(name);
-        if m.joints.len() > 30 {
-            continue;
-        }
-        let found = state_figures(&m, StateId::FREE).unwrap();
-        let whole = analyse_states(&m, &[StateId::FREE], Method::Modular).unwrap();
-        let whole = &whole[0];
-        assert_eq!(
-            [found.links, found.joints, found.contours, found.freedoms],
-            [whole.links, whole.joints, whole.contours, whole.freedoms],
-            "{name}"
-        );
-        assert_eq!(
-            (found.mobility, found.redundant),
-            (whole.mobility, whole.redundant),
-            "{name}"
-        );
-    }
-    // A four-bar of hinges: one contour, four freedoms of rank three.
-    let bar = state_figures(&built_in("four-bar"), StateId::FREE).unwrap();
-    assert_eq!((bar.contours, bar.freedoms), (1, 4));
-    assert_eq!((bar.mobility, bar.redundant), (1, 3));
-    // Malyshev's formula: six for each of three moving links, less five at each of four hinges.
-    let bar = built_in("four-bar");
-    let found = analyse_states(&bar, &[StateId::FREE], Method::Modular).unwrap();
-    assert_eq!(found[0].formula_mobility, 6 * 3 - 5 * 4);
 }
 
 /// Two double edges that meet in one link are two contours, and no walk of one.

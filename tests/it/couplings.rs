@@ -270,17 +270,6 @@ fn certificates_hold_the_coupling() {
     assert!(ozols::verify::check_certificate(&of(&without), &certificate).is_err());
 }
 
-/// Gears between the fingers of a gripper stay in every redesign, and the counts know them.
-#[test]
-fn redesigns_of_a_geared_gripper() {
-    let run = |name: &str| run_json(&["search", name, "--top", "3", "--format", "json"]);
-    let geared = run("geared-five-bar");
-    let best = &geared["variants"][0];
-    assert_eq!(best["mobility"], 1, "{best}");
-    assert_eq!(best["redundant"], 0, "{best}");
-    assert_eq!(run("geared-gripper")["variants"][0]["redundant"], 0);
-}
-
 #[test]
 fn couplings_have_mirror_images() {
     use ozols::search::question::conditions::Symmetry;

@@ -73,16 +73,6 @@ fn cam_spring_gives_what_friction_takes() {
     );
 }
 
-/// [Klyuchkovskyi 1999] equation (12): the difference of two potential energies.
-#[test]
-fn friction_energy_is_what_is_missing() {
-    near(
-        friction_energy(200.0, 0.7, 0.05),
-        stored_energy(200.0, 0.7) - stored_energy(200.0, 0.65),
-        1e-13,
-    );
-}
-
 // Sizing.
 
 fn wanted() -> Wanted {

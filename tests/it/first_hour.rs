@@ -146,12 +146,9 @@ fn the_list_is_there_as_data() {
 }
 
 #[test]
-fn joint_types_are_explained_with_their_picture() {
-    let folder = tempdir().unwrap();
+fn joint_types_are_explained() {
     for t in JointType::NAMED {
-        let path = folder.path().join(format!("{t}.svg"));
-        let path = path.to_str().unwrap();
-        let said = run_quiet(&["explain", t.name(), "-o", path]);
+        let said = run_quiet(&["explain", t.name()]);
         // what is written is a joint of that type, frame and all
         let (_, joint) = said.split_once("[[joint]]").unwrap();
         let joint = joint.split("\n\n").next().unwrap();
@@ -170,43 +167,17 @@ fn joint_types_are_explained_with_their_picture() {
         has(&said, &format!("class      {} ", t.class_numeral()));
         let cost = t.default_cost_milli() as f64 / 1000.0;
         has(&said, &format!("cost       {cost} "));
-        let svg = fs::read_to_string(path).unwrap();
-        let doc = roxmltree::Document::parse(&svg).unwrap();
-        let texts: Vec<&str> = doc
-            .descendants()
-            .filter(|n| n.has_tag_name("text"))
-            .filter_map(|n| n.text())
-            .collect();
-        // each freedom stands at its axis in both views
-        for f in t.freedoms() {
-            let of_axis = |text: &&&str| ["x: ", "y: ", "z: "].iter().any(|a| text.starts_with(a));
-            let named = texts
-                .iter()
-                .filter(of_axis)
-                .filter(|text| text.split_whitespace().any(|word| word == f.name()));
-            assert_eq!(named.count(), 2, "{t}: {} in {texts:?}", f.name());
-        }
     }
     let all = run_quiet("explain");
     for t in JointType::NAMED {
         assert!(all.contains(t.name()), "{t}");
     }
     assert_fails(&["explain", "sphere in cilinder"], "sphere-in-cylinder");
-    assert_fails("explain sigma -o x.svg", "draws a joint type");
 }
 
 #[test]
 fn terms_are_explained_by_name_sign_and_list() {
     let sigma = run_quiet("explain sigma");
-    has_all(
-        &sigma,
-        &[
-            "6k - rank",
-            "related",
-            "see      ozols analyze",
-            "source   O. G. Ozols",
-        ],
-    );
     assert_eq!(run_quiet("explain σ"), sigma);
     assert_eq!(run_quiet("explain Σ"), sigma);
     assert_eq!(
@@ -223,10 +194,6 @@ fn terms_are_explained_by_name_sign_and_list() {
             t.name
         );
     }
-    let (code, stdout, err) = run_full(&["explain", "redundent constraint"]);
-    assert_eq!((code, stdout.as_str()), (Some(2), ""));
-    has(&err, "did you mean");
-    has(&err, "redundant constraint");
 }
 
 // completions

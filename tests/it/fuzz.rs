@@ -11,12 +11,10 @@
 //! by how far into the code earlier ones came; `corpus` reads what was kept of them.
 
 use crate::common::*;
-mod certificates;
 mod corpus;
 mod expressions;
 mod mechanism_files;
 pub(crate) mod readers;
-mod robot_files;
 
 use std::ops::Range;
 

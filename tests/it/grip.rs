@@ -116,43 +116,18 @@ fn small_with(from: &str, to: &str) -> String {
     replace_once(SMALL, from, to)
 }
 
-/// What is printed is possible: friction within its cone, a lower bound not above what it bounds, forces that *can* hold.
+/// What is printed is possible: friction within its cone, and a lower bound not above what it bounds.
 #[test]
 fn friction_and_bounds_keep_their_limits_in_print() {
-    for more in [
-        &[][..],
-        &["--any-acceleration", "9"],
-        &["--acceleration", "5,0,-2"],
-    ] {
-        let arguments = [&["grip", "lever-gripper"], more].concat();
-        let text = run_quiet(&arguments);
-        assert!(text.starts_with("lever-gripper: can hold D"), "{text}");
-        let table = text
-            .split("Contact forces in the worst case")
-            .nth(1)
-            .unwrap();
-        let rows = table
-            .lines()
-            .filter(|l| l.contains("upper ") || l.contains("lower "));
-        let ratios: Vec<&str> = rows.map(|l| l.split_whitespace().last().unwrap()).collect();
-        assert_eq!(ratios.len(), 4, "{table}");
-        for ratio in ratios {
-            assert!(
-                ratio == "-" || ratio.parse::<f64>().unwrap() <= 0.2,
-                "{table}"
-            );
-        }
-        let value = run_json(&[&arguments[..], &["--format", "json"]].concat());
+    for more in ["", "--any-acceleration 9", "--acceleration 5,0,-2"] {
+        let value = run_json(&format!("grip lever-gripper --format json {more}"));
         for row in value["diameters"].list() {
-            let number = |v: &Value| v.real();
             let load = &row["load"];
-            assert!(
-                number(&load["lower_bound"]) <= number(&load["drive_moment_per_lever"]),
-                "{load}"
-            );
+            let bound = load["lower_bound"].real();
+            assert!(bound <= load["drive_moment_per_lever"].real(), "{load}");
             for c in load["contacts"].list() {
-                let friction = number(&c["along_face"]).hypot(number(&c["along_part"]));
-                assert!(friction <= 0.2 * number(&c["normal"]), "{c}");
+                let friction = c["along_face"].real().hypot(c["along_part"].real());
+                assert!(friction <= 0.2 * c["normal"].real(), "{c}");
             }
         }
     }
@@ -160,40 +135,13 @@ fn friction_and_bounds_keep_their_limits_in_print() {
 
 #[test]
 fn built_in_gripper_holds() {
-    let text = run_quiet("grip lever-gripper");
-    assert!(
-        text.starts_with("lever-gripper: can hold D = 30 to 50 mm; hardest at 50 mm"),
-        "{text}"
-    );
-    assert!(text.contains("10 confirmed, 4 refuted"));
     let value = run_json("grip lever-gripper --format json");
     assert_eq!(value["holds"], true);
     assert_eq!(value["diameters"].list().len(), 5);
-    let number = |v: &Value| v.real();
     let load = &value["hardest"]["load"];
-    near(number(&value["hardest"]["l1"]), 0.101036, 1e-6);
-    near(
-        number(&load["lower_bound"]),
-        number(&load["drive_moment_per_lever"]),
-        1e-6,
-    );
-    // The slider moves 56.906 mm a radian of the levers where D is nominal: rod along (1, 1), tail at (-20, 60 - 40/√3).
-    let arm = 20.0 + 60.0 - 40.0 / 3f64.sqrt();
-    for row in value["diameters"].list() {
-        let (s, c) = number(&row["turn"]).sin_cos();
-        let r: [f64; 2] = [-20.0, 60.0 - 40.0 / 3f64.sqrt()];
-        let tail = [c * r[0] - s * r[1], s * r[0] + c * r[1]];
-        // From (x, 20) on the slider to the tail, a rod of length √3200.
-        let up = tail[1] + 40.0 / 3f64.sqrt() - 20.0;
-        let rod = [(3200.0 - up * up).sqrt(), up];
-        let there = (tail[0] * rod[1] - tail[1] * rod[0]).abs() / rod[0] * 1e-3;
-        let load = &row["load"];
-        let moments: f64 = load["lever_moments"].list().iter().map(number).sum();
-        near(number(&load["drive_effort"]), moments / there, 1e-7);
-        if number(&row["diameter"]) == 0.04 {
-            near(there, arm * 1e-3, 1e-12);
-        }
-    }
+    near(value["hardest"]["l1"].real(), 0.101036, 1e-6);
+    let moment = load["drive_moment_per_lever"].real();
+    near(load["lower_bound"].real(), moment, 1e-6);
 }
 
 /// A pull of 20 N into the jaws, without friction: both near contacts carry 10 N / cos 60°, at the arm l2.
@@ -206,39 +154,9 @@ fn small_file_has_the_closed_form() {
     let moment = 20.0 * (86.60254 - 11.54701) * 1e-3;
     near(load["drive_moment_per_lever"].real(), moment, 1e-6);
     near(load["drive_effort"].real(), 2.0 * moment / 0.05, 1e-4);
-}
-
-#[test]
-fn what_cannot_be_held_is_said_with_the_reason() {
-    // Friction 0 with gravity along the part.
-    let (code, said, errors) = run_file(&small_with("[-10, 0, 0]", "[0, 0, -10]"), &[]);
-    assert_eq!((code, errors.as_str()), (Some(1), ""));
-    assert!(said.starts_with("clamp: cannot hold D = 40 mm"), "{said}");
-    has(
-        &said,
-        "slides along its axis (z); faces without friction cannot stop that; give friction",
-    );
-    // A part larger than the jaws.
-    let (code, said, _) = run_file(
-        &small_with("diameter = 40", "diameter = 40\nface_length = 10"),
-        &[],
-    );
-    assert_eq!(code, Some(1));
-    has(
-        &said,
-        "larger than the jaws: contacts 11.5470 mm from the vertex on faces of 10.0000 mm",
-    );
     // An acceleration from the command line.
     assert_eq!(run_file(SMALL, &["--acceleration", "0,0,1"]).0, Some(1));
     assert_eq!(run_file(SMALL, &["--acceleration", "-3,0,0"]).0, Some(0));
-    // One of two diameters.
-    let (code, said, _) = run_file(
-        &small_with("diameter = 40", "diameter = 40\ndiameters = [40, 400]"),
-        &[],
-    );
-    assert_eq!(code, Some(1));
-    has(&said, "1 of 2 diameters, not all");
-    has(&said, "D = 400 mm cannot be held");
 }
 
 #[test]
@@ -280,23 +198,4 @@ fn bad_tables_are_refused_where_they_stand() {
     let (code, _, errors) = run_file(SMALL, &["--acceleration", "1,2"]);
     assert_eq!(code, Some(2), "{errors}");
     assert_eq!(run_file(SMALL, &["--any-acceleration", "-1"]).0, Some(2));
-}
-
-#[test]
-fn charts_are_written_as_svg_and_csv() {
-    for [line, names, part] in read_cases::<3>(
-        "
-        grip lever-gripper | arms drive-moment | series,x,y
-        drive torsion-module | angles energy | disc
-        ",
-    ) {
-        let folder = tempdir().unwrap();
-        let at = folder.path().join("charts");
-        run_quiet(&format!("{line} --svg {}", at.display()));
-        let read = |file: String| fs::read_to_string(at.join(file)).unwrap();
-        for name in split_words(names) {
-            assert!(read(format!("{name}.svg")).starts_with("<svg"));
-            has(&read(format!("{name}.csv")), part);
-        }
-    }
 }

@@ -9,7 +9,6 @@ mod groups;
 mod least_rows;
 mod link_motion;
 mod mobility;
-mod planes;
 mod poses;
 mod primes;
 mod releases;

@@ -80,12 +80,8 @@ pub(crate) fn planar_file_with(
     text + more
 }
 
-pub(crate) fn read_planar(text: &str) -> Mechanism {
-    read(text)
-}
-
 pub(crate) fn planar_mechanism(joints: &[J]) -> PlanarMechanism {
-    PlanarMechanism::new(&read_planar(&planar_file(joints, "")), StateId::FREE).unwrap()
+    PlanarMechanism::new(&read(&planar_file(joints, "")), StateId::FREE).unwrap()
 }
 
 pub(crate) fn pair_named(m: &PlanarMechanism, name: &str) -> PairId {

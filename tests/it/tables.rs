@@ -37,19 +37,6 @@ fn variants_by_mobility_add_up() {
     assert_eq!(column(2), 25_761_436);
 }
 
-/// The conditioning of a variant and that with its drives held are two numbers with two names, and a note tells them apart.
-#[test]
-fn conditionings_have_their_own_names() {
-    let text = run_quiet("search gripper-10-loaded --top 2 --pool 50");
-    let (head, _) = rows(&text, "cost ");
-    assert!(
-        head.contains(&"cond.") && head.contains(&"cond. held"),
-        "{head:?}"
-    );
-    assert!(!text.contains("condit."), "{text}");
-    has(&text, "cond. held: like cond.");
-}
-
 /// A robot of many joints has variants of many mobilities: the least are told one by one, the others in a row, and all add up.
 #[test]
 fn long_tables_of_mobilities_are_folded() {

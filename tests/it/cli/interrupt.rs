@@ -107,18 +107,6 @@ fn a_list_that_is_cut_short_says_so_at_its_end() {
     }
 }
 
-#[test]
-fn a_whole_list_has_no_such_end() {
-    for format in ["csv", "jsonl", "json"] {
-        let list = run_quiet(&["search", "four-bar", "--all", "--format", format]);
-        assert!(!list.contains("stop\":\"") && !list.contains("# stopped"));
-        if format == "json" {
-            let whole: Value = serde_json::from_str(&list).unwrap();
-            assert!(whole["variants_stop"].is_null());
-        }
-    }
-}
-
 /// A list cut to the node budget is no whole list either.
 #[test]
 fn a_list_of_a_bounded_search_says_so_at_its_end() {

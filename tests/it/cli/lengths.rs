@@ -1,6 +1,5 @@
 //! Every list of fixed length in the schema of mechanism files, one shorter and one longer, in TOML and in JSON.
 
-use super::bad_files::bad_file;
 use crate::common::*;
 use ozols::file::schema::json_schema;
 
@@ -128,15 +127,4 @@ fn lists_one_shorter_or_longer_are_refused() {
             }
         }
     }
-}
-
-/// A joint of three links is refused at its line, with the joint's name and what to write.
-#[test]
-fn a_joint_of_three_links_is_refused() {
-    let text = super::bad_files::with("[\"2\", \"3\"]", "[\"2\", \"3\", \"0\"]");
-    let said = ["links of joint \"2-3\" has 3 values", "write 2 values"];
-    bad_file("three.toml", &text, "\"3\", \"0\"", &said);
-    let file: toml::Table = text.parse().unwrap();
-    let text = serde_json::to_string(&file).unwrap();
-    bad_file("three.json", &text, "\"0\"]", &said);
 }

@@ -8,62 +8,26 @@ use crate::common::*;
 #[test]
 fn error_too_many_entries() {
     let many = |n: usize, entry: &str| vec![entry; n].join(", ");
-    for (what, text) in [
-        (
-            "options",
-            with(
-                "options = [\"revolute\", \"cylindrical\", \"universal\", \"spherical\"]",
-                &format!("options = [{}]", many(65, "\"spherical\"")),
-            ),
-        ),
-        (
-            "states",
-            four_bar()
-                + &format!(
-                    "[ranking]\nterms = [{{ term = \"cost\" }}]\nstates = [{}]\n",
-                    many(101, "\"free\"")
-                ),
-        ),
-        (
-            "limits",
-            four_bar()
-                + &format!(
-                    "[ranking]\nterms = [{{ term = \"cost\" }}]\nlimits = [{}]\n",
-                    many(101, "{ term = \"cost\", max = 9 }")
-                ),
-        ),
-        (
-            "forces",
-            four_bar()
-                + &format!(
-                    "[workload]\nforce = [{}]\n",
-                    many(
-                        10_001,
-                        "{ link = \"3\", force = [1, 0, 0], point = [0, 0, 0] }"
-                    )
-                ),
-        ),
-        (
-            "moments",
-            four_bar()
-                + &format!(
-                    "[workload]\nmoment = [{}]\n",
-                    many(10_001, "{ link = \"3\", moment = [0, 0, 1] }")
-                ),
-        ),
-    ] {
-        let line = format!("{what} = [")
-            .replace("forces", "force")
-            .replace("moments", "moment");
-        bad_file("many.toml", &text, &line, &[what, "more than the"]);
+    for [what, key, head, n, entry] in read_cases::<5>(
+        r#"
+        states | states | [ranking]\nterms = [{ term = "cost" }]\n | 101 | "free"
+        limits | limits | [ranking]\nterms = [{ term = "cost" }]\n | 101 | { term = "cost", max = 9 }
+        forces | force | [workload]\n | 10001 | { link = "3", force = [1, 0, 0], point = [0, 0, 0] }
+        moments | moment | [workload]\n | 10001 | { link = "3", moment = [0, 0, 1] }
+        "#,
+    ) {
+        let list = many(n.parse().unwrap(), entry);
+        let text = format!("{}{head}{key} = [{list}]\n", four_bar());
+        let parts = [what, "more than the"];
+        bad_file("many.toml", &text, &format!("{key} = ["), &parts);
     }
+    let four = "options = [\"revolute\", \"cylindrical\", \"universal\", \"spherical\"]";
+    let text = with(four, &format!("options = [{}]", many(65, "\"spherical\"")));
+    let parts = ["options", "more than the"];
+    bad_file("many.toml", &text, "options = [", &parts);
     let drive = builtin::text("torsion-module").unwrap();
     let line = drive.lines().find(|l| l.starts_with("diameters")).unwrap();
     let text = drive.replace(line, &format!("diameters = [{}]", many(10_001, "3")));
-    bad_file(
-        "many.toml",
-        &text,
-        "diameters = [",
-        &["10001 diameters, more than the 10000"],
-    );
+    let parts = ["10001 diameters, more than the 10000"];
+    bad_file("many.toml", &text, "diameters = [", &parts);
 }

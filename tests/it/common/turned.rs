@@ -44,3 +44,38 @@ pub(crate) fn turned_and_moved(m: &Mechanism, shift: [f64; 3]) -> Mechanism {
     drop(parts);
     out
 }
+
+/// Returns a four-bar with these corners in a plane through a point, which two vectors span; the first hinge has the motor, or none.
+pub(crate) fn four_bar_in_plane(
+    [across, up]: [Vector; 2],
+    origin: Vector,
+    corners: [[f64; 2]; 4],
+    driven: bool,
+) -> Mechanism {
+    let normal = commas(cross(across, up));
+    let line = |(i, [x, y]): (usize, [f64; 2])| {
+        let at = commas(add_scaled(add_scaled(origin, x, across), y, up));
+        let (next, drive) = ((i + 1) % 4, driven && i == 0);
+        format!("{i}-{next} | {i} {next} | revolute | {at} | {normal} | drive = {drive}")
+    };
+    let joints = corners.into_iter().enumerate().map(line).join("\n");
+    read(&write_mechanism("name = \"tilted\"", "0 1 2 3*", &joints))
+}
+
+/// Returns a double wishbone: each arm on two bushes along a slanted line, a knuckle between two ball joints, a tie rod.
+pub(crate) fn double_wishbone() -> String {
+    write_mechanism(
+        "name = \"it\"",
+        "0 lower upper tie knuckle*",
+        "
+        lower-front | 0 lower | revolute | -150, 350, 95 | 310, -12, 8
+        lower-rear | 0 lower | revolute | 160, 338, 103 | 310, -12, 8
+        upper-front | 0 upper | revolute | -90, 420, 310 | 200, 9, -14
+        upper-rear | 0 upper | revolute | 110, 429, 296 | 200, 9, -14
+        lower-ball | lower knuckle | spherical | 4, 720, 80 | 0, 0, 1
+        upper-ball | upper knuckle | spherical | -9, 680, 330 | 0, 0, 1
+        rack-end | 0 tie | spherical | -120, 360, 150 | 0, 0, 1
+        tie-end | tie knuckle | spherical | -130, 700, 140 | 0, 0, 1
+        ",
+    )
+}

@@ -5,48 +5,6 @@ use ozols::closure::contour::{Contour, closed_walk};
 use ozols::redundancy::contour_shares::Measured;
 use ozols::redundancy::contour_shares::{ContourShare, contour_shares};
 
-/// Every closed walk that passes no link twice.
-fn walks(m: &Mechanism, joints: &[JointId]) -> Vec<Contour> {
-    let subsets = (1u32..1 << joints.len()).filter(|s| s.count_ones() > 1);
-    let chosen = |set: u32| -> Vec<JointId> {
-        (0..joints.len())
-            .filter(|i| set >> i & 1 == 1)
-            .map(|i| joints[i])
-            .collect()
-    };
-    subsets
-        .filter_map(|set| {
-            let own = chosen(set);
-            let degree = |l| {
-                own.iter()
-                    .filter(|&&j| m.joints[j].links.contains(l))
-                    .count()
-            };
-            if own
-                .iter()
-                .flat_map(|&j| &m.joints[j].links)
-                .any(|l| degree(l) != 2)
-            {
-                return None;
-            }
-            in_order(m, own)
-        })
-        .collect()
-}
-
-/// Joints put in the order of a walk; nothing where they are several.
-fn in_order(m: &Mechanism, mut left: Vec<JointId>) -> Option<Contour> {
-    let mut order = vec![left.remove(0)];
-    let mut at = m.joints[order[0]].links[1];
-    while let Some(next) = left.iter().position(|&j| m.joints[j].links.contains(&at)) {
-        let j = left.remove(next);
-        let [a, b] = m.joints[j].links;
-        at = if a == at { b } else { a };
-        order.push(j);
-    }
-    left.is_empty().then(|| closed_walk(m, &order))?
-}
-
 /// Whether walks are independent, by how they pass joints.
 fn independent(walks: &[&Contour], joints: &[JointId]) -> bool {
     let way = |d: Option<bool>| d.map_or(0.0, |d| if d { 1.0 } else { -1.0 });
@@ -56,7 +14,7 @@ fn independent(walks: &[&Contour], joints: &[JointId]) -> bool {
 
 fn redundant(exact: &ExactField, m: &Mechanism, of: Vec<Contour>) -> usize {
     let closure = Closure::with_contours(exact, m, StateId::FREE, of).unwrap();
-    closure.rows() - rank_dense(exact, &closure)
+    closure.rows() - modular::rank_modulo(exact, &closure)
 }
 
 /// The most that a contour has of the redundant constraints in bases whose others leave out one of its joints, whichever.
@@ -100,7 +58,8 @@ fn the_range_over_bases_is_that_of_every_basis() {
             continue;
         }
         seen += 1;
-        let all = walks(&m, &joints);
+        let all = simple_cycles(&m, StateId::FREE).into_iter();
+        let all: Vec<Contour> = all.map(|walk| closed_walk(&m, &walk).unwrap()).collect();
         let whole = redundant(&exact, &m, closure.contours.clone());
         let measured = Measured::new(&m, StateId::FREE, 1e-9)
             .unwrap()

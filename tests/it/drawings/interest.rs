@@ -86,19 +86,6 @@ fn points_are_shown_in_every_kinematic_drawing() {
             "{args:?}"
         );
     }
-    let moving = run_quiet("draw jansen-leg --motion");
-    assert!(trace(&moving).len() > 60);
-    let page = run_quiet("report jansen-leg");
-    assert!(page.contains("class=\"trace\"") && page.contains("way of a point"));
-    // in a file that is written, too
-    let written = run_quiet("export jansen-leg --to toml");
-    assert!(written.contains("[[point]]") && written.contains("id = \"foot\""));
-    let options = "spherical,cylindrical,sphere-in-cylinder";
-    let variant = run(&format!(
-        "export jansen-leg --options {options} --variant 1 --to toml"
-    ));
-    let variant = utf8_text(&variant.stdout);
-    assert!(variant.contains("id = \"foot\""));
 }
 
 #[test]

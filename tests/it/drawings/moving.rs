@@ -189,3 +189,12 @@ fn a_freedom_of_a_ball_can_be_driven() {
     assert!(f.svg.contains("drive 0-l0:rz goes"));
     assert!(f.joints.len() > 2);
 }
+
+/// Where no joint can be a drive, the working motion is shown.
+#[test]
+fn what_no_joint_drives_is_shown_moving() {
+    for name in split_words("griffis-duffy double-banana wren-platform shaft-two-bearings") {
+        let pictures = frames(&[name]).joints.len();
+        assert!(pictures > 10, "{name}: {pictures}");
+    }
+}

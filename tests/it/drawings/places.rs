@@ -85,9 +85,7 @@ pub(super) fn point(m: &Mechanism, j: JointId) -> [f64; 3] {
 }
 
 pub(super) fn axis(m: &Mechanism, j: JointId) -> [f64; 3] {
-    let z = m.joints[j].frame.axis.each_ref().map(Expr::to_f64);
-    let size = z.iter().map(|x| x * x).sum::<f64>().sqrt();
-    z.map(|x| x / size)
+    unit(to_vector(&m.joints[j].frame.axis))
 }
 
 /// Each built-in mechanism in each state, drawn.

@@ -88,26 +88,3 @@ fn hinges_hold_together_in_every_pose() {
         assert!(held > 200 && far > 20.0, "{name}: {held} {far}");
     }
 }
-
-#[test]
-fn what_there_is_to_see_is_offered() {
-    let names = |scene: &Value, what: &str| -> Vec<String> {
-        let all = scene[what].list().iter();
-        all.map(|m| m["name"].word().to_owned()).collect()
-    };
-    let (_, rssr) = page("rssr");
-    let moves = names(&rssr, "moves");
-    assert!(moves[0].starts_with("drive 0-1 goes from"), "{moves:?}");
-    assert!(
-        moves[1].starts_with("idle freedom 1: link 2 spins about the line"),
-        "{moves:?}"
-    );
-    let (_, gripper) = page("gripper-10");
-    assert_eq!(names(&gripper, "stresses").len(), 11);
-    assert!(names(&gripper, "stresses")[1].starts_with("self-stress 2: force along z at 0-1"));
-    // a plane mechanism without either is seen in its drawing
-    assert_eq!(
-        page("gripper-10-planar").1["stresses"],
-        Value::Array(Vec::new())
-    );
-}

@@ -5,7 +5,7 @@ mod repeated;
 
 use repeated::Bench;
 
-use ozols::drive::programme::{Endurance, Module};
+use ozols::drive::programme::Module;
 use ozols::drive::swing::{Disc, End, Latch};
 use ozols::model::drive::ProgrammeStep;
 
@@ -60,100 +60,6 @@ fn taking_turns_steps_on_and_one_disc_reverses() {
     near(times[1] / times[0], (0.23f64 / 0.11).sqrt(), 1e-7);
 }
 
-/// Without friction the energy of a run is that of the wound bar at all times, to 1e-9.
-#[test]
-fn energy_of_a_run_is_conserved() {
-    let m = module(0.0, 0.0, 0.0);
-    let waited = [
-        &steps(&[1, 0])[..],
-        &[ProgrammeStep::Dwell(1.0)],
-        &steps(&[0, 1]),
-    ]
-    .concat();
-    let run = m.run_programme(&waited).unwrap();
-    for s in m.sample_run(&run, 50) {
-        near((s.potential + s.kinetic) / (14.0 * 0.32), 1.0, 1e-9);
-    }
-}
-
-/// With friction, what a run stores at its end is what it had, plus what was fed, less what was lost.
-#[test]
-fn energy_of_a_run_balances() {
-    let m = module(0.02, 0.1, 0.37);
-    let run = m.run_programme(&steps(&[1, 0, 1, 1])).unwrap();
-    assert!(run.is_complete());
-    let mut had = 14.0 * 0.32;
-    for (_, s) in run.iter_swings() {
-        let b = s.balance;
-        near(b.initial, had, 1e-9);
-        near(b.residual(), 0.0, 1e-9);
-        had = b.stored;
-    }
-}
-
-/// A cam that gives what is needed goes on for ever; one that gives what a swing without it lost, equation (12), loses ground.
-#[test]
-fn the_long_run_tells_enough_from_too_little() {
-    let m = module(0.02, 0.1, 0.0);
-    let need = m.discs[0]
-        .needed_feed(m.latch, m.feed.from)
-        .unwrap()
-        .unwrap();
-    let fed = |energy| Module {
-        feed: Feed { energy, from: 0.0 },
-        ..m
-    };
-    let one = steps(&[0]);
-    assert!(
-        matches!(fed(1.001 * need).run_endlessly(&one).unwrap(), Endurance::Lasts { missing } if missing == 0.0)
-    );
-    let Endurance::Fails { after } = fed(0.97 * need).run_endlessly(&one).unwrap() else {
-        panic!()
-    };
-    // A run of as many swings is latched, and one more is not.
-    let latched = |n: usize| {
-        fed(0.97 * need)
-            .run_programme(&steps(&vec![0; n]))
-            .unwrap()
-            .latched
-    };
-    assert_eq!((latched(after), latched(after + 1)), (after, after));
-    // Viscous damping alone takes less from a smaller swing: with much capture, swings settle short of the latch.
-    let soft = Module {
-        latch: Latch {
-            at: 0.8,
-            capture: 0.4,
-        },
-        ..module(0.05, 0.0, 0.3)
-    };
-    assert!(
-        matches!(soft.run_endlessly(&one).unwrap(), Endurance::Lasts { missing } if missing > 0.02)
-    );
-    // Two discs of different inertia that take turns end up repeating as well.
-    let both = Module {
-        feed: Feed {
-            energy: 1.2 * need,
-            from: 0.0,
-        },
-        ..m
-    };
-    assert!(matches!(
-        both.run_endlessly(&steps(&[0, 1])).unwrap(),
-        Endurance::Lasts { .. }
-    ));
-}
-
-#[test]
-fn a_missed_latch_ends_the_run() {
-    let m = module(0.05, 0.1, 0.0);
-    let run = m.run_programme(&steps(&[1, 0, 1])).unwrap();
-    assert!(!run.is_complete() && run.steps.len() < 3 + 1);
-    assert!(matches!(
-        run.iter_swings().last().unwrap().1.end,
-        End::Missed { .. }
-    ));
-}
-
 /// Speeds and accelerations of a run by differences of its angles, with every kind of friction and the cam's push, for either
 /// disc and either way.
 #[test]
@@ -186,33 +92,6 @@ fn samples_move_as_their_rates_say() {
         .flat_map(|s| s.accelerations.map(f64::abs))
         .fold(0.0, f64::max);
     assert!(greatest > 10.0, "{greatest}");
-}
-
-/// Of two discs the drive's figures are those of the one that asks for more: it misses by as much as a free swing of it.
-#[test]
-fn the_missing_angle_is_that_of_the_disc_that_misses_more() {
-    use ozols::drive::driving::design_drive;
-    let text = |first: &str, second: &str| {
-        format!(
-            "name = \"d\"\n[workload.drive]\nswing_angle = 90\nswing_time = 0.4\nshear_modulus = 8e10\n\
-             allowable_stress = 6e8\ninertia = {first}\nsecond_inertia = {second}\nviscous_damping = 0.02\nfriction_moment = 0.3\n"
-        )
-    };
-    for text in [text("0.3", "0.1"), text("0.1", "0.3")] {
-        let file = drive_from_bytes("d.toml", text.as_bytes()).unwrap();
-        let design = design_drive(&file.spec).unwrap().design.unwrap();
-        let short = design.module.discs.map(|disc| {
-            let none = Feed::NONE;
-            let twist = file.spec.twist;
-            let latch = Latch {
-                at: twist,
-                capture: twist,
-            };
-            twist - disc.swing_from(twist, latch, none).unwrap().place
-        });
-        assert!((short[0] - short[1]).abs() > 1e-3, "{short:?}");
-        near(design.missing, short[0].max(short[1]), 1e-9);
-    }
 }
 
 /// The acceleration of a payload is tangential p² φ and radial φ̇², each times its radius: greatest at the ends of a small swing

@@ -12,27 +12,6 @@ const FREE: Disc = Disc {
 };
 
 #[test]
-fn without_friction_a_swing_is_half_a_period_and_loses_nothing() {
-    let latch = Latch {
-        at: 0.7,
-        capture: 1e-9,
-    };
-    let s = FREE.swing_from(0.7, latch, Feed::NONE).unwrap();
-    let held = matches!(s.end, End::Latched { .. } | End::Caught { .. });
-    assert!(held, "{:?}", s.end);
-    let p = natural_frequency(200.0, 0.05);
-    near(s.duration, PI / p, 1e-7);
-    near(s.place, 0.7, 1e-12);
-    for i in 0..=100 {
-        let t = s.duration * f64::from(i) / 100.0;
-        let (u, v) = s.position_at(t);
-        near(u, -0.7 * (p * t).cos(), 1e-12);
-        let energy = stored_energy(200.0, u) + 0.05 * v * v / 2.0;
-        near(energy / stored_energy(200.0, 0.7), 1.0, 1e-9);
-    }
-}
-
-#[test]
 fn discs_that_do_not_swing_are_named() {
     let latch = Latch {
         at: 0.7,

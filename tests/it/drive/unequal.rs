@@ -38,3 +38,18 @@ fn the_missing_angle_is_the_heavier_discs() {
         near(twist - swing.place, 3f64.to_radians(), 1e-9);
     }
 }
+
+/// Of friction that is stated the drive's figures are those of the disc that asks for more: it misses by as much as a free swing of it.
+#[test]
+fn the_missing_angle_is_that_of_the_disc_that_misses_more() {
+    for (design, twist, _) in designs("viscous_damping = 0.02\nfriction_moment = 0.3\n") {
+        let latch = Latch {
+            at: twist,
+            capture: twist,
+        };
+        let short = (design.module.discs)
+            .map(|disc| twist - disc.swing_from(twist, latch, Feed::NONE).unwrap().place);
+        assert!((short[0] - short[1]).abs() > 1e-3, "{short:?}");
+        near(design.missing, short[0].max(short[1]), 1e-9);
+    }
+}

@@ -1,6 +1,6 @@
 //! Expressions for coordinates, such as `sqrt(3)/2` and `cos(36deg)`.
 
-use super::readers::expressions::{TOKENS, read};
+use super::readers::expressions::read;
 use super::runs;
 use crate::common::*;
 use ozols::geom::expr::ExprError;
@@ -74,11 +74,6 @@ fn nothing_divides_by_zero() {
 
 proptest! {
     #![proptest_config(runs(1024))]
-    #[test]
-    fn random_tokens(tokens in prop::collection::vec(select(&TOKENS[..]), 0..24)) {
-        read(&tokens.concat());
-    }
-
     #[test]
     fn well_formed(text in formed()) {
         read(&text);

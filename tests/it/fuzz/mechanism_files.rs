@@ -1,34 +1,7 @@
 //! Mechanism files in TOML and JSON.
 
-use super::readers::mechanism_files::{WORDS, read};
-use super::{edits, runs, spoilt};
-use crate::common::*;
+use super::readers::mechanism_files::read;
 use ozols::file::text::mechanism_from_bytes;
-
-fn built_in(which: Index) -> &'static str {
-    let names = builtin::names();
-    builtin::text(names[which.index(names.len())]).unwrap()
-}
-
-proptest! {
-    #![proptest_config(runs(256))]
-    #[test]
-    fn random_bytes(bytes in prop::collection::vec(any::<u8>(), 0..300)) {
-        read("x.toml", &bytes);
-        read("x.json", &bytes);
-    }
-
-    #[test]
-    fn spoilt_toml(which in any::<Index>(), edits in edits(&WORDS)) {
-        read("x.toml", &spoilt(built_in(which), &edits));
-    }
-
-    #[test]
-    fn spoilt_json(which in any::<Index>(), edits in edits(&WORDS)) {
-        let value: toml::Value = toml::from_str(built_in(which)).unwrap();
-        read("x.json", &spoilt(serde_json::to_string_pretty(&value).unwrap(), &edits));
-    }
-}
 
 /// A mechanism of one hinge, with more behind its joint.
 fn hinge(more: &str) -> String {

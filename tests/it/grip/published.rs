@@ -286,12 +286,6 @@ fn what_the_curves_refute_is_told_with_what_is_right() {
 /// In text and JSON, under the gripper of the paper and no other.
 #[test]
 fn claims_are_told_of_the_gripper_of_the_paper_alone() {
-    let text = run_quiet("grip lever-gripper");
-    has(
-        &text,
-        "17 claims, 10 confirmed, 4 refuted, 3 refuted if the scan of the text is right",
-    );
-    has(&text, "right: l1 alone does");
     let value = run_json("grip lever-gripper --format json");
     assert_eq!(value["claims"].list().len(), 17);
     assert_eq!(value["claims"][0]["right"], Value::Null);
@@ -303,9 +297,6 @@ fn claims_are_told_of_the_gripper_of_the_paper_alone() {
     let folder = Folder::new();
     folder.succeed("new mine.toml --from lever-gripper");
     assert_eq!(folder.json("grip mine.toml")["claims"], json!([]));
-    let (text, _) = folder.succeed("grip mine.toml");
-    lacks(&text, "Pavlenko");
-    lacks(&text, "refuted");
 }
 
 /// Figs. 2, 4 and 5 as charts, each point by the equations as they are printed.
@@ -346,15 +337,4 @@ fn figures_are_charts_of_any_gripper() {
         assert_eq!(seen.len(), 9, "{name}: {seen:?}");
         assert!(seen.values().all(|&n| n > 20), "{name}: {seen:?}");
     }
-}
-
-/// Both arms stand in the text as what they are made of.
-#[test]
-fn parts_of_the_arms_are_in_the_text() {
-    let text = run_quiet("grip lever-gripper");
-    has_all(&text, &["l11, mm", "l12, mm", "l21, mm", "l22, mm"]);
-    // l11 = l21 = 100 cos 30°, l12 = 20 tan 30° at D = 40.
-    let row = text.lines().filter(|l| l.trim_start().starts_with("40 "));
-    let found = row.map(|l| l.matches("86.6").count() == 2 && l.contains("11.55"));
-    assert!(found.into_iter().any(|x| x), "{text}");
 }

@@ -243,37 +243,6 @@ fn witnesses_at_a_discriminant_are_refused() {
     ));
 }
 
-/// A ring that is no field, where a number can differ from 0 and be 0 in fact.
-#[test]
-fn rings_that_are_no_fields_are_found_out() {
-    let int = Element::from_integer;
-    // y² = 4, and the matrix (y - 2), whose rank is 0 in fact.
-    let ring = NumberRing::rationals()
-        .adjoin(vec![int(-4), int(0)])
-        .unwrap();
-    let entry = ring.sub(&ring.generator(0), &int(2));
-    let m = MatrixOverRing::new(ring, None, [1, 1], [(0, 0, entry)]).unwrap();
-    let (_, mut c) = certified("bennett");
-    (c.rows, c.columns, c.rank) = (1, 1, 1);
-    c.kernel.clear();
-    (c.minor.rows, c.minor.columns) = (vec![0], vec![0]);
-    c.minor.images = vec![c.minor.prime - 2];
-    c.field.relations = vec![vec![int(-4), int(0)]];
-    assert!(matches!(
-        verify::check_certificate(&m, &c),
-        Err(Flaw::NotAField { generator: 0, .. })
-    ));
-    let prime = c.minor.prime;
-    c.field.witnesses = vec![ozols::verify::certificate::Witness {
-        prime,
-        images: Vec::new(),
-    }];
-    assert!(matches!(
-        verify::check_certificate(&m, &c),
-        Err(Flaw::NotAField { generator: 0, .. })
-    ));
-}
-
 #[test]
 fn long_numbers_take_more_primes_and_budgets_hold() {
     let rationals = field(&[]);

@@ -11,7 +11,7 @@ fn check(m: &Mechanism, state: StateId) -> LeastRows {
     let found = LeastRows::new(&one, m, &closure).unwrap();
     let whole = Closure::new(&other, m, state).unwrap();
     let what = format!("{} {}: {found:?}", m.name, m.states[state]);
-    assert_eq!(found.rank(), rank_dense(&other, &whole), "{what}");
+    assert_eq!(found.rank(), modular::rank_modulo(&other, &whole), "{what}");
     assert!(
         found.rows() <= found.of && found.of == whole.rows(),
         "{what}"
@@ -64,12 +64,6 @@ fn a_cylindrical_drive_costs_one_row_out_of_the_plane() {
     };
     assert_eq!(figures(0), ("in plane", "z", [12, 12, 12, 0]));
     assert_eq!(figures(1), ("out of plane", "z", [4, 12, 1, 11]));
-    let text = run_quiet("analyze gripper-10 --state free --verbose");
-    has(
-        &text,
-        "; all joints move in a plane with normal z (12 of 12 rows, rank 12, σ = 0) or out of it (4 of 12 rows, rank 1, \
-             σ = 11); omitted: 8 of 24 rows, redundant in any case",
-    );
 }
 
 #[test]
@@ -101,13 +95,6 @@ fn blocks_are_judged_one_by_one() {
     let found = check(&m, StateId::FREE);
     let rows: Vec<usize> = found.blocks.iter().map(|b| b.parts[0].rows).collect();
     assert_eq!(rows, [3, 3, 6]);
-    let words = found.describe_rows(&m, |c| c.to_string());
-    assert_eq!(
-        words,
-        "; the joints of contour 0 move in one plane (3), so 3 rows per contour are enough; the joints of contour 1 move in the turns \
-         about one point (3), so 3 rows per contour are enough; the joints of contour 2 need all 6 rows per contour; omitted: 6 of 18 \
-         rows, redundant in any case"
-    );
 }
 
 #[test]
@@ -158,9 +145,6 @@ fn reactions_in_a_plane_without_redundant_constraints_are_determined() {
         }
     }
     assert!(seen > 40, "{seen}");
-    let text = run_quiet("statics four-bar --spatial");
-    has(&text, "Left open by the self-stresses: Fz, Mx and My of ");
-    has(&text, "; all other components are unique");
     // A third rod is redundant in the plane.
     let rods = run_json("statics parallelogram-3-rods --spatial --format json");
     let mut by_count: BTreeMap<usize, usize> = BTreeMap::new();
@@ -218,18 +202,5 @@ fn joints_outside_contours_are_not_spoken_for() {
     assert!(
         words.starts_with("; all joints move in one plane (3)"),
         "{words}"
-    );
-}
-
-#[test]
-fn couplings_without_contours_are_not_told_of() {
-    let arms = "
-        A | 0 a | revolute | 0, 0, 0 | 0, 0, 1
-        B | 0 b | revolute | 3, 0, 0 | 0, 0, 1";
-    let geared = "[[coupling]]\njoints = [\"A\", \"B\"]\nratio = -2\n";
-    let m = read(&(write_mechanism("name = \"geared arms\"", "0 a* b", arms) + geared));
-    assert_eq!(
-        check(&m, StateId::FREE).describe_rows(&m, |c| c.to_string()),
-        ""
     );
 }

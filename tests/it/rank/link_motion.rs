@@ -92,38 +92,6 @@ fn screws_and_connectivity() {
     );
 }
 
-/// What a joint carries of a self-stress is named as a moment where it has no force, and as a force along a line through its point where
-/// it has no moment about that. The line of a force goes where the force has no moment across it.
-#[test]
-fn wrenches_are_named() {
-    let mut seen = BTreeSet::new();
-    for name in ["gripper-10", "bennett", "sarrus", "3-crr", "four-bar"] {
-        let found = run_json(&format!("analyze {name} --format json"));
-        for stress in found["states"][0]["self_stresses"].list() {
-            for joint in stress["joints"].list() {
-                let name = joint["text"].word();
-                let [moments, forces] = ["moments", "forces"].map(|k| !joint[k].list().is_empty());
-                let kind = match (moments, forces) {
-                    (true, false) => name.starts_with("moment about ") && !name.contains("through"),
-                    (false, true) => name.starts_with("force along ") && !name.contains("through"),
-                    _ => name.contains(" through ") || name.starts_with("wrench along "),
-                };
-                assert!(kind, "{name}: {joint}");
-                seen.insert(
-                    name.split(' ').next().unwrap().to_owned()
-                        + if name.contains("through") {
-                            " through"
-                        } else {
-                            ""
-                        },
-                );
-            }
-        }
-    }
-    let named = ["moment", "force through"].map(str::to_owned);
-    assert!(named.iter().all(|n| seen.contains(n)), "{seen:?}");
-}
-
 /// A robot of three legs has Gogu's four numbers, which are W, σ, and the motions of its platform and of what that does not feel.
 #[test]
 fn robots_with_legs_have_the_numbers_of_gogu() {
@@ -138,8 +106,4 @@ fn robots_with_legs_have_the_numbers_of_gogu() {
         assert_eq!(crr["gogu"][symbol], crr[key]);
     }
     assert!(of("gripper-10")["gogu"].is_null());
-    has(
-        &run_quiet("analyze 3-crr --verbose"),
-        "in Gogu's symbols: M = ",
-    );
 }

@@ -4,7 +4,7 @@
 use crate::common::*;
 mod proven;
 
-use ozols::rank::finite::{finite_mobility, followed_mobility, local_dimension};
+use ozols::rank::finite::{finite_mobility, followed_mobility};
 use ozols::rank::method::generic;
 use ozols_dense::Matrix;
 
@@ -31,7 +31,6 @@ fn as_measured(m: &Mechanism, seed: u64, noise: f64, away: f64) -> Mechanism {
         let reference = turned(&joint.frame.reference);
         let axis = turned(&joint.frame.axis);
         let mut number = |x: f64, of: f64| Expr::from_f64(x + noise * of * random.draw_uniform());
-        let length = |v: [f64; 3]| v.iter().map(|x| x * x).sum::<f64>().sqrt();
         joint.frame = Frame {
             point: [0, 1, 2].map(|i| number(scale * (point[i] + shift[i]), scale * size).unwrap()),
             axis: axis.map(|x| number(x, length(axis)).unwrap()),
@@ -138,7 +137,7 @@ fn what_is_proven_is_found_by_following_the_motion_too() {
                 by_motion.could_be(mobility),
                 "{name}: {found:?} {by_motion:?}"
             );
-            assert!(!matches!(by_motion.how, How::Bound { .. }), "{name}");
+            assert!(!matches!(by_motion.how, How::Bound), "{name}");
         }
     }
     assert!(proven > 40, "{proven}");
@@ -159,8 +158,8 @@ fn groups_need_no_more_rows_than_dimensions() {
             let reduced = group.rows_of(&closure);
             assert_eq!(reduced.dim, group.dimension(), "{name}");
             assert_eq!(
-                rank_dense(&exact, &reduced),
-                rank_dense(&exact, &closure),
+                modular::rank_modulo(&exact, &reduced),
+                modular::rank_modulo(&exact, &closure),
                 "{name}"
             );
         }
@@ -203,37 +202,6 @@ fn the_jacobian_is_the_derivative_of_the_gaps() {
                 let slope = (p - m) / (2.0 * h);
                 assert!((slope - jacobian[(r, c)]).abs() < 1e-8, "{name} {r} {c}");
             }
-        }
-    }
-}
-
-/// Moving on from a moved pose is moving on: the chain of poses closes, and links stay rigid.
-#[test]
-fn poses_reached_in_steps_are_closed_and_rigid() {
-    for name in split_words("bennett gripper-10 rsur stewart-gough sarrus delta") {
-        let mut pose = Pose::of_file(&built_in(name), StateId::FREE).unwrap();
-        let f = pose.columns.len();
-        for _ in 0..20 {
-            let span = local_dimension::null_space_of(&pose);
-            let step: Vec<f64> = (0..f).map(|r| 0.05 * span[(r, 0)]).collect();
-            let q = pose.close_loops(step, &[]).unwrap();
-            pose = pose.moved_to(&q);
-            let gap = pose
-                .closure_gaps(&vec![0.0; f])
-                .iter()
-                .fold(0.0, |a: f64, x| a.max(x.abs()));
-            assert!(gap < 1e-10, "{name}: {gap}");
-        }
-        for (i, link) in pose.links.iter().enumerate() {
-            let [x, y] = [
-                link.map_direction([1.0, 0.0, 0.0]),
-                link.map_direction([0.0, 1.0, 0.0]),
-            ];
-            let dot = |a: [f64; 3], b: [f64; 3]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-            assert!(
-                (dot(x, x) - 1.0).abs() < 1e-9 && dot(x, y).abs() < 1e-9,
-                "{name} {i}"
-            );
         }
     }
 }

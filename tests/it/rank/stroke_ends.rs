@@ -1,5 +1,6 @@
 //! Singular poses near the ends of a stroke.
 
+use super::stroke_poses::figures;
 use crate::common::*;
 use ozols::rank::stroke::analysis::{StrokeRequest, analyse_stroke};
 
@@ -52,19 +53,7 @@ fn driven_slider() -> Mechanism {
 #[test]
 fn slides_are_followed_in_the_files_unit_and_end_where_they_must() {
     let m = driven_slider();
-    let pose = Pose::of_file(&m, StateId::FREE).unwrap();
-    let joint = m.joint_named("d").unwrap();
-    let drive = pose.columns.iter().position(|c| c.joint == joint).unwrap();
-    let request = |to: f64| StrokeRequest {
-        mechanism: &m,
-        state: StateId::FREE,
-        drive,
-        held: &[],
-        range: [0.0, to],
-        steps: 5,
-        tolerance: None,
-    };
-    let short = analyse_stroke(&request(20.0), &pose);
+    let short = figures(&m, [0.0, 20.0], 5);
     assert_eq!(short.stop, None);
     let at: Vec<f64> = short.poses.iter().map(|p| p.at).collect();
     for (found, wanted) in at.iter().zip([0.0, 4.0, 8.0, 12.0, 16.0, 20.0]) {
@@ -72,10 +61,8 @@ fn slides_are_followed_in_the_files_unit_and_end_where_they_must() {
     }
     let moved = short.poses[5].outputs[0].point[0] - short.poses[0].outputs[0].point[0];
     assert!((moved - 20.0).abs() < 1e-6, "{moved}");
-    let long = analyse_stroke(&request(60.0), &pose);
-    let end = 126.0 - 8316f64.sqrt();
-    let stop = long.stop.unwrap();
-    assert!((stop.at - end).abs() < 0.01, "{} for {end}", stop.at);
+    let stop = figures(&m, [0.0, 60.0], 5).stop.unwrap();
+    near(stop.at, 126.0 - 8316f64.sqrt(), 0.01);
 }
 
 #[test]
@@ -106,19 +93,7 @@ fn a_pose_that_falls_in_rank_is_told_in_the_files_unit() {
         d | 0 3 | prismatic | 66, \"18-sqrt(1116)\", 0 | 0, 1, 0 | drive = true
         ",
     );
-    let m = read(&text);
-    let pose = Pose::of_file(&m, StateId::FREE).unwrap();
-    let joint = m.joint_named("d").unwrap();
-    let request = StrokeRequest {
-        mechanism: &m,
-        state: StateId::FREE,
-        drive: pose.columns.iter().position(|c| c.joint == joint).unwrap(),
-        held: &[],
-        range: [0.0, 30.0],
-        steps: 7,
-        tolerance: None,
-    };
-    let found = analyse_stroke(&request, &pose);
+    let found = figures(&read(&text), [0.0, 30.0], 7);
     assert_eq!((found.changes.len(), found.undriven), (1, 0), "{found:?}");
     let change = found.changes[0];
     assert_eq!(change.ranks, [3, 2, 3]);

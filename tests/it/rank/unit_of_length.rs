@@ -81,14 +81,13 @@ fn plate() -> impl Strategy<Value = String> {
     let foot = (-12i32..13, -12i32..13);
     let feet = prop::collection::btree_set(foot, 3..7);
     (feet, 5i32..25, -9i32..10).prop_map(|(feet, height, lean)| {
-        let mut out = "name = \"plate\"\n[[link]]\nid = \"f\"\nrole = \"frame\"\n[[link]]\nid = \"p\"\nrole = \"output\"\n".to_owned();
+        let (mut links, mut joints) = ("f p*".to_owned(), String::new());
         for (i, (x, y)) in feet.iter().enumerate() {
-            out += &format!("[[link]]\nid = \"l{i}\"\n");
-            for (n, links, at) in [("a", ["f".to_owned(), format!("l{i}")], [*x, *y, 0]), ("b", [format!("l{i}"), "p".to_owned()], [x + lean, *y, height])] {
-                out += &format!("[[joint]]\nid = \"{n}{i}\"\nlinks = {links:?}\ntype = \"spherical\"\npoint = {at:?}\n");
-            }
+            links += &format!(" l{i}");
+            joints += &format!("a{i} | f l{i} | spherical | {x}, {y}, 0\n");
+            joints += &format!("b{i} | l{i} p | spherical | {}, {y}, {height}\n", x + lean);
         }
-        out
+        write_mechanism("name = \"plate\"", &links, &joints)
     })
 }
 

@@ -67,14 +67,16 @@ fn strained(l: f64) {
 fn a_shifted_joint_strains_as_by_hand() {
     for l in [2.0, 5.0, 0.3] {
         for (axis, along) in [("x", 0), ("y", 1)] {
-            let text = format!(
-                "name = \"bar\"\nlength_unit = \"mm\"\n[[link]]\nid = \"0\"\nrole = \"frame\"\n[[link]]\nid = \"1\"\n\
-                 role = \"output\"\n[[joint]]\nid = \"a\"\nlinks = [\"0\", \"1\"]\ntype = \"fixed\"\npoint = [0, 0, 0]\n\
-                 [[joint]]\nid = \"b\"\nlinks = [\"0\", \"1\"]\ntype = \"fixed\"\npoint = [{}, 0, 0]\n\
-                 [workload.stiffness.default]\nlinear = 1000\nangular = 300\n\
-                 [[workload.misalignment]]\njoint = \"b\"\nlength = 10\naxis = \"{axis}\"\n",
+            let ends = format!(
+                "a | 0 1 | fixed | 0, 0, 0\nb | 0 1 | fixed | {}, 0, 0",
                 1000.0 * l
             );
+            let strain = format!(
+                "[workload.stiffness.default]\nlinear = 1000\nangular = 300\n\
+                 [[workload.misalignment]]\njoint = \"b\"\nlength = 10\naxis = \"{axis}\"\n"
+            );
+            let head = "name = \"bar\"\nlength_unit = \"mm\"";
+            let text = write_mechanism(head, "0 1*", &ends) + &strain;
             let m = read(&text);
             let elastic = solve(&m).elastic.unwrap();
             assert!(left_over(&m, &elastic) < 1e-12);

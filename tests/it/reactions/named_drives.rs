@@ -26,22 +26,6 @@ fn the_freedom_named_is_held_in_every_state() {
     }
 }
 
-/// A stroke goes along it, and the file keeps it when it is written anew.
-#[test]
-fn strokes_and_files_keep_it() {
-    let (code, said, _) = run_on(
-        "analyze",
-        "g.toml",
-        &gripper("\"tz\""),
-        "--state free --stroke 0:0.1:2",
-    );
-    assert_eq!(code, Some(0));
-    has(&said, "0-1:tz");
-    let (code, said, _) = run_on("export", "g.toml", &gripper("\"tz\""), "--to toml");
-    assert_eq!(code, Some(0));
-    has(&said, "drive = \"tz\"");
-}
-
 #[test]
 fn a_freedom_that_the_joint_has_not_is_refused() {
     for word in ["\"ty\"", "\"sideways\""] {

@@ -9,7 +9,6 @@ use crate::common::*;
 use crate::fuzz::runs;
 use ozols::redundancy::duplicate_constraints::held_twice;
 use ozols::redundancy::other_poses::Where;
-use std::fmt::Write;
 
 type V = [f64; 3];
 
@@ -73,39 +72,25 @@ fn rows_and_rank(legs: &Legs, size: f64) -> (usize, usize) {
 /// The mechanism as a file, its numbers with so many decimals, or whole.
 fn file(legs: &Legs, decimals: Option<usize>) -> String {
     let v = |p: V| match decimals {
-        Some(d) => format!("[{:.d$}, {:.d$}, {:.d$}]", p[0], p[1], p[2]),
-        None => format!("[{}, {}, {}]", p[0], p[1], p[2]),
+        Some(d) => p.map(|x| format!("{x:.d$}")).join(", "),
+        None => p.map(|x| x.to_string()).join(", "),
     };
-    let mut out = "name = \"m\"\n[[link]]\nid = \"f\"\nrole = \"frame\"\n".to_owned();
-    out += "[[link]]\nid = \"p\"\nrole = \"output\"\n";
-    for n in 0..legs.len() {
-        writeln!(out, "[[link]]\nid = \"l{n}\"").unwrap();
-    }
+    let mut joints = String::new();
     for (n, leg) in legs.iter().enumerate() {
-        let leg_link = format!("l{n}");
-        let ends = [["f", leg_link.as_str()], [leg_link.as_str(), "p"]];
-        for (i, (joint, [a, b])) in leg.iter().zip(ends).enumerate() {
-            writeln!(
-                out,
-                "[[joint]]\nid = \"j{n}{i}\"\nlinks = [\"{a}\", \"{b}\"]"
-            )
-            .unwrap();
-            let (kind, at, axis) = match *joint {
-                Joint::Ball(p) => ("spherical", p, None),
-                Joint::Slide(p, a) => ("prismatic", p, Some(a)),
-                Joint::Turn(p, a) => ("revolute", p, Some(a)),
-                Joint::Screw(p, a, _) => ("helical", p, Some(a)),
+        for (i, joint) in leg.iter().enumerate() {
+            let (kind, at, axis, more) = match *joint {
+                Joint::Ball(p) => ("spherical", p, String::new(), String::new()),
+                Joint::Slide(p, a) => ("prismatic", p, v(a), String::new()),
+                Joint::Turn(p, a) => ("revolute", p, v(a), String::new()),
+                Joint::Screw(p, a, h) => ("helical", p, v(a), format!("pitch = {h}")),
             };
-            writeln!(out, "type = \"{kind}\"\npoint = {}", v(at)).unwrap();
-            if let Some(a) = axis {
-                writeln!(out, "axis = {}", v(a)).unwrap();
-            }
-            if let Joint::Screw(_, _, h) = joint {
-                writeln!(out, "pitch = {h}").unwrap();
-            }
+            let ends = [format!("f l{n}"), format!("l{n} p")];
+            let at = v(at);
+            joints += &format!("j{n}{i} | {} | {kind} | {at} | {axis} | {more}\n", ends[i]);
         }
     }
-    out
+    let links = (0..legs.len()).map(|n| format!(" l{n}")).join("");
+    write_mechanism("name = \"m\"", &format!("f p*{links}"), &joints)
 }
 
 /// A mechanism, and its legs in the drawn pose and in other closed poses.

@@ -204,19 +204,3 @@ fn independent_drives_are_refused_where_they_cannot_be() {
     let undecided = matches!(refused, SearchError::UndecidedOutputs { motions: 1 });
     assert!(undecided, "{refused}");
 }
-
-#[test]
-fn a_driven_joint_of_several_freedoms_drives_the_one_that_is_named() {
-    let m = ozols::built_in("gripper-10").unwrap();
-    let slide = m.joint_named("0-1").unwrap();
-    let named = |freedom: Option<&str>| {
-        let mut m = m.clone();
-        m.edit().joints[slide].drive_freedom =
-            freedom.and_then(ozols::model::joint_type::Freedom::from_name);
-        m.joints[slide].driven_freedom().unwrap().name()
-    };
-    assert_eq!(
-        [None, Some("tz"), Some("rz")].map(named),
-        ["tz", "tz", "rz"]
-    );
-}

@@ -68,17 +68,3 @@ fn as_many_orbits_are_proven_as_are_asked_for() {
     assert_eq!(bounded["variants_proven"], 190);
     assert_eq!(costs(&bounded), costs(&whole));
 }
-
-/// All links but a clamped part are there without it, the frame first of all.
-#[test]
-fn only_a_clamped_part_is_not_free() {
-    use ozols::search::question::grasp::is_free;
-    let m = built_in("four-bar");
-    assert!(m.link_ids().all(|l| is_free(&m, l)));
-    // The part that the gripper clamps is there only when it is clamped.
-    let m = built_in("gripper-10");
-    for l in m.link_ids() {
-        assert_eq!(is_free(&m, l), m.links[l].id != "a", "{}", m.links[l].id);
-    }
-    assert!(is_free(&m, m.frame_link()));
-}

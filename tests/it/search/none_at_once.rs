@@ -3,44 +3,30 @@
 use crate::common::*;
 use num_traits::Zero;
 use ozols::search::answer::why_none::{Relaxation, find_obstacles, find_relaxations};
-use std::fmt::Write;
 
 /// Plates in a plane, in rows and columns, each on hinges with its neighbours at places drawn from a seed; and how many
 /// hinges there are.
 fn mesh(rows: usize, columns: usize, seed: u64) -> (String, usize) {
-    let mut out = "name = \"mesh\"\n[search]\noptions = [\"revolute\", \"cylindrical\", \"universal\", \"spherical\"]\n".to_owned();
-    let last = rows * columns - 1;
-    for i in 0..=last {
-        let role = match i {
-            0 => "role = \"frame\"\n",
-            _ if i == last => "role = \"output\"\n",
-            _ => "",
-        };
-        write!(out, "[[link]]\nid = \"{i}\"\n{role}").unwrap();
-    }
-    let mut state = seed | 1;
-    let mut place = || {
-        state ^= state << 13;
-        state ^= state >> 7;
-        state ^= state << 17;
-        (state >> 33) % 997
-    };
-    let mut joints = 0;
+    let mut random = ChaCha8Rng::seed_from_u64(seed);
+    let mut joints = Vec::new();
     for (r, c) in (0..rows).flat_map(|r| (0..columns).map(move |c| (r, c))) {
         let here = r * columns + c;
         let right = (c + 1 < columns).then_some(here + 1);
         let below = (r + 1 < rows).then_some(here + columns);
         for there in [right, below].into_iter().flatten() {
-            let (x, y) = (place(), place());
-            write!(
-                out,
-                "[[joint]]\nid = \"j{joints}\"\nlinks = [\"{here}\", \"{there}\"]\ntype = \"revolute\"\npoint = [{x}, {y}, 0]\naxis = [0, 0, 1]\n"
-            )
-            .unwrap();
-            joints += 1;
+            let [x, y] = [(); 2].map(|()| random.next_u64() % 997);
+            let j = joints.len();
+            joints.push(format!(
+                "j{j} | {here} {there} | revolute | {x}, {y}, 0 | 0, 0, 1"
+            ));
         }
     }
-    (out, joints)
+    let head = "name = \"mesh\"\n[search]\noptions = [\"revolute\", \"cylindrical\", \"universal\", \"spherical\"]";
+    let links = (0..rows * columns).join(" ") + "*";
+    (
+        write_mechanism(head, &links, &joints.join("\n")),
+        joints.len(),
+    )
 }
 
 /// Tilts and slides along the hinges do nothing in the plane, where 2·joints constraints meet 3 freedoms a moving plate.

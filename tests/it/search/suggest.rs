@@ -4,10 +4,6 @@ use crate::common::*;
 use ozols::model::mechanism::Link;
 use ozols::search::answer::single_changes::{USUAL, USUAL_UNLOADING, single_changes};
 
-fn built_in(name: &str) -> Mechanism {
-    read(builtin::text(name).unwrap())
-}
-
 /// The mechanism with one change made: the joint replaced, or a pad between it and its first link, or both.
 fn changed(
     m: &Mechanism,
@@ -155,90 +151,13 @@ proptest! {
     }
 }
 
-#[test]
-fn the_best_single_changes_of_the_gripper() {
-    let value = run_json("analyze gripper-10 --format json");
-    let of = |state: usize| &value["states"][state]["suggestions"];
-    let texts = |state: usize| -> Vec<String> {
-        let all = of(state)["changes"].list();
-        all.iter().map(|x| x["text"].word().to_owned()).collect()
-    };
-    let free = texts(0);
-    assert_eq!(
-        (of(0)["of"].as_u64(), of(0)["options"].as_str()),
-        (Some(11), Some("file"))
-    );
-    assert!(
-        free[0].ends_with("revolute -> sphere-in-cylinder removes 3 of 11"),
-        "{free:?}"
-    );
-    assert!(
-        free.contains(&"2-3: revolute -> spherical removes 2 of 11".to_owned()),
-        "{free:?}"
-    );
-    let best = of(0)["changes"].list();
-    assert_eq!(best.iter().filter(|x| x["removes"] == 3).count(), 12);
-    assert!(
-        best.iter()
-            .all(|x| x["removes"].whole() + x["remaining"].whole() == 11)
-    );
-    assert_eq!(
-        texts(1),
-        ["4-a", "a-8"].map(|j| format!(
-            "{j}: unloading joint in series: spherical (a ball pivot) removes 3 of 5 external"
-        ))
-    );
-    let text = run_quiet("analyze gripper-10");
-    assert!(text.starts_with("gripper-10, state free: 11 redundant constraints, mobility 1\n"));
-    has_all(
-        &text,
-        &[
-            "3 of 11",
-            "3 of 5 external",
-            "\n    ozols search gripper-10\n",
-            "\n    ozols search gripper-10 --max-external 2\n",
-        ],
-    );
-}
-
 // A slot at any hinge of a plane mechanism only lets it loose.
 #[test]
-fn where_no_single_change_helps_it_is_said() {
-    let folder = tempdir().unwrap();
-    let file = folder.path().join("slots.toml");
-    let m = built_in("four-bar");
-    let mut copy = ozols::robots::formats::write(&m, "toml")
-        .unwrap()
-        .parse::<toml_edit::DocumentMut>()
-        .unwrap();
-    for j in copy["joint"].as_array_of_tables_mut().unwrap().iter_mut() {
-        j.remove("options");
-    }
-    let options = toml_edit::Array::from_iter(["revolute", "slotted"]);
-    copy["search"]["options"] = toml_edit::value(options);
-    fs::write(&file, copy.to_string()).unwrap();
-    let text = run_quiet(&["analyze", file.to_str().unwrap()]);
-    has(&text, "No single change of 3 tried (the file's options)");
-    has(&text, "ozols search ");
-    let value = run_json(&["analyze", file.to_str().unwrap(), "--format", "json"]);
-    let s = &value["states"][0]["suggestions"];
-    assert_eq!(
-        (s["found"].as_u64(), s["tried"].as_u64()),
-        (Some(0), Some(3))
-    );
-}
-
-#[test]
-fn a_determinate_mechanism_needs_none() {
-    let value = run_json("analyze stewart-gough --format json");
-    assert!(value["states"][0]["suggestions"].is_null());
-    let text = run_quiet("analyze stewart-gough");
-    lacks(&text, "Single changes");
-    lacks(&text, "No single change");
-    has(
-        &text,
-        "\n    ozols draw stewart-gough -o stewart-gough.svg\n",
-    );
+fn where_no_single_change_helps_none_is_named() {
+    let types = "\"cylindrical\", \"universal\", \"spherical\"";
+    let text = replace_once(&run_quiet("show four-bar"), types, "\"slotted\"");
+    let s = &json_on("analyze", "slots.toml", &text, "")["states"][0]["suggestions"];
+    assert_eq!((&s["found"], &s["tried"]), (&json!(0), &json!(3)));
 }
 
 // A file with a space in its name is quoted; standard input cannot be read again.

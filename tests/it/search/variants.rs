@@ -55,7 +55,7 @@ fn an_exported_variant_has_the_figures_of_the_list() {
 
 #[test]
 fn variants_in_every_format_and_drawn() {
-    for to in ["toml", "json", "urdf", "sdf", "dot", "graphml"] {
+    for to in ["toml", "json", "urdf", "sdf", "dot"] {
         let v = run_quiet(&["export", "gripper-10", "--variant", "2", "--to", to, "-q"]);
         assert_ne!(
             v,
@@ -75,27 +75,6 @@ fn variants_in_every_format_and_drawn() {
         export four-bar --to dot --variant 999 | no variant 999: the search gives
         ",
     );
-}
-
-#[test]
-fn a_search_says_what_to_do_next() {
-    let text = run_quiet("search gripper-10 --max-mobility 1 --hold 5 --top 1");
-    assert!(text.starts_with("gripper-10: "), "{text}");
-    assert!(
-        text.lines()
-            .next()
-            .unwrap()
-            .contains(" of 13,841,287,201 variants have σ = 0")
-    );
-    let flags = "--max-mobility 1 --hold 5";
-    for part in [
-        format!("\n    ozols draw gripper-10 {flags} --idea 1 -o gripper-10-idea-1.svg\n"),
-        format!(
-            "\n    ozols export gripper-10 {flags} --idea 1 --to toml -o gripper-10-idea-1.toml\n"
-        ),
-    ] {
-        assert!(text.contains(&part), "no {part:?} in {text}");
-    }
 }
 
 // Every condition said to help does, and nothing less would.
@@ -176,24 +155,6 @@ fn what_follows_a_list_of_all_variants_is_of_that_list() {
         .find(|l| l.contains("ozols export lever-gripper"))
         .unwrap();
     has(next, "--rank cost --variant 1");
-    let one = run_quiet("export lever-gripper --rank cost --variant 1 --to toml");
-    let all = run_quiet("search lever-gripper --all --format csv");
-    let mut lines = all.lines();
-    let heads: Vec<&str> = lines.next().unwrap().split(',').collect();
-    let first: Vec<&str> = lines.next().unwrap().split(',').collect();
-    let exported = read(&one);
-    let joints = heads
-        .iter()
-        .zip(&first)
-        .skip(6)
-        .take_while(|(head, _)| **head != "conditioning");
-    let mut seen = 0;
-    for (head, option) in joints {
-        let j = exported.joint_named(head).unwrap();
-        assert_eq!(exported.joints[j].joint_type.name(), *option, "{head}");
-        seen += 1;
-    }
-    assert!(seen > 5, "{seen}");
 }
 
 /// A type that one joint has already is offered at the others, as if the file listed it, and one that none is offered may be forbidden.

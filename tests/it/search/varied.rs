@@ -4,7 +4,7 @@
 use crate::common::*;
 use crate::fuzz::readers::differential::assert_as_the_twins;
 use crate::search::twin::{Twin, all_variants, look_at_variant};
-use ozols::search::answer::orbit_counts;
+use ozols::search::answer::search_counts::orbit_counts;
 use ozols::search::check::second_prime::{Verdict, build_both, compare_primes};
 use ozols::search::check::singular_values;
 use ozols::search::question::conditions::Symmetry;
@@ -160,40 +160,34 @@ fn carried_round() -> impl Strategy<Value = String> {
     let off = |[x, y, z]: &[i32; 3]| x != y || y != z;
     let drawn = drawn.prop_filter("on the axis", move |(_, c)| c.iter().any(|j| off(&j.0)));
     drawn.prop_map(|(parts, chain)| {
-        let mut out = String::from("name = \"round\"\n[search]\nturn = [");
-        for i in 0..chain.len() {
-            let names = (0..parts).map(|k| format!("\"p{k}j{i}\"")).collect_vec().join(", ");
-            out += &format!("[{names}],");
-        }
-        out += "]\n[[link]]\nid = \"0\"\nrole = \"frame\"\n[[link]]\nid = \"s\"\n";
-        let axis = [[0, 0, 1], [1, 1, 1]][parts - 2];
-        let mut joints = format!(
-            "[[joint]]\nid = \"middle\"\nlinks = [\"0\", \"s\"]\ntype = \"revolute\"\npoint = [0, 0, 0]\naxis = {axis:?}\n",
-        );
+        let alike = |i: usize| (0..parts).map(|k| format!("\"p{k}j{i}\"")).join(", ");
+        let groups = (0..chain.len())
+            .map(|i| format!("[{}]", alike(i)))
+            .join(", ");
+        let axis = commas([[0, 0, 1], [1, 1, 1]][parts - 2]);
+        let mut links = "0 s".to_owned();
+        let mut joints = format!("middle | 0 s | revolute | 0, 0, 0 | {axis}\n");
         for k in 0..parts {
-            for i in 1..chain.len() {
-                out += &format!("[[link]]\nid = \"p{k}l{i}\"\nrole = \"output\"\n");
-            }
+            let name = |i: usize| match i {
+                0 => "s".to_owned(),
+                i if i == chain.len() => "0".to_owned(),
+                i => format!("p{k}l{i}"),
+            };
+            (1..chain.len()).for_each(|i| links += &format!(" {}*", name(i)));
             for (i, &(point, axis, option)) in chain.iter().enumerate() {
-                let name = |i: usize| match i {
-                    0 => "s".to_owned(),
-                    i if i == chain.len() => "0".to_owned(),
-                    i => format!("p{k}l{i}"),
-                };
                 let axis = [[0, 0, 1], [1, 0, 0], [1, 0, 1]][axis];
                 let option = ["cylindrical", "universal", "spherical"][option];
+                let [point, axis, reference] =
+                    [point, axis, [0, 1, 0]].map(|v| commas(turned(v, k, parts)));
+                let (from, to) = (name(i), name(i + 1));
+                joints += &format!("p{k}j{i} | {from} {to} | revolute | {point} | {axis}");
                 joints += &format!(
-                    "[[joint]]\nid = \"p{k}j{i}\"\nlinks = [\"{}\", \"{}\"]\ntype = \"revolute\"\npoint = {:?}\naxis = {:?}\n\
-                     reference = {:?}\noptions = [\"revolute\", \"{option}\"]\n",
-                    name(i),
-                    name(i + 1),
-                    turned(point, k, parts),
-                    turned(axis, k, parts),
-                    turned([0, 1, 0], k, parts),
+                    " | reference = [{reference}]\\noptions = [\"revolute\", \"{option}\"]\n"
                 );
             }
         }
-        out + &joints
+        let head = format!("name = \"round\"\n[search]\nturn = [{groups}]");
+        write_mechanism(&head, &links, &joints)
     })
 }
 
@@ -333,7 +327,7 @@ fn orbits_agree(
         admissible,
         ..SearchCounts::default()
     };
-    let (counts, _) = orbit_counts::orbit_counts(&search, all, &|| false).unwrap();
+    let (counts, _) = orbit_counts(&search, all, &|| false).unwrap();
     prop_assert_eq!(
         &counts.determinate.by_mobility_and_changes,
         &of(&good, &first)

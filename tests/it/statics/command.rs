@@ -49,65 +49,11 @@ fn mechanisms_without_statics_are_refused_with_a_remedy() {
 }
 
 #[test]
-fn text_json_and_csv_tell_the_same() {
-    let with = |more: &str| format!("statics parallel-shears --stroke 0:180deg:2 {more}");
-    let text = run_quiet(&with(""));
-    has_all(
-        &text,
-        &[
-            "3 Assur groups driven by 0-1, class IV",
-            "class IV, order 2, four links in a closed contour",
-            "D = 3-4, F = 4-6, K = 4-7, M = 6-10, L = 7-10, guide = 0-10",
-        ],
-    );
-    let v = run_json(&with("--format json"));
-    assert_eq!((v["class"].whole(), v["groups"].list().len()), (4, 3));
-    let last = &v["positions"][2];
-    near(last["drive"].real(), PI, 1e-12);
-    let d = |method: &str| last["contour_groups"][0]["methods"][method]["D"][1].real();
-    near(d("delta") / d("equilibrium"), 1.0, 1e-9);
-    near(d("projective") / d("delta"), 1.0, 1e-9);
-    // The lower knife carries 500 kN down; D holds it up.
-    assert!(d("delta") > 5e5 && d("delta") < 5.3e5);
-    let csv = run_quiet(&with("--format csv"));
-    let mut lines = csv.lines();
-    let line = lines.find(|l| l.starts_with("3.14159") && l.contains(",delta,3-4,"));
-    let cell: f64 = line.unwrap().split(',').nth(8).unwrap().parse().unwrap();
-    near(cell / d("delta"), 1.0, 1e-12);
-    assert_eq!(csv.lines().count(), 1 + 3 * (16 + 2 * 12));
-    let one = run_quiet(&with("--format csv --method delta"));
-    assert_eq!(one.lines().count(), 1 + 3 * 12);
-}
-
-#[test]
 fn structure_under_every_drive() {
-    let text = run_quiet("statics parallel-shears --groups");
-    has(&text, "class III, order 3, triad");
     let v = run_json("statics parallel-shears --groups --format json");
     let drives = v["drives"].list();
     assert_eq!(drives.len(), 16);
     assert!(drives.iter().all(|d| d["class"] == 4));
-    // A spatial gripper, seen in its plane.
-    let text = run_quiet("statics gripper-10 --planar");
-    has_all(
-        &text,
-        &["4 Assur groups driven by 0-1, class II", "no loads"],
-    );
-}
-
-#[test]
-fn charts_and_stability_go_to_folders() {
-    let folder = Folder::new();
-    folder.succeed("statics parallel-shears --stroke 0:6.28:8 --svg charts");
-    let names = "group-4-6-7-10.svg group-5-8-9-11.csv guide-4-6-7-10.svg group-2-3.svg drive.svg methods.svg index.html";
-    for name in split_words(names) {
-        folder.bytes(&format!("charts/{name}"));
-    }
-    let (text, _) = folder.succeed("statics --stability -o stability");
-    for name in split_words("parallel-rods across-guide at-delta no-guide-reaction") {
-        has(&text, name);
-        folder.bytes(&format!("stability/stability-{name}.svg"));
-    }
 }
 
 /// A double-rocker driven towards its dead point: the cycle ends there, and says so.

@@ -1,6 +1,6 @@
 //! Positions over a cycle.
 
-use super::{four_bar_file, joints_of, planar_file, read_planar, shears_text};
+use super::{four_bar_file, joints_of, planar_file, shears_text};
 use crate::common::*;
 use ozols::statics::cycle::Statics;
 use ozols::statics::planar::PairKind;
@@ -22,7 +22,7 @@ fn gap(s: &Statics, pose: &Pose) -> f64 {
 }
 
 fn over(text: &str, [from, to]: [f64; 2], steps: usize, speeds: &[f64]) -> Statics {
-    let mut m = read_planar(text);
+    let mut m = read(text);
     m.edit().loads.drive_speeds = speeds.to_vec();
     let stroke = Some(Stroke { from, to, steps });
     let found = planar_statics(&m, StateId::FREE, stroke).unwrap();
@@ -106,7 +106,7 @@ fn drives_turn_about_the_normal() {
 fn at_a_dead_point_there_are_no_speeds() {
     for (beside, dead) in [("1", true), ("1.00000000000001", true), ("1.5", false)] {
         let joints = joints_of(&format!("0-1 0 0, 1-2 0 1, 2-3 2 {beside}, 3-0 4 1"));
-        let m = read_planar(&planar_file(&joints, "[workload]\ndrive_speed = 1.0\n"));
+        let m = read(&planar_file(&joints, "[workload]\ndrive_speed = 1.0\n"));
         let s = planar_statics(&m, StateId::FREE, None).unwrap();
         assert_eq!((s.moments.is_empty(), s.dead.is_some()), (dead, dead));
         assert!(s.dead.is_none_or(|d| d.group == Some(0)), "{beside}");

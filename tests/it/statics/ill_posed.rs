@@ -42,21 +42,3 @@ fn every_loose_link_of_a_chain_counts() {
         "{said}"
     );
 }
-
-/// Four links in a closed contour have that one, dyads none.
-#[test]
-fn contours_of_a_group_are_counted() {
-    use ozols::statics::assur_class::Kind;
-    let m = super::read_planar(super::shears_text());
-    let planar = PlanarMechanism::new(&m, StateId::FREE).unwrap();
-    let groups = decompose_groups(&planar, &planar.driven_pairs())
-        .unwrap()
-        .groups;
-    let mut closed = 0;
-    for group in &groups {
-        let is_closed = group.class.kind == Kind::FourLinkContour;
-        closed += usize::from(is_closed);
-        assert_eq!(group.class.contours, usize::from(is_closed));
-    }
-    assert!(closed > 0);
-}

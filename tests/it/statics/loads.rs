@@ -1,35 +1,13 @@
 //! What loads a linkage in its plane: components by hand, power, and when the plane does not do.
 
-use super::read_planar;
 use crate::common::*;
 use ozols::statics::kinetostatics::LoadSource;
 use ozols::statics::solve::{Model, SolvedReactions, solve_reactions};
 
 /// A four-bar 0-1-2-3 drawn by x and y, stood in the plane of `along` and `up`.
 fn four_bar(along: [f64; 3], up: [f64; 3]) -> Mechanism {
-    let normal = cross(along, up);
-    let joints = [
-        ("0-1 | 0 1", 0.0, 0.0),
-        ("1-2 | 1 2", 0.0, 1.0),
-        ("2-3 | 2 3", 3.0, 3.0),
-        ("3-0 | 3 0", 4.0, 0.0),
-    ];
-    let vector = |v: [f64; 3]| v.map(|x| format!("{x:?}")).join(", ");
-    let line = |(n, (links, x, y)): (usize, (&str, f64, f64))| {
-        let p = [0, 1, 2].map(|i| x * along[i] + y * up[i]);
-        format!(
-            "{links} | revolute | {} | {} | drive = {}",
-            vector(p),
-            vector(normal),
-            n == 0
-        )
-    };
-    let joints = joints.into_iter().enumerate().map(line).join("\n");
-    read_planar(&write_mechanism(
-        "name = \"leans\"\nlength_unit = \"m\"",
-        "0 1 2* 3",
-        &joints,
-    ))
+    let corners = [[0.0, 0.0], [0.0, 1.0], [3.0, 3.0], [4.0, 0.0]];
+    four_bar_in_plane([along, up], [0.0; 3], corners, true)
 }
 
 fn exact(v: [f64; 3]) -> [Expr; 3] {
@@ -112,7 +90,7 @@ fn the_power_of_all_drives_balances_the_loads() {
     let text = write_mechanism("name = \"five\"\nmode = \"planar\"", "0 1 2* 3 4", joints);
     let role = "role = \"output\"\n";
     let heavy = format!("{role}mass = 2\ncentre = [1, 2, 0]\ninertia = 0.2\n");
-    let mut m = read_planar(&replace_once(&text, role, &heavy));
+    let mut m = read(&replace_once(&text, role, &heavy));
     m.edit().loads.gravity = Some(exact([0.0, -10.0, 0.0]));
     m.edit().loads.drive_speeds = vec![1.0, -0.7];
     let found = planar_statics(&m, StateId::FREE, None).unwrap();
@@ -148,6 +126,6 @@ fn two_slides_span_their_plane() {
         x | 0 1 | prismatic | 0, 0, 0 | 1, 0, 0 | drive = true
         z | 1 2 | prismatic | 0, 0, 0 | 0, 0, 1 | drive = true";
     let text = &write_mechanism("name = \"table\"", "0 1 2*", joints);
-    let planar = PlanarMechanism::new(&read_planar(text), StateId::FREE).unwrap();
+    let planar = PlanarMechanism::new(&read(text), StateId::FREE).unwrap();
     assert_eq!(planar.axes[2].map(f64::abs), [0.0, 1.0, 0.0]);
 }

@@ -1,6 +1,6 @@
 //! The equations of [Bychkov, Dvornikov & Zhukov 2018] one by one, against reactions found in exact arithmetic.
 
-use super::{read_planar, shears_text};
+use super::shears_text;
 use crate::common::*;
 use ozols::statics::contour_group::equilibrium;
 use ozols::statics::contour_group::pose::GroupPose;
@@ -26,7 +26,7 @@ fn each_equation_gives_its_component() {
         to: TAU,
         steps: 24,
     };
-    let s = planar_statics(&read_planar(shears_text()), StateId::FREE, Some(stroke)).unwrap();
+    let s = planar_statics(&read(shears_text()), StateId::FREE, Some(stroke)).unwrap();
     let mut tried = 0;
     for g in s.moments.iter().flat_map(|m| &m.groups) {
         let (p, steps) = (&g.pose, &g.steps);

@@ -1,8 +1,6 @@
 //! Loads and reactions: the methods agree, and with energy.
 
-use super::{
-    J, Mass, joints_of, planar_file_with, read_planar, shears_text, sliding_joint, turning_joint,
-};
+use super::{J, Mass, joints_of, planar_file_with, shears_text, sliding_joint, turning_joint};
 use crate::common::*;
 use ozols::statics::contour_group::ContourGroup;
 use ozols::statics::contour_group::pose::{GroupPose, GroupReactions};
@@ -12,12 +10,7 @@ use ozols::statics::planar::{BodyId, PairId};
 use ozols::statics::pose::{Linkage, cross, dot, minus};
 
 fn over(text: &str, from: f64, to: f64, steps: usize) -> Statics {
-    planar_statics(
-        &read_planar(text),
-        StateId::FREE,
-        Some(Stroke { from, to, steps }),
-    )
-    .unwrap()
+    planar_statics(&read(text), StateId::FREE, Some(Stroke { from, to, steps })).unwrap()
 }
 
 fn shears_cycle() -> Statics {
@@ -153,7 +146,7 @@ fn effort(s: &Statics, m: &Moment) -> f64 {
 
 /// Effort at rest and the slope of the potential energy.
 fn at_rest(text: &str, at: f64) -> Option<[f64; 2]> {
-    let (m, h) = (read_planar(text), 1e-5);
+    let (m, h) = (read(text), 1e-5);
     let s = over(text, at - h, at + h, 2);
     let v = s.moments.iter().map(|x| potential(&m, &s, x)).collect_vec();
     s.dead
@@ -163,7 +156,7 @@ fn at_rest(text: &str, at: f64) -> Option<[f64; 2]> {
 
 /// The rise of the energy by time, and the moment at `at`.
 fn in_motion(text: &str, at: f64, speed: f64) -> Option<(f64, Statics)> {
-    let (m, h) = (read_planar(text), 1e-4);
+    let (m, h) = (read(text), 1e-4);
     let s = over(text, at - 2.0 * h, at + 2.0 * h, 4);
     let energy = |i: usize| kinetic(&m, &s, i, h / speed) + potential(&m, &s, &s.moments[i]);
     s.dead

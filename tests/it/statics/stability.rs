@@ -1,6 +1,6 @@
 //! Accuracy near each failure of the δ-point method, against exact arithmetic.
 
-use super::{read_planar, shears_text};
+use super::shears_text;
 use crate::common::*;
 use ozols::statics::contour_group::pose::GroupPose;
 use ozols::statics::contour_group::stability::{
@@ -14,7 +14,7 @@ fn base() -> GroupPose {
         to: 3.1,
         steps: 1,
     };
-    planar_statics(&read_planar(shears_text()), StateId::FREE, Some(at))
+    planar_statics(&read(shears_text()), StateId::FREE, Some(at))
         .unwrap()
         .moments[0]
         .groups[0]
@@ -87,11 +87,6 @@ fn a_vanishing_guide_reaction_harms_only_its_arm() {
             "{s:?}"
         );
     }
-}
-
-#[test]
-fn the_same_seed_gives_the_same_samples() {
-    assert_eq!(at(Failure::AtDelta, &[1e-5]), at(Failure::AtDelta, &[1e-5]));
 }
 
 /// The exact solution on numbers that doubles hold exactly: a group whose reactions are known by hand.

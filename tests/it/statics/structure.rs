@@ -3,7 +3,7 @@
 use crate::common::*;
 mod grown;
 
-use super::{J, joints_of, pair_named, planar_mechanism, read_planar};
+use super::{J, joints_of, pair_named, planar_mechanism};
 use ozols::statics::assur::{AssurError, Decomposition, decompose_alternatives};
 use ozols::statics::assur_class::Kind;
 use ozols::statics::planar::BodyId;
@@ -157,23 +157,6 @@ fn dyads_have_their_species() {
 }
 
 #[test]
-fn groups_of_six_links_are_classified() {
-    // Two bodies of three pairs joined, two leashes each: class III, order 4.
-    let chain =
-        "0-1 0 0, 1-a 1 0, a-S 2 1, 0-b 1 3, b-S 2 3, S-T 4 2, T-c 6 1, c-0 7 0, T-d 6 3, d-0 7 4";
-    let (_, d) = decomposed(&joints_of(chain));
-    let class = &d.groups[0].class;
-    assert_eq!((d.groups.len(), d.highest_class(), class.order), (1, 3, 4));
-    assert_eq!((class.contours, &class.composition[..]), (0, &[4, 2][..]));
-    // A contour of five bodies, three of them with an outer pair and one carrying a leash ring: class V, order 3.
-    let ring =
-        "0-1 0 0, 1-a 1 0, a-b 2 2, b-c 4 3, c-d 6 2, d-e 6 0, e-a 3 -1, c-0 5 5, d-f 8 1, f-0 9 0";
-    let (_, d) = decomposed(&joints_of(ring));
-    assert_eq!((d.groups.len(), d.highest_class()), (1, 5));
-    assert_eq!(d.groups[0].class.order, 3);
-}
-
-#[test]
 fn the_drive_decides_the_groups() {
     let m = planar_mechanism(&stephenson());
     let found = decompose_alternatives(&m, &m.driven_pairs());
@@ -233,7 +216,7 @@ fn several_drives_and_drives_between_moving_bodies() {
 #[test]
 fn a_pin_in_a_slot_is_a_turning_and_a_sliding_pair() {
     let m = PlanarMechanism::new(
-        &read_planar(ozols::builtin::text("lever-slot-gripper").unwrap()),
+        &read(ozols::builtin::text("lever-slot-gripper").unwrap()),
         StateId::FREE,
     )
     .unwrap();

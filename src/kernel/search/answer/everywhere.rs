@@ -9,10 +9,10 @@
 //! cokernel has elementary divisors t^e with e >= m. A larger module of more coordinates has a cokernel with the first one as an image,
 //! which has at least as many. So choices that miss any have no completion.
 
-use crate::linalg::echelon::Echelon;
 use crate::linalg::modp::{Field, Residue};
 use crate::search::build::self_stress::space_along_motion;
 use crate::search::diagram::Diagram;
+use crate::search::diagram::reduced_rows::{Arithmetic, Rows};
 use crate::search::question::Question;
 use crate::search::question::throughout::POWERS;
 use crate::search::reduce::self_stress_space::SelfStressSpace;
@@ -22,32 +22,57 @@ use std::collections::BTreeMap;
 
 /// Largest number of nodes of a layer.
 const NODES: usize = 1_000;
+/// Largest number of nodes of the lasting diagram with which the count is tried. Every built-in mechanism with more nodes exceeds
+/// [`NODES`], so the attempt would be in vain.
+const LASTING: usize = 128;
 
-/// The reduced rows of a span, in the coordinates that later variables reach.
-type Rows = Vec<Vec<Residue>>;
-
-/// A span that grows by the vectors of choices.
+/// A span that grows by the vectors of choices, in the coordinates that later variables reach.
 struct Lane<'a> {
-    field: Field,
     space: &'a SelfStressSpace,
+    arithmetic: Arithmetic,
+    /// The reduced rows before a choice.
+    before: Rows,
+    after: Rows,
+    vector: Vec<Residue>,
 }
 
-impl Lane<'_> {
-    /// Returns the rows after a choice of a variable, and how many of the coordinates that no later variable reaches are missed.
-    fn take_choice(&self, at: usize, choice: usize, rows: &Rows) -> (Rows, usize) {
-        let ends = |before: usize| self.space.contours.partition_point(|c| c.to < before);
-        let (done, gap) = (ends(at), ends(at + 1) - ends(at));
-        let added = self.space.added[at][choice].iter().map(|v| &v[done..]);
-        let all = rows.iter().map(Vec::as_slice).chain(added);
-        let span = Echelon::from_vectors(self.field, all);
-        let mut pivots = span.pivots();
-        pivots.sort_unstable();
-        let met = pivots.partition_point(|p| *p < gap);
-        let left = span.reduced_rows().split_off(met);
-        (
-            left.into_iter().map(|mut r| r.split_off(gap)).collect(),
-            gap - met,
-        )
+impl<'a> Lane<'a> {
+    fn new(field: Field, space: &'a SelfStressSpace) -> Lane<'a> {
+        Lane {
+            space,
+            arithmetic: Arithmetic::new(field),
+            before: Rows::default(),
+            after: Rows::default(),
+            vector: Vec::new(),
+        }
+    }
+
+    /// Returns the number of coordinates of contours that no variable from number `at` on reaches.
+    fn ended_before(&self, at: usize) -> usize {
+        self.space.contours.partition_point(|c| c.to < at)
+    }
+
+    /// Reads the packed rows before variable number `at`.
+    fn read_rows(&mut self, at: usize, packed: &[Residue]) {
+        let all = self.space.contours.len() + self.space.kept.len();
+        let width = all - self.ended_before(at);
+        self.before.unpack_rows(&mut self.arithmetic, width, packed);
+    }
+
+    /// Returns the packed rows after a choice of variable number `at`, and how many of the coordinates that no later variable reaches are
+    /// missed.
+    fn take_choice(&mut self, at: usize, choice: usize) -> (Vec<Residue>, usize) {
+        let done = self.ended_before(at);
+        let gap = self.ended_before(at + 1) - done;
+        self.after.clone_from(&self.before);
+        for added in &self.space.added[at][choice] {
+            self.vector.clear();
+            self.vector.extend_from_slice(&added[done..]);
+            self.after.insert(&mut self.arithmetic, &mut self.vector);
+        }
+        let missed = gap - self.after.rank_before(gap);
+        self.after.drop_first(gap);
+        (self.after.to_packed(), missed)
     }
 }
 
@@ -61,26 +86,27 @@ impl Lane<'_> {
 pub fn count_everywhere(question: &Question, lasting: &Diagram) -> Option<BigUint> {
     let along = question.throughout.as_ref().ok()?;
     let conditions = &question.conditions;
-    if conditions.max_mobility.is_some() || conditions.max_changes.is_some() {
+    let limited = conditions.max_mobility.is_some() || conditions.max_changes.is_some();
+    if limited || lasting.nodes > LASTING {
         return None;
     }
     let order: Vec<usize> = lasting.layers.iter().map(|l| l.variable).collect();
     let spaces =
         [POWERS, POWERS - 1].map(|powers| space_along_motion(question, along, &order, powers));
-    let lanes = spaces.each_ref().map(|space| Lane {
-        field: question.exact.field(),
-        space,
-    });
     if spaces[0].lasting > spaces[1].lasting {
         return Some(BigUint::zero());
     }
-    let mut layer = BTreeMap::from([([Rows::new(), Rows::new()], BigUint::one())]);
+    let field = question.exact.field();
+    let mut lanes = spaces.each_ref().map(|space| Lane::new(field, space));
+    let mut layer = BTreeMap::from([([Vec::new(), Vec::new()], BigUint::one())]);
     for (at, &variable) in order.iter().enumerate() {
-        let mut next: BTreeMap<[Rows; 2], BigUint> = BTreeMap::new();
-        for (rows, count) in layer {
+        let mut next: BTreeMap<[Vec<Residue>; 2], BigUint> = BTreeMap::new();
+        for (packed, count) in layer {
+            for (lane, packed) in lanes.iter_mut().zip(&packed) {
+                lane.read_rows(at, packed);
+            }
             for choice in 0..question.space.variables[variable].choices.len() {
-                let [(a, more), (b, less)] =
-                    [0, 1].map(|i| lanes[i].take_choice(at, choice, &rows[i]));
+                let [(a, more), (b, less)] = lanes.each_mut().map(|l| l.take_choice(at, choice));
                 if more == less {
                     *next.entry([a, b]).or_default() += &count;
                 }
@@ -91,6 +117,10 @@ pub fn count_everywhere(question: &Question, lasting: &Diagram) -> Option<BigUin
         }
         layer = next;
     }
-    let working = layer.iter().filter(|([a, b], _)| a.len() == b.len());
+    let mut rank = |lane: usize, packed: &[Residue]| {
+        lanes[lane].read_rows(order.len(), packed);
+        lanes[lane].before.rank()
+    };
+    let working = layer.iter().filter(|([a, b], _)| rank(0, a) == rank(1, b));
     Some(working.map(|(_, count)| count).sum())
 }

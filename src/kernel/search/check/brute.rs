@@ -13,7 +13,7 @@ use crate::search::check::variant_mechanism::realize_variant;
 use crate::search::diagram::redundancy_so_far::Redundancy;
 use crate::search::question::Question;
 use crate::search::question::grasp::loose_bodies;
-use crate::search::question::throughout::{ORDER, POWERS};
+use crate::search::question::throughout::ORDER;
 use num_bigint::BigUint;
 use rayon::prelude::*;
 use std::collections::BTreeMap;
@@ -127,41 +127,6 @@ impl Matrices {
             lasts,
             ..Seen::of_ranks(self.all.rows, [rank, with_kept], of_state)
         }
-    }
-}
-
-/// The closure matrices of all variants along the motion, at all powers and at one power less.
-#[derive(Debug)]
-pub struct MatricesAlong {
-    field: Field,
-    powers: [WrittenOut<Residue>; 2],
-}
-
-impl MatricesAlong {
-    /// Writes the columns of a search's space out; `None` if no motion is followed.
-    #[must_use]
-    pub fn new(question: &Question) -> Option<MatricesAlong> {
-        let layout = RowLayout::new(question);
-        let along = |powers| layout.along_motion(question, powers);
-        Some(MatricesAlong {
-            field: question.field().field(),
-            powers: [along(POWERS)?, along(POWERS - 1)?],
-        })
-    }
-
-    /// Returns whether a variant has no redundant constraints and keeps the motion in poses next to the drawn one, which may be singular
-    /// for it.
-    #[must_use]
-    pub fn works_beside(&self, choices: &[usize]) -> bool {
-        let ranks_of = |choices: &[usize]| {
-            let ranks = |of: &WrittenOut<Residue>| free_and_kept_ranks(self.field, of, choices);
-            let [more, less] = self.powers.each_ref().map(ranks);
-            [more[0] - less[0], more[1] - less[1]]
-        };
-        let [rank, with_kept] = ranks_of(choices);
-        let [present, present_with_kept] = ranks_of(&vec![0; choices.len()]);
-        let rows = self.powers[0].rows[0] - self.powers[1].rows[0];
-        rank == rows && with_kept - rank == present_with_kept - present
     }
 }
 

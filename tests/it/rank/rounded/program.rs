@@ -42,43 +42,26 @@ fn value(stdout: &str) -> Value {
 #[test]
 fn every_command_takes_the_mechanism_as_meant() {
     let file = tilted(6);
-    let on = |command: &str, more: &[&str]| run_on(command, "it.toml", &file, more);
-    let (code, stdout, _) = on("analyze", &["--format", "json"]);
-    assert_eq!(code, Some(0));
-    let s = &value(&stdout)["states"][0];
+    let s = &json_on("analyze", "it.toml", &file, "")["states"][0];
     assert_eq!(s["mobility"], 1, "{s:#}");
     assert_eq!(s["redundant"], 3, "{s:#}");
     assert_eq!(s["finite_mobility"], 1);
     assert_eq!(s["as_written"]["mobility"], 0);
-    let (code, stdout, stderr) = on("search", &["--format", "json"]);
-    assert_eq!(code, Some(0), "{stderr}");
-    has(&stderr, "snapped: 4 axes parallel");
-    let v = value(&stdout);
+    let v = json_on("search", "it.toml", &file, "");
     assert_eq!(v["determinate"], "34");
     assert_eq!(v["measured"]["agree"], false);
     assert_eq!(v["measured"]["states"][0]["meant"], "snapped");
-    let (code, stdout, stderr) = on("check", &[]);
-    assert_eq!(code, Some(0));
-    assert!(!stdout.contains(": valid\n"), "{stdout}");
-    has_all(
-        &stderr,
-        &[
-            "the idealised geometry gives W = 1, σ = 3",
-            "W = 0, σ = 2",
-            "degrees",
-            "from parallel",
-        ],
+    let on = |line: &str, more: &str| run_on(line, "it.toml", &file, more);
+    has(
+        &on("check", "").2,
+        "the idealised geometry gives W = 1, σ = 3",
     );
-    let (_, page, _) = on("report", &[]);
-    has(&page, "3 redundant constraints");
-    has(&page, "as written");
-    assert!(on("draw", &["--kind", "scheme"]).1.contains("σ = 3"));
-    let (code, variant, _) = on("export", &["--to", "toml", "--variant", "1"]);
+    has(&on("report", "").1, "3 redundant constraints");
+    has(&on("draw", "--kind scheme").1, "σ = 3");
+    let (code, variant, _) = on("export", "--to toml --variant 1");
     assert_eq!(code, Some(0));
-    let (_, stdout, _) = run_on("analyze", "v.toml", &variant, "--format json");
-    let s = &value(&stdout)["states"][0];
-    assert_eq!(s["mobility"], 1, "{s:#}");
-    assert_eq!(s["redundant"], 0, "{s:#}");
+    let s = &json_on("analyze", "v.toml", &variant, "")["states"][0];
+    assert_eq!((&s["mobility"], &s["redundant"]), (&json!(1), &json!(0)));
 }
 
 #[test]
@@ -107,31 +90,6 @@ fn what_is_meant_is_exported_exactly_and_what_is_written_on_demand() {
     assert!(!told.contains("snapped"), "{told}");
     let same = |text: &str| uncertainties(&read(text));
     assert_eq!(same(&written), same(&file));
-}
-
-/// A door on two coaxial hinges, each with nine digits of its own.
-fn door() -> String {
-    let joints = "
-        low | 0 door | revolute | 0.123456789, 0.234567891, 0.345678912 | 0.267261242, 0.534522484, 0.801783726
-        high | 0 door | revolute | 0.657979273, 1.303612859, 1.949246364 | 0.267261243, 0.534522483, 0.801783726";
-    write_mechanism("name = \"door\"", "0 door*", joints)
-        + "[search]\noptions = [\"spherical\", \"sphere-in-cylinder\"]\n"
-}
-
-#[test]
-fn a_door_on_measured_hinges_has_the_redesigns_of_the_exact_one() {
-    let counts = |file: &str| {
-        let (code, stdout, stderr) = run_on("search", "door.toml", file, "--format json");
-        assert_eq!(code, Some(0), "{stderr}");
-        value(&stdout)["admissible"].clone()
-    };
-    let exact = door()
-        .replace("0.123456789, 0.234567891, 0.345678912", "0, 0, 0")
-        .replace("0.657979273, 1.303612859, 1.949246364", "0, 0, 2")
-        .replace("0.267261242, 0.534522484, 0.801783726", "0, 0, 1")
-        .replace("0.267261243, 0.534522483, 0.801783726", "0, 0, 1");
-    assert_eq!(counts(&exact), "2");
-    assert_eq!(counts(&door()), "2");
 }
 
 /// A wishbone on two bolts, its ball, and the upright on a second ball and a rod: dimensions to 0.01 mm.
@@ -171,40 +129,18 @@ fn nothing_further_than_its_reach_is_nearly_special() {
 }
 
 #[test]
-fn check_says_what_is_nearly_special() {
-    let (_, _, stderr) = run_on("check", "wishbone.toml", &wishbone(), "");
-    has(&stderr, "LF and LR are 0.00");
-    has(&stderr, "from coaxial");
-    for name in ["four-bar", "bennett", "delta", "gripper-10"] {
-        has(&utf8_text(&run(&["check", name]).stdout), ": valid\n");
-    }
-}
-
-#[test]
 fn what_is_not_decided_is_said_so_everywhere() {
     // Twelve digits that agree in six: left over from rounding, or real?
     let file = tilted_by(12, 1e-4);
-    let on = |command: &str, more: &[&str]| run_on(command, "it.toml", &file, more);
-    let (code, stdout, _) = on("analyze", &[]);
-    assert_eq!(code, Some(0));
-    has_all(&stdout, &["undecided", "[tolerance]"]);
-    let (_, stdout, _) = on("analyze", &["--format", "json"]);
-    let s = &value(&stdout)["states"][0];
+    let s = &json_on("analyze", "it.toml", &file, "")["states"][0];
     assert_eq!(s["certainty_kind"], "undecided");
     assert_eq!(s["finite_mobility_proven"], false);
     assert!(
         s["mobility_at_most"].as_i64() > s["mobility"].as_i64(),
         "{s:#}"
     );
-    let (code, stdout, stderr) = on("search", &[]);
-    assert_eq!(code, Some(0), "{stderr}");
-    has_all(&stdout, &["numeric: 0 to ", "is undecided"]);
-    lacks(&stdout, "Checked");
-    has(&stderr, "may be meant to have");
-    has(&stderr, "[tolerance]");
     // Whichever is meant, the truth is in the bracket.
-    let (_, stdout, _) = on("search", &["--format", "json"]);
-    let v = value(&stdout);
+    let v = json_on("search", "it.toml", &file, "");
     let bound = |key: &str| -> u64 {
         let text = v["numeric"]["determinate"][key].word();
         text.parse().unwrap()
@@ -212,13 +148,11 @@ fn what_is_not_decided_is_said_so_everywhere() {
     assert_eq!(v["exact"], false);
     assert_eq!(v["certainty"], "numeric");
     assert!(bound("from") <= 34 && 34 <= bound("to"), "{v:#}");
-    let (_, _, stderr) = on("check", &[]);
-    has(&stderr, "undecided");
+    has(&run_on("check", "it.toml", &file, "").2, "undecided");
     // What it says helps.
     let known = format!("{file}\n[tolerance]\ndirection = 1e-5\n");
-    let (code, stdout, stderr) = run_on("search", "it.toml", &known, "--format json");
-    assert_eq!(code, Some(0), "{stderr}");
-    assert_eq!(value(&stdout)["determinate"], "34", "{stderr}");
+    let v = json_on("search", "it.toml", &known, "");
+    assert_eq!(v["determinate"], "34");
 }
 
 #[test]
@@ -226,20 +160,15 @@ fn the_finite_mobility_is_that_of_the_rank_whatever_the_method() {
     let file = tilted(6);
     let whole = registry::ALL
         .into_iter()
-        .filter(|m| Method::of_method(*m, None).is_some());
+        .filter(|m| Method::of_method(m, None).is_some());
     for method in whole.map(|m| m.name()) {
         for tolerance in [None, Some("1e-4"), Some("1e-12")] {
             if tolerance.is_some() && ["auto", "modular", "rational", "finite"].contains(&method) {
                 continue;
             }
-            let more: Vec<&str> = tolerance
-                .into_iter()
-                .flat_map(|t| ["--tolerance", t])
-                .collect();
-            let args = [&["--format", "json", "--method", method], &more[..]].concat();
-            let (code, stdout, stderr) = run_on("analyze", "it.toml", &file, &args);
-            assert_eq!(code, Some(0), "{stderr}");
-            let s = &value(&stdout)["states"][0];
+            let tolerance = tolerance.map_or(String::new(), |t| format!("--tolerance {t}"));
+            let more = format!("--method {method} {tolerance}");
+            let s = &json_on("analyze", "it.toml", &file, &more)["states"][0];
             let figure = |key: &str| s[key].as_i64();
             let (w, finite) = (figure("mobility"), figure("finite_mobility"));
             // A four-bar in a regular pose: what moves at first order moves.
@@ -269,13 +198,7 @@ fn a_tolerance_is_never_ignored() {
     // Exact geometry, too: the tilt of 1e-3 is nothing to 1e-2.
     let exact =
         run_quiet("show four-bar").replacen("axis = [0, 0, 1]", "axis = [0, \"1/1000\", 1]", 1);
-    let w = |more: &[&str]| {
-        let words = [&["--format", "json"], more].concat();
-        let (_, stdout, _) = run_on("analyze", "it.toml", &exact, &words);
-        value(&stdout)["states"][0]["mobility"].as_i64().unwrap()
-    };
-    assert_eq!(
-        (w(&[]), w(&["--method", "svd", "--tolerance", "1e-2"])),
-        (0, 1)
-    );
+    let w =
+        |more: &str| json_on("analyze", "it.toml", &exact, more)["states"][0]["mobility"].whole();
+    assert_eq!((w(""), w("--method svd --tolerance 1e-2")), (0, 1));
 }

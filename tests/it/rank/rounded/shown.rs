@@ -31,24 +31,6 @@ fn wedge_chuck(number: &dyn Fn(&str, f64) -> String) -> String {
     write_mechanism("name = \"it\"", "0 bar jaw1 jaw2 jaw3*", &joints)
 }
 
-/// A double wishbone: each arm on two bushes along a slanted line, a knuckle between two ball joints, a tie rod.
-fn double_wishbone() -> String {
-    write_mechanism(
-        "name = \"it\"",
-        "0 lower upper tie knuckle*",
-        "
-        lower-front | 0 lower | revolute | -150, 350, 95 | 310, -12, 8
-        lower-rear | 0 lower | revolute | 160, 338, 103 | 310, -12, 8
-        upper-front | 0 upper | revolute | -90, 420, 310 | 200, 9, -14
-        upper-rear | 0 upper | revolute | 110, 429, 296 | 200, 9, -14
-        lower-ball | lower knuckle | spherical | 4, 720, 80 | 0, 0, 1
-        upper-ball | upper knuckle | spherical | -9, 680, 330 | 0, 0, 1
-        rack-end | 0 tie | spherical | -120, 360, 150 | 0, 0, 1
-        tie-end | tie knuckle | spherical | -130, 700, 140 | 0, 0, 1
-        ",
-    )
-}
-
 /// A tailgate: a lid on two hinges across the car, and a strut of two tubes on either side.
 fn tailgate() -> String {
     write_mechanism(

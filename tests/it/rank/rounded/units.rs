@@ -17,7 +17,6 @@ fn measured(name: &str, decimals: usize) -> Mechanism {
 fn units(m: &Mechanism) -> [f64; 2] {
     let half = uncertainties(m).unwrap();
     let largest = |v: &[f64; 3]| v.iter().copied().fold(0.0, f64::max);
-    let length = |v: [f64; 3]| v.iter().map(|x| x * x).sum::<f64>().sqrt();
     let points = half
         .frames
         .iter()
@@ -40,11 +39,11 @@ fn what_rounding_can_do_is_that_of_all_hinges_together() {
         assert!(m.joints.iter().all(|j| j.joint_type == JointType::Revolute));
         let closure = Closure::new(&Reals, &m, StateId::FREE).unwrap();
         let half = uncertainties(&m).unwrap();
-        let norm = |v: [f64; 3]| v.iter().map(|x| x * x).sum::<f64>().sqrt();
         let size = Scaling::of_closure(&closure).length();
         let off = |j: JointId| {
-            let axis = norm(half.frames[j.index()].axis) / norm(to_vector(&m.joints[j].frame.axis));
-            2.0 * axis + norm(half.frames[j.index()].point) / size
+            let axis =
+                length(half.frames[j.index()].axis) / length(to_vector(&m.joints[j].frame.axis));
+            2.0 * axis + length(half.frames[j.index()].point) / size
         };
         let passed = closure.contours.iter().flat_map(|c| &c.joints);
         let squares: f64 = passed.map(|&(j, _)| off(j).powi(2)).sum();
@@ -91,10 +90,6 @@ fn moves_are_of_points_axes_and_references() {
     let (still, angle) = (s.written.clone(), 0.01f64);
     let leaned = |v: &[Expr; 3], other: &[Expr; 3]| -> [Expr; 3] {
         let [v, other] = [v, other].map(to_vector);
-        let unit = |v: [f64; 3]| {
-            let size = v.iter().map(|x| x * x).sum::<f64>().sqrt();
-            v.map(|x| x / size)
-        };
         let (v, w) = (unit(v), unit(other));
         [0, 1, 2].map(|i| Expr::from_f64(v[i] + angle.tan() * w[i]).unwrap())
     };

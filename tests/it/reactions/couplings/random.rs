@@ -25,29 +25,13 @@ impl Random {
     }
 }
 
-const HEAD: &str =
-    "name = \"random\"\nlength_unit = \"mm\"\n[[link]]\nid = \"0\"\nrole = \"frame\"\n";
-
-fn link(id: usize, output: bool) -> String {
-    let role = if output { "role = \"output\"\n" } else { "" };
-    format!("[[link]]\nid = \"{id}\"\n{role}")
-}
-
-fn joint(id: &str, links: [usize; 2], kind: &str, point: [i64; 3], more: &str) -> String {
-    let [a, b] = links;
-    format!(
-        "[[joint]]\nid = \"{id}\"\nlinks = [\"{a}\", \"{b}\"]\ntype = \"{kind}\"\npoint = {point:?}\n{more}\n"
-    )
-}
+const HEAD: &str = "name = \"random\"\nlength_unit = \"mm\"";
 
 /// A tree of hinges and slides, each coupled to one before it, so that one motion is left: gears about parallel axes, racks, and
 /// what only says its ratio.
 pub(super) fn train(random: &mut Random) -> String {
     let n = 3 + random.below(3);
-    let (mut text, mut slides) = (HEAD.to_owned(), vec![false]);
-    for l in 1..=n {
-        text += &link(l, l == n);
-    }
+    let (mut joints, mut slides) = (String::new(), vec![false]);
     for l in 1..=n {
         // On the frame more often than on a link before.
         let on = if random.below(10) < 7 {
@@ -55,23 +39,19 @@ pub(super) fn train(random: &mut Random) -> String {
         } else {
             random.below(l as u64)
         };
-        let point = [random.around(60), random.around(60), 0];
+        let point = commas([random.around(60), random.around(60), 0]);
         let (kind, axis) = match random.below(4) {
             0 => ("prismatic", [1 + random.around(1) * 2, random.around(3), 0]),
             1 => ("revolute", [1, -2, 2]),
             _ => ("revolute", random.one_of(&[[0, 0, 1], [0, 0, -2]])),
         };
-        let links = random.one_of(&[[on, l], [l, on]]);
-        let drive = if l == 1 { "drive = true" } else { "" };
-        text += &joint(
-            &format!("j{l}"),
-            links,
-            kind,
-            point,
-            &format!("axis = {axis:?}\n{drive}"),
-        );
+        let [a, b] = random.one_of(&[[on, l], [l, on]]);
+        let (axis, drive) = (commas(axis), l == 1);
+        joints += &format!("j{l} | {a} {b} | {kind} | {point} | {axis} | drive = {drive}\n");
         slides.push(kind == "prismatic");
     }
+    let links = (0..=n).map(|l| l.to_string()).join(" ") + "*";
+    let mut text = write_mechanism(HEAD, &links, &joints);
     for (l, slide) in slides.iter().enumerate().skip(2) {
         let to = 1 + random.below(l as u64 - 1);
         let ratio = random.one_of(&[-2, -1, 3, -3, 5]);
@@ -87,32 +67,27 @@ pub(super) fn train(random: &mut Random) -> String {
 
 /// A loop in space with two geared cranks on the frame and nothing redundant: 1 + 1 + 3 + 2 + 1 freedoms, 6 rows and the gear.
 pub(super) fn five_bar(random: &mut Random) -> String {
-    let mut text = HEAD.to_owned();
-    (1..5).for_each(|l| text += &link(l, l == 2));
-    let mut point = || [random.around(50), random.around(50), 20 + random.around(30)];
+    let mut point = || commas([random.around(50), random.around(50), 20 + random.around(30)]);
     let [b, c, d] = [point(), point(), point()];
     let mut axis = || {
-        [
+        commas([
             1 + random.below(4) as i64,
             random.around(4),
             random.around(4),
-        ]
+        ])
     };
     let (second, third) = (axis(), axis());
-    text += &joint(
-        "a",
-        [0, 1],
-        "revolute",
-        [0, 0, 0],
-        "axis = [0, 0, 1]\ndrive = true",
+    let joints = format!(
+        "a | 0 1 | revolute | 0, 0, 0 | 0, 0, 1 | drive = true
+         b | 1 2 | spherical | {b}
+         c | 2 3 | revolute | {c} | {second}
+         d | 3 4 | universal | {d} | {third}
+         e | 4 0 | revolute | 90, 20, 0 | 0, 0, 1"
     );
-    text += &joint("b", [1, 2], "spherical", b, "");
-    text += &joint("c", [2, 3], "revolute", c, &format!("axis = {second:?}"));
-    text += &joint("d", [3, 4], "universal", d, &format!("axis = {third:?}"));
-    text += &joint("e", [4, 0], "revolute", [90, 20, 0], "axis = [0, 0, 1]");
     let ratio = random.one_of(&[-2, -1, 3, -3]);
     let gear = random.below(10) < 7;
-    text + &format!("[[coupling]]\njoints = [\"a\", \"e\"]\nratio = {ratio}\ngear = {gear}\n")
+    write_mechanism(HEAD, "0 1 2* 3 4", &joints)
+        + &format!("[[coupling]]\njoints = [\"a\", \"e\"]\nratio = {ratio}\ngear = {gear}\n")
 }
 
 /// Forces at random points of every link but the frame, and moments.

@@ -13,6 +13,17 @@ struct Push {
     moment: V,
 }
 
+impl Push {
+    fn new(link: LinkId, force: V, at: V, moment: V) -> Push {
+        Push {
+            link,
+            force,
+            at,
+            moment,
+        }
+    }
+}
+
 /// The equations of the pose of the file; lengths in metres.
 pub(super) struct Twin {
     rows: Vec<Vec<f64>>,
@@ -25,22 +36,10 @@ pub(super) struct Twin {
 
 /// Directions of a joint's freedoms: (whether it is a slide, the direction).
 fn freedoms(m: &Mechanism, j: JointId) -> Vec<(Freedom, bool, V)> {
-    let frame = &m.joints[j].frame;
-    let z = unit(to_vector(&frame.axis));
-    let r = to_vector(&frame.reference);
-    let x = unit(sub(r, scale(z, dot(r, z))));
-    let y = cross(z, x);
-    let one = |f: &Freedom| match f {
-        Freedom::Rx => (*f, false, x),
-        Freedom::Ry => (*f, false, y),
-        Freedom::Rz => (*f, false, z),
-        Freedom::Tx => (*f, true, x),
-        Freedom::Ty => (*f, true, y),
-        Freedom::Tz => (*f, true, z),
-        Freedom::Screw => panic!("no screws here"),
-    };
     assert_ne!(m.joints[j].joint_type, JointType::Fixed);
-    m.joints[j].joint_type.freedoms().iter().map(one).collect()
+    let own = m.joints[j].joint_type.freedoms().iter();
+    own.map(|&f| (f, f.is_slide(), direction_of(&m.joints[j].frame, f)))
+        .collect()
 }
 
 /// Where two pitch circles touch and the direction across their centre line, from their radii: centres apart by the sum of
@@ -116,19 +115,9 @@ impl Twin {
             for i in 0..3 {
                 for (link, sign) in m.joints[j].links.into_iter().zip([-1.0, 1.0]) {
                     let force = scale(e(i), sign);
-                    let push = Push {
-                        link,
-                        force,
-                        at,
-                        moment: [0.0; 3],
-                    };
+                    let push = Push::new(link, force, at, [0.0; 3]);
                     put(&mut out.rows, 6 * n + i, push);
-                    let push = Push {
-                        link,
-                        force: [0.0; 3],
-                        at,
-                        moment: force,
-                    };
+                    let push = Push::new(link, [0.0; 3], at, force);
                     put(&mut out.rows, 6 * n + 3 + i, push);
                 }
             }
@@ -151,16 +140,8 @@ impl Twin {
             if let Some((first, second, at, way)) = mesh {
                 for (link, sign) in [(first, 1.0), (second, -1.0)] {
                     let force = scale(way, sign);
-                    put(
-                        &mut out.rows,
-                        column,
-                        Push {
-                            link,
-                            force,
-                            at,
-                            moment: [0.0; 3],
-                        },
-                    );
+                    let push = Push::new(link, force, at, [0.0; 3]);
+                    put(&mut out.rows, column, push);
                 }
                 continue;
             }
@@ -181,16 +162,7 @@ impl Twin {
                     } else {
                         (none, along)
                     };
-                    put(
-                        &mut out.rows,
-                        column,
-                        Push {
-                            link,
-                            force,
-                            at,
-                            moment,
-                        },
-                    );
+                    put(&mut out.rows, column, Push::new(link, force, at, moment));
                 }
             }
         }

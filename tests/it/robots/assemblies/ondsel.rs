@@ -83,36 +83,6 @@ fn each_joint_leaves_six_less_its_constraints() {
     assert_eq!(i.mechanism.length_unit.symbol, "m");
 }
 
-// The origins are 7.07 apart and the axes 30 degrees; an angle joint of 30 degrees fits.
-#[test]
-fn misfits_are_of_what_is_held() {
-    for (kind, figure, told) in [
-        ("Revolute", "", "7.1 mm and 30.0 degrees"),
-        ("Spherical", "", "7.1 mm apart"),
-        ("ParallelAxes", "", "30.0 degrees apart"),
-        ("Planar", "offset 4.5", "0.5 mm and 30.0 degrees"),
-        ("SphSph", "distanceIJ 7", "7.1e-2 mm"),
-    ] {
-        let text = asmt("OndselSolver", kind, figure);
-        let i = read("x.asmt", text.as_bytes(), &Options::default());
-        let notes: Vec<&str> = i
-            .report
-            .approximated
-            .iter()
-            .map(|n| n.what.as_str())
-            .collect();
-        assert!(notes.iter().any(|n| n.contains(told)), "{kind}: {notes:?}");
-    }
-    let text = asmt("OndselSolver", "Angle", "theIzJz 0.5235987755982988");
-    let i = read("x.asmt", text.as_bytes(), &Options::default());
-    assert!(
-        !i.report
-            .approximated
-            .iter()
-            .any(|n| n.what.contains("apart"))
-    );
-}
-
 #[test]
 fn a_type_that_is_not_known_is_named_with_those_that_are() {
     let text = asmt("OndselSolver", "Wobbly", "");

@@ -6,81 +6,39 @@ use crate::common::*;
 /// MuJoCo's `fullinertia`. Centres are in metres, from the link's own origin where links have one at their joint.
 #[test]
 fn masses_and_products_of_inertia_are_in_the_formats_own_order() {
-    let text = "name = \"arm\"\nlength_unit = \"mm\"\n[[link]]\nid = \"0\"\nrole = \"frame\"\n[[link]]\nid = \"1\"\nrole = \"output\"\n\
-        mass = 2.5\ncentre = [10, 20, 30]\ninertia = [1.5, 2.5, 3.5, 0.25, -0.5, 0.75]\n[[joint]]\nid = \"A\"\n\
-        links = [\"0\", \"1\"]\ntype = \"revolute\"\npoint = [4, 8, 16]\naxis = [0, 1, 0]\n";
-    let m = read(text);
-    let [xx, yy, zz, xy, yz, zx] = [1.5, 2.5, 3.5, 0.25, -0.5, 0.75];
-    let entries = [
-        ("ixx", xx),
-        ("iyy", yy),
-        ("izz", zz),
-        ("ixy", xy),
-        ("ixz", zx),
-        ("iyz", yz),
-    ];
-    let numbers = |text: &str| -> Vec<f64> {
-        text.split_whitespace()
-            .map(|x| x.parse().unwrap())
-            .collect()
-    };
-    let near = |found: &[f64], wanted: &[f64], what: &str| {
-        assert_eq!(found.len(), wanted.len(), "{what}");
-        let all = found.iter().zip(wanted);
-        all.for_each(|(f, w)| assert!((f - w).abs() < 1e-12, "{what}: {found:?} {wanted:?}"));
-    };
-    let from_joint = [0.006, 0.012, 0.014];
-    let parsed = |to: &str| formats::write(&m, to).unwrap();
-    let mjcf = parsed("mjcf");
-    let xml = roxmltree::Document::parse(&mjcf).unwrap();
-    let inertial = xml
-        .descendants()
-        .find(|n| n.has_tag_name("inertial"))
-        .unwrap();
-    let of = |name: &str| numbers(inertial.attribute(name).unwrap());
-    near(&of("pos"), &from_joint, "mjcf");
-    near(&of("mass"), &[2.5], "mjcf");
-    near(&of("fullinertia"), &[xx, yy, zz, xy, zx, yz], "mjcf");
-    let urdf = parsed("urdf");
-    let xml = roxmltree::Document::parse(&urdf).unwrap();
-    let one = |tag: &str| {
-        let inertial = xml
-            .descendants()
-            .find(|n| n.has_tag_name("inertial"))
-            .unwrap();
-        inertial.children().find(|n| n.has_tag_name(tag)).unwrap()
-    };
-    near(
-        &numbers(one("origin").attribute("xyz").unwrap()),
-        &from_joint,
-        "urdf",
+    let arm = write_mechanism(
+        "name = \"arm\"\nlength_unit = \"mm\"",
+        "0 1*",
+        "A | 0 1 | revolute | 4, 8, 16 | 0, 1, 0",
     );
-    near(
-        &numbers(one("mass").attribute("value").unwrap()),
-        &[2.5],
-        "urdf",
-    );
-    for (name, value) in entries {
-        near(
-            &numbers(one("inertia").attribute(name).unwrap()),
-            &[value],
-            name,
-        );
-    }
-    let sdf = parsed("sdf");
-    let xml = roxmltree::Document::parse(&sdf).unwrap();
-    let inertial = xml
-        .descendants()
-        .find(|n| n.has_tag_name("inertial"))
-        .unwrap();
-    let one = |tag: &str| {
-        let found = inertial.descendants().find(|n| n.has_tag_name(tag));
-        numbers(found.unwrap().text().unwrap())
-    };
-    near(&one("pose")[..3], &[0.01, 0.02, 0.03], "sdf");
-    near(&one("mass"), &[2.5], "sdf");
-    for (name, value) in entries {
-        near(&one(name), &[value], name);
+    let mass = "role = \"output\"\nmass = 2.5\ncentre = [10, 20, 30]\ninertia = [1.5, 2.5, 3.5, 0.25, -0.5, 0.75]";
+    let m = read(&replace_once(&arm, "role = \"output\"", mass));
+    for [to, places, wanted] in read_cases::<3>(
+        "
+        mjcf | inertial.pos | 0.006 0.012 0.014
+        mjcf | inertial.mass | 2.5
+        mjcf | inertial.fullinertia | 1.5 2.5 3.5 0.25 0.75 -0.5
+        urdf | origin.xyz | 0.006 0.012 0.014
+        urdf | mass.value | 2.5
+        urdf | inertia.ixx inertia.iyy inertia.izz inertia.ixy inertia.ixz inertia.iyz | 1.5 2.5 3.5 0.25 0.75 -0.5
+        sdf | pose | 0.01 0.02 0.03 0 0 0
+        sdf | mass ixx iyy izz ixy ixz iyz | 2.5 1.5 2.5 3.5 0.25 0.75 -0.5
+        ",
+    ) {
+        let text = formats::write(&m, to).unwrap();
+        let xml = roxmltree::Document::parse(&text).unwrap();
+        let tagged = |tag: &'static str| move |n: &roxmltree::Node<'_, '_>| n.has_tag_name(tag);
+        let inertial = xml.descendants().find(tagged("inertial")).unwrap();
+        let numbers = places.split(' ').flat_map(|place| {
+            let (tag, attribute) = place.split_once('.').unwrap_or((place, ""));
+            let found = inertial.descendants().find(tagged(tag)).unwrap();
+            let text = found.attribute(attribute).or(found.text()).unwrap();
+            text.split_whitespace().map(|x| x.parse::<f64>().unwrap()).collect_vec()
+        });
+        let wanted = wanted.split(' ').map(|x| x.parse::<f64>().unwrap());
+        for (found, wanted) in numbers.zip_eq(wanted) {
+            near(found, wanted, 1e-12);
+        }
     }
 }
 

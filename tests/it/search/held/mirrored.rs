@@ -1,17 +1,11 @@
 //! Mirror pairs that are none.
 
-use super::run_search;
+use super::{refused, run_search};
 use crate::common::*;
 use ozols::search::question::conditions::Symmetry;
 
 fn gripper() -> String {
     builtin::text("gripper-10").unwrap().to_owned()
-}
-
-fn refused(args: &[&str]) -> String {
-    let (code, told, said) = run_full(args);
-    assert_eq!((code, &*told), (Some(2), ""), "{args:?}");
-    said
 }
 
 #[test]

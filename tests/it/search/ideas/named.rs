@@ -75,28 +75,27 @@ fn freedoms_of_unloading_joints_are_named_and_counted() {
 
 /// Four-bars on the frame, side by side, their hinges along a direction; the first hinge has the motor, or none.
 fn four_bars(places: &[[[i32; 3]; 4]], axis: [i32; 3], driven: bool) -> Mechanism {
-    // Named at the joint, so that one with the motor has them, too.
-    let options = r#"options = ["revolute", "cylindrical", "spherical"]"#;
-    let mut text = "name = \"four\"\n[[link]]\nid = \"0\"\nrole = \"frame\"\n".to_owned();
+    let (mut links, mut joints) = ("0".to_owned(), String::new());
     for (k, at) in places.iter().enumerate() {
-        let links = [
+        links += &format!(" a{k} b{k}* c{k}");
+        let names = [
             "0".to_owned(),
             format!("a{k}"),
             format!("b{k}"),
             format!("c{k}"),
         ];
-        for (link, role) in links.iter().zip(["", "", "role = \"output\"", ""]).skip(1) {
-            text += &format!("[[link]]\nid = \"{link}\"\n{role}\n");
-        }
         for (i, place) in at.iter().enumerate() {
-            let (from, to) = (&links[i], &links[(i + 1) % 4]);
+            let (from, to) = (&names[i], &names[(i + 1) % 4]);
+            let (place, axis) = (commas(place), commas(axis));
             let drive = driven && k == 0 && i == 0;
-            text += &format!(
-                "[[joint]]\nid = \"{from}-{to}\"\nlinks = [\"{from}\", \"{to}\"]\ntype = \"revolute\"\npoint = {place:?}\naxis = {axis:?}\ndrive = {drive}\n{options}\n",
+            joints += &format!("{from}-{to} | {from} {to} | revolute | {place} | {axis}");
+            // Named at the joint, so that one with the motor has them, too.
+            joints += &format!(
+                " | drive = {drive}\\noptions = [\"revolute\", \"cylindrical\", \"spherical\"]\n"
             );
         }
     }
-    ozols::from_toml(&text).unwrap()
+    read(&write_mechanism("name = \"four\"", &links, &joints))
 }
 
 fn ideas(m: &Mechanism) -> Vec<Idea> {

@@ -3,30 +3,23 @@
 use crate::common::*;
 /// The file; fingers are each other's mirror image, or half a turn.
 pub(super) fn gripper(type_of_plunger: &str, turned: bool, options: &str) -> String {
-    let mut text = format!(
-        "name = \"toggle-gripper\"\nlength_unit = \"mm\"\n[search]\noptions = [{options}]\n\
-         [[joint]]\nid = \"P\"\nlinks = [\"0\", \"plunger\"]\ntype = \"{type_of_plunger}\"\npoint = [0, 0, 0]\naxis = [1, 0, 0]\n\
-         drive = true\noptions = []\n"
+    let mut joints = format!(
+        "P | 0 plunger | {type_of_plunger} | 0, 0, 0 | 1, 0, 0 | drive = true\\noptions = []\n"
     );
-    for (id, role) in [("0", "role = \"frame\""), ("plunger", "")] {
-        text += &format!("[[link]]\nid = \"{id}\"\n{role}\n");
-    }
     for (k, side) in [(1, 1), (2, -1)] {
-        text +=
-            &format!("[[link]]\nid = \"rod-{k}\"\n[[link]]\nid = \"jaw-{k}\"\nrole = \"output\"\n");
-        for (id, links, x, y) in [
-            ("A", ["plunger".to_owned(), format!("rod-{k}")], 0, 8),
-            ("B", [format!("rod-{k}"), format!("jaw-{k}")], 6, 30),
-            ("C", [format!("jaw-{k}"), "0".to_owned()], 30, 25),
+        let z = if turned { side } else { 1 };
+        for (id, ends, x, y) in [
+            ("A", format!("plunger rod-{k}"), 0, 8),
+            ("B", format!("rod-{k} jaw-{k}"), 6, 30),
+            ("C", format!("jaw-{k} 0"), 30, 25),
         ] {
-            let axis = if turned { side } else { 1 };
-            text += &format!(
-                "[[joint]]\nid = \"{id}{k}\"\nlinks = {links:?}\ntype = \"revolute\"\npoint = [{x}, {}, 0]\naxis = [0, 0, {axis}]\n",
-                side * y
-            );
+            let y = side * y;
+            joints += &format!("{id}{k} | {ends} | revolute | {x}, {y}, 0 | 0, 0, {z}\n");
         }
     }
-    text
+    let head = "name = \"toggle-gripper\"\nlength_unit = \"mm\"";
+    let head = format!("{head}\n[search]\noptions = [{options}]");
+    write_mechanism(&head, "0 plunger rod-1 jaw-1* rod-2 jaw-2*", &joints)
 }
 
 /// The changes of each idea, by joint.

@@ -1,6 +1,6 @@
 //! Chains grown from Assur groups decompose into them again.
 
-use super::super::{J, planar_file, read_planar, sliding_joint, turning_joint};
+use super::super::{J, planar_file, sliding_joint, turning_joint};
 use super::{by_brute_force, laws};
 use crate::common::*;
 use ozols::statics::assur::decompose_alternatives;
@@ -82,7 +82,7 @@ fn grown_mechanism(joints: &[J]) -> PlanarMechanism {
             format!("[[joint]]\nid = \"j{n} {part}")
         }
     });
-    PlanarMechanism::new(&read_planar(&renamed.collect::<String>()), StateId::FREE).unwrap()
+    PlanarMechanism::new(&read(&renamed.collect::<String>()), StateId::FREE).unwrap()
 }
 
 proptest! {
