@@ -6,11 +6,9 @@ use ozols::accuracy::lattice::make_lift;
 use ozols::accuracy::searching::record::{Bracket, Record, Share, Trial, Way};
 use ozols::accuracy::searching::{MECHANISMS, TrialEffort, run_trial};
 use ozols::accuracy::timing::Stopwatch;
-use ozols::rank::numeric::Elimination;
 use ozols::search::check::brute::{Matrices, Seen};
 use ozols::search::check::brute_float::Approximate;
 use ozols::search::check::pruned::Pruned;
-use ozols::search::check::singular_values;
 
 const EFFORT: TrialEffort = TrialEffort {
     looked: 400,

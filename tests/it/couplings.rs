@@ -272,7 +272,6 @@ fn certificates_hold_the_coupling() {
 
 #[test]
 fn couplings_have_mirror_images() {
-    use ozols::search::question::conditions::Symmetry;
     let text = pair(
         TURN,
         TURN,

@@ -19,7 +19,6 @@ mod unread;
 
 use ozols::file::write::mechanism_file;
 use ozols::redundancy::analysis::Elimination;
-use ozols::robots::Options;
 
 pub(crate) fn folder() -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("tests/data/robots")

@@ -132,7 +132,7 @@ fn a_driven_slide_has_a_straight_arrow() {
     });
     assert!(slides > 20 && turns > 40, "{slides} {turns}");
     // Its drive is left open between a turn and a slide, and only the slide moves the jaws: along x, in the plane.
-    let gripper = drawn(&read(builtin::text("gripper-10").unwrap()));
+    let gripper = drawn(&built_in("gripper-10"));
     assert!(!has_ring(&gripper.svg, "0-1"));
     let arrows = straight_arrows(&gripper.svg, "0-1");
     assert_eq!(arrows.len(), 1, "{arrows:?}");
@@ -146,7 +146,7 @@ fn a_driven_slide_has_a_straight_arrow() {
 /// Both racks of the gripper are lines that touch the circle of their pinion, between the pinions.
 #[test]
 fn a_rack_touches_the_pitch_circle_of_its_pinion() {
-    let gripper = drawn(&read(builtin::text("rack-gripper").unwrap()));
+    let gripper = drawn(&built_in("rack-gripper"));
     let doc = roxmltree::Document::parse(&gripper.svg).unwrap();
     let pitch = |n: &roxmltree::Node<'_, '_>| n.attribute("class") == Some("fine pitch");
     let paths = doc.descendants().filter(|n| n.has_tag_name("path"));
@@ -220,7 +220,7 @@ fn long_names_are_never_alike() {
 #[test]
 fn links_of_spherical_linkages_are_arcs() {
     for (name, links) in [("spherical-four-bar", 3), ("spherical-five-bar", 4)] {
-        let d = drawn(&read(builtin::text(name).unwrap()));
+        let d = drawn(&built_in(name));
         let doc = roxmltree::Document::parse(&d.svg).unwrap();
         let groups = doc.descendants().filter(|n| n.has_attribute("data-link"));
         let bars: Vec<Vec<Point>> = groups

@@ -15,10 +15,6 @@ fn text() -> &'static str {
     builtin::text("lever-gripper").unwrap()
 }
 
-fn built_in() -> Mechanism {
-    mechanism_from_str("lever-gripper", text()).unwrap()
-}
-
 fn clamped(m: &Mechanism) -> Gripping {
     Gripping::new(m, StateId::new(1)).unwrap().unwrap()
 }
@@ -79,7 +75,7 @@ fn the_drive_bears_what_the_grip_asks() {
 /// By virtual work, without moments and arms: the jaws' points are moved with the drive and the forces' work is added up.
 #[test]
 fn the_contact_forces_do_the_work_of_the_drive_and_no_other() {
-    let m = built_in();
+    let m = built_in("lever-gripper");
     let g = clamped(&m);
     let metres = m.length_unit.metres;
     for row in &g.study.rows {
@@ -115,7 +111,7 @@ fn the_contact_forces_do_the_work_of_the_drive_and_no_other() {
 /// What the part puts on the jaws is its weight and inertia, about any point.
 #[test]
 fn jaws_bear_the_part() {
-    let m = built_in();
+    let m = built_in("lever-gripper");
     let g = clamped(&m);
     for row in &g.study.rows {
         let (loads, hardest) = (g.jaw_loads(row).unwrap(), row.hardest.as_ref().unwrap());
@@ -177,7 +173,7 @@ fn loads_follow_the_gripper_in_the_files_axes() {
 /// A hinge is the same whichever of its links is named first.
 #[test]
 fn levers_turn_the_same_way_whichever_link_is_named_first() {
-    let before = built_in();
+    let before = built_in("lever-gripper");
     let a = clamped(&before);
     let hinges = |m: &Mechanism| -> Vec<_> {
         let all = m.joint_ids();
@@ -223,7 +219,7 @@ fn links_feel_the_case() {
 
 #[test]
 fn a_grip_without_load_has_no_forces() {
-    let mut m = built_in();
+    let mut m = built_in("lever-gripper");
     m.edit().loads = default_with(|l: &mut Loads| l.grip = m.loads.grip.clone());
     let g = clamped(&m);
     assert!(matches!(

@@ -1,7 +1,6 @@
 //! What singular values say of a geometry that is a little off is what exact arithmetic says of the one that is not.
 
 use crate::common::*;
-use ozols::rank::numeric::Elimination;
 use ozols::rank::numeric::scaling::rank_of_values;
 
 /// The mechanism with every number off by some billionths; axes of planar models stay as they are.

@@ -46,7 +46,7 @@ fn couplings_remember_what_has_moved() {
 /// A link behind a joint that is named from it to the frame moves by the other sign.
 #[test]
 fn paths_pass_joints_either_way() {
-    let m = ozols::builtin::text("four-bar").map(read).unwrap();
+    let m = built_in("four-bar");
     let pose = Pose::of_file(&m, StateId::FREE).unwrap();
     let joint = pose.columns[0].joint;
     let rows = |forward: bool| {
@@ -64,7 +64,7 @@ fn paths_pass_joints_either_way() {
 /// A way of the outputs counts from the pose of the file, to either side alike.
 #[test]
 fn ways_count_from_the_files_pose() {
-    let m = ozols::builtin::text("four-bar").map(read).unwrap();
+    let m = built_in("four-bar");
     let pose = Pose::of_file(&m, StateId::FREE).unwrap();
     let way = working_way(&m, StateId::FREE, &pose, 20).unwrap();
     assert!(way.start > 0);

@@ -102,9 +102,8 @@ fn energies(m: &Mechanism, c: &Cycle, at: f64, speed: f64) -> f64 {
         let Some(mass) = &link.mass else { continue };
         let file = to_vector(&mass.centre);
         let place = |pose: &Pose| {
-            let p = [0, 1, 2].map(|i| (file[i] - pose.middle[i]) / pose.length);
-            let to = pose.links[l].map_point(p);
-            [0, 1, 2].map(|i| (pose.middle[i] + pose.length * to[i]) * metres)
+            let to = pose.carry_point(&pose.links, l, file);
+            to.map(|x| x * metres)
         };
         let axis = |pose: &Pose, i: usize| {
             pose.links[l].map_direction([0, 1, 2].map(|k| f64::from(u8::from(k == i))))

@@ -7,8 +7,6 @@ mod retyped;
 mod told;
 mod wrong;
 
-use ozols::robots::Options;
-
 /// What is read of bytes under a name, with no files beside.
 pub(crate) fn read(name: &str, bytes: &[u8], options: &Options) -> Imported {
     import(name, bytes, &crate::robots::no_files, options).unwrap_or_else(|e| panic!("{name}: {e}"))

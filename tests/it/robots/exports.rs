@@ -89,6 +89,8 @@ fn import_undoes_export_of_rich_workloads() {
         drive(
             "inertia = 0.3\npayload_radius = 7\nmotion = \"reversing\"\nswings = 5\ndwell = 0.1\nmissing_angle = 1.1\nviscous_damping = 0.01",
         ),
+        text("gripper-10")
+            + "\n[tolerances]\nfit = \"coarse\"\nangle = \"0.1deg\"\nhand_force = 200\n[[tolerances.joint]]\njoint = \"1-2\"\nposition = 0.02\n",
         drive(
             "inertia = 0.3\nspring_stroke = 10.1\ncam_efficiency = 0.7\nfeed_energy = 0.2\nfeed_from = -3.3\nlatch_capture = 0.7\ndiameters = [5, 3]\ntorsion_length = 300.7\nmax_length = 900",
         ),

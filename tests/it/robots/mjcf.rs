@@ -2,7 +2,6 @@
 
 use crate::common::*;
 use crate::robots::{message_of, no_files, numeric_figures, read_robot};
-use ozols::robots::Options;
 
 // MuJoCo's values count from `ref`, where the model is as drawn; the pose is in radians whatever the file's unit.
 #[test]
@@ -38,10 +37,7 @@ pub(crate) fn mjcf(body: &str) -> String {
 }
 
 pub(crate) fn toml_of(name: &str, text: &str) -> String {
-    match import(name, text.as_bytes(), &no_files, &Options::default()) {
-        Ok(i) => i.toml().unwrap(),
-        Err(e) => panic!("{e}\n{text}"),
-    }
+    read_robot(name, text).toml().unwrap()
 }
 
 // A quarter turn of z to -y, said in every way there is; then a hinge at (0, 0, 1) of the turned body.
@@ -229,28 +225,6 @@ fn includes_on_disk() {
         out.put("inner/main.xml", mjcf(&format!("<include file='{file}'/>")));
         let (found, ..) = out.run("export inner/main.xml --to toml");
         assert_eq!(found, Some(code), "{file}");
-    }
-}
-
-// Each copy stands where the step takes it from the one before, in that one's own axes: round a square, as MuJoCo has it.
-#[test]
-fn mjcf_replicates_go_round() {
-    let t = toml_of(
-        "m.xml",
-        &mjcf(
-            "<worldbody><replicate count='3' offset='1 0 0' euler='0 0 90' sep='-'>
-             <body name='b' pos='0 0 2'><joint name='j' axis='1 0 0'/></body></replicate></worldbody>",
-        ),
-    );
-    for (name, place) in [
-        ("j-0", "point = [0, 0, 2]\naxis = [1, 0, 0]"),
-        ("j-1", "point = [1, 0, 2]\naxis = [0, 1, 0]"),
-        ("j-2", "point = [1, 1, 2]\naxis = [-1, 0, 0]"),
-    ] {
-        let joint = t
-            .split("[[joint]]")
-            .find(|x| x.contains(&format!("id = \"{name}\"")));
-        assert!(joint.is_some_and(|j| j.contains(place)), "{name}\n{t}");
     }
 }
 

@@ -4,7 +4,6 @@
 use crate::common::*;
 use crate::robots::mjcf::{mjcf, toml_of};
 use crate::robots::{folder, message_of, no_files, numeric_figures, read_robot};
-use ozols::robots::Options;
 
 /// W and σ.
 fn w_sigma(name: &str, text: &str) -> (i64, i64) {

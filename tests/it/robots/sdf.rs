@@ -3,7 +3,6 @@
 use crate::common::*;
 use crate::robots::mjcf::toml_of;
 use crate::robots::{message_of, no_files, numeric_figures};
-use ozols::robots::Options;
 
 fn sdf(body: &str) -> String {
     format!("<sdf version='1.9'><model name='m'>{body}</model></sdf>")

@@ -4,7 +4,6 @@ use crate::common::*;
 use crate::robots::lint;
 use crate::robots::mjcf::mjcf;
 use crate::robots::no_files;
-use ozols::robots::Options;
 
 /// The exit code of lint, what its JSON has of a file with this text, and what it says otherwise.
 fn linted(name: &str, text: &str) -> (Option<i32>, Value, String) {

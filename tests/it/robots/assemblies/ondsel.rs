@@ -2,7 +2,6 @@
 
 use super::{figures, read};
 use crate::common::*;
-use ozols::robots::Options;
 
 /// A part off the origin and turned by 30 degrees about x, and one joint between the ground and it.
 pub(crate) fn asmt(head: &str, kind: &str, figure: &str) -> String {
