@@ -196,8 +196,7 @@ fn idle_motions_slide_or_turn() {
 #[test]
 fn gaps_grow_beyond_a_quarter_turn() {
     let m = built_in("door-two-hinges");
-    let pose =
-        ozols::motion::pose::Pose::of_file(&m, ozols::model::mechanism::StateId::FREE).unwrap();
+    let pose = Pose::of_file(&m, StateId::FREE).unwrap();
     let gap = |degrees: f64| {
         let gaps = pose.closure_gaps(&[degrees.to_radians(), 0.0]);
         gaps.iter().map(|x| x * x).sum::<f64>().sqrt()

@@ -13,22 +13,6 @@ const TOLERANCES: Tolerances = Tolerances {
 const LINEAR: f64 = 1e7;
 const ANGULAR: f64 = 1e4;
 
-/// Numbers of the standard normal distribution: sums of twelve uniform ones.
-struct Normal(u64);
-
-impl Normal {
-    fn next(&mut self) -> f64 {
-        let mut unit = || {
-            self.0 = self
-                .0
-                .wrapping_mul(6_364_136_223_846_793_005)
-                .wrapping_add(1_442_695_040_888_963_407);
-            (self.0 >> 11) as f64 / (1_u64 << 53) as f64
-        };
-        (0..12).map(|_| unit()).sum::<f64>() - 6.0
-    }
-}
-
 /// The mean and the mean square of the force at each joint of a mechanism of hinges and tubes about z and balls, by displacements of the
 /// links.
 fn forces_by_displacements(m: &Mechanism, samples: usize) -> Vec<[f64; 2]> {
@@ -89,7 +73,9 @@ fn forces_by_displacements(m: &Mechanism, samples: usize) -> Vec<[f64; 2]> {
     let inverse = (0..free)
         .map(|n| solve_square(&stiff, &unit(n)))
         .collect_vec();
-    let mut random = Normal(7);
+    // The sum of twelve uniform numbers is nearly normal.
+    let mut noise = Noise::new(7, 0);
+    let mut normal = || (0..12).map(|_| noise.draw_uniform() / 2.0).sum::<f64>();
     let mut sums = vec![[0.0; 2]; points.len()];
     for _ in 0..samples {
         let errors: Vec<Vec<f64>> = rows
@@ -102,7 +88,7 @@ fn forces_by_displacements(m: &Mechanism, samples: usize) -> Vec<[f64; 2]> {
                         } else {
                             TOLERANCES.position
                         };
-                        tolerance / 3.0 * random.next()
+                        tolerance / 3.0 * normal()
                     })
                     .collect()
             })
