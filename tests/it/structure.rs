@@ -31,6 +31,13 @@ fn shares_by_definition(exact: &ExactField, closure: &Closure<Residue>) -> Vec<[
         .collect()
 }
 
+fn shares(exact: &ExactField, closure: &Closure<Residue>) -> Vec<[usize; 3]> {
+    let all = contour_shares(exact, closure);
+    all.iter()
+        .map(|s| [s.redundant, s.range.0, s.range.1])
+        .collect()
+}
+
 fn check(mechanism: &Mechanism) {
     let exact = exact_field(mechanism, 0).unwrap();
     for state in mechanism.state_ids() {
@@ -41,11 +48,8 @@ fn check(mechanism: &Mechanism) {
             rank_dense(&exact, &closure),
             "{what}"
         );
-        let found: Vec<[usize; 3]> = contour_shares(&exact, &closure)
-            .iter()
-            .map(|s| [s.redundant, s.range.0, s.range.1])
-            .collect();
-        assert_eq!(found, shares_by_definition(&exact, &closure), "{what}");
+        let by_definition = shares_by_definition(&exact, &closure);
+        assert_eq!(shares(&exact, &closure), by_definition, "{what}");
     }
 }
 
@@ -130,9 +134,7 @@ proptest! {
             left_out: Vec::new(),
         };
         prop_assert_eq!(modular::rank_modulo(&exact, &closure), rank_dense(&exact, &closure));
-        let found: Vec<[usize; 3]> =
-            contour_shares(&exact, &closure).iter().map(|s| [s.redundant, s.range.0, s.range.1]).collect();
-        prop_assert_eq!(found, shares_by_definition(&exact, &closure));
+        prop_assert_eq!(shares(&exact, &closure), shares_by_definition(&exact, &closure));
         // Couplings of columns of different joints: fronts of their own, against J written out.
         let f = closure.columns.len().max(1);
         for (a, b, ratio) in pairs {

@@ -5,8 +5,7 @@ use crate::common::*;
 
 #[test]
 fn the_report_has_a_row_for_each_coupling() {
-    let o = run("analyze planetary-gear --format json");
-    let v: Value = serde_json::from_slice(&o.stdout).unwrap();
+    let v = run_json("analyze planetary-gear --format json");
     let shares = &v["states"][0]["per_coupling"];
     assert_eq!(shares.list().len(), 6);
     assert_eq!(shares[5]["coupling"], "0-c ~ c-3");

@@ -84,12 +84,17 @@ fn no_name_lies_on_a_line() {
     assert!(wrong.is_empty(), "{} of {names}: {wrong:#?}", wrong.len());
 }
 
+/// The parts of a joint's symbol.
+fn symbol<'a>(doc: &'a roxmltree::Document<'_>, joint: &str) -> roxmltree::Children<'a, 'a> {
+    let mut all = doc.descendants();
+    let group = all.find(|n| n.attribute("data-joint") == Some(joint));
+    group.unwrap().children()
+}
+
 /// The shafts and heads of straight arrows in the group of a joint: from the tail to the tip.
 fn straight_arrows(svg: &str, joint: &str) -> Vec<Point> {
     let doc = roxmltree::Document::parse(svg).unwrap();
-    let mut groups = doc.descendants();
-    let group = groups.find(|n| n.attribute("data-joint") == Some(joint));
-    let heads = group.into_iter().flat_map(|g| g.children()).filter(|n| {
+    let heads = symbol(&doc, joint).filter(|n| {
         n.has_tag_name("path") && n.attribute("class").is_some_and(|c| c.starts_with("ink"))
     });
     let heads = heads.map(covers).filter(|p| p.len() == 3);
@@ -101,10 +106,7 @@ fn straight_arrows(svg: &str, joint: &str) -> Vec<Point> {
 /// Whether a ring with an arrow head is drawn round a joint.
 fn has_ring(svg: &str, joint: &str) -> bool {
     let doc = roxmltree::Document::parse(svg).unwrap();
-    let mut groups = doc.descendants();
-    let group = groups.find(|n| n.attribute("data-joint") == Some(joint));
-    let mut paths = group.into_iter().flat_map(|g| g.children());
-    paths.any(|n| {
+    symbol(&doc, joint).any(|n| {
         let is_line = n.attribute("class").is_some_and(|c| c.starts_with("line"));
         is_line && n.has_tag_name("path") && covers(n).len() == 29
     })

@@ -1,7 +1,7 @@
 //! The grip's contact forces as loads of the mechanism: statics of the clamped state, and ranking under them.
 
 use crate::common::*;
-use crate::reactions::greatest_force;
+use crate::reactions::{effort, greatest_force};
 mod ranked;
 mod refused;
 
@@ -33,10 +33,6 @@ fn solve(g: &Gripping, row: &DiameterRow) -> Solution {
         &drives,
     )
     .unwrap()
-}
-
-fn effort(list: &[JointReaction]) -> f64 {
-    list.iter().find_map(|r| r.effort).unwrap().1
 }
 
 /// `ozols grip` adds up lever moments and rates of the levers; statics solve for every joint.

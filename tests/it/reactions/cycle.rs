@@ -2,7 +2,7 @@
 
 use super::expr;
 use crate::common::*;
-use crate::reactions::greatest_force;
+use crate::reactions::{effort, greatest_force};
 use ozols::statics::reactions::cycle::{Cycle, solve_cycle};
 use ozols::statics::reactions::geometry::{cross, dot};
 
@@ -37,10 +37,6 @@ fn solved(c: &Cycle) -> Vec<(f64, &ozols::statics::reactions::Solution)> {
         .iter()
         .map(|(at, s)| (*at, s.as_ref().unwrap()))
         .collect()
-}
-
-fn effort(list: &[JointReaction]) -> f64 {
-    list.iter().find_map(|r| r.effort).unwrap().1
 }
 
 const STROKE: Stroke = Stroke {

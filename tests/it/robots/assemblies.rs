@@ -12,13 +12,6 @@ pub(crate) fn read(name: &str, bytes: &[u8], options: &Options) -> Imported {
     import(name, bytes, &crate::robots::no_files, options).unwrap_or_else(|e| panic!("{name}: {e}"))
 }
 
-/// The message of bytes that are refused.
-pub(crate) fn refused(name: &str, bytes: &[u8]) -> String {
-    let e = import(name, bytes, &crate::robots::no_files, &Options::default()).unwrap_err();
-    assert!(!e.render(false).is_empty());
-    e.to_string()
-}
-
 /// W and σ, as the commands have them.
 pub(crate) fn figures(i: &Imported) -> (usize, usize) {
     let method = Method::Auto;

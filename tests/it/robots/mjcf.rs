@@ -188,7 +188,7 @@ fn mjcf_errors() {
         <joint/><body quat='0 0 0 0'/> | not zero
         "#,
     ) {
-        has(&message_of("m.xml", &one(body)), words);
+        has(&message_of("m.xml", one(body)), words);
     }
     for [text, words] in read_cases::<2>(
         r#"
@@ -204,7 +204,7 @@ fn mjcf_errors() {
         | nothing can move
         "#,
     ) {
-        has(&message_of("m.xml", &mjcf(text)), words);
+        has(&message_of("m.xml", mjcf(text)), words);
     }
 }
 

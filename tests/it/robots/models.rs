@@ -67,9 +67,7 @@ fn four_bars() {
     let closed = |kind: &str| {
         let side =
             format!("[[loop]]\nid = \"bushing\"\na = \"near\"\nb = \"far\"\ntype = \"{kind}\"\n");
-        let options = default_with(|o: &mut Options| {
-            o.loops = Some(("side.toml".to_owned(), side.into_bytes()))
-        });
+        let options = crate::robots::with_loops("side.toml", side);
         let bytes = fs::read(folder().join("four_bar_open.sdf")).unwrap();
         import("four_bar_open.sdf", &bytes, &no_files, &options)
     };
@@ -85,9 +83,7 @@ fn four_bars() {
 #[test]
 fn side_files() {
     let with = |name: &str, side: &str| {
-        let options = default_with(|o: &mut Options| {
-            o.loops = Some((name.to_owned(), side.as_bytes().to_vec()))
-        });
+        let options = crate::robots::with_loops(name, side);
         import("arm.urdf", ARM.as_bytes(), &no_files, &options)
     };
     let i = with(

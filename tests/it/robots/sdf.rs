@@ -93,7 +93,7 @@ fn sdf_kinds() {
         <link name='a'/><joint name='j' type='ball'><parent>a</parent><child>b</child></joint> | "b"
 "#,
     ) {
-        let e = message_of("m.sdf", &sdf(body));
+        let e = message_of("m.sdf", sdf(body));
         assert!(e.contains(words), "{words}: {e}");
     }
 }

@@ -69,9 +69,7 @@ fn each_way_to_close_a_loop_is_read() {
             chain(lengths, 3.0 * x(3), &filled)
         };
         let truth = {
-            let options = default_with(|o: &mut Options| {
-                o.loops = Some(("side.toml".to_owned(), side.clone().into_bytes()))
-            });
+            let options = crate::robots::with_loops("side.toml", side.clone());
             let i = import("x.urdf", at("").as_bytes(), &no_files, &options)
                 .unwrap_or_else(|e| panic!("seed {seed}: {e}"));
             ozols::analyze(&i.mechanism).unwrap()[0].clone()

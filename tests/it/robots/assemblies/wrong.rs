@@ -4,8 +4,9 @@ use super::make::{
     HERE, HINGES, Object, Place, assembled, fcstd, four_bar, grounded, group, joint, joint_type,
     label, packed, part, property, reference,
 };
-use super::{figures, read, refused};
+use super::{figures, read};
 use crate::common::*;
+use crate::robots::message_of;
 
 fn changed(objects: &[Object], name: &str, from: &str, to: &str) -> Vec<Object> {
     let mut out = objects.to_vec();
@@ -35,7 +36,7 @@ fn archives_that_are_broken_are_told() {
         (document(b"<svg/>"), "<svg>"),
         (fcstd(&[part("Base", HERE)]), "no assembly in the document"),
     ] {
-        has(&refused("x.FCStd", &bytes), words);
+        has(&message_of("x.FCStd", &bytes), words);
     }
 }
 
@@ -45,7 +46,7 @@ fn a_member_that_unpacks_to_too_much_is_refused() {
     let blanks = vec![b' '; 70 << 20];
     let bomb = packed(&[("Document.xml", &blanks)]);
     assert!(bomb.len() < 1 << 20);
-    let said = refused("x.FCStd", &bomb);
+    let said = message_of("x.FCStd", &bomb);
     has(&said, "more than the 67108864 allowed");
 }
 
@@ -67,12 +68,12 @@ fn numbers_and_places_that_are_none_are_named() {
         ),
     ] {
         has_all(
-            &refused("x.FCStd", &fcstd(&changed(&bar, "A", from, to))),
+            &message_of("x.FCStd", fcstd(&changed(&bar, "A", from, to))),
             words,
         );
     }
     let twice = [bar, vec![part("Crank", HERE)]].concat();
-    has(&refused("x.FCStd", &fcstd(&twice)), "is defined twice");
+    has(&message_of("x.FCStd", fcstd(&twice)), "is defined twice");
 }
 
 // FreeCAD leaves such joints out, and so do the figures, which say so: W may be too high.
@@ -268,7 +269,7 @@ fn asmt_files_that_are_wrong_are_told_by_line() {
         ("\tParts\n\t\t\tPart\n".to_owned(), "one tab deeper"),
         ("\tParts\n\t\tPart\n\t\t\tx\n".to_owned(), "has no Name"),
     ] {
-        let found = refused("x.asmt", format!("{head}{rest}").as_bytes());
+        let found = message_of("x.asmt", format!("{head}{rest}").as_bytes());
         assert!(found.contains(said), "{rest}: {found}");
         has(&found, "x.asmt");
     }
