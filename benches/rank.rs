@@ -111,15 +111,8 @@ impl Case {
         let field = self.exact.field();
         let mut all: Vec<Timed<'_>> = vec![
             (
-                "modular, contour by contour",
+                "modular",
                 Box::new(|| modular::rank_modulo(&self.exact, &self.closure)),
-            ),
-            (
-                "modular, written out",
-                Box::new(move || {
-                    let columns = self.closure.dense_columns(&self.exact);
-                    echelon::rank_of(field, columns.iter().map(Vec::as_slice))
-                }),
             ),
             (
                 "modular, elimination alone",
@@ -239,7 +232,7 @@ fn micro(seconds: f64) -> String {
 }
 
 fn ratios() {
-    println!("\n== time per rank, and against the rank contour by contour; best of one run ==");
+    println!("\n== time per rank, and against the modular rank; best of one run ==");
     for case in std::iter::once(Case::gripper()).chain(cases(&[10, 50])) {
         let rounds = if case.dense.len() > 60 { 3 } else { 200 };
         let mut methods = case.methods();
@@ -250,7 +243,7 @@ fn ratios() {
             println!("  {name:<30} {:>14}  {ratio:>10.1}  rank {rank}", micro(*t));
         }
     }
-    println!("\n== growth: time of the rank contour by contour, for each contour ==");
+    println!("\n== growth: time of the modular rank, for each contour ==");
     for kind in LatticeKind::ALL {
         print!("{kind:?}");
         for k in [10, 25, 50, 100, 200, 400] {

@@ -262,7 +262,7 @@ pub fn search(mechanism: &Mechanism, request: &Request) -> Result<Outcome, Error
     Ok(run(mechanism.clone(), request, &|| false, &mut |_| {})?)
 }
 
-/// Returns a mechanism as text in another format: `toml`, `json`, `urdf`, `mjcf`, `sdf`, `dot` or `graphml`. [`formats::writable_formats`]
+/// Returns a mechanism as text in another format: `toml`, `json`, `urdf`, `mjcf`, `sdf` or `dot`. [`formats::writable_formats`]
 /// lists them.
 ///
 /// # Errors

@@ -1,7 +1,6 @@
 //! The command line: arguments as data, one file per command, three exit codes.
 
 mod command;
-mod examples;
 mod option;
 mod prelude;
 mod terminal;
@@ -23,12 +22,7 @@ use std::process::ExitCode;
 /// file (TOML, or JSON with the ending .json), a robot description (.urdf, .xml, .sdf) or a CAD assembly (FreeCAD's .FCStd,
 /// OndselSolver's .asmt; see `ozols export` for more control).
 #[derive(Debug, Parser)]
-#[command(
-    name = "ozols",
-    version,
-    max_term_width = 100,
-    after_help = examples::MAIN
-)]
+#[command(name = "ozols", version, max_term_width = 100)]
 struct Args {
     /// The command to run.
     #[command(subcommand)]
@@ -37,12 +31,28 @@ struct Args {
     global: Global,
 }
 
+/// The text below the help of the program (`ozols`) and of each command, and the text without arguments (`first`).
+const EXAMPLES: &str = include_str!("cli/examples.txt");
+
+/// Returns the examples with the names of their commands.
+fn named_examples() -> impl Iterator<Item = (&'static str, &'static str)> {
+    let parts = EXAMPLES.trim_start_matches("# ").split("\n# ");
+    parts.filter_map(|part| part.split_once('\n'))
+}
+
+/// Returns the arguments with examples in the help.
+fn program() -> clap::Command {
+    named_examples().fold(Args::command(), |all, (name, text)| match name {
+        "first" => all,
+        "ozols" => all.after_help(text),
+        name => all.mut_subcommand(name, |c| c.after_help(text)),
+    })
+}
+
 /// Runs the program.
 #[must_use]
 pub fn run() -> ExitCode {
-    let words: Vec<OsString> = std::env::args_os().collect();
-    terminal::memory::share_pools(&words);
-    ExitCode::from(run_with(words))
+    ExitCode::from(run_with(std::env::args_os()))
 }
 
 /// Runs the program with these arguments, its name first. Exit codes: 0 done, 1 nothing found or a certificate rejected, 2
@@ -51,13 +61,14 @@ pub fn run_with(words: impl IntoIterator<Item = OsString>) -> u8 {
     let words: Vec<OsString> = words.into_iter().collect();
     let (words, opened) = with_command(words);
     terminal::interrupt::outlive_file_limits();
-    let parsed = Args::command().try_get_matches_from(&words);
+    let parsed = program().try_get_matches_from(&words);
     let parsed = parsed.and_then(|m| Ok((Args::from_arg_matches(&m)?, output_files(&m))));
     let (args, outputs) = match parsed {
         Ok(parsed) => parsed,
         Err(_) if words.len() == 1 => {
             return exit_code(terminal::output::write_with(None, |out| {
-                write!(out, "{}", examples::FIRST)?;
+                let first = named_examples().next().map_or("", |(_, text)| text);
+                writeln!(out, "{first}")?;
                 Ok(Done::Found)
             }));
         }
@@ -71,7 +82,7 @@ pub fn run_with(words: impl IntoIterator<Item = OsString>) -> u8 {
         Command::Search(a) => command::search::run_search(&args.global, a),
         Command::Statics(a) => command::statics::run_statics(&args.global, a),
         Command::Grip(a) => command::grip::run_grip(a),
-        Command::Drive(a) => command::drive::run_drive(a),
+        Command::Drive(a) => command::grip::run_drive(a),
         Command::Verify(a) => command::verify::run_verify(&args.global, a),
         Command::Lint(a) => command::lint::run_lint(a),
         Command::Fix(a) => command::fix::run_fix(a),
@@ -83,12 +94,12 @@ pub fn run_with(words: impl IntoIterator<Item = OsString>) -> u8 {
         Command::Bench(a) => command::bench::run(&args.global, a),
         Command::Catalog(a) => command::catalog::run_catalog(&args.global, a),
         Command::Check(a) => command::check::run_check(&args.global, a),
-        Command::New(a) => command::new::run_new(&args.global, a),
+        Command::New(a) => command::list::run_new(&args.global, a),
         Command::List(a) => command::list::run_list(a),
         Command::Show(a) => command::check::run_show(a),
         Command::Schema => command::check::print_schema(),
         Command::Explain(a) => command::explain::run_explain(a),
-        Command::Completions(a) => command::check::print_completions(a, Args::command()),
+        Command::Completions(a) => command::check::print_completions(a, program()),
     });
     let told = |done| match &opened {
         Some(file) => command::check::tell_next(file).map(|_| done),
@@ -179,7 +190,7 @@ fn say_parsed(e: &clap::Error) -> u8 {
 
 /// Reports an error, if any, and returns the exit code.
 fn exit_code(result: anyhow::Result<Done>) -> u8 {
-    terminal::spinner::hide_spinner();
+    terminal::output::hide_spinner();
     let interrupted = |code| terminal::interrupt::exit_code().unwrap_or(code);
     match result {
         Ok(Done::Found) => interrupted(0),
@@ -198,7 +209,7 @@ const THREADS: usize = 1024;
 
 fn apply_globals(args: &Global) -> anyhow::Result<()> {
     terminal::interrupt::listen_for_signals()?;
-    terminal::spinner::show_spinner(args.quiet);
+    terminal::output::show_spinner(args.quiet);
     if args.quiet {
         terminal::output::hush_notes();
     }

@@ -107,7 +107,7 @@ pub(super) fn against_flint() {
         .iter()
         .map(|r| r.iter().map(to_field).collect())
         .collect();
-    fn by_contour(of: &Case) -> Function<'_> {
+    fn modular_rank(of: &Case) -> Function<'_> {
         Box::new(|| modular::rank_modulo(&of.exact, &of.closure))
     }
     // Each stands against FLINT's of the same place.
@@ -117,17 +117,17 @@ pub(super) fn against_flint() {
             Box::new(|| echelon::rank_of(big, dense.iter().map(Vec::as_slice))),
         ),
         (
-            "gripper 24 x 14, same prime: contour by contour".into(),
-            by_contour(&case),
+            "gripper 24 x 14, same prime: modular".into(),
+            modular_rank(&case),
         ),
         (
-            "gripper 24 x 14, FLINT's 2^31 - 1: contour by contour".into(),
-            by_contour(&case),
+            "gripper 24 x 14, FLINT's 2^31 - 1: modular".into(),
+            modular_rank(&case),
         ),
     ];
     ours.extend(larger.iter().map(|of| {
-        let name = format!("{}: contour by contour", of.name);
-        (name, by_contour(of))
+        let name = format!("{}: modular", of.name);
+        (name, modular_rank(of))
     }));
     let before = flint(&matrices);
     let mine = best(&mut ours, 300);

@@ -6,7 +6,6 @@ pub(crate) mod machine;
 pub(crate) mod memory;
 pub(crate) mod output;
 pub(crate) mod progress;
-pub(crate) mod spinner;
 
 /// The way a command ended without failing.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

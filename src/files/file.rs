@@ -10,6 +10,7 @@ pub mod edit;
 pub mod lint;
 pub mod locate;
 pub mod loose;
+mod prelude;
 pub mod problem;
 pub mod read;
 pub mod schema;
@@ -18,29 +19,29 @@ pub mod text;
 pub mod write;
 
 use crate::file::locate::DocumentPath;
-use crate::file::problem::{Found, ProblemKind, WarningKind, suggest_word};
+pub(crate) use crate::file::problem::Finding;
+use crate::file::problem::{ProblemKind, suggest_word};
 use crate::geom::expr::{Expr, ExprError};
 use itertools::Itertools;
 use std::cell::{Cell, RefCell};
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Display;
 
-/// A problem and the path of the item it concerns.
-pub(crate) type Finding = (DocumentPath, ProblemKind);
-
 /// Maximum number of reported problems. A file of a few megabytes can have a hundred thousand, and each is located and drawn.
 pub(crate) const TOLD: usize = 100;
 
-/// The problems found so far with their places: the first of them, and the number of further ones. Expressions are read here too, so
-/// it has the named numbers of the file.
+/// The problems found so far with their places: the first of them, and the number of further ones. Also the named numbers and the
+/// states of the file, which its entries name.
 #[derive(Default)]
 pub(crate) struct Findings {
     told: RefCell<Vec<Finding>>,
     more: Cell<usize>,
     /// The doubtful values found so far.
-    warned: RefCell<Found>,
+    warned: RefCell<Vec<Finding>>,
     /// The values of the file's parameters.
     names: BTreeMap<String, Expr>,
+    /// The names of the states, `free` first.
+    pub(crate) states: Vec<String>,
     /// The parameters that an expression uses.
     used: RefCell<BTreeSet<String>>,
 }
@@ -178,7 +179,7 @@ impl<'f> Place<'f> {
     }
 
     /// Warns of a doubtful value at this place.
-    pub(crate) fn warn(&self, kind: impl Into<WarningKind>) {
+    pub(crate) fn warn(&self, kind: impl Into<ProblemKind>) {
         let warning = (self.path.clone(), kind.into());
         self.out.warned.borrow_mut().push(warning);
     }

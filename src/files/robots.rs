@@ -9,8 +9,10 @@ mod fcstd;
 pub mod formats;
 mod graph;
 mod import;
+mod include;
 mod mechanism;
 mod mjcf;
+mod prelude;
 mod sdf;
 mod urdf;
 mod warning;
@@ -19,20 +21,15 @@ mod xml;
 pub use crate::robots::formats::refuse_foreign;
 pub use crate::robots::formats::{begins_description, is_description};
 pub use crate::robots::warning::ExportError;
-pub use crate::robots::warning::{CadCount, Kept, Note, Options, Reader, Report};
+pub use crate::robots::warning::{CadCount, Note, Options, Reader, Report};
 pub use description::origin::{ElementPlace, Origin};
 pub use import::{Imported, import};
 
-use crate::file::problem::ImportError;
-use crate::geom::vector::Vector;
-use crate::model::mechanism::{JointId, Mechanism};
 use crate::redundancy::release::{Release, added_freedoms};
 use crate::robots::cad::retype;
-use crate::robots::description::Part;
 use crate::robots::edit::{Edits, Freeing, comment_out, free_sdf, free_urdf};
 use crate::robots::mechanism::series_of_single_joints::escape_comment;
-use crate::robots::warning::unsupported_problem;
-use std::collections::BTreeMap;
+use crate::robots::prelude::*;
 
 /// Returns the freedoms that a redesign adds to the joints of a mechanism.
 ///
@@ -97,17 +94,8 @@ pub fn apply_releases(
     imported: &Imported,
     releases: &[(Release, String)],
 ) -> Result<Vec<u8>, ImportError> {
-    if imported.origin.is_assembly() {
-        return retype::retype_joints(imported, releases);
-    }
-    Ok(in_series(imported, releases)?.into_bytes())
-}
-
-/// Returns the text of the description with joints added in series.
-fn in_series(imported: &Imported, releases: &[(Release, String)]) -> Result<String, ImportError> {
     let origin = &imported.origin;
-    let mut edits = Edits::new(origin);
-    let mut freed: BTreeMap<usize, Vec<(bool, Vector, String)>> = BTreeMap::new();
+    let mut freed: BTreeMap<JointId, Vec<(bool, Vector, String)>> = BTreeMap::new();
     let mut uncoupled = Vec::new();
     for (release, why) in releases {
         let why = escape_comment(&format!("ozols fix: {why}"));
@@ -117,44 +105,41 @@ fn in_series(imported: &Imported, releases: &[(Release, String)]) -> Result<Stri
                 joint,
                 slides,
                 direction,
-            } => {
-                let part = origin.joints[joint.index()];
-                let all = freed.entry(part).or_default();
-                all.push((slides, direction, why));
-            }
+            } => freed
+                .entry(joint)
+                .or_default()
+                .push((slides, direction, why)),
         }
     }
+    if origin.is_assembly() {
+        let uncoupled = uncoupled.first().map(|(element, _)| *element);
+        return retype::retype_joints(imported, &freed, uncoupled);
+    }
+    let mut edits = Edits::new(origin);
     let (free, uncouple): (Free, Uncouple) = match imported.format.word {
         "mjcf" => (mjcf::fix::free_joints, mjcf::fix::deactivate),
         "urdf" => (free_urdf, comment_out),
         _ => (free_sdf, comment_out),
     };
     let mut all: Vec<Freeing<'_>> = Vec::new();
-    for (&part, list) in &freed {
-        let part = &origin.robot.joints[part];
-        let e = part.element;
-        let e = origin.element(e.ok_or_else(|| separate_file_error(origin, part))?);
-        if e.node().copy {
-            let why = "it is a copy made by <replicate>";
-            return Err(e.unsupported_error(why, "choose another joint, or write the copies out"));
-        }
+    for (&joint, list) in &freed {
+        let part = origin.part_of(joint);
+        let Some(e) = part.element else {
+            let element = format!("loop \"{}\"", part.id);
+            let why = "it is defined in the file of loop closures";
+            let remedy = "choose a joint of the description";
+            let problem = unsupported_problem(&element, why, remedy);
+            return Err(origin.element(origin.root).error_at(None, problem));
+        };
+        let e = origin.element(e);
         all.push((part, e, list));
     }
     free(origin, &all, &mut edits)?;
     for (element, why) in uncoupled {
         uncouple(element, &why, &mut edits)?;
     }
-    edits.apply_edits()
+    Ok(edits.apply_edits()?.into_bytes())
 }
 
 type Free = fn(&Origin, &[Freeing<'_>], &mut Edits<'_>) -> Result<(), ImportError>;
 type Uncouple = fn(usize, &str, &mut Edits<'_>) -> Result<(), ImportError>;
-
-/// Returns the error for a joint that is defined in a separate file.
-fn separate_file_error(origin: &Origin, part: &Part) -> ImportError {
-    let element = format!("loop \"{}\"", part.id);
-    let why = "it is defined in the file of loop closures";
-    let remedy = "choose a joint of the description";
-    let root = origin.element(origin.root);
-    root.error_at(None, unsupported_problem(&element, why, remedy))
-}

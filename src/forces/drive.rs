@@ -2,7 +2,6 @@
 //!
 //! [`driving::design_drive`] combines all of it.
 
-pub mod cam;
 pub mod driving;
 pub mod programme;
 pub mod swing;

@@ -36,7 +36,7 @@ pub(crate) fn analyze(
         if tolerance.is_some_and(|t| !(t > 0.0 && t < 1.0)) {
             return Err(failed("tolerance must be between 0 and 1"));
         }
-        if tolerance.is_some() && matches!(by.about().rank, RankOfJ::Chosen) {
+        if tolerance.is_some() && matches!(by.rank, RankOfJ::Chosen) {
             return Err(failed(format!(
                 "tolerance has no effect with method {method}, which uses the digits and the [tolerance] table of the \
                  file; omit it, or use svd"

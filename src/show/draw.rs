@@ -8,6 +8,7 @@ mod kinematic;
 mod place;
 #[cfg(feature = "png")]
 pub mod png;
+mod prelude;
 mod scheme;
 mod sheet;
 mod subject;
@@ -24,7 +25,6 @@ pub use scheme::scheme;
 pub use sheet::STYLE as SHEET_STYLE;
 pub use sheet::{Drawing, Label};
 pub use subject::{Marks, Subject};
-pub use symbol::pairs::joint_type;
 pub use symbol::placed::Swap;
 
 /// How large a picture of a drawing is.

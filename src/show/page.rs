@@ -4,36 +4,32 @@
 //! stored as columns of numbers and one symbol for each option of each joint, not as drawings. Names come from files,
 //! so they enter as escaped text or JSON only.
 
+use crate::format::plain::escape_direction;
+use crate::redundancy::AnalysisError;
+use crate::view::analysis::Analysis;
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
+pub use contents::{Commands, Page, Redesigns};
+use itertools::Itertools;
+use maud::{Markup, PreEscaped, html};
+pub use scenes::{SHOWN, named_swaps, state_swaps};
+use serde_json::Value;
+use sha2::{Digest, Sha256};
+
 #[cfg(feature = "store")]
 pub mod catalogue;
-mod certainty;
 mod contents;
-mod data;
 mod explorer;
 #[cfg(feature = "store")]
 mod gripper;
 #[doc(hidden)]
 pub mod moving;
-mod policy;
 #[doc(hidden)]
 pub mod scenes;
 mod states;
-mod symbols;
 mod variants;
 #[doc(hidden)]
 pub mod verdict;
-mod workload;
-
-use crate::format::plain::escape_direction;
-use crate::redundancy::AnalysisError;
-use crate::view::analysis::Analysis;
-use maud::{Markup, PreEscaped, html};
-use policy::{POLICY, STYLE};
-use serde_json::Value;
-
-pub use contents::{Commands, Page, Redesigns, SHOWN};
-pub use symbols::named_swaps;
-pub use symbols::state_swaps;
 
 /// The scripts that the studio's page runs too, in their order.
 pub const SHARED: [&str; 6] = [
@@ -103,7 +99,7 @@ fn head_html(name: &str) -> Markup {
 pub fn report_html(page: &Page<'_>) -> Result<String, AnalysisError> {
     let m = page.mechanism;
     let analysis = Analysis::new(m, page.states, &[]);
-    let data = data::script_data(page, &analysis, found_columns(page)?);
+    let data = contents::script_data(page, &analysis, found_columns(page)?);
     let section = |n: usize, inside: Markup| {
         let (mark, head) = SECTIONS[n];
         html! {
@@ -138,7 +134,7 @@ pub fn report_html(page: &Page<'_>) -> Result<String, AnalysisError> {
                         (section(1, explorer::redesigns_html(page)))
                     }
                     (section(2, states::states_html(page, &analysis)))
-                    (section(3, certainty::certainty_html(page, &analysis)))
+                    (section(3, states::certainty_html(page, &analysis)))
                     (section(4, page.commands.commands_html()))
                     section id="sources" {
                         h2 { "Sources" }
@@ -151,8 +147,53 @@ pub fn report_html(page: &Page<'_>) -> Result<String, AnalysisError> {
         }
         "\n"
     };
-    Ok(policy::with_policy(
+    Ok(with_policy(
         &escape_direction(&markup.into_string()),
         POLICY,
     ))
+}
+
+pub(super) const STYLE: &str =
+    concat!(include_str!("page/look.css"), include_str!("page/page.css"));
+
+/// The placeholder of the policy until everything that it allows is written.
+pub(super) const POLICY: &str = "default-src 'none'";
+
+/// Returns the page with the policy that allows its scripts and styles, in place of the first `stand_in`. Text of mechanisms
+/// is already escaped, so that every element found here belongs to the page.
+pub(super) fn with_policy(page: &str, stand_in: &str) -> String {
+    let (styles, scripts) = (
+        element_hashes(page, "style"),
+        element_hashes(page, "script"),
+    );
+    let policy = format!("{stand_in}; style-src {styles}; script-src {scripts}");
+    page.replacen(stand_in, &policy, 1)
+}
+
+/// Returns the hashes of all elements of a name, each one once.
+fn element_hashes(page: &str, element: &str) -> String {
+    let (begin, end) = (format!("<{element}"), format!("</{element}>"));
+    let inside = page.split(&begin).skip(1).filter_map(|after| {
+        let (tag, inside) = after.split_once('>')?;
+        // Data is not run.
+        let data = tag.contains("application/json");
+        (!data).then(|| inside.split(&end).next().unwrap_or(inside))
+    });
+    let hash = |text: &str| format!("'sha256-{}'", STANDARD.encode(Sha256::digest(text)));
+    inside.map(hash).unique().join(" ")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::with_policy;
+
+    #[test]
+    fn scripts_and_styles_are_allowed_by_their_hashes() {
+        let page = "<meta content=\"P\"><style>a</style><script type=\"application/json\">1</script><script>a</script>";
+        // printf a | openssl dgst -sha256 -binary | base64
+        let a = "'sha256-ypeBEsobvcr6wjGzmiPcTaeG7/gUfE5yuYB3ha/uSLs='";
+        assert!(with_policy(page, "P").starts_with(&format!(
+            "<meta content=\"P; style-src {a}; script-src {a}\">"
+        )));
+    }
 }

@@ -1,10 +1,12 @@
 //! Finished values as JSON that says which contract it keeps and as text for people, with how sure they are: figures that rest on what a
 //! reader took for granted are those of the file as read.
 
+use crate::model::claim::Claim;
+use crate::view::prelude::*;
+
 pub mod accuracy;
 pub mod analysis;
 pub mod catalog;
-pub(crate) mod claims;
 pub mod drive;
 pub mod grip;
 pub mod lint;
@@ -14,12 +16,6 @@ pub mod search;
 pub mod statics;
 pub mod stroke;
 pub mod terminal;
-
-use crate::format::count_noun;
-use crate::model::mechanism::Mechanism;
-use serde::Serialize;
-use serde_json::Value;
-use std::fmt::Display;
 
 /// Returns the words for how sure a figure is, with the number of assumptions if there are any.
 pub(crate) fn as_read(m: &Mechanism, sure: String) -> String {
@@ -85,4 +81,57 @@ pub(crate) fn join_objects<const N: usize>(parts: [Value; N]) -> Value {
         _ => None,
     });
     entries.flatten().collect()
+}
+
+/// Returns the claims about a topic, in the order of the file.
+pub(crate) fn claims_about(claims: &[Claim], topic: Topic) -> Vec<&Claim> {
+    claims.iter().filter(|c| c.topic == topic).collect()
+}
+
+const CONFIRMED: &str = "yes";
+const REFUTED: &str = "NO";
+const AS_SCANNED: &str = "NO, as scanned";
+
+/// Returns the word for what is known of a claim.
+fn claim_verdict(claim: &Claim) -> &'static str {
+    match (claim.holds(), &claim.scan) {
+        (true, _) => CONFIRMED,
+        (false, None) => REFUTED,
+        (false, Some(_)) => AS_SCANNED,
+    }
+}
+
+/// Returns a line that counts the claims; empty if there are none.
+pub(crate) fn count_claims(claims: &[&Claim]) -> String {
+    if claims.is_empty() {
+        return String::new();
+    }
+    let count = |so: &str| claims.iter().filter(|c| claim_verdict(c) == so).count();
+    let scanned = match count(AS_SCANNED) {
+        0 => String::new(),
+        n => format!(", {n} refuted if the scan of the text is right"),
+    };
+    format!(
+        "\n  Published about this mechanism: {}, {} confirmed, {} refuted{scanned}\n",
+        count_noun(claims.len(), "claim"),
+        count(CONFIRMED),
+        count(REFUTED),
+    )
+}
+
+/// Returns the same with a table of the claims.
+pub(crate) fn claims_text(all: &[Claim], topic: Topic, width: Option<u16>) -> String {
+    let claims = claims_about(all, topic);
+    if claims.is_empty() {
+        return String::new();
+    }
+    let rows = claims.iter().map(|c| {
+        let right = c.right.iter().map(|right| format!("right: {right}; "));
+        let scan = c.scan.iter();
+        let scan = scan.map(|scan| format!("; the text is a scan, and this rests on {scan}"));
+        let why = right.chain([c.evidence.clone()]).chain(scan).join("");
+        row_cells([&c.source, &c.says, &claim_verdict(c), &why])
+    });
+    let table = text_table("where | claim | so | evidence", rows, width);
+    fit_lines(&format!("{}\n{table}\n", count_claims(&claims)), width)
 }

@@ -6,7 +6,6 @@ use crate::file::edit::Thing;
 use crate::file::lint::check_file;
 use crate::file::locate::{Document, DocumentPath};
 use crate::file::loose;
-use crate::file::problem::WarningKind;
 use crate::file::problem::{ImportError, ProblemKind};
 use crate::file::read::build_mechanism;
 use crate::file::schema::MechanismFile;
@@ -85,7 +84,7 @@ impl DeskReading {
                 if let Ok(checked) = check_file(&name, bytes) {
                     for w in &checked.warnings.warnings {
                         let weight = match w.kind {
-                            WarningKind::NoContour | WarningKind::NoOutput => Weight::Unfinished,
+                            ProblemKind::NoContour | ProblemKind::NoOutput => Weight::Unfinished,
                             _ => Weight::Doubtful,
                         };
                         out.add_remark(text, w.span.clone(), &w.kind.to_string(), &items, weight);
@@ -193,7 +192,7 @@ struct Items(Vec<(Thing, usize, Range<usize>)>);
 
 impl Items {
     fn new(text: &str, json: bool) -> Items {
-        let Some(document) = Document::new(text, json) else {
+        let Ok(document) = Document::parse(text, json) else {
             return Items::default();
         };
         let mut out = Vec::new();

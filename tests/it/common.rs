@@ -11,8 +11,6 @@ use assert_cmd::Command;
 pub(crate) use folder::*;
 pub(crate) use graph::*;
 pub(crate) use names::*;
-use ozols::linalg::echelon;
-use ozols::linalg::modp::Residue;
 pub(crate) use prelude::*;
 use std::hash::{BuildHasher, Hasher, RandomState};
 pub(crate) use tempfile::{TempDir, tempdir};
@@ -437,10 +435,4 @@ pub(crate) fn rank_of_rows(mut rows: Vec<Vec<f64>>) -> usize {
         }
     }
     rows.len()
-}
-
-/// Returns the rank of J over the field by writing it out.
-pub(crate) fn rank_dense(exact: &ExactField, closure: &Closure<Residue>) -> usize {
-    let columns = closure.dense_columns(exact);
-    echelon::rank_of(exact.field(), columns.iter().map(Vec::as_slice))
 }

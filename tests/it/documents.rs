@@ -175,7 +175,14 @@ fn the_pictures_are_what_the_program_draws() {
     let pictures: [(&str, &[&str]); 2] = [
         (
             "gripper-10.svg",
-            &["draw", "gripper-10", "--self-stress", "1"],
+            &[
+                "draw",
+                "gripper-10",
+                "--motion",
+                "--stroke=-1:1:20",
+                "--self-stress",
+                "1",
+            ],
         ),
         (
             "gripper-10-moving.svg",

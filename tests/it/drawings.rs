@@ -7,7 +7,6 @@ mod loads;
 mod meaning;
 mod meeting;
 mod moving;
-mod pairs;
 mod places;
 mod png;
 mod random;

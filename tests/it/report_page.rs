@@ -149,6 +149,15 @@ fn a_file_is_written_and_needs_nothing_else() {
     assert!(page.starts_with("<!doctype html>") && page.ends_with("</html>\n"));
     assert!(page.contains("default-src 'none'"));
     assert!(!page.contains("{{"), "every part is filled in");
+    for words in [
+        "11 redundant constraints",
+        "21,817,629 of 13,841,287,201 variants have σ = 0 and keep the motion of outputs and drives throughout the motion; \
+         the cheapest changes 6 joints at cost 11.5.",
+        "rank proven by a checked certificate",
+        "ozols export gripper-10 --to sdf",
+    ] {
+        assert!(page.contains(words), "{words}");
+    }
     for outside in ["src=", "href=\"http", "url(", "@import"] {
         assert!(!page.contains(outside), "{outside}");
     }
@@ -156,6 +165,10 @@ fn a_file_is_written_and_needs_nothing_else() {
 
 #[test]
 fn pages_say_what_is_not_there() {
+    let page = run_quiet("report slider-crank-determinate");
+    assert!(page.contains("Statically determinate") && page.contains("Nothing needs changing"));
+    let page = run_quiet("report tongs");
+    assert!(page.contains("No joint has an option with more freedoms"));
     let page = run_quiet("report gripper-10 --max-changes 1");
     // Where nothing is found it names what finds something, as the search does.
     let next = run("search gripper-10 --max-changes 1");

@@ -1,11 +1,10 @@
-//! What is done by the structure of J, against the same by definition: the rank from the contours one by one, and the
-//! shares of the contours from one basis of the self-stresses.
+//! The shares of the contours from one basis of the self-stresses, against the same by definition.
 
 use crate::common::lattice::{self, LatticeKind};
 use crate::common::*;
 use crate::search::twin;
+use ozols::closure::Column;
 use ozols::closure::contour::Contour;
-use ozols::closure::{Column, CouplingRow};
 use ozols::linalg::echelon;
 use ozols::linalg::modp::Residue;
 use ozols::redundancy::contour_shares::contour_shares;
@@ -43,11 +42,6 @@ fn check(mechanism: &Mechanism) {
     for state in mechanism.state_ids() {
         let closure = Closure::new(&exact, mechanism, state).unwrap();
         let what = format!("{} {}", mechanism.name, mechanism.states[state]);
-        assert_eq!(
-            modular::rank_modulo(&exact, &closure),
-            rank_dense(&exact, &closure),
-            "{what}"
-        );
         let by_definition = shares_by_definition(&exact, &closure);
         assert_eq!(shares(&exact, &closure), by_definition, "{what}");
     }
@@ -113,10 +107,7 @@ fn structured() -> impl Strategy<Value = Structure> {
 proptest! {
     #![proptest_config(ProptestConfig { cases: 256, ..ProptestConfig::default() })]
     #[test]
-    fn random_structures(
-        (dim, contours, twists) in structured(),
-        pairs in proptest::collection::vec((0..100usize, 0..100usize, 1..4i64), 0..5),
-    ) {
+    fn random_structures((dim, contours, twists) in structured()) {
         let exact = ExactField::for_expressions([], 0).unwrap();
         let column = |(joint, t): (usize, &Vec<i64>)| Column {
             joint: JointId::new(joint),
@@ -124,7 +115,7 @@ proptest! {
             twist: t[..dim].iter().map(|&x| exact.field().from_i64(x)).collect(),
         };
         let columns = twists.iter().enumerate().flat_map(|(j, ts)| ts.iter().map(move |t| (j, t)));
-        let mut closure = Closure {
+        let closure = Closure {
             extent: None,
             state: StateId::FREE,
             dim,
@@ -133,19 +124,7 @@ proptest! {
             couplings: Vec::new(),
             left_out: Vec::new(),
         };
-        prop_assert_eq!(modular::rank_modulo(&exact, &closure), rank_dense(&exact, &closure));
         prop_assert_eq!(shares(&exact, &closure), shares_by_definition(&exact, &closure));
-        // Couplings of columns of different joints: fronts of their own, against J written out.
-        let f = closure.columns.len().max(1);
-        for (a, b, ratio) in pairs {
-            let (a, b) = (a % f, b % f);
-            if closure.columns.get(a).map(|c| c.joint) != closure.columns.get(b).map(|c| c.joint) {
-                let field = exact.field();
-                let entries = [(a, field.from_i64(-ratio)), (b, field.one())];
-                closure.couplings.push(CouplingRow { entries });
-            }
-        }
-        prop_assert_eq!(modular::rank_modulo(&exact, &closure), rank_dense(&exact, &closure));
     }
 }
 

@@ -246,6 +246,6 @@ def test_a_variant_is_a_mechanism_and_is_drawn_with_its_changes():
     assert str(first).startswith("1. cost 11.5, W = 1, σ = 0: 1-2, 3-0, ")
 
 
-@pytest.mark.parametrize("format", ["toml", "json", "urdf", "mjcf", "sdf", "dot", "graphml"])
+@pytest.mark.parametrize("format", ["toml", "json", "urdf", "mjcf", "sdf", "dot"])
 def test_exports_are_the_commands(format, in_tmp):
     assert command("export", "four-bar", "--to", format).stdout == Mechanism.builtin("four-bar").export(format)

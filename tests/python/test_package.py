@@ -281,7 +281,7 @@ def test_a_notebook_shows_drawings_and_tables():
     found = gripper.search(top=2)
     for shown in (gripper, found[0], gripper.draw(), Mechanism.builtin("four-bar").stroke("0:9deg:2")):
         assert shown._repr_svg_().startswith("<svg")
-    assert "<td>11.5</td>" in found._repr_html_() and "25,761,436 admissible" in found._repr_html_()
+    assert "<td>11.5</td>" in found._repr_html_() and "<p>21,817,629 admissible" in found._repr_html_()
     assert "<th>mobility</th>" in gripper.analyze()._repr_html_()
     assert Mechanism.builtin("parallel-shears").statics()._repr_html_().count("<tr>") > 3
     assert "at least" in repr(gripper.search(nodes=100, top=1))

@@ -4,7 +4,6 @@ use crate::accuracy::stability;
 use crate::accuracy::study::{self, Effort};
 use crate::accuracy::survey::{Survey, built_in_cases, generated_cases};
 use crate::accuracy::timing::Stopwatch;
-use crate::builtin;
 use crate::cli::prelude::*;
 use crate::cli::terminal::{charts, machine};
 use crate::view::accuracy::accuracy_text;

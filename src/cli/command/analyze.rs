@@ -6,17 +6,15 @@ use crate::file::read::workload::motion::parse_stroke;
 use crate::rank::method::{MobilityMethod, RankOfJ, registry};
 use crate::rank::rounded::verdict::rank_verdict;
 use crate::rank::stroke::request::AskedStroke;
-use crate::redundancy::analysis::{Method, StateAnalysis, analyse_states};
-use crate::view::analysis::mobility::ByMethod;
-use crate::view::analysis::next::next as steps;
+use crate::view::analysis::mobility::{ByMethod, next as steps};
 use crate::view::analysis::{Analysis, State, suggestions};
 use crate::view::stroke::StrokeData;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 
 /// Parses the name of a rank method; lists the surest method first.
-fn rank_method() -> impl TypedValueParser<Value = &'static dyn MobilityMethod> {
+fn rank_method() -> impl TypedValueParser<Value = &'static MobilityMethod> {
     let each = registry::ALL.into_iter().rev();
-    let values = each.map(|m| PossibleValue::new(m.name()).help(m.about().help));
+    let values = each.map(|m| PossibleValue::new(m.name()).help(m.help));
     PossibleValuesParser::new(values)
         .try_map(|name| registry::by_name(&name).ok_or("unknown method"))
 }
@@ -30,7 +28,7 @@ pub(crate) struct Analyze {
     pub(crate) state: String,
     /// Method that computes the rank.
     #[arg(long, value_parser = rank_method(), default_value = "auto")]
-    method: &'static dyn MobilityMethod,
+    method: &'static MobilityMethod,
     /// Relative tolerance of the floating-point methods [default: depends on the method].
     #[arg(long, value_name = "T")]
     pub(crate) tolerance: Option<f64>,
@@ -159,8 +157,8 @@ fn check_tolerance(a: &Analyze) -> anyhow::Result<()> {
     {
         bail!("--tolerance must be between 0 and 1");
     }
-    let why = match a.method.about().rank {
-        RankOfJ::Numeric => return Ok(()),
+    let why = match a.method.rank {
+        RankOfJ::Numeric(_) => return Ok(()),
         RankOfJ::Chosen => "which uses the digits and the [tolerance] table of the file",
         RankOfJ::Exact | RankOfJ::NotFound => "which does not round",
     };
@@ -222,7 +220,7 @@ fn mobility_alone(mechanism: &Mechanism, states: &[StateId], a: &Analyze) -> any
         .iter()
         .map(|&s| Ok((s, method.answer(mechanism, s)?)))
         .collect::<anyhow::Result<Vec<_>>>()
-        .with_context(|| format!("{} by {}", mechanism.name, method.about().title))?;
+        .with_context(|| format!("{} by {}", mechanism.name, method.title))?;
     let found = ByMethod {
         mechanism,
         method,

@@ -9,7 +9,6 @@ use crate::accuracy::timing::Stopwatch;
 use crate::cli::option::request::Which;
 use crate::cli::prelude::*;
 use crate::cli::terminal::{charts, machine};
-use crate::score::request::{List, Request};
 use crate::search::question::conditions::Symmetry;
 use crate::view::accuracy::bench_text;
 use serde_json::json;
@@ -20,14 +19,6 @@ const ADVICE: [&str; 3] = [
     "If it does not, a search that is stopped gives certain bounds and an interval of 95 %: raise --nodes tenfold to narrow them.",
     "For a ranking leave --pool to its default: the cheapest 20,000 are scored, and then all that could still win.",
 ];
-
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-enum BenchFormat {
-    Text,
-    Json,
-    /// One line per method and mechanism.
-    Csv,
-}
 
 #[derive(Debug, ClapArgs)]
 pub(crate) struct Bench {
@@ -52,7 +43,7 @@ pub(crate) struct Bench {
     quick: bool,
     /// Output format.
     #[arg(long, value_enum, default_value = "text")]
-    format: BenchFormat,
+    format: TextJsonOrCsv,
     /// Write charts, the table and a page to this folder, with index.html as the start page.
     #[arg(long, short, value_name = "DIR", conflicts_with = "format")]
     output: Option<PathBuf>,
@@ -152,11 +143,11 @@ pub(crate) fn run(args: &Global, a: &Bench) -> anyhow::Result<Done> {
     }
     let machine = machine::this_machine();
     let mut text = match a.format {
-        BenchFormat::Text => bench_text(&trials, &ADVICE, &machine, output::output_width(None)),
-        BenchFormat::Json => output::json_text(
+        TextJsonOrCsv::Text => bench_text(&trials, &ADVICE, &machine, output::output_width(None)),
+        TextJsonOrCsv::Json => output::json_text(
             &json!({"machine": machine, "mechanisms": trials, "ways": record::trial_rows(&trials)}),
         )?,
-        BenchFormat::Csv => record::trials_csv(&trials),
+        TextJsonOrCsv::Csv => record::trials_csv(&trials),
     };
     if let Some(folder) = &a.output {
         let command = std::env::args().collect::<Vec<_>>().join(" ");

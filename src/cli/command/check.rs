@@ -1,6 +1,5 @@
 //! `ozols check`, `show`, `schema` and `completions`.
 
-use crate::builtin;
 use crate::cli::prelude::*;
 use crate::file::lint::{check_file, mechanism_size};
 use crate::file::locate::DocumentPath;
@@ -8,10 +7,9 @@ use crate::file::problem::Warnings;
 use crate::file::read::workload::tables_alone;
 use crate::grip::jaw_loads::{Gripping, JawError};
 use crate::model::mechanism::Expected;
-use crate::redundancy::analysis::{Method, StateAnalysis, analyse_states};
-use crate::view::analysis::idle::drive_fault;
+use crate::view::analysis::link_motions::drive_fault;
 use crate::view::analysis::mechanism::describe_mechanism;
-use crate::view::search::costs;
+use crate::view::search::variant;
 
 /// Name of the table of costs for `show`; no built-in mechanism has this name.
 const COSTS: &str = "costs";
@@ -155,7 +153,7 @@ fn warn_of_stale(m: &Mechanism, warnings: &mut Warnings) {
 }
 
 pub(crate) fn run_show(a: &Show) -> anyhow::Result<Done> {
-    let costs = (a.name == COSTS).then(costs::costs_toml);
+    let costs = (a.name == COSTS).then(variant::costs_toml);
     let Some(text) = costs.as_deref().or_else(|| builtin::text(&a.name)) else {
         bail!(load::no_built_in(&a.name))
     };

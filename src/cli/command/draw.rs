@@ -2,11 +2,11 @@
 
 use crate::cli::option::request::Which;
 use crate::cli::option::variant::Chosen;
-use crate::cli::option::{picture, variant};
+use crate::cli::option::{self as picture, variant};
 use crate::cli::prelude::*;
-use crate::draw::{self, Drawing, Sight, Size, Subject};
+use crate::draw::{self, Drawing, Moved, Sight, Size, Subject};
 use crate::page::moving::Moving;
-use crate::redundancy::analysis::{Method, StateAnalysis, analyse_states};
+use crate::redundancy::stress::SelfStress;
 use crate::view::analysis::Analysis;
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -43,9 +43,9 @@ pub(crate) struct Draw {
     /// With --motion, animate this idle freedom instead of the drive (number from `ozols analyze`).
     #[arg(long, value_name = "K", requires = "motion", conflicts_with_all = ["stroke", "drive"])]
     idle: Option<usize>,
-    /// Show a self-stress in the kinematic scheme as arrows on the links that it loads (number from `ozols analyze`). Straight
-    /// arrows are forces; arrows with two heads, arcs if seen from their end, are moments.
-    #[arg(long, value_name = "K", conflicts_with_all = ["motion", "stroke", "drive"])]
+    /// Show a self-stress in the kinematic scheme as arrows on the links that it loads (number from `ozols analyze`), with --motion
+    /// in every frame. Straight arrows are forces; arrows with two heads, arcs if seen from their end, are moments.
+    #[arg(long, value_name = "K")]
     self_stress: Option<usize>,
     /// Range of the drive from the drawn pose, as FROM:TO:STEPS, for example 0:90deg:60 or -5:5:60 (lengths in the file's unit)
     /// [default: as far as it can move]. Without --motion the kinematic scheme stands still and shows the paths of its points
@@ -160,26 +160,28 @@ fn make_drawing(
         up: a.up,
     };
     let first = found.first().context("no state was analysed")?;
-    if let Some(k) = a.self_stress {
-        return draw_stressed(a, subject, &sight, found, k.wrapping_sub(1));
-    }
+    let stress = a
+        .self_stress
+        .map(|k| find_stress(a, subject, found, k.wrapping_sub(1)));
+    let stress = stress.transpose()?;
+    let stress = stress.as_ref().map(|(name, s)| (name.as_str(), *s));
     if a.shows_motion() {
-        return draw_moving(a, subject, &sight, first);
+        return draw_moving(a, subject, &sight, first, stress);
     }
-    Ok(match a.kind {
-        DrawKind::Scheme => draw::scheme(subject),
-        DrawKind::Kinematic => draw::kinematic_seen(subject, &sight),
+    Ok(match (stress, a.kind) {
+        (Some((name, s)), _) => draw::kinematic_stressed(subject, &sight, s, name),
+        (None, DrawKind::Scheme) => draw::scheme(subject),
+        (None, DrawKind::Kinematic) => draw::kinematic_seen(subject, &sight),
     })
 }
 
-/// Draws the kinematic scheme with a self-stress, counted from 0, as arrows.
-fn draw_stressed(
+/// Returns a self-stress, counted from 0, with its name.
+fn find_stress<'f>(
     a: &Draw,
     subject: &Subject<'_>,
-    sight: &Sight,
-    found: &[StateAnalysis],
+    found: &'f [StateAnalysis],
     k: usize,
-) -> anyhow::Result<Drawing> {
+) -> anyhow::Result<(String, &'f SelfStress)> {
     let all = found.first().map_or(&[][..], |s| &s.self_stresses);
     let told = Analysis::new(subject.mechanism, found, &[]);
     let (Some(stress), Some(told)) = (all.get(k), told.states.first()) else {
@@ -197,12 +199,7 @@ fn draw_stressed(
         "self-stress {} was not computed, because its numbers are too large",
         k + 1
     );
-    Ok(draw::kinematic_stressed(
-        subject,
-        sight,
-        stress,
-        &told.name(k),
-    ))
+    Ok((told.name(k), stress))
 }
 
 /// Draws the kinematic scheme with its motion, or with the paths of its points.
@@ -211,16 +208,21 @@ fn draw_moving(
     subject: &Subject<'_>,
     sight: &Sight,
     analysis: &StateAnalysis,
+    stress: Option<(&str, &SelfStress)>,
 ) -> anyhow::Result<Drawing> {
     let (mechanism, state) = (subject.mechanism, subject.state);
     let moving = match a.idle {
         Some(k) => Moving::idle_motion(mechanism, analysis, state, k.wrapping_sub(1))?,
         None => Moving::new(mechanism, state, a.stroke.as_deref(), a.drive.as_deref())?,
     };
+    let moved = Moved {
+        stress,
+        ..moving.as_moved()
+    };
     Ok(if a.motion {
-        draw::kinematic_moving(subject, sight, &moving.as_moved())
+        draw::kinematic_moving(subject, sight, &moved)
     } else {
-        draw::kinematic_along(subject, sight, &moving.as_moved())
+        draw::kinematic_along(subject, sight, &moved)
     })
 }
 

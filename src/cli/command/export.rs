@@ -6,7 +6,6 @@ use crate::cli::option::request::Which;
 use crate::cli::option::variant;
 use crate::cli::option::variant::{Chosen, print_note};
 use crate::cli::prelude::*;
-use crate::redundancy::release::Release;
 use crate::robots::formats::{self, Format, FormattedFile};
 use crate::robots::{self, Imported};
 use crate::view::lint::describe_release;

@@ -1,14 +1,11 @@
 //! `ozols fix`.
 
-use crate::api::{self, MAX_DESCRIPTION_BYTES};
 use crate::cli::command::types::{TypePlan, plan_variant};
 use crate::cli::command::{lint, types};
 use crate::cli::option::reading::{Reading, import_description};
 use crate::cli::option::request::Which;
 use crate::cli::option::variant::{Chosen, print_note};
 use crate::cli::prelude::*;
-use crate::redundancy::analysis::StateAnalysis;
-use crate::redundancy::release::Release;
 use crate::robots::{self, Imported};
 use crate::view::lint::{TypeChange, describe_release};
 
@@ -230,11 +227,7 @@ fn of_search(imported: &Imported, a: &Fix, k: usize) -> anyhow::Result<(StateAna
             "nothing is redundant, so {} {k} of the search would only add mobility; use --max-mobility to apply it nevertheless",
             request.noun_of_one()
         ));
-        let plan = TypePlan {
-            releases: Vec::new(),
-            mobility: before.mobility,
-            redundant: 0,
-        };
+        let plan = TypePlan::unchanged(before.mobility);
         return Ok((before, plan));
     }
     Ok((before, plan_variant(m, request, k, print_note)?))
@@ -245,11 +238,7 @@ fn other_types(imported: &Imported, a: &Fix) -> anyhow::Result<(StateAnalysis, T
     let mut m = imported.mechanism.clone();
     let before = api::analyze(&m)?.remove(0);
     if before.redundant == 0 && before.at_most().is_none() {
-        let plan = TypePlan {
-            releases: Vec::new(),
-            mobility: before.mobility,
-            redundant: 0,
-        };
+        let plan = TypePlan::unchanged(before.mobility);
         return Ok((before, plan));
     }
     check_names(&m, &a.at)?;

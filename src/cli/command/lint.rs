@@ -9,7 +9,6 @@ use crate::motion::pose::Pose;
 use crate::rank::method::Certainty;
 use crate::redundancy::duplicate_constraints::{HeldTwice, held_twice};
 use crate::redundancy::other_poses::Where;
-use crate::redundancy::release::Release;
 use crate::robots::{self, Origin};
 use crate::view::lint::{self, Lint as Found, PassedOver};
 

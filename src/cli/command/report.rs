@@ -5,11 +5,8 @@ use crate::cli::prelude::*;
 use crate::cli::terminal::progress::SearchWatch;
 use crate::page::scenes::state_scenes;
 use crate::page::{Commands, Page, Redesigns, report_html};
-use crate::redundancy::analysis::{Method, analyse_states};
-use crate::score::outcome::Outcome;
 use crate::score::outcome::listing::Variants;
 use crate::score::outcome::remarks::Remarks;
-use crate::score::request::{List, Request};
 use crate::view::search::nothing_found::wider_commands;
 use crate::view::terminal::next_commands::{file_name, file_stem, request_flags};
 use std::sync::Arc;
@@ -147,12 +144,12 @@ fn join_words(words: &[&str]) -> String {
 
 /// Returns the options that made the list of the page.
 fn list_options(mechanism: &Mechanism, a: &Report, request: &Request) -> String {
-    let mut more = vec![request_flags(mechanism, request)];
-    if request.poses > 0 {
-        more.push(format!("--poses {}", request.poses));
-    }
-    more.push(format!("--top {}", a.top));
-    more.iter().filter(|m| !m.is_empty()).join(" ")
+    let poses = match request.poses {
+        0 => String::new(),
+        n => format!("--poses {n}"),
+    };
+    let top = format!("--top {}", a.top);
+    join_words(&[&request_flags(mechanism, request), &poses, &top])
 }
 
 /// Returns the commands about one variant or idea, called `name`, with `{}` for its number.

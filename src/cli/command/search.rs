@@ -5,9 +5,8 @@ use crate::cli::prelude::*;
 use crate::cli::terminal::progress::SearchWatch;
 use crate::cli::terminal::{machine, memory};
 use crate::format::{format_duration, group_thousands};
-use crate::score::outcome::Outcome;
 use crate::score::outcome::remarks::Remarks;
-use crate::score::request::{List, Method, Request};
+use crate::score::request::Method;
 use crate::view::search::{csv, json, text};
 use num_traits::Zero;
 

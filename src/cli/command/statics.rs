@@ -1,11 +1,10 @@
 //! `ozols statics`.
 
-pub(crate) mod args;
-
-use crate::cli::command::clamped;
 use crate::cli::prelude::*;
 use crate::cli::terminal::charts;
 use crate::file::read::workload::motion::parse_stroke;
+use crate::grip::clamped::clamped_reactions;
+use crate::grip::clamping::DiameterRow;
 use crate::grip::jaw_loads::{Gripping, JawError};
 use crate::model::loads::{Accuracy, Stroke, Tolerances};
 use crate::statics::contour_group::solutions::GroupMethod;
@@ -20,7 +19,9 @@ use crate::view::reactions::misfit::MisfitView;
 use crate::view::statics::force_plans::force_plans_of;
 use crate::view::statics::told::{ToldReactions, ToldStatics};
 use crate::view::statics::{Structures, charts as drawn};
-use args::{Statics, StaticsFormat, StaticsMethod};
+use args::{Statics, StaticsMethod};
+
+pub(crate) mod args;
 
 pub(crate) fn run_statics(args: &Global, a: &Statics) -> anyhow::Result<Done> {
     let file = a.file.clone().unwrap_or_else(|| "parallel-shears".into());
@@ -38,7 +39,7 @@ pub(crate) fn run_statics(args: &Global, a: &Statics) -> anyhow::Result<Done> {
         }
         found => match found? {
             Some(gripping) if a.groups => return run_groups(&gripping.mechanism, state, a),
-            Some(gripping) => return clamped::run_clamped(&gripping, a),
+            Some(gripping) => return run_clamped(&gripping, a),
             None => {}
         },
     }
@@ -116,9 +117,9 @@ fn run_misfit(
         found: &misfit(m, state, &accuracy, seed)?,
     };
     a.write_text(match a.format {
-        StaticsFormat::Text => view.text(output::output_width(a.output.as_deref())),
-        StaticsFormat::Json => output::json_text(&view.json())?,
-        StaticsFormat::Csv => bail!("assembly forces have no CSV; use --format json"),
+        TextJsonOrCsv::Text => view.text(output::output_width(a.output.as_deref())),
+        TextJsonOrCsv::Json => output::json_text(&view.json())?,
+        TextJsonOrCsv::Csv => bail!("assembly forces have no CSV; use --format json"),
     })?;
     Ok(Done::Found)
 }
@@ -150,8 +151,8 @@ fn report_loose(
     a: &Statics,
 ) -> anyhow::Result<Done> {
     a.write_text(match a.format {
-        StaticsFormat::Json => output::json_text(&NotHeld::because(m, state, &why.to_string()))?,
-        StaticsFormat::Csv | StaticsFormat::Text => {
+        TextJsonOrCsv::Json => output::json_text(&NotHeld::because(m, state, &why.to_string()))?,
+        TextJsonOrCsv::Csv | TextJsonOrCsv::Text => {
             format!("{}, state {}: {why}\n", m.name, a.state)
         }
     })?;
@@ -216,9 +217,9 @@ fn run_groups(m: &Mechanism, state: StateId, a: &Statics) -> anyhow::Result<Done
         found: &found,
     };
     a.write_text(match a.format {
-        StaticsFormat::Json => output::json_text(&shown.json())?,
-        StaticsFormat::Csv => bail!("--groups has no CSV; use --format json"),
-        StaticsFormat::Text => shown.text(output::output_width(a.output.as_deref())),
+        TextJsonOrCsv::Json => output::json_text(&shown.json())?,
+        TextJsonOrCsv::Csv => bail!("--groups has no CSV; use --format json"),
+        TextJsonOrCsv::Text => shown.text(output::output_width(a.output.as_deref())),
     })?;
     Ok(Done::found_or_nothing(
         found.iter().any(|x| x.found.is_ok()),
@@ -255,4 +256,69 @@ fn run_stability(
         index.display()
     );
     output::write_bytes(None, text)
+}
+
+/// Returns the diameter asked for, or the hardest one to hold. `None` if that part cannot be held.
+fn chosen_diameter<'g>(g: &'g Gripping, a: &Statics) -> anyhow::Result<Option<&'g DiameterRow>> {
+    let Some(diameter) = a.diameter else {
+        return Ok(g.study.hardest_row());
+    };
+    let unit = g.mechanism.length_unit;
+    let near =
+        |r: &&DiameterRow| (r.diameter / unit.metres - diameter).abs() < 1e-6 * diameter.abs();
+    let found = g.study.rows.iter().find(near);
+    let known = || {
+        let all = g.study.rows.iter().take(30);
+        let all = all.map(|r| four_digits(r.diameter / unit.metres));
+        all.collect::<Vec<_>>().join(", ")
+    };
+    let row = found.with_context(|| {
+        format!(
+            "--diameter {diameter} {} is not one of the diameters of [workload.grip]: {}",
+            unit.symbol,
+            known()
+        )
+    })?;
+    Ok(Some(row).filter(|r| r.is_held()))
+}
+
+/// Refuses what makes no sense round a part.
+fn check_options(a: &Statics) -> anyhow::Result<()> {
+    for (given, flag) in [
+        (a.stroke.is_some(), "--stroke"),
+        (a.svg.is_some(), "--svg"),
+        (a.stability, "--stability"),
+    ] {
+        ensure!(
+            !given,
+            "{flag} needs a motion, but the levers do not move around this part; choose another part with --diameter"
+        );
+    }
+    ensure!(
+        !matches!(a.method, StaticsMethod::Delta | StaticsMethod::Projective),
+        "joints around a part are solved by equilibrium only; use --method equilibrium"
+    );
+    Ok(())
+}
+
+pub(crate) fn run_clamped(g: &Gripping, a: &Statics) -> anyhow::Result<Done> {
+    check_options(a)?;
+    let Some(row) = chosen_diameter(g, a)? else {
+        return not_held(g, a);
+    };
+    let Some(found) = clamped_reactions(g, row, a.spatial)? else {
+        return not_held(g, a);
+    };
+    let shown = ToldStatics::round_a_part(g, row, &found);
+    a.put_reactions(&shown, &[])
+}
+
+/// Says why there are no forces: exit code 1.
+fn not_held(g: &Gripping, a: &Statics) -> anyhow::Result<Done> {
+    let shown = NotHeld::new(g);
+    a.write_text(match a.format {
+        TextJsonOrCsv::Json => output::json_text(&shown)?,
+        TextJsonOrCsv::Csv | TextJsonOrCsv::Text => shown.text(),
+    })?;
+    Ok(Done::Nothing)
 }

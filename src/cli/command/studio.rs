@@ -1,11 +1,7 @@
 //! `ozols studio`.
 
-use crate::api::{self, MAX_DESCRIPTION_BYTES};
 use crate::cli::prelude::*;
-use crate::cli::terminal::spinner;
-use crate::score::request::Request;
 use crate::studio::{Opening, Studio};
-use crate::{builtin, robots};
 use std::process::{Command, Stdio};
 
 #[derive(Debug, ClapArgs)]
@@ -64,7 +60,7 @@ pub(crate) fn run_studio(global: &Global, a: &StudioArgs) -> anyhow::Result<Done
         None => "cannot open the studio".to_owned(),
     })?;
     let address = studio.page_address();
-    spinner::hide_spinner();
+    output::hide_spinner();
     output::write_bytes(None, format!("{address}\n"))?;
     if !a.no_open && !open_browser(&address) {
         output::print_note("no browser could be started; open the address above in one\n");

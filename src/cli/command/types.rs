@@ -3,9 +3,7 @@
 use crate::cli::option::variant;
 use crate::cli::prelude::*;
 use crate::geom::vector::Vector;
-use crate::redundancy::release::Release;
 use crate::robots::{Origin, find_releases};
-use crate::score::request::Request;
 use crate::score::run::Event;
 use crate::view::lint::TypeChange;
 use anyhow::anyhow;
@@ -23,6 +21,17 @@ pub(crate) struct TypePlan {
     pub(crate) redundant: usize,
 }
 
+impl TypePlan {
+    /// Returns the plan that changes nothing.
+    pub(crate) fn unchanged(mobility: usize) -> TypePlan {
+        TypePlan {
+            releases: Vec::new(),
+            mobility,
+            redundant: 0,
+        }
+    }
+}
+
 /// Returns the changes of variant `k` of a search.
 pub(crate) fn plan_variant(
     m: &Mechanism,
@@ -38,12 +47,11 @@ pub(crate) fn plan_variant(
             (searched, v.as_mechanism(), v.mobility(), v.redundant())
         })?;
     let releases = find_releases(&before_it, &changed).map_err(|why| anyhow!("{one} {k} {why}"))?;
-    let plan = TypePlan {
+    Ok(TypePlan {
         releases,
         mobility: usize::try_from(w)?,
         redundant: usize::try_from(sigma)?,
-    };
-    Ok(plan)
+    })
 }
 
 /// Returns the first idea of the search, or `None` if it finds none.

@@ -1,9 +1,7 @@
 //! `ozols verify`, and the certificates that `ozols analyze` writes for it.
 
 use crate::cli::prelude::*;
-use crate::file::disk;
 use crate::rank::exact::certificate::{certify_state, closure_matrix, number_field};
-use crate::redundancy::analysis::StateAnalysis;
 use crate::verify::certificate::{CertificateFile, FORMAT, Without};
 use crate::verify::check_certificate;
 use std::io::Write;

@@ -2,7 +2,6 @@
 //! cases the program reports it, leaves no temporary file, and its exit code is 128 plus the number of the signal.
 
 use crate::cli::terminal::output;
-use crate::cli::terminal::spinner;
 use anyhow::Context;
 use std::sync::atomic::{AtomicBool, AtomicU8, Ordering};
 
@@ -77,7 +76,7 @@ fn handle_signal(signal: u8) {
         ));
         return;
     }
-    spinner::hide_spinner();
+    output::hide_spinner();
     output::remove_unfinished();
     output::print_note(&format!("interrupted by {name}\n"));
     std::process::exit(signal_code(signal).into());

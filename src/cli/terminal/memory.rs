@@ -1,9 +1,9 @@
 //! Available memory, and sizes of memory as words.
 
-mod group;
-
 use crate::cli::terminal::machine;
 use crate::score::request::Request;
+use std::fs::read_to_string;
+use std::path::Path;
 
 /// Returns a quarter of the memory that the machine has, or that this process may have of it; the library's default if that is
 /// unknown. If addresses are scarce, returns at most half of those that are left.
@@ -52,11 +52,7 @@ pub(crate) fn parse_bytes(word: &str) -> Result<usize, String> {
 
 /// Returns the smallest limit on the memory of this process, in bytes, or `None` if none is known.
 fn least_limit() -> Option<u64> {
-    let known = [
-        machine::total_memory(),
-        group::group_limit(),
-        address_limit(),
-    ];
+    let known = [machine::total_memory(), group_limit(), address_limit()];
     known.into_iter().flatten().min()
 }
 
@@ -69,30 +65,18 @@ fn address_limit() -> Option<u64> {
 }
 
 #[cfg(not(unix))]
-fn ulimit() -> Option<u64> {
+fn address_limit() -> Option<u64> {
     None
 }
 
-/// Restarts the program if addresses are scarce, with one pool of memory for all threads. glibc reserves 64 MiB of addresses for
-/// each thread's pool, so a few threads would use up the addresses without using the memory.
-#[cfg(all(target_os = "linux", target_env = "gnu"))]
-pub(crate) fn share_pools(words: &[std::ffi::OsString]) {
-    use std::os::unix::process::CommandExt;
-    const POOLS: &str = "MALLOC_ARENA_MAX";
-    /// With more bytes than this, the reserved addresses do not matter.
-    const PLENTY: u64 = 16 << 30;
-    if address_limit().is_none_or(|l| l > PLENTY) || std::env::var_os(POOLS).is_some() {
-        return;
-    }
-    if let (Ok(program), [name, rest @ ..]) = (std::env::current_exe(), words) {
-        // It comes back where that does not work, and all goes on as it was.
-        let _ = std::process::Command::new(program)
-            .arg0(name)
-            .args(rest)
-            .env(POOLS, "1")
-            .exec();
-    }
+/// Returns the least memory limit of the control groups (version 2) that this process is in, in bytes.
+fn group_limit() -> Option<u64> {
+    let own = read_to_string("/proc/self/cgroup").ok()?;
+    let group = own.lines().find_map(|l| l.strip_prefix("0::/"))?;
+    let limit = |group: &Path| {
+        let file = Path::new("/sys/fs/cgroup").join(group).join("memory.max");
+        // "max" is none.
+        read_to_string(file).ok()?.trim().parse().ok()
+    };
+    Path::new(group).ancestors().filter_map(limit).min()
 }
-
-#[cfg(not(all(target_os = "linux", target_env = "gnu")))]
-pub(crate) fn share_pools(_: &[std::ffi::OsString]) {}

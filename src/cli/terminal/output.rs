@@ -1,20 +1,22 @@
 //! Results go to standard output or to a file, which is written completely or not at all. Errors go to standard error.
 
-mod beside;
-pub(crate) mod kept;
-
-pub(crate) use beside::{cut_short, remove_unfinished};
-
-use crate::cli::terminal::{Done, spinner};
+use crate::cli::terminal::Done;
 use crate::file::problem::ImportError;
 use crate::format::plain::{escape_control, escape_except_colours};
 use crate::{api, view};
 use anstream::{AutoStream, ColorChoice};
 use anstyle::AnsiColor;
 use anyhow::Context;
+pub(crate) use beside::{cut_short, remove_unfinished};
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::io::{self, BufWriter, ErrorKind, IsTerminal, StdoutLock, Write};
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::time::Duration;
+
+mod beside;
+pub(crate) mod kept;
 
 /// Returns the file to write to, if it is not standard output.
 fn target_file(path: Option<&Path>) -> Option<&Path> {
@@ -160,7 +162,7 @@ pub(crate) fn print_note(text: &str) {
 
 /// Says something on standard error, even where only errors are wanted.
 pub(crate) fn print_message(text: &str) {
-    spinner::hide_spinner();
+    hide_spinner();
     let _ = write!(std::io::stderr().lock(), "{}", escape_control(text));
 }
 
@@ -299,7 +301,7 @@ impl Standard {
 
 impl Write for Standard {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-        spinner::hide_spinner();
+        hide_spinner();
         let Some(line) = &mut self.line else {
             return self.out.write(bytes);
         };
@@ -322,6 +324,44 @@ impl Write for Standard {
 
 fn write_coloured(out: &mut dyn Write, bytes: &[u8]) -> io::Result<()> {
     out.write_all(escape_except_colours(&String::from_utf8_lossy(bytes)).as_bytes())
+}
+
+/// The state of the spinner: how often work began or ended, and the bar.
+static WORKING: Mutex<(u64, Option<ProgressBar>)> = Mutex::new((0, None));
+
+/// Shows on a terminal that work continues, after a second and until [`rest`].
+pub(crate) fn show_spinner(quiet: bool) {
+    if quiet || !std::io::stderr().is_terminal() {
+        return;
+    }
+    let mut shown = lock_working();
+    shown.0 += 1;
+    let began = shown.0;
+    std::thread::spawn(move || {
+        std::thread::sleep(Duration::from_secs(1));
+        let mut shown = lock_working();
+        if shown.0 == began {
+            let bar = ProgressBar::with_draw_target(None, ProgressDrawTarget::stderr());
+            let style = ProgressStyle::with_template("{elapsed_precise} {spinner} working");
+            bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_spinner()));
+            bar.set_elapsed(Duration::from_secs(1));
+            bar.enable_steady_tick(Duration::from_millis(100));
+            shown.1 = Some(bar);
+        }
+    });
+}
+
+/// Takes away what [`show`] shows: something is written.
+pub(crate) fn hide_spinner() {
+    let mut shown = lock_working();
+    shown.0 += 1;
+    if let Some(bar) = shown.1.take() {
+        bar.finish_and_clear();
+    }
+}
+
+fn lock_working() -> MutexGuard<'static, (u64, Option<ProgressBar>)> {
+    WORKING.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
 #[cfg(test)]

@@ -1,8 +1,6 @@
 //! Progress of a run that takes longer than a second, on a terminal only.
 
-use crate::cli::terminal::interrupt;
-use crate::cli::terminal::output;
-use crate::cli::terminal::spinner;
+use crate::cli::terminal::{interrupt, output};
 use crate::model::mechanism::Mechanism;
 use crate::score::outcome::Outcome;
 use crate::score::request::prepare::LooksRounded;
@@ -65,13 +63,13 @@ impl SearchWatch {
         search(&interrupt::is_pending, &mut |event| match event {
             Event::Note(text) => print_line(text),
             Event::Building(p) => {
-                spinner::hide_spinner();
+                output::hide_spinner();
                 interrupt::be_patient();
                 bar.show_diagram(p);
             }
             Event::Built => {
                 bar.clear();
-                spinner::show_spinner(*quiet);
+                output::show_spinner(*quiet);
                 // What was found so far is still given, unless it is a list without end; another signal stops the giving.
                 if request.list != List::All {
                     interrupt::clear_pending();
@@ -109,7 +107,7 @@ impl Bar {
 
     /// Shows how far a run of known length has come.
     pub(crate) fn show_step(&mut self, what: &str, done: usize, of: usize) {
-        spinner::hide_spinner();
+        output::hide_spinner();
         self.set_progress("", done, of, what.to_owned());
     }
 

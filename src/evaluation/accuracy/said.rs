@@ -35,7 +35,7 @@ impl Said {
 
     /// Judges the answer of a method by what the method promises. For the automatic choice this is the worse of W and finite
     /// mobility. Returns `None` if the method does not apply.
-    fn of_method(method: &dyn MobilityMethod, m: &Mechanism, s: StateId, t: Truth) -> Option<Said> {
+    fn of_method(method: &MobilityMethod, m: &Mechanism, s: StateId, t: Truth) -> Option<Said> {
         if method.name() == "auto" {
             let found = Said::of_decision(decide_state(m, s).ok().as_ref(), t);
             return found.into_iter().max();
@@ -108,7 +108,7 @@ impl Reply {
 
     /// Returns the worst reply of a method for mechanisms that belong together; `None` if it does not apply to one of them.
     pub(crate) fn of_method(
-        method: &dyn MobilityMethod,
+        method: &MobilityMethod,
         all: &[(&Mechanism, StateId, Truth)],
     ) -> Option<Reply> {
         let each = all
@@ -120,10 +120,10 @@ impl Reply {
 
     /// Returns the replies of several methods.
     pub(crate) fn of_methods(
-        methods: &[&dyn MobilityMethod],
+        methods: &[&MobilityMethod],
         all: &[(&Mechanism, StateId, Truth)],
     ) -> Vec<Option<Reply>> {
-        methods.iter().map(|m| Reply::of_method(*m, all)).collect()
+        methods.iter().map(|m| Reply::of_method(m, all)).collect()
     }
 }
 

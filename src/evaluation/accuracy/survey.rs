@@ -72,7 +72,7 @@ impl Survey {
         let mut replies = Vec::with_capacity(cases.len());
         for (n, (case, answers)) in cases.iter().zip(answers).enumerate() {
             progress(n, cases.len());
-            let reply = |(method, answer): (&&dyn MobilityMethod, _)| Reply {
+            let reply = |(method, answer): (&&MobilityMethod, _)| Reply {
                 verdict: AnswerVerdict::judge_answer(&answer, case.truth),
                 answer,
                 time: watch

@@ -12,8 +12,8 @@ use crate::score::request::prepare::LooksRounded;
 use crate::score::request::{Check, List, Method, Request, RequestError};
 use crate::score::run::opinions::{opinion_on_diagrams, other_scenes};
 use crate::search::Search;
-use crate::search::answer::orbit_counts;
 use crate::search::answer::search_counts::SearchCounts;
+use crate::search::answer::search_counts::orbit_counts;
 use crate::search::build::Diagrams;
 use crate::search::check::brute;
 use crate::search::check::other_poses;
@@ -377,7 +377,7 @@ fn count_orbits(
     stops: [Stop; 2],
     should_cancel: ShouldCancel<'_>,
 ) -> Result<(SearchCounts, [Stop; 2]), RunError> {
-    let of = |s: &Search| orbit_counts::orbit_counts(s, all.clone(), should_cancel);
+    let of = |s: &Search| orbit_counts(s, all.clone(), should_cancel);
     let (first, second) = rayon::join(|| of(search), || twin.map(of).transpose());
     let (first, second) = (first?, second?);
     let stops = [0, 1].map(|i| stops[i].combine_with(first.1[i]));

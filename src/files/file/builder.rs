@@ -1,13 +1,9 @@
 //! A mechanism built in code.
 
+use crate::file::prelude::*;
 use crate::file::problem::ImportError;
-use crate::file::schema::{
-    Coordinate, DriveWord, JointEntry, LinkEntry, MechanismFile, OptionEntry,
-};
 use crate::file::text::mechanism_from_str;
-use crate::file::write::role_word;
-use crate::model::joint_type::JointType;
-use crate::model::mechanism::{Mechanism, Role};
+use crate::file::write::{freedom_names, role_word};
 
 /// Builds a mechanism joint by joint, with the rules and the messages of a mechanism file.
 ///
@@ -76,15 +72,11 @@ impl Builder {
                 self = self.link(link, Role::Inner);
             }
         }
-        let freedoms = match &joint_type {
-            JointType::Custom(own) => Some(own.iter().map(|f| f.name().to_owned()).collect()),
-            _ => None,
-        };
         self.file.joint.push(JointEntry {
             id: id.to_owned(),
             links: links.map(str::to_owned),
             kind: joint_type.name().to_owned(),
-            freedoms,
+            freedoms: freedom_names(&joint_type),
             point: point.map(Into::into),
             axis: Some(axis.map(Into::into)),
             ..JointEntry::default()

@@ -1,12 +1,9 @@
 //! Costs by name: of joint types, of options, and of a change itself. They are given in a mechanism's file under
 //! `[search.costs]`, or in a separate file.
 
-use crate::file::problem::{ImportError, ProblemKind};
-use crate::file::{Findings, Place};
-use crate::model::joint_type::JointType;
-use crate::model::mechanism::{CostSpec, Joint, Parts};
-use itertools::Itertools;
-use std::collections::{BTreeMap, BTreeSet};
+use crate::file::prelude::*;
+use crate::file::problem::ImportError;
+use crate::model::mechanism::CostSpec;
 
 /// Reads the costs of a mechanism's redesigns from TOML.
 ///

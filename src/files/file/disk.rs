@@ -98,7 +98,7 @@ fn file_number(of: &Metadata) -> Option<FileId> {
 }
 
 #[cfg(not(unix))]
-fn number(_: &Metadata) -> Option<FileId> {
+fn file_number(_: &Metadata) -> Option<FileId> {
     None
 }
 

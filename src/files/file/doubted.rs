@@ -1,14 +1,10 @@
 //! Doubtful values of a file: ratios and pitches that are written as decimals and are nearly fractions. Also directions of options that are
 //! omitted and default to the joint's own, if they have another meaning there.
 
-use crate::file::problem::{WarningKind, first_of};
-use crate::file::schema::{JointEntry, MechanismFile, OptionTable};
-use crate::file::{Findings, Place};
+use crate::file::prelude::*;
+use crate::file::problem::first_of;
 use crate::format::four_digits;
-use crate::geom::expr::Expr;
-use crate::geom::vector::{across, length, sub, to_vector, unit};
-use crate::model::joint_type::JointType;
-use crate::model::mechanism::{Joint, JointId, Mechanism};
+use crate::geom::vector::{across, unit};
 use crate::model::rounded::ratio::{doubt_of, doubt_ratio};
 use crate::model::rounded::{looks_rounded, uncertainties};
 use crate::rank::rounded::mechanism_size;
@@ -93,11 +89,11 @@ fn of_option(table: &OptionTable, entry: &JointEntry, joint: &Joint) -> Option<(
         JointType::Universal => "the first pin",
         _ => "the joint's own axis",
     };
+    use JointType::{CylinderOnPlane, Planar, SphereOnPlane};
+    let has_plane = matches!(present, Planar | CylinderOnPlane | SphereOnPlane);
     let ball = *present == JointType::Spherical && entry.axis.is_none();
     let guess = match option {
-        JointType::CylinderOnPlane | JointType::SphereOnPlane
-            if table.axis.is_none() && !has_plane(present) =>
-        {
+        CylinderOnPlane | SphereOnPlane if table.axis.is_none() && !has_plane => {
             ("normal of the plane", line, "axis")
         }
         JointType::SphereInCylinder if table.axis.is_none() && ball => ("tube", line, "axis"),
@@ -121,21 +117,13 @@ fn of_option(table: &OptionTable, entry: &JointEntry, joint: &Joint) -> Option<(
     Some((name.to_owned(), guess))
 }
 
-/// Returns true if the axis of a type is the normal of a plane.
-fn has_plane(of: &JointType) -> bool {
-    matches!(
-        of,
-        JointType::Planar | JointType::CylinderOnPlane | JointType::SphereOnPlane
-    )
-}
-
 /// Joints nearer to special than this, in radians and sizes of the mechanism, were probably meant to be special.
 const NEARLY: f64 = 1e-4;
 /// Maximum number of pairs of joints reported.
 const TOLD: usize = 5;
 
 /// Returns the doubtful values.
-pub(super) fn find_rounding(m: &Mechanism) -> Vec<WarningKind> {
+pub(super) fn find_rounding(m: &Mechanism) -> Vec<ProblemKind> {
     let mut out = Vec::new();
     if let Some(rounded) = looks_rounded(m).filter(|r| r.digits.is_some() && !r.pi) {
         let message = format!(
@@ -157,14 +145,14 @@ pub(super) fn find_rounding(m: &Mechanism) -> Vec<WarningKind> {
     let all = nearly_special_relations(m);
     if !all.is_empty() {
         let what = first_of(&all, TOLD);
-        out.push(WarningKind::NearlySpecial { what });
+        out.push(ProblemKind::NearlySpecial { what });
     }
     out
 }
 
 /// Returns a warning about second axes that use the default while other axes are rounded. They depend on the file's x, y and z,
 /// so the same mechanism rotated in space has others.
-fn by_default(m: &Mechanism) -> Option<WarningKind> {
+fn by_default(m: &Mechanism) -> Option<ProblemKind> {
     let half = uncertainties(m)?;
     let left = |(j, joint): &(JointId, &Joint)| {
         let given = |e: &Expr| e.is_written_whole() || e.half_unit().is_some();
@@ -192,7 +180,7 @@ fn by_default(m: &Mechanism) -> Option<WarningKind> {
     Some(message.into())
 }
 
-fn of_verdict(found: &RankVerdict) -> WarningKind {
+fn of_verdict(found: &RankVerdict) -> ProblemKind {
     let figures = |rank: usize| {
         let (w, sigma) = found.figures_at(rank);
         format!("W = {w}, σ = {sigma}")

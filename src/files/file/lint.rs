@@ -2,28 +2,19 @@
 
 use crate::closure::contour::{Contour, contour_basis};
 use crate::file::doubted::{find_doubtful, find_guessed, find_rounding};
-use crate::file::problem::{Found, ImportError, WarningKind, Warnings, first_of};
+use crate::file::prelude::*;
+use crate::file::problem::{ImportError, Warnings, first_of};
 use crate::file::read::build_mechanism;
 use crate::file::read::workload::workload_tables;
-use crate::file::schema::{JointEntry, LinkEntry, MechanismFile, OptionEntry, Unloading};
 use crate::file::text::{read_file, text_of};
-use crate::file::{Findings, Place};
 use crate::format::four_digits;
-use crate::geom::expr::Expr;
 use crate::geom::extent::box_diagonal;
-use crate::geom::vector::{length, sub, to_vector};
-use crate::model::joint_type::JointType;
-use crate::model::mechanism::{Joint, JointId, Mechanism, Role, StateId};
 use crate::model::ranking::Term;
-use crate::model::rounded::looks_rounded;
-use itertools::Itertools;
 
 /// Metres across, without a stated unit, beyond which the unit was probably forgotten.
 const FORGOTTEN_UNIT: f64 = 10.0;
 /// Metres across that a mechanism is hardly smaller or larger than.
 const SIZES: (f64, f64) = (1e-5, 1e2);
-/// Places of joints on one link nearer than this fraction of the whole were probably meant to be one.
-const SAME_PLACE: f64 = 1e-6;
 /// Names shown of a list.
 const SHOWN: usize = 8;
 
@@ -60,15 +51,21 @@ pub fn check_file(name: &str, bytes: &[u8]) -> Result<Checked, ImportError> {
     let text = text_of(name, bytes)?;
     read_file(name, text, |file| {
         let mechanism = build_mechanism(file)?;
+        let mut warnings = Warnings {
+            file: name.to_owned(),
+            text: text.to_owned(),
+            warnings: Vec::new(),
+        };
+        warnings.add(find_warnings(file, &mechanism));
         Ok(Checked {
             tables: workload_tables(file),
-            warnings: Warnings::new(name, text, find_warnings(file, &mechanism)),
+            warnings,
             mechanism,
         })
     })
 }
 
-fn find_warnings(file: &MechanismFile, m: &Mechanism) -> Found {
+fn find_warnings(file: &MechanismFile, m: &Mechanism) -> Vec<Finding> {
     let out = &Findings::default();
     if m.name.trim().is_empty() {
         let empty = "the name is empty; give one, because every answer begins with it";
@@ -105,10 +102,6 @@ fn joint_point(j: &Joint) -> [f64; 3] {
     to_vector(&j.frame.point)
 }
 
-fn distance(a: [f64; 3], b: [f64; 3]) -> f64 {
-    length(sub(a, b))
-}
-
 /// Returns the diagonal of the box around the joints, in the file's unit.
 ///
 /// # Examples
@@ -138,34 +131,8 @@ fn check_lengths(file: &MechanismFile, m: &Mechanism, out: &Findings) {
             m.length_unit.symbol
         ));
     }
-    // A pair reported with its line is not reported again.
-    let told = check_places(m, across, out);
     let rounded = find_rounding(m).into_iter();
-    let rounded = rounded.filter(|k| !(told && matches!(k, WarningKind::NearlySpecial { .. })));
     rounded.for_each(|kind| out.key("joint").warn(kind));
-}
-
-/// Finds joints of one link that are nearly in one place, and returns true if there are any. If many digits show that coordinates
-/// were measured, reports that instead.
-fn check_places(m: &Mechanism, across: f64, out: &Findings) -> bool {
-    if looks_rounded(m).is_some_and(|r| r.digits.is_some()) {
-        return false;
-    }
-    let mut told = false;
-    for (a, b) in m.joint_ids().tuple_combinations() {
-        let [i, j] = [a, b].map(|j| &m.joints[j]);
-        let apart = distance(joint_point(i), joint_point(j));
-        let near = apart > 0.0 && apart < SAME_PLACE * across;
-        if near && i.links.iter().any(|l| j.links.contains(l)) {
-            told = true;
-            let unit = m.length_unit.symbol;
-            joint_place(out, b).key("point").warn(format!(
-                "joints \"{}\" and \"{}\" are {} {unit} apart in a mechanism of {} {unit}; give both the same point if they should coincide",
-                i.id, j.id, four_digits(apart), four_digits(across)
-            ));
-        }
-    }
-    told
 }
 
 fn joint_place(out: &Findings, j: JointId) -> Place<'_> {
@@ -186,11 +153,11 @@ fn check_contours(m: &Mechanism, out: &Findings) {
         .collect();
     let open: Vec<JointId> = m.joint_ids().filter(|&j| !walked[j]).collect();
     if !walked.contains(&true) {
-        out.key("joint").warn(WarningKind::NoContour);
+        out.key("joint").warn(ProblemKind::NoContour);
     } else if let Some(&first) = open.first() {
         let names = open.iter().map(|&j| m.joints[j].id.as_str()).collect_vec();
         let joints = first_of(&names, SHOWN);
-        joint_place(out, first).warn(WarningKind::OpenChain { joints });
+        joint_place(out, first).warn(ProblemKind::OpenChain { joints });
     }
     let named = m.contours.iter();
     let named = named.map(|c| c.iter().copied().sorted().collect_vec());
@@ -205,7 +172,7 @@ fn check_contours(m: &Mechanism, out: &Findings) {
 fn check_structure(file: &MechanismFile, m: &Mechanism, out: &Findings) {
     let marked = |l: &LinkEntry| l.role.as_deref() == Some("output");
     if !file.link.iter().any(marked) {
-        out.key("link").warn(WarningKind::NoOutput);
+        out.key("link").warn(ProblemKind::NoOutput);
     }
     let objects = m.links_with_ids().filter(|(_, l)| l.role == Role::Object);
     for (l, link) in objects {
@@ -271,7 +238,7 @@ fn check_search(file: &MechanismFile, m: &Mechanism, out: &Findings) {
         let mut offered = m.joints.iter().flat_map(|j| &j.options);
         if changeable && !offered.any(|o| o.name == name) {
             let option = name.to_owned();
-            at.warn(WarningKind::UselessOption { option });
+            at.warn(ProblemKind::UselessOption { option });
         }
     }
     let lists_none = file.search.unloading.is_empty();

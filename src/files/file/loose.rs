@@ -1,8 +1,10 @@
 //! Information on an incomplete file: the places of its items, and the part of it that is connected to the frame.
 
+use crate::file::edit::{Edit, Thing, apply_edits};
+use crate::file::prelude::*;
 use crate::file::read::value::with_parameters;
-use crate::file::schema::{Coordinate, MechanismFile};
-use std::collections::BTreeSet;
+use crate::file::text::read_file;
+use crate::file::write::toml;
 
 /// Returns the places of joints and of points of interest as numbers; `None` for those with an invalid expression.
 ///
@@ -48,22 +50,13 @@ pub fn connected_part(file: &MechanismFile) -> Option<MechanismFile> {
     if there.len() < 2 || file.link.iter().all(|l| there.contains(l.id.as_str())) {
         return None;
     }
-    let mut out = file.clone();
-    let link = |id: &String| there.contains(id.as_str());
-    out.link.retain(|l| link(&l.id));
-    out.joint.retain(|j| j.links.iter().all(link));
-    out.point.retain(|p| link(&p.link));
-    out.search.hold.retain(link);
-    out.workload.force.retain(|f| link(&f.link));
-    out.workload.moment.retain(|m| link(&m.link));
-    let joints: BTreeSet<String> = out.joint.iter().map(|j| j.id.clone()).collect();
-    let joint = |id: &String| joints.contains(id.split(':').next().unwrap_or(id));
-    out.coupling.retain(|c| c.joints.iter().all(joint));
-    out.contour.retain(|c| c.joints.iter().all(joint));
-    out.search.mirror.retain(|p| p.iter().all(joint));
-    out.search.turn.retain(|g| g.iter().all(joint));
-    out.workload.contact.retain(|c| joint(&c.joint));
-    out.workload.misalignment.retain(|m| joint(&m.joint));
-    out.expected.clear();
-    Some(out)
+    let gone = |l: &&LinkEntry| !there.contains(l.id.as_str());
+    let gone = file.link.iter().filter(gone);
+    let items = gone.map(|l| (Thing::Link, l.id.clone())).collect();
+    let mut whole = file.clone();
+    // Their states may be gone.
+    whole.expected.clear();
+    let text = toml(&whole, &[]).ok()?;
+    let text = apply_edits(&text, &[Edit::Remove { items }]).ok()?;
+    read_file("part.toml", &text, |part| Ok(part.clone())).ok()
 }

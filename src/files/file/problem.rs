@@ -9,7 +9,7 @@ use std::fmt::{self, Display};
 use std::ops::Range;
 use thiserror::Error;
 
-/// A problem, as a message that ends with the remedy. Kinds that callers distinguish have separate variants.
+/// A problem or warning, as a message that ends with the remedy. Kinds that callers distinguish have separate variants.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[non_exhaustive]
 #[allow(
@@ -37,6 +37,26 @@ pub enum ProblemKind {
         "nothing can move: all {links} links are rigidly joined; there is no mechanism to analyse"
     )]
     Rigid { links: usize },
+    #[error(
+        "nearly special: {what}; make them exact if this is intended, or give their uncertainty in a [tolerance] table"
+    )]
+    NearlySpecial { what: String },
+    #[error(
+        "no loop is closed in any state, so nothing can be redundant; add the joints that close a loop"
+    )]
+    NoContour,
+    #[error(
+        "no loop passes through {joints}; their freedoms add to the mobility, and none of their constraints is redundant; add the joint that closes a loop if it is missing"
+    )]
+    OpenChain { joints: String },
+    #[error(
+        "option \"{option}\" is never used, because it would block the motion of every joint that it could replace; remove it"
+    )]
+    UselessOption { option: String },
+    #[error(
+        "no link has the role \"output\", so every link counts as an output and no motion counts as idle; mark the working link with role = \"output\""
+    )]
+    NoOutput,
 }
 
 impl<M: Into<String>> From<M> for ProblemKind {
@@ -51,33 +71,35 @@ impl ProblemKind {
         ImportError {
             file: file.to_owned(),
             text: text.to_owned(),
-            problems: vec![Located { kind: self, span }],
+            problems: vec![Problem { kind: self, span }],
         }
     }
 }
 
-/// A problem or warning and the path of its item.
-type At<K> = (DocumentPath, K);
+/// A problem or warning and the path of the item it concerns.
+pub(crate) type Finding = (DocumentPath, ProblemKind);
 
 /// A problem or warning and its place in a text.
 #[derive(Debug, Clone)]
-pub struct Located<K> {
+pub struct Problem {
     /// The problem or warning.
-    pub kind: K,
+    pub kind: ProblemKind,
     /// Bytes of the text it concerns, if known.
     pub span: Option<Range<usize>>,
 }
 
-impl<K: Display> Located<K> {
-    /// Locates what was found at the paths of a text.
-    pub(crate) fn locate_all(text: &str, json: bool, found: Vec<At<K>>) -> Vec<Located<K>> {
-        let document = Document::new(text, json);
+impl Problem {
+    /// Locates what was found at the paths of a text, in its order.
+    pub(crate) fn locate_all(text: &str, json: bool, found: Vec<Finding>) -> Vec<Problem> {
+        let document = Document::parse(text, json).ok();
         let span = |path: &DocumentPath| document.as_ref().and_then(|d| d.find_span(path));
-        let located = |(path, kind)| Located {
+        let located = |(path, kind)| Problem {
             span: span(&path),
             kind,
         };
-        found.into_iter().map(located).collect()
+        let mut all: Vec<Problem> = found.into_iter().map(located).collect();
+        all.sort_by_key(|p| p.span.as_ref().map_or(usize::MAX, |s| s.start));
+        all
     }
 
     /// Renders the message with its line, for a terminal; what follows a semicolon is the remedy.
@@ -120,9 +142,6 @@ impl<K: Display> Located<K> {
     }
 }
 
-/// A problem and its place.
-pub type Problem = Located<ProblemKind>;
-
 /// A file that could not be used, with every problem found.
 ///
 /// # Examples
@@ -149,14 +168,12 @@ impl ImportError {
         file: &str,
         text: &str,
         json: bool,
-        found: Vec<(DocumentPath, ProblemKind)>,
+        found: Vec<Finding>,
     ) -> ImportError {
-        let mut problems = Located::locate_all(text, json, found);
-        problems.sort_by_key(|p| p.span.as_ref().map_or(usize::MAX, |s| s.start));
         ImportError {
             file: file.to_owned(),
             text: text.to_owned(),
-            problems,
+            problems: Problem::locate_all(text, json, found),
         }
     }
 
@@ -221,44 +238,6 @@ pub(crate) fn suggest_word(word: &str, known: &str) -> String {
     }
 }
 
-/// A warning, as a message that ends with the remedy. Kinds that callers distinguish have separate variants.
-#[derive(Debug, Clone, PartialEq, Eq, Error)]
-#[non_exhaustive]
-#[allow(
-    missing_docs,
-    reason = "the wording of each variant says what its fields are"
-)]
-pub enum WarningKind {
-    #[error("{0}")]
-    Message(String),
-    #[error(
-        "nearly special: {what}; make them exact if this is intended, or give their uncertainty in a [tolerance] table"
-    )]
-    NearlySpecial { what: String },
-    #[error(
-        "no loop is closed in any state, so nothing can be redundant; add the joints that close a loop"
-    )]
-    NoContour,
-    #[error(
-        "no loop passes through {joints}; their freedoms add to the mobility, and none of their constraints is redundant; add the joint that closes a loop if it is missing"
-    )]
-    OpenChain { joints: String },
-    #[error(
-        "option \"{option}\" is never used, because it would block the motion of every joint that it could replace; remove it"
-    )]
-    UselessOption { option: String },
-    #[error(
-        "no link has the role \"output\", so every link counts as an output and no motion counts as idle; mark the working link with role = \"output\""
-    )]
-    NoOutput,
-}
-
-impl<M: Into<String>> From<M> for WarningKind {
-    fn from(message: M) -> WarningKind {
-        WarningKind::Message(message.into())
-    }
-}
-
 /// Returns the first `most` items of a list as text, with the number of further items.
 pub(crate) fn first_of(all: &[impl Display], most: usize) -> String {
     let more = match all.len().saturating_sub(most) {
@@ -268,9 +247,6 @@ pub(crate) fn first_of(all: &[impl Display], most: usize) -> String {
     format!("{}{more}", all.iter().take(most).join(", "))
 }
 
-/// A warning and its place.
-pub type Warning = Located<WarningKind>;
-
 /// The warnings about a file.
 #[derive(Debug, Clone)]
 pub struct Warnings {
@@ -279,24 +255,13 @@ pub struct Warnings {
     /// Its text.
     pub text: String,
     /// The warnings, in order of the file if known.
-    pub warnings: Vec<Warning>,
+    pub warnings: Vec<Problem>,
 }
 
 impl Warnings {
-    /// Returns the warnings about the items at some paths of a file.
-    pub(crate) fn new(name: &str, text: &str, found: Vec<(DocumentPath, WarningKind)>) -> Warnings {
-        let mut out = Warnings {
-            file: name.to_owned(),
-            text: text.to_owned(),
-            warnings: Vec::new(),
-        };
-        out.add(found);
-        out
-    }
-
     /// Adds warnings about the items at some paths of the file.
-    pub fn add(&mut self, found: Vec<(DocumentPath, WarningKind)>) {
-        let found = Located::locate_all(&self.text, is_json(&self.file), found);
+    pub fn add(&mut self, found: Vec<Finding>) {
+        let found = Problem::locate_all(&self.text, is_json(&self.file), found);
         self.warnings.extend(found);
         self.warnings
             .sort_by_key(|d| d.span.as_ref().map_or(0, |s| s.start));
@@ -305,7 +270,7 @@ impl Warnings {
     /// Renders the warnings with their lines, for a terminal.
     #[must_use]
     pub fn render(&self, colour: bool) -> String {
-        let one = |d: &Warning| d.render(Level::WARNING, colour, &self.file, &self.text);
+        let one = |d: &Problem| d.render(Level::WARNING, colour, &self.file, &self.text);
         self.warnings.iter().map(one).join("\n")
     }
 }
@@ -316,6 +281,3 @@ pub(crate) fn is_json(name: &str) -> bool {
         .extension()
         .is_some_and(|e| e.eq_ignore_ascii_case("json"))
 }
-
-/// The warnings found, each with the path of the item it concerns.
-pub(crate) type Found = Vec<(DocumentPath, WarningKind)>;

@@ -8,6 +8,7 @@ pub(crate) mod search;
 pub mod value;
 pub mod workload;
 
+use crate::file::prelude::*;
 use crate::file::read::coupling::read_couplings;
 use crate::file::read::joints::{
     check_connected, read_contours, read_joints, read_links, read_states,
@@ -19,14 +20,10 @@ use crate::file::read::value::{ENTRIES, LIMITS, length_unit, with_parameters};
 use crate::file::read::workload::drive::read_drive;
 use crate::file::read::workload::grip::read_grip;
 use crate::file::read::workload::loads::read_loads;
-use crate::file::schema::{ClaimEntry, MechanismFile};
-use crate::file::{Finding, Findings, Place};
 use crate::format::join_or;
-use crate::geom::expr::Expr;
 use crate::model::claim::{Claim, Topic};
 use crate::model::loads::Loads;
-use crate::model::mechanism::{Expected, Mechanism, Mode, Parts, PointOfInterest, SearchSpec};
-use itertools::Itertools;
+use crate::model::mechanism::{Expected, Mode, PointOfInterest, SearchSpec};
 
 /// Returns the claims of a file; reports those of an unknown topic.
 pub(crate) fn read_claims(file: &MechanismFile, out: &Findings) -> Vec<Claim> {
@@ -78,15 +75,15 @@ fn few_enough(file: &MechanismFile, out: &Findings) -> bool {
 /// # Ok::<(), ozols::Error>(())
 /// ```
 pub fn build_mechanism(file: &MechanismFile) -> Result<Mechanism, Vec<Finding>> {
-    let out = with_parameters(file);
+    let mut out = with_parameters(file);
     if !few_enough(file, &out) {
         return Err(out.into_findings());
     }
     let length_unit = length_unit(file, &out);
     let mode = read_mode(file, &out);
     let links = read_links(file, &out);
-    let states = read_states(file, &out);
-    let joints = read_joints(file, &links, &states, &out);
+    out.states = read_states(file, &out);
+    let joints = read_joints(file, &links, &out);
     if out.problem_count() > 0 {
         return Err(out.into_findings());
     }
@@ -99,7 +96,7 @@ pub fn build_mechanism(file: &MechanismFile) -> Result<Mechanism, Vec<Finding>> 
         links,
         joints,
         couplings: Vec::new(),
-        states,
+        states: out.states.clone(),
         contours: Vec::new(),
         search: SearchSpec::default(),
         loads: Loads::default(),

@@ -67,7 +67,7 @@ pub struct MechanismFile {
     /// Loads and drive.
     #[serde(default)]
     pub workload: WorkloadEntry,
-    /// Accuracy of the joints as made and mounted, for `ozols statics --misfit` and the term misfit of a ranking. The accuracy of
+    /// Accuracy of the joints as made and mounted, for the misfit in `ozols statics` and in rankings. The accuracy of
     /// the file's numbers is `tolerance`.
     pub tolerances: Option<AccuracyEntry>,
     /// Ranking of variants under the workload. Default: by cost only.

@@ -8,24 +8,48 @@ use crate::file::schema::json_schema;
 use serde_json::Value;
 use std::collections::BTreeSet;
 use std::fmt::Write;
-use toml_edit::{Decor, DocumentMut, InlineTable, Item, Table, TomlError};
+use toml_edit::{DocumentMut, Item, TomlError};
 
 /// Columns of a comment.
 const COLUMNS: usize = 100;
 
 /// Advice on what to edit, by the path of the key; the schema describes each key.
-const ADVICE: [&str; 11] = [
-    "description: Describe your mechanism.",
-    "sources: Give your own sources, or delete this.",
-    "link: Begin each with [[link]]. Exactly one is the frame, at least one an output.",
-    "joint: Begin each with [[joint]]. Points, axes and types are what to edit first.",
-    "joint.point: Each coordinate is a number, or an exact expression in quotes such as \"sqrt(3)/2\", \"cos(36deg)\", \"1/3\".",
-    "contour: Optional; by default the shortest loops are used. Edit these when you add or remove joints, or delete them.",
-    "search: List the joint types that you can make.",
-    "search.mirror: Delete this if your mechanism is not symmetric.",
-    "tolerances: How accurately the joints are made: a named fit, or position and angle.",
-    "ranking: Without this table the cheapest variants come first.",
-    "expected: They hold for the built-in mechanism: `ozols check` reports where yours differs. Change or delete them.",
+const ADVICE: [(&str, &str); 11] = [
+    ("description", "Describe your mechanism."),
+    ("sources", "Give your own sources, or delete this."),
+    (
+        "link",
+        "Begin each with [[link]]. Exactly one is the frame, at least one an output.",
+    ),
+    (
+        "joint",
+        "Begin each with [[joint]]. Points, axes and types are what to edit first.",
+    ),
+    (
+        "joint.point",
+        "Each coordinate is a number, or an exact expression in quotes such as \"sqrt(3)/2\", \"cos(36deg)\", \"1/3\".",
+    ),
+    (
+        "contour",
+        "Optional; by default the shortest loops are used. Edit these when you add or remove joints, or delete them.",
+    ),
+    ("search", "List the joint types that you can make."),
+    (
+        "search.mirror",
+        "Delete this if your mechanism is not symmetric.",
+    ),
+    (
+        "tolerances",
+        "How accurately the joints are made: a named fit, or position and angle.",
+    ),
+    (
+        "ranking",
+        "Without this table the cheapest variants come first.",
+    ),
+    (
+        "expected",
+        "They hold for the built-in mechanism: `ozols check` reports where yours differs. Change or delete them.",
+    ),
 ];
 
 /// Returns the text of a mechanism file without claims of publications and without expected figures.
@@ -65,17 +89,15 @@ pub fn without_claims(text: &str) -> Result<String, TomlError> {
 pub fn with_comments(text: &str, from: &str, name: &str) -> Result<String, TomlError> {
     let mut document: DocumentMut = text.parse()?;
     document.remove("claim");
+    let (root, text) = (json_schema(), document.to_string());
+    let whole = toml::from_str(&text).unwrap_or_default();
+    let mut document: DocumentMut = comment_lines(&text, &root, &whole).parse()?;
+    // Last, because a name may have several lines.
     if let Some(old) = document.get_mut("name").and_then(Item::as_value_mut) {
         let decor = old.decor().clone();
         *old = name.into();
         *old.decor_mut() = decor;
     }
-    let root = json_schema();
-    let mut writer = TemplateWriter {
-        root: &root,
-        seen: BTreeSet::new(),
-    };
-    writer.comment_table(document.as_table_mut(), &root, "");
     let mut head = String::new();
     let mut say = |text: &str| write_comment(&mut head, text);
     say(&format!(
@@ -84,7 +106,7 @@ pub fn with_comments(text: &str, from: &str, name: &str) -> Result<String, TomlE
     say(
         "Edit it, then run `ozols check FILE` for errors, `ozols analyze FILE` for redundant constraints, `ozols search FILE` for redesigns.",
     );
-    let more = unused_keys(&root, [document.as_table()].into_iter());
+    let more = unused_keys(&root, &[&whole]);
     if !more.is_empty() {
         say(&format!(
             "Keys and tables that it does not use: {} (see `ozols schema`).",
@@ -95,71 +117,63 @@ pub fn with_comments(text: &str, from: &str, name: &str) -> Result<String, TomlE
     Ok(head + &document.to_string())
 }
 
-struct TemplateWriter<'a> {
-    root: &'a Value,
-    /// Paths already explained.
-    seen: BTreeSet<String>,
-}
-
-impl TemplateWriter<'_> {
-    fn comment_table(&mut self, table: &mut Table, schema: &Value, path: &str) {
-        let keys: Vec<String> = table.iter().map(|(k, _)| k.to_owned()).collect();
-        for key in keys {
-            let (at, property) = find_property(schema, path, &key);
-            let Some(property) = property else { continue };
-            let inner = resolve_schema(self.root, property).unwrap_or(property);
-            let first = self.seen.insert(at.clone());
-            let mut words = String::new();
-            if first {
-                explain_key(&mut words, property, inner, &at);
-            }
-            match table.get_mut(&key) {
-                Some(Item::Value(value)) => {
-                    if first && let Some(keys) = inline_keys_of(value) {
-                        inline_keys(&mut words, &keys, inner);
-                    }
-                    if let Some(mut key) = table.key_mut(&key) {
-                        set_comment(key.leaf_decor_mut(), "", &words);
-                    }
-                }
-                Some(Item::Table(t)) => {
-                    if t.is_implicit() {
-                        self.seen.remove(&at);
-                    } else {
-                        if first {
-                            list_other_keys(&mut words, inner, std::iter::once(&*t));
-                        }
-                        set_comment(t.decor_mut(), "\n", &words);
-                    }
-                    self.comment_table(t, inner, &at);
-                }
-                Some(Item::ArrayOfTables(list)) => {
-                    if first {
-                        list_other_keys(&mut words, inner, list.iter());
-                    }
-                    if let Some(t) = list.iter_mut().next() {
-                        set_comment(t.decor_mut(), "\n", &words);
-                    }
-                    for t in list.iter_mut() {
-                        self.comment_table(t, inner, &at);
-                    }
-                }
-                _ => {}
-            }
+/// Returns the lines of a text, with a comment above the first table and the first key of each kind: before the comments that it has.
+fn comment_lines(text: &str, root: &Value, whole: &Value) -> String {
+    let (mut out, mut own, mut table) = (String::new(), String::new(), String::new());
+    let mut seen = BTreeSet::new();
+    for line in text.lines() {
+        if line.starts_with('#') {
+            own += &format!("{line}\n");
+            continue;
         }
+        let head = line.strip_prefix('[').and_then(|l| l.split(']').next());
+        let key = line.split_once(" = ").map(|(key, _)| key);
+        let path = match (head, key.filter(|k| !k.contains([' ', '#', '"']))) {
+            (Some(head), _) => {
+                head.trim_start_matches('[').clone_into(&mut table);
+                table.clone()
+            }
+            (None, Some(key)) if table.is_empty() => key.to_owned(),
+            (None, Some(key)) => format!("{table}.{key}"),
+            (None, None) => String::new(),
+        };
+        let found = schema_at(root, &path).filter(|(at, ..)| seen.insert(at.clone()));
+        let mut words = String::new();
+        if let Some((at, property, inner)) = found {
+            explain_key(&mut words, property, inner, &at);
+            explain_keys_below(&mut words, inner, &values_at(whole, &path), head.is_some());
+        }
+        // An empty comment separates added comments from those of the file.
+        if !words.is_empty() && !own.is_empty() {
+            words += "#\n";
+        }
+        out += &format!("{words}{own}{line}\n");
+        own.clear();
     }
+    out + &own
 }
 
-/// Returns the schema of a key and its path; keys that the user chooses, such as names of joint types, are `*`.
-fn find_property<'s>(schema: &'s Value, path: &str, key: &str) -> (String, Option<&'s Value>) {
-    let join = |k: &str| match path {
-        "" => k.to_owned(),
-        _ => format!("{path}.{k}"),
-    };
-    match schema["properties"].get(key) {
-        Some(p) => (join(key), Some(p)),
-        None => (join("*"), schema.get("additionalProperties")),
+/// Returns the schema of a key and the definition that it refers to, with its path; keys that the user chooses, such as names of joint
+/// types, are `*` there.
+fn schema_at<'s>(root: &'s Value, path: &str) -> Option<(String, &'s Value, &'s Value)> {
+    let (mut at, mut property, mut inner) = (Vec::new(), root, root);
+    for key in path.split('.') {
+        let known = inner["properties"].get(key);
+        at.push(known.map_or("*", |_| key));
+        property = known.or_else(|| inner.get("additionalProperties"))?;
+        inner = resolve_schema(root, property).unwrap_or(property);
     }
+    Some((at.join("."), property, inner))
+}
+
+/// Returns the values of a key in all tables of its kind, and those of lists one by one.
+fn values_at<'v>(whole: &'v Value, path: &str) -> Vec<&'v Value> {
+    let each = |all: Vec<&'v Value>, key: &str| {
+        let inner = all.into_iter().filter_map(|v| v.get(key));
+        let lists = inner.map(|v| v.as_array().map_or(std::slice::from_ref(v), Vec::as_slice));
+        lists.flatten().collect()
+    };
+    path.split('.').fold(vec![whole], each)
 }
 
 /// Returns the definition that a property, the items of its list, or one of its alternatives refers to.
@@ -182,10 +196,8 @@ fn resolve_schema<'s>(root: &'s Value, property: &'s Value) -> Option<&'s Value>
 /// Explains a key and what to edit.
 fn explain_key(out: &mut String, property: &Value, inner: &Value, path: &str) {
     let own = property["description"].as_str().unwrap_or_default();
-    let advice = ADVICE.iter().filter_map(|a| a.split_once(": "));
-    let advice = advice.into_iter().find(|(p, _)| *p == path);
     let mut text = own.to_owned();
-    if let Some((_, advice)) = advice {
+    if let Some((_, advice)) = ADVICE.iter().find(|(key, _)| *key == path) {
         text = format!("{text} {advice}");
     }
     write_comment(out, &text);
@@ -198,45 +210,29 @@ fn explain_key(out: &mut String, property: &Value, inner: &Value, path: &str) {
     }
 }
 
-/// Returns the keys of a table in braces, or of the tables of a list.
-fn inline_keys_of(value: &toml_edit::Value) -> Option<BTreeSet<String>> {
-    let keys = |t: &InlineTable| t.iter().map(|(k, _)| k.to_owned()).collect::<BTreeSet<_>>();
-    let found: BTreeSet<String> = match value {
-        toml_edit::Value::InlineTable(t) => keys(t),
-        toml_edit::Value::Array(list) => {
-            let tables = list.iter().filter_map(|v| v.as_inline_table());
-            tables.flat_map(keys).collect()
+/// Lists the keys that a table may also have, or explains those of tables in braces.
+fn explain_keys_below(out: &mut String, schema: &Value, values: &[&Value], is_table: bool) {
+    let more = unused_keys(schema, values);
+    if is_table {
+        if !more.is_empty() {
+            write_comment(out, &format!("It may also have: {}.", more.join(", ")));
         }
-        _ => BTreeSet::new(),
-    };
-    (!found.is_empty()).then_some(found)
-}
-
-fn inline_keys(out: &mut String, keys: &BTreeSet<String>, schema: &Value) {
-    let known = schema["properties"].as_object();
-    for (key, property) in known.into_iter().flatten() {
-        if let Some(d) = property["description"]
-            .as_str()
-            .filter(|_| keys.contains(key))
-        {
+        return;
+    }
+    let known = schema["properties"].as_object().into_iter().flatten();
+    for (key, property) in known.filter(|(key, _)| !more.contains(&key.as_str())) {
+        if let Some(d) = property["description"].as_str() {
             write_comment(out, &format!("{key}: {d}"));
         }
     }
 }
 
-/// Lists the keys that none of these tables has.
-fn list_other_keys<'t>(out: &mut String, schema: &Value, tables: impl Iterator<Item = &'t Table>) {
-    let more = unused_keys(schema, tables);
-    if !more.is_empty() {
-        write_comment(out, &format!("It may also have: {}.", more.join(", ")));
-    }
-}
-
-fn unused_keys<'s, 't>(schema: &'s Value, tables: impl Iterator<Item = &'t Table>) -> Vec<&'s str> {
-    let used: BTreeSet<&str> = tables.flat_map(|t| t.iter().map(|(k, _)| k)).collect();
+/// Returns the keys of a schema that none of some tables has.
+fn unused_keys<'s>(schema: &'s Value, tables: &[&Value]) -> Vec<&'s str> {
     let known = schema["properties"].as_object();
     let known = known.into_iter().flat_map(|k| k.keys()).map(String::as_str);
-    known.filter(|k| !used.contains(k)).collect()
+    let unused = |k: &&str| tables.iter().all(|t| t.get(k).is_none());
+    known.filter(unused).collect()
 }
 
 /// Appends a comment, filled to the columns.
@@ -250,20 +246,6 @@ fn write_comment(out: &mut String, text: &str) {
         // Writing to a string cannot fail.
         let _ = writeln!(out, "{line}");
     }
-}
-
-/// Puts a comment before the item of a decoration: after blank lines and earlier text, and before existing comments of the file.
-fn set_comment(decor: &mut Decor, default: &str, words: &str) {
-    if words.is_empty() {
-        return;
-    }
-    let there = decor.prefix().and_then(|p| p.as_str()).unwrap_or(default);
-    let blank = there.rfind("\n\n").map(|i| i + 2);
-    let lead = there.len() - there.trim_start_matches(['\n', '\r']).len();
-    let (above, own) = there.split_at(blank.unwrap_or(0).max(lead));
-    // An empty comment separates added comments from those of the file.
-    let between = if own.starts_with('#') { "#\n" } else { "" };
-    decor.set_prefix(format!("{above}{words}{between}{own}"));
 }
 
 #[cfg(test)]
@@ -344,14 +326,9 @@ mod tests {
     #[test]
     fn every_advice_is_of_a_key_that_exists() {
         let root = crate::file::schema::json_schema();
-        for advice in super::ADVICE {
-            let (path, _) = advice.split_once(": ").unwrap();
-            let mut schema = &root;
-            for key in path.split('.') {
-                let next = &schema["properties"][key];
-                assert!(next.is_object(), "{path}");
-                schema = super::resolve_schema(&root, next).unwrap_or(next);
-            }
+        for (path, _) in super::ADVICE {
+            let (at, property, _) = super::schema_at(&root, path).unwrap();
+            assert!(at == path && property.is_object(), "{path}");
         }
     }
 }

@@ -1,16 +1,17 @@
 //! Reading a mechanism from text. Control characters are not allowed in names, because they could control a terminal or break a
 //! table.
 
-use crate::file::locate::{Document, DocumentPath};
-use crate::file::problem::{ImportError, ProblemKind, is_json};
+use crate::file::locate::Document;
+use crate::file::prelude::*;
+use crate::file::problem::{ImportError, is_json};
 use crate::file::read::build_mechanism;
-use crate::file::schema::{MechanismFile, json_schema};
-use crate::file::{Finding, Findings, Place, unknown_word};
+use crate::file::schema::json_schema;
+use crate::file::unknown_word;
 use crate::format::count_noun;
-use crate::model::mechanism::Mechanism;
 use serde_json::{Map, Value};
-use std::ops::Range;
 use std::sync::LazyLock;
+use toml::Spanned;
+use toml::de::DeValue;
 
 /// Largest file read, in bytes.
 pub const MAX_BYTES: usize = 4 << 20;
@@ -91,36 +92,16 @@ pub fn read_file<T>(
     }
     let json = is_json(name);
     let located = |found| ImportError::with_places(name, text, json, found);
-    // First of all, as the deserializer of TOML ignores the values that a list has too many.
-    let values = parse_values(text, json).unwrap_or_default();
-    let shapes = wrong_shapes(&values);
+    let syntax =
+        |(message, span)| ProblemKind::from(with_remedy(message)).in_file(name, text, span);
+    let mut document = Document::parse(text, json).map_err(syntax)?;
+    // First of all, as the deserializer ignores the values that a list has too many.
+    let shapes = wrong_shapes(&document.root);
     if !shapes.is_empty() {
         return Err(located(shapes));
     }
-    let parse = if json { from_json } else { from_toml };
-    let mut file = parse(text).map_err(|(message, span)| {
-        ProblemKind::from(with_remedy(message)).in_file(name, text, span)
-    })?;
-    if let Some(Ok(kept)) = quote_decimals(text, json, &values).map(|text| parse(&text)) {
-        file = kept;
-    }
-    make(&file).map_err(located)
-}
-
-/// Returns the values of a file before they are given a meaning; `None` if it cannot be read.
-fn parse_values(text: &str, json: bool) -> Option<serde_json::Value> {
-    if json {
-        serde_json::from_str(text).ok()
-    } else {
-        toml::from_str(text).ok()
-    }
-}
-
-/// A message about a syntax error, and its place in the text.
-type Syntax = (String, Option<Range<usize>>);
-
-fn from_toml(text: &str) -> Result<MechanismFile, Syntax> {
-    toml::from_str(text).map_err(|e| (e.message().trim().replace('\n', ", "), e.span()))
+    keep_digits(&mut document.root);
+    make(&document.into_file().map_err(syntax)?).map_err(located)
 }
 
 /// Appends a remedy to a message about a missing or wrong value.
@@ -147,26 +128,6 @@ fn with_remedy(message: String) -> String {
     }
 }
 
-fn from_json(text: &str) -> Result<MechanismFile, Syntax> {
-    serde_json::from_str(text).map_err(|e| {
-        let line_start = text.split_inclusive('\n').take(e.line().saturating_sub(1));
-        let line_start: usize = line_start.map(str::len).sum();
-        let line = text.get(line_start..).and_then(|t| t.lines().next());
-        let line = line.unwrap_or("");
-        let mut at = e.column().saturating_sub(1).min(line.len());
-        while !line.is_char_boundary(at) {
-            at -= 1;
-        }
-        let full = e.to_string();
-        let message = full
-            .rsplit_once(" at line ")
-            .map_or(full.as_str(), |(m, _)| m);
-        let end = (at + 1..=line.len()).find(|&i| line.is_char_boundary(i));
-        let span = line_start + at..line_start + end.unwrap_or(line.len());
-        (message.to_owned(), Some(span))
-    })
-}
-
 /// Texts that may have more than one line.
 const PROSE: &str = "description sources assumed source says right scan evidence";
 
@@ -187,45 +148,45 @@ static SCHEMA: LazyLock<Value> = LazyLock::new(json_schema);
 /// Returns a problem for each list of a document whose length its schema excludes, for each key that it does not have, and for each
 /// control character. The TOML deserializer ignores the extra values of a list, and the JSON one calls them "trailing characters". Both
 /// stop at the first unknown key.
-fn wrong_shapes(document: &Value) -> Vec<Finding> {
+fn wrong_shapes(document: &Spanned<DeValue<'_>>) -> Vec<Finding> {
     let out = Findings::default();
     check_value(&SCHEMA, document, "", &out.root_place());
     out.into_findings()
 }
 
 /// Checks a value against its schema; `owner` names the innermost item with an id around it.
-fn check_value(schema: &Value, value: &Value, owner: &str, at: &Place<'_>) {
+fn check_value(schema: &Value, value: &Spanned<DeValue<'_>>, owner: &str, at: &Place<'_>) {
     let all = schema_alternatives(schema);
-    match value {
-        Value::Array(items) => {
-            let lists = all.into_iter().filter(|s| is_list(s));
-            let (fit, not): (Vec<_>, Vec<_>) = lists.partition(|s| {
-                let [least, most] = length_limits(s);
-                (least..=most).contains(&items.len())
-            });
-            if let Some(schema) = fit.first().and_then(|s| s.get("items")) {
-                at.each_entry(items)
-                    .for_each(|(at, item)| check_value(schema, item, owner, &at));
-            } else if let (true, Some(schema)) = (fit.is_empty(), not.first()) {
-                let wanted = match length_limits(schema) {
-                    [least, most] if least == most => {
-                        format!("{}, no more and no fewer", count_noun(least, "value"))
-                    }
-                    [least, most] => format!("{least} to {}", count_noun(most, "value")),
-                };
-                at.add_problem(format!(
-                    "{} has {}; write {wanted}",
-                    list_name(at, owner),
-                    count_noun(items.len(), "value")
-                ));
+    match value.get_ref() {
+        DeValue::Array(items) => {
+            let Some((list, item)) = all.iter().find_map(|s| Some((s, s.get("items")?))) else {
+                return;
+            };
+            let limit = |name: &str| list.get(name).and_then(Value::as_u64);
+            let (least, most) = (limit("minItems").unwrap_or(0), limit("maxItems"));
+            let (count, most) = (items.len() as u64, most.unwrap_or(u64::MAX));
+            if (least..=most).contains(&count) {
+                let items = at.each_entry(items);
+                return items.for_each(|(at, value)| check_value(item, value, owner, &at));
             }
+            let wanted = if least == most {
+                format!("{least} values, no more and no fewer")
+            } else {
+                format!("{least} to {most} values")
+            };
+            at.add_problem(format!(
+                "{} has {}; write {wanted}",
+                list_name(at, owner),
+                count_noun(items.len(), "value")
+            ));
         }
-        Value::Object(entries) => {
-            let id = entries.get("id").and_then(Value::as_str);
+        DeValue::Table(entries) => {
+            let id = entries.get("id").and_then(|id| id.get_ref().as_str());
             let own =
                 id.map(|id| format!(" of {} \"{id}\"", at.path.last_key().unwrap_or_default()));
             let owner = own.as_deref().unwrap_or(owner);
             for (k, entry) in entries {
+                let k = k.get_ref().as_ref();
                 check_text(k, at);
                 match all.iter().find_map(|s| of_key(s, k)) {
                     Some(Value::Bool(false)) => {
@@ -238,7 +199,7 @@ fn check_value(schema: &Value, value: &Value, owner: &str, at: &Place<'_>) {
                 }
             }
         }
-        Value::String(text) => check_text(text, at),
+        DeValue::String(text) => check_text(text, at),
         _ => {}
     }
 }
@@ -258,25 +219,6 @@ fn schema_alternatives(schema: &Value) -> Vec<&Map<String, Value>> {
     }
 }
 
-/// Returns whether a schema is that of a list.
-fn is_list(schema: &Map<String, Value>) -> bool {
-    match schema.get("type") {
-        Some(Value::String(word)) => word == "array",
-        Some(Value::Array(words)) => words.iter().any(|w| w == "array"),
-        _ => false,
-    }
-}
-
-/// Returns the least and the greatest length of a list.
-fn length_limits(schema: &Map<String, Value>) -> [usize; 2] {
-    let limit = |name: &str| {
-        let stated = schema.get(name).and_then(Value::as_u64);
-        stated.and_then(|n| usize::try_from(n).ok())
-    };
-    let (least, most) = (limit("minItems"), limit("maxItems"));
-    [least.unwrap_or(0), most.unwrap_or(usize::MAX)]
-}
-
 /// Returns the schema of an entry of a table.
 fn of_key<'s>(schema: &'s Map<String, Value>, key: &str) -> Option<&'s Value> {
     let known = schema.get("properties").and_then(|all| all.get(key));
@@ -291,74 +233,38 @@ fn list_name(at: &Place<'_>, owner: &str) -> String {
 }
 
 /// Tables and keys with coordinates.
-const GEOMETRY: [&str; 6] = [
-    "plane_normal",
-    "parameter",
-    "joint",
-    "coupling",
-    "point",
-    "search",
-];
+const GEOMETRY: &str = "plane_normal parameter joint coupling point search";
 /// The keys of those tables whose numbers are coordinates.
-const COORDINATES: [&str; 6] = ["point", "axis", "reference", "lead", "pitch", "ratio"];
+const COORDINATES: &str = "point axis reference lead pitch ratio";
 
-/// Returns the text of a document with values `all` in which the coordinates that end with a zero are in quotes: expressions of the
-/// same value. Returns `None` if there are none. As a double 0.49400 is 0.494, which seems to be known less precisely.
-fn quote_decimals(text: &str, json: bool, all: &Value) -> Option<String> {
-    let digits = |c: char| c.is_ascii_digit() || c == '_' || c == '.';
-    let mut words = text.split(|c| !digits(c));
-    if !words.any(|w| w.contains('.') && w.ends_with('0')) {
-        return None;
+/// Replaces the coordinates of a file that end with a zero by expressions of the same digits. As a double 0.49400 is 0.494, which
+/// seems to be known less precisely.
+fn keep_digits(root: &mut Spanned<DeValue<'_>>) {
+    let DeValue::Table(table) = root.get_mut() else {
+        return;
+    };
+    for (key, value) in table.iter_mut() {
+        if GEOMETRY.split(' ').any(|k| k == key.get_ref()) {
+            let whole = ["plane_normal", "parameter"].contains(&&**key.get_ref());
+            quote_decimals(value, whole);
+        }
     }
-    let document = Document::new(text, json)?;
-    let mut found: Vec<(Range<usize>, String)> = Vec::new();
-    let tables = all.as_object()?.iter();
-    for (key, value) in tables.filter(|(k, _)| GEOMETRY.contains(&k.as_str())) {
-        let whole = ["plane_normal", "parameter"].contains(&key.as_str());
-        visit_decimals(
-            value,
-            &DocumentPath::root_key(key),
-            whole,
-            &mut |path, x| {
-                let span = document.find_span(path)?;
-                let written = text.get(span.clone())?.trim().replace('_', "");
-                let mantissa = written.split(['e', 'E']).next().unwrap_or("");
-                // A missing path has the span of what is around it, which is not this number.
-                if mantissa.contains('.') && mantissa.ends_with('0') && written.parse() == Ok(x) {
-                    found.push((span, written));
-                }
-                Some(())
-            },
-        );
-    }
-    found.sort_by_key(|(span, _)| span.start);
-    let mut out = text.to_owned();
-    for (span, written) in found.iter().rev() {
-        out.replace_range(span.clone(), &format!("\"{written}\""));
-    }
-    (!found.is_empty()).then_some(out)
 }
 
-/// Visits the decimals below a value that are coordinates; all of them are if it is `whole`.
-fn visit_decimals(
-    value: &Value,
-    at: &DocumentPath,
-    whole: bool,
-    visit: &mut dyn FnMut(&DocumentPath, f64) -> Option<()>,
-) {
-    match value {
-        Value::Number(n) if n.is_f64() && whole => {
-            n.as_f64().and_then(|x| visit(at, x));
-        }
-        Value::Array(list) => {
-            for (i, item) in list.iter().enumerate() {
-                visit_decimals(item, &at.entry_at(i), whole, visit);
+/// Replaces the decimals below a value that are coordinates; all of them are if it is `whole`.
+fn quote_decimals(value: &mut Spanned<DeValue<'_>>, whole: bool) {
+    match value.get_mut() {
+        DeValue::Float(x) if whole => {
+            let mantissa = x.as_str().split(['e', 'E']).next().unwrap_or("");
+            if mantissa.contains('.') && mantissa.ends_with('0') {
+                *value.get_mut() = DeValue::String(x.as_str().to_owned().into());
             }
         }
-        Value::Object(table) => {
-            for (key, item) in table {
-                let whole = whole || COORDINATES.contains(&key.as_str());
-                visit_decimals(item, &at.key(key), whole, visit);
+        DeValue::Array(list) => list.iter_mut().for_each(|v| quote_decimals(v, whole)),
+        DeValue::Table(table) => {
+            for (key, item) in table.iter_mut() {
+                let own = COORDINATES.split(' ').any(|k| k == key.get_ref());
+                quote_decimals(item, whole || own);
             }
         }
         _ => {}

@@ -3,23 +3,13 @@
 mod number;
 mod workload;
 
+use crate::file::prelude::*;
 use crate::file::read::resolve::motion_name;
-use crate::file::schema::{
-    ClaimEntry, ContactEntry, ContourEntry, Coordinate, CouplingEntry, DriveWord, ExpectedEntry,
-    ForceEntry, InertiaEntry, JointEntry, LinkEntry, MechanismFile, MisalignmentEntry, MomentEntry,
-    OptionEntry, OptionTable, PointEntry, Quantities, Quantity, SearchEntry, StiffnessEntry,
-    StrokeEntry, ToleranceEntry, Unloading, Words, WorkloadEntry,
-};
 pub(crate) use crate::file::write::number::plain_number;
 use crate::file::write::number::{write_component, write_coordinate, write_ratio};
-use crate::geom::expr::Expr;
 use crate::model::claim::Claim;
-use crate::model::joint_type::{Coupling, Freedom, JointType};
-use crate::model::loads::{ExternalForce, ExternalMoment, Face, Inertia, Misalignment, Stiffness};
-use crate::model::mechanism::{
-    Drives, Expected, Frame, Joint, JointId, JointOption, Link, Mechanism, Mode, PointOfInterest,
-    Role, StateId,
-};
+use crate::model::loads::{ExternalForce, ExternalMoment, Face, Inertia, Misalignment};
+use crate::model::mechanism::{Drives, Expected, Mode, PointOfInterest};
 use serde::ser::Error;
 use toml_edit::{DocumentMut, Item};
 
@@ -195,7 +185,8 @@ fn has_screw(t: &JointType) -> bool {
     t.freedoms().contains(&Freedom::Screw)
 }
 
-fn freedom_names(t: &JointType) -> Option<Vec<String>> {
+/// Returns the names of the freedoms of a custom joint type.
+pub(crate) fn freedom_names(t: &JointType) -> Option<Vec<String>> {
     match t {
         JointType::Custom(list) => Some(list.iter().map(|f| f.name().to_owned()).collect()),
         _ => None,
@@ -354,13 +345,6 @@ fn write_misalignment(m: &Mechanism, x: &Misalignment) -> Vec<MisalignmentEntry>
     turned.chain(shifted).collect()
 }
 
-fn write_stiffness(s: Stiffness) -> StiffnessEntry {
-    StiffnessEntry {
-        linear: s.linear,
-        angular: s.angular,
-    }
-}
-
 /// Returns the workload without masses, with positions and speeds as plain numbers.
 fn write_workload(m: &Mechanism) -> WorkloadEntry {
     let loads = &m.loads;
@@ -377,7 +361,10 @@ fn write_workload(m: &Mechanism) -> WorkloadEntry {
         radius: f.radius.map(decimal),
     };
     let by_type = loads.stiffness.iter();
-    let by_type = by_type.map(|(name, s)| (name.clone(), write_stiffness(*s)));
+    let by_type = by_type.map(|(name, s)| {
+        let (linear, angular) = (s.linear, s.angular);
+        (name.clone(), StiffnessEntry { linear, angular })
+    });
     let drive = loads.drive.as_ref();
     let misaligned = loads.misalignments.iter();
     WorkloadEntry {

@@ -2,19 +2,13 @@
 //! close a loop or couple joints are reported and counted; the others (friction, colours, publishers) have no effect on the
 //! kinematics.
 
-use crate::geom::rigid::RigidMotion;
-use crate::geom::vector::length;
-use crate::model::joint_type::JointType;
 use crate::robots::description::kinematics::{link_places, spanning_tree};
-use crate::robots::description::{Part, Ratio, Robot};
+use crate::robots::prelude::*;
 use crate::robots::sdf::joints::read_joint;
 use crate::robots::sdf::scene::{
     Placed, Scoped, SdfScene, absolute_name, insert, joint_end, moves_with, named_place,
     resolve_places,
 };
-use crate::robots::warning::{Read, list_known, unknown_name};
-use crate::robots::xml::element::Element;
-use std::collections::BTreeSet;
 
 /// Rows that an element of unknown meaning may constrain: all freedoms between two links.
 const MOST_ROWS: usize = 6;
@@ -90,13 +84,11 @@ fn weld_links(e: Element<'_>, names: &[String; 2], scene: &SdfScene<'_>, robot: 
         let what = "weld of one link to itself";
         return robot.report.count_dropped(what, Some(&names[0]));
     }
-    let sides = [a, b].map(|l| robot.places[l].inverse().then(&at));
+    let ends = [a, b].map(|l| (l, robot.places[l].inverse().then(&at)));
     let id = format!("weld-{}-{}", names[0], names[1]);
-    let mut part = Part::new(&id, [a, b], sides, JointType::Fixed).said_by(e);
-    part.closes = true;
-    part.comment = Some(format!("closes a loop: {}", label_of(e)));
-    robot.report.count_mapped("weld of a plugin");
-    robot.joints.push(part);
+    if let Ok(part) = robot.close_loop(e, &id, ends, JointType::Fixed, "weld of a plugin") {
+        part.comment = Some(format!("closes a loop: {}", label_of(e)));
+    }
 }
 
 /// Omits an element of unknown meaning. It is counted if its name suggests that it closes a loop or couples joints, or if it names several
@@ -181,9 +173,8 @@ pub(crate) fn ball_constraint(e: Element<'_>, robot: &mut Robot) -> Read<()> {
         *end = (link, frame.then(&RigidMotion::from_translation(at)));
     }
     let [a, b] = ends.map(|end| &robot.links[end.0]);
-    let part = Part::new_closing(e, &format!("ball-{a}-{b}"), ends, JointType::Spherical)?;
-    robot.report.count_mapped("ball constraint");
-    robot.joints.push(part);
+    let id = format!("ball-{a}-{b}");
+    robot.close_loop(e, &id, ends, JointType::Spherical, "ball constraint")?;
     Ok(())
 }
 

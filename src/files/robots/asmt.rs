@@ -1,16 +1,8 @@
 //! OndselSolver's assemblies, `.asmt`: parts with markers, and joints between two markers each.
 
-use crate::geom::rigid::RigidMotion;
-use crate::geom::vector::length;
 use crate::robots::cad::holds::Holds;
 use crate::robots::cad::{Assembly, Connection, NO_LIMITS};
-use crate::robots::description::Robot;
-use crate::robots::warning::{
-    Read, bad_value, list_known, missing_problem, unknown_name, unknown_word,
-};
-use crate::robots::xml::element::Element;
-use crate::robots::xml::{Document, Input};
-use std::collections::BTreeMap;
+use crate::robots::prelude::*;
 
 /// The beginnings of the first line of a file: that of OndselSolver, whose files are in millimetres, and the old one.
 const HEADS: [(&str, &str); 2] = [("OndselSolver", "mm"), ("freeCAD: 3D CAD", "m")];
@@ -120,7 +112,8 @@ fn read_pose(e: Element<'_>) -> Read<RigidMotion> {
     let product = m.inverse().then(&m);
     let off = (0..3).flat_map(|i| (0..3).map(move |k| (i, k)));
     let off = off.map(|(i, k)| (product.rotation[i][k] - f64::from(u8::from(i == k))).abs());
-    let turned = length(rotation[2]) > 0.5 && determinant(&rotation) > 0.0;
+    let [a, b, c] = rotation;
+    let turned = length(c) > 0.5 && dot(a, cross(b, c)) > 0.0;
     if off.fold(0.0, f64::max) > 1e-3 || !turned {
         let found = matrix.text().replace(['\n', '\t'], " ");
         let found: String = found.chars().take(60).collect();
@@ -129,11 +122,6 @@ fn read_pose(e: Element<'_>) -> Read<RigidMotion> {
         return Err(matrix.error_at(None, problem));
     }
     Ok(m)
-}
-
-fn determinant([a, b, c]: &[[f64; 3]; 3]) -> f64 {
-    use crate::geom::vector::{cross, dot};
-    dot(*a, cross(*b, *c))
 }
 
 /// The part and the place of each marker, by its path.

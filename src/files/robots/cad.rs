@@ -8,13 +8,10 @@ mod meet;
 pub(crate) mod retype;
 
 use crate::closure::tree::spanning_forest;
-use crate::geom::rigid::RigidMotion;
-use crate::geom::vector::length;
-use crate::model::joint_type::JointType;
 use crate::robots::cad::holds::Holds;
 use crate::robots::cad::meet::{Meeting, find_coupling, find_meeting};
-use crate::robots::description::{Part, Robot, free_joint};
-use crate::robots::warning::{CadCount, Options};
+use crate::robots::prelude::*;
+use crate::robots::warning::CadCount;
 
 /// Frames meet if they are apart by less than this, as a share of the assembly's size and in radians: solvers are as accurate as this.
 const MEET: f64 = 1e-4;

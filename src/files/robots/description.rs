@@ -20,8 +20,6 @@ use std::collections::{BTreeMap, BTreeSet};
 /// A link and a place on it.
 pub(crate) type End = (usize, RigidMotion);
 
-/// The two ends of a joint.
-pub(crate) type Ends = [End; 2];
 /// The places of a joint on its two links.
 type Sides = [RigidMotion; 2];
 
@@ -94,20 +92,6 @@ impl Part {
         }
     }
 
-    /// Returns the joint of an element that closes a loop between a place on one link and a place on another.
-    ///
-    /// # Errors
-    /// Returns an error if both places are on the same link.
-    pub(crate) fn new_closing(e: Element<'_>, id: &str, ends: Ends, kind: JointType) -> Read<Part> {
-        let links = ends.map(|end| end.0);
-        if links[0] == links[1] {
-            return Err(same_link(e));
-        }
-        let mut part = Part::new(id, links, ends.map(|end| end.1), kind).said_by(e);
-        part.closes = true;
-        Ok(part)
-    }
-
     /// Sets the element of the joint.
     pub(crate) fn said_by(mut self, e: Element<'_>) -> Part {
         self.element = Some(e.id);
@@ -115,10 +99,9 @@ impl Part {
     }
 
     /// Rotates the joint to another axis of its frame.
-    pub(crate) fn with_axis(mut self, axis: Vector) -> Part {
+    pub(crate) fn set_axis(&mut self, axis: Vector) {
         self.axis = axis;
         self.second = perpendicular(axis);
-        self
     }
 
     /// Returns the direction of a freedom in the joint's own frame.
@@ -140,6 +123,25 @@ pub(crate) fn same_link(e: Element<'_>) -> ImportError {
 pub(crate) fn free_joint() -> JointType {
     use Freedom::{Rx, Ry, Rz, Tx, Ty, Tz};
     JointType::Custom(vec![Tx, Ty, Tz, Rx, Ry, Rz])
+}
+
+/// Returns the joint type of a word, if it is among those `known` in a format, which are separated by commas.
+pub(crate) fn joint_of_word(word: &str, known: &str) -> Option<JointType> {
+    if !known.split(", ").any(|k| k == word) {
+        return None;
+    }
+    Some(match word {
+        "revolute" | "continuous" | "hinge" => JointType::Revolute,
+        "prismatic" | "slider" | "slide" => JointType::Prismatic,
+        "cylindrical" => JointType::Cylindrical,
+        "screw" => JointType::Helical,
+        "universal" | "revolute2" => JointType::Universal,
+        "spherical" | "ball" | "point" | "3d" => JointType::Spherical,
+        "planar" => JointType::Planar,
+        "fixed" | "weld" | "6d" => JointType::Fixed,
+        "floating" | "free" => free_joint(),
+        _ => return None,
+    })
 }
 
 /// Rate of one joint over that of another.
@@ -238,6 +240,30 @@ impl Robot {
         self.frames
             .insert(name.to_owned(), (l, RigidMotion::IDENTITY));
         l
+    }
+
+    /// Adds the joint of an element that closes a loop between a place on one link and a place on another. `word` counts it.
+    ///
+    /// # Errors
+    /// Returns an error if both places are on the same link.
+    pub(crate) fn close_loop(
+        &mut self,
+        e: Element<'_>,
+        id: &str,
+        ends: [End; 2],
+        kind: JointType,
+        word: &str,
+    ) -> Read<&mut Part> {
+        let links = ends.map(|end| end.0);
+        if links[0] == links[1] {
+            return Err(same_link(e));
+        }
+        let mut part = Part::new(id, links, ends.map(|end| end.1), kind).said_by(e);
+        part.closes = true;
+        self.report.count_mapped(word);
+        let at = self.joints.len();
+        self.joints.push(part);
+        Ok(&mut self.joints[at])
     }
 
     /// Returns the link or frame of a name.

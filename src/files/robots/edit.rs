@@ -1,17 +1,12 @@
 //! Edits of a description by spans of its text. Everything else stays unchanged, byte for byte.
 
-use crate::geom::rigid::RigidMotion;
-use crate::geom::vector::Vector;
-use crate::robots::description::Part;
 use crate::robots::description::origin::Origin;
 use crate::robots::description::physical::{LIGHT_SDF, LIGHT_URDF};
+use crate::robots::include::is_old;
 use crate::robots::mechanism::series_of_single_joints::{
     Names, escape_comment, escape_xml, format_numbers,
 };
-use crate::robots::sdf::include::is_old;
-use crate::robots::warning::{Read, syntax_problem};
-use crate::robots::xml::element::Element;
-use std::collections::BTreeMap;
+use crate::robots::prelude::*;
 use std::ops::Range;
 
 /// The freedoms that a joint gets: whether each slides, its direction in the world, and the reason, in words.
@@ -25,8 +20,6 @@ pub(crate) struct Edits<'a> {
     pub(crate) origin: &'a Origin,
     /// File, replaced range, and replacement.
     list: Vec<(usize, Range<usize>, String)>,
-    /// Lines to insert as the last children of an element.
-    children: BTreeMap<usize, Vec<String>>,
     names: Names,
 }
 
@@ -37,7 +30,6 @@ impl<'a> Edits<'a> {
         Edits {
             origin,
             list: Vec::new(),
-            children: BTreeMap::new(),
             names: Names(named.map(str::to_owned).collect()),
         }
     }
@@ -89,8 +81,19 @@ impl<'a> Edits<'a> {
 
     /// Inserts lines as the last children of an element.
     pub(crate) fn append_child(&mut self, e: Element<'_>, lines: &[String]) {
-        let all = self.children.entry(e.id).or_default();
-        all.extend_from_slice(lines);
+        let (indent, newline) = self.find_layout(e);
+        let inner = lines.iter().map(|l| format!("{newline}{indent}  {l}"));
+        let inner: String = inner.collect();
+        let node = e.node();
+        if node.close.is_empty() {
+            // <body .../> is opened.
+            let slash = node.span.end - 2..node.span.end;
+            let opened = format!(">{inner}{newline}{indent}</{}>", e.name());
+            self.replace_span(e, slash, opened);
+        } else {
+            let at = self.source_text(e)[..node.close.start].trim_end().len();
+            self.replace_span(e, at..at, inner);
+        }
     }
 
     /// Returns the indentation of an element and the line ending of its file.
@@ -103,28 +106,8 @@ impl<'a> Edits<'a> {
         (indent, newline)
     }
 
-    fn write_children(&mut self) {
-        for (id, lines) in std::mem::take(&mut self.children) {
-            let e = self.origin.element(id);
-            let (indent, newline) = self.find_layout(e);
-            let inner = lines.iter().map(|l| format!("{newline}{indent}  {l}"));
-            let inner: String = inner.collect();
-            let node = e.node();
-            if node.close.is_empty() {
-                // <body .../> is opened.
-                let slash = node.span.end - 2..node.span.end;
-                let opened = format!(">{inner}{newline}{indent}</{}>", e.name());
-                self.replace_span(e, slash, opened);
-            } else {
-                let at = self.source_text(e)[..node.close.start].trim_end().len();
-                self.replace_span(e, at..at, inner);
-            }
-        }
-    }
-
     /// Returns the text of the description with all edits.
     pub(crate) fn apply_edits(mut self) -> Read<String> {
-        self.write_children();
         let sources = &self.origin.document.sources;
         // The root's file is the first that was read.
         if let Some((source, span, _)) = self.list.iter().find(|(s, ..)| *s != 0) {

@@ -4,19 +4,13 @@ mod distance;
 mod objects;
 mod reference;
 
-use crate::geom::rigid::RigidMotion;
 use crate::robots::cad::archive::Archive;
 use crate::robots::cad::{Assembly, Connection, NO_LIMITS};
-use crate::robots::description::Robot;
 use crate::robots::fcstd::distance::{Held, Shapes, Slide, joint_constraint, joint_frames};
 use crate::robots::fcstd::objects::{Object, Objects};
-use crate::robots::fcstd::reference::{Documents, Reference, read_reference};
-use crate::robots::warning::{
-    Options, Read, Reader, list_known, syntax_problem, too_many, unknown_name,
-};
-use crate::robots::xml::element::Element;
-use crate::robots::xml::{self, Document, Input};
-use std::collections::{BTreeMap, BTreeSet};
+use crate::robots::fcstd::reference::NoReference::{Broken, Invalid};
+use crate::robots::fcstd::reference::{Documents, Reference};
+use crate::robots::prelude::*;
 
 /// The member of the archive that lists the objects.
 pub(crate) const DOCUMENT: &str = "Document.xml";
@@ -37,38 +31,35 @@ pub(crate) fn read_document(input: Input<'_>) -> Read<Robot> {
     let (document, root, read) = (input.document, input.root, input.read);
     let mut robot = Robot::new("");
     let roots = read_linked(document, root, read, &mut robot)?;
-    let mut documents = Documents {
-        main: Objects::read_objects(document.element(root))?,
-        linked: BTreeMap::new(),
+    let objects = |(file, root): (String, usize)| {
+        let objects = Objects::read_objects(document.element(root))?;
+        Ok((file, objects))
     };
-    for (file, root) in &roots {
-        let objects = Objects::read_objects(document.element(*root))?;
-        documents.linked.insert(file.clone(), objects);
-    }
-    let assembly = choose_assembly(document, root, &documents.main, input.options, &mut robot)?;
+    let all: BTreeMap<String, Objects<'_>> = roots.into_iter().map(objects).collect::<Read<_>>()?;
+    let assembly = choose_assembly(document.element(root), &all[""], input.options, &mut robot)?;
     let shapes = |member: &str| String::from_utf8(read(member).ok()?).ok();
     let reading = Assembling {
-        documents: &documents,
-        assembly,
-        joints: assembly_joints(&documents.main, &assembly),
+        joints: assembly_joints(&all[""], &assembly),
+        documents: Documents { all, assembly },
         shapes: &shapes,
     };
     let assembly = reading.read_assembly(document.element(root), &mut robot)?;
     Ok(assembly.to_robot(robot, input.options))
 }
 
-/// Reads the documents that links lead to, with those that these lead to; their root elements by the names of their files.
+/// Reads the documents that links lead to, with those that these lead to. Returns their root elements by the names of their files;
+/// that of the first document has no name.
 fn read_linked(
     document: &mut Document,
     root: usize,
     read: Reader<'_>,
     robot: &mut Robot,
 ) -> Read<BTreeMap<String, usize>> {
-    let mut out = BTreeMap::new();
+    let mut out = BTreeMap::from([(String::new(), root)]);
     let mut wanted = linked_files(document, root)?;
     let mut seen: BTreeSet<String> = wanted.iter().cloned().collect();
     while let Some(file) = wanted.pop() {
-        if out.len() >= MAX_LINKED {
+        if out.len() > MAX_LINKED {
             let problem = too_many("linked documents", MAX_LINKED);
             return Err(document.element(root).error_at(None, problem));
         }
@@ -88,7 +79,7 @@ fn read_linked(
             continue;
         };
         let name = format!("{file}/{DOCUMENT}");
-        let inner = document.read(&name, xml::decode_utf8(&name, &member)?)?;
+        let inner = document.read(&name, decode_utf8(&name, &member)?)?;
         out.insert(file, inner);
         for more in linked_files(document, inner)? {
             if seen.insert(more.clone()) {
@@ -137,20 +128,18 @@ fn assembly_joints<'a>(objects: &Objects<'a>, assembly: &Object<'a>) -> Vec<Obje
 
 /// Returns the chosen assembly: the named one, or else the one with most joints.
 fn choose_assembly<'a>(
-    document: &'a Document,
-    root: usize,
+    root: Element<'a>,
     objects: &Objects<'a>,
     options: &Options,
     robot: &mut Robot,
 ) -> Read<Object<'a>> {
     let all = (objects.all_objects()).filter(|o| o.kind == "Assembly::AssemblyObject");
     let all: Vec<Object<'a>> = all.copied().collect();
-    let root = document.element(root);
     if let Some(wanted) = &options.assembly {
         let named = |o: &&Object<'a>| o.label() == wanted || o.name == wanted;
         return all.iter().find(named).copied().ok_or_else(|| {
             let known = list_known("assemblies", all.iter().map(Object::label));
-            let problem = unknown_name("--assembly", "assembly", wanted, &known);
+            let problem = unknown_name("the option `assembly`", "assembly", wanted, &known);
             root.error_at(None, problem)
         });
     }
@@ -173,8 +162,7 @@ fn choose_assembly<'a>(
 
 /// The assembly being read.
 struct Assembling<'a, 'd> {
-    documents: &'d Documents<'a>,
-    assembly: Object<'a>,
+    documents: Documents<'a>,
     joints: Vec<Object<'a>>,
     shapes: Shapes<'d>,
 }
@@ -235,7 +223,7 @@ impl<'a> Assembling<'a, '_> {
             });
         }
         Ok(Assembly {
-            name: self.assembly.label().to_owned(),
+            name: self.documents.assembly.label().to_owned(),
             unit: "mm",
             parts,
             connections,
@@ -249,8 +237,10 @@ impl<'a> Assembling<'a, '_> {
         grounded: &BTreeSet<&'a str>,
         root: Element<'_>,
     ) -> Read<Parts<'a>> {
-        let mut parts: Vec<(String, RigidMotion)> =
-            vec![(self.assembly.label().to_owned(), RigidMotion::IDENTITY)];
+        let mut parts: Vec<(String, RigidMotion)> = vec![(
+            self.documents.assembly.label().to_owned(),
+            RigidMotion::IDENTITY,
+        )];
         let mut place: BTreeMap<&str, usize> = BTreeMap::new();
         let ends = ended.iter().flat_map(|(_, _, ends)| ends);
         for (end, part) in ends.filter_map(|e| Some((e, e.part?))) {
@@ -258,7 +248,7 @@ impl<'a> Assembling<'a, '_> {
                 continue;
             }
             root.check_room("parts", parts.len())?;
-            let label = self.documents.main.get(part).map_or(part, Object::label);
+            let label = self.documents.main().get(part).map_or(part, Object::label);
             if grounded.contains(part) {
                 if place.values().all(|p| *p != 0) {
                     label.clone_into(&mut parts[0].0);
@@ -287,11 +277,15 @@ impl<'a> Assembling<'a, '_> {
                     .count_dropped("suppressed joint", Some(joint.label()));
                 continue;
             }
-            let end = |which: &str| read_reference(joint, which, &self.assembly, self.documents);
-            match (end("Reference1")?, end("Reference2")?) {
-                (Ok(a), Ok(b)) => out.push((*joint, word, [a, b])),
-                (Err(why), _) | (_, Err(why)) => {
-                    let what = format!("omitted, as in FreeCAD: {why}");
+            let ends = ["Reference1", "Reference2"].map(|which| {
+                let found = self.documents.read_reference(joint, which);
+                found.map_err(|e| (which, e))
+            });
+            match ends {
+                [Ok(a), Ok(b)] => out.push((*joint, word, [a, b])),
+                [Err((_, Invalid(e))), _] | [_, Err((_, Invalid(e)))] => return Err(e),
+                [Err((which, Broken(why))), _] | [_, Err((which, Broken(why)))] => {
+                    let what = format!("omitted, as in FreeCAD: {which} {why}");
                     let element = format!("joint \"{}\"", joint.label());
                     robot.report.leave_out_joint(&element, UNKNOWN_ROWS, what);
                 }
@@ -310,7 +304,7 @@ impl<'a> Assembling<'a, '_> {
         let first = ended.first().and_then(|(_, _, ends)| ends[0].part);
         if let (false, Some(part)) = (ends.any(still), first) {
             grounded.insert(part);
-            let label = self.documents.main.get(part).map_or(part, Object::label);
+            let label = self.documents.main().get(part).map_or(part, Object::label);
             let what =
                 format!("nothing that joints hold is grounded; {label} is taken as the ground");
             robot.report.add_moved(what);

@@ -1,14 +1,9 @@
 //! The formats of files, with their readers and writers.
 
-use crate::file::problem::ImportError;
 use crate::file::write::{self, mechanism_file};
-use crate::model::mechanism::Mechanism;
 use crate::robots::cad::archive::Archive;
-use crate::robots::description::Robot;
-use crate::robots::warning::{ExportError, Read, syntax_problem};
-use crate::robots::xml::Input;
+use crate::robots::prelude::*;
 use crate::robots::{asmt, fcstd, graph, mjcf, sdf, urdf};
-use itertools::Itertools;
 
 /// A format of files.
 #[derive(Debug)]
@@ -21,21 +16,17 @@ pub struct Format {
     pub about: &'static str,
     /// Endings of files that are robot descriptions of this format.
     endings: &'static [&'static str],
+    /// The root element and the reader, for a format that is read.
     read: Option<(&'static str, Describe)>,
-    write: Option<FormatWriter>,
+    /// The writer. Without one, a mechanism is only written into the document it was read from, as it has no shapes and references.
+    write: Option<Writer>,
 }
 
 /// Reads a robot.
 pub(crate) type Describe = fn(Input<'_>) -> Read<Robot>;
 
-/// Writer of a format.
-#[derive(Debug, Clone, Copy)]
-enum FormatWriter {
-    /// From the mechanism only.
-    Mechanism(fn(&Mechanism) -> Result<FormattedFile, ExportError>),
-    /// Only into the original document, with changed joints: the mechanism has no shapes and references.
-    Own,
-}
+/// Writes a mechanism.
+type Writer = fn(&Mechanism) -> Result<FormattedFile, ExportError>;
 
 /// A mechanism in a format.
 #[derive(Debug)]
@@ -65,12 +56,10 @@ const fn format(word: &'static str, name: &'static str, about: &'static str) -> 
     }
 }
 
-/// All formats, with the root element of those that are read, and the writer of those that are written.
-static FORMATS: [Format; 9] = [
+/// All formats.
+static FORMATS: [Format; 8] = [
     Format {
-        write: Some(FormatWriter::Mechanism(|m| {
-            Ok(write::toml(&mechanism_file(m), &[])?.into())
-        })),
+        write: Some(|m| Ok(write::toml(&mechanism_file(m), &[])?.into())),
         ..format(
             "toml",
             "TOML",
@@ -78,33 +67,30 @@ static FORMATS: [Format; 9] = [
         )
     },
     Format {
-        write: Some(FormatWriter::Mechanism(|m| {
-            Ok(format!("{:#}\n", mechanism_file(m).json()).into())
-        })),
+        write: Some(|m| Ok(format!("{:#}\n", mechanism_file(m).json()).into())),
         ..format("json", "JSON", "The same as JSON")
     },
     Format {
         endings: &["urdf", "xacro", "xml"],
         read: Some(("robot", urdf::read_urdf)),
-        write: Some(FormatWriter::Mechanism(urdf::write::write_urdf)),
+        write: Some(urdf::write::write_urdf),
         ..format("urdf", "URDF", "A spanning tree, loops as <loop_joint>")
     },
     Format {
         endings: &["mjcf", "xml"],
         read: Some(("mujoco", mjcf::read_mujoco)),
-        write: Some(FormatWriter::Mechanism(mjcf::write::write_mjcf)),
+        write: Some(mjcf::write::write_mjcf),
         ..format("mjcf", "MJCF", "Bodies; loops as connect and weld")
     },
     Format {
         endings: &["sdf", "world", "xml"],
         read: Some(("sdf", sdf::read_sdf)),
-        write: Some(FormatWriter::Mechanism(|m| Ok(sdf::write::write_sdf(m)))),
+        write: Some(|m| Ok(sdf::write::write_sdf(m))),
         ..format("sdf", "SDF", "Loops closed by joints")
     },
     Format {
         endings: &["fcstd"],
         read: Some(("Document", fcstd::read_document)),
-        write: Some(FormatWriter::Own),
         ..format(
             "fcstd",
             "FreeCAD",
@@ -114,7 +100,6 @@ static FORMATS: [Format; 9] = [
     Format {
         endings: &["asmt"],
         read: Some(("Assembly", asmt::read_assembly)),
-        write: Some(FormatWriter::Own),
         ..format(
             "asmt",
             "OndselSolver",
@@ -122,14 +107,8 @@ static FORMATS: [Format; 9] = [
         )
     },
     Format {
-        write: Some(FormatWriter::Mechanism(|m| Ok(graph::write_dot(m).into()))),
+        write: Some(|m| Ok(graph::write_dot(m).into())),
         ..format("dot", "DOT", "Graphviz")
-    },
-    Format {
-        write: Some(FormatWriter::Mechanism(|m| {
-            Ok(graph::write_graphml(m).into())
-        })),
-        ..format("graphml", "GraphML", "GraphML, for graph programs")
     },
 ];
 
@@ -143,7 +122,7 @@ static FORMATS: [Format; 9] = [
 /// ```
 #[must_use]
 pub fn is_own(word: &str) -> bool {
-    writable_formats().any(|f| f.word == word && matches!(f.write, Some(FormatWriter::Own)))
+    FORMATS.iter().any(|f| f.word == word && f.write.is_none())
 }
 
 /// Returns the formats in which a mechanism can be written.
@@ -151,10 +130,10 @@ pub fn is_own(word: &str) -> bool {
 /// # Examples
 /// ```
 /// let words: Vec<&str> = ozols::robots::formats::writable_formats().map(|f| f.word).collect();
-/// assert!(["toml", "json", "urdf", "mjcf", "sdf", "dot", "graphml"].iter().all(|w| words.contains(w)));
+/// assert!(["toml", "json", "urdf", "mjcf", "sdf", "dot"].iter().all(|w| words.contains(w)));
 /// ```
 pub fn writable_formats() -> impl Iterator<Item = &'static Format> {
-    FORMATS.iter().filter(|f| f.write.is_some())
+    FORMATS.iter()
 }
 
 /// Writes a mechanism in the format of the given name, one of those of [`writable_formats`].
@@ -186,14 +165,14 @@ pub fn write(m: &Mechanism, word: &str) -> Result<String, ExportError> {
 /// ```
 pub fn export(m: &Mechanism, word: &str) -> Result<FormattedFile, ExportError> {
     let format = writable_formats().find(|f| f.word == word);
-    match format.and_then(|f| Some((f.name, f.write?))) {
-        Some((_, FormatWriter::Mechanism(write))) => write(m),
-        Some((format, FormatWriter::Own)) => Err(ExportError::Own { format }),
-        None => Err(ExportError::Unknown {
-            word: word.to_owned(),
-            known: writable_formats().map(|f| f.word).join(", "),
-        }),
-    }
+    let format = format.ok_or_else(|| ExportError::Unknown {
+        word: word.to_owned(),
+        known: writable_formats().map(|f| f.word).join(", "),
+    })?;
+    let own = ExportError::Own {
+        format: format.name,
+    };
+    format.write.ok_or(own)?(m)
 }
 
 /// Returns true if a file of this name is a robot description, by its ending.
@@ -354,7 +333,6 @@ mod tests {
                 .all_unique()
         );
         for f in &FORMATS {
-            assert!(f.read.is_some() || f.write.is_some(), "{}", f.word);
             // Descriptions are recognised by their ending.
             assert_eq!(f.read.is_some(), !f.endings.is_empty(), "{}", f.word);
         }

@@ -5,25 +5,22 @@
 //! possible. Rigidly joined links become one. The result is a mechanism and the entries of its file, with a [`Report`] of what was mapped,
 //! approximated and dropped.
 
-use crate::file::problem::{ImportError, ProblemKind};
 use crate::file::read::build_mechanism;
 use crate::file::schema::{MechanismFile, ToleranceEntry};
 use crate::file::text::mechanism_from_str;
 use crate::file::write::{self, Comment};
 use crate::geom::extent::box_diagonal;
-use crate::model::mechanism::Mechanism;
 use crate::robots::asmt;
 use crate::robots::cad::archive::Archive;
 use crate::robots::description::origin::Origin;
-use crate::robots::description::{Robot, coupling, digits, loops};
+use crate::robots::description::{digits, loops};
 use crate::robots::fcstd::DOCUMENT;
 use crate::robots::formats::{Format, list_roots, of_root, refuse_foreign};
 use crate::robots::mechanism::entries::Content;
 use crate::robots::mechanism::loop_closing::robot_size;
 use crate::robots::mechanism::{loop_options, make_entries, pose_robot};
-use crate::robots::warning::{ExportError, Options, Read, Reader, Report, syntax_problem};
-use crate::robots::xml::element::Element;
-use crate::robots::xml::{self, Document, Input};
+use crate::robots::prelude::*;
+use crate::robots::warning::Report;
 
 /// A mechanism and its origin.
 #[derive(Debug, Clone)]
@@ -69,7 +66,7 @@ fn read_root(
     archive: Option<&Archive>,
 ) -> Result<usize, ImportError> {
     let Some(archive) = archive else {
-        let text = xml::decode_utf8(name, bytes)?;
+        let text = decode_utf8(name, bytes)?;
         return if asmt::is_one(text.as_bytes()) {
             asmt::read_lines(document, name, text)
         } else {
@@ -81,7 +78,7 @@ fn read_root(
         let message = format!("the archive has no {DOCUMENT}; it is not a FreeCAD document");
         return Err(syntax_problem(message).in_file(&name, "", None));
     };
-    document.read(&name, xml::decode_utf8(&name, &found)?)
+    document.read(&name, decode_utf8(&name, &found)?)
 }
 
 /// Imports a description. `read` gives the files it includes.
@@ -141,7 +138,6 @@ pub fn import(
     let closes = content.joints.iter().map(|&j| robot.joints[j].closes);
     let closes: Vec<bool> = closes.collect();
     let mechanism = with_offers(&mut file, &comments, &closes)?;
-    robot.report.kept = coupling::kept_couplings(&mechanism);
     Ok(Imported {
         mechanism,
         file,

@@ -5,22 +5,17 @@ pub(in crate::robots) mod loop_closing;
 pub(in crate::robots) mod loop_options;
 pub(in crate::robots) mod series_of_single_joints;
 
-use crate::file::problem::ProblemKind;
 use crate::file::read::value::LIMITS;
 use crate::file::schema::MechanismFile;
 use crate::file::write::Comment;
 use crate::format::count_noun;
-use crate::geom::rigid::RigidMotion;
-use crate::model::joint_type::JointType;
+use crate::robots::description::coupling;
 use crate::robots::description::kinematics::{Tree, link_places, spanning_tree};
-use crate::robots::description::{Part, Robot, coupling, free_joint};
 use crate::robots::mechanism::entries::{Content, link_of, merge_links, output_links};
 use crate::robots::mechanism::loop_closing::{
     CLOSED, ROUNDED, close_numerically, joint_values, loop_gaps, robot_size, worst_gap,
 };
-use crate::robots::warning::{Found, Options, bad_value, list_known, syntax_problem, unknown_name};
-use itertools::Itertools;
-use std::collections::BTreeSet;
+use crate::robots::prelude::*;
 
 /// Puts a robot into its pose and closes its loops. Returns its tree.
 pub(crate) fn pose_robot(robot: &mut Robot, options: &Options) -> Found<Tree> {
@@ -51,7 +46,7 @@ fn apply_pose(robot: &mut Robot, options: &Options) -> Found<()> {
 /// Returns the frame: the world if something is connected to it, otherwise the link that is no joint's child.
 fn root_link(robot: &mut Robot, options: &Options) -> Found<usize> {
     if let Some(name) = &options.frame {
-        return link_of(robot, name);
+        return link_of(robot, name, "frame");
     }
     let in_tree = || robot.joints.iter().filter(|j| !j.closes);
     let child: BTreeSet<usize> = in_tree().map(|j| j.links[1]).collect();

@@ -3,24 +3,18 @@
 mod context;
 mod equality;
 pub(super) mod fix;
-mod include;
-mod replicate;
 pub(super) mod write;
 
-use crate::geom::rigid::RigidMotion;
-use crate::geom::vector::{Vector, Z, length};
-use crate::model::joint_type::JointType;
 use crate::robots::additions::leave_out;
-use crate::robots::description::{Part, Robot, free_joint};
+use crate::robots::include::expand_files;
 use crate::robots::mjcf::context::{Context, Defaults, Lookup, read_compiler};
-use crate::robots::warning::{Read, bad_value};
-use crate::robots::xml::Input;
-use crate::robots::xml::element::Element;
-use std::collections::BTreeMap;
+use crate::robots::prelude::*;
 
 /// Sections without constraints; equalities look up in them what they use.
 const SECTIONS: &str = "asset contact custom extension keyframe option sensor size statistic \
     tendon visual";
+
+const TYPES: &str = "hinge, slide, ball, free";
 
 /// Attributes of a joint's resistance to motion, which do not affect the kinematics.
 const RESISTANCE: &str = "damping stiffness springdamper armature frictionloss";
@@ -35,16 +29,6 @@ struct Waiting<'a> {
 }
 
 impl<'a> Waiting<'a> {
-    /// Returns the world, which is the first link.
-    fn at_world(element: Element<'a>) -> Waiting<'a> {
-        Waiting {
-            element,
-            link: 0,
-            place: RigidMotion::IDENTITY,
-            class: element.attribute("childclass"),
-        }
-    }
-
     /// Returns an element within this one, which a link holds at the given place.
     fn at_element(&self, element: Element<'a>, link: usize, place: RigidMotion) -> Waiting<'a> {
         let class = element.attribute("childclass").or(self.class);
@@ -59,9 +43,8 @@ impl<'a> Waiting<'a> {
 
 /// Reads a `<mujoco>` and the files it includes.
 pub(crate) fn read_mujoco(mut input: Input<'_>) -> Read<Robot> {
-    include::expand_includes(&mut input)?;
+    expand_files(&mut input)?;
     let (document, root) = (input.document, input.root);
-    replicate::expand_replicates(document, root)?;
     let root = document.element(root);
     let name = root.attribute("model").unwrap_or("robot");
     let mut robot = Robot::new(name);
@@ -73,7 +56,13 @@ pub(crate) fn read_mujoco(mut input: Input<'_>) -> Read<Robot> {
     let world = robot.add_link("world", RigidMotion::IDENTITY);
     robot.world = Some(world);
     for w in root.children_named("worldbody") {
-        read_bodies(Waiting::at_world(w), &mut context, &mut robot)?;
+        let at_world = Waiting {
+            element: w,
+            link: world,
+            place: RigidMotion::IDENTITY,
+            class: w.attribute("childclass"),
+        };
+        read_bodies(at_world, &mut context, &mut robot)?;
     }
     for section in root.children() {
         match section.name() {
@@ -152,7 +141,10 @@ fn read_bodies<'a>(start: Waiting<'a>, context: &mut Context<'a>, robot: &mut Ro
                         _ => robot.report.add_approximation(&e.label(), what),
                     }
                 }
-                "composite" => {
+                "replicate" if e.children().all(|c| c.is_one_of("geom site light camera")) => {
+                    robot.report.count_dropped("replicate", None);
+                }
+                "composite" | "replicate" => {
                     let why = "it makes bodies when the model is compiled";
                     let remedy = "save the compiled model from MuJoCo as XML and import that file";
                     return Err(e.unsupported_error(why, remedy));
@@ -273,13 +265,8 @@ fn read_joint<'a>(
     } else {
         look.attribute("type").map_or("hinge", |(_, t)| t)
     };
-    let joint_type = match word {
-        "hinge" => JointType::Revolute,
-        "slide" => JointType::Prismatic,
-        "ball" => JointType::Spherical,
-        "free" => free_joint(),
-        _ => return Err(e.unknown_word("type", word, "hinge, slide, ball, free")),
-    };
+    let joint_type = joint_of_word(word, TYPES);
+    let joint_type = joint_type.ok_or_else(|| e.unknown_word("type", word, TYPES))?;
     let id = joint_id(e, body, word, robot)?;
     let pos = look.vector("pos", [0.0; 3])?;
     let at = if word == "free" {
@@ -290,7 +277,7 @@ fn read_joint<'a>(
     let mut part = Part::new(&id, links, [place.then(&at), at], joint_type).said_by(e);
     if matches!(word, "hinge" | "slide") {
         let axis = read_axis(e, &look)?;
-        part = part.with_axis(inner.map_direction(axis));
+        part.set_axis(inner.map_direction(axis));
         let unit = match word {
             "hinge" => context.compiler.angle,
             _ => 1.0,

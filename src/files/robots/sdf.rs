@@ -1,27 +1,21 @@
 //! Reading, fixing and writing SDF: models with links, frames and joints, places relative to each other, loops closed by joints
 //! as drawn.
 
-pub(super) mod include;
 pub(super) mod joints;
 pub(super) mod scene;
 pub(super) mod write;
 
-use crate::geom::rigid::RigidMotion;
-use crate::geom::vector::length;
-use crate::model::joint_type::JointType;
 use crate::robots::additions::{ball_constraint, leave_out, read_plugin};
-use crate::robots::description::{Part, Robot};
+use crate::robots::include::expand_models;
+use crate::robots::prelude::*;
 use crate::robots::sdf::joints::{read_gearbox, read_joint, read_weld};
 use crate::robots::sdf::scene::{
     Placed, SdfScene, absolute_name, insert, moves_with, named_place, read_pose, resolve_places,
 };
-use crate::robots::warning::Read;
-use crate::robots::xml::Input;
-use crate::robots::xml::element::Element;
 
 /// Reads an `<sdf>`.
 pub(crate) fn read_sdf(mut input: Input<'_>) -> Read<Robot> {
-    let included = include::expand_includes(&mut input)?;
+    let included = expand_models(&mut input)?;
     let root = input.document.element(input.root);
     let mut robot = Robot::new("robot");
     let what = "include of a light or floor";

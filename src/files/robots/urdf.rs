@@ -2,20 +2,18 @@
 
 pub(super) mod write;
 
-use crate::geom::rigid::RigidMotion;
-use crate::geom::vector::{Vector, X, Y, length};
-use crate::model::joint_type::JointType;
 use crate::robots::additions::{
     add_coupling, ball_constraint, leave_out, named_parts, read_gazebo,
 };
-use crate::robots::description::{Part, Ratio, Robot, free_joint, same_link};
-use crate::robots::warning::{Read, bad_value, list_known, unknown_name};
-use crate::robots::xml::Input;
-use crate::robots::xml::element::Element;
+use crate::robots::prelude::*;
 
 /// The elements of a joint that are read.
 const OF_JOINTS: [&str; 6] = ["origin", "parent", "child", "axis", "limit", "mimic"];
 const TYPES: &str = "revolute, continuous, prismatic, fixed, planar, floating";
+/// The types of Drake's own joints; its universal joint turns about x of the parent, then about y.
+const DRAKE: &str = "ball, universal";
+/// The types of joints that close loops.
+const CLOSING: &str = "revolute, continuous, hinge, prismatic, slider, cylindrical, spherical, ball, point, fixed, weld";
 
 /// Reads a `<robot>`.
 pub(crate) fn read_urdf(input: Input<'_>) -> Read<Robot> {
@@ -139,11 +137,8 @@ fn has_ends(e: Element<'_>) -> bool {
 /// those of the child.
 fn read_constraint(e: Element<'_>, robot: &mut Robot) -> Read<()> {
     let links = [end_link(e, "parent", robot)?, end_link(e, "child", robot)?];
-    if links[0] == links[1] {
-        return Err(same_link(e));
-    }
     let word = e.attribute("type").unwrap_or("");
-    let Some(joint_type) = closing_type(word) else {
+    let Some(joint_type) = joint_of_word(word, CLOSING) else {
         leave_out(e, None, robot);
         return Ok(());
     };
@@ -161,22 +156,8 @@ fn read_constraint(e: Element<'_>, robot: &mut Robot) -> Read<()> {
     let unnamed = || format!("constraint-{a}-{b}");
     let id = e.attribute("name").map_or_else(unnamed, str::to_owned);
     let ends = [(links[0], sides[0]), (links[1], sides[1])];
-    let part = Part::new_closing(e, &id, ends, joint_type)?;
-    robot.report.count_mapped("constraint");
-    robot.joints.push(part);
+    robot.close_loop(e, &id, ends, joint_type, "constraint")?;
     Ok(())
-}
-
-/// Returns the joint that closes a loop, by its word.
-fn closing_type(word: &str) -> Option<JointType> {
-    Some(match word {
-        "revolute" | "continuous" | "hinge" => JointType::Revolute,
-        "prismatic" | "slider" => JointType::Prismatic,
-        "cylindrical" => JointType::Cylindrical,
-        "spherical" | "ball" | "point" => JointType::Spherical,
-        "fixed" | "weld" => JointType::Fixed,
-        _ => return None,
-    })
 }
 
 pub(crate) fn read_origin(e: Element<'_>) -> Read<RigidMotion> {
@@ -239,20 +220,12 @@ fn read_joint(e: Element<'_>, robot: &mut Robot) -> Read<()> {
         return Err(same_link(e));
     }
     let sides = [read_origin(e)?, RigidMotion::IDENTITY];
-    let joint_type = match word {
-        "revolute" | "continuous" => JointType::Revolute,
-        "prismatic" => JointType::Prismatic,
-        "fixed" => JointType::Fixed,
-        "planar" => JointType::Planar,
-        "floating" => free_joint(),
-        // Drake's own; its universal joint turns about x of the parent, then about y.
-        "ball" if e.name() == "drake:joint" => JointType::Spherical,
-        "universal" if e.name() == "drake:joint" => JointType::Universal,
-        _ => return Err(e.unknown_word("type", word, TYPES)),
-    };
+    let drake = joint_of_word(word, DRAKE).filter(|_| e.name() == "drake:joint");
+    let joint_type = joint_of_word(word, TYPES).or(drake);
+    let joint_type = joint_type.ok_or_else(|| e.unknown_word("type", word, TYPES))?;
     let mut part = Part::new(name, links, sides, joint_type).said_by(e);
     if matches!(word, "revolute" | "continuous" | "prismatic" | "planar") {
-        part = part.with_axis(read_axis(e)?);
+        part.set_axis(read_axis(e)?);
     }
     if part.joint_type == JointType::Universal {
         (part.axis, part.second) = (X, Y);
@@ -302,12 +275,10 @@ fn loop_joint(e: Element<'_>, robot: &mut Robot) -> Read<()> {
     let [one, two] = links;
     let ends = [(one, read_place(first)?), (two, read_place(second)?)];
     let word = e.required_attribute("type")?;
-    let joint_type = closing_type(word).ok_or_else(|| {
-        let known = "revolute, continuous, prismatic, cylindrical, spherical, fixed";
-        e.unknown_word("type", word, known)
-    })?;
-    let part = Part::new_closing(e, name, ends, joint_type)?.with_axis(read_axis(e)?);
-    robot.report.count_mapped("loop_joint");
-    robot.joints.push(part);
+    let joint_type = joint_of_word(word, CLOSING);
+    let joint_type = joint_type.ok_or_else(|| e.unknown_word("type", word, CLOSING))?;
+    let axis = read_axis(e)?;
+    let part = robot.close_loop(e, name, ends, joint_type, "loop_joint")?;
+    part.set_axis(axis);
     Ok(())
 }

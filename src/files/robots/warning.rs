@@ -48,15 +48,6 @@ pub struct Note {
     pub what: String,
 }
 
-/// Couplings of joint values that went into the mechanism file.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Kept {
-    /// Number of couplings.
-    pub couplings: usize,
-    /// W without them and with them in the pose found, by singular values, if these converge.
-    pub mobility: Option<(usize, usize)>,
-}
-
 /// The count of a CAD program.
 ///
 /// # Examples
@@ -94,8 +85,6 @@ pub struct Report {
     pub assumed: Vec<String>,
     /// Elements without influence on the kinematics, by kind: their number, and some names.
     pub dropped: BTreeMap<String, (usize, Vec<String>)>,
-    /// Couplings of joint values (mimic joints, equalities) that are kept.
-    pub kept: Option<Kept>,
     /// Rows of omitted constraints between joint values.
     pub coupling_rows: usize,
     /// Rows of omitted constraints of joints.
@@ -191,13 +180,6 @@ impl Report {
         }
         for p in &self.pose {
             write_line(&mut out, "pose", p);
-        }
-        if let Some(kept) = &self.kept {
-            let n = count_noun(kept.couplings, "coupling");
-            let figures = kept.mobility.map_or(String::new(), |(without, with)| {
-                format!(": W = {without} without, {with} with")
-            });
-            write_line(&mut out, "coupled", &format!("{n} of joints{figures}"));
         }
         out.push_str(&self.list_doubts());
         for (kind, (count, names)) in &self.dropped {

@@ -4,7 +4,6 @@ pub(crate) mod element;
 
 use crate::file::problem::ProblemKind;
 use crate::file::text;
-use crate::geom::vector::Vector;
 use crate::robots::warning::{
     Options, Read, Reader as FileReader, syntax_problem, too_deep, too_large, too_many,
 };
@@ -46,28 +45,17 @@ pub(crate) struct Node {
     pub(super) span: Range<usize>,
     /// The span of its end tag; empty, after the start tag, if there is only one tag.
     pub(super) close: Range<usize>,
-    /// True if it is a copy of the element there.
-    pub(super) copy: bool,
 }
 
 impl Node {
-    pub(super) fn is_called(&self, name: &str) -> bool {
-        self.name == name
-    }
-
     fn find(&self, name: &str) -> Option<&Attribute> {
         self.attributes.iter().find(|a| a.name == name)
     }
 
-    /// Returns the value of the attribute `name`.
-    fn own_name(&mut self) -> Option<&mut String> {
-        let mut all = self.attributes.iter_mut();
-        all.find(|a| a.name == "name").map(|a| &mut a.value)
-    }
-
+    /// Changes the attribute `name`, if there is one.
     pub(super) fn rename(&mut self, name: String) {
-        if let Some(old) = self.own_name() {
-            *old = name;
+        if let Some(own) = self.attributes.iter_mut().find(|a| a.name == "name") {
+            own.value = name;
         }
     }
 
@@ -81,7 +69,6 @@ impl Node {
             source,
             close: span.end..span.end,
             span,
-            copy: false,
         }
     }
 
@@ -91,36 +78,6 @@ impl Node {
             self.text.push('\n');
         }
         self.text.push_str(line);
-    }
-
-    /// Returns a copy with a suffix on its name.
-    pub(super) fn named_on(&self, suffix: &str) -> Node {
-        let mut out = self.clone();
-        out.copy = true;
-        if let Some(name) = out.own_name() {
-            name.push_str(suffix);
-        }
-        out
-    }
-
-    /// Returns a frame that replaces the element, with its class, at a position and with the orientation of the six numbers of
-    /// `xyaxes`.
-    pub(super) fn as_frame(&self, pos: Vector, axes: [f64; 6]) -> Node {
-        let words = |v: &[f64]| v.iter().map(f64::to_string).collect::<Vec<_>>().join(" ");
-        let made = |name: &str, value: String| Attribute {
-            name: name.to_owned(),
-            value,
-            span: self.span.clone(),
-        };
-        let class = self.find("childclass").cloned();
-        let mut attributes: Vec<Attribute> = class.into_iter().collect();
-        attributes.extend([made("pos", words(&pos)), made("xyaxes", words(&axes))]);
-        Node {
-            name: "frame".to_owned(),
-            attributes,
-            copy: true,
-            ..self.clone()
-        }
     }
 }
 
@@ -244,7 +201,7 @@ fn parse_xml(text: &str, source: usize, nodes: &mut Vec<Node>) -> Parsed<usize> 
                 append_text(&plain, &open, nodes);
             }
             Event::DocType(t) if t.contains("<!ENTITY") => {
-                let message = "the file declares entities; expand them first, for example with `xmllint --noent`";
+                let message = "the file declares entities; expand them first, for example with the option `noent` of xmllint";
                 return Err((syntax_problem(message), before));
             }
             Event::Eof if !open.is_empty() => {

@@ -15,8 +15,8 @@ use crate::statics::kinetostatics::{
 use crate::statics::planar::{BodyId, PairId, PairKind, PlanarError, PlanarMechanism};
 use crate::statics::pose::{Linkage, Pose};
 use crate::statics::reactions::contact::Contacts;
+use crate::statics::reactions::cycle::follow_to;
 use crate::statics::reactions::drives::{Driven, driven_freedoms};
-use crate::statics::reactions::follow::follow_to;
 use crate::statics::reactions::geometry::Geometry;
 use crate::statics::reactions::loads::Borne;
 use crate::statics::reactions::unsolved::Unsolved;

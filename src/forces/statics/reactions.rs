@@ -20,7 +20,6 @@ pub(crate) mod couplings;
 pub mod cycle;
 pub mod drives;
 mod equations;
-pub mod follow;
 pub mod geometry;
 pub(crate) mod inertia;
 pub mod loads;

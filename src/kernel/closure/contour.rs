@@ -355,9 +355,8 @@ impl Tree {
             out
         };
         let mut cycle = path(x);
-        cycle.reverse();
         cycle.push(graph[e].joint);
-        cycle.extend(path(y));
+        cycle.extend(path(y).into_iter().rev());
         cycle
     }
 }

@@ -121,7 +121,6 @@ pub(crate) fn frame_directions(mechanism: &Mechanism) -> Vec<[ExactVector; 3]> {
 impl Isometry {
     fn new(round: Vec<ExactVector>, axis: ExactVector, reflects: bool) -> Isometry {
         let points: Vec<Vector> = round.iter().map(to_vector).collect();
-        #[allow(clippy::cast_precision_loss, reason = "two or three")]
         let count = points.len() as f64;
         Isometry {
             centre: [0, 1, 2].map(|i| points.iter().map(|p| p[i]).sum::<f64>() / count),

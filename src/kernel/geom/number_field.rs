@@ -6,7 +6,6 @@
 //!
 //! # Sources
 //! Ireland & Rosen, "A Classical Introduction to Modern Number Theory", ch. 6 (quadratic Gauss sums).
-//! Watkins & Zeitlin, "The minimal polynomial of cos(2π/n)", Amer. Math. Monthly 100 (1993).
 
 mod cosine;
 pub(crate) mod splitting;
@@ -106,7 +105,7 @@ impl NumberField {
         };
         let mut c = Element::default();
         if half > 1 {
-            let relation = cosine_relation(field.order);
+            let relation = cosine_relation(field.order).ok_or_else(outside)?;
             field.ring = field.ring.adjoin(relation).ok_or_else(outside)?;
             c = field.ring.generator(0);
         }
@@ -247,12 +246,6 @@ impl Scalars for NumberField {
     }
     fn mul(&self, a: Element, b: Element) -> Element {
         self.ring.mul(&a, &b)
-    }
-    fn dot(&self, a: [Element; 3], b: [Element; 3]) -> Element {
-        self.ring.dot(&a, &b)
-    }
-    fn cross(&self, a: [Element; 3], b: [Element; 3]) -> [Element; 3] {
-        self.ring.cross(&a, &b)
     }
 }
 

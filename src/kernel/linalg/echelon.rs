@@ -89,6 +89,23 @@ impl Echelon {
         }
         out.into_iter().map(|(_, v)| v).collect()
     }
+
+    /// Returns a basis of the vectors of a length whose products with all vectors of the span are zero. Each ends in a
+    /// one at which no other has an entry, and they are sorted by their ends.
+    #[must_use]
+    pub fn null_space(&self, length: usize) -> Vec<Vec<Residue>> {
+        let (pivots, rows) = (self.pivots(), self.reduced_rows());
+        let free = (0..length).filter(|c| pivots.binary_search(c).is_err());
+        let vector = |free: usize| {
+            let mut v = vec![0; length];
+            v[free] = self.field.one();
+            for (&pivot, row) in pivots.iter().zip(&rows) {
+                v[pivot] = self.field.neg(row[free]);
+            }
+            v
+        };
+        free.map(vector).collect()
+    }
 }
 
 /// Returns the dimension of the span of some vectors.
@@ -106,73 +123,17 @@ pub fn rank_of<'a>(field: Field, vectors: impl IntoIterator<Item = &'a [Residue]
     Echelon::from_vectors(field, vectors).rank()
 }
 
-/// A vector without its zeros.
-type Sparse = Vec<(usize, Residue)>;
-
 /// Returns a basis of the linear relations between some vectors of equal length. This is the kernel of the matrix with
-/// these columns, in reduced row echelon form, so that each relation has its own vector.
-///
-/// The vectors are inserted from the last to the first, each with a record of the vectors subtracted from it. A vector
-/// that reduces to zero gives a relation. Only independent vectors are ever subtracted, so this relation involves no
-/// other vector that reduced to zero. The relations are therefore found in reduced form, and no second elimination is
-/// needed.
+/// these columns, in reduced row echelon form, so that each relation has its own vector, before all others in it.
 ///
 /// # Complexity
-/// O(n · width) to find pivots for n vectors, and one field operation for each nonzero entry of each subtracted vector
-/// and its record. This is close to O(n · width) if a vector meets few others, and O(n · rank · (width + rank)) at
-/// worst.
+/// O(width · rank · n) for n vectors, less for sparse ones.
 #[must_use]
 pub fn linear_relations(field: Field, vectors: &[Vec<Residue>]) -> Vec<Vec<Residue>> {
-    let n = vectors.len();
     let width = vectors.first().map_or(0, Vec::len);
-    let nonzero = |from: usize, v: &[Residue]| -> Sparse {
-        let entries = v.iter().enumerate().skip(from);
-        entries
-            .filter(|(_, x)| **x != 0)
-            .map(|(i, &x)| (i, x))
-            .collect()
-    };
-    let subtract = |v: &mut [Residue], a: Residue, from: &[(usize, Residue)]| {
-        for &(i, y) in from {
-            v[i] = field.sub(v[i], field.mul(a, y));
-        }
-    };
-    // For each coordinate, the vector with its pivot there and the record of its combination, both without zeros.
-    let mut pivots: Vec<Option<[Sparse; 2]>> = vec![None; width];
-    let mut found = Vec::new();
-    for (i, vector) in vectors.iter().enumerate().rev() {
-        let mut v = vector.clone();
-        let mut record = vec![field.zero(); n];
-        record[i] = field.one();
-        let mut independent = false;
-        for c in 0..width {
-            let a = v[c];
-            if a == 0 {
-                continue;
-            }
-            if let Some([head, made_of]) = &pivots[c] {
-                subtract(&mut v, a, head);
-                subtract(&mut record, a, made_of);
-                continue;
-            }
-            if a != field.one() {
-                let scale = field.inv(a);
-                for x in v[c..]
-                    .iter_mut()
-                    .chain(&mut record[i..])
-                    .filter(|x| **x != 0)
-                {
-                    *x = field.mul(*x, scale);
-                }
-            }
-            pivots[c] = Some([nonzero(c, &v), nonzero(i, &record)]);
-            independent = true;
-            break;
-        }
-        if !independent {
-            found.push(record);
-        }
-    }
+    let rows = (0..width).map(|i| vectors.iter().rev().map(|v| v[i]).collect::<Vec<_>>());
+    let mut found = Echelon::from_vectors(field, rows).null_space(vectors.len());
+    found.iter_mut().for_each(|v| v.reverse());
     found.reverse();
     found
 }

@@ -16,7 +16,6 @@ use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::{One, Zero};
 
-use crate::linalg::common_denominator;
 use crate::linalg::modp::{Field, Residue};
 pub use element::Element;
 
@@ -140,31 +139,6 @@ impl NumberRing {
         Element::from_integral(product, &(x * y))
     }
 
-    /// Computes the scalar product. Fractions are reduced once, not after each sum. O(1) products.
-    #[must_use]
-    pub fn dot(&self, a: &[Element; 3], b: &[Element; 3]) -> Element {
-        let ((a, x), (b, y)) = (over_one(a), over_one(b));
-        let mut sum = Vec::new();
-        for (a, b) in a.iter().zip(&b) {
-            combine_integers(&mut sum, self.integral_product(a, b), |s, p| *s += p);
-        }
-        Element::from_integral(sum, &(x * y))
-    }
-
-    /// Computes the vector product, reduced like [`NumberRing::dot`]. O(1) products.
-    #[must_use]
-    pub fn cross(&self, a: &[Element; 3], b: &[Element; 3]) -> [Element; 3] {
-        let ((a, x), (b, y)) = (over_one(a), over_one(b));
-        let below = x * y;
-        let product = |i: usize, j: usize| self.integral_product(&a[i], &b[j]);
-        let minor = |i, j| {
-            let mut difference = product(i, j);
-            combine_integers(&mut difference, product(j, i), |s, p| *s -= p);
-            Element::from_integral(difference, &below)
-        };
-        [minor(1, 2), minor(2, 0), minor(0, 1)]
-    }
-
     /// Multiplies integral combinations of the monomials, given by their coordinates. Returns the coordinates of the product, possibly
     /// with trailing zeros. At most O(dimension² · generators) operations on integers; an integer factor costs O(dimension).
     ///
@@ -225,8 +199,8 @@ impl NumberRing {
         out
     }
 
-    /// Returns the inverse, or `None` if there is none (in a field: of zero). Uses Euclid's algorithm on polynomials over the ring below:
-    /// O(degree²) operations there per generator.
+    /// Returns the inverse, or `None` if there is none (in a field: of zero). O(1) products per square root, and O(n³)
+    /// rational operations for another generator of dimension n.
     #[must_use]
     pub fn inverse(&self, a: &Element) -> Option<Element> {
         match a.0.as_slice() {
@@ -234,29 +208,44 @@ impl NumberRing {
             [q] => return Some(Element::from_rational(q.recip())),
             _ => {}
         }
-        let step = self.steps.iter().rposition(|s| s.width < a.0.len())?;
-        let Generator {
-            relation, width, ..
-        } = &self.steps[step];
-        let mut modulus = relation.clone();
-        modulus.push(Element::from_integer(1));
-        // Invariant: r ≡ t · a modulo the relation.
-        let (mut r0, mut r1) = (modulus, split_blocks(a, *width));
-        let (mut t0, mut t1) = (Vec::new(), vec![Element::from_integer(1)]);
-        while r1.len() > 1 {
-            let (quotient, rest) = self.divide_polynomials(r0, &r1)?;
-            let t = self.poly_sub(t0, &self.poly_mul(&quotient, &t1));
-            (r0, r1) = (r1, rest);
-            (t0, t1) = (t1, t);
+        let step = self.steps.iter().rev().find(|s| s.width < a.0.len())?;
+        let dimension = step.width * step.relation.len();
+        if let [constant, linear] = &step.relation[..]
+            && linear.is_zero()
+        {
+            // (u + v y)(u - v y) = u² - v² y², with y² the opposite of the constant.
+            let (u, v) = a.0.split_at(step.width);
+            let conjugate = u.iter().cloned().chain(v.iter().map(|q| -q)).collect();
+            let [u, v] = [u, v].map(|part| Element::new(part.to_vec()));
+            let norm = self.add(&self.mul(&u, &u), &self.mul(&self.mul(&v, &v), constant));
+            return Some(self.mul(&Element::new(conjugate), &self.inverse(&norm)?));
         }
-        let scale = self.inverse(r1.first()?)?;
-        // The cofactor stays below the degree of the relation.
-        let mut out = Vec::new();
-        for (i, c) in t1.iter().enumerate() {
-            out.resize(i * width, BigRational::zero());
-            out.extend(self.mul(c, &scale).0);
+        // The combination of the products with the basis elements that is 1.
+        let product = |i: usize| {
+            let mut element = vec![BigRational::zero(); i + 1];
+            element[i] = BigRational::one();
+            self.mul(a, &Element(element))
+        };
+        let products: Vec<Element> = (0..dimension).map(product).collect();
+        let row = |r: usize| {
+            let own = products.iter().map(|p| p.0.get(r).cloned());
+            let one = BigRational::from_integer(i32::from(r == 0).into());
+            own.map(Option::unwrap_or_default).chain([one]).collect()
+        };
+        let mut rows: Vec<Vec<BigRational>> = (0..dimension).map(row).collect();
+        for c in 0..dimension {
+            let pivot = (c..dimension).find(|&r| !rows[r][c].is_zero())?;
+            rows.swap(c, pivot);
+            let scale = rows[c][c].recip();
+            rows[c].iter_mut().for_each(|x| *x *= &scale);
+            let head = rows[c].clone();
+            for (_, row) in rows.iter_mut().enumerate().filter(|(r, _)| *r != c) {
+                let by = row[c].clone();
+                row.iter_mut().zip(&head).for_each(|(x, y)| *x -= &by * y);
+            }
         }
-        Some(Element::new(out))
+        let last = |mut row: Vec<BigRational>| row.pop().unwrap_or_default();
+        Some(Element::new(rows.into_iter().map(last).collect()))
     }
 
     /// Returns the values of the basis elements under a homomorphism into a prime field, for the generators with given images. O(length).
@@ -276,46 +265,6 @@ impl NumberRing {
         }
         out
     }
-
-    fn poly_mul(&self, a: &[Element], b: &[Element]) -> Vec<Element> {
-        let mut out = vec![Element::default(); (a.len() + b.len()).saturating_sub(1)];
-        for (i, p) in a.iter().enumerate() {
-            for (j, q) in b.iter().enumerate() {
-                out[i + j] = self.add(&out[i + j], &self.mul(p, q));
-            }
-        }
-        out
-    }
-
-    fn poly_sub(&self, mut a: Vec<Element>, b: &[Element]) -> Vec<Element> {
-        a.resize(a.len().max(b.len()), Element::default());
-        for (x, y) in a.iter_mut().zip(b) {
-            *x = self.sub(x, y);
-        }
-        trim_polynomial(a)
-    }
-
-    /// Returns quotient and remainder of polynomials, or `None` if the divisor's leading coefficient has no inverse.
-    fn divide_polynomials(
-        &self,
-        a: Vec<Element>,
-        b: &[Element],
-    ) -> Option<(Vec<Element>, Vec<Element>)> {
-        let lead = self.inverse(b.last()?)?;
-        let mut rest = trim_polynomial(a);
-        let mut quotient = vec![Element::default(); (rest.len() + 1).saturating_sub(b.len())];
-        while rest.len() >= b.len() {
-            let low = rest.len() - b.len();
-            let q = self.mul(rest.last()?, &lead);
-            for (x, y) in rest[low..].iter_mut().zip(b) {
-                *x = self.sub(x, &self.mul(&q, y));
-            }
-            quotient[low] = q;
-            rest.pop();
-            rest = trim_polynomial(rest);
-        }
-        Some((quotient, rest))
-    }
 }
 
 fn combine_entries(
@@ -329,33 +278,10 @@ fn combine_entries(
     Element::new(out)
 }
 
-/// Returns elements as integral coordinates over one denominator.
-fn over_one(all: &[Element; 3]) -> ([Vec<BigInt>; 3], BigInt) {
-    let below = common_denominator(all.iter().flat_map(|x| &x.0));
-    (
-        all.each_ref().map(|x| x.integral_coordinates(&below)),
-        below,
-    )
-}
-
 /// Combines coordinates with others, one by one; either list may be shorter. O(length).
 pub fn combine_integers(of: &mut Vec<BigInt>, by: Vec<BigInt>, with: impl Fn(&mut BigInt, BigInt)) {
     of.resize(of.len().max(by.len()), BigInt::zero());
     of.iter_mut().zip(by).for_each(|(x, y)| with(x, y));
-}
-
-/// Returns the coefficients of an element as a polynomial in a generator whose powers are `width` coordinates apart.
-fn split_blocks(a: &Element, width: usize) -> Vec<Element> {
-    a.0.chunks(width)
-        .map(|c| Element::new(c.to_vec()))
-        .collect()
-}
-
-fn trim_polynomial(mut polynomial: Vec<Element>) -> Vec<Element> {
-    while polynomial.last().is_some_and(Element::is_zero) {
-        polynomial.pop();
-    }
-    polynomial
 }
 
 #[cfg(test)]
@@ -420,11 +346,6 @@ mod tests {
             prop_assert!((value(&r.mul(&a, &b)) - value(&a) * value(&b)).abs() < 1e-6);
             prop_assert!((value(&r.sub(&a, &b)) - value(&a) + value(&b)).abs() < 1e-9);
             prop_assert_eq!(r.sub(&a, &a), Element::default());
-            let (left, right) = ([a.clone(), b.clone(), c.clone()], [c.clone(), a.clone(), r.mul(&a, &b)]);
-            let times = |i: usize, j: usize| r.mul(&left[i], &right[j]);
-            prop_assert_eq!(r.dot(&left, &right), r.add(&times(0, 0), &r.add(&times(1, 1), &times(2, 2))));
-            let minor = |i, j| r.sub(&times(i, j), &times(j, i));
-            prop_assert_eq!(r.cross(&left, &right), [minor(1, 2), minor(2, 0), minor(0, 1)]);
             match r.inverse(&a) {
                 Some(i) => prop_assert_eq!(r.mul(&a, &i), Element::from_integer(1)),
                 None => prop_assert!(a.is_zero()),

@@ -369,7 +369,6 @@ fn add_terms(mut terms: Sparse) -> Sparse {
 
 /// Returns the largest move for a relation of `rows` rows, in errors. With more rows, one is more likely to be far off.
 fn largest_move(rows: usize) -> f64 {
-    #[allow(clippy::cast_precision_loss, reason = "at most three rows")]
     let n = rows as f64;
     (3.0 + 1.5 * n).sqrt()
 }
@@ -379,7 +378,6 @@ fn largest_move(rows: usize) -> f64 {
 fn most_by_chance(rows: usize) -> f64 {
     /// Number of standard deviations.
     const FAR: f64 = 6.0;
-    #[allow(clippy::cast_precision_loss, reason = "rows are few")]
     let n = rows as f64;
     n / 3.0 + FAR * (2.0 * n / 9.0).sqrt()
 }

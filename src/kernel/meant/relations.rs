@@ -33,6 +33,19 @@ pub(super) struct Relation {
     pub(super) weak: bool,
 }
 
+impl Relation {
+    /// Creates a relation that chance does not explain, of no particular weight.
+    pub(super) fn new(kind: RelationKind, rows: Vec<PointEquation>, off: f64) -> Relation {
+        Relation {
+            kind,
+            rows,
+            weight: 0,
+            off,
+            weak: false,
+        }
+    }
+}
+
 /// Normals of the rows, exact and as doubles; the first three are the frame's axes.
 pub(super) struct Normals {
     pub(super) exact: Vec<Rational3>,
@@ -126,30 +139,16 @@ impl<'a> Finder<'a> {
         SPREAD * (self.errors[i] + self.errors[j])
     }
 
-    fn difference_row(&self, i: usize, j: usize, normal: usize) -> PointEquation {
-        let _ = self;
-        PointEquation {
-            terms: vec![(i, 1), (j, -1)],
-            normal,
-        }
-    }
-
     /// Returns all relations, the strongest first.
     pub(super) fn find_all(&mut self) -> Vec<Relation> {
         let firsts = self.first_coincident();
         let mut out = Vec::new();
         for (i, &first) in firsts.iter().enumerate() {
             if first != i {
-                let rows = (0..3).map(|n| self.difference_row(i, first, n)).collect();
+                let rows = (0..3).map(|n| difference_row(i, first, n)).collect();
                 let off =
                     length(sub(self.points[i], self.points[first])) / self.pair_tolerance(i, first);
-                out.push(Relation {
-                    kind: RelationKind::Coincident,
-                    rows,
-                    weight: 0,
-                    off,
-                    weak: false,
-                });
+                out.push(Relation::new(RelationKind::Coincident, rows, off));
             }
         }
         let places: Vec<usize> = (0..firsts.len()).filter(|&i| firsts[i] == i).collect();
@@ -237,7 +236,7 @@ impl<'a> Finder<'a> {
                 for w in at[start..k].windows(2) {
                     out.push(Relation {
                         kind: RelationKind::InPlane,
-                        rows: vec![self.difference_row(w[1].1, w[0].1, normal)],
+                        rows: vec![difference_row(w[1].1, w[0].1, normal)],
                         weight: k - start,
                         off: (w[1].0 - w[0].0) / self.pair_tolerance(w[1].1, w[0].1),
                         weak,
@@ -271,12 +270,11 @@ impl<'a> Finder<'a> {
         }
         for (p, f) in found {
             let of = firsts.iter().find(|x| x.0 == f).map_or(2, |x| x.1);
+            let rows = normals.map(|k| difference_row(p, f, k)).to_vec();
+            let off = off(p, f) / self.pair_tolerance(p, f);
             out.push(Relation {
-                kind: RelationKind::OnLine,
-                rows: normals.map(|k| self.difference_row(p, f, k)).to_vec(),
                 weight: of,
-                off: off(p, f) / self.pair_tolerance(p, f),
-                weak: false,
+                ..Relation::new(RelationKind::OnLine, rows, off)
             });
         }
     }
@@ -311,13 +309,7 @@ impl<'a> Finder<'a> {
                 if rows[0].terms.len() < 3 {
                     continue;
                 }
-                out.push(Relation {
-                    kind: RelationKind::EqualVectors,
-                    rows,
-                    weight: 0,
-                    off: off / wide,
-                    weak: false,
-                });
+                out.push(Relation::new(RelationKind::EqualVectors, rows, off / wide));
             }
         }
     }
@@ -363,21 +355,24 @@ impl<'a> Finder<'a> {
                     continue;
                 }
                 out.push(Relation {
-                    kind: RelationKind::Mirrored,
-                    rows: vec![row],
-                    weight: 0,
-                    off: (b - a) / wide,
                     weak: chance > CHANCE,
+                    ..Relation::new(RelationKind::Mirrored, vec![row], (b - a) / wide)
                 });
             }
         }
     }
 }
 
+fn difference_row(i: usize, j: usize, normal: usize) -> PointEquation {
+    PointEquation {
+        terms: vec![(i, 1), (j, -1)],
+        normal,
+    }
+}
+
 /// Number of relations expected by chance above which one is doubtful.
 const CHANCE: f64 = 0.02;
 
-#[allow(clippy::cast_precision_loss, reason = "counts are small")]
 fn as_f64(n: usize) -> f64 {
     n as f64
 }

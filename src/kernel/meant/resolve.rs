@@ -46,7 +46,6 @@ pub fn resolve_scene(written: &WrittenScene) -> Option<Resolved> {
     if !power.is_finite() {
         return None;
     }
-    #[allow(clippy::cast_possible_truncation, reason = "308 at most")]
     let power = power as i32;
     let mut out = resolve_moderate(&written.scale_by_power(power)?)?;
     let back = BigRational::from_integer(BigInt::from(10)).pow(-power);

@@ -45,13 +45,7 @@ pub(super) struct Stage<'a> {
 /// Returns the number of decimals that leave two digits beyond an error.
 fn decimal_places(error: f64) -> u32 {
     let digits = (-error.log10()).ceil() + 2.0;
-    #[allow(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "between 4 and 22"
-    )]
-    let digits = digits.clamp(4.0, 22.0) as u32;
-    digits
+    digits.clamp(4.0, 22.0) as u32
 }
 
 impl<'a> Stage<'a> {

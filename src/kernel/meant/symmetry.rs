@@ -135,13 +135,7 @@ impl WrittenSymmetry {
             let middles =
                 middles.map(|&n| PointEquation::sum(&[(a, 1), (b, 1), (p, -1), (q, -1)], n));
             for row in differences.chain(middles).filter(|r| !r.terms.is_empty()) {
-                out.push(Relation {
-                    kind: RelationKind::Mirrored,
-                    rows: vec![row],
-                    weight: 0,
-                    off: 0.0,
-                    weak: false,
-                });
+                out.push(Relation::new(RelationKind::Mirrored, vec![row], 0.0));
             }
         }
         out

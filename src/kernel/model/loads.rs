@@ -211,7 +211,6 @@ impl Stroke {
     #[must_use]
     pub fn positions(&self) -> Vec<f64> {
         let steps = self.steps.max(1);
-        #[allow(clippy::cast_precision_loss, reason = "at most 1e5 steps")]
         let part = |i: usize| i as f64 / steps as f64;
         (0..=steps)
             .map(|i| self.from + (self.to - self.from) * part(i))

@@ -361,7 +361,6 @@ pub fn column_slides(pose: &Pose, column: usize) -> bool {
 /// ```
 pub fn stroke_positions([from, to]: [f64; 2], steps: usize) -> impl Iterator<Item = f64> {
     (0..=steps).map(move |i| {
-        #[allow(clippy::cast_precision_loss, reason = "at most 1e5 steps")]
         let part = i as f64 / steps.max(1) as f64;
         from * (1.0 - part) + to * part
     })

@@ -1,7 +1,6 @@
 //! Ranks and kernels in exact arithmetic: modulo primes, over the rationals, and with certificates.
 
 pub mod certificate;
-pub(in crate::rank) mod elimination_order;
 pub mod field;
 pub(in crate::rank) mod kernel;
 pub mod modular;

@@ -95,7 +95,7 @@ pub(crate) fn finite_known(
         }
         let idle = independent_parts::lock_idle(exact, &mut part, state)?;
         if idle > 0 {
-            total.mobility += idle;
+            total = total.combine_with(Finite::new(idle, How::Rigid));
             own = Closure::new(exact, &part, state)?;
             rank = modular::rank_modulo(exact, &own);
         }
@@ -148,7 +148,7 @@ fn exact_mobility(
     let shaky = stopped.is_some();
     if !lengths_are_alike(exact, mechanism, closure.state)? {
         let (from, to) = (0, instantaneous - usize::from(shaky));
-        return Ok(Finite::new(from, How::Undecided { from, to }));
+        return Ok(Finite::between(from, to, How::Undecided));
     }
     if let (Some(series), Some(order)) = (series, stopped)
         && let Some(found) =
@@ -157,7 +157,8 @@ fn exact_mobility(
         return Ok(found);
     }
     let Some(mut found) = follow_motion(pose, instantaneous, shaky) else {
-        return Ok(too_large(instantaneous - usize::from(shaky)));
+        let most = instantaneous - usize::from(shaky);
+        return Ok(Finite::between(0, most, How::Bound));
     };
     // A coordinate that begins to move with a high power of the path length pushes with a higher one, if at all, which
     // doubles do not resolve. Then only the upper bound counts.
@@ -187,23 +188,17 @@ fn follow_motion(pose: &Pose, instantaneous: usize, shaky: bool) -> Option<Trace
     local_dimension::mobility_by_following(pose, instantaneous, shaky, budget)
 }
 
-/// Returns the result for a pose that is not followed: at most the instantaneous mobility.
-fn too_large(to: usize) -> Finite {
-    Finite::new(0, How::Bound { to })
-}
-
 /// Converts the result of following the motion.
 fn of_pursuit(found: Traced) -> Finite {
-    let (from, to) = (found.mobility, found.at_most);
-    let how = if from < to {
-        How::Undecided { from, to }
+    let how = if found.mobility < found.at_most {
+        How::Undecided
     } else {
         How::Traced {
             poses: found.poses,
             regular: found.regular,
         }
     };
-    Finite::new(from, how)
+    Finite::between(found.mobility, found.at_most, how)
 }
 
 /// Returns the finite mobility by following the motion only, or at most `instantaneous` if the mechanism is too large.
@@ -231,7 +226,7 @@ pub fn followed_mobility(
     }
     let pose = Pose::of_file(mechanism, state)?.with_accuracy(accuracy);
     let found = follow_motion(&pose, instantaneous, false);
-    Ok(found.map_or(too_large(instantaneous), of_pursuit))
+    Ok(found.map_or(Finite::between(0, instantaneous, How::Bound), of_pursuit))
 }
 
 /// Returns the motion of a part that the rounding of its coordinates leaves open.
@@ -248,7 +243,7 @@ fn within_digits(
 ) -> Finite {
     let least = exact.map_or(0, |f| f.mobility);
     if let Some(found) = exact
-        && (least == instantaneous || matches!(found.how, How::Bound { .. }))
+        && (least == instantaneous || found.how == How::Bound)
     {
         return found;
     }
@@ -262,7 +257,7 @@ fn within_digits(
         }
         _ => {}
     }
-    let range = |from| Finite::new(from, How::Rounded { to: most });
+    let range = |from| Finite::between(from, most, How::Rounded);
     let coarse = if instantaneous == 1 {
         COARSE_ALONE
     } else {
@@ -385,6 +380,6 @@ mod tests {
         let fine = found(1e-12);
         assert_eq!((fine.mobility, fine.at_most()), (2, 2));
         let coarse = found(1e-2);
-        assert_eq!((coarse.how, coarse.at_most()), (How::Rounded { to: 2 }, 2));
+        assert_eq!((coarse.how, coarse.at_most()), (How::Rounded, 2));
     }
 }

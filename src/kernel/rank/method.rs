@@ -1,13 +1,14 @@
 //! Common interface of all mobility methods; [`crate::rank::method::registry`] lists them.
 
 pub mod auto;
+mod floating_point;
 pub(crate) mod formulas;
 pub mod generic;
 pub mod registry;
 
 use crate::geom::exact::ExactError;
 use crate::model::mechanism::{Mechanism, StateId};
-use std::fmt::Debug;
+use crate::rank::numeric::Elimination;
 use thiserror::Error;
 
 /// The quantity that an answer describes.
@@ -155,7 +156,7 @@ impl Answer {
     }
 }
 
-pub(in crate::rank) fn to_i64(x: usize) -> i64 {
+pub(crate) fn to_i64(x: usize) -> i64 {
     i64::try_from(x).unwrap_or(i64::MAX)
 }
 
@@ -182,14 +183,14 @@ pub enum RankOfJ {
     /// Over prime fields.
     Exact,
     /// In floating point.
-    Numeric,
+    Numeric(Elimination),
     /// No rank: the method only gives a mobility.
     NotFound,
 }
 
-/// Description of a method.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct About {
+/// A method that computes the mobility of a mechanism.
+#[derive(Debug, Clone, Copy)]
+pub struct MobilityMethod {
     /// One word, as on the command line.
     pub name: &'static str,
     /// Short description.
@@ -204,19 +205,21 @@ pub struct About {
     pub source: &'static str,
     /// Kind of rank that a full analysis can use.
     pub rank: RankOfJ,
+    pub(in crate::rank) answer: fn(&Mechanism, StateId) -> Result<Answer, NoAnswer>,
 }
 
-/// A method that computes the mobility of a mechanism.
-pub trait MobilityMethod: Debug + Sync {
-    /// Returns the description of the method.
-    fn about(&self) -> &'static About;
+impl MobilityMethod {
     /// Returns one word, as on the command line.
-    fn name(&self) -> &'static str {
-        self.about().name
+    #[must_use]
+    pub fn name(&self) -> &'static str {
+        self.name
     }
+
     /// Returns the answer for a state.
     ///
     /// # Errors
     /// Returns an error if the method does not apply or fails.
-    fn answer(&self, mechanism: &Mechanism, state: StateId) -> Result<Answer, NoAnswer>;
+    pub fn answer(&self, mechanism: &Mechanism, state: StateId) -> Result<Answer, NoAnswer> {
+        (self.answer)(mechanism, state)
+    }
 }

@@ -4,10 +4,7 @@
 pub mod scaling;
 pub(in crate::rank) mod values;
 
-use super::method::{About, Answer, Certainty, MobilityMethod, NoAnswer, RankOfJ};
 use crate::closure::Closure;
-use crate::geom::Reals;
-use crate::model::mechanism::{Mechanism, StateId};
 pub use crate::rank::numeric::scaling::NumericRank;
 use crate::rank::numeric::scaling::{as_it_stands, rank_of_values, scaled_matrix};
 use ozols_dense::{Format, Matrix, singular_values};
@@ -54,13 +51,6 @@ impl Elimination {
         Elimination::Qr,
         Elimination::Svd,
     ];
-
-    /// Returns the elimination of a method, if it is one.
-    #[must_use]
-    pub fn of_method(method: &dyn MobilityMethod) -> Option<Elimination> {
-        let mut all = Elimination::ALL.into_iter();
-        all.find(|e| e.about() == method.about())
-    }
 
     /// Returns the relative tolerance that suits its number format.
     #[must_use]
@@ -118,23 +108,6 @@ impl Elimination {
         };
         Ok(rank_of_values(values, tolerance))
     }
-
-    /// Returns the certainty of a rank found at a tolerance.
-    #[must_use]
-    pub fn certainty_of(self, rank: NumericRank, tolerance: f64) -> Certainty {
-        Certainty::Numeric {
-            values: match self {
-                Elimination::Lu32 => "f32 pivots",
-                Elimination::Lu => "f64 pivots",
-                Elimination::Qr32 => "f32 column-pivoted QR",
-                Elimination::Qr => "f64 column-pivoted QR",
-                Elimination::Svd => "f64 singular values",
-            },
-            tolerance,
-            kept: rank.kept,
-            dropped: rank.dropped,
-        }
-    }
 }
 
 /// Returns the rank of J by singular values. Lengths are first divided by the largest velocity entry and columns scaled
@@ -147,72 +120,4 @@ pub(crate) fn rank_with_tolerance(
     tolerance: f64,
 ) -> Result<NumericRank, NumericError> {
     Elimination::Svd.rank_of_closure(closure, tolerance)
-}
-
-const CUBIC: &str = "O(6k f min(6k, f))";
-const BY_PIVOTS: &str =
-    "right at this pose if the pivots are clear of the tolerance, for coordinates near 1";
-const BY_DIAGONAL: &str = "right at this pose if the diagonal entries of R are clear of the tolerance, for coordinates near 1";
-const OF_LU: &str = "Higham, Accuracy and Stability of Numerical Algorithms, 2002, ch. 9";
-const OF_QR: &str = "Golub & Van Loan, Matrix Computations, 2013, 5.4.2";
-
-impl MobilityMethod for Elimination {
-    fn about(&self) -> &'static About {
-        match self {
-            Elimination::Lu32 => &About {
-                name: "lu32",
-                title: "f32 LU, full pivoting",
-                help: "LU with full pivoting in single precision",
-                guarantee: BY_PIVOTS,
-                complexity: CUBIC,
-                source: OF_LU,
-                rank: RankOfJ::Numeric,
-            },
-            Elimination::Lu => &About {
-                name: "lu",
-                title: "f64 LU, full pivoting",
-                help: "LU with full pivoting in double precision",
-                guarantee: BY_PIVOTS,
-                complexity: CUBIC,
-                source: OF_LU,
-                rank: RankOfJ::Numeric,
-            },
-            Elimination::Qr32 => &About {
-                name: "qr32",
-                title: "f32 QR, column pivoting",
-                help: "Column-pivoted QR in single precision",
-                guarantee: BY_DIAGONAL,
-                complexity: CUBIC,
-                source: OF_QR,
-                rank: RankOfJ::Numeric,
-            },
-            Elimination::Qr => &About {
-                name: "qr",
-                title: "f64 QR, column pivoting",
-                help: "Column-pivoted QR in double precision",
-                guarantee: BY_DIAGONAL,
-                complexity: CUBIC,
-                source: OF_QR,
-                rank: RankOfJ::Numeric,
-            },
-            Elimination::Svd => &About {
-                name: "svd",
-                title: "f64 singular values",
-                help: "Singular values in double precision, with the gap",
-                guarantee: "right at this pose if the gap in the singular values contains the tolerance",
-                complexity: "O(6k f min(6k, f)), about 10 times LU",
-                source: "Golub & Van Loan, Matrix Computations, 2013, 5.5.8",
-                rank: RankOfJ::Numeric,
-            },
-        }
-    }
-    fn answer(&self, mechanism: &Mechanism, state: StateId) -> Result<Answer, NoAnswer> {
-        let closure = Closure::new(&Reals, mechanism, state)?;
-        let tolerance = self.default_tolerance();
-        let rank = self
-            .rank_of_closure(&closure, tolerance)
-            .map_err(|e| NoAnswer::Failed(e.to_string()))?;
-        let certainty = self.certainty_of(rank, tolerance);
-        Ok(Answer::at_pose(closure.columns.len(), rank.rank, certainty))
-    }
 }

@@ -10,7 +10,7 @@ use crate::rank::exact::field::field_of;
 use crate::rank::exact::modular;
 use crate::rank::finite::{Finite, finite_mobility, followed_mobility};
 use crate::rank::method::auto::{Decision, decide_state};
-use crate::rank::method::{Certainty, MobilityMethod, RankOfJ};
+use crate::rank::method::{Certainty, MobilityMethod, RankOfJ, to_i64};
 pub use crate::rank::numeric::Elimination;
 use crate::rank::numeric::NumericRank;
 use crate::rank::reduce::sufficient_rows::LeastRows;
@@ -20,7 +20,7 @@ use crate::redundancy::contour_shares::Measured;
 pub use crate::redundancy::contour_shares::{ContourShare, CouplingShare};
 use crate::redundancy::contour_shares::{contour_shares, coupling_shares};
 pub use crate::redundancy::external::External;
-use crate::redundancy::external::{external_constraints, freedoms_of, present_links, to_i64};
+use crate::redundancy::external::{external_constraints, freedoms_of, present_links};
 use crate::redundancy::local_mobility::{Idle, idle_motions};
 use crate::redundancy::motion::{DriveFault, drive_faults};
 use crate::redundancy::motion::{motion_basis, output_links, span_of_links};
@@ -41,15 +41,14 @@ impl Method {
     /// Returns the rank method for a method from the list of all names. `tolerance` replaces the default in floating
     /// point. Returns `None` for a method that only gives a mobility.
     #[must_use]
-    pub fn of_method(method: &dyn MobilityMethod, tolerance: Option<f64>) -> Option<Method> {
-        match method.about().rank {
+    pub fn of_method(method: &MobilityMethod, tolerance: Option<f64>) -> Option<Method> {
+        match method.rank {
             RankOfJ::Chosen => Some(Method::Auto),
             RankOfJ::Exact => Some(Method::Modular),
-            RankOfJ::Numeric => {
-                let elimination = Elimination::of_method(method)?;
-                let tolerance = tolerance.unwrap_or(elimination.default_tolerance());
-                Some(Method::Numeric(elimination, tolerance))
-            }
+            RankOfJ::Numeric(by) => Some(Method::Numeric(
+                by,
+                tolerance.unwrap_or(by.default_tolerance()),
+            )),
             RankOfJ::NotFound => None,
         }
     }
@@ -196,7 +195,14 @@ fn analyse_by_choice(
             ..analyse_exactly(mechanism, state, Some(finite))?
         },
     };
-    let (meant, snapped) = snapped_relations(verdict.meant);
+    let (meant, snapped) = match verdict.meant {
+        Meant::Snapped {
+            mechanism,
+            understood,
+            ..
+        } => (Some(mechanism), vec![understood]),
+        _ => (None, Vec::new()),
+    };
     Ok(StateAnalysis {
         choice: Some(line),
         meant,
@@ -204,18 +210,6 @@ fn analyse_by_choice(
         as_written,
         ..whole
     })
-}
-
-/// Returns the snapped mechanism, and the recovered relations.
-fn snapped_relations(meant: Meant) -> (Option<Box<Mechanism>>, Vec<String>) {
-    match meant {
-        Meant::Snapped {
-            mechanism,
-            understood,
-            ..
-        } => (Some(mechanism), vec![understood]),
-        _ => (None, Vec::new()),
-    }
 }
 
 /// Analyses a state by a floating-point rank. If it differs from the exact one, everything else comes from singular
@@ -433,7 +427,7 @@ fn analyse_exactly(
         idle,
         self_stresses: self_stresses(exact, mechanism, &closure)?,
         left_out: closure.left_out.clone(),
-        method: modular::Modular.name(),
+        method: modular::MODULAR.name,
         certainty,
         choice: None,
         snapped: Vec::new(),

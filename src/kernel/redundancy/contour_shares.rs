@@ -1,15 +1,25 @@
 //! Distribution of the redundant constraints among the contours, exactly, or by singular values for measured geometry.
+//!
+//! Adding a contour to more contours never adds more rank, because rank is submodular. So σ_i is smallest if the
+//! contour is added first and largest if it is added last, and no order has to be tried. All of it follows from one
+//! basis of the self-stresses, the left kernel of J:
+//! - Those within the first i contours are the left kernel of the first i contours' rows. So σ_i in the given order is
+//!   the number of self-stresses within the first i contours less those within the first i - 1.
+//! - Those without contour i are the left kernel of the other rows. So the largest σ_i is the dimension of the basis
+//!   restricted to the rows of contour i.
+//! - The smallest is the number of rows less the rank of the contour's own columns.
 
-use crate::closure::Closure;
 use crate::closure::contour::Contour;
+use crate::closure::{Closure, Column};
 use crate::geom::Reals;
 use crate::geom::exact::{ExactError, ExactField};
 use crate::linalg::echelon::Echelon;
 use crate::linalg::modp::Residue;
+use crate::model::joint_type::Coupling;
 use crate::model::mechanism::{JointId, LinkId, Mechanism, StateId};
 use crate::rank::numeric::scaling::{Scaling, scaled_matrix};
 use crate::redundancy::stress::stress_basis;
-use ozols_dense::{Matrix, singular_values, svd};
+use ozols_dense::{Matrix, norm, singular_values, svd};
 
 /// Redundant constraints of one contour.
 #[derive(Debug, Clone)]
@@ -36,10 +46,120 @@ pub struct CouplingShare {
     pub most: usize,
 }
 
+/// The self-stresses of a J, in some numbers.
+trait Stresses {
+    /// Returns the number of independent self-stresses that load only the first rows.
+    fn count_within(&self, rows: usize) -> usize;
+
+    /// Returns the dimension of the loads in the rows of the contours, times these weights and summed.
+    fn count_carried(&self, weights: &[i64]) -> usize;
+
+    /// Returns true if a self-stress loads a row.
+    fn loads_row(&self, row: usize) -> bool;
+
+    /// Returns the rank of the rows of a contour.
+    fn rank_alone(&self, contour: usize) -> usize;
+}
+
+/// Returns σ_i of each contour in the order of the basis, and its range over all orders.
+fn shares_of(stresses: &impl Stresses, contours: &[Contour], dim: usize) -> Vec<ContourShare> {
+    let share = |(i, contour): (usize, &Contour)| {
+        let mut own = vec![0; contours.len()];
+        own[i] = 1;
+        let greatest = stresses.count_carried(&own);
+        ContourShare {
+            contour: contour.clone(),
+            redundant: stresses.count_within(dim * (i + 1)) - stresses.count_within(dim * i),
+            range: (dim - stresses.rank_alone(i), greatest),
+            over_bases: over_bases(contours, i, greatest, |w| stresses.count_carried(w)),
+        }
+    };
+    contours.iter().enumerate().map(share).collect()
+}
+
+/// Returns the shares of the couplings, which come after all contours.
+fn coupling_shares_of<N>(
+    stresses: &impl Stresses,
+    mechanism: &Mechanism,
+    closure: &Closure<N>,
+) -> Vec<CouplingShare> {
+    let couplings = mechanism.couplings_in(closure.state);
+    let rows = closure.dim * closure.contours.len()..;
+    let share = |(coupling, row): (&Coupling, usize)| CouplingShare {
+        name: coupling.name(mechanism),
+        redundant: stresses.count_within(row + 1) - stresses.count_within(row),
+        most: usize::from(stresses.loads_row(row)),
+    };
+    couplings.zip(rows).map(share).collect()
+}
+
+/// The self-stresses modulo a prime.
+struct Exactly<'a> {
+    exact: &'a ExactField,
+    closure: &'a Closure<Residue>,
+    basis: Vec<Vec<Residue>>,
+}
+
+impl<'a> Exactly<'a> {
+    fn new(exact: &'a ExactField, closure: &'a Closure<Residue>) -> Exactly<'a> {
+        Exactly {
+            exact,
+            closure,
+            basis: stress_basis(exact, closure),
+        }
+    }
+
+    fn rank_of<V: AsRef<[Residue]>>(&self, mut vectors: impl Iterator<Item = V>) -> usize {
+        let mut span = Echelon::new(self.exact.field());
+        while span.rank() < self.closure.dim {
+            let Some(v) = vectors.next() else { break };
+            if v.as_ref().iter().any(|&x| x != 0) {
+                span.insert(v.as_ref());
+            }
+        }
+        span.rank()
+    }
+}
+
+impl Stresses for Exactly<'_> {
+    fn count_within(&self, rows: usize) -> usize {
+        // The vectors of the basis end in different rows.
+        let within = |s: &&Vec<Residue>| s[rows..].iter().all(|&x| x == 0);
+        self.basis.iter().filter(within).count()
+    }
+
+    fn count_carried(&self, weights: &[i64]) -> usize {
+        let (field, dim) = (self.exact.field(), self.closure.dim);
+        self.rank_of(self.basis.iter().map(|stress| {
+            let mut sum = vec![0; dim];
+            // Rows of couplings come after those of contours.
+            for (part, &weight) in stress.chunks(dim).zip(weights) {
+                if weight != 0 {
+                    field.add_multiple(&mut sum, field.from_i64(weight), part);
+                }
+            }
+            sum
+        }))
+    }
+
+    fn loads_row(&self, row: usize) -> bool {
+        self.basis.iter().any(|s| s[row] != 0)
+    }
+
+    fn rank_alone(&self, contour: usize) -> usize {
+        let passes = |c: &&Column<Residue>| {
+            let joints = &self.closure.contours[contour].joints;
+            joints.iter().any(|&(j, _)| j == c.joint)
+        };
+        let own = self.closure.columns.iter().filter(passes);
+        self.rank_of(own.map(|c| &c.twist))
+    }
+}
+
 /// Returns the shares of the couplings, which come after all contours.
 ///
 /// # Complexity
-/// As [`shares`].
+/// As [`contour_shares`].
 #[must_use]
 pub(crate) fn coupling_shares(
     exact: &ExactField,
@@ -49,31 +169,10 @@ pub(crate) fn coupling_shares(
     if closure.couplings.is_empty() {
         return Vec::new();
     }
-    let stresses = stress_basis(exact, closure);
-    mechanism
-        .couplings_in(closure.state)
-        .zip(closure.contour_rows()..)
-        .map(|(coupling, row)| {
-            let ends = |s: &&Vec<Residue>| s.iter().rposition(|&x| x != 0) == Some(row);
-            CouplingShare {
-                name: coupling.name(mechanism),
-                redundant: stresses.iter().filter(ends).count(),
-                most: usize::from(stresses.iter().any(|s| s[row] != 0)),
-            }
-        })
-        .collect()
+    coupling_shares_of(&Exactly::new(exact, closure), mechanism, closure)
 }
 
 /// Returns σ_i of each contour in the order of the basis, and its range over all orders.
-///
-/// Adding a contour to more contours never adds more rank, because rank is submodular. So σ_i is smallest if the
-/// contour is added first and largest if it is added last, and no order has to be tried. All of it follows from one
-/// basis of the self-stresses, the left kernel of J:
-/// - Those within the first i contours are the left kernel of the first i contours' rows. So σ_i in the given order is
-///   the number of vectors of an echelon basis that end in contour i.
-/// - Those without contour i are the left kernel of the other rows. So the largest σ_i is the dimension of the basis
-///   restricted to the rows of contour i.
-/// - The smallest is the number of rows less the rank of the contour's own columns.
 ///
 /// # Complexity
 /// One elimination of J by rows. Then O(σ·k) to examine the basis and an elimination of at most `dim` independent rows
@@ -91,82 +190,8 @@ pub(crate) fn coupling_shares(
 /// ```
 #[must_use]
 pub fn contour_shares(exact: &ExactField, closure: &Closure<Residue>) -> Vec<ContourShare> {
-    let dim = closure.dim;
-    let stresses = stress_basis(exact, closure);
-    let mut ending = vec![0; closure.contours.len()];
-    for s in &stresses {
-        // A self-stress that ends in the row of a coupling belongs to the coupling.
-        let last = s.iter().rposition(|&x| x != 0);
-        if let Some(of) = last.and_then(|last| ending.get_mut(last / dim)) {
-            *of += 1;
-        }
-    }
-    let ranks = |vectors: &mut dyn Iterator<Item = &[Residue]>| {
-        let mut span = Echelon::new(exact.field());
-        while span.rank() < dim {
-            let Some(v) = vectors.next() else { break };
-            if v.iter().any(|&x| x != 0) {
-                span.insert(v);
-            }
-        }
-        span.rank()
-    };
-    // Most self-stresses load few contours.
-    let loaded = stresses.iter().map(|s| loaded_parts(s, dim).collect());
-    let loaded: Vec<Vec<(usize, &[Residue])>> = loaded.collect();
-    // Columns are grouped by joint, in file order.
-    let of_joint = |j| {
-        let from = closure.columns.partition_point(|c| c.joint < j);
-        closure.columns[from..]
-            .iter()
-            .take_while(move |c| c.joint == j)
-    };
-    closure
-        .contours
-        .iter()
-        .enumerate()
-        .map(|(i, contour)| {
-            let mut own = contour
-                .joints
-                .iter()
-                .flat_map(|&(j, _)| of_joint(j))
-                .map(|c| c.twist.as_slice());
-            let mut carried = stresses.iter().map(|s| &s[i * dim..(i + 1) * dim]);
-            let greatest = ranks(&mut carried);
-            ContourShare {
-                contour: contour.clone(),
-                redundant: ending[i],
-                range: (dim - ranks(&mut own), greatest),
-                over_bases: over_bases(&closure.contours, i, greatest, |weights| {
-                    let mixed = loaded.iter().map(|s| combine_parts(exact, s, weights, dim));
-                    let mixed: Vec<Vec<Residue>> = mixed.collect();
-                    ranks(&mut mixed.iter().map(Vec::as_slice))
-                }),
-            }
-        })
-        .collect()
-}
-
-/// Returns the loops that a self-stress loads, with its entries in their rows.
-fn loaded_parts(stress: &[Residue], dim: usize) -> impl Iterator<Item = (usize, &[Residue])> {
-    let parts = stress.chunks(dim).enumerate();
-    parts.filter(|(_, part)| part.iter().any(|&x| x != 0))
-}
-
-/// Returns the parts of a self-stress in the loops' rows, times these weights and summed.
-fn combine_parts(
-    exact: &ExactField,
-    stress: &[(usize, &[Residue])],
-    weights: &[i64],
-    dim: usize,
-) -> Vec<Residue> {
-    let field = exact.field();
-    let mut sum = vec![0; dim];
-    // Rows of couplings come after those of contours.
-    for &(contour, part) in stress.iter().filter(|(c, _)| *c < weights.len()) {
-        field.add_multiple(&mut sum, field.from_i64(weights[contour]), part);
-    }
-    sum
+    let stresses = Exactly::new(exact, closure);
+    shares_of(&stresses, &closure.contours, closure.dim)
 }
 
 /// Returns the largest σ_i of a contour over all bases that include it, as a value reached and an upper bound.
@@ -227,6 +252,10 @@ pub struct Measured<'a> {
     floor: f64,
     /// Motions: columns of an orthonormal basis of the null space.
     kernel: Matrix,
+    /// Self-stresses: columns of an orthonormal basis of the left null space.
+    stresses: Matrix,
+    /// Loads at or below which a self-stress has none.
+    unloaded: f64,
 }
 
 impl<'a> Measured<'a> {
@@ -246,9 +275,11 @@ impl<'a> Measured<'a> {
         let matrix = scaled_matrix(&closure);
         let f = closure.columns.len();
         let (mut floor, mut kernel) = (0.0, Matrix::identity(f, f));
+        let mut stresses = Matrix::identity(closure.rows(), closure.rows());
         if let Some(svd) = svd(&matrix) {
             floor = tolerance * svd.values.first().copied().unwrap_or(0.0);
             kernel = svd.null_space(svd.rank(tolerance));
+            stresses = svd.left_null_space(svd.rank(tolerance));
         }
         Ok(Measured {
             mechanism,
@@ -256,6 +287,9 @@ impl<'a> Measured<'a> {
             matrix,
             floor,
             kernel,
+            stresses,
+            // Errors of the size of the tolerance turn the self-stresses by more.
+            unloaded: tolerance.sqrt().clamp(1e-6, 0.1),
         })
     }
 
@@ -274,11 +308,7 @@ impl<'a> Measured<'a> {
     }
 
     fn rank_of(&self, matrix: &Matrix) -> usize {
-        singular_values(matrix)
-            .unwrap_or_default()
-            .iter()
-            .filter(|&&v| v > self.floor)
-            .count()
+        count_above(matrix, self.floor)
     }
 
     /// Returns the dimension of the joint motion of some links.
@@ -311,90 +341,54 @@ impl<'a> Measured<'a> {
         self.rank_of(&self.kernel.select_rows(&columns))
     }
 
-    /// Returns the rank of the rows of some contours and couplings.
-    fn rank_of_rows(&self, contours: &[usize], couplings: &[usize]) -> usize {
-        let (dim, first) = (self.closure.dim, self.closure.contour_rows());
-        let of_contours = contours.iter().flat_map(|k| dim * k..dim * (k + 1));
-        let rows: Vec<usize> = of_contours
-            .chain(couplings.iter().map(|q| first + q))
-            .collect();
-        self.rank_of(&self.matrix.select_rows(&rows))
-    }
-
-    /// Returns the rank of the rows of all couplings and of contours j less a multiple of contour i. These rows are the
-    /// remainder of J in a basis in which contour i has these coefficients in the given contours.
-    fn rank_without(&self, i: usize, weights: &[i64]) -> usize {
-        let dim = self.closure.dim;
-        let first = self.closure.contour_rows();
-        let others: Vec<usize> = (0..self.matrix.nrows())
-            .filter(|&r| r >= first || r / dim != i)
-            .collect();
-        let part = Matrix::from_fn(others.len(), self.matrix.ncols(), |r, c| {
-            let row = others[r];
-            let own = self.matrix[(row, c)];
-            match weights.get(row / dim).filter(|_| row < first) {
-                // Rows of similar size keep zeros below the floor.
-                Some(&w) => {
-                    let w = w as f64;
-                    (own - w * self.matrix[(dim * i + row % dim, c)]) / w.abs().max(1.0)
-                }
-                None => own,
-            }
-        });
-        self.rank_of(&part)
-    }
-
     /// Returns σ_i of each contour in the order of the basis, and its range over all orders.
     ///
     /// # Complexity
-    /// 3k decompositions.
+    /// About 4k decompositions.
     #[must_use]
     pub fn contour_shares(&self) -> Vec<ContourShare> {
-        let dim = self.closure.dim;
-        let all: Vec<usize> = (0..self.closure.contours.len()).collect();
-        let couplings: Vec<usize> = (0..self.closure.couplings.len()).collect();
-        let prefix: Vec<usize> = (0..=all.len())
-            .map(|i| self.rank_of_rows(&all[..i], &[]))
-            .collect();
-        let whole = self.rank_of_rows(&all, &couplings);
-        all.iter()
-            .map(|&i| {
-                let others: Vec<usize> = all.iter().copied().filter(|&j| j != i).collect();
-                let greatest = dim + self.rank_of_rows(&others, &couplings) - whole;
-                ContourShare {
-                    contour: self.closure.contours[i].clone(),
-                    redundant: dim + prefix[i] - prefix[i + 1],
-                    range: (dim - self.rank_of_rows(&[i], &[]), greatest),
-                    over_bases: over_bases(&self.closure.contours, i, greatest, |weights| {
-                        (dim + self.rank_without(i, weights)).saturating_sub(whole)
-                    }),
-                }
-            })
-            .collect()
+        shares_of(self, &self.closure.contours, self.closure.dim)
     }
 
     /// Returns the shares of the couplings, which come after the contours.
     ///
     /// # Complexity
-    /// 2c + 1 decompositions.
+    /// 2c decompositions.
     #[must_use]
     pub(crate) fn coupling_shares(&self) -> Vec<CouplingShare> {
-        let all: Vec<usize> = (0..self.closure.contours.len()).collect();
-        let couplings: Vec<usize> = (0..self.closure.couplings.len()).collect();
-        let whole = self.rank_of_rows(&all, &couplings);
-        let of_state = self.mechanism.couplings_in(self.closure.state);
-        of_state
-            .enumerate()
-            .map(|(q, coupling)| {
-                let others: Vec<usize> = couplings.iter().copied().filter(|&x| x != q).collect();
-                let before = self.rank_of_rows(&all, &couplings[..q]);
-                let with = self.rank_of_rows(&all, &couplings[..=q]);
-                CouplingShare {
-                    name: coupling.name(self.mechanism),
-                    redundant: usize::from(with == before),
-                    most: usize::from(self.rank_of_rows(&all, &others) == whole),
-                }
-            })
-            .collect()
+        coupling_shares_of(self, self.mechanism, &self.closure)
     }
+}
+
+impl Stresses for Measured<'_> {
+    fn count_within(&self, rows: usize) -> usize {
+        let beyond: Vec<usize> = (rows..self.stresses.nrows()).collect();
+        let beyond = self.stresses.select_rows(&beyond);
+        self.stresses.ncols() - count_above(&beyond, self.unloaded)
+    }
+
+    fn count_carried(&self, weights: &[i64]) -> usize {
+        let dim = self.closure.dim;
+        let sum = Matrix::from_fn(dim, self.stresses.ncols(), |r, s| {
+            let of = |(j, &w): (usize, &i64)| w as f64 * self.stresses[(dim * j + r, s)];
+            weights.iter().enumerate().map(of).sum()
+        });
+        count_above(&sum, self.unloaded)
+    }
+
+    fn loads_row(&self, row: usize) -> bool {
+        norm(&self.stresses.row(row)) > self.unloaded
+    }
+
+    fn rank_alone(&self, contour: usize) -> usize {
+        let dim = self.closure.dim;
+        let rows: Vec<usize> = (dim * contour..dim * (contour + 1)).collect();
+        self.rank_of(&self.matrix.select_rows(&rows))
+    }
+}
+
+/// Returns the number of singular values above a limit.
+fn count_above(matrix: &Matrix, limit: f64) -> usize {
+    let values = singular_values(matrix).unwrap_or_default();
+    values.iter().filter(|&&v| v > limit).count()
 }

@@ -6,6 +6,7 @@ use crate::linalg::echelon::Echelon;
 use crate::linalg::modp::Residue;
 use crate::model::mechanism::{JointId, LinkId, Mechanism, StateId};
 use crate::rank::exact::modular;
+use crate::rank::method::to_i64;
 use crate::redundancy::motion::Speeds;
 use serde::Serialize;
 
@@ -71,10 +72,6 @@ pub(super) fn external_constraints(
         redundant: constraints - (actual - working) - lost,
         by_rank: to_i64(closure.rows() - rank) - to_i64(free.rows() - free_rank),
     })
-}
-
-pub(super) fn to_i64(x: usize) -> i64 {
-    i64::try_from(x).unwrap_or(i64::MAX)
 }
 
 pub(super) fn freedoms_of(closure: &Closure<Residue>, joint: JointId) -> usize {

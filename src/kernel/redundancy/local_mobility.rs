@@ -93,8 +93,8 @@ fn at_rest(
     let f = exact.field();
     let of_outputs = closure.link_motions(exact, mechanism, outputs);
     let moved = |speeds: &Speeds| {
-        let twists = of_outputs.iter().flat_map(|m| link_twist(exact, m, speeds));
-        twists.chain([0]).collect()
+        let twists = of_outputs.iter();
+        twists.flat_map(|m| link_twist(exact, m, speeds)).collect()
     };
     let images: Vec<Vec<Residue>> = kernel.iter().map(moved).collect();
     let all = linear_relations(f, &images);
@@ -122,15 +122,13 @@ impl<'a> Links<'a> {
         closure: &'a Closure<Residue>,
         ids: Vec<LinkId>,
     ) -> Links<'a> {
-        let mut rows = closure.dense_columns(exact);
-        rows.iter_mut().for_each(|r| r.push(0));
         Links {
             exact,
             mechanism,
             closure,
             motion: closure.link_motions(exact, mechanism, &ids),
             ids,
-            rows,
+            rows: closure.dense_columns(exact),
         }
     }
 

@@ -29,17 +29,7 @@ pub type Speeds = Vec<Residue>;
 /// ```
 #[must_use]
 pub fn motion_basis(exact: &ExactField, closure: &Closure<Residue>) -> Vec<Speeds> {
-    echelon::linear_relations(
-        exact.field(),
-        &columns_with_rows(&closure.dense_columns(exact)),
-    )
-}
-
-/// Returns columns that have a row. Without contours J has none, and one row of zeros gives every column its own
-/// motion.
-fn columns_with_rows(columns: &[Vec<Residue>]) -> Vec<Vec<Residue>> {
-    let with_row = |c: &Vec<Residue>| if c.is_empty() { vec![0] } else { c.clone() };
-    columns.iter().map(with_row).collect()
+    echelon::linear_relations(exact.field(), &closure.dense_columns(exact))
 }
 
 /// Returns the twist of a link under a motion.
@@ -66,7 +56,7 @@ pub(crate) fn joint_motion(
     let closure = Closure::new(exact, mechanism, state)?;
     let of_links = closure.link_motions(exact, mechanism, links);
     let of_drives = drive_rates(exact, mechanism, &closure)?;
-    let mut columns = columns_with_rows(&closure.dense_columns(exact));
+    let mut columns = closure.dense_columns(exact);
     let mut kept: Vec<&Vec<Vec<Residue>>> = of_links.iter().collect();
     if mechanism.search.locks_drives {
         for (c, column) in columns.iter_mut().enumerate() {

@@ -321,11 +321,7 @@ mod tests {
     #[test]
     fn poses_outside_the_limits_do_not_count() {
         let m = draw_mechanism(&four_bar(0, 1, 0.0), &[]);
-        let finite = Finite {
-            mobility: 0,
-            how: How::Undecided { from: 0, to: 1 },
-            numeric: true,
-        };
+        let finite = Finite::between(0, 1, How::Undecided).by_numeric_rank();
         let found = |inside: &dyn Fn(&Pose) -> bool| {
             redundant_where(&m, StateId::FREE, &finite, 3, [1e-9, 0.0], inside).unwrap()
         };

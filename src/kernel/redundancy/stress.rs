@@ -6,9 +6,10 @@
 //! The module also counts self-stresses with the freedoms of drives held, in exact geometry. The singular values used
 //! for reactions treat nearly dependent rows as dependent.
 
+use crate::closure::contour::Contour;
 use crate::closure::{Closure, Column};
 use crate::geom::exact::{ExactError, ExactField};
-use crate::linalg::echelon::{Echelon, linear_combination, linear_relations, transpose};
+use crate::linalg::echelon::{Echelon, linear_combination, linear_relations};
 use crate::linalg::modp::Residue;
 use crate::model::joint_type::{Freedom, JointType};
 use crate::model::mechanism::{JointId, Mechanism, Mode, StateId};
@@ -56,27 +57,50 @@ pub struct SelfStress {
     pub verdict: StressVerdict,
     /// ℓ, the size of the mechanism by which moments are divided, in the file's unit.
     pub size: f64,
+    /// It as the numbers of the closure's rows; empty if these are not computed.
+    numbers: Vec<f64>,
+}
+
+impl SelfStress {
+    /// Returns the load on each joint in other poses; each pose is a mechanism with its joints moved. Each pose has the self-stress that
+    /// is nearest to that of the pose before it, beginning with this one at `start`. The list is empty for a pose without any. `count`
+    /// is the number of independent self-stresses, and `contours` are those of the analysis.
+    ///
+    /// # Complexity
+    /// One singular value decomposition of J for each pose.
+    #[must_use]
+    pub fn loads_along(
+        &self,
+        (poses, start): (&[Mechanism], usize),
+        (state, contours): (StateId, &[Contour]),
+        count: usize,
+    ) -> Vec<Vec<Borne>> {
+        let mut out = vec![Vec::new(); poses.len()];
+        for walk in [
+            (start..poses.len()).collect_vec(),
+            (0..start).rev().collect(),
+        ] {
+            let mut numbers = self.numbers.clone();
+            for i in walk {
+                let Ok(shares) = Shares::new(&poses[i], state, contours) else {
+                    continue;
+                };
+                numbers = shares.nearest_to(&numbers, count).unwrap_or(numbers);
+                out[i] = shares.loads_under(&numbers).unwrap_or_default();
+            }
+        }
+        out
+    }
 }
 
 /// Returns the left kernel of J in the echelon form that uses the earliest possible contours. Each vector ends in a one
 /// at which no other vector has an entry, and they are sorted by their ends.
 ///
 /// # Complexity
-/// One elimination of J by rows, see [`relations`].
+/// One elimination of J.
 #[must_use]
 pub(crate) fn stress_basis(exact: &ExactField, closure: &Closure<Residue>) -> Vec<Vec<Residue>> {
-    let columns = closure.dense_columns(exact);
-    let mut rows = if columns.is_empty() {
-        vec![vec![0]; closure.rows()]
-    } else {
-        transpose(&columns)
-    };
-    // With the coordinates reversed, the reduced form uses the earliest possible contours.
-    rows.reverse();
-    let mut stresses = linear_relations(exact.field(), &rows);
-    stresses.iter_mut().for_each(|v| v.reverse());
-    stresses.reverse();
-    stresses
+    Echelon::from_vectors(exact.field(), closure.dense_columns(exact)).null_space(closure.rows())
 }
 
 /// The self-stresses of a state, with those that load none of its added joints separate from the others.
@@ -186,7 +210,7 @@ pub(crate) fn self_stresses(
 ) -> Result<Vec<SelfStress>, ExactError> {
     let stresses = Stresses::new(exact, mechanism, closure)?;
     let wrenches = &stresses.wrenches;
-    let mut shares = Shares::new(mechanism, closure)?;
+    let mut shares = Shares::new(mechanism, closure.state, &closure.contours)?;
     let size = shares.size();
     let at_faces = Faces {
         joints: &stresses.faces,
@@ -204,7 +228,8 @@ pub(crate) fn self_stresses(
             .filter(|q| s[closure.contour_rows() + q] != 0)
             .collect();
         let friction = is_external && stresses.is_friction(s);
-        let borne = shares.loads_of(s, friction.then_some(at_faces));
+        let numbers = shares.numbers_of(s, friction.then_some(at_faces));
+        let borne = numbers.as_ref().and_then(|n| shares.loads_under(n));
         let joints = mechanism.joints_in(closure.state).filter_map(|j| {
             let w = wrenches.wrench_at(s, j);
             let nonzero = |v: [Residue; 3]| v.map(|x| x != 0);
@@ -221,6 +246,7 @@ pub(crate) fn self_stresses(
             joints: joints.collect(),
             external: is_external,
             size,
+            numbers: numbers.unwrap_or_default(),
             verdict: if friction {
                 StressVerdict::Harmless
             } else {

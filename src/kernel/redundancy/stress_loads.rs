@@ -6,12 +6,14 @@
 //! equations of those rows.
 
 use crate::closure::Closure;
+use crate::closure::contour::Contour;
 use crate::closure::twist::{FrameValues, MotionSpace};
 use crate::geom::exact::ExactError;
 use crate::geom::vector::{Vector, dot, scale, sub};
 use crate::geom::{Reals, Scalars};
 use crate::linalg::modp::Residue;
-use crate::model::mechanism::{JointId, Mechanism};
+use crate::model::mechanism::{JointId, Mechanism, StateId};
+use ozols_dense::{Matrix, svd};
 
 /// Share of the first pivot below which pivots are zero.
 const TOLERANCE: f64 = 1e-9;
@@ -65,17 +67,20 @@ impl std::fmt::Debug for Shares<'_> {
 }
 
 impl<'a> Shares<'a> {
-    /// Prepares the shares for the state and contours of a closure.
+    /// Prepares the shares for a state and contours of it.
     ///
     /// # Errors
     /// Returns an error if a coordinate has no value.
-    pub(crate) fn new(mechanism: &'a Mechanism, of: &Closure<Residue>) -> Result<Self, ExactError> {
-        let closure = Closure::with_contours(&Reals, mechanism, of.state, of.contours.clone())?;
+    pub(super) fn new(
+        mechanism: &'a Mechanism,
+        state: StateId,
+        contours: &[Contour],
+    ) -> Result<Self, ExactError> {
+        let closure = Closure::with_contours(&Reals, mechanism, state, contours.to_vec())?;
         let points: Vec<[f64; 3]> = mechanism
-            .joints_in(of.state)
+            .joints_in(state)
             .map(|j| [0, 1, 2].map(|i| mechanism.joints[j].frame.point[i].to_f64()))
             .collect();
-        #[allow(clippy::cast_precision_loss, reason = "a count of joints")]
         let count = points.len().max(1) as f64;
         let middle = [0, 1, 2].map(|i| points.iter().map(|p| p[i]).sum::<f64>() / count);
         let square = |p: &[f64; 3]| dot(sub(*p, middle), sub(*p, middle));
@@ -83,7 +88,7 @@ impl<'a> Shares<'a> {
         Ok(Shares {
             mechanism,
             columns: closure.dense_columns(&Reals),
-            wrenches: JointWrenches::new(&Reals, mechanism, of)?,
+            wrenches: JointWrenches::new(&Reals, mechanism, &closure)?,
             closure,
             size: if size > 0.0 { size } else { 1.0 },
             left: MOST_PRODUCTS,
@@ -106,16 +111,16 @@ impl<'a> Shares<'a> {
         self.size
     }
 
-    /// Returns the load on each joint, or `None` if the numbers do not distinguish the self-stress from others, or if
+    /// Returns the numbers of a self-stress, or `None` if the numbers do not distinguish the self-stress from others, or if
     /// there are too many of them.
     ///
     /// # Complexity
     /// O(r² f) for r nonzero rows and f freedoms in their contours.
-    pub(super) fn loads_of(
+    pub(super) fn numbers_of(
         &mut self,
         stress: &[Residue],
         faces: Option<Faces<'_>>,
-    ) -> Option<Vec<Borne>> {
+    ) -> Option<Vec<f64>> {
         let rows: Vec<usize> = (0..stress.len()).filter(|&r| stress[r] != 0).collect();
         let equation = |column: &Vec<f64>| -> Vec<f64> {
             rows.iter()
@@ -146,9 +151,30 @@ impl<'a> Shares<'a> {
         for (&r, x) in rows.iter().zip(&found) {
             real[r] = x * self.row_unit(r);
         }
+        Some(real)
+    }
+
+    /// Returns the self-stress that is nearest to these numbers, of all in a pose that has `count` independent ones.
+    pub(super) fn nearest_to(&self, numbers: &[f64], count: usize) -> Option<Vec<f64>> {
+        let unit = |r: usize| self.row_unit(r) / self.size;
+        let equations = Matrix::from_fn(numbers.len(), self.columns.len(), |r, c| {
+            self.columns[c][r] * unit(r)
+        });
+        let all = svd(&equations)?.left_null_space(numbers.len().checked_sub(count)?);
+        let mut out = vec![0.0; numbers.len()];
+        for c in 0..count {
+            let along = |r: usize| all[(r, c)] * numbers[r] / unit(r);
+            let part: f64 = (0..out.len()).map(along).sum();
+            (0..out.len()).for_each(|r| out[r] += part * all[(r, c)] * unit(r));
+        }
+        Some(out)
+    }
+
+    /// Returns the load on each joint under a self-stress, or `None` if it loads none.
+    pub(super) fn loads_under(&self, real: &[f64]) -> Option<Vec<Borne>> {
         let mut out = vec![Borne::default(); self.mechanism.joints.len()];
         for j in self.mechanism.joints_in(self.closure.state) {
-            let w = self.wrenches.wrench_at(&real, j);
+            let w = self.wrenches.wrench_at(real, j);
             let unit = self.wrenches.moment_scale().unwrap_or(1.0) * self.size;
             out[j] = Borne {
                 moment: scale(self.wrenches.moment_at(j, &w), 1.0 / unit),

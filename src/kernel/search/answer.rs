@@ -1,19 +1,15 @@
 //! Results read from finished diagrams: counts, the cheapest variants in order, samples, ideas, single changes, and reasons why nothing is
 //! found.
 
+pub mod by_tally;
 pub(crate) mod count;
 pub(crate) mod count_tables;
 pub mod counts;
-pub(in crate::search) mod drawn;
 pub mod estimate;
 pub mod everywhere;
-pub mod freedom_patterns;
 pub mod ideas;
 pub mod k_best;
 pub mod keys;
-pub(crate) mod least_freedoms;
-pub mod orbit_counts;
-pub mod place;
 pub(crate) mod proven_cheapest;
 pub mod search_counts;
 pub mod single_changes;

@@ -1,8 +1,6 @@
 //! The diagrams that answer a question: of the determinate variants, and of the admissible ones.
 
 pub(in crate::search) mod at_most;
-pub(in crate::search) mod completing_sets;
-mod estimates;
 pub(in crate::search) mod known_variants;
 pub(in crate::search) mod lanes;
 mod matching_halves;
@@ -12,10 +10,9 @@ pub(in crate::search) mod spanning_halves;
 mod spanning_pairs;
 pub(in crate::search) mod two_sided;
 
-use crate::search::answer::estimate::Estimate;
+use crate::search::answer::estimate::{Estimate, estimate_counts};
 use crate::search::answer::proven_cheapest::{UpTo, cost_of, up_to};
 use crate::search::build::at_most::at_most;
-use crate::search::build::estimates::estimate_counts;
 use crate::search::build::lanes::{Lanes, in_self_stress_space};
 use crate::search::build::orders::{Orders, one_diagram, variable_orders};
 use crate::search::build::self_stress::{Wanted, diagram_limits, empty_diagram};

@@ -12,7 +12,6 @@ pub(in crate::search) mod node_sets;
 pub(in crate::search) mod reduced_rows;
 pub(crate) mod redundancy_so_far;
 pub(in crate::search) mod stage;
-pub(in crate::search) mod stop;
 pub(in crate::search) mod transition;
 pub(in crate::search) mod within;
 
@@ -20,9 +19,8 @@ use crate::linalg::modp::Residue;
 use crate::search::diagram::allowance::Allowance;
 use crate::search::diagram::completion::Ceiling;
 use crate::search::diagram::layer::{CUT, Merge, Nodes};
-pub use crate::search::diagram::layer::{DEAD, Layer};
+pub use crate::search::diagram::layer::{DEAD, Layer, Stop};
 use crate::search::diagram::redundancy_so_far::{Limits, Redundancy, Spent};
-pub use crate::search::diagram::stop::Stop;
 use crate::search::diagram::transition::{Children, Worker};
 use crate::search::diagram::within::Within;
 use crate::search::question::space::{Choice, Space};
@@ -138,16 +136,24 @@ pub(super) fn build_layers(
     for (done, stage) in stages.iter().enumerate() {
         let choices = &space.variables[stage.variable()].choices;
         let total = allowance.nodes;
+        let (known, mut ceiling) = match &mut omitted {
+            Omitted::Nothing => (None, None),
+            Omitted::Above(ceiling) => (None, Some(ceiling)),
+            Omitted::Outside(known) => (Some(&*known), None),
+        };
+        let from = Expanded {
+            nodes: &nodes,
+            choices,
+            known,
+            bytes: allowance.bytes,
+        };
         let merge = next_layer(
             stage,
-            choices,
-            allowance.bytes,
-            &nodes,
+            &from,
             allowance.begin_layer(&nodes, nodes.len() * choices.len(), stop),
-            |edge, spent, matrix, least| match &mut omitted {
-                Omitted::Nothing => false,
-                Omitted::Above(ceiling) => ceiling.is_above(done + 1, spent, matrix, least),
-                Omitted::Outside(known) => !known.has_edge(edge),
+            |spent, matrix, least| {
+                let ceiling = ceiling.as_mut();
+                ceiling.is_some_and(|c| c.is_above(done + 1, spent, matrix, least))
             },
             cancelled,
             &mut |layer| progress(Progress::in_layer(done, stages.len(), total, layer)),
@@ -221,31 +227,35 @@ pub(super) trait Carries: Sync {
     );
 }
 
+/// The nodes of a layer that get children.
+pub(super) struct Expanded<'a> {
+    pub(super) nodes: &'a Nodes,
+    pub(super) choices: &'a [Choice],
+    /// A diagram outside of which no children are wanted.
+    pub(super) known: Option<&'a Within<'a>>,
+    /// Bytes of which children that are not merged yet may take an eighth.
+    pub(super) bytes: usize,
+}
+
 /// Returns the merged children of a layer's nodes, without those that are `out` of the question. `told` receives the number of children so
 /// far.
-#[allow(
-    clippy::too_many_arguments,
-    reason = "one layer of a diagram, or of half of one"
-)]
 pub(super) fn next_layer(
     carries: &impl Carries,
-    choices: &[Choice],
-    bytes: usize,
-    nodes: &Nodes,
+    from: &Expanded<'_>,
     mut merge: Merge,
-    mut out: impl FnMut(usize, &Spent, &[Residue], i64) -> bool,
+    mut out: impl FnMut(&Spent, &[Residue], i64) -> bool,
     cancelled: &(dyn Fn() -> bool + Sync),
     told: &mut dyn FnMut(usize),
 ) -> Merge {
-    // Children that are not merged yet may take an eighth of the memory, and no more than stays in use from batch to batch; one is about
-    // as large as its parent.
+    let (nodes, choices) = (from.nodes, from.choices);
+    // A child is about as large as its parent. No more of them are made at a time than stay in use from batch to batch.
     let each = nodes.held_bytes() / nodes.len().max(1);
-    let size = (CHILDREN.min(bytes / 8) / (each * choices.len()).max(1))
+    let size = (CHILDREN.min(from.bytes / 8) / (each * choices.len()).max(1))
         .min(BATCH / (carries.child_effort(each) * choices.len()).max(1))
         .clamp(CUT, MOST);
     for batch in (0..nodes.len()).step_by(size) {
         let batch = batch..(batch + size).min(nodes.len());
-        for part in expand_nodes(carries, choices.len(), nodes, batch) {
+        for part in from.expand_nodes(carries, batch) {
             merge.take_children(&part, nodes, |choice| choices[choice].cost_milli, &mut out);
         }
         if cancelled() {
@@ -269,33 +279,36 @@ const BATCH: usize = 1 << 25;
 /// Fewer children than this are not worth waking threads for.
 const PARALLEL: usize = 1024;
 
-/// Returns the children of some nodes, in parallel, in order.
-pub(super) fn expand_nodes(
-    carries: &impl Carries,
-    choices: usize,
-    nodes: &Nodes,
-    range: std::ops::Range<usize>,
-) -> Vec<Children> {
-    let some = |range: std::ops::Range<usize>| {
-        let mut worker = carries.make_worker();
-        let mut out = Children::new(choices);
-        for i in range {
-            carries.push_children(&mut worker, nodes.matrix(i), &nodes.spent[i], &mut out);
+impl Expanded<'_> {
+    /// Returns the children of some nodes, in parallel, in order.
+    fn expand_nodes(&self, carries: &impl Carries, range: std::ops::Range<usize>) -> Vec<Children> {
+        let choices = self.choices.len();
+        let some = |range: std::ops::Range<usize>| {
+            let mut worker = carries.make_worker();
+            let mut out = Children::new(choices);
+            for i in range {
+                if let Some(known) = self.known {
+                    let edges = i * choices..(i + 1) * choices;
+                    worker.restrict_choices(edges.map(|edge| known.has_edge(edge)));
+                }
+                let (matrix, spent) = (self.nodes.matrix(i), &self.nodes.spent[i]);
+                carries.push_children(&mut worker, matrix, spent, &mut out);
+            }
+            out
+        };
+        if range.len() * choices < PARALLEL {
+            return vec![some(range)];
         }
-        out
-    };
-    if range.len() * choices < PARALLEL {
-        return vec![some(range)];
+        let chunk = range
+            .len()
+            .div_ceil(rayon::current_num_threads() * 4)
+            .max(16);
+        let starts: Vec<usize> = range.clone().step_by(chunk).collect();
+        starts
+            .into_par_iter()
+            .map(|s| some(s..(s + chunk).min(range.end)))
+            .collect()
     }
-    let chunk = range
-        .len()
-        .div_ceil(rayon::current_num_threads() * 4)
-        .max(16);
-    let starts: Vec<usize> = range.clone().step_by(chunk).collect();
-    starts
-        .into_par_iter()
-        .map(|s| some(s..(s + chunk).min(range.end)))
-        .collect()
 }
 
 /// Returns the nodes to keep in a layer that exceeds its limit, ascending. Half of them are reached by most paths, for the

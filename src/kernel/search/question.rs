@@ -1,12 +1,10 @@
 //! The question of a search: the space of variants, their conditions and costs, and the prepared mechanism.
 
-pub mod as_written;
 pub mod conditions;
 pub mod cost;
 pub mod grasp;
 pub mod kept;
 pub(crate) mod own_images;
-pub mod preference;
 pub mod rounded_rank;
 mod second_axes;
 pub mod space;

@@ -1,7 +1,6 @@
 //! Ranges, ticks and their labels.
 
-use super::data::Scale;
-use crate::chart::style::{self, TICK};
+use crate::chart::data::{self, Scale, TICK};
 use crate::format::with_minus_sign;
 use crate::svg::text;
 
@@ -62,7 +61,7 @@ impl Label {
     /// Returns its width in pixels.
     pub(super) fn label_width(&self) -> f64 {
         let power = self.power.as_deref().unwrap_or_default();
-        text::text_width(&self.base, TICK) + text::text_width(power, style::RAISED)
+        text::text_width(&self.base, TICK) + text::text_width(power, data::RAISED)
     }
 }
 
@@ -150,7 +149,7 @@ impl Ruler {
         let mut end = f64::NEG_INFINITY;
         for (at, label) in labels {
             let (middle, half) = (at * length, label.label_width() / 2.0);
-            if middle - half < end + style::GAP {
+            if middle - half < end + data::GAP {
                 return true;
             }
             end = middle + half;
@@ -174,7 +173,7 @@ impl Ruler {
         for tick in &mut self.ticks {
             let half = tick.label.as_ref().map_or(0.0, Label::label_width) / 2.0;
             let (from, to) = (tick.at * length - half, tick.at * length + half);
-            if from < -before || to > length + after || from < end + style::GAP {
+            if from < -before || to > length + after || from < end + data::GAP {
                 tick.label = None;
             } else {
                 end = to;
@@ -274,7 +273,7 @@ fn decimal_label(whole: i64, exponent: i32, most: i64) -> Label {
     if top < 6 && exponent >= -4 {
         let size = whole.unsigned_abs() as f64 * power_of_ten(exponent);
         let digits = format!("{size:.0$}", (-exponent).max(0) as usize);
-        return Label::plain_label(format!("{sign}{}", style::group_thousands(&digits)));
+        return Label::plain_label(format!("{sign}{}", data::group_thousands(&digits)));
     }
     let decimals = (top - exponent).max(0);
     let mantissa = whole.unsigned_abs() as f64 / power_of_ten(decimals);
@@ -343,5 +342,5 @@ fn decade_label(exponent: i32, plain: bool) -> Label {
         power_of_ten(exponent),
         (-exponent).max(0) as usize
     );
-    Label::plain_label(style::group_thousands(&digits))
+    Label::plain_label(data::group_thousands(&digits))
 }

@@ -3,7 +3,7 @@
 use super::axis::{AxisFit, Room, Ruler};
 use super::data::{Bands, Scale, VerdictKind};
 use super::frame::{self, Head};
-use crate::chart::style::{PAD, TICK, WIDTH};
+use crate::chart::data::{PAD, TICK, WIDTH};
 use crate::format::six_digits;
 use crate::svg::plane::Rect;
 use crate::svg::text;

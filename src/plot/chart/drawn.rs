@@ -2,9 +2,8 @@
 
 use super::data::{Series, Style};
 use super::frame;
-use crate::chart::style::{COLOURS, PAD, TICK, WIDTH};
+use crate::chart::data::{COLOURS, PAD, TICK, WIDTH};
 use crate::format::six_digits;
-use crate::svg::labels::{self, Wish};
 use crate::svg::plane::Rect;
 use crate::svg::text;
 use crate::svg::xml::{Xml, format_number};
@@ -60,11 +59,6 @@ impl DrawnSeries<'_> {
         self.shown_points()
             .map(|(place, _)| place)
             .max_by(|a, b| a.0.total_cmp(&b.0))
-    }
-
-    /// Returns true if it is a point with its name next to it.
-    fn is_lone(&self) -> bool {
-        self.series.style == Style::Points && self.shown_points().count() == 1
     }
 
     /// Returns true if every point has its mark.
@@ -231,73 +225,6 @@ fn draw_mark(xml: &mut Xml, d: &DrawnSeries, x: f64, y: f64, r: f64, tip: &str) 
         .close_with_tip(tip);
 }
 
-/// Draws the names of single points, each next to its point.
-pub(super) fn beside_points(xml: &mut Xml, drawn: &[DrawnSeries], plot: &Rect) {
-    let lone = drawn
-        .iter()
-        .filter(|d| d.is_lone() && !d.series.name.is_empty());
-    let lone: Vec<_> = lone.filter_map(|d| Some((d.last_end()?, d))).collect();
-    let name = |s: &Series| text::cut_text(&s.name, TICK, plot.right - plot.left - 40.0);
-    let names: Vec<String> = lone.iter().map(|l| name(l.1.series)).collect();
-    let wishes = lone.iter().zip(&names).map(|(l, name)| Wish {
-        height: 15.0,
-        ..Wish::for_text(name, TICK, l.0.into(), 6.0)
-    });
-    let wishes: Vec<Wish> = wishes.collect();
-    let room = Rect::new(
-        plot.left + 2.0,
-        plot.top - 8.0,
-        plot.right + 30.0,
-        plot.bottom - 2.0,
-    );
-    let points = lone.iter().map(|l| Rect::around(l.0.into(), 12.0, 12.0));
-    let mut taken: Vec<Rect> = points.chain(around_room(&room)).collect();
-    let places = labels::place_labels(&wishes, &mut taken, &[]);
-    for ((place, name), ((x, y), _)) in places.iter().zip(&names).zip(&lone) {
-        let inside = place.rect.is_within(&room);
-        let rect = if inside {
-            place.rect
-        } else {
-            // No place is free. The name stands beside its point, over other things if need be.
-            let [left, top, right, bottom] = place.rect.edges();
-            Rect::around([*x, *y], right - left, bottom - top).moved_into(&room)
-        };
-        if let Some((from, to)) = place.leader.filter(|_| inside) {
-            frame::draw_stroke(xml, "lead", from.into(), to.into());
-        }
-        let (anchor, at) = match (rect.left >= *x, rect.right <= *x) {
-            (true, _) => ("start", rect.left),
-            (_, true) => ("end", rect.right),
-            _ => ("middle", f64::midpoint(rect.left, rect.right)),
-        };
-        frame::begin_text(xml, "name halo", (at, rect.bottom - 3.5), anchor).write_text(name);
-    }
-}
-
-/// Returns rectangles that cover all around a room.
-fn around_room(room: &Rect) -> [Rect; 4] {
-    const FAR: f64 = 1e3;
-    let all = room.grown_by(FAR);
-    [
-        Rect {
-            right: room.left,
-            ..all
-        },
-        Rect {
-            left: room.right,
-            ..all
-        },
-        Rect {
-            bottom: room.top,
-            ..all
-        },
-        Rect {
-            top: room.bottom,
-            ..all
-        },
-    ]
-}
-
 /// Returns heights at least `step` apart within `from..=to`, in the order of the requested ones and as near to them as
 /// possible.
 ///
@@ -332,9 +259,7 @@ fn spread_heights(wishes: &[f64], step: f64, from: f64, to: f64) -> Vec<f64> {
 
 /// Draws the names of all other series in the margin, each near the end of its line and with a sample of it.
 pub(super) fn name_in_margin(xml: &mut Xml, drawn: &[DrawnSeries], plot: &Rect) {
-    let named = drawn
-        .iter()
-        .filter(|d| !d.is_lone() && !d.series.name.is_empty());
+    let named = drawn.iter().filter(|d| !d.series.name.is_empty());
     let mut ends: Vec<_> = named.filter_map(|d| Some((d.last_end()?, d))).collect();
     ends.sort_by(|a, b| a.0.1.total_cmp(&b.0.1));
     let wishes: Vec<_> = ends.iter().map(|(end, _)| end.1).collect();

@@ -1,7 +1,7 @@
 //! Common parts of every picture: the root element, the title, horizontal axes.
 
-use super::axis::{Label, Ruler};
-use crate::chart::style::{PAD, STYLE, TICK};
+use crate::chart::axis::{Label, Ruler};
+use crate::chart::data::{PAD, STYLE, TICK};
 use crate::svg::plane::Rect;
 use crate::svg::text;
 use crate::svg::xml::{Tag, Xml};

@@ -1,13 +1,13 @@
 //! Series over two axes, as SVG and as CSV.
 
-use super::axes::PlotAxes;
-use super::axis::{AxisFit, Room, Ruler};
-use super::data::{Chart, Series, Style};
-use super::drawn::{self, DrawnSeries, LEAD, SAMPLE, STEP};
-use super::frame::{self, Head};
-use crate::chart::style::{COLOURS, PAD, TICK, WIDTH};
+use crate::chart::axis::{AxisFit, Label, Room, Ruler};
+use crate::chart::data::{COLOURS, Chart, PAD, Series, Style, TICK, WIDTH};
+use crate::chart::drawn::{self, DrawnSeries, LEAD, SAMPLE, STEP};
+use crate::chart::frame::{self, Head};
 use crate::format::csv;
+use crate::svg::plane::Rect;
 use crate::svg::text;
+use crate::svg::xml::Xml;
 
 /// A series with its index among all of them.
 type Numbered<'a> = (usize, &'a Series);
@@ -43,7 +43,6 @@ impl Chart {
         for d in &drawn {
             drawn::draw_body(&mut xml, d);
         }
-        drawn::beside_points(&mut xml, &drawn, &axes.plot);
         drawn::name_in_margin(&mut xml, &drawn, &axes.plot);
         for (n, line) in note.iter().enumerate() {
             let y = foot + 16.0 * n as f64;
@@ -66,10 +65,7 @@ impl Chart {
     /// Returns the axes below `top`, as high as the names of series in the margin require, and as wide as those leave
     /// space for.
     fn make_axes(&self, top: f64, shown: &[Numbered]) -> PlotAxes {
-        let lone = |s: &Series| {
-            s.style == Style::Points && s.points.iter().filter(|p| self.shows_point(p)).count() == 1
-        };
-        let beside = shown.iter().filter(|(_, s)| !lone(s) && !s.name.is_empty());
+        let beside = shown.iter().filter(|(_, s)| !s.name.is_empty());
         let longest = beside
             .clone()
             .map(|(_, s)| text::text_width(&s.name, TICK))
@@ -153,5 +149,58 @@ fn missing_note(absent: &[Numbered]) -> Vec<String> {
             11.0,
             WIDTH - 2.0 * PAD,
         ),
+    }
+}
+
+/// A horizontal axis, a vertical axis, and the rectangle that they span.
+#[derive(Debug)]
+pub(super) struct PlotAxes {
+    pub(super) plot: Rect,
+    height: f64,
+    x: Ruler,
+    y: Ruler,
+}
+
+impl PlotAxes {
+    /// Creates axes of this `height` that start at `top` and end at `right`. They begin behind the labels of the
+    /// vertical axis. `across` creates the ruler for the remaining space.
+    pub(super) fn new(
+        top: f64,
+        height: f64,
+        right: f64,
+        y: Ruler,
+        across: impl FnOnce(Room) -> Ruler,
+    ) -> Self {
+        let labels = y.ticks.iter().filter_map(|t| t.label.as_ref());
+        let left = labels.map(Label::label_width).fold(0.0, f64::max);
+        let left = (PAD + left + 8.0).max(48.0);
+        let room = Room::Across(right - left, left - 4.0, WIDTH - right - 4.0);
+        PlotAxes {
+            plot: Rect::new(left, top, right, top + height),
+            height,
+            x: across(room),
+            y,
+        }
+    }
+
+    /// Draws the axes with their names.
+    pub(super) fn draw_axes(&self, xml: &mut Xml, across: &str, up: &str) {
+        let plot = &self.plot;
+        let label = text::cut_text(up, TICK, WIDTH - 2.0 * PAD);
+        frame::begin_text(xml, "name", (PAD, plot.top - 14.0), "").write_text(&label);
+        frame::draw_up(xml, &self.y, plot);
+        frame::draw_across(xml, &self.x, across, plot);
+        let corners = [plot.left, plot.right].map(|x| (x, plot.bottom));
+        frame::draw_stroke(xml, "axis", corners[0], corners[1]);
+    }
+
+    /// Returns the position of a point in the picture, or `None` if it cannot be shown.
+    pub(super) fn place_point(&self, x: f64, y: f64) -> Option<(f64, f64)> {
+        let (across, up) = (self.x.place_value(x)?, self.y.place_value(y)?);
+        let plot = &self.plot;
+        Some((
+            plot.left + across * (plot.right - plot.left),
+            plot.bottom - up * self.height,
+        ))
     }
 }

@@ -1,7 +1,7 @@
 //! Vectors set head to tail in adjacent panels: force plans that close in equilibrium.
 
 use super::frame::{Head, begin_picture, begin_text, draw_stroke};
-use crate::chart::style::{PAD, WIDTH};
+use crate::chart::data::{PAD, WIDTH};
 use crate::format::{csv, four_digits};
 use crate::svg::plane::{Point, Rect, add, bounds_of, path_data, plane_norm, scale, sub, unit};
 use crate::svg::xml::Xml;

@@ -63,14 +63,6 @@ impl Rect {
         Rect::new(left, top, right, bottom)
     }
 
-    /// Returns true if it lies completely inside another.
-    pub(crate) fn is_within(&self, room: &Rect) -> bool {
-        self.left >= room.left
-            && self.top >= room.top
-            && self.right <= room.right
-            && self.bottom <= room.bottom
-    }
-
     /// Returns its left, top, right and bottom edge.
     pub fn edges(&self) -> [f64; 4] {
         [self.left, self.top, self.right, self.bottom]
@@ -97,15 +89,6 @@ impl Rect {
     pub fn moved_by(&self, [x, y]: Point) -> Rect {
         let (left, top) = (self.left + x, self.top + y);
         Rect::new(left, top, self.right + x, self.bottom + y)
-    }
-
-    /// Returns it moved as little as needed to lie within a larger one.
-    #[must_use]
-    pub fn moved_into(&self, room: &Rect) -> Rect {
-        let into = |low: f64, high: f64| low.max(0.0) + high.min(0.0);
-        let x = into(room.left - self.left, room.right - self.right);
-        let y = into(room.top - self.top, room.bottom - self.bottom);
-        self.moved_by([x, y])
     }
 
     /// Returns true if a segment touches it.

@@ -162,7 +162,7 @@ class Mechanism:
         return data
 
     def export(self, format: str) -> str:
-        """Returns the mechanism as text: ``toml``, ``json``, ``urdf``, ``mjcf``, ``sdf``, ``dot`` or ``graphml``.
+        """Returns the mechanism as text: ``toml``, ``json``, ``urdf``, ``mjcf``, ``sdf`` or ``dot``.
 
         >>> Mechanism.builtin("four-bar").export("sdf")[:14]
         '<?xml version='

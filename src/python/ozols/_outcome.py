@@ -199,5 +199,8 @@ class Outcome(Sequence[Variant]):
 
     def _repr_html_(self) -> str:
         least = "" if self.exact else "at least "
-        head = f"<p>{least}{self.admissible:,} admissible of {self.space:,} variants</p>"
+        lasting = self.lasting
+        found = f"{self.admissible:,}" if lasting is None else f"{lasting:,}"
+        drawn = "" if lasting is None else f", {self.admissible:,} in the drawn pose"
+        head = f"<p>{least}{found} admissible of {self.space:,} variants{drawn}</p>"
         return head + table([v._row() for v in self])

@@ -1,31 +1,22 @@
 //! The kinematic scheme: links and the symbols of joints where the coordinates have them.
 
+use crate::draw::kinematic::body::{Arrow, Body, Marked, known_loads};
+use crate::draw::place::projection::Projection;
+use crate::draw::prelude::*;
+use crate::draw::sheet::{Caption, plan_sheet};
+use crate::draw::subject;
+use crate::draw::symbol::ground::Ground;
+use crate::draw::symbol::placed::{Swap, Symbol};
+
 mod arcs;
-mod arrow;
-mod axes;
 mod body;
-mod facets;
 mod gears;
 mod legend;
 mod loads;
 pub(super) mod moving;
 mod naming;
 mod on_paper;
-mod points;
 pub(super) mod scene;
-
-use self::arrow::Arrow;
-use self::body::{Body, Marked};
-use super::subject::Subject;
-use crate::draw::place::projection::Sight;
-use crate::draw::place::projection::{JointInSpace, Projection, Vector};
-use crate::draw::sheet::{Anchor, Caption, Drawing, Sheet, Swatch, plan_sheet};
-use crate::draw::subject;
-use crate::draw::symbol::ground::Ground;
-use crate::draw::symbol::placed::{Swap, Symbol};
-use crate::model::mechanism::{JointId, LinkId, Role};
-use crate::redundancy::stress::SelfStress;
-use crate::svg::plane::{Point, Rect, add, mean, scale, sub, unit};
 
 /// The room below for the axes and the scale.
 const STRIP: f64 = 84.0;
@@ -83,8 +74,7 @@ pub fn kinematic_stressed(
     name: &str,
 ) -> Drawing {
     let mut drawn = Kinematic::new(subject, sight);
-    drawn.arrows = drawn.arrows_of(stress);
-    drawn.shows = Some(name.to_owned());
+    drawn.show_stress(name, stress);
     drawn.draw_sheet()
 }
 
@@ -134,6 +124,8 @@ struct MovingPicture {
     /// Lines on links that move.
     lines: Vec<(&'static str, [Point; 2])>,
     circles: Vec<Vec<Point>>,
+    /// The arrows of a self-stress.
+    arrows: Vec<Arrow>,
 }
 
 /// A scheme under way.
@@ -180,6 +172,12 @@ impl Kinematic<'_> {
             mean(dirs.into_iter())
         };
         Some(add(at, scale(unit(away), 48.0)))
+    }
+
+    /// Adds the arrows of a self-stress at the pose of the file, and its name.
+    fn show_stress(&mut self, name: &str, stress: &SelfStress) {
+        self.arrows = self.arrows_of(&known_loads(stress), None);
+        self.shows = Some(name.to_owned());
     }
 
     fn is_frame(&self, link: LinkId) -> bool {

@@ -1,21 +1,16 @@
 //! The structural scheme: links as polygons, joints as circles with their class, contours tinted by what is redundant.
 
-mod contours;
-mod naming;
-
-use super::subject::{Mark, Subject, roominess};
 use crate::closure::contour::{Contour, contour_basis};
 use crate::draw::place::graph::{Graph, joint_ring};
 use crate::draw::place::layout::{Layout, find_layout};
+use crate::draw::prelude::*;
 use crate::draw::sheet::shapes::{HALF, hatch_path, hatch_with, outline_sides, rounded_path};
-use crate::draw::sheet::{Anchor, Caption, Drawing, SMALL, Shape, Sheet, Swatch, plan_sheet};
+use crate::draw::sheet::{Caption, plan_sheet};
+use crate::draw::subject::roominess;
 use crate::geom::expr::Expr;
-use crate::model::mechanism::{JointId, LinkId, Role};
 use crate::svg::labels::LabelPlace;
-use crate::svg::plane::{
-    Point, Rect, is_inside, mean, path_data, plane_norm, scale, sub, to_segment,
-};
-use std::fmt::Write as _;
+
+mod naming;
 
 /// Pixels of a bar.
 const UNIT: f64 = 96.0;

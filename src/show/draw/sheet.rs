@@ -1,21 +1,20 @@
 //! The sheet a drawing is on: title, style, legend, and a record of every label and symbol.
 
-pub(in crate::draw) mod shapes;
-
-pub(super) use shapes::Shape;
-
-use crate::svg::plane::{Point, Rect, add, path_data, plane_norm, scale, sub};
-use crate::svg::text::{cut_text, text_width};
+use crate::draw::prelude::*;
+use crate::svg::text::cut_text;
 use crate::svg::xml::{Xml, format_number};
+pub(crate) use shapes::Shape;
+
+pub(crate) mod shapes;
 
 /// The space around everything.
-pub(super) const PAD: f64 = 20.0;
+pub(crate) const PAD: f64 = 20.0;
 /// The size of ids.
-pub(super) const SMALL: f64 = 11.0;
+pub(crate) const SMALL: f64 = 11.0;
 /// The size of the legend.
 const TEXT: f64 = 12.0;
 /// The height of a row of the legend.
-pub(super) const ROW: f64 = 22.0;
+pub(crate) const ROW: f64 = 22.0;
 const SWATCH: f64 = 40.0;
 /// A legend's row is cut beyond this.
 const WIDEST: f64 = 560.0;
@@ -50,7 +49,7 @@ pub struct Drawing {
 
 /// The sample in front of a legend's text.
 #[derive(Debug, Clone)]
-pub(super) enum Swatch {
+pub(crate) enum Swatch {
     /// The tint of a contour with so many redundant constraints, and its number.
     Tint(usize, String),
     /// Drawn around the origin by a function.
@@ -63,7 +62,7 @@ pub(super) enum Swatch {
 
 impl Swatch {
     /// Returns a horizontal line of a class.
-    pub(super) fn line(class: &str) -> Swatch {
+    pub(crate) fn line(class: &str) -> Swatch {
         let line = Shape::line(class, vec![[-9.0, 0.0], [9.0, 0.0]]);
         Swatch::Shapes(vec![line])
     }
@@ -71,7 +70,7 @@ impl Swatch {
 
 /// A drawing under way; the default is a piece without title or size.
 #[derive(Debug, Default)]
-pub(super) struct Sheet {
+pub(crate) struct Sheet {
     xml: Xml,
     size: Point,
     /// The origin of the open groups.
@@ -82,30 +81,30 @@ pub(super) struct Sheet {
 
 /// The texts round a drawing.
 #[derive(Debug)]
-pub(super) struct Caption<'a> {
-    pub(super) title: &'a str,
+pub(crate) struct Caption<'a> {
+    pub(crate) title: &'a str,
     /// Two lines.
-    pub(super) subtitle: [&'a str; 2],
-    pub(super) description: &'a str,
-    pub(super) legend: Vec<(Swatch, String)>,
+    pub(crate) subtitle: [&'a str; 2],
+    pub(crate) description: &'a str,
+    pub(crate) legend: Vec<(Swatch, String)>,
 }
 
 /// The room that title and legend leave: where the drawing's own rectangle is moved to.
 #[derive(Debug)]
-pub(super) struct SheetPlan {
+pub(crate) struct SheetPlan {
     /// The offset of the drawing.
-    pub(super) shift: Point,
-    pub(super) size: Point,
+    pub(crate) shift: Point,
+    pub(crate) size: Point,
     columns: usize,
     column: f64,
-    pub(super) legend_top: f64,
+    pub(crate) legend_top: f64,
 }
 
 /// The minimum width of a sheet.
 const LEAST: f64 = 580.0;
 
 /// Lays the sheet out round a drawing that covers `area`, with `strip` pixels below it for other things.
-pub(super) fn plan_sheet(caption: &Caption<'_>, area: Rect, strip: f64) -> SheetPlan {
+pub(crate) fn plan_sheet(caption: &Caption<'_>, area: Rect, strip: f64) -> SheetPlan {
     let rows = &caption.legend;
     let widest = rows.iter().map(|(_, t)| text_width(t, TEXT));
     let column = SWATCH + widest.fold(0.0, f64::max).min(WIDEST) + 24.0;
@@ -136,7 +135,7 @@ pub(super) fn plan_sheet(caption: &Caption<'_>, area: Rect, strip: f64) -> Sheet
 
 impl Sheet {
     /// Begins a sheet.
-    pub(super) fn new(caption: &Caption<'_>, plan: &SheetPlan) -> Sheet {
+    pub(crate) fn new(caption: &Caption<'_>, plan: &SheetPlan) -> Sheet {
         let [w, h] = plan.size;
         let mut xml = Xml::default();
         xml.begin_tag("svg")
@@ -183,12 +182,12 @@ impl Sheet {
     }
 
     /// Returns the elements of a piece.
-    pub(super) fn into_text(self) -> String {
+    pub(crate) fn into_text(self) -> String {
         self.xml.finish_document()
     }
 
     /// Draws something into a group round `at` that says what it stands for, so that a program can find it.
-    pub(super) fn draw_group(
+    pub(crate) fn draw_group(
         &mut self,
         name: &str,
         value: &str,
@@ -213,17 +212,17 @@ impl Sheet {
     }
 
     /// Writes the tooltip of the open group.
-    pub(super) fn write_tip(&mut self, text: &str) {
+    pub(crate) fn write_tip(&mut self, text: &str) {
         self.xml.begin_tag("title").write_text(text);
     }
 
     /// Writes further style rules.
-    pub(super) fn write_style(&mut self, rules: &str) {
+    pub(crate) fn write_style(&mut self, rules: &str) {
         self.xml.begin_tag("style").write_text(rules);
     }
 
     /// Writes finished pieces with ids, for use by reference.
-    pub(super) fn write_defs<'p>(&mut self, pieces: impl Iterator<Item = (String, &'p str)>) {
+    pub(crate) fn write_defs<'p>(&mut self, pieces: impl Iterator<Item = (String, &'p str)>) {
         self.xml.begin_tag("defs").keep_open();
         for (id, piece) in pieces {
             // what is used elsewhere has no ancestors there but this group
@@ -236,7 +235,7 @@ impl Sheet {
     }
 
     /// Shows a piece by its id, as the symbol of a joint.
-    pub(super) fn joint_use(&mut self, joint: &str, id: &str, at: Point) {
+    pub(crate) fn joint_use(&mut self, joint: &str, id: &str, at: Point) {
         self.xml
             .begin_tag("use")
             .set_text("href", &format!("#{id}"))
@@ -247,7 +246,7 @@ impl Sheet {
     }
 
     /// Draws one of several pictures at the same place, of which one is visible.
-    pub(super) fn draw_frame(&mut self, number: usize, seen: bool, draw: impl FnOnce(&mut Sheet)) {
+    pub(crate) fn draw_frame(&mut self, number: usize, seen: bool, draw: impl FnOnce(&mut Sheet)) {
         let n = number.to_string();
         let mut tag = self
             .xml
@@ -263,7 +262,7 @@ impl Sheet {
     }
 
     /// Writes text whose middle line is at `at`.
-    pub(super) fn write_text(
+    pub(crate) fn write_text(
         &mut self,
         class: &str,
         size: f64,
@@ -297,7 +296,7 @@ impl Sheet {
     }
 
     /// Draws a path.
-    pub(super) fn draw_path(&mut self, class: &str, d: &str) {
+    pub(crate) fn draw_path(&mut self, class: &str, d: &str) {
         self.xml
             .begin_tag("path")
             .set_text("class", class)
@@ -306,7 +305,7 @@ impl Sheet {
     }
 
     /// Draws a path that shows a tooltip.
-    pub(super) fn path_with_tip(&mut self, class: &str, d: &str, tip: &str) {
+    pub(crate) fn path_with_tip(&mut self, class: &str, d: &str, tip: &str) {
         self.xml
             .begin_tag("path")
             .set_text("class", class)
@@ -315,12 +314,12 @@ impl Sheet {
     }
 
     /// Draws a segment.
-    pub(super) fn draw_line(&mut self, class: &str, a: Point, b: Point) {
+    pub(crate) fn draw_line(&mut self, class: &str, a: Point, b: Point) {
         self.draw_path(class, &path_data(&[a, b], false));
     }
 
     /// Draws an arrow with a head of length `head`.
-    pub(super) fn draw_arrow(&mut self, class: &str, from: Point, to: Point, head: f64) {
+    pub(crate) fn draw_arrow(&mut self, class: &str, from: Point, to: Point, head: f64) {
         self.draw_line(class, from, to);
         let along = sub(to, from);
         let back = scale(along, -head / plane_norm(along));
@@ -330,7 +329,7 @@ impl Sheet {
     }
 
     /// Draws a circle.
-    pub(super) fn draw_circle(&mut self, class: &str, at: Point, radius: f64) {
+    pub(crate) fn draw_circle(&mut self, class: &str, at: Point, radius: f64) {
         self.xml
             .begin_tag("circle")
             .set_text("class", class)
@@ -341,7 +340,7 @@ impl Sheet {
     }
 
     /// Draws a rectangle with round corners.
-    pub(super) fn draw_rect(&mut self, class: &str, rect: &Rect, round: f64) {
+    pub(crate) fn draw_rect(&mut self, class: &str, rect: &Rect, round: f64) {
         self.xml
             .begin_tag("rect")
             .set_text("class", class)
@@ -354,7 +353,7 @@ impl Sheet {
     }
 
     /// Draws finished shapes.
-    pub(super) fn draw_shapes(&mut self, shapes: &[Shape]) {
+    pub(crate) fn draw_shapes(&mut self, shapes: &[Shape]) {
         for shape in shapes {
             match shape {
                 Shape::Path {
@@ -368,7 +367,7 @@ impl Sheet {
     }
 
     /// Records that a symbol covers a rectangle.
-    pub(super) fn note_symbol(&mut self, rect: Rect) {
+    pub(crate) fn note_symbol(&mut self, rect: Rect) {
         self.symbols.push(rect.moved_by(self.origin));
     }
 
@@ -394,7 +393,7 @@ impl Sheet {
     }
 
     /// Draws the legend and ends the sheet.
-    pub(super) fn finish_sheet(mut self, caption: &Caption<'_>, plan: &SheetPlan) -> Drawing {
+    pub(crate) fn finish_sheet(mut self, caption: &Caption<'_>, plan: &SheetPlan) -> Drawing {
         let lines = caption.legend.len().div_ceil(plan.columns).max(1);
         for (i, (swatch, text)) in caption.legend.iter().enumerate() {
             let x = PAD + plan.column * (i / lines) as f64;
@@ -417,7 +416,7 @@ impl Sheet {
 
 /// Which part of a text is at its point.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Anchor {
+pub(crate) enum Anchor {
     /// Its left end.
     Start,
     /// Its middle.

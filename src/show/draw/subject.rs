@@ -1,18 +1,14 @@
 //! The subject of a drawing: a mechanism in one state with its couplings, and the changes of a redesign.
 
-use crate::draw::sheet::{SMALL, Sheet, Swatch};
-use crate::model::mechanism::{JointId, LinkId, Mechanism, StateId};
+use crate::draw::prelude::*;
 use crate::redundancy::analysis::StateAnalysis;
 use crate::search::Search;
 use crate::search::answer::k_best::Assignment;
 use crate::search::check::variant_mechanism;
 use crate::search::question::space::choice_name;
-use crate::svg::plane::Point;
-use crate::svg::text::text_width;
-use std::fmt::Write as _;
 
 /// The class of the style sheet that the lines of couplings have.
-pub(super) const COUPLING: &str = "fine dash";
+pub(crate) const COUPLING: &str = "fine dash";
 
 /// The subject of a drawing.
 #[derive(Debug, Clone)]
@@ -92,7 +88,7 @@ impl Marks {
 
 /// How a part of the drawing is marked.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Mark {
+pub(crate) enum Mark {
     None,
     Changed,
     New,
@@ -100,7 +96,7 @@ pub(super) enum Mark {
 
 impl Mark {
     /// Returns the class of the style sheet that shows it, with a space before it.
-    pub(super) fn mark_class(self) -> &'static str {
+    pub(crate) fn mark_class(self) -> &'static str {
         match self {
             Mark::None => "",
             Mark::Changed => " changed",
@@ -110,7 +106,7 @@ impl Mark {
 }
 
 impl Subject<'_> {
-    pub(super) fn joint_mark(&self, joint: JointId) -> Mark {
+    pub(crate) fn joint_mark(&self, joint: JointId) -> Mark {
         match &self.marks {
             Some(m) if joint.index() >= m.joints => Mark::New,
             Some(m) if m.changed.iter().any(|(j, _)| *j == joint) => Mark::Changed,
@@ -118,7 +114,7 @@ impl Subject<'_> {
         }
     }
 
-    pub(super) fn link_mark(&self, link: LinkId) -> Mark {
+    pub(crate) fn link_mark(&self, link: LinkId) -> Mark {
         match &self.marks {
             Some(m) if link.index() >= m.links => Mark::New,
             _ => Mark::None,
@@ -126,14 +122,14 @@ impl Subject<'_> {
     }
 
     /// Returns true if a joint exists in this state but not in the free state.
-    pub(super) fn only_here(&self, joint: JointId) -> bool {
+    pub(crate) fn only_here(&self, joint: JointId) -> bool {
         self.mechanism.joints[joint]
             .states
             .as_ref()
             .is_some_and(|s| !s.contains(&StateId::FREE))
     }
 
-    pub(super) fn drawing_title(&self) -> String {
+    pub(crate) fn drawing_title(&self) -> String {
         let name = &self.mechanism.name;
         match &self.marks {
             Some(m) if !m.name.is_empty() => format!("{name}, {}", m.name),
@@ -142,7 +138,7 @@ impl Subject<'_> {
     }
 
     /// Returns the name of the drawing and the mechanism's figures.
-    pub(super) fn subtitle_lines(&self, what: &str) -> [String; 2] {
+    pub(crate) fn subtitle_lines(&self, what: &str) -> [String; 2] {
         let state = &self.mechanism.states[self.state];
         let what = if self.mechanism.states.len() > 1 {
             format!("{what}, state {state}")
@@ -167,7 +163,7 @@ impl Subject<'_> {
     }
 
     /// Returns the summary as the first sentence of a text.
-    pub(super) fn summary_sentence(&self, what: &str) -> String {
+    pub(crate) fn summary_sentence(&self, what: &str) -> String {
         let [what, figures] = self.subtitle_lines(what);
         if figures.is_empty() {
             format!("{what}.")
@@ -177,7 +173,7 @@ impl Subject<'_> {
     }
 
     /// Returns rows of the legend for the changes of a redesign.
-    pub(super) fn mark_rows(&self) -> Vec<(Swatch, String)> {
+    pub(crate) fn mark_rows(&self) -> Vec<(Swatch, String)> {
         let Some(marks) = &self.marks else {
             return Vec::new();
         };
@@ -201,7 +197,7 @@ impl Subject<'_> {
     }
 
     /// Draws the lines of the couplings between joints; `place` gives their positions.
-    pub(super) fn draw_couplings(
+    pub(crate) fn draw_couplings(
         &self,
         sheet: &mut Sheet,
         place: impl Fn(JointId) -> Option<Point>,
@@ -214,13 +210,13 @@ impl Subject<'_> {
     }
 
     /// Returns the row of the legend for couplings. `None` if there are none.
-    pub(super) fn coupling_row(&self) -> Option<(Swatch, String)> {
+    pub(crate) fn coupling_row(&self) -> Option<(Swatch, String)> {
         self.mechanism.couplings_in(self.state).next()?;
         Some((Swatch::line(COUPLING), "coupled joints".to_owned()))
     }
 
     /// Describes the couplings in words, for readers who cannot see the drawing.
-    pub(super) fn coupling_words(&self) -> String {
+    pub(crate) fn coupling_words(&self) -> String {
         let mut out = String::new();
         for c in self.mechanism.couplings_in(self.state) {
             // Writing to a string cannot fail.
@@ -236,7 +232,7 @@ impl Subject<'_> {
 }
 
 /// Returns the factor by which a drawing is larger than usual, to make room for long names.
-pub(super) fn roominess(m: &Mechanism, joints: &[JointId]) -> f64 {
+pub(crate) fn roominess(m: &Mechanism, joints: &[JointId]) -> f64 {
     let wide = joints
         .iter()
         .map(|&j| text_width(&m.joints[j].id, SMALL).min(150.0));

@@ -1,8 +1,6 @@
 //! Symbols of joints, gears and the frame.
 
-pub(in crate::draw) mod drive;
-pub(in crate::draw) mod ground;
-pub(in crate::draw) mod pairs;
-pub(in crate::draw) mod pieces;
-pub(in crate::draw) mod placed;
-pub(in crate::draw) mod symbols;
+pub(crate) mod ground;
+pub(crate) mod pieces;
+pub(crate) mod placed;
+pub(crate) mod symbols;

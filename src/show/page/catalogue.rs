@@ -1,8 +1,8 @@
 //! A catalogue as one page: a card for each structure, with its drawing, to filter, sort and choose from.
 
-use super::data::escape_json;
+use super::contents::escape_json;
 use super::gripper::gripper_drawing;
-use super::policy::{self, POLICY, STYLE};
+use super::{POLICY, STYLE, with_policy};
 use crate::catalog::store::{Store, StoreError};
 use crate::file::text::mechanism_from_str;
 use crate::robots::formats;
@@ -208,7 +208,7 @@ pub fn catalogue_page(store: &Store, file: &str) -> Result<String, StoreError> {
             }
         }
     };
-    Ok(policy::with_policy(&page.into_string(), POLICY))
+    Ok(with_policy(&page.into_string(), POLICY))
 }
 
 fn filter_form() -> maud::Markup {

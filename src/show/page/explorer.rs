@@ -1,13 +1,17 @@
 //! The parts that the script fills: the stage with the original mechanism and the chosen one, moved by one slider, and
 //! the frame of the redesigns with filters, table and chart.
 
-use super::contents::{Page, Redesigns, SHOWN};
+use super::contents::{Page, Redesigns};
+use super::scenes::SHOWN;
 use crate::view::analysis::Analysis;
 use crate::view::search::nothing_found::hopeless_reasons;
 use crate::view::search::variant::symmetric_lines;
 use crate::view::terminal::next_commands::typed_option;
 use maud::{Markup, PreEscaped, html};
 use num_traits::Zero;
+
+/// The frame of the list, with filters, table and chart.
+const FRAME: &str = include_str!("explorer.html");
 
 pub(super) fn stage_html(page: &Page<'_>, analysis: &Analysis<'_>) -> Markup {
     html! {
@@ -101,7 +105,7 @@ pub(super) fn redesigns_html(page: &Page<'_>) -> Markup {
             }
         },
         Ok(r) => html! {
-            (frame_html())
+            (PreEscaped(FRAME))
             @if let Some(found) = &r.remarks.symmetric {
                 p { "The cheapest symmetric redesign for each number of redundant constraints left:" }
                 ul { @for line in symmetric_lines(found) { li { (line) } } }
@@ -132,95 +136,4 @@ fn empty_reasons(page: &Page<'_>, r: &Redesigns<'_>) -> Vec<String> {
         "No redesign meets the conditions; allow more joint types under [search] or at the joints"
             .to_owned(),
     ]
-}
-
-fn frame_html() -> Markup {
-    html! {
-        noscript {
-            p {
-                "The list of redesigns needs scripts; "
-                code { "ozols search" }
-                " prints it."
-            }
-        }
-        div id="explorer" hidden {
-            (filters_html())
-            p.help {
-                span id="count" role="status" {}
-                ". "
-                span id="head" {}
-            }
-            (table_html())
-            (chart_html())
-        }
-    }
-}
-
-fn filters_html() -> Markup {
-    html! {
-        form id="filters" aria-label="Filter the variants" {
-            label id="list-field" {
-                "List "
-                select id="list" title="An idea represents all variants that give the same freedoms to the same joints in series" {
-                    option value="ideas" { "ideas" }
-                    option value="variants" { "single variants" }
-                }
-            }
-            label.wide-field {
-                "Find "
-                input type="search" id="find" autocomplete="off" spellcheck="false"
-                    placeholder="2-3:spherical universal" aria-describedby="find-help"
-                    title="Words that all must occur: a joint, a type, or joint:type. Escape clears.";
-            }
-            label { "Cost ≤ " input type="number" id="most-cost" min="0" step="0.5" inputmode="decimal"; }
-            label { "Changes ≤ " input type="number" id="most-changes" min="0" step="1" inputmode="numeric"; }
-            label { "W ≤ " input type="number" id="most-mobility" step="1" inputmode="numeric"; }
-            @for (id, words) in [
-                ("no-idle", "No idle links"),
-                ("symmetric-only", "Symmetric"),
-                ("in-all-poses", "Throughout the motion"),
-            ] {
-                label.check id={ (id) "-field" } { input type="checkbox" id=(id); " " (words) }
-            }
-            button type="reset" { "Show all" }
-            span.unseen id="find-help" { "Words that all must occur: a joint, a type, or joint:type. Escape clears." }
-        }
-    }
-}
-
-fn table_html() -> Markup {
-    let turn = |id: &str, word: &str| html! { button type="button" id=(id) { (word) } };
-    html! {
-        div.wide id="table-room" tabindex="0" role="group" aria-label="The list" {
-            table id="variants" role="grid" aria-describedby="table-help" {
-                caption { span id="table-caption" {} }
-                thead {}
-                tbody {}
-            }
-        }
-        div.pager id="pager" role="group" aria-label="Pages of the table" {
-            (turn("first", "First"))
-            (turn("previous", "Previous"))
-            span id="place" {}
-            (turn("next", "Next"))
-            (turn("last", "Last"))
-        }
-        p.help id="table-help" {
-            "Column heads sort. In the table: arrow keys move, Enter chooses, Page Up and Page Down turn pages, Escape goes \
-             back to the original mechanism."
-        }
-    }
-}
-
-fn chart_html() -> Markup {
-    html! {
-        figure id="chart" {
-            figcaption {
-                label { "Across " select id="axis-x" {} }
-                label { "Up " select id="axis-y" {} }
-                span id="chart-words" {}
-            }
-            div.wide id="chart-room" tabindex="0" role="group" aria-label="The chart" {}
-        }
-    }
 }

@@ -13,7 +13,7 @@ use crate::motion::working::working_way;
 use crate::rank::stroke::request::{AskedError, drive_or_any, lengths_where_it_slides, name_of};
 use crate::redundancy::analysis::StateAnalysis;
 use crate::redundancy::local_mobility::{FAR, animate_idle};
-use crate::view::analysis::idle;
+use crate::view::analysis::link_motions;
 use crate::view::terminal::next_commands::typed_option;
 use anyhow::{Context, ensure};
 use std::f64::consts::{PI, TAU};
@@ -145,7 +145,7 @@ impl Moving {
                     found.state
                 ),
             })?;
-        let words = idle::describe_idle(m, one);
+        let words = link_motions::describe_idle(m, one);
         let wiggle = animate_idle(m, state, &found.idle, which)?
             .with_context(|| format!("no numbers show that {words}"))?;
         let far = decimals(FAR.to_degrees(), 0);
@@ -192,6 +192,7 @@ impl Moving {
             way: &self.way,
             words: &self.words,
             unit: (self.unit.0, &self.unit.1),
+            stress: None,
         }
     }
 }

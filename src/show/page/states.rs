@@ -1,15 +1,14 @@
 //! The original mechanism, state by state: figures, drawings, contours and self-stresses.
 
-use super::contents::Page;
-use super::symbols::state_swaps;
-use super::verdict;
 use crate::draw::{Subject, kinematic_with, scheme};
 use crate::format::count_noun;
 use crate::model::mechanism::{Mechanism, Mode, StateId};
-use crate::redundancy::analysis::{ContourShare, External};
-use crate::redundancy::stress::SelfStress;
-use crate::view::analysis::text::{external_formula, in_any_basis, in_any_order};
-use crate::view::analysis::{Analysis, State, harm_word, ranks_agree};
+use crate::page::contents::{Page, Redesigns};
+use crate::page::scenes::state_swaps;
+use crate::page::verdict;
+use crate::view::analysis::{Analysis, State};
+use crate::view::search::{counts, text};
+use crate::view::terminal::Table;
 use maud::{Markup, PreEscaped, html};
 
 /// Returns a line on the mechanism's size.
@@ -41,7 +40,7 @@ pub(super) fn states_html(page: &Page<'_>, analysis: &Analysis<'_>) -> Markup {
             }
             (figures_html(s))
             (drawings_html(page, s, id))
-            (contours_html(s))
+            (tables_html(s))
         }
     }
 }
@@ -72,116 +71,114 @@ fn drawings_html(page: &Page<'_>, s: &State<'_>, state: StateId) -> Markup {
     }
 }
 
-/// Returns the figures with their sources.
-fn figures_html(state: &State<'_>) -> Markup {
-    let (s, finite) = (state.found, state.finite_mobility());
-    let row = |sign: &str, value: i64, words: &str| {
-        html! { div { dt { (sign) } dd { b { (value) } " " (words) } } }
-    };
-    let int = |n: usize| i64::try_from(n).unwrap_or(i64::MAX);
+/// Returns the counts of a state, and where σ comes from.
+fn figures_html(s: &State<'_>) -> Markup {
+    let lines = s.count_lines().into_iter().chain(s.external_line());
     html! {
-        dl.figures {
-            (row("σ", int(s.redundant), &format!("redundant constraints = {} - rank {}", count_noun(s.rows, "equation"), s.rank)))
-            (row("W", int(s.mobility), &format!(
-                "mobility = {} - rank {}; working {}, idle {}",
-                count_noun(s.freedoms, "freedom"), s.rank, s.working_mobility, s.local_mobility
-            )))
-            @if finite != Some(s.mobility) {
-                (row("", int(s.finite.mobility), &match finite {
-                    Some(_) => "finite mobility".to_owned(),
-                    None => format!("lower bound of finite mobility; it is at most {}", s.finite.at_most()),
-                }))
-            }
-            @if state.counting_is_wrong() {
-                (row("", s.formula_mobility,
-                    "is what counting alone (Malyshev's formula) gives, wrong by the redundant constraints"))
-            }
-            @if let Some(e) = &s.external { (row("σ ext.", e.redundant, &external_words(e))) }
+        ul.figures { @for line in lines { li { (line) } } }
+    }
+}
+
+/// Returns the tables of contours and self-stresses.
+fn tables_html(s: &State<'_>) -> Markup {
+    let Some(contours) = s.shares_table() else {
+        return html! { p { "There is no closed contour, so nothing can be redundant." } };
+    };
+    html! {
+        (table_html(
+            "Contours. σ of a contour depends on the order in which contours are counted, and on the basis they are of; the \
+             ranges are over all orders of these contours, and over all bases that have the contour.",
+            &contours
+        ))
+        @if let Some(stresses) = s.stress_table() {
+            (table_html(
+                "Self-stresses: loads that inaccurate parts cause by themselves. Harmful ones strain the joints; harmless \
+                 ones are friction shared between contacts.",
+                &stresses
+            ))
         }
     }
 }
 
-fn external_words(e: &External) -> String {
-    let disagree = if ranks_agree(e) {
-        ""
-    } else {
-        ": THESE DISAGREE"
-    };
-    let (formula, by_rank) = (external_formula(e), e.by_rank);
-    format!("external = {formula}; by rank {by_rank}{disagree}")
+/// Returns a table that scrolls where it is too wide.
+fn table_html(caption: &str, table: &Table) -> Markup {
+    html! {
+        div.wide tabindex="0" role="group" aria-label=(caption) {
+            table.contours {
+                caption { (caption) }
+                thead { tr { @for head in table.heads.split(" | ") { th scope="col" { (head) } } } }
+                tbody { @for row in &table.rows { tr { @for cell in row { td { (cell) } } } } }
+            }
+        }
+    }
 }
 
-/// Returns the contours, each with the self-stresses that end in it.
-fn contours_html(s: &State<'_>) -> Markup {
-    let all = &s.found.per_contour;
-    if all.is_empty() {
-        return html! { p { "There is no closed contour, so nothing can be redundant." } };
-    }
+pub(super) fn certainty_html(page: &Page<'_>, analysis: &Analysis<'_>) -> Markup {
+    let head = |s: &State<'_>| match analysis.states.len() {
+        1 => "The mechanism".to_owned(),
+        _ => format!("State {}", s.found.state),
+    };
     html! {
-        div.wide tabindex="0" role="group" aria-label={ "Contours, state " (s.found.state) } {
-            table.contours {
-                caption {
-                    "Contours and the self-stresses in them: loads that inaccurate parts cause by themselves. σ of a contour \
-                     depends on the order in which contours are counted, and on the basis they are of; the ranges are over all orders of \
-                     these contours, and over all bases that have the contour."
-                }
-                thead {
-                    tr {
-                        th scope="col" { "Contour" }
-                        th scope="col" { "Joints" }
-                        th.n scope="col" { "σ" }
-                        th.n scope="col" { "in any order" }
-                        th.n scope="col" { "over all bases" }
-                        th scope="col" { "Self-stresses: where each is simplest, as what there, and the share that each joint bears" }
+        dl.facts {
+            @for s in &analysis.states { (fact_row(&head(s), &state_lines(s))) }
+            @if let Ok(r) = &page.redesigns { (fact_row("The search", &search_lines(r))) }
+        }
+    }
+}
+
+fn fact_row(head: &str, lines: &[String]) -> Markup {
+    html! {
+        dt { (head) }
+        dd {
+            @if let Some((first, rest)) = lines.split_first() {
+                (first)
+                @if !rest.is_empty() {
+                    details {
+                        summary { "Methods and checks" }
+                        @for (i, line) in rest.iter().enumerate() {
+                            @if i > 0 { br; "\n" }
+                            (line)
+                        }
                     }
                 }
-                tbody { @for (i, c) in all.iter().enumerate() { (contour_row(s, i, c)) } }
             }
         }
     }
 }
 
-fn contour_row(s: &State<'_>, i: usize, c: &ContourShare) -> Markup {
-    let m = s.mechanism;
-    let joints = c.contour.joints.iter().map(|(j, _)| &m.joints[*j].id);
-    let ending = s.found.self_stresses.iter();
-    let ending = ending.filter(|t| t.contours.last() == Some(&i));
-    let ending: Vec<Markup> = ending.map(|t| stress_item(s, t)).collect();
-    html! {
-        tr {
-            th scope="row" {
-                span class={ "tint t" (c.redundant.min(6)) } { (i + 1) }
-                " " (c.contour.name(m))
-            }
-            td { @for (n, id) in joints.enumerate() { @if n > 0 { ", " } span.id { (id) } } }
-            td.n { (c.redundant) }
-            td.n { (in_any_order(c)) }
-            td.n { (in_any_basis(c)) }
-            td { @if !ending.is_empty() { ul { @for t in &ending { (t) } } } }
-        }
-    }
+fn state_lines(s: &State<'_>) -> Vec<String> {
+    let mut lines = vec![s.certainty()];
+    lines.extend(s.method_lines());
+    lines.push(s.describe_finite());
+    lines.extend(s.left_out());
+    lines
 }
 
-/// Returns a self-stress in the form with the fewest components, with the joints that bear it.
-fn stress_item(s: &State<'_>, t: &SelfStress) -> Markup {
-    let what = match s.simplest_joint(t) {
-        Some((joint, what)) => format!("{what} at {joint}"),
-        None => "none".to_owned(),
-    };
-    let with = match s.contours_of(t).split_last() {
-        Some((_, others)) if !others.is_empty() => {
-            format!(", together with {}", others.join(", "))
-        }
-        _ => String::new(),
-    };
-    let (class, why) = match harm_word(t) {
-        "harmless" => ("good", ": friction shared between contacts"),
-        _ => ("bad", ""),
-    };
-    html! {
-        li {
-            (what) (with) " " span class={ "tag " (class) } { (harm_word(t)) (why) }
-            br; small { "borne by " (s.borne_shares(t)) }
-        }
+fn search_lines(r: &Redesigns<'_>) -> Vec<String> {
+    let found = r.found;
+    let mut lines = counts::certainty_lines(found);
+    if let Some((why, verdicts)) = &found.measured {
+        let written = verdicts.iter().all(|v| v.is_as_written());
+        let searched = if written {
+            "exact and tolerant ranks agree on the original mechanism, and the search takes every digit exactly as written"
+        } else if found.request.as_written {
+            "something else is meant, and the search takes every digit exactly as written, as requested"
+        } else {
+            "the search uses the idealised geometry (snapped within the rounding of the file)"
+        };
+        lines.push(format!("The coordinates look rounded ({why}); {searched}"));
     }
+    lines.extend(text::summary_notes(&r.summary));
+    lines.extend(
+        found
+            .check
+            .map(|c| format!("Primes: {} and {}", c.primes[0], c.primes[1])),
+    );
+    if r.interrupted {
+        lines.push(format!(
+            "Interrupted after {}",
+            count_noun(r.variants.len(), "variant")
+        ));
+    }
+    lines
 }

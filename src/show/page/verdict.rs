@@ -1,20 +1,15 @@
 //! The verdict in words.
 
 use super::contents::{Page, Redesigns};
-use crate::format::{count_noun, format_cost, group_thousands, join_and};
-use crate::model::mechanism::{Mechanism, Role};
+use crate::format::{count_noun, format_cost};
 use crate::redundancy::stress::StressVerdict;
 use crate::score::outcome::variant::Variant;
 use crate::search::answer::k_best::Assignment;
 use crate::view::analysis::{Analysis, State};
-use crate::view::search::counts::in_state;
-use crate::view::search::counts::where_kept;
-use crate::view::search::numeric;
-use crate::view::search::second_opinion;
-use crate::view::search::stopped_early::format_count;
+use crate::view::search::counts;
 use itertools::Itertools;
 use maud::{Markup, html};
-use num_traits::{One, Zero};
+use num_traits::Zero;
 
 /// The greatest number of idle motions listed.
 const TOLD: usize = 4;
@@ -138,95 +133,29 @@ fn mobility_sentence(told: &State<'_>) -> String {
     }
 }
 
-/// Returns the result of the search, in one or two sentences.
+/// Returns how many redesigns there are, and the best.
 fn redesigns_sentence(page: &Page<'_>, s: &State<'_>) -> String {
     let r = match &page.redesigns {
         Ok(r) => r,
         Err(why) => return format!("Redesigns were not searched: {why}"),
     };
-    let found = r.found;
-    let size = found.search.size();
-    if size == num_bigint::BigUint::from(1u8) {
-        return "Nothing to search: no joint has options. List joint types under [search]."
-            .to_owned();
-    }
-    let least = if found.is_counted() { "" } else { "at least " };
-    let by_values: String = numeric::numeric_lines(found)
-        .iter()
-        .chain(&second_opinion::reasons_against(found))
-        .map(|l| format!(". {l}"))
-        .collect();
-    let (all, good) = (group_thousands(&size), &found.listed_counts().total);
-    let request = &found.search.conditions;
-    let one = good.is_one();
-    let goal = match (request.max_redundant, one) {
-        (0, _) if s.found.redundant == 0 => {
-            (if one { "is" } else { "are" }).to_owned() + " determinate"
-        }
-        (0, false) => "remove them all".to_owned(),
-        (0, true) => "removes them all".to_owned(),
-        (n, false) => format!("leave at most {n}"),
-        (n, true) => format!("leaves at most {n}"),
-    };
-    let conditions = conditions_words(page.mechanism, r, one);
-    if good.is_zero() && found.admissible_may_be_more() {
-        let may = numeric::admissible_range(found);
-        return capitalise_first(&format!(
-            "{may} of {all} variants {goal}{conditions}{by_values}."
-        ));
-    }
-    if good.is_zero() {
-        let rest = &found.determinate.total;
-        return if rest.is_zero() {
-            format!("None of the {all} variants {goal}: allow more joint types{by_values}.")
-        } else {
-            format!(
-                "None of the {all} variants {goal}{conditions}; {least}{} {goal}, but do not meet the other conditions{by_values}.",
-                group_thousands(rest)
-            )
-        };
-    }
-    let estimate = found.estimates()[1].filter(|_| found.is_confirmed());
-    let words = match found.numeric {
-        Some(_) => numeric::admissible_range(found),
-        None => format_count(good, found.is_counted(), estimate),
-    };
-    let out = format!("{words} of {all} variants {goal}{conditions}");
-    let out = capitalise_first(&out) + &by_values;
-    if s.found.redundant == 0 && r.variants.iter().any(|c| c.change_count() == 0) {
-        return format!("Nothing needs changing. {out}.");
-    }
-    out + &best_words(r) + "."
-}
-
-/// Returns the conditions other than redundant constraints.
-fn conditions_words(m: &Mechanism, r: &Redesigns<'_>, one: bool) -> String {
-    let s = if one { "s" } else { "" };
-    let have = if one { "has" } else { "have" };
-    let request = &r.found.search.conditions;
-    let outputs = m.links.iter().filter(|l| l.role == Role::Output);
-    let outputs = outputs.map(|l| l.id.as_str()).collect_vec();
-    let motion = match outputs.len() {
-        0 => format!("keep{s} the motion"),
-        1 => format!("keep{s} the motion of link {}", outputs[0]),
-        _ => format!("keep{s} the motion of links {}", join_and(&outputs)),
-    };
-    let all = [
-        request.keep_output.then(|| motion + where_kept(r.found)),
-        request
-            .max_mobility
-            .map(|w| format!("{have} W at most {w}")),
-        request
-            .max_changes
-            .map(|c| format!("change{s} at most {}", count_noun(c as usize, "joint"))),
-    ];
-    let all = all.into_iter().flatten();
-    let all = all.chain(in_state(&r.found.search, one)).join(", ");
-    if all.is_empty() {
-        all
+    let unchanged = s.found.redundant == 0 && r.variants.iter().any(|c| c.change_count() == 0);
+    let nothing = if unchanged {
+        "Nothing needs changing. "
     } else {
-        format!(" and {all}")
-    }
+        ""
+    };
+    let best = if unchanged || r.found.listed_counts().total.is_zero() {
+        String::new()
+    } else {
+        best_words(r)
+    };
+    let more = counts::pose_lines(r.found, false).into_iter();
+    let more: String = more
+        .map(|line| format!(" {}.", capitalise_first(&line)))
+        .collect();
+    let verdict = capitalise_first(&counts::verdict_line(r.found));
+    format!("{nothing}{verdict}{best}.{more}")
 }
 
 /// Returns a description of the best variant.

@@ -145,7 +145,7 @@ pub fn accuracy_text(
 fn method_rows(survey: &Survey, generated: &Survey) -> Vec<Vec<String>> {
     let cases = survey.cases.len();
     let count = |n: usize| if n == 0 { String::new() } else { n.to_string() };
-    let row = |(m, method): (usize, &&dyn MobilityMethod)| {
+    let row = |(m, method): (usize, &&MobilityMethod)| {
         let s = survey.record_of(m);
         vec![
             method.name().to_owned(),
@@ -155,7 +155,7 @@ fn method_rows(survey: &Survey, generated: &Survey) -> Vec<Vec<String>> {
             count(cases - s.applies),
             generated.record_of(m).right.to_string(),
             format_duration(s.seconds),
-            method.about().guarantee.to_owned(),
+            method.guarantee.to_owned(),
         ]
     };
     registry::ALL.iter().enumerate().map(row).collect()

@@ -1,15 +1,6 @@
 //! An analysis as JSON, as text and on the page; the keys of JSON are a stable contract.
 
-pub mod idle;
-pub mod link_motions;
-pub mod mechanism;
-pub mod mobility;
-pub mod next;
-pub mod suggestions;
-pub(crate) mod text;
-
 use crate::geom::expr::PI_DIGITS;
-use crate::model::claim::Topic;
 use crate::rank::reduce::axis_names::Direction;
 use crate::rank::reduce::sufficient_rows::{LeastRows, Motions};
 use crate::redundancy::analysis::{ContourShare, CouplingShare, External, StateAnalysis};
@@ -17,9 +8,14 @@ use crate::redundancy::link_motion::LinkMotion;
 use crate::redundancy::local_mobility::Idle;
 use crate::redundancy::stress::{JointWrench, SelfStress, StressVerdict};
 use crate::view::analysis::suggestions::Advice;
-use crate::view::claims::claims_about;
 use crate::view::prelude::*;
 use crate::view::stroke::StrokeData;
+
+pub mod link_motions;
+pub mod mechanism;
+pub mod mobility;
+pub mod suggestions;
+pub(crate) mod text;
 
 /// The analysis of a mechanism.
 #[derive(Debug)]
@@ -131,7 +127,7 @@ impl State<'_> {
         let (m, s) = (self.mechanism, self.found);
         let most = s.at_most();
         let fault = |d| {
-            let (kind, joint, text) = idle::drive_fault(m, d);
+            let (kind, joint, text) = link_motions::drive_fault(m, d);
             json!({ "kind": kind, "joint": joint, "text": text })
         };
         let left_out = |&(j, freedoms): &(JointId, usize)| json!({ "joint": self.joint_name(j), "freedoms": freedoms });
@@ -206,7 +202,7 @@ impl State<'_> {
             "moving": i.moving.iter().map(|&j| self.joint_name(j)).collect::<Value>(),
             // Joints whose points it leaves at rest.
             "through": i.through.iter().map(|&j| self.joint_name(j)).collect::<Value>(),
-            "text": idle::describe_idle(self.mechanism, i),
+            "text": link_motions::describe_idle(self.mechanism, i),
         })
     }
 
@@ -232,7 +228,7 @@ impl State<'_> {
     }
 
     /// Returns the contours that pass a self-stress round.
-    pub(crate) fn contours_of(&self, t: &SelfStress) -> Vec<String> {
+    fn contours_of(&self, t: &SelfStress) -> Vec<String> {
         let contours = t
             .contours
             .iter()
@@ -250,7 +246,7 @@ impl State<'_> {
 }
 
 /// Returns "harmless" or "harmful".
-pub(crate) fn harm_word(t: &SelfStress) -> &'static str {
+fn harm_word(t: &SelfStress) -> &'static str {
     match t.verdict {
         StressVerdict::Harmless => "harmless",
         StressVerdict::Harmful => "harmful",
@@ -264,7 +260,7 @@ fn axis_names(flags: [bool; 3]) -> Vec<&'static str> {
 }
 
 /// Returns whether the formula and the ranks say the same of what a state adds.
-pub(crate) fn ranks_agree(e: &External) -> bool {
+fn ranks_agree(e: &External) -> bool {
     e.redundant == e.by_rank
 }
 

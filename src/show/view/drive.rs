@@ -1,18 +1,16 @@
 //! A torsional drive: what was found of it, from which text, JSON and charts are made. SI units, angles in radians; the keys are a
 //! stable contract.
 
-pub mod charts;
-pub mod text;
-
 use crate::drive::driving::{Design, Driving};
-use crate::drive::programme::{Endurance, Event, Ran};
+use crate::drive::programme::{Endurance, Event, Ran, RunMoment};
 use crate::drive::swing::End;
 use crate::drive::torsion::{Sizing, log_decrement};
 use crate::file::read::workload::WorkloadFile;
-use crate::model::claim::Topic;
+use crate::format::csv;
 use crate::model::drive::DriveSpec;
-use crate::view::claims::claims_about;
 use crate::view::prelude::*;
+
+pub mod text;
 
 /// A drive of a file and what was found of it.
 #[derive(Debug)]
@@ -117,4 +115,72 @@ fn step_json(s: &Ran) -> Value {
         }
     };
     json!({ "start": s.start, "duration": s.duration, "angles": s.angles, "swing": swing })
+}
+
+/// Points drawn of a swing.
+const PER_SWING: u32 = 48;
+
+/// Returns the payload's acceleration on the first disc over the programme, in the format of `ozols grip --motion`. It is
+/// for a gripper that reaches outwards from the axis (its x), with the part along the axis (its z).
+pub fn motion_csv(d: &Drive<'_>) -> Option<String> {
+    let (found, payload) = (d.design?, d.file.spec.payload?);
+    let rows = found
+        .module
+        .sample_run(&found.run, PER_SWING)
+        .into_iter()
+        .map(|s| {
+            let inwards = -s.speeds[0] * s.speeds[0] * payload.radius;
+            let across = s.accelerations[0] * payload.radius;
+            [s.time, inwards, across, 0.0]
+                .map(|x| format!("{x:?}"))
+                .to_vec()
+        });
+    Some(csv::write_table(&["time", "ax", "ay", "az"], rows))
+}
+
+/// Returns both charts with the names of their files. Empty without a bar.
+///
+/// # Examples
+/// ```
+/// use ozols::{drive::driving::design_drive, view::drive::{Drive, charts::drive_charts}};
+/// let text = ozols::builtin::text("torsion-module").unwrap_or_default();
+/// let file = ozols::file::read::workload::drive_from_bytes("torsion-module.toml", text.as_bytes())?;
+/// let found = design_drive(&file.spec)?;
+/// let charts = drive_charts(&Drive::new(&file, &found));
+/// assert!(!charts.is_empty() && charts.iter().all(|(_, chart)| chart.svg().starts_with("<svg")));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub fn drive_charts(d: &Drive<'_>) -> Vec<(String, Chart)> {
+    let Some(found) = d.design else {
+        return Vec::new();
+    };
+    let samples = found.module.sample_run(&found.run, PER_SWING);
+    let series = |name: &str, style, y: &dyn Fn(&RunMoment) -> f64| Series {
+        name: name.to_owned(),
+        points: samples.iter().map(|s| (s.time, y(s))).collect(),
+        style,
+    };
+    let chart = |title: &str, y: &str, series| Chart {
+        title: format!("{}: {title}", d.file.name),
+        subtitle: String::new(),
+        x: Axis::linear("time, s"),
+        y: Axis::linear(y),
+        series,
+    };
+    let angles = vec![
+        series("disc 1", Style::Line, &|s| s.angles[0].to_degrees()),
+        series("disc 2", Style::Dashed, &|s| s.angles[1].to_degrees()),
+    ];
+    let energies = vec![
+        series("in the bar", Style::Line, &|s| s.potential),
+        series("of the disc", Style::Dashed, &|s| s.kinetic),
+        series("both", Style::Line, &|s| s.potential + s.kinetic),
+    ];
+    vec![
+        (
+            "angles".to_owned(),
+            chart("angles of the discs", "angle, degrees", angles),
+        ),
+        ("energy".to_owned(), chart("energy", "energy, J", energies)),
+    ]
 }

@@ -1,20 +1,14 @@
 //! Redundant constraints of robot descriptions, as text and JSON.
 
-mod assembly;
-mod finding;
-
-pub use assembly::{Misfit, TypeChange};
-pub use finding::PassedOver;
-pub use finding::{Finding, describe_release};
-
 use crate::redundancy::duplicate_constraints::HeldTwice;
 use crate::redundancy::release::Duplicate;
 use crate::robots::{CadCount, Imported, Origin, Report};
 use crate::view::prelude::*;
 use crate::view::with_assumptions;
-use assembly::{describe_count, describe_then};
-use finding::LintWords;
-pub use finding::NONE;
+pub use finding::{Finding, Misfit, NONE, PassedOver, TypeChange, describe_release};
+use finding::{LintWords, describe_count, describe_then};
+
+mod finding;
 
 /// Notes told of how a file was read.
 const NOTES: usize = 6;

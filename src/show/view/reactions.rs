@@ -1,17 +1,15 @@
 //! Joint reactions of any mechanism, in a pose or over a stroke, as JSON and CSV. Forces in N, moments in N·m about the joints'
 //! points, each first link on second, in the joint's own frame.
 
-pub(crate) mod chart;
-pub(crate) mod couplings;
-pub mod misfit;
-pub mod stroke;
-pub mod text;
-
-use crate::format::csv::write_table;
 use crate::statics::reactions::contact::{ContactForce, Touch};
 use crate::statics::reactions::{CouplingReaction, JointReaction, Solution, Uniqueness};
 use crate::view::prelude::*;
 use crate::view::reactions::couplings::{Coupled, effort_unit, state_couplings};
+
+pub(crate) mod couplings;
+pub mod misfit;
+pub mod stroke;
+pub mod text;
 
 /// Reactions in one pose.
 #[derive(Debug, Clone, Copy)]

@@ -1,6 +1,5 @@
 //! A stroke as JSON, as a table and as a chart.
 
-use crate::chart::{Axis, Chart, Scale, Series, Style};
 use crate::format::decimals;
 use crate::motion::follow::Stop;
 use crate::rank::stroke::analysis::{Output, PoseFigures, RankChange, StrokeFigures};

@@ -5,7 +5,7 @@ use super::three_jaws::third;
 use super::{each_structure_of, form_of, plain_spec};
 use crate::common::*;
 use ozols::chains::Symmetry;
-use ozols::search::answer::orbit_counts::orbit_counts;
+use ozols::search::answer::search_counts::orbit_counts;
 use ozols::search::question::conditions::Symmetry as Asked;
 
 /// For each joint the one that stands where the symmetry carries it.

@@ -55,8 +55,8 @@ pub(crate) use ozols::search::question::conditions::{InState, Symmetry};
 pub(crate) use ozols::statics::assur::decompose_groups;
 pub(crate) use ozols::statics::cycle::planar_statics;
 pub(crate) use ozols::statics::planar::PlanarMechanism;
+pub(crate) use ozols::statics::reactions::cycle::follow_to;
 pub(crate) use ozols::statics::reactions::drives::driven_freedoms;
-pub(crate) use ozols::statics::reactions::follow::follow_to;
 pub(crate) use ozols::statics::reactions::geometry::Geometry;
 pub(crate) use ozols::statics::reactions::{
     JointReaction, Reactions, Solution, Uniqueness, Unsolved,

@@ -14,7 +14,7 @@ fn independent(walks: &[&Contour], joints: &[JointId]) -> bool {
 
 fn redundant(exact: &ExactField, m: &Mechanism, of: Vec<Contour>) -> usize {
     let closure = Closure::with_contours(exact, m, StateId::FREE, of).unwrap();
-    closure.rows() - rank_dense(exact, &closure)
+    closure.rows() - modular::rank_modulo(exact, &closure)
 }
 
 /// The most that a contour has of the redundant constraints in bases whose others leave out one of its joints, whichever.

@@ -44,7 +44,7 @@ fn records_of_the_methods_are_those_of_the_survey() {
     says(MOBILITY, &format!("any of {} methods", registry::ALL.len()));
     says(MOBILITY, &format!("Results for {all} cases:"));
     for (m, method) in registry::ALL.iter().enumerate() {
-        let (about, record) = (method.about(), SURVEY.record_of(m));
+        let (about, record) = (method, SURVEY.record_of(m));
         let of = format!("`{}`: {}", about.name, about.title);
         let silent = all - record.applies;
         row(&of, record.right, record.pose, record.count_wrong(), silent);

@@ -14,7 +14,6 @@ fn a_build_without_png_says_so() {
     dir.assert_fails("draw bennett --png", "--features png");
     // the name asks for it
     dir.assert_fails("draw bennett -o x.PNG", "--features png");
-    dir.assert_fails("explain spherical -o x.PNG", "--features png");
     assert_eq!(dir.names(), [""; 0]);
 }
 
@@ -185,8 +184,6 @@ mod with_png {
         let file = dir.bytes("x.png");
         let picture = Pixmap::decode_png(&file).unwrap();
         assert_eq!(picture.width(), 321);
-        dir.succeed("explain spherical -o y.png");
-        assert!(Pixmap::decode_png(&dir.bytes("y.png")).is_ok());
         let piped = run("draw four-bar --png --width 321");
         assert_eq!(piped.stdout, file);
         assert_fails("draw four-bar --png --scale 0", "--scale");

@@ -35,7 +35,7 @@ fn check_doubts_what_is_likely_a_slip() {
         r#"
         length_unit = "mm"\n |  | name = | 150 m across & length_unit = "mm"
         "mm" | "m" | length_unit | 150 m across & is correct
-        point = [80, 90, 0] | point = [0, 30.00001, 0] | 30.00001 | "1-2" and "2-3" & same point
+        point = [80, 90, 0] | point = [0, 30.00001, 0] | [[joint]] | 1-2 and 2-3 are & from coaxial
         point = [80, 90, 0] | point = [80.0123456789, 90, 0] | [[joint]] | measured & [tolerance]
         "spherical"] | "prismatic"] | "prismatic"] | option "prismatic" is never used
         [search]\n | [search]\nunloading = ["spherical"]\n | unloading = | no effect & unloading = true
@@ -67,7 +67,7 @@ fn check_doubts_what_is_likely_a_slip() {
 #[test]
 fn check_doubts_built_in_mechanisms_only_with_reason() {
     use ozols::file::lint::check_file;
-    use ozols::file::problem::WarningKind;
+    use ozols::file::problem::ProblemKind;
     let mut doubted = 0;
     for name in builtin::names() {
         let text = builtin::text(name).unwrap();
@@ -75,14 +75,14 @@ fn check_doubts_built_in_mechanisms_only_with_reason() {
         doubted += usize::from(!checked.warnings.warnings.is_empty());
         for d in &checked.warnings.warnings {
             let known = match &d.kind {
-                WarningKind::UselessOption { option } => {
+                ProblemKind::UselessOption { option } => {
                     let named = |n: &String| n == option;
                     let m = &checked.mechanism;
                     !m.joints
                         .iter()
                         .any(|j| j.options.iter().any(|o| named(&o.name)))
                 }
-                WarningKind::OpenChain { .. } => name == "pantograph",
+                ProblemKind::OpenChain { .. } => name == "pantograph",
                 _ => false,
             };
             assert!(known, "{name}: {}", checked.warnings.render(false));

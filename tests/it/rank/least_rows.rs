@@ -11,7 +11,7 @@ fn check(m: &Mechanism, state: StateId) -> LeastRows {
     let found = LeastRows::new(&one, m, &closure).unwrap();
     let whole = Closure::new(&other, m, state).unwrap();
     let what = format!("{} {}: {found:?}", m.name, m.states[state]);
-    assert_eq!(found.rank(), rank_dense(&other, &whole), "{what}");
+    assert_eq!(found.rank(), modular::rank_modulo(&other, &whole), "{what}");
     assert!(
         found.rows() <= found.of && found.of == whole.rows(),
         "{what}"

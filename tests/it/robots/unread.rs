@@ -300,6 +300,6 @@ fn joints_put_in_have_an_armature() {
         <equality><connect name='e' body1='b' body2='c' anchor='2 0.5 0'/></equality></mujoco>";
     let (code, out, err) = run_on("fix", "x.xml", text, "--at e");
     assert_eq!(code, Some(0), "{err}");
-    has(&out, "type=\"slide\" armature=\"1000\"");
+    has(&out, "armature=\"1000\"");
     has(&out, "<inertial pos=\"2 0.5 0\"");
 }

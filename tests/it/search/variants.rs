@@ -55,7 +55,7 @@ fn an_exported_variant_has_the_figures_of_the_list() {
 
 #[test]
 fn variants_in_every_format_and_drawn() {
-    for to in ["toml", "json", "urdf", "sdf", "dot", "graphml"] {
+    for to in ["toml", "json", "urdf", "sdf", "dot"] {
         let v = run_quiet(&["export", "gripper-10", "--variant", "2", "--to", to, "-q"]);
         assert_ne!(
             v,

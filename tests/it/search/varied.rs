@@ -4,7 +4,7 @@
 use crate::common::*;
 use crate::fuzz::readers::differential::assert_as_the_twins;
 use crate::search::twin::{Twin, all_variants, look_at_variant};
-use ozols::search::answer::orbit_counts;
+use ozols::search::answer::search_counts::orbit_counts;
 use ozols::search::check::second_prime::{Verdict, build_both, compare_primes};
 
 /// Joint types with the options that contain them.
@@ -325,7 +325,7 @@ fn orbits_agree(
         admissible,
         ..SearchCounts::default()
     };
-    let (counts, _) = orbit_counts::orbit_counts(&search, all, &|| false).unwrap();
+    let (counts, _) = orbit_counts(&search, all, &|| false).unwrap();
     prop_assert_eq!(
         &counts.determinate.by_mobility_and_changes,
         &of(&good, &first)

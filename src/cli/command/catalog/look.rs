@@ -125,7 +125,7 @@ pub(crate) struct Export {
     /// Apply idea K.
     #[arg(long, value_name = "K", alias = "variant")]
     idea: Option<usize>,
-    /// Format: toml, json, urdf, mjcf, sdf, dot or graphml.
+    /// Format: toml, json, urdf, mjcf, sdf or dot.
     #[arg(long, value_name = "FORMAT", default_value = "toml")]
     to: String,
     #[command(flatten)]

@@ -16,14 +16,6 @@ pub(crate) enum StaticsMethod {
     All,
 }
 
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub(crate) enum StaticsFormat {
-    Text,
-    Json,
-    /// One line per joint.
-    Csv,
-}
-
 #[derive(Debug, ClapArgs)]
 pub(crate) struct Statics {
     /// Path, `-`, or name of a built-in mechanism [default with --stability: parallel-shears].
@@ -72,7 +64,7 @@ pub(crate) struct Statics {
     pub(crate) stability: bool,
     /// Output format.
     #[arg(long, value_enum, default_value = "text")]
-    pub(crate) format: StaticsFormat,
+    pub(crate) format: TextJsonOrCsv,
     /// Also write charts of the cycle to this folder.
     #[arg(long, value_name = "DIR")]
     pub(crate) svg: Option<PathBuf>,
@@ -95,9 +87,9 @@ impl Statics {
     ) -> anyhow::Result<Done> {
         let width = output::output_width(self.output.as_deref());
         self.write_text(match self.format {
-            StaticsFormat::Json => output::json_text(&shown.json())?,
-            StaticsFormat::Csv => shown.csv(),
-            StaticsFormat::Text => shown.text(width) + &next_commands::steps_text(next, width),
+            TextJsonOrCsv::Json => output::json_text(&shown.json())?,
+            TextJsonOrCsv::Csv => shown.csv(),
+            TextJsonOrCsv::Text => shown.text(width) + &next_commands::steps_text(next, width),
         })
     }
 }

@@ -123,7 +123,7 @@ fn standard_file(stream: impl std::os::fd::AsFd) -> Option<Metadata> {
 
 /// Returns nothing: this system does not tell which file it is.
 #[cfg(not(unix))]
-fn standard<T>(_: T) -> Option<Metadata> {
+fn standard_file<T>(_: T) -> Option<Metadata> {
     None
 }
 

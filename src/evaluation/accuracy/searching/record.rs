@@ -2,7 +2,6 @@
 
 use crate::accuracy::timing::Timing;
 use crate::format::csv;
-use crate::rank::method::MobilityMethod;
 use crate::rank::numeric::Elimination;
 use crate::score::request::{Check, Request};
 use num_bigint::BigUint;

@@ -39,7 +39,7 @@ pub(super) fn study_size(effort: Effort, progress: Progress<'_>) -> Study {
             _ => make_lift(sizes[v] - 1),
         };
         let mut slow = slow.lock().unwrap_or_else(PoisonError::into_inner);
-        let ask = |method: &&dyn MobilityMethod| {
+        let ask = |method: &&MobilityMethod| {
             if slow.contains(&(method.name(), case)) {
                 return None;
             }
@@ -48,7 +48,7 @@ pub(super) fn study_size(effort: Effort, progress: Progress<'_>) -> Study {
                 repeat: if v < 4 { 5 } else { 1 },
             };
             let all = [(&m, StateId::FREE, Truth::new(1, 1))];
-            let (reply, time) = watch.time_repeatedly(|| Reply::of_method(*method, &all));
+            let (reply, time) = watch.time_repeatedly(|| Reply::of_method(method, &all));
             if time.median > patience {
                 slow.insert((method.name(), case));
             }

@@ -9,8 +9,8 @@ use crate::model::loads::Loads;
 use crate::model::mechanism::{Mechanism, StateId};
 use crate::motion::pose::Pose;
 use crate::statics::reactions::Unsolved;
+use crate::statics::reactions::cycle::{follow_stroke, follow_to};
 use crate::statics::reactions::drives::Driven;
-use crate::statics::reactions::follow::{follow_stroke, follow_to};
 use itertools::Itertools;
 use thiserror::Error;
 

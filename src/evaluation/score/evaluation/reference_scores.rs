@@ -11,7 +11,7 @@ use crate::score::evaluation::terms::{ErrorSum, Scores, axis_of};
 use crate::score::joint_types::JointType;
 use crate::search::answer::k_best::Assignment;
 use crate::search::check::variant_mechanism;
-use crate::statics::reactions::follow::follow_to;
+use crate::statics::reactions::cycle::follow_to;
 use crate::statics::reactions::misfit::misfit_force;
 use crate::statics::reactions::{JointReaction, Reactions, Uniqueness, Unsolved};
 

@@ -11,9 +11,9 @@ use crate::score::evaluation::evaluate::Evaluator;
 use crate::score::evaluation::terms::Floor;
 use crate::score::outcome::ranking::{Ranked, RankedPool, compare_ranked};
 use crate::search::Search;
+use crate::search::answer::by_tally::Places;
 use crate::search::answer::k_best::{Assignment, least_from};
 use crate::search::answer::keys::Key;
-use crate::search::answer::place::Places;
 use crate::search::diagram::{DEAD, Diagram};
 use rayon::prelude::*;
 

@@ -8,7 +8,7 @@ use crate::model::rounded::Rounded;
 use crate::rank::numeric::DEFAULT_TOLERANCE;
 use crate::rank::rounded::verdict::Settled;
 use crate::rank::rounded::verdict::{Meant, RankVerdict};
-use crate::search::question::as_written::Written;
+use crate::search::question::conditions::Written;
 use crate::search::question::rounded_rank::Digits;
 use std::sync::Arc;
 

@@ -1,7 +1,7 @@
 //! The differences between two mechanisms, as changes to the file of the first: a redesign that keeps all comments.
 
 use super::change::{Edit, Thing};
-use crate::file::schema::{JointEntry, MechanismFile, stripped_json};
+use crate::file::prelude::*;
 use serde_json::{Map, Value};
 
 /// The keys of a joint that a redesign may change.

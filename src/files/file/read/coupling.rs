@@ -1,14 +1,11 @@
 //! Couplings of joints from their entries.
 
 use crate::closure::coupling::{coupling_coefficient, in_plane};
-use crate::file::problem::ProblemKind;
+use crate::file::prelude::*;
 use crate::file::read::resolve::contains_rates;
-use crate::file::schema::MechanismFile;
-use crate::file::{Findings, Place, unknown_word};
+use crate::file::unknown_word;
 use crate::geom::exact::ExactField;
-use crate::model::joint_type::{CoupledFreedom, Coupling, Freedom, JointType};
-use crate::model::mechanism::{JointId, JointOption, Parts};
-use itertools::Itertools;
+use crate::model::joint_type::CoupledFreedom;
 
 /// Reads the couplings, and removes from coupled joints the options that cannot be coupled in the same way.
 pub(crate) fn read_couplings(file: &MechanismFile, mechanism: &mut Parts, out: &Findings) {

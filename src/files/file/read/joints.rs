@@ -2,22 +2,13 @@
 
 use crate::closure::contour::closed_walk;
 use crate::closure::tree::spanning_forest;
-use crate::file::problem::ProblemKind;
+use crate::file::prelude::*;
 use crate::file::read::resolve::{
     check_frame, joint_type, missing_message, motion_name, read_option, takes_no,
 };
 use crate::file::read::search::read_options;
 use crate::file::read::value::LIMITS;
 use crate::file::read::workload::loads::read_mass;
-use crate::file::schema::{DriveWord, JointEntry, MechanismFile, Unloading, Words};
-use crate::file::{Findings, Place};
-use crate::geom::expr::Expr;
-use crate::model::joint_type::{Freedom, JointType};
-use crate::model::mechanism::{
-    Frame, Joint, JointId, JointOption, Link, LinkId, Parts, Role, StateId,
-};
-use itertools::Itertools;
-use std::collections::BTreeSet;
 
 /// Maximum number of states of a mechanism.
 const MOST_STATES: usize = 100;
@@ -34,17 +25,12 @@ pub(crate) fn read_states(file: &MechanismFile, out: &Findings) -> Vec<String> {
     states
 }
 
-pub(crate) fn read_joints(
-    file: &MechanismFile,
-    links: &[Link],
-    states: &[String],
-    out: &Findings,
-) -> Vec<Joint> {
+pub(crate) fn read_joints(file: &MechanismFile, links: &[Link], out: &Findings) -> Vec<Joint> {
     let all = out.key("joint").each_entry(&file.joint).enumerate();
     let all = all.filter_map(|(i, (at, entry))| {
         let twice = file.joint[..i].iter().any(|j| j.id == entry.id);
         at.check_id("joint", &entry.id, twice);
-        read_joint(file, entry, links, states, &at)
+        read_joint(file, entry, links, &at)
     });
     all.collect()
 }
@@ -53,7 +39,6 @@ fn read_joint(
     file: &MechanismFile,
     entry: &JointEntry,
     links: &[Link],
-    states: &[String],
     at: &Place<'_>,
 ) -> Option<Joint> {
     let ends = read_ends(entry, links, &at.key("links"));
@@ -70,14 +55,12 @@ fn read_joint(
         cost_milli: None,
         state: None,
     };
-    let state = |w: &String| states.iter().position(|s| s == w).map(StateId::new);
-    let of = entry.state.as_ref();
-    let of = of.map(|w| w.word_list().iter().filter_map(state).collect_vec());
+    let of = at.key("state").find_states(entry.state.as_ref());
     let in_free = of.as_ref().is_none_or(|s| s.contains(&StateId::FREE));
     let (drive, drive_freedom) = read_drive(&entry.drive, &joint_type, at);
     let changeable = in_free && !drive && joint_type != JointType::Fixed;
-    let options = read_options(file, entry, &present, changeable, states, at);
-    let unloading = read_unloading(file, entry, &frame, states, at);
+    let options = read_options(file, entry, &present, changeable, at);
+    let unloading = read_unloading(file, entry, &frame, at);
     Some(Joint {
         id: entry.id.clone(),
         links: ends,
@@ -129,7 +112,6 @@ fn read_unloading(
     file: &MechanismFile,
     entry: &JointEntry,
     frame: &Frame,
-    states: &[String],
     at: &Place<'_>,
 ) -> Vec<JointOption> {
     let (list, from) = match &entry.unloading {
@@ -139,7 +121,7 @@ fn read_unloading(
     };
     let from = from.key("unloading");
     let list = from.first_entries(LIMITS.2, list, "unloading joints in one place");
-    list.filter_map(|(at, e)| read_option(&entry.id, frame, e, states, &at))
+    list.filter_map(|(at, e)| read_option(&entry.id, frame, e, &at))
         .collect()
 }
 

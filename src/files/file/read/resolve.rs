@@ -2,16 +2,10 @@
 
 use crate::closure::coupling::length_ratio;
 use crate::closure::twist::{MotionSpace, joint_twists};
-use crate::file::Place;
-use crate::file::schema::{OptionEntry, OptionTable};
+use crate::file::prelude::*;
 use crate::geom::Scalars;
 use crate::geom::exact::ExactField;
-use crate::geom::expr::Expr;
-use crate::geom::vector::to_vector;
 use crate::linalg::echelon::Echelon;
-use crate::model::joint_type::{Freedom, JointType};
-use crate::model::mechanism::{Frame, JointOption, StateId};
-use itertools::Itertools;
 
 pub(crate) fn zero_vector3() -> [Expr; 3] {
     [0, 0, 0].map(Expr::from)
@@ -173,7 +167,6 @@ pub(crate) fn read_option(
     joint: &str,
     present: &Frame,
     entry: &OptionEntry,
-    states: &[String],
     at: &Place<'_>,
 ) -> Option<JointOption> {
     let table = entry.as_table();
@@ -181,9 +174,10 @@ pub(crate) fn read_option(
     let joint_type = joint_type(joint, kind, table.freedoms.as_ref(), at)?;
     let frame = option_frame(joint, present, &table, at);
     let state = table.state.as_ref().and_then(|name| {
-        let known = states.iter().position(|s| s == name);
+        let known = at.out.states.iter().position(|s| s == name);
         if known.is_none() {
-            at.key("state").add_unknown_word("state", name, states);
+            at.key("state")
+                .add_unknown_word("state", name, &at.out.states);
         }
         known.map(StateId::new)
     });

@@ -2,19 +2,12 @@
 
 use crate::closure::isometry::Isometry;
 use crate::file::costs::read_costs;
-use crate::file::problem::ProblemKind;
+use crate::file::prelude::*;
 use crate::file::read::resolve::{contains_option, read_option};
 use crate::file::read::value::{LIMITS, used_twice};
-use crate::file::schema::{JointEntry, JointTypeEntry, MechanismFile, OptionEntry, RankingEntry};
-use crate::file::{Findings, Place};
 use crate::geom::extent::box_diagonal;
-use crate::geom::vector::to_vector;
-use crate::model::joint_type::JointType;
-use crate::model::mechanism::{
-    Drives, Frame, Joint, JointId, JointOption, Parts, SearchSpec, StateId,
-};
+use crate::model::mechanism::{Drives, SearchSpec};
 use crate::model::ranking::{ClearanceSum, Limit, Order, Ranking, Term, TypeOverride};
-use itertools::Itertools;
 
 /// Returns the options of a joint, the original one first. Options of the joint's own list must contain the original motion;
 /// those of the common list that do not are skipped.
@@ -23,7 +16,6 @@ pub(crate) fn read_options(
     entry: &JointEntry,
     present: &JointOption,
     changeable: bool,
-    states: &[String],
     at: &Place<'_>,
 ) -> Vec<JointOption> {
     let (list, from) = match &entry.options {
@@ -33,7 +25,7 @@ pub(crate) fn read_options(
     };
     let (mut options, mut listed) = (vec![present.clone()], false);
     for (at, item) in from.key("options").first_entries(LIMITS.2, list, "options") {
-        let Some(option) = read_allowed_option(entry, item, &present.frame, states, &at) else {
+        let Some(option) = read_allowed_option(entry, item, &present.frame, &at) else {
             continue;
         };
         let contained = contains_option(&option, present);
@@ -74,12 +66,11 @@ fn read_allowed_option(
     entry: &JointEntry,
     item: &OptionEntry,
     present: &Frame,
-    states: &[String],
     at: &Place<'_>,
 ) -> Option<JointOption> {
     // A bad entry of the common list would be reported once per joint.
     let before = at.out.problem_count();
-    let option = read_option(&entry.id, present, item, states, at)?;
+    let option = read_option(&entry.id, present, item, at)?;
     let is_it = |f: &String| *f == option.name || JointType::word_of_trade(f) == option.name;
     let allowed = !entry.forbid.iter().any(is_it);
     (at.out.problem_count() == before && allowed).then_some(option)

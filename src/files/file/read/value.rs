@@ -3,15 +3,12 @@
 
 pub(crate) mod quantity;
 
+use crate::file::prelude::*;
 use crate::file::read::value::quantity::Given;
-use crate::file::schema::{Coordinate, MechanismFile, Words};
-use crate::file::{Findings, Place};
-use crate::geom::expr::{Expr, ExprError, WORDS, WrittenNumber};
-use crate::model::mechanism::{JointId, LengthUnit, Link, LinkId, Parts, StateId};
-use itertools::Itertools;
+use crate::geom::expr::{ExprError, WORDS, WrittenNumber};
+use crate::model::mechanism::LengthUnit;
 use num_bigint::BigInt;
 use num_rational::BigRational;
-use std::collections::BTreeMap;
 
 /// Maximum number of links, of joints (and of contours), and of options of one joint in a file.
 pub(crate) const LIMITS: (usize, usize, usize) = (2000, 4000, 64);
@@ -126,12 +123,13 @@ impl Place<'_> {
     }
 
     /// Returns the states that an entry names; `None` if it names none, which means all.
-    pub(crate) fn find_states(&self, m: &Parts, named: Option<&Words>) -> Option<Vec<StateId>> {
+    pub(crate) fn find_states(&self, named: Option<&Words>) -> Option<Vec<StateId>> {
+        let known = &self.out.states;
         let mut found = Vec::new();
         for word in named?.word_list() {
-            match m.state_named(word) {
-                Some(state) => found.push(state),
-                None => self.add_unknown_word("state", word, m.states.iter().take(LISTED)),
+            match known.iter().position(|s| s == word) {
+                Some(state) => found.push(StateId::new(state)),
+                None => self.add_unknown_word("state", word, known.iter().take(LISTED)),
             }
         }
         Some(found)
@@ -152,6 +150,11 @@ impl Place<'_> {
     /// Returns a number in the range of lengths.
     pub(crate) fn read_coordinate(&self, c: &Coordinate) -> Expr {
         self.in_range(self.read_number(c, false))
+    }
+
+    /// Returns a number in the range of lengths that may contain pi.
+    pub(crate) fn read_irrational(&self, c: &Coordinate) -> Expr {
+        self.in_range(self.read_number(c, true))
     }
 
     /// Returns three numbers in the range of lengths.
@@ -186,8 +189,7 @@ impl Place<'_> {
             self.add_excluded_key("lead", "pitch");
         }
         if let Some(c) = pitch {
-            let at = self.key("pitch");
-            return Some(at.in_range(at.read_number(c, true)));
+            return Some(self.key("pitch").read_irrational(c));
         }
         let lead = self.key("lead").read_coordinate(lead.as_ref()?);
         let turn = Expr::from(2) * Expr::pi();

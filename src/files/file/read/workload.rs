@@ -6,18 +6,17 @@ pub(crate) mod loads;
 pub mod motion;
 pub mod trajectory;
 
+use crate::file::prelude::*;
 use crate::file::problem::ImportError;
 use crate::file::read::value::{length_unit, with_parameters};
 use crate::file::read::workload::drive::read_drive;
 use crate::file::read::workload::grip::read_grip;
 use crate::file::read::{build_mechanism, read_claims};
-use crate::file::schema::MechanismFile;
 use crate::file::text::{read_file, text_of};
-use crate::file::{Finding, Findings};
 use crate::model::claim::Claim;
 use crate::model::drive::DriveSpec;
 use crate::model::grip::GripSpec;
-use crate::model::mechanism::{LengthUnit, Mechanism, Parts};
+use crate::model::mechanism::LengthUnit;
 
 /// A file as the workload commands see it.
 #[derive(Debug, Clone)]

@@ -15,7 +15,7 @@ pub struct WorkloadEntry {
     pub force: Vec<ForceEntry>,
     /// External moments.
     pub moment: Vec<MomentEntry>,
-    /// Faces of the contacts with a clamped part, for `ozols statics --unilateral`.
+    /// Faces of the contacts with a clamped part, for one-sided contacts in `ozols statics`.
     pub contact: Vec<ContactEntry>,
     /// Stiffness of joints by the name of their type, `default` for all others: `[workload.stiffness.spherical]`.
     pub stiffness: BTreeMap<String, StiffnessEntry>,

@@ -1,9 +1,7 @@
 //! Numbers that are written as they were read: those of the geometry, with their stated accuracy, and those in the units of a file.
 
-use crate::file::schema::{Coordinate, ToleranceEntry};
-use crate::geom::expr::{End, Expr, WrittenNumber, half_of};
-use crate::geom::vector::{length, to_vector};
-use crate::model::mechanism::Mechanism;
+use crate::file::prelude::*;
+use crate::geom::expr::{End, WrittenNumber, half_of};
 use crate::model::rounded::ratio::doubt_ratio;
 use crate::model::rounded::{LONG_DIRECTION, LONG_LENGTH};
 use num_bigint::BigInt;

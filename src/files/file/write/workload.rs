@@ -1,17 +1,12 @@
 //! The tables `[workload.grip]`, `[workload.drive]`, `[ranking]` and `[joint_types]`.
 
+use crate::file::prelude::*;
 use crate::file::read::workload::drive::regular_programme;
-use crate::file::schema::{
-    AccuracyEntry, Coordinate, Diameters, DriveEntry, Gravity, GripEntry, JointAccuracyEntry,
-    JointTypeEntry, LimitEntry, Quantity, RankingEntry, TermEntry,
-};
 use crate::file::write::number::{write_angle, write_number, write_numbers};
 use crate::model::drive::{DriveSpec, ProgrammeStep};
 use crate::model::grip::{GripLoad, GripSpec, LeverDrive, PartMass, Pivots, Toward, Transmission};
 use crate::model::loads::Accuracy;
-use crate::model::mechanism::Mechanism;
 use crate::model::ranking::{ClearanceSum, Ranking};
-use std::collections::BTreeMap;
 
 /// Returns the entry of a gripper, with lengths in the mechanism's unit.
 pub(crate) fn write_grip(m: &Mechanism, spec: &GripSpec) -> GripEntry {

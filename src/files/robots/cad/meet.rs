@@ -1,10 +1,7 @@
 //! A joint of an assembly at a pose: its type, and its frame on I and on J. The two differ by the misfit.
 
-use crate::geom::rigid::{RigidMotion, perpendicular, unit_or_z};
-use crate::geom::vector::{Vector, add, add_scaled, cross, dot, length, scale, sub};
-use crate::model::joint_type::{Freedom, JointType};
 use crate::robots::cad::holds::Holds;
-use crate::robots::description::{Part, Ratio};
+use crate::robots::prelude::*;
 
 /// Sines and lengths below this have no direction.
 const FLAT: f64 = 1e-6;
@@ -77,6 +74,8 @@ fn nearest_frame(i: &RigidMotion, j: &RigidMotion) -> RigidMotion {
 /// # Errors
 /// Returns the reason, in words, if it constrains nothing that can be determined at this pose.
 pub(crate) fn find_meeting(holds: Holds, i: &RigidMotion, j: &RigidMotion) -> Met {
+    use Freedom::{Rx, Ry, Rz, Tx, Ty, Tz};
+    let custom = |freedoms: &[Freedom]| JointType::Custom(freedoms.to_vec());
     let (x, z) = (frame_axis(i, 0), frame_axis(i, 2));
     let (oi, oj) = (i.translation, j.translation);
     let d = sub(oj, oi);
@@ -96,8 +95,8 @@ pub(crate) fn find_meeting(holds: Holds, i: &RigidMotion, j: &RigidMotion) -> Me
         Holds::Cylindrical => simple(JointType::Cylindrical, at(oi), tilted(add(oi, foot))),
         Holds::Spherical => simple(JointType::Spherical, at(oi), at(oj)),
         Holds::PointInLine => simple(JointType::SphereInCylinder, at(sub(oj, foot)), at(oj)),
-        Holds::ParallelAxes => simple(parallel_joint(), at(oi), tilted(oi)),
-        Holds::NoRotation => simple(three_slides(), at(oi), as_j(oi)),
+        Holds::ParallelAxes => simple(custom(&[Rz, Tx, Ty, Tz]), at(oi), tilted(oi)),
+        Holds::NoRotation => simple(custom(&[Tx, Ty, Tz]), at(oi), as_j(oi)),
         Holds::Planar(offset) => {
             let meets_at = add_scaled(oj, offset - along, z);
             simple(JointType::Planar, at(meets_at), tilted(oj))
@@ -120,8 +119,7 @@ pub(crate) fn find_meeting(holds: Holds, i: &RigidMotion, j: &RigidMotion) -> Me
             at_this_pose(Meeting::new(JointType::SphereOnPlane, there, there))
         }
         Holds::Screw(lead) => {
-            use Freedom::{Rx, Ry, Screw, Tx, Ty};
-            let kind = JointType::Custom(vec![Screw, Rx, Ry, Tx, Ty]);
+            let kind = custom(&[Freedom::Screw, Rx, Ry, Tx, Ty]);
             Meeting {
                 pitch: lead / std::f64::consts::TAU,
                 ..at_this_pose(Meeting::new(kind, at(oj), at(oj)))
@@ -146,17 +144,6 @@ impl Meeting {
 fn at_this_pose(mut m: Meeting) -> Meeting {
     m.here_only = true;
     m
-}
-
-/// Returns a joint that constrains only a direction.
-pub(crate) fn parallel_joint() -> JointType {
-    use Freedom::{Rz, Tx, Ty, Tz};
-    JointType::Custom(vec![Rz, Tx, Ty, Tz])
-}
-
-fn three_slides() -> JointType {
-    use Freedom::{Tx, Ty, Tz};
-    JointType::Custom(vec![Tx, Ty, Tz])
 }
 
 /// Returns the joint that keeps two z axes perpendicular and the origins together, or J's line in a plane: z is I's, x is J's z.

@@ -1,19 +1,10 @@
 //! Joints of an assembly of a CAD program changed to another of its types.
 
-use crate::file::problem::ImportError;
-use crate::geom::rigid::unit_or_z;
-use crate::geom::vector::{Vector, add_scaled, cross, dot, length};
-use crate::model::joint_type::Freedom;
-use crate::model::mechanism::JointId;
-use crate::redundancy::release::Release;
-use crate::robots::description::Part;
 use crate::robots::description::origin::Origin;
 use crate::robots::edit::Edits;
 use crate::robots::fcstd::DOCUMENT;
 use crate::robots::import::Imported;
-use crate::robots::warning::{Read, unsupported_problem};
-use crate::robots::xml::element::Element;
-use std::collections::BTreeMap;
+use crate::robots::prelude::*;
 
 /// Sines below this count as zero.
 const SAME: f64 = 1e-4;
@@ -36,9 +27,6 @@ const SIMPLE: [([Left; 2], SimpleType); 6] = [
 
 /// Freedoms, each a slide or a turn and its direction.
 type Freedoms = [(bool, Vector)];
-
-/// The freedoms that each joint gets.
-type ByJoint = BTreeMap<JointId, Vec<(bool, Vector)>>;
 
 /// The turns, or the slides, that a joint allows.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -118,19 +106,31 @@ fn type_with(freedoms: &Freedoms, axis: Vector) -> Option<SimpleType> {
     found.map(|(_, names)| *names)
 }
 
-/// Returns the file with the joint types that result from releases.
+/// Returns the file with the types of joints that get freedoms. `uncoupled` is the element of a coupling that would have to be removed.
 ///
 /// # Errors
 /// Returns an error if there is no such type, or if a coupling would have to be removed.
-pub(crate) fn retype_joints(imported: &Imported, releases: &[(Release, String)]) -> Read<Vec<u8>> {
+pub(crate) fn retype_joints(
+    imported: &Imported,
+    freed: &BTreeMap<JointId, Vec<(bool, Vector, String)>>,
+    uncoupled: Option<usize>,
+) -> Read<Vec<u8>> {
     let origin = &imported.origin;
+    if let Some(element) = uncoupled {
+        let why = "it couples joints, so its type cannot be changed";
+        let remedy = "suppress the joint in the CAD program, or choose another joint";
+        return Err(origin.element(element).unsupported_error(why, remedy));
+    }
     let mut edits = Edits::new(origin);
-    for (joint, more) in by_joint(origin, releases)? {
+    for (&joint, more) in freed {
         let part = origin.part_of(joint);
         let Some(element) = part.element.map(|e| origin.element(e)) else {
             continue;
         };
-        let Some((freecad, ondsel)) = simple_type(origin, joint, &more) else {
+        let more = more
+            .iter()
+            .map(|(slides, direction, _)| (*slides, *direction));
+        let Some((freecad, ondsel)) = simple_type(origin, joint, &more.collect_vec()) else {
             let format = imported.format.name;
             let why = format!("{format} has no joint type with the required freedoms");
             return Err(retype_error(part, element, why));
@@ -151,27 +151,6 @@ fn retype_error(part: &Part, element: Element<'_>, why: String) -> ImportError {
     let joint = format!("joint \"{}\"", part.id);
     let problem = unsupported_problem(&joint, &why, "choose another joint");
     element.error_at(None, problem)
-}
-
-/// Returns the freedoms that each joint gets.
-fn by_joint(origin: &Origin, releases: &[(Release, String)]) -> Read<ByJoint> {
-    let mut out = ByJoint::new();
-    for (release, _) in releases {
-        match *release {
-            Release::Freedom {
-                joint,
-                slides,
-                direction,
-            } => out.entry(joint).or_default().push((slides, direction)),
-            Release::Coupling(q) => {
-                let element = origin.element(origin.couplings[q]);
-                let why = "it couples joints, so its type cannot be changed";
-                let remedy = "suppress the joint in the CAD program, or choose another joint";
-                return Err(element.unsupported_error(why, remedy));
-            }
-        }
-    }
-    Ok(out)
 }
 
 /// Returns the index of a type in the list next to it, as FreeCAD writes it.

@@ -1,17 +1,8 @@
 //! Couplings of joints: mimic joints and equalities of joint values, if they are linear. A mimic joint follows at most one other,
 //! so mimic joints can only represent a tree of couplings.
 
-use crate::closure::Closure;
 use crate::closure::tree::spanning_forest;
-use crate::geom::Reals;
-use crate::model::joint_type::Freedom;
-use crate::model::mechanism::{JointId, Mechanism, StateId};
-use crate::rank::rounded::verdict::rank_verdict;
-use crate::robots::description::Robot;
-use crate::robots::warning::Kept;
-
-/// Maximum work of singular values, rows · columns · the lesser of them, for which the figures are reported.
-pub(crate) const LARGEST: usize = 2_000_000_000;
+use crate::robots::prelude::*;
 
 /// A coupling that a mechanism file can represent.
 #[derive(Debug, Clone, Copy)]
@@ -63,6 +54,7 @@ pub(crate) fn usable_couplings(robot: &mut Robot, written: &[usize]) -> Vec<Usab
                         );
                         robot.report.add_approximation(&coupling.element, what);
                     }
+                    robot.report.count_mapped("coupling");
                     out.push(Usable {
                         ends,
                         ratio,
@@ -77,28 +69,6 @@ pub(crate) fn usable_couplings(robot: &mut Robot, written: &[usize]) -> Vec<Usab
         robot.report.leave_out_coupling(&coupling.element, what);
     }
     out
-}
-
-/// Returns W of a mechanism without and with its couplings. `None` if there are no couplings or its digits do not decide.
-pub(crate) fn kept_couplings(m: &Mechanism) -> Option<Kept> {
-    if m.couplings.is_empty() {
-        return None;
-    }
-    let mobility = |m: &Mechanism| {
-        let closure = Closure::new(&Reals, m, StateId::FREE).ok()?;
-        let (rows, columns) = (closure.rows(), closure.columns.len());
-        if rows * columns * rows.min(columns) > LARGEST {
-            return None;
-        }
-        let found = rank_verdict(m, StateId::FREE).ok()?;
-        found.is_decided().then(|| columns - found.rank())
-    };
-    let mut without = m.clone();
-    without.edit().couplings.clear();
-    Some(Kept {
-        couplings: m.couplings.len(),
-        mobility: mobility(&without).zip(mobility(m)),
-    })
 }
 
 /// The joint that a joint follows.

@@ -68,9 +68,6 @@ fn collect_attributes(e: Element<'_>, unit: Option<&Expr>, out: &mut Sources) {
         "axis" => out.directions.push(read("xyz")),
         _ => out.lengths.extend(read("xyz")),
     }
-    if e.name() == "replicate" {
-        out.lengths.extend(read("offset"));
-    }
     if e.name().starts_with("drake:ball_constraint_p") {
         out.lengths.extend(read("value"));
     }

@@ -1,10 +1,7 @@
 //! The spanning tree of a robot and the places of its links.
 
 use crate::closure::tree::{TreeStep, spanning_forest};
-use crate::geom::rigid::{RigidMotion, unit_or_z};
-use crate::geom::vector::{Vector, scale};
-use crate::model::joint_type::Freedom;
-use crate::robots::description::{Part, Robot};
+use crate::robots::prelude::*;
 
 /// A spanning tree, or forest, of the links.
 pub(crate) struct Tree {

@@ -7,18 +7,14 @@
 //! - Drake's list of `ball_constraint_body_A`, `ball_constraint_p_AP`, `..._body_B`, `..._p_BQ`.
 
 use crate::file::text::decode_utf8;
-use crate::geom::rigid::RigidMotion;
-use crate::geom::vector::{Vector, X, Y, Z, length};
-use crate::model::joint_type::JointType;
-use crate::robots::description::{End, Part, Robot};
-use crate::robots::warning::{
-    Found, Read, Reader, list_known, syntax_problem, too_large, unknown_name, unknown_word,
-};
-use serde_json::{Map, Value};
+use crate::robots::prelude::*;
+use serde::de::{DeserializeOwned, Error};
+use serde::{Deserialize, Deserializer};
+use serde_json::Value;
 
 /// Largest file, in bytes.
 const MAX_BYTES: usize = 1 << 20;
-const TYPES: &str = "revolute, prismatic, cylindrical, spherical (3d), fixed (6d)";
+const TYPES: &str = "revolute, prismatic, cylindrical, spherical, ball, 3d, fixed, weld, 6d";
 
 /// Adds the closures that the file names.
 pub(crate) fn add_loops(name: &str, bytes: &[u8], robot: &mut Robot) -> Read<()> {
@@ -90,39 +86,102 @@ fn parse_loops(name: &str, text: &str) -> Result<Value, String> {
     }
 }
 
-fn read_loops(value: &Value, robot: &mut Robot) -> Found<()> {
-    match value {
-        Value::Object(o) if o.contains_key("closed_loop") => read_pairs(o, robot),
-        Value::Object(o) if o.contains_key("loop") => {
-            let mut all = read_list(o, "loop")?.iter().enumerate();
-            all.try_for_each(|(i, item)| read_loop(i, item, robot))
-        }
-        Value::Array(items) if !items.is_empty() => {
-            let mut all = items.iter().enumerate();
-            all.try_for_each(|(i, item)| read_ball(i, item, robot))
-        }
-        _ => Err(syntax_problem(
-            "no loops found; write [[loop]] tables with a, b and type, or closed_loop: [[a, b]] and type: [6d]",
-        )),
-    }
+/// A loop that a table closes. Drake has other names for the same keys.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct LoopEntry {
+    id: Option<String>,
+    #[serde(alias = "ball_constraint_body_A")]
+    a: String,
+    #[serde(alias = "ball_constraint_body_B")]
+    b: String,
+    #[serde(rename = "type", default = "spherical")]
+    kind: String,
+    #[serde(alias = "ball_constraint_p_AP", default, deserialize_with = "vector")]
+    point_a: Vector,
+    #[serde(alias = "ball_constraint_p_BQ", default, deserialize_with = "vector")]
+    point_b: Vector,
+    #[serde(default = "z_axis", deserialize_with = "direction")]
+    axis_a: Vector,
+    #[serde(default = "z_axis", deserialize_with = "direction")]
+    axis_b: Vector,
 }
 
-fn read_list<'a>(o: &'a Map<String, Value>, key: &str) -> Found<&'a [Value]> {
-    match o.get(key) {
-        None => Ok(&[]),
-        Some(Value::Array(items)) => Ok(items),
-        Some(_) => Err(syntax_problem(format!(
-            "{key} is not a list; write one in brackets"
+fn spherical() -> String {
+    "spherical".to_owned()
+}
+
+fn z_axis() -> Vector {
+    Z
+}
+
+/// Reads numbers as a list, or as text with spaces as in Drake.
+fn vector<'de, D: Deserializer<'de>>(of: D) -> Result<Vector, D::Error> {
+    let value = Value::deserialize(of)?;
+    let numbers: Option<Vec<f64>> = match &value {
+        Value::String(s) => s.split_whitespace().map(|w| w.parse().ok()).collect(),
+        Value::Array(items) => items.iter().map(Value::as_f64).collect(),
+        _ => None,
+    };
+    match numbers.as_deref() {
+        Some(&[x, y, z]) if [x, y, z].iter().all(|c| c.abs() <= 1e9) => Ok([x, y, z]),
+        _ => Err(D::Error::custom(format!(
+            "{value} is not three finite numbers"
         ))),
     }
 }
 
-fn read_word<'a>(v: Option<&'a Value>, what: &str) -> Found<&'a str> {
-    v.and_then(Value::as_str).ok_or_else(|| {
+fn direction<'de, D: Deserializer<'de>>(of: D) -> Result<Vector, D::Error> {
+    let found = vector(of)?;
+    match length(found) {
+        size if size < 1e-9 => Err(D::Error::custom("an axis is zero")),
+        _ => Ok(found),
+    }
+}
+
+fn read_loops(value: &Value, robot: &mut Robot) -> Found<()> {
+    let (list, word) = match value {
+        Value::Object(o) if o.contains_key("closed_loop") => return read_pairs(value, robot),
+        Value::Object(o) if o.contains_key("loop") => (read_list(value, "loop")?, "loop"),
+        Value::Array(items) if !items.is_empty() => (items.clone(), "ball"),
+        _ => {
+            return Err(syntax_problem(
+                "no loops found; write [[loop]] tables with a, b and type, or closed_loop: [[a, b]] and type: [6d]",
+            ));
+        }
+    };
+    for (i, item) in list.into_iter().enumerate() {
+        let mut element = format!("{word}-{}", i + 1);
+        let entry = LoopEntry::deserialize(item).map_err(|e| {
+            syntax_problem(format!(
+                "{element}: {e}; write a and b, and if needed type, point_a, point_b, axis_a and axis_b such as [0, 0, 1]"
+            ))
+        })?;
+        element = entry.id.unwrap_or(element);
+        let end = |name: &str, at: Vector, axis: Vector| -> Found<End> {
+            let (link, frame) = find_place(&element, name, robot)?;
+            let side = RigidMotion::from_translation(at).then(&RigidMotion::z_to(axis));
+            Ok((link, frame.then(&side)))
+        };
+        let ends = [
+            end(&entry.a, entry.point_a, entry.axis_a)?,
+            end(&entry.b, entry.point_b, entry.axis_b)?,
+        ];
+        let kind = joint_type(&element, &entry.kind)?;
+        add_closure(&element, ends, kind, robot)?;
+    }
+    Ok(())
+}
+
+/// Returns the list of a key; empty if there is none.
+fn read_list<T: DeserializeOwned>(of: &Value, key: &str) -> Found<Vec<T>> {
+    let list = of.get(key).map(Vec::deserialize).transpose();
+    let list = list.map_err(|e| {
         syntax_problem(format!(
-            "{what} is missing or not a word; write it in quotes"
+            "{key}: {e}; write a list in brackets, of pairs for closed_loop and of words for the others"
         ))
-    })
+    })?;
+    Ok(list.unwrap_or_default())
 }
 
 /// Returns the link and place of a name: of a link or frame, or of the child's side of a joint.
@@ -137,14 +196,8 @@ fn find_place(element: &str, name: &str, robot: &Robot) -> Found<End> {
 }
 
 fn joint_type(element: &str, word: &str) -> Found<JointType> {
-    Ok(match word.to_lowercase().as_str() {
-        "6d" | "fixed" | "weld" => JointType::Fixed,
-        "3d" | "spherical" | "ball" => JointType::Spherical,
-        "revolute" => JointType::Revolute,
-        "prismatic" => JointType::Prismatic,
-        "cylindrical" => JointType::Cylindrical,
-        _ => return Err(unknown_word(element, "type", word, TYPES)),
-    })
+    let found = joint_of_word(&word.to_lowercase(), TYPES);
+    found.ok_or_else(|| unknown_word(element, "type", word, TYPES))
 }
 
 fn add_closure(id: &str, ends: [End; 2], kind: JointType, robot: &mut Robot) -> Found<()> {
@@ -164,8 +217,9 @@ fn add_closure(id: &str, ends: [End; 2], kind: JointType, robot: &mut Robot) -> 
 }
 
 /// Gives the joints of `joint_name` the kinds of `joint_type`, which URDF cannot represent.
-fn retype_joints(o: &Map<String, Value>, robot: &mut Robot) -> Found<()> {
-    let (names, types) = (read_list(o, "joint_name")?, read_list(o, "joint_type")?);
+fn retype_joints(of: &Value, robot: &mut Robot) -> Found<()> {
+    let names: Vec<String> = read_list(of, "joint_name")?;
+    let types: Vec<String> = read_list(of, "joint_type")?;
     if names.len() != types.len() {
         return Err(syntax_problem(format!(
             "joint_name has {} entries and joint_type {}; write one type for each joint",
@@ -173,10 +227,8 @@ fn retype_joints(o: &Map<String, Value>, robot: &mut Robot) -> Found<()> {
             types.len()
         )));
     }
-    for (name, kind) in names.iter().zip(types) {
-        let name = read_word(Some(name), "joint_name")?;
-        let kind = read_word(Some(kind), "joint_type")?;
-        let Some(joint) = robot.joints.iter_mut().find(|j| j.id == name) else {
+    for (name, kind) in names.iter().zip(&types) {
+        let Some(joint) = robot.joints.iter_mut().find(|j| j.id == *name) else {
             let known = list_known("joints", robot.joints.iter().map(|j| &j.id));
             return Err(unknown_name("joint_name", "joint", name, &known));
         };
@@ -209,99 +261,25 @@ fn retype_joints(o: &Map<String, Value>, robot: &mut Robot) -> Found<()> {
 }
 
 /// Reads the form of example-parallel-robots.
-fn read_pairs(o: &Map<String, Value>, robot: &mut Robot) -> Found<()> {
-    retype_joints(o, robot)?;
-    let types = read_list(o, "type")?;
-    for (i, pair) in read_list(o, "closed_loop")?.iter().enumerate() {
+fn read_pairs(of: &Value, robot: &mut Robot) -> Found<()> {
+    retype_joints(of, robot)?;
+    let types: Vec<String> = read_list(of, "type")?;
+    let pairs: Vec<[String; 2]> = read_list(of, "closed_loop")?;
+    for (i, [a, b]) in pairs.iter().enumerate() {
         let element = format!("loop-{}", i + 1);
-        let Some([a, b]) = pair.as_array().map(Vec::as_slice) else {
-            return Err(syntax_problem(format!(
-                "closed_loop {} is not a pair of names; write [a, b]",
-                i + 1
-            )));
-        };
-        let kind = match types.get(i) {
-            None => JointType::Fixed,
-            Some(t) => joint_type(&element, read_word(Some(t), "type")?)?,
-        };
-        let end = |name| find_place(&element, read_word(Some(name), "the end of a loop")?, robot);
-        let ends = [end(a)?, end(b)?];
+        let kind = types.get(i).map_or("fixed", String::as_str);
+        let kind = joint_type(&element, kind)?;
+        let ends = [
+            find_place(&element, a, robot)?,
+            find_place(&element, b, robot)?,
+        ];
         add_closure(&element, ends, kind, robot)?;
     }
-    for name in read_list(o, "name_mot")? {
-        let name = read_word(Some(name), "name_mot")?;
+    for name in read_list::<String>(of, "name_mot")? {
         match robot.joints.iter_mut().find(|j| j.id == name) {
             Some(j) => j.drive = true,
-            None => robot.report.count_dropped("motor of no joint", Some(name)),
+            None => robot.report.count_dropped("motor of no joint", Some(&name)),
         }
     }
     Ok(())
-}
-
-/// Reads numbers as a list, or as text with spaces as in Drake.
-fn read_vector(v: Option<&Value>, what: &str) -> Found<Option<Vector>> {
-    let numbers: Option<Vec<f64>> = match v {
-        None => return Ok(None),
-        Some(Value::String(s)) => s.split_whitespace().map(|w| w.parse().ok()).collect(),
-        Some(Value::Array(items)) => items.iter().map(Value::as_f64).collect(),
-        Some(_) => None,
-    };
-    match numbers.as_deref() {
-        Some(&[x, y, z]) if [x, y, z].iter().all(|c| c.abs() <= 1e9) => Ok(Some([x, y, z])),
-        _ => Err(syntax_problem(format!(
-            "{what} is not three finite numbers; write [0, 0, 1]"
-        ))),
-    }
-}
-
-/// Reads an end of a loop: the keys of its link, frame or joint, of a point there and of an axis.
-fn read_end(element: &str, item: &Value, keys: [&str; 3], robot: &Robot) -> Found<End> {
-    let [name, point, axis] = keys.map(|k| (item.get(k), format!("{k} of {element}")));
-    let (link, frame) = find_place(element, read_word(name.0, &name.1)?, robot)?;
-    let at = read_vector(point.0, &point.1)?.unwrap_or([0.0; 3]);
-    let direction = read_vector(axis.0, &axis.1)?.unwrap_or(Z);
-    if length(direction) < 1e-9 {
-        return Err(syntax_problem(format!(
-            "{} is zero; give a direction such as [0, 0, 1]",
-            axis.1
-        )));
-    }
-    let side = RigidMotion::from_translation(at).then(&RigidMotion::z_to(direction));
-    Ok((link, frame.then(&side)))
-}
-
-/// Reads a ball constraint of Drake.
-fn read_ball(i: usize, item: &Value, robot: &mut Robot) -> Found<()> {
-    let element = format!("ball-{}", i + 1);
-    let end = |keys| read_end(&element, item, keys, robot);
-    let a = end(["ball_constraint_body_A", "ball_constraint_p_AP", ""])?;
-    let b = end(["ball_constraint_body_B", "ball_constraint_p_BQ", ""])?;
-    let ends = [a, b];
-    add_closure(&element, ends, JointType::Spherical, robot)
-}
-
-/// The keys of a `[[loop]]`.
-const KEYS: [&str; 8] = [
-    "id", "a", "b", "type", "point_a", "point_b", "axis_a", "axis_b",
-];
-
-/// Reads a `[[loop]]`.
-fn read_loop(i: usize, item: &Value, robot: &mut Robot) -> Found<()> {
-    let id = item.get("id").and_then(Value::as_str);
-    let element = id.map_or_else(|| format!("loop-{}", i + 1), str::to_owned);
-    let mut keys = item.as_object().into_iter().flat_map(Map::keys);
-    if let Some(key) = keys.find(|k| !KEYS.contains(&k.as_str())) {
-        return Err(syntax_problem(format!(
-            "{element} has the unknown key {key}; known: {}",
-            KEYS.join(", ")
-        )));
-    }
-    let kind = match item.get("type") {
-        None => JointType::Spherical,
-        some => joint_type(&element, read_word(some, "type")?)?,
-    };
-    let end = |keys| read_end(&element, item, keys, robot);
-    let [a, b] = [["a", "point_a", "axis_a"], ["b", "point_b", "axis_b"]];
-    let ends = [end(a)?, end(b)?];
-    add_closure(&element, ends, kind, robot)
 }

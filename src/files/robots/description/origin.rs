@@ -2,14 +2,10 @@
 
 use crate::file::problem::line_and_column;
 use crate::format::three_digits;
-use crate::geom::rigid::RigidMotion;
-use crate::model::mechanism::JointId;
 use crate::motion::pose::Pose;
 use crate::robots::cad;
 use crate::robots::cad::archive::Archive;
-use crate::robots::description::{Part, Robot};
-use crate::robots::xml::Document;
-use crate::robots::xml::element::Element;
+use crate::robots::prelude::*;
 
 /// The description that a mechanism was read from, and the elements of the mechanism's parts.
 #[derive(Debug, Clone)]

@@ -1,10 +1,9 @@
 //! Physical data of links in robot formats, and omissions of these formats.
 
-use crate::geom::vector::{Vector, sub, to_vector};
 use crate::model::loads::Inertia;
-use crate::model::mechanism::{LinkId, Mechanism, Mode, StateId};
+use crate::model::mechanism::Mode;
 use crate::robots::mechanism::series_of_single_joints::escape_comment;
-use itertools::Itertools;
+use crate::robots::prelude::*;
 
 /// The inertial data of a link: kg, m, kg·m².
 pub(crate) struct Inertial {

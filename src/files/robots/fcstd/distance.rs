@@ -1,11 +1,9 @@
 //! The constraint of a distance joint, by the kinds of its two elements.
 
-use crate::geom::rigid::RigidMotion;
-use crate::geom::vector::{add_scaled, cross, dot, length, sub};
 use crate::robots::cad::holds::Holds;
 use crate::robots::fcstd::objects::Object;
 use crate::robots::fcstd::reference::Reference;
-use crate::robots::warning::Read;
+use crate::robots::prelude::*;
 
 /// Below this two directions are one, and a line lies in a plane.
 const SINE: f64 = 1e-3;
@@ -298,17 +296,9 @@ struct BrepShape<'a> {
 
 /// Returns the lines after a heading that gives their number.
 fn find_section<'a>(text: &'a str, heading: &str) -> Option<(usize, &'a str)> {
-    let mut from = 0;
-    loop {
-        let at = from + text.get(from..)?.find(heading)?;
-        let starts = at == 0 || text.as_bytes()[at - 1] == b'\n';
-        let rest = &text[at + heading.len()..];
-        let (line, below) = rest.split_once('\n')?;
-        if let (true, Some(count)) = (starts && line.starts_with(' '), line.trim().parse().ok()) {
-            return Some((count, below));
-        }
-        from = at + heading.len();
-    }
+    let (_, rest) = text.split_once(&format!("\n{heading} "))?;
+    let (count, below) = rest.split_once('\n')?;
+    Some((count.trim().parse().ok()?, below))
 }
 
 /// Returns the shapes in the order of the file: parts come before the shapes they belong to, and are referred to by their place

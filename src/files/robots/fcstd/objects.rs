@@ -1,9 +1,6 @@
 //! The objects of a FreeCAD document and their properties.
 
-use crate::geom::rigid::RigidMotion;
-use crate::robots::warning::{Read, bad_value};
-use crate::robots::xml::element::Element;
-use std::collections::BTreeMap;
+use crate::robots::prelude::*;
 
 /// An object.
 #[derive(Debug, Clone, Copy)]

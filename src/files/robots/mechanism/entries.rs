@@ -5,16 +5,11 @@ use crate::file::schema::{
     Coordinate, CouplingEntry, DriveWord, JointEntry, LinkEntry, MechanismFile, OptionEntry,
     SearchEntry,
 };
-use crate::file::write::{Comment, plain_number};
-use crate::geom::rigid::{RigidMotion, unit_or_z};
-use crate::geom::vector::{Vector, length};
-use crate::model::joint_type::{Freedom, JointType};
+use crate::file::write::{Comment, freedom_names, plain_number};
 use crate::robots::description::coupling::Usable;
 use crate::robots::description::kinematics::world_axes;
-use crate::robots::description::{Part, Robot};
 use crate::robots::mechanism::series_of_single_joints::Names;
-use crate::robots::warning::{Found, Options, list_known, syntax_problem, unknown_name};
-use std::collections::{BTreeMap, BTreeSet};
+use crate::robots::prelude::*;
 
 /// Longest name in a mechanism file, in characters.
 const LONGEST: usize = 64;
@@ -189,10 +184,7 @@ fn make_joint(p: &Part, c: &Content, id: String, coupled: bool, ids: &Ids) -> Jo
         id,
         links: p.links.map(|l| ids[&c.bodies[l]].clone()),
         kind: p.joint_type.name().to_owned(),
-        freedoms: match &p.joint_type {
-            JointType::Custom(list) => Some(list.iter().map(|f| f.name().to_owned()).collect()),
-            _ => None,
-        },
+        freedoms: freedom_names(&p.joint_type),
         point: place.translation.map(clean_number),
         axis: (!ball).then(axis),
         reference: reference.map(|x| file_direction(x).map(clean_number)),
@@ -208,10 +200,11 @@ const NAMES: &str = "foot feet toe hand palm tool tool0 tcp ee eef effector flan
 /// Words that may follow them.
 const IDLE: &str = "link body frame left right l r front rear";
 
-pub(crate) fn link_of(robot: &Robot, name: &str) -> Found<usize> {
+/// Returns the link that an option names.
+pub(crate) fn link_of(robot: &Robot, name: &str, option: &str) -> Found<usize> {
     robot.links.iter().position(|l| l == name).ok_or_else(|| {
         let known = list_known("links", &robot.links);
-        unknown_name("the command line", "link", name, &known)
+        unknown_name(&format!("the option `{option}`"), "link", name, &known)
     })
 }
 
@@ -226,7 +219,7 @@ pub(crate) fn output_links(
 ) -> Found<Vec<usize>> {
     let mut out = Vec::new();
     for name in &options.outputs {
-        let b = bodies[link_of(robot, name)?];
+        let b = bodies[link_of(robot, name, "working_link")?];
         if b == frame {
             return Err(syntax_problem(format!(
                 "link \"{name}\" is the frame or fixed to it; name a link that moves"

@@ -1,10 +1,7 @@
 //! Closing loops: damped least squares over all joint values, from the pose of the file.
 
-use crate::geom::rigid::{RigidMotion, unit_or_z};
-use crate::geom::vector::{Vector, add, cross, dot, length, scale, sub};
-use crate::model::joint_type::Freedom;
 use crate::robots::description::kinematics::{Tree, joint_motion, link_places, world_axes};
-use crate::robots::description::{Part, Robot};
+use crate::robots::prelude::*;
 use ozols_dense::{Matrix, solve_positive};
 
 /// A loop that is open by less than this fraction of the robot's size counts as closed: coordinates are rounded.

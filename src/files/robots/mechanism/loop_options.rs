@@ -1,13 +1,13 @@
 //! Options of the joints that close loops: freedoms in the directions of redundant constraints.
 
 use crate::file::schema::{Coordinate, JointEntry, MechanismFile, OptionEntry, OptionTable};
-use crate::geom::vector::{Vector, cross, dot};
-use crate::model::joint_type::JointType;
-use crate::model::mechanism::{JointId, Mechanism, StateId};
 use crate::rank::rounded::verdict::rank_verdict;
 use crate::redundancy::release::Release;
 use crate::redundancy::stressed::Stressed;
-use crate::robots::description::coupling::LARGEST;
+use crate::robots::prelude::*;
+
+/// Maximum work of singular values, rows · columns · the lesser of them, for which options are sought.
+const LARGEST: usize = 2_000_000_000;
 
 /// Gives the joints that close loops their own options: more freedom along each direction of their self-stresses, and along all
 /// of them. Returns true if there are any.

@@ -1,10 +1,8 @@
 //! Joints in metres and double precision, taken apart into single freedoms.
 
-use crate::geom::vector::{Vector, across, cross, to_vector, unit};
-use crate::model::joint_type::{Freedom, JointType};
-use crate::model::mechanism::{Joint, Mechanism};
-use std::collections::BTreeSet;
-use std::fmt::Write;
+use crate::geom::vector::{across, unit};
+use crate::model::mechanism::Joint;
+use crate::robots::prelude::*;
 
 /// A joint's place: origin in metres, unit axes x, y, z.
 pub(crate) struct JointAxes {
@@ -93,6 +91,12 @@ impl Names {
 /// Escapes text for an attribute or element.
 pub(crate) fn escape_xml(text: &str) -> String {
     quick_xml::escape::escape(text).into_owned()
+}
+
+/// Returns the attributes of an element, each with a blank before it; values are escaped.
+pub(crate) fn write_attributes<'t>(all: impl IntoIterator<Item = (&'t str, &'t str)>) -> String {
+    let one = |(name, value)| format!(" {name}=\"{}\"", escape_xml(value));
+    all.into_iter().map(one).collect()
 }
 
 /// Escapes text for a comment.

@@ -1,10 +1,6 @@
 //! Settings, default classes and sites that the sections of an MJCF file share.
 
-use crate::geom::rigid::{RigidMotion, unit_or_z};
-use crate::geom::vector::{Vector, X, Y, Z, cross, dot, length, scale, sub};
-use crate::robots::warning::{Read, bad_value, list_known, syntax_problem};
-use crate::robots::xml::element::Element;
-use std::collections::BTreeMap;
+use crate::robots::prelude::*;
 
 /// The settings of `<compiler>`.
 #[derive(Debug, Clone)]

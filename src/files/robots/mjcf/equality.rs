@@ -1,13 +1,8 @@
 //! Equality constraints: the loops and couplings of MJCF.
 
-use crate::geom::rigid::RigidMotion;
-use crate::model::joint_type::JointType;
 use crate::robots::description::kinematics::joint_motion;
-use crate::robots::description::{End, Part, Ratio, Robot};
 use crate::robots::mjcf::context::Context;
-use crate::robots::warning::{Read, bad_value, list_known};
-use crate::robots::xml::element::Element;
-use std::collections::BTreeMap;
+use crate::robots::prelude::*;
 
 pub(crate) fn read_equalities(
     section: Element<'_>,
@@ -29,7 +24,8 @@ pub(crate) fn read_equalities(
         match e.name() {
             "connect" => {
                 let ends = read_ends(e, context, robot)?;
-                add_closing(e, &id, ends, JointType::Spherical, robot)?;
+                let part = robot.close_loop(e, &id, ends, JointType::Spherical, "connect")?;
+                part.comment = Some("closes a loop: <connect>".to_owned());
             }
             "weld" => {
                 let ends = read_ends(e, context, robot)?;
@@ -43,7 +39,8 @@ pub(crate) fn read_equalities(
                         ends = [(one, first.then(&second.inverse()).then(&at)), (two, at)];
                     }
                 }
-                add_closing(e, &id, ends, kind, robot)?;
+                let part = robot.close_loop(e, &id, ends, kind, "weld")?;
+                part.comment = Some("closes a loop: <weld>".to_owned());
             }
             "joint" => read_coupling(e, robot)?,
             "tendon" => read_tendons(e, root, robot)?,
@@ -102,20 +99,6 @@ fn read_ends(e: Element<'_>, context: &Context<'_>, robot: &Robot) -> Read<[End;
         }
         _ => [(one, here), (two, as_drawn(here))],
     })
-}
-
-fn add_closing(
-    e: Element<'_>,
-    id: &str,
-    ends: [End; 2],
-    joint_type: JointType,
-    robot: &mut Robot,
-) -> Read<()> {
-    let mut part = Part::new_closing(e, id, ends, joint_type)?;
-    part.comment = Some(format!("closes a loop: <{}>", e.name()));
-    robot.report.count_mapped(e.name());
-    robot.joints.push(part);
-    Ok(())
 }
 
 fn read_coupling(e: Element<'_>, robot: &mut Robot) -> Read<()> {

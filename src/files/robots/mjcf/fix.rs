@@ -1,31 +1,24 @@
 //! Joints of one more freedom in an MJCF file. `<joint>`s are added to a body behind its own joints, and bodies are inserted between the
 //! two sides of a `<connect>` or `<weld>`. Keyframes get the numbers of the new joints.
 
-use crate::geom::rigid::RigidMotion;
-use crate::geom::vector::Vector;
-use crate::robots::description::Part;
 use crate::robots::description::origin::Origin;
 use crate::robots::description::physical::LIGHT_MJCF;
 use crate::robots::edit::{Edits, Freed, Freeing};
-use crate::robots::mechanism::series_of_single_joints::{escape_xml, format_numbers};
-use crate::robots::mjcf::context::{Defaults, read_compiler};
-use crate::robots::warning::Read;
-use crate::robots::xml::element::Element;
+use crate::robots::mechanism::series_of_single_joints::{format_numbers, write_attributes};
+use crate::robots::prelude::*;
 
 /// Armature of a new joint, in kg for a slide and in kg·m² for a hinge: more than any robot weighs. MuJoCo softens a constraint by the
 /// mean weight of its bodies in all directions, so a light body in between would let the loop open. The new joint does not move while the
 /// loop stays closed, so its armature changes no motion, however large it is.
 const ARMATURE: f64 = 1000.0;
 
-/// Attributes that limit the force of the actuators of a joint.
-const LIMITED_FORCE: [&str; 2] = ["actuatorfrcrange", "actuatorfrclimited"];
+/// Attributes that undo the defaults of the classes around a new joint.
+const NEUTRAL: &str = "limited=\"false\" stiffness=\"0\" springdamper=\"0 0\" frictionloss=\"0\" ref=\"0\" springref=\"0\"";
 
 /// Gives joints freedoms.
 pub(crate) fn free_joints(origin: &Origin, all: &[Freeing<'_>], edits: &mut Edits<'_>) -> Read<()> {
-    let root = origin.element(origin.root);
     let mut file = MjcfFile {
         origin,
-        defaults: Defaults::read(root)?,
         parents: find_parents(origin),
         inserted: Vec::new(),
     };
@@ -61,8 +54,6 @@ enum KeyframeMark {
     Joint(usize),
     /// Behind all elements within a body or the world.
     Within(usize),
-    /// Behind a site.
-    Site(usize),
 }
 
 /// The numbers of `qpos` and of `qvel` before each mark.
@@ -70,18 +61,12 @@ type Marks = Vec<(KeyframeMark, [usize; 2])>;
 
 struct MjcfFile<'a> {
     origin: &'a Origin,
-    defaults: Defaults<'a>,
     parents: Vec<Option<usize>>,
     /// Inserted joints.
     inserted: Vec<(KeyframeMark, usize)>,
 }
 
 impl<'a> MjcfFile<'a> {
-    fn parent_of(&self, e: Element<'a>) -> Element<'a> {
-        let parent = self.parents[e.id].unwrap_or(self.origin.root);
-        self.origin.element(parent)
-    }
-
     /// Returns the body, or world, around an element.
     fn body_around(&self, id: usize) -> Element<'a> {
         let mut at = self.parents[id];
@@ -92,61 +77,6 @@ impl<'a> MjcfFile<'a> {
             at = self.parents[id];
         }
         self.origin.element(at.unwrap_or(self.origin.root))
-    }
-
-    /// Returns attributes that undo defaults of the surrounding classes for a new joint.
-    fn neutral_attributes(&self, around: Element<'a>) -> Read<String> {
-        let (mut at, mut class) = (Some(around.id), None);
-        while let (Some(id), None) = (at, class) {
-            class = self.origin.element(id).attribute("childclass");
-            at = self.parents[id];
-        }
-        let look = self.defaults.lookup(around, "joint", class)?;
-        let mut out = String::new();
-        let says = |set: &&str| look.attribute(set).is_some();
-        for (set, back) in [
-            (&["range", "limited"][..], "limited=\"false\""),
-            (&["stiffness"], "stiffness=\"0\""),
-            (&["springdamper"], "springdamper=\"0 0\""),
-            (&["frictionloss"], "frictionloss=\"0\""),
-            (&["ref"], "ref=\"0\""),
-            (&["springref"], "springref=\"0\""),
-            (&LIMITED_FORCE, "actuatorfrclimited=\"false\""),
-        ] {
-            if set.iter().any(says) {
-                out += &format!(" {back}");
-            }
-        }
-        Ok(out)
-    }
-
-    /// Writes the new joints of a joint, in a frame at a place in the world.
-    fn write_joints(
-        &self,
-        part: &Part,
-        point: Vector,
-        frame: &RigidMotion,
-        around: Element<'a>,
-        freed: Freed<'_>,
-        edits: &mut Edits<'_>,
-    ) -> Read<Vec<String>> {
-        let neutral = self.neutral_attributes(around)?;
-        let (mut out, inside) = (Vec::new(), frame.inverse());
-        for (slides, direction, why) in freed {
-            let (kind, word) = if *slides {
-                ("slide", "slide")
-            } else {
-                ("hinge", "turn")
-            };
-            let name = edits.name(&format!("{}_{word}", part.id));
-            out.push(format!("<!-- {why} -->"));
-            out.push(format!(
-                "<joint name=\"{}\" type=\"{kind}\" armature=\"{ARMATURE}\" pos=\"{}\" axis=\"{}\"{neutral}/>",
-                escape_xml(&name), format_numbers(inside.map_point(point)),
-                format_numbers(inside.map_direction(*direction))
-            ));
-        }
-        Ok(out)
     }
 
     /// Inserts joints after the joints of a body.
@@ -168,7 +98,7 @@ impl<'a> MjcfFile<'a> {
         let frame = self.origin.places[link.links[1]];
         let at = self.origin.places[part.links[1]].then(&part.sides[1]);
         let point = at.translation;
-        let lines = self.write_joints(part, point, &frame, body, freed, edits)?;
+        let lines = write_joints(part, point, &frame, freed, edits);
         edits.insert_after(last, &lines);
         let mark = KeyframeMark::Joint(last.id);
         self.inserted.push((mark, freed.len()));
@@ -186,51 +116,49 @@ impl<'a> MjcfFile<'a> {
         all.find(|e| e.name() == tag && (name.is_none() || e.attribute("name") == name))
     }
 
-    /// Inserts a body that moves on the first body and is held in its place. If sites are held together, it has a copy of the first.
+    /// Inserts a body that moves on the first body and is held in its place. If sites are held together, it has one in place of the
+    /// first.
     fn at_closure(&mut self, joint: &Freeing<'a>, edits: &mut Edits<'_>) -> Read<()> {
         let &(part, e, freed) = joint;
         let (robot, one) = (&self.origin.robot, part.links[0]);
-        let at = self.origin.places[one].then(&part.sides[0]);
-        let point = at.translation;
+        let site = e.attribute("site1");
+        let body = if let Some(site) = site {
+            let found = self.find_named("site", Some(site));
+            found.map(|found| self.body_around(found.id))
+        } else if robot.world == Some(one) {
+            self.find_named("worldbody", None)
+        } else {
+            self.find_named("body", Some(&robot.links[one]))
+        };
+        let body =
+            body.ok_or_else(|| e.unsupported_error("its first body has no name", "give it one"))?;
+        let frame = self.origin.places[one];
+        let at = part.sides[0];
         let between = edits.name(&format!("{}_between", part.id));
-        let Some(site) = e.attribute("site1") else {
-            let body = if robot.world == Some(one) {
-                self.find_named("worldbody", None)
-            } else {
-                self.find_named("body", Some(&robot.links[one]))
-            };
-            let body = body
-                .ok_or_else(|| e.unsupported_error("its first body has no name", "give it one"))?;
-            let frame = self.origin.places[one];
-            let inner = self.write_joints(part, point, &frame, body, freed, edits)?;
-            let inside = frame.inverse().map_point(point);
-            edits.append_child(body, &write_body(&between, inside, inner, None));
-            let mark = KeyframeMark::Within(body.id);
-            self.inserted.push((mark, freed.len()));
-            return edits.set_attribute(e, "body1", &between);
-        };
-        let found = self.find_named("site", Some(site)).ok_or_else(|| {
-            e.unsupported_error("its first site has no element", "choose another")
-        })?;
-        let root = self.origin.element(self.origin.root);
-        let own = read_compiler(root)?.read_place(found)?;
-        let frame = at.then(&own.inverse());
-        let around = self.parent_of(found);
-        let inner = self.write_joints(part, point, &frame, around, freed, edits)?;
-        let copy = edits.name(&format!("{site}_between"));
-        let raw = edits.raw_text(found);
-        let Some(span) = found.value_span("name") else {
-            let why = "its name has character references";
-            return Err(found.unsupported_error(why, "write it as plain text"));
-        };
-        let start = found.node().span.start;
-        let (before, after) = (&raw[..span.start - start], &raw[span.end - start..]);
-        let copied = format!("{before}{}{after}", escape_xml(&copy));
-        let inside = frame.inverse().map_point(point);
-        edits.insert_after(found, &write_body(&between, inside, inner, Some(copied)));
-        let mark = KeyframeMark::Site(found.id);
+        let place = format_numbers(at.translation);
+        let own = write_attributes([("name", &*between)]);
+        let mut lines = vec![
+            format!("<body{own}>"),
+            format!("  <inertial pos=\"{place}\" {LIGHT_MJCF}/>"),
+        ];
+        let point = frame.map_point(at.translation);
+        let inner = write_joints(part, point, &frame, freed, edits);
+        lines.extend(inner.into_iter().map(|l| format!("  {l}")));
+        if let Some(site) = site {
+            let copy = edits.name(&format!("{site}_between"));
+            let [x, y] = [0, 1].map(|k| format_numbers(at.rotation.map(|row| row[k])));
+            let axes = format!("{x} {y}");
+            let own = [("name", &*copy), ("pos", &*place), ("xyaxes", &*axes)];
+            lines.push(format!("  <site{}/>", write_attributes(own)));
+            edits.set_attribute(e, "site1", &copy)?;
+        } else {
+            edits.set_attribute(e, "body1", &between)?;
+        }
+        lines.push("</body>".to_owned());
+        edits.append_child(body, &lines);
+        let mark = KeyframeMark::Within(body.id);
         self.inserted.push((mark, freed.len()));
-        edits.set_attribute(e, "site1", &copy)
+        Ok(())
     }
 
     /// Zeros for the new joints in the positions and speeds of keyframes.
@@ -292,23 +220,52 @@ impl<'a> MjcfFile<'a> {
             marks.push((KeyframeMark::Joint(j.id), *sizes));
         }
         for c in e.children() {
-            match c.name() {
-                "body" | "frame" => self.walk_below(c, sizes, marks),
-                "site" => marks.push((KeyframeMark::Site(c.id), *sizes)),
-                _ => {}
+            if ["body", "frame"].contains(&c.name()) {
+                self.walk_below(c, sizes, marks);
             }
         }
         marks.push((KeyframeMark::Within(e.id), *sizes));
     }
 }
 
-/// Writes the lines of an inserted body, with its mass at its joints.
-fn write_body(name: &str, at: Vector, inner: Vec<String>, site: Option<String>) -> Vec<String> {
-    let mut out = vec![format!("<body name=\"{}\">", escape_xml(name))];
-    let light = format!("<inertial pos=\"{}\" {LIGHT_MJCF}/>", format_numbers(at));
-    let inner = std::iter::once(light).chain(inner).chain(site);
-    out.extend(inner.map(|l| format!("  {l}")));
-    out.push("</body>".to_owned());
+/// Writes the new joints of a joint, in a frame at a place in the world.
+fn write_joints(
+    part: &Part,
+    point: Vector,
+    frame: &RigidMotion,
+    freed: Freed<'_>,
+    edits: &mut Edits<'_>,
+) -> Vec<String> {
+    let (mut out, inside) = (Vec::new(), frame.inverse());
+    let (origin, mut neutral) = (edits.origin, String::new());
+    let root = origin.element(origin.root);
+    if root.first_child("default").is_some() {
+        neutral = format!(" {NEUTRAL}");
+        // Releases of MuJoCo before 3.0 do not know this attribute.
+        let mut sources = origin.document.sources.iter();
+        if sources.any(|s| s.text.contains("actuatorfrc")) {
+            neutral += " actuatorfrclimited=\"false\"";
+        }
+    }
+    for (slides, direction, why) in freed {
+        let (kind, word) = if *slides {
+            ("slide", "slide")
+        } else {
+            ("hinge", "turn")
+        };
+        let name = edits.name(&format!("{}_{word}", part.id));
+        out.push(format!("<!-- {why} -->"));
+        let pos = format_numbers(inside.map_point(point));
+        let axis = format_numbers(inside.map_direction(*direction));
+        let own = [
+            ("name", &*name),
+            ("type", kind),
+            ("pos", &pos),
+            ("axis", &axis),
+        ];
+        let own = write_attributes(own);
+        out.push(format!("<joint{own} armature=\"{ARMATURE}\"{neutral}/>"));
+    }
     out
 }
 

@@ -2,21 +2,16 @@
 //! small body on joints that is welded.
 
 use crate::closure::tree::spanning_tree;
-use crate::geom::vector::{Vector, sub};
-use crate::model::joint_type::{Freedom, JointType};
-use crate::model::mechanism::{JointId, LinkId, Mechanism, Role, StateId};
 use crate::motion::pose::Pose;
 use crate::robots::description::physical::{GRAM, left_out, moving_inertial, write_head};
 use crate::robots::formats::FormattedFile;
 use crate::robots::mechanism::series_of_single_joints::{
     Names, Single, clean_number, escape_comment, escape_xml, format_numbers, joint_axes,
-    single_freedoms,
+    single_freedoms, write_attributes,
 };
-use crate::robots::warning::ExportError;
+use crate::robots::prelude::*;
 use crate::statics::reactions::drives::driven_freedoms;
 use crate::statics::reactions::geometry::Geometry;
-use std::collections::BTreeMap;
-use std::fmt::Write;
 
 /// Writes the mechanism's free state as MJCF; bodies have the global axes, and their origin at the joint that holds them.
 ///
@@ -117,10 +112,8 @@ impl MjcfWriter<'_> {
         let pos = format_numbers(pos);
         if joint.joint_type == JointType::Spherical && !coupled {
             let name = self.joint_names.fit_name(&joint.id);
-            let line = format!(
-                "<joint name=\"{}\" type=\"ball\" pos=\"{pos}\"/>",
-                escape_xml(&name)
-            );
+            let own = write_attributes([("name", &*name), ("type", "ball"), ("pos", &pos)]);
+            let line = format!("<joint{own}/>");
             if let Some(&first) = joint.joint_type.freedoms().first() {
                 self.joints.insert((j, first), name);
             }
@@ -135,11 +128,14 @@ impl MjcfWriter<'_> {
             };
             let name = self.joint_names.fit_name(&wanted);
             let mut line = |name: &str, kind: &str, d: Vector| {
-                out.push(format!(
-                    "<joint name=\"{}\" type=\"{kind}\" pos=\"{pos}\" axis=\"{}\"/>",
-                    escape_xml(name),
-                    format_numbers(d.map(|x| sign * x))
-                ));
+                let axis = format_numbers(d.map(|x| sign * x));
+                let own = [
+                    ("name", name),
+                    ("type", kind),
+                    ("pos", &pos),
+                    ("axis", &axis),
+                ];
+                out.push(format!("<joint{}/>", write_attributes(own)));
             };
             match *single {
                 Single::Turn(d) => line(&name, "hinge", d),
@@ -195,44 +191,32 @@ impl MjcfWriter<'_> {
         let joint = &self.m.joints[j];
         let [a, b] = joint.links;
         let at = joint_axes(self.m, joint).point;
-        let id = escape_xml(&joint.id);
-        let second = |w: &Self| {
-            let (name, _) = w.body_of(b);
-            escape_xml(name)
-        };
         let (first, origin) = self.body_of(a);
-        let (first, from) = (escape_xml(first), sub(at, origin));
+        let (first, from) = (first.to_owned(), format_numbers(sub(at, origin)));
+        let second = self.body_of(b).0.to_owned();
+        let ends = |first: &str| {
+            let all = [("name", &*joint.id), ("body1", first), ("body2", &second)];
+            write_attributes(all)
+        };
         let line = match &joint.joint_type {
-            JointType::Spherical if !self.closing_body(j) => format!(
-                "    <connect name=\"{id}\" body1=\"{first}\" body2=\"{}\" anchor=\"{}\"/>\n",
-                second(self),
-                format_numbers(from)
-            ),
-            t if t.freedoms().is_empty() => format!(
-                "    <weld name=\"{id}\" body1=\"{first}\" body2=\"{}\"/>\n",
-                second(self)
-            ),
+            JointType::Spherical if !self.closing_body(j) => {
+                format!("<connect{} anchor=\"{from}\"/>", ends(&first))
+            }
+            t if t.freedoms().is_empty() => format!("<weld{}/>", ends(&first)),
             _ => {
                 let name = self.body_names.fit_name(&format!("{}~body", joint.id));
                 let inner = self.write_joints(j, 1.0, [0.0; 3]);
                 let weight = self.weight_attributes(b, a, at);
                 let lines = self.between.entry(a).or_default();
-                lines.push(format!(
-                    "<body name=\"{}\" pos=\"{}\">",
-                    escape_xml(&name),
-                    format_numbers(from)
-                ));
+                let own = write_attributes([("name", &*name), ("pos", &from)]);
+                lines.push(format!("<body{own}>"));
                 lines.push(format!("  <inertial {weight}/>"));
                 lines.extend(inner.into_iter().map(|l| format!("  {l}")));
                 lines.push("</body>".to_owned());
-                format!(
-                    "    <weld name=\"{id}\" body1=\"{}\" body2=\"{}\"/>\n",
-                    escape_xml(&name),
-                    second(self)
-                )
+                format!("<weld{}/>", ends(&name))
             }
         };
-        self.equalities.push(line);
+        self.equalities.push(format!("    {line}\n"));
     }
 
     fn write_couplings(&mut self) {
@@ -265,7 +249,8 @@ impl MjcfWriter<'_> {
             let name = of_drive
                 .and_then(|h| self.joints.get(h))
                 .or_else(|| self.joints.iter().find(|((k, _), _)| *k == j).map(|x| x.1))?;
-            Some(format!("    <motor joint=\"{}\"/>\n", escape_xml(name)))
+            let own = write_attributes([("joint", &**name)]);
+            Some(format!("    <motor{own}/>\n"))
         });
         motors.collect()
     }
@@ -283,8 +268,9 @@ impl MjcfWriter<'_> {
                 Role::Output => format!("  <!-- {} is an output -->", escape_comment(name)),
                 _ => String::new(),
             };
-            let (name, pos) = (escape_xml(name), format_numbers(sub(at, from)));
-            let _ = writeln!(out, "{indent}<body name=\"{name}\" pos=\"{pos}\">{role}");
+            let pos = format_numbers(sub(at, from));
+            let own = write_attributes([("name", name), ("pos", &pos)]);
+            let _ = writeln!(out, "{indent}<body{own}>{role}");
             let weight = self.weight_attributes(child, child, at);
             let _ = writeln!(out, "{indent}  <inertial {weight}/>");
             for line in self.own.get(&child).into_iter().flatten() {
@@ -298,10 +284,11 @@ impl MjcfWriter<'_> {
 
 /// Writes a joint that follows another.
 fn joint_equality(follows: &str, leads: &str, ratio: f64) -> String {
-    format!(
-        "    <joint joint1=\"{}\" joint2=\"{}\" polycoef=\"0 {} 0 0 0\"/>\n",
-        escape_xml(follows),
-        escape_xml(leads),
-        clean_number(ratio)
-    )
+    let polynomial = format!("0 {} 0 0 0", clean_number(ratio));
+    let own = [
+        ("joint1", follows),
+        ("joint2", leads),
+        ("polycoef", &polynomial),
+    ];
+    format!("    <joint{}/>\n", write_attributes(own))
 }

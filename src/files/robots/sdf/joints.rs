@@ -1,17 +1,11 @@
 //! The joints and constraints of an SDF file.
 
-use crate::geom::rigid::{RigidMotion, unit_or_z};
-use crate::geom::vector::{Vector, Z, cross, dot, length, sub};
-use crate::model::joint_type::JointType;
-use crate::robots::description::{Part, Ratio, Robot, free_joint, same_link};
+use crate::robots::prelude::*;
 use crate::robots::sdf::scene::{
     Scoped, SdfScene, absolute_name, joint_end, locate_name, of_joint,
 };
-use crate::robots::warning::{Read, bad_value};
-use crate::robots::xml::element::Element;
 
-pub(crate) const TYPES: &str =
-    "revolute, continuous, prismatic, screw, universal, revolute2, ball, fixed, floating, gearbox";
+pub(crate) const TYPES: &str = "revolute, continuous, hinge, prismatic, screw, universal, revolute2, ball, fixed, floating, gearbox";
 /// Distance of a parent frame from the joint, as a fraction of the lengths in the file, beyond which the joint moves to it.
 pub(crate) const APART: f64 = 1e-6;
 
@@ -71,7 +65,8 @@ pub(crate) fn read_joint(
     }
     let world = of_joint(scene, e, &name).unwrap_or(RigidMotion::IDENTITY);
     let local = |d: Vector| world.inverse().map_direction(d);
-    let joint_type = joint_type(e, word)?;
+    let joint_type = joint_of_word(word, TYPES);
+    let joint_type = joint_type.ok_or_else(|| e.unknown_word("type", word, TYPES))?;
     let far = length(sub(parent_world.translation, world.translation));
     let apart = is_frame(&absolute_name(scope, parent_name), scene) && far > APART * size;
     let mut on_parent = world;
@@ -91,7 +86,7 @@ pub(crate) fn read_joint(
             let second = read_axis(e, "axis2", scope, scene, &world)?;
             return two_axes(e, part, [local(first), local(second)], robot);
         }
-        _ => part = part.with_axis(local(read_axis(e, "axis", scope, scene, &world)?)),
+        _ => part.set_axis(local(read_axis(e, "axis", scope, scene, &world)?)),
     }
     if word == "screw" {
         part.pitch = screw_pitch(e)?;
@@ -112,19 +107,6 @@ pub(crate) fn read_joint(
 /// frame.
 fn is_frame(name: &str, scene: &SdfScene<'_>) -> bool {
     scene.placed.get(name).is_some_and(|p| p.link.is_none())
-}
-
-fn joint_type(e: Element<'_>, word: &str) -> Read<JointType> {
-    Ok(match word {
-        "revolute" | "continuous" | "hinge" => JointType::Revolute,
-        "prismatic" => JointType::Prismatic,
-        "screw" => JointType::Helical,
-        "universal" | "revolute2" => JointType::Universal,
-        "ball" => JointType::Spherical,
-        "fixed" => JointType::Fixed,
-        "floating" => free_joint(),
-        _ => return Err(e.unknown_word("type", word, TYPES)),
-    })
 }
 
 /// Reports the elements of a joint that are not read.
@@ -222,8 +204,9 @@ fn two_axes(e: Element<'_>, mut part: Part, axes: [Vector; 2], robot: &mut Robot
     robot.report.count_mapped("joint of two oblique axes");
     let [near, far] = part.sides;
     let mut hinge = |id: &str, links, sides, axis| {
-        let part = Part::new(id, links, sides, JointType::Revolute);
-        robot.joints.push(part.with_axis(axis).said_by(e));
+        let mut part = Part::new(id, links, sides, JointType::Revolute).said_by(e);
+        part.set_axis(axis);
+        robot.joints.push(part);
     };
     let here = RigidMotion::IDENTITY;
     hinge(&part.id, [parent, between], [near, here], first);
@@ -246,10 +229,8 @@ pub(crate) fn read_weld(at: &Scoped<'_>, scene: &SdfScene<'_>, robot: &mut Robot
         joint_end(e, "parent")?.1,
         joint_end(e, "child")?.1
     );
-    let mut part = Part::new_closing(e, &id, ends, JointType::Fixed)?;
+    let part = robot.close_loop(e, &id, ends, JointType::Fixed, "weld constraint")?;
     part.comment = Some("closes a loop: <drake:weld_constraint>".to_owned());
-    robot.report.count_mapped("weld constraint");
-    robot.joints.push(part);
     Ok(())
 }
 

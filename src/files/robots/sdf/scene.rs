@@ -1,12 +1,6 @@
 //! Elements with a place in an SDF file, and their places.
 
-use crate::file::problem::ImportError;
-use crate::geom::rigid::RigidMotion;
-use crate::geom::vector::scale;
-use crate::robots::description::End;
-use crate::robots::warning::{Read, list_known, unknown_name};
-use crate::robots::xml::element::Element;
-use std::collections::BTreeMap;
+use crate::robots::prelude::*;
 
 /// An element with a place: a model, link, frame or joint.
 pub(crate) struct Placed<'a> {

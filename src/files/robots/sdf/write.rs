@@ -1,7 +1,5 @@
 //! SDF: every joint of the free state as drawn, loops closed by joints.
 
-use crate::model::joint_type::JointType;
-use crate::model::mechanism::{JointId, LinkId, Mechanism, Role, StateId};
 use crate::robots::description::coupling::{Follows, find_mimics};
 use crate::robots::description::physical::{LIGHT_SDF, left_out, moving_inertial, write_head};
 use crate::robots::formats::FormattedFile;
@@ -9,7 +7,7 @@ use crate::robots::mechanism::series_of_single_joints::{
     JointAxes, Names, Single, clean_number, escape_comment, escape_xml, format_numbers, joint_axes,
     single_freedoms,
 };
-use std::fmt::Write;
+use crate::robots::prelude::*;
 
 /// The content of a file.
 struct SdfWriter<'a> {

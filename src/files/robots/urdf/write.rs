@@ -1,9 +1,6 @@
 //! URDF: a spanning tree of the free state; the joints that close loops are `<loop_joint>`s.
 
 use crate::closure::tree::{TreeStep, spanning_tree};
-use crate::geom::vector::sub;
-use crate::model::joint_type::JointType;
-use crate::model::mechanism::{JointId, Link, LinkId, Mechanism, StateId};
 use crate::robots::description::coupling::{Follows, find_mimics};
 use crate::robots::description::physical::{
     GRAM, LIGHT_URDF, left_out, link_inertial, moving_inertial, write_head,
@@ -11,10 +8,9 @@ use crate::robots::description::physical::{
 use crate::robots::formats::FormattedFile;
 use crate::robots::mechanism::series_of_single_joints::{
     Names, Single, clean_number, escape_comment, escape_xml, format_numbers, joint_axes,
-    single_freedoms,
+    single_freedoms, write_attributes,
 };
-use crate::robots::warning::ExportError;
-use std::fmt::Write;
+use crate::robots::prelude::*;
 
 /// The content of a file.
 struct UrdfWriter<'a> {
@@ -163,18 +159,15 @@ impl UrdfWriter<'_> {
             self.body += &tree_joint(&part, kind, ends, sub(p.point, from), "");
             (a, from) = (between, p.point);
         }
-        let axis = closes.1.map_or(String::new(), |d| {
-            format!("    <axis xyz=\"{}\"/>\n", format_numbers(d))
-        });
+        let end = |link: &str, origin: Vector| {
+            let place = format_numbers(sub(p.point, origin));
+            write_attributes([("link", link), ("xyz", &place), ("rpy", "0 0 0")])
+        };
+        let (own, axis) = (name_and_type(&id, closes.0), write_axis(closes.1));
+        let (first, second) = (end(&a, from), end(&b, to));
         let _ = write!(
             self.body,
-            "  <loop_joint name=\"{}\" type=\"{}\">\n    <link1 link=\"{}\" xyz=\"{}\" rpy=\"0 0 0\"/>\n    <link2 link=\"{}\" xyz=\"{}\" rpy=\"0 0 0\"/>\n{axis}  </loop_joint>\n",
-            escape_xml(&id),
-            closes.0,
-            escape_xml(&a),
-            format_numbers(sub(p.point, from)),
-            escape_xml(&b),
-            format_numbers(sub(p.point, to))
+            "  <loop_joint{own}>\n    <link1{first}/>\n    <link2{second}/>\n{axis}  </loop_joint>\n"
         );
         self.write_driven(j, &id);
         Ok(())
@@ -245,16 +238,23 @@ fn joint_kinds(m: &Mechanism, j: JointId, sign: f64) -> Result<Vec<Kind>, Export
 fn tree_joint(id: &str, joint: &Kind, ends: [&str; 2], at: [f64; 3], more: &str) -> String {
     let &(kind, axis) = joint;
     let [parent, child] = ends.map(escape_xml);
-    let axis = axis.map_or(String::new(), |d| {
-        format!("    <axis xyz=\"{}\"/>\n", format_numbers(d))
-    });
+    let (own, axis) = (name_and_type(id, kind), write_axis(axis));
     let limit = match kind {
         "prismatic" => LIMIT,
         _ => "",
     };
     format!(
-        "  <joint name=\"{}\" type=\"{kind}\">\n    <parent link=\"{parent}\"/>\n    <child link=\"{child}\"/>\n    <origin xyz=\"{}\"/>\n{axis}{limit}{more}  </joint>\n",
-        escape_xml(id),
+        "  <joint{own}>\n    <parent link=\"{parent}\"/>\n    <child link=\"{child}\"/>\n    <origin xyz=\"{}\"/>\n{axis}{limit}{more}  </joint>\n",
         format_numbers(at)
     )
+}
+
+fn name_and_type(id: &str, kind: &str) -> String {
+    write_attributes([("name", id), ("type", kind)])
+}
+
+fn write_axis(axis: Option<Vector>) -> String {
+    axis.map_or(String::new(), |d| {
+        format!("    <axis xyz=\"{}\"/>\n", format_numbers(d))
+    })
 }

@@ -51,10 +51,6 @@ impl<'a> Element<'a> {
         self.node().text.trim()
     }
 
-    pub(crate) fn source(self) -> &'a str {
-        &self.document.sources[self.node().source].name
-    }
-
     pub(crate) fn children(self) -> impl DoubleEndedIterator<Item = Element<'a>> {
         let all = self.node().children.iter();
         all.map(move |&id| self.document.element(id))

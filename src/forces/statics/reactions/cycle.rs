@@ -2,10 +2,10 @@
 
 use crate::model::loads::Stroke;
 use crate::model::mechanism::{Mechanism, StateId};
+use crate::motion::follow::{Follower, column_slides};
 use crate::motion::pose::Pose;
 use crate::statics::reactions::contact::Contacts;
 use crate::statics::reactions::drives::{Driven, driven_freedoms};
-use crate::statics::reactions::follow::follow_stroke;
 use crate::statics::reactions::geometry::Geometry;
 use crate::statics::reactions::loads::Borne;
 use crate::statics::reactions::solution::Solution;
@@ -79,4 +79,101 @@ pub(crate) fn cycle_with(
         positions,
         stopped: followed.stopped,
     })
+}
+
+/// Poses by position of the drive, with the position at which it stopped, if any.
+#[derive(Debug)]
+pub struct Followed {
+    /// Position of the drive since the pose of the file `[rad]` or in the file's unit, and the pose.
+    pub poses: Vec<(f64, Pose)>,
+    /// First position that could not be reached.
+    pub stopped: Option<f64>,
+    /// The position of the drive at which it stopped, and the pose.
+    pub last: Option<(f64, Pose)>,
+}
+
+/// Returns the poses of a stroke, outward from that of the file on its branch, or only that of the file without a
+/// stroke. Freedoms that no drive holds move as little as possible. With several drives, the others keep step with the
+/// first by their speeds.
+///
+/// # Errors
+/// Returns an error if a coordinate has no value.
+///
+/// # Complexity
+/// O((6k)²·f) per Newton step, for k contours and f freedoms.
+pub fn follow_stroke(
+    m: &Mechanism,
+    state: StateId,
+    drives: &[Driven],
+    stroke: Option<Stroke>,
+) -> Result<Followed, Unsolved> {
+    let wanted = stroke.map_or_else(|| vec![0.0], |s| s.positions());
+    follow_to(m, state, drives, &wanted)
+}
+
+/// Returns the poses at positions of the first drive, by position, or only that of the file if nothing is driven.
+///
+/// # Errors
+/// Returns an error if a coordinate has no value.
+pub fn follow_to(
+    m: &Mechanism,
+    state: StateId,
+    drives: &[Driven],
+    wanted: &[f64],
+) -> Result<Followed, Unsolved> {
+    let mut start = Pose::of_file(m, state)?;
+    let columns = start.columns.iter().map(|c| (c.joint, c.freedom));
+    let columns: Vec<Driven> = columns.collect();
+    let held = drives
+        .iter()
+        .filter_map(|d| columns.iter().position(|c| c == d));
+    let held: Vec<usize> = held.collect();
+    let mut out = Followed {
+        poses: Vec::new(),
+        stopped: None,
+        last: None,
+    };
+    let Some((&first, others)) = held.split_first() else {
+        out.poses.push((0.0, start));
+        return Ok(out);
+    };
+    let unit = column_unit(&start, first);
+    let speeds = &m.loads.drive_speeds;
+    let mut still = Vec::new();
+    for (n, &c) in others.iter().enumerate() {
+        match (speeds.first(), speeds.get(n + 1)) {
+            (Some(&v), Some(&own)) if v != 0.0 && own != 0.0 => {
+                let ratio = own / v * unit / self::column_unit(&start, c);
+                start = start.with_coupling(first, c, ratio);
+            }
+            _ => still.push(c),
+        }
+    }
+    let mut wanted = wanted.to_vec();
+    wanted.sort_by(f64::total_cmp);
+    let (back, ahead): (Vec<f64>, Vec<f64>) = wanted.into_iter().partition(|x| *x < 0.0);
+    for way in [ahead, back.into_iter().rev().collect()] {
+        let mut follower = Follower::new(start.clone(), first, &still);
+        for to in way {
+            if follower.advance_to(to / unit, |_| {}).is_err() {
+                if out.stopped.is_none() {
+                    out.stopped = Some(to);
+                    out.last = Some((follower.drive_position() * unit, follower.current_pose()));
+                }
+                break;
+            }
+            out.poses.push((to, follower.current_pose()));
+        }
+    }
+    out.poses.sort_by(|a, b| a.0.total_cmp(&b.0));
+    Ok(out)
+}
+
+/// Returns the number of radians, or of the file's units of length, in one unit of a column.
+fn column_unit(pose: &Pose, column: usize) -> f64 {
+    if column_slides(pose, column) {
+        pose.length
+    } else {
+        1.0
+    }
 }

@@ -1,77 +1,52 @@
-//! Minimal polynomials of cosines.
+//! Prime fields with roots of unity, and the minimal polynomials of cosines.
 
-use num_bigint::BigInt;
-use num_rational::BigRational;
-use num_traits::{One, Zero};
-
+use crate::geom::exact::plan::root_of_unity;
 use crate::geom::exact::radical::prime_factors;
+use crate::linalg::modp::{Field, Residue, is_prime};
 use crate::linalg::number_ring::Element;
+use num_integer::Integer;
 
-/// Returns the minimal polynomial of 2 cos(2π/n) for n > 2, lowest coefficient first, without the leading 1.
-///
-/// With h = φ(n)/2, the cyclotomic polynomial divided by x^h is a sum of terms x^k + x^-k, which are polynomials in x +
-/// 1/x.
-pub(super) fn cosine_relation(n: u64) -> Vec<Element> {
-    let cyclotomic = cyclotomic_polynomial(n);
-    let h = cyclotomic.len() / 2;
-    let mut sum = vec![BigInt::zero(); h + 1];
-    // x^k + x^-k for k and k + 1 as polynomials in t = x + 1/x; half of the first, because the middle term is single.
-    let mut now = vec![BigInt::one()];
-    let mut next = vec![BigInt::zero(), BigInt::one()];
-    for k in 0..=h {
-        for (s, v) in sum.iter_mut().zip(&now) {
-            *s += v * &cyclotomic[h + k];
-        }
-        let mut after = vec![BigInt::zero(); next.len() + 1];
-        for (i, v) in next.iter().enumerate() {
-            after[i + 1] += v;
-        }
-        let twice = if k == 0 { 2 } else { 1 };
-        for (i, v) in now.iter().enumerate() {
-            after[i] -= v * twice;
-        }
-        (now, next) = (next, after);
-    }
-    sum.pop();
-    sum.into_iter()
-        .map(|c| Element::from_rational(BigRational::from_integer(c)))
-        .collect()
+/// Maximum number of candidates in the search for primes.
+const MAX_CANDIDATES: u64 = 1 << 20;
+
+/// Returns the images of 2 cos(2πk/n) for all k coprime to n, in a field with the roots of unity.
+pub(super) fn cosine_images(field: Field, n: u64) -> Option<Vec<Residue>> {
+    let primes: Vec<u64> = prime_factors(n).into_iter().map(|(q, _)| q).collect();
+    let zeta = root_of_unity(field, n, &primes)?;
+    let inverse = field.inv(zeta);
+    let coprime = (1..n / 2).filter(|k| k.gcd(&n) == 1);
+    let image = |k| field.add(field.pow(zeta, k), field.pow(inverse, k));
+    Some(coprime.map(image).collect())
 }
 
-/// Returns the cyclotomic polynomial by Möbius inversion: the product of (x^d - 1)^μ(n/d) over the divisors d.
-fn cyclotomic_polynomial(n: u64) -> Vec<BigInt> {
-    let primes: Vec<u64> = prime_factors(n).into_iter().map(|(q, _)| q).collect();
-    let (mut over, mut under) = (Vec::new(), Vec::new());
-    for subset in 0..1u32 << primes.len() {
-        let chosen = |i: &usize| subset >> i & 1 == 1;
-        let product: u64 = (0..primes.len())
-            .filter(chosen)
-            .map(|i| primes[i])
-            .product();
-        let d = usize::try_from(n / product).unwrap_or(usize::MAX);
-        if subset.count_ones() % 2 == 0 {
-            over.push(d)
-        } else {
-            under.push(d)
+/// Returns the minimal polynomial of 2 cos(2π/n) for n > 4, lowest coefficient first, without the leading 1: from its
+/// roots modulo a prime that is larger than its coefficients. Whoever checks a certificate computes it in another way.
+pub(super) fn cosine_relation(n: u64) -> Option<Vec<Element>> {
+    let field = fields_from(n).next()?;
+    let mut product = vec![field.one()];
+    for root in cosine_images(field, n)? {
+        let mut next = vec![0; product.len() + 1];
+        for (i, &c) in product.iter().enumerate() {
+            next[i + 1] = field.add(next[i + 1], c);
+            next[i] = field.sub(next[i], field.mul(c, root));
         }
+        product = next;
     }
-    let mut out = vec![BigInt::one()];
-    for d in over {
-        let mut product = vec![BigInt::zero(); out.len() + d];
-        for (i, c) in out.iter().enumerate() {
-            product[i + d] += c;
-            product[i] -= c;
-        }
-        out = product;
-    }
-    for d in under {
-        // c = q · (x^d - 1), from the top down
-        let mut quotient = out.split_off(d);
-        for i in (0..quotient.len().saturating_sub(d)).rev() {
-            let above = quotient[i + d].clone();
-            quotient[i] += above;
-        }
-        out = quotient;
-    }
-    out
+    product.pop();
+    let integer = |c: Residue| match field.to_u64(c).cast_signed() {
+        x if x > field.modulus().cast_signed() / 2 => x - field.modulus().cast_signed(),
+        x => x,
+    };
+    let integers = product.into_iter().map(integer);
+    Some(integers.map(Element::from_integer).collect())
+}
+
+/// Returns the fields of primes 1 modulo a number, from 2^61 on.
+pub(super) fn fields_from(modulus: u64) -> impl Iterator<Item = Field> {
+    let start = (1u64 << 61) / modulus + 1;
+    let end = ((1u64 << 62) - 1) / modulus;
+    (start..end.min(start.saturating_add(MAX_CANDIDATES)))
+        .map(move |k| k * modulus + 1)
+        .filter(|&p| is_prime(p))
+        .map(Field::new)
 }

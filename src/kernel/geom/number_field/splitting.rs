@@ -1,14 +1,8 @@
 //! Primes that split a number field, and primes that show that it is one.
 
-use num_integer::Integer;
-
 use super::NumberField;
-use crate::geom::exact::plan::root_of_unity;
-use crate::geom::exact::radical::prime_factors;
-use crate::linalg::modp::{Field, Residue, is_prime};
-
-/// Maximum number of candidates in the search for primes.
-const MAX_CANDIDATES: u64 = 1 << 20;
+use super::cosine::{cosine_images, fields_from};
+use crate::linalg::modp::{Field, Residue};
 
 /// A field with the images of its generators in a prime field, under every homomorphism.
 #[derive(Debug, Clone)]
@@ -29,12 +23,8 @@ impl NumberField {
     pub(super) fn split_at(&self, field: Field) -> Option<Splitting> {
         let mut homomorphisms: Vec<Vec<Residue>> = vec![Vec::new()];
         if self.first_root() == 1 {
-            let zeta = self.root_of_unity(field)?;
-            let inverse = field.inv(zeta);
-            homomorphisms = (1..self.order / 2)
-                .filter(|k| k.gcd(&self.order) == 1)
-                .map(|k| vec![field.add(field.pow(zeta, k), field.pow(inverse, k))])
-                .collect();
+            let images = cosine_images(field, self.order)?;
+            homomorphisms = images.into_iter().map(|x| vec![x]).collect();
         }
         for g in self.first_root()..self.ring.generators() {
             let mut more = Vec::with_capacity(2 * homomorphisms.len());
@@ -70,10 +60,10 @@ impl NumberField {
             }
             let mut images = Vec::new();
             if first == 1 {
-                let Some(zeta) = self.root_of_unity(field) else {
+                let Some(all) = cosine_images(field, self.order) else {
                     continue;
                 };
-                images.push(field.add(zeta, field.inv(zeta)));
+                images.push(all[0]);
             }
             for (g, witness) in (first..).zip(&mut found) {
                 let Some(radicand) = self.radicand_image(g, field, &images).filter(|&a| a != 0)
@@ -104,22 +94,4 @@ impl NumberField {
         let monomials = self.ring.monomials(field, images);
         Some(field.neg(constant.image_in(field, &monomials)?))
     }
-
-    fn root_of_unity(&self, field: Field) -> Option<Residue> {
-        let primes: Vec<u64> = prime_factors(self.order)
-            .into_iter()
-            .map(|(q, _)| q)
-            .collect();
-        root_of_unity(field, self.order, &primes)
-    }
-}
-
-/// Returns the fields of primes 1 modulo a number, from 2^61 on.
-fn fields_from(modulus: u64) -> impl Iterator<Item = Field> {
-    let start = (1u64 << 61) / modulus + 1;
-    let end = ((1u64 << 62) - 1) / modulus;
-    (start..end.min(start.saturating_add(MAX_CANDIDATES)))
-        .map(move |k| k * modulus + 1)
-        .filter(|&p| is_prime(p))
-        .map(Field::new)
 }

@@ -92,11 +92,6 @@ impl NumberClass {
         !self.long.is_empty()
     }
 
-    /// Returns true if any number is whole and nonzero.
-    pub(super) fn has_whole(&self) -> bool {
-        self.whole
-    }
-
     /// Returns half the most common unit: of the long decimals, or of all if none is long. If two units are equally
     /// common, the finer one counts.
     pub(super) fn commonest_half_unit(&self) -> Option<f64> {
@@ -170,15 +165,9 @@ impl NumberClass {
         as_short * SHARE >= self.long.len()
     }
 
-    /// Returns half the units of the coordinates of a point, or of one length. `turned` means that directions are
+    /// Returns half the unit of a coordinate of a point, or of a length by itself. `turned` means that directions are
     /// decimals.
-    pub(super) fn length_half_units(&self, v: &[Expr], turned: bool) -> Vec<f64> {
-        v.iter()
-            .map(|e| self.length_half_unit(e, v, turned))
-            .collect()
-    }
-
-    fn length_half_unit(&self, e: &Expr, of: &[Expr], turned: bool) -> f64 {
+    pub(super) fn length_half_unit(&self, e: &Expr, of: &[Expr], turned: bool) -> f64 {
         let whole = |factor: f64| match self.commonest_half_unit() {
             None if turned && self.whole => 0.5 * factor,
             Some(most) if e.to_f64() != 0.0 => most * factor,

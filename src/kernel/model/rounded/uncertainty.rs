@@ -1,12 +1,9 @@
 //! Accuracy of each number of a mechanism, from its last digit or a stated uncertainty.
 
 use super::class::{NumberClass, NumberKind};
-use super::ratio::doubt_of;
 use crate::geom::expr::{End, Expr, WrittenNumber};
 use crate::geom::vector::{self, to_vector};
-use crate::model::joint_type::Coupling;
 use crate::model::mechanism::{Frame, Joint, Mechanism, Mode};
-use std::collections::BTreeMap;
 
 /// Half units of the numbers of a frame, in the file's own numbers; 0 if they are exact.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -21,18 +18,6 @@ pub struct FrameUncertainty {
     pub pitch: f64,
 }
 
-/// Identity of the numbers of a frame: an index for each inexact number. Numbers of one kind that are equal up to their
-/// sign have equal indices.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub struct FrameNumbers {
-    /// Indices of its point.
-    pub point: [Option<usize>; 3],
-    /// Indices of its axis.
-    pub axis: [Option<usize>; 3],
-    /// Indices of its reference.
-    pub reference: [Option<usize>; 3],
-}
-
 /// Half units of all numbers of a mechanism that may have been rounded, in the file's own numbers; 0 if they are exact.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Uncertainties {
@@ -41,18 +26,8 @@ pub struct Uncertainties {
     /// Half units of the frames of the options, by joint, in the order of
     /// [`Joint::offered`](crate::model::mechanism::Joint::offered_options).
     pub option_frames: Vec<Vec<FrameUncertainty>>,
-    /// Half units of the points of interest.
-    pub points: Vec<[f64; 3]>,
     /// Half units of the normal of the plane.
     pub normal: [f64; 3],
-    /// Half units of the doubtful ratios of couplings.
-    pub ratios: Vec<f64>,
-    /// Identity of the numbers of the joints.
-    pub numbers: Vec<FrameNumbers>,
-    /// Number of inexact lengths and directions, with equal ones counted once.
-    pub distinct: [usize; 2],
-    /// Half the most common unit of lengths and of components of directions; 0 if none is rounded.
-    pub half_unit: [f64; 2],
 }
 
 impl Uncertainties {
@@ -90,13 +65,8 @@ impl Uncertainties {
 struct Reading {
     lengths: NumberClass,
     directions: NumberClass,
-    /// Whether any decimal is long, or any uncertainty is stated.
-    rounded: bool,
     /// Whether the file is rotated in space: most axes of its joints are decimals.
     turned: bool,
-    /// Indices of numbers by kind and size.
-    seen: BTreeMap<(NumberKind, u64), usize>,
-    distinct: [usize; 2],
 }
 
 /// Returns the half units of all numbers, or `None` if nothing looks rounded and no uncertainty is stated.
@@ -119,34 +89,18 @@ struct Reading {
 /// O(n log n) for n numbers.
 #[must_use]
 pub fn uncertainties(mechanism: &Mechanism) -> Option<Uncertainties> {
-    let mut reading = Reading::of_mechanism(mechanism);
-    let ratio = |c: &Coupling| doubt_of(c).map_or(0.0, |d| d.half);
-    let ratios: Vec<f64> = mechanism.couplings.iter().map(ratio).collect();
-    if !reading.rounded && ratios.iter().all(|r| *r == 0.0) {
-        return None;
-    }
-    let mut out = Uncertainties {
-        ratios,
-        half_unit: reading.half_units(),
-        ..Uncertainties::default()
-    };
-    for joint in &mechanism.joints {
-        let (half, numbers) = reading.read_frame(&joint.frame);
-        out.frames.push(half);
-        out.numbers.push(numbers);
-        let offered = joint
-            .offered_options()
-            .map(|o| reading.read_frame(&o.frame).0);
-        out.option_frames.push(offered.collect());
-    }
-    let points = mechanism.points.iter();
-    let points = points.map(|p| reading.read_vector(&p.point, NumberKind::Length).0);
-    out.points = points.collect();
-    if let Mode::Planar { normal } = &mechanism.mode {
-        out.normal = reading.read_vector(normal, NumberKind::Direction).0;
-    }
-    out.distinct = reading.distinct;
-    Some(out)
+    let reading = Reading::of_mechanism(mechanism)?;
+    let frame = |f: &Frame| reading.read_frame(f);
+    let offered = |j: &Joint| j.offered_options().map(|o| frame(&o.frame)).collect();
+    let joints = mechanism.joints.iter();
+    Some(Uncertainties {
+        frames: joints.clone().map(|j| frame(&j.frame)).collect(),
+        option_frames: joints.map(offered).collect(),
+        normal: match &mechanism.mode {
+            Mode::Spatial => [0.0; 3],
+            Mode::Planar { normal } => reading.read_direction(normal),
+        },
+    })
 }
 
 /// Returns true if a number is written as a whole number.
@@ -169,7 +123,8 @@ fn is_turned(mechanism: &Mechanism) -> bool {
 }
 
 impl Reading {
-    fn of_mechanism(mechanism: &Mechanism) -> Reading {
+    /// Reads the numbers of a mechanism, or returns `None` if nothing looks rounded and no uncertainty is stated.
+    fn of_mechanism(mechanism: &Mechanism) -> Option<Reading> {
         let [mut lengths, mut directions] = [NumberClass::default(), NumberClass::default()];
         let mut stated = false;
         let mut see = |v: &[Expr], kind: NumberKind| {
@@ -198,80 +153,33 @@ impl Reading {
         }
         let [lengths, directions] = [lengths, directions].map(NumberClass::with_commonest);
         let rounded = stated || lengths.is_long() || directions.is_long();
-        Reading {
+        rounded.then(|| Reading {
             turned: directions.is_long() && is_turned(mechanism),
             lengths,
             directions,
-            rounded,
-            seen: BTreeMap::new(),
-            distinct: [0; 2],
-        }
+        })
     }
 
-    /// Returns half the units that most numbers have.
-    fn half_units(&self) -> [f64; 2] {
-        if !self.rounded {
-            return [0.0; 2];
-        }
-        let lengths = self.lengths.commonest_half_unit();
-        let whole = self.turned && self.lengths.has_whole();
-        let lengths = lengths.unwrap_or(if whole { 0.5 } else { 0.0 });
-        [
-            lengths,
-            self.directions.commonest_half_unit().unwrap_or(0.0),
-        ]
-    }
-
-    fn read_frame(&mut self, f: &Frame) -> (FrameUncertainty, FrameNumbers) {
-        let [point, axis, reference] = [
-            (&f.point, NumberKind::Length),
-            (&f.axis, NumberKind::Direction),
-            (&f.reference, NumberKind::Direction),
-        ]
-        .map(|(v, kind)| self.read_vector(v, kind));
-        let of = FrameUncertainty {
-            point: point.0,
-            axis: axis.0,
-            reference: reference.0,
+    fn read_frame(&self, f: &Frame) -> FrameUncertainty {
+        FrameUncertainty {
+            point: [0, 1, 2].map(|i| self.read_length(&f.point[i], &f.point)),
+            axis: self.read_direction(&f.axis),
+            reference: self.read_direction(&f.reference),
             // A whole pitch is chosen.
             pitch: if is_whole(&f.pitch) {
                 0.0
             } else {
-                self.length_half_units(std::slice::from_ref(&f.pitch))[0]
+                self.read_length(&f.pitch, std::slice::from_ref(&f.pitch))
             },
-        };
-        let numbers = FrameNumbers {
-            point: point.1,
-            axis: axis.1,
-            reference: reference.1,
-        };
-        (of, numbers)
-    }
-
-    fn length_half_units(&self, v: &[Expr]) -> Vec<f64> {
-        if !self.rounded {
-            return vec![0.0; v.len()];
         }
-        self.lengths.length_half_units(v, self.turned)
     }
 
-    fn read_vector(&mut self, v: &[Expr; 3], kind: NumberKind) -> ([f64; 3], [Option<usize>; 3]) {
-        let halves = match kind {
-            NumberKind::Length => self.length_half_units(v),
-            NumberKind::Direction if self.rounded => self.directions.direction_half_units(v),
-            NumberKind::Direction => Vec::new(),
-        };
-        let halves = [0, 1, 2].map(|i| halves.get(i).copied().unwrap_or(0.0));
-        let number = |i: usize| {
-            if halves[i] == 0.0 {
-                return None;
-            }
-            let key = (kind, v[i].to_f64().abs().to_bits());
-            let next = self.seen.len();
-            let id = *self.seen.entry(key).or_insert(next);
-            self.distinct[kind as usize] += usize::from(id == next);
-            Some(id)
-        };
-        (halves, [0, 1, 2].map(number))
+    fn read_length(&self, e: &Expr, of: &[Expr]) -> f64 {
+        self.lengths.length_half_unit(e, of, self.turned)
+    }
+
+    fn read_direction(&self, v: &[Expr; 3]) -> [f64; 3] {
+        let halves = self.directions.direction_half_units(v);
+        [0, 1, 2].map(|i| halves[i])
     }
 }

@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 
 use crate::model::mechanism::{Mechanism, StateId};
 use crate::rank::exact::certificate::{closure_matrix, number_field};
-use crate::rank::method::{About, Answer, Certainty, MobilityMethod, NoAnswer, RankOfJ};
+use crate::rank::method::{Answer, Certainty, MobilityMethod, NoAnswer, RankOfJ};
 use crate::verify::matrix::MatrixOverRing;
 
 /// Returns the rank of a matrix of rational numbers, or `None` if an entry is not rational.
@@ -59,27 +59,22 @@ pub fn rational_rank(matrix: &MatrixOverRing) -> Option<usize> {
 }
 
 /// [`rank`] as a method.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Rational;
+pub(crate) const RATIONAL: MobilityMethod = MobilityMethod {
+    name: "rational",
+    title: "exact rational elimination",
+    help: "Exact elimination in fractions (rational coordinates only)",
+    guarantee: "exact at this pose; rational coordinates only",
+    complexity: "O(rank · 6k · f) operations on growing fractions",
+    source: "Gauss; von zur Gathen & Gerhard, Modern Computer Algebra, 2013, ch. 5",
+    rank: RankOfJ::NotFound,
+    answer: answer_rational,
+};
 
-impl MobilityMethod for Rational {
-    fn about(&self) -> &'static About {
-        &About {
-            name: "rational",
-            title: "exact rational elimination",
-            help: "Exact elimination in fractions (rational coordinates only)",
-            guarantee: "exact at this pose; rational coordinates only",
-            complexity: "O(rank · 6k · f) operations on growing fractions",
-            source: "Gauss; von zur Gathen & Gerhard, Modern Computer Algebra, 2013, ch. 5",
-            rank: RankOfJ::NotFound,
-        }
-    }
-    fn answer(&self, mechanism: &Mechanism, state: StateId) -> Result<Answer, NoAnswer> {
-        let field = number_field(mechanism, state)
-            .map_err(|_| NoAnswer::DoesNotApply("coordinates are not rational"))?;
-        let matrix = closure_matrix(&field, mechanism, state)?;
-        let rank =
-            rational_rank(&matrix).ok_or(NoAnswer::DoesNotApply("coordinates are not rational"))?;
-        Ok(Answer::at_pose(matrix.columns(), rank, Certainty::Exact))
-    }
+fn answer_rational(mechanism: &Mechanism, state: StateId) -> Result<Answer, NoAnswer> {
+    let field = number_field(mechanism, state)
+        .map_err(|_| NoAnswer::DoesNotApply("coordinates are not rational"))?;
+    let matrix = closure_matrix(&field, mechanism, state)?;
+    let rank =
+        rational_rank(&matrix).ok_or(NoAnswer::DoesNotApply("coordinates are not rational"))?;
+    Ok(Answer::at_pose(matrix.columns(), rank, Certainty::Exact))
 }

@@ -68,10 +68,8 @@ pub fn mobility_by_following(
     };
     let found = search.dimension_at(pose, Some(motions), shaky, 1.0, 0)?;
     Some(Traced {
-        mobility: found.from,
-        at_most: found.to,
         poses: search.poses,
-        regular: found.regular,
+        ..found
     })
 }
 
@@ -81,27 +79,19 @@ pub fn null_space_of(pose: &Pose) -> Matrix {
     Flat::new(pose, None).kernel
 }
 
-/// Dimensions found and not excluded.
-#[derive(Debug, Clone, Copy)]
-struct DimensionsFound {
-    from: usize,
-    to: usize,
-    regular: bool,
-}
-
-impl DimensionsFound {
-    fn exactly(dimension: usize, regular: bool) -> DimensionsFound {
-        DimensionsFound {
-            from: dimension,
-            to: dimension,
+impl Traced {
+    fn exactly(dimension: usize, regular: bool) -> Traced {
+        Traced {
             regular,
+            ..Traced::between(dimension, dimension)
         }
     }
 
-    fn between(from: usize, to: usize) -> DimensionsFound {
-        DimensionsFound {
-            from,
-            to,
+    fn between(mobility: usize, at_most: usize) -> Traced {
+        Traced {
+            mobility,
+            at_most,
+            poses: 0,
             regular: false,
         }
     }
@@ -268,33 +258,30 @@ impl DimensionSearch {
         shaky: bool,
         scale: f64,
         depth: usize,
-    ) -> Option<DimensionsFound> {
+    ) -> Option<Traced> {
         let flat = Flat::new(pose, motions);
         let n = flat.kernel.ncols();
         if n == 0 {
-            let to = usize::from(!flat.clear);
-            let regular = flat.clear;
-            return Some(DimensionsFound {
-                from: 0,
-                to,
-                regular,
+            return Some(Traced {
+                regular: flat.clear,
+                ..Traced::between(0, usize::from(!flat.clear))
             });
         }
         if !shaky {
             match self.motions_extend(pose, &flat.kernel, scale, depth > 0)? {
-                Some(true) => return Some(DimensionsFound::exactly(n, true)),
+                Some(true) => return Some(Traced::exactly(n, true)),
                 Some(false) => {}
-                None => return Some(DimensionsFound::between(0, n)),
+                None => return Some(Traced::between(0, n)),
             }
         }
         // Not every motion extends, so at most a hypersurface does.
         let at_most = n - 1;
         if n == 1 {
-            return Some(DimensionsFound::exactly(0, false));
+            return Some(Traced::exactly(0, false));
         }
         let quadrics = Quadrics::new(pose, &flat);
         if quadrics.is_definite() {
-            return Some(DimensionsFound::exactly(0, false));
+            return Some(Traced::exactly(0, false));
         }
         let starts = (0..80).map(|_| self.random_direction(n)).collect();
         let seeds = tangent_cone::find_zeros(
@@ -317,7 +304,7 @@ impl DimensionSearch {
         } else {
             at_most
         };
-        Some(DimensionsFound::between(from, to))
+        Some(Traced::between(from, to))
     }
 
     /// Returns the largest dimension found along branches in some directions, as far as the budget allows.
@@ -356,7 +343,7 @@ impl DimensionSearch {
             } else if motions > best && depth < DEPTH {
                 let distance = (norm(&branch.far) * 0.5).min(scale);
                 let found = self.dimension_at(&there, None, false, distance, depth + 1);
-                best = best.max(found.map_or(0, |f| f.from));
+                best = best.max(found.map_or(0, |f| f.mobility));
             }
         }
         if same.is_empty() || best + 1 == n {
@@ -381,7 +368,7 @@ impl DimensionSearch {
                 let distance = (norm(&branch.far) * 0.5).min(scale);
                 let there = pose.moved_to(&branch.far);
                 let found = self.dimension_at(&there, None, true, distance, depth + 1);
-                best = best.max(found.map_or(0, |f| f.from));
+                best = best.max(found.map_or(0, |f| f.mobility));
             }
         }
         best.min(n - 1)

@@ -32,17 +32,17 @@ pub enum Proof {
     Contours,
 }
 
-/// Evidence for a finite mobility.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+/// Evidence for a finite mobility, in the order of what it leaves open.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum How {
     /// Nothing moves even instantaneously.
     Rigid,
     /// The motion is a manifold of all that moves instantaneously: the pose is a regular one. Proven.
     Submersion {
-        /// The required rank.
-        dimension: usize,
         /// The proof.
         by: Proof,
+        /// The required rank.
+        dimension: usize,
     },
     /// Instantaneous motions are stopped by second or higher order: a shaky pose. Proven.
     Stopped {
@@ -63,23 +63,12 @@ pub enum How {
         /// Whether the pose of the file is a regular one of its motion.
         regular: bool,
     },
+    /// Not followed, because the mechanism is too large: at most the instantaneous mobility.
+    Bound,
     /// Neither proof nor numerical following decides.
-    Undecided {
-        /// The largest dimension of a motion that was found.
-        from: usize,
-        /// The largest dimension that is not excluded.
-        to: usize,
-    },
+    Undecided,
     /// Coordinates are rounded too coarsely to distinguish a motion from a shaky pose, or to determine the rank of J.
-    Rounded {
-        /// Upper bound of the mobility.
-        to: usize,
-    },
-    /// Not followed, because the mechanism is too large.
-    Bound {
-        /// Upper bound of the mobility: the instantaneous mobility.
-        to: usize,
-    },
+    Rounded,
 }
 
 impl Proof {
@@ -109,6 +98,8 @@ impl Proof {
 pub struct Finite {
     /// Dimension of the motion. If undecided, its lower bound: the motion that certainly exists.
     pub mobility: usize,
+    /// Upper bound of the dimension.
+    most: usize,
     /// The evidence.
     pub how: How,
     /// Whether the rank of J that it is based on is numeric.
@@ -117,8 +108,14 @@ pub struct Finite {
 
 impl Finite {
     pub(super) fn new(mobility: usize, how: How) -> Finite {
+        Finite::between(mobility, mobility, how)
+    }
+
+    /// Creates the result for a dimension within bounds.
+    pub(crate) fn between(mobility: usize, most: usize, how: How) -> Finite {
         Finite {
             mobility,
+            most,
             how,
             numeric: false,
         }
@@ -129,15 +126,10 @@ impl Finite {
         Finite::new(mobility, How::Submersion { dimension, by })
     }
 
-    /// Creates the result for rounded coordinates that only give an upper bound `to` on the instantaneous mobility.
-    pub(in crate::rank) fn from_rounded(to: usize) -> Finite {
-        Finite::new(0, How::Rounded { to })
-    }
-
     /// Returns true if the mobility is a range.
     #[must_use]
     pub fn is_undecided(&self) -> bool {
-        self.at_most() > self.mobility
+        self.most > self.mobility
     }
 
     /// Returns the same mobility, based on a numeric rank.
@@ -162,10 +154,7 @@ impl Finite {
     /// Returns the upper bound.
     #[must_use]
     pub fn at_most(&self) -> usize {
-        match self.how {
-            How::Undecided { to, .. } | How::Rounded { to } | How::Bound { to } => to,
-            _ => self.mobility,
-        }
+        self.most
     }
 
     /// Returns true if the mobility can have this value.
@@ -219,17 +208,19 @@ impl Finite {
                     "the drawn pose is singular or shaky"
                 }
             ),
-            How::Undecided { from, to } => format!(
-                "undecided: between {from} and {to}; neither a proof nor the numerical continuation decides"
-            ),
-            How::Rounded { to } => format!(
-                "undecided: between {} and {to}; coordinates are rounded too coarsely to distinguish a motion from a shaky pose",
-                self.mobility
-            ),
-            How::Bound { to } => format!(
-                "undecided: between {} and {to}, the instantaneous mobility; too large for numerical continuation",
-                self.mobility
-            ),
+            How::Undecided | How::Rounded | How::Bound => {
+                let (from, to) = (self.mobility, self.most);
+                let why = match self.how {
+                    How::Bound => {
+                        ", the instantaneous mobility; too large for numerical continuation"
+                    }
+                    How::Rounded => {
+                        "; coordinates are rounded too coarsely to distinguish a motion from a shaky pose"
+                    }
+                    _ => "; neither a proof nor the numerical continuation decides",
+                };
+                format!("undecided: between {from} and {to}{why}")
+            }
         };
         match self.how {
             How::Rigid if self.numeric => format!("{line}, by the numeric rank"),
@@ -257,85 +248,49 @@ impl Finite {
             How::Stopped { order: 2, .. } => "second-order",
             How::Stopped { .. } => "higher-order",
             How::Traced { .. } => "traced",
-            How::Undecided { .. } | How::Rounded { .. } => "undecided",
-            How::Bound { .. } => "bound",
+            How::Undecided | How::Rounded => "undecided",
+            How::Bound => "bound",
         }
     }
 
     /// Adds the finite mobility of an independent part, or of the idle freedoms of a part.
     pub(super) fn combine_with(self, other: Finite) -> Finite {
-        use How::{Bound, Rigid, Rounded, Singular, Stopped, Submersion, Traced, Undecided};
-        let from = self.mobility + other.mobility;
-        let to = self.at_most() + other.at_most();
+        use How::{Singular, Stopped, Submersion, Traced};
         // The one that leaves more open decides.
-        let openness = |f: &Finite| match f.how {
-            Rigid => 0,
-            Submersion { .. } => 1,
-            Stopped { .. } => 2,
-            Singular { .. } => 3,
-            Traced { .. } => 4,
-            Bound { .. } => 5,
-            Undecided { .. } => 6,
-            Rounded { .. } => 7,
-        };
-        let (open, clear) = if openness(&self) < openness(&other) {
-            (other.how, self.how)
-        } else {
-            (self.how, other.how)
-        };
-        let how = match (open, clear) {
-            (Rounded { .. }, _) => Rounded { to },
-            (Undecided { .. }, _) => Undecided { from, to },
-            (how, Rigid) => how,
-            (Bound { .. }, _) => Bound { to },
+        let (clear, open) = (self.how.min(other.how), self.how.max(other.how));
+        let how = match (clear, open) {
             (
                 Submersion {
-                    dimension: a,
-                    by: x,
+                    dimension: more, ..
                 },
-                Submersion {
-                    dimension: b,
-                    by: y,
-                },
-            ) => {
-                let (dimension, by) = (a + b, x.max(y));
-                Submersion { dimension, by }
-            }
+                Submersion { dimension, by },
+            ) => Submersion {
+                dimension: dimension + more,
+                by,
+            },
+            (Stopped { motions: more, .. }, Stopped { order, motions }) => Stopped {
+                order,
+                motions: motions + more,
+            },
             (
                 Traced {
-                    poses: a,
-                    regular: x,
+                    poses: more,
+                    regular: too,
                 },
-                Traced {
-                    poses: b,
-                    regular: y,
-                },
-            ) => {
-                let (poses, regular) = (a + b, x && y);
-                Traced { poses, regular }
-            }
-            (Traced { poses, .. }, Stopped { .. } | Singular { .. }) => {
-                let regular = false;
-                Traced { poses, regular }
-            }
-            (Singular { order: a }, Singular { order: b }) => Singular { order: a.max(b) },
-            (
-                Stopped {
-                    order: a,
-                    motions: x,
-                },
-                Stopped {
-                    order: b,
-                    motions: y,
-                },
-            ) => {
-                let (order, motions) = (a.max(b), x + y);
-                Stopped { order, motions }
-            }
-            (how, _) => how,
+                Traced { poses, regular },
+            ) => Traced {
+                poses: poses + more,
+                regular: regular && too,
+            },
+            (Stopped { .. } | Singular { .. }, Traced { poses, .. }) => Traced {
+                poses,
+                regular: false,
+            },
+            (_, how) => how,
         };
         Finite {
-            mobility: from,
+            mobility: self.mobility + other.mobility,
+            most: self.most + other.most,
             how,
             numeric: self.numeric || other.numeric,
         }

@@ -6,11 +6,9 @@ use crate::rank::exact::field::closure_of;
 use crate::rank::exact::modular;
 use crate::rank::finite::second_order::Roundings;
 use crate::rank::finite::{
-    Finite, finite_known, finite_mobility, followed_mobility, mobility_within,
+    Finite, How, finite_known, finite_mobility, followed_mobility, mobility_within,
 };
-use crate::rank::method::{
-    About, Answer, Certainty, MobilityMethod, NoAnswer, Quantity, RankOfJ, to_i64,
-};
+use crate::rank::method::{Answer, Certainty, MobilityMethod, NoAnswer, Quantity, RankOfJ, to_i64};
 use crate::rank::numeric::Elimination;
 use crate::rank::rounded::verdict::{Meant, RankVerdict, allowed_uncertainty, rank_verdict};
 
@@ -74,7 +72,7 @@ fn finite_of(m: &Mechanism, state: StateId, found: &RankVerdict) -> Result<Finit
                 None => followed_mobility(mechanism, state, motions, 0.0)?,
             }
         }
-        Meant::Undecided { near } => Finite::from_rounded(found.figures_at(*near).0),
+        Meant::Undecided { near } => Finite::between(0, found.figures_at(*near).0, How::Rounded),
     })
 }
 
@@ -137,72 +135,62 @@ fn finite_answer(found: &Finite) -> Answer {
 }
 
 /// The automatic choice as a method; finite mobility.
-#[derive(Debug, Clone, Copy)]
-pub struct Auto;
+pub(crate) const AUTO: MobilityMethod = MobilityMethod {
+    name: "auto",
+    title: "automatic choice",
+    help: "The cheapest certain method: exact if the geometry is exact, idealised within the digits if it is rounded",
+    guarantee: "as the chosen method, which is reported; finite mobility, or undecided",
+    complexity: "one modular rank, and singular values only if coordinates are decimals",
+    source: "this program",
+    rank: RankOfJ::Chosen,
+    answer: answer_auto,
+};
 
-impl MobilityMethod for Auto {
-    fn about(&self) -> &'static About {
-        &About {
-            name: "auto",
-            title: "automatic choice",
-            help: "The cheapest certain method: exact if the geometry is exact, idealised within the digits if it is rounded",
-            guarantee: "as the chosen method, which is reported; finite mobility, or undecided",
-            complexity: "one modular rank, and singular values only if coordinates are decimals",
-            source: "this program",
-            rank: RankOfJ::Chosen,
-        }
+fn answer_auto(mechanism: &Mechanism, state: StateId) -> Result<Answer, NoAnswer> {
+    let Decision {
+        verdict, finite, ..
+    } = decide_state(mechanism, state)?;
+    if let Meant::Undecided { .. } = verdict.meant {
+        return Err(NoAnswer::Failed(verdict.explain_undecided()));
     }
-    fn answer(&self, mechanism: &Mechanism, state: StateId) -> Result<Answer, NoAnswer> {
-        let Decision {
-            verdict, finite, ..
-        } = decide_state(mechanism, state)?;
-        if let Meant::Undecided { .. } = verdict.meant {
-            return Err(NoAnswer::Failed(verdict.explain_undecided()));
-        }
-        if finite.is_undecided() {
-            return Err(NoAnswer::Failed(finite.describe()));
-        }
-        let numeric = verdict
-            .numeric
-            .filter(|_| matches!(verdict.meant, Meant::Near { .. }));
-        let answer = finite_answer(&finite);
-        Ok(match numeric {
-            Some(n) => Answer {
-                certainty: Elimination::Svd.certainty_of(n, verdict.tolerance),
-                ..answer
-            },
-            None => answer,
-        })
+    if finite.is_undecided() {
+        return Err(NoAnswer::Failed(finite.describe()));
     }
+    let numeric = verdict
+        .numeric
+        .filter(|_| matches!(verdict.meant, Meant::Near { .. }));
+    let answer = finite_answer(&finite);
+    Ok(match numeric {
+        Some(n) => Answer {
+            certainty: Elimination::Svd.certainty_of(n, verdict.tolerance),
+            ..answer
+        },
+        None => answer,
+    })
 }
 
 /// Exact rank at the pose, then [`finite`], as a method.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Exact;
+pub(crate) const FINITE: MobilityMethod = MobilityMethod {
+    name: "finite",
+    title: "finite mobility, exact geometry",
+    help: "Exact rank, and the finite mobility",
+    guarantee: "proven if groups or higher orders decide; otherwise followed numerically, or undecided",
+    complexity: "one modular rank; otherwise about ten to a few hundred closings of O((6k)² f)",
+    source: "Hervé 1978 (groups); Connelly & Whiteley 1996, Müller 2016 (second and higher order); Bates et al. 2009, Wampler, Hauenstein & Sommese 2011 (local dimension)",
+    rank: RankOfJ::Exact,
+    answer: answer_finite,
+};
 
-impl MobilityMethod for Exact {
-    fn about(&self) -> &'static About {
-        &About {
-            name: "finite",
-            title: "finite mobility, exact geometry",
-            help: "Exact rank, and the finite mobility",
-            guarantee: "proven if groups or higher orders decide; otherwise followed numerically, or undecided",
-            complexity: "one modular rank; otherwise about ten to a few hundred closings of O((6k)² f)",
-            source: "Hervé 1978 (groups); Connelly & Whiteley 1996, Müller 2016 (second and higher order); Bates et al. 2009, Wampler, Hauenstein & Sommese 2011 (local dimension)",
-            rank: RankOfJ::Exact,
-        }
+fn answer_finite(mechanism: &Mechanism, state: StateId) -> Result<Answer, NoAnswer> {
+    let (exact, closure) = closure_of(mechanism, state, 0)?;
+    let found = finite_mobility(
+        &exact,
+        mechanism,
+        &closure,
+        modular::rank_modulo(&exact, &closure),
+    )?;
+    if found.is_undecided() {
+        return Err(NoAnswer::Failed(found.describe()));
     }
-    fn answer(&self, mechanism: &Mechanism, state: StateId) -> Result<Answer, NoAnswer> {
-        let (exact, closure) = closure_of(mechanism, state, 0)?;
-        let found = finite_mobility(
-            &exact,
-            mechanism,
-            &closure,
-            modular::rank_modulo(&exact, &closure),
-        )?;
-        if found.is_undecided() {
-            return Err(NoAnswer::Failed(found.describe()));
-        }
-        Ok(finite_answer(&found))
-    }
+    Ok(finite_answer(&found))
 }

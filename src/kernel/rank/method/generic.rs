@@ -5,11 +5,7 @@
 //! The pebble game decides this [Lee & Streinu 2008].
 
 use crate::model::mechanism::{LinkId, Mechanism, Mode, StateId};
-use crate::rank::method::{About, Answer, Certainty, MobilityMethod, NoAnswer, RankOfJ, to_i64};
-
-/// W = D(n - 1) - the rank of the bars in general position.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Generic;
+use crate::rank::method::{Answer, Certainty, MobilityMethod, NoAnswer, RankOfJ, to_i64};
 
 /// The (D, D) pebble game: accepts bars as long as they are independent of the accepted ones.
 #[derive(Debug)]
@@ -90,46 +86,45 @@ pub fn generic_rank(bodies: usize, bars: &[(usize, usize)], dim: usize) -> usize
         .count()
 }
 
-impl MobilityMethod for Generic {
-    fn about(&self) -> &'static About {
-        &About {
-            name: "generic",
-            title: "generic rank (pebble game)",
-            help: "The same structure in general position, by a pebble game",
-            guarantee: "right for joints in general position; ignores special geometry (parallel, concurrent, symmetric)",
-            complexity: "O(D² n · bars)",
-            source: "Tay 1984; Lee & Streinu 2008",
-            rank: RankOfJ::NotFound,
-        }
+/// W = D(n - 1) - the rank of the bars in general position.
+pub(crate) const GENERIC: MobilityMethod = MobilityMethod {
+    name: "generic",
+    title: "generic rank (pebble game)",
+    help: "The same structure in general position, by a pebble game",
+    guarantee: "right for joints in general position; ignores special geometry (parallel, concurrent, symmetric)",
+    complexity: "O(D² n · bars)",
+    source: "Tay 1984; Lee & Streinu 2008",
+    rank: RankOfJ::NotFound,
+    answer: answer_generic,
+};
+
+fn answer_generic(mechanism: &Mechanism, state: StateId) -> Result<Answer, NoAnswer> {
+    if mechanism.couplings_in(state).next().is_some() {
+        return Err(NoAnswer::DoesNotApply(
+            "the pebble game does not support couplings of joints",
+        ));
     }
-    fn answer(&self, mechanism: &Mechanism, state: StateId) -> Result<Answer, NoAnswer> {
-        if mechanism.couplings_in(state).next().is_some() {
-            return Err(NoAnswer::DoesNotApply(
-                "the pebble game does not support couplings of joints",
-            ));
-        }
-        let dim = match mechanism.mode {
-            Mode::Spatial => 6,
-            Mode::Planar { .. } => 3,
-        };
-        let mut links: Vec<LinkId> = Vec::new();
-        let mut bars = Vec::new();
-        for j in mechanism.joints_in(state) {
-            let joint = &mechanism.joints[j];
-            let [a, b] = joint.links.map(|l| {
-                links.extend((!links.contains(&l)).then_some(l));
-                links.iter().position(|&x| x == l).unwrap_or(0)
-            });
-            let class = usize::saturating_sub(dim, joint.joint_type.freedoms().len());
-            bars.extend(std::iter::repeat_n((a, b), class));
-        }
-        let rank = generic_rank(links.len(), &bars, dim);
-        let all = dim * (links.len().max(1) - 1);
-        Ok(Answer::from_count(
-            to_i64(all) - to_i64(rank),
-            Certainty::Counted,
-        ))
+    let dim = match mechanism.mode {
+        Mode::Spatial => 6,
+        Mode::Planar { .. } => 3,
+    };
+    let mut links: Vec<LinkId> = Vec::new();
+    let mut bars = Vec::new();
+    for j in mechanism.joints_in(state) {
+        let joint = &mechanism.joints[j];
+        let [a, b] = joint.links.map(|l| {
+            links.extend((!links.contains(&l)).then_some(l));
+            links.iter().position(|&x| x == l).unwrap_or(0)
+        });
+        let class = usize::saturating_sub(dim, joint.joint_type.freedoms().len());
+        bars.extend(std::iter::repeat_n((a, b), class));
     }
+    let rank = generic_rank(links.len(), &bars, dim);
+    let all = dim * (links.len().max(1) - 1);
+    Ok(Answer::from_count(
+        to_i64(all) - to_i64(rank),
+        Certainty::Counted,
+    ))
 }
 
 #[cfg(test)]

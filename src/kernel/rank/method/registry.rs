@@ -1,28 +1,16 @@
 //! The list of methods, used by `--method`, the survey and the charts.
 
-use crate::rank::exact::modular;
-use crate::rank::exact::rational;
+use crate::rank::exact::{modular::MODULAR, rational::RATIONAL};
 use crate::rank::method::MobilityMethod;
-use crate::rank::method::auto;
-use crate::rank::method::formulas;
-use crate::rank::method::generic;
-use crate::rank::numeric::Elimination;
+use crate::rank::method::auto::{AUTO, FINITE};
+use crate::rank::method::floating_point::{LU, LU32, QR, QR32, SVD};
+use crate::rank::method::formulas::{LOOPS, PLANAR, SPATIAL};
+use crate::rank::method::generic::GENERIC;
 
 /// Every method, the cheapest kind first.
-pub const ALL: [&dyn MobilityMethod; 13] = [
-    &formulas::Spatial,
-    &formulas::Planar,
-    &formulas::Loops,
-    &generic::Generic,
-    &Elimination::Lu32,
-    &Elimination::Lu,
-    &Elimination::Qr32,
-    &Elimination::Qr,
-    &Elimination::Svd,
-    &modular::Modular,
-    &rational::Rational,
-    &auto::Exact,
-    &auto::Auto,
+pub const ALL: [&MobilityMethod; 13] = [
+    &SPATIAL, &PLANAR, &LOOPS, &GENERIC, &LU32, &LU, &QR32, &QR, &SVD, &MODULAR, &RATIONAL,
+    &FINITE, &AUTO,
 ];
 
 /// Returns the method with a name.
@@ -37,6 +25,6 @@ pub const ALL: [&dyn MobilityMethod; 13] = [
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[must_use]
-pub fn by_name(name: &str) -> Option<&'static dyn MobilityMethod> {
-    ALL.into_iter().find(|m| m.about().name == name)
+pub fn by_name(name: &str) -> Option<&'static MobilityMethod> {
+    ALL.into_iter().find(|m| m.name == name)
 }

@@ -102,7 +102,6 @@ pub(in crate::rank) fn rounding_bound(
         let passing = passing
             .filter(|k| k.direction_of(c.joint).is_some())
             .count();
-        #[allow(clippy::cast_precision_loss, reason = "contours are few")]
         let times = passing as f64;
         times * error(c.freedom, c.joint).powi(2)
     });

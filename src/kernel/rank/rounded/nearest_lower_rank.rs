@@ -187,7 +187,6 @@ fn largest_square(conditions: usize) -> f64 {
     if conditions <= 1 {
         return RARE_EITHER_WAY.powi(2) / 12.0;
     }
-    #[allow(clippy::cast_precision_loss, reason = "conditions are few")]
     let n = conditions as f64;
     let part = 2.0 / (9.0 * n);
     n * (1.0 - part + RARE * part.sqrt()).powi(3) / 12.0

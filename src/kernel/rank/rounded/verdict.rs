@@ -274,14 +274,14 @@ fn verdict_on(
     Ok(found)
 }
 
-/// Returns the uncertainty of coordinates: half the units of their last digits, or `None` if every digit is exact.
+/// Returns the uncertainty of coordinates: half the units of their last digits, or `None` if every digit is exact. The
+/// digits of π are finer than any rank can tell.
 pub(in crate::rank) fn allowed_uncertainty(
     file: &Mechanism,
     rounded: Option<&Rounded>,
 ) -> Option<Uncertainties> {
-    let units = rounded?.units;
-    let [length, direction] = [units.length, units.direction].map(|u| u / 2.0);
-    Some(uncertainties(file).unwrap_or_else(|| Uncertainties::uniform(file, length, direction)))
+    let exact = || Uncertainties::uniform(file, 0.0, 0.0);
+    rounded.map(|_| uncertainties(file).unwrap_or_else(exact))
 }
 
 /// Returns the verdict if no rounding can have made the singular values that the rank counts, and the rank at which to

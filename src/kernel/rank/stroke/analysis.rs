@@ -126,7 +126,6 @@ impl<'a> Looker<'a> {
             let points: Vec<[f64; 3]> = of
                 .map(|j| m.joints[j].frame.point.each_ref().map(|c| c.to_f64()))
                 .collect();
-            #[allow(clippy::cast_precision_loss, reason = "joints of a link")]
             let n = points.len().max(1) as f64;
             [0, 1, 2].map(|i| {
                 (points.iter().map(|p| p[i]).sum::<f64>() / n - pose.middle[i]) / pose.length

@@ -22,6 +22,9 @@ use std::collections::BTreeMap;
 
 /// Largest number of nodes of a layer.
 const NODES: usize = 1_000;
+/// Largest number of nodes of the diagram of those that keep the motion in the drawn pose, too. After a larger one, no built-in mechanism
+/// has layers of fewer nodes than that.
+const LASTING: usize = 128;
 
 /// A span that grows by the vectors of choices, in the coordinates that later variables reach.
 struct Lane<'a> {
@@ -83,7 +86,8 @@ impl<'a> Lane<'a> {
 pub fn count_everywhere(question: &Question, lasting: &Diagram) -> Option<BigUint> {
     let along = question.throughout.as_ref().ok()?;
     let conditions = &question.conditions;
-    if conditions.max_mobility.is_some() || conditions.max_changes.is_some() {
+    let limited = conditions.max_mobility.is_some() || conditions.max_changes.is_some();
+    if limited || lasting.nodes > LASTING {
         return None;
     }
     let order: Vec<usize> = lasting.layers.iter().map(|l| l.variable).collect();

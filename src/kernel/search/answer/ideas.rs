@@ -3,22 +3,24 @@
 //!
 //! Ideas come in order of cost. At equal cost, ideas whose shown variant is its own image come first, then those with fewer
 //! kinds of inserted joints. The next are those that keep the drive and the pivots in the frame
-//! ([`preference`](crate::search::question::preference)), then those with less mobility and fewer changes. For mechanisms
+//! (`change_weights`), then those with less mobility and fewer changes. For mechanisms
 //! with more than 24 joints, ideas are in order of cost only. If more than 512 ideas have one cost, each group of 512 is
 //! ordered on its own.
 
-mod preferred;
+pub mod freedom_patterns;
+pub(crate) mod least_freedoms;
+pub mod preferred;
 
 use crate::search::answer::counts::limited_kinds;
-use crate::search::answer::freedom_patterns::{Added, Pattern, Patterns, freedom_patterns};
+use crate::search::answer::ideas::freedom_patterns::{Added, Pattern, Patterns, freedom_patterns};
+use crate::search::answer::ideas::least_freedoms::Less;
+use crate::search::answer::ideas::preferred::change_weights;
 use crate::search::answer::k_best::Assignment;
 use crate::search::answer::keys::{Key, Steps};
-use crate::search::answer::least_freedoms::{self, Less};
 use crate::search::answer::variants_in_order::{variant_key, variants_within};
 use crate::search::build::Diagrams;
 use crate::search::diagram::{DEAD, Diagram};
 use crate::search::question::Question;
-use crate::search::question::preference::change_weights;
 use crate::search::question::space::{Variable, choice_name};
 use itertools::Itertools;
 use num_bigint::BigUint;

@@ -1,9 +1,10 @@
 //! The counts of a search: determinate variants, admissible ones, and those that keep the motion throughout.
 
 use crate::search::answer::counts::{Counts, count_by_kind, count_sums};
-use crate::search::build::Diagrams;
-use crate::search::diagram::Diagram;
+use crate::search::build::{Diagrams, build_diagrams};
+use crate::search::diagram::{Diagram, Stop};
 use crate::search::question::Question;
+use crate::search::question::conditions::{Conditions, SearchError, Symmetry};
 
 /// The counts of a search.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
@@ -66,4 +67,31 @@ impl SearchCounts {
             lasting: lasting.map(|(all, kept)| all.orbit_counts(kept, order)),
         }
     }
+}
+
+/// Computes the counts of orbits from those of all variants, by a search for the symmetric ones. Also returns why that search ended.
+///
+/// # Errors
+/// Returns an error in the same cases as [`Question::new`].
+pub fn orbit_counts(
+    question: &Question,
+    all: SearchCounts,
+    cancelled: &(dyn Fn() -> bool + Sync),
+) -> Result<(SearchCounts, [Stop; 2]), SearchError> {
+    let conditions = Conditions {
+        symmetry: Symmetry::SymmetricOnly,
+        cheapest: 0,
+        estimate: None,
+        ..question.conditions.clone()
+    };
+    let symmetric = Question::new(
+        question.exact.clone(),
+        question.mechanism.clone(),
+        conditions,
+    )?;
+    let diagrams = build_diagrams(&symmetric, cancelled, &mut |_| {});
+    let order = question.mechanism.search.symmetry_order();
+    let counts = all.orbit_counts(&SearchCounts::of_diagrams(&symmetric, &diagrams), order);
+    let stops = [diagrams.determinate.stop, diagrams.admissible.stop];
+    Ok((counts, stops))
 }

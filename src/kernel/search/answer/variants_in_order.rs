@@ -1,7 +1,7 @@
 //! The admissible variants of a finished diagram: the cheapest in order, or some at random.
 
+use crate::search::answer::by_tally::sample_of;
 use crate::search::answer::counts::fits_u128;
-use crate::search::answer::drawn::sample_of;
 use crate::search::answer::k_best::{Assignment, Cheapest, Enter, ListLimits, Reach};
 use crate::search::answer::keys::{Key, Steps};
 use crate::search::answer::proven_cheapest::UpTo;

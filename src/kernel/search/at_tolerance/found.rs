@@ -2,7 +2,7 @@
 
 use super::judge::{Judged, Standing};
 use crate::search::answer::counts::Counts;
-use crate::search::answer::estimate::samples::confidence_interval;
+use crate::search::answer::estimate::confidence_interval;
 use crate::search::answer::k_best::Assignment;
 use crate::search::answer::keys::Key;
 use crate::search::diagram::Stop;

@@ -56,27 +56,17 @@ fn part_has_all(halves: &Halves<'_>, part: usize, layers: &[Layer], ends: usize)
     while at < to {
         let forward = front.spaces.len() <= back.spaces.len();
         let layer = if forward { at } else { to - 1 };
-        let from = nodes_at(if forward { at } else { to });
-        let mut ways = vec![Vec::new(); from];
-        let Layer { choices, edges, .. } = &layers[layer];
-        for (edge, &below) in edges.iter().enumerate().filter(|(_, to)| **to != DEAD) {
-            let (above, choice, below) = (edge / choices, edge % choices, below as usize);
-            let (from, to) = if forward {
-                (above, below)
-            } else {
-                (below, above)
-            };
-            ways[from].push((choice, to));
-        }
+        let choices = layers[layer].choices;
+        let steps = layers[layer].list_steps(nodes_at(layer + 1), forward);
         if forward {
-            front = front.follow_ways(&from_front[at], *choices, &ways, halves.limits)?;
+            front = front.follow_steps(&from_front[at], choices, &steps, halves.limits)?;
             at += 1;
         } else {
             to -= 1;
-            back = back.follow_ways(
+            back = back.follow_steps(
                 &from_back[layers.len() - 1 - to],
-                *choices,
-                &ways,
+                choices,
+                &steps,
                 halves.limits,
             )?;
         }
@@ -104,29 +94,33 @@ fn part_has_all(halves: &Halves<'_>, part: usize, layers: &[Layer], ends: usize)
 }
 
 impl End {
-    /// Follows the ways that start at each node of the known diagram: a choice and the node that it leads to. Returns `None` if a way has a
-    /// redundant constraint, or if there are too many spaces.
-    fn follow_ways(
+    /// Follows the steps from each node of the known diagram, and each choice. Returns `None` if one has a redundant constraint, or if there
+    /// are too many spaces.
+    fn follow_steps(
         &self,
         stage: &Adding,
         choices: usize,
-        ways: &[Vec<(usize, usize)>],
+        steps: &[Vec<usize>],
         limits: &Limits,
     ) -> Option<End> {
         let mut merge = Merge::new(limits.nodes, limits.bytes, Stop::Exhausted, 0);
         let mut worker = stage.make_worker();
         let mut reached = BTreeSet::new();
         for (space, pairs) in &self.reached.iter().chunk_by(|(space, _)| *space) {
-            let ways = pairs.flat_map(|&(_, node)| &ways[node]).collect_vec();
+            let from = pairs.flat_map(|&(_, node)| {
+                let of_choice = steps[node * choices..][..choices].iter().enumerate();
+                of_choice.flat_map(|(choice, to)| to.iter().map(move |&to| (choice, to)))
+            });
+            let taken = from.collect_vec();
             let mut wanted = vec![false; choices];
-            ways.iter().for_each(|(choice, _)| wanted[*choice] = true);
-            worker.restrict_choices(&wanted);
+            taken.iter().for_each(|(choice, _)| wanted[*choice] = true);
+            worker.restrict_choices(wanted);
             let mut children = Children::new(choices);
             let (matrix, spent) = (self.spaces.matrix(space), &self.spaces.spent[space]);
             stage.push_children(&mut worker, matrix, spent, &mut children);
-            merge.take_children(&children, &self.spaces, |_| 0, |_, _, _, _| false);
+            merge.take_children(&children, &self.spaces, |_| 0, |_, _, _| false);
             let found = &merge.edges[space * choices..];
-            for &&(choice, node) in &ways {
+            for &(choice, node) in &taken {
                 if found[choice] == DEAD {
                     return None;
                 }

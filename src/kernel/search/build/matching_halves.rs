@@ -7,9 +7,8 @@
 
 use crate::linalg::echelon::{linear_combination, linear_relations};
 use crate::linalg::modp::{Field, Residue};
-use crate::search::build::completing_sets::Numbered;
 use crate::search::diagram::DEAD;
-use crate::search::diagram::node_sets::{Set, add_node, empty_set};
+use crate::search::diagram::node_sets::{Numbered, Set, add_node, empty_set};
 use hashbrown::HashMap;
 use rayon::prelude::*;
 

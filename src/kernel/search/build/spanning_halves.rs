@@ -6,12 +6,13 @@
 
 use crate::linalg::echelon::Echelon;
 use crate::linalg::modp::{Field, Residue};
-use crate::search::build::completing_sets::{Numbered, completing_sets};
 use crate::search::build::matching_halves::{Grouped, count_lookups, match_halves};
 use crate::search::build::self_stress::{Wanted, flat_stages, self_stress_space};
 use crate::search::build::spanning_pairs::{Bases, ZeroForms};
 use crate::search::diagram::layer::Nodes;
-use crate::search::diagram::node_sets::{Set, add_node, empty_set, nodes_in};
+use crate::search::diagram::node_sets::{
+    Numbered, Set, add_node, completing_sets, empty_set, nodes_in,
+};
 use crate::search::diagram::reduced_rows::{Arithmetic, Rows};
 use crate::search::diagram::redundancy_so_far::Limits;
 use crate::search::diagram::stage::Adding;
@@ -31,13 +32,13 @@ const WEIGHT: i64 = 0x1e37_79b9_7f4a_7c15;
 const PAIRS: usize = 500;
 
 /// The nodes of both halves of a part, where they meet.
-pub(in crate::search) struct Met<'a> {
+pub(in crate::search) struct JoinedSides<'a> {
     pub(in crate::search) front: &'a Nodes,
     pub(in crate::search) back: &'a Nodes,
     /// Number of stages of the back half.
     pub(in crate::search) stages: usize,
     /// Nodes of the front, and those of the back that may complete them. Others do not.
-    pub(in crate::search) alike: Vec<[Vec<usize>; 2]>,
+    pub(in crate::search) groups: Vec<[Vec<usize>; 2]>,
     /// Bytes that the sets may take.
     pub(in crate::search) bytes: usize,
 }
@@ -127,7 +128,7 @@ impl<'a> Halves<'a> {
     pub(in crate::search) fn join_halves(
         &self,
         part: usize,
-        halves: &Met<'_>,
+        halves: &JoinedSides<'_>,
         cancelled: &(dyn Fn() -> bool + Sync),
     ) -> Option<(Vec<u32>, Vec<Set>)> {
         let packed = self.meeting_rows(part, halves.stages);
@@ -136,7 +137,7 @@ impl<'a> Halves<'a> {
         let rows_of_back = |node| packed.back_rows(halves.back, node);
         let back: Vec<_> = (0..halves.back.len()).map(rows_of_back).collect();
         let pairs = halves
-            .alike
+            .groups
             .iter()
             .map(|[f, b]| f.len().saturating_mul(b.len()));
         let pairs = pairs.fold(0, usize::saturating_add);
@@ -158,7 +159,7 @@ impl<'a> Halves<'a> {
         }
         let mut of_node = vec![DEAD; halves.front.len()];
         let mut numbered = Numbered::default();
-        for [fronts, backs] in &halves.alike {
+        for [fronts, backs] in &halves.groups {
             let rows = backs.iter().map(|&node| &back[node][..]);
             let bases = Bases::new(self.field, rows, self.keeps);
             let completing = |n: usize| {

@@ -10,17 +10,16 @@
 //! An automaton reversed, made deterministic, and that once more, is minimal: Brzozowski, "Canonical regular expressions and
 //! minimal state graphs for definite events" (1962).
 
-use crate::search::build::completing_sets::Numbered;
-use crate::search::build::spanning_halves::{Halves, Met};
+use crate::search::build::spanning_halves::{Halves, JoinedSides};
 use crate::search::diagram::layer::{Merge, Nodes};
 use crate::search::diagram::minimize::minimize_diagram;
 use crate::search::diagram::node_sets::{
-    Set, add_node, collect_set, contains_node, empty_set, nodes_in,
+    Numbered, Set, add_node, collect_set, contains_node, empty_set, nodes_in,
 };
 use crate::search::diagram::redundancy_so_far::{Redundancy, Spent};
 use crate::search::diagram::stage::Adding;
 use crate::search::diagram::within::Within;
-use crate::search::diagram::{Carries, DEAD, Diagram, Layer, Progress, Stop, next_layer};
+use crate::search::diagram::{Carries, DEAD, Diagram, Expanded, Layer, Progress, Stop, next_layer};
 use crate::search::question::space::Space;
 use rayon::prelude::*;
 use std::collections::BTreeMap;
@@ -62,17 +61,17 @@ impl<'a> Side<'a> {
 
 /// Returns nodes of the front that are at the same node of a known diagram, with the nodes of the back that it leads to; all nodes if no
 /// diagram is known.
-fn find_alike(front: &Side<'_>, back: &Side<'_>) -> Vec<[Vec<usize>; 2]> {
+fn group_nodes(front: &Side<'_>, back: &Side<'_>) -> Vec<[Vec<usize>; 2]> {
     let (Some(from), Some(to)) = (&front.known, &back.known) else {
         return vec![[front, back].map(|side| (0..side.nodes.len()).collect())];
     };
-    let mut alike: BTreeMap<usize, [Vec<usize>; 2]> = BTreeMap::new();
+    let mut groups: BTreeMap<usize, [Vec<usize>; 2]> = BTreeMap::new();
     for (end, known) in [from, to].into_iter().enumerate() {
         for (node, at) in known.at.iter().enumerate() {
-            nodes_in(at).for_each(|at| alike.entry(at).or_default()[end].push(node));
+            nodes_in(at).for_each(|at| groups.entry(at).or_default()[end].push(node));
         }
     }
-    alike.into_values().collect()
+    groups.into_values().collect()
 }
 
 /// Returns the whole diagram of a question whose variants have no redundant constraints except those that all have, part by part. Returns
@@ -108,14 +107,14 @@ pub(in crate::search) fn two_sided(
     let mut layers: Vec<Layer> = Vec::new();
     let mut total = 1;
     for (part, [front, back]) in parts.into_iter().enumerate() {
-        let met = Met {
+        let sides = JoinedSides {
             front: &front.nodes,
             back: &back.nodes,
             stages: back.layers.len(),
-            alike: find_alike(&front, &back),
+            groups: group_nodes(&front, &back),
             bytes: left / 4,
         };
-        let (of_front, sets) = question.join_halves(part, &met, cancelled)?;
+        let (of_front, sets) = question.join_halves(part, &sides, cancelled)?;
         let (back, sets) = without_twins(back.layers, sets);
         let found = put_together(front.layers, &of_front, &back, sets, most)?;
         total += found.iter().map(|l| l.nodes).sum::<usize>();
@@ -174,14 +173,17 @@ fn advance_side(
     let stage = side.next_stage();
     let choices = &space.variables[stage.variable()].choices;
     let edges = side.nodes.len() * choices.len();
-    let known = &side.known;
+    let from = Expanded {
+        nodes: &side.nodes,
+        choices,
+        known: side.known.as_ref(),
+        bytes,
+    };
     let merge = next_layer(
         stage,
-        choices,
-        bytes,
-        &side.nodes,
+        &from,
         Merge::new(room, bytes, Stop::Exhausted, edges),
-        |edge, _, _, _| known.as_ref().is_some_and(|k| !k.has_edge(edge)),
+        |_, _, _| false,
         cancelled,
         told,
     );

@@ -12,7 +12,7 @@ use crate::search::at_tolerance::{any_choices, choices_of_number};
 use crate::search::check::brute::Matrices;
 use crate::search::check::brute_float::{Approximate, RankedRows};
 use crate::search::question::Question;
-use crate::search::question::as_written::Written;
+use crate::search::question::conditions::Written;
 use crate::search::question::rounded_rank::{Digits, RankRange};
 use chacha20::ChaCha8Rng;
 use chacha20::rand_core::SeedableRng;

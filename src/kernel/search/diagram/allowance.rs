@@ -1,8 +1,7 @@
 //! How many nodes and bytes a diagram may still take while it is built.
 
-use crate::search::diagram::layer::{CUT, Merge, Nodes};
+use crate::search::diagram::layer::{CUT, Merge, Nodes, Stop};
 use crate::search::diagram::redundancy_so_far::Limits;
-use crate::search::diagram::stop::Stop;
 
 /// The budget of a diagram, and what it has used.
 pub(in crate::search) struct Allowance<'a> {

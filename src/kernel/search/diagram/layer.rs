@@ -2,7 +2,6 @@
 
 use crate::linalg::modp::Residue;
 use crate::search::diagram::redundancy_so_far::Spent;
-use crate::search::diagram::stop::Stop;
 use crate::search::diagram::transition::Children;
 use hashbrown::HashTable;
 use std::collections::TryReserveError;
@@ -21,6 +20,22 @@ pub struct Layer {
     pub choices: usize,
     /// The edges.
     pub edges: Vec<u32>,
+}
+
+impl Layer {
+    /// Returns for each node, and each choice, the next nodes; from the `next` next nodes back if not `forward`.
+    pub(in crate::search) fn list_steps(&self, next: usize, forward: bool) -> Vec<Vec<usize>> {
+        let from = if forward { self.nodes } else { next };
+        let mut steps = vec![Vec::new(); from * self.choices];
+        for (edge, &to) in self.edges.iter().enumerate().filter(|(_, to)| **to != DEAD) {
+            let (mut ends, choice) = ([edge / self.choices, to as usize], edge % self.choices);
+            if !forward {
+                ends.reverse();
+            }
+            steps[ends[0] * self.choices + choice].push(ends[1]);
+        }
+        steps
+    }
 }
 
 /// Nodes a layer keeps at least where the budget is no smaller, so that a search reaches the end.
@@ -145,13 +160,13 @@ impl Merge {
     }
 
     /// Adds the children of some nodes, after those of the nodes before them. Skips children that are excluded by a test of
-    /// four values: the number of the edge, the redundancy spent, the child's matrix, and the least cost of this path to it.
+    /// three values: the redundancy spent, the child's matrix, and the least cost of this path to it.
     pub(in crate::search) fn take_children(
         &mut self,
         part: &Children,
         parents: &Nodes,
         cost: impl Fn(usize) -> i64,
-        mut out: impl FnMut(usize, &Spent, &[Residue], i64) -> bool,
+        mut out: impl FnMut(&Spent, &[Residue], i64) -> bool,
     ) {
         let choices = part.choices;
         if part.short {
@@ -167,7 +182,7 @@ impl Merge {
             let at = self.edges.len();
             let parent = at / choices;
             let least = parents.least[parent] + cost(at % choices);
-            if out(at, spent, matrix, least) {
+            if out(spent, matrix, least) {
                 self.edges.push(DEAD);
                 continue;
             }
@@ -198,6 +213,49 @@ impl Merge {
             let known = &mut self.next.least[index as usize];
             *known = (*known).min(least);
             self.edges.push(index);
+        }
+    }
+}
+
+/// Why building ended.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Stop {
+    /// The search is complete: counts are exact.
+    Exhausted,
+    /// The node budget cut layers down to a part of their nodes: counts are lower bounds.
+    NodeBudget,
+    /// Only the cheapest variants were asked for: counts are lower bounds.
+    NotCounted,
+    /// The memory limit cut layers down in the same way.
+    Memory,
+    /// The caller asked to end: layers were cut down, counts are lower bounds.
+    Interrupted,
+}
+
+impl Stop {
+    /// Returns the reason for two parts of one search: an interruption, otherwise the first that is not [`Stop::Exhausted`].
+    #[must_use]
+    pub fn combine_with(self, other: Stop) -> Stop {
+        match (self, other) {
+            (Stop::Exhausted, _) | (_, Stop::Interrupted) => other,
+            _ => self,
+        }
+    }
+
+    /// Returns true if a diagram is cut down to its limits.
+    pub(in crate::search) fn is_cut(self) -> bool {
+        matches!(self, Stop::NodeBudget | Stop::Memory)
+    }
+
+    /// Returns the word used in machine-readable output.
+    #[must_use]
+    pub fn word(self) -> &'static str {
+        match self {
+            Stop::Exhausted => "exhausted",
+            Stop::NodeBudget => "node-budget",
+            Stop::NotCounted => "not-counted",
+            Stop::Memory => "memory",
+            Stop::Interrupted => "interrupted",
         }
     }
 }

@@ -88,9 +88,9 @@ impl Worker {
     }
 
     /// Restricts the next children to some choices. Those of the others are dead.
-    pub(in crate::search) fn restrict_choices(&mut self, wanted: &[bool]) {
+    pub(in crate::search) fn restrict_choices(&mut self, wanted: impl IntoIterator<Item = bool>) {
         self.wanted.clear();
-        self.wanted.extend_from_slice(wanted);
+        self.wanted.extend(wanted);
     }
 
     /// Takes a subspace off a packed node and extends it by each choice; `part` says which of the two it is.

@@ -42,22 +42,7 @@ impl<'a> Within<'a> {
         };
         let Some(layer) = next else { return };
         self.choices = layer.choices;
-        let from = if self.forward { layer.nodes } else { self.ends };
-        self.steps = vec![Vec::new(); from * layer.choices];
-        for (edge, &to) in layer
-            .edges
-            .iter()
-            .enumerate()
-            .filter(|(_, to)| **to != DEAD)
-        {
-            let (above, choice, below) = (edge / layer.choices, edge % layer.choices, to as usize);
-            let (from, to) = if self.forward {
-                (above, below)
-            } else {
-                (below, above)
-            };
-            self.steps[from * layer.choices + choice].push(to);
-        }
+        self.steps = layer.list_steps(self.ends, self.forward);
     }
 
     /// Returns the nodes of the known diagram that an edge of the layer leads to.

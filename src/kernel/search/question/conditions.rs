@@ -2,12 +2,12 @@
 
 use crate::geom::exact::ExactError;
 pub use crate::model::mechanism::Drives;
-use crate::model::mechanism::StateId;
+use crate::model::mechanism::{Mechanism, StateId};
 use crate::rank::numeric::DEFAULT_TOLERANCE;
-use crate::search::question::as_written::Written;
 use crate::search::question::rounded_rank::Digits;
 use crate::search::question::symmetry::MirrorError;
 use serde::Deserialize;
+use std::sync::Arc;
 use thiserror::Error;
 
 /// Which variants of a mirror-symmetric mechanism are wanted.
@@ -172,4 +172,17 @@ pub enum SearchError {
         /// How many.
         open: usize,
     },
+}
+
+/// A mechanism with its coordinates as a file writes them.
+#[derive(Debug, Clone)]
+pub struct Written {
+    /// It, with the links, joints and options of the one that is searched.
+    pub mechanism: Arc<Mechanism>,
+    /// The mechanism in other scenes that the digits do not rule out.
+    pub others: Vec<Arc<Mechanism>>,
+    /// What its digits tell.
+    pub digits: Digits,
+    /// True if each option allows every motion of the original joint.
+    pub only_adds: bool,
 }

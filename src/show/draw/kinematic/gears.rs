@@ -1,11 +1,9 @@
 //! Joints that gears couple, as their pitch circles, and a rack as its pitch line, which touches the circle of its pinion.
 
 use crate::draw::kinematic::Kinematic;
-use crate::draw::place::projection::{self, JointInSpace, add, cross, dot, norm, scale, sub};
-use crate::geom::vector::Vector;
-use crate::model::joint_type::{CoupledFreedom, Coupling, Freedom};
-use crate::svg::plane::Point;
-use std::f64::consts::TAU;
+use crate::draw::place::projection::{self, cross, norm};
+use crate::draw::prelude::*;
+use crate::model::joint_type::CoupledFreedom;
 
 /// The greatest radius of a gear that is drawn, in distances of the axes.
 const LARGEST: f64 = 6.0;
@@ -16,7 +14,7 @@ type PitchCurve = (usize, Vec<Vector>);
 impl Kinematic<'_> {
     /// Returns the pitch circles and lines of a coupling on paper with the joints at the given places, each as a closed line; empty
     /// if gears cannot make it.
-    pub(in crate::draw) fn pitch_curves(
+    pub(crate) fn pitch_curves(
         &self,
         coupling: &Coupling,
         places: &[JointInSpace],
@@ -28,7 +26,7 @@ impl Kinematic<'_> {
     }
 
     /// Returns the pitch circles in space, or the circle of a pinion and the pitch line of its rack.
-    pub(in crate::draw) fn pitch_curves_in_space(
+    pub(crate) fn pitch_curves_in_space(
         &self,
         coupling: &Coupling,
         places: &[JointInSpace],
@@ -42,7 +40,7 @@ impl Kinematic<'_> {
     }
 
     /// Returns the lines between joints for couplings without circles.
-    pub(in crate::draw) fn coupling_lines(&self) -> Vec<(Point, Point)> {
+    pub(crate) fn coupling_lines(&self) -> Vec<(Point, Point)> {
         let m = self.subject.mechanism;
         let place = |j| self.spots.iter().find(|s| s.joint == j).map(|s| s.at);
         let all = m.couplings_in(self.subject.state);

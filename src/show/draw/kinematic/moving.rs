@@ -1,21 +1,14 @@
 //! A kinematic scheme over the way of its drive: one picture a pose, shown one after the other.
 
-pub(in crate::draw::kinematic) mod frame;
-pub(in crate::draw::kinematic) mod sliding;
-
-use super::{Kinematic, MovingPicture, Spot, Words};
-use crate::draw::kinematic::moving::sliding::Carried;
-use crate::draw::place::projection::JointInSpace;
-use crate::draw::place::projection::Sight;
-use crate::draw::sheet::{Drawing, Shape, Sheet, Swatch};
-use crate::draw::subject::Subject;
+use crate::draw::kinematic::moving::frame::Carried;
+use crate::draw::kinematic::{Kinematic, MovingPicture, Spot, Words};
+use crate::draw::prelude::*;
 use crate::draw::symbol::placed::Symbol;
-use crate::model::joint_type::JointType;
 use crate::motion::drive_range::Way;
 use crate::motion::pose::Pose;
-use crate::svg::plane::{Rect, bounds_of};
 use std::collections::BTreeMap;
-use std::fmt::Write as _;
+
+pub(crate) mod frame;
 
 /// Pictures a second.
 pub(crate) const RATE: usize = 30;
@@ -31,6 +24,8 @@ pub struct Moved<'a> {
     pub words: &'a str,
     /// A unit for positions of the way: what 1 is in it, and its symbol.
     pub unit: (f64, &'a str),
+    /// A self-stress of the pose of the file with its name, to be shown in every pose.
+    pub stress: Option<(&'a str, &'a SelfStress)>,
 }
 
 /// Draws the kinematic scheme over a motion, animated by a style sheet: the pose of the file stands still for readers who want
@@ -56,6 +51,9 @@ pub fn kinematic_along(subject: &Subject<'_>, sight: &Sight, moved: &Moved<'_>) 
     let mut rest = Kinematic::new(subject, sight);
     let poses = poses_of(moved);
     rest.traces = (rest.traced_ways(&poses), moved.way.closed);
+    if let Some((name, stress)) = moved.stress {
+        rest.show_stress(name, stress);
+    }
     rest.draw_sheet()
 }
 
@@ -75,7 +73,7 @@ pub(super) fn poses_of<'m>(moved: &Moved<'m>) -> Vec<Carried<'m>> {
 
 struct Moving<'a> {
     rest: Kinematic<'a>,
-    words: &'a str,
+    words: String,
     frames: Vec<MovingPicture>,
     start: usize,
     closed: bool,
@@ -86,11 +84,18 @@ impl<'a> Moving<'a> {
         let poses = poses_of(moved);
         let lines = rest.moving_lines(&poses);
         let frames = poses.iter().map(|c| rest.picture_in(Some(c), &lines));
-        let frames: Vec<MovingPicture> = frames.collect();
+        let mut frames: Vec<MovingPicture> = frames.collect();
+        let arrows = moved
+            .stress
+            .map(|(_, s)| rest.arrows_along(s, &poses, moved.way.start));
+        for (frame, arrows) in frames.iter_mut().zip(arrows.into_iter().flatten()) {
+            frame.arrows = arrows;
+        }
+        let shown = moved.stress.map(|(name, _)| format!("; {name}"));
         rest.traces = (rest.traced_ways(&poses), moved.way.closed);
         Moving {
             frames,
-            words: moved.words,
+            words: moved.words.to_owned() + &shown.unwrap_or_default(),
             start: moved.way.start,
             closed: moved.way.closed,
             rest,
@@ -101,12 +106,16 @@ impl<'a> Moving<'a> {
         let rest = &self.rest;
         let mut legend = rest.legend_rows();
         legend.extend(flag_row(&self.frames[self.start]));
+        legend.extend(rest.arrow_rows(&self.frames[self.start].arrows));
         let words = Words {
-            shows: Some(self.words.to_owned()),
+            shows: Some(self.words.clone()),
             more: format!(" Moving: {}.", self.words),
             legend,
         };
+        let arrows = self.frames.iter();
+        let arrows = arrows.filter_map(|f| rest.arrow_room(&f.arrows));
         let area = rest.room_of(&self.frames, self.start);
+        let area = arrows.fold(area, |all, r| all.with(&r));
         rest.on_sheet(area, words, |sheet, by| {
             sheet.write_style(&self.animation_style());
             sheet.draw_group("data-drawing", "", by, |s| {
@@ -149,6 +158,8 @@ impl<'a> Moving<'a> {
                     let id = &m.joints[rest.spots[i].joint].id;
                     s.joint_use(id, &format!("m{}", used[i]), f.at[i]);
                 }
+                let shapes = f.arrows.iter().flat_map(|a| rest.arrow_shapes(a));
+                s.draw_shapes(&shapes.collect::<Vec<_>>());
             });
         }
     }

@@ -1,11 +1,9 @@
 //! Placement of the names of joints and links.
 
-use super::{Kinematic, LabelText, MovingPicture, Spot};
-use crate::draw::sheet::SMALL;
+use crate::draw::kinematic::{Kinematic, LabelText, MovingPicture, Spot};
+use crate::draw::prelude::*;
 use crate::draw::symbol::ground::Ground;
 use crate::svg::labels::{self, AvoidedLine, CROSSED, Wish};
-use crate::svg::plane::{Point, Rect, add, scale, sub, unit};
-use crate::svg::text::{shorten_names, text_width};
 
 /// Returns a small label at least `clear` away from its anchor.
 fn small_label(class: String, text: String, anchor: Point, clear: f64) -> (Wish, LabelText) {

@@ -2,17 +2,13 @@
 
 use crate::draw::kinematic::body::{self, Body, marked_points};
 use crate::draw::kinematic::{Kinematic, Spot};
-use crate::draw::place::projection::Sight;
 use crate::draw::place::projection::places::shown_places;
-use crate::draw::place::projection::{self, JointInSpace, Projection, ToBeSeen, Vector};
-use crate::draw::subject::{Subject, roominess};
-use crate::draw::symbol::drive::driven_slides;
+use crate::draw::place::projection::{self, Projection, ToBeSeen};
+use crate::draw::prelude::*;
+use crate::draw::subject::roominess;
 use crate::draw::symbol::ground::{Foot, place_grounds};
 use crate::draw::symbol::placed::{Symbol, symbol_sizes};
-use crate::draw::symbol::symbols::side_of_slide;
-use crate::model::joint_type::Freedom;
-use crate::model::mechanism::{Joint, JointId, LinkId, Mechanism, Role};
-use crate::svg::plane::{Point, plane_norm, unit};
+use crate::draw::symbol::symbols::{driven_slides, side_of_slide};
 
 /// The room for the joints.
 const ROOM: Point = [560.0, 400.0];

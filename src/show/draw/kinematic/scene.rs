@@ -2,25 +2,18 @@
 //!
 //! All lengths are pixels of the drawing it belongs to, from the point whose place on paper is its origin.
 
-pub(in crate::draw::kinematic) mod part;
-mod standing;
-
-use super::arrow::Arrow;
-use super::moving::{Moved, flag_row, poses_of};
-use super::{Kinematic, MovingPicture, Words};
-use crate::draw::kinematic::moving::sliding::Carried;
-use crate::draw::place::projection::Sight;
-use crate::draw::place::projection::{Vector, sub};
-use crate::draw::sheet::{Drawing, Swatch};
-use crate::draw::subject::Subject;
+use crate::draw::kinematic::body::{Arrow, known_loads};
+use crate::draw::kinematic::moving::frame::Carried;
+use crate::draw::kinematic::moving::{Moved, flag_row, poses_of};
+use crate::draw::kinematic::{Kinematic, MovingPicture, Words};
+use crate::draw::prelude::*;
 use crate::draw::symbol::pieces::{Piece, round_hundredth};
 use crate::draw::symbol::placed::Swap;
-use crate::model::mechanism::LinkId;
 use crate::motion::pose::Pose;
-use crate::redundancy::stress::SelfStress;
-use crate::svg::plane::{Point, Rect};
 use serde::Serialize;
 use serde_json::{Value, json};
+
+mod standing;
 
 /// A scheme in space.
 #[derive(Debug, Clone, Serialize)]
@@ -89,7 +82,7 @@ pub fn kinematic_scene(subject: &Subject<'_>, sight: &Sight, shown: Shown<'_>) -
     let mut area = rest.room_of(&frames, start);
     let mut arrows = Vec::new();
     for (name, stress) in shown.stresses {
-        let own = rest.arrows_of(stress);
+        let own = rest.arrows_of(&known_loads(stress), None);
         area = rest.arrow_room(&own).map_or(area, |r| area.with(&r));
         let arrows_of: Value = own.iter().map(|a| rest.load_json(a)).collect();
         scene

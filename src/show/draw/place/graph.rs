@@ -1,30 +1,30 @@
 //! The graph of a structural scheme: links are hyperedges over the joints. If the drawn mechanism has a mirror
 //! symmetry, so has its scheme.
 
-use crate::svg::plane::{Point, cross, dot, mean, plane_norm, sub, unit};
+use crate::draw::prelude::*;
 
 /// Links as lists of joints, and the contours that should be empty.
 #[derive(Debug)]
-pub(in crate::draw) struct Graph {
+pub(crate) struct Graph {
     /// The joints of each link.
-    pub(in crate::draw) links: Vec<Vec<usize>>,
+    pub(crate) links: Vec<Vec<usize>>,
     /// How many joints there are.
-    pub(in crate::draw) joints: usize,
+    pub(crate) joints: usize,
     /// The link that is the frame.
-    pub(in crate::draw) frame: Option<usize>,
+    pub(crate) frame: Option<usize>,
     /// The joints of each contour, in order.
-    pub(in crate::draw) contours: Vec<Vec<usize>>,
+    pub(crate) contours: Vec<Vec<usize>>,
 }
 
 /// The nodes of the graph that is relaxed: the joints, then a hub for each link that is not a plain bar.
 #[derive(Debug)]
-pub(in crate::draw) struct Net {
-    pub(in crate::draw) hub: Vec<Option<usize>>,
-    pub(in crate::draw) edges: Vec<Vec<(usize, f64)>>,
+pub(crate) struct Net {
+    pub(crate) hub: Vec<Option<usize>>,
+    pub(crate) edges: Vec<Vec<(usize, f64)>>,
 }
 
 /// Returns the graph with a hub for each link that has more than two joints or shares a pair of joints.
-pub(in crate::draw) fn build_net(graph: &Graph) -> Net {
+pub(crate) fn build_net(graph: &Graph) -> Net {
     let mut edges = vec![Vec::new(); graph.joints];
     let mut hub = Vec::new();
     for (l, joints) in graph.links.iter().enumerate() {
@@ -54,7 +54,7 @@ pub(in crate::draw) fn build_net(graph: &Graph) -> Net {
 }
 
 /// Returns the distance of a link's joints from its middle.
-pub(in crate::draw) fn link_radius(joints: usize) -> f64 {
+pub(crate) fn link_radius(joints: usize) -> f64 {
     match joints {
         0 | 1 => 0.75,
         2 => 0.8,
@@ -64,7 +64,7 @@ pub(in crate::draw) fn link_radius(joints: usize) -> f64 {
 }
 
 /// Returns the joints of a link in order around their middle.
-pub(in crate::draw) fn joint_ring(of: &[usize], joints: &[Point]) -> Vec<usize> {
+pub(crate) fn joint_ring(of: &[usize], joints: &[Point]) -> Vec<usize> {
     let centre = mean(of.iter().map(|&j| joints[j]));
     let mut ring = of.to_vec();
     // in a row: there, and straight back
@@ -90,15 +90,11 @@ pub(in crate::draw) fn joint_ring(of: &[usize], joints: &[Point]) -> Vec<usize> 
 
 /// The image of each node under a reflection of y, and whether it is its own.
 #[derive(Debug, Clone)]
-pub(in crate::draw) struct Mirror(Vec<usize>);
+pub(crate) struct Mirror(Vec<usize>);
 
 impl Mirror {
     /// Returns the reflection of y that maps joints to joints and links to links, or `None` if there is none.
-    pub(in crate::draw) fn find_mirror(
-        graph: &Graph,
-        net: &Net,
-        joints: &[Point],
-    ) -> Option<Mirror> {
+    pub(crate) fn find_mirror(graph: &Graph, net: &Net, joints: &[Point]) -> Option<Mirror> {
         let middle = mean(joints.iter().copied());
         let size = joints
             .iter()
@@ -132,7 +128,7 @@ impl Mirror {
     }
 
     /// Makes places symmetric about the axis of x.
-    pub(in crate::draw) fn make_symmetric(&self, at: &mut [Point]) {
+    pub(crate) fn make_symmetric(&self, at: &mut [Point]) {
         let old = at.to_vec();
         for (i, p) in at.iter_mut().enumerate() {
             let q = old[self.0[i]];
@@ -141,7 +137,7 @@ impl Mirror {
     }
 
     /// Returns the image of a joint.
-    pub(in crate::draw) fn image_of(&self, joint: usize) -> usize {
+    pub(crate) fn image_of(&self, joint: usize) -> usize {
         self.0[joint]
     }
 }

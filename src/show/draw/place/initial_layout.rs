@@ -2,22 +2,21 @@
 
 use crate::draw::place::Dice;
 use crate::draw::place::graph::{Graph, Mirror, Net};
-use crate::svg::plane::{Point, add, mean, plane_norm, scale, sub};
-use std::f64::consts::TAU;
+use crate::draw::prelude::*;
 
 /// Where to begin.
 #[derive(Debug)]
-pub(in crate::draw) struct Start {
+pub(crate) struct Start {
     /// The nodes.
-    pub(in crate::draw) at: Vec<Point>,
+    pub(crate) at: Vec<Point>,
     /// Whether it is how the mechanism is drawn in its file.
-    pub(in crate::draw) drawn: bool,
+    pub(crate) drawn: bool,
     /// Its symmetry, if it has one.
-    pub(in crate::draw) mirror: Option<Mirror>,
+    pub(crate) mirror: Option<Mirror>,
 }
 
 /// Returns every initial layout.
-pub(in crate::draw) fn all_starts(graph: &Graph, net: &Net, hints: &[Vec<Point>]) -> Vec<Start> {
+pub(crate) fn all_starts(graph: &Graph, net: &Net, hints: &[Vec<Point>]) -> Vec<Start> {
     let mut out = Vec::new();
     let plain = |at| Start {
         at,
@@ -124,7 +123,7 @@ fn tutte_layout(net: &Net, contour: &[usize]) -> Vec<Point> {
 
 /// Returns the layout of two links above each other with legs of one kind between them, as in parallel manipulators. The
 /// legs are side by side, and the frame is below. Such a layout needs no search.
-pub(in crate::draw) fn ladder_layout(graph: &Graph) -> Option<Vec<Point>> {
+pub(crate) fn ladder_layout(graph: &Graph) -> Option<Vec<Point>> {
     let mut branches = (0..graph.links.len()).filter(|&l| graph.links[l].len() > 2);
     let (mut above, mut below) = (branches.next()?, branches.next()?);
     if branches.next().is_some() {

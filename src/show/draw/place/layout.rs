@@ -10,15 +10,15 @@
 use crate::draw::place::graph::{Graph, Mirror, Net, build_net};
 use crate::draw::place::initial_layout::{self, Start};
 use crate::draw::place::layout_penalty::Crowding;
-use crate::svg::plane::{Point, add, dot, mean, plane_norm, scale, sub, unit};
+use crate::draw::prelude::*;
 
 /// A finished layout; the unit of length is about the length of a bar.
 #[derive(Debug, Clone)]
-pub(in crate::draw) struct Layout {
+pub(crate) struct Layout {
     /// The joints.
-    pub(in crate::draw) joints: Vec<Point>,
+    pub(crate) joints: Vec<Point>,
     /// The middle of each link; the free end of a link with one joint.
-    pub(in crate::draw) hubs: Vec<Point>,
+    pub(crate) hubs: Vec<Point>,
 }
 
 /// A layout to choose from.
@@ -82,7 +82,7 @@ fn worth_polishing(mut candidates: Vec<Candidate>) -> Vec<Candidate> {
 }
 
 /// Finds a layout of the graph. Starts also from the given places of the joints.
-pub(in crate::draw) fn find_layout(graph: &Graph, hints: &[Vec<Point>]) -> Layout {
+pub(crate) fn find_layout(graph: &Graph, hints: &[Vec<Point>]) -> Layout {
     let net = build_net(graph);
     if let Some(joints) = initial_layout::ladder_layout(graph) {
         let hubs = place_hubs(graph, &net, &joints);

@@ -2,10 +2,8 @@
 
 use crate::draw::place::Dice;
 use crate::draw::place::graph::{Graph, Mirror, joint_ring, link_radius};
-use crate::svg::plane::{
-    Point, add, are_apart, cross, is_inside, mean, plane_norm, polygon_area, segments_cross, sub,
-    to_segment,
-};
+use crate::draw::prelude::*;
+use crate::svg::plane::{are_apart, polygon_area, segments_cross};
 
 /// Joints nearer than this are too near.
 const JOINTS: f64 = 0.62;
@@ -14,13 +12,13 @@ const CLEAR: f64 = 0.36;
 
 /// Judges layouts of a graph.
 #[derive(Debug)]
-pub(in crate::draw) struct Crowding<'a> {
-    pub(in crate::draw) graph: &'a Graph,
+pub(crate) struct Crowding<'a> {
+    pub(crate) graph: &'a Graph,
 }
 
 impl Crowding<'_> {
     /// Returns the cost of the whole layout.
-    pub(in crate::draw) fn layout_cost(&self, at: &[Point]) -> f64 {
+    pub(crate) fn layout_cost(&self, at: &[Point]) -> f64 {
         let rings = self.link_rings(at);
         let links: f64 = (0..rings.len())
             .map(|l| self.shape_cost(&rings[l], at) + self.strangers_cost(l, &rings, at))
@@ -39,7 +37,7 @@ impl Crowding<'_> {
     }
 
     /// Returns true if any parts cross or crowd each other.
-    pub(in crate::draw) fn is_violated(&self, at: &[Point]) -> bool {
+    pub(crate) fn is_violated(&self, at: &[Point]) -> bool {
         let rings = self.link_rings(at);
         let mut pairs = near_pairs(&rings, at);
         (0..rings.len()).any(|l| self.strangers_cost(l, &rings, at) > 0.05)
@@ -156,7 +154,7 @@ impl Crowding<'_> {
     }
 
     /// Anneals the layout by moves of single joints. The result is the same for the same graph.
-    pub(in crate::draw) fn anneal_layout(&self, at: &mut Vec<Point>, mirror: Option<&Mirror>) {
+    pub(crate) fn anneal_layout(&self, at: &mut Vec<Point>, mirror: Option<&Mirror>) {
         let n = at.len();
         if n < 2 {
             return;

@@ -1,25 +1,20 @@
 //! Where joints are shown and from which side.
 
-pub(in crate::draw) mod places;
-mod view;
-
 pub use crate::draw::place::projection::view::Sight;
 use crate::draw::place::projection::view::{FLAT, all_views, face_on, unit_or};
-pub(in crate::draw) use crate::draw::place::projection::view::{View, along_z, isometric_view};
+pub(crate) use crate::draw::place::projection::view::{View, along_z};
+use crate::draw::prelude::*;
 use crate::geom::expr::Expr;
 use crate::geom::extent::box_diagonal;
-pub(in crate::draw) use crate::geom::vector::{
-    Vector, add, cross, dot, length as norm, scale, sub,
-};
-use crate::geom::vector::{X, Y, Z};
-use crate::model::joint_type::JointType;
-use crate::model::mechanism::{Frame, JointId, LinkId, Mechanism};
-use crate::svg::plane::{
-    Point, Rect, are_apart, bounds_of, plane_norm as norm2, segments_cross, sub as sub2, to_segment,
-};
+pub(crate) use crate::geom::vector::{Vector, add, cross, dot, length as norm, scale, sub};
+use crate::model::mechanism::Frame;
+use crate::svg::plane::{are_apart, plane_norm as norm2, segments_cross, sub as sub2};
+
+pub(crate) mod places;
+mod view;
 
 /// Joints nearer than this on paper, in pixels, are in one place.
-pub(in crate::draw) const ONE_PLACE: f64 = 1.5;
+pub(crate) const ONE_PLACE: f64 = 1.5;
 
 /// The meaning of a joint's axis for a plane of motion.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -34,22 +29,22 @@ enum Turn {
 
 /// A joint in space.
 #[derive(Debug, Clone)]
-pub(in crate::draw) struct JointInSpace {
+pub(crate) struct JointInSpace {
     /// Its point, perhaps moved along its axis.
-    pub(in crate::draw) point: Vector,
+    pub(crate) point: Vector,
     /// Its frame.
-    pub(in crate::draw) x: Vector,
-    pub(in crate::draw) y: Vector,
-    pub(in crate::draw) z: Vector,
+    pub(crate) x: Vector,
+    pub(crate) y: Vector,
+    pub(crate) z: Vector,
     /// What its axis means.
     turn: Turn,
     /// Whether the point was moved.
-    pub(in crate::draw) moved: bool,
+    pub(crate) moved: bool,
 }
 
 impl JointInSpace {
     /// Returns the same kind of joint at another point, with its axes turned.
-    pub(in crate::draw) fn carried_to(
+    pub(crate) fn carried_to(
         &self,
         point: Vector,
         turn: impl Fn(Vector) -> Vector,
@@ -79,14 +74,14 @@ fn joint_frame(mechanism: &Mechanism, joint: JointId) -> JointInSpace {
 }
 
 /// Returns a vector in numbers. Entries that are not finite count as 0.
-pub(in crate::draw) fn finite_vector(v: &[Expr; 3]) -> Vector {
+pub(crate) fn finite_vector(v: &[Expr; 3]) -> Vector {
     let fits = |x: f64| x.is_finite() && x.abs() < 1e120;
     v.each_ref()
         .map(|e| Some(e.to_f64()).filter(|&x| fits(x)).unwrap_or_default())
 }
 
 /// Returns a joint's frame in numbers. Entries that are not finite count as 0.
-pub(in crate::draw) fn frame_in_numbers(f: &Frame) -> JointInSpace {
+pub(crate) fn frame_in_numbers(f: &Frame) -> JointInSpace {
     let z = unit_or(finite_vector(&f.axis), Z);
     let reference = finite_vector(&f.reference);
     let other = if z[0].abs() < 0.9 { X } else { Y };
@@ -104,23 +99,23 @@ pub(in crate::draw) fn frame_in_numbers(f: &Frame) -> JointInSpace {
 
 /// How a mechanism is put on paper.
 #[derive(Debug, Clone)]
-pub(in crate::draw) struct Projection {
+pub(crate) struct Projection {
     /// The side it is seen from.
-    pub(in crate::draw) view: View,
+    pub(crate) view: View,
     /// Pixels in a unit of length.
-    pub(in crate::draw) scale: f64,
+    pub(crate) scale: f64,
     /// The point at the origin of the paper.
-    pub(in crate::draw) middle: Vector,
+    pub(crate) middle: Vector,
 }
 
 impl Projection {
     /// Returns a point in space, in pixels from the point that projects to the origin of the paper.
-    pub(in crate::draw) fn in_pixels(&self, p: Vector) -> Vector {
+    pub(crate) fn in_pixels(&self, p: Vector) -> Vector {
         scale(sub(p, self.middle), self.scale)
     }
 
     /// Returns a point on paper.
-    pub(in crate::draw) fn flat_point(&self, p: Vector) -> Point {
+    pub(crate) fn flat_point(&self, p: Vector) -> Point {
         self.view
             .flat_vector(sub(p, self.middle))
             .map(|x| x * self.scale)
@@ -129,14 +124,14 @@ impl Projection {
 
 /// Everything that must be visible: the joints, some more points, and the axes of output hinges in the frame, whose
 /// circles should not look like lines.
-pub(in crate::draw) struct ToBeSeen<'a> {
-    pub(in crate::draw) places: &'a [JointInSpace],
-    pub(in crate::draw) more: &'a [Vector],
-    pub(in crate::draw) turning: &'a [Vector],
+pub(crate) struct ToBeSeen<'a> {
+    pub(crate) places: &'a [JointInSpace],
+    pub(crate) more: &'a [Vector],
+    pub(crate) turning: &'a [Vector],
 }
 
 /// Returns the requested view, or the one with the least overlap, for a picture of the given size.
-pub(in crate::draw) fn best_projection(
+pub(crate) fn best_projection(
     ToBeSeen {
         places,
         more,
@@ -348,7 +343,7 @@ fn places_middle(places: &[JointInSpace]) -> Vector {
 }
 
 /// Returns a unit vector perpendicular to another vector.
-pub(in crate::draw) fn unit_across(z: Vector) -> Vector {
+pub(crate) fn unit_across(z: Vector) -> Vector {
     let [a, b] = [X, Y].map(|e| sub(e, scale(z, dot(e, z))));
     let longer = if norm(a) > norm(b) { a } else { b };
     unit_or(longer, X)

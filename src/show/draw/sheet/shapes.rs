@@ -1,12 +1,11 @@
 //! Shapes of a drawing: paths and circles; polygons and bars with round corners, their hatching, and points within them.
 
-use crate::svg::plane::{Point, add, bounds_of, cross, dot, is_inside, scale, sub, unit};
+use crate::draw::prelude::*;
 use crate::svg::xml::format_number;
-use std::fmt::Write as _;
 
 /// A finished piece of drawing.
 #[derive(Debug, Clone)]
-pub(in crate::draw) enum Shape {
+pub(crate) enum Shape {
     /// A path.
     Path {
         class: String,
@@ -23,7 +22,7 @@ pub(in crate::draw) enum Shape {
 
 impl Shape {
     /// Returns the points of a path. Empty for a circle.
-    pub(in crate::draw) fn path_points(&self) -> &[Point] {
+    pub(crate) fn path_points(&self) -> &[Point] {
         match self {
             Shape::Path { points, .. } => points,
             Shape::Circle { .. } => &[],
@@ -31,11 +30,7 @@ impl Shape {
     }
 
     /// Returns a path.
-    pub(in crate::draw) fn path(
-        class: impl Into<String>,
-        points: Vec<Point>,
-        closed: bool,
-    ) -> Shape {
+    pub(crate) fn path(class: impl Into<String>, points: Vec<Point>, closed: bool) -> Shape {
         Shape::Path {
             class: class.into(),
             points,
@@ -44,22 +39,22 @@ impl Shape {
     }
 
     /// Returns an open path.
-    pub(in crate::draw) fn line(class: impl Into<String>, points: Vec<Point>) -> Shape {
+    pub(crate) fn line(class: impl Into<String>, points: Vec<Point>) -> Shape {
         Shape::path(class, points, false)
     }
 
     /// Returns a circle.
-    pub(in crate::draw) fn circle(class: impl Into<String>, at: Point, radius: f64) -> Shape {
+    pub(crate) fn circle(class: impl Into<String>, at: Point, radius: f64) -> Shape {
         let class = class.into();
         Shape::Circle { at, radius, class }
     }
 }
 
 /// Half the width of a bar.
-pub(in crate::draw) const HALF: f64 = 8.5;
+pub(crate) const HALF: f64 = 8.5;
 
 /// Returns the sides of a polygon, or the pieces of a bar.
-pub(in crate::draw) fn outline_sides(corners: &[Point]) -> Vec<(Point, Point)> {
+pub(crate) fn outline_sides(corners: &[Point]) -> Vec<(Point, Point)> {
     let open = corners.len() < 3;
     let count = corners.len() - usize::from(open && !corners.is_empty());
     (0..count)
@@ -68,7 +63,7 @@ pub(in crate::draw) fn outline_sides(corners: &[Point]) -> Vec<(Point, Point)> {
 }
 
 /// Returns the outline of a polygon or bar, `r` away from it, with round corners.
-pub(in crate::draw) fn rounded_path(corners: &[Point], r: f64) -> String {
+pub(crate) fn rounded_path(corners: &[Point], r: f64) -> String {
     let n = corners.len();
     let mut d = String::new();
     let turn: f64 = (0..n)
@@ -107,11 +102,11 @@ pub(in crate::draw) fn rounded_path(corners: &[Point], r: f64) -> String {
 }
 
 /// Returns the hatching within a polygon or bar.
-pub(in crate::draw) fn hatch_path(corners: &[Point]) -> String {
+pub(crate) fn hatch_path(corners: &[Point]) -> String {
     hatch_with(corners, HALF - 1.0, 6.5)
 }
 
-pub(in crate::draw) fn hatch_with(corners: &[Point], half: f64, step: f64) -> String {
+pub(crate) fn hatch_with(corners: &[Point], half: f64, step: f64) -> String {
     // a polygon that stands for the outline: arcs as short lines
     let mut area: Vec<Vec<Point>> = Vec::new();
     for (a, b) in outline_sides(corners) {
@@ -185,7 +180,7 @@ fn level_spans(area: &[Vec<Point>], level: f64) -> Vec<(f64, f64)> {
 }
 
 /// Returns the points of a grid within a polygon.
-pub(in crate::draw) fn grid_points(polygon: &[Point], steps: usize) -> Vec<Point> {
+pub(crate) fn grid_points(polygon: &[Point], steps: usize) -> Vec<Point> {
     let [left, top, right, bottom] = bounds_of(polygon).edges();
     let all = (0..steps).flat_map(|i| (0..steps).map(move |j| [i, j]));
     let at = |cell: [usize; 2]| {

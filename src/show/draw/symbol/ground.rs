@@ -1,12 +1,7 @@
 //! The ground of a kinematic scheme: where the frame is, once for all joints of one place.
 
-use crate::draw::sheet::Sheet;
+use crate::draw::prelude::*;
 use crate::draw::symbol::placed::one_place;
-use crate::model::mechanism::LinkId;
-use crate::svg::plane::{
-    Point, Rect, add, bounds_of, dot, path_data, plane_norm, scale, sub, unit,
-};
-use std::f64::consts::TAU;
 
 /// Half the hatched line under a pivot.
 const PIVOT: f64 = 11.0;
@@ -15,24 +10,24 @@ const RAIL: f64 = 24.0;
 
 /// A joint as the ground has to know it.
 #[derive(Debug, Clone, Copy)]
-pub(in crate::draw) struct Foot {
-    pub(in crate::draw) at: Point,
-    pub(in crate::draw) room: Rect,
+pub(crate) struct Foot {
+    pub(crate) at: Point,
+    pub(crate) room: Rect,
     /// The direction of a block's slide on paper, and how far its side is from its middle.
-    pub(in crate::draw) slide: Option<(Point, f64)>,
+    pub(crate) slide: Option<(Point, f64)>,
 }
 
 /// The ground at a joint: from the joint to the middle of the hatched line.
-pub(in crate::draw) struct Ground {
-    pub(in crate::draw) from: Point,
-    pub(in crate::draw) to: Point,
+pub(crate) struct Ground {
+    pub(crate) from: Point,
+    pub(crate) to: Point,
     /// Half the hatched line; a block slides along it, so that no line joins the two, where it is a rail.
     half: f64,
 }
 
 impl Ground {
     /// Returns the ground under a pivot.
-    pub(in crate::draw) fn under_pivot(from: Point, to: Point) -> Ground {
+    pub(crate) fn under_pivot(from: Point, to: Point) -> Ground {
         Ground {
             from,
             to,
@@ -41,7 +36,7 @@ impl Ground {
     }
 
     /// Makes a rail long enough for a block that goes from `low` to `high` of where it is at rest.
-    pub(in crate::draw) fn lengthen_rail(&mut self, low: Point, high: Point) {
+    pub(crate) fn lengthen_rail(&mut self, low: Point, high: Point) {
         if self.is_rail() {
             let by = scale(add(low, high), 0.5);
             (self.from, self.to) = (add(self.from, by), add(self.to, by));
@@ -55,7 +50,7 @@ impl Ground {
     }
 
     /// Returns the line from the joint to the ground, or `None` for a rail.
-    pub(in crate::draw) fn stem_line(&self) -> Option<(Point, Point)> {
+    pub(crate) fn stem_line(&self) -> Option<(Point, Point)> {
         (!self.is_rail()).then_some((self.from, self.to))
     }
 
@@ -64,7 +59,7 @@ impl Ground {
         ([-out[1], out[0]], out)
     }
 
-    pub(in crate::draw) fn ground_room(&self) -> Rect {
+    pub(crate) fn ground_room(&self) -> Rect {
         let (side, out) = self.side_and_out();
         let far = add(self.to, scale(out, 6.0));
         let corners = [
@@ -76,7 +71,7 @@ impl Ground {
         bounds_of(&corners)
     }
 
-    pub(in crate::draw) fn draw_ground_lines(&self, sheet: &mut Sheet) {
+    pub(crate) fn draw_ground_lines(&self, sheet: &mut Sheet) {
         let (side, out) = self.side_and_out();
         if let Some((a, b)) = self.stem_line() {
             sheet.draw_line("bone", a, b);
@@ -176,7 +171,7 @@ fn directions_out(
 
 /// Returns the ground at each place of the frame's joints, in the direction with the most room. `loose` gives the free ends
 /// of links with their joints.
-pub(in crate::draw) fn place_grounds(
+pub(crate) fn place_grounds(
     feet: &[Foot],
     links: &[(LinkId, Vec<usize>)],
     frame: LinkId,

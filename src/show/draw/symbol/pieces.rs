@@ -1,26 +1,23 @@
 //! Pieces of symbols in the frame of a joint, and how they look from a side.
 
-use crate::draw::place::projection::{JointInSpace, Vector, View, dot};
-use crate::draw::sheet::Shape;
-use crate::svg::plane::{Point, add, cross, mean, plane_norm, scale, sub, unit};
+use crate::draw::prelude::*;
 use serde::{Deserialize, Serialize};
-use std::f64::consts::TAU;
 
 /// A joint's frame on paper.
 #[derive(Debug, Clone, Copy)]
-pub(in crate::draw) struct PaperPose {
+pub(crate) struct PaperPose {
     axes: [Point; 3],
     toward: Vector,
 }
 
 impl PaperPose {
     /// Creates the pose of a joint seen in a view.
-    pub(in crate::draw) fn new(place: &JointInSpace, view: &View) -> PaperPose {
+    pub(crate) fn new(place: &JointInSpace, view: &View) -> PaperPose {
         PaperPose::of_axes([place.x, place.y, place.z], view)
     }
 
     /// Creates the pose of a frame with these axes.
-    pub(in crate::draw) fn of_axes(axes: [Vector; 3], view: &View) -> PaperPose {
+    pub(crate) fn of_axes(axes: [Vector; 3], view: &View) -> PaperPose {
         PaperPose {
             axes: axes.map(|a| view.flat_vector(a)),
             toward: axes.map(|a| dot(a, view.toward)),
@@ -47,7 +44,7 @@ impl PaperPose {
 /// A piece of a symbol, in pixels.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub(in crate::draw) struct Piece {
+pub(crate) struct Piece {
     form: Form,
     /// The class of the style sheet.
     class: String,
@@ -67,7 +64,7 @@ pub(in crate::draw) struct Piece {
 /// The kind of a piece.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
-pub(in crate::draw) enum Form {
+pub(crate) enum Form {
     /// All between the points.
     Hull,
     /// A polygon seen from its front only, where its corners run counter-clockwise.
@@ -90,13 +87,13 @@ const END_ON: f64 = 0.9;
 const EDGE: f64 = 0.05;
 
 /// Returns a coordinate rounded to a hundredth of a pixel.
-pub(in crate::draw) fn round_hundredth(x: f64) -> f64 {
+pub(crate) fn round_hundredth(x: f64) -> f64 {
     (x * 100.0).round() / 100.0
 }
 
 impl Piece {
     /// Returns a shape that always faces the reader.
-    pub(in crate::draw) fn on_paper(shape: &Shape) -> Piece {
+    pub(crate) fn on_paper(shape: &Shape) -> Piece {
         let (form, class, points, radius) = match shape {
             Shape::Path {
                 class,
@@ -125,7 +122,7 @@ impl Piece {
     }
 
     /// Returns the piece scaled; `mark` is added to the class.
-    pub(in crate::draw) fn sized_piece(&self, mark: &str, size: f64) -> Piece {
+    pub(crate) fn sized_piece(&self, mark: &str, size: f64) -> Piece {
         let points = self.points.iter();
         let points = points.map(|p| p.iter().map(|x| round_hundredth(x * size)).collect());
         Piece {
@@ -137,7 +134,7 @@ impl Piece {
     }
 
     /// Returns its shape in a pose, or `None` if it is hidden.
-    pub(in crate::draw) fn shape_seen(&self, pose: &PaperPose) -> Option<Shape> {
+    pub(crate) fn shape_seen(&self, pose: &PaperPose) -> Option<Shape> {
         let ahead = pose.toward[2].abs();
         let ended = self.along.is_some_and(|a| pose.toward[a].abs() >= END_ON);
         if ended || ahead < self.seen[0] || ahead >= self.seen[1] {
@@ -184,7 +181,7 @@ fn disc_points(at: Point, radius: f64) -> impl Iterator<Item = Point> {
 }
 
 /// Returns the convex hull, by monotone chains.
-pub(in crate::draw) fn convex_hull(mut points: Vec<Point>) -> Vec<Point> {
+pub(crate) fn convex_hull(mut points: Vec<Point>) -> Vec<Point> {
     points.sort_by(|a, b| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
     points.dedup();
     if points.len() < 3 {

@@ -1,31 +1,29 @@
 //! The symbol of a joint in a drawing, with its drive, its size among others at the same place, and swaps.
 
-use crate::draw::place::projection::{JointInSpace, ONE_PLACE, View};
-use crate::draw::sheet::{ROW, Shape, Sheet};
-use crate::draw::subject::{Mark, Subject};
+use crate::draw::place::projection::ONE_PLACE;
+use crate::draw::prelude::*;
+use crate::draw::sheet::ROW;
 use crate::draw::symbol::pieces::{PaperPose, Piece};
-use crate::draw::symbol::{drive, symbols};
-use crate::model::joint_type::JointType;
-use crate::model::mechanism::{Joint, JointId, JointOption};
-use crate::svg::plane::{Point, Rect, plane_norm, sub};
+use crate::draw::symbol::symbols;
+use crate::model::mechanism::JointOption;
 
 /// The symbol of a joint, at the origin.
-pub(in crate::draw) struct Symbol {
+pub(crate) struct Symbol {
     of: JointType,
     pose: PaperPose,
     /// Whether the joint is there in this state alone.
     only_here: bool,
     /// How many times the usual size it is.
-    pub(in crate::draw) size: f64,
-    pub(in crate::draw) room: Rect,
+    pub(crate) size: f64,
+    pub(crate) room: Rect,
     /// The radius of the ring of a drive that turns.
-    pub(in crate::draw) ring: Option<f64>,
+    pub(crate) ring: Option<f64>,
     /// The axis that a driven slide goes along.
-    pub(in crate::draw) slide: Option<usize>,
+    pub(crate) slide: Option<usize>,
 }
 
 impl Symbol {
-    pub(in crate::draw) fn new(
+    pub(crate) fn new(
         subject: &Subject<'_>,
         joint: JointId,
         of: &JointType,
@@ -60,19 +58,19 @@ impl Symbol {
     }
 
     /// Returns the symbol's shapes without a mark, small enough for a row of the legend.
-    pub(in crate::draw) fn legend_shapes(&self) -> Vec<Shape> {
+    pub(crate) fn legend_shapes(&self) -> Vec<Shape> {
         let usual = symbols::shapes_extent(&symbols::symbol_shapes(&self.of, &self.pose, "", 1.0));
         let by = (ROW - 2.0) / (usual.bottom - usual.top);
         symbols::symbol_shapes(&self.of, &self.pose, "", by.min(1.0))
     }
 
     /// Returns how far the symbol extends from its middle.
-    pub(in crate::draw) fn reach_of_room(&self) -> f64 {
+    pub(crate) fn reach_of_room(&self) -> f64 {
         let [left, top, right, bottom] = self.room.edges();
         (-left).max(-top).max(right).max(bottom).max(0.0)
     }
 
-    pub(in crate::draw) fn draw_symbol(&self, sheet: &mut Sheet, mark: Mark) {
+    pub(crate) fn draw_symbol(&self, sheet: &mut Sheet, mark: Mark) {
         let pieces = self.all_pieces(mark).into_iter();
         let shapes: Vec<Shape> = pieces.filter_map(|p| p.shape_seen(&self.pose)).collect();
         sheet.draw_shapes(&shapes);
@@ -80,11 +78,11 @@ impl Symbol {
 
     /// Returns the symbol's pieces from the back to the front. They include the ring or arrow of a drive, and the ring of a
     /// joint that exists in this state only.
-    pub(in crate::draw) fn all_pieces(&self, mark: Mark) -> Vec<Piece> {
+    pub(crate) fn all_pieces(&self, mark: Mark) -> Vec<Piece> {
         let mark = mark.mark_class();
         let below = self
             .ring
-            .map(|r| drive::round_arrow(mark, r))
+            .map(|r| symbols::round_arrow(mark, r))
             .unwrap_or_default();
         let arrow = self.slide.map_or(&[][..], symbols::slide_arrow);
         let own = symbols::symbol_pieces(&self.of).iter().chain(arrow);
@@ -109,7 +107,7 @@ pub struct Swap<'a> {
 }
 
 /// Returns the mark of an unloading joint around a symbol of size `reach`.
-pub(in crate::draw) fn unloading_ring(reach: f64) -> Shape {
+pub(crate) fn unloading_ring(reach: f64) -> Shape {
     Shape::circle("line new", [0.0; 2], reach + 4.0)
 }
 
@@ -118,7 +116,7 @@ const STEP: f64 = 0.6;
 
 /// Returns the size of each joint's symbol relative to the usual. Those at one place on paper are nested: a multiple joint
 /// as concentric circles, a pin on its block.
-pub(in crate::draw) fn symbol_sizes(at: &[Point], joints: &[&Joint]) -> Vec<f64> {
+pub(crate) fn symbol_sizes(at: &[Point], joints: &[&Joint]) -> Vec<f64> {
     let mut out = vec![1.0; at.len()];
     let mut done = vec![false; at.len()];
     for i in 0..at.len() {
@@ -138,7 +136,7 @@ pub(in crate::draw) fn symbol_sizes(at: &[Point], joints: &[&Joint]) -> Vec<f64>
 }
 
 /// Returns true if two points of the paper look the same.
-pub(in crate::draw) fn one_place(a: Point, b: Point) -> bool {
+pub(crate) fn one_place(a: Point, b: Point) -> bool {
     plane_norm(sub(a, b)) <= ONE_PLACE
 }
 

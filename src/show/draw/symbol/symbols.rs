@@ -1,10 +1,11 @@
 //! The symbols of joints, in the joints' own frames.
 
-use crate::draw::sheet::Shape;
+use crate::draw::prelude::*;
 use crate::draw::symbol::pieces::{PaperPose, Piece};
-use crate::model::joint_type::JointType;
-use crate::svg::plane::{Rect, bounds_of};
+use crate::motion::pose::Pose;
+use crate::rank::stroke::request::drive_or_any;
 use std::collections::BTreeMap;
+use std::f64::consts::PI;
 use std::sync::LazyLock;
 
 /// The pieces of each joint type's symbol, from back to front, and of the arrow of a driven slide by its axis.
@@ -17,7 +18,7 @@ static SYMBOLS: LazyLock<BTreeMap<String, Vec<Piece>>> = LazyLock::new(|| {
 
 /// Returns the distance from the axis of a joint to the side of the part that slides along it. `None` for joints without
 /// such a slide.
-pub(in crate::draw) fn side_of_slide(joint: &JointType) -> Option<f64> {
+pub(crate) fn side_of_slide(joint: &JointType) -> Option<f64> {
     match joint {
         JointType::Prismatic => Some(5.0),
         JointType::Cylindrical | JointType::Helical => Some(5.5),
@@ -28,7 +29,7 @@ pub(in crate::draw) fn side_of_slide(joint: &JointType) -> Option<f64> {
 }
 
 /// Returns the symbol of a joint at the origin, scaled by `size`; `mark` is added to the classes.
-pub(in crate::draw) fn symbol_shapes(
+pub(crate) fn symbol_shapes(
     joint: &JointType,
     pose: &PaperPose,
     mark: &str,
@@ -39,17 +40,17 @@ pub(in crate::draw) fn symbol_shapes(
 }
 
 /// Returns the pieces of a joint's symbol, from the back to the front.
-pub(in crate::draw) fn symbol_pieces(joint: &JointType) -> &'static [Piece] {
+pub(crate) fn symbol_pieces(joint: &JointType) -> &'static [Piece] {
     &SYMBOLS[joint.name()]
 }
 
 /// Returns the straight arrow of a joint that slides along one of its axes, outside the hatching of a rail.
-pub(in crate::draw) fn slide_arrow(axis: usize) -> &'static [Piece] {
+pub(crate) fn slide_arrow(axis: usize) -> &'static [Piece] {
     &SYMBOLS[["drive x", "drive y", "drive z"][axis]]
 }
 
 /// Returns the bounding rectangle of some shapes.
-pub(in crate::draw) fn shapes_extent(shapes: &[Shape]) -> Rect {
+pub(crate) fn shapes_extent(shapes: &[Shape]) -> Rect {
     let own = shapes.iter().map(|s| match s {
         Shape::Path { points, .. } => bounds_of(points).grown_by(0.7),
         Shape::Circle { at, radius, .. } => {
@@ -59,11 +60,66 @@ pub(in crate::draw) fn shapes_extent(shapes: &[Shape]) -> Rect {
     own.fold(Rect::around([0.0; 2], 2.0, 2.0), |all, r| all.with(&r))
 }
 
+/// Returns the joints whose drive slides them without turning, each with the axis of its frame.
+pub(crate) fn driven_slides(m: &Mechanism, state: StateId) -> Vec<(JointId, usize)> {
+    let driven = m.joints_in(state).filter(|&j| m.joints[j].drive);
+    driven
+        .filter_map(|j| Some((j, slide_axis_of(driven_freedom(m, state, j)?)?)))
+        .collect()
+}
+
+/// Returns the axis of a slide.
+fn slide_axis_of(freedom: Freedom) -> Option<usize> {
+    match freedom {
+        Freedom::Tx => Some(0),
+        Freedom::Ty => Some(1),
+        Freedom::Tz => Some(2),
+        Freedom::Rx | Freedom::Ry | Freedom::Rz | Freedom::Screw => None,
+    }
+}
+
+/// Returns the freedom that a drive moves. If the file leaves it open between a turn and a slide, returns the one that moves
+/// the mechanism.
+fn driven_freedom(m: &Mechanism, state: StateId, joint: JointId) -> Option<Freedom> {
+    let of = &m.joints[joint];
+    let open = of
+        .joint_type
+        .freedoms()
+        .iter()
+        .filter(|f| of.may_drive(**f));
+    let open: Vec<Freedom> = open.copied().collect();
+    let slides = open.iter().filter(|f| slide_axis_of(**f).is_some()).count();
+    if slides == 0 || slides == open.len() {
+        return open.first().copied();
+    }
+    let pose = Pose::of_file(m, state).ok()?;
+    let (column, _) = drive_or_any(m, &pose, state, Some(&of.id)).ok()?;
+    Some(pose.columns[column].freedom)
+}
+
+/// Returns the arrow around a driving pair that turns. It is not a full circle, because that means a second joint.
+pub(crate) fn round_arrow(mark: &str, radius: f64) -> Vec<Shape> {
+    const FROM: f64 = 0.25 * PI;
+    const TO: f64 = 1.85 * PI;
+    let on = |angle: f64, r: f64| [r * angle.cos(), r * angle.sin()];
+    let arc = (0..=28).map(|i| on(FROM + (TO - FROM) * f64::from(i) / 28.0, radius));
+    let back = TO - 6.0 / radius;
+    let head = vec![
+        on(TO + 1.5 / radius, radius),
+        on(back, radius + 2.6),
+        on(back, radius - 2.6),
+    ];
+    vec![
+        Shape::line(format!("line{mark}"), arc.collect()),
+        Shape::path(format!("ink{mark}"), head, true),
+    ]
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::draw::place::projection;
-    use crate::geom::vector::{X, Y, Z};
+    use crate::geom::vector::{X, Y, Z, unit};
 
     #[test]
     fn each_type_of_joint_has_a_symbol_of_its_own_from_every_side() {
@@ -73,7 +129,14 @@ mod tests {
             PaperPose::of_axes([X, Y, Z], &along_z),
             PaperPose::of_axes([Y, Z, X], &along_z),
             PaperPose::of_axes([Z, X, Y], &along_z),
-            PaperPose::of_axes([X, Y, Z], &projection::isometric_view()),
+            PaperPose::of_axes(
+                [
+                    unit([1.0, -1.0, 0.0]),
+                    unit([1.0, 1.0, -2.0]),
+                    unit([1.0; 3]),
+                ],
+                &along_z,
+            ),
         ] {
             let drawn = types.each_ref().map(|t| {
                 let mut shapes = symbol_shapes(t, &pose, "", 1.0);

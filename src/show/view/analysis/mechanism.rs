@@ -2,7 +2,6 @@
 
 use crate::view::analysis::mobility::StructureSize;
 use crate::view::prelude::*;
-use num_bigint::BigUint;
 
 /// Names shown of a list.
 const SHOWN: usize = 12;

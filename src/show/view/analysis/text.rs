@@ -1,13 +1,11 @@
 //! An analysis for people: the verdict first, then where each figure comes from.
 
-use super::{Analysis, State, axis_names, harm_word, ranks_agree};
-use crate::model::claim::Topic;
 use crate::redundancy::analysis::{ContourShare, CouplingShare, External};
 use crate::redundancy::stress::{JointWrench, SelfStress, StressVerdict};
-use crate::view::analysis::{idle, link_motions, suggestions};
-use crate::view::claims;
+use crate::view::analysis::{
+    Analysis, State, axis_names, harm_word, link_motions, ranks_agree, suggestions,
+};
 use crate::view::prelude::*;
-use std::collections::BTreeSet;
 
 /// Maximum number of motions in a text; JSON has all.
 const MOTIONS: usize = 6;
@@ -34,11 +32,11 @@ impl Analysis<'_> {
                 .map(|x| suggestions::advice_text(s.mechanism, s.found, x, width));
             out.text() + &advice.unwrap_or_default()
         });
-        let published = claims::claims_about(&self.mechanism.claims, Topic::Structure);
+        let claims = &self.mechanism.claims;
         let published = if verbose {
-            claims::claims_text(&published, width)
+            claims_text(claims, Topic::Structure, width)
         } else {
-            claims::count_claims(&published)
+            count_claims(&claims_about(claims, Topic::Structure))
         };
         fit_lines(&(states.collect_vec().join("\n") + &published), width)
     }
@@ -53,7 +51,8 @@ impl State<'_> {
             self.verdict()
         ));
         if verbose {
-            self.write_counts(out);
+            let lines = self.count_lines().into_iter();
+            lines.for_each(|line| out.add_line(format!("  {line}")));
         } else if s.finite.format_figure() != s.mobility.to_string() || !s.finite.is_proven() {
             out.add_line(format!("  {}", self.describe_finite()));
         }
@@ -75,20 +74,16 @@ impl State<'_> {
             self.method_lines()
                 .for_each(|line| out.add_line(format!("  {line}")));
         }
-        self.write_shares(out);
-        if let Some(e) = &s.external {
-            let disagree = if ranks_agree(e) {
-                ""
-            } else {
-                "  -- THESE DISAGREE"
-            };
-            let (formula, sigma, rank) = (external_formula(e), e.redundant, e.by_rank);
-            out.add_line(format!(
-                "\n  External: σ = {formula} = {sigma}; by rank {rank}{disagree}"
-            ));
+        out.add_part(self.shares_table());
+        if let Some(external) = self.external_line() {
+            out.add_line(format!("\n  {external}"));
         }
         if verbose {
-            return self.write_self_stresses(out);
+            if let Some(table) = self.stress_table() {
+                out.add_part(Some(table));
+                out.add_line("  harmful: strains the joints if parts are inaccurate; harmless: contacts share friction");
+            }
+            return;
         }
         let harmless = |t: &&SelfStress| t.verdict == StressVerdict::Harmless;
         let (all, harmless) = (
@@ -106,8 +101,8 @@ impl State<'_> {
         }
     }
 
-    /// Adds the counts, and W and σ from them.
-    fn write_counts(&self, out: &mut Report) {
+    /// Returns the counts, and W and σ from them, line by line.
+    pub(crate) fn count_lines(&self) -> Vec<String> {
         let s = self.found;
         let (rows, f, rank) = (s.rows, s.freedoms, s.rank);
         let couplings = match s.per_coupling.len() {
@@ -117,45 +112,33 @@ impl State<'_> {
         let (n, p) = (count_noun(s.links, "link"), count_noun(s.joints, "joint"));
         let (k, freedoms) = (count_noun(s.contours, "contour"), count_noun(f, "freedom"));
         let [w, working, local] = [s.mobility, s.working_mobility, s.local_mobility];
-        out.add_line(format!(
-            "  n = {n}, p = {p}, k = {k}, f = {freedoms}{couplings}\n  \
-             rank of the {rows} x {f} closure matrix: {rank}\n  \
-             W = f - rank = {w} (in this pose): working {working}, local {local}\n  \
-             {}\n  \
-             σ = {rows} - rank = {}  (= W + {rows} - f)",
-            self.describe_finite(),
-            s.redundant
-        ));
-        if let Some([m, n, s, t]) = self.gogu_symbols() {
-            out.add_line(format!(
-                "  in Gogu's symbols: M = {m}, N = {n}, S = {s}, T = {t}"
-            ));
-        }
-        if self.counting_is_wrong() {
-            out.add_line(format!(
-                "  counting alone (Malyshev's formula) says {}, wrong by the redundant constraints",
+        let gogu = self
+            .gogu_symbols()
+            .map(|[m, n, s, t]| format!("in Gogu's symbols: M = {m}, N = {n}, S = {s}, T = {t}"));
+        let counting = (i64::try_from(w) != Ok(s.formula_mobility)).then(|| {
+            format!(
+                "counting alone (Malyshev's formula) says {}, wrong by the redundant constraints",
                 s.formula_mobility
-            ));
-        }
+            )
+        });
+        let lines = [
+            format!("n = {n}, p = {p}, k = {k}, f = {freedoms}{couplings}"),
+            format!("rank of the {rows} x {f} closure matrix: {rank}"),
+            format!("W = f - rank = {w} (in this pose): working {working}, local {local}"),
+            self.describe_finite(),
+            format!("σ = {rows} - rank = {}  (= W + {rows} - f)", s.redundant),
+        ];
+        lines.into_iter().chain(gogu).chain(counting).collect()
     }
 
-    /// Adds the shares of contours and couplings in σ.
-    fn write_shares(&self, out: &mut Report) {
+    /// Returns the shares of contours and couplings in σ. `None` if there is no contour.
+    pub(crate) fn shares_table(&self) -> Option<Table> {
         let contour = |c: &ContourShare| {
-            let joints = c
-                .contour
-                .joints
-                .iter()
-                .map(|(j, _)| self.joint_name(*j))
-                .join(", ");
+            let joints = c.contour.joints.iter();
+            let joints = joints.map(|(j, _)| self.joint_name(*j)).join(", ");
             let name = c.contour.name(self.mechanism);
-            row_cells([
-                &name,
-                &joints,
-                &c.redundant,
-                &in_any_order(c),
-                &in_any_basis(c),
-            ])
+            let any = [in_any_order(c), in_any_basis(c)];
+            row_cells([&name, &joints, &c.redundant, &any[0], &any[1]])
         };
         let coupling = |c: &CouplingShare| {
             let any = format_span(0, c.most);
@@ -163,43 +146,40 @@ impl State<'_> {
         };
         let (contours, couplings) = (&self.found.per_contour, &self.found.per_coupling);
         let shares = contours.iter().map(contour);
-        let shares = shares.chain(couplings.iter().map(coupling)).collect_vec();
-        if !shares.is_empty() {
-            out.add_line("");
-            out.add_table(
-                "contour | joints | σ in this order | in any order | in any basis",
-                shares,
-            );
-        }
+        Table::of(
+            "contour | joints | σ in this order | in any order | in any basis",
+            shares.chain(couplings.iter().map(coupling)),
+        )
     }
 
-    fn write_self_stresses(&self, out: &mut Report) {
-        let stresses = &self.found.self_stresses;
-        if stresses.is_empty() {
-            return;
-        }
+    /// Returns where the redundant constraints that a state adds come from.
+    pub(crate) fn external_line(&self) -> Option<String> {
+        let e = self.found.external.as_ref()?;
+        let disagree = if ranks_agree(e) {
+            ""
+        } else {
+            "  -- THESE DISAGREE"
+        };
+        let (formula, sigma, rank) = (external_formula(e), e.redundant, e.by_rank);
+        Some(format!(
+            "External: σ = {formula} = {sigma}; by rank {rank}{disagree}"
+        ))
+    }
+
+    /// Returns the self-stresses, a row each. `None` if there are none.
+    pub(crate) fn stress_table(&self) -> Option<Table> {
         let row = |t: &SelfStress| {
             let (contours, couplings) = (self.contours_of(t), self.couplings_of(t));
-            let in_contours = contours
-                .iter()
-                .map(String::as_str)
-                .chain(couplings)
-                .join(" + ");
+            let contours = contours.iter().map(String::as_str);
+            let in_contours = contours.chain(couplings).join(" + ");
             let (joint, what) = self.simplest_joint(t).unwrap_or_default();
-            row_cells([
-                &in_contours,
-                &joint,
-                &what,
-                &harm_word(t),
-                &self.borne_shares(t),
-            ])
+            let borne = self.borne_shares(t);
+            row_cells([&in_contours, &joint, &what, &harm_word(t), &borne])
         };
-        out.add_line("");
-        out.add_table(
+        Table::of(
             "self-stress in contour | simplest at | acts as |  | shared by joints, part of Σ |F|² + |M|²/ℓ²",
-            stresses.iter().map(row),
-        );
-        out.add_line("  harmful: strains the joints if parts are inaccurate; harmless: contacts share friction");
+            self.found.self_stresses.iter().map(row),
+        )
     }
 
     /// Returns W, or a range if rounded coordinates do not decide it.
@@ -261,21 +241,16 @@ impl State<'_> {
         format!("finite mobility {}: {certainty}", finite.format_figure())
     }
 
-    /// Returns true if Malyshev's formula gives another mobility than the rank.
-    pub(crate) fn counting_is_wrong(&self) -> bool {
-        i64::try_from(self.found.mobility) != Ok(self.found.formula_mobility)
-    }
-
     /// Returns the faults of the drives in words.
     pub(crate) fn drive_faults(&self) -> impl Iterator<Item = String> {
         let faults = self.found.drives.iter();
-        faults.map(|f| idle::drive_fault(self.mechanism, f).2)
+        faults.map(|f| link_motions::drive_fault(self.mechanism, f).2)
     }
 
     /// Returns the idle motions in words, each text once.
     pub(crate) fn idle_motions(&self) -> Vec<String> {
-        let words = |i| idle::describe_idle(self.mechanism, i);
-        idle::told_once(self.found.idle.iter().map(words))
+        let words = |i| link_motions::describe_idle(self.mechanism, i);
+        link_motions::told_once(self.found.idle.iter().map(words))
     }
 
     /// Returns the chosen method with the reason, its changes of coordinates, and the primes.
@@ -307,7 +282,7 @@ impl State<'_> {
 
     /// Returns the joint where a self-stress has the fewest components, of the contacts where they have any, since that is where external
     /// redundancy is felt, and what it carries there.
-    pub(crate) fn simplest_joint(&self, t: &SelfStress) -> Option<(&str, String)> {
+    pub(super) fn simplest_joint(&self, t: &SelfStress) -> Option<(&str, String)> {
         let joints = &self.mechanism.joints;
         let felt = t.joints.iter();
         let felt = felt.filter(|w| !t.external || joints[w.joint].states.is_some());
@@ -345,7 +320,7 @@ impl State<'_> {
     }
 
     /// Returns every joint that bears a self-stress with its share if that is known, the greatest first: "4-5 52 %, 5-1 48 %".
-    pub(crate) fn borne_shares(&self, t: &SelfStress) -> String {
+    fn borne_shares(&self, t: &SelfStress) -> String {
         let share = |w: &JointWrench| w.borne.as_ref().map(|b| b.energy_share());
         let mut all: Vec<&JointWrench> = t.joints.iter().collect();
         all.sort_by(|a, b| share(b).unwrap_or(0.0).total_cmp(&share(a).unwrap_or(0.0)));
@@ -359,12 +334,12 @@ impl State<'_> {
 }
 
 /// Returns σ of a contour over all orders of these contours.
-pub(crate) fn in_any_order(c: &ContourShare) -> String {
+fn in_any_order(c: &ContourShare) -> String {
     format_span(c.range.0, c.range.1)
 }
 
 /// Returns σ of a contour over all bases of contours that it is part of.
-pub(crate) fn in_any_basis(c: &ContourShare) -> String {
+fn in_any_basis(c: &ContourShare) -> String {
     let (reached, most) = c.over_bases;
     let words = format_span(c.range.0, reached);
     if most > reached {
@@ -375,7 +350,7 @@ pub(crate) fn in_any_basis(c: &ContourShare) -> String {
 }
 
 /// Returns where the σ that a state adds comes from: "12 constraints - (1 - 0) - 0 lost mobilities".
-pub(crate) fn external_formula(e: &External) -> String {
+fn external_formula(e: &External) -> String {
     let constraints = plural_of(&e.constraints.to_string(), "constraint");
     let (actual, working, lost) = (e.actual_mobility, e.working_mobility, e.lost_mobility);
     let noun = if lost == 1 { "mobility" } else { "mobilities" };

@@ -3,7 +3,7 @@
 use crate::format::csv;
 use crate::format::plain::escape_control;
 use crate::view::prelude::*;
-use crate::view::terminal::layout::table_of;
+use crate::view::terminal::table_of;
 use serde::ser::{Serialize, SerializeMap, SerializeSeq, Serializer};
 use serde_json::Map;
 

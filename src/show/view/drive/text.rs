@@ -1,12 +1,10 @@
 //! A torsional drive for people: the bar, whether it runs its programme, and why.
 
-use crate::drive::cam::CamDesign;
+use crate::drive::driving::CamDesign;
 use crate::drive::driving::{DampingFrom, Design};
 use crate::drive::programme::{Endurance, Event, PATIENCE, Ran};
 use crate::drive::swing::{End, Swing};
 use crate::drive::torsion::{BarTrial, Remedy, log_decrement, stored_energy};
-use crate::model::claim::Topic;
-use crate::view::claims::{self, claims_about};
 use crate::view::drive::Drive;
 use crate::view::prelude::*;
 
@@ -20,11 +18,7 @@ pub fn drive_text(d: &Drive<'_>, width: Option<u16>) -> String {
         Some(design) => write_design(&mut out, d, design),
         None => write_refusal(&mut out, d),
     }
-    out.text()
-        + &fit_lines(
-            &claims::claims_text(&claims_about(&d.file.claims, Topic::Drive), width),
-            width,
-        )
+    out.text() + &claims_text(&d.file.claims, Topic::Drive, width)
 }
 
 /// Returns a length in the file's unit, with its symbol.

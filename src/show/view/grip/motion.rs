@@ -1,6 +1,5 @@
 //! The clamping force along a motion: one value from which text, JSON and a chart are made. SI units.
 
-use crate::chart::{Axis, Chart, Series, Style};
 use crate::grip::clamping::HoldVerdict;
 use crate::grip::motion::StepTaken;
 use crate::model::mechanism::LengthUnit;

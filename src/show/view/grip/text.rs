@@ -3,9 +3,7 @@
 use crate::grip::clamping::DiameterRow;
 use crate::grip::contact::TouchingPose;
 use crate::grip::holding::Holding;
-use crate::model::claim::Topic;
 use crate::model::grip::{GripLoad, LeverDrive, PartMass, Pivots, Toward};
-use crate::view::claims;
 use crate::view::grip::motion::format_or_dash;
 use crate::view::grip::{GripReport, all_reasons};
 use crate::view::prelude::*;
@@ -49,9 +47,8 @@ impl GripReport<'_> {
             write_contacts(&mut out, held, pose, self.load_friction());
         }
         let motion = self.motion.as_ref().map(|m| m.text(width));
-        let claims =
-            claims::claims_text(&claims::claims_about(&self.file.claims, Topic::Grip), width);
-        out.text() + &motion.unwrap_or_default() + &fit_lines(&claims, width)
+        let claims = claims_text(&self.file.claims, Topic::Grip, width);
+        out.text() + &motion.unwrap_or_default() + &claims
     }
 
     /// Returns a length in the file's unit, with its symbol.

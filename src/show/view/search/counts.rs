@@ -1,15 +1,12 @@
 //! Head of a search for people: how many variants there are, how that was checked, and their mobilities.
 
-use crate::score::request::List;
-use crate::search::Search;
+use crate::search::answer::estimate::{Drawn, Estimate};
 use crate::search::check::second_prime::Verdict;
+use crate::search::check::singular_values::Summary;
 use crate::search::question::throughout::PoseOnly;
 use crate::view::prelude::*;
-use crate::view::search::{numeric, second_opinion, stopped_early};
-use itertools::Itertools;
-use num_bigint::BigUint;
-use num_traits::{One, Zero};
-use std::collections::{BTreeMap, BTreeSet};
+use crate::view::search::{numeric, second_opinion};
+use num_traits::One;
 
 /// Maximum number of mobilities in a text; JSON and the page have them all.
 const MOBILITIES: usize = 12;
@@ -22,26 +19,11 @@ pub(super) const IDEAS: &str =
 pub(super) fn counts_text(outcome: &Outcome, width: Option<u16>, verbose: bool) -> String {
     let verbose = verbose || matches!(outcome.request.list, List::Nothing | List::Top(0));
     let mut out = Report::new(width);
-    write_verdict(&mut out, outcome, verbose);
-    let exact = outcome.numeric.is_none();
-    // Two primes that agree on rounded digits prove nothing.
-    let check = outcome.check.filter(|_| outcome.is_confirmed());
-    let check = check.map(|check| match check.verdict {
-        Verdict::Agree => "Checked: two runs with different primes agree",
-        Verdict::Interrupted => "Not checked by a second prime: interrupted",
-    });
-    let lines = minimal_line(outcome).filter(|_| verbose).into_iter();
-    let lines = lines
-        .chain(numeric::numeric_lines(outcome))
-        .chain(second_opinion::opinion_lines(outcome));
-    let lines = lines.chain(check.map(str::to_owned));
-    let lines = lines.chain(
-        exact
-            .then(|| stopped_early::stopped_line(outcome))
-            .flatten(),
-    );
-    let lines = lines.chain(stopped_early::estimate_line(outcome));
-    let lines = lines.chain(exact.then(|| stopped_early::more_line(outcome)).flatten());
+    let mechanism = &outcome.search.mechanism.name;
+    out.add_line(format!("{mechanism}: {}", verdict_line(outcome)));
+    let minimal = minimal_line(outcome).filter(|_| verbose);
+    let lines = pose_lines(outcome, verbose).into_iter().chain(minimal);
+    let lines = lines.chain(certainty_lines(outcome));
     lines.for_each(|line| out.add_line(format!("  {line}")));
     let table = if verbose {
         by_mobility(outcome, width)
@@ -49,6 +31,25 @@ pub(super) fn counts_text(outcome: &Outcome, width: Option<u16>, verbose: bool) 
         String::new()
     };
     out.text() + &fit_lines(&table, width)
+}
+
+/// Returns how sure the counts are, and what would give more.
+pub(crate) fn certainty_lines(outcome: &Outcome) -> Vec<String> {
+    let exact = outcome.numeric.is_none();
+    // Two primes that agree on rounded digits prove nothing.
+    let check = outcome.check.filter(|_| outcome.is_confirmed());
+    let check = check.map(|check| match check.verdict {
+        Verdict::Agree => "Checked: two runs with different primes agree".to_owned(),
+        Verdict::Interrupted => "Not checked by a second prime: interrupted".to_owned(),
+    });
+    let lines = numeric::numeric_lines(outcome).into_iter();
+    let lines = lines
+        .chain(second_opinion::opinion_lines(outcome))
+        .chain(check);
+    let stopped = exact.then(|| stopped_line(outcome));
+    let more = exact.then(|| more_line(outcome));
+    let lines = lines.chain(stopped.flatten()).chain(estimate_line(outcome));
+    lines.chain(more.flatten()).collect()
 }
 
 /// Returns "σ = 0", or the number of redundant constraints allowed.
@@ -68,15 +69,9 @@ fn keep_motion(mechanism: &Mechanism) -> &'static str {
     }
 }
 
-/// Returns how many variants meet all conditions, and how many have few enough redundant constraints, if counts are asked for.
-fn write_verdict(out: &mut Report, outcome: &Outcome, verbose: bool) {
-    let least = if outcome.is_counted() {
-        ""
-    } else {
-        "at least "
-    };
-    let (conditions, condition) = (&outcome.search.conditions, redundancy_condition(outcome));
-    let (mechanism, size) = (&outcome.search.mechanism.name, outcome.search.size());
+/// Returns what variants have to meet besides the number of redundant constraints, in words.
+fn further_conditions(outcome: &Outcome) -> Vec<String> {
+    let conditions = &outcome.search.conditions;
     let more = [
         conditions
             .keep_output
@@ -86,8 +81,18 @@ fn write_verdict(out: &mut Report, outcome: &Outcome, verbose: bool) {
             .max_changes
             .map(|c| format!("change at most {}", count_noun(c as usize, "joint"))),
     ];
-    let told = in_state(&outcome.search, false);
-    let more = more.into_iter().flatten().chain(told).collect_vec();
+    let more = more.into_iter().flatten();
+    more.chain(in_state(&outcome.search)).collect()
+}
+
+/// Returns how many variants meet all conditions: "12 of 64 variants have σ = 0".
+pub(crate) fn verdict_line(outcome: &Outcome) -> String {
+    let least = if outcome.is_counted() {
+        ""
+    } else {
+        "at least "
+    };
+    let (condition, more) = (redundancy_condition(outcome), further_conditions(outcome));
     let all = match more.split_last() {
         None => format!("have {condition}"),
         Some((last, rest)) => {
@@ -95,45 +100,44 @@ fn write_verdict(out: &mut Report, outcome: &Outcome, verbose: bool) {
             format!("{} and {last}", head.collect_vec().join(", "))
         }
     };
+    let listed = &outcome.listed_counts().total;
     let good = if let Some(found) = &outcome.numeric {
         format!("numeric: {}", numeric::from_to(&found.admissible))
-    } else if outcome.listed_counts().total.is_zero() && least.is_empty() {
+    } else if listed.is_zero() && least.is_empty() {
         "none".to_owned()
     } else if !outcome.is_confirmed() {
-        format!(
-            "not exact: {least}{}",
-            group_thousands(&outcome.listed_counts().total)
-        )
+        format!("not exact: {least}{}", group_thousands(listed))
     } else {
         let [_, estimate] = outcome.estimates();
-        let listed = &outcome.listed_counts().total;
-        stopped_early::format_count(listed, outcome.is_counted(), estimate)
+        format_count(listed, outcome.is_counted(), estimate)
     };
-    let of = plural_of(&group_thousands(&size), "variant");
-    out.add_line(format!("{mechanism}: {good} of {of} {all}"));
-    if size == BigUint::from(1u8) {
-        out.add_line(
-            "  no joint has an option with more freedoms than its own type; list some under [search], for example options = \
-             [\"cylindrical\", \"spherical\"]"
-        );
-    }
+    let of = plural_of(&group_thousands(outcome.search.size()), "variant");
+    format!("{good} of {of} {all}")
+}
+
+/// Returns what else there is to say of the counts: nothing to choose, other poses, and the number of determinate variants.
+pub(crate) fn pose_lines(outcome: &Outcome, verbose: bool) -> Vec<String> {
+    let fixed = (outcome.search.size() == BigUint::from(1u8)).then(|| {
+        "no joint has an option with more freedoms than its own type; list some under [search], for example options = \
+         [\"cylindrical\", \"spherical\"]"
+            .to_owned()
+    });
     let beside = verbose.then(|| but_in_the_pose(outcome)).flatten();
-    for line in in_the_pose(outcome).into_iter().chain(beside) {
-        out.add_line(format!("  {line}"));
-    }
-    if !more.is_empty() && (verbose || outcome.listed_counts().total.is_zero()) {
+    let wanted = verbose || outcome.listed_counts().total.is_zero();
+    let before = (wanted && !further_conditions(outcome).is_empty()).then(|| {
         let determinate = match &outcome.numeric {
             Some(found) => numeric::from_to(&found.determinate),
             None => determinate_count(outcome),
         };
-        out.add_line(format!(
-            "  {determinate} with {condition} before the other conditions"
-        ));
-    }
+        let condition = redundancy_condition(outcome);
+        format!("{determinate} with {condition} before the other conditions")
+    });
+    let lines = fixed.into_iter().chain(in_the_pose(outcome));
+    lines.chain(beside).chain(before).collect()
 }
 
 /// Describes where variants keep the motion, as far as it is known.
-pub(crate) fn where_kept(outcome: &Outcome) -> &'static str {
+fn where_kept(outcome: &Outcome) -> &'static str {
     match &outcome.lasting {
         Ok(_) => " throughout the motion",
         Err(PoseOnly::Rests | PoseOnly::Numeric) => "",
@@ -184,7 +188,7 @@ fn determinate_count(outcome: &Outcome) -> String {
     let [estimate, _] = outcome.estimates();
     let estimate = estimate.filter(|_| outcome.is_confirmed());
     let exact = outcome.is_determinate_counted();
-    stopped_early::format_count(&outcome.determinate.total, exact, estimate)
+    format_count(&outcome.determinate.total, exact, estimate)
 }
 
 /// Returns the counts by mobility. Empty if there are none.
@@ -278,17 +282,12 @@ fn minimal_line(outcome: &Outcome) -> Option<String> {
     ))
 }
 
-/// Returns the conditions in a searched state: "hold a in state clamped" and "have external σ ≤ 2, harmful ≤ 0 in it"; of `one` variant, "holds" and "has".
-pub(crate) fn in_state(search: &Search, one: bool) -> Vec<String> {
+/// Returns the conditions in a searched state: "hold a in state clamped" and "have external σ ≤ 2, harmful ≤ 0 in it".
+fn in_state(search: &Search) -> Vec<String> {
     let Some(s) = search.conditions.state else {
         return Vec::new();
     };
     let m = &search.mechanism;
-    let (hold, have) = if one {
-        ("holds", "has")
-    } else {
-        ("hold", "have")
-    };
     let state = format!("in state {}", m.states[s.state]);
     let held = search
         .held_bodies()
@@ -300,12 +299,105 @@ pub(crate) fn in_state(search: &Search, one: bool) -> Vec<String> {
     ];
     let limits = limits.into_iter().flatten().join(", ");
     match (held.is_empty(), limits.is_empty()) {
-        (true, true) => vec![format!("{have} any external σ {state}")],
-        (true, false) => vec![format!("{have} {limits} {state}")],
-        (false, true) => vec![format!("{hold} {held} {state}")],
+        (true, true) => vec![format!("have any external σ {state}")],
+        (true, false) => vec![format!("have {limits} {state}")],
+        (false, true) => vec![format!("hold {held} {state}")],
         (false, false) => vec![
-            format!("{hold} {held} {state}"),
-            format!("{have} {limits} in it"),
+            format!("hold {held} {state}"),
+            format!("have {limits} in it"),
         ],
     }
+}
+
+/// Describes why a search ended early, and what its counts and its list are. `None` if it did not end early.
+pub(crate) fn stopped_line(outcome: &Outcome) -> Option<String> {
+    let why = match outcome.stop {
+        Stop::Exhausted => return None,
+        Stop::NotCounted => format!("Not counted ({})", typed_option("no-count", "")),
+        stop => format!("Stopped early ({})", stop.word()),
+    };
+    // What is proven of a list is told after it.
+    let list = match outcome.known_up_to() {
+        Some(_) if !outcome.request.distinct => "",
+        _ => ", variants are valid but may not be the cheapest",
+    };
+    Some(format!("{why}: counts are lower bounds{list}"))
+}
+
+/// Formats a number of variants. One that is not exact is a lower bound, with an upper bound and an estimate if they are known.
+pub(crate) fn format_count(counted: &BigUint, exact: bool, estimate: Option<&Estimate>) -> String {
+    let own = group_thousands(counted);
+    match estimate {
+        _ if exact => own,
+        None => format!("at least {own}"),
+        Some(e) => match &e.at_most {
+            None => format!("at least {own}, about {:.3e},", e.mean),
+            Some(most) if most == counted => own,
+            Some(most) => format!("{own} to {}, about {:.3e},", group_thousands(most), e.mean),
+        },
+    }
+}
+
+/// Describes how the numbers of variants that are not counted are known.
+pub(crate) fn estimate_line(outcome: &Outcome) -> Option<String> {
+    let [determinate, admissible] = outcome.estimates();
+    let said = |e: &Estimate, what| {
+        let [low, high] = e.between;
+        let Drawn { of, found } = e.drawn;
+        format!(
+            "{low:.3e} to {high:.3e} {what} ({} of {} samples of those not ruled out)",
+            group_thousands(found),
+            group_thousands(of)
+        )
+    };
+    let first = admissible.map(|e| said(e, "admissible"));
+    let second = determinate.map(|e| said(e, "determinate"));
+    let how = admissible.or(determinate)?;
+    let parts: Vec<String> = first.into_iter().chain(second).collect();
+    Some(format!(
+        "Estimated, not counted, with 95 % confidence: {} ({})",
+        parts.join(", "),
+        typed_option("seed", how.seed)
+    ))
+}
+
+/// Returns the price of a larger budget, if one ended the search: time and memory grow in proportion to nodes.
+pub(crate) fn more_line(outcome: &Outcome) -> Option<String> {
+    match outcome.stop {
+        Stop::NodeBudget => {
+            let nodes = typed_option("nodes", outcome.request.nodes.saturating_mul(10));
+            Some(format!(
+                "With {nodes} more is counted, in about ten times the time and memory"
+            ))
+        }
+        Stop::Memory => Some(format!(
+            "More is counted where there is more memory ({}), not with more nodes",
+            typed_option("memory", "")
+        )),
+        Stop::Exhausted | Stop::Interrupted | Stop::NotCounted => None,
+    }
+}
+
+/// Describes how much of a list by cost is proven, although the search ended early.
+pub(crate) fn proven_line(summary: &Summary) -> Option<String> {
+    match summary.proven? {
+        0 => None,
+        n if n == summary.given => Some(format!("Proven the cheapest: all {n}")),
+        n => Some(format!(
+            "Proven the cheapest: the first {n}; the others are valid"
+        )),
+    }
+}
+
+/// Returns an estimate as data; `between` is the interval with a confidence of 95 %.
+pub(crate) fn estimate_json(e: &Estimate) -> Value {
+    let Drawn { of, found } = e.drawn;
+    json!({
+        "mean": e.mean,
+        "standard_error": e.standard_error,
+        "between": e.between,
+        "at_most": e.at_most.as_ref().map(ToString::to_string),
+        "samples": { "of": of, "found": found },
+        "seed": e.seed,
+    })
 }

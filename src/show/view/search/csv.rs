@@ -3,10 +3,7 @@
 use crate::format::csv::encode_cell;
 use crate::model::ranking::Term;
 use crate::score::outcome::listing::Variants;
-use crate::score::outcome::variant::Variant;
-use crate::search::Search;
 use crate::search::check::other_poses::OverStroke;
-use crate::search::diagram::Stop;
 use crate::search::question::space::choice_name;
 use crate::view::prelude::*;
 use crate::view::search::{numeric, second_opinion};

@@ -2,25 +2,19 @@
 //! strings, since they outgrow 2^53.
 
 use crate::rank::rounded::verdict::RankVerdict;
-use crate::score::outcome::Outcome;
 use crate::score::outcome::listing::Variants;
 use crate::score::outcome::remarks::Remarks;
-use crate::score::outcome::variant::Variant;
 use crate::score::outcome::why::Whys;
-use crate::score::request::List;
 use crate::score::request::prepare::LooksRounded;
 use crate::search::answer::why_none::Relaxation;
-use crate::search::diagram::{Diagram, Stop};
+use crate::search::diagram::Diagram;
 use crate::view::prelude::*;
 use crate::view::pretty_json;
+use crate::view::search::counts::estimate_json;
 use crate::view::search::second_opinion::certainty_word;
-use crate::view::search::stopped_early::estimate_json;
 use crate::view::search::variant::VariantData;
 use crate::view::search::why::Teller;
 use crate::view::search::{numeric, ranking, second_opinion, variant};
-use num_bigint::BigUint;
-use num_traits::Zero;
-use std::collections::BTreeMap;
 use std::io::{self, Write};
 
 /// Calls `tell` on each variant of a list with its data until that fails. Ideas have their reasons.

@@ -1,10 +1,9 @@
 //! If nothing is found: the reasons in words, and the requests that find something.
 
 use crate::score::outcome::remarks::{Remarks, ease_request};
-use crate::score::request::Request;
 use crate::search::answer::why_none::{Hopeless, Relaxation};
 use crate::view::prelude::*;
-use crate::view::terminal::next_commands::{NextCommand, request_flags};
+use crate::view::terminal::next_commands::request_flags;
 
 /// Returns why no variant can be found, a sentence for each reason; empty if some may be.
 pub fn hopeless_reasons(m: &Mechanism, why: &Hopeless) -> Vec<String> {

@@ -3,9 +3,6 @@
 use crate::search::answer::counts::Counts;
 use crate::search::at_tolerance::{AtTolerance, Bracket, Sampled, Share};
 use crate::view::prelude::*;
-use num_bigint::BigUint;
-use num_traits::Zero;
-use std::collections::BTreeSet;
 
 /// Returns a number or a range: "12", or "12 to 15".
 pub(crate) fn from_to(bracket: &Bracket) -> String {
@@ -18,14 +15,6 @@ pub(crate) fn from_to(bracket: &Bracket) -> String {
         group_thousands(from),
         group_thousands(&bracket.most)
     )
-}
-
-/// Returns the number of admissible variants: "12", or "12 to 15".
-pub(crate) fn admissible_range(outcome: &Outcome) -> String {
-    match &outcome.numeric {
-        Some(found) => from_to(&found.admissible),
-        None => group_thousands(&outcome.admissible.total),
-    }
 }
 
 /// Returns the counts by mobility for people: "12", or "12 to 15".

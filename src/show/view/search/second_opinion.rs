@@ -1,6 +1,5 @@
 //! What singular values of the coordinates in a file say of the counts of a search, as text and as data.
 
-use crate::score::outcome::variant::{in_words, list_changes};
 use crate::search::answer::k_best::Assignment;
 use crate::search::answer::keys::Key;
 use crate::search::check::second_opinion::{Contradiction, SecondOpinion};
@@ -52,8 +51,8 @@ fn describe_contradiction(outcome: &Outcome, c: &Contradiction) -> String {
     )
 }
 
-/// Returns the reasons why the counts of a complete search are not exact, a sentence a line. Empty if they are.
-pub(crate) fn reasons_against(outcome: &Outcome) -> Vec<String> {
+/// Returns the second opinion, a sentence a line. Empty if none was needed.
+pub(crate) fn opinion_lines(outcome: &Outcome) -> Vec<String> {
     let read = with_assumptions(&outcome.search.mechanism);
     let mut out: Vec<String> = read
         .map(|r| format!("Not exact: {r}"))
@@ -96,13 +95,7 @@ pub(crate) fn reasons_against(outcome: &Outcome) -> Vec<String> {
             ),
         });
     }
-    out
-}
-
-/// Returns the second opinion, a sentence a line. Empty if none was needed.
-pub(crate) fn opinion_lines(outcome: &Outcome) -> Vec<String> {
-    let mut out = reasons_against(outcome);
-    if let Some(said) = outcome.second.as_ref().filter(|s| s.agrees()) {
+    if said.agrees() {
         out.push(describe_agreement(said));
     }
     out

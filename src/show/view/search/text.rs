@@ -3,15 +3,12 @@
 use crate::robots::is_description;
 use crate::score::outcome::listing::Variants;
 use crate::score::outcome::remarks::Remarks;
-use crate::score::outcome::variant::{Variant, in_words};
-use crate::score::request::{List, Request};
 use crate::search::check::singular_values::{NEARLY_SINGULAR, Opinion, Second, Summary};
 use crate::view::prelude::*;
 use crate::view::search::counts::counts_text;
 use crate::view::search::nothing_found::{hopeless_reasons, wider_commands};
-use crate::view::search::{counts, ranking, stopped_early, variant, why};
-use crate::view::terminal::next_commands::{self, NextCommand, file_name};
-use num_traits::Zero;
+use crate::view::search::{counts, ranking, variant, why};
+use crate::view::terminal::next_commands::{self, file_name};
 use std::io;
 
 /// Maximum number of variants of a table.
@@ -189,7 +186,7 @@ pub(crate) fn summary_notes(summary: &Summary) -> Vec<String> {
     if summary.is_asked() {
         out.push(opinions_line(summary));
     }
-    out.extend(stopped_early::proven_line(summary));
+    out.extend(counts::proven_line(summary));
     let posed = group_thousands(summary.posed);
     match (summary.posed, summary.lucky) {
         (0, _) => {}

@@ -1,11 +1,14 @@
 //! A variant as data, by the same contract as the search it is of, and the cheapest symmetric redesigns for people and as data.
 
+use crate::model::joint_type::JointType;
+use crate::model::mechanism::CostSpec;
 use crate::redundancy::contour_shares::ContourShare;
 use crate::score::outcome::symmetric::{SymmetricBest, SymmetricRedesign};
-use crate::score::outcome::variant::{Change, Variant, in_words, list_changes};
-use crate::search::Search;
-use crate::search::answer::freedom_patterns;
+use crate::score::outcome::variant::Change;
+use crate::search::answer::ideas::freedom_patterns;
 use crate::search::check::other_poses::{Figures, OverStroke};
+use crate::search::question::cost::CostTable;
+use crate::terms::PairWords;
 use crate::view::prelude::*;
 use crate::view::search::ranking;
 use serde::ser::{Serialize, SerializeMap, Serializer};
@@ -160,4 +163,53 @@ pub(crate) fn symmetric_data(found: &SymmetricBest) -> Value {
         })
     };
     found.best.iter().map(one).collect()
+}
+
+const HEAD: &str = include_str!("costs.toml");
+
+/// Returns the default costs as TOML.
+///
+/// # Examples
+/// ```
+/// use ozols::{file::costs::costs_from_str, view::search::variant::costs_toml};
+/// // The default costs are a file that can be changed and read back.
+/// let four_bar = ozols::built_in("four-bar")?;
+/// assert!(costs_from_str("costs.toml", &costs_toml(), &four_bar).is_ok());
+/// # Ok::<(), ozols::Error>(())
+/// ```
+pub fn costs_toml() -> String {
+    let table = CostTable::new(&CostSpec::default());
+    let line = |name: &str, milli: i64, what: &str| {
+        format!("\n# {what}\n{name} = {}\n", format_cost(milli))
+    };
+    let words = PairWords::builtin();
+    let types = JointType::NAMED.iter().map(|t| {
+        let about = words.get(t.name()).map_or("", |w| w.about.as_str());
+        let short = about.split([':', '.']).next().unwrap_or(about);
+        let what = format!("class {}: {short}", t.class_numeral());
+        line(t.name(), t.default_cost_milli(), &what)
+    });
+    let others = [
+        ("change", table.change, "changing a joint at all"),
+        (
+            "driven",
+            table.driven,
+            "changing a driven joint, in addition: the motor needs a new mount and guide",
+        ),
+        ("link", table.link, "the extra link of a joint in series"),
+        (
+            "harmful",
+            table.harmful,
+            "each redundant constraint that loads clamping faces in a searched state",
+        ),
+    ];
+    let others = others.map(|(name, milli, what)| line(name, milli, what));
+    let classes = JointType::CLASSES.chunks(4).map(|c| c.join(", "));
+    let head = HEAD
+        .replace("CUSTOM", &format_cost(JointType::CUSTOM_FREEDOM))
+        .replace(
+            "CLASSES",
+            &format!("\n# {}", classes.collect::<Vec<_>>().join(",\n# ")),
+        );
+    head + &others.concat() + &types.collect::<String>()
 }

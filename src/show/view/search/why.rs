@@ -1,12 +1,10 @@
 //! Reasons why ideas help, in workshop terms and as data.
 
-use crate::format::three_digits;
 use crate::score::evaluation::terms::Peak;
 use crate::score::outcome::why::{LetGo, Removed, SIDE_LOAD, Why, Whys};
 use crate::search::answer::k_best::Assignment;
 use crate::terms::PairWords;
 use crate::view::prelude::*;
-use std::collections::BTreeMap;
 
 /// Maximum number of ideas explained in a text; JSON has all.
 pub(super) const TOLD: usize = 3;

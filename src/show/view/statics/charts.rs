@@ -1,6 +1,5 @@
 //! Charts of reactions over the cycle and of the methods' stability.
 
-use crate::chart::{Axis, Chart, Scale, Series, Style};
 use crate::statics::contour_group::ContourGroup;
 use crate::statics::contour_group::pose::GroupReactions;
 use crate::statics::contour_group::solutions::{GroupMethod, GroupSolutions};

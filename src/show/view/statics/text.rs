@@ -8,7 +8,6 @@ use crate::statics::contour_group::solutions::{GroupMethod, GroupSolutions};
 use crate::statics::cycle::{DrivenStructure, Moment};
 use crate::statics::kinetostatics::{LinkInertia, Worth};
 use crate::statics::planar::PairId;
-use crate::view::claims;
 use crate::view::prelude::*;
 use crate::view::reactions::text::{NO_STRAIN, no_loads};
 use crate::view::statics::{
@@ -95,8 +94,7 @@ impl StaticsData<'_> {
                 "\nThe motion stops at {at}: {who} is at a dead point (condition {condition})."
             ));
         }
-        let claims = claims::claims_about(&self.of.claims, crate::model::claim::Topic::Statics);
-        out.text() + &fit_lines(&claims::claims_text(&claims, width), width)
+        out.text() + &claims_text(&self.of.claims, Topic::Statics, width)
     }
 
     /// Adds the groups as a table.

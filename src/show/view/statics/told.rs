@@ -11,8 +11,7 @@ use crate::view::grip::clamped::{Clamped, pose_words};
 use crate::view::prelude::*;
 use crate::view::reactions::Reactions;
 use crate::view::reactions::stroke::ReactionsOverStroke;
-use crate::view::statics::StaticsData;
-use crate::view::statics::csv::statics_csv;
+use crate::view::statics::{StaticsData, statics_csv};
 
 /// Reactions in a plane, in one pose, or over a stroke.
 #[derive(Debug)]

@@ -1,6 +1,6 @@
 //! Decimals that are all but simple fractions are doubted where a file is checked.
 
-use super::digits::{Z, door, read};
+use super::digits::{Z, door};
 use crate::common::*;
 
 #[test]
@@ -17,12 +17,10 @@ fn decimal_ratios_that_are_all_but_fractions_are_doubted() {
         assert_eq!(code, Some(0), "{stderr}");
         has(&stderr, &format!("ratio = \"{fraction}\""));
         has(&stderr, "h0 ~ h1");
-        assert!(uncertainties(&read(&gears(ratio))).unwrap().ratios[0] > 0.0);
     }
     for exact in ["\"-2/3\"", "\"1001/1000\"", "-1.5", "\"6667/10^4\"", "3"] {
         let (_, _, stderr) = told(exact);
         assert!(!stderr.contains("ratio"), "{exact}: {stderr}");
-        assert_eq!(uncertainties(&read(&gears(exact))), None, "{exact}");
     }
 }
 

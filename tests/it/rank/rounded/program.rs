@@ -160,7 +160,7 @@ fn the_finite_mobility_is_that_of_the_rank_whatever_the_method() {
     let file = tilted(6);
     let whole = registry::ALL
         .into_iter()
-        .filter(|m| Method::of_method(*m, None).is_some());
+        .filter(|m| Method::of_method(m, None).is_some());
     for method in whole.map(|m| m.name()) {
         for tolerance in [None, Some("1e-4"), Some("1e-12")] {
             if tolerance.is_some() && ["auto", "modular", "rational", "finite"].contains(&method) {

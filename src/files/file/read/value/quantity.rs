@@ -1,12 +1,8 @@
 //! Numbers with a meaning: angles, and values that must lie in a range.
 
-use crate::file::schema::{Coordinate, MechanismFile};
-use crate::file::{Findings, Place};
-use crate::geom::expr::{End, Expr, WrittenNumber};
+use crate::file::prelude::*;
+use crate::geom::expr::{End, WrittenNumber};
 use crate::geom::extent::box_diagonal;
-use crate::geom::vector::{length, to_vector};
-use crate::model::mechanism::{Frame, Joint, Parts};
-use std::f64::consts::PI;
 use std::fmt::Display;
 
 /// A number that a file may give.
@@ -102,19 +98,26 @@ impl Place<'_> {
 
     /// Returns an angle in radians: a number of degrees, or "120deg", "2.1rad", "pi/3", "2*pi/3".
     pub(crate) fn read_angle(&self, what: &str, c: &Coordinate) -> f64 {
-        let (inner, unit) = match c {
-            Coordinate::Expression(text) => match angle_text(text) {
-                Some(found) => found,
-                None => {
-                    let allowed =
-                        "degrees, or an angle such as \"120deg\", \"2.1rad\" or \"2*pi/3\"";
-                    self.add_bad_value(what, format!("{text:?}"), allowed);
-                    return 1.0;
-                }
-            },
-            other => (other.clone(), 1f64.to_radians()),
+        let degree = 1f64.to_radians();
+        let Coordinate::Expression(text) = c else {
+            return self.read_value(what, c, degree, Bound::Any);
         };
-        self.read_value(what, &inner, unit, Bound::Any)
+        let text = text.trim();
+        let in_word = |c: char| c.is_ascii_alphanumeric() || c == '_';
+        let (text, unit) = match (text.strip_suffix("deg"), text.strip_suffix("rad")) {
+            (Some(degrees), _) => (degrees, degree),
+            (_, Some(radians)) => (radians, 1.0),
+            // Not the beginning of another word, such as the name of a parameter.
+            _ if text.split(|c| !in_word(c)).any(|word| word == "pi") => (text, 1.0),
+            _ => (text, degree),
+        };
+        let before = self.out.problem_count();
+        let inner = Coordinate::Expression(text.trim().to_owned());
+        let value = self.read_irrational(&inner).to_f64();
+        if self.out.problem_count() > before {
+            return 1.0;
+        }
+        value * unit
     }
 
     /// Returns an angle in radians that must be in a range of degrees.
@@ -148,39 +151,6 @@ impl Place<'_> {
         }
         found.unwrap_or(&known[0]).1
     }
-}
-
-/// Returns the expression of an angle and its radians per unit.
-fn angle_text(text: &str) -> Option<(Coordinate, f64)> {
-    let text = text.trim();
-    let expression = |t: &str| Coordinate::Expression(t.trim().to_owned());
-    if let Some(t) = text.strip_suffix("deg") {
-        return Some((expression(t), 1f64.to_radians()));
-    }
-    if let Some(t) = text.strip_suffix("rad") {
-        return Some((expression(t), 1.0));
-    }
-    let in_word = |c: Option<char>| c.is_some_and(|c| c.is_ascii_alphanumeric() || c == '_');
-    // Not the beginning of another word, such as the name of a parameter.
-    let pi = text
-        .match_indices("pi")
-        .map(|(at, _)| (&text[..at], &text[at + 2..]));
-    let alone = |(before, after): &(&str, &str)| {
-        !in_word(before.chars().next_back()) && !in_word(after.chars().next())
-    };
-    let Some((before, after)) = pi.into_iter().find(alone) else {
-        return Some((expression(text), 1f64.to_radians()));
-    };
-    let factor = match before.trim() {
-        "" => "1",
-        "-" => "-1",
-        other => other.strip_suffix('*')?,
-    };
-    let divided = match after.trim() {
-        "" => factor.to_owned(),
-        rest => format!("({factor})/({})", rest.strip_prefix('/')?),
-    };
-    Some((Coordinate::Expression(divided), PI))
 }
 
 /// Maximum uncertainty of a direction, in radians.

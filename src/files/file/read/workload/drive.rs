@@ -1,14 +1,11 @@
 //! The `[workload.drive]` table.
 
+use crate::file::prelude::*;
 use crate::file::read::value::quantity::Bound;
 use crate::file::read::workload::grip::MECHANISM;
-use crate::file::schema::{DriveEntry, MechanismFile};
-use crate::file::{Findings, Place};
-use crate::geom::vector::{dot, scale, sub, to_vector};
+use crate::geom::vector::{dot, scale};
 use crate::model::drive::{Cam, Damping, DriveSpec, Payload, ProgrammeStep, Push};
-use crate::model::joint_type::JointType;
 use crate::model::loads::Inertia;
-use crate::model::mechanism::{Parts, StateId};
 
 fn read_damping(t: &Place<'_>, e: &DriveEntry) -> Option<Damping> {
     let viscous = t.not_negative("viscous_damping", &e.viscous_damping, 1.0);

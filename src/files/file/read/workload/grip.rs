@@ -1,11 +1,8 @@
 //! The `[workload.grip]` table.
 
+use crate::file::prelude::*;
 use crate::file::read::value::quantity::Bound;
-use crate::file::schema::{Diameters, Gravity, GripEntry, MechanismFile};
-use crate::file::{Findings, Place};
 use crate::model::grip::{GripLoad, GripSpec, LeverDrive, PartMass, Pivots, Toward, Transmission};
-use crate::model::mechanism::{JointId, LinkId, Parts, Role};
-use itertools::Itertools;
 
 /// Standard gravity. `[m/s²]`
 const GRAVITY: f64 = 9.80665;

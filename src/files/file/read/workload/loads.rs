@@ -1,19 +1,13 @@
 //! Masses of links and the `[workload]` table.
 
+use crate::file::prelude::*;
 use crate::file::read::value::quantity::Bound;
 use crate::file::read::value::used_twice;
 use crate::file::read::workload::motion::{LARGEST, MAX_FORCES, MAX_STEPS};
-use crate::file::schema::{
-    Coordinate, ForceEntry, InertiaEntry, LinkEntry, MechanismFile, Quantities, Quantity,
-    StrokeEntry, WorkloadEntry,
-};
-use crate::file::{Findings, Place};
-use crate::model::joint_type::JointType;
 use crate::model::loads::{
     Accuracy, ExternalForce, ExternalMoment, Face, Inertia, Loads, MassProperties, Misalignment,
     Stiffness, Stroke, Tolerances,
 };
-use crate::model::mechanism::Parts;
 use crate::statics::reactions::contact::object_at;
 
 /// The allowed range of inertias and masses.
@@ -111,7 +105,7 @@ fn read_force(f: &ForceEntry, mechanism: &Parts, at: &Place<'_>) -> Option<Exter
         at.key("to")
             .add_bad_value("end of the range", to, "at or after its beginning");
     }
-    let states = at.key("state").find_states(mechanism, f.state.as_ref());
+    let states = at.key("state").find_states(f.state.as_ref());
     Some(ExternalForce {
         link: at.key("link").read_link(&mechanism.links, &f.link)?,
         point,
@@ -155,7 +149,7 @@ fn read_moments(entry: &WorkloadEntry, m: &Parts, at: &Place<'_>) -> Vec<Externa
     for (at, e) in at.first_entries(MAX_FORCES, &entry.moment, "moments") {
         let moment = at.key("moment").read_vector(&e.moment);
         let link = at.key("link").read_link(&m.links, &e.link);
-        let states = at.key("state").find_states(m, e.state.as_ref());
+        let states = at.key("state").find_states(e.state.as_ref());
         found.extend(link.map(|link| ExternalMoment {
             link,
             moment,

@@ -1,15 +1,13 @@
 //! One picture of a moving scheme: where a pose has carried everything.
 
-use crate::draw::kinematic::body::{Body, draw_mark};
-use crate::draw::kinematic::moving::sliding::Carried;
+use crate::draw::kinematic::body::{Body, Marked, draw_mark};
 use crate::draw::kinematic::{Kinematic, MovingPicture};
-use crate::draw::place::projection::{
-    JointInSpace, Vector, add as add3, cross, norm, scale as times, sub,
-};
-use crate::draw::sheet::Sheet;
-use crate::geom::vector::{dot, unit};
-use crate::model::mechanism::LinkId;
-use crate::svg::plane::{Point, path_data};
+use crate::draw::place::projection::{cross, norm, scale as times};
+use crate::draw::prelude::*;
+use crate::draw::symbol::placed::one_place;
+use crate::geom::rigid::RigidMotion;
+use crate::geom::vector::unit;
+use crate::motion::pose::Pose;
 
 /// The length of a flag, in pixels.
 const FLAG: f64 = 26.0;
@@ -19,15 +17,15 @@ const STILL: f64 = 2.0;
 const UPRIGHT: f64 = 0.05;
 
 /// A line on a link that moves: what a block slides along, or a flag that shows it turn.
-pub(in crate::draw::kinematic) struct LinkLine {
-    pub(in crate::draw::kinematic) class: &'static str,
-    pub(in crate::draw::kinematic) link: LinkId,
-    pub(in crate::draw::kinematic) ends: [Vector; 2],
+pub(crate) struct LinkLine {
+    pub(crate) class: &'static str,
+    pub(crate) link: LinkId,
+    pub(crate) ends: [Vector; 2],
 }
 
 impl Kinematic<'_> {
     /// Returns the points of a link that its shape passes through.
-    pub(in crate::draw::kinematic) fn points_in_space(&self, link: usize) -> Vec<Vector> {
+    pub(crate) fn points_in_space(&self, link: usize) -> Vec<Vector> {
         let whole = &self.links[link];
         let own = whole.1.iter().map(|&i| self.places[i].point);
         let own = own.chain(self.points_of(whole.0).map(|p| p.place));
@@ -35,17 +33,14 @@ impl Kinematic<'_> {
     }
 
     /// Returns the middle of those points.
-    pub(in crate::draw::kinematic) fn middle_in_space(&self, link: usize) -> Vector {
+    pub(crate) fn middle_in_space(&self, link: usize) -> Vector {
         let points = self.points_in_space(link);
-        let sum = points.iter().fold([0.0; 3], |s, &p| add3(s, p));
+        let sum = points.iter().fold([0.0; 3], |s, &p| add(s, p));
         times(sum, 1.0 / points.len() as f64)
     }
 
     /// Returns the lines on links that move over some poses. Rails are as long as the travel of their blocks.
-    pub(in crate::draw::kinematic) fn moving_lines(
-        &mut self,
-        poses: &[Carried<'_>],
-    ) -> Vec<LinkLine> {
+    pub(crate) fn moving_lines(&mut self, poses: &[Carried<'_>]) -> Vec<LinkLine> {
         let slides = self.slide_ranges(poses);
         self.lengthen_rails(&slides);
         let mut lines = self.guide_lines(&slides);
@@ -58,7 +53,7 @@ impl Kinematic<'_> {
         let one = |(i, range): (usize, &Option<[f64; 2]>)| {
             let (range, axis) = ((*range)?, self.slide_axis(i)?);
             let (_, link) = self.carrier_links(i);
-            let ends = range.map(|x| add3(self.places[i].point, times(axis, x)));
+            let ends = range.map(|x| add(self.places[i].point, times(axis, x)));
             let class = "guide";
             let there = !self.is_frame(link) && range[1] > range[0];
             there.then_some(LinkLine { class, link, ends })
@@ -90,12 +85,12 @@ impl Kinematic<'_> {
             let side = cross(about, view.toward);
             let out = if norm(side) > 0.1 {
                 let side = unit(side);
-                unit(add3(side, cross(about, side)))
+                unit(add(side, cross(about, side)))
             } else {
                 unit(sub(view.up, times(about, dot(view.up, about))))
             };
             let from = self.middle_in_space(row);
-            let to = add3(from, times(out, FLAG / self.projection.scale));
+            let to = add(from, times(out, FLAG / self.projection.scale));
             let (class, ends) = ("flag", [from, to]);
             Some(LinkLine { class, link, ends })
         };
@@ -103,7 +98,7 @@ impl Kinematic<'_> {
     }
 
     /// Returns the shape of a link at the pose in the file.
-    pub(in crate::draw::kinematic) fn body_at_rest(&self, row: usize) -> Body {
+    pub(crate) fn body_at_rest(&self, row: usize) -> Body {
         self.body_in(row, |p| p)
     }
 
@@ -123,7 +118,7 @@ impl Kinematic<'_> {
     }
 
     /// Returns the picture of a pose, or of the pose of the file.
-    pub(in crate::draw::kinematic) fn picture_in(
+    pub(crate) fn picture_in(
         &self,
         pose: Option<&Carried<'_>>,
         lines: &[LinkLine],
@@ -151,16 +146,12 @@ impl Kinematic<'_> {
                 .flat_map(|c| self.pitch_curves(c, &places))
                 .collect(),
             places,
+            arrows: Vec::new(),
         }
     }
 
     /// Draws everything but the symbols of joints; parts that are `named` stand in groups that say what each is.
-    pub(in crate::draw::kinematic) fn draw_picture(
-        &self,
-        sheet: &mut Sheet,
-        picture: &MovingPicture,
-        named: bool,
-    ) {
+    pub(crate) fn draw_picture(&self, sheet: &mut Sheet, picture: &MovingPicture, named: bool) {
         for (l, body) in &picture.bodies {
             let (look, d) = (
                 self.link_classes(*l, body),
@@ -188,5 +179,197 @@ impl Kinematic<'_> {
                 draw_mark(sheet, p);
             }
         }
+    }
+}
+
+/// The displacement of the links in a pose.
+pub(crate) struct Carried<'p> {
+    pub(crate) pose: &'p Pose,
+    pub(crate) links: &'p [RigidMotion],
+}
+
+impl Carried<'_> {
+    pub(crate) fn carried_point(&self, link: LinkId, p: Vector) -> Vector {
+        self.pose.carry_point(self.links, link, p)
+    }
+
+    pub(crate) fn carried_place(
+        &self,
+        link: LinkId,
+        frame: LinkId,
+        place: &JointInSpace,
+    ) -> JointInSpace {
+        let turn = |v| self.links[frame].map_direction(v);
+        place.carried_to(self.carried_point(link, place.point), turn)
+    }
+}
+
+impl Kinematic<'_> {
+    /// Returns how far along its axis each joint slides from its position at rest, over all poses. `None` for joints that do
+    /// not slide.
+    pub(crate) fn slide_ranges(&self, poses: &[Carried<'_>]) -> Vec<Option<[f64; 2]>> {
+        let one = |i: usize| {
+            let along = self.slide_axis(i)?;
+            let (rides, guides) = self.carrier_links(i);
+            let place = &self.places[i];
+            let of = poses.iter().map(|c| {
+                let apart = sub(
+                    c.carried_point(rides, place.point),
+                    c.carried_point(guides, place.point),
+                );
+                dot(apart, c.links[guides].map_direction(along))
+            });
+            Some(of.fold([0.0f64, 0.0], |[l, h], x| [l.min(x), h.max(x)]))
+        };
+        (0..self.spots.len()).map(one).collect()
+    }
+
+    /// Returns the direction that a joint slides in. `None` unless there is exactly one.
+    pub(crate) fn slide_axis(&self, i: usize) -> Option<Vector> {
+        let joint = &self.subject.mechanism.joints[self.spots[i].joint];
+        let place = &self.places[i];
+        let freedoms = joint.joint_type.freedoms();
+        let axes = [
+            (Freedom::Tx, place.x),
+            (Freedom::Ty, place.y),
+            (Freedom::Tz, place.z),
+            (Freedom::Screw, place.z),
+        ];
+        let mut slides = axes.into_iter().filter(|(f, _)| freedoms.contains(f));
+        let first = slides.next()?;
+        slides.next().is_none().then_some(first.1)
+    }
+
+    /// Returns the link that the symbol of a joint moves with, and the link that it slides along. A block moves with a link
+    /// that has no other shape, and preferably not with the frame. A slot belongs to the second link, and the pin in it to
+    /// the first.
+    pub(crate) fn carrier_links(&self, i: usize) -> (LinkId, LinkId) {
+        let joint = &self.subject.mechanism.joints[self.spots[i].joint];
+        let [a, b] = joint.links;
+        if joint.joint_type.freedoms().contains(&Freedom::Tx) {
+            return (a, b);
+        }
+        let small = |l: LinkId| {
+            let of = self.links.iter().find(|(k, _)| *k == l);
+            of.is_some_and(|(_, of)| {
+                of.len() > 1
+                    && of
+                        .iter()
+                        .all(|&k| one_place(self.spots[k].at, self.spots[i].at))
+            })
+        };
+        if small(a) || self.is_frame(b) {
+            (a, b)
+        } else if small(b) || self.is_frame(a) {
+            (b, a)
+        } else {
+            (a, b)
+        }
+    }
+
+    /// Rails are as long as what slides along them needs.
+    pub(crate) fn lengthen_rails(&mut self, slides: &[Option<[f64; 2]>]) {
+        for (i, &range) in slides.iter().enumerate() {
+            let (Some(range), Some(axis)) = (range, self.slide_axis(i)) else {
+                continue;
+            };
+            if !self.is_frame(self.carrier_links(i).1) {
+                continue;
+            }
+            let [low, high] = range.map(|x| {
+                let flat = self.projection.view.flat_vector(times(axis, x));
+                flat.map(|c| c * self.projection.scale)
+            });
+            let at = self.spots[i].at;
+            let rail = self.grounds.iter_mut().find(|g| one_place(g.from, at));
+            if let Some(g) = rail {
+                g.lengthen_rail(low, high);
+            }
+        }
+    }
+}
+
+impl Kinematic<'_> {
+    /// Returns the points of a link.
+    pub(crate) fn points_of(&self, link: LinkId) -> impl Iterator<Item = &Marked> {
+        self.points.iter().filter(move |p| p.link == link)
+    }
+
+    /// Returns all points of the paths.
+    pub(crate) fn traced_points(&self) -> impl Iterator<Item = Point> + '_ {
+        self.traces.0.iter().flatten().copied()
+    }
+
+    pub(crate) fn draw_traces(&self, sheet: &mut Sheet) {
+        let (ways, closed) = &self.traces;
+        for way in ways {
+            sheet.draw_path("trace", &path_data(way, *closed));
+        }
+    }
+
+    /// Returns the legend rows of points and their paths.
+    pub(crate) fn point_rows(&self) -> Vec<(Swatch, String)> {
+        let mut out = Vec::new();
+        if !self.points.is_empty() {
+            let mark = |s: &mut Sheet| draw_mark(s, [0.0; 2]);
+            let text = "point of interest, or face of a jaw".to_owned();
+            out.push((Swatch::Symbol(mark), text));
+        }
+        if !self.traces.0.is_empty() {
+            let of = if self.points.is_empty() {
+                "way of a point of the output"
+            } else {
+                "way of a point"
+            };
+            out.push((Swatch::line("trace"), of.to_owned()));
+        }
+        out
+    }
+
+    /// Returns the path of each point that is shown.
+    pub(crate) fn traced_ways(&self, poses: &[Carried<'_>]) -> Vec<Vec<Point>> {
+        let tips = self.traced_tips().into_iter();
+        let of = tips.map(|(link, tip)| {
+            let at = |c: &Carried<'_>| self.projection.flat_point(c.carried_point(link, tip));
+            poses.iter().map(at).collect()
+        });
+        of.collect()
+    }
+
+    /// Returns the points of interest. For an output link without any, returns its free end, or its joints except those
+    /// on the frame.
+    pub(crate) fn traced_tips(&self) -> Vec<(LinkId, Vector)> {
+        let moving = self.points.iter().filter(|p| !self.is_frame(p.link));
+        let mut out: Vec<(LinkId, Vector)> = moving.map(|p| (p.link, p.place)).collect();
+        let bare = |l: LinkId| self.is_output(l) && self.points_of(l).next().is_none();
+        for (row, (l, of)) in self.links.iter().enumerate() {
+            if !bare(*l) {
+                continue;
+            }
+            let mut seen: Vec<Point> = Vec::new();
+            for &i in of {
+                let spot = &self.spots[i];
+                let links = self.subject.mechanism.joints[spot.joint].links;
+                let grounded = links.iter().any(|&l| self.is_frame(l));
+                if !grounded && !seen.iter().any(|&p| one_place(p, spot.at)) {
+                    seen.push(spot.at);
+                    out.push((*l, self.places[i].point));
+                }
+            }
+            out.extend(self.loose_in_space(row).map(|p| (*l, p)));
+        }
+        out
+    }
+
+    /// Returns the free end of a link with one joint.
+    pub(crate) fn loose_in_space(&self, link: usize) -> Option<Vector> {
+        let of = &self.links[link].1;
+        let off = sub(self.loose_end(link)?, self.spots[of[0]].at);
+        let (view, scale) = (&self.projection.view, self.projection.scale);
+        let across = add(
+            times(view.right, off[0] / scale),
+            times(view.up, -off[1] / scale),
+        );
+        Some(add(self.places[of[0]].point, across))
     }
 }

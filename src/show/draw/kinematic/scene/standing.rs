@@ -1,18 +1,12 @@
 //! The symbols and shapes on the links of a scene, and the symbols of redesigns.
 
-use crate::draw::kinematic::scene::part::ground_below;
 use crate::draw::kinematic::scene::{Scene, round_fine, scene_pixels};
 use crate::draw::kinematic::{Kinematic, body};
-use crate::draw::place::projection::{
-    self, JointInSpace, Vector, View, add, cross, dot, norm, scale, sub,
-};
-use crate::draw::sheet::Shape;
-use crate::draw::subject::Mark;
+use crate::draw::place::projection::{self, cross, norm};
+use crate::draw::prelude::*;
 use crate::draw::symbol::ground::Ground;
 use crate::draw::symbol::pieces::Piece;
 use crate::draw::symbol::placed::{self, Swap, Symbol, one_place};
-use crate::geom::vector::{X, Y, Z};
-use crate::model::mechanism::JointId;
 use serde_json::{Value, json};
 
 /// Half the length of the guide that a ground shows in turned views, in pixels.
@@ -180,10 +174,7 @@ impl Kinematic<'_> {
 
     /// Makes room for what a swap puts at a joint, and returns that with the number of the joint's spot and its axes; `None` if
     /// the joint is not drawn.
-    pub(in crate::draw::kinematic) fn make_room(
-        &mut self,
-        swap: &Swap<'_>,
-    ) -> Option<(usize, Symbol, JointInSpace)> {
+    pub(crate) fn make_room(&mut self, swap: &Swap<'_>) -> Option<(usize, Symbol, JointInSpace)> {
         let i = self.spots.iter().position(|s| s.joint == swap.joint)?;
         let place = projection::frame_in_numbers(&swap.option.frame);
         let of = &swap.option.joint_type;
@@ -194,11 +185,7 @@ impl Kinematic<'_> {
     }
 
     /// Returns the symbols of swaps in a scene whose joints start with the points of interest, and makes room for them.
-    pub(in crate::draw::kinematic) fn swap_in(
-        &mut self,
-        scene: &mut Scene,
-        swaps: &[Swap<'_>],
-    ) -> Vec<Value> {
+    pub(crate) fn swap_in(&mut self, scene: &mut Scene, swaps: &[Swap<'_>]) -> Vec<Value> {
         let order = self.outer_first();
         let mut out = Vec::new();
         for swap in swaps {
@@ -231,5 +218,62 @@ fn upright_axis(view: &View) -> Vector {
         (true, false) => Z,
         (true, true) => scale(Z, -1.0),
         _ => view.up,
+    }
+}
+
+/// Returns the ground below a joint.
+pub(crate) fn ground_below(reach: f64) -> Vec<Shape> {
+    let strokes = (0..5).map(|i| {
+        let x = 10.0 - 5.0 * f64::from(i);
+        Shape::line("fine", vec![[x, reach], [x - 4.0, reach + 6.0]])
+    });
+    let stem = Shape::line("bone", vec![[0.0, 0.0], [0.0, reach]]);
+    let line = Shape::line("bone", vec![[-11.0, reach], [11.0, reach]]);
+    [stem, line].into_iter().chain(strokes).collect()
+}
+
+impl Kinematic<'_> {
+    /// Returns what a type leaves free at a joint: its freedoms in order, where slides go along axes of the second link where turns come
+    /// before them.
+    pub(crate) fn pair_json(&self, i: usize, of: &JointType) -> Value {
+        let joint = &self.subject.mechanism.joints[self.spots[i].joint];
+        let free = of.freedoms();
+        let screws = free.contains(&Freedom::Screw);
+        let pitch = if screws {
+            joint.frame.pitch.to_f64()
+        } else {
+            0.0
+        };
+        json!({
+            "free": free.iter().map(|f| f.name()).collect::<Vec<_>>(),
+            // Whether the first of the scene's two links is the joint's second.
+            "swapped": self.carrier_links(i).0 != joint.links[0],
+            // Pixels along z for each radian about it, of a screw.
+            "pitch": pitch * self.projection.scale,
+        })
+    }
+
+    /// Returns a coupling between joints of a scene, in radians and pixels: the changes of the two freedoms times their
+    /// factors add up to 0. Returns `None` if a joint is not drawn.
+    pub(crate) fn tie_json(
+        &self,
+        coupling: &Coupling,
+        row: impl Fn(JointId) -> Option<usize>,
+    ) -> Option<Value> {
+        let [a, b] = coupling.ends;
+        let unit = |f: Freedom| {
+            if f.is_slide() {
+                self.projection.scale
+            } else {
+                1.0
+            }
+        };
+        // the rate of the second is the ratio times the rate of the first
+        let factors = [coupling.ratio.to_f64(), -1.0];
+        Some(json!({
+            "joints": [row(a.joint)?, row(b.joint)?],
+            "freedoms": [a.freedom.name(), b.freedom.name()],
+            "factors": [factors[0] / unit(a.freedom), factors[1] / unit(b.freedom)],
+        }))
     }
 }

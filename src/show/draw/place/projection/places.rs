@@ -1,9 +1,8 @@
 //! Where joints are drawn on their axes: those that meet in a point with axes of different directions stand apart.
 
-use super::{JointInSpace, joint_frame, places_extent, places_middle, planar_normal};
-use crate::geom::vector::{Vector, add, cross, dot, length as norm, scale, sub};
-use crate::model::joint_type::{Freedom, JointType};
-use crate::model::mechanism::{JointId, Mechanism};
+use crate::draw::place::projection::{joint_frame, places_extent, places_middle, planar_normal};
+use crate::draw::prelude::*;
+use crate::geom::vector::{cross, length as norm};
 
 /// Returns joints as they are shown. Those that meet in a point with axes of different directions are moved along them.
 pub(crate) fn shown_places(mechanism: &Mechanism, joints: &[JointId]) -> Vec<JointInSpace> {
@@ -111,7 +110,7 @@ fn middle_between(
 }
 
 /// Returns where on the line p + t·z the line q + s·w meets it.
-pub(in crate::draw) fn meeting_parameter(
+pub(crate) fn meeting_parameter(
     p: Vector,
     z: Vector,
     q: Vector,

@@ -1,7 +1,7 @@
 //! Sides to look from: those that are asked for by name, and those that are chosen from.
 
-use crate::geom::vector::{Vector, X, Y, Z, cross, dot, length as norm, scale, sub};
-use crate::svg::plane::Point;
+use crate::draw::prelude::*;
+use crate::geom::vector::{cross, length as norm};
 
 /// The requested direction of view of a kinematic scheme. The program chooses the rest.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -101,11 +101,6 @@ pub(super) fn all_views() -> Vec<View> {
         out.push(upright_view(toward, name));
     }
     out
-}
-
-/// Returns the first isometric view.
-pub(crate) fn isometric_view() -> View {
-    upright_view([1.0, 1.0, 1.0].map(|x: f64| x / 3f64.sqrt()), "isometric")
 }
 
 /// Returns the view along z.

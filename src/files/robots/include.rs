@@ -1,12 +1,70 @@
-//! `<include>`: the model of another file in place of the element, under the name and at the place that it gives.
+//! `<include>`: the content of another MJCF file, or the model of another SDF file, in place of the element.
 
-use crate::file::problem::ImportError;
-use crate::robots::warning::{Read, Reader, unsupported_problem};
-use crate::robots::xml::element::Element;
-use crate::robots::xml::{self, Document, Input};
+use crate::robots::prelude::*;
 
 /// Maximum depth of nested files, and number of includes.
 const LIMITS: (usize, usize) = (16, 1000);
+
+fn include_error(e: Element<'_>, file: &str, why: &str, remedy: &str) -> ImportError {
+    let element = format!("<include> of {file}");
+    e.error_at(Some("file"), unsupported_problem(&element, why, remedy))
+}
+
+/// Checks that no file includes itself, and that files are not too deep or too many.
+fn check_include(e: Element<'_>, file: &str, open: &[String], count: usize) -> Read<()> {
+    if open.iter().any(|o| o == file) {
+        let remedy = "remove one of the includes";
+        return Err(include_error(e, file, "the file includes itself", remedy));
+    }
+    if open.len() > LIMITS.0 || count > LIMITS.1 {
+        let why = format!("more than {} files deep or {} in all", LIMITS.0, LIMITS.1);
+        return Err(include_error(e, file, &why, "merge the files"));
+    }
+    Ok(())
+}
+
+/// Replaces all `<include>` elements of MJCF below the root by the content of the included files.
+pub(super) fn expand_files(input: &mut Input<'_>) -> Read<()> {
+    let open = [input.document.sources[0].name.clone()];
+    expand_below(input.document, input.read, input.root, &open, &mut 0)
+}
+
+/// Replaces the includes below a root; `open` are the names of the files that include it.
+fn expand_below(
+    document: &mut Document,
+    read: Reader<'_>,
+    root: usize,
+    open: &[String],
+    count: &mut usize,
+) -> Read<()> {
+    let mut stack = vec![root];
+    while let Some(id) = stack.pop() {
+        let children = std::mem::take(&mut document.nodes[id].children);
+        let mut all = Vec::with_capacity(children.len());
+        for c in children {
+            let e = document.element(c);
+            if e.name() != "include" {
+                all.push(c);
+                stack.push(c);
+                continue;
+            }
+            *count += 1;
+            let file = e.required_attribute("file")?.to_owned();
+            check_include(e, &file, open, *count)?;
+            let bytes = read(&file).map_err(|error| {
+                let why = format!("it cannot be read ({error})");
+                let remedy = "put it in the folder of the file, or give a folder that contains both as `models`";
+                include_error(e, &file, &why, remedy)
+            })?;
+            let inner = document.read(&file, decode_utf8(&file, &bytes)?)?;
+            let names = [open, &[file]].concat();
+            expand_below(document, read, inner, &names, count)?;
+            all.append(&mut document.nodes[inner].children);
+        }
+        document.nodes[id].children = all;
+    }
+    Ok(())
+}
 
 /// Included files that are not mechanisms, and that few users have: Gazebo's own light and floor.
 const SCENERY: [&str; 2] = ["model://sun", "model://ground_plane"];
@@ -22,8 +80,8 @@ pub(super) struct Expanded<'r> {
     pub(super) scenery: Vec<String>,
 }
 
-/// Puts models in place of all `<include>` elements below the root.
-pub(super) fn expand_includes<'r>(input: &mut Input<'r>) -> Read<Expanded<'r>> {
+/// Puts models in place of all `<include>` elements of SDF below the root.
+pub(super) fn expand_models<'r>(input: &mut Input<'r>) -> Read<Expanded<'r>> {
     let document = &mut *input.document;
     let mut out = Expanded {
         read: input.read,
@@ -32,7 +90,8 @@ pub(super) fn expand_includes<'r>(input: &mut Input<'r>) -> Read<Expanded<'r>> {
         scenery: Vec::new(),
     };
     // With the names of the files that are open.
-    let mut stack = vec![(input.root, Vec::<String>::new())];
+    let main = document.sources[0].name.clone();
+    let mut stack = vec![(input.root, vec![main])];
     while let Some((id, open)) = stack.pop() {
         let children = document.nodes[id].children.clone();
         let mut all = Vec::with_capacity(children.len());
@@ -79,7 +138,14 @@ impl Expanded<'_> {
         let Some(uri) = uri.filter(|u| !u.is_empty()) else {
             return Err(e.missing_error("<uri>"));
         };
-        may_be_included(e, &uri, open, self.count)?;
+        check_include(e, &uri, open, self.count)?;
+        if e.attribute("merge").is_some_and(|m| m == "true")
+            || e.first_child("placement_frame").is_some()
+        {
+            let why = "it merges models or places them by a frame";
+            let remedy = "expand the file first, for example with `gz sdf -p`";
+            return Err(include_error(e, &uri, why, remedy));
+        }
         let bytes = match (self.read)(&uri) {
             Ok(bytes) => bytes,
             Err(_) if SCENERY.contains(&uri.trim_end_matches('/')) => return Ok((None, uri)),
@@ -89,7 +155,7 @@ impl Expanded<'_> {
                 return Err(include_error(e, &uri, &why, remedy));
             }
         };
-        let inner = document.read(&uri, xml::decode_utf8(&uri, &bytes)?)?;
+        let inner = document.read(&uri, decode_utf8(&uri, &bytes)?)?;
         let found = document.element(inner);
         self.old.push(is_old(found));
         let models: Vec<usize> = found.children_named("model").map(|m| m.id).collect();
@@ -106,32 +172,6 @@ impl Expanded<'_> {
     }
 }
 
-fn include_error(e: Element<'_>, uri: &str, why: &str, remedy: &str) -> ImportError {
-    let element = format!("<include> of {uri}");
-    e.error_at(None, unsupported_problem(&element, why, remedy))
-}
-
-/// Checks that no file includes itself, that files are not too deep or too many, and that nothing changes the content of the
-/// model.
-fn may_be_included(e: Element<'_>, uri: &str, open: &[String], count: usize) -> Read<()> {
-    if open.iter().any(|o| o == uri) {
-        let remedy = "remove one of the includes";
-        return Err(include_error(e, uri, "the file includes itself", remedy));
-    }
-    if open.len() >= LIMITS.0 || count > LIMITS.1 {
-        let why = format!("more than {} files deep or {} in all", LIMITS.0, LIMITS.1);
-        return Err(include_error(e, uri, &why, "merge the files"));
-    }
-    if e.attribute("merge").is_some_and(|m| m == "true")
-        || e.first_child("placement_frame").is_some()
-    {
-        let why = "it merges models or places them by a frame";
-        let remedy = "expand the file first, for example with `gz sdf -p`";
-        return Err(include_error(e, uri, why, remedy));
-    }
-    Ok(())
-}
-
 /// Gives a model the pose, the name and the fixation of its include, and adds the plugins of the include.
 fn said_by_include(document: &mut Document, include: usize, model: usize) {
     let e = document.element(include);
@@ -143,7 +183,7 @@ fn said_by_include(document: &mut Document, include: usize, model: usize) {
     for (tag, new) in placed {
         let Some(new) = new else { continue };
         let mut children = document.nodes[model].children.clone();
-        children.retain(|&c| !document.nodes[c].is_called(tag));
+        children.retain(|&c| document.nodes[c].name != tag);
         children.push(new);
         document.nodes[model].children = children;
     }
