@@ -183,22 +183,9 @@ fn graphs() {
     let m = read(tricky);
     let dot = formats::write(&m, "dot").unwrap();
     assert!(dot.starts_with("graph \"a\\\"b<&>\" {"), "{dot}");
-    has(&formats::write(&m, "graphml").unwrap(), "id=\"&lt;0&gt;\"");
     for to in ["urdf", "sdf"] {
         back(&format!("t.{to}"), &formats::write(&m, to).unwrap());
     }
-}
-
-#[test]
-fn the_command() {
-    for to in ["toml", "json", "urdf", "mjcf", "sdf", "dot"] {
-        assert!(
-            run_quiet(&["export", "four-bar", "--to", to, "-q"]).len() > 200,
-            "{to}"
-        );
-    }
-    let o = ozols("export nowhere --to dot").output().unwrap();
-    assert_eq!(o.status.code(), Some(2));
 }
 
 /// A description in which every kind of thing stands that a mechanism has no words for.
