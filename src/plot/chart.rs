@@ -30,7 +30,7 @@ const STYLE: &str = include_str!("chart/page.css");
 ///
 /// # Examples
 /// ```
-/// use ozols::chart;
+/// use ozols::chart::page;
 /// let html = page("Results", &[("Growth".into(), "It is linear.".into(), "<svg></svg>".into())]);
 /// assert!(html.starts_with("<!doctype html>") && html.contains("<svg></svg>"));
 /// ```

@@ -99,14 +99,7 @@ pub(crate) fn name_changes(
     }
     let mut all: Vec<(JointId, Vec<(bool, Vector)>)> = Vec::new();
     for release in releases {
-        let Release::Freedom {
-            joint,
-            slides,
-            direction,
-        } = *release
-        else {
-            return None;
-        };
+        let (joint, slides, direction) = release.added_freedom()?;
         match all.iter_mut().find(|(j, _)| *j == joint) {
             Some((_, more)) => more.push((slides, direction)),
             None => all.push((joint, vec![(slides, direction)])),

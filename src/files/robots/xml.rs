@@ -52,7 +52,7 @@ impl Node {
         self.attributes.iter().find(|a| a.name == name)
     }
 
-    /// Changes the attribute `name`, if there is one.
+    /// Sets the attribute `name`, if the node has one.
     pub(super) fn rename(&mut self, name: String) {
         if let Some(own) = self.attributes.iter_mut().find(|a| a.name == "name") {
             own.value = name;

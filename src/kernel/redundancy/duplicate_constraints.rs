@@ -290,7 +290,7 @@ fn as_built(m: &Mechanism, stressed: &Stressed<'_>, candidates: &[(i64, Release)
     };
     stressed.choose_releases(candidates, &|i, chosen| {
         let (cost, release) = &candidates[i];
-        let Release::Freedom { joint, slides, .. } = *release else {
+        let Some((joint, slides, _)) = release.added_freedom() else {
             return *cost;
         };
         let here = chosen.iter().filter_map(|&c| match candidates[c].1 {
@@ -316,12 +316,7 @@ const COUPLING: i64 = 500;
 
 /// Returns the cost of a release, in thousandths of a revolute joint. A pin that may slide is the cheapest.
 fn release_cost(m: &Mechanism, release: &Release, closes: bool) -> i64 {
-    let Release::Freedom {
-        joint,
-        slides,
-        direction,
-    } = *release
-    else {
+    let Some((joint, slides, direction)) = release.added_freedom() else {
         return COUPLING;
     };
     let j = &m.joints[joint];

@@ -34,6 +34,21 @@ pub enum Release {
     Coupling(usize),
 }
 
+impl Release {
+    /// Returns the joint that gets a freedom, whether the freedom is a slide, and its direction. Returns `None` for a coupling.
+    #[must_use]
+    pub fn added_freedom(&self) -> Option<(JointId, bool, Vector)> {
+        match *self {
+            Release::Freedom {
+                joint,
+                slides,
+                direction,
+            } => Some((joint, slides, direction)),
+            Release::Coupling(_) => None,
+        }
+    }
+}
+
 /// A redundant constraint.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Duplicate {

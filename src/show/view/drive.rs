@@ -142,7 +142,7 @@ pub fn motion_csv(d: &Drive<'_>) -> Option<String> {
 ///
 /// # Examples
 /// ```
-/// use ozols::{drive::driving::design_drive, view::drive::{Drive, charts::drive_charts}};
+/// use ozols::{drive::driving::design_drive, view::drive::{Drive, drive_charts}};
 /// let text = ozols::builtin::text("torsion-module").unwrap_or_default();
 /// let file = ozols::file::read::workload::drive_from_bytes("torsion-module.toml", text.as_bytes())?;
 /// let found = design_drive(&file.spec)?;

@@ -56,7 +56,7 @@ pub(crate) struct Table {
 
 impl Table {
     /// Creates a table of at least one row.
-    pub(crate) fn of(
+    pub(crate) fn from_rows(
         heads: impl Into<String>,
         rows: impl IntoIterator<Item = Vec<String>>,
     ) -> Option<Table> {

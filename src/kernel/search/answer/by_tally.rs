@@ -1,5 +1,5 @@
-//! What the counts of completions tell: variants drawn at random, and the place of a variant in the order of cost, without the variants
-//! before it being made.
+//! Variants drawn at random, and the place of a variant in the order of cost. Both follow from the counts of completions, so no other
+//! variant has to be made.
 
 use crate::search::answer::count::Count;
 use crate::search::answer::count_tables::Tally;

@@ -22,8 +22,8 @@ use std::collections::BTreeMap;
 
 /// Largest number of nodes of a layer.
 const NODES: usize = 1_000;
-/// Largest number of nodes of the diagram of those that keep the motion in the drawn pose, too. After a larger one, no built-in mechanism
-/// has layers of fewer nodes than that.
+/// Largest number of nodes of the lasting diagram with which the count is tried. Every built-in mechanism with more nodes exceeds
+/// [`NODES`], so the attempt would be in vain.
 const LASTING: usize = 128;
 
 /// A span that grows by the vectors of choices, in the coordinates that later variables reach.

@@ -146,7 +146,7 @@ impl State<'_> {
         };
         let (contours, couplings) = (&self.found.per_contour, &self.found.per_coupling);
         let shares = contours.iter().map(contour);
-        Table::of(
+        Table::from_rows(
             "contour | joints | σ in this order | in any order | in any basis",
             shares.chain(couplings.iter().map(coupling)),
         )
@@ -176,7 +176,7 @@ impl State<'_> {
             let borne = self.borne_shares(t);
             row_cells([&in_contours, &joint, &what, &harm_word(t), &borne])
         };
-        Table::of(
+        Table::from_rows(
             "self-stress in contour | simplest at | acts as |  | shared by joints, part of Σ |F|² + |M|²/ℓ²",
             self.found.self_stresses.iter().map(row),
         )

@@ -278,14 +278,7 @@ impl TypeChange {
         origin: &Origin,
         release: &Release,
     ) -> Option<TypeChange> {
-        let Release::Freedom {
-            joint,
-            slides,
-            direction,
-        } = *release
-        else {
-            return None;
-        };
+        let (joint, slides, direction) = release.added_freedom()?;
         TypeChange::at_joint(m, origin, joint, &[(slides, direction)])
     }
 
