@@ -4,7 +4,6 @@ use crate::common::*;
 use ozols::accuracy::AnswerVerdict;
 use ozols::accuracy::survey::{Survey, built_in_cases, generated_cases};
 use ozols::accuracy::timing::Stopwatch;
-use ozols::rank::numeric::Elimination;
 use std::collections::HashMap;
 
 pub(crate) static SURVEY: LazyLock<Survey> = LazyLock::new(|| {

@@ -6,11 +6,9 @@ use ozols::accuracy::lattice::make_lift;
 use ozols::accuracy::searching::record::{Bracket, Record, Share, Trial, Way};
 use ozols::accuracy::searching::{MECHANISMS, TrialEffort, run_trial};
 use ozols::accuracy::timing::Stopwatch;
-use ozols::rank::numeric::Elimination;
 use ozols::search::check::brute::{Matrices, Seen};
 use ozols::search::check::brute_float::Approximate;
 use ozols::search::check::pruned::Pruned;
-use ozols::search::check::singular_values;
 
 const EFFORT: TrialEffort = TrialEffort {
     looked: 400,
@@ -221,25 +219,16 @@ fn what_prunes_loses_nothing() {
             });
             found.sort();
             let mut truth = Vec::new();
-            let mut choices: Vec<usize> = vec![0; radix.len()];
-            pruned.order()[..begun]
-                .iter()
-                .for_each(|&v| choices[v] = radix[v] - 1);
-            loop {
+            let rest = &pruned.order()[begun..];
+            for last in rest.iter().map(|&v| 0..radix[v]).multi_cartesian_product() {
+                let mut choices: Vec<usize> = radix.iter().map(|n| n - 1).collect();
+                rest.iter().zip(last).for_each(|(&v, c)| choices[v] = c);
                 let seen = look(&choices);
-                assert_eq!(
-                    pruned.look_at(&choices),
-                    (seen.internal == 0).then_some(seen)
-                );
-                if seen.internal == 0 {
-                    truth.push(choices.clone());
+                let determinate = seen.internal == 0;
+                assert_eq!(pruned.look_at(&choices), determinate.then_some(seen));
+                if determinate {
+                    truth.push(choices);
                 }
-                let rest = &pruned.order()[begun..];
-                let Some(at) = rest.iter().position(|&v| choices[v] + 1 < radix[v]) else {
-                    break;
-                };
-                rest[..at].iter().for_each(|&v| choices[v] = 0);
-                choices[rest[at]] += 1;
             }
             truth.sort();
             assert_eq!(found, truth, "{name}");

@@ -116,28 +116,18 @@ fn friction_shared_by_the_jaws_is_told_from_harm() {
         let m = built_in(name);
         let clamped = m.state_named("clamped").unwrap();
         let s = &analysed_in(&m, clamped);
-        let external: Vec<StressVerdict> = s
-            .self_stresses
-            .iter()
-            .filter(|t| t.external)
-            .map(|t| t.verdict)
-            .collect();
-        assert_eq!(
-            external
+        let count = |v: StressVerdict| {
+            let those = s
+                .self_stresses
                 .iter()
-                .filter(|v| **v == StressVerdict::Harmless)
-                .count(),
-            harmless,
-            "{name}"
+                .filter(|t| t.external && t.verdict == v);
+            those.count()
+        };
+        let found = (
+            count(StressVerdict::Harmless),
+            count(StressVerdict::Harmful),
         );
-        assert_eq!(
-            external
-                .iter()
-                .filter(|v| **v == StressVerdict::Harmful)
-                .count(),
-            harmful,
-            "{name}"
-        );
+        assert_eq!(found, (harmless, harmful), "{name}");
     }
 }
 

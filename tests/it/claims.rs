@@ -262,27 +262,16 @@ fn optional_keys_are_empty_and_not_absent() {
             .cloned()
             .collect::<BTreeSet<_>>()
     };
-    let state = |name| run_json(&["analyze", name, "--format", "json"])["states"][0].clone();
-    let [plain, geared, turned] = ["four-bar", "planetary-gear", "bennett"].map(state);
+    let [plain, geared, turned] = ["four-bar", "planetary-gear", "bennett"].map(|n| state(n, 0));
     assert_eq!(keys(&plain), keys(&geared));
     assert_eq!(keys(&plain), keys(&turned));
     assert_eq!(plain["per_coupling"], json!([]));
-    let top = |name| run_json(&["analyze", name, "--format", "json"]);
-    assert!(top("four-bar")["stroke"].is_null());
-    let statics = |more: &[&str]| {
-        let args = [
-            &[
-                "statics",
-                "gripper-10-loaded",
-                "--spatial",
-                "--format",
-                "json",
-            ],
-            more,
-        ];
-        run_json(&args.concat())
-    };
-    let [free, clamped] = ["free", "clamped"].map(|s| statics(&["--state", s]));
+    assert!(run_json("analyze four-bar --format json")["stroke"].is_null());
+    let [free, clamped] = ["free", "clamped"].map(|s| {
+        run_json(&format!(
+            "statics gripper-10-loaded --spatial --format json --state {s}"
+        ))
+    });
     assert_eq!(keys(&free), keys(&clamped));
     assert_eq!(free["contacts"], json!([]));
     assert!(

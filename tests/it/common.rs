@@ -267,6 +267,20 @@ pub(crate) fn run_on<L: Line + ?Sized>(
     run_full(&[&[command, path], &more.words()[..]].concat())
 }
 
+/// Returns the exit code of a command on a file with this text, and what it says as JSON.
+#[track_caller]
+pub(crate) fn answer_on<L: Line + ?Sized>(
+    command: &str,
+    name: &str,
+    content: &str,
+    more: &L,
+) -> (Option<i32>, Value) {
+    let more = [&more.words()[..], &["--format", "json"]].concat();
+    let (code, said, told) = run_on(command, name, content, &more);
+    let said = serde_json::from_str(&said).unwrap_or_else(|e| panic!("{e}: {said}{told}"));
+    (code, said)
+}
+
 /// Returns what a command that succeeds says as JSON of a file with this text.
 #[track_caller]
 pub(crate) fn json_on<L: Line + ?Sized>(
@@ -275,10 +289,9 @@ pub(crate) fn json_on<L: Line + ?Sized>(
     content: &str,
     more: &L,
 ) -> Value {
-    let more = [&more.words()[..], &["--format", "json"]].concat();
-    let (code, said, told) = run_on(command, name, content, &more);
-    assert_eq!(code, Some(0), "{told}{said}");
-    serde_json::from_str(&said).unwrap()
+    let (code, said) = answer_on(command, name, content, more);
+    assert_eq!(code, Some(0), "{said:#}");
+    said
 }
 
 /// Asserts that a command on a file with this text ends with exit code 2 and an error that contains these words.

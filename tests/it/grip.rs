@@ -147,9 +147,7 @@ fn built_in_gripper_holds() {
 /// A pull of 20 N into the jaws, without friction: both near contacts carry 10 N / cos 60°, at the arm l2.
 #[test]
 fn small_file_has_the_closed_form() {
-    let (code, said, _) = run_file(SMALL, &["--format", "json"]);
-    assert_eq!(code, Some(0), "{said}");
-    let value: Value = serde_json::from_str(&said).unwrap();
+    let value = json_on("grip", "clamp.toml", SMALL, "");
     let load = &value["diameters"][0]["load"];
     let moment = 20.0 * (86.60254 - 11.54701) * 1e-3;
     near(load["drive_moment_per_lever"].real(), moment, 1e-6);

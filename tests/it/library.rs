@@ -4,7 +4,6 @@ use crate::common::*;
 use ozols::score::outcome::remarks::Remarks;
 use ozols::score::request::{JointOptions, Method};
 use ozols::score::run::{self, Event};
-use ozols::search::question::conditions::Symmetry;
 use ozols::view::search::{csv, json, text};
 use ozols::{Error, Scheme};
 use std::sync::atomic::AtomicBool;

@@ -13,8 +13,7 @@ use ozols::score::outcome::pareto::{dominates, fronts};
 use ozols::score::outcome::ranking::{RankedPool, Ranker, compare_ranked};
 
 fn loaded() -> Mechanism {
-    let text = builtin::text("gripper-10-loaded").unwrap();
-    read(text)
+    built_in("gripper-10-loaded")
 }
 
 fn search(m: &Mechanism, redundant: u32) -> Search {

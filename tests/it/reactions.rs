@@ -105,6 +105,11 @@ pub(crate) fn greatest_force(list: &[JointReaction]) -> f64 {
         .fold(0.0, f64::max)
 }
 
+/// What the first drive bears.
+pub(crate) fn effort(list: &[JointReaction]) -> f64 {
+    list.iter().find_map(|r| r.effort).unwrap().1
+}
+
 fn solve(m: &Mechanism) -> Solution {
     Reactions::solve_at_home(m, StateId::FREE, &m.loads).unwrap()
 }

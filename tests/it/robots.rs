@@ -19,7 +19,6 @@ mod unread;
 
 use ozols::file::write::mechanism_file;
 use ozols::redundancy::analysis::Elimination;
-use ozols::robots::Options;
 
 pub(crate) fn folder() -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("tests/data/robots")
@@ -63,9 +62,14 @@ pub(crate) fn read_robot(name: &str, text: &str) -> Imported {
         .unwrap_or_else(|e| panic!("{e}\n{text}"))
 }
 
+/// Options with a file of loops.
+pub(crate) fn with_loops(name: &str, text: impl Into<Vec<u8>>) -> Options {
+    default_with(|o: &mut Options| o.loops = Some((name.to_owned(), text.into())))
+}
+
 /// The message of a text that is refused.
-pub(crate) fn message_of(name: &str, text: &str) -> String {
-    let e = import(name, text.as_bytes(), &no_files, &Options::default()).unwrap_err();
+pub(crate) fn message_of(name: &str, text: impl AsRef<[u8]>) -> String {
+    let e = import(name, text.as_ref(), &no_files, &Options::default()).unwrap_err();
     assert!(!e.render(false).is_empty());
     e.to_string()
 }
@@ -197,8 +201,7 @@ fn hostile_xml() {
     assert!(message_of("x.urdf", &wide).contains("256 attributes"));
     assert!(message_of("x.urdf", "").contains("there is no element"));
     assert!(message_of("x.urdf", "<robot a='1' a='2'/>").contains("twice"));
-    let e = import("x.urdf", b"\xff<robot/>", &no_files, &Options::default()).unwrap_err();
-    assert!(e.to_string().contains("UTF-8"));
+    has(&message_of("x.urdf", b"\xff<robot/>"), "UTF-8");
 }
 
 // The mechanism file takes 2000 links; what is fixed together counts once.
@@ -219,9 +222,9 @@ fn too_many_links() {
         )
     };
     assert!(
-        message_of("c.urdf", &chain(2100, "continuous")).contains("2100 links, more than the 2000")
+        message_of("c.urdf", chain(2100, "continuous")).contains("2100 links, more than the 2000")
     );
-    assert!(message_of("c.urdf", &chain(10_100, "fixed")).contains("more than 10000 links"));
+    assert!(message_of("c.urdf", chain(10_100, "fixed")).contains("more than 10000 links"));
     let i = read_robot("c.urdf", &chain(2100, "fixed"));
     assert_eq!(i.report.size, (2, 1));
 }

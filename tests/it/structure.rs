@@ -30,16 +30,20 @@ fn shares_by_definition(exact: &ExactField, closure: &Closure<Residue>) -> Vec<[
         .collect()
 }
 
+fn shares(exact: &ExactField, closure: &Closure<Residue>) -> Vec<[usize; 3]> {
+    let all = contour_shares(exact, closure);
+    all.iter()
+        .map(|s| [s.redundant, s.range.0, s.range.1])
+        .collect()
+}
+
 fn check(mechanism: &Mechanism) {
     let exact = exact_field(mechanism, 0).unwrap();
     for state in mechanism.state_ids() {
         let closure = Closure::new(&exact, mechanism, state).unwrap();
         let what = format!("{} {}", mechanism.name, mechanism.states[state]);
-        let found: Vec<[usize; 3]> = contour_shares(&exact, &closure)
-            .iter()
-            .map(|s| [s.redundant, s.range.0, s.range.1])
-            .collect();
-        assert_eq!(found, shares_by_definition(&exact, &closure), "{what}");
+        let by_definition = shares_by_definition(&exact, &closure);
+        assert_eq!(shares(&exact, &closure), by_definition, "{what}");
     }
 }
 
@@ -120,9 +124,7 @@ proptest! {
             couplings: Vec::new(),
             left_out: Vec::new(),
         };
-        let found: Vec<[usize; 3]> =
-            contour_shares(&exact, &closure).iter().map(|s| [s.redundant, s.range.0, s.range.1]).collect();
-        prop_assert_eq!(found, shares_by_definition(&exact, &closure));
+        prop_assert_eq!(shares(&exact, &closure), shares_by_definition(&exact, &closure));
     }
 }
 

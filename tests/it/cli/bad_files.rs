@@ -146,11 +146,11 @@ fn outputs_that_have_no_place_are_refused_by_their_names() {
     for command in ["analyze", "search"] {
         let whole = ["this is a folder; name a file in it"];
         let said = assert_refused(&[command, "four-bar", "-o", place], &whole);
-        assert!(!said.contains(".tmp/"), "{said}");
+        lacks(&said, ".tmp/");
         let nowhere = format!("{place}/none/x.txt");
         let parts = ["cannot write", "none/x.txt", "no folder", "create it first"];
         let said = assert_refused(&[command, "four-bar", "-o", &nowhere], &parts);
-        assert!(!said.contains("os error"), "{said}");
+        lacks(&said, "os error");
     }
     assert_eq!(fs::read_dir(place).unwrap().count(), 0);
 }

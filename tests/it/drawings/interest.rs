@@ -81,10 +81,7 @@ fn points_are_shown_in_every_kinematic_drawing() {
         &["report", "jansen-leg"],
     ] {
         let shown = run_quiet(args);
-        assert!(
-            shown.contains("point of interest, or face of a jaw"),
-            "{args:?}"
-        );
+        has(&shown, "point of interest, or face of a jaw");
     }
 }
 

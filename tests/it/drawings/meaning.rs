@@ -84,12 +84,17 @@ fn no_name_lies_on_a_line() {
     assert!(wrong.is_empty(), "{} of {names}: {wrong:#?}", wrong.len());
 }
 
+/// The parts of a joint's symbol.
+fn symbol<'a>(doc: &'a roxmltree::Document<'_>, joint: &str) -> roxmltree::Children<'a, 'a> {
+    let mut all = doc.descendants();
+    let group = all.find(|n| n.attribute("data-joint") == Some(joint));
+    group.unwrap().children()
+}
+
 /// The shafts and heads of straight arrows in the group of a joint: from the tail to the tip.
 fn straight_arrows(svg: &str, joint: &str) -> Vec<Point> {
     let doc = roxmltree::Document::parse(svg).unwrap();
-    let mut groups = doc.descendants();
-    let group = groups.find(|n| n.attribute("data-joint") == Some(joint));
-    let heads = group.into_iter().flat_map(|g| g.children()).filter(|n| {
+    let heads = symbol(&doc, joint).filter(|n| {
         n.has_tag_name("path") && n.attribute("class").is_some_and(|c| c.starts_with("ink"))
     });
     let heads = heads.map(covers).filter(|p| p.len() == 3);
@@ -101,10 +106,7 @@ fn straight_arrows(svg: &str, joint: &str) -> Vec<Point> {
 /// Whether a ring with an arrow head is drawn round a joint.
 fn has_ring(svg: &str, joint: &str) -> bool {
     let doc = roxmltree::Document::parse(svg).unwrap();
-    let mut groups = doc.descendants();
-    let group = groups.find(|n| n.attribute("data-joint") == Some(joint));
-    let mut paths = group.into_iter().flat_map(|g| g.children());
-    paths.any(|n| {
+    symbol(&doc, joint).any(|n| {
         let is_line = n.attribute("class").is_some_and(|c| c.starts_with("line"));
         is_line && n.has_tag_name("path") && covers(n).len() == 29
     })
@@ -132,7 +134,7 @@ fn a_driven_slide_has_a_straight_arrow() {
     });
     assert!(slides > 20 && turns > 40, "{slides} {turns}");
     // Its drive is left open between a turn and a slide, and only the slide moves the jaws: along x, in the plane.
-    let gripper = drawn(&read(builtin::text("gripper-10").unwrap()));
+    let gripper = drawn(&built_in("gripper-10"));
     assert!(!has_ring(&gripper.svg, "0-1"));
     let arrows = straight_arrows(&gripper.svg, "0-1");
     assert_eq!(arrows.len(), 1, "{arrows:?}");
@@ -146,7 +148,7 @@ fn a_driven_slide_has_a_straight_arrow() {
 /// Both racks of the gripper are lines that touch the circle of their pinion, between the pinions.
 #[test]
 fn a_rack_touches_the_pitch_circle_of_its_pinion() {
-    let gripper = drawn(&read(builtin::text("rack-gripper").unwrap()));
+    let gripper = drawn(&built_in("rack-gripper"));
     let doc = roxmltree::Document::parse(&gripper.svg).unwrap();
     let pitch = |n: &roxmltree::Node<'_, '_>| n.attribute("class") == Some("fine pitch");
     let paths = doc.descendants().filter(|n| n.has_tag_name("path"));
@@ -220,7 +222,7 @@ fn long_names_are_never_alike() {
 #[test]
 fn links_of_spherical_linkages_are_arcs() {
     for (name, links) in [("spherical-four-bar", 3), ("spherical-five-bar", 4)] {
-        let d = drawn(&read(builtin::text(name).unwrap()));
+        let d = drawn(&built_in(name));
         let doc = roxmltree::Document::parse(&d.svg).unwrap();
         let groups = doc.descendants().filter(|n| n.has_attribute("data-link"));
         let bars: Vec<Vec<Point>> = groups

@@ -4,36 +4,12 @@ use super::places::{Point, Shown, axis, point};
 use crate::common::*;
 use ozols::draw::{Sight, Subject, kinematic_seen};
 
-/// A view by what is right and up on paper.
-struct Side {
-    toward: [f64; 3],
-    right: [f64; 3],
-    up: [f64; 3],
-}
-
-const SIDES: [Side; 3] = [
-    Side {
-        toward: [0.0, 0.0, 1.0],
-        right: [1.0, 0.0, 0.0],
-        up: [0.0, 1.0, 0.0],
-    },
-    Side {
-        toward: [0.0, -1.0, 0.0],
-        right: [1.0, 0.0, 0.0],
-        up: [0.0, 0.0, 1.0],
-    },
-    Side {
-        toward: [1.0, 0.0, 0.0],
-        right: [0.0, 1.0, 0.0],
-        up: [0.0, 0.0, 1.0],
-    },
+/// Views: towards whom, what is right on paper, and what is up.
+const SIDES: [[[f64; 3]; 3]; 3] = [
+    [[0.0, 0.0, 1.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]],
+    [[0.0, -1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]],
+    [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
 ];
-
-impl Side {
-    fn flat(&self, v: [f64; 3]) -> Point {
-        [dot(self.right, v), -dot(self.up, v)]
-    }
-}
 
 fn meet(m: &Mechanism, a: JointId, b: JointId) -> bool {
     let same = (0..3).all(|i| (point(m, a)[i] - point(m, b)[i]).abs() < 1e-9);
@@ -41,13 +17,19 @@ fn meet(m: &Mechanism, a: JointId, b: JointId) -> bool {
 }
 
 /// Equations a·s + b·u + c·v = d of the scale s and the shift (u, v) of a drawing.
-fn equations(m: &Mechanism, state: StateId, side: &Side, shown: &Shown) -> Vec<[f64; 4]> {
+fn equations(
+    m: &Mechanism,
+    state: StateId,
+    [_, right, up]: [[f64; 3]; 3],
+    shown: &Shown,
+) -> Vec<[f64; 4]> {
+    let flat = |v: [f64; 3]| [dot(right, v), -dot(up, v)];
     let joints: Vec<JointId> = m.joints_in(state).collect();
     let mut out = Vec::new();
     for &j in &joints {
         let at = shown.joints[&m.joints[j].id];
-        let p = side.flat(point(m, j));
-        let along = side.flat(axis(m, j));
+        let p = flat(point(m, j));
+        let along = flat(axis(m, j));
         if !joints.iter().any(|&k| meet(m, j, k)) {
             out.extend([[p[0], 1.0, 0.0, at[0]], [p[1], 0.0, 1.0, at[1]]]);
             continue;
@@ -69,38 +51,13 @@ fn equations(m: &Mechanism, state: StateId, side: &Side, shown: &Shown) -> Vec<[
     out
 }
 
-/// The largest residual of the least squares.
+/// The largest residual of the least squares, by normal equations; what nothing determines is held near 0.
 fn residual(all: &[[f64; 4]]) -> f64 {
-    // normal equations by Gauss with pivoting; unknowns that nothing determines are 0
-    let mut a = [[0.0f64; 4]; 3];
-    for e in all {
-        for i in 0..3 {
-            for k in 0..4 {
-                a[i][k] += e[i] * e[k];
-            }
-        }
-    }
-    let size: f64 = (0..3).map(|i| a[i][i]).fold(0.0, f64::max);
-    let mut x = [0.0f64; 3];
-    let mut pivots = Vec::new();
-    for column in 0..3 {
-        let free = (0..3).filter(|r| !pivots.iter().any(|&(p, _)| p == *r));
-        let best = free.max_by(|&r, &q| a[r][column].abs().total_cmp(&a[q][column].abs()));
-        let Some(row) = best.filter(|&r| a[r][column].abs() > 1e-9 * size) else {
-            continue;
-        };
-        let pivot = a[row];
-        for r in (0..3).filter(|&r| r != row) {
-            let by = a[r][column] / pivot[column];
-            for (x, p) in a[r].iter_mut().zip(pivot) {
-                *x -= by * p;
-            }
-        }
-        pivots.push((row, column));
-    }
-    for (row, column) in pivots {
-        x[column] = a[row][3] / a[row][column];
-    }
+    let sum = |i: usize, k: usize| all.iter().map(|e| e[i] * e[k]).sum::<f64>();
+    let size = (0..3).map(|i| sum(i, i)).fold(0.0, f64::max);
+    let entry = |i: usize, k: usize| sum(i, k) + if i == k { 1e-13 * size } else { 0.0 };
+    let columns = [0, 1, 2].map(|k| (0..3).map(|i| entry(i, k)).collect_vec());
+    let x = crate::catalogue::solve_square(&columns, &[0, 1, 2].map(|i| sum(i, 3)));
     let off = |e: &[f64; 4]| (e[0] * x[0] + e[1] * x[1] + e[2] * x[2] - e[3]).abs();
     all.iter().map(off).fold(0.0, f64::max)
 }
@@ -116,7 +73,7 @@ fn joints_that_meet_in_a_point_stand_on_their_own_axes() {
             if !joints.iter().any(meeting) {
                 continue;
             }
-            for side in &SIDES {
+            for side in SIDES {
                 let subject = Subject {
                     mechanism: &m,
                     state,
@@ -124,7 +81,7 @@ fn joints_that_meet_in_a_point_stand_on_their_own_axes() {
                     marks: None,
                 };
                 let sight = Sight {
-                    toward: Some(side.toward),
+                    toward: Some(side[0]),
                     up: None,
                 };
                 let d = kinematic_seen(&subject, &sight);

@@ -15,10 +15,8 @@ fn carried(by: &Value, p: Vector) -> Vector {
         return p;
     }
     let turn = [n[0], n[1], n[2]];
-    let angle = dot(turn, turn).sqrt();
-    let axis = turn.map(|x| if angle > 0.0 { x / angle } else { 0.0 });
-    let (side, along) = (cross(axis, p), dot(axis, p) * (1.0 - angle.cos()));
-    [0, 1, 2].map(|i| p[i] * angle.cos() + side[i] * angle.sin() + axis[i] * along + n[3 + i])
+    let turned = RigidMotion::from_turn(turn, length(turn)).map_direction(p);
+    add(turned, [n[3], n[4], n[5]])
 }
 
 /// A page and what it knows of the mechanism in space in its first state.

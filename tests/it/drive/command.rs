@@ -32,9 +32,9 @@ fn small_with(from: &str, to: &str) -> String {
 }
 
 fn small_json(text: &str, code: i32) -> Value {
-    let (found, said, errors) = run_file(text, "--format json");
-    assert_eq!(found, Some(code), "{errors}");
-    serde_json::from_str(&said).unwrap()
+    let (found, said) = answer_on("drive", "turner.toml", text, "");
+    assert_eq!(found, Some(code), "{said:#}");
+    said
 }
 
 #[test]

@@ -5,6 +5,7 @@ mod repeated;
 
 use repeated::Bench;
 
+use ozols::drive::driving::design_drive;
 use ozols::drive::programme::Module;
 use ozols::drive::swing::{Disc, End, Latch};
 use ozols::model::drive::ProgrammeStep;
@@ -98,7 +99,6 @@ fn samples_move_as_their_rates_say() {
 /// and in the middle of a great one.
 #[test]
 fn payloads_are_flung_outwards_in_great_swings() {
-    use ozols::drive::driving::design_drive;
     for angle in [40, 90, 114, 116, 170] {
         let text = format!(
             "name = \"d\"\n[workload.drive]\nswing_angle = {angle}\nswing_time = 0.7\nshear_modulus = 8e10\n\
@@ -138,11 +138,8 @@ fn by_steps(m: &Module, turns: &[usize]) -> Vec<f64> {
 #[test]
 fn shortfalls_add_up_against_grooves_that_stay() {
     let text = builtin::text("torsion-module").unwrap();
-    let name = "torsion-module.toml";
-    let file = ozols::file::read::workload::drive_from_bytes(name, text.as_bytes()).unwrap();
-    let design = ozols::drive::driving::design_drive(&file.spec)
-        .unwrap()
-        .design;
+    let file = drive_from_bytes("torsion-module.toml", text.as_bytes()).unwrap();
+    let design = design_drive(&file.spec).unwrap().design;
     let built_in = design.unwrap().module;
     let reversing = vec![1; 40];
     let stepwise: Vec<usize> = (0..40).map(|i| (i + 1) % 2).collect();

@@ -24,12 +24,7 @@ fn only(spec: &GripSpec) -> DiameterRow {
 fn takes(row: &DiameterRow, pull: [f64; 3], load: (f64, [f64; 3], f64)) -> f64 {
     let (mass, centre, safety) = load;
     let force = pull.map(|x| mass * x * safety);
-    // The moment of a force at the mass centre, component by component.
-    let moment = [
-        centre[1] * force[2] - centre[2] * force[1],
-        centre[2] * force[0] - centre[0] * force[2],
-        centre[0] * force[1] - centre[1] * force[0],
-    ];
+    let moment = cross(centre, force);
     let load = PartWrench { force, moment };
     match find_holding(row.pose.as_ref().unwrap(), &load, 0.4, LeverDrive::Coupled).unwrap() {
         HoldingOutcome::Held(h) => h.drive,

@@ -1,7 +1,7 @@
 //! The grip's contact forces as loads of the mechanism: statics of the clamped state, and ranking under them.
 
 use crate::common::*;
-use crate::reactions::greatest_force;
+use crate::reactions::{effort, greatest_force};
 mod ranked;
 mod refused;
 
@@ -13,10 +13,6 @@ use ozols::statics::reactions::geometry::{cross, dot};
 
 fn text() -> &'static str {
     builtin::text("lever-gripper").unwrap()
-}
-
-fn built_in() -> Mechanism {
-    mechanism_from_str("lever-gripper", text()).unwrap()
 }
 
 fn clamped(m: &Mechanism) -> Gripping {
@@ -37,10 +33,6 @@ fn solve(g: &Gripping, row: &DiameterRow) -> Solution {
         &drives,
     )
     .unwrap()
-}
-
-fn effort(list: &[JointReaction]) -> f64 {
-    list.iter().find_map(|r| r.effort).unwrap().1
 }
 
 /// `ozols grip` adds up lever moments and rates of the levers; statics solve for every joint.
@@ -79,7 +71,7 @@ fn the_drive_bears_what_the_grip_asks() {
 /// By virtual work, without moments and arms: the jaws' points are moved with the drive and the forces' work is added up.
 #[test]
 fn the_contact_forces_do_the_work_of_the_drive_and_no_other() {
-    let m = built_in();
+    let m = built_in("lever-gripper");
     let g = clamped(&m);
     let metres = m.length_unit.metres;
     for row in &g.study.rows {
@@ -115,7 +107,7 @@ fn the_contact_forces_do_the_work_of_the_drive_and_no_other() {
 /// What the part puts on the jaws is its weight and inertia, about any point.
 #[test]
 fn jaws_bear_the_part() {
-    let m = built_in();
+    let m = built_in("lever-gripper");
     let g = clamped(&m);
     for row in &g.study.rows {
         let (loads, hardest) = (g.jaw_loads(row).unwrap(), row.hardest.as_ref().unwrap());
@@ -177,7 +169,7 @@ fn loads_follow_the_gripper_in_the_files_axes() {
 /// A hinge is the same whichever of its links is named first.
 #[test]
 fn levers_turn_the_same_way_whichever_link_is_named_first() {
-    let before = built_in();
+    let before = built_in("lever-gripper");
     let a = clamped(&before);
     let hinges = |m: &Mechanism| -> Vec<_> {
         let all = m.joint_ids();
@@ -223,7 +215,7 @@ fn links_feel_the_case() {
 
 #[test]
 fn a_grip_without_load_has_no_forces() {
-    let mut m = built_in();
+    let mut m = built_in("lever-gripper");
     m.edit().loads = default_with(|l: &mut Loads| l.grip = m.loads.grip.clone());
     let g = clamped(&m);
     assert!(matches!(

@@ -1,20 +1,15 @@
 //! The clamping force along a motion.
 
 use crate::common::*;
-fn along(table: &str, more: &[&str]) -> (Option<i32>, String, String) {
-    let (_folder, path) = write_temporary("lift.csv", table);
-    let args = [&["grip", "lever-gripper", "--motion", path], more].concat();
-    let o = run(&args);
-    (o.status.code(), utf8_text(&o.stdout), utf8_text(&o.stderr))
+fn along(table: &str) -> Value {
+    Folder::with("lift.csv", table).json("grip lever-gripper --motion lift.csv")
 }
 
 /// Each step takes what the gripper takes in a case of that acceleration alone.
 #[test]
 fn every_step_has_its_own_least_force() {
     let table = "time,ax,ay,az,diameter\n0,0,0,0,40\n0.5,5,0,-2,40\n1.0,0,-9,0,50\n1.5,0,0,0,30\n";
-    let (code, said, errors) = along(table, &["--format", "json"]);
-    assert_eq!(code, Some(0), "{errors}");
-    let value: Value = serde_json::from_str(&said).unwrap();
+    let value = along(table);
     let steps = value["motion"]["steps"].list();
     assert_eq!(steps.len(), 4);
     // The hardest case of the file is harder than any of these at its diameter.
@@ -34,11 +29,9 @@ fn every_step_has_its_own_least_force() {
     // The step alone, as the one case of a file.
     let file = run_json("grip lever-gripper --format json");
     assert!(file.get("motion").is_some_and(Value::is_null));
-    let shown = String::from_utf8(run("show lever-gripper").stdout).unwrap();
+    let shown = run_quiet("show lever-gripper");
     let alone = shown.replace("any_acceleration = 5", "accelerations = [[5, 0, -2]]");
-    assert_ne!(shown, alone);
-    let (_, said, errors) = run_on("grip", "alone.toml", &alone, "--format json");
-    let alone: Value = serde_json::from_str(&said).expect(&errors);
+    let alone = json_on("grip", "alone.toml", &alone, "");
     let rows = alone["diameters"].list();
     let row = rows
         .iter()
@@ -60,14 +53,7 @@ fn every_step_has_its_own_least_force() {
 #[test]
 fn attitudes_come_with_the_motion() {
     let table = "ax,ay,az,gx,gy,gz\n0,0,0,0,-9.81,0\n0,0,0,0,0,-9.81\n";
-    let (code, said, errors) = along(table, &[]);
-    assert_eq!(code, Some(0), "{errors}");
-    has(
-        &said,
-        "Along the motion, 2 steps: can hold at every step, with",
-    );
-    let (_, said, _) = along(table, &["--format", "json"]);
-    let value: Value = serde_json::from_str(&said).unwrap();
+    let value = along(table);
     let moment = |i: usize| value["motion"]["steps"][i]["drive_moment_per_lever"].real();
     // Along the part friction alone holds: harder by much.
     assert!(moment(1) > 1.5 * moment(0), "{} {}", moment(1), moment(0));
@@ -83,8 +69,7 @@ fn tables_that_are_no_motion_are_refused_by_line() {
         ("ax,ay,az\n", "0 steps"),
         ("ax,ay,az,diameter\n0,0,0,-3\n", "diameter is \"-3\""),
     ] {
-        let (code, said, errors) = along(table, &[]);
-        assert_eq!((code, said.as_str()), (Some(2), ""), "{table}");
-        assert!(errors.contains(part), "{table}: {errors}");
+        let folder = Folder::with("lift.csv", table);
+        folder.assert_fails("grip lever-gripper --motion lift.csv", part);
     }
 }

@@ -1,19 +1,15 @@
 //! What singular values say of a geometry that is a little off is what exact arithmetic says of the one that is not.
 
 use crate::common::*;
-use ozols::rank::numeric::Elimination;
 use ozols::rank::numeric::scaling::rank_of_values;
 
 /// The mechanism with every number off by some billionths; axes of planar models stay as they are.
 fn disturbed(m: &Mechanism) -> Mechanism {
-    let mut random = ChaCha8Rng::seed_from_u64(7);
+    let mut noise = Noise::new(7, 0);
     let mut off = |v: &[Expr; 3], by: f64| {
         let size = v.iter().map(|x| x.to_f64().abs()).fold(1.0, f64::max);
-        v.each_ref().map(|x| {
-            #[allow(clippy::cast_precision_loss, reason = "53 bits")]
-            let even = (random.next_u64() >> 11) as f64 / (1u64 << 52) as f64 - 1.0;
-            Expr::from_f64(x.to_f64() + by * size * even).unwrap()
-        })
+        v.each_ref()
+            .map(|x| Expr::from_f64(x.to_f64() + by * size * noise.draw_uniform()).unwrap())
     };
     let mut out = m.clone();
     for joint in &mut out.edit().joints {

@@ -46,7 +46,7 @@ fn couplings_remember_what_has_moved() {
 /// A link behind a joint that is named from it to the frame moves by the other sign.
 #[test]
 fn paths_pass_joints_either_way() {
-    let m = ozols::builtin::text("four-bar").map(read).unwrap();
+    let m = built_in("four-bar");
     let pose = Pose::of_file(&m, StateId::FREE).unwrap();
     let joint = pose.columns[0].joint;
     let rows = |forward: bool| {
@@ -64,7 +64,7 @@ fn paths_pass_joints_either_way() {
 /// A way of the outputs counts from the pose of the file, to either side alike.
 #[test]
 fn ways_count_from_the_files_pose() {
-    let m = ozols::builtin::text("four-bar").map(read).unwrap();
+    let m = built_in("four-bar");
     let pose = Pose::of_file(&m, StateId::FREE).unwrap();
     let way = working_way(&m, StateId::FREE, &pose, 20).unwrap();
     assert!(way.start > 0);
@@ -196,8 +196,7 @@ fn idle_motions_slide_or_turn() {
 #[test]
 fn gaps_grow_beyond_a_quarter_turn() {
     let m = built_in("door-two-hinges");
-    let pose =
-        ozols::motion::pose::Pose::of_file(&m, ozols::model::mechanism::StateId::FREE).unwrap();
+    let pose = Pose::of_file(&m, StateId::FREE).unwrap();
     let gap = |degrees: f64| {
         let gaps = pose.closure_gaps(&[degrees.to_radians(), 0.0]);
         gaps.iter().map(|x| x * x).sum::<f64>().sqrt()

@@ -23,6 +23,15 @@ fn redundant() -> Vec<Mechanism> {
         .collect()
 }
 
+/// Each part with each of its joints.
+fn by_joint<'a, 'm>(
+    parts: &'a [Stressed<'m>],
+) -> impl Iterator<Item = (&'a Stressed<'m>, JointId)> {
+    parts
+        .iter()
+        .flat_map(|p| p.joints.iter().map(move |&j| (p, j)))
+}
+
 /// A self-stress is in equilibrium: it does no work on what a joint lets go already, however many contours pass the joint and
 /// whichever way they do.
 #[test]
@@ -31,10 +40,7 @@ fn self_stresses_do_no_work_on_what_joints_let_go() {
     for m in redundant() {
         let parts = stressed(&m);
         let contours = ozols::closure::contour::contour_basis(&m, StateId::FREE);
-        for (stressed, j) in parts
-            .iter()
-            .flat_map(|p| p.joints.iter().map(move |&j| (p, j)))
-        {
+        for (stressed, j) in by_joint(&parts) {
             let slides = match m.joints[j].joint_type {
                 JointType::Revolute => false,
                 JointType::Prismatic => true,
@@ -63,10 +69,7 @@ fn directions_of_releases_point_to_the_positive_side() {
     let mut seen = 0;
     for m in redundant() {
         let parts = stressed(&m);
-        for (stressed, j) in parts
-            .iter()
-            .flat_map(|p| p.joints.iter().map(move |&j| (p, j)))
-        {
+        for (stressed, j) in by_joint(&parts) {
             for release in stressed.releases_at(j) {
                 let Release::Freedom { direction, .. } = release else {
                     panic!("a freedom of a joint")

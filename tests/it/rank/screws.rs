@@ -8,9 +8,7 @@ fn jack(pitch: &str) -> String {
 }
 
 fn analysed(file: &str) -> Value {
-    let (code, said, err) = run_on("analyze", "jack.toml", file, "--format json");
-    assert_eq!(code, Some(0), "{err}");
-    serde_json::from_str(&said).unwrap()
+    json_on("analyze", "jack.toml", file, "")
 }
 
 #[test]
@@ -29,7 +27,7 @@ fn what_has_pi_is_not_called_exact() {
     let of = |pitch: &str| analysed(&jack(pitch))["states"][0]["certainty"].to_string();
     assert!(of("pitch = \"4/5\"").contains("exact geometry"));
     let said = of("lead = 5");
-    assert!(!said.contains("exact geometry"), "{said}");
+    lacks(&said, "exact geometry");
     has(&said, "pi to 40 decimals");
     let state = analysed(&jack("lead = 5"))["states"][0].clone();
     assert!(state["choice"].to_string().contains("5/(2*pi)"), "{state}");
@@ -102,7 +100,6 @@ fn what_is_wrong_with_a_screw_is_told() {
 /// 10 mm a radian: metres a turn in SDF, metres a radian in MuJoCo's equality; by SDF's old tag it is minus radians a metre.
 #[test]
 fn leads_are_written_and_read_in_the_formats_own_units() {
-    use ozols::robots::Options;
     let m = read(&jack("pitch = 10"));
     assert_eq!(m.length_unit.symbol, "mm");
     let number = |text: &str, before: &str| -> f64 {

@@ -42,9 +42,7 @@ fn which_link_has_which_pin_matters() {
     let text = run_quiet("show roberval-balance");
     let swapped = text.replace("links = [\"3\", \"0\"]", "links = [\"0\", \"3\"]");
     assert_ne!(text, swapped);
-    let (_folder, path) = write_temporary("swapped.toml", swapped);
-    let args = ["--format", "json", "--all", "--poses", "4"];
-    let v = run_json(&[&["search", path][..], &args].concat());
+    let v = json_on("search", "swapped.toml", &swapped, "--all --poses 4");
     let lucky = |joint: &str| {
         let list = v["variants"].list().iter();
         list.filter(|x| x["lucky"] == true)
@@ -58,12 +56,7 @@ fn which_link_has_which_pin_matters() {
 fn poses_do_not_depend_on_threads_and_need_a_motion() {
     let run = |threads| run_quiet(&format!("{BALANCE} --poses 3 --threads {threads}"));
     assert!(run(1) == run(2));
-    let o = ozols("search bennett-perturbed --poses 2 --format json")
-        .output()
-        .unwrap();
-    let said = String::from_utf8(o.stderr).unwrap();
-    assert!(said.starts_with("warning: no other pose"), "{said}");
-    let v: Value = serde_json::from_slice(&o.stdout).unwrap();
+    let v = Folder::new().json("search bennett-perturbed --poses 2");
     assert_eq!(v["poses"]["reached"], 0);
     assert!(v["variants"].list().iter().all(|x| x["lucky"].is_null()));
     let v = run_json("search four-bar --format json");

@@ -119,18 +119,13 @@ fn bennett_half_angles() {
     let m = built_in("bennett");
     let (pose, found) = followed(&m, [-3.0, 3.0], 30);
     assert_eq!(found.len(), 31);
-    let points: Vec<[f64; 3]> = m
-        .joints
-        .iter()
-        .map(|j| j.frame.point.each_ref().map(|c| c.to_f64()))
-        .collect();
     let mut products = Vec::new();
     for f in &found {
         let now = f.current_pose();
         // The pin of joint i, carried by its first link.
         let at = |i: usize| {
-            let local = sub(points[i], pose.middle).map(|x| x / pose.length);
-            now.links[m.joints[i].links[0]].map_point(local)
+            let joint = &m.joints[i];
+            pose.carry_point(&now.links, joint.links[0], to_vector(&joint.frame.point))
         };
         let tan = |i: usize| {
             let before = sub(at(i), at((i + 3) % 4));

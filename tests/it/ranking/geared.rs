@@ -19,18 +19,14 @@ fn text() -> String {
     )
 }
 
-fn gripper(text: &str) -> Mechanism {
-    read(text)
-}
-
 #[test]
 fn fast_scores_of_geared_variants_are_those_of_the_variants_built_and_solved() {
-    let m = gripper(&text());
+    let m = read(&text());
     let (solved, refused) = both_ways(&m, 0, ClearanceSum::Worst, 60);
     assert!(solved > 20, "{solved} {refused}");
     both_ways(&m, 2, ClearanceSum::Rms, 12);
     // No teeth, no force of theirs in the bearings.
-    let belt = gripper(&replace_once(&text(), "gear = true", ""));
+    let belt = read(&replace_once(&text(), "gear = true", ""));
     let (solved, refused) = both_ways(&belt, 0, ClearanceSum::Worst, 30);
     assert!(solved > 10, "{solved} {refused}");
 }
@@ -43,14 +39,14 @@ fn variants_whose_teeth_do_not_mesh_score_as_they_are() {
         "point = [0, -10, 0]\naxis = [0, 0, 1]",
         "point = [0, -10, 0]\naxis = [0, 0, 1]\noptions = [\"revolute\", \"planar\", \"universal\"]",
     );
-    let (solved, refused) = both_ways(&gripper(&some), 0, ClearanceSum::Worst, 60);
+    let (solved, refused) = both_ways(&read(&some), 0, ClearanceSum::Worst, 60);
     assert!(solved > 20, "{solved} {refused}");
     let series = replace_once(
         &text(),
         "point = [0, -10, 0]\naxis = [0, 0, 1]",
         "point = [0, -10, 0]\naxis = [0, 0, 1]\nunloading = [\"spherical\"]",
     );
-    let (solved, refused) = both_ways(&gripper(&series), 0, ClearanceSum::Worst, 40);
+    let (solved, refused) = both_ways(&read(&series), 0, ClearanceSum::Worst, 40);
     assert!(solved > 10, "{solved} {refused}");
 }
 
@@ -58,7 +54,7 @@ fn variants_whose_teeth_do_not_mesh_score_as_they_are() {
 #[test]
 fn no_geared_variant_is_below_the_floor() {
     for clearance in [ClearanceSum::Worst, ClearanceSum::Rms] {
-        assert_above_floor(&gripper(&text()), 0, clearance, 60);
+        assert_above_floor(&read(&text()), 0, clearance, 60);
     }
     let mut m = built_in("rack-gripper");
     m.edit()

@@ -2,7 +2,7 @@
 
 use super::expr;
 use crate::common::*;
-use crate::reactions::greatest_force;
+use crate::reactions::{effort, greatest_force};
 use ozols::statics::reactions::cycle::{Cycle, solve_cycle};
 use ozols::statics::reactions::geometry::{cross, dot};
 
@@ -37,10 +37,6 @@ fn solved(c: &Cycle) -> Vec<(f64, &ozols::statics::reactions::Solution)> {
         .iter()
         .map(|(at, s)| (*at, s.as_ref().unwrap()))
         .collect()
-}
-
-fn effort(list: &[JointReaction]) -> f64 {
-    list.iter().find_map(|r| r.effort).unwrap().1
 }
 
 const STROKE: Stroke = Stroke {
@@ -102,9 +98,8 @@ fn energies(m: &Mechanism, c: &Cycle, at: f64, speed: f64) -> f64 {
         let Some(mass) = &link.mass else { continue };
         let file = to_vector(&mass.centre);
         let place = |pose: &Pose| {
-            let p = [0, 1, 2].map(|i| (file[i] - pose.middle[i]) / pose.length);
-            let to = pose.links[l].map_point(p);
-            [0, 1, 2].map(|i| (pose.middle[i] + pose.length * to[i]) * metres)
+            let to = pose.carry_point(&pose.links, l, file);
+            to.map(|x| x * metres)
         };
         let axis = |pose: &Pose, i: usize| {
             pose.links[l].map_direction([0, 1, 2].map(|k| f64::from(u8::from(k == i))))

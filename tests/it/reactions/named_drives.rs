@@ -5,8 +5,7 @@ use crate::common::*;
 /// The gripper's slider, which slides along its guide and may turn about it.
 fn gripper(drive: &str) -> String {
     let text = builtin::text("gripper-10").unwrap();
-    assert!(text.contains("drive = \"tz\""));
-    text.replacen("drive = \"tz\"", &format!("drive = {drive}"), 1)
+    replace_once(text, "drive = \"tz\"", &format!("drive = {drive}"))
 }
 
 fn held(m: &Mechanism, state: StateId) -> Vec<Freedom> {

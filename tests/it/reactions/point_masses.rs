@@ -3,7 +3,7 @@
 
 use super::{built_in, expr, vector};
 use crate::common::*;
-use crate::reactions::greatest_force;
+use crate::reactions::{effort, greatest_force};
 use ozols::model::mechanism::{Joint, Link};
 use ozols::statics::reactions::cycle::{Cycle, solve_cycle};
 
@@ -143,8 +143,7 @@ fn forces_come_again_in_each_turn_in_space() {
     };
     let efforts = |from| -> Vec<f64> {
         let found = solve_cycle(&m, StateId::FREE, stroke(from)).unwrap();
-        let of = |s: &Solution| s.reactions.iter().find_map(|r| r.effort).unwrap().1;
-        solved(&found).map(|(_, s)| of(s)).collect()
+        solved(&found).map(|(_, s)| effort(&s.reactions)).collect()
     };
     // At 0, 0.25, 0.5, 0.75 and 1 rad, and again a turn later and a turn before.
     let first = efforts(0.0);

@@ -7,18 +7,9 @@ mod retyped;
 mod told;
 mod wrong;
 
-use ozols::robots::Options;
-
 /// What is read of bytes under a name, with no files beside.
 pub(crate) fn read(name: &str, bytes: &[u8], options: &Options) -> Imported {
     import(name, bytes, &crate::robots::no_files, options).unwrap_or_else(|e| panic!("{name}: {e}"))
-}
-
-/// The message of bytes that are refused.
-pub(crate) fn refused(name: &str, bytes: &[u8]) -> String {
-    let e = import(name, bytes, &crate::robots::no_files, &Options::default()).unwrap_err();
-    assert!(!e.render(false).is_empty());
-    e.to_string()
 }
 
 /// W and σ, as the commands have them.

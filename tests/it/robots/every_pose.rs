@@ -224,25 +224,11 @@ fn known() -> impl Strategy<Value = Known> {
 }
 
 /// The turn of a quaternion of whole numbers, times its length squared: whole numbers again.
-fn turn([a, b, c, d]: [i32; 4], by: f64) -> impl Fn(V) -> V {
-    let rows = [
-        [
-            a * a + b * b - c * c - d * d,
-            2 * (b * c - a * d),
-            2 * (b * d + a * c),
-        ],
-        [
-            2 * (b * c + a * d),
-            a * a - b * b + c * c - d * d,
-            2 * (c * d - a * b),
-        ],
-        [
-            2 * (b * d - a * c),
-            2 * (c * d + a * b),
-            a * a - b * b - c * c + d * d,
-        ],
-    ];
-    move |p| rows.map(|r| by * (0..3).map(|i| f64::from(r[i]) * p[i]).sum::<f64>())
+fn turn(quaternion: [i32; 4], by: f64) -> impl Fn(V) -> V {
+    let q = quaternion.map(f64::from);
+    let norm: f64 = q.iter().map(|x| x * x).sum();
+    let turn = RigidMotion::from_quaternion([0.0; 3], q);
+    move |p| turn.map_direction(p).map(|x| by * (norm * x).round())
 }
 
 proptest! {

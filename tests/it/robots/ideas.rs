@@ -5,9 +5,8 @@ use crate::robots::mjcf::mjcf;
 
 /// The releases of the cheapest idea: joint, and whether it slides.
 fn idea(name: &str, text: &str) -> Vec<(String, bool)> {
-    let (_, out, err) = run_on("lint", name, text, "--format json");
-    let v: Value = serde_json::from_str(&out).unwrap_or_else(|_| panic!("{err}"));
-    let all = v["files"][0]["cheapest"].list().iter();
+    let (_, file) = crate::robots::lint::linted(name, text);
+    let all = file["cheapest"].list().iter();
     all.map(|r| {
         let words = r.word().strip_prefix("let ").unwrap();
         let (joint, rest) = words.split_once(' ').unwrap();

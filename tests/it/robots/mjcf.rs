@@ -2,7 +2,6 @@
 
 use crate::common::*;
 use crate::robots::{message_of, no_files, numeric_figures, read_robot};
-use ozols::robots::Options;
 
 // MuJoCo's values count from `ref`, where the model is as drawn; the pose is in radians whatever the file's unit.
 #[test]
@@ -38,10 +37,7 @@ pub(crate) fn mjcf(body: &str) -> String {
 }
 
 pub(crate) fn toml_of(name: &str, text: &str) -> String {
-    match import(name, text.as_bytes(), &no_files, &Options::default()) {
-        Ok(i) => i.toml().unwrap(),
-        Err(e) => panic!("{e}\n{text}"),
-    }
+    read_robot(name, text).toml().unwrap()
 }
 
 // A quarter turn of z to -y, said in every way there is; then a hinge at (0, 0, 1) of the turned body.
@@ -192,7 +188,7 @@ fn mjcf_errors() {
         <joint/><body quat='0 0 0 0'/> | not zero
         "#,
     ) {
-        has(&message_of("m.xml", &one(body)), words);
+        has(&message_of("m.xml", one(body)), words);
     }
     for [text, words] in read_cases::<2>(
         r#"
@@ -208,7 +204,7 @@ fn mjcf_errors() {
         | nothing can move
         "#,
     ) {
-        has(&message_of("m.xml", &mjcf(text)), words);
+        has(&message_of("m.xml", mjcf(text)), words);
     }
 }
 

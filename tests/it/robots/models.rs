@@ -1,8 +1,7 @@
 //! Whole models, and loop closures from files beside them.
 
 use crate::common::*;
-use crate::robots::{ARM, folder, message_of, no_files, numeric_figures, read_model};
-use ozols::robots::Options;
+use crate::robots::{ARM, folder, no_files, numeric_figures, read_model};
 
 // Five mimic joints follow the sixth: W = 1.
 #[test]
@@ -14,27 +13,7 @@ fn mimic_joints_are_couplings() {
         (0, 0)
     );
     assert_eq!(i.report.mapped["coupling"], 5);
-    assert!(i.report.text("x.urdf").contains("5 coupling"));
-    assert!(
-        i.toml()
-            .unwrap()
-            .contains("# mimics left_crank_joint times 1")
-    );
     assert_eq!(i.report.dropped["visual"].0, 11);
-}
-
-#[test]
-fn nothing_moves() {
-    let links: String = (0..4).map(|i| format!("<link name='l{i}'/>")).collect();
-    let joint = |i: usize| {
-        format!("<joint name='j{i}' type='fixed'><parent link='l0'/><child link='l{i}'/></joint>")
-    };
-    let joints: String = (1..4).map(joint).collect();
-    let e = message_of(
-        "mesh.urdf",
-        &format!("<robot name='r'>{links}{joints}</robot>"),
-    );
-    has(&e, "nothing can move: all 4 links");
 }
 
 fn with_loops(side: Option<&str>) -> Options {
@@ -84,9 +63,7 @@ fn four_bars() {
     let closed = |kind: &str| {
         let side =
             format!("[[loop]]\nid = \"bushing\"\na = \"near\"\nb = \"far\"\ntype = \"{kind}\"\n");
-        let options = default_with(|o: &mut Options| {
-            o.loops = Some(("side.toml".to_owned(), side.into_bytes()))
-        });
+        let options = crate::robots::with_loops("side.toml", side);
         let bytes = fs::read(folder().join("four_bar_open.sdf")).unwrap();
         import("four_bar_open.sdf", &bytes, &no_files, &options)
     };
@@ -102,9 +79,7 @@ fn four_bars() {
 #[test]
 fn side_files() {
     let with = |name: &str, side: &str| {
-        let options = default_with(|o: &mut Options| {
-            o.loops = Some((name.to_owned(), side.as_bytes().to_vec()))
-        });
+        let options = crate::robots::with_loops(name, side);
         import("arm.urdf", ARM.as_bytes(), &no_files, &options)
     };
     let i = with(

@@ -4,7 +4,6 @@
 use crate::common::*;
 use crate::robots::mjcf::{mjcf, toml_of};
 use crate::robots::{folder, message_of, no_files, numeric_figures, read_robot};
-use ozols::robots::Options;
 
 /// W and σ.
 fn w_sigma(name: &str, text: &str) -> (i64, i64) {
@@ -18,9 +17,7 @@ fn types_of_joints_beside_the_description() {
     // The leg's ankle and rods turn about two axes: by hand W = 4, two motors of the leg and two of the foot. As hinges they
     // hold the foot but for its pitch, and most of it twice.
     let leg = |side: &str| {
-        let options = default_with(|o: &mut Options| {
-            o.loops = Some(("leg.yaml".to_owned(), side.as_bytes().to_vec()))
-        });
+        let options = crate::robots::with_loops("leg.yaml", side);
         let bytes = fs::read(folder().join("leg.urdf")).unwrap();
         import("leg.urdf", &bytes, &no_files, &options).unwrap()
     };
@@ -35,9 +32,7 @@ fn types_of_joints_beside_the_description() {
       <joint name='q' type='revolute'><parent link='b'/><child link='c'/><origin xyz='1 0 0'/></joint></robot>";
     let with = |names: &str, types: &str| {
         let side = format!("closed_loop: []\njoint_name: {names}\njoint_type: {types}\n");
-        let options = default_with(|o: &mut Options| {
-            o.loops = Some(("robot.yaml".to_owned(), side.into_bytes()))
-        });
+        let options = crate::robots::with_loops("robot.yaml", side);
         import("r.urdf", urdf.as_bytes(), &no_files, &options)
             .map(|i| i.toml().unwrap())
             .map_err(|e| e.to_string())
@@ -151,12 +146,12 @@ fn joints_in_frames_and_copies() {
     has(&t, "point = [0, -2, 1]\naxis = [0, -1, 0]");
     let e = message_of(
         "m.xml",
-        &mjcf("<worldbody><frame><joint/></frame></worldbody>"),
+        mjcf("<worldbody><frame><joint/></frame></worldbody>"),
     );
     has(&e, "the world cannot move");
     // MuJoCo makes the copies when it compiles the model.
     let copies = "<worldbody>\n<replicate count='3'><body/></replicate></worldbody>";
-    let e = message_of("m.xml", &mjcf(copies));
+    let e = message_of("m.xml", mjcf(copies));
     has_all(&e, &["m.xml:2:", "save the compiled model"]);
 }
 
@@ -188,7 +183,7 @@ fn limits_without_end() {
     };
     assert_eq!(w_sigma("r.urdf", &urdf("1e+16")), (1, 0));
     assert_eq!(w_sigma("r.urdf", &urdf("inf")), (1, 0));
-    assert!(message_of("r.urdf", &urdf("far")).contains("upper"));
+    assert!(message_of("r.urdf", urdf("far")).contains("upper"));
 }
 
 // A root of the name world is the ground: a robot that floats is one that it does not hold. In SDF a link of the name is the
@@ -205,7 +200,7 @@ fn links_named_world() {
         )
     };
     assert_eq!(w_sigma("m.sdf", &sdf("")), (1, 0));
-    assert!(message_of("m.sdf", &sdf("<pose>1 0 0 0 0 0</pose>")).contains("not in its place"));
+    assert!(message_of("m.sdf", sdf("<pose>1 0 0 0 0 0</pose>")).contains("not in its place"));
 }
 
 // MJCF includes lead out of the file's folder only into a folder that is named.
@@ -311,7 +306,7 @@ fn loops_that_rounding_leaves_open() {
     assert_eq!(numeric_figures(&rounded, 1e-3)[4..], [1, 1]);
     let doubts = rounded.report.list_doubts();
     has(&doubts, "1 loop: open by");
-    assert!(message_of("m.xml", &text(5e-3)).contains("the loops do not close"));
+    assert!(message_of("m.xml", text(5e-3)).contains("the loops do not close"));
 }
 
 /// A universal joint of Drake turns about x of its first link and then about y: after a quarter turn about x that is z.

@@ -3,7 +3,6 @@
 use crate::common::*;
 use crate::robots::mjcf::toml_of;
 use crate::robots::{message_of, no_files, numeric_figures};
-use ozols::robots::Options;
 
 fn sdf(body: &str) -> String {
     format!("<sdf version='1.9'><model name='m'>{body}</model></sdf>")
@@ -94,7 +93,7 @@ fn sdf_kinds() {
         <link name='a'/><joint name='j' type='ball'><parent>a</parent><child>b</child></joint> | "b"
 "#,
     ) {
-        let e = message_of("m.sdf", &sdf(body));
+        let e = message_of("m.sdf", sdf(body));
         assert!(e.contains(words), "{words}: {e}");
     }
 }

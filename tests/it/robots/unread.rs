@@ -4,7 +4,6 @@ use crate::common::*;
 use crate::robots::lint;
 use crate::robots::mjcf::mjcf;
 use crate::robots::no_files;
-use ozols::robots::Options;
 
 /// The exit code of lint, what its JSON has of a file with this text, and what it says otherwise.
 fn linted(name: &str, text: &str) -> (Option<i32>, Value, String) {
@@ -70,9 +69,7 @@ fn each_way_to_close_a_loop_is_read() {
             chain(lengths, 3.0 * x(3), &filled)
         };
         let truth = {
-            let options = default_with(|o: &mut Options| {
-                o.loops = Some(("side.toml".to_owned(), side.clone().into_bytes()))
-            });
+            let options = crate::robots::with_loops("side.toml", side.clone());
             let i = import("x.urdf", at("").as_bytes(), &no_files, &options)
                 .unwrap_or_else(|e| panic!("seed {seed}: {e}"));
             ozols::analyze(&i.mechanism).unwrap()[0].clone()

@@ -4,7 +4,6 @@ use crate::common::*;
 use ozols::search::check::second_prime::{
     Verdict, build_both, compare_counts, compare_primes, primes,
 };
-use ozols::search::check::singular_values;
 
 /// The four-bar with one axis tilted out of parallel by a number that a prime near 2^61 divides.
 fn tilted() -> String {

@@ -51,11 +51,11 @@ fn counts_with_and_without_the_drives_are_those_of_the_trial() {
         ("tripteron", 16_872, 47),
         ("gripper-10", 25_761_436, 25_761_436),
     ] {
-        let m = ozols::built_in(name).unwrap();
+        let m = built_in(name);
         let found = [Drives::Free, Drives::Kept].map(|drives| admissible(&m, drives));
         assert_eq!(found, [free, kept], "{name}");
     }
-    let turned = driven(ozols::built_in("3-crr").unwrap(), "rz");
+    let turned = driven(built_in("3-crr"), "rz");
     assert_eq!(admissible(&turned, Drives::Kept), 420);
 }
 
@@ -139,9 +139,8 @@ fn independent_drives_are_as_many_as_the_motions_that_they_decide() {
 fn a_file_states_the_condition_on_drives() {
     let with = |keys: &str| format!("{}[search]\n{keys}\n", gantry());
     let ask = |keys: &str, more: &[&str]| {
-        let more = [&["--count", "--format", "json", "-q"], more].concat();
-        let (_, said, _) = run_on("search", "gantry.toml", &with(keys), &more);
-        let mut found: Value = serde_json::from_str(&said).unwrap();
+        let more = [&["--count", "-q"], more].concat();
+        let (_, mut found) = answer_on("search", "gantry.toml", &with(keys), &more);
         found["seconds"] = Value::Null;
         found
     };
@@ -177,9 +176,7 @@ fn a_file_states_the_condition_on_drives() {
 #[test]
 fn nothing_found_with_independent_drives_is_an_answer() {
     let text = replace_once(&gantry(), "\"fixed\", \"slotted\", {", "\"fixed\", {");
-    let more = ["--drives", "independent", "--format", "json", "-q"];
-    let (code, said, _) = run_on("search", "gantry.toml", &text, &more);
-    let found: Value = serde_json::from_str(&said).unwrap();
+    let (code, found) = answer_on("search", "gantry.toml", &text, "--drives independent -q");
     assert_eq!((code, parse_count(&found["admissible"])), (Some(1), 0));
 }
 

@@ -20,14 +20,7 @@ pub(crate) fn gripper_with_pads() -> String {
 
 /// Output, as data, of a search that may find nothing.
 pub(crate) fn run_search<L: Line + ?Sized>(path: &str, more: &L) -> Value {
-    let args = [
-        &["search", path, "--format", "json", "-q"][..],
-        &more.words(),
-    ]
-    .concat();
-    let (code, told, said) = run_full(&args);
-    assert!(matches!(code, Some(0 | 1)), "{args:?}: {said}");
-    serde_json::from_str(&told).unwrap()
+    Folder::new().json(&[&["search", path, "-q"][..], &more.words()].concat())
 }
 
 /// Returns what a command says that is refused.

@@ -2,7 +2,6 @@
 
 use super::beyond_budget::ladder;
 use crate::common::*;
-use ozols::search::question::conditions::Symmetry;
 
 /// A variant is proven to be among the cheapest where its cost is one up to which all are known, and that is so of the last such cost.
 #[test]

@@ -159,13 +159,3 @@ fn where_no_single_change_helps_none_is_named() {
     let s = &json_on("analyze", "slots.toml", &text, "")["states"][0]["suggestions"];
     assert_eq!((&s["found"], &s["tried"]), (&json!(0), &json!(3)));
 }
-
-// A file with a space in its name is quoted; standard input cannot be read again.
-#[test]
-fn commands_can_be_typed() {
-    let (_folder, file) = write_temporary("my gripper.toml", builtin::text("gripper-10").unwrap());
-    let text = run_quiet(&["analyze", file]);
-    has(&text, &format!("ozols search '{}'\n", file));
-    let (_, piped, _) = run_with_input("analyze -", builtin::text("gripper-10").unwrap());
-    has(&piped, "ozols search FILE\n");
-}

@@ -9,7 +9,6 @@ use ozols::search::check::brute::{Matrices, Seen, judge_variant};
 use ozols::search::check::other_poses::reach_poses;
 use ozols::search::check::singular_values::certify_variants;
 use ozols::search::diagram::Diagram;
-use ozols::search::question::conditions::Symmetry;
 use ozols::search::question::throughout::PoseOnly;
 
 /// Returns a search over the prime that is the `nth`, which is asked what lasts.
@@ -88,7 +87,7 @@ fn counts_along_the_motion_are_those_of_the_trial() {
         ("parallelogram-gripper", 146_260, 144_436),
         ("gripper-10", 25_761_436, 21_817_629),
     ] {
-        let m = ozols::built_in(name).unwrap();
+        let m = built_in(name);
         assert_eq!(counted(&m), [here, lasting], "{name}");
     }
 }
@@ -99,7 +98,7 @@ fn variants_last_whose_figures_are_the_same_in_other_poses() {
 "watt-six-bar sarrus altmann hooke-double tripteron 4-upu exechon delta two-bennetts roberval-balance oldham
             geared-five-bar five-bar",
 ) {
-        assert_as_in_poses(&ozols::built_in(name).unwrap(), 4);
+        assert_as_in_poses(&built_in(name), 4);
     }
 }
 
@@ -162,11 +161,11 @@ fn variants_work_beside_the_drawn_pose_that_are_singular_there() {
         ("roberval-balance", 14 + 4),
         ("watt-straight-line", 14 + 5),
     ] {
-        let m = ozols::built_in(name).unwrap();
+        let m = built_in(name);
         assert_eq!(count_beside(&m), stated, "{name}");
     }
     for name in ["watt-six-bar", "sarrus", "four-bar", "roberval-balance"] {
-        let m = ozols::built_in(name).unwrap();
+        let m = built_in(name);
         assert_eq!(Some(count_beside(&m)), count_in_poses(&m), "{name}");
     }
     let text = run_quiet("search watt-six-bar --count");
@@ -191,7 +190,7 @@ fn the_gripper_loses_no_variant_with_one_motion() {
 #[test]
 fn a_motion_that_is_not_followed_is_said_to_be() {
     let why = |name: &str, change: fn(&mut Conditions)| {
-        let m = ozols::built_in(name).unwrap();
+        let m = built_in(name);
         let mut conditions = default_with(|c: &mut Conditions| c.throughout = true);
         change(&mut conditions);
         let search = Search::new(exact_field(&m, 0).unwrap(), &m, conditions).unwrap();

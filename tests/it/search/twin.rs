@@ -11,7 +11,6 @@ pub(crate) use crate::fuzz::readers::slow_search::{
     Choice, Twin, all_variants, look_at_variant, suits_state,
 };
 use ozols::redundancy::stress::{SelfStress, StressVerdict};
-use ozols::search::question::conditions::Symmetry;
 
 proptest! {
     #![proptest_config(crate::fuzz::runs(64))]

@@ -197,9 +197,7 @@ fn a_floating_nut_is_offered_where_types_do_not_help() {
         rail | table base | prismatic | 40, 0, 50 | 0, 0, 1
         ",
     );
-    let more = ["--format", "json", "-q"];
-    let (code, said, _) = run_on("search", "jack.toml", &jack, &more);
-    let found: Value = serde_json::from_str(&said).unwrap();
+    let (code, found) = answer_on("search", "jack.toml", &jack, "-q");
     assert_eq!(code, Some(1));
     let nuts = &found["offers"].list().last().unwrap()["unloading"];
     assert!(
@@ -209,9 +207,8 @@ fn a_floating_nut_is_offered_where_types_do_not_help() {
     );
     let nut = ["--unloading", "floating-nut-z=nut", "--forbid", "nut"];
     for method in ["diagram", "brute"] {
-        let more = [&more[..], &nut, &["--method", method]].concat();
-        let (_, said, _) = run_on("search", "jack.toml", &jack, &more);
-        let found: Value = serde_json::from_str(&said).unwrap();
+        let more = [&nut[..], &["-q", "--method", method]].concat();
+        let (_, found) = answer_on("search", "jack.toml", &jack, &more);
         assert_eq!(parse_count(&found["admissible"]), 1, "{method}");
         assert_eq!(found["admissible_by_mobility"], json!({ "1": "1" }));
     }
@@ -237,9 +234,7 @@ fn a_ball_in_a_groove_is_offered_at_a_bolt() {
         bolt-2 | right beam | fixed | 0, 25, 0 | 0, 0, 1
         ",
     );
-    let more = ["--format", "json", "-q"];
-    let (_, said, _) = run_on("search", "beam.toml", &beam, &more);
-    let found: Value = serde_json::from_str(&said).unwrap();
+    let (_, found) = answer_on("search", "beam.toml", &beam, "-q");
     let allow = found["offers"].list().iter().flat_map(|o| {
         let names = o["options"].list().iter().map(Value::word).join(",");
         [
@@ -249,10 +244,8 @@ fn a_ball_in_a_groove_is_offered_at_a_bolt() {
     });
     let allow = allow.collect_vec();
     assert!(allow.concat().contains("ball-in-v-groove-y"), "{allow:?}");
-    let allow = allow.iter().map(String::as_str);
-    let args = more.into_iter().chain(allow).collect_vec();
-    let (code, said, _) = run_on("search", "beam.toml", &beam, &args);
-    let found: Value = serde_json::from_str(&said).unwrap();
+    let allow = allow.iter().map(String::as_str).collect_vec();
+    let (code, found) = answer_on("search", "beam.toml", &beam, &allow);
     assert_eq!(code, Some(0));
     let best = &found["variants"][0];
     assert_eq!(

@@ -6,8 +6,6 @@ use crate::fuzz::readers::differential::assert_as_the_twins;
 use crate::search::twin::{Twin, all_variants, look_at_variant};
 use ozols::search::answer::search_counts::orbit_counts;
 use ozols::search::check::second_prime::{Verdict, build_both, compare_primes};
-use ozols::search::check::singular_values;
-use ozols::search::question::conditions::Symmetry;
 
 /// Joint types with the options that contain them.
 const KINDS: [(&str, &str); 9] = [

@@ -62,13 +62,8 @@ fn a_dead_point_ends_the_cycle_with_exit_code_1() {
     let joints = joints_of("0-1 0 0, 1-2 0 2, 2-3 2 2.5, 3-0 3 0");
     let mass = |l: &str| (l == "2").then_some((1.0, [1.0, 2.25], 0.1));
     let text = planar_file_with(&joints, &mass, "[workload]\ngravity = [0, -9.81, 0]\n");
-    let on = |more: &[&str]| {
-        let stroke = ["--stroke", "0:180deg:90"];
-        let (code, said, _) = run_on("statics", "rocker.toml", &text, &[&stroke, more].concat());
-        assert_eq!(code, Some(1));
-        said
-    };
-    let v: Value = serde_json::from_str(&on(&["--format", "json"])).unwrap();
+    let (code, v) = answer_on("statics", "rocker.toml", &text, "--stroke 0:180deg:90");
+    assert_eq!(code, Some(1));
     // Coupler and rocker in line when the crank's end is as far from the rocker's pivot as both are long.
     let (crank, ground) = (2.0f64, 3.0f64);
     let both = (4.0f64 + 0.25).sqrt() + (1.0f64 + 6.25).sqrt();
@@ -79,5 +74,4 @@ fn a_dead_point_ends_the_cycle_with_exit_code_1() {
     assert_eq!(stopped["group"], 0);
     assert!(stopped["condition"].real() > 1e3);
     assert_eq!(stopped["pose"].list().len(), 4);
-    has(&on(&[]), "group 2-3 is at a dead point");
 }

@@ -13,22 +13,6 @@ const TOLERANCES: Tolerances = Tolerances {
 const LINEAR: f64 = 1e7;
 const ANGULAR: f64 = 1e4;
 
-/// Numbers of the standard normal distribution: sums of twelve uniform ones.
-struct Normal(u64);
-
-impl Normal {
-    fn next(&mut self) -> f64 {
-        let mut unit = || {
-            self.0 = self
-                .0
-                .wrapping_mul(6_364_136_223_846_793_005)
-                .wrapping_add(1_442_695_040_888_963_407);
-            (self.0 >> 11) as f64 / (1_u64 << 53) as f64
-        };
-        (0..12).map(|_| unit()).sum::<f64>() - 6.0
-    }
-}
-
 /// The mean and the mean square of the force at each joint of a mechanism of hinges and tubes about z and balls, by displacements of the
 /// links.
 fn forces_by_displacements(m: &Mechanism, samples: usize) -> Vec<[f64; 2]> {
@@ -89,7 +73,9 @@ fn forces_by_displacements(m: &Mechanism, samples: usize) -> Vec<[f64; 2]> {
     let inverse = (0..free)
         .map(|n| solve_square(&stiff, &unit(n)))
         .collect_vec();
-    let mut random = Normal(7);
+    // The sum of twelve uniform numbers is nearly normal.
+    let mut noise = Noise::new(7, 0);
+    let mut normal = || (0..12).map(|_| noise.draw_uniform() / 2.0).sum::<f64>();
     let mut sums = vec![[0.0; 2]; points.len()];
     for _ in 0..samples {
         let errors: Vec<Vec<f64>> = rows
@@ -102,7 +88,7 @@ fn forces_by_displacements(m: &Mechanism, samples: usize) -> Vec<[f64; 2]> {
                         } else {
                             TOLERANCES.position
                         };
-                        tolerance / 3.0 * random.next()
+                        tolerance / 3.0 * normal()
                     })
                     .collect()
             })
@@ -142,7 +128,7 @@ fn misfit_of(m: &Mechanism) -> Misfit {
 #[test]
 fn assembly_forces_are_those_of_displacements() {
     for name in ["four-bar", "parallelogram-3-rods"] {
-        let m = ozols::built_in(name).unwrap();
+        let m = built_in(name);
         let found = misfit_of(&m);
         let twin = forces_by_displacements(&m, 2_000);
         for (joint, [mean, square]) in found.joints.iter().zip(twin) {
@@ -159,7 +145,7 @@ fn assembly_forces_are_those_of_displacements() {
 /// Every redesign of a four-bar of hinges, tubes and balls that leaves a redundant constraint, against the twin; the others have 0.
 #[test]
 fn redesigns_are_ranked_by_what_their_assembly_takes() {
-    let mut m = ozols::built_in("four-bar").unwrap();
+    let mut m = built_in("four-bar");
     m.edit().loads.accuracy = Some(Accuracy::uniform(TOLERANCES));
     let request = ozols::Request {
         options: ["revolute", "cylindrical", "spherical"]
@@ -228,9 +214,6 @@ fn the_file_states_how_accurate_its_joints_are() {
     assert_eq!(usual, fine);
     let text = std::fs::read_to_string(path).unwrap();
     let m = ozols::from_toml(&text).unwrap();
-    let written = ozols::file::write::toml(&ozols::file::write::mechanism_file(&m), &[]);
-    let again = ozols::from_toml(&written.unwrap()).unwrap();
-    assert_eq!(m.loads.accuracy, again.loads.accuracy);
     let force = misfit_force(&m, StateId::FREE, m.loads.accuracy.as_ref().unwrap()).unwrap();
     let joints = v["joints"].as_array().unwrap().iter();
     let most = joints.map(|j| j["force"]["rms"].real()).fold(0.0, f64::max);
@@ -245,12 +228,8 @@ fn the_file_states_how_accurate_its_joints_are() {
         "#,
     ) {
         let text = replace_once(&(plain.to_owned() + table), from, to);
-        let (_folder, path) = write_temporary("bad.toml", text);
-        let o = run(&["statics", path, "--misfit"]);
-        let said = String::from_utf8(o.stderr).unwrap();
-        assert_eq!(o.status.code(), Some(2), "{said}");
         for p in parts.split(" & ") {
-            assert!(said.contains(p), "no {p:?} in: {said}");
+            assert_fails_on("statics", "bad.toml", &text, "--misfit", p);
         }
     }
 }
@@ -258,7 +237,7 @@ fn the_file_states_how_accurate_its_joints_are() {
 /// The argument of [Pogrebnyak 2018] for determinate mechanisms, as a number.
 #[test]
 fn determinate_redesigns_assemble_without_force() {
-    let m = ozols::built_in("gripper-10").unwrap();
+    let m = built_in("gripper-10");
     let as_built = misfit_of(&m);
     assert!(as_built.force.mean > 10.0, "{:?}", as_built.force);
     assert!(as_built.by_hand < 1.0);

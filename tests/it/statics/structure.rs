@@ -215,11 +215,7 @@ fn several_drives_and_drives_between_moving_bodies() {
 
 #[test]
 fn a_pin_in_a_slot_is_a_turning_and_a_sliding_pair() {
-    let m = PlanarMechanism::new(
-        &read(ozols::builtin::text("lever-slot-gripper").unwrap()),
-        StateId::FREE,
-    )
-    .unwrap();
+    let m = PlanarMechanism::new(&built_in("lever-slot-gripper"), StateId::FREE).unwrap();
     assert_eq!(m.bodies.iter().filter(|b| b.link.is_none()).count(), 2);
     let d = decompose_groups(&m, &m.driven_pairs()).unwrap();
     laws(&m, &d);

@@ -1,7 +1,7 @@
 //! Variants ranked under the loads of the clamped states.
 
 use super::refused::run;
-use super::{built_in, text};
+use super::text;
 use crate::common::*;
 
 fn pool(s: &Search, n: usize) -> Vec<Assignment> {
@@ -12,7 +12,7 @@ fn pool(s: &Search, n: usize) -> Vec<Assignment> {
 /// The slow twin builds each variant as a mechanism, follows it to every part and takes singular values.
 #[test]
 fn variants_are_scored_by_the_worst_part() {
-    let m = built_in();
+    let m = built_in("lever-gripper");
     for redundant in [0, 1] {
         let request = default_with(|c: &mut Conditions| c.max_redundant = redundant);
         let s = Search::new(exact_field(&m, 0).unwrap(), &m, request).unwrap();

@@ -32,26 +32,11 @@ fn each_kind_of_motion_has_its_proof() {
         ("orthoglide delta-parallelograms y-star", Proof::Bonds),
         ("exechon", Proof::Contours),
         (
-            "bennett goldberg-5r goldberg-6r myard-5r bricard-box altmann",
+            "bennett goldberg-5r goldberg-6r myard-5r bricard-box altmann bricard-line-symmetric bricard-plane-symmetric
+            bricard-trihedral schatz-turbula two-bennetts miura-ori bricard-octahedron parallelogram-3-rods hoberman-ring-6
+            parallelogram-3-rods-planar kempe-translator roberts-cognates dixon-k33 dixon-k44",
             Proof::Multiplicity,
         ),
-        (
-            "bricard-line-symmetric bricard-plane-symmetric bricard-trihedral",
-            Proof::Multiplicity,
-        ),
-        (
-            "schatz-turbula two-bennetts miura-ori bricard-octahedron",
-            Proof::Multiplicity,
-        ),
-        (
-            "parallelogram-3-rods parallelogram-3-rods-planar",
-            Proof::Multiplicity,
-        ),
-        (
-            "kempe-translator roberts-cognates dixon-k33 dixon-k44",
-            Proof::Multiplicity,
-        ),
-        ("hoberman-ring-6", Proof::Multiplicity),
     ] {
         for name in split_words(names) {
             assert_eq!(proof(name), Some(by), "{name}");

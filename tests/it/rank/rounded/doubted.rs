@@ -5,15 +5,10 @@ use crate::common::*;
 
 #[test]
 fn decimal_ratios_that_are_all_but_fractions_are_doubted() {
+    let hinges =
+        "h0 | 0 a | revolute | 0, 0, 0 | 0, 0, 1\nh1 | 0 b | revolute | 30, 0, 0 | 0, 0, 1";
     let gears = |ratio: &str| {
-        door(["[0, 0, 0]", "[30, 0, 0]"], [Z, Z], "")
-            .replace("links = [\"0\", \"door\"]", "links = [\"0\", \"LINK\"]")
-            .replacen("LINK", "a", 1)
-            .replacen("LINK", "b", 1)
-            .replace(
-                "id = \"door\"\nrole",
-                "id = \"a\"\n[[link]]\nid = \"b\"\nrole",
-            )
+        write_mechanism("name = \"gears\"\nlength_unit = \"mm\"", "0 a b*", hinges)
             + &format!("[[coupling]]\njoints = [\"h0\", \"h1\"]\nratio = {ratio}\n")
     };
     let told = |ratio: &str| run_on("check", "gears.toml", &gears(ratio), "");

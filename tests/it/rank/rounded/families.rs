@@ -1,7 +1,7 @@
 //! Families of mechanisms whose mobility theory tells, turned at random and written with few digits: what is decided is right.
 //!
-//! A seeded part by default; `OZOLS_FUZZ=200 cargo test --test integration rounded::families -- --nocapture` takes so many of each
-//! family and number of decimals, of seeds drawn afresh, and prints a table.
+//! A seeded part by default; `OZOLS_FUZZ=200 cargo test --test integration rounded::families` takes so many of each
+//! family and number of decimals, of seeds drawn afresh.
 
 use super::search_numeric::small_request;
 use crate::common::*;
@@ -169,7 +169,6 @@ fn asked(default: usize) -> (usize, u64) {
 }
 
 #[test]
-#[allow(clippy::print_stdout, reason = "the table is what it is run for")]
 fn families_are_right_or_undecided_at_any_number_of_decimals() {
     let (each, seed) = asked(6);
     for (name, family, truth, enough) in FAMILIES {
@@ -192,10 +191,6 @@ fn families_are_right_or_undecided_at_any_number_of_decimals() {
                 })
                 .collect();
             let n = decided.iter().filter(|d| **d).count();
-            println!(
-                "{name} at {decimals} decimals: {n} of {} decided, none wrong",
-                decided.len()
-            );
             if enough.is_some_and(|least| decimals >= least) {
                 assert!(
                     n * 10 >= decided.len() * 9,

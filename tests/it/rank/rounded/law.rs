@@ -70,13 +70,8 @@ fn turned_files_have_the_counts_of_the_exact_one_or_say_that_they_are_not_exact(
     let asked = std::env::var("OZOLS_FUZZ")
         .ok()
         .and_then(|n| n.parse::<usize>().ok());
-    let first: u64 = match asked {
-        // Never the same twice.
-        Some(_) => std::time::SystemTime::now()
-            .duration_since(std::time::UNIX_EPOCH)
-            .map_or(1, |t| t.as_nanos() as u64),
-        None => 1,
-    };
+    // Never the same twice.
+    let first: u64 = if asked.is_some() { fresh_seed() } else { 1 };
     let exact: Vec<(usize, &str, Mechanism, Outcome)> = builtin::names()
         .into_par_iter()
         .enumerate()

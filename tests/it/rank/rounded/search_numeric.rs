@@ -47,14 +47,12 @@ pub(super) fn turned_bare(m: &Mechanism, decimals: usize, noise: &mut Noise) -> 
 fn a_bennett_linkage_from_cad_has_the_counts_of_the_exact_one() {
     let m = turned_bare(&plain_built_in("bennett"), 6, &mut Noise::new(11, 0));
     let file = ozols::export(&m, "toml").unwrap();
-    let options = ["--options", "revolute,cylindrical,spherical"];
-    let on = |more: &[&str]| {
-        let (code, stdout, stderr) =
-            run_on("search", "it.toml", &file, &[&options[..], more].concat());
-        assert_eq!(code, Some(0), "{stderr}");
-        stdout
-    };
-    let v: Value = serde_json::from_str(&on(&["--format", "json"])).unwrap();
+    let v = json_on(
+        "search",
+        "it.toml",
+        &file,
+        "--options revolute,cylindrical,spherical",
+    );
     let eight = json!({"from": "8", "to": "8", "doubtful": "0"});
     assert_eq!(&v["numeric"]["admissible"], &eight);
     assert_eq!(v["admissible"], "8");

@@ -68,21 +68,13 @@ search = { options = ["revolute", "planar", "sphere-in-cylinder"] }
 /// By exact ranks of the written numbers and by singular values alike: 244 of them have σ = 0, where the scene has 249.
 #[test]
 fn what_matters_for_few_variants_is_not_called_exact() {
-    for seed in ["1", "3", "8"] {
-        let (_, told, _) = run_on(
-            "search",
-            "it.toml",
-            BESIDE,
-            &["--format", "json", "--seed", seed],
-        );
-        let v: Value = serde_json::from_str(&told).unwrap();
+    let on = |more: &str| answer_on("search", "it.toml", BESIDE, more).1;
+    for seed in [1, 3, 8] {
+        let v = on(&format!("--seed {seed}"));
         assert_eq!(v["exact"], false, "{seed}");
         assert_eq!(v["determinate"], "244", "{seed}");
     }
-    for more in [["--method", "brute"], ["--as-written", "--count"]] {
-        let words = [&more[..], &["--format", "json"]].concat();
-        let (_, told, _) = run_on("search", "it.toml", BESIDE, &words);
-        let v: Value = serde_json::from_str(&told).unwrap();
-        assert_eq!(v["certainty"], "contradicted", "{more:?}");
+    for more in ["--method brute", "--as-written --count"] {
+        assert_eq!(on(more)["certainty"], "contradicted", "{more}");
     }
 }

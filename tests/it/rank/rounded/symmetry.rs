@@ -3,7 +3,6 @@
 
 use super::search_numeric::{small_request, turned_bare, without_options};
 use crate::common::*;
-use ozols::search::question::conditions::Symmetry;
 
 const BOTH: [Symmetry; 2] = [Symmetry::SymmetricOnly, Symmetry::OnePerOrbit];
 

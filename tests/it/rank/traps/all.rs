@@ -224,77 +224,63 @@ pub(crate) fn all() -> Vec<Trap> {
             "K. Miura, ISAS Report 618 (1985): one freedom",
         ));
     }
-    let hinge = |s: &mut Sketch, on: &str| {
-        s.pin([on, "flap"], 500.0, 7.0);
-    };
     for planar in [false, true] {
         let p = if planar { "-planar" } else { "" };
-        for levels in 1..=6 {
-            let order = 1 << levels;
-            let one = |s: &mut Sketch| cascade(s, levels, 0.0, "k");
-            out.push(with(planar, one).done(&format!("cascade-order-{order}{p}"), 0, CASCADE));
-            let more = |s: &mut Sketch| {
-                cascade(s, levels, 0.0, "k");
-                hinge(s, "ka0");
+        let mut put = |name: &str, truth: usize, source, build: &dyn Fn(&mut Sketch)| {
+            out.push(with(planar, build).done(&format!("{name}{p}"), truth, source));
+            let on = match name {
+                n if n.starts_with("cascade") => "ka0",
+                "watt-guided" => "wc",
+                "double-watt" => "dbar",
+                _ => return,
             };
-            out.push(with(planar, more).done(
-                &format!("cascade-order-{order}-hinge{p}"),
-                1,
-                CASCADE,
-            ));
+            let hinged = |s: &mut Sketch| {
+                build(s);
+                s.pin([on, "flap"], 500.0, 7.0);
+            };
+            out.push(with(planar, hinged).done(&format!("{name}-hinge{p}"), truth + 1, source));
+        };
+        for levels in 1..=6 {
+            let name = format!("cascade-order-{}", 1 << levels);
+            put(&name, 0, CASCADE, &|s| cascade(s, levels, 0.0, "k"));
         }
-        let watt = |s: &mut Sketch| watt_guided(s, 0.0, [40.0, 40.0], "w");
-        out.push(with(planar, watt).done(&format!("watt-guided{p}"), 0, WATT));
-        let watt = |s: &mut Sketch| {
-            watt_guided(s, 0.0, [40.0, 40.0], "w");
-            hinge(s, "wc");
-        };
-        out.push(with(planar, watt).done(&format!("watt-guided-hinge{p}"), 1, WATT));
-        let watt = |s: &mut Sketch| watt_guided(s, 0.0, [40.0, 25.0], "w");
-        out.push(with(planar, watt).done(&format!("watt-unequal-guided{p}"), 0, WATT));
-        let watts = |s: &mut Sketch| {
-            watt_guided(s, 0.0, [40.0, 40.0], "w");
-            watt_guided(s, 200.0, [40.0, 40.0], "v");
-        };
-        out.push(with(planar, watts).done(&format!("watt-guided-twice{p}"), 0, WATT));
-        let cusp = |s: &mut Sketch| double_watt(s, 0.0, "d");
-        out.push(with(planar, cusp).done(&format!("double-watt{p}"), 1, SERVATIUS));
-        let cusp = |s: &mut Sketch| {
-            double_watt(s, 0.0, "d");
-            hinge(s, "dbar");
-        };
-        out.push(with(planar, cusp).done(&format!("double-watt-hinge{p}"), 2, SERVATIUS));
-        let cusps = |s: &mut Sketch| {
+        let even = [40.0, 40.0];
+        put("watt-guided", 0, WATT, &|s| watt_guided(s, 0.0, even, "w"));
+        put("watt-unequal-guided", 0, WATT, &|s| {
+            watt_guided(s, 0.0, [40.0, 25.0], "w")
+        });
+        put("watt-guided-twice", 0, WATT, &|s| {
+            watt_guided(s, 0.0, even, "w");
+            watt_guided(s, 200.0, even, "v");
+        });
+        put("double-watt", 1, SERVATIUS, &|s| double_watt(s, 0.0, "d"));
+        put("double-watt-twice", 2, SERVATIUS, &|s| {
             double_watt(s, 0.0, "d");
             double_watt(s, 400.0, "e");
-        };
-        out.push(with(planar, cusps).done(&format!("double-watt-twice{p}"), 2, SERVATIUS));
+        });
         for bars in [2, 3, 4, 5] {
-            let chain = |s: &mut Sketch| taut(s, bars, 0.0, "t");
-            out.push(with(planar, chain).done(&format!("taut-chain-{bars}{p}"), 0, MAXWELL));
+            put(&format!("taut-chain-{bars}"), 0, MAXWELL, &|s| {
+                taut(s, bars, 0.0, "t")
+            });
         }
-        let both = |s: &mut Sketch| {
+        put("taut-chain-and-watt-hinge", 1, MAXWELL, &|s| {
             taut(s, 3, 0.0, "t");
-            watt_guided(s, 200.0, [40.0, 40.0], "w");
-            hinge(s, "wc");
-        };
-        out.push(with(planar, both).done(&format!("taut-chain-and-watt-hinge{p}"), 1, MAXWELL));
+            watt_guided(s, 200.0, even, "w");
+            s.pin(["wc", "flap"], 500.0, 7.0);
+        });
         let flat = |s: &mut Sketch| {
             s.pin(["0", "a"], 0.0, 0.0).pin(["a", "c"], 10.0, 0.0);
             s.pin(["c", "b"], 35.0, 0.0).pin(["b", "0"], 25.0, 0.0);
         };
-        out.push(with(planar, flat).done(&format!("parallelogram-collapsed{p}"), 1, HUNT));
-        let three = |s: &mut Sketch| {
-            s.pin(["0", "a"], 0.0, 0.0).pin(["a", "c"], 10.0, 0.0);
-            s.pin(["c", "b"], 35.0, 0.0).pin(["b", "0"], 25.0, 0.0);
+        put("parallelogram-collapsed", 1, HUNT, &flat);
+        put("three-cranks-collapsed", 1, HUNT, &|s| {
+            flat(s);
             s.pin(["0", "m"], 12.0, 0.0).pin(["m", "c"], 22.0, 0.0);
-        };
-        out.push(with(planar, three).done(&format!("three-cranks-collapsed{p}"), 1, HUNT));
-        let rhombus = |s: &mut Sketch| {
+        });
+        put("rhombus-folded", 1, HUNT, &|s| {
             s.pin(["0", "a"], 0.0, 0.0).pin(["a", "c"], 10.0, 0.0);
             s.pin(["c", "b"], 0.0, 0.0).pin(["b", "0"], 10.0, 0.0);
-        };
-        out.push(with(planar, rhombus).done(&format!("rhombus-folded{p}"), 1, HUNT));
+        });
     }
     out
 }

@@ -79,11 +79,7 @@ fn a_rod_that_is_a_hair_longer_is_never_said_to_move() {
 /// JSON gives a number where there is one, and both bounds always.
 #[test]
 fn both_bounds_are_told() {
-    let said = |text: &str| -> Value {
-        let (code, said, _) = run_on("analyze", "it.toml", text, "--format json");
-        assert_eq!(code, Some(0));
-        serde_json::from_str::<Value>(&said).unwrap()["states"][0].clone()
-    };
+    let said = |text: &str| json_on("analyze", "it.toml", text, "")["states"][0].clone();
     let keys = [
         "finite_mobility",
         "finite_mobility_at_least",

@@ -181,53 +181,26 @@ pub(crate) fn fcstd(objects: &[Object]) -> Vec<u8> {
 
 /// A planar four-bar of four hinges along z, each part where it stands: W = 1, σ = 3. `words` are the types of the joints.
 pub(crate) fn four_bar(words: [&str; 4]) -> Vec<Object> {
-    let [a, b, c, d] = CORNERS;
+    let [a, b, _, d] = CORNERS;
     // Parts stand at a corner each and are turned about z, so that places within them are not those of the world.
     let within = |world: [f64; 3], place: Place| {
         let (sine, cosine) = (-place.2.to_radians()).sin_cos();
         let [x, y, z] = [0, 1, 2].map(|i| world[i] - place.0[i]);
         Place([x * cosine - y * sine, x * sine + y * cosine, z], 'z', 0.0)
     };
-    let base = HERE;
-    let (crank, rod, rocker) = (
-        Place(a, 'z', 30.0),
-        Place(b, 'z', -75.0),
-        Place(d, 'z', 100.0),
-    );
-    assembled(
-        "Assembly",
-        &[
-            part("Base", base),
-            part("Crank", crank),
-            part("Rod", rod),
-            part("Rocker", rocker),
-            grounded("Base"),
-            joint(
-                "A",
-                words[0],
-                [("Base", within(a, base)), ("Crank", within(a, crank))],
-                "",
-            ),
-            joint(
-                "B",
-                words[1],
-                [("Crank", within(b, crank)), ("Rod", within(b, rod))],
-                "",
-            ),
-            joint(
-                "C",
-                words[2],
-                [("Rod", within(c, rod)), ("Rocker", within(c, rocker))],
-                "",
-            ),
-            joint(
-                "D",
-                words[3],
-                [("Rocker", within(d, rocker)), ("Base", within(d, base))],
-                "",
-            ),
-        ],
-    )
+    let parts = [
+        ("Base", HERE),
+        ("Crank", Place(a, 'z', 30.0)),
+        ("Rod", Place(b, 'z', -75.0)),
+        ("Rocker", Place(d, 'z', 100.0)),
+    ];
+    let mut objects = parts.map(|(name, place)| part(name, place)).to_vec();
+    objects.push(grounded("Base"));
+    for (i, (name, at)) in ["A", "B", "C", "D"].into_iter().zip(CORNERS).enumerate() {
+        let ends = [parts[i], parts[(i + 1) % 4]].map(|(part, place)| (part, within(at, place)));
+        objects.push(joint(name, words[i], ends, ""));
+    }
+    assembled("Assembly", &objects)
 }
 
 /// Where its hinges are, in mm.

@@ -2,7 +2,7 @@
 
 use super::{figures, read};
 use crate::common::*;
-use ozols::robots::Options;
+use crate::robots::message_of;
 
 /// A part off the origin and turned by 30 degrees about x, and one joint between the ground and it.
 pub(crate) fn asmt(head: &str, kind: &str, figure: &str) -> String {
@@ -86,10 +86,10 @@ fn each_joint_leaves_six_less_its_constraints() {
 #[test]
 fn a_type_that_is_not_known_is_named_with_those_that_are() {
     let text = asmt("OndselSolver", "Wobbly", "");
-    let said = super::refused("x.asmt", text.as_bytes());
+    let said = message_of("x.asmt", text.as_bytes());
     has(&said, "\"Wobbly\"");
     has(&said, "Cylindrical");
     let text = asmt("OndselSolver", "CylSph", "");
-    let said = super::refused("x.asmt", text.as_bytes());
+    let said = message_of("x.asmt", text.as_bytes());
     has(&said, "has no distanceIJ");
 }

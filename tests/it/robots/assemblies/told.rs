@@ -7,7 +7,6 @@ use super::make::{
 use super::{figures, read};
 use crate::common::*;
 use crate::robots::lint::linted;
-use ozols::robots::Options;
 
 fn lint(objects: &[Object]) -> (Option<i32>, Value) {
     linted("x.FCStd", fcstd(objects))

@@ -4,9 +4,9 @@ use super::make::{
     HERE, HINGES, Object, Place, assembled, fcstd, four_bar, grounded, group, joint, joint_type,
     label, packed, part, property, reference,
 };
-use super::{figures, read, refused};
+use super::{figures, read};
 use crate::common::*;
-use ozols::robots::Options;
+use crate::robots::message_of;
 
 fn changed(objects: &[Object], name: &str, from: &str, to: &str) -> Vec<Object> {
     let mut out = objects.to_vec();
@@ -19,18 +19,25 @@ fn changed(objects: &[Object], name: &str, from: &str, to: &str) -> Vec<Object> 
 #[test]
 fn archives_that_are_broken_are_told() {
     let whole = fcstd(&four_bar(HINGES));
-    let cut = refused("x.FCStd", &whole[..whole.len() / 2]);
-    has(&cut, "the zip archive cannot be read");
-    has(&cut, "save the document again");
-    let none = packed(&[("GuiDocument.xml", b"<Document/>")]);
-    assert!(refused("x.FCStd", &none).contains("no Document.xml"));
-    let bad = packed(&[("Document.xml", b"<Document><Objects></Document>")]);
-    let bad = refused("x.FCStd", &bad);
-    has(&bad, "not well-formed");
-    let other = packed(&[("Document.xml", b"<svg/>")]);
-    assert!(refused("x.FCStd", &other).contains("<svg>"));
-    let empty = fcstd(&[part("Base", HERE)]);
-    assert!(refused("x.FCStd", &empty).contains("no assembly in the document"));
+    let document = |text: &[u8]| packed(&[("Document.xml", text)]);
+    for (bytes, words) in [
+        (
+            whole[..whole.len() / 2].to_vec(),
+            "the zip archive cannot be read",
+        ),
+        (
+            packed(&[("GuiDocument.xml", b"<Document/>")]),
+            "no Document.xml",
+        ),
+        (
+            document(b"<Document><Objects></Document>"),
+            "not well-formed",
+        ),
+        (document(b"<svg/>"), "<svg>"),
+        (fcstd(&[part("Base", HERE)]), "no assembly in the document"),
+    ] {
+        has(&message_of("x.FCStd", &bytes), words);
+    }
 }
 
 // 70 MB of blanks pack into some kB.
@@ -39,26 +46,34 @@ fn a_member_that_unpacks_to_too_much_is_refused() {
     let blanks = vec![b' '; 70 << 20];
     let bomb = packed(&[("Document.xml", &blanks)]);
     assert!(bomb.len() < 1 << 20);
-    let said = refused("x.FCStd", &bomb);
+    let said = message_of("x.FCStd", &bomb);
     has(&said, "more than the 67108864 allowed");
 }
 
 #[test]
 fn numbers_and_places_that_are_none_are_named() {
     let bar = four_bar(HINGES);
-    let nan = changed(&bar, "A", "Px=\"0.0000000000000000\"", "Px=\"nan\"");
-    let said = refused("x.FCStd", &fcstd(&nan));
-    has(&said, "Px");
-    has(&said, "nan");
-    let far = changed(&bar, "A", "<Integer value=\"1\"", "<Integer value=\"77\"");
-    let said = refused("x.FCStd", &fcstd(&far));
-    has(&said, "JointType");
-    has(&said, "from 0 to 12");
-    let turned = changed(&bar, "A", "Q3=\"1.0000000000000000\"", "Q3=\"0\"");
-    let said = refused("x.FCStd", &fcstd(&turned));
-    has(&said, "write a rotation");
-    let twice = [bar.clone(), vec![part("Crank", HERE)]].concat();
-    assert!(refused("x.FCStd", &fcstd(&twice)).contains("is defined twice"));
+    let zero = "Px=\"0.0000000000000000\"";
+    for (from, to, words) in [
+        (zero, "Px=\"nan\"", &["Px", "nan"][..]),
+        (
+            "<Integer value=\"1\"",
+            "<Integer value=\"77\"",
+            &["JointType", "from 0 to 12"],
+        ),
+        (
+            "Q3=\"1.0000000000000000\"",
+            "Q3=\"0\"",
+            &["write a rotation"],
+        ),
+    ] {
+        has_all(
+            &message_of("x.FCStd", fcstd(&changed(&bar, "A", from, to))),
+            words,
+        );
+    }
+    let twice = [bar, vec![part("Crank", HERE)]].concat();
+    has(&message_of("x.FCStd", fcstd(&twice)), "is defined twice");
 }
 
 // FreeCAD leaves such joints out, and so do the figures, which say so: W may be too high.
@@ -254,7 +269,7 @@ fn asmt_files_that_are_wrong_are_told_by_line() {
         ("\tParts\n\t\t\tPart\n".to_owned(), "one tab deeper"),
         ("\tParts\n\t\tPart\n\t\t\tx\n".to_owned(), "has no Name"),
     ] {
-        let found = refused("x.asmt", format!("{head}{rest}").as_bytes());
+        let found = message_of("x.asmt", format!("{head}{rest}").as_bytes());
         assert!(found.contains(said), "{rest}: {found}");
         has(&found, "x.asmt");
     }

@@ -2,7 +2,6 @@
 
 use super::{refused, run_search};
 use crate::common::*;
-use ozols::search::question::conditions::Symmetry;
 
 fn gripper() -> String {
     builtin::text("gripper-10").unwrap().to_owned()

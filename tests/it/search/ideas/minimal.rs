@@ -126,11 +126,6 @@ fn what_moves_in_one_way_without_redundancy_is_minimal() {
     let balls = run_json(&[&["search", "gripper-10"][..], &balls].concat());
     assert!(balls["admissible_by_mobility"]["1"].is_null());
     assert!(parse_count(&balls["minimal"]) > 0);
-    let text = run_quiet("search gripper-10 --count");
-    has(
-        &text,
-        "7,150,020 minimal; the other 14,667,609 are one of these plus idle motion",
-    );
     // Of what is cut short nothing is minimal for certain, and orbits are not counted so.
     for more in [&["--nodes", "60"][..], &["--one-per-orbit"]] {
         let args = [&["search", "gripper-10", "--format", "json"][..], more].concat();

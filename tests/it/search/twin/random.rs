@@ -36,11 +36,9 @@ pub(crate) fn random() -> impl Strategy<Value = String> {
         0u8..3,
     )
         .prop_map(|(links, tree, more, clamped, alone)| {
-            let mut out = String::from("name = \"random\"\n");
-            for l in 0..links {
-                let role = if l == 0 { "role = \"frame\"" } else if l == links - 1 || l == 1 && links > 3 { "role = \"output\"" } else { "" };
-                out += &format!("[[link]]\nid = \"{l}\"\n{role}\n");
-            }
+            let mark = |l| if l == links - 1 || l == 1 && links > 3 { "*" } else { "" };
+            let mut names = (0..links).map(|l| format!("{l}{}", mark(l))).join(" ");
+            let mut lines = String::new();
             let mut edges: Vec<_> = (1..links).map(|l| (tree[l - 1].0.index(l), l, tree[l - 1].1)).collect();
             edges.extend(
                 more.iter().map(|(a, b, j)| (a.index(links), b.index(links), *j)).filter(|(a, b, _)| a != b),
@@ -50,18 +48,16 @@ pub(crate) fn random() -> impl Strategy<Value = String> {
                     ("revolute", 1) => "options = [\"revolute\", \"cylindrical\"]",
                     ("revolute", 2) => "options = [\"universal\", \"spherical\"]",
                     ("prismatic", 1) => "options = [\"cylindrical\"]",
-                    ("universal", 1) => "options = [\"spherical\"]\nunloading = [\"revolute\"]",
+                    ("universal", 1) => "options = [\"spherical\"]\\nunloading = [\"revolute\"]",
                     _ => "",
                 };
                 // Not of the tree, so that every link stays connected: a rest that is left as the part is clamped.
                 let state = if clamped && alone == 0 && i + 1 == edges.len() && i + 1 >= links { "state = \"free\"" } else { "" };
-                out += &format!(
-                    "[[joint]]\nid = \"j{i}\"\nlinks = [\"{a}\", \"{b}\"]\ntype = \"{}\"\npoint = {point:?}\naxis = {:?}\n{options}\n{state}\n",
-                    TYPES[*kind], AXES[*axis]
-                );
+                let (kind, point, axis) = (TYPES[*kind], commas(*point), commas(AXES[*axis]));
+                lines += &format!("j{i} | {a} {b} | {kind} | {point} | {axis} | {options}\\n{state}\n");
             }
             if clamped {
-                out += "[[link]]\nid = \"part\"\nrole = \"object\"\n";
+                names += " part!";
                 for (i, l) in [0, links - 1].iter().enumerate() {
                     let unloading = match (i, alone) {
                         (0, 2) => "unloading = [{ type = \"spherical\", point = [4, 2, 0] }]",
@@ -69,17 +65,15 @@ pub(crate) fn random() -> impl Strategy<Value = String> {
                         _ => "unloading = [\"spherical\"]",
                     };
                     // Contacts with freedoms of their own, which are not the free state's.
-                    let kind = if links % 2 == 1 && i == 1 {
-                        "type = \"revolute\"\naxis = [1, 0, 0]\noptions = [\"spherical\"]"
+                    let (kind, axis, options) = if links % 2 == 1 && i == 1 {
+                        ("revolute", "1, 0, 0", "options = [\"spherical\"]\\n")
                     } else {
-                        "type = \"fixed\""
+                        ("fixed", "", "")
                     };
-                    out += &format!(
-                        "[[joint]]\nid = \"c{i}\"\nlinks = [\"{l}\", \"part\"]\n{kind}\npoint = [4, {i}, 1]\nstate = \"clamped\"\n{unloading}\n"
-                    );
+                    lines += &format!("c{i} | {l} part | {kind} | 4, {i}, 1 | {axis} | {options}state = \"clamped\"\\n{unloading}\n");
                 }
             }
-            out
+            write_mechanism("name = \"random\"", &names, &lines)
         })
 }
 
