@@ -25,6 +25,7 @@ use crate::rank::finite::higher_order::HigherOrder;
 use crate::search::question::conditions::Conditions;
 use crate::search::question::kept::Kept;
 use crate::search::question::space::{Choice, Space, choice_name, coupled_twist};
+use crate::search::reduce::combinations::Combinations;
 use crate::search::reduce::self_stress_space::ClosingRows;
 use chacha20::ChaCha8Rng;
 use chacha20::rand_core::{Rng, SeedableRng};
@@ -363,14 +364,15 @@ impl Motion {
         // Freedoms of the joint itself come first where twists depend on each other.
         let mut order: Vec<usize> = (0..passed.len()).collect();
         order.sort_by_key(|&i| passed[i].0.is_none());
+        let twists: Vec<&Twist<Residue>> = order.iter().map(|&i| &passed[i].1).collect();
+        let combinations = Combinations::new(f, &twists);
         for k in 1..POWERS {
             let mut at = DisplacementSeries::identity(f, POWERS);
             for ((_, twist), q) in passed.iter().zip(&q) {
                 at = at.then(&DisplacementSeries::exp(f, twist, q));
             }
             let gap = at.inverse().then(goal).twist_of_order(k);
-            let twists: Vec<&Twist<Residue>> = order.iter().map(|&i| &passed[i].1).collect();
-            let more = combination(f, &twists, &gap)?;
+            let more = combinations.factors_of(&gap)?;
             for (&i, x) in order.iter().zip(more) {
                 q[i][k] = x;
             }
@@ -391,25 +393,4 @@ impl Passed {
         let q = passed.iter().map(coordinate).collect();
         own.next().is_none().then_some(q)
     }
-}
-
-/// Returns factors with which some twists add up to another, 0 for a twist that depends on those before it; `None` if there are none.
-fn combination(f: Field, twists: &[&Twist<Residue>], sum: &Twist<Residue>) -> Option<Vec<Residue>> {
-    let n = twists.len();
-    // Behind each twist its unit, negative: what reduces to nothing carries its factors there.
-    let mut span = Echelon::new(f);
-    for (i, twist) in twists.iter().enumerate() {
-        let mut row = twist.to_vec();
-        row.resize(6 + n, 0);
-        row[6 + i] = f.neg(f.one());
-        let mut left = row.clone();
-        span.reduce_vector(&mut left);
-        if left[..6].iter().any(|&x| x != 0) {
-            span.insert(&row);
-        }
-    }
-    let mut left = sum.to_vec();
-    left.resize(6 + n, 0);
-    span.reduce_vector(&mut left);
-    left[..6].iter().all(|&x| x == 0).then(|| left.split_off(6))
 }

@@ -17,6 +17,7 @@ use crate::model::mechanism::{JointId, Mechanism, StateId};
 use crate::motion::displacement_series::shifted_multiples;
 use crate::search::question::kept::Kept;
 use crate::search::question::space::{Space, Variable};
+use crate::search::reduce::combinations::Combinations;
 use crate::search::reduce::lifetimes::{AddedBy, Lifetime, shorten_lifetimes};
 use hashbrown::HashMap;
 use std::borrow::{Borrow, Cow};
@@ -208,39 +209,6 @@ pub(in crate::search) enum Part {
     Rate(usize),
 }
 
-/// Vectors as combinations of given ones.
-#[derive(Debug)]
-struct Basis {
-    size: usize,
-    rows: Echelon,
-}
-
-impl Basis {
-    /// Creates a basis of independent vectors.
-    fn new(field: Field, vectors: &[Vec<Residue>]) -> Basis {
-        let mut rows = Echelon::new(field);
-        for (i, v) in vectors.iter().enumerate() {
-            let mut row = v.clone();
-            row.resize(v.len() + vectors.len(), 0);
-            row[v.len() + i] = field.neg(field.one());
-            rows.insert(&row);
-        }
-        Basis {
-            size: vectors.len(),
-            rows,
-        }
-    }
-
-    /// Returns the factors of a vector of the span.
-    fn factors_of(&self, v: &[Residue]) -> Vec<Residue> {
-        let mut row = v.to_vec();
-        row.resize(v.len() + self.size, 0);
-        self.rows.reduce_vector(&mut row);
-        debug_assert!(row[..v.len()].iter().all(|&x| x == 0), "in the span");
-        row.split_off(v.len())
-    }
-}
-
 /// Reduces vectors modulo the motions of the original joints.
 struct BesidePresent {
     present: Echelon,
@@ -294,16 +262,12 @@ impl Reached {
         for of_variable in added.chunk_by(|a, b| a.0 == b.0).rev() {
             for (t, v) in of_variable {
                 if known.insert(&v[first..]) {
-                    out.push(v[first..].to_vec(), *t);
+                    out.vectors.push(v[first..].to_vec());
+                    out.by.push(*t);
                 }
             }
         }
         out.reverse_order()
-    }
-
-    fn push(&mut self, vector: Vec<Residue>, by: usize) {
-        self.vectors.push(vector);
-        self.by.push(by);
     }
 
     /// Reverses the order, so that the first variable's own vectors come first.
@@ -358,15 +322,15 @@ impl SelfStressSpace {
         let count = contours.vectors.len();
         let mut both = contours.vectors;
         both.extend(links.reduced_rows());
-        let basis = Basis::new(field, &both);
+        let basis = Combinations::new(field, &both);
         for (_, vector) in &mut vectors {
-            *vector = basis.factors_of(vector);
+            *vector = basis.factors_of(vector).expect("in the span");
         }
         let kept = Reached::last_reached(&vectors, count, Echelon::new(field));
-        let of_links = Basis::new(field, &kept.vectors);
+        let of_links = Combinations::new(field, &kept.vectors);
         for (_, vector) in &mut vectors {
             let links = of_links.factors_of(&vector[count..]);
-            vector.splice(count.., links);
+            vector.splice(count.., links.expect("in the span"));
         }
         let all = count + kept.vectors.len();
         let contours = shorten_lifetimes(field, &mut vectors, 0..count, &contours.by);
