@@ -44,7 +44,6 @@ fn each_axis_of_each_chart_has_two_labels_or_more() {
         "statics --stability -o stability",
         "grip lever-gripper --svg grip",
         "drive torsion-module --svg drive",
-        "bench --quick four-bar -o bench",
     ] {
         let (code, _, told) = folder.run(line);
         assert!(matches!(code, Some(0 | 1)), "{line}: {told}");
