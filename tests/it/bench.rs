@@ -3,12 +3,16 @@
 use crate::common::*;
 use ozols::Mechanism;
 use ozols::accuracy::lattice::make_lift;
-use ozols::accuracy::searching::record::{Bracket, Record, Share, Trial, Way};
-use ozols::accuracy::searching::{MECHANISMS, TrialEffort, run_trial};
 use ozols::accuracy::timing::Stopwatch;
 use ozols::search::check::brute::{Matrices, Seen};
 use ozols::search::check::brute_float::Approximate;
-use ozols::search::check::pruned::Pruned;
+use searching::pruned::Pruned;
+use searching::record::{Bracket, Record, Share, Trial, Way};
+use searching::{TrialEffort, run_trial};
+
+#[allow(dead_code, reason = "the bench draws charts, which are not tested")]
+#[path = "../../benches/ways/searching.rs"]
+mod searching;
 
 const EFFORT: TrialEffort = TrialEffort {
     looked: 400,
@@ -22,7 +26,7 @@ fn tried(mechanism: &Mechanism, request: &Request, effort: TrialEffort) -> Trial
         clock: || Duration::ZERO,
         repeat: 1,
     };
-    run_trial(mechanism, request, effort, watch, &mut |_, _, _| {}).unwrap()
+    run_trial(mechanism, request, effort, watch).unwrap()
 }
 
 fn trial_of(name: &str) -> Trial {
@@ -203,7 +207,7 @@ fn what_prunes_loses_nothing() {
         for pruned in [first, Pruned::new(&search, &order)] {
             // Of a large space what begins with the last choices.
             let begun = if few { 0 } else { order.len() - 6 };
-            let beginning: Vec<usize> = pruned.order()[..begun]
+            let beginning: Vec<usize> = pruned.order[..begun]
                 .iter()
                 .map(|&v| radix[v] - 1)
                 .collect();
@@ -219,7 +223,7 @@ fn what_prunes_loses_nothing() {
             });
             found.sort();
             let mut truth = Vec::new();
-            let rest = &pruned.order()[begun..];
+            let rest = &pruned.order[begun..];
             for last in rest.iter().map(|&v| 0..radix[v]).multi_cartesian_product() {
                 let mut choices: Vec<usize> = radix.iter().map(|n| n - 1).collect();
                 rest.iter().zip(last).for_each(|(&v, c)| choices[v] = c);
@@ -252,38 +256,13 @@ fn large_mechanisms_are_counted_with_budgets_alone() {
 }
 
 #[test]
-fn the_command_says_which_machine_it_ran_on_and_what_was_right() {
-    let v = run_json("bench four-bar --quick --top 3 --format json");
-    let machine = &v["machine"];
-    assert_eq!(machine["version"], env!("CARGO_PKG_VERSION"));
-    assert!(machine["cores"].whole() > 0 && !machine["processor"].word().is_empty());
-    let four_bar = &v["mechanisms"][0];
-    assert_eq!(four_bar["determinate"], "34");
-    assert_eq!(four_bar["all_looked_at"], true);
-    for way in v["ways"].list() {
-        assert!(way["variants_right"].as_u64() <= way["variants"].as_u64());
-    }
-}
-
-#[test]
-fn conditions_are_those_of_a_search_and_bad_ones_are_refused() {
-    let args = ["four-bar", "--max-mobility", "1", "--max-changes", "3"];
-    let search = run_json(&[&["search"], &args[..], &["--count", "--format", "json"]].concat());
-    let bench: Value =
-        run_json(&[&["bench", "--quick"], &args[..], &["--format", "json"]].concat());
-    assert_eq!(bench["mechanisms"][0]["admissible"], search["admissible"]);
-    assert_all_fail(
-        "
-        bench --quick nosuch | neither a file nor a built-in mechanism
-        bench --quick four-bar --repeat 0 | --repeat must be at least 1
-        bench --quick four-bar --looked 0 | --looked must be at least 1
-        bench --quick gripper-10 --one-per-orbit | --one-per-orbit
-        bench --quick four-bar --options gearbox | no joint of four-bar
-        ",
-    );
-    let list = List::Top(3);
-    let request = default_with(|r: &mut Request| r.list = list);
+fn conditions_are_those_of_a_search() {
+    let m = built_in("four-bar");
+    let request =
+        default_with(|r: &mut Request| (r.max_mobility, r.max_changes) = (Some(1), Some(3)));
+    let counted = ozols::search(&m, &request).unwrap().admissible.to_string();
+    assert_eq!(tried(&m, &request, EFFORT).admissible, Some(counted));
+    let request = default_with(|r: &mut Request| r.list = List::Top(3));
     let top = tried(&built_in("lever-gripper"), &request, EFFORT);
     assert_eq!(of(&top, Way::Pool(Some(1000))).best.unwrap().of, 3);
-    assert!(MECHANISMS.len() >= 4 && MECHANISMS.contains(&"gripper-10"));
 }

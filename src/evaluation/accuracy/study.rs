@@ -46,7 +46,7 @@ pub enum View {
 }
 
 /// The name of a row, with its tally at each of its values.
-pub(super) type Row = (String, Vec<(f64, Tally)>);
+pub type Row = (String, Vec<(f64, Tally)>);
 
 /// The texts of a study, and how it is drawn; `studies.toml` says more.
 #[derive(Debug, Clone, Deserialize)]
@@ -69,7 +69,7 @@ pub struct Texts {
     #[serde(default = "said_words")]
     words: [String; 4],
     /// Advice to the user.
-    pub(super) advice: String,
+    pub advice: String,
 }
 
 fn said_words() -> [String; 4] {
@@ -96,14 +96,14 @@ pub struct Study {
     /// The values of the quantity, ascending.
     pub values: Vec<f64>,
     /// The rows.
-    pub(super) rows: Vec<Row>,
+    pub rows: Vec<Row>,
     /// A further sentence for the conclusion, or empty.
-    pub(super) note: String,
+    pub note: String,
 }
 
 impl Study {
     /// Returns a study without answers, which has texts by its name.
-    pub(super) fn new(name: &'static str, values: Vec<f64>) -> Study {
+    pub fn new(name: &'static str, values: Vec<f64>) -> Study {
         Study {
             name,
             texts: TEXTS[name].clone(),
@@ -141,7 +141,7 @@ impl Study {
     }
 
     /// Adds a tally to a row, which is new if none has its name.
-    pub(super) fn add_tally(&mut self, row: &str, value: f64, tally: Tally) {
+    pub fn add_tally(&mut self, row: &str, value: f64, tally: Tally) {
         match self.rows.iter_mut().find(|r| r.0 == row) {
             Some(row) => row.1.push((value, tally)),
             None => self.rows.push((row.to_owned(), vec![(value, tally)])),

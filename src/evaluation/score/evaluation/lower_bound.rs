@@ -7,10 +7,11 @@
 
 use crate::geom::vector::{dot, length};
 use crate::model::ranking::ClearanceSum;
+use crate::score::evaluation::coupled::CoupledChoice;
 use crate::score::evaluation::evaluate::Evaluator;
 use crate::score::evaluation::pose_tables::{PlacedJoint, PoseTable};
 use crate::score::evaluation::terms::Floor;
-use ozols_dense::{Matrix, svd, thin_svd};
+use ozols_dense::{Matrix, difference, norm, svd, thin_svd};
 
 /// Steps of each problem.
 const STEPS: usize = 60;
@@ -52,7 +53,7 @@ impl Evaluator<'_> {
             let Some(common) = common_equations(table) else {
                 continue;
             };
-            let meshing = table.meshing_of_all();
+            let meshing = meshing_of_all(table);
             // What passes beside a joint in some variants and through it in others is not bounded.
             let decided = |p: &&PlacedJoint| {
                 let mut all = p.couplings.iter();
@@ -98,6 +99,26 @@ impl Evaluator<'_> {
     }
 }
 
+/// Returns for each coupling whether its teeth mesh in every variant or in none. `None` if that depends on the variant.
+fn meshing_of_all(table: &PoseTable) -> Vec<Option<bool>> {
+    let mut seen: Vec<Vec<CoupledChoice>> = vec![Vec::new(); table.couplings];
+    for place in &table.places {
+        for (n, at) in place.couplings.iter().enumerate() {
+            let choices = table.cells[place.variable].iter();
+            seen[at.coupling].extend(choices.map(|c| c[place.slot].coupled[n]));
+        }
+    }
+    let alike = |seen: &Vec<CoupledChoice>| {
+        let all = |wanted| seen.iter().all(|c| *c == wanted);
+        if all(CoupledChoice::BearsTeeth) {
+            Some(true)
+        } else {
+            all(CoupledChoice::AlongFreedom).then_some(false)
+        }
+    };
+    seen.iter().map(alike).collect()
+}
+
 /// Returns the greatest capacity that a choice gives a place. `None` if a choice has no capacity of the kind that counts.
 fn greatest_capacity(
     table: &PoseTable,
@@ -119,40 +140,35 @@ fn least_clearance(table: &PoseTable, place: &PlacedJoint) -> f64 {
     least.unwrap_or(0.0)
 }
 
-/// Returns the equations that hold for every variant: rows in the span of those of each choice.
+/// Returns the equations of a place that hold for every variant: rows in the span of those of each choice.
+pub(in crate::score) fn common_rows<'t>(
+    table: &'t PoseTable,
+    place: &PlacedJoint,
+) -> Vec<&'t Vec<f64>> {
+    let width = table.basis.len() + table.couplings;
+    let choices = &table.cells[place.variable];
+    let kept = |row: &&Vec<f64>| {
+        let mut all = choices.iter();
+        all.all(|c| is_in_span(row, &c[place.slot].rows, width))
+    };
+    let first = choices.first().into_iter();
+    let rows = first.flat_map(|c| &c[place.slot].rows);
+    rows.filter(kept).collect()
+}
+
+/// Returns the solutions of the equations that hold for every variant.
 fn common_equations(table: &PoseTable) -> Option<Common> {
-    let (dim, unknowns) = (table.basis.len(), table.count_unknowns());
-    let width = dim + table.couplings;
-    let mut rows: Vec<(&PlacedJoint, &Vec<f64>)> = Vec::new();
-    for place in &table.places {
-        let choices = &table.cells[place.variable];
-        let Some(first) = choices.first() else {
-            continue;
-        };
-        for row in &first[place.slot].rows {
-            let kept = |c: &Vec<crate::score::evaluation::pose_tables::Cell>| {
-                is_in_span(row, &c[place.slot].rows, width)
-            };
-            if choices.iter().all(kept) {
-                rows.push((place, row));
-            }
-        }
-    }
+    let unknowns = table.count_unknowns();
+    let of_place = |place| {
+        let own = common_rows(table, place).into_iter();
+        own.map(move |row| table.whole_row(place, row))
+    };
+    let rows: Vec<Vec<f64>> = table.places.iter().flat_map(of_place).collect();
     if rows.is_empty() || unknowns == 0 {
         return None;
     }
-    let mut matrix = Matrix::zeros(rows.len(), unknowns);
-    for (r, (place, row)) in rows.iter().enumerate() {
-        for &(k, sign) in &place.contours {
-            for (b, x) in row[..dim].iter().enumerate() {
-                matrix[(r, k * dim + b)] = sign * x;
-            }
-        }
-        for (q, x) in row[dim..width].iter().enumerate() {
-            matrix[(r, dim * table.contours + q)] = *x;
-        }
-    }
-    let right = Matrix::from_fn(rows.len(), table.cases, |r, c| rows[r].1[width + c]);
+    let matrix = Matrix::from_fn(rows.len(), unknowns, |r, c| rows[r][c]);
+    let right = Matrix::from_fn(rows.len(), table.cases, |r, c| rows[r][unknowns + c]);
     let svd = svd(&matrix)?;
     let rank = svd.rank(NONE);
     let x = svd.least_norm(rank, &right);
@@ -167,25 +183,12 @@ fn common_equations(table: &PoseTable) -> Option<Common> {
 /// Returns whether a unit twist, with its entries in couplings up to the given width, is in the span of others. Its right sides are then
 /// determined, because they are linear in the twist.
 pub(in crate::score) fn is_in_span(row: &[f64], others: &[Vec<f64>], width: usize) -> bool {
-    let inner = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(x, y)| x * y).sum::<f64>();
-    let clear = |mut v: Vec<f64>, basis: &[Vec<f64>]| {
-        // Twice is enough [Parlett 1998, 6.9].
-        for b in basis.iter().chain(basis) {
-            let along = inner(&v, b);
-            v.iter_mut().zip(b).for_each(|(x, y)| *x -= along * y);
-        }
-        v
+    let Some(svd) = thin_svd(&Matrix::from_fn(others.len(), width, |r, c| others[r][c])) else {
+        return false;
     };
-    let mut basis: Vec<Vec<f64>> = Vec::new();
-    for other in others {
-        let rest = clear(other[..width].to_vec(), &basis);
-        let size = inner(&rest, &rest).sqrt();
-        if size > NONE {
-            basis.push(rest.iter().map(|x| x / size).collect());
-        }
-    }
-    let rest = clear(row[..width].to_vec(), &basis);
-    inner(&rest, &rest).sqrt() <= NONE
+    let basis = svd.v.cols(0..svd.rank(NONE));
+    let along = basis.transpose_times(&Matrix::from_column(&row[..width]));
+    norm(&difference(&row[..width], basis.times(&along).col(0))) <= NONE
 }
 
 /// Returns the load of a place in one load case, as a function of the coordinates that the common equations leave open.

@@ -1,53 +1,53 @@
 //! What ways of searching are judged by: a search over a prime that none of them uses, and variants examined one by one.
 
 use super::record::{Share, TrialEffort};
-use crate::geom::exact::ExactError;
-use crate::model::mechanism::Mechanism;
-use crate::rank::exact::field::exact_field;
-use crate::score::outcome::Outcome;
-use crate::score::request::Request;
-use crate::score::run::{RunError, run};
-use crate::search::Search;
-use crate::search::answer::keys::Key;
-use crate::search::check::brute::{self, Matrices, Seen};
-use crate::search::diagram::Stop;
 use chacha20::ChaCha8Rng;
 use chacha20::rand_core::{Rng, SeedableRng};
 use itertools::Itertools;
 use num_bigint::BigUint;
 use num_traits::ToPrimitive;
+use ozols::geom::exact::ExactError;
+use ozols::model::mechanism::Mechanism;
+use ozols::rank::exact::field::exact_field;
+use ozols::score::outcome::Outcome;
+use ozols::score::request::Request;
+use ozols::score::run::{RunError, run};
+use ozols::search::Search;
+use ozols::search::answer::keys::Key;
+use ozols::search::check::brute::{self, Matrices, Seen};
+use ozols::search::diagram::Stop;
 use rayon::prelude::*;
 
 /// The prime of the truth, counted from 0: searches use the first two.
 const PRIME: usize = 2;
 
 /// Properties of a variant that is judged determinate, and whether it meets every condition.
-pub(super) type Judged = (Key, bool);
+pub(crate) type Judged = (Key, bool);
 
 /// The numbers of determinate and of admissible variants.
-pub(super) type Counts = [BigUint; 2];
+pub(crate) type Counts = [BigUint; 2];
 
 /// The truth about a mechanism.
-pub(super) struct Truth {
+pub(crate) struct Truth {
     /// The search over the prime of the truth.
-    pub(super) search: Search,
+    pub(crate) search: Search,
     matrices: Matrices,
     /// Variants examined one by one: all, or half of them drawn from all and half from the admissible ones.
-    pub(super) looked: Vec<Vec<usize>>,
+    pub(crate) looked: Vec<Vec<usize>>,
     /// How many times as many there are.
-    pub(super) ratio: f64,
+    pub(crate) ratio: f64,
     /// The number of scored variants of a ranking, and whether no other can win.
-    pub(super) pool: Option<(usize, bool)>,
+    pub(crate) pool: Option<(usize, bool)>,
     judged: Vec<Option<Judged>>,
     /// `None` if the diagram over the prime of the truth does not fit into the budget.
-    pub(super) counts: Option<Counts>,
+    pub(crate) counts: Option<Counts>,
     /// The choices of the best in a ranking; `None` if there is none, or others may win.
     best: Option<Vec<Vec<usize>>>,
 }
 
 impl Truth {
     /// Returns the truth about the mechanism and the conditions of an outcome. A ranking is made over the largest pool.
-    pub(super) fn new(
+    pub(crate) fn new(
         outcome: &Outcome,
         mechanism: &Mechanism,
         request: &Request,
@@ -99,7 +99,7 @@ impl Truth {
     }
 
     /// Returns whether all variants are examined.
-    pub(super) fn is_whole(&self) -> bool {
+    pub(crate) fn is_whole(&self) -> bool {
         self.ratio <= 1.0
     }
 
@@ -108,14 +108,14 @@ impl Truth {
     }
 
     /// Returns how many of the two counts are right.
-    pub(super) fn counts_right(&self, found: &Counts) -> Option<Share> {
+    pub(crate) fn counts_right(&self, found: &Counts) -> Option<Share> {
         let pairs = self.counts.as_ref()?.iter().zip(found);
         let right = pairs.filter(|(a, b)| a == b).count();
         Some(Share { right, of: 2 })
     }
 
     /// Returns how many of the best of a ranking an outcome lists.
-    pub(super) fn best_right(&self, outcome: &Outcome) -> Option<Share> {
+    pub(crate) fn best_right(&self, outcome: &Outcome) -> Option<Share> {
         let (best, given) = (self.best.as_ref()?, choices_listed(outcome));
         let right = best.iter().filter(|b| given.contains(b)).count();
         let of = best.len();
@@ -123,7 +123,7 @@ impl Truth {
     }
 
     /// Returns how many of the examined variants are judged rightly: whether determinate, with which σ, and whether admissible.
-    pub(super) fn variants_right(&self, judged: &[Option<Judged>]) -> Share {
+    pub(crate) fn variants_right(&self, judged: &[Option<Judged>]) -> Share {
         let verdict = |j: &Option<Judged>| j.map(|(key, good)| (key.internal(), good));
         let pairs = self.judged.iter().zip(judged);
         let right = pairs.filter(|(a, b)| verdict(a) == verdict(b)).count();
@@ -133,7 +133,7 @@ impl Truth {
 }
 
 /// Returns the counts of judged variants.
-pub(super) fn count_judged(judged: &[Option<Judged>]) -> Counts {
+pub(crate) fn count_judged(judged: &[Option<Judged>]) -> Counts {
     let determinate = judged.iter().flatten();
     [
         determinate.clone().count(),
@@ -149,19 +149,19 @@ fn choices_listed(outcome: &Outcome) -> Vec<Vec<usize>> {
 }
 
 /// Returns a search over another prime.
-pub(super) fn search_over_prime(search: &Search, nth: usize) -> Result<Search, RunError> {
+pub(crate) fn search_over_prime(search: &Search, nth: usize) -> Result<Search, RunError> {
     let field = exact_field(&search.mechanism, nth)?;
     let conditions = search.conditions.clone();
     Ok(Search::new(field, search.mechanism.clone(), conditions)?)
 }
 
 /// Searches by the diagram.
-pub(super) fn search_with(mechanism: &Mechanism, request: &Request) -> Result<Outcome, RunError> {
+pub(crate) fn search_with(mechanism: &Mechanism, request: &Request) -> Result<Outcome, RunError> {
     run(mechanism.clone(), request, &|| false, &mut |_| {})
 }
 
 /// Returns the judgement that follows from what was seen of a variant; `None` if it is not determinate.
-pub(super) fn judge_seen(
+pub(crate) fn judge_seen(
     search: &Search,
     choices: &[usize],
     seen: Seen,
@@ -171,7 +171,7 @@ pub(super) fn judge_seen(
 }
 
 /// Returns the judgement of a search's diagrams; `None` if the variant is not in that of the determinate ones.
-pub(super) fn by_diagram(outcome: &Outcome, choices: &[usize]) -> Option<Judged> {
+pub(crate) fn by_diagram(outcome: &Outcome, choices: &[usize]) -> Option<Judged> {
     let (search, diagrams) = (&outcome.search, outcome.diagrams.as_ref()?);
     let key = |redundancy| brute::variant_key(search, choices, redundancy);
     // The diagram of the determinate ones does not ask what the state makes of a variant.
@@ -182,7 +182,7 @@ pub(super) fn by_diagram(outcome: &Outcome, choices: &[usize]) -> Option<Judged>
 }
 
 /// Judges variants in parallel.
-pub(super) fn judge_all<E: Send>(
+pub(crate) fn judge_all<E: Send>(
     variants: &[Vec<usize>],
     judge: impl Fn(&[usize]) -> Result<Option<Judged>, E> + Sync,
 ) -> Result<Vec<Option<Judged>>, E> {

@@ -7,29 +7,31 @@
 //! is proven that no other variant can win.
 
 mod ground_truth;
-pub mod pictures;
-pub mod record;
-pub use record::TrialEffort;
+pub(crate) mod pictures;
+pub(crate) mod pruned;
+pub(crate) mod record;
 
-use super::timing::Stopwatch;
-use crate::model::mechanism::Mechanism;
-use crate::rank::numeric::Elimination;
-use crate::score::outcome::Outcome;
-use crate::score::request::{Check, List, Method, POOL, Request};
-use crate::score::run::RunError;
-use crate::search::check::brute::{Matrices, Seen};
-use crate::search::check::brute_float::Approximate;
-use crate::search::check::pruned::Pruned;
-use crate::search::diagram::Stop;
-use ground_truth::{Truth, search_with};
+pub(crate) use self::record::TrialEffort;
+
+use self::ground_truth::{Truth, search_with};
+use self::pruned::Pruned;
+use self::record::{Bracket, Record, Trial, Way};
 use num_bigint::BigUint;
 use num_traits::ToPrimitive;
-use record::{Bracket, Record, Trial, Way};
+use ozols::accuracy::timing::{Stopwatch, Timing};
+use ozols::model::mechanism::Mechanism;
+use ozols::rank::numeric::Elimination;
+use ozols::score::outcome::Outcome;
+use ozols::score::request::{Check, List, Method, POOL, Request};
+use ozols::score::run::RunError;
+use ozols::search::check::brute::{Matrices, Seen};
+use ozols::search::check::brute_float::Approximate;
+use ozols::search::diagram::Stop;
 use std::hint::black_box;
 
 /// The built-in mechanisms that are compared by default, in addition to some whose diagrams are large. They have few or
 /// many variants, special geometry, coupled joints, planar mode, or loads to rank by.
-pub const MECHANISMS: [&str; 6] = [
+pub(crate) const MECHANISMS: [&str; 6] = [
     "gripper-10",
     "gripper-10-loaded",
     "lever-gripper",
@@ -41,22 +43,18 @@ pub const MECHANISMS: [&str; 6] = [
 /// The budgets of nodes that are compared.
 const BUDGETS: [usize; 5] = [1_000, 10_000, 100_000, 1_000_000, 10_000_000];
 
-/// Receives the current way, the number of finished ways and their number.
-pub type Progress<'a> = &'a mut dyn FnMut(Way, usize, usize);
-
 /// Tries every way of searching a mechanism. The request gives the conditions and the number of the best.
 ///
 /// # Errors
-/// Returns an error in the same cases as [`crate::score::run::run`].
+/// Returns an error in the same cases as [`ozols::score::run::run`].
 ///
 /// # Complexity
 /// Some searches, and six examinations of each of [`TrialEffort::looked`] variants.
-pub fn run_trial(
+pub(crate) fn run_trial(
     mechanism: &Mechanism,
     request: &Request,
     effort: TrialEffort,
     watch: Stopwatch,
-    progress: Progress<'_>,
 ) -> Result<Trial, RunError> {
     let top = match request.list {
         List::Top(k) => k,
@@ -89,8 +87,7 @@ pub fn run_trial(
     }
     if let Some(truth) = &truth {
         let ways = list_ways(truth.pool.is_some(), effort.pool.unwrap_or(usize::MAX));
-        for (n, &way) in ways.iter().enumerate() {
-            progress(way, n, ways.len());
+        for way in ways {
             trial.records.push(if way.examines_variants() {
                 by_looking(truth, way, watch)?
             } else {
@@ -100,7 +97,6 @@ pub fn run_trial(
     }
     for (n, nodes) in BUDGETS.into_iter().enumerate() {
         let way = Way::Nodes(nodes);
-        progress(way, n, BUDGETS.len());
         let (outcome, record) = by_diagram(truth.as_ref(), way, mechanism, &base, watch)?;
         trial.space = outcome.search.size().to_string();
         let exact = outcome.stop == Stop::Exhausted;
@@ -238,7 +234,13 @@ fn by_looking(truth: &Truth, way: Way, watch: Stopwatch) -> Result<Record, RunEr
     };
     let (judged, each) = watch.time_repeatedly(|| ground_truth::judge_all(&truth.looked, judge));
     let judged = judged?;
-    let counting = each.map(|t| t * truth.ratio + ready.median);
+    let whole_time = |t: f64| t * truth.ratio + ready.median;
+    let counting = Timing {
+        median: whole_time(each.median),
+        least: whole_time(each.least),
+        most: whole_time(each.most),
+        ..each
+    };
     let whole = truth.is_whole();
     let counts = whole.then(|| ground_truth::count_judged(&judged));
     Ok(Record {

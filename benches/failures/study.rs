@@ -4,20 +4,23 @@
 //! The reference is exact: the same doubles solved in rational arithmetic. Every distance is tested on several groups
 //! that differ by small random shifts of their points, and the median error is reported.
 
-use crate::statics::contour_group::equilibrium::{solve_equilibrium, solve_exactly};
-use crate::statics::contour_group::pose::{GroupPose, GroupReactions};
-use crate::statics::contour_group::{delta_point, projective};
-use crate::statics::pose::{cross, length, minus, plus, quarter_turn};
+use super::exact::solve_exactly;
 use chacha20::ChaCha8Rng;
 use chacha20::rand_core::{Rng, SeedableRng};
+use ozols::statics::contour_group::equilibrium::solve_equilibrium;
+use ozols::statics::contour_group::pose::{GroupPose, GroupReactions};
+use ozols::statics::contour_group::{delta_point, projective};
+use ozols::statics::cycle::Statics;
+use ozols::statics::kinetostatics::{Load, LoadSource};
+use ozols::statics::pose::{cross, length, minus, plus, quarter_turn};
 use rayon::prelude::*;
 
 /// Number of groups tested at each distance in [`study_failures`].
-pub const GROUPS: usize = 9;
+pub(crate) const GROUPS: usize = 9;
 
 /// Configurations in which the δ-point method fails. `[Bychkov, Dvornikov & Zhukov 2018]`
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Failure {
+pub(crate) enum Failure {
     /// Rods 6 and 7 are parallel: δ is at infinity. The distance is their angle `[rad]`.
     ParallelRods,
     /// D lies on the line through δ along the guide's normal: R34^n and R_0/10 are parallel, and the group moves. The
@@ -31,7 +34,7 @@ pub enum Failure {
 
 impl Failure {
     /// All four configurations.
-    pub const ALL: [Failure; 4] = [
+    pub(crate) const ALL: [Failure; 4] = [
         Failure::ParallelRods,
         Failure::AcrossGuide,
         Failure::AtDelta,
@@ -39,8 +42,7 @@ impl Failure {
     ];
 
     /// Returns a word for files.
-    #[must_use]
-    pub fn name(self) -> &'static str {
+    pub(crate) fn name(self) -> &'static str {
         match self {
             Failure::ParallelRods => "parallel-rods",
             Failure::AcrossGuide => "across-guide",
@@ -50,12 +52,23 @@ impl Failure {
     }
 }
 
+/// Returns the first four-link group with a closed contour, in the pose in which external forces load it most.
+pub(crate) fn heaviest_group(found: &Statics) -> Option<&GroupPose> {
+    let weight = |g: &&GroupPose| -> f64 {
+        let outside = g.loads.iter().filter(|l| l.source == LoadSource::External);
+        outside.map(|l| l.force[0].hypot(l.force[1])).sum()
+    };
+    let first = found.moments.iter().filter_map(|x| x.groups.first());
+    let poses = first.map(|g| &g.pose);
+    poses.max_by(|a, b| weight(a).total_cmp(&weight(b)))
+}
+
 /// A measure of each method: δ-point, projective, equilibrium.
-pub type ByMethod = [f64; 3];
+pub(crate) type ByMethod = [f64; 3];
 
 /// Errors at one distance.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct DistanceErrors {
+pub(crate) struct DistanceErrors {
     /// The distance from the failure.
     pub distance: f64,
     /// Largest error of a reaction over the largest reaction.
@@ -77,8 +90,7 @@ fn delta_point(g: &GroupPose) -> [f64; 2] {
 
 /// Returns a group at a distance from a failure. At distance 1 it has the size of `base`. Returns `None` if `base` has
 /// no exact solution.
-#[must_use]
-pub fn at_distance(base: &GroupPose, failure: Failure, distance: f64) -> Option<GroupPose> {
+pub(crate) fn at_distance(base: &GroupPose, failure: Failure, distance: f64) -> Option<GroupPose> {
     let mut g = base.clone();
     let delta = delta_point(base);
     match failure {
@@ -100,10 +112,22 @@ pub fn at_distance(base: &GroupPose, failure: Failure, distance: f64) -> Option<
         Failure::AtDelta => g.d = plus(delta, distance, minus(g.d, delta)),
         Failure::NoGuideReaction => {
             let off = solve_exactly(base)?.guide * (1.0 - distance);
-            g.push(3, g.m, g.guide_normal().map(|c| c * off));
+            let normal = g.guide_normal();
+            push_link(&mut g, 3, base.m, normal.map(|c| c * off));
         }
     }
     Some(g)
+}
+
+/// Adds a force on a link.
+pub(crate) fn push_link(g: &mut GroupPose, link: usize, point: [f64; 2], force: [f64; 2]) {
+    g.loads.push(Load {
+        body: link,
+        source: LoadSource::External,
+        point,
+        force,
+        moment: 0.0,
+    });
 }
 
 fn relative_error(found: f64, exact: f64) -> f64 {
@@ -112,7 +136,6 @@ fn relative_error(found: f64, exact: f64) -> f64 {
 }
 
 /// Returns the errors of the three methods on one group, or `None` if its equilibrium is singular.
-#[must_use]
 fn method_errors(g: &GroupPose, distance: f64) -> Option<DistanceErrors> {
     let reference = solve_exactly(g)?;
     let by_lu = solve_equilibrium(g);
@@ -135,7 +158,6 @@ fn shift_points(base: &GroupPose, rng: &mut ChaCha8Rng) -> GroupPose {
     let mut g = base.clone();
     for p in [&mut g.d, &mut g.f, &mut g.k, &mut g.m, &mut g.l] {
         for c in p {
-            #[allow(clippy::cast_precision_loss, reason = "31 bits")]
             let unit = (rng.next_u32() >> 1) as f64 / f64::from(1u32 << 31) - 0.5;
             *c += 1e-2 * size * unit;
         }
@@ -152,8 +174,7 @@ fn median(mut values: Vec<f64>) -> f64 {
 ///
 /// # Complexity
 /// O(distances · groups) exact solutions.
-#[must_use]
-pub fn sample_errors(
+pub(crate) fn sample_errors(
     base: &GroupPose,
     failure: Failure,
     distances: &[f64],
@@ -179,8 +200,7 @@ pub fn sample_errors(
 }
 
 /// Returns the median errors near every failure at distances 1 down to 1e-15, each for [`GROUPS`] groups near `base`.
-#[must_use]
-pub fn study_failures(base: &GroupPose, seed: u64) -> Vec<(Failure, Vec<DistanceErrors>)> {
+pub(crate) fn study_failures(base: &GroupPose, seed: u64) -> Vec<(Failure, Vec<DistanceErrors>)> {
     let distances = failure_distances();
     Failure::ALL
         .par_iter()

@@ -1,18 +1,17 @@
 //! Ways of searching, what each is worth on a mechanism, and the table of it for programs.
 
-use crate::accuracy::timing::Timing;
-use crate::format::csv;
-use crate::rank::numeric::Elimination;
-use crate::score::request::{Check, Request};
 use num_bigint::BigUint;
 use num_traits::ToPrimitive;
-use serde::Serialize;
+use ozols::accuracy::timing::Timing;
+use ozols::rank::numeric::Elimination;
+use ozols::score::request::{Check, Request};
+use ozols_kernel::format::csv;
 use serde_json::{Map, Value, json};
 use std::fmt;
 
 /// A way of searching.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Way {
+pub(crate) enum Way {
     /// The whole diagram, checked in some way.
     Diagram(Check),
     /// The diagram with a budget of nodes.
@@ -29,7 +28,7 @@ pub enum Way {
 
 impl Way {
     /// Returns a request that searches this way.
-    pub(super) fn apply_to(self, base: &Request) -> Request {
+    pub(crate) fn apply_to(self, base: &Request) -> Request {
         let mut request = base.clone();
         match self {
             Way::Diagram(check) => request.check = check,
@@ -41,7 +40,7 @@ impl Way {
     }
 
     /// Returns the kind of way, and its description.
-    pub fn kind_and_text(self) -> [&'static str; 2] {
+    pub(crate) fn kind_and_text(self) -> [&'static str; 2] {
         match self {
             Way::Diagram(Check::None) => ["whole diagram", "the diagram over one prime"],
             Way::Diagram(Check::Prime) => ["whole diagram", "the diagram over two primes"],
@@ -64,12 +63,12 @@ impl Way {
     }
 
     /// Returns whether it counts as another way does, and differs only in how the best are found or checked.
-    pub(super) fn only_names(self) -> bool {
+    pub(crate) fn only_names(self) -> bool {
         matches!(self, Way::Diagram(Check::Full) | Way::Pool(_))
     }
 
     /// Returns the budget of nodes.
-    pub(super) fn budget(self) -> Option<usize> {
+    pub(crate) fn budget(self) -> Option<usize> {
         match self {
             Way::Nodes(nodes) => Some(nodes),
             _ => None,
@@ -77,7 +76,7 @@ impl Way {
     }
 
     /// Returns whether it examines variants one by one.
-    pub fn examines_variants(self) -> bool {
+    pub(crate) fn examines_variants(self) -> bool {
         matches!(self, Way::Pruned | Way::Brute | Way::Float(_))
     }
 }
@@ -100,7 +99,7 @@ impl fmt::Display for Way {
 
 /// The right ones of some.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Share {
+pub(crate) struct Share {
     /// Right ones.
     pub right: usize,
     /// All.
@@ -109,7 +108,7 @@ pub struct Share {
 
 /// Bounds on the number of admissible variants from a search with a budget of nodes.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Bracket {
+pub(crate) struct Bracket {
     /// Bounds that are certain. They are equal if the budget was large enough.
     pub certain: [f64; 2],
     /// Bounds with a confidence of 95 %.
@@ -120,19 +119,19 @@ pub struct Bracket {
 
 impl Bracket {
     /// Returns whether the certain bounds differ.
-    pub fn is_open(self) -> bool {
+    pub(crate) fn is_open(self) -> bool {
         self.certain[0] < self.certain[1]
     }
 
     /// Returns the width of some bounds in decades. A decade is a factor of ten.
-    pub fn width_in_decades([least, most]: [f64; 2]) -> f64 {
+    pub(crate) fn width_in_decades([least, most]: [f64; 2]) -> f64 {
         (most.max(1.0) / least.max(1.0)).log10()
     }
 }
 
 /// The results of one way of searching.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Record {
+pub(crate) struct Record {
     /// The way.
     pub way: Way,
     /// The time to count, or to examine all; `None` if it counts as another way does.
@@ -153,8 +152,8 @@ pub struct Record {
 }
 
 /// Every way of searching one mechanism.
-#[derive(Debug, Clone, Default, PartialEq, Serialize)]
-pub struct Trial {
+#[derive(Debug, Clone, Default, PartialEq)]
+pub(crate) struct Trial {
     /// The mechanism.
     pub mechanism: String,
     /// The number of its variants.
@@ -174,13 +173,12 @@ pub struct Trial {
     /// Whether no other variant can win. Only then the best are judged.
     pub ranking_proven: Option<bool>,
     /// The results of each way.
-    #[serde(skip)]
     pub records: Vec<Record>,
 }
 
 impl Trial {
     /// Takes the true numbers of determinate and of admissible variants, and judges each bracket by the second.
-    pub(super) fn judge_brackets(&mut self, [determinate, admissible]: &[BigUint; 2]) {
+    pub(crate) fn judge_brackets(&mut self, [determinate, admissible]: &[BigUint; 2]) {
         let truth = admissible.to_f64().unwrap_or(f64::INFINITY);
         for bracket in self.records.iter_mut().filter_map(|r| r.bracket.as_mut()) {
             let [least, most] = bracket.likely;
@@ -192,7 +190,7 @@ impl Trial {
 }
 
 /// Returns a row for each mechanism and way. The keys are a stable contract, in this order.
-pub fn trial_rows(trials: &[Trial]) -> Vec<Map<String, Value>> {
+pub(crate) fn trial_rows(trials: &[Trial]) -> Vec<Map<String, Value>> {
     let row = |t: &Trial, r: &Record| {
         let share = |s: Option<Share>| [s.map(|s| s.right), s.map(|s| s.of)];
         let [
@@ -226,7 +224,7 @@ pub fn trial_rows(trials: &[Trial]) -> Vec<Map<String, Value>> {
 }
 
 /// Returns the rows of some trials as CSV.
-pub fn trials_csv(trials: &[Trial]) -> String {
+pub(crate) fn trials_csv(trials: &[Trial]) -> String {
     let rows = trial_rows(trials);
     let heads: Vec<&str> = rows
         .first()
@@ -245,7 +243,7 @@ pub fn trials_csv(trials: &[Trial]) -> String {
 
 /// How much to do.
 #[derive(Debug, Clone, Copy)]
-pub struct TrialEffort {
+pub(crate) struct TrialEffort {
     /// Variants that brute force examines. A larger space is sampled. If 0, only budgets of nodes are compared.
     pub looked: usize,
     /// The pool that a ranking is judged by; `None` to go through all that could be among the best.

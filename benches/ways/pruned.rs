@@ -1,21 +1,20 @@
 //! A depth-first search over the joints that skips branches without determinate variants. It is the usual method without a
 //! diagram, and serves the comparison of speed.
 //!
-//! [`brute`](super::brute) eliminates every variant's matrix from the start. Here a branch keeps what its joints so far have
+//! [`brute`](ozols::search::check::brute) eliminates every variant's matrix from the start. Here a branch keeps what its joints so far have
 //! eliminated, and ends where even all that the joints to come offer at once cannot raise the rank far enough.
 
-use crate::linalg::modp::{Field, Residue};
-use crate::search::check::brute::{Seen, eliminate_pivots};
-use crate::search::check::full_matrices::{RowLayout, WrittenOut};
-use crate::search::question::Question;
+use ozols::linalg::modp::{Field, Residue};
+use ozols::search::check::brute::{Matrices, Seen};
+use ozols::search::question::Question;
 
 /// A depth-first search over the variables of a question.
 #[derive(Debug)]
-pub struct Pruned {
+pub(crate) struct Pruned {
     field: Field,
-    all: WrittenOut<Residue>,
+    all: Matrices,
     /// The order in which variables are chosen.
-    order: Vec<usize>,
+    pub(crate) order: Vec<usize>,
     /// For each place in the order what every choice there and behind it offers, eliminated.
     to_come: Vec<Echelon>,
     /// Redundant constraints that a determinate variant may have.
@@ -54,15 +53,14 @@ impl Echelon {
 
 impl Pruned {
     /// Writes the columns of a search's space out, to be chosen in an order of its variables.
-    #[must_use]
-    pub fn new(question: &Question, order: &[usize]) -> Pruned {
+    pub(crate) fn new(question: &Question, order: &[usize]) -> Pruned {
         let field = question.field().field();
-        let all = WrittenOut::modulo_prime(question, &RowLayout::new(question));
-        let free = all.rows[0];
+        let all = Matrices::new(question);
+        let free = all.row_counts()[0];
         let mut to_come = vec![Echelon::default()];
         for &v in order.iter().rev() {
             let mut here = to_come.last().cloned().unwrap_or_default();
-            for column in (0..all.count_choices(v)).flat_map(|c| all.of_choice(v, c)) {
+            for column in all.columns_of(v).iter().flatten() {
                 here.add_vector(field, &column[..free]);
             }
             to_come.push(here);
@@ -77,17 +75,15 @@ impl Pruned {
         }
     }
 
-    /// Returns the order in which variables are chosen.
-    #[must_use]
-    pub fn order(&self) -> &[usize] {
-        &self.order
-    }
-
     /// Visits the determinate variants that begin with the given choices, in the order of the variables.
     ///
     /// # Complexity
     /// O(rows²) for each column of each visited branch. As much for each later vector while the rank is too small.
-    pub fn visit_determinate(&self, beginning: &[usize], leaf: &mut dyn FnMut(&[usize], Seen)) {
+    pub(crate) fn visit_determinate(
+        &self,
+        beginning: &[usize],
+        leaf: &mut dyn FnMut(&[usize], Seen),
+    ) {
         let mut choices = vec![0; self.order.len()];
         let mut so_far = Echelon::default();
         for (place, &c) in beginning.iter().enumerate() {
@@ -100,8 +96,7 @@ impl Pruned {
     }
 
     /// Returns the result for one variant. `None` if its branch is skipped.
-    #[must_use]
-    pub fn look_at(&self, choices: &[usize]) -> Option<Seen> {
+    pub(crate) fn look_at(&self, choices: &[usize]) -> Option<Seen> {
         let mut found = None;
         let beginning: Vec<usize> = self.order.iter().map(|&v| choices[v]).collect();
         self.visit_determinate(&beginning, &mut |_, seen| found = Some(seen));
@@ -110,10 +105,10 @@ impl Pruned {
 
     /// Takes a choice; says whether a determinate variant may still come of it.
     fn enter_choice(&self, place: usize, choice: usize, so_far: &mut Echelon) -> bool {
-        for column in self.all.of_choice(self.order[place], choice) {
-            so_far.add_vector(self.field, &column[..self.all.rows[0] + self.all.rows[1]]);
+        let [free, kept, _] = self.all.row_counts();
+        for column in &self.all.columns_of(self.order[place])[choice] {
+            so_far.add_vector(self.field, &column[..free + kept]);
         }
-        let free = self.all.rows[0];
         let enough = free.saturating_sub(self.allowed);
         if so_far.rank_of_rows(free) >= enough {
             return true;
@@ -139,7 +134,7 @@ impl Pruned {
             return;
         };
         let known = so_far.vectors.len();
-        for c in 0..self.all.count_choices(v) {
+        for c in 0..self.all.columns_of(v).len() {
             choices[v] = c;
             if self.enter_choice(place, c, so_far) {
                 self.visit_branch(place + 1, choices, so_far, leaf);
@@ -149,16 +144,23 @@ impl Pruned {
     }
 
     fn seen_of(&self, choices: &[usize], whole: &Echelon) -> Seen {
-        let [free, kept, state] = self.all.rows;
-        let of_state = (state > 0).then(|| {
-            let columns = self.all.variant_columns(choices);
-            eliminate_pivots(
-                self.field,
-                columns.map(|c| c[free + kept..].to_vec()).collect(),
-            )
-            .len()
-        });
-        let ranks = [whole.rank_of_rows(free), whole.vectors.len()];
-        Seen::of_ranks(self.all.rows, ranks, of_state)
+        let [free, kept, state] = self.all.row_counts();
+        let redundant = free - whole.rank_of_rows(free);
+        let mut of_state = Echelon::default();
+        for (v, &c) in choices.iter().enumerate() {
+            for column in &self.all.columns_of(v)[c] {
+                of_state.add_vector(self.field, &column[free + kept..]);
+            }
+        }
+        let external = match state {
+            0 => 0,
+            _ => (state - of_state.vectors.len()) as i32 - redundant as i32,
+        };
+        Seen {
+            internal: redundant as u32,
+            external,
+            motion: whole.vectors.len() - whole.rank_of_rows(free),
+            lasts: None,
+        }
     }
 }

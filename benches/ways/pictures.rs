@@ -1,15 +1,15 @@
 //! Ways of searching as studies.
 
 use super::record::{Bracket, Record, Trial, Way};
-use crate::accuracy::said::{Said, Tally};
-use crate::accuracy::study::Study;
-use crate::format::{format_duration, group_thousands, three_digits};
-use crate::score::request::{Check, POOL};
+use ozols::accuracy::said::{Said, Tally};
+use ozols::accuracy::study::Study;
+use ozols::score::request::{Check, POOL};
+use ozols_kernel::format::{format_duration, group_thousands, three_digits};
 use std::collections::BTreeMap;
 
 /// Returns the studies that some trials make: all ways against the whole diagram, brackets of searches with budgets of nodes, and pools of
 /// rankings. A study without rows is omitted. `advice` is what to do for each of the three.
-pub fn make_studies(trials: &[Trial], advice: [&str; 3]) -> Vec<Study> {
+pub(crate) fn make_studies(trials: &[Trial], advice: [&str; 3]) -> Vec<Study> {
     let names = ["overview", "brackets", "rankings"];
     let mut studies = names.map(|name| Study::new(name, Vec::new()));
     for (study, advice) in studies.iter_mut().zip(advice) {
