@@ -91,7 +91,6 @@ pub fn run_with(words: impl IntoIterator<Item = OsString>) -> u8 {
         Command::Studio(a) => command::studio::run_studio(&args.global, a),
         Command::Export(a) => command::export::run_export(&args.global, a),
         Command::Accuracy(a) => command::accuracy::run_accuracy(&args.global, a),
-        Command::Bench(a) => command::bench::run(&args.global, a),
         Command::Catalog(a) => command::catalog::run_catalog(&args.global, a),
         Command::Check(a) => command::check::run_check(&args.global, a),
         Command::New(a) => command::list::run_new(&args.global, a),

@@ -5,7 +5,6 @@ Every way is a command of its own, timed from start to end; all must find the sa
 """
 
 import argparse
-import csv
 import json
 import pathlib
 import re
@@ -43,13 +42,6 @@ def counted(said):
     return int(json.loads(said)["determinate"])
 
 
-def pruned(ozols, name):
-    """The search without a diagram that `ozols bench` has, within a running program, in seconds."""
-    command = [ozols, "bench", name, *OPTIONS, "--quick", "--format", "csv", "--threads", "1", "--quiet"]
-    lines = subprocess.run(command, capture_output=True, text=True, check=True).stdout.splitlines()
-    return float(next(row["median_seconds"] for row in csv.DictReader(lines) if row["way"] == "pruned"))
-
-
 def in_words(seconds):
     if seconds is None:
         return "over the limit"
@@ -65,7 +57,6 @@ def column(ozols, name, seconds):
     times = {"ozols": took}
     said, times["ozols, every variant by itself"] = timed(by_ozols(ozols, name, "--method", "brute"), seconds)
     found = {"brute": counted(said)} if said else {}
-    times["ozols, depth first with cuts (*)"] = pruned(ozols, name)
     for way in ways.WAYS:
         said, times[way] = timed([sys.executable, __file__, "--way", way, "--of", name, ozols, "-"], seconds)
         if said is None:

@@ -2,7 +2,6 @@
 
 pub(crate) mod accuracy;
 pub(crate) mod analyze;
-pub(crate) mod bench;
 pub(crate) mod catalog;
 pub(crate) mod check;
 pub(crate) mod draw;
@@ -50,8 +49,6 @@ pub(crate) enum Command {
     Export(export::Export),
     /// Measure accuracy and speed of every rank method on the built-in mechanisms.
     Accuracy(accuracy::Accuracy),
-    /// Benchmark the search methods: diagram, brute force, floating point, budgets, pools.
-    Bench(bench::Bench),
     /// Enumerate kinematic chains and gripper structures, and build catalogues of them.
     Catalog(catalog::Catalog),
     /// Write a commented mechanism file to start from.

@@ -1,14 +1,13 @@
 //! Accuracy and speed of every rank method on the built-in mechanisms.
 //!
 //! The [`survey`] asks every method of [`crate::rank::method`] about mechanisms of known mobility; [`stability`] moves
-//! geometry, digits, size, unit and prime until answers turn wrong; [`searching`] compares the ways of searching.
+//! geometry, digits, size, unit and prime until answers turn wrong.
 //! Verdicts are the same on every run; only times differ.
 
 pub(crate) mod cases;
 pub mod change;
 pub mod lattice;
 pub mod said;
-pub mod searching;
 pub mod special;
 pub mod stability;
 pub mod study;

@@ -41,10 +41,8 @@ fn each_axis_of_each_chart_has_two_labels_or_more() {
     for line in [
         "statics parallel-shears --stroke 0:360deg:24 --svg shears",
         "statics four-bar --stroke 0:360deg:24 --svg bar",
-        "statics --stability -o stability",
         "grip lever-gripper --svg grip",
         "drive torsion-module --svg drive",
-        "bench --quick four-bar -o bench",
     ] {
         let (code, _, told) = folder.run(line);
         assert!(matches!(code, Some(0 | 1)), "{line}: {told}");
@@ -62,6 +60,6 @@ fn each_axis_of_each_chart_has_two_labels_or_more() {
             wrong.push((path, found));
         }
     }
-    assert!(charts > 25, "{charts}");
+    assert!(charts > 20, "{charts}");
     assert!(wrong.is_empty(), "{wrong:?}");
 }

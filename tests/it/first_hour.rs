@@ -7,7 +7,7 @@ mod new;
 use ozols::terms::Terms;
 use std::process::Command;
 
-const COMMANDS: &str = "lint fix report studio analyze search statics grip drive verify draw export accuracy bench catalog new \
+const COMMANDS: &str = "lint fix report studio analyze search statics grip drive verify draw export accuracy catalog new \
     check list show schema explain completions";
 
 /// The example commands of a help text; two blanks part a command from what it does.

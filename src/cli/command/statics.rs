@@ -6,9 +6,8 @@ use crate::file::read::workload::motion::parse_stroke;
 use crate::grip::clamped::clamped_reactions;
 use crate::grip::clamping::DiameterRow;
 use crate::grip::jaw_loads::{Gripping, JawError};
-use crate::model::loads::{Accuracy, Stroke, Tolerances};
+use crate::model::loads::{Accuracy, Tolerances};
 use crate::statics::contour_group::solutions::GroupMethod;
-use crate::statics::contour_group::stability::{GROUPS, study_failures};
 use crate::statics::cycle;
 use crate::statics::reactions::Unsolved;
 use crate::statics::reactions::contact::object_at;
@@ -24,9 +23,7 @@ use args::{Statics, StaticsMethod};
 pub(crate) mod args;
 
 pub(crate) fn run_statics(args: &Global, a: &Statics) -> anyhow::Result<Done> {
-    let file = a.file.clone().unwrap_or_else(|| "parallel-shears".into());
-    let loops = a.loops.clone();
-    let mut m = load::load_mechanism(&File { file, loops })?;
+    let mut m = load::load_mechanism(&a.file)?;
     if a.planar {
         load::put_in_plane(&mut m)?;
     }
@@ -60,9 +57,6 @@ pub(crate) fn run_statics(args: &Global, a: &Statics) -> anyhow::Result<Done> {
         Some(text) => Some(parse_stroke(text)?),
         None => m.loads.stroke,
     };
-    if let (true, Some(folder)) = (a.stability, &a.output) {
-        return run_stability(&m, state, stroke, folder, args.seed);
-    }
     let own = matches!(a.method, StaticsMethod::Delta | StaticsMethod::Projective);
     let model = chosen_model(&m, state, own, a)?;
     let found = match solve_reactions(&m, state, stroke, model) {
@@ -172,14 +166,13 @@ fn write(m: &Mechanism, shown: &ToldStatics<'_>, a: &Statics) -> anyhow::Result<
         let plans: Vec<charts::ChartDrawing> = plans.collect();
         charts::write(folder, Some(&m.name), &drawn::cycle_charts(s), &plans)?;
     }
-    a.put_reactions(shown, &next_steps(m, shown, a))?;
+    a.put_reactions(shown, &next_steps(shown, a))?;
     Ok(())
 }
 
 /// Returns the next commands to suggest.
-fn next_steps(m: &Mechanism, shown: &ToldStatics<'_>, a: &Statics) -> Vec<NextCommand> {
-    let file = a.file.as_deref().unwrap_or(&m.name);
-    let next = |command, more, gives| NextCommand::new(command, file, more, gives);
+fn next_steps(shown: &ToldStatics<'_>, a: &Statics) -> Vec<NextCommand> {
+    let next = |command, more, gives| NextCommand::new(command, &a.file.file, more, gives);
     match &shown.reactions {
         ToldReactions::Planar(s) if s.found.moments.iter().any(|x| !x.loads.is_empty()) => {
             let charts = next(
@@ -226,38 +219,6 @@ fn run_groups(m: &Mechanism, state: StateId, a: &Statics) -> anyhow::Result<Done
     ))
 }
 
-fn run_stability(
-    m: &Mechanism,
-    state: StateId,
-    stroke: Option<Stroke>,
-    folder: &Path,
-    seed: u64,
-) -> anyhow::Result<Done> {
-    let found = cycle::planar_statics(m, state, stroke)?;
-    let base = found.heaviest_contour_group().with_context(|| {
-        format!(
-            "{} has no four-link group with a closed loop to compare the methods on",
-            m.name
-        )
-    })?;
-    let found = study_failures(base, seed);
-    let all: Vec<drawn::Named> = found
-        .iter()
-        .map(|(f, s)| drawn::stability_chart(*f, s))
-        .collect();
-    charts::write(folder, Some("Stability of the δ-point method"), &all, &[])?;
-    let rows = found.iter().flat_map(|(f, s)| drawn::stability_rows(*f, s));
-    let heads = "failure | figure | method | 1 | 1e-3 | 1e-6 | 1e-9 | 1e-12 | 1e-15";
-    let table = text_table(heads, rows, output::output_width(None));
-    let index = folder.join("index.html");
-    let text = format!(
-        "Relative error against exact arithmetic by distance from each failure, median of {GROUPS} groups\n\n{table}\n\n\
-         Charts and tables: {}\n",
-        index.display()
-    );
-    output::write_bytes(None, text)
-}
-
 /// Returns the diameter asked for, or the hardest one to hold. `None` if that part cannot be held.
 fn chosen_diameter<'g>(g: &'g Gripping, a: &Statics) -> anyhow::Result<Option<&'g DiameterRow>> {
     let Some(diameter) = a.diameter else {
@@ -284,11 +245,7 @@ fn chosen_diameter<'g>(g: &'g Gripping, a: &Statics) -> anyhow::Result<Option<&'
 
 /// Refuses what makes no sense round a part.
 fn check_options(a: &Statics) -> anyhow::Result<()> {
-    for (given, flag) in [
-        (a.stroke.is_some(), "--stroke"),
-        (a.svg.is_some(), "--svg"),
-        (a.stability, "--stability"),
-    ] {
+    for (given, flag) in [(a.stroke.is_some(), "--stroke"), (a.svg.is_some(), "--svg")] {
         ensure!(
             !given,
             "{flag} needs a motion, but the levers do not move around this part; choose another part with --diameter"

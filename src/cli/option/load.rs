@@ -2,7 +2,7 @@
 
 use crate::api::{self, MAX_DESCRIPTION_BYTES};
 use crate::builtin;
-use crate::cli::option::named::{File, Loops, Named};
+use crate::cli::option::named::{File, Named};
 use crate::cli::option::reading::import_description;
 use crate::cli::terminal::output::kept;
 use crate::closure::coupling::in_plane;
@@ -40,26 +40,6 @@ pub(crate) fn is_described(file: &Named) -> anyhow::Result<bool> {
     }
     Ok(robots::is_description(file)
         || robots::begins_description(&api::bytes(path, MAX_DESCRIPTION_BYTES)?))
-}
-
-/// Reads each of several files. A problem with one is reported and does not affect the others. Returns true if all could
-pub(crate) fn load_each<'a>(
-    files: &'a [Named],
-    loops: &Loops,
-) -> (Vec<(&'a Named, Mechanism)>, bool) {
-    let mut all = Vec::new();
-    for name in files {
-        let file = File {
-            file: name.clone(),
-            loops: loops.clone(),
-        };
-        match load_mechanism(&file) {
-            Ok(found) => all.push((name, found)),
-            Err(e) => crate::cli::terminal::output::print_error(&e),
-        }
-    }
-    let well = all.len() == files.len();
-    (all, well)
 }
 
 /// Returns the name for messages, and the bytes of the mechanism file that an argument names or that is converted from its

@@ -1,5 +1,5 @@
-//! One study: a range of one quantity, cases at each of its values, the questions about each case, and the truth. All studies, the survey
-//! and the comparison of searches have the same tally, the same table, one chart and one conclusion.
+//! One study: a range of one quantity, cases at each of its values, the questions about each case, and the truth. All studies and the
+//! survey have the same tally, the same table, one chart and one conclusion.
 
 mod conclusion;
 
@@ -41,8 +41,6 @@ pub enum View {
     Errors,
     /// The share of right answers against the time, with the front of what is fastest and most often right.
     Front,
-    /// The share of wrong answers against the time, or the figures of the tallies.
-    Points,
 }
 
 /// The name of a row, with its tally at each of its values.
@@ -179,7 +177,7 @@ impl Study {
     fn figure_of(&self, tally: &Tally) -> f64 {
         tally.figure.unwrap_or_else(|| match self.texts.view {
             View::Times => tally.median_time(),
-            View::Errors | View::Points => tally.percent_of(Said::Wrong),
+            View::Errors => tally.percent_of(Said::Wrong),
             _ => tally.percent_of(Said::Right),
         })
     }
@@ -220,14 +218,13 @@ impl Study {
 
     /// Returns a line or points for each row. A row with a comma in its name is dashed.
     fn draw_rows(&self, after: &str, y: impl Fn(&Tally) -> f64) -> Vec<Series> {
-        let over_time = matches!(self.texts.view, View::Front | View::Points);
+        let over_time = self.texts.view == View::Front;
         let x = |x: f64, t: &Tally| if over_time { t.median_time() } else { x };
         let row = |(name, tallies): &Row| {
             let name = format!("{name}{after}");
-            let lone = tallies.len() < 2 || tallies.iter().all(|(_, t)| t.figure.is_none());
             Series {
                 style: match name.contains(',') {
-                    _ if over_time && lone => Style::Points,
+                    _ if over_time => Style::Points,
                     true => Style::Dashed,
                     false => Style::Line,
                 },

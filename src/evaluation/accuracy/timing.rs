@@ -88,16 +88,6 @@ impl Timing {
             repeats: times.len(),
         }
     }
-
-    /// Returns times that follow from these ones.
-    pub(crate) fn map(self, f: impl Fn(f64) -> f64) -> Timing {
-        Timing {
-            median: f(self.median),
-            least: f(self.least),
-            most: f(self.most),
-            ..self
-        }
-    }
 }
 
 /// How times are taken.

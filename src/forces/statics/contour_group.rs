@@ -11,7 +11,6 @@ pub mod force_plan;
 pub mod pose;
 pub mod projective;
 pub mod solutions;
-pub mod stability;
 
 use crate::statics::assur::Group;
 use crate::statics::assur_class::Kind;

@@ -4,7 +4,6 @@ pub mod brute;
 pub mod brute_float;
 pub(crate) mod full_matrices;
 pub mod other_poses;
-pub mod pruned;
 pub mod second_opinion;
 pub mod second_prime;
 pub mod singular_values;

@@ -41,9 +41,7 @@ fn mechanisms_without_statics_are_refused_with_a_remedy() {
         statics parallel-shears --stroke 0:90 | FROM:TO:STEPS
         statics parallel-shears --stroke 0:1:0 | FROM:TO:STEPS
         statics parallel-shears --state held | no state held & free
-        statics four-bar --stability -o /tmp/x | no four-link group
         statics | FILE
-        statics --stability | --output
         ",
     );
 }

@@ -81,7 +81,7 @@ fn three_methods_agree_on_the_shears_to_nine_digits() {
         cutting += usize::from(m.loads.iter().any(|l| l.source == LoadSource::External));
         for (g, (_, letters)) in m.groups.iter().zip(&s.contour_groups) {
             let (lu, worth) = g.equilibrium.unwrap();
-            let exact = ozols::statics::contour_group::equilibrium::solve_exactly(&g.pose).unwrap();
+            let exact = super::failures::solve_exactly(&g.pose).unwrap();
             let out_of_whole =
                 from_equilibrium(&s.linkage, letters, &g.pose, &m.reactions).unwrap();
             for (name, found) in [

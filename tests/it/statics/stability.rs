@@ -1,11 +1,9 @@
 //! Accuracy near each failure of the δ-point method, against exact arithmetic.
 
+use super::failures::{DistanceErrors, Failure, at_distance, sample_errors, solve_exactly};
 use super::shears_text;
 use crate::common::*;
 use ozols::statics::contour_group::pose::GroupPose;
-use ozols::statics::contour_group::stability::{
-    DistanceErrors, Failure, at_distance, sample_errors,
-};
 use ozols::statics::contour_group::{delta_point, equilibrium, projective};
 
 fn base() -> GroupPose {
@@ -53,7 +51,7 @@ fn parallel_rods_harm_only_the_published_form() {
     (g.f, g.m) = ([-0.5, 0.0], [-0.5, 1.0]);
     (g.k, g.l) = ([0.25, 0.0], [0.25, 1.5]);
     g.d = [0.125, -1.0];
-    let exact = equilibrium::solve_exactly(&g).unwrap();
+    let exact = solve_exactly(&g).unwrap();
     assert!(projective::solve_projective(&g).distance_to(&exact, &g) < 1e-14);
     let (published, steps) = delta_point::solve_delta(&g);
     assert!(!steps.delta.iter().all(|c| c.is_finite()));
@@ -69,9 +67,7 @@ fn dead_points_harm_every_method_alike() {
             assert!(s.forces.iter().all(|e| *e < bound), "{failure:?} {s:?}");
             assert!(s.condition > 0.1 / s.distance, "{s:?}");
         }
-        assert!(
-            equilibrium::solve_exactly(&at_distance(&base(), failure, 1e-12).unwrap()).is_some()
-        );
+        assert!(solve_exactly(&at_distance(&base(), failure, 1e-12).unwrap()).is_some());
     }
 }
 
@@ -99,7 +95,7 @@ fn a_group_solved_by_hand() {
     (g.m, g.l) = ([-1.0, 3.0], [1.0, 3.0]);
     g.guide = [0.0, 1.0];
     g.push(3, [0.0, 4.0], [0.0, -8.0]);
-    let exact = equilibrium::solve_exactly(&g).unwrap();
+    let exact = solve_exactly(&g).unwrap();
     for r in [
         exact,
         projective::solve_projective(&g),

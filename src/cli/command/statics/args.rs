@@ -18,11 +18,8 @@ pub(crate) enum StaticsMethod {
 
 #[derive(Debug, ClapArgs)]
 pub(crate) struct Statics {
-    /// Path, `-`, or name of a built-in mechanism [default with --stability: parallel-shears].
-    #[arg(value_name = "FILE", required_unless_present = "stability", value_hint = ValueHint::FilePath)]
-    pub(crate) file: Option<Named>,
     #[command(flatten)]
-    pub(crate) loops: Loops,
+    pub(crate) file: File,
     /// Method for the reactions of four-link groups with a closed loop.
     #[arg(long, value_enum, default_value = "all")]
     pub(crate) method: StaticsMethod,
@@ -42,33 +39,30 @@ pub(crate) struct Statics {
     pub(crate) planar: bool,
     /// Compute all six components of each joint's reaction, even with redundant constraints [default if a mechanism is not planar
     /// or not determinate in its plane].
-    #[arg(long, conflicts_with_all = ["planar", "groups", "stability", "svg"])]
+    #[arg(long, conflicts_with_all = ["planar", "groups", "svg"])]
     pub(crate) spatial: bool,
     /// Let contacts with a clamped part only push, with the friction and faces of [[workload.contact]]. Otherwise they are the
     /// joints of the file, and the report lists those that would pull.
-    #[arg(long, conflicts_with_all = ["groups", "stability", "svg"])]
+    #[arg(long, conflicts_with_all = ["groups", "svg"])]
     pub(crate) unilateral: bool,
     /// Print the assembly forces of inaccurate joints: tolerances of position and angle, such as 0.05mm,0.1deg, or the general
     /// tolerances fine (0.15 mm, 0.5°), medium (0.3 mm, 0.5°) and coarse (0.8 mm, 1°) of ISO 2768 for 30 to 120 mm [default:
     /// [tolerances] of the file, else fine].
-    #[arg(long, value_name = "FIT", num_args = 0..=1, value_parser = parse_fit, conflicts_with_all = ["planar", "spatial", "unilateral", "groups", "stability", "svg", "stroke", "diameter"])]
+    #[arg(long, value_name = "FIT", num_args = 0..=1, value_parser = parse_fit, conflicts_with_all = ["planar", "spatial", "unilateral", "groups", "svg", "stroke", "diameter"])]
     pub(crate) misfit: Option<Option<Tolerances>>,
     /// Force that a person applies at each joint in assembly, in N [default: that of the file, else 50].
     #[arg(long, value_name = "N", requires = "misfit")]
     pub(crate) hand_force: Option<f64>,
     /// Print only the Assur groups, under each possible drive.
-    #[arg(long, conflicts_with_all = ["stability", "svg", "stroke"])]
+    #[arg(long, conflicts_with_all = ["svg", "stroke"])]
     pub(crate) groups: bool,
-    /// Compare the methods with exact arithmetic near each of their failures; charts and tables go to the folder of -o.
-    #[arg(long, requires = "output", conflicts_with = "svg")]
-    pub(crate) stability: bool,
     /// Output format.
     #[arg(long, value_enum, default_value = "text")]
     pub(crate) format: TextJsonOrCsv,
     /// Also write charts of the cycle to this folder.
     #[arg(long, value_name = "DIR")]
     pub(crate) svg: Option<PathBuf>,
-    /// Write to a file instead of standard output; a folder with --stability.
+    /// Write to a file instead of standard output.
     #[arg(long, short, value_name = "FILE")]
     pub(crate) output: Option<PathBuf>,
 }

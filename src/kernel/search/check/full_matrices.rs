@@ -156,16 +156,6 @@ impl<N: Clone + Default> WrittenOut<N> {
         }
     }
 
-    /// Returns the columns of a choice of a variable.
-    pub(in crate::search) fn of_choice(&self, variable: usize, choice: usize) -> &[Vec<N>] {
-        &self.columns[variable][choice]
-    }
-
-    /// Returns the number of choices of a variable.
-    pub(in crate::search) fn count_choices(&self, variable: usize) -> usize {
-        self.columns[variable].len()
-    }
-
     /// Returns the columns of every choice, one after another.
     pub(in crate::search) fn all_columns(&self) -> impl Iterator<Item = &Vec<N>> {
         self.columns.iter().flatten().flatten()

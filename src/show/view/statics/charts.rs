@@ -1,9 +1,8 @@
-//! Charts of reactions over the cycle and of the methods' stability.
+//! Charts of reactions over the cycle.
 
 use crate::statics::contour_group::ContourGroup;
 use crate::statics::contour_group::pose::GroupReactions;
 use crate::statics::contour_group::solutions::{GroupMethod, GroupSolutions};
-use crate::statics::contour_group::stability::{DistanceErrors, Failure};
 use crate::statics::cycle::Moment;
 use crate::statics::kinetostatics::{LinkInertia, LoadSource};
 use crate::statics::planar::PairId;
@@ -277,104 +276,4 @@ impl Charts<'_, '_> {
         let y = log_axis("greatest difference over the greatest reaction");
         self.add_chart("methods", ["how far the methods differ", &names], y, series);
     }
-}
-
-/// Returns title, subtitle and axis of a stability chart.
-fn stability_labels(failure: Failure) -> (&'static str, &'static str, &'static str) {
-    match failure {
-        Failure::ParallelRods => (
-            "Rods 6 and 7 nearly parallel",
-            "δ goes to infinity; the group itself is sound",
-            "angle between the rods, rad",
-        ),
-        Failure::AcrossGuide => (
-            "D nearly on the line through δ across the guide",
-            "The group nears a dead point: reactions grow without bound",
-            "angle between Dδ and the guide's normal, rad",
-        ),
-        Failure::AtDelta => (
-            "D nearly at δ",
-            "The group nears a dead point: reactions grow without bound",
-            "l_Dδ over its length in the machine",
-        ),
-        Failure::NoGuideReaction => (
-            "Guide reaction nearly zero: error of its arm h",
-            "The forces stay right; h = moment over force loses its figures whatever the method",
-            "R_0/10 over its value in the machine",
-        ),
-    }
-}
-
-/// Returns the errors of the methods against the distance from a failure.
-pub fn stability_chart(failure: Failure, samples: &[DistanceErrors]) -> Named {
-    // What is exact to the last bit is shown at the foot.
-    let shown = |x: f64| {
-        if x.is_finite() {
-            x.clamp(1e-17, 1e3)
-        } else {
-            1e3
-        }
-    };
-    let arms = failure == Failure::NoGuideReaction;
-    let line = |name: &str, style, f: &dyn Fn(&DistanceErrors) -> f64| Series {
-        name: name.to_owned(),
-        points: samples.iter().map(|s| (s.distance, shown(f(s)))).collect(),
-        style,
-    };
-    let of = |k: usize| move |s: &DistanceErrors| if arms { s.arm[k] } else { s.forces[k] };
-    let mut series = vec![
-        line("δ-point", Style::Line, &of(0)),
-        line("projective", Style::Line, &of(1)),
-        line("equilibrium, LU", Style::Line, &of(2)),
-    ];
-    if arms {
-        let worst = |s: &DistanceErrors| s.forces.into_iter().fold(0.0, f64::max);
-        series.push(line("forces, worst of the three", Style::Dashed, &worst));
-    } else {
-        series.push(line(
-            "condition of LU × rounding unit",
-            Style::Dashed,
-            &|s| s.condition * f64::EPSILON / 2.0,
-        ));
-    }
-    let (title, subtitle, x) = stability_labels(failure);
-    let chart = Chart {
-        title: title.to_owned(),
-        subtitle: subtitle.to_owned(),
-        x: log_axis(x),
-        y: log_axis("relative error against exact arithmetic"),
-        series,
-    };
-    (format!("stability-{}", failure.name()), chart)
-}
-
-/// Returns the rows of a table: failure, figure, method, and the errors at distances 1, 1e-3, ... 1e-15.
-pub fn stability_rows(failure: Failure, samples: &[DistanceErrors]) -> Vec<Vec<String>> {
-    let at = |decade: i32| {
-        let wanted = 10f64.powi(-decade);
-        let near = |s: &&DistanceErrors| (s.distance.log10() - wanted.log10()).abs();
-        samples.iter().min_by(|a, b| near(a).total_cmp(&near(b)))
-    };
-    let figures: &[(&str, bool)] = match failure {
-        Failure::NoGuideReaction => &[("h", true), ("forces", false)],
-        _ => &[("forces", false)],
-    };
-    let mut rows = Vec::new();
-    for (figure, arms) in figures {
-        for (k, method) in GroupMethod::ALL.iter().enumerate() {
-            let mut row = vec![
-                failure.name().to_owned(),
-                (*figure).to_owned(),
-                method.name().to_owned(),
-            ];
-            row.extend([0, 3, 6, 9, 12, 15].map(|d| {
-                let error = at(d).map(|s| if *arms { s.arm[k] } else { s.forces[k] });
-                error
-                    .filter(|e| e.is_finite())
-                    .map_or_else(|| "-".to_owned(), |e| format!("{e:.0e}"))
-            }));
-            rows.push(row);
-        }
-    }
-    rows
 }

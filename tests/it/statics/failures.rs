@@ -4,20 +4,87 @@
 //! The reference is exact: the same doubles solved in rational arithmetic. Every distance is tested on several groups
 //! that differ by small random shifts of their points, and the median error is reported.
 
-use crate::statics::contour_group::equilibrium::{solve_equilibrium, solve_exactly};
-use crate::statics::contour_group::pose::{GroupPose, GroupReactions};
-use crate::statics::contour_group::{delta_point, projective};
-use crate::statics::pose::{cross, length, minus, plus, quarter_turn};
 use chacha20::ChaCha8Rng;
 use chacha20::rand_core::{Rng, SeedableRng};
-use rayon::prelude::*;
+use num_rational::BigRational;
+use num_traits::{ToPrimitive, Zero};
+use ozols::statics::contour_group::equilibrium::solve_equilibrium;
+use ozols::statics::contour_group::pose::{GroupPose, GroupReactions};
+use ozols::statics::contour_group::{delta_point, projective};
+use ozols::statics::pose::{cross, length, minus, plus, quarter_turn};
 
-/// Number of groups tested at each distance in [`study_failures`].
-pub const GROUPS: usize = 9;
+/// Returns the reactions in rational arithmetic, with every number of the pose taken exactly, then rounded; `None` if the
+/// equations are singular or a number is not finite. Unknowns are the forces at D, F, K, M, L, the guide's and its moment about D.
+pub(crate) fn solve_exactly(g: &GroupPose) -> Option<GroupReactions> {
+    // For each joint the link that bears the force, and the one that bears its opposite.
+    let ends = [(0, 9), (1, 0), (2, 0), (1, 3), (2, 3)];
+    let exact = |x: f64| BigRational::from_float(x);
+    let vector = |v: [f64; 2]| Some([exact(v[0])?, exact(v[1])?]);
+    let mut rows = vec![vec![BigRational::zero(); 13]; 12];
+    let mut add = |link: usize, column: usize, at: &[BigRational; 2], force: [BigRational; 2]| {
+        if link > 3 {
+            return;
+        }
+        let [x, y] = force;
+        rows[3 * link + 2][column] += &at[0] * &y - &at[1] * &x;
+        rows[3 * link][column] += x;
+        rows[3 * link + 1][column] += y;
+    };
+    let (zero, one) = (BigRational::zero(), exact(1.0)?);
+    for (j, (point, (on, from))) in [g.d, g.f, g.k, g.m, g.l].into_iter().zip(ends).enumerate() {
+        let at = vector(point)?;
+        for (link, sign) in [(on, one.clone()), (from, -one.clone())] {
+            add(link, 2 * j, &at, [sign.clone(), zero.clone()]);
+            add(link, 2 * j + 1, &at, [zero.clone(), sign]);
+        }
+    }
+    add(3, 10, &vector(g.d)?, vector(g.guide_normal())?);
+    for load in &g.loads {
+        add(
+            load.body,
+            12,
+            &vector(load.point)?,
+            vector(load.force)?.map(|c| -c),
+        );
+    }
+    for load in &g.loads {
+        rows[3 * load.body + 2][12] -= exact(load.moment)?;
+    }
+    rows[11][11] = one;
+    for c in 0..12 {
+        let pivot = (c..12).find(|&r| !rows[r][c].is_zero())?;
+        rows.swap(c, pivot);
+        let top: Vec<BigRational> = rows[c].iter().map(|x| x / &rows[c][c]).collect();
+        for (r, row) in rows
+            .iter_mut()
+            .enumerate()
+            .filter(|(_, row)| !row[c].is_zero())
+        {
+            let factor = if r == c { continue } else { row[c].clone() };
+            for (x, t) in row.iter_mut().zip(&top).skip(c) {
+                *x -= &factor * t;
+            }
+        }
+        rows[c] = top;
+    }
+    let x = |i: usize| rows[i][12].to_f64().unwrap_or(f64::NAN);
+    let at = |j: usize| [x(2 * j), x(2 * j + 1)];
+    let arm = (!rows[10][12].is_zero()).then(|| (&rows[11][12] / &rows[10][12]).to_f64());
+    Some(GroupReactions {
+        d: at(0),
+        f: at(1),
+        k: at(2),
+        m: at(3),
+        l: at(4),
+        guide: x(10),
+        guide_moment: x(11),
+        arm: arm.flatten().unwrap_or(f64::INFINITY),
+    })
+}
 
 /// Configurations in which the δ-point method fails. `[Bychkov, Dvornikov & Zhukov 2018]`
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Failure {
+pub(crate) enum Failure {
     /// Rods 6 and 7 are parallel: δ is at infinity. The distance is their angle `[rad]`.
     ParallelRods,
     /// D lies on the line through δ along the guide's normal: R34^n and R_0/10 are parallel, and the group moves. The
@@ -31,39 +98,28 @@ pub enum Failure {
 
 impl Failure {
     /// All four configurations.
-    pub const ALL: [Failure; 4] = [
+    pub(crate) const ALL: [Failure; 4] = [
         Failure::ParallelRods,
         Failure::AcrossGuide,
         Failure::AtDelta,
         Failure::NoGuideReaction,
     ];
-
-    /// Returns a word for files.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Failure::ParallelRods => "parallel-rods",
-            Failure::AcrossGuide => "across-guide",
-            Failure::AtDelta => "at-delta",
-            Failure::NoGuideReaction => "no-guide-reaction",
-        }
-    }
 }
 
 /// A measure of each method: δ-point, projective, equilibrium.
-pub type ByMethod = [f64; 3];
+pub(crate) type ByMethod = [f64; 3];
 
 /// Errors at one distance.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct DistanceErrors {
+pub(crate) struct DistanceErrors {
     /// The distance from the failure.
-    pub distance: f64,
+    pub(crate) distance: f64,
     /// Largest error of a reaction over the largest reaction.
-    pub forces: ByMethod,
+    pub(crate) forces: ByMethod,
     /// Relative error of the arm h.
-    pub arm: ByMethod,
+    pub(crate) arm: ByMethod,
     /// Condition number of the equilibrium equations.
-    pub condition: f64,
+    pub(crate) condition: f64,
 }
 
 fn turn_vector(v: [f64; 2], angle: f64) -> [f64; 2] {
@@ -77,8 +133,7 @@ fn delta_point(g: &GroupPose) -> [f64; 2] {
 
 /// Returns a group at a distance from a failure. At distance 1 it has the size of `base`. Returns `None` if `base` has
 /// no exact solution.
-#[must_use]
-pub fn at_distance(base: &GroupPose, failure: Failure, distance: f64) -> Option<GroupPose> {
+pub(crate) fn at_distance(base: &GroupPose, failure: Failure, distance: f64) -> Option<GroupPose> {
     let mut g = base.clone();
     let delta = delta_point(base);
     match failure {
@@ -112,7 +167,6 @@ fn relative_error(found: f64, exact: f64) -> f64 {
 }
 
 /// Returns the errors of the three methods on one group, or `None` if its equilibrium is singular.
-#[must_use]
 fn method_errors(g: &GroupPose, distance: f64) -> Option<DistanceErrors> {
     let reference = solve_exactly(g)?;
     let by_lu = solve_equilibrium(g);
@@ -135,7 +189,6 @@ fn shift_points(base: &GroupPose, rng: &mut ChaCha8Rng) -> GroupPose {
     let mut g = base.clone();
     for p in [&mut g.d, &mut g.f, &mut g.k, &mut g.m, &mut g.l] {
         for c in p {
-            #[allow(clippy::cast_precision_loss, reason = "31 bits")]
             let unit = (rng.next_u32() >> 1) as f64 / f64::from(1u32 << 31) - 0.5;
             *c += 1e-2 * size * unit;
         }
@@ -152,8 +205,7 @@ fn median(mut values: Vec<f64>) -> f64 {
 ///
 /// # Complexity
 /// O(distances · groups) exact solutions.
-#[must_use]
-pub fn sample_errors(
+pub(crate) fn sample_errors(
     base: &GroupPose,
     failure: Failure,
     distances: &[f64],
@@ -176,19 +228,4 @@ pub fn sample_errors(
         });
     }
     out
-}
-
-/// Returns the median errors near every failure at distances 1 down to 1e-15, each for [`GROUPS`] groups near `base`.
-#[must_use]
-pub fn study_failures(base: &GroupPose, seed: u64) -> Vec<(Failure, Vec<DistanceErrors>)> {
-    let distances = failure_distances();
-    Failure::ALL
-        .par_iter()
-        .map(|&f| (f, sample_errors(base, f, &distances, GROUPS, seed)))
-        .collect()
-}
-
-/// Returns distances 1 down to 1e-15, four per decade.
-fn failure_distances() -> Vec<f64> {
-    (0..=60).map(|i| 10f64.powf(-f64::from(i) / 4.0)).collect()
 }
