@@ -5,7 +5,9 @@ Every way is a command of its own, timed from start to end; all must find the sa
 """
 
 import argparse
+import csv
 import json
+import os
 import pathlib
 import re
 import resource
@@ -42,6 +44,15 @@ def counted(said):
     return int(json.loads(said)["determinate"])
 
 
+def pruned(name):
+    """The search without a diagram that `cargo bench --bench ways` has, within a running program and one thread, in seconds."""
+    request = json.dumps({"options": list(spaces.OPTIONS)})
+    command = ["cargo", "bench", "--quiet", "--bench", "ways", "--", "--quick", "--request", request, name]
+    threads = {**os.environ, "RAYON_NUM_THREADS": "1"}
+    lines = subprocess.run(command, capture_output=True, text=True, check=True, env=threads).stdout.splitlines()
+    return float(next(row["median_seconds"] for row in csv.DictReader(lines) if row["way"] == "pruned"))
+
+
 def in_words(seconds):
     if seconds is None:
         return "over the limit"
@@ -57,6 +68,7 @@ def column(ozols, name, seconds):
     times = {"ozols": took}
     said, times["ozols, every variant by itself"] = timed(by_ozols(ozols, name, "--method", "brute"), seconds)
     found = {"brute": counted(said)} if said else {}
+    times["ozols, depth first with cuts (*)"] = pruned(name)
     for way in ways.WAYS:
         said, times[way] = timed([sys.executable, __file__, "--way", way, "--of", name, ozols, "-"], seconds)
         if said is None:

@@ -1,7 +1,7 @@
 //! Accuracy and speed of every rank method on the built-in mechanisms.
 //!
 //! The [`survey`] asks every method of [`crate::rank::method`] about mechanisms of known mobility; [`stability`] moves
-//! geometry, digits, size, unit and prime until answers turn wrong.
+//! geometry, digits, size, unit and prime until answers turn wrong. `benches/ways` compares the ways of searching.
 //! Verdicts are the same on every run; only times differ.
 
 pub(crate) mod cases;

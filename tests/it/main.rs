@@ -2,6 +2,7 @@
 #![allow(clippy::unwrap_used, missing_docs, reason = "tests")]
 
 mod accuracy;
+mod bench;
 mod catalogs;
 mod catalogue;
 mod charts;

@@ -129,7 +129,7 @@ impl Reply {
 
 /// Replies counted.
 #[derive(Debug, Clone, Default, PartialEq)]
-pub(crate) struct Tally {
+pub struct Tally {
     /// How many of each of [`Said`].
     pub of: [usize; 4],
     /// The cases that are wrong and sure.
@@ -155,7 +155,7 @@ impl Tally {
     }
 
     /// Returns a tally of right and of wrong answers that took a time together.
-    pub(crate) fn of_share(right: usize, of: usize, seconds: f64) -> Tally {
+    pub fn of_share(right: usize, of: usize, seconds: f64) -> Tally {
         Tally {
             of: [right, 0, 0, of - right],
             seconds: vec![seconds],
@@ -164,24 +164,24 @@ impl Tally {
     }
 
     /// Adds the counts of another tally.
-    pub(crate) fn add(&mut self, other: &Tally) {
+    pub fn add(&mut self, other: &Tally) {
         for (sum, of) in self.of.iter_mut().zip(other.of) {
             *sum += of;
         }
     }
 
     /// Returns the number of replies.
-    pub(crate) fn count_replies(&self) -> usize {
+    pub fn count_replies(&self) -> usize {
         self.of.iter().sum()
     }
 
     /// Returns the median time in seconds.
-    pub(crate) fn median_time(&self) -> f64 {
+    pub fn median_time(&self) -> f64 {
         quantile(&self.seconds, 0.5)
     }
 
     /// Returns the share of one of [`Said`] in per cent; 0 if there are no replies.
-    pub(crate) fn percent_of(&self, said: Said) -> f64 {
+    pub fn percent_of(&self, said: Said) -> f64 {
         100.0 * self.of[said as usize] as f64 / self.count_replies().max(1) as f64
     }
 }

@@ -1,5 +1,5 @@
-//! One study: a range of one quantity, cases at each of its values, the questions about each case, and the truth. All studies and the
-//! survey have the same tally, the same table, one chart and one conclusion.
+//! One study: a range of one quantity, cases at each of its values, the questions about each case, and the truth. All studies, the survey
+//! and the comparison of searches have the same tally, the same table, one chart and one conclusion.
 
 mod conclusion;
 
@@ -41,10 +41,12 @@ pub enum View {
     Errors,
     /// The share of right answers against the time, with the front of what is fastest and most often right.
     Front,
+    /// The share of wrong answers against the time, or the figures of the tallies.
+    Points,
 }
 
 /// The name of a row, with its tally at each of its values.
-pub(super) type Row = (String, Vec<(f64, Tally)>);
+pub type Row = (String, Vec<(f64, Tally)>);
 
 /// The texts of a study, and how it is drawn; `studies.toml` says more.
 #[derive(Debug, Clone, Deserialize)]
@@ -67,7 +69,7 @@ pub struct Texts {
     #[serde(default = "said_words")]
     words: [String; 4],
     /// Advice to the user.
-    pub(super) advice: String,
+    pub advice: String,
 }
 
 fn said_words() -> [String; 4] {
@@ -94,14 +96,14 @@ pub struct Study {
     /// The values of the quantity, ascending.
     pub values: Vec<f64>,
     /// The rows.
-    pub(super) rows: Vec<Row>,
+    pub rows: Vec<Row>,
     /// A further sentence for the conclusion, or empty.
-    pub(super) note: String,
+    pub note: String,
 }
 
 impl Study {
     /// Returns a study without answers, which has texts by its name.
-    pub(super) fn new(name: &'static str, values: Vec<f64>) -> Study {
+    pub fn new(name: &'static str, values: Vec<f64>) -> Study {
         Study {
             name,
             texts: TEXTS[name].clone(),
@@ -139,7 +141,7 @@ impl Study {
     }
 
     /// Adds a tally to a row, which is new if none has its name.
-    pub(super) fn add_tally(&mut self, row: &str, value: f64, tally: Tally) {
+    pub fn add_tally(&mut self, row: &str, value: f64, tally: Tally) {
         match self.rows.iter_mut().find(|r| r.0 == row) {
             Some(row) => row.1.push((value, tally)),
             None => self.rows.push((row.to_owned(), vec![(value, tally)])),
@@ -177,7 +179,7 @@ impl Study {
     fn figure_of(&self, tally: &Tally) -> f64 {
         tally.figure.unwrap_or_else(|| match self.texts.view {
             View::Times => tally.median_time(),
-            View::Errors => tally.percent_of(Said::Wrong),
+            View::Errors | View::Points => tally.percent_of(Said::Wrong),
             _ => tally.percent_of(Said::Right),
         })
     }
@@ -218,13 +220,14 @@ impl Study {
 
     /// Returns a line or points for each row. A row with a comma in its name is dashed.
     fn draw_rows(&self, after: &str, y: impl Fn(&Tally) -> f64) -> Vec<Series> {
-        let over_time = self.texts.view == View::Front;
+        let over_time = matches!(self.texts.view, View::Front | View::Points);
         let x = |x: f64, t: &Tally| if over_time { t.median_time() } else { x };
         let row = |(name, tallies): &Row| {
             let name = format!("{name}{after}");
+            let lone = tallies.len() < 2 || tallies.iter().all(|(_, t)| t.figure.is_none());
             Series {
                 style: match name.contains(',') {
-                    _ if over_time => Style::Points,
+                    _ if over_time && lone => Style::Points,
                     true => Style::Dashed,
                     false => Style::Line,
                 },

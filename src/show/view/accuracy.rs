@@ -1,4 +1,4 @@
-//! How right and how fast methods are, for people.
+//! How right and how fast methods are.
 
 use crate::accuracy::study::Study;
 use crate::accuracy::survey::Survey;

@@ -2,13 +2,16 @@
 
 use super::{Row, Study, View, replies_of};
 use crate::accuracy::said::{Said, Tally};
-use crate::format::{format_duration, join_and, two_digits};
+use crate::accuracy::timing::quantile;
+use crate::format::{format_duration, group_thousands, join_and, three_digits, two_digits};
 
 impl Study {
     /// Returns the conclusion from the data.
     pub fn conclusion(&self) -> String {
         let found = match self.texts.view {
             View::Front => self.describe_front(),
+            View::Points if !self.note.is_empty() => String::new(),
+            View::Points => self.each_row(|(name, of)| self.describe_range(name, of)),
             View::Times => join_sentences([self.describe_shares(), self.describe_times()]),
             _ => self.describe_shares(),
         };
@@ -103,6 +106,40 @@ impl Study {
             join_and(&all),
             join_and(&front)
         )
+    }
+
+    /// Returns the figure of a row at its first and its last value, or its largest share of wrong answers, and its times.
+    fn describe_range(&self, name: &str, tallies: &[(f64, Tally)]) -> Option<String> {
+        let of: Vec<_> = replies_of(tallies).collect();
+        let times: Vec<f64> = of.iter().map(|(_, t)| t.median_time()).collect();
+        let [from, to] = [0.0, 1.0].map(|at| quantile(&times, at));
+        let (first, last) = (of.first()?, of.last()?);
+        if first.1.figure.is_none() {
+            let most = of
+                .iter()
+                .map(|(_, t)| self.figure_of(t))
+                .fold(0.0, f64::max);
+            let wrong = if most > 0.0 {
+                format!("wrong in up to {most:.1} %")
+            } else {
+                "never wrong".to_owned()
+            };
+            let [from, to] = [from, to].map(three_digits);
+            return Some(format!("{name} {wrong}, in {from} to {to} times the time"));
+        }
+        let [first, last] = [first, last].map(|(x, t)| {
+            format!(
+                "{} at {}",
+                three_digits(self.figure_of(t)),
+                group_thousands(x)
+            )
+        });
+        let [from, to] = [from, to].map(format_duration);
+        Some(if of.len() < 2 {
+            format!("{name}: {last} in {to}")
+        } else {
+            format!("{name}: {first} to {last} in {from} to {to}")
+        })
     }
 }
 

@@ -105,6 +105,18 @@ impl Matrices {
         (free - rank, loaded.map(|(j, _)| *j).collect())
     }
 
+    /// Returns the numbers of rows of a column: of the free state, of the kept links' motion, and of the searched state.
+    #[must_use]
+    pub fn row_counts(&self) -> [usize; 3] {
+        self.all.rows
+    }
+
+    /// Returns the columns of each choice of a variable.
+    #[must_use]
+    pub fn columns_of(&self, variable: usize) -> &[Vec<Vec<Residue>>] {
+        self.all.choices_of(variable)
+    }
+
     /// Looks at one variant.
     #[must_use]
     pub fn look_at(&self, choices: &[usize]) -> Seen {
@@ -142,7 +154,7 @@ fn free_and_kept_ranks(f: Field, of: &WrittenOut<Residue>, choices: &[usize]) ->
 }
 
 /// Applies plain Gaussian elimination to some vectors. Returns the columns of the pivots.
-pub(super) fn eliminate_pivots(f: Field, mut vectors: Vec<Vec<Residue>>) -> Vec<usize> {
+fn eliminate_pivots(f: Field, mut vectors: Vec<Vec<Residue>>) -> Vec<usize> {
     let width = vectors.first().map_or(0, Vec::len);
     let (mut pivots, mut done) = (Vec::new(), 0);
     for c in 0..width {

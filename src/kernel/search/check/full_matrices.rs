@@ -156,6 +156,11 @@ impl<N: Clone + Default> WrittenOut<N> {
         }
     }
 
+    /// Returns the columns of each choice of a variable.
+    pub(in crate::search) fn choices_of(&self, variable: usize) -> &[Vec<Vec<N>>] {
+        &self.columns[variable]
+    }
+
     /// Returns the columns of every choice, one after another.
     pub(in crate::search) fn all_columns(&self) -> impl Iterator<Item = &Vec<N>> {
         self.columns.iter().flatten().flatten()
