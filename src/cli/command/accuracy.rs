@@ -1,12 +1,13 @@
 //! `ozols accuracy`.
 
 use crate::accuracy::stability;
-use crate::accuracy::study::{self, Effort};
+use crate::accuracy::study::{self, Effort, Study};
 use crate::accuracy::survey::{Survey, built_in_cases, generated_cases};
-use crate::accuracy::timing::Stopwatch;
+use crate::accuracy::timing::{Machine, Stopwatch};
 use crate::cli::prelude::*;
 use crate::cli::terminal::{charts, machine};
-use crate::view::accuracy::accuracy_text;
+use crate::format::format_duration;
+use crate::rank::method::{MobilityMethod, registry};
 
 #[derive(Debug, ClapArgs)]
 pub(crate) struct Accuracy {
@@ -74,4 +75,57 @@ pub(crate) fn run_accuracy(args: &Global, a: &Accuracy) -> anyhow::Result<Done> 
     let written = charts::write_page(folder, files)?;
     bar.clear();
     output::write_bytes(None, format!("{text}\n{written}"))
+}
+
+/// Returns a table of the methods on built-in mechanisms and on those from the seed, the machine it was made on, and a paragraph
+/// for each study.
+fn accuracy_text(
+    [survey, generated]: [&Survey; 2],
+    studies: &[Study],
+    machine: &Machine,
+    width: Option<u16>,
+) -> String {
+    let cases = survey.cases.len();
+    let heads = format!(
+        "method | right of {cases} | at the pose only | wrong | n/a | right of {} from the seed | median time | what it promises",
+        generated.cases.len()
+    );
+    let standing = |name: &str| {
+        let m = registry::ALL.iter().position(|x| x.name() == name)?;
+        Some(survey.record_of(m).right)
+    };
+    let mut out = format!("{cases} cases of known mobility");
+    if let (Some(auto), Some(count)) = (standing("auto"), standing("count")) {
+        out +=
+            &format!(": the automatic choice is right on {auto}, the counting formula on {count}");
+    }
+    let table = text_table(&heads, method_rows(survey, generated), width);
+    out += &format!(
+        "\n\n{table}\n\n{}. On {machine}.\n",
+        survey.describe_repeats()
+    );
+    for study in studies {
+        out += &format!("\n{}: {}\n", study.texts.title, study.conclusion());
+    }
+    fit_lines(&out, width)
+}
+
+/// Returns a row for each method.
+fn method_rows(survey: &Survey, generated: &Survey) -> Vec<Vec<String>> {
+    let cases = survey.cases.len();
+    let count = |n: usize| if n == 0 { String::new() } else { n.to_string() };
+    let row = |(m, method): (usize, &&MobilityMethod)| {
+        let s = survey.record_of(m);
+        vec![
+            method.name().to_owned(),
+            s.right.to_string(),
+            count(s.pose),
+            count(s.count_wrong()),
+            count(cases - s.applies),
+            generated.record_of(m).right.to_string(),
+            format_duration(s.seconds),
+            method.guarantee.to_owned(),
+        ]
+    };
+    registry::ALL.iter().enumerate().map(row).collect()
 }

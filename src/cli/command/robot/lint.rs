@@ -1,6 +1,6 @@
 //! `ozols lint`.
 
-use crate::cli::command::types;
+use crate::cli::command::robot::types;
 use crate::cli::option::reading::{Reading, import_description};
 use crate::cli::prelude::*;
 use crate::file::problem::ImportError;

@@ -5,11 +5,11 @@ mod objects;
 mod reference;
 
 use crate::robots::cad::archive::Archive;
+use crate::robots::cad::fcstd::distance::{Held, Shapes, Slide, joint_constraint, joint_frames};
+use crate::robots::cad::fcstd::objects::{Object, Objects};
+use crate::robots::cad::fcstd::reference::NoReference::{Broken, Invalid};
+use crate::robots::cad::fcstd::reference::{Documents, Reference};
 use crate::robots::cad::{Assembly, Connection, NO_LIMITS};
-use crate::robots::fcstd::distance::{Held, Shapes, Slide, joint_constraint, joint_frames};
-use crate::robots::fcstd::objects::{Object, Objects};
-use crate::robots::fcstd::reference::NoReference::{Broken, Invalid};
-use crate::robots::fcstd::reference::{Documents, Reference};
 use crate::robots::prelude::*;
 
 /// The member of the archive that lists the objects.

@@ -1,6 +1,6 @@
 //! The reference of a joint: the part that moves, the frame's place in it, and the element of its shape.
 
-use crate::robots::fcstd::objects::{Object, Objects};
+use crate::robots::cad::fcstd::objects::{Object, Objects};
 use crate::robots::prelude::*;
 
 /// The documents read and the assembly of the main one.

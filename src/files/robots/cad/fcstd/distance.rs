@@ -1,8 +1,8 @@
 //! The constraint of a distance joint, by the kinds of its two elements.
 
+use crate::robots::cad::fcstd::objects::Object;
+use crate::robots::cad::fcstd::reference::Reference;
 use crate::robots::cad::holds::Holds;
-use crate::robots::fcstd::objects::Object;
-use crate::robots::fcstd::reference::Reference;
 use crate::robots::prelude::*;
 
 /// Below this two directions are one, and a line lies in a plane.

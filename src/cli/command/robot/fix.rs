@@ -1,7 +1,7 @@
 //! `ozols fix`.
 
-use crate::cli::command::types::{TypePlan, plan_variant};
-use crate::cli::command::{lint, types};
+use crate::cli::command::robot::types::{TypePlan, plan_variant};
+use crate::cli::command::robot::{lint, types};
 use crate::cli::option::reading::{Reading, import_description};
 use crate::cli::option::request::Which;
 use crate::cli::option::variant::{Chosen, print_note};

@@ -17,7 +17,7 @@ pub(crate) struct List {
 
 /// Output of `--format csv` for all mechanisms; reading and ranking every file takes twenty times as long. A test compares it
 /// with the files.
-const ALL: &str = include_str!("../../../catalogs/list.csv");
+const ALL: &str = include_str!("../../../../catalogs/list.csv");
 
 /// A state of a mechanism as data; the same keys in JSON and CSV.
 #[derive(Debug, Serialize, Deserialize)]
