@@ -35,7 +35,7 @@ use ozols::rank::exact::modular;
 use ozols::rank::numeric::{DEFAULT_TOLERANCE, Elimination};
 use ozols::rank::reduce::sufficient_rows::{LeastRows, Motions};
 use ozols::redundancy::analysis::{Method, analyse_states, exact_field};
-use ozols_dense::{Format, Matrix};
+use ozols_dense::{Format, Matrix, singular_values};
 use std::hint::black_box;
 use std::time::{Duration, Instant};
 
@@ -127,7 +127,7 @@ impl Case {
             ),
             (
                 "f64 singular values",
-                Box::new(|| by_values(&self.matrix, Format::Double, 1e-9)),
+                Box::new(|| above(&singular_values(&self.matrix).unwrap_or_default(), 1e-9)),
             ),
             (
                 "f64 QR, pivoted",
@@ -136,10 +136,6 @@ impl Case {
             (
                 "f64 LU, full pivots",
                 Box::new(|| above(&Format::Double.lu_pivots(&self.matrix), 1e-9)),
-            ),
-            (
-                "f32 singular values",
-                Box::new(|| by_values(&self.matrix, Format::Single, 1e-4)),
             ),
             (
                 "f32 QR, pivoted",
@@ -172,10 +168,6 @@ fn cases(sizes: &[usize]) -> impl Iterator<Item = Case> + '_ {
 fn above(sizes: &[f64], tolerance: f64) -> usize {
     let least = sizes.iter().fold(0.0, |a: f64, &b| a.max(b)) * tolerance;
     sizes.iter().filter(|v| **v > least).count()
-}
-
-fn by_values(m: &Matrix, format: Format, tolerance: f64) -> usize {
-    above(&format.singular_values(m).unwrap_or_default(), tolerance)
 }
 
 /// Elimination without fractions, Bareiss 1968.

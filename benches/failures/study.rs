@@ -4,83 +4,19 @@
 //! The reference is exact: the same doubles solved in rational arithmetic. Every distance is tested on several groups
 //! that differ by small random shifts of their points, and the median error is reported.
 
+use super::exact::solve_exactly;
 use chacha20::ChaCha8Rng;
 use chacha20::rand_core::{Rng, SeedableRng};
-use num_rational::BigRational;
-use num_traits::{ToPrimitive, Zero};
 use ozols::statics::contour_group::equilibrium::solve_equilibrium;
 use ozols::statics::contour_group::pose::{GroupPose, GroupReactions};
 use ozols::statics::contour_group::{delta_point, projective};
+use ozols::statics::cycle::Statics;
+use ozols::statics::kinetostatics::{Load, LoadSource};
 use ozols::statics::pose::{cross, length, minus, plus, quarter_turn};
+use rayon::prelude::*;
 
-/// Returns the reactions in rational arithmetic, with every number of the pose taken exactly, then rounded; `None` if the
-/// equations are singular or a number is not finite. Unknowns are the forces at D, F, K, M, L, the guide's and its moment about D.
-pub(crate) fn solve_exactly(g: &GroupPose) -> Option<GroupReactions> {
-    // For each joint the link that bears the force, and the one that bears its opposite.
-    let ends = [(0, 9), (1, 0), (2, 0), (1, 3), (2, 3)];
-    let exact = |x: f64| BigRational::from_float(x);
-    let vector = |v: [f64; 2]| Some([exact(v[0])?, exact(v[1])?]);
-    let mut rows = vec![vec![BigRational::zero(); 13]; 12];
-    let mut add = |link: usize, column: usize, at: &[BigRational; 2], force: [BigRational; 2]| {
-        if link > 3 {
-            return;
-        }
-        let [x, y] = force;
-        rows[3 * link + 2][column] += &at[0] * &y - &at[1] * &x;
-        rows[3 * link][column] += x;
-        rows[3 * link + 1][column] += y;
-    };
-    let (zero, one) = (BigRational::zero(), exact(1.0)?);
-    for (j, (point, (on, from))) in [g.d, g.f, g.k, g.m, g.l].into_iter().zip(ends).enumerate() {
-        let at = vector(point)?;
-        for (link, sign) in [(on, one.clone()), (from, -one.clone())] {
-            add(link, 2 * j, &at, [sign.clone(), zero.clone()]);
-            add(link, 2 * j + 1, &at, [zero.clone(), sign]);
-        }
-    }
-    add(3, 10, &vector(g.d)?, vector(g.guide_normal())?);
-    for load in &g.loads {
-        add(
-            load.body,
-            12,
-            &vector(load.point)?,
-            vector(load.force)?.map(|c| -c),
-        );
-    }
-    for load in &g.loads {
-        rows[3 * load.body + 2][12] -= exact(load.moment)?;
-    }
-    rows[11][11] = one;
-    for c in 0..12 {
-        let pivot = (c..12).find(|&r| !rows[r][c].is_zero())?;
-        rows.swap(c, pivot);
-        let top: Vec<BigRational> = rows[c].iter().map(|x| x / &rows[c][c]).collect();
-        for (r, row) in rows
-            .iter_mut()
-            .enumerate()
-            .filter(|(_, row)| !row[c].is_zero())
-        {
-            let factor = if r == c { continue } else { row[c].clone() };
-            for (x, t) in row.iter_mut().zip(&top).skip(c) {
-                *x -= &factor * t;
-            }
-        }
-        rows[c] = top;
-    }
-    let x = |i: usize| rows[i][12].to_f64().unwrap_or(f64::NAN);
-    let at = |j: usize| [x(2 * j), x(2 * j + 1)];
-    let arm = (!rows[10][12].is_zero()).then(|| (&rows[11][12] / &rows[10][12]).to_f64());
-    Some(GroupReactions {
-        d: at(0),
-        f: at(1),
-        k: at(2),
-        m: at(3),
-        l: at(4),
-        guide: x(10),
-        guide_moment: x(11),
-        arm: arm.flatten().unwrap_or(f64::INFINITY),
-    })
-}
+/// Number of groups tested at each distance in [`study_failures`].
+pub(crate) const GROUPS: usize = 9;
 
 /// Configurations in which the δ-point method fails. `[Bychkov, Dvornikov & Zhukov 2018]`
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -104,6 +40,27 @@ impl Failure {
         Failure::AtDelta,
         Failure::NoGuideReaction,
     ];
+
+    /// Returns a word for files.
+    pub(crate) fn name(self) -> &'static str {
+        match self {
+            Failure::ParallelRods => "parallel-rods",
+            Failure::AcrossGuide => "across-guide",
+            Failure::AtDelta => "at-delta",
+            Failure::NoGuideReaction => "no-guide-reaction",
+        }
+    }
+}
+
+/// Returns the first four-link group with a closed contour, in the pose in which external forces load it most.
+pub(crate) fn heaviest_group(found: &Statics) -> Option<&GroupPose> {
+    let weight = |g: &&GroupPose| -> f64 {
+        let outside = g.loads.iter().filter(|l| l.source == LoadSource::External);
+        outside.map(|l| l.force[0].hypot(l.force[1])).sum()
+    };
+    let first = found.moments.iter().filter_map(|x| x.groups.first());
+    let poses = first.map(|g| &g.pose);
+    poses.max_by(|a, b| weight(a).total_cmp(&weight(b)))
 }
 
 /// A measure of each method: δ-point, projective, equilibrium.
@@ -113,13 +70,13 @@ pub(crate) type ByMethod = [f64; 3];
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct DistanceErrors {
     /// The distance from the failure.
-    pub(crate) distance: f64,
+    pub distance: f64,
     /// Largest error of a reaction over the largest reaction.
-    pub(crate) forces: ByMethod,
+    pub forces: ByMethod,
     /// Relative error of the arm h.
-    pub(crate) arm: ByMethod,
+    pub arm: ByMethod,
     /// Condition number of the equilibrium equations.
-    pub(crate) condition: f64,
+    pub condition: f64,
 }
 
 fn turn_vector(v: [f64; 2], angle: f64) -> [f64; 2] {
@@ -155,10 +112,22 @@ pub(crate) fn at_distance(base: &GroupPose, failure: Failure, distance: f64) -> 
         Failure::AtDelta => g.d = plus(delta, distance, minus(g.d, delta)),
         Failure::NoGuideReaction => {
             let off = solve_exactly(base)?.guide * (1.0 - distance);
-            g.push(3, g.m, g.guide_normal().map(|c| c * off));
+            let normal = g.guide_normal();
+            push_link(&mut g, 3, base.m, normal.map(|c| c * off));
         }
     }
     Some(g)
+}
+
+/// Adds a force on a link.
+pub(crate) fn push_link(g: &mut GroupPose, link: usize, point: [f64; 2], force: [f64; 2]) {
+    g.loads.push(Load {
+        body: link,
+        source: LoadSource::External,
+        point,
+        force,
+        moment: 0.0,
+    });
 }
 
 fn relative_error(found: f64, exact: f64) -> f64 {
@@ -228,4 +197,18 @@ pub(crate) fn sample_errors(
         });
     }
     out
+}
+
+/// Returns the median errors near every failure at distances 1 down to 1e-15, each for [`GROUPS`] groups near `base`.
+pub(crate) fn study_failures(base: &GroupPose, seed: u64) -> Vec<(Failure, Vec<DistanceErrors>)> {
+    let distances = failure_distances();
+    Failure::ALL
+        .par_iter()
+        .map(|&f| (f, sample_errors(base, f, &distances, GROUPS, seed)))
+        .collect()
+}
+
+/// Returns distances 1 down to 1e-15, four per decade.
+fn failure_distances() -> Vec<f64> {
+    (0..=60).map(|i| 10f64.powf(-f64::from(i) / 4.0)).collect()
 }

@@ -2,7 +2,8 @@
 
 use crate::matrix::Matrix;
 use faer::linalg::solvers::{Solve, SolveLstsq};
-use faer::{Mat, Side};
+use faer::traits::{ComplexField, RealField};
+use faer::{Mat, MatRef, Side};
 
 /// Singular values and vectors: A = U · diag(values) · Vᵀ.
 #[derive(Debug, Clone)]
@@ -167,4 +168,51 @@ pub fn determinant(a: &Matrix) -> f64 {
     } else {
         a.as_faer().determinant()
     }
+}
+
+/// A floating-point format for elimination.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Format {
+    /// 32 bits.
+    Single,
+    /// 64 bits.
+    Double,
+}
+
+impl Format {
+    /// Returns the absolute diagonal of U of LU factors with full pivoting.
+    #[must_use]
+    pub fn lu_pivots(self, a: &Matrix) -> Vec<f64> {
+        match self {
+            _ if a.is_empty() => Vec::new(),
+            Format::Single => absolute_diagonal(round_to_single(a).full_piv_lu().U()),
+            Format::Double => absolute_diagonal(a.as_faer().full_piv_lu().U()),
+        }
+    }
+
+    /// Returns the absolute diagonal of R of QR factors with column pivoting.
+    #[must_use]
+    pub fn qr_diagonal(self, a: &Matrix) -> Vec<f64> {
+        match self {
+            _ if a.is_empty() => Vec::new(),
+            Format::Single => absolute_diagonal(round_to_single(a).col_piv_qr().R()),
+            Format::Double => absolute_diagonal(a.as_faer().col_piv_qr().R()),
+        }
+    }
+}
+
+#[allow(
+    clippy::cast_possible_truncation,
+    reason = "single precision is the point"
+)]
+fn round_to_single(a: &Matrix) -> Mat<f32> {
+    Mat::from_fn(a.nrows(), a.ncols(), |r, c| a[(r, c)] as f32)
+}
+
+fn absolute_diagonal<T: ComplexField<Real = T> + RealField + Copy + Into<f64>>(
+    factor: MatRef<'_, T>,
+) -> Vec<f64> {
+    (0..factor.nrows().min(factor.ncols()))
+        .map(|i| factor[(i, i)].into().abs())
+        .collect()
 }

@@ -4,12 +4,10 @@
 //! of its builds. Here they are compiled once, so `ozols` itself compiles quickly.
 
 mod decompose;
-mod format;
 mod matrix;
 
 pub use decompose::{
-    Svd, determinant, least_squares, least_squares_pivoted, singular_values, solve, solve_positive,
-    svd, symmetric_eigen, thin_svd,
+    Format, Svd, determinant, least_squares, least_squares_pivoted, singular_values, solve,
+    solve_positive, svd, symmetric_eigen, thin_svd,
 };
-pub use format::Format;
 pub use matrix::{Matrix, add_scaled, difference, dot, largest_entry, norm};

@@ -159,11 +159,6 @@ pub fn format_duration(seconds: f64) -> String {
     format!("{value:.decimals$} {unit}")
 }
 
-/// Formats a difference with its sign, using a true minus: −3, +1.
-pub fn format_signed(x: i64) -> String {
-    with_minus_sign(&format!("{x:+}"))
-}
-
 /// Replaces the minus in a number's text by a true minus sign.
 pub fn with_minus_sign(text: &str) -> String {
     text.replace('-', "\u{2212}")
@@ -250,6 +245,5 @@ mod tests {
             ["11.5", "-2", "0.007"]
         );
         assert_eq!([4.21e-6, 0.0123].map(format_duration), ["4.2 µs", "12 ms"]);
-        assert_eq!([-3, 1].map(format_signed), ["−3", "+1"]);
     }
 }

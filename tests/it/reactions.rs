@@ -213,7 +213,13 @@ fn the_drive_of_a_ball_holds_its_own_turn() {
         let load = format!("[[workload.moment]]\nlink = \"a\"\nmoment = {moment}\n");
         let text = write_mechanism("name = \"ball\"", "0 a*", joints) + &load;
         let m = read(&text);
-        let found = ozols::statics::reactions::solve_cycle(&m, StateId::FREE, None).unwrap();
+        let found = ozols::statics::reactions::solve_cycle(
+            &m,
+            StateId::FREE,
+            None,
+            ozols::statics::reactions::Contacts::AsJoints,
+        )
+        .unwrap();
         found.positions[0].1.clone().unwrap()
     };
     for (moment, torque) in [("[0, 0, 1]", -1.0), ("[0, 1, 0]", 0.0)] {

@@ -4,8 +4,6 @@ use crate::common::*;
 mod command;
 mod cycle;
 mod enumeration;
-#[path = "../../benches/failures/study.rs"]
-pub(crate) mod failures;
 mod force_plans;
 mod ill_posed;
 mod loads;

@@ -277,13 +277,16 @@ impl Wanted {
         }
     }
 
+    /// Returns the trial of a bar of this length, whose diameter follows by (10).
+    fn try_length(&self, length: f64) -> BarTrial {
+        let diameter = bar_diameter(self.inertia, length, self.period, self.shear_modulus);
+        self.try_bar(length, diameter)
+    }
+
     /// Returns the smallest length, at which (11) is an equality: `[φ]` grows as l^(3/4) if d follows (10). `[m]`
     #[must_use]
     pub fn least_length(&self) -> f64 {
-        let one = self.try_bar(
-            1.0,
-            bar_diameter(self.inertia, 1.0, self.period, self.shear_modulus),
-        );
+        let one = self.try_length(1.0);
         (self.twist / one.allowable_twist).powf(4.0 / 3.0)
     }
 
@@ -302,10 +305,7 @@ impl Wanted {
             let up = |l: f64| (l / self.length_step - 1e-9).ceil().max(1.0) * self.length_step;
             let mut length = self.length.unwrap_or(self.length_step);
             for _ in 0..64 {
-                let trial = self.try_bar(
-                    length,
-                    bar_diameter(self.inertia, length, self.period, self.shear_modulus),
-                );
+                let trial = self.try_length(length);
                 trials.push(trial);
                 if trial.strong || !trial.fits {
                     break;
@@ -335,10 +335,7 @@ impl Wanted {
     fn find_remedy(&self, trials: &[BarTrial]) -> Remedy {
         let longest = trials.iter().map(|t| t.bar.length).fold(0.0, f64::max);
         let length = self.max_length.unwrap_or(longest);
-        let here = self.try_bar(
-            length,
-            bar_diameter(self.inertia, length, self.period, self.shear_modulus),
-        );
+        let here = self.try_length(length);
         // The thickest bar of this length that twists by φ0 within its strength.
         let thickest = 2.0 * length * self.allowable_stress / (self.shear_modulus * self.twist);
         Remedy {

@@ -9,7 +9,7 @@ use crate::statics::contour_group::pose::GroupPose;
 use crate::statics::contour_group::solutions::GroupSolutions;
 use crate::statics::contour_group::{ContourGroup, recognise_letters};
 use crate::statics::kinetostatics::{
-    LinkInertia, Load, LoadSource, Reaction, Worth, link_inertias, planar_loads, planar_reactions,
+    LinkInertia, Load, Reaction, Worth, link_inertias, planar_loads, planar_reactions,
     solution_worth,
 };
 use crate::statics::planar::{BodyId, PairId, PairKind, PlanarError, PlanarMechanism};
@@ -196,19 +196,6 @@ impl Statics {
             condition: worst.map_or(f64::INFINITY, |w| w.1),
             pose,
         })
-    }
-
-    /// Returns the first four-link group with a closed contour, in the pose in which external forces load it most.
-    #[must_use]
-    pub fn heaviest_contour_group(&self) -> Option<&GroupPose> {
-        let outside = |l: &&Load| l.source == LoadSource::External;
-        let weight = |g: &GroupPose| -> f64 {
-            let forces = g.loads.iter().filter(outside).map(|l| l.force);
-            forces.map(|f| f[0].hypot(f[1])).sum()
-        };
-        let first = self.moments.iter().filter_map(|x| x.groups.first());
-        let poses = first.map(|g| &g.pose);
-        poses.max_by(|a, b| weight(a).total_cmp(&weight(b)))
     }
 }
 

@@ -7,7 +7,7 @@ use crate::statics::cycle::{PlanarStaticsError, Statics, planar_statics};
 use crate::statics::planar::{PlanarError, loads_are_in_plane};
 use crate::statics::reactions::Unsolved;
 use crate::statics::reactions::contact::{Contacts, object_at};
-use crate::statics::reactions::cycle::{Cycle, cycle_with};
+use crate::statics::reactions::cycle::{Cycle, solve_cycle};
 use thiserror::Error;
 
 /// The equations for a mechanism's reactions.
@@ -115,7 +115,7 @@ pub fn solve_reactions(
             Err(e) => return Err(e.into()),
         }
     }
-    Ok(SolvedReactions::Spatial(cycle_with(
+    Ok(SolvedReactions::Spatial(solve_cycle(
         m, state, stroke, contacts,
     )?))
 }

@@ -109,15 +109,3 @@ impl Elimination {
         Ok(rank_of_values(values, tolerance))
     }
 }
-
-/// Returns the rank of J by singular values. Lengths are first divided by the largest velocity entry and columns scaled
-/// to unit length, so that the result does not depend on the unit of length.
-///
-/// # Errors
-/// Returns an error if the decomposition fails.
-pub(crate) fn rank_with_tolerance(
-    closure: &Closure<f64>,
-    tolerance: f64,
-) -> Result<NumericRank, NumericError> {
-    Elimination::Svd.rank_of_closure(closure, tolerance)
-}

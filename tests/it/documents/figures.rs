@@ -2,7 +2,6 @@
 
 use crate::accuracy::SURVEY;
 use crate::common::*;
-use crate::statics::failures::{DistanceErrors, Failure, sample_errors};
 
 /// Asserts that a document has these words, wherever its lines are broken.
 pub(crate) fn says(document: &str, words: &str) {
@@ -178,50 +177,4 @@ fn the_guide_has_the_energies_of_the_built_in_drive() {
         "src/guide/drive.md",
         &format!("With the {energy:.4} J of (12)"),
     );
-}
-
-/// How the three methods lose digits near each place where they fail, within a factor of three, as processors round otherwise.
-#[test]
-fn digits_near_the_failures_of_the_methods_are_as_the_guide_says() {
-    const GUIDE: &str = "src/guide/kinetostatics.md";
-    let m = built_in("parallel-shears");
-    let found = planar_statics(&m, StateId::FREE, m.loads.stroke).unwrap();
-    let base = found.heaviest_contour_group().unwrap();
-    let guide = fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join(GUIDE)).unwrap();
-    let all_forces: fn(&DistanceErrors) -> f64 = |s| s.forces.into_iter().fold(0.0, f64::max);
-    for (row, failure, error) in [
-        (
-            "rods 6, 7 parallel: δ-point",
-            Failure::ParallelRods,
-            (|s| s.forces[0]) as fn(&DistanceErrors) -> f64,
-        ),
-        (
-            "D across the guide from δ",
-            Failure::AcrossGuide,
-            all_forces,
-        ),
-        ("D at δ", Failure::AtDelta, all_forces),
-        ("no guide reaction: h", Failure::NoGuideReaction, |s| {
-            s.arm.into_iter().fold(0.0, f64::max)
-        }),
-    ] {
-        let stated = guide
-            .lines()
-            .find(|l| l.starts_with(&format!("| {row} |")))
-            .unwrap();
-        let stated = stated
-            .split('|')
-            .skip(2)
-            .take(3)
-            .map(|c| c.trim().parse::<f64>().unwrap());
-        let distances = [1.0, 1e-6, 1e-12];
-        let found = sample_errors(base, failure, &distances, 9, 1);
-        for ((distance, stated), found) in distances.into_iter().zip(stated).zip(&found) {
-            let found = error(found);
-            assert!(
-                (stated / 3.0..3.0 * stated).contains(&found),
-                "{row} at {distance}: {found:e}"
-            );
-        }
-    }
 }

@@ -3,8 +3,8 @@
 use super::expr;
 use crate::common::*;
 use crate::reactions::{effort, greatest_force};
-use ozols::statics::reactions::cycle::{Cycle, solve_cycle};
 use ozols::statics::reactions::geometry::{cross, dot};
+use ozols::statics::reactions::{Contacts, Cycle, solve_cycle};
 
 /// A built-in mechanism with masses beside its joints, gravity, and a drive at a speed.
 fn moving(name: &str, speed: f64, inertia: impl Fn(f64) -> Inertia) -> Mechanism {
@@ -59,15 +59,15 @@ fn the_drive_bears_the_same_in_the_plane_and_in_space() {
                 mass.centre[2] = Expr::from(0);
             }
         }
-        let c = solve_cycle(&m, StateId::FREE, Some(STROKE)).unwrap();
+        let c = solve_cycle(&m, StateId::FREE, Some(STROKE), Contacts::AsJoints).unwrap();
         assert!(c.stopped.is_none(), "{name}");
         let planar = planar_statics(&m, StateId::FREE, Some(STROKE)).unwrap();
         assert!(planar.dead.is_none());
         let mut still = m.clone();
         still.edit().loads.drive_speeds.clear();
-        let at_rest = solve_cycle(&still, StateId::FREE, Some(STROKE)).unwrap();
+        let at_rest = solve_cycle(&still, StateId::FREE, Some(STROKE), Contacts::AsJoints).unwrap();
         m.edit().mode = Mode::Spatial;
-        let spatial = solve_cycle(&m, StateId::FREE, Some(STROKE)).unwrap();
+        let spatial = solve_cycle(&m, StateId::FREE, Some(STROKE), Contacts::AsJoints).unwrap();
         let mut differs = 0.0f64;
         let all = solved(&c).into_iter().zip(solved(&spatial));
         let all = all.zip(solved(&at_rest)).zip(&planar.moments);
@@ -152,7 +152,7 @@ fn the_drive_feeds_the_energy_of_spatial_mechanisms() {
             _ => [0.0, 0.3],
         };
         let stroke = Stroke { from, to, steps: 2 };
-        let c = solve_cycle(&m, StateId::FREE, Some(stroke)).unwrap();
+        let c = solve_cycle(&m, StateId::FREE, Some(stroke), Contacts::AsJoints).unwrap();
         let slides = matches!(c.drives[0].1, Freedom::Tx | Freedom::Ty | Freedom::Tz);
         let unit = if slides { m.length_unit.metres } else { 1.0 };
         for (at, s) in solved(&c) {
@@ -174,7 +174,7 @@ fn the_drive_feeds_the_energy_of_spatial_mechanisms() {
 #[test]
 fn an_inertia_for_a_plane_is_refused_in_space() {
     let m = moving("rsur", 1.0, Inertia::Plane);
-    match solve_cycle(&m, StateId::FREE, None) {
+    match solve_cycle(&m, StateId::FREE, None, Contacts::AsJoints) {
         Err(e @ Unsolved::PlaneInertia { .. }) => {
             assert!(e.to_string().contains("3 about the axes"))
         }

@@ -5,7 +5,7 @@ use super::{built_in, expr, vector};
 use crate::common::*;
 use crate::reactions::{effort, greatest_force};
 use ozols::model::mechanism::{Joint, Link};
-use ozols::statics::reactions::cycle::{Cycle, solve_cycle};
+use ozols::statics::reactions::{Contacts, Cycle, solve_cycle};
 
 /// Masses `[kg]` at points in the file's unit.
 type Points = Vec<(f64, [f64; 3])>;
@@ -100,7 +100,7 @@ proptest! {
         let name = ["rsur", "slider-crank-determinate"][which];
         let [whole, parts] = both(name, &seed, speed);
         let stroke = Some(Stroke { from: 0.0, to: 0.4, steps: 2 });
-        let [a, b] = [&whole, &parts].map(|m| solve_cycle(m, StateId::FREE, stroke).unwrap());
+        let [a, b] = [&whole, &parts].map(|m| solve_cycle(m, StateId::FREE, stroke, Contacts::AsJoints).unwrap());
         prop_assert_eq!(a.positions.len(), 3);
         for ((_, x), (_, y)) in solved(&a).zip(solved(&b)) {
             prop_assert_eq!((x.choice, y.choice), (Uniqueness::Unique, Uniqueness::Unique));
@@ -142,7 +142,7 @@ fn forces_come_again_in_each_turn_in_space() {
         })
     };
     let efforts = |from| -> Vec<f64> {
-        let found = solve_cycle(&m, StateId::FREE, stroke(from)).unwrap();
+        let found = solve_cycle(&m, StateId::FREE, stroke(from), Contacts::AsJoints).unwrap();
         solved(&found).map(|(_, s)| effort(&s.reactions)).collect()
     };
     // At 0, 0.25, 0.5, 0.75 and 1 rad, and again a turn later and a turn before.

@@ -48,7 +48,7 @@ fn force_plans_close_beside_those_of_the_full_solve() {
 /// The force plan is of a pose in which the knives cut, by the file from 165 to 200 degrees of the crank, and not of one in which they
 /// do not.
 #[test]
-fn the_force_plan_is_of_the_pose_with_most_load_from_outside() {
+fn the_heaviest_group_is_that_of_the_cut() {
     use ozols::statics::kinetostatics::LoadSource;
     use ozols::statics::solve::{Model, SolvedReactions, solve_reactions};
     let m = built_in("parallel-shears");
@@ -57,7 +57,7 @@ fn the_force_plan_is_of_the_pose_with_most_load_from_outside() {
         panic!("it is planar")
     };
     assert_eq!(found.moments.len(), 73);
-    let plan = found.heaviest_contour_group().unwrap();
+    let plan = super::stability::study::heaviest_group(&found).unwrap();
     let outside = plan
         .loads
         .iter()

@@ -1,6 +1,5 @@
 //! The equations of [Bychkov, Dvornikov & Zhukov 2018] one by one, against reactions found in exact arithmetic.
 
-use super::failures::solve_exactly;
 use super::shears_text;
 use crate::common::*;
 use ozols::statics::contour_group::pose::GroupPose;
@@ -30,7 +29,7 @@ fn each_equation_gives_its_component() {
     let mut tried = 0;
     for g in s.moments.iter().flat_map(|m| &m.groups) {
         let (p, steps) = (&g.pose, &g.steps);
-        let exact = solve_exactly(p).unwrap();
+        let exact = super::stability::exact::solve_exactly(p).unwrap();
         let greatest = [exact.d, exact.f, exact.k, exact.m, exact.l]
             .iter()
             .map(|v| length(*v))

@@ -81,7 +81,7 @@ fn three_methods_agree_on_the_shears_to_nine_digits() {
         cutting += usize::from(m.loads.iter().any(|l| l.source == LoadSource::External));
         for (g, (_, letters)) in m.groups.iter().zip(&s.contour_groups) {
             let (lu, worth) = g.equilibrium.unwrap();
-            let exact = super::failures::solve_exactly(&g.pose).unwrap();
+            let exact = super::stability::exact::solve_exactly(&g.pose).unwrap();
             let out_of_whole =
                 from_equilibrium(&s.linkage, letters, &g.pose, &m.reactions).unwrap();
             for (name, found) in [
@@ -270,11 +270,12 @@ fn a_group_without_loads_bears_nothing() {
     let s = over(shears_text(), 0.0, 0.0, 1);
     let mut g = s.moments[0].groups[0].pose.clone();
     g.loads.clear();
-    g.push(1, g.f, [3.0, 4.0]);
+    let at = g.f;
+    super::stability::study::push_link(&mut g, 1, at, [3.0, 4.0]);
     // A force at the head of rod 6 is borne as if it acted on link 4 there.
     let mut h = g.clone();
     h.loads.clear();
-    h.push(0, g.f, [3.0, 4.0]);
+    super::stability::study::push_link(&mut h, 0, at, [3.0, 4.0]);
     let (a, b) = (
         projective::solve_projective(&g),
         projective::solve_projective(&h),

@@ -1,10 +1,18 @@
 //! Accuracy near each failure of the δ-point method, against exact arithmetic.
 
-use super::failures::{DistanceErrors, Failure, at_distance, sample_errors, solve_exactly};
 use super::shears_text;
 use crate::common::*;
 use ozols::statics::contour_group::pose::GroupPose;
 use ozols::statics::contour_group::{delta_point, equilibrium, projective};
+use study::{
+    DistanceErrors, Failure, GROUPS, at_distance, heaviest_group, push_link, sample_errors,
+};
+
+#[path = "../../../benches/failures/exact.rs"]
+pub(super) mod exact;
+#[allow(dead_code, reason = "the bench studies all distances")]
+#[path = "../../../benches/failures/study.rs"]
+pub(super) mod study;
 
 fn base() -> GroupPose {
     let at = Stroke {
@@ -51,7 +59,7 @@ fn parallel_rods_harm_only_the_published_form() {
     (g.f, g.m) = ([-0.5, 0.0], [-0.5, 1.0]);
     (g.k, g.l) = ([0.25, 0.0], [0.25, 1.5]);
     g.d = [0.125, -1.0];
-    let exact = solve_exactly(&g).unwrap();
+    let exact = exact::solve_exactly(&g).unwrap();
     assert!(projective::solve_projective(&g).distance_to(&exact, &g) < 1e-14);
     let (published, steps) = delta_point::solve_delta(&g);
     assert!(!steps.delta.iter().all(|c| c.is_finite()));
@@ -67,7 +75,7 @@ fn dead_points_harm_every_method_alike() {
             assert!(s.forces.iter().all(|e| *e < bound), "{failure:?} {s:?}");
             assert!(s.condition > 0.1 / s.distance, "{s:?}");
         }
-        assert!(solve_exactly(&at_distance(&base(), failure, 1e-12).unwrap()).is_some());
+        assert!(exact::solve_exactly(&at_distance(&base(), failure, 1e-12).unwrap()).is_some());
     }
 }
 
@@ -94,8 +102,8 @@ fn a_group_solved_by_hand() {
     (g.d, g.f, g.k) = ([0.0, 0.0], [-1.0, 1.0], [1.0, 1.0]);
     (g.m, g.l) = ([-1.0, 3.0], [1.0, 3.0]);
     g.guide = [0.0, 1.0];
-    g.push(3, [0.0, 4.0], [0.0, -8.0]);
-    let exact = solve_exactly(&g).unwrap();
+    push_link(&mut g, 3, [0.0, 4.0], [0.0, -8.0]);
+    let exact = exact::solve_exactly(&g).unwrap();
     for r in [
         exact,
         projective::solve_projective(&g),
@@ -107,5 +115,42 @@ fn a_group_solved_by_hand() {
         assert!(near(r.f, [0.0, 4.0]) && near(r.k, [0.0, 4.0]), "{r:?}");
         assert!(near(r.m, [0.0, -4.0]) && near(r.l, [0.0, -4.0]), "{r:?}");
         assert!(r.guide.abs() < 1e-14 && r.guide_moment.abs() < 1e-14);
+    }
+}
+
+/// How the three methods lose digits near each failure, within a factor of three, as processors round otherwise.
+#[test]
+fn digits_near_the_failures_are_as_the_guide_says() {
+    let shears = built_in("parallel-shears");
+    let found = planar_statics(&shears, StateId::FREE, shears.loads.stroke).unwrap();
+    let base = heaviest_group(&found).unwrap();
+    let guide = Path::new(env!("CARGO_MANIFEST_DIR")).join("src/guide/kinetostatics.md");
+    let guide = fs::read_to_string(guide).unwrap();
+    for (row, failure, methods) in [
+        ("rods 6, 7 parallel: δ-point", Failure::ParallelRods, 0..1),
+        ("D across the guide from δ", Failure::AcrossGuide, 0..3),
+        ("D at δ", Failure::AtDelta, 0..3),
+        ("no guide reaction: h", Failure::NoGuideReaction, 0..3),
+    ] {
+        let mut lines = guide.lines();
+        let stated = lines
+            .find(|l| l.starts_with(&format!("| {row} |")))
+            .unwrap();
+        let stated = stated.split('|').skip(2).take(3);
+        let found = sample_errors(base, failure, &[1.0, 1e-6, 1e-12], GROUPS, 1);
+        for (s, stated) in found.iter().zip(stated) {
+            let arms = failure == Failure::NoGuideReaction;
+            let of = if arms { s.arm } else { s.forces };
+            // What is exact to the last bit is drawn at the foot.
+            let worst = of[methods.clone()]
+                .iter()
+                .fold(1e-17, |a: f64, x| a.max(*x));
+            let stated: f64 = stated.trim().parse().unwrap();
+            assert!(
+                (stated / 3.0..3.0 * stated).contains(&worst),
+                "{row} at {}: {worst:e}",
+                s.distance
+            );
+        }
     }
 }

@@ -10,7 +10,7 @@ use crate::model::ranking::ClearanceSum;
 use crate::score::evaluation::evaluate::Evaluator;
 use crate::score::evaluation::pose_tables::{PlacedJoint, PoseTable};
 use crate::score::evaluation::terms::Floor;
-use ozols_dense::{Matrix, svd, thin_svd};
+use ozols_dense::{Matrix, difference, norm, svd, thin_svd};
 
 /// Steps of each problem.
 const STEPS: usize = 60;
@@ -167,25 +167,12 @@ fn common_equations(table: &PoseTable) -> Option<Common> {
 /// Returns whether a unit twist, with its entries in couplings up to the given width, is in the span of others. Its right sides are then
 /// determined, because they are linear in the twist.
 pub(in crate::score) fn is_in_span(row: &[f64], others: &[Vec<f64>], width: usize) -> bool {
-    let inner = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(x, y)| x * y).sum::<f64>();
-    let clear = |mut v: Vec<f64>, basis: &[Vec<f64>]| {
-        // Twice is enough [Parlett 1998, 6.9].
-        for b in basis.iter().chain(basis) {
-            let along = inner(&v, b);
-            v.iter_mut().zip(b).for_each(|(x, y)| *x -= along * y);
-        }
-        v
+    let Some(svd) = thin_svd(&Matrix::from_fn(others.len(), width, |r, c| others[r][c])) else {
+        return false;
     };
-    let mut basis: Vec<Vec<f64>> = Vec::new();
-    for other in others {
-        let rest = clear(other[..width].to_vec(), &basis);
-        let size = inner(&rest, &rest).sqrt();
-        if size > NONE {
-            basis.push(rest.iter().map(|x| x / size).collect());
-        }
-    }
-    let rest = clear(row[..width].to_vec(), &basis);
-    inner(&rest, &rest).sqrt() <= NONE
+    let basis = svd.v.cols(0..svd.rank(NONE));
+    let along = basis.transpose_times(&Matrix::from_column(&row[..width]));
+    norm(&difference(&row[..width], basis.times(&along).col(0))) <= NONE
 }
 
 /// Returns the load of a place in one load case, as a function of the coordinates that the common equations leave open.

@@ -326,24 +326,21 @@ fn ordinal(n: usize) -> String {
 fn describe_change(m: &Mechanism, term: Term, from: &Scores, to: &Scores) -> String {
     let joint = |j: JointId| m.joints.get(j.index()).map_or("", |j| j.id.as_str());
     match term {
-        Term::PeakForce => format!(
-            "peak force {} N ({} of capacity, joint {}) instead of {} N ({}, joint {})",
-            three_digits(to.force.value),
-            three_digits(to.force.utilisation),
-            joint(to.force.joint),
-            three_digits(from.force.value),
-            three_digits(from.force.utilisation),
-            joint(from.force.joint)
-        ),
-        Term::PeakMoment => format!(
-            "peak moment {} N·m ({} of capacity, joint {}) instead of {} N·m ({}, joint {})",
-            three_digits(to.moment.value),
-            three_digits(to.moment.utilisation),
-            joint(to.moment.joint),
-            three_digits(from.moment.value),
-            three_digits(from.moment.utilisation),
-            joint(from.moment.joint)
-        ),
+        Term::PeakForce | Term::PeakMoment => {
+            let (what, unit, to, from) = match term {
+                Term::PeakForce => ("force", "N", to.force, from.force),
+                _ => ("moment", "N·m", to.moment, from.moment),
+            };
+            format!(
+                "peak {what} {} {unit} ({} of capacity, joint {}) instead of {} {unit} ({}, joint {})",
+                three_digits(to.value),
+                three_digits(to.utilisation),
+                joint(to.joint),
+                three_digits(from.value),
+                three_digits(from.utilisation),
+                joint(from.joint)
+            )
+        }
         Term::OutputError => format!(
             "output error {} mm instead of {} mm",
             three_digits(1e3 * to.output_error),

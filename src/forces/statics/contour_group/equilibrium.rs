@@ -2,7 +2,7 @@
 
 use crate::statics::contour_group::pose::{GroupPose, GroupReactions};
 use crate::statics::kinetostatics::Worth;
-use crate::statics::pose::{length, minus};
+use crate::statics::pose::{cross, length, minus};
 use crate::statics::{condition_number, greatest_abs};
 use ozols_dense::Matrix;
 
@@ -15,16 +15,15 @@ const ENDS: [(usize, Option<usize>); 5] = [
     (2, Some(3)),
 ];
 
-/// Returns the equations with moments about `origins`: rows of 12 coefficients and the right side. The unknowns are the
-/// components at D, F, K, M, L, then the guide's reaction and its moment about D.
+/// Returns the equations with moments about these origins of the links: rows of 12 coefficients and the right side. The
+/// unknowns are the components at D, F, K, M, L, then the guide's reaction and its moment about D.
 fn equilibrium_rows(g: &GroupPose, origins: [[f64; 2]; 4]) -> Vec<Vec<f64>> {
     let mut rows = vec![vec![0.0; 13]; 12];
-    let arm = |p: [f64; 2], link: usize| minus(p, origins[link]);
     for (j, (point, (first, second))) in [g.d, g.f, g.k, g.m, g.l].into_iter().zip(ENDS).enumerate()
     {
         for (link, sign) in [(Some(first), 1.0), (second, -1.0)] {
             let Some(link) = link else { continue };
-            let [x, y] = arm(point, link);
+            let [x, y] = minus(point, origins[link]);
             rows[3 * link][2 * j] = sign;
             rows[3 * link + 1][2 * j + 1] = sign;
             rows[3 * link + 2][2 * j] = -sign * y;
@@ -32,18 +31,17 @@ fn equilibrium_rows(g: &GroupPose, origins: [[f64; 2]; 4]) -> Vec<Vec<f64>> {
         }
     }
     // The guide: a force at D along the normal, and a couple.
-    let [nx, ny] = g.guide_normal();
-    let [x, y] = arm(g.d, 3);
-    (rows[9][10], rows[10][10]) = (nx, ny);
-    rows[11][10] = x * ny - y * nx;
+    let normal = g.guide_normal();
+    rows[9][10] = normal[0];
+    rows[10][10] = normal[1];
+    rows[11][10] = cross(minus(g.d, origins[3]), normal);
     rows[11][11] = 1.0;
     for load in &g.loads {
-        let [fx, fy] = load.force;
-        let [x, y] = arm(load.point, load.body);
+        let arm = minus(load.point, origins[load.body]);
         let row = 3 * load.body;
-        rows[row][12] -= fx;
-        rows[row + 1][12] -= fy;
-        rows[row + 2][12] = rows[row + 2][12] - (x * fy - y * fx) - load.moment;
+        rows[row][12] -= load.force[0];
+        rows[row + 1][12] -= load.force[1];
+        rows[row + 2][12] = rows[row + 2][12] - cross(arm, load.force) - load.moment;
     }
     rows
 }

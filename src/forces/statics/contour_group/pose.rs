@@ -1,7 +1,7 @@
 //! The group in one pose: points, guide and loads, and the reactions found there.
 
 use crate::statics::contour_group::ContourGroup;
-use crate::statics::kinetostatics::{Load, LoadSource};
+use crate::statics::kinetostatics::Load;
 use crate::statics::planar::{BodyId, PairId};
 use crate::statics::pose::{Linkage, Pose, cross, dot, length, minus, quarter_turn};
 use crate::statics::{drop_rounding, greatest_abs, rounding_size};
@@ -71,17 +71,6 @@ impl GroupPose {
     pub(crate) fn moment_on(&self, link: usize, about: [f64; 2]) -> f64 {
         let own = self.loads.iter().filter(|l| l.body == link);
         own.map(|l| l.moment_about(about)).sum()
-    }
-
-    /// Adds a force on a link.
-    pub fn push(&mut self, link: usize, point: [f64; 2], force: [f64; 2]) {
-        self.loads.push(Load {
-            body: link,
-            source: LoadSource::External,
-            point,
-            force,
-            moment: 0.0,
-        });
     }
 }
 

@@ -23,7 +23,7 @@ pub struct Cycle {
 }
 
 /// Returns the reactions under the file's loads, including inertia forces of the stated drive speeds, over a stroke or
-/// at the pose of the file.
+/// at the pose of the file, with a treatment of contacts.
 ///
 /// # Errors
 /// Returns an [`Unsolved`] if no pose has a solution.
@@ -33,24 +33,13 @@ pub struct Cycle {
 ///
 /// # Examples
 /// ```
-/// use ozols::{model::mechanism::StateId, statics::reactions::cycle::solve_cycle};
-/// let found = solve_cycle(&ozols::built_in("gripper-10-loaded")?, StateId::FREE, None)?;
+/// use ozols::{model::mechanism::StateId, statics::reactions::{Contacts, cycle::solve_cycle}};
+/// let loaded = ozols::built_in("gripper-10-loaded")?;
+/// let found = solve_cycle(&loaded, StateId::FREE, None, Contacts::AsJoints)?;
 /// assert_eq!((found.positions.len(), found.stopped), (1, None)); // The pose of the file alone.
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub fn solve_cycle(
-    m: &Mechanism,
-    state: StateId,
-    stroke: Option<Stroke>,
-) -> Result<Cycle, Unsolved> {
-    cycle_with(m, state, stroke, Contacts::AsJoints)
-}
-
-/// Returns the reactions with the requested treatment of contacts.
-///
-/// # Errors
-/// Returns an error in the same cases as [`solve_cycle`].
-pub(crate) fn cycle_with(
     m: &Mechanism,
     state: StateId,
     stroke: Option<Stroke>,

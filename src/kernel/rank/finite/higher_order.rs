@@ -42,15 +42,7 @@ const DEGREE: usize = 16;
 /// The contours of a mechanism in an exact field, solved for the coordinates that J determines.
 #[derive(Debug)]
 pub struct HigherOrder {
-    field: Field,
-    /// Twists (ω; v) of the columns.
-    twists: Vec<Vec<Residue>>,
-    /// Contours as columns with their directions.
-    walks: Vec<Vec<(usize, bool)>>,
-    /// Row operations that bring J to reduced echelon form: the first rows belong to the pivots, the others to g.
-    solve: Vec<Vec<Residue>>,
-    /// Pivot columns.
-    pivots: Vec<usize>,
+    solved: Solved,
     /// For each free column, its index and the pivots' coordinates at unit speed.
     free: Vec<(usize, Vec<Residue>)>,
 }
@@ -97,11 +89,13 @@ impl HigherOrder {
             .collect();
         let solve = matrix.into_iter().map(|row| row[f..].to_vec()).collect();
         Ok(Some(HigherOrder {
-            field,
-            twists,
-            walks,
-            solve,
-            pivots,
+            solved: Solved {
+                field,
+                twists,
+                walks,
+                solve,
+                pivots,
+            },
             free,
         }))
     }
@@ -116,16 +110,17 @@ impl HigherOrder {
         if m == 1 {
             return self.random_line(ORDER).stopped;
         }
-        let f = self.twists.len();
+        let f = self.solved.twists.len();
         let mut monomials = Monomials::new(m);
         let mut q = self.random_subspace(m);
-        let mut g: Vec<Vec<Residue>> = vec![Vec::new(); self.solve.len() - self.pivots.len()];
+        let mut g: Vec<Vec<Residue>> =
+            vec![Vec::new(); self.solved.solve.len() - self.solved.pivots.len()];
         let mut work = 0;
         for degree in 2..=DEGREE {
             monomials.extend(degree);
             let terms = monomials.count_monomials();
-            let products =
-                f * (27 + degree) * monomials.count_pairs() + self.solve.len().pow(2) * terms;
+            let products = f * (27 + degree) * monomials.count_pairs()
+                + self.solved.solve.len().pow(2) * terms;
             work += products;
             if work > WORK {
                 return None;
@@ -133,24 +128,28 @@ impl HigherOrder {
             q.iter_mut().for_each(|s| s.resize(terms, 0));
             g.iter_mut().for_each(|s| s.resize(terms, 0));
             let gaps: Vec<Vec<Residue>> = self
+                .solved
                 .walks
                 .iter()
-                .flat_map(|walk| contour_gaps(self.field, &self.twists, walk, &q, &monomials))
+                .flat_map(|walk| {
+                    contour_gaps(self.solved.field, &self.solved.twists, walk, &q, &monomials)
+                })
                 .collect();
             for t in monomials.of_degree(degree) {
-                for (i, row) in self.solve.iter().enumerate() {
+                for (i, row) in self.solved.solve.iter().enumerate() {
                     // Couplings are linear: they have no gap of higher order.
                     let terms = row.iter().zip(&gaps);
                     let sum = self
+                        .solved
                         .field
                         .sum_of_products(terms.map(|(&a, gap)| (a, gap[t])));
-                    match self.pivots.get(i) {
-                        Some(&p) => q[p][t] = self.field.neg(sum),
-                        None => g[i - self.pivots.len()][t] = sum,
+                    match self.solved.pivots.get(i) {
+                        Some(&p) => q[p][t] = self.solved.field.neg(sum),
+                        None => g[i - self.solved.pivots.len()][t] = sum,
                     }
                 }
             }
-            match monomials.all_in_ideal(self.field, &g, 8 * WORK) {
+            match monomials.all_in_ideal(self.solved.field, &g, 8 * WORK) {
                 Some(true) => return Some(degree),
                 Some(false) => {}
                 None => return None,
@@ -163,7 +162,7 @@ impl HigherOrder {
     #[must_use]
     pub fn random_line(&self, order: usize) -> Line {
         let speeds: Vec<Residue> = self.random_subspace(1).iter().map(|q| q[1]).collect();
-        line::expand_line(&self.as_solved(), &speeds, None, order).0
+        line::expand_line(&self.solved, &speeds, None, order).0
     }
 
     /// Expands a motion in the direction of these weights of the free coordinates, to an order. Returns the outcome,
@@ -174,44 +173,34 @@ impl HigherOrder {
         weights: &[Residue],
         order: usize,
     ) -> (Line, Vec<Vec<Residue>>) {
-        line::expand_line(&self.as_solved(), &self.speeds_along(weights), None, order)
+        line::expand_line(&self.solved, &self.speeds_along(weights), None, order)
     }
 
     /// Expands a motion with free coordinates of these weights times t, and of further ones times t².
     #[must_use]
     pub(super) fn bent_line(&self, weights: &[Residue], bent: &[Residue], order: usize) -> Line {
         let [speeds, bent] = [weights, bent].map(|w| self.speeds_along(w));
-        line::expand_line(&self.as_solved(), &speeds, Some(&bent), order).0
+        line::expand_line(&self.solved, &speeds, Some(&bent), order).0
     }
 
     /// Returns the equations in the free coordinates to second order at these weights.
     #[must_use]
     pub(super) fn second_order(&self, weights: &[Residue]) -> Vec<Residue> {
-        line::second_order(&self.as_solved(), &self.speeds_along(weights))
+        line::second_order(&self.solved, &self.speeds_along(weights))
     }
 
     /// Returns the field and the number of free coordinates.
     pub(crate) fn free_coordinates(&self) -> (Field, usize) {
-        (self.field, self.free.len())
-    }
-
-    fn as_solved(&self) -> Solved<'_> {
-        Solved {
-            field: self.field,
-            twists: &self.twists,
-            walks: &self.walks,
-            solve: &self.solve,
-            pivots: &self.pivots,
-        }
+        (self.solved.field, self.free.len())
     }
 
     /// Returns the coordinates to first order, if the free ones have these weights.
     fn speeds_along(&self, weights: &[Residue]) -> Vec<Residue> {
-        let mut q = vec![0; self.twists.len()];
+        let mut q = vec![0; self.solved.twists.len()];
         for ((c, speeds), &x) in self.free.iter().zip(weights) {
             q[*c] = x;
-            for (&p, &s) in self.pivots.iter().zip(speeds) {
-                q[p] = self.field.add(q[p], self.field.mul(x, s));
+            for (&p, &s) in self.solved.pivots.iter().zip(speeds) {
+                q[p] = self.solved.field.add(q[p], self.solved.field.mul(x, s));
             }
         }
         q
@@ -226,13 +215,14 @@ impl HigherOrder {
             random ^= random >> 12;
             random ^= random << 25;
             random ^= random >> 27;
-            self.field
+            self.solved
+                .field
                 .from_i64((random.wrapping_mul(0x2545_f491_4f6c_dd1d) >> 2) as i64)
         };
         let weights: Vec<Vec<Residue>> = (0..self.free.len())
             .map(|_| (0..m).map(|_| any()).collect())
             .collect();
-        let mut q: Vec<Vec<Residue>> = vec![vec![0]; self.twists.len()];
+        let mut q: Vec<Vec<Residue>> = vec![vec![0]; self.solved.twists.len()];
         for v in 0..m {
             let along: Vec<Residue> = weights.iter().map(|w| w[v]).collect();
             let speeds = self.speeds_along(&along);

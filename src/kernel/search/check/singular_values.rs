@@ -10,7 +10,7 @@ use crate::geom::exact::ExactError;
 use crate::model::joint_type::CoupledFreedom;
 use crate::model::mechanism::{Mechanism, StateId};
 use crate::rank::exact::modular;
-use crate::rank::numeric::{self, NumericRank};
+use crate::rank::numeric::{Elimination, NumericRank};
 use crate::search::answer::k_best::Assignment;
 use crate::search::check::brute;
 use crate::search::check::other_poses::over_stroke;
@@ -339,7 +339,9 @@ fn real_closure(m: &Mechanism, state: StateId, contours: &[Contour]) -> Option<C
 }
 
 fn numeric_rank(question: &Question, closure: &Closure<f64>) -> Option<NumericRank> {
-    numeric::rank_with_tolerance(closure, question.conditions.tolerance).ok()
+    let by = Elimination::Svd;
+    by.rank_of_closure(closure, question.conditions.tolerance)
+        .ok()
 }
 
 /// Returns a closure with a row more for each drive, which keeps its freedom at rest.

@@ -12,16 +12,17 @@ const WORK: usize = 60_000_000;
 type Three = [Residue; 3];
 
 /// Contours solved for the coordinates that J determines.
-pub(super) struct Solved<'a> {
+#[derive(Debug)]
+pub(super) struct Solved {
     pub(super) field: Field,
     /// Twists (ω; v) of the columns.
-    pub(super) twists: &'a [Vec<Residue>],
+    pub(super) twists: Vec<Vec<Residue>>,
     /// Contours as columns with their directions.
-    pub(super) walks: &'a [Vec<(usize, bool)>],
-    /// Row operations that bring J to reduced echelon form.
-    pub(super) solve: &'a [Vec<Residue>],
-    /// Pivot columns, whose rows come first.
-    pub(super) pivots: &'a [usize],
+    pub(super) walks: Vec<Vec<(usize, bool)>>,
+    /// Row operations that bring J to reduced echelon form: the first rows belong to the pivots, the others to g.
+    pub(super) solve: Vec<Vec<Residue>>,
+    /// Pivot columns.
+    pub(super) pivots: Vec<usize>,
 }
 
 /// One freedom passed by a contour: the displacement before it, and its own functions of t, as series.
@@ -189,7 +190,7 @@ pub struct Line {
 /// # Complexity
 /// 12 D² products for each freedom that a contour passes, up to order D.
 pub(super) fn expand_line(
-    of: &Solved<'_>,
+    of: &Solved,
     speeds: &[Residue],
     bent: Option<&[Residue]>,
     order: usize,
@@ -257,7 +258,7 @@ pub(super) fn expand_line(
 }
 
 /// Returns the equations that J does not solve to second order, for a motion that begins with these speeds.
-pub(super) fn second_order(of: &Solved<'_>, speeds: &[Residue]) -> Vec<Residue> {
+pub(super) fn second_order(of: &Solved, speeds: &[Residue]) -> Vec<Residue> {
     let f = of.field;
     let mut walks = at_rest(of);
     pass_contours(f, &mut walks, 1, |c| speeds[c]);
@@ -267,7 +268,7 @@ pub(super) fn second_order(of: &Solved<'_>, speeds: &[Residue]) -> Vec<Residue> 
 }
 
 /// Returns the contours before any motion.
-fn at_rest(of: &Solved<'_>) -> Vec<Vec<FreedomPassed>> {
+fn at_rest(of: &Solved) -> Vec<Vec<FreedomPassed>> {
     let f = of.field;
     let mut at = SeriesTerm::ZERO;
     (0..3).for_each(|i| at.turn[i][i] = f.one());
