@@ -1,6 +1,5 @@
 //! The commands, one file each; this is the list of them.
 
-pub(crate) mod accuracy;
 pub(crate) mod analyze;
 pub(crate) mod catalog;
 pub(crate) mod draw;
@@ -53,8 +52,6 @@ pub(crate) enum Command {
     Studio(studio::StudioArgs),
     /// Write a mechanism, robot description or CAD assembly in another format: TOML, JSON, URDF, MJCF, SDF, DOT.
     Export(export::Export),
-    /// Measure accuracy and speed of every rank method on the built-in mechanisms.
-    Accuracy(accuracy::Accuracy),
     /// Enumerate kinematic chains and gripper structures, and build catalogues of them.
     Catalog(catalog::Catalog),
     /// Write a commented mechanism file to start from.

@@ -22,7 +22,6 @@ const LAYERS: [(&str, &[&str]); 28] = [
     ("files", &["file"]),
     ("files", &["robots"]),
     ("evaluation", &["score"]),
-    ("evaluation", &["accuracy"]),
     ("catalogue", &["chains"]),
     ("catalogue", &["synthesis"]),
     ("catalogue", &["catalog"]),

@@ -1,31 +1,33 @@
 //! Accuracy and speed of every rank method on the built-in mechanisms.
 //!
-//! The [`survey`] asks every method of [`crate::rank::method`] about mechanisms of known mobility; [`stability`] moves
-//! geometry, digits, size, unit and prime until answers turn wrong. `benches/ways` compares the ways of searching.
+//! The [`survey`] asks every method of [`ozols::rank::method`] about mechanisms of known mobility; [`stability`] moves
+//! geometry, digits, size, unit and prime until answers turn wrong. `benches/ways` compares the ways of searching, and the
+//! integration tests run the studies.
 //! Verdicts are the same on every run; only times differ.
 
-pub(crate) mod cases;
-pub mod change;
-pub mod lattice;
-pub mod said;
-pub mod special;
-pub mod stability;
-pub mod study;
-pub mod survey;
-pub mod timing;
+mod cases;
+pub(crate) mod change;
+pub(crate) mod lattice;
+pub(crate) mod run;
+pub(crate) mod said;
+pub(crate) mod special;
+pub(crate) mod stability;
+pub(crate) mod study;
+pub(crate) mod survey;
+pub(crate) mod timing;
 
-use crate::rank::method::{Answer, NoAnswer, Quantity};
+use ozols::rank::method::{Answer, NoAnswer, Quantity};
 
 /// The built-in mechanisms, each its name and the text of its file; the front door has them.
-pub type BuiltIn<'a> = &'a [(&'a str, &'a str)];
+pub(crate) type BuiltIn<'a> = &'a [(&'a str, &'a str)];
 
 /// The true figures of a state of a mechanism.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Truth {
+pub(crate) struct Truth {
     /// f - rank J at the pose of the file.
-    pub instantaneous: i64,
+    pub(crate) instantaneous: i64,
     /// The motion that is really there.
-    pub finite: i64,
+    pub(crate) finite: i64,
 }
 
 impl Truth {
@@ -40,7 +42,7 @@ impl Truth {
 
 /// A verdict on an answer.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum AnswerVerdict {
+pub(crate) enum AnswerVerdict {
     /// The finite mobility.
     Right,
     /// The mobility at the pose, which is all the method speaks of, but not the finite one; by how much.
@@ -55,7 +57,7 @@ pub enum AnswerVerdict {
 
 impl AnswerVerdict {
     /// Returns the verdict on an answer.
-    pub fn judge_answer(answer: &Result<Answer, NoAnswer>, truth: Truth) -> AnswerVerdict {
+    pub(crate) fn judge_answer(answer: &Result<Answer, NoAnswer>, truth: Truth) -> AnswerVerdict {
         match answer {
             Ok(a) if a.mobility == truth.finite => AnswerVerdict::Right,
             Ok(a) if a.quantity == Quantity::Instantaneous && a.mobility == truth.instantaneous => {
@@ -77,7 +79,7 @@ impl AnswerVerdict {
     }
 
     /// Returns the word used in machine-readable output.
-    pub fn word(self) -> &'static str {
+    pub(crate) fn word(self) -> &'static str {
         match self {
             AnswerVerdict::Right => "right",
             AnswerVerdict::Pose(_) => "right at the pose",

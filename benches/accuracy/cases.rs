@@ -4,24 +4,24 @@ use super::change::Noise;
 use super::lattice::{Scene, make_ladder, make_lift, toggle_row};
 use super::special::SpecialKind;
 use super::{BuiltIn, Truth};
-use crate::file::problem::ImportError;
-use crate::file::text::mechanism_from_str;
-use crate::model::mechanism::{Mechanism, StateId};
+use ozols::file::problem::ImportError;
+use ozols::file::text::mechanism_from_str;
+use ozols::model::mechanism::{Mechanism, StateId};
 
 /// A state of a mechanism with its true figures.
 #[derive(Debug, Clone)]
-pub struct Case {
+pub(crate) struct Case {
     /// The mechanism.
-    pub mechanism: Mechanism,
+    pub(crate) mechanism: Mechanism,
     /// The state.
-    pub state: StateId,
+    pub(crate) state: StateId,
     /// The figures that the catalogue states.
-    pub truth: Truth,
+    pub(crate) truth: Truth,
 }
 
 impl Case {
     /// Returns the mechanism's name, with the state's name unless that is the free one.
-    pub fn name(&self) -> String {
+    pub(crate) fn name(&self) -> String {
         match self.state {
             StateId::FREE => self.mechanism.name.clone(),
             s => format!("{}, {}", self.mechanism.name, self.mechanism.states[s]),
@@ -33,7 +33,7 @@ impl Case {
 ///
 /// # Errors
 /// Returns an error if a built-in file is not valid.
-pub fn built_in_cases(built_in: BuiltIn<'_>) -> Result<Vec<Case>, ImportError> {
+pub(crate) fn built_in_cases(built_in: BuiltIn<'_>) -> Result<Vec<Case>, ImportError> {
     let mut cases = Vec::new();
     for (name, text) in built_in {
         let mechanism = mechanism_from_str(&format!("{name}.toml"), text)?;
@@ -60,7 +60,7 @@ pub fn built_in_cases(built_in: BuiltIn<'_>) -> Result<Vec<Case>, ImportError> {
 ///
 /// # Panics
 /// Never: the texts are valid.
-pub fn generated_cases(seed: u64) -> Vec<Case> {
+pub(crate) fn generated_cases(seed: u64) -> Vec<Case> {
     let mut cases = Vec::new();
     let mut add = |mut mechanism: Mechanism, name: String, truth: Truth| {
         mechanism.edit().name = name;

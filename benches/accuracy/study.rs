@@ -5,9 +5,9 @@ mod conclusion;
 
 use super::said::{Reply, Said, Tally};
 use super::timing::Clock;
-use crate::chart::{Axis, Band, Bands, Chart, Scale, Series, Style, VerdictKind, page};
-use crate::format::{csv, round_digits};
-use crate::score::outcome::pareto::front;
+use ozols::chart::{Axis, Band, Bands, Chart, Scale, Series, Style, VerdictKind, page};
+use ozols::score::outcome::pareto::front;
+use ozols_kernel::format::{csv, round_digits};
 use rayon::prelude::*;
 use serde::Deserialize;
 use std::collections::BTreeMap;
@@ -15,22 +15,22 @@ use std::sync::LazyLock;
 
 /// How much to do.
 #[derive(Debug, Clone, Copy)]
-pub struct Effort {
+pub(crate) struct Effort {
     /// Coarse steps and part of the mechanisms.
-    pub quick: bool,
+    pub(crate) quick: bool,
     /// Seed of the noise.
-    pub seed: u64,
+    pub(crate) seed: u64,
     /// What times are taken by.
-    pub clock: Clock,
+    pub(crate) clock: Clock,
 }
 
 /// Receives the current study, the number of finished steps and the number of all steps.
-pub type Progress<'a> = &'a mut dyn FnMut(&str, usize, usize);
+pub(crate) type Progress<'a> = &'a mut dyn FnMut(&str, usize, usize);
 
 /// How a study is drawn. All but the first two are timed: their cases are asked one after another.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "kebab-case")]
-pub enum View {
+pub(crate) enum View {
     /// The values for which each row is right.
     Regions,
     /// The shares of answers that are right, and of those that are wrong and sure.
@@ -46,13 +46,13 @@ pub enum View {
 }
 
 /// The name of a row, with its tally at each of its values.
-pub type Row = (String, Vec<(f64, Tally)>);
+pub(crate) type Row = (String, Vec<(f64, Tally)>);
 
 /// The texts of a study, and how it is drawn; `studies.toml` says more.
 #[derive(Debug, Clone, Deserialize)]
-pub struct Texts {
+pub(crate) struct Texts {
     /// The title.
-    pub title: String,
+    pub(crate) title: String,
     #[serde(default)]
     about: String,
     view: View,
@@ -69,7 +69,7 @@ pub struct Texts {
     #[serde(default = "said_words")]
     words: [String; 4],
     /// Advice to the user.
-    pub advice: String,
+    pub(crate) advice: String,
 }
 
 fn said_words() -> [String; 4] {
@@ -88,22 +88,22 @@ static TEXTS: LazyLock<BTreeMap<String, Texts>> =
 
 /// A study.
 #[derive(Debug, Clone)]
-pub struct Study {
+pub(crate) struct Study {
     /// The stem of its files.
-    pub name: &'static str,
+    pub(crate) name: &'static str,
     /// Its texts.
-    pub texts: Texts,
+    pub(crate) texts: Texts,
     /// The values of the quantity, ascending.
-    pub values: Vec<f64>,
+    pub(crate) values: Vec<f64>,
     /// The rows.
-    pub rows: Vec<Row>,
+    pub(crate) rows: Vec<Row>,
     /// A further sentence for the conclusion, or empty.
-    pub note: String,
+    pub(crate) note: String,
 }
 
 impl Study {
     /// Returns a study without answers, which has texts by its name.
-    pub fn new(name: &'static str, values: Vec<f64>) -> Study {
+    pub(crate) fn new(name: &'static str, values: Vec<f64>) -> Study {
         Study {
             name,
             texts: TEXTS[name].clone(),
@@ -141,7 +141,7 @@ impl Study {
     }
 
     /// Adds a tally to a row, which is new if none has its name.
-    pub fn add_tally(&mut self, row: &str, value: f64, tally: Tally) {
+    pub(crate) fn add_tally(&mut self, row: &str, value: f64, tally: Tally) {
         match self.rows.iter_mut().find(|r| r.0 == row) {
             Some(row) => row.1.push((value, tally)),
             None => self.rows.push((row.to_owned(), vec![(value, tally)])),
@@ -153,7 +153,7 @@ impl Study {
     }
 
     /// Returns the table, with a line for each row and each value that has replies.
-    pub fn to_csv(&self) -> String {
+    pub(crate) fn to_csv(&self) -> String {
         let mut heads = vec!["asked", self.texts.column.as_str(), "cases", "right"];
         heads.extend(["undecided", "wrong_not_exact", "wrong_and_sure", "wrong"]);
         heads.extend(self.is_timed().then_some("median_seconds"));
@@ -185,7 +185,7 @@ impl Study {
     }
 
     /// Returns the chart as SVG.
-    pub fn to_svg(&self) -> String {
+    pub(crate) fn to_svg(&self) -> String {
         let texts = &self.texts;
         let by_decades = |linear| if linear { Scale::Linear } else { Scale::Log };
         let x = Axis {
@@ -316,7 +316,7 @@ fn verdict_bands(values: &[f64], kinds: impl IntoIterator<Item = VerdictKind>) -
 
 /// Returns the names and texts of all files of some studies and further tables. `index.html` is the last, so that it exists only after the
 /// files that it shows. `made` says how they were made.
-pub fn page_files(
+pub(crate) fn page_files(
     title: &str,
     made: &str,
     studies: &[Study],
