@@ -139,6 +139,7 @@ pub(crate) fn turned_and_rounded(
 }
 
 #[cfg(test)]
+#[allow(dead_code, unused_imports, reason = "a bench by itself runs no tests")]
 mod tests {
     use super::*;
     use ozols::builtin;

@@ -15,6 +15,7 @@
     reason = "a bench reports what it measures"
 )]
 
+#[allow(dead_code, reason = "tests name cases")]
 #[path = "lab.rs"]
 mod lab;
 

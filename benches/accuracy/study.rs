@@ -6,7 +6,6 @@ mod conclusion;
 use super::said::{Reply, Said, Tally};
 use super::timing::Clock;
 use ozols::chart::{Axis, Band, Bands, Chart, Scale, Series, Style, VerdictKind, page};
-use ozols::score::outcome::pareto::front;
 use ozols_kernel::format::{csv, round_digits};
 use rayon::prelude::*;
 use serde::Deserialize;
@@ -314,6 +313,23 @@ fn verdict_bands(values: &[f64], kinds: impl IntoIterator<Item = VerdictKind>) -
     out
 }
 
+/// Returns the indices of the points that are right more often than all faster ones, the fastest first. Points are (seconds,
+/// share).
+fn front(points: &[(f64, f64)]) -> Vec<usize> {
+    let mut order: Vec<usize> = (0..points.len()).collect();
+    order.sort_by(|&a, &b| {
+        let ((t, share), (u, other)) = (points[a], points[b]);
+        t.total_cmp(&u).then(other.total_cmp(&share))
+    });
+    let mut best = f64::NEG_INFINITY;
+    order.retain(|&i| {
+        let ahead = points[i].1 > best;
+        best = best.max(points[i].1);
+        ahead
+    });
+    order
+}
+
 /// Returns the names and texts of all files of some studies and further tables. `index.html` is the last, so that it exists only after the
 /// files that it shows. `made` says how they were made.
 pub(crate) fn page_files(
@@ -342,6 +358,7 @@ pub(crate) fn page_files(
 }
 
 #[cfg(test)]
+#[allow(dead_code, unused_imports, reason = "a bench by itself runs no tests")]
 mod tests {
     use super::*;
 

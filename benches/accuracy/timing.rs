@@ -86,6 +86,7 @@ pub(crate) fn quantile(of: &[f64], share: f64) -> f64 {
 }
 
 #[cfg(test)]
+#[allow(dead_code, unused_imports, reason = "a bench by itself runs no tests")]
 mod tests {
     use super::*;
     use std::sync::atomic::{AtomicU64, Ordering};

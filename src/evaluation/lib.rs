@@ -2,6 +2,6 @@
 
 use ozols_files::file;
 use ozols_forces::{grip, statics};
-use ozols_kernel::{closure, format, geom, linalg, model, motion, rank, redundancy, search};
+use ozols_kernel::{closure, format, geom, model, motion, rank, redundancy, search};
 
 pub mod score;

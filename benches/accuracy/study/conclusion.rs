@@ -150,6 +150,7 @@ fn join_sentences<const N: usize>(parts: [String; N]) -> String {
 }
 
 #[cfg(test)]
+#[allow(dead_code, unused_imports, reason = "a bench by itself runs no tests")]
 mod tests {
     use super::*;
     use crate::lab::said::Reply;
