@@ -84,24 +84,23 @@ pub fn run_with(words: impl IntoIterator<Item = OsString>) -> u8 {
         Command::Grip(a) => command::grip::run_grip(a),
         Command::Drive(a) => command::grip::run_drive(a),
         Command::Verify(a) => command::verify::run_verify(&args.global, a),
-        Command::Lint(a) => command::lint::run_lint(a),
-        Command::Fix(a) => command::fix::run_fix(a),
+        Command::Lint(a) => command::robot::lint::run_lint(a),
+        Command::Fix(a) => command::robot::fix::run_fix(a),
         Command::Draw(a) => command::draw::run_draw(&args.global, a),
         Command::Report(a) => command::report::run_report(&args.global, a),
         Command::Studio(a) => command::studio::run_studio(&args.global, a),
         Command::Export(a) => command::export::run_export(&args.global, a),
-        Command::Accuracy(a) => command::accuracy::run_accuracy(&args.global, a),
         Command::Catalog(a) => command::catalog::run_catalog(&args.global, a),
-        Command::Check(a) => command::check::run_check(&args.global, a),
-        Command::New(a) => command::list::run_new(&args.global, a),
-        Command::List(a) => command::list::run_list(a),
-        Command::Show(a) => command::check::run_show(a),
-        Command::Schema => command::check::print_schema(),
-        Command::Explain(a) => command::explain::run_explain(a),
-        Command::Completions(a) => command::check::print_completions(a, program()),
+        Command::Check(a) => command::reference::check::run_check(&args.global, a),
+        Command::New(a) => command::reference::list::run_new(&args.global, a),
+        Command::List(a) => command::reference::list::run_list(a),
+        Command::Show(a) => command::reference::check::run_show(a),
+        Command::Schema => command::reference::check::print_schema(),
+        Command::Explain(a) => command::reference::explain::run_explain(a),
+        Command::Completions(a) => command::reference::check::print_completions(a, program()),
     });
     let told = |done| match &opened {
-        Some(file) => command::check::tell_next(file).map(|_| done),
+        Some(file) => command::reference::check::tell_next(file).map(|_| done),
         None => Ok(done),
     };
     exit_code(result.and_then(told))
@@ -113,7 +112,7 @@ pub fn run_with(words: impl IntoIterator<Item = OsString>) -> u8 {
 /// Returns an error if a word or a file is refused.
 pub fn lint(words: &[OsString]) -> anyhow::Result<(String, String)> {
     match parse_command("lint", words)? {
-        Command::Lint(a) => command::lint::lint_both(&a),
+        Command::Lint(a) => command::robot::lint::lint_both(&a),
         _ => unreachable!("the command is lint"),
     }
 }
@@ -124,7 +123,7 @@ pub fn lint(words: &[OsString]) -> anyhow::Result<(String, String)> {
 /// Returns an error if a word or the file is refused, or the joints that may change do not remove everything.
 pub fn fix(words: &[OsString]) -> anyhow::Result<String> {
     match parse_command("fix", words)? {
-        Command::Fix(a) => command::fix::fix_file(&a),
+        Command::Fix(a) => command::robot::fix::fix_file(&a),
         _ => unreachable!("the command is fix"),
     }
 }

@@ -1,13 +1,10 @@
 //! Robot descriptions (URDF, MJCF, SDF) and CAD assemblies (FreeCAD, OndselSolver) read as mechanisms, and mechanisms written for other programs.
 
 mod additions;
-mod asmt;
 mod cad;
 mod description;
 mod edit;
-mod fcstd;
 pub mod formats;
-mod graph;
 mod import;
 mod include;
 mod mechanism;

@@ -4,4 +4,9 @@ use ozols_kernel::{format, geom};
 
 pub mod chart;
 #[doc(hidden)]
-pub mod svg;
+pub mod svg {
+    pub mod labels;
+    pub mod plane;
+    pub mod text;
+    pub mod xml;
+}

@@ -1,7 +1,6 @@
 //! Catalogues: building a part in this process, and merging parts.
 
-use crate::answer::failed;
-use crate::waiting::with_progress;
+use crate::answer::{failed, with_progress};
 use ozols::catalog::build::{build_rows, plan_work};
 use ozols::catalog::spec::Spec;
 use ozols::catalog::store::Store;

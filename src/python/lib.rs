@@ -4,12 +4,10 @@
 mod analysis;
 mod answer;
 mod catalog;
-mod chart;
 mod commands;
 mod mechanism;
 mod search;
 mod statics;
-mod waiting;
 
 /// The module `ozols._native`.
 #[pyo3::pymodule]
@@ -24,15 +22,13 @@ mod _native {
     #[pymodule_export]
     use crate::catalog::{catalog_build, catalog_merge, catalog_plan};
     #[pymodule_export]
-    use crate::chart::chart;
-    #[pymodule_export]
     use crate::commands::{drive, fix, grip, lint};
     #[pymodule_export]
     use crate::mechanism::{Mechanism, builtin_names};
     #[pymodule_export]
     use crate::search::{Outcome, Variant, Variants, search};
     #[pymodule_export]
-    use crate::statics::statics;
+    use crate::statics::{chart, statics};
 
     #[pymodule_export]
     const VERSION: &str = env!("CARGO_PKG_VERSION");

@@ -1,8 +1,7 @@
 //! Searches, their outcomes, and their variants.
 
-use crate::answer::{failed, json};
+use crate::answer::{TURN, failed, json, patiently};
 use crate::mechanism::{Mechanism, drawn};
-use crate::waiting::{TURN, patiently};
 use ozols::draw::Marks;
 use ozols::score::outcome::variant;
 use ozols::score::request::{List, Request};

@@ -5,14 +5,25 @@
 //! away, with a leader.
 
 mod kinematic;
-mod place;
+mod place {
+    pub(super) mod graph;
+    pub(super) mod initial_layout;
+    pub(super) mod layout;
+    pub(super) mod layout_penalty;
+    pub(super) mod projection;
+}
 #[cfg(feature = "png")]
 pub mod png;
 mod prelude;
 mod scheme;
 mod sheet;
 mod subject;
-mod symbol;
+mod symbol {
+    pub(crate) mod ground;
+    pub(crate) mod pieces;
+    pub(crate) mod placed;
+    pub(crate) mod symbols;
+}
 
 pub use crate::svg::plane::Rect;
 pub(crate) use kinematic::kinematic_with;

@@ -3,7 +3,7 @@
 use ozols_catalogue::chains;
 #[cfg(feature = "store")]
 use ozols_catalogue::{catalog, synthesis};
-use ozols_evaluation::{accuracy, score};
+use ozols_evaluation::score;
 use ozols_files::{file, robots};
 use ozols_forces::{drive, grip, statics};
 use ozols_kernel::{closure, format, geom, model, motion, rank, redundancy, search};

@@ -4,7 +4,6 @@
 use crate::model::claim::Claim;
 use crate::view::prelude::*;
 
-pub mod accuracy;
 pub mod analysis;
 pub mod catalog;
 pub mod drive;
@@ -12,7 +11,19 @@ pub mod grip;
 pub mod lint;
 mod prelude;
 pub mod reactions;
-pub mod search;
+/// A search for people and programs: text, JSON, CSV.
+pub mod search {
+    pub(crate) mod counts;
+    pub mod csv;
+    pub mod json;
+    pub mod nothing_found;
+    pub(crate) mod numeric;
+    pub(crate) mod ranking;
+    pub(crate) mod second_opinion;
+    pub mod text;
+    pub mod variant;
+    pub mod why;
+}
 pub mod statics;
 pub mod stroke;
 pub mod terminal;

@@ -51,7 +51,7 @@ fn nothing_here() -> Reply {
 
 fn answer_get(path: &str, room: &Room) -> Reply {
     match path {
-        "" => Reply::new("text/html; charset=utf-8", paper::page_html()),
+        "" => Reply::new("text/html; charset=utf-8", paper::PAGE),
         "studio.js" => Reply::new("text/javascript; charset=utf-8", paper::whole_script()),
         "studio.css" => Reply::new("text/css; charset=utf-8", paper::whole_style()),
         "icon.svg" => Reply::new("image/svg+xml", paper::ICON),

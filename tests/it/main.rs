@@ -19,6 +19,8 @@ mod examples;
 mod first_hour;
 mod fuzz;
 mod grip;
+#[path = "../../benches/accuracy/lab.rs"]
+mod lab;
 mod layering;
 mod library;
 mod licences;

@@ -1,6 +1,6 @@
 //! `ozols export`.
 
-use crate::cli::command::types::plan_variant;
+use crate::cli::command::robot::types::plan_variant;
 use crate::cli::option::reading::{Reading, import_description};
 use crate::cli::option::request::Which;
 use crate::cli::option::variant;

@@ -172,8 +172,7 @@ fn write(m: &Mechanism, shown: &ToldStatics<'_>, a: &Statics) -> anyhow::Result<
 
 /// Returns the next commands to suggest.
 fn next_steps(shown: &ToldStatics<'_>, a: &Statics) -> Vec<NextCommand> {
-    let file = &a.file.file;
-    let next = |command, more, gives| NextCommand::new(command, file, more, gives);
+    let next = |command, more, gives| NextCommand::new(command, &a.file.file, more, gives);
     match &shown.reactions {
         ToldReactions::Planar(s) if s.found.moments.iter().any(|x| !x.loads.is_empty()) => {
             let charts = next(

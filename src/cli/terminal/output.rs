@@ -7,15 +7,14 @@ use crate::{api, view};
 use anstream::{AutoStream, ColorChoice};
 use anstyle::AnsiColor;
 use anyhow::Context;
-pub(crate) use beside::{cut_short, remove_unfinished};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+pub(crate) use kept::{cut_short, remove_unfinished};
 use std::io::{self, BufWriter, ErrorKind, IsTerminal, StdoutLock, Write};
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
-mod beside;
 pub(crate) mod kept;
 
 /// Returns the file to write to, if it is not standard output.
@@ -29,7 +28,6 @@ pub(crate) fn write_with(
     write: impl FnOnce(&mut dyn Write) -> anyhow::Result<Done>,
 ) -> anyhow::Result<Done> {
     let Some(path) = target_file(path) else {
-        kept::apart_from_standard_output()?;
         return write_through("standard output", Standard::new(), write);
     };
     kept::ensure_apart(path)?;
@@ -59,7 +57,7 @@ pub(crate) fn write_with(
             folder.display()
         );
     }
-    let mut temporary = beside::begin_file(folder).with_context(whole)?;
+    let mut temporary = kept::begin_file(folder).with_context(whole)?;
     let done = write_through(&name, temporary.as_file_mut(), write)?;
     let older = old.as_ref().is_some_and(|m| m.len() > 0);
     if let Some(old) = old {
@@ -67,7 +65,7 @@ pub(crate) fn write_with(
         file.set_permissions(old.permissions())
             .with_context(whole)?;
     }
-    let other = beside::rename_file(temporary, path, older).with_context(whole)?;
+    let other = kept::rename_file(temporary, path, older).with_context(whole)?;
     kept::note_written(path);
     if let Some(other) = other {
         print_message(&format!(
@@ -85,17 +83,6 @@ pub(crate) fn write_bytes(path: Option<&Path>, all: impl AsRef<[u8]>) -> anyhow:
         out.write_all(all.as_ref())?;
         Ok(Done::Found)
     })
-}
-
-/// Writes files, by name and content, to a folder.
-pub(crate) fn write_files(
-    folder: &Path,
-    files: impl IntoIterator<Item = (String, String)>,
-) -> anyhow::Result<()> {
-    for (name, text) in files {
-        write_bytes(Some(&folder.join(&name)), text)?;
-    }
-    Ok(())
 }
 
 /// Returns an error if a drawing or a page would be written to a terminal.

@@ -3,6 +3,8 @@
 //! An assembly as read, and its robot: parts at their places, joints at their frames.
 
 pub(crate) mod archive;
+pub(crate) mod asmt;
+pub(crate) mod fcstd;
 pub(crate) mod holds;
 mod meet;
 pub(crate) mod retype;

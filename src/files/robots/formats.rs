@@ -2,8 +2,9 @@
 
 use crate::file::write::{self, mechanism_file};
 use crate::robots::cad::archive::Archive;
+use crate::robots::cad::{asmt, fcstd};
 use crate::robots::prelude::*;
-use crate::robots::{asmt, fcstd, graph, mjcf, sdf, urdf};
+use crate::robots::{mjcf, sdf, urdf};
 
 /// A format of files.
 #[derive(Debug)]
@@ -107,7 +108,7 @@ static FORMATS: [Format; 8] = [
         )
     },
     Format {
-        write: Some(|m| Ok(graph::write_dot(m).into())),
+        write: Some(|m| Ok(write_dot(m).into())),
         ..format("dot", "DOT", "Graphviz")
     },
 ];
@@ -227,42 +228,8 @@ pub(crate) fn list_roots() -> String {
     format!("{first} and {last}")
 }
 
-/// Formats that are not read, by what to do instead: for each its name and the endings of its files in lower case.
-const FOREIGN: [(&str, &str); 7] = [
-    (
-        "give the robot description, and this file as its loop closures",
-        "YAML: yaml yml",
-    ),
-    (
-        "unpack it and give the description inside",
-        "compressed: zip gz 7z",
-    ),
-    (
-        "it has shapes and no joints; join the parts in FreeCAD's Assembly workbench and give the .FCStd, or write a mechanism file (`ozols new`)",
-        "STEP: step stp stpz p21; IGES: iges igs; Parasolid: x_t x_b xmt_txt xmt_bin; ACIS: sat sab; \
-         BREP: brep brp; STL: stl; Wavefront OBJ: obj; COLLADA: dae; glTF: gltf glb; 3MF: 3mf; PLY: ply; \
-         VRML: wrl vrml; DXF: dxf; DWG: dwg; JT: jt; Rhino 3DM: 3dm; SketchUp: skp; 3DXML: 3dxml",
-    ),
-    (
-        "export a URDF with the program's exporter, or join the parts in FreeCAD's Assembly workbench and give the .FCStd",
-        "SolidWorks: sldasm sldprt slddrw asmdot; CATIA: catproduct catpart cgr; Inventor: iam ipt; \
-         Creo or NX: prt asm neu; Solid Edge: par psm; Fusion: f3d f3z; KOMPAS-3D: a3d m3d; \
-         OLE document (SolidWorks, Inventor and others):",
-    ),
-    (
-        "export the model as URDF, SDF or MJCF from the program that wrote it",
-        "USD: usd usda usdc usdz; Blender: blend; Webots: wbt proto; CoppeliaSim: ttt ttm; \
-         OpenSim: osim; Simulink: slx mdl; Adams: adm cmd",
-    ),
-    (
-        "save the model from MuJoCo as XML and give that",
-        "compiled MuJoCo: mjb",
-    ),
-    (
-        "expand it first, and give the resulting URDF, SDF or MJCF file",
-        "template (ERB, Jinja, EmPy): erb jinja jinja2 j2 em",
-    ),
-];
+/// Formats that are not read, a line for each remedy: after a bar the name of each format and the endings of its files in lower case.
+const FOREIGN: &str = include_str!("foreign.txt");
 
 /// The first bytes of files, and their formats.
 const BEGINNINGS: [(&[u8], &str); 14] = [
@@ -303,11 +270,12 @@ pub fn refuse_foreign(name: &str, bytes: &[u8]) -> Result<(), ImportError> {
     let is_iges = line.len() >= 80 && &line[72..80] == b"S      1";
     let begins = BEGINNINGS.iter().find(|(b, _)| bytes.starts_with(b));
     let begins = begins.map(|b| b.1).or(is_iges.then_some("IGES"));
-    let known = FOREIGN.iter().flat_map(|(remedy, formats)| {
+    let known = FOREIGN.lines().filter_map(|line| line.split_once(" | "));
+    let known = known.flat_map(|(remedy, formats)| {
         let each = formats.split("; ").filter_map(|f| f.split_once(':'));
         each.map(move |(format, endings)| (format, endings, remedy))
     });
-    let is_it = |(format, endings, _): &(&str, &str, &&str)| match begins {
+    let is_it = |(format, endings, _): &(&str, &str, &str)| match begins {
         Some(found) => *format == found,
         None => !ending.is_empty() && endings.split(' ').any(|e| e == ending),
     };
@@ -316,6 +284,37 @@ pub fn refuse_foreign(name: &str, bytes: &[u8]) -> Result<(), ImportError> {
         let message = format!("this is a {format} file, which is not read; {remedy}");
         Err(syntax_problem(message).in_file(name, "", None))
     })
+}
+
+/// Writes links as nodes (the frame with a double outline, outputs filled) and joints as edges with their class.
+fn write_dot(m: &Mechanism) -> String {
+    let mut out = format!("graph {} {{\n", quote_dot(&m.name));
+    for (l, link) in m.links_with_ids() {
+        let shape = match link.role {
+            Role::Frame => "box peripheries=2",
+            Role::Output => "box style=filled fillcolor=lightgrey",
+            Role::Object => "octagon",
+            Role::Inner => "box",
+        };
+        let (l, label) = (l.index(), quote_dot(&link.id));
+        let _ = writeln!(out, "    {l} [ label={label} shape={shape}]");
+    }
+    for j in &m.joints {
+        let [a, b] = j.links.map(LinkId::index);
+        let (class, kind) = (j.joint_type.class_numeral(), j.joint_type.name());
+        let label = quote_dot(&format!("{}\n{class} {kind}", j.id));
+        let drive = if j.drive { " penwidth=3" } else { "" };
+        let dashed = j.states.as_ref().map_or("", |_| " style=dashed");
+        let _ = writeln!(out, "    {a} -- {b} [ label={label}{drive}{dashed}]");
+    }
+    out + "}\n"
+}
+
+/// Quotes a string for DOT.
+fn quote_dot(text: &str) -> String {
+    let inner = text.replace('\\', "\\\\").replace('"', "\\\"");
+    let inner = inner.replace('\n', "\\n");
+    format!("\"{inner}\"")
 }
 
 #[cfg(test)]

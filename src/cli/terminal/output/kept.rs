@@ -1,12 +1,17 @@
-//! Protection of inputs and earlier outputs from being overwritten.
+//! Protection of inputs and earlier outputs from being overwritten, and temporary files next to the files they replace, so that these
+//! are either complete or unchanged.
 
 use crate::file::disk;
 use anyhow::ensure;
 use itertools::Itertools;
-use std::fs::{self, File, Metadata};
-use std::io::Read;
+use std::collections::BTreeSet;
+use std::ffi::OsString;
+use std::fs::{self, File};
+use std::io::{self, Read};
 use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, MutexGuard, PoisonError};
+use tempfile::NamedTempFile;
 
 /// The files that were written, by their places.
 static WRITTEN: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
@@ -28,17 +33,6 @@ pub(crate) fn keep_file(path: &Path) {
     disk::note_read(path);
 }
 
-/// Keeps standard input if it is a file.
-///
-/// # Errors
-/// Returns an error if standard output is the same file.
-pub(crate) fn keep_standard_input() -> anyhow::Result<()> {
-    if let Some(file) = standard_file(std::io::stdin()) {
-        disk::note_open(&file);
-    }
-    apart_from_standard_output()
-}
-
 /// Returns true if a file is protected, under any name.
 pub(crate) fn is_kept(path: &Path) -> bool {
     disk::was_read(path)
@@ -46,17 +40,6 @@ pub(crate) fn is_kept(path: &Path) -> bool {
 
 /// Refuses outputs, each with the name of its option, of which one would take the place of another.
 pub(crate) fn ensure_distinct(outputs: &[(&str, PathBuf)]) -> anyhow::Result<()> {
-    let to_standard = standard_file(std::io::stdout());
-    for (option, path) in outputs {
-        let shown = path.display();
-        let same = to_standard
-            .as_ref()
-            .is_some_and(|file| disk::is_at(file, path));
-        ensure!(
-            !same,
-            "--{option} {shown} is also standard output, and one would overwrite the other; name another file"
-        );
-    }
     for ((one, first), (other, second)) in outputs.iter().tuple_combinations() {
         let shown = second.display();
         ensure!(
@@ -104,32 +87,93 @@ pub(super) fn note_written(path: &Path) {
     lock_written().push(canonical_path(path));
 }
 
-/// Refuses to write to standard output where it is a file that is read.
-pub(super) fn apart_from_standard_output() -> anyhow::Result<()> {
-    let same = standard_file(std::io::stdout()).is_some_and(|file| disk::open_was_read(&file));
-    ensure!(
-        !same,
-        "standard output is the input file; send it to another file"
-    );
-    Ok(())
-}
-
-/// Returns the metadata of standard input or output if it is a file.
-#[cfg(unix)]
-fn standard_file(stream: impl std::os::fd::AsFd) -> Option<Metadata> {
-    let file = File::from(stream.as_fd().try_clone_to_owned().ok()?);
-    file.metadata().ok().filter(Metadata::is_file)
-}
-
-/// Returns nothing: this system does not tell which file it is.
-#[cfg(not(unix))]
-fn standard_file<T>(_: T) -> Option<Metadata> {
-    None
-}
-
 fn is_database(path: &Path) -> bool {
     let mut head = [0; DATABASE.len()];
     // A pipe would wait for what nobody writes.
     let begins = |mut f: File| f.read_exact(&mut head).is_ok() && head == DATABASE;
     path.is_file() && File::open(path).is_ok_and(begins)
+}
+
+/// Prefix of the names of such files.
+const PREFIX: &str = ".tmp-ozols-";
+/// Number of attempts if another process removes the file as a leftover.
+const TRIES: usize = 100;
+
+/// The file that is being written, which is removed if the program ends before it is complete, and the folders that were cleaned.
+static BESIDE: Mutex<(Option<PathBuf>, BTreeSet<PathBuf>)> = Mutex::new((None, BTreeSet::new()));
+
+fn lock_beside() -> MutexGuard<'static, (Option<PathBuf>, BTreeSet<PathBuf>)> {
+    BESIDE.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// True if the current output may be incomplete.
+static CUT: AtomicBool = AtomicBool::new(false);
+
+/// Marks all further output as incomplete.
+pub(crate) fn cut_short() {
+    CUT.store(true, Ordering::SeqCst);
+}
+
+/// Removes the file that is being written, if one is.
+pub(crate) fn remove_unfinished() {
+    if let Some(path) = lock_beside().0.take() {
+        let _ = std::fs::remove_file(path);
+    }
+}
+
+/// Begins a file in a folder, and removes those that killed runs left there.
+pub(super) fn begin_file(folder: &Path) -> io::Result<NamedTempFile> {
+    let mut beside = lock_beside();
+    if beside.1.insert(folder.to_owned()) {
+        disk::clean_leftovers(folder, |name| {
+            name.as_encoded_bytes().starts_with(PREFIX.as_bytes())
+        });
+    }
+    let mut file = temporary_builder().tempfile_in(folder)?;
+    for _ in 0..TRIES {
+        // Held from here on. Whoever cleans up may have taken it before. Not every file system has locks.
+        let _ = file.as_file().lock();
+        if file.path().exists() {
+            break;
+        }
+        file = temporary_builder().tempfile_in(folder)?;
+    }
+    beside.0 = Some(file.path().to_path_buf());
+    Ok(file)
+}
+
+/// Gives the file its final name. An incomplete file does not replace an older complete one: it gets another name next to it,
+/// which is returned.
+pub(super) fn rename_file(
+    file: NamedTempFile,
+    path: &Path,
+    older: bool,
+) -> io::Result<Option<PathBuf>> {
+    let other = (older && CUT.load(Ordering::SeqCst)).then(|| interrupted_name(path));
+    file.persist(other.as_deref().unwrap_or(path))?;
+    lock_beside().0 = None;
+    Ok(other)
+}
+
+/// Returns `page.interrupted.html` for `page.html`.
+fn interrupted_name(path: &Path) -> PathBuf {
+    let mut name: OsString = path.file_stem().unwrap_or_default().to_owned();
+    name.push(".interrupted");
+    if let Some(ending) = path.extension() {
+        name.push(".");
+        name.push(ending);
+    }
+    path.with_file_name(name)
+}
+
+/// Makes files that may be read by whom the umask lets: they become results.
+fn temporary_builder() -> tempfile::Builder<'static, 'static> {
+    let mut builder = tempfile::Builder::new();
+    builder.prefix(PREFIX);
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::PermissionsExt;
+        builder.permissions(std::fs::Permissions::from_mode(0o666));
+    }
+    builder
 }

@@ -1,8 +1,8 @@
 //! Joints of an assembly of a CAD program changed to another of its types.
 
+use crate::robots::cad::fcstd::DOCUMENT;
 use crate::robots::description::origin::Origin;
 use crate::robots::edit::Edits;
-use crate::robots::fcstd::DOCUMENT;
 use crate::robots::import::Imported;
 use crate::robots::prelude::*;
 

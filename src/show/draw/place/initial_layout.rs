@@ -1,7 +1,6 @@
 //! First places for the joints of a scheme.
 
-use crate::draw::place::Dice;
-use crate::draw::place::graph::{Graph, Mirror, Net};
+use crate::draw::place::graph::{Dice, Graph, Mirror, Net};
 use crate::draw::prelude::*;
 
 /// Where to begin.

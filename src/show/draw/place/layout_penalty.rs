@@ -1,7 +1,6 @@
 //! How bad a layout is, and small moves that make it better.
 
-use crate::draw::place::Dice;
-use crate::draw::place::graph::{Graph, Mirror, joint_ring, link_radius};
+use crate::draw::place::graph::{Dice, Graph, Mirror, joint_ring, link_radius};
 use crate::draw::prelude::*;
 use crate::svg::plane::{are_apart, polygon_area, segments_cross};
 
