@@ -2,6 +2,7 @@
 
 pub(crate) mod charts;
 pub(crate) mod interrupt;
+pub(crate) mod machine;
 pub(crate) mod memory;
 pub(crate) mod output;
 pub(crate) mod progress;

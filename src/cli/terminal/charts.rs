@@ -16,6 +16,22 @@ pub(crate) struct ChartDrawing {
 use anyhow::Context;
 use std::path::Path;
 
+/// Creates a folder if it is missing.
+pub(crate) fn make_folder(folder: &Path) -> anyhow::Result<()> {
+    std::fs::create_dir_all(folder)
+        .with_context(|| format!("cannot make the folder {}", folder.display()))
+}
+
+/// Writes the files of a page, by name, and returns a line that names its start page.
+pub(crate) fn write_page(folder: &Path, files: Vec<(String, String)>) -> anyhow::Result<String> {
+    output::write_files(folder, files)?;
+    let index = folder.join("index.html");
+    Ok(format!(
+        "Written to {}: open it in a browser.\n",
+        index.display()
+    ))
+}
+
 /// Writes `NAME.svg` and `NAME.csv` of each chart, and a page of all if a title is given. Creates the folder if it is missing.
 /// Drawings come last.
 pub(crate) fn write(
@@ -24,8 +40,7 @@ pub(crate) fn write(
     charts: &[(String, Chart)],
     drawings: &[ChartDrawing],
 ) -> anyhow::Result<()> {
-    std::fs::create_dir_all(folder)
-        .with_context(|| format!("cannot make the folder {}", folder.display()))?;
+    make_folder(folder)?;
     let write = |name: &str, text: &str| output::write_bytes(Some(&folder.join(name)), text);
     let mut parts = Vec::new();
     for (name, chart) in charts {

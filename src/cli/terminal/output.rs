@@ -85,6 +85,17 @@ pub(crate) fn write_bytes(path: Option<&Path>, all: impl AsRef<[u8]>) -> anyhow:
     })
 }
 
+/// Writes files, by name and content, to a folder.
+pub(crate) fn write_files(
+    folder: &Path,
+    files: impl IntoIterator<Item = (String, String)>,
+) -> anyhow::Result<()> {
+    for (name, text) in files {
+        write_bytes(Some(&folder.join(&name)), text)?;
+    }
+    Ok(())
+}
+
 /// Returns an error if a drawing or a page would be written to a terminal.
 pub(crate) fn not_to_terminal(path: Option<&Path>, what: &str) -> anyhow::Result<()> {
     anyhow::ensure!(
