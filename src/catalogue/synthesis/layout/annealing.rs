@@ -54,7 +54,7 @@ impl FoundPlaces {
 /// Maximum number of starts of a search for places, for each lay.
 pub(in crate::synthesis) const STARTS: u32 = 12;
 /// Number of best starts that go on if none becomes good. More go on if none of these keeps the limits of the drawing.
-const GO_ON: usize = 6;
+const GO_ON: usize = 4;
 
 /// Returns the best places of some starts of a structure of this name; `None` if all end in singular poses.
 ///
@@ -129,7 +129,7 @@ struct Phase {
     warmth: [f64; 2],
 }
 
-/// Places only, which is cheap; then also the motion of the drawn pose; then the whole stroke, slightly reheated.
+/// Places only, which is cheap; then also motion and forces of the drawn pose; then the whole stroke, slightly reheated.
 const PHASES: [Phase; 3] = [
     Phase {
         look: Look::Places,
@@ -159,7 +159,7 @@ struct Thresholds {
 /// Thresholds for pausing a start. Of those whose drawing lags one in twenty becomes good, of those whose stroke lags one in twelve.
 const LAGGING: Thresholds = Thresholds {
     drawn: 1.0,
-    strokes: &[(50, 7.0), (100, 4.0), (150, 3.0), (200, 2.0)],
+    strokes: &[(25, 9.0), (50, 7.0), (100, 4.0), (150, 3.0), (200, 2.0)],
 };
 /// Thresholds for giving up a start that goes on, for hinged structures. One in twenty beyond them would fulfil the task.
 const HOPELESS: Thresholds = Thresholds {
@@ -273,10 +273,12 @@ impl<'s, 'a> Annealing<'s, 'a> {
         }
         let moving = look != Look::Places;
         let drawn = (self.sketch).place_penalty(&self.at, moving, most, &mut self.seen)?;
-        if look != Look::Stroke {
-            return Some(drawn);
-        }
-        let stroke = judge.coarse_figures(&self.at, most - drawn)?;
+        let left = most - drawn;
+        let stroke = match look {
+            Look::Motion => judge.figures_as_drawn(&self.at, left)?,
+            Look::Stroke => judge.coarse_figures(&self.at, left)?,
+            _ => return Some(drawn),
+        };
         let all = drawn + self.sketch.limits.stroke_cost(&stroke);
         (all <= most).then_some(all)
     }

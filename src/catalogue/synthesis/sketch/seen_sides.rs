@@ -308,7 +308,7 @@ mod tests {
         let mut found = 0;
         each_classic(|name, sketch| {
             let mut random = random_for(name, 3, 0);
-            for _ in 0..20 {
+            for _ in 0..40 {
                 let (at, mut seen) = (sketch.first_places(&mut random), SeenSides::default());
                 let (at, bones) = sketch.drawn_points(&at);
                 seen.crossing_cost(bones, &at);

@@ -21,6 +21,12 @@ const COARSE: Grid = Grid {
     forces_everywhere: false,
 };
 
+/// Only the drawn pose.
+const DRAWN: Grid = Grid {
+    steps: 0.0,
+    ..COARSE
+};
+
 /// Poses of a stroke whose figures are reported.
 const FINE: Grid = Grid {
     steps: 48.0,
@@ -32,7 +38,7 @@ const FINE: Grid = Grid {
 /// Poses at which a stroke is evaluated.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Grid {
-    /// Number of steps over the task's stroke.
+    /// Number of steps over the task's stroke; 0 for the drawn pose alone.
     steps: f64,
     /// Accuracy of an end that comes before the task's end, as a fraction of the stroke.
     finest: f64,
@@ -142,6 +148,15 @@ impl<'a> Judge<'a> {
         self.motion.walk.stand_drawn()
     }
 
+    /// Returns the figures of the drawn pose, as those of a stroke that reaches both ends. `None` if the pose is singular, or if the cost
+    /// is more than `most`.
+    ///
+    /// # Complexity
+    /// A few corrections of O(n³) for n links.
+    pub fn figures_as_drawn(&mut self, at: &Places, most: f64) -> Option<StrokeFigures> {
+        self.follow_grid(at, DRAWN, most)
+    }
+
     /// Returns the figures of places at the few poses of the search. `None` if the drawn pose is singular, or if the cost is more than
     /// `most`, which the first poses may show.
     ///
@@ -187,7 +202,8 @@ impl<'a> Judge<'a> {
             return None;
         }
         self.weigh_forces(at);
-        for (n, to) in [task.narrowest, task.widest].into_iter().enumerate() {
+        let ends = [task.narrowest, task.widest].into_iter().enumerate();
+        for (n, to) in ends.filter(|_| grid.steps > 0.0) {
             if n > 0 {
                 self.motion.walk.go_back();
             }
