@@ -54,7 +54,7 @@ impl FoundPlaces {
 /// Maximum number of starts of a search for places, for each lay.
 pub(in crate::synthesis) const STARTS: u32 = 12;
 /// Number of best starts that go on if none becomes good. More go on if none of these keeps the limits of the drawing.
-const GO_ON: usize = 4;
+const GO_ON: usize = 6;
 
 /// Returns the best places of some starts of a structure of this name; `None` if all end in singular poses.
 ///
@@ -229,7 +229,7 @@ impl<'s, 'a> Annealing<'s, 'a> {
     /// Returns the places found so far; `None` if their pose is singular.
     fn judge_places(&self, judge: &mut Judge<'a>) -> Option<FoundPlaces> {
         let (sketch, at) = (self.sketch, self.best.1.clone());
-        let looks = sketch.drawn_figures(&at)?;
+        let looks = judge.drawn_figures(&at)?;
         // A paused start is judged by some poses only, and its layers are not checked.
         let stroke = if self.paused {
             judge.coarse_figures(&at, f64::INFINITY)
@@ -272,13 +272,14 @@ impl<'s, 'a> Annealing<'s, 'a> {
             return (all <= most).then_some(all);
         }
         let moving = look != Look::Places;
-        let drawn = (self.sketch).place_penalty(&self.at, moving, most, &mut self.seen)?;
-        let left = most - drawn;
-        let stroke = match look {
-            Look::Motion => judge.figures_as_drawn(&self.at, left)?,
-            Look::Stroke => judge.coarse_figures(&self.at, left)?,
-            _ => return Some(drawn),
-        };
+        let drawn = (self.sketch).place_penalty(&self.at, most, &mut self.seen, || {
+            let motion = moving.then(|| Some(judge.drawn_motion(&self.at)?.penalty));
+            motion.unwrap_or(Some(0.0))
+        })?;
+        if !moving {
+            return Some(drawn);
+        }
+        let stroke = judge.figures_from_drawn(&self.at, look == Look::Stroke, most - drawn)?;
         let all = drawn + self.sketch.limits.stroke_cost(&stroke);
         (all <= most).then_some(all)
     }
