@@ -10,7 +10,6 @@ mod disk;
 mod door;
 mod http;
 mod idea;
-mod paper;
 mod reading;
 mod room;
 mod routes;

@@ -1,6 +1,5 @@
 //! The terminal: output, progress, interrupts, colour, memory.
 
-pub(crate) mod charts;
 pub(crate) mod interrupt;
 pub(crate) mod machine;
 pub(crate) mod memory;

@@ -17,6 +17,7 @@ pub mod csv;
 pub mod did_you_mean;
 pub mod plain;
 
+use std::fmt::Display;
 use std::ops::Range;
 
 /// Formats a count with its noun: "1 redundant constraint", "2 redundant constraints".
@@ -48,6 +49,16 @@ pub fn join_and<T: AsRef<str>>(of: &[T]) -> String {
             format!("{} and {}", most.join(", "), last.as_ref())
         }
     }
+}
+
+/// Formats the first `most` items of a list and the number of further items: "a, b and 3 more".
+pub fn first_of(all: &[impl Display], most: usize) -> String {
+    let shown: Vec<String> = all.iter().take(most).map(ToString::to_string).collect();
+    let more = match all.len().saturating_sub(most) {
+        0 => String::new(),
+        n => format!(" and {n} more"),
+    };
+    shown.join(", ") + &more
 }
 
 /// Formats a number of any size with these significant digits. Those whose first digit has one of the `plain` powers of

@@ -28,7 +28,7 @@ mod _native {
     #[pymodule_export]
     use crate::search::{Outcome, Variant, Variants, search};
     #[pymodule_export]
-    use crate::statics::{chart, statics};
+    use crate::statics::statics;
 
     #[pymodule_export]
     const VERSION: &str = env!("CARGO_PKG_VERSION");

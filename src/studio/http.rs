@@ -215,31 +215,12 @@ pub(super) fn write_reply(stream: &mut TcpStream, answer: &Reply) -> io::Result<
         ""
     };
     let head = format!(
-        "HTTP/1.1 {} {}\r\nContent-Type: {}\r\nContent-Length: {}\r\n{packed}{saved}{rules}\r\n",
+        "HTTP/1.1 {} \r\nContent-Type: {}\r\nContent-Length: {}\r\n{packed}{saved}{rules}\r\n",
         answer.status,
-        reason_phrase(answer.status),
         answer.kind,
         answer.body.len()
     );
     stream.write_all(head.as_bytes())?;
     stream.write_all(&answer.body)?;
     stream.flush()
-}
-
-fn reason_phrase(status: u16) -> &'static str {
-    match status {
-        200 => "OK",
-        400 => "Bad Request",
-        403 => "Forbidden",
-        404 => "Not Found",
-        405 => "Method Not Allowed",
-        409 => "Conflict",
-        413 => "Content Too Large",
-        415 => "Unsupported Media Type",
-        422 => "Unprocessable Content",
-        431 => "Request Header Fields Too Large",
-        501 => "Not Implemented",
-        503 => "Service Unavailable",
-        _ => "Error",
-    }
 }

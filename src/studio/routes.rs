@@ -1,19 +1,49 @@
-//! Which address does what.
+//! Which address does what. The report and the studio draw with the same scripts.
 
 use super::desk::Refused;
 use super::disk::Opening;
 use super::http::{Asked, Reply};
 use super::idea::{self, Taken};
 use super::room::{self, Found, Room};
-use super::{paper, shelf, work};
+use super::{shelf, work};
 use crate::api::export;
-use crate::draw::{Subject, kinematic, scheme};
+use crate::draw::{SHEET_STYLE, Subject, kinematic, scheme};
 use crate::file::edit::Edit;
 use crate::model::mechanism::StateId;
+use crate::page::{LOOK, SHARED};
 use crate::robots::formats;
 use serde::Deserialize;
 use serde_json::{Map, Value, json};
 use std::sync::Arc;
+
+/// The studio's own scripts by idea, in the order they are run, after those that the report's page shares with it.
+const SCRIPTS: [&str; 21] = [
+    include_str!("script/talk.js"),
+    include_str!("script/things.js"),
+    include_str!("script/number.js"),
+    include_str!("script/units.js"),
+    include_str!("script/camera.js"),
+    include_str!("script/preview.js"),
+    include_str!("script/sheet.js"),
+    include_str!("script/snap.js"),
+    include_str!("script/build.js"),
+    include_str!("script/tools.js"),
+    include_str!("script/pointer.js"),
+    include_str!("script/measure.js"),
+    include_str!("script/inspect.js"),
+    include_str!("script/search.js"),
+    include_str!("script/verdict.js"),
+    include_str!("script/ideas.js"),
+    include_str!("script/text.js"),
+    include_str!("script/curves.js"),
+    include_str!("script/shelf.js"),
+    include_str!("script/keys.js"),
+    include_str!("script/main.js"),
+];
+const STYLES: [&str; 3] = [SHEET_STYLE, LOOK, include_str!("studio.css")];
+
+/// The frame of the page, which the scripts fill.
+const PAGE: &str = include_str!("page.html");
 
 /// The content of a request: each address takes some of these.
 #[derive(Debug, Default, Deserialize)]
@@ -51,10 +81,13 @@ fn nothing_here() -> Reply {
 
 fn answer_get(path: &str, room: &Room) -> Reply {
     match path {
-        "" => Reply::new("text/html; charset=utf-8", paper::PAGE),
-        "studio.js" => Reply::new("text/javascript; charset=utf-8", paper::whole_script()),
-        "studio.css" => Reply::new("text/css; charset=utf-8", paper::whole_style()),
-        "icon.svg" => Reply::new("image/svg+xml", paper::ICON),
+        "" => Reply::new("text/html; charset=utf-8", PAGE),
+        "studio.js" => Reply::new(
+            "text/javascript; charset=utf-8",
+            [SHARED.concat(), SCRIPTS.concat()].concat(),
+        ),
+        "studio.css" => Reply::new("text/css; charset=utf-8", STYLES.concat()),
+        "icon.svg" => Reply::new("image/svg+xml", shelf::ICON),
         "palette" => Reply::json_reply(&shelf::joint_types()),
         "shelf" => Reply::json_reply(&shelf::shelf_list()),
         "status" => Reply::json_reply(&room.status_json()),

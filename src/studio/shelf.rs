@@ -12,6 +12,9 @@ use serde_json::{Value, json};
 use std::fmt::Write as _;
 use std::path::PathBuf;
 
+/// The picture of the window's tab.
+pub(super) const ICON: &str = include_str!("icon.svg");
+
 /// Mechanisms that are to be drawn on: the name, what it is, and its text.
 const OWN: [(&str, &str, &str); 3] = [
     ("mechanism", "An empty sheet", BLANK),
@@ -67,7 +70,7 @@ pub(super) fn picture_of(name: &str) -> Option<String> {
     };
     let Ok(m) = m else {
         // An empty sheet has no picture of its own.
-        return own.map(|_| super::paper::ICON.to_owned());
+        return own.map(|_| ICON.to_owned());
     };
     still_picture(&m)
 }

@@ -14,7 +14,7 @@ const report = listed("src/show/page.rs", /include_str!\("(page\/script\/[\w/]+\
 const shared = Number(/SHARED: \[&str; (\d+)\]/.exec(read("src/show/page.rs"))[1]);
 const PAGES = {
   report,
-  studio: [...report.slice(0, shared), ...listed("src/studio/paper.rs", /include_str!\("([\w/]+\.js)"\)/g, "src/studio")],
+  studio: [...report.slice(0, shared), ...listed("src/studio/routes.rs", /include_str!\("([\w/]+\.js)"\)/g, "src/studio")],
   catalogue: listed("src/show/page/catalogue.rs", /include_str!\("(script\/[\w/]+\.js)"\)/g, "src/show/page"),
 };
 

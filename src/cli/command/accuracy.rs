@@ -5,7 +5,7 @@ use crate::accuracy::study::{self, Effort, Study};
 use crate::accuracy::survey::{Survey, built_in_cases, generated_cases};
 use crate::accuracy::timing::{Machine, Stopwatch};
 use crate::cli::prelude::*;
-use crate::cli::terminal::{charts, machine};
+use crate::cli::terminal::machine;
 use crate::format::format_duration;
 use crate::rank::method::{MobilityMethod, registry};
 
@@ -26,7 +26,7 @@ pub(crate) fn run_accuracy(args: &Global, a: &Accuracy) -> anyhow::Result<Done> 
     let repeat = a.repeat.unwrap_or(if a.quick { 1 } else { 5 });
     ensure!(repeat > 0, "--repeat must be at least 1");
     // The folder before the work: a bad path should not cost a minute.
-    a.output.as_deref().map_or(Ok(()), charts::make_folder)?;
+    a.output.as_deref().map_or(Ok(()), output::make_folder)?;
     let mut bar = Bar::new(args.quiet);
     let clock = machine::processor_time;
     let machine = machine::this_machine();
@@ -72,9 +72,13 @@ pub(crate) fn run_accuracy(args: &Global, a: &Accuracy) -> anyhow::Result<Done> 
     studies.extend(found);
     let title = "Mobility methods: accuracy, speed, stability";
     let files = study::page_files(title, &made, &studies, tables.into());
-    let written = charts::write_page(folder, files)?;
+    for (name, file) in files {
+        output::write_bytes(Some(&folder.join(name)), file)?;
+    }
     bar.clear();
-    output::write_bytes(None, format!("{text}\n{written}"))
+    let index = folder.join("index.html");
+    let end = format!("Written to {}: open it in a browser.", index.display());
+    output::write_bytes(None, format!("{text}\n{end}\n"))
 }
 
 /// Returns a table of the methods on built-in mechanisms and on those from the seed, the machine it was made on, and a paragraph

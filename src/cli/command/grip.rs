@@ -1,7 +1,6 @@
 //! `ozols grip`.
 
 use crate::cli::prelude::*;
-use crate::cli::terminal::charts;
 use crate::drive::driving::design_drive;
 use crate::file::read::workload::trajectory::read_trajectory;
 use crate::file::read::workload::{WorkloadFile, drive_from_bytes, grip_from_bytes};
@@ -69,7 +68,8 @@ pub(crate) fn run_grip(a: &Grip) -> anyhow::Result<Done> {
         motion,
     };
     if let Some(folder) = &a.svg {
-        charts::write(folder, None, &grip_charts(&shown), &[])?;
+        let charts = grip_charts(&shown).into_iter();
+        output::write_pictures(folder, None, charts.map(output::chart_files))?;
     }
     let gives = "charts of the arms and the drive moment";
     let charts = NextCommand::new("grip", &a.file.file, "--svg charts", gives);
@@ -142,12 +142,10 @@ pub(crate) fn run_drive(a: &Drive) -> anyhow::Result<Done> {
     let found = design_drive(&file.spec)?;
     let shown = view::drive::Drive::new(&file, &found);
     if let (Some(folder), true) = (&a.svg, shown.design.is_some()) {
-        let motion = motion_csv(&shown).map(|table| charts::ChartDrawing {
-            name: "motion".to_owned(),
-            files: vec![("csv", table)],
-            title: String::new(),
-        });
-        charts::write(folder, None, &drive_charts(&shown), &Vec::from_iter(motion))?;
+        let motion = motion_csv(&shown)
+            .map(|table| ("motion".to_owned(), String::new(), vec![("csv", table)]));
+        let charts = drive_charts(&shown).into_iter().map(output::chart_files);
+        output::write_pictures(folder, None, charts.chain(motion))?;
     }
     let gives = "charts of the programme: angle and energy over time";
     let charts = NextCommand::new("drive", &a.file.file, "--svg charts", gives);

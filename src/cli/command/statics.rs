@@ -1,7 +1,7 @@
 //! `ozols statics`.
 
+use crate::chart::Polygons;
 use crate::cli::prelude::*;
-use crate::cli::terminal::charts;
 use crate::file::read::workload::motion::parse_stroke;
 use crate::grip::clamped::clamped_reactions;
 use crate::grip::clamping::DiameterRow;
@@ -156,15 +156,14 @@ fn report_loose(
 /// Writes what was found, with the charts where they are asked for.
 fn write(m: &Mechanism, shown: &ToldStatics<'_>, a: &Statics) -> anyhow::Result<()> {
     if let (ToldReactions::Planar(s), Some(folder)) = (&shown.reactions, &a.svg) {
-        let plans = force_plans_of(s)
-            .into_iter()
-            .map(|(name, plan)| charts::ChartDrawing {
-                name,
-                files: vec![("svg", plan.svg()), ("csv", plan.csv())],
-                title: plan.title,
-            });
-        let plans: Vec<charts::ChartDrawing> = plans.collect();
-        charts::write(folder, Some(&m.name), &drawn::cycle_charts(s), &plans)?;
+        let plan = |(name, plan): (String, Polygons)| {
+            let files = vec![("svg", plan.svg()), ("csv", plan.csv())];
+            (name, plan.title, files)
+        };
+        let plans = force_plans_of(s).into_iter().map(plan);
+        let charts = drawn::cycle_charts(s).into_iter();
+        let all = charts.map(output::chart_files).chain(plans);
+        output::write_pictures(folder, Some(&m.name), all)?;
     }
     a.put_reactions(shown, &next_steps(shown, a))?;
     Ok(())

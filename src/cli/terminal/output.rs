@@ -1,5 +1,6 @@
 //! Results go to standard output or to a file, which is written completely or not at all. Errors go to standard error.
 
+use crate::chart::{Chart, page};
 use crate::cli::terminal::Done;
 use crate::file::problem::ImportError;
 use crate::format::plain::{escape_control, escape_except_colours};
@@ -85,13 +86,44 @@ pub(crate) fn write_bytes(path: Option<&Path>, all: impl AsRef<[u8]>) -> anyhow:
     })
 }
 
-/// Writes files, by name and content, to a folder.
-pub(crate) fn write_files(
+/// Creates a folder if it is missing.
+pub(crate) fn make_folder(folder: &Path) -> anyhow::Result<()> {
+    std::fs::create_dir_all(folder)
+        .with_context(|| format!("cannot make the folder {}", folder.display()))
+}
+
+/// A picture or a table: the name of its files without ending, its title, and its texts by ending.
+pub(crate) type Picture = (String, String, Vec<(&'static str, String)>);
+
+/// Returns a chart as SVG and CSV. The table has no row where a line breaks.
+pub(crate) fn chart_files((name, mut chart): (String, Chart)) -> Picture {
+    let svg = chart.svg();
+    for series in &mut chart.series {
+        series.points.retain(|p| p.1.is_finite());
+    }
+    let csv = chart.csv();
+    (name, chart.title, vec![("svg", svg), ("csv", csv)])
+}
+
+/// Writes pictures to a folder, which is created if it is missing, and a page of them if a title is given.
+pub(crate) fn write_pictures(
     folder: &Path,
-    files: impl IntoIterator<Item = (String, String)>,
+    title: Option<&str>,
+    all: impl IntoIterator<Item = Picture>,
 ) -> anyhow::Result<()> {
-    for (name, text) in files {
-        write_bytes(Some(&folder.join(&name)), text)?;
+    make_folder(folder)?;
+    let write = |name: &str, text: &str| write_bytes(Some(&folder.join(name)), text);
+    let mut parts = Vec::new();
+    for (name, heading, files) in all {
+        for (ending, text) in files {
+            write(&format!("{name}.{ending}"), &text)?;
+            if ending == "svg" {
+                parts.push((heading.clone(), String::new(), text));
+            }
+        }
+    }
+    if let Some(title) = title {
+        write("index.html", &page(title, &parts))?;
     }
     Ok(())
 }

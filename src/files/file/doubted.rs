@@ -2,8 +2,7 @@
 //! omitted and default to the joint's own, if they have another meaning there.
 
 use crate::file::prelude::*;
-use crate::file::problem::first_of;
-use crate::format::four_digits;
+use crate::format::{first_of, four_digits};
 use crate::geom::vector::{across, unit};
 use crate::model::rounded::ratio::{doubt_of, doubt_ratio};
 use crate::model::rounded::{looks_rounded, uncertainties};

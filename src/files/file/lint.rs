@@ -3,11 +3,11 @@
 use crate::closure::contour::{Contour, contour_basis};
 use crate::file::doubted::{find_doubtful, find_guessed, find_rounding};
 use crate::file::prelude::*;
-use crate::file::problem::{ImportError, Warnings, first_of};
+use crate::file::problem::{ImportError, Warnings};
 use crate::file::read::build_mechanism;
 use crate::file::read::workload::workload_tables;
 use crate::file::text::{read_file, text_of};
-use crate::format::four_digits;
+use crate::format::{first_of, four_digits};
 use crate::geom::extent::box_diagonal;
 use crate::model::ranking::Term;
 

@@ -238,15 +238,6 @@ pub(crate) fn suggest_word(word: &str, known: &str) -> String {
     }
 }
 
-/// Returns the first `most` items of a list as text, with the number of further items.
-pub(crate) fn first_of(all: &[impl Display], most: usize) -> String {
-    let more = match all.len().saturating_sub(most) {
-        0 => String::new(),
-        n => format!(" and {n} more"),
-    };
-    format!("{}{more}", all.iter().take(most).join(", "))
-}
-
 /// The warnings about a file.
 #[derive(Debug, Clone)]
 pub struct Warnings {

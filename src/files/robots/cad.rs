@@ -13,7 +13,6 @@ use crate::closure::tree::spanning_forest;
 use crate::robots::cad::holds::Holds;
 use crate::robots::cad::meet::{Meeting, find_coupling, find_meeting};
 use crate::robots::prelude::*;
-use crate::robots::warning::CadCount;
 
 /// Frames meet if they are apart by less than this, as a share of the assembly's size and in radians: solvers are as accurate as this.
 const MEET: f64 = 1e-4;
@@ -86,10 +85,8 @@ impl Assembly {
             add_coupling(c, *links, &mut robot);
         }
         let moving = tied.iter().filter(|t| **t).count() - 1;
-        robot.report.count = Some(CadCount {
-            parts: moving,
-            constraints: rows,
-        });
+        let [parts, rows] = [moving, rows].map(|n| i64::try_from(n).unwrap_or(i64::MAX));
+        robot.report.cad_freedoms = Some(6 * parts - rows);
         robot.known_to = Some(self.known_to(&robot));
         robot
     }

@@ -1,7 +1,7 @@
 //! Options of an import, and its mapped, approximated and dropped elements.
 
-use crate::file::problem::{ImportError, ProblemKind, first_of};
-use crate::format::count_noun;
+use crate::file::problem::{ImportError, ProblemKind};
+use crate::format::{count_noun, first_of};
 use itertools::Itertools;
 use std::collections::BTreeMap;
 use std::fmt::Write;
@@ -48,31 +48,6 @@ pub struct Note {
     pub what: String,
 }
 
-/// The count of a CAD program.
-///
-/// # Examples
-/// ```
-/// use ozols::robots::CadCount;
-/// // A four-bar of three moving parts and four hinges: W - σ = 1 - 3.
-/// assert_eq!(CadCount { parts: 3, constraints: 4 * 5 }.freedoms(), -2);
-/// ```
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct CadCount {
-    /// Parts that are not the ground.
-    pub parts: usize,
-    /// Constraints of all joints.
-    pub constraints: usize,
-}
-
-impl CadCount {
-    /// Returns 6 per part minus all constraints: W minus σ.
-    #[must_use]
-    pub fn freedoms(self) -> i64 {
-        let signed = |n: usize| i64::try_from(n).unwrap_or(i64::MAX);
-        6 * signed(self.parts) - signed(self.constraints)
-    }
-}
-
 /// The report on the import of a file.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Report {
@@ -89,8 +64,8 @@ pub struct Report {
     pub coupling_rows: usize,
     /// Rows of omitted constraints of joints.
     pub constraint_rows: usize,
-    /// The count of a CAD program, for an assembly.
-    pub count: Option<CadCount>,
+    /// Freedoms as a CAD program counts them, for an assembly: 6 a moving part, less all constraints of joints, which is W minus σ.
+    pub cad_freedoms: Option<i64>,
     /// Search for the pose, and remaining errors of the loops.
     pub pose: Vec<String>,
     /// The subset that changes the mechanism from the drawn one: joints moved, loops left open, floating bases.

@@ -9,9 +9,7 @@ use crate::geom::expr::Expr;
 use crate::geom::vector::{cross, dot, length, sub, to_vector, unit};
 use crate::meant::relations::RelationKind;
 use crate::model::joint_type::JointType;
-use crate::model::mechanism::{
-    Frame, Joint, JointId, JointOption, Mechanism, Mode, are_same,
-};
+use crate::model::mechanism::{Frame, Joint, JointId, JointOption, Mechanism, Mode, are_same};
 use crate::model::rounded::{FrameUncertainty, uncertainties};
 use num_rational::BigRational;
 use num_traits::Zero;

@@ -16,7 +16,6 @@ __all__ = [
     "catalog_build",
     "catalog_merge",
     "catalog_plan",
-    "chart",
     "command",
     "drive",
     "fix",
@@ -96,13 +95,6 @@ def catalog_build(
     progress: Callable[[int, int], object] | None,
 ) -> int: ...
 def catalog_merge(path: _Path, parts: Sequence[_Path]) -> int: ...
-def chart(
-    title: str,
-    subtitle: str,
-    x: tuple[str, bool],
-    y: tuple[str, bool],
-    lines: Sequence[tuple[str, Sequence[tuple[float, float]]]],
-) -> str: ...
 def lint(words: Sequence[str]) -> _Answer: ...
 def fix(words: Sequence[str]) -> str: ...
 def grip(

@@ -13,7 +13,11 @@ use num_traits::Zero;
 /// The frame of the list, with filters, table and chart.
 const FRAME: &str = include_str!("explorer.html");
 
+/// The controls that turn and move both pictures, with a place for what they do not show, and the text about the choice.
+const PLAYER: &str = include_str!("player.html");
+
 pub(super) fn stage_html(page: &Page<'_>, analysis: &Analysis<'_>) -> Markup {
+    let (before, after) = PLAYER.split_once("<!-- unshown -->").unwrap_or_default();
     html! {
         section id="stage" aria-label="As built, and as chosen" {
             div.pair {
@@ -32,61 +36,27 @@ pub(super) fn stage_html(page: &Page<'_>, analysis: &Analysis<'_>) -> Markup {
                     div.turn {}
                 }
             }
-            (player_html(analysis))
-            (chosen_html())
+            (PreEscaped(before))
+            (unshown_html(analysis))
+            (PreEscaped(after))
         }
     }
 }
 
-/// Returns the controls that turn and move both pictures.
-fn player_html(analysis: &Analysis<'_>) -> Markup {
+/// Returns which idle freedoms and self-stresses are not among those that can be shown.
+fn unshown_html(analysis: &Analysis<'_>) -> Markup {
     html! {
-        div.player id="player" role="group" aria-label="Motion" hidden {
-            div.row data-moves {
-                button type="button" data-part="play" { "Play" }
-                input type="range" data-part="range" min="0" step="1" aria-label="Position";
-                label.check data-part="again" { input type="checkbox" data-part="loop" checked; " Loop" }
-                button type="button" data-part="home" disabled { "First view" }
-                button type="button" data-part="trace" aria-pressed="false" title="Then click a link to trace the path of that point" { "Trace a point" }
-                button type="button" data-part="untrace" hidden { "No traces" }
-            }
-            div.switches {
-                label id="drawn-state-field" { "State " select id="drawn-state" {} }
-                label {
-                    "Drawing "
-                    select id="drawn-kind" {
-                        option value="space" { "in motion" }
-                        option value="kinematic" { "kinematic scheme" }
-                        option value="scheme" { "structural scheme" }
-                    }
-                }
-                label.shown data-moves { "Shown " select data-part="shown" {} }
-            }
-            span.help role="status" data-part="say" data-moves {}
-            @for (i, s) in analysis.states.iter().enumerate() {
-                @for (n, what, flags) in [
-                    (s.found.idle.len(), "idle freedoms", typed_option("motion", typed_option("idle", "K"))),
-                    (s.found.self_stresses.len(), "self-stresses", typed_option("self-stress", "K")),
-                ] {
-                    @if n > SHOWN {
-                        span.help data-state-help=(i) {
-                            "The first " (SHOWN) " of " (n) " " (what) " are here; " code { "ozols draw " (flags) } " draws any."
-                        }
+        @for (i, s) in analysis.states.iter().enumerate() {
+            @for (n, what, flags) in [
+                (s.found.idle.len(), "idle freedoms", typed_option("motion", typed_option("idle", "K"))),
+                (s.found.self_stresses.len(), "self-stresses", typed_option("self-stress", "K")),
+            ] {
+                @if n > SHOWN {
+                    span.help data-state-help=(i) {
+                        "The first " (SHOWN) " of " (n) " " (what) " are here; " code { "ozols draw " (flags) } " draws any."
                     }
                 }
             }
-        }
-    }
-}
-
-/// Returns the text about the choice.
-fn chosen_html() -> Markup {
-    html! {
-        div.chosen id="chosen" role="group" aria-labelledby="chosen-head" tabindex="0" hidden {
-            h3 id="chosen-head" {}
-            p id="chosen-words" role="status" aria-live="polite" {}
-            div id="chosen-changes" {}
-            div id="chosen-more" {}
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use crate::redundancy::duplicate_constraints::HeldTwice;
 use crate::redundancy::release::Duplicate;
-use crate::robots::{CadCount, Imported, Origin, Report};
+use crate::robots::{Imported, Origin, Report};
 use crate::view::prelude::*;
 use crate::view::with_assumptions;
 pub use finding::{Finding, Misfit, NONE, PassedOver, TypeChange, describe_release};
@@ -129,7 +129,7 @@ impl Lint {
             } else {
                 Vec::new()
             },
-            counted: report.and_then(|r| r.count).map(CadCount::freedoms),
+            counted: report.and_then(|r| r.cad_freedoms),
             changes: Vec::new(),
             mobility_then: None,
             from_description: read.is_some(),

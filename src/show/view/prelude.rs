@@ -3,8 +3,8 @@
 pub(crate) use crate::chart::{Axis, Chart, Scale, Series, Style};
 pub(crate) use crate::format::csv::write_table;
 pub(crate) use crate::format::{
-    count_noun, five_digits, format_cost, four_digits, group_thousands, join_and, plural_of,
-    three_digits,
+    count_noun, first_of, five_digits, format_cost, four_digits, group_thousands, join_and,
+    plural_of, three_digits,
 };
 pub(crate) use crate::model::claim::Topic;
 pub(crate) use crate::model::mechanism::{JointId, LinkId, Mechanism, Mode, Role, StateId};

@@ -27,15 +27,6 @@ pub fn describe_mechanism(m: &Mechanism, across: f64) -> Vec<String> {
     out
 }
 
-fn list_names<'a>(list: impl IntoIterator<Item = &'a str>) -> String {
-    let list = list.into_iter().collect_vec();
-    let more = match list.len().saturating_sub(SHOWN) {
-        0 => String::new(),
-        n => format!(" and {n} more"),
-    };
-    format!("{}{more}", list.iter().take(SHOWN).format(", "))
-}
-
 fn describe_links(m: &Mechanism, across: f64) -> String {
     let of = |role| {
         let with = m.links.iter().filter(move |l| l.role == role);
@@ -46,7 +37,7 @@ fn describe_links(m: &Mechanism, across: f64) -> String {
         let with = of(role);
         if !with.is_empty() {
             let s = if with.len() == 1 { "" } else { "s" };
-            roles.push(format!("{word}{s} {}", list_names(with)));
+            roles.push(format!("{word}{s} {}", first_of(&with, SHOWN)));
         }
     }
     let mode = match m.mode {
@@ -69,10 +60,10 @@ fn describe_joints(m: &Mechanism) -> String {
         .sorted_by(|a, b| b.1.cmp(&a.1).then(a.0.cmp(b.0)))
         .map(|(name, n)| format!("{n} {name}"));
     let drives = m.joints.iter().filter(|j| j.drive);
-    let drives = list_names(drives.map(|j| j.id.as_str()));
-    let drives = match drives.as_str() {
-        "" => "no drive".to_owned(),
-        names => format!("driven at {names}"),
+    let drives = drives.map(|j| &j.id).collect_vec();
+    let drives = match drives[..] {
+        [] => "no drive".to_owned(),
+        _ => format!("driven at {}", first_of(&drives, SHOWN)),
     };
     format!(
         "{}: {}; {drives}",

@@ -170,11 +170,7 @@ pub(super) fn advice_text(
     };
     let rows = groups.iter().take(ROWS);
     let rows = rows.map(|((what, removes, milli), joints)| {
-        let more = match joints.len().saturating_sub(JOINTS) {
-            0 => String::new(),
-            n => format!(" and {n} more"),
-        };
-        let joints = joints.iter().take(JOINTS).join(", ") + &more;
+        let joints = first_of(joints, JOINTS);
         let removes = format!("{removes} of {}{}", concerned_count(s), kind_suffix(s));
         row_cells([&joints, what, &removes, &format_cost(*milli)])
     });

@@ -70,8 +70,8 @@ fn each_joint_leaves_six_less_its_constraints() {
             let i = read("x.asmt", text.as_bytes(), &Options::default());
             assert_eq!(figures(&i), (6 - constraints, 0), "{kind} {figure}");
             assert_eq!(i.mechanism.length_unit.symbol, "mm");
-            let count = i.report.count.unwrap();
-            assert_eq!((count.parts, count.constraints), (1, constraints), "{kind}");
+            let freedoms = i64::try_from(6 - constraints).unwrap();
+            assert_eq!(i.report.cad_freedoms, Some(freedoms), "{kind}");
         }
     }
     let old = asmt(
