@@ -1,6 +1,6 @@
 //! `ozols catalog query`, `show`, `export`, `page` and `find`.
 
-use super::wanted::WantedGrippers;
+use super::wanted::{LISTED, WantedGrippers};
 use crate::api::Scheme;
 use crate::catalog::find::find_entries;
 use crate::catalog::store::Store;
@@ -70,6 +70,13 @@ pub(super) fn run_query(a: &Query) -> anyhow::Result<Done> {
         TextJsonOrCsv::Json => output::json_text(&answer)?,
         TextJsonOrCsv::Csv => answer.csv(),
     })?;
+    if a.sql.is_none() && !a.wanted.is_any() && answer.rows.len() == LISTED {
+        let (_, counted) = store.query_rows("SELECT count(*) FROM grippers", None)?;
+        output::print_note(&format!(
+            "The first {LISTED} of {} grippers; a filter such as --does-task lists all that pass it.\n",
+            group_thousands(&counted[0][0])
+        ));
+    }
     Ok(Done::found_or_nothing(!answer.rows.is_empty()))
 }
 

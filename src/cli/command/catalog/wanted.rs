@@ -36,7 +36,12 @@ pub(super) struct WantedGrippers {
 /// The columns of a gripper. The forces per newton and per newton metre of the drive have a column each.
 const COLUMNS: &str = "SELECT id, links, input, symmetry AS layout, jaws, iif(reached AND shortfall IS NULL, 'yes', 'no') AS does_task, \
      iif(input = 'slide', least_force, NULL) AS force_per_newton, iif(input = 'turn', least_force, NULL) AS force_per_newton_metre, \
-     force_ratio, turn, transmission, pin_force, price, cost FROM grippers";
+     force_ratio, turn, transmission, pin_force, price, cost, \
+     (SELECT group_concat(c.id, ', ') FROM classics c WHERE c.structure = grippers.id) AS known_as FROM grippers";
+
+/// Number of grippers that are listed if nothing is asked.
+pub(super) const LISTED: usize = 25;
+
 fn parse_finite(word: &str) -> Result<f64, String> {
     let number = word.parse::<f64>().ok().filter(|x| x.is_finite());
     number.ok_or_else(|| "give a number, such as 0.5".to_owned())
@@ -118,7 +123,7 @@ impl WantedGrippers {
     }
 
     /// Returns the SQL that answers: the grippers within the bounds, what does the task first, then sorted by what is asked. Without
-    /// bounds the first 25 of all.
+    /// bounds the first [`LISTED`] of all.
     pub(super) fn sql_question(&self) -> String {
         let bounds = self.given_bounds();
         let sorted: String = bounds.iter().map(|b| b.order.as_str()).collect();
@@ -126,7 +131,7 @@ impl WantedGrippers {
             "ORDER BY coalesce(does_task = 'no', 0), {sorted}links, layout = 'generic', cost, transmission DESC, id"
         );
         if bounds.is_empty() {
-            format!("{COLUMNS} {order} LIMIT 25")
+            format!("{COLUMNS} {order} LIMIT {LISTED}")
         } else {
             let all = bounds.iter().map(|b| b.holds.as_str()).join(" AND ");
             format!("{COLUMNS} WHERE {all} {order}")

@@ -269,7 +269,10 @@ impl StructureData {
             .hardware
             .iter()
             .map(|(to, part)| format!("{to}: {part}"));
-        let parts = format!("\nHardware: {}\n", parts.join("; "));
+        let parts = match parts.join("; ") {
+            none if none.is_empty() => String::new(),
+            parts => format!("\nHardware: {parts}\n"),
+        };
         format!(
             "{}\n{ideas}\n{}",
             fit_lines(&line, width),
