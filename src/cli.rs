@@ -90,6 +90,7 @@ pub fn run_with(words: impl IntoIterator<Item = OsString>) -> u8 {
         Command::Report(a) => command::report::run_report(&args.global, a),
         Command::Studio(a) => command::studio::run_studio(&args.global, a),
         Command::Export(a) => command::export::run_export(&args.global, a),
+        Command::Accuracy(a) => command::accuracy::run_accuracy(&args.global, a),
         Command::Catalog(a) => command::catalog::run_catalog(&args.global, a),
         Command::Check(a) => command::reference::check::run_check(&args.global, a),
         Command::New(a) => command::reference::list::run_new(&args.global, a),

@@ -43,6 +43,7 @@
 //! | [`statics`], [`grip`], [`mod@drive`] | joint reactions and the workloads of grippers |
 //! | [`chains`], [`synthesis`], [`catalog`] | new gripper structures, their layouts, and catalogues of them |
 //! | [`view`], [`mod@draw`], [`chart`], [`page`] | results as text, JSON, CSV, SVG and HTML |
+//! | [`accuracy`] | studies of accuracy and speed |
 //!
 //! [`guide::architecture`] describes each module and the allowed imports.
 //!
@@ -80,7 +81,7 @@ pub use score::request::Request;
 use ozols_kernel::format;
 
 pub use ozols_catalogue::{catalog, chains, synthesis};
-pub use ozols_evaluation::score;
+pub use ozols_evaluation::{accuracy, score};
 pub use ozols_files::{file, robots};
 pub use ozols_forces::{drive, grip, statics};
 pub use ozols_kernel::{

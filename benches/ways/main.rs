@@ -17,16 +17,13 @@
     reason = "a bench reports what it measures"
 )]
 
-#[allow(dead_code, reason = "it has the studies of methods, too")]
-#[path = "../accuracy/lab.rs"]
-mod lab;
 #[path = "searching.rs"]
 mod searching;
 
-use lab::change::Noise;
-use lab::lattice::{Scene, make_ladder, make_lift};
-use lab::study::page_files;
-use lab::timing::Stopwatch;
+use ozols::accuracy::change::Noise;
+use ozols::accuracy::lattice::{Scene, make_ladder, make_lift};
+use ozols::accuracy::study::page_files;
+use ozols::accuracy::timing::Stopwatch;
 use ozols::{Mechanism, Request};
 use searching::{MECHANISMS, TrialEffort, pictures, record, run_trial};
 use std::path::PathBuf;

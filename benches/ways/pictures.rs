@@ -1,8 +1,8 @@
 //! Ways of searching as studies.
 
 use super::record::{Bracket, Record, Trial, Way};
-use crate::lab::said::{Said, Tally};
-use crate::lab::study::Study;
+use ozols::accuracy::said::{Said, Tally};
+use ozols::accuracy::study::Study;
 use ozols::score::request::{Check, POOL};
 use ozols_kernel::format::{format_duration, group_thousands, three_digits};
 use std::collections::BTreeMap;

@@ -1,8 +1,8 @@
 //! Ways of searching, what each is worth on a mechanism, and the table of it for programs.
 
-use crate::lab::timing::Timing;
 use num_bigint::BigUint;
 use num_traits::ToPrimitive;
+use ozols::accuracy::timing::Timing;
 use ozols::rank::numeric::Elimination;
 use ozols::score::request::{Check, Request};
 use ozols_kernel::format::csv;

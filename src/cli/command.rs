@@ -1,5 +1,6 @@
 //! The commands, one file each; this is the list of them.
 
+pub(crate) mod accuracy;
 pub(crate) mod analyze;
 pub(crate) mod catalog;
 pub(crate) mod draw;
@@ -52,6 +53,8 @@ pub(crate) enum Command {
     Studio(studio::StudioArgs),
     /// Write a mechanism, robot description or CAD assembly in another format: TOML, JSON, URDF, MJCF, SDF, DOT.
     Export(export::Export),
+    /// Measure accuracy and speed of every rank method on the built-in mechanisms.
+    Accuracy(accuracy::Accuracy),
     /// Enumerate kinematic chains and gripper structures, and build catalogues of them.
     Catalog(catalog::Catalog),
     /// Write a commented mechanism file to start from.

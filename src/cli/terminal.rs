@@ -1,6 +1,7 @@
 //! The terminal: output, progress, interrupts, colour, memory.
 
 pub(crate) mod interrupt;
+pub(crate) mod machine;
 pub(crate) mod memory;
 pub(crate) mod output;
 pub(crate) mod progress;

@@ -16,7 +16,6 @@ use crate::score::request::unlisted::part_freedoms;
 use crate::score::request::{List, Request};
 use crate::score::run::{Event, run};
 use crate::statics::reactions::Cycle;
-use crate::statics::reactions::drives::is_slide;
 use crate::statics::solve::{Model, SolvedReactions, solve_reactions};
 use crate::view::FORMAT;
 use crate::view::analysis::Analysis;
@@ -326,7 +325,7 @@ fn drive_efforts(m: &Mechanism, found: &Cycle) -> Value {
     for (at, solution) in &found.positions {
         for joint in solution.iter().flat_map(|s| &s.reactions) {
             if let Some((freedom, effort)) = joint.effort {
-                let unit = if is_slide(freedom) { "N" } else { "N·m" };
+                let unit = if freedom.is_slide() { "N" } else { "N·m" };
                 let id = &m.joints[joint.joint].id;
                 let curve = curves.entry(id).or_insert((unit, Vec::new(), Vec::new()));
                 curve.1.push(*at);

@@ -1,9 +1,9 @@
 //! The survey of the methods, and where the naive formulas fail.
 
 use crate::common::*;
-use crate::lab::AnswerVerdict;
-use crate::lab::survey::{Survey, built_in_cases, generated_cases};
-use crate::lab::timing::Stopwatch;
+use ozols::accuracy::AnswerVerdict;
+use ozols::accuracy::survey::{Survey, built_in_cases, generated_cases};
+use ozols::accuracy::timing::Stopwatch;
 use std::collections::HashMap;
 
 pub(crate) static SURVEY: LazyLock<Survey> = LazyLock::new(|| {
@@ -45,7 +45,7 @@ fn finite_auto_and_modular_are_right_everywhere() {
 /// Returns the number of turned and rounded cases in which a decomposition of J, made anew, has the mobility at the pose.
 fn right_when_rounded(decimals: usize) -> usize {
     let cases: Vec<_> = SURVEY.cases.iter().step_by(4).enumerate().collect();
-    let right = |(n, case): &&(usize, &crate::lab::survey::Case)| {
+    let right = |(n, case): &&(usize, &ozols::accuracy::survey::Case)| {
         let m = turned_and_rounded(&case.mechanism, decimals, &mut Noise::new(1, *n));
         let closure = Closure::new(&Reals, &m, case.state).unwrap();
         let method = Elimination::Svd;
@@ -263,12 +263,9 @@ fn a_quick_run_writes_a_chart_and_a_table_of_each_study() {
         let off = answer.map(|a| a - number::<i64>(&row, "expected_finite"));
         assert_eq!(row["error"].parse().ok(), off, "{row:?}");
     }
-    let other = tempdir().unwrap();
-    let one = rayon::ThreadPoolBuilder::new().num_threads(1);
-    one.build()
-        .unwrap()
-        .install(|| write_accuracy(other.path()));
-    let again = Tables(other.path()).verdicts();
+    let folder = Folder::new();
+    folder.succeed("accuracy --quick --threads 1 -o other");
+    let again = Tables(&folder.path("other")).verdicts();
     for (one, two) in tables.verdicts().into_iter().zip_eq(again) {
         assert!(one == two, "differs between runs: {one}\n{two}");
     }

@@ -1,9 +1,9 @@
 //! Ways of searching: which answers of theirs are right.
 
 use crate::common::*;
-use crate::lab::lattice::make_lift;
-use crate::lab::timing::Stopwatch;
 use ozols::Mechanism;
+use ozols::accuracy::lattice::make_lift;
+use ozols::accuracy::timing::Stopwatch;
 use ozols::search::check::brute::{Matrices, Seen};
 use ozols::search::check::brute_float::Approximate;
 use searching::pruned::Pruned;

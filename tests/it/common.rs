@@ -135,26 +135,17 @@ fn folder_of_test(name: &str) -> PathBuf {
         .join(name)
 }
 
-/// What the quick studies of the methods say, and the folder they write to: run once for all tests, as they take most of a minute.
+/// What `ozols accuracy --quick` says, and the folder it writes to: run once for all tests, as it takes most of a minute.
 pub(crate) fn quick_accuracy() -> (&'static str, &'static Path) {
     static RUN: OnceLock<(String, PathBuf)> = OnceLock::new();
     let (said, folder) = RUN.get_or_init(|| {
         let folder = folder_of_test("quick-accuracy");
         let _ = fs::remove_dir_all(&folder);
-        (write_accuracy(&folder), folder)
+        let done = run(&["accuracy", "--quick", "-o", folder.to_str().unwrap()]);
+        assert!(done.status.success(), "{}", utf8_text(&done.stderr));
+        (utf8_text(&done.stdout), folder)
     });
     (said, folder)
-}
-
-/// Writes the quick studies of the methods to a folder, by the clock on the wall, and returns what they say.
-pub(crate) fn write_accuracy(folder: &Path) -> String {
-    static BEGUN: LazyLock<Instant> = LazyLock::new(Instant::now);
-    let effort = crate::lab::study::Effort {
-        quick: true,
-        seed: 1,
-        clock: || BEGUN.elapsed(),
-    };
-    crate::lab::run::run_all(effort, 1, Some(folder))
 }
 
 /// Returns the bytes of a file of `tests/data`.

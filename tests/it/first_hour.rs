@@ -7,7 +7,7 @@ mod new;
 use ozols::terms::Terms;
 use std::process::Command;
 
-const COMMANDS: &str = "lint fix report studio analyze search statics grip drive verify draw export catalog new \
+const COMMANDS: &str = "lint fix report studio analyze search statics grip drive verify draw export accuracy catalog new \
     check list show schema explain completions";
 
 /// The example commands of a help text; two blanks part a command from what it does.
@@ -26,6 +26,10 @@ fn run_line(line: &str, folder: &Path) {
         None => (line, None),
     };
     let words: Vec<&str> = line.split_whitespace().skip(1).collect();
+    // What `accuracy` writes is looked at where the tests of charts have it written, once.
+    if words[0] == "accuracy" && words.contains(&"-o") {
+        return;
+    }
     let o = ozols(&words).current_dir(folder).output().unwrap();
     assert_eq!(o.status.code(), Some(0), "{line}: {}", utf8_text(&o.stderr));
     if let Some(file) = into {
@@ -64,10 +68,15 @@ fn examples_of_the_main_help_run() {
 fn examples_of_every_command_run() {
     // `fix --at` names a joint that users have; `robot_fix` tries each of its options.
     // The studio does not end by itself; `studio` tries it.
-    let own = |c: &&&str| !["fix", "studio"].contains(*c);
+    let own = |c: &&&str| !["accuracy", "fix", "studio"].contains(*c);
     for command in split_words(COMMANDS).iter().filter(own) {
         run_examples(command);
     }
+}
+
+#[test]
+fn examples_of_accuracy_run() {
+    run_examples("accuracy");
 }
 
 #[test]

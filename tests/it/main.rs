@@ -19,8 +19,6 @@ mod examples;
 mod first_hour;
 mod fuzz;
 mod grip;
-#[path = "../../benches/accuracy/lab.rs"]
-mod lab;
 mod layering;
 mod library;
 mod licences;

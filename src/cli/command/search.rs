@@ -2,8 +2,8 @@
 
 use crate::cli::option::request::Checked;
 use crate::cli::prelude::*;
-use crate::cli::terminal::memory;
 use crate::cli::terminal::progress::SearchWatch;
+use crate::cli::terminal::{machine, memory};
 use crate::format::{format_duration, group_thousands};
 use crate::score::outcome::remarks::Remarks;
 use crate::score::request::Method;
@@ -106,8 +106,8 @@ impl Search {
 }
 
 pub(crate) fn run_search(args: &Global, a: &Search) -> anyhow::Result<Done> {
-    let begun = std::time::Instant::now();
-    let seconds = || begun.elapsed().as_secs_f64();
+    let begun = machine::elapsed_time();
+    let seconds = || (machine::elapsed_time() - begun).as_secs_f64();
     let mechanism = load::load_mechanism(&a.file)?;
     let request = a.request(args.seed)?;
     let mut outcome = SearchWatch::new(args.quiet).run_search(mechanism, &request)?;
@@ -152,7 +152,7 @@ pub(crate) fn run_search(args: &Global, a: &Search) -> anyhow::Result<Done> {
     // The output itself is the same every time.
     if a.format == SearchFormat::Text && !args.quiet {
         let allowed = memory::format_bytes(request.memory as u64);
-        let held = memory::peak_memory().map_or(String::new(), |peak| {
+        let held = machine::peak_memory().map_or(String::new(), |peak| {
             format!(
                 ", {} of memory ({allowed} allowed)",
                 memory::format_bytes(peak)

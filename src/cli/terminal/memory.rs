@@ -1,5 +1,6 @@
 //! Available memory, and sizes of memory as words.
 
+use crate::cli::terminal::machine;
 use crate::score::request::Request;
 use std::fs::read_to_string;
 use std::path::Path;
@@ -8,7 +9,7 @@ use std::path::Path;
 /// unknown. If addresses are scarce, returns at most half of those that are left.
 pub(crate) fn quarter_of_memory() -> usize {
     let most = least_limit().map_or(Request::default().memory as u64, |all| all / 4);
-    let taken = read_status("VmSize").unwrap_or(0);
+    let taken = machine::address_space().unwrap_or(0);
     let left = address_limit().map(|all| all.saturating_sub(taken) / 2);
     usize::try_from(left.map_or(most, |left| left.min(most))).unwrap_or(usize::MAX)
 }
@@ -51,7 +52,7 @@ pub(crate) fn parse_bytes(word: &str) -> Result<usize, String> {
 
 /// Returns the smallest limit on the memory of this process, in bytes, or `None` if none is known.
 fn least_limit() -> Option<u64> {
-    let known = [total_memory(), group_limit(), address_limit()];
+    let known = [machine::total_memory(), group_limit(), address_limit()];
     known.into_iter().flatten().min()
 }
 
@@ -78,37 +79,4 @@ fn group_limit() -> Option<u64> {
         read_to_string(file).ok()?.trim().parse().ok()
     };
     Path::new(group).ancestors().filter_map(limit).min()
-}
-
-/// Returns the memory of the machine, in bytes.
-#[cfg(target_os = "linux")]
-fn total_memory() -> Option<u64> {
-    let told = rustix::system::sysinfo();
-    #[allow(
-        clippy::useless_conversion,
-        reason = "it has fewer bits on other processors"
-    )]
-    let (total, unit) = (u64::from(told.totalram), u64::from(told.mem_unit));
-    total.checked_mul(unit)
-}
-
-/// Returns the memory of the machine, in bytes.
-#[cfg(not(target_os = "linux"))]
-fn total_memory() -> Option<u64> {
-    let mut system = sysinfo::System::new();
-    system.refresh_memory();
-    Some(system.total_memory()).filter(|bytes| *bytes > 0)
-}
-
-/// Returns the peak memory of this process, in bytes.
-pub(crate) fn peak_memory() -> Option<u64> {
-    read_status("VmHWM")
-}
-
-/// Returns a size that the system gives in kilobytes for this process, in bytes.
-fn read_status(key: &str) -> Option<u64> {
-    let text = read_to_string("/proc/self/status").ok()?;
-    let line = text.lines().find(|l| l.starts_with(key))?;
-    let kilobytes = line.split_whitespace().nth(1)?;
-    Some(1024 * kilobytes.parse::<u64>().ok()?)
 }

@@ -99,14 +99,19 @@ pub(crate) fn chart_files((name, mut chart): (String, Chart)) -> Picture {
     (name, chart.title, vec![("svg", svg), ("csv", csv)])
 }
 
+/// Creates a folder if it is missing.
+pub(crate) fn make_folder(folder: &Path) -> anyhow::Result<()> {
+    std::fs::create_dir_all(folder)
+        .with_context(|| format!("cannot make the folder {}", folder.display()))
+}
+
 /// Writes pictures to a folder, which is created if it is missing, and a page of them if a title is given.
 pub(crate) fn write_pictures(
     folder: &Path,
     title: Option<&str>,
     all: impl IntoIterator<Item = Picture>,
 ) -> anyhow::Result<()> {
-    std::fs::create_dir_all(folder)
-        .with_context(|| format!("cannot make the folder {}", folder.display()))?;
+    make_folder(folder)?;
     let write = |name: &str, text: &str| write_bytes(Some(&folder.join(name)), text);
     let mut parts = Vec::new();
     for (name, heading, files) in all {

@@ -8,7 +8,6 @@ pub mod joint_loads;
 pub mod load_cases;
 mod load_limits;
 pub mod lower_bound;
-mod meshing;
 pub(crate) mod pose_tables;
 mod reference_scores;
 pub mod spectrum;

@@ -12,19 +12,21 @@ pub(in crate::search) mod node_sets;
 pub(in crate::search) mod reduced_rows;
 pub(crate) mod redundancy_so_far;
 pub(in crate::search) mod stage;
+pub(in crate::search) mod subspaces;
 pub(in crate::search) mod transition;
 pub(in crate::search) mod within;
 
-use crate::linalg::modp::Residue;
-use crate::search::diagram::allowance::Allowance;
+use crate::search::diagram::allowance::{Allowance, carry_ways, cut_down};
 use crate::search::diagram::completion::Ceiling;
 use crate::search::diagram::layer::{CUT, Merge, Nodes};
 pub use crate::search::diagram::layer::{DEAD, Layer, Stop};
-use crate::search::diagram::redundancy_so_far::{Limits, Redundancy, Spent};
-use crate::search::diagram::transition::{Children, Worker};
+use crate::search::diagram::redundancy_so_far::{Limits, Redundancy, Role, Spent};
+use crate::search::diagram::stage::Stage;
+use crate::search::diagram::subspaces::NONE;
+use crate::search::diagram::transition::{Step, Steps};
 use crate::search::diagram::within::Within;
 use crate::search::question::space::{Choice, Space};
-use rayon::prelude::*;
+use std::ops::Range;
 
 /// Building progress, for whoever shows it.
 #[derive(Debug, Clone, Copy)]
@@ -121,20 +123,20 @@ pub(super) enum Omitted<'a, 'm> {
 /// matrices of two, both bounded by `limits.nodes` and `limits.bytes`.
 pub(super) fn build_layers(
     space: &Space,
-    stages: &[impl Carries],
+    stages: &[Stage<'_>],
     limits: &Limits,
     root: Spent,
     mut omitted: Omitted<'_, '_>,
     cancelled: &(dyn Fn() -> bool + Sync),
     progress: &mut (dyn FnMut(Progress) + Send),
 ) -> Diagram {
-    let mut nodes = Nodes::root_node(root);
+    let kinds = stages.first().map_or(0, |s| s.kinds().count());
+    let mut nodes = Nodes::root_node(root, kinds);
     let mut ways = vec![1.0];
     let mut layers = Vec::with_capacity(stages.len());
-    let (mut largest, mut stop) = (1, Stop::Exhausted);
-    let mut allowance = Allowance::new(limits);
+    let (mut stop, mut allowance) = (Stop::Exhausted, Allowance::new(limits));
     for (done, stage) in stages.iter().enumerate() {
-        let choices = &space.variables[stage.variable()].choices;
+        let choices = &space.variables[stage.variable].choices;
         let total = allowance.nodes;
         let (known, mut ceiling) = match &mut omitted {
             Omitted::Nothing => (None, None),
@@ -144,16 +146,16 @@ pub(super) fn build_layers(
         let from = Expanded {
             nodes: &nodes,
             choices,
-            known,
+            wanted: &|edge| known.is_none_or(|known| known.has_edge(edge)),
             bytes: allowance.bytes,
         };
         let merge = next_layer(
             stage,
             &from,
             allowance.begin_layer(&nodes, nodes.len() * choices.len(), stop),
-            |spent, matrix, least| {
+            |spent, dimension, least| {
                 let ceiling = ceiling.as_mut();
-                ceiling.is_some_and(|c| c.is_above(done + 1, spent, matrix, least))
+                ceiling.is_some_and(|c| c.is_above(done + 1, spent, dimension, least))
             },
             cancelled,
             &mut |layer| progress(Progress::in_layer(done, stages.len(), total, layer)),
@@ -169,94 +171,76 @@ pub(super) fn build_layers(
         if let Omitted::Outside(known) = &mut omitted {
             known.advance(&edges, next.len());
         }
-        largest = largest.max(next.len());
         allowance.take_layer(next.len(), edges.len());
         layers.push(Layer {
-            variable: stage.variable(),
+            variable: stage.variable,
             nodes: nodes.len(),
             choices: choices.len(),
             edges,
         });
         nodes = next;
     }
+    let terminals = nodes.spent.iter().map(Spent::redundancy).collect();
     Diagram {
-        layers,
-        terminals: nodes.spent.iter().map(Spent::redundancy).collect(),
         stop,
-        nodes: allowance.nodes,
-        largest_layer: largest,
+        ..Diagram::from_layers(layers, terminals)
     }
-}
-
-/// Returns the number of paths to each of the next nodes, from the number to each of these nodes.
-fn carry_ways(ways: &[f64], edges: &[u32], choices: usize, next: usize) -> Vec<f64> {
-    let mut out = vec![0.0; next];
-    for (edges, n) in edges.chunks(choices.max(1)).zip(ways) {
-        for &to in edges.iter().filter(|to| **to != DEAD) {
-            out[to as usize] += n;
-        }
-    }
-    out
-}
-
-/// Reduces a layer to `keep` nodes. Returns the number of paths to each kept node.
-fn cut_down(next: &mut Nodes, edges: &mut [u32], ways: Vec<f64>, keep: usize) -> Vec<f64> {
-    if next.len() <= keep {
-        return ways;
-    }
-    let kept = worth_keeping(next, &ways, keep);
-    retain_nodes(next, &kept, edges);
-    kept.iter().map(|&i| ways[i]).collect()
-}
-
-/// A stage: it computes the children of nodes at a variable.
-pub(super) trait Carries: Sync {
-    /// Returns the index of the variable in the space.
-    fn variable(&self) -> usize;
-    /// Returns scratch space for a thread.
-    fn make_worker(&self) -> Worker;
-    /// Estimates the field operations for a child of a node of `bytes` bytes.
-    fn child_effort(&self, bytes: usize) -> usize;
-    /// Takes all children of a node, in order of choices.
-    fn push_children(
-        &self,
-        worker: &mut Worker,
-        matrix: &[Residue],
-        spent: &Spent,
-        out: &mut Children,
-    );
 }
 
 /// The nodes of a layer that get children.
 pub(super) struct Expanded<'a> {
     pub(super) nodes: &'a Nodes,
     pub(super) choices: &'a [Choice],
-    /// A diagram outside of which no children are wanted.
-    pub(super) known: Option<&'a Within<'a>>,
+    /// Whether the child over an edge is wanted.
+    pub(super) wanted: &'a dyn Fn(usize) -> bool,
     /// Bytes of which children that are not merged yet may take an eighth.
     pub(super) bytes: usize,
 }
 
-/// Returns the merged children of a layer's nodes, without those that are `out` of the question. `told` receives the number of children so
-/// far.
+/// Returns the merged children of a layer's nodes, without those that are `out` of the question by three values: the redundancy spent, the
+/// dimension that the choices add in the open contours, and the least cost of a path to the child. `told` receives the number of children
+/// so far.
 pub(super) fn next_layer(
-    carries: &impl Carries,
+    stage: &Stage<'_>,
     from: &Expanded<'_>,
     mut merge: Merge,
-    mut out: impl FnMut(&Spent, &[Residue], i64) -> bool,
+    mut out: impl FnMut(&Spent, usize, i64) -> bool,
     cancelled: &(dyn Fn() -> bool + Sync),
     told: &mut dyn FnMut(usize),
 ) -> Merge {
     let (nodes, choices) = (from.nodes, from.choices);
+    let kinds = stage.kinds().zip(&nodes.spaces);
+    let mut steps: Vec<Steps<'_>> = kinds
+        .map(|((_, columns), spaces)| Steps::new(stage.field, columns, spaces))
+        .collect();
     // A child is about as large as its parent. No more of them are made at a time than stay in use from batch to batch.
     let each = nodes.held_bytes() / nodes.len().max(1);
     let size = (CHILDREN.min(from.bytes / 8) / (each * choices.len()).max(1))
-        .min(BATCH / (carries.child_effort(each) * choices.len()).max(1))
+        .min(BATCH / (stage.child_effort(each) * choices.len()).max(1))
         .clamp(CUT, MOST);
+    let mut numbers = Vec::with_capacity(steps.len());
     for batch in (0..nodes.len()).step_by(size) {
-        let batch = batch..(batch + size).min(nodes.len());
-        for part in from.expand_nodes(carries, batch) {
-            merge.take_children(&part, nodes, |choice| choices[choice].cost_milli, &mut out);
+        let edges = batch * choices.len()..(batch + size).min(nodes.len()) * choices.len();
+        let children = from.expand_nodes(stage, &mut steps, &mut merge, edges.clone());
+        for (edge, child) in edges.zip(children) {
+            let (node, choice) = (edge / choices.len(), edge % choices.len());
+            let least = nodes.least[node] + choices[choice].cost_milli;
+            let child = child.filter(|spent| {
+                let dimension = steps[0].step(nodes.numbers(node)[0], choice);
+                let dimension = dimension.map_or(0, Step::dimension);
+                !out(spent, dimension, least)
+            });
+            let Some(spent) = child else {
+                merge.edges.push(DEAD);
+                continue;
+            };
+            numbers.clear();
+            numbers.extend(stage.kinds().enumerate().map(|(kind, (lane, _))| {
+                let number = (!spent.is_ruled_out(lane)).then_some(nodes.numbers(node)[kind]);
+                let step = number.and_then(|from| steps[kind].step(from, choice));
+                step.map_or(NONE, |step| step.to)
+            }));
+            merge.push_edge(spent, &numbers, least);
         }
         if cancelled() {
             merge.interrupt_merge(nodes.len() * choices.len());
@@ -266,7 +250,7 @@ pub(super) fn next_layer(
             break;
         }
     }
-    merge
+    merge.finish()
 }
 
 /// Bytes of children that are not merged yet: of more the system takes back the memory, and clears it again for the next batch.
@@ -276,63 +260,79 @@ const MOST: usize = 1 << 14;
 /// Maximum number of field operations between two checks for cancellation: less than a tenth of a second.
 const BATCH: usize = 1 << 25;
 
-/// Fewer children than this are not worth waking threads for.
-const PARALLEL: usize = 1024;
-
 impl Expanded<'_> {
-    /// Returns the children of some nodes, in parallel, in order.
-    fn expand_nodes(&self, carries: &impl Carries, range: std::ops::Range<usize>) -> Vec<Children> {
+    /// Returns what the children over some edges spend; `None` for those that no variant needs. Takes the steps that they need.
+    fn expand_nodes(
+        &self,
+        stage: &Stage<'_>,
+        steps: &mut [Steps<'_>],
+        merge: &mut Merge,
+        edges: Range<usize>,
+    ) -> Vec<Option<Spent>> {
         let choices = self.choices.len();
-        let some = |range: std::ops::Range<usize>| {
-            let mut worker = carries.make_worker();
-            let mut out = Children::new(choices);
-            for i in range {
-                if let Some(known) = self.known {
-                    let edges = i * choices..(i + 1) * choices;
-                    worker.restrict_choices(edges.map(|edge| known.has_edge(edge)));
-                }
-                let (matrix, spent) = (self.nodes.matrix(i), &self.nodes.spent[i]);
-                carries.push_children(&mut worker, matrix, spent, &mut out);
+        let child =
+            |edge: usize| (self.wanted)(edge).then(|| self.nodes.spent[edge / choices].clone());
+        let mut children: Vec<Option<Spent>> = edges.clone().map(child).collect();
+        let mut retain = |lane: usize, keep: &mut dyn FnMut(&mut Spent, &[u32], usize) -> bool| {
+            for (edge, child) in edges.clone().zip(&mut children) {
+                let numbers = self.nodes.numbers(edge / choices);
+                child.take_if(|spent| {
+                    !spent.is_ruled_out(lane) && !keep(spent, numbers, edge % choices)
+                });
             }
-            out
         };
-        if range.len() * choices < PARALLEL {
-            return vec![some(range)];
+        let mut kind = 0;
+        for (number, lane) in stage.lanes.iter().enumerate() {
+            retain(number, &mut |spent, from, choice| {
+                if lane.applies.get(choice) == Some(&false) {
+                    spent.rule_out(number);
+                } else {
+                    steps[kind].want_step(from[kind], choice);
+                }
+                true
+            });
+            merge.take_steps(kind, &mut steps[kind]);
+            let keeps = lane.harmless.is_some();
+            retain(number, &mut |spent, from, choice| {
+                let Some(step) = steps[kind].step(from[kind], choice) else {
+                    return false;
+                };
+                // A row that starts in the gap is a motion that the contours forbid; directions of the gap that no row has are redundant.
+                let missed = lane.all.closing - step.closed();
+                spent.add_redundant(number, u32::try_from(missed).unwrap_or(u32::MAX));
+                let alive = spent.is_within(stage.limits);
+                if alive && keeps {
+                    steps[kind + 1].want_step(from[kind + 1], choice);
+                }
+                alive
+            });
+            kind += 1;
+            if !keeps {
+                continue;
+            }
+            merge.take_steps(kind, &mut steps[kind]);
+            retain(number, &mut |spent, from, choice| {
+                let gained = |kind: usize| steps[kind].gained_dimensions(from[kind], choice);
+                if gained(kind).is_some_and(|harmless| Some(harmless) <= gained(kind - 1)) {
+                    return true;
+                }
+                let held = matches!(lane.role, Role::Held(_));
+                if held {
+                    spent.rule_out(number);
+                }
+                held
+            });
+            kind += 1;
         }
-        let chunk = range
-            .len()
-            .div_ceil(rayon::current_num_threads() * 4)
-            .max(16);
-        let starts: Vec<usize> = range.clone().step_by(chunk).collect();
-        starts
-            .into_par_iter()
-            .map(|s| some(s..(s + chunk).min(range.end)))
-            .collect()
+        if let Some(roles) = &stage.ending {
+            for child in &mut children {
+                child.take_if(|spent| {
+                    let holds = spent.holds_all(roles);
+                    spent.settle_counts(roles, stage.limits);
+                    !holds || !spent.state_within(stage.limits)
+                });
+            }
+        }
+        children
     }
-}
-
-/// Returns the nodes to keep in a layer that exceeds its limit, ascending. Half of them are reached by most paths, for the
-/// counts. The others are the cheapest, for the list. The first one found wins among equals.
-fn worth_keeping(nodes: &Nodes, ways: &[f64], keep: usize) -> Vec<usize> {
-    let mut order: Vec<usize> = (0..nodes.len()).collect();
-    order.sort_by(|&a, &b| ways[b].total_cmp(&ways[a]).then(a.cmp(&b)));
-    let (kept, others) = order.split_at_mut(keep / 2);
-    others.sort_by_key(|&i| (nodes.least[i], i));
-    let cheapest = others.iter().take(keep - kept.len());
-    let mut out: Vec<usize> = kept.iter().chain(cheapest).copied().collect();
-    out.sort_unstable();
-    out
-}
-
-/// Keeps the nodes listed, ascending, and renames the edges that lead to them.
-pub(super) fn retain_nodes(nodes: &mut Nodes, kept: &[usize], edges: &mut [u32]) {
-    let mut renamed = vec![DEAD; nodes.len()];
-    for (to, &from) in kept.iter().enumerate() {
-        renamed[from] = u32::try_from(to).expect("fewer than before");
-    }
-    nodes.retain(kept);
-    edges
-        .iter_mut()
-        .filter(|e| **e != DEAD)
-        .for_each(|e| *e = renamed[*e as usize]);
 }

@@ -126,6 +126,7 @@ fn whatever_takes_long_ends_at_once() {
     for args in [
         "analyze delta --stroke 0:20deg:9999 -o x",
         &format!("search gripper-10 --method brute --options {MANY} -o x"),
+        "accuracy -o x",
     ] {
         let folder = &Folder::new();
         let begun = Instant::now();

@@ -2,6 +2,7 @@
 
 pub(crate) use itertools::Itertools;
 pub(crate) use num_bigint::BigUint;
+pub(crate) use ozols::accuracy::change::Noise;
 pub(crate) use ozols::builtin;
 pub(crate) use ozols::closure::Closure;
 pub(crate) use ozols::file::text::mechanism_from_str;

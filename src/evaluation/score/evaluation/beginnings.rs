@@ -10,7 +10,7 @@ use crate::model::ranking::{ClearanceSum, Ranking};
 use crate::score::evaluation::elimination::Scratch;
 use crate::score::evaluation::evaluate::Evaluator;
 use crate::score::evaluation::load_limits::LoadLimits;
-use crate::score::evaluation::lower_bound::is_in_span;
+use crate::score::evaluation::lower_bound::{common_rows, is_in_span};
 use crate::score::evaluation::pose_tables::{PlacedJoint, PoseTable};
 use crate::score::evaluation::terms::{ErrorSum, Floor};
 use crate::search::answer::k_best::Assignment;
@@ -124,24 +124,9 @@ impl Beginnings {
 
     /// Adds a joint's place: the equations that all choices have there, and those of each choice's further freedoms.
     fn add_place(&mut self, table: &PoseTable, place: &PlacedJoint) {
-        let (dim, unknowns, width) = (table.basis.len(), self.unknowns, self.width);
-        let whole = |row: &[f64]| {
-            let mut out = vec![0.0; width];
-            for &(k, sign) in &place.contours {
-                for (o, x) in out[k * dim..].iter_mut().zip(&row[..dim]) {
-                    *o = sign * x;
-                }
-            }
-            out[unknowns..].copy_from_slice(&row[dim..]);
-            out
-        };
-        let cells = &table.cells[place.variable];
-        let kept = |row: &&Vec<f64>| {
-            let mut all = cells.iter();
-            all.all(|c| is_in_span(row, &c[place.slot].rows, dim))
-        };
-        let first = cells.first().map(|c| c[place.slot].rows.iter());
-        let common: Vec<Vec<f64>> = first.into_iter().flatten().filter(kept).cloned().collect();
+        let (dim, cells) = (table.basis.len(), &table.cells[place.variable]);
+        let whole = |row: &[f64]| table.whole_row(place, row);
+        let common: Vec<Vec<f64>> = common_rows(table, place).into_iter().cloned().collect();
         self.common.extend(common.iter().map(|row| whole(row)));
         for (cell, further) in cells.iter().zip(&mut self.further[place.variable]) {
             let mut known = common.clone();

@@ -5,6 +5,7 @@ use crate::geom::vector::dot;
 use crate::model::mechanism::{JointId, LinkId, StateId};
 use crate::model::ranking::ClearanceSum;
 use crate::redundancy::motion::working_mobility;
+use crate::score::evaluation::coupled::CoupledChoice;
 use crate::score::evaluation::elimination::{Ended, Scratch};
 use crate::score::evaluation::load_cases::{CaseError, Cases, list_cases};
 use crate::score::evaluation::pose_tables::{PlacedJoint, PoseTable};
@@ -191,7 +192,7 @@ impl<'s> Evaluator<'s> {
         each: &mut dyn FnMut(PoseLoad),
     ) -> Result<Option<Scores>, Unsolved> {
         let choices = &variant.choices[..];
-        let Some(meshing) = table.teeth_mesh(|place| table.cell_at(choices, place)) else {
+        let Some(meshing) = teeth_mesh(table, choices) else {
             return Ok(None);
         };
         let unknowns = table.count_unknowns();
@@ -225,9 +226,29 @@ impl<'s> Evaluator<'s> {
     }
 }
 
+/// Returns for each coupling whether its teeth mesh in a variant. `None` if a joint in
+/// series has another load than the coupled joint.
+fn teeth_mesh(table: &PoseTable, choices: &[usize]) -> Option<Vec<bool>> {
+    let mut out = vec![true; table.couplings];
+    for place in table.places.iter().filter(|p| !p.couplings.is_empty()) {
+        for (at, choice) in place
+            .couplings
+            .iter()
+            .zip(&table.cell_at(choices, place).coupled)
+        {
+            match choice {
+                CoupledChoice::BearsTeeth => {}
+                CoupledChoice::AlongFreedom => out[at.coupling] = false,
+                CoupledChoice::InSeries => return None,
+            }
+        }
+    }
+    Some(out)
+}
+
 /// Writes the equations of a variant in one pose, and the sum of their outer products; gives how many they are.
 fn write_equations(table: &PoseTable, choices: &[usize], scratch: &mut Scratch) -> usize {
-    let (dim, unknowns) = (table.basis.len(), table.count_unknowns());
+    let unknowns = table.count_unknowns();
     let width = unknowns + table.cases;
     scratch.rows.clear();
     scratch.gram.clear();
@@ -238,13 +259,7 @@ fn write_equations(table: &PoseTable, choices: &[usize], scratch: &mut Scratch) 
         for row in &cell.rows {
             let from = count * width;
             scratch.rows.resize(from + width, 0.0);
-            let out = &mut scratch.rows[from..];
-            for &(k, sign) in &place.contours {
-                for (o, x) in out[k * dim..(k + 1) * dim].iter_mut().zip(row) {
-                    *o = sign * x;
-                }
-            }
-            out[dim * table.contours..].copy_from_slice(&row[dim..]);
+            table.write_row(place, row, &mut scratch.rows[from..]);
             count += 1;
         }
         table.add_gram(place, cell, &mut scratch.gram);

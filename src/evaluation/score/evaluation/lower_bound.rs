@@ -7,6 +7,7 @@
 
 use crate::geom::vector::{dot, length};
 use crate::model::ranking::ClearanceSum;
+use crate::score::evaluation::coupled::CoupledChoice;
 use crate::score::evaluation::evaluate::Evaluator;
 use crate::score::evaluation::pose_tables::{PlacedJoint, PoseTable};
 use crate::score::evaluation::terms::Floor;
@@ -52,7 +53,7 @@ impl Evaluator<'_> {
             let Some(common) = common_equations(table) else {
                 continue;
             };
-            let meshing = table.meshing_of_all();
+            let meshing = meshing_of_all(table);
             // What passes beside a joint in some variants and through it in others is not bounded.
             let decided = |p: &&PlacedJoint| {
                 let mut all = p.couplings.iter();
@@ -98,6 +99,26 @@ impl Evaluator<'_> {
     }
 }
 
+/// Returns for each coupling whether its teeth mesh in every variant or in none. `None` if that depends on the variant.
+fn meshing_of_all(table: &PoseTable) -> Vec<Option<bool>> {
+    let mut seen: Vec<Vec<CoupledChoice>> = vec![Vec::new(); table.couplings];
+    for place in &table.places {
+        for (n, at) in place.couplings.iter().enumerate() {
+            let choices = table.cells[place.variable].iter();
+            seen[at.coupling].extend(choices.map(|c| c[place.slot].coupled[n]));
+        }
+    }
+    let alike = |seen: &Vec<CoupledChoice>| {
+        let all = |wanted| seen.iter().all(|c| *c == wanted);
+        if all(CoupledChoice::BearsTeeth) {
+            Some(true)
+        } else {
+            all(CoupledChoice::AlongFreedom).then_some(false)
+        }
+    };
+    seen.iter().map(alike).collect()
+}
+
 /// Returns the greatest capacity that a choice gives a place. `None` if a choice has no capacity of the kind that counts.
 fn greatest_capacity(
     table: &PoseTable,
@@ -119,40 +140,35 @@ fn least_clearance(table: &PoseTable, place: &PlacedJoint) -> f64 {
     least.unwrap_or(0.0)
 }
 
-/// Returns the equations that hold for every variant: rows in the span of those of each choice.
+/// Returns the equations of a place that hold for every variant: rows in the span of those of each choice.
+pub(in crate::score) fn common_rows<'t>(
+    table: &'t PoseTable,
+    place: &PlacedJoint,
+) -> Vec<&'t Vec<f64>> {
+    let width = table.basis.len() + table.couplings;
+    let choices = &table.cells[place.variable];
+    let kept = |row: &&Vec<f64>| {
+        let mut all = choices.iter();
+        all.all(|c| is_in_span(row, &c[place.slot].rows, width))
+    };
+    let first = choices.first().into_iter();
+    let rows = first.flat_map(|c| &c[place.slot].rows);
+    rows.filter(kept).collect()
+}
+
+/// Returns the solutions of the equations that hold for every variant.
 fn common_equations(table: &PoseTable) -> Option<Common> {
-    let (dim, unknowns) = (table.basis.len(), table.count_unknowns());
-    let width = dim + table.couplings;
-    let mut rows: Vec<(&PlacedJoint, &Vec<f64>)> = Vec::new();
-    for place in &table.places {
-        let choices = &table.cells[place.variable];
-        let Some(first) = choices.first() else {
-            continue;
-        };
-        for row in &first[place.slot].rows {
-            let kept = |c: &Vec<crate::score::evaluation::pose_tables::Cell>| {
-                is_in_span(row, &c[place.slot].rows, width)
-            };
-            if choices.iter().all(kept) {
-                rows.push((place, row));
-            }
-        }
-    }
+    let unknowns = table.count_unknowns();
+    let of_place = |place| {
+        let own = common_rows(table, place).into_iter();
+        own.map(move |row| table.whole_row(place, row))
+    };
+    let rows: Vec<Vec<f64>> = table.places.iter().flat_map(of_place).collect();
     if rows.is_empty() || unknowns == 0 {
         return None;
     }
-    let mut matrix = Matrix::zeros(rows.len(), unknowns);
-    for (r, (place, row)) in rows.iter().enumerate() {
-        for &(k, sign) in &place.contours {
-            for (b, x) in row[..dim].iter().enumerate() {
-                matrix[(r, k * dim + b)] = sign * x;
-            }
-        }
-        for (q, x) in row[dim..width].iter().enumerate() {
-            matrix[(r, dim * table.contours + q)] = *x;
-        }
-    }
-    let right = Matrix::from_fn(rows.len(), table.cases, |r, c| rows[r].1[width + c]);
+    let matrix = Matrix::from_fn(rows.len(), unknowns, |r, c| rows[r][c]);
+    let right = Matrix::from_fn(rows.len(), table.cases, |r, c| rows[r][unknowns + c]);
     let svd = svd(&matrix)?;
     let rank = svd.rank(NONE);
     let x = svd.least_norm(rank, &right);

@@ -197,6 +197,24 @@ impl PoseTable {
         self.basis.len() * self.contours + self.couplings
     }
 
+    /// Writes an equation of a place over the unknowns, and then its right sides, to zeros.
+    pub(in crate::score) fn write_row(&self, place: &PlacedJoint, row: &[f64], out: &mut [f64]) {
+        let dim = self.basis.len();
+        for &(k, sign) in &place.contours {
+            for (o, x) in out[k * dim..(k + 1) * dim].iter_mut().zip(row) {
+                *o = sign * x;
+            }
+        }
+        out[dim * self.contours..].copy_from_slice(&row[dim..]);
+    }
+
+    /// Returns an equation of a place over the unknowns, and then its right sides.
+    pub(in crate::score) fn whole_row(&self, place: &PlacedJoint, row: &[f64]) -> Vec<f64> {
+        let mut out = vec![0.0; self.count_unknowns() + self.cases];
+        self.write_row(place, row, &mut out);
+        out
+    }
+
     /// Adds the outer products of the equations of a place to those of all, unknowns × unknowns; the upper triangle is enough.
     pub(in crate::score) fn add_gram(&self, place: &PlacedJoint, cell: &Cell, gram: &mut [f64]) {
         let (dim, unknowns) = (self.basis.len(), self.count_unknowns());

@@ -1,4 +1,4 @@
-//! Fronts of variants that no other is better than in every term.
+//! Fronts: of variants that no other is better than in every term, and of what no other is both faster and more often right than.
 
 /// Returns true if `a` is nowhere worse than `b` and better in at least one value.
 ///
@@ -53,4 +53,21 @@ pub fn fronts(points: &[Vec<f64>], enough: usize) -> Vec<Option<usize>> {
         }
     }
     out
+}
+
+/// Returns the indices of the points that are right more often than all faster ones, the fastest first. Points are (seconds,
+/// share).
+pub(crate) fn front(points: &[(f64, f64)]) -> Vec<usize> {
+    let mut order: Vec<usize> = (0..points.len()).collect();
+    order.sort_by(|&a, &b| {
+        let ((t, share), (u, other)) = (points[a], points[b]);
+        t.total_cmp(&u).then(other.total_cmp(&share))
+    });
+    let mut best = f64::NEG_INFINITY;
+    order.retain(|&i| {
+        let ahead = points[i].1 > best;
+        best = best.max(points[i].1);
+        ahead
+    });
+    order
 }

@@ -12,16 +12,10 @@ pub type Driven = (JointId, Freedom);
 /// Difference below which shares of the working motion count as equal.
 const EQUAL: f64 = 1e-9;
 
-/// Returns true if a freedom is a translation, so that its drive's effort is a force.
-#[must_use]
-pub fn is_slide(freedom: Freedom) -> bool {
-    matches!(freedom, Freedom::Tx | Freedom::Ty | Freedom::Tz)
-}
-
 /// Returns the period of the first drive after which the ranges of forces repeat: one turn, if it turns.
 #[must_use]
 pub fn range_period(drives: &[Driven]) -> Option<f64> {
-    let first = drives.first().filter(|(_, f)| !is_slide(*f));
+    let first = drives.first().filter(|(_, f)| !f.is_slide());
     first.map(|_| std::f64::consts::TAU)
 }
 
@@ -67,7 +61,7 @@ pub fn driven_freedoms(m: &Mechanism, geometry: &Geometry) -> Result<Vec<Driven>
         let equal = |c: &usize| share(*c) >= greatest * (1.0 - EQUAL);
         of(j)
             .filter(equal)
-            .find(|&c| is_slide(freedom(c)))
+            .find(|&c| freedom(c).is_slide())
             .or(of(j).find(equal))
     };
     Ok(drives

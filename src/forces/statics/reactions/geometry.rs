@@ -64,7 +64,12 @@ impl Geometry {
     pub fn new(m: &Mechanism, state: StateId, pose: &Pose) -> Result<Geometry, ExactError> {
         let metres = m.length_unit.metres;
         let joints: Vec<JointId> = m.joints_in(state).collect();
-        let FramesNow { mut points, axes } = FramesNow::new(m, pose)?;
+        let (mut points, mut axes) = (Vec::new(), Vec::new());
+        for joint in &m.joints {
+            let (frame, link) = (FrameValues::new(&Reals, &joint.frame)?, joint.links[0]);
+            points.push(pose.carry_point(&pose.links, link, frame.point));
+            axes.push(frame.axes.map(|a| pose.links[link].map_direction(unit(a))));
+        }
         let (mean, spread) = middle_and_size(&joints, &points, pose.length);
         for &j in &joints {
             points[j] = sub(points[j], mean).map(|x| x / spread);
@@ -121,7 +126,7 @@ impl Geometry {
     #[must_use]
     pub fn point_position(&self, pose: &Pose, link: LinkId, point: [f64; 3]) -> [f64; 3] {
         let (mean, spread) = self.pose;
-        let p = moved_point(pose, link, point);
+        let p = pose.carry_point(&pose.links, link, point);
         sub(p, mean).map(|x| x / spread)
     }
 
@@ -234,27 +239,6 @@ impl Geometry {
     }
 }
 
-/// Positions of the joints' frames at a pose, by joint.
-struct FramesNow {
-    /// Their points, in the file's unit.
-    points: Vec<[f64; 3]>,
-    /// Unit vectors x, y, z of each.
-    axes: Vec<[[f64; 3]; 3]>,
-}
-
-impl FramesNow {
-    fn new(m: &Mechanism, pose: &Pose) -> Result<FramesNow, ExactError> {
-        let (mut points, mut axes) = (Vec::new(), Vec::new());
-        for joint in &m.joints {
-            let frame = FrameValues::new(&Reals, &joint.frame)?;
-            let carried = &pose.links[joint.links[0]];
-            points.push(moved_point(pose, joint.links[0], frame.point));
-            axes.push(frame.axes.map(|a| carried.map_direction(unit(a))));
-        }
-        Ok(FramesNow { points, axes })
-    }
-}
-
 /// Returns the mean of the points of joints, and the root mean square distance from it, or `length` if they coincide.
 fn middle_and_size(joints: &[JointId], points: &[[f64; 3]], length: f64) -> ([f64; 3], f64) {
     #[allow(clippy::cast_precision_loss, reason = "a count of joints")]
@@ -287,11 +271,4 @@ fn wrench_basis(mode: &Mode) -> Result<Vec<Six>, ExactError> {
             ]
         }
     })
-}
-
-/// Returns the current position of a point of a link, in the file's unit.
-fn moved_point(pose: &Pose, link: LinkId, point: [f64; 3]) -> [f64; 3] {
-    let from = sub(point, pose.middle).map(|x| x / pose.length);
-    let to = pose.links[link].map_point(from);
-    add_scaled(pose.middle, pose.length, to)
 }

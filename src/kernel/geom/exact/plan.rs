@@ -64,6 +64,9 @@ impl PrimePlan {
     }
 
     fn collect_roots(&mut self, e: &Expr, candidates: &mut Vec<Expr>) -> Result<(), ExactError> {
+        if e.rational_ref().is_some() {
+            return Ok(());
+        }
         for node in e.post_order() {
             match node.kind() {
                 NodeKind::Trig(_, _, n) => {

@@ -9,8 +9,8 @@ use crate::search::build::self_stress::{Wanted, flat_stages, self_stress_space};
 use crate::search::diagram::between::{Between, LEVELS, Passed};
 use crate::search::diagram::reduced_rows::Arithmetic;
 use crate::search::diagram::redundancy_so_far::{Limits, Redundancy, Spent};
-use crate::search::diagram::stage::Adding;
-use crate::search::diagram::transition::{Children, Worker};
+use crate::search::diagram::stage::Stage;
+use crate::search::diagram::transition::Worker;
 use crate::search::diagram::{DEAD, Diagram, Layer};
 use crate::search::question::Question;
 use crate::search::reduce::lifetimes::Lifetime;
@@ -29,8 +29,9 @@ pub(in crate::search) struct AtMost {
 }
 
 /// Returns the maximum number of nodes in a layer, as also limited by memory.
-fn layer_width(limits: &Limits, stages: &[Adding], choices: usize) -> usize {
-    let numbers = stages.iter().map(|s| s.columns.width).max().unwrap_or(0);
+fn layer_width(limits: &Limits, stages: &[Stage<'_>], choices: usize) -> usize {
+    let widths = stages.iter().map(|s| s.lanes[0].all.width);
+    let numbers = widths.max().unwrap_or(0);
     let each = size_of::<u64>() * 2 * (numbers * numbers / 2 + numbers);
     let bytes = limits.bytes / 4 / (each * choices).max(1);
     (limits.nodes / 100).clamp(64, 4096).min(bytes).max(1)
@@ -54,25 +55,25 @@ pub(in crate::search) fn at_most(
     if spent.internal() != limits.internal {
         return None;
     }
-    let choices = |s: &Adding| question.space.variables[s.variable].choices.len();
-    let stages = flat_stages(field, order, &space);
-    let most = stages.iter().map(choices).max().unwrap_or(1);
+    let stages = flat_stages(field, order, &space, limits);
+    let most = stages.iter().map(|s| s.choices).max().unwrap_or(1);
     let width = layer_width(limits, &stages, most);
-    let bounds = boundary_counts(&stages, &space.contours);
+    let bounds = boundary_counts(order.len(), &space.contours);
     let mut nodes = vec![(Between::default(), 1.0)];
     let mut layers = Vec::with_capacity(order.len());
     for (stage, bounds) in stages.iter().zip(&bounds) {
         if cancelled() {
             return None;
         }
-        let choices = choices(stage);
         let layered = Layered {
             field,
-            spent: &spent,
-            passed: Passed { stage, bounds },
+            passed: Passed {
+                columns: &stage.lanes[0].all,
+                bounds,
+            },
         };
         let before = nodes.len();
-        let (next, mut edges) = layered.merge_children(&nodes, choices);
+        let (next, mut edges) = layered.merge_children(&nodes, stage.choices);
         let to = narrow_layer(field, next, width);
         nodes = to.0;
         let alive = edges.iter_mut().filter(|e| **e != DEAD);
@@ -80,7 +81,7 @@ pub(in crate::search) fn at_most(
         layers.push(Layer {
             variable: stage.variable,
             nodes: before,
-            choices,
+            choices: stage.choices,
             edges,
         });
     }
@@ -106,14 +107,15 @@ impl AtMost {
 }
 
 /// Returns for each stage the number of its coordinates of contours up to each place where some end, from this stage on.
-fn boundary_counts(stages: &[Adding], contours: &[Lifetime]) -> Vec<Vec<usize>> {
+fn boundary_counts(stages: usize, contours: &[Lifetime]) -> Vec<Vec<usize>> {
     let ends: Vec<usize> = contours.iter().map(|c| c.to).dedup().collect();
-    let of_stage = |(t, stage): (usize, &Adding)| {
+    let of_stage = |t: usize| {
         let to_come = ends.iter().filter(|&&end| end >= t);
-        let up_to = |end: &usize| stage.contours.partition_point(|&c| contours[c].to <= *end);
+        let live = || contours.iter().filter(|c| c.is_live_at(t));
+        let up_to = |end: &usize| live().filter(|c| c.to <= *end).count();
         to_come.map(up_to).collect()
     };
-    stages.iter().enumerate().map(of_stage).collect()
+    (0..stages).map(of_stage).collect()
 }
 
 /// A child with the numbers that identify it; `None` if it has no completion.
@@ -125,28 +127,21 @@ type Weighed = Vec<(Between, f64)>;
 /// The context in which nodes get their children.
 struct Layered<'a> {
     field: Field,
-    spent: &'a Spent,
     passed: Passed<'a>,
 }
 
 impl Layered<'_> {
     /// Returns the children of some nodes, with equal ones merged, and the edges to them.
     fn merge_children(&self, nodes: &Weighed, choices: usize) -> (Weighed, Vec<u32>) {
-        let all: Vec<Vec<Named>> = nodes
-            .par_iter()
-            .with_min_len(64)
-            .map_init(
-                || (Worker::new(self.field), Arithmetic::new(self.field)),
-                |(worker, arithmetic), (node, _)| {
-                    let children = match node.packed_space() {
-                        Some(packed) => self.exact_children(worker, arithmetic, &packed, choices),
-                        None => node.child_nodes(arithmetic, &self.passed),
-                    };
-                    let named = |child: Option<Between>| child.map(|c| (c.identity_words(), c));
-                    children.into_iter().map(named).collect()
-                },
-            )
-            .collect();
+        let named = |child: Option<Between>| child.map(|c| (c.identity_words(), c));
+        let of_node = |(node, _): &(Between, f64)| -> Vec<Named> {
+            let children = Worker::with(self.field, |worker| match node.packed_space() {
+                Some(packed) => self.exact_children(worker, &packed, choices),
+                None => node.child_nodes(&mut worker.arithmetic, &self.passed),
+            });
+            children.into_iter().map(named).collect()
+        };
+        let all: Vec<Vec<Named>> = nodes.par_iter().with_min_len(64).map(of_node).collect();
         let mut known: HashMap<Vec<u64>, u32> = HashMap::new();
         let (mut next, mut edges) = (Weighed::new(), Vec::with_capacity(nodes.len() * choices));
         for (children, (_, ways)) in all.into_iter().zip(nodes) {
@@ -171,28 +166,25 @@ impl Layered<'_> {
     fn exact_children(
         &self,
         worker: &mut Worker,
-        arithmetic: &mut Arithmetic,
         packed: &[u64],
         choices: usize,
     ) -> Vec<Option<Between>> {
-        let (stage, mut out) = (self.passed.stage, Children::new(choices));
-        worker.flat_children(stage, packed, self.spent, &mut out);
-        let gap = stage.columns.closing;
+        let columns = self.passed.columns;
+        let gap = columns.closing;
         let own = usize::from(gap > 0);
         let bounds: Vec<usize> = self.passed.bounds[own..].iter().map(|b| b - gap).collect();
-        let mut child = |c: Option<(u64, Spent, usize, usize)>| {
-            let (_, _, start, end) = c?;
-            Some(Between::from_space(
-                arithmetic,
-                stage.columns.width - gap,
-                &out.data[start..end],
-                &bounds,
-            ))
+        worker.grow_choices(columns, packed, 0..choices);
+        let child = |choice: usize| {
+            let rows = worker.rows_of(choice);
+            let goes_wrong = rows.starts_behind(columns.contours);
+            let alive = !goes_wrong && rows.rank_before(gap) == gap;
+            alive.then(|| {
+                let mut rows = rows.clone();
+                rows.drop_first(gap);
+                Between::from_rows(rows, &bounds)
+            })
         };
-        std::mem::take(&mut out.found)
-            .into_iter()
-            .map(&mut child)
-            .collect()
+        (0..choices).map(child).collect()
     }
 }
 

@@ -8,10 +8,10 @@ use crate::search::build::spanning_halves::Halves;
 use crate::search::build::spanning_pairs::{Bases, ZeroForms};
 use crate::search::diagram::layer::{Merge, Nodes};
 use crate::search::diagram::redundancy_so_far::{Limits, Spent};
-use crate::search::diagram::stage::Adding;
-use crate::search::diagram::transition::Children;
-use crate::search::diagram::{Carries, DEAD, Diagram, Layer, Stop};
+use crate::search::diagram::stage::Stage;
+use crate::search::diagram::{DEAD, Diagram, Expanded, Layer, Stop, next_layer};
 use crate::search::question::Question;
+use crate::search::question::space::{Choice, Space};
 use itertools::Itertools;
 use std::collections::BTreeSet;
 
@@ -34,7 +34,7 @@ pub(in crate::search) fn has_all(question: &Question, known: &Diagram) -> bool {
             let (own, others) = layers.split_at(halves.parts[part][0].len());
             layers = others;
             let ends = others.first().map_or(known.terminals.len(), |l| l.nodes);
-            part_has_all(&halves, part, own, ends).is_some()
+            part_has_all(&halves, &question.space, (part, own), ends).is_some()
         })
 }
 
@@ -45,10 +45,15 @@ struct End {
 }
 
 /// Follows the variants of some layers, which end at `ends` nodes, through a part. Returns `None` if one of them is not determinate.
-fn part_has_all(halves: &Halves<'_>, part: usize, layers: &[Layer], ends: usize) -> Option<()> {
+fn part_has_all(
+    halves: &Halves<'_>,
+    space: &Space,
+    (part, layers): (usize, &[Layer]),
+    ends: usize,
+) -> Option<()> {
     let nodes_at = |at: usize| layers.get(at).map_or(ends, |l| l.nodes);
     let [mut front, mut back] = [nodes_at(0), ends].map(|nodes| End {
-        spaces: Nodes::root_node(Spent::within_mechanism(halves.already)),
+        spaces: Nodes::root_node(Spent::within_mechanism(halves.already), 1),
         reached: (0..nodes).map(|node| (0, node)).collect(),
     });
     let [from_front, from_back] = &halves.parts[part];
@@ -56,7 +61,7 @@ fn part_has_all(halves: &Halves<'_>, part: usize, layers: &[Layer], ends: usize)
     while at < to {
         let forward = front.spaces.len() <= back.spaces.len();
         let layer = if forward { at } else { to - 1 };
-        let choices = layers[layer].choices;
+        let choices = &space.variables[layers[layer].variable].choices;
         let steps = layers[layer].list_steps(nodes_at(layer + 1), forward);
         if forward {
             front = front.follow_steps(&from_front[at], choices, &steps, halves.limits)?;
@@ -98,35 +103,40 @@ impl End {
     /// are too many spaces.
     fn follow_steps(
         &self,
-        stage: &Adding,
-        choices: usize,
+        stage: &Stage<'_>,
+        choices: &[Choice],
         steps: &[Vec<usize>],
         limits: &Limits,
     ) -> Option<End> {
-        let mut merge = Merge::new(limits.nodes, limits.bytes, Stop::Exhausted, 0);
-        let mut worker = stage.make_worker();
-        let mut reached = BTreeSet::new();
-        for (space, pairs) in &self.reached.iter().chunk_by(|(space, _)| *space) {
-            let from = pairs.flat_map(|&(_, node)| {
-                let of_choice = steps[node * choices..][..choices].iter().enumerate();
-                of_choice.flat_map(|(choice, to)| to.iter().map(move |&to| (choice, to)))
-            });
-            let taken = from.collect_vec();
-            let mut wanted = vec![false; choices];
-            taken.iter().for_each(|(choice, _)| wanted[*choice] = true);
-            worker.restrict_choices(wanted);
-            let mut children = Children::new(choices);
-            let (matrix, spent) = (self.spaces.matrix(space), &self.spaces.spent[space]);
-            stage.push_children(&mut worker, matrix, spent, &mut children);
-            merge.take_children(&children, &self.spaces, |_| 0, |_, _, _| false);
-            let found = &merge.edges[space * choices..];
-            for &(choice, node) in &taken {
-                if found[choice] == DEAD {
-                    return None;
-                }
-                reached.insert((found[choice] as usize, node));
-            }
-        }
+        let n = choices.len();
+        let from_pair = |&(space, node): &(usize, usize)| {
+            let of_choice = steps[node * n..][..n].iter().enumerate();
+            of_choice
+                .flat_map(move |(choice, to)| to.iter().map(move |&to| (space * n + choice, to)))
+        };
+        let taken = self.reached.iter().flat_map(from_pair).collect_vec();
+        let mut wanted = vec![false; self.spaces.len() * n];
+        taken.iter().for_each(|(edge, _)| wanted[*edge] = true);
+        let from = Expanded {
+            nodes: &self.spaces,
+            choices,
+            wanted: &|edge| wanted[edge],
+            bytes: limits.bytes,
+        };
+        let room = (limits.nodes, limits.bytes);
+        let merge = next_layer(
+            stage,
+            &from,
+            Merge::new(room, Stop::Exhausted, wanted.len(), 1),
+            |_, _, _| false,
+            &|| false,
+            &mut |_| {},
+        );
+        let step = |(edge, node): (usize, usize)| {
+            let to = merge.edges[edge];
+            (to != DEAD).then_some((to as usize, node))
+        };
+        let reached = taken.into_iter().map(step).collect::<Option<_>>()?;
         (merge.stop == Stop::Exhausted).then_some(End {
             spaces: merge.next,
             reached,

@@ -18,9 +18,8 @@ use crate::search::build::self_stress::{Wanted, empty_diagram, self_stress_space
 use crate::search::diagram::minimize::minimize_diagram;
 use crate::search::diagram::redundancy_so_far::{Limits, Role, Spent};
 use crate::search::diagram::stage::{Columns, LaneStage, Stage};
-use crate::search::diagram::transition::{Children, Worker};
 use crate::search::diagram::within::Within;
-use crate::search::diagram::{self, Carries, Diagram, Omitted, Progress};
+use crate::search::diagram::{self, Diagram, Omitted, Progress};
 use crate::search::question::Question;
 use crate::search::question::conditions::InState;
 use crate::search::question::space::{Choice, Face, Variable};
@@ -155,34 +154,6 @@ impl Lane {
             }),
             applies: self.applies.get(at).cloned().unwrap_or_default(),
         }
-    }
-}
-
-impl Carries for Stage<'_> {
-    fn variable(&self) -> usize {
-        self.variable
-    }
-
-    fn make_worker(&self) -> Worker {
-        Worker::new(self.field)
-    }
-
-    fn child_effort(&self, bytes: usize) -> usize {
-        let widths = self.lanes.iter().map(|lane| {
-            let harmless = lane.harmless.as_ref();
-            lane.all.width + harmless.map_or(0, |h| h.width)
-        });
-        bytes / size_of::<Residue>() * widths.sum::<usize>().max(1)
-    }
-
-    fn push_children(
-        &self,
-        worker: &mut Worker,
-        matrix: &[Residue],
-        spent: &Spent,
-        out: &mut Children,
-    ) {
-        worker.append_children(self, matrix, spent, out);
     }
 }
 

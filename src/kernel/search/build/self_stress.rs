@@ -6,10 +6,9 @@
 
 use crate::linalg::modp::{Field, Residue};
 use crate::search::diagram::minimize::minimize_diagram;
-use crate::search::diagram::redundancy_so_far::{Limits, Spent};
-use crate::search::diagram::stage::{Adding, Columns};
-use crate::search::diagram::transition::{Children, Worker};
-use crate::search::diagram::{Carries, DEAD, Diagram, Layer};
+use crate::search::diagram::redundancy_so_far::{Limits, Role};
+use crate::search::diagram::stage::{Columns, LaneStage, Stage};
+use crate::search::diagram::{DEAD, Diagram, Layer};
 use crate::search::question::Question;
 use crate::search::question::throughout::{ORDER, Throughout};
 use crate::search::reduce::lifetimes::Lifetime;
@@ -101,36 +100,14 @@ pub(in crate::search) fn space_along_motion(
     SelfStressSpace::new(field, &rows, powers, space, order, &present, &of_choice)
 }
 
-impl Carries for Adding {
-    fn variable(&self) -> usize {
-        self.variable
-    }
-
-    fn make_worker(&self) -> Worker {
-        Worker::new(self.field)
-    }
-
-    fn child_effort(&self, bytes: usize) -> usize {
-        bytes / size_of::<Residue>() * self.columns.width
-    }
-
-    fn push_children(
-        &self,
-        worker: &mut Worker,
-        matrix: &[Residue],
-        spent: &Spent,
-        out: &mut Children,
-    ) {
-        worker.flat_children(self, matrix, spent, out);
-    }
-}
-
-/// Returns the stages of a space for the variables in its order, in which no motion of kept links is forgotten.
-pub(in crate::search) fn flat_stages(
+/// Returns the stages of a space for the variables in its order, in one lane in which no motion of kept links is forgotten. The diagram is
+/// of variants without redundant constraints beyond those that all have.
+pub(in crate::search) fn flat_stages<'a>(
     field: Field,
     order: &[usize],
     space: &SelfStressSpace,
-) -> Vec<Adding> {
+    limits: &'a Limits,
+) -> Vec<Stage<'a>> {
     let always = Lifetime {
         from: 0,
         to: usize::MAX,
@@ -142,13 +119,24 @@ pub(in crate::search) fn flat_stages(
         let coordinates: Vec<usize> = all.filter(|&c| lifetimes[c].is_live_at(t)).collect();
         let closing = coordinates.iter().filter(|&&c| lifetimes[c].to == t);
         let closing = closing.count();
-        let contours = coordinates.iter().copied();
         let added = &space.added[t];
-        Adding {
+        let columns = Columns::new(field, &lifetimes, t, &coordinates, closing, added);
+        let lane = LaneStage {
+            role: Role::Free,
+            all: Columns {
+                contours: coordinates.len() - space.kept.len(),
+                ..columns
+            },
+            harmless: None,
+            applies: Vec::new(),
+        };
+        Stage {
             field,
             variable,
-            contours: contours.filter(|&c| c < space.contours.len()).collect(),
-            columns: Columns::new(field, &lifetimes, t, &coordinates, closing, added),
+            choices: added.len(),
+            lanes: vec![lane],
+            ending: None,
+            limits,
         }
     };
     order.iter().enumerate().map(stage).collect()

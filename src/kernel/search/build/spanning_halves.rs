@@ -15,7 +15,7 @@ use crate::search::diagram::node_sets::{
 };
 use crate::search::diagram::reduced_rows::{Arithmetic, Rows};
 use crate::search::diagram::redundancy_so_far::Limits;
-use crate::search::diagram::stage::Adding;
+use crate::search::diagram::stage::Stage;
 use crate::search::diagram::within::Within;
 use crate::search::diagram::{DEAD, Diagram};
 use crate::search::question::Question;
@@ -59,7 +59,7 @@ pub(in crate::search) struct Halves<'a> {
     /// A diagram that has all wanted variants, in the same order.
     known: Option<&'a Diagram>,
     /// The stages of each part, between which nothing is carried on, from the front and from the back.
-    pub(in crate::search) parts: Vec<[Vec<Adding>; 2]>,
+    pub(in crate::search) parts: Vec<[Vec<Stage<'a>>; 2]>,
 }
 
 impl<'a> Halves<'a> {
@@ -83,8 +83,8 @@ impl<'a> Halves<'a> {
         let reversed: Vec<usize> = order.iter().rev().copied().collect();
         let (back, turned) = turn_space(&front);
         let stages = [
-            flat_stages(field, order, &front),
-            flat_stages(field, &reversed, &back),
+            flat_stages(field, order, &front, limits),
+            flat_stages(field, &reversed, &back, limits),
         ];
         let parts = starts.windows(2).map(|at| {
             let ranges = [at[0]..at[1], all - at[1]..all - at[0]];
@@ -259,7 +259,11 @@ impl PackedRows {
     pub(in crate::search) fn front_rows(&self, nodes: &Nodes, node: usize) -> Vec<Vec<Residue>> {
         let packed = self.width() - usize::from(!self.keeps);
         let mut rows = Rows::default();
-        rows.unpack_rows(&mut Arithmetic::new(self.field), packed, nodes.matrix(node));
+        rows.unpack_rows(
+            &mut Arithmetic::new(self.field),
+            packed,
+            nodes.packed_rows(node),
+        );
         let widened = rows.rows().map(|row| {
             let mut row = row.to_vec();
             row.resize(self.width(), 0);

@@ -17,16 +17,16 @@ use crate::search::diagram::node_sets::{
     Numbered, Set, add_node, collect_set, contains_node, empty_set, nodes_in,
 };
 use crate::search::diagram::redundancy_so_far::{Redundancy, Spent};
-use crate::search::diagram::stage::Adding;
+use crate::search::diagram::stage::Stage;
 use crate::search::diagram::within::Within;
-use crate::search::diagram::{Carries, DEAD, Diagram, Expanded, Layer, Progress, Stop, next_layer};
+use crate::search::diagram::{DEAD, Diagram, Expanded, Layer, Progress, Stop, next_layer};
 use crate::search::question::space::Space;
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 
 /// Layers from one end, as far as they have come.
 struct Side<'a> {
-    stages: &'a [Adding],
+    stages: &'a [Stage<'a>],
     layers: Vec<Layer>,
     nodes: Nodes,
     /// The nodes of a known diagram that correspond to the nodes.
@@ -34,23 +34,23 @@ struct Side<'a> {
 }
 
 impl<'a> Side<'a> {
-    fn new(stages: &'a [Adding], already: u32, known: Option<Within<'a>>) -> Self {
+    fn new(stages: &'a [Stage<'a>], already: u32, known: Option<Within<'a>>) -> Self {
         Side {
             stages,
             known,
             layers: Vec::new(),
-            nodes: Nodes::root_node(Spent::within_mechanism(already)),
+            nodes: Nodes::root_node(Spent::within_mechanism(already), 1),
         }
     }
 
     /// Returns the stage that comes next.
-    fn next_stage(&self) -> &'a Adding {
+    fn next_stage(&self) -> &'a Stage<'a> {
         &self.stages[self.layers.len()]
     }
 
     /// Returns the number of children that the next stage makes.
     fn next_children(&self, space: &Space) -> usize {
-        self.nodes.len() * space.variables[self.next_stage().variable()].choices.len()
+        self.nodes.len() * space.variables[self.next_stage().variable].choices.len()
     }
 
     fn held_bytes(&self) -> usize {
@@ -133,7 +133,7 @@ pub(in crate::search) fn two_sided(
 fn build_halves<'a>(
     question: &'a Halves<'_>,
     space: &Space,
-    (part, ends): (usize, &'a [Vec<Adding>; 2]),
+    (part, ends): (usize, &'a [Vec<Stage<'a>>; 2]),
     cancelled: &(dyn Fn() -> bool + Sync),
     told: &mut dyn FnMut(Progress),
 ) -> Option<[Side<'a>; 2]> {
@@ -171,18 +171,19 @@ fn advance_side(
     told: &mut dyn FnMut(usize),
 ) -> Option<()> {
     let stage = side.next_stage();
-    let choices = &space.variables[stage.variable()].choices;
+    let choices = &space.variables[stage.variable].choices;
     let edges = side.nodes.len() * choices.len();
+    let known = side.known.as_ref();
     let from = Expanded {
         nodes: &side.nodes,
         choices,
-        known: side.known.as_ref(),
+        wanted: &|edge| known.is_none_or(|known| known.has_edge(edge)),
         bytes,
     };
     let merge = next_layer(
         stage,
         &from,
-        Merge::new(room, bytes, Stop::Exhausted, edges),
+        Merge::new((room, bytes), Stop::Exhausted, edges, 1),
         |_, _, _| false,
         cancelled,
         told,
@@ -194,7 +195,7 @@ fn advance_side(
         known.advance(&merge.edges, merge.next.len());
     }
     side.layers.push(Layer {
-        variable: stage.variable(),
+        variable: stage.variable,
         nodes: side.nodes.len(),
         choices: choices.len(),
         edges: merge.edges,

@@ -1,6 +1,6 @@
-//! How many nodes and bytes a diagram may still take while it is built.
+//! How many nodes and bytes a diagram may still take while it is built, and which nodes it keeps where they are too many.
 
-use crate::search::diagram::layer::{CUT, Merge, Nodes, Stop};
+use crate::search::diagram::layer::{CUT, DEAD, Merge, Nodes, Stop};
 use crate::search::diagram::redundancy_so_far::Limits;
 
 /// The budget of a diagram, and what it has used.
@@ -42,7 +42,7 @@ impl<'a> Allowance<'a> {
             .min(self.limits.layer)
             .max(self.least_kept());
         let bytes = self.bytes.saturating_sub(self.edges + nodes.held_bytes());
-        Merge::new(room, bytes, stop, edges)
+        Merge::new((room, bytes), stop, edges, nodes.spaces.len())
     }
 
     /// Lowers the limit to half of what is in use, after the system refused memory for a layer.
@@ -81,4 +81,61 @@ impl<'a> Allowance<'a> {
         self.nodes += nodes;
         self.edges += size_of::<u32>() * edges;
     }
+}
+
+/// Returns the number of paths to each of the next nodes, from the number to each of these nodes.
+pub(in crate::search) fn carry_ways(
+    ways: &[f64],
+    edges: &[u32],
+    choices: usize,
+    next: usize,
+) -> Vec<f64> {
+    let mut out = vec![0.0; next];
+    for (edges, n) in edges.chunks(choices.max(1)).zip(ways) {
+        for &to in edges.iter().filter(|to| **to != DEAD) {
+            out[to as usize] += n;
+        }
+    }
+    out
+}
+
+/// Reduces a layer to `keep` nodes. Returns the number of paths to each kept node.
+pub(in crate::search) fn cut_down(
+    next: &mut Nodes,
+    edges: &mut [u32],
+    ways: Vec<f64>,
+    keep: usize,
+) -> Vec<f64> {
+    if next.len() <= keep {
+        return ways;
+    }
+    let kept = worth_keeping(next, &ways, keep);
+    retain_nodes(next, &kept, edges);
+    kept.iter().map(|&i| ways[i]).collect()
+}
+
+/// Returns the nodes to keep in a layer that exceeds its limit, ascending. Half of them are reached by most paths, for the
+/// counts. The others are the cheapest, for the list. The first one found wins among equals.
+fn worth_keeping(nodes: &Nodes, ways: &[f64], keep: usize) -> Vec<usize> {
+    let mut order: Vec<usize> = (0..nodes.len()).collect();
+    order.sort_by(|&a, &b| ways[b].total_cmp(&ways[a]).then(a.cmp(&b)));
+    let (kept, others) = order.split_at_mut(keep / 2);
+    others.sort_by_key(|&i| (nodes.least[i], i));
+    let cheapest = others.iter().take(keep - kept.len());
+    let mut out: Vec<usize> = kept.iter().chain(cheapest).copied().collect();
+    out.sort_unstable();
+    out
+}
+
+/// Keeps the nodes listed, ascending, and renames the edges that lead to them.
+fn retain_nodes(nodes: &mut Nodes, kept: &[usize], edges: &mut [u32]) {
+    let mut renamed = vec![DEAD; nodes.len()];
+    for (to, &from) in kept.iter().enumerate() {
+        renamed[from] = u32::try_from(to).expect("fewer than before");
+    }
+    nodes.retain(kept);
+    edges
+        .iter_mut()
+        .filter(|e| **e != DEAD)
+        .for_each(|e| *e = renamed[*e as usize]);
 }

@@ -10,7 +10,7 @@
 
 use crate::linalg::modp::Residue;
 use crate::search::diagram::reduced_rows::{Arithmetic, Rows};
-use crate::search::diagram::stage::Adding;
+use crate::search::diagram::stage::Columns;
 
 /// Spaces that contain one, lie within another, and reach no more than so many dimensions; one space where both are the same.
 #[derive(Clone, Default)]
@@ -27,21 +27,14 @@ pub(in crate::search) struct Between {
 
 /// A stage for relaxed nodes.
 pub(in crate::search) struct Passed<'a> {
-    pub(in crate::search) stage: &'a Adding,
+    pub(in crate::search) columns: &'a Columns,
     /// Coordinates of contours before each place where some end, from this stage on.
     pub(in crate::search) bounds: &'a [usize],
 }
 
 impl Between {
     /// Creates the relaxed node of one space, with the boundaries to come.
-    pub(in crate::search) fn from_space(
-        arithmetic: &mut Arithmetic,
-        width: usize,
-        packed: &[Residue],
-        bounds: &[usize],
-    ) -> Between {
-        let mut all = Rows::default();
-        all.unpack_rows(arithmetic, width, packed);
+    pub(in crate::search) fn from_rows(all: Rows, bounds: &[usize]) -> Between {
         Between {
             most: bounds.iter().map(|&b| all.rank_before(b)).collect(),
             least: all.rank(),
@@ -64,7 +57,7 @@ impl Between {
         let mut out = self.all.to_packed();
         if let Some(any) = &self.any {
             out.push(u64::MAX);
-            any.pack_into(&mut out);
+            any.pack_beyond(0, &mut out);
             out.extend(self.most.iter().chain([&self.least]).map(|&x| x as u64));
         }
         out
@@ -104,8 +97,8 @@ impl Between {
     }
 
     /// Returns the node in the coordinates of a stage, with its own sum.
-    fn enter_stage(&self, stage: &Adding) -> Between {
-        let widened = |rows: &Rows| rows.widen_to(stage.columns.width, &stage.columns.places);
+    fn enter_stage(&self, columns: &Columns) -> Between {
+        let widened = |rows: &Rows| rows.widen_to(columns.width, &columns.places);
         Between {
             all: widened(&self.all),
             any: Some(widened(self.any_rows())),
@@ -119,7 +112,7 @@ impl Between {
         arithmetic: &mut Arithmetic,
         over: &Passed<'_>,
     ) -> Vec<Option<Between>> {
-        let (growth, base) = (&over.stage.columns.growth, self.enter_stage(over.stage));
+        let (growth, base) = (&over.columns.growth, self.enter_stage(over.columns));
         let mut grown: Vec<Option<Between>> = vec![None; growth.len()];
         for g in growth {
             let mut next = match g.from {
@@ -167,9 +160,9 @@ impl Between {
 
     /// Drops the coordinates that no later stage reaches. Returns `None` if a contour stays redundant, or if a kept link moves wrongly.
     fn drop_ended(mut self, over: &Passed<'_>) -> Option<Between> {
-        let (contours, gap) = (over.stage.contours.len(), over.stage.columns.closing);
+        let gap = over.columns.closing;
         let in_contours = self.most.last().copied().unwrap_or(0);
-        let goes_wrong = self.all.pivots.last().is_some_and(|&p| p >= contours);
+        let goes_wrong = self.all.starts_behind(over.columns.contours);
         if goes_wrong || self.least > in_contours {
             return None;
         }

@@ -7,7 +7,6 @@
 //!
 //! Redundant constraints that are still allowed do the work of dimensions when a coordinate closes, and are counted with them.
 
-use crate::linalg::modp::Residue;
 use crate::search::diagram::redundancy_so_far::{Limits, Spent};
 use crate::search::diagram::stage::Stage;
 use crate::search::question::space::{Choice, Space};
@@ -33,15 +32,16 @@ impl<'m> Ceiling<'m> {
         }
     }
 
-    /// Returns whether a way of a cost to a node after so many stages leads to no variant within the ceiling.
+    /// Returns whether a way of a cost to a node after so many stages leads to no variant within the ceiling. The choices of the node add a
+    /// space of this dimension in the open contours.
     pub(in crate::search) fn is_above(
         &mut self,
         stages: usize,
         spent: &Spent,
-        matrix: &[Residue],
+        dimension: usize,
         cost: i64,
     ) -> bool {
-        let Some(rest) = self.missing.least_cost(stages, spent, matrix) else {
+        let Some(rest) = self.missing.least_cost(stages, spent, dimension) else {
             return true;
         };
         let above = cost + rest > self.cost;
@@ -58,8 +58,6 @@ pub(in crate::search) struct Missing {
     /// Least cost in thousandths of a completion, by number of stages and by dimension; `None` if there is no completion. The last entry
     /// also holds for larger dimensions.
     least: Vec<Vec<Option<i64>>>,
-    /// Open coordinates of contours after so many stages.
-    width: Vec<usize>,
     root: Spent,
     allowed: u32,
 }
@@ -101,7 +99,6 @@ impl Missing {
         least.reverse();
         Missing {
             least,
-            width,
             root: root.clone(),
             allowed,
         }
@@ -109,16 +106,14 @@ impl Missing {
 
     /// Returns the least cost in thousandths of a variant; `None` if there is no variant.
     pub(in crate::search) fn least_of_root(&self) -> Option<i64> {
-        self.least_cost(0, &self.root, &[])
+        self.least_cost(0, &self.root, 0)
     }
 
-    /// Returns the least cost in thousandths of completing a node after so many stages; `None` where it has no completion.
-    fn least_cost(&self, stages: usize, spent: &Spent, matrix: &[Residue]) -> Option<i64> {
-        // The pivots of the free state's lane stand as bits in front.
-        let words = self.width[stages].div_ceil(64);
-        let rows: u32 = matrix.iter().take(words).map(|w| w.count_ones()).sum();
+    /// Returns the least cost in thousandths of completing a node after so many stages, whose choices add a space of this dimension in the
+    /// open contours; `None` where it has no completion.
+    fn least_cost(&self, stages: usize, spent: &Spent, dimension: usize) -> Option<i64> {
         let spare = self.allowed.saturating_sub(spent.internal());
         let of_stage = &self.least[stages];
-        of_stage[((rows + spare) as usize).min(of_stage.len() - 1)]
+        of_stage[(dimension + spare as usize).min(of_stage.len() - 1)]
     }
 }

@@ -2,7 +2,8 @@
 
 use crate::linalg::modp::Residue;
 use crate::search::diagram::redundancy_so_far::Spent;
-use crate::search::diagram::transition::Children;
+use crate::search::diagram::subspaces::{Subspaces, hash_words};
+use crate::search::diagram::transition::Steps;
 use hashbrown::HashTable;
 use std::collections::TryReserveError;
 
@@ -41,37 +42,38 @@ impl Layer {
 /// Nodes a layer keeps at least where the budget is no smaller, so that a search reaches the end.
 pub(in crate::search) const CUT: usize = 256;
 
-/// Bytes of a node besides its matrix: what was spent, where the matrix starts, the least cost, and its place in the table.
-const NODE: usize = size_of::<Spent>() + 3 * size_of::<u64>() + 2 * size_of::<(u64, u32)>();
+/// Bytes of a node: what was spent, the least cost, and its place in the table.
+const NODE: usize = size_of::<Spent>() + size_of::<u64>() + 2 * size_of::<(u64, u32)>();
 
 /// The nodes of a layer while it is being built.
 pub(in crate::search) struct Nodes {
     /// Redundancy so far.
     pub(in crate::search) spent: Vec<Spent>,
-    /// Start of each node's matrix in `data`; one more at the end.
-    start: Vec<usize>,
-    data: Vec<Residue>,
     /// Least cost of a way to the node.
     pub(in crate::search) least: Vec<i64>,
+    /// The subspaces of each kind, and for each node the number of its own of each kind; [`NONE`](crate::search::diagram::subspaces::NONE) where the lane does not apply.
+    pub(in crate::search) spaces: Vec<Subspaces>,
+    numbers: Vec<u32>,
 }
 
 impl Nodes {
     /// Returns the one node before any choice.
-    pub(in crate::search) fn root_node(spent: Spent) -> Self {
+    pub(in crate::search) fn root_node(spent: Spent, kinds: usize) -> Self {
         Nodes {
             spent: vec![spent],
-            start: vec![0, 0],
-            data: Vec::new(),
             least: vec![0],
+            spaces: (0..kinds).map(|_| Subspaces::zero_alone()).collect(),
+            numbers: vec![0; kinds],
         }
     }
 
-    pub(in crate::search) fn empty() -> Self {
+    /// Returns no nodes with so many kinds of subspaces.
+    fn empty(kinds: usize) -> Self {
         Nodes {
             spent: Vec::new(),
-            start: vec![0],
-            data: Vec::new(),
             least: Vec::new(),
+            spaces: (0..kinds).map(|_| Subspaces::default()).collect(),
+            numbers: Vec::new(),
         }
     }
 
@@ -79,46 +81,52 @@ impl Nodes {
         self.spent.len()
     }
 
-    /// Returns the bytes of the nodes, with the table that finds them during construction.
+    /// Returns the bytes of the nodes, with the tables that find them during construction.
     pub(in crate::search) fn held_bytes(&self) -> usize {
-        size_of::<Residue>() * self.data.len() + NODE * self.len()
+        let spaces: usize = self.spaces.iter().map(Subspaces::held_bytes).sum();
+        spaces + size_of::<u32>() * self.numbers.len() + NODE * self.len()
     }
 
-    pub(in crate::search) fn matrix(&self, i: usize) -> &[Residue] {
-        &self.data[self.start[i]..self.start[i + 1]]
+    /// Returns the numbers of a node's subspaces.
+    pub(in crate::search) fn numbers(&self, node: usize) -> &[u32] {
+        let kinds = self.spaces.len();
+        &self.numbers[node * kinds..(node + 1) * kinds]
     }
 
-    /// Makes room for a node whose matrix has so many numbers.
-    fn reserve_node(&mut self, numbers: usize) -> Result<(), TryReserveError> {
+    /// Returns the packed rows of a node's first subspace.
+    pub(in crate::search) fn packed_rows(&self, node: usize) -> &[Residue] {
+        self.spaces[0].packed_rows(self.numbers(node)[0])
+    }
+
+    /// Makes room for a node.
+    fn reserve_node(&mut self) -> Result<(), TryReserveError> {
         self.spent.try_reserve(1)?;
-        self.start.try_reserve(1)?;
         self.least.try_reserve(1)?;
-        self.data.try_reserve(numbers)
+        self.numbers.try_reserve(self.spaces.len())
     }
 
     /// Keeps the nodes listed, ascending, within the memory that they have.
     pub(in crate::search) fn retain(&mut self, kept: &[usize]) {
-        let mut end = 0;
+        let kinds = self.spaces.len();
         for (to, &from) in kept.iter().enumerate() {
-            let matrix = self.start[from]..self.start[from + 1];
             self.spent.swap(to, from);
             self.least[to] = self.least[from];
-            self.start[to] = end;
-            end += matrix.len();
-            self.data.copy_within(matrix.clone(), end - matrix.len());
+            let own = from * kinds..(from + 1) * kinds;
+            self.numbers.copy_within(own, to * kinds);
         }
         self.spent.truncate(kept.len());
         self.least.truncate(kept.len());
-        self.start.truncate(kept.len());
-        self.start.push(end);
-        self.data.truncate(end);
+        self.numbers.truncate(kept.len() * kinds);
+        self.drop_unused_spaces();
     }
 
-    pub(in crate::search) fn push(&mut self, spent: Spent, matrix: &[Residue], least: i64) {
-        self.spent.push(spent);
-        self.data.extend_from_slice(matrix);
-        self.start.push(self.data.len());
-        self.least.push(least);
+    /// Drops the subspaces that no node has.
+    fn drop_unused_spaces(&mut self) {
+        let kinds = self.spaces.len();
+        for (kind, spaces) in self.spaces.iter_mut().enumerate() {
+            let numbers = self.numbers.get_mut(kind..).unwrap_or_default();
+            spaces.retain_used(numbers, kinds);
+        }
     }
 }
 
@@ -137,15 +145,20 @@ pub(in crate::search) struct Merge {
 }
 
 impl Merge {
-    /// Returns an empty layer with limits on nodes and bytes, for about `edges` edges.
-    pub(in crate::search) fn new(room: usize, bytes: usize, stop: Stop, edges: usize) -> Self {
+    /// Returns an empty layer with limits on nodes and bytes, for about `edges` edges. Its nodes have so many kinds of subspaces.
+    pub(in crate::search) fn new(
+        (room, bytes): (usize, usize),
+        stop: Stop,
+        edges: usize,
+        kinds: usize,
+    ) -> Self {
         Merge {
             room,
             bytes,
             stop,
             refused: false,
             table: HashTable::new(),
-            next: Nodes::empty(),
+            next: Nodes::empty(kinds),
             edges: Vec::with_capacity(edges),
         }
     }
@@ -159,61 +172,56 @@ impl Merge {
         }
     }
 
-    /// Adds the children of some nodes, after those of the nodes before them. Skips children that are excluded by a test of
-    /// three values: the redundancy spent, the child's matrix, and the least cost of this path to it.
-    pub(in crate::search) fn take_children(
-        &mut self,
-        part: &Children,
-        parents: &Nodes,
-        cost: impl Fn(usize) -> i64,
-        mut out: impl FnMut(&Spent, &[Residue], i64) -> bool,
-    ) {
-        let choices = part.choices;
-        if part.short {
+    /// Returns why no node can be added; `None` if there is room.
+    fn limit_reached(&self) -> Option<Stop> {
+        let taken = self.next.held_bytes() + size_of::<u32>() * self.edges.len();
+        if self.refused || taken >= self.bytes && self.next.len() >= CUT {
+            return Some(Stop::Memory);
+        }
+        (self.next.len() >= self.room).then_some(Stop::NodeBudget)
+    }
+
+    /// Takes the steps that are wanted of subspaces of a kind.
+    pub(in crate::search) fn take_steps(&mut self, kind: usize, steps: &mut Steps<'_>) {
+        let room = self.limit_reached().is_none();
+        if !steps.take_steps(&mut self.next.spaces[kind], room) {
             self.refused = true;
             self.stop = self.stop.combine_with(Stop::Memory);
         }
-        for child in &part.found {
-            let Some((hash, ref spent, start, end)) = *child else {
-                self.edges.push(DEAD);
-                continue;
-            };
-            let matrix = &part.data[start..end];
-            let at = self.edges.len();
-            let parent = at / choices;
-            let least = parents.least[parent] + cost(at % choices);
-            if out(spent, matrix, least) {
-                self.edges.push(DEAD);
-                continue;
-            }
-            let next = &mut self.next;
-            let refused = next.reserve_node(matrix.len()).is_err()
-                || self.table.try_reserve(1, |&(h, _)| h).is_err();
-            self.refused |= refused;
-            let same = |&(h, i): &(u64, u32)| {
-                h == hash && next.spent[i as usize] == *spent && next.matrix(i as usize) == matrix
-            };
-            let index = match self.table.entry(hash, same, |&(h, _)| h) {
-                hashbrown::hash_table::Entry::Occupied(o) => o.get().1,
-                hashbrown::hash_table::Entry::Vacant(v) => {
-                    let taken = next.held_bytes() + size_of::<u32>() * self.edges.len();
-                    let full = refused || taken >= self.bytes && next.len() >= CUT;
-                    if full || next.len() >= self.room {
-                        let why = if full { Stop::Memory } else { Stop::NodeBudget };
-                        self.stop = self.stop.combine_with(why);
-                        self.edges.push(DEAD);
-                        continue;
-                    }
-                    let index = u32::try_from(next.len()).expect("the node budget is below 2^32");
-                    v.insert((hash, index));
-                    next.push(spent.clone(), matrix, least);
-                    index
-                }
-            };
-            let known = &mut self.next.least[index as usize];
+    }
+
+    /// Adds the next edge: to a node with these subspaces, which the cheapest path over the edge reaches at some cost.
+    pub(in crate::search) fn push_edge(&mut self, spent: Spent, numbers: &[u32], least: i64) {
+        self.refused |=
+            self.next.reserve_node().is_err() || self.table.try_reserve(1, |&(h, _)| h).is_err();
+        let hash = hash_words(spent.hash_words().chain(numbers.iter().map(|&n| n.into())));
+        let next = &self.next;
+        let same = |&(h, i): &(u64, u32)| {
+            h == hash && next.spent[i as usize] == spent && next.numbers(i as usize) == numbers
+        };
+        if let Some(&(_, node)) = self.table.find(hash, same) {
+            let known = &mut self.next.least[node as usize];
             *known = (*known).min(least);
-            self.edges.push(index);
+            self.edges.push(node);
+            return;
         }
+        if let Some(why) = self.limit_reached() {
+            self.stop = self.stop.combine_with(why);
+            self.edges.push(DEAD);
+            return;
+        }
+        let node = u32::try_from(self.next.len()).expect("the node budget is below 2^32");
+        self.table.insert_unique(hash, (hash, node), |&(h, _)| h);
+        self.next.spent.push(spent);
+        self.next.numbers.extend_from_slice(numbers);
+        self.next.least.push(least);
+        self.edges.push(node);
+    }
+
+    /// Returns the layer when it has all edges.
+    pub(in crate::search) fn finish(mut self) -> Self {
+        self.next.drop_unused_spaces();
+        self
     }
 }
 

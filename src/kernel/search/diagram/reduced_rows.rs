@@ -32,20 +32,22 @@ impl Rows {
         self.data.clear();
     }
 
-    /// Appends the pivots as bits, and of each row the numbers outside of pivots' columns. Different spans append different words.
-    pub(super) fn pack_into(&self, out: &mut Vec<Residue>) {
+    /// Appends the rows that are zero in the first coordinates, without these: the pivots as bits, and of each row the numbers outside of
+    /// pivots' columns. Different spans append different words.
+    pub(super) fn pack_beyond(&self, first: usize, out: &mut Vec<Residue>) {
         let start = out.len();
-        out.resize(start + self.width.div_ceil(64), 0);
-        self.pivots
-            .iter()
-            .for_each(|p| out[start + p / 64] |= 1 << (p % 64));
-        for (row, &pivot) in self.data.chunks_exact(self.width.max(1)).zip(&self.pivots) {
-            let mut others = self.pivots.iter().copied().peekable();
-            for (i, &x) in row.iter().enumerate().skip(pivot) {
-                while others.next_if(|&p| p < i).is_some() {}
-                if others.peek() != Some(&i) {
-                    out.push(x);
-                }
+        out.resize(start + (self.width - first).div_ceil(64), 0);
+        let dropped = self.rank_before(first);
+        let pivots = &self.pivots[dropped..];
+        for p in pivots.iter().map(|p| p - first) {
+            out[start + p / 64] |= 1 << (p % 64);
+        }
+        for (r, pivot) in pivots.iter().enumerate() {
+            let row = &self.data[(dropped + r) * self.width..][..self.width];
+            let mut from = pivot + 1;
+            for &to in pivots[r + 1..].iter().chain([&self.width]) {
+                out.extend_from_slice(&row[from..to]);
+                from = to + 1;
             }
         }
     }
@@ -53,7 +55,7 @@ impl Rows {
     /// Returns the rows packed alone.
     pub(in crate::search) fn to_packed(&self) -> Vec<Residue> {
         let mut out = Vec::new();
-        self.pack_into(&mut out);
+        self.pack_beyond(0, &mut out);
         out
     }
 
@@ -62,20 +64,20 @@ impl Rows {
         &mut self,
         arithmetic: &mut Arithmetic,
         width: usize,
-        mut packed: &[Residue],
+        packed: &[Residue],
     ) {
         let places: Vec<usize> = (0..width).collect();
-        self.unpack_spread(arithmetic, width, &places, &mut packed);
+        self.unpack_spread(arithmetic, width, &places, packed);
     }
 
-    /// Reads packed rows, puts each coordinate at its place among `width` ones, and advances `packed` behind them. There are no rows if
-    /// nothing was packed, as before the first variable of a part.
+    /// Reads packed rows, and puts each coordinate at its place among `width` ones. There are no rows if nothing was packed, as before the
+    /// first variable of a part.
     pub(super) fn unpack_spread(
         &mut self,
         arithmetic: &mut Arithmetic,
         width: usize,
         places: &[usize],
-        packed: &mut &[Residue],
+        packed: &[Residue],
     ) {
         self.clear(width);
         if packed.is_empty() {
@@ -96,7 +98,6 @@ impl Rows {
                 .for_each(|(&i, &x)| row[places[i]] = x);
             numbers = rest;
         }
-        *packed = numbers;
         if places.is_sorted() {
             self.pivots.extend(pivots.iter().map(|&i| places[i]));
             return;
@@ -116,6 +117,11 @@ impl Rows {
     /// Returns the dimension of the span's projection on the first coordinates.
     pub(in crate::search) fn rank_before(&self, coordinates: usize) -> usize {
         self.pivots.partition_point(|&p| p < coordinates)
+    }
+
+    /// Returns true if some vector of the span is zero in the first coordinates.
+    pub(in crate::search) fn starts_behind(&self, coordinates: usize) -> bool {
+        self.pivots.last().is_some_and(|&p| p >= coordinates)
     }
 
     /// Returns the rows, one after another.
@@ -184,13 +190,27 @@ impl Rows {
         arithmetic: &mut Arithmetic,
         vector: &mut [Residue],
     ) {
-        let (f, width) = (arithmetic.field, self.width);
-        for (row, &p) in self.data.chunks_exact(width.max(1)).zip(&self.pivots) {
+        if let Some(pivot) = self.reduce_vector(arithmetic.field, vector) {
+            self.insert_reduced(arithmetic, vector, pivot);
+        }
+    }
+
+    /// Subtracts from a vector its part along the pivots. Returns its first coordinate that is left; `None` if it was in the span.
+    pub(super) fn reduce_vector(&self, f: Field, vector: &mut [Residue]) -> Option<usize> {
+        for (row, &p) in self.data.chunks_exact(self.width.max(1)).zip(&self.pivots) {
             f.subtract_multiple(&mut vector[p..], &row[p..]);
         }
-        let Some(pivot) = vector.iter().position(|&x| x != 0) else {
-            return;
-        };
+        vector.iter().position(|&x| x != 0)
+    }
+
+    /// Adds a reduced vector that starts at `pivot`.
+    pub(super) fn insert_reduced(
+        &mut self,
+        arithmetic: &mut Arithmetic,
+        vector: &mut [Residue],
+        pivot: usize,
+    ) {
+        let (f, width) = (arithmetic.field, self.width);
         if vector[pivot] != f.one() {
             let scale = arithmetic.cached_inverse(vector[pivot]);
             vector[pivot..]
@@ -198,10 +218,11 @@ impl Rows {
                 .filter(|x| **x != 0)
                 .for_each(|x| *x = f.mul(*x, scale));
         }
-        for row in self.data.chunks_exact_mut(width) {
+        let at = self.pivots.partition_point(|&p| p < pivot);
+        // Rows behind start after the pivot.
+        for row in self.data[..at * width].chunks_exact_mut(width) {
             f.subtract_multiple(&mut row[pivot..], &vector[pivot..]);
         }
-        let at = self.pivots.partition_point(|&p| p < pivot);
         self.pivots.insert(at, pivot);
         let (start, end) = (at * width, self.data.len());
         self.data.resize(end + width, 0);

@@ -56,6 +56,8 @@ pub(in crate::search) struct Columns {
     pub(in crate::search) places: Vec<usize>,
     /// The number of first columns that no later variable reaches.
     pub(in crate::search) closing: usize,
+    /// The number of first columns that a motion may start in. One that starts behind them goes wrong.
+    pub(in crate::search) contours: usize,
 }
 
 impl Columns {
@@ -84,6 +86,7 @@ impl Columns {
             width: coordinates.len(),
             places: before.iter().filter_map(place).collect(),
             closing,
+            contours: coordinates.len(),
         }
     }
 
@@ -97,20 +100,8 @@ impl Columns {
     }
 }
 
-/// The columns of contours and of kept links at a variable, with all coordinates of kept links: no motion that goes wrong is dropped.
-#[derive(Debug, Clone)]
-pub(in crate::search) struct Adding {
-    pub(in crate::search) field: Field,
-    /// Index of the variable in the space.
-    pub(in crate::search) variable: usize,
-    /// The coordinates of contours in use, by their numbers; all those of kept links come after these.
-    pub(in crate::search) contours: Vec<usize>,
-    /// The columns; those that close are of contours.
-    pub(in crate::search) columns: Columns,
-}
-
 /// A variable of a lane.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(in crate::search) struct LaneStage {
     pub(in crate::search) role: Role,
     /// The contours in use.
@@ -122,7 +113,7 @@ pub(in crate::search) struct LaneStage {
 }
 
 /// A variable of the diagram.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(in crate::search) struct Stage<'a> {
     pub(in crate::search) field: Field,
     /// Index of the variable in the space.
@@ -133,4 +124,20 @@ pub(in crate::search) struct Stage<'a> {
     /// The roles of the lanes of a searched state, at its last variable.
     pub(in crate::search) ending: Option<Vec<Role>>,
     pub(in crate::search) limits: &'a Limits,
+}
+
+impl Stage<'_> {
+    /// Returns the lane and the columns of each kind of subspace that a node has: lane by lane `all`, then `harmless`.
+    pub(in crate::search) fn kinds(&self) -> impl Iterator<Item = (usize, &Columns)> {
+        self.lanes.iter().enumerate().flat_map(|(number, lane)| {
+            let both = std::iter::once(&lane.all).chain(&lane.harmless);
+            both.map(move |columns| (number, columns))
+        })
+    }
+
+    /// Estimates the field operations for a child of a node of `bytes` bytes.
+    pub(in crate::search) fn child_effort(&self, bytes: usize) -> usize {
+        let width: usize = self.kinds().map(|(_, columns)| columns.width).sum();
+        bytes / size_of::<Residue>() * width.max(1)
+    }
 }

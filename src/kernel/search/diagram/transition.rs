@@ -1,246 +1,265 @@
-//! One transition of the diagram: the children of a node at a variable, one for each choice.
+//! One transition of the diagram: what the choices at a variable make of the subspaces of a layer's nodes.
 //!
-//! Everything here works on flat scratch space that a thread keeps, in a field with a memory of inverses.
+//! Many nodes have a subspace in common, so each subspace is extended once by each choice that some node takes.
 
 use crate::linalg::modp::{Field, Residue};
 use crate::search::diagram::reduced_rows::{Arithmetic, Rows};
-use crate::search::diagram::redundancy_so_far::{Role, Spent};
-use crate::search::diagram::stage::{Adding, Columns, Stage};
+use crate::search::diagram::stage::Columns;
+use crate::search::diagram::subspaces::{NONE, Subspaces, hash_words};
+use rayon::prelude::*;
+use std::cell::RefCell;
 
-/// A child: its hash, the redundancy spent, and where its matrix starts and ends.
-pub(in crate::search) type Child = (u64, Spent, usize, usize);
-
-/// The children of some consecutive nodes, before equal ones are merged.
-pub(in crate::search) struct Children {
-    /// Choices a node has.
-    pub(in crate::search) choices: usize,
-    /// The children in order of (node, choice); `None` if dead.
-    pub(in crate::search) found: Vec<Option<Child>>,
-    pub(in crate::search) data: Vec<Residue>,
-    /// Whether children are missing because memory did not suffice.
-    pub(in crate::search) short: bool,
+/// What a choice makes of a subspace.
+#[derive(Clone, Copy)]
+pub(in crate::search) struct Step {
+    /// The number of what is left of it without the coordinates that close.
+    pub(in crate::search) to: u32,
+    /// Its dimension with them.
+    rank: u16,
+    /// How many dimensions it has in the coordinates that close.
+    closed: u16,
 }
 
-impl Children {
-    /// Creates an empty list for nodes with `choices` choices.
-    pub(in crate::search) fn new(choices: usize) -> Self {
-        Children {
+impl Step {
+    /// Returns the dimension in the coordinates that close.
+    pub(in crate::search) fn closed(self) -> usize {
+        self.closed.into()
+    }
+
+    /// Returns the dimension that is left.
+    pub(in crate::search) fn dimension(self) -> usize {
+        usize::from(self.rank - self.closed)
+    }
+}
+
+/// A subspace extended by a choice: its hash and packed rows, and the numbers of its [`Step`].
+#[derive(Clone, Copy)]
+struct Child {
+    hash: u64,
+    start: usize,
+    end: usize,
+    rank: u16,
+    closed: u16,
+}
+
+/// The steps of the subspaces of a layer at a variable, as far as they are known.
+pub(in crate::search) struct Steps<'a> {
+    field: Field,
+    columns: &'a Columns,
+    from: &'a Subspaces,
+    choices: usize,
+    /// Of each subspace and choice; the outer `None` where it is not known, the inner one where a motion goes wrong.
+    known: Vec<Option<Option<Step>>>,
+    /// The subspaces with steps that are wanted next.
+    wanted: Vec<usize>,
+}
+
+/// Fewer children than this are not worth waking threads for.
+const PARALLEL: usize = 1024;
+
+impl<'a> Steps<'a> {
+    pub(in crate::search) fn new(field: Field, columns: &'a Columns, from: &'a Subspaces) -> Self {
+        let choices = columns.growth.len();
+        Steps {
+            field,
+            columns,
+            from,
             choices,
-            found: Vec::new(),
-            data: Vec::new(),
-            short: false,
+            known: vec![None; from.len() * choices],
+            wanted: Vec::new(),
         }
     }
 
-    /// Takes a child.
-    fn take_child(&mut self, child: &Growing) {
-        if !child.alive {
-            self.found.push(None);
-            return;
+    /// Returns a step that was taken; `None` if a motion goes wrong.
+    pub(in crate::search) fn step(&self, from: u32, choice: usize) -> Option<Step> {
+        self.known[from as usize * self.choices + choice]?
+    }
+
+    /// Returns how many dimensions a subspace gains by a step that was taken, before coordinates close. `None` if a motion goes wrong.
+    pub(in crate::search) fn gained_dimensions(&self, from: u32, choice: usize) -> Option<u16> {
+        let step = self.step(from, choice);
+        step.map(|step| step.rank - self.from.dimension(from))
+    }
+
+    /// Says that a step is to be taken.
+    pub(in crate::search) fn want_step(&mut self, from: u32, choice: usize) {
+        let step = from as usize * self.choices + choice;
+        if self.known[step].is_none() {
+            self.known[step] = Some(None);
+            self.wanted.push(step);
         }
-        let (matrix, start) = (&child.packed, self.data.len());
-        if self.data.try_reserve(matrix.len()).is_err() {
-            self.short = true;
-            self.found.push(None);
-            return;
+    }
+
+    /// Takes the steps that are wanted, to subspaces in `to`: no new ones if there is no `room`. Returns false if the system has no memory.
+    pub(in crate::search) fn take_steps(&mut self, to: &mut Subspaces, room: bool) -> bool {
+        let mut wanted = std::mem::take(&mut self.wanted);
+        wanted.sort_unstable();
+        let choices = self.choices;
+        let spaces: Vec<&[usize]> = wanted.chunk_by(|a, b| a / choices == b / choices).collect();
+        let some = |spaces: &[&[usize]]| {
+            let mut out = Children::default();
+            Worker::with(self.field, |worker| {
+                for steps in spaces {
+                    let from = u32::try_from(steps[0] / choices).unwrap_or(NONE);
+                    let wanted = steps.iter().map(|step| step % choices);
+                    let from = self.from.packed_rows(from);
+                    worker.append_children(self.columns, from, wanted, &mut out);
+                }
+            });
+            out
+        };
+        let found = if wanted.len() < PARALLEL {
+            vec![some(&spaces)]
+        } else {
+            let chunks = rayon::current_num_threads() * 4;
+            let chunk = spaces.len().div_ceil(chunks).max(16);
+            spaces.par_chunks(chunk).map(some).collect()
+        };
+        let mut enough = true;
+        let mut steps = wanted.iter();
+        for Children { found, data } in &found {
+            for (child, &step) in found.iter().zip(&mut steps) {
+                let Some(child) = child else { continue };
+                let number = to.number_of(
+                    (child.hash, &data[child.start..child.end]),
+                    child.rank - child.closed,
+                    room,
+                );
+                enough &= number.is_some();
+                let step_to = |to| Step {
+                    to,
+                    rank: child.rank,
+                    closed: child.closed,
+                };
+                self.known[step] = Some(number.map(step_to));
+            }
         }
-        self.data.extend_from_slice(matrix);
-        let spent = child.spent.clone();
-        let child = (hash_child(matrix, &spent), spent, start, self.data.len());
-        self.found.push(Some(child));
+        enough
     }
 }
 
-/// A child while lane after lane is added to it.
-struct Growing {
-    spent: Spent,
-    /// Its subspaces so far, packed one after another.
-    packed: Vec<Residue>,
-    alive: bool,
+/// The wanted children of some subspaces, before equal ones are merged.
+#[derive(Default)]
+struct Children {
+    /// In order of subspaces and choices; `None` where a motion goes wrong.
+    found: Vec<Option<Child>>,
+    data: Vec<Residue>,
 }
 
 /// Scratch space of one thread.
 pub(in crate::search) struct Worker {
-    arithmetic: Arithmetic,
-    /// A node's rows at the variable: `all`, then `harmless`.
-    bases: [Rows; 2],
-    /// Those extended by each choice.
-    grown: [Vec<Rows>; 2],
-    vector: Vec<Residue>,
-    children: Vec<Growing>,
-    /// The choices whose children are wanted; all if empty.
-    wanted: Vec<bool>,
-    /// These and the choices that they are grown from; empty if all are wanted.
+    pub(in crate::search) arithmetic: Arithmetic,
+    /// A subspace extended by each choice that makes it larger, and behind them the subspace itself.
+    grown: Vec<Rows>,
+    /// Where each choice's subspace is among these.
+    places: Vec<usize>,
+    /// The child of each of these, as far as it is known.
+    children: Vec<Option<Option<Child>>>,
+    /// The choices that are wanted, and those that they are grown from.
     needed: Vec<bool>,
+    vector: Vec<Residue>,
+}
+
+thread_local! {
+    static WORKER: RefCell<Option<Worker>> = const { RefCell::new(None) };
 }
 
 impl Worker {
-    pub(in crate::search) fn new(field: Field) -> Self {
-        Worker {
+    /// Calls a function with the scratch space that the thread keeps.
+    pub(in crate::search) fn with<T>(field: Field, of: impl FnOnce(&mut Worker) -> T) -> T {
+        let new = || Worker {
             arithmetic: Arithmetic::new(field),
-            bases: Default::default(),
-            grown: Default::default(),
-            vector: Vec::new(),
+            grown: Vec::new(),
+            places: Vec::new(),
             children: Vec::new(),
-            wanted: Vec::new(),
             needed: Vec::new(),
+            vector: Vec::new(),
+        };
+        WORKER.with_borrow_mut(|kept| {
+            kept.take_if(|worker| worker.arithmetic.field != field);
+            of(kept.get_or_insert_with(new))
+        })
+    }
+
+    /// Extends a packed subspace by choices that are wanted, and by those that they are grown from.
+    pub(in crate::search) fn grow_choices(
+        &mut self,
+        columns: &Columns,
+        packed: &[Residue],
+        wanted: impl Iterator<Item = usize>,
+    ) {
+        let choices = columns.growth.len();
+        self.needed.clear();
+        self.needed.resize(choices, false);
+        wanted.for_each(|choice| self.needed[choice] = true);
+        for g in columns.growth.iter().rev() {
+            if let Some(from) = g.from.filter(|_| self.needed[g.choice]) {
+                self.needed[from] = true;
+            }
         }
-    }
-
-    /// Restricts the next children to some choices. Those of the others are dead.
-    pub(in crate::search) fn restrict_choices(&mut self, wanted: impl IntoIterator<Item = bool>) {
-        self.wanted.clear();
-        self.wanted.extend(wanted);
-    }
-
-    /// Takes a subspace off a packed node and extends it by each choice; `part` says which of the two it is.
-    fn grow_choices(&mut self, part: usize, columns: &Columns, packed: &mut &[Residue]) {
+        self.places.clear();
+        self.places.resize(choices, choices);
+        self.grown.resize(choices + 1, Rows::default());
         let Columns { width, places, .. } = columns;
-        let base = &mut self.bases[part];
-        base.unpack_spread(&mut self.arithmetic, *width, places, packed);
-        let grown = &mut self.grown[part];
-        grown.resize(columns.growth.len(), Rows::default());
-        self.needed.clone_from(&self.wanted);
-        if !self.needed.is_empty() {
-            for g in columns.growth.iter().rev() {
-                if let Some(from) = g.from.filter(|_| self.needed[g.choice]) {
-                    self.needed[from] = true;
-                }
-            }
-        }
-        for g in &columns.growth {
-            if self.needed.get(g.choice) == Some(&false) {
-                continue;
-            }
-            let mut rows = std::mem::take(&mut grown[g.choice]);
-            rows.clone_from(match g.from {
-                Some(from) => &grown[from],
-                None => base,
-            });
+        self.grown[choices].unpack_spread(&mut self.arithmetic, *width, places, packed);
+        for g in columns.growth.iter().filter(|g| self.needed[g.choice]) {
+            let mut place = g.from.map_or(choices, |from| self.places[from]);
             for row in &g.more {
                 self.vector.clone_from(row);
-                rows.insert(&mut self.arithmetic, &mut self.vector);
-            }
-            grown[g.choice] = rows;
-        }
-    }
-
-    /// Appends all children of a node, in order of choices.
-    pub(in crate::search) fn append_children(
-        &mut self,
-        stage: &Stage<'_>,
-        mut matrix: &[Residue],
-        spent: &Spent,
-        out: &mut Children,
-    ) {
-        self.begin_children(stage.choices, spent);
-        for (number, lane) in stage.lanes.iter().enumerate() {
-            if spent.is_ruled_out(number) {
-                continue;
-            }
-            self.grow_choices(0, &lane.all, &mut matrix);
-            if let Some(harmless) = &lane.harmless {
-                self.grow_choices(1, harmless, &mut matrix);
-            }
-            let children = self.children.iter_mut().enumerate();
-            for (choice, child) in children.filter(|(_, child)| child.alive) {
-                if lane.applies.get(choice) == Some(&false) {
-                    child.spent.rule_out(number);
+                let Some(pivot) =
+                    self.grown[place].reduce_vector(self.arithmetic.field, &mut self.vector)
+                else {
                     continue;
+                };
+                if place != g.choice {
+                    let mut rows = std::mem::take(&mut self.grown[g.choice]);
+                    rows.clone_from(&self.grown[place]);
+                    self.grown[g.choice] = rows;
+                    place = g.choice;
                 }
-                let [all, harmless] = &mut self.grown;
-                let all = &mut all[choice];
-                let mut harmless = lane.harmless.as_ref().map(|c| (c, &mut harmless[choice]));
-                if let Some((_, harmless)) = &harmless {
-                    let [before, left] = [&self.bases[0], &self.bases[1]].map(Rows::rank);
-                    if all.rank() + left < harmless.rank() + before {
-                        match lane.role {
-                            Role::Held(_) => child.spent.rule_out(number),
-                            _ => child.alive = false,
-                        }
-                        continue;
-                    }
-                }
-                // A row that starts in the gap is a motion that the contours forbid; directions of the gap that no row has are redundant.
-                let gap = lane.all.closing;
-                child
-                    .spent
-                    .add_redundant(number, to_u32(gap - all.rank_before(gap)));
-                all.drop_first(gap);
-                all.pack_into(&mut child.packed);
-                if let Some((columns, rows)) = &mut harmless {
-                    rows.drop_first(columns.closing);
-                    rows.pack_into(&mut child.packed);
-                }
-                child.alive = child.spent.is_within(stage.limits);
+                self.grown[place].insert_reduced(&mut self.arithmetic, &mut self.vector, pivot);
             }
-        }
-        for child in &mut self.children {
-            if let Some(roles) = stage.ending.as_ref().filter(|_| child.alive) {
-                child.alive = child.spent.holds_all(roles);
-                child.spent.settle_counts(roles, stage.limits);
-                child.alive &= child.spent.state_within(stage.limits);
-            }
-            out.take_child(child);
+            self.places[g.choice] = place;
         }
     }
 
-    /// Appends the children of a node whose rows have all coordinates of kept links, in order of choices. A child with a redundant
-    /// constraint is dead.
-    pub(in crate::search) fn flat_children(
+    /// Returns a subspace extended by a choice that was wanted.
+    pub(in crate::search) fn rows_of(&self, choice: usize) -> &Rows {
+        &self.grown[self.places[choice]]
+    }
+
+    /// Appends the children of a packed subspace for some choices, ascending.
+    fn append_children(
         &mut self,
-        stage: &Adding,
-        mut matrix: &[Residue],
-        spent: &Spent,
+        columns: &Columns,
+        packed: &[Residue],
+        wanted: impl Iterator<Item = usize> + Clone,
         out: &mut Children,
     ) {
-        self.begin_children(stage.columns.growth.len(), spent);
-        self.grow_choices(0, &stage.columns, &mut matrix);
-        let gap = stage.columns.closing;
-        for (rows, child) in self.grown[0].iter_mut().zip(&mut self.children) {
-            if !child.alive {
-                out.take_child(child);
-                continue;
-            }
-            // A pivot there is a motion that closes every contour and moves a kept link.
-            let goes_wrong = rows
-                .pivots
-                .last()
-                .is_some_and(|&p| p >= stage.contours.len());
-            child.alive = !goes_wrong && rows.rank_before(gap) == gap;
-            if child.alive {
-                rows.drop_first(gap);
-                rows.pack_into(&mut child.packed);
-            }
-            out.take_child(child);
-        }
-    }
-
-    /// Begins the children of a node.
-    fn begin_children(&mut self, choices: usize, spent: &Spent) {
-        self.children.resize_with(choices, || Growing {
-            spent: Spent::default(),
-            packed: Vec::new(),
-            alive: true,
-        });
-        for (choice, child) in self.children.iter_mut().enumerate() {
-            child.spent.clone_from(spent);
-            child.packed.clear();
-            child.alive = self.wanted.get(choice).is_none_or(|w| *w);
+        self.grow_choices(columns, packed, wanted.clone());
+        self.children.clear();
+        self.children.resize(self.grown.len(), None);
+        for choice in wanted {
+            let rows = &self.grown[self.places[choice]];
+            let child = self.children[self.places[choice]].get_or_insert_with(|| {
+                // A motion that closes every contour and moves a kept link.
+                (!rows.starts_behind(columns.contours)).then(|| {
+                    let start = out.data.len();
+                    rows.pack_beyond(columns.closing, &mut out.data);
+                    Child {
+                        hash: hash_words(out.data[start..].iter().copied()),
+                        start,
+                        end: out.data.len(),
+                        rank: to_u16(rows.rank()),
+                        closed: to_u16(rows.rank_before(columns.closing)),
+                    }
+                })
+            });
+            out.found.push(*child);
         }
     }
 }
 
-fn to_u32(directions: usize) -> u32 {
-    u32::try_from(directions).unwrap_or(u32::MAX)
-}
-
-/// Returns a fixed hash. It is the same on every machine and in every run, so nothing depends on a random seed.
-fn hash_child(matrix: &[Residue], spent: &Spent) -> u64 {
-    let mut h = 0x517c_c1b7_2722_0a95_u64;
-    for x in spent.hash_words().chain(matrix.iter().copied()) {
-        let wide = u128::from(h ^ x) * 0x9e37_79b9_7f4a_7c15_u128;
-        h = (wide >> 64) as u64 ^ wide as u64;
-    }
-    h
+fn to_u16(dimension: usize) -> u16 {
+    u16::try_from(dimension).expect("subspaces are narrow")
 }

@@ -25,6 +25,7 @@ use crate::rank::finite::higher_order::HigherOrder;
 use crate::search::question::conditions::Conditions;
 use crate::search::question::kept::Kept;
 use crate::search::question::space::{Choice, Space, choice_name, coupled_twist};
+use crate::search::reduce::combinations::Combinations;
 use crate::search::reduce::self_stress_space::ClosingRows;
 use chacha20::ChaCha8Rng;
 use chacha20::rand_core::{Rng, SeedableRng};
@@ -196,6 +197,9 @@ fn not_asked(conditions: &Conditions) -> Option<PoseOnly> {
 
 /// Returns whether the module of some columns has all of others.
 fn has_all(f: Field, columns: &[ColumnSeries], others: &[ColumnSeries]) -> bool {
+    if others.iter().all(|other| columns.contains(other)) {
+        return true;
+    }
     let span = Echelon::from_vectors(f, columns.iter().flat_map(|c| shifted_multiples(c)));
     let mut others = others.iter().flat_map(|c| shifted_multiples(c));
     others.all(|v| span.contains(&v))
@@ -206,8 +210,15 @@ struct Motion {
     field: Field,
     space: MotionSpace<Residue>,
     links: Vec<DisplacementSeries>,
-    /// The displacement over each joint of the free state.
-    over: BTreeMap<JointId, DisplacementSeries>,
+    /// The joints of the free state.
+    over: BTreeMap<JointId, Passed>,
+}
+
+/// The present joint along the motion.
+struct Passed {
+    displacement: DisplacementSeries,
+    /// Its freedoms in the order in which they are passed, each with its twist and its coordinate.
+    freedoms: Vec<(Freedom, Twist<Residue>, Series)>,
 }
 
 /// A freedom of a joint in series: its name, none for one of an unloading joint, and its twist.
@@ -252,20 +263,25 @@ impl Motion {
             let joint = &mechanism.joints[j];
             let freedoms = joint.joint_type.freedoms();
             let frame = FrameValues::new(exact, &joint.frame)?;
+            let mut displacement = DisplacementSeries::identity(field, POWERS);
             let own = frame.motions_in_series(exact, &space, freedoms);
-            let mut at = DisplacementSeries::identity(field, POWERS);
-            for (freedom, twist) in own {
-                at = at.then(&DisplacementSeries::exp(
-                    field,
-                    &twist,
-                    &series[&(j, freedom)],
-                ));
-            }
-            over.insert(j, at);
+            let own = own.into_iter().map(|(freedom, twist)| {
+                let q = series[&(j, freedom)].clone();
+                displacement = displacement.then(&DisplacementSeries::exp(field, &twist, &q));
+                (freedom, twist, q)
+            });
+            let freedoms = own.collect();
+            over.insert(
+                j,
+                Passed {
+                    displacement,
+                    freedoms,
+                },
+            );
         }
         let mut links = vec![DisplacementSeries::identity(field, POWERS); mechanism.links.len()];
         for step in spanning_tree(mechanism, StateId::FREE) {
-            let passed = &over[&step.joint];
+            let passed = &over[&step.joint].displacement;
             let from = &links[step.from.index()];
             links[step.link.index()] = if step.forward {
                 from.then(passed)
@@ -299,19 +315,21 @@ impl Motion {
         let inserted = inserted.transpose()?.unwrap_or_default();
         let mut passed: Vec<InSeries> = inserted.into_iter().map(|(_, t)| (None, t)).collect();
         passed.extend(twists(option)?.into_iter().map(|(f, t)| (Some(f), t)));
-        let Some(goal) = self.over.get(&joint) else {
+        let Some(present) = self.over.get(&joint) else {
             return Ok(None);
         };
-        let Some(q) = self.follow_coordinates(&passed, goal) else {
+        let known = present.known_coordinates(&passed);
+        let Some(q) = known.or_else(|| self.follow_coordinates(&passed, &present.displacement))
+        else {
             return Ok(None);
         };
         let row = rate_row(exact, &self.space, mechanism, joint, &option.frame)?;
-        let base = &self.links[of.links[0].index()];
         let mut before = DisplacementSeries::identity(self.field, POWERS);
+        let mut from_frame = self.links[of.links[0].index()].clone();
         let mut out = Vec::with_capacity(passed.len());
         for ((freedom, twist), q) in passed.iter().zip(&q) {
             let within = before.carry_twist(twist);
-            let carried = base.then(&before).carry_twist(twist);
+            let carried = from_frame.carry_twist(twist);
             let mut column = ColumnSeries::with_capacity(POWERS);
             for (k, (here, there)) in within.iter().zip(&carried).enumerate() {
                 let components = self.space.along_axes(exact, there);
@@ -325,7 +343,11 @@ impl Motion {
                 column.push(entry);
             }
             out.push(column);
-            before = before.then(&DisplacementSeries::exp(self.field, twist, q));
+            if q.iter().any(|&x| x != 0) {
+                let moved = DisplacementSeries::exp(self.field, twist, q);
+                before = before.then(&moved);
+                from_frame = from_frame.then(&moved);
+            }
         }
         Ok(Some(out))
     }
@@ -342,14 +364,15 @@ impl Motion {
         // Freedoms of the joint itself come first where twists depend on each other.
         let mut order: Vec<usize> = (0..passed.len()).collect();
         order.sort_by_key(|&i| passed[i].0.is_none());
+        let twists: Vec<&Twist<Residue>> = order.iter().map(|&i| &passed[i].1).collect();
+        let combinations = Combinations::new(f, &twists);
         for k in 1..POWERS {
             let mut at = DisplacementSeries::identity(f, POWERS);
             for ((_, twist), q) in passed.iter().zip(&q) {
                 at = at.then(&DisplacementSeries::exp(f, twist, q));
             }
             let gap = at.inverse().then(goal).twist_of_order(k);
-            let twists: Vec<&Twist<Residue>> = order.iter().map(|&i| &passed[i].1).collect();
-            let more = combination(f, &twists, &gap)?;
+            let more = combinations.factors_of(&gap)?;
             for (&i, x) in order.iter().zip(more) {
                 q[i][k] = x;
             }
@@ -358,23 +381,16 @@ impl Motion {
     }
 }
 
-/// Returns factors with which some twists add up to another, 0 for a twist that depends on those before it; `None` if there are none.
-fn combination(f: Field, twists: &[&Twist<Residue>], sum: &Twist<Residue>) -> Option<Vec<Residue>> {
-    let n = twists.len();
-    // Behind each twist its unit, negative: what reduces to nothing carries its factors there.
-    let mut span = Echelon::new(f);
-    for (i, twist) in twists.iter().enumerate() {
-        let mut row = twist.to_vec();
-        row.resize(6 + n, 0);
-        row[6 + i] = f.neg(f.one());
-        let mut left = row.clone();
-        span.reduce_vector(&mut left);
-        if left[..6].iter().any(|&x| x != 0) {
-            span.insert(&row);
-        }
+impl Passed {
+    /// Returns the coordinates of freedoms in series that have those of the present joint in its order: its own, and 0 for the others.
+    /// `None` if they have them not.
+    fn known_coordinates(&self, passed: &[InSeries]) -> Option<Vec<Series>> {
+        let mut own = self.freedoms.iter().peekable();
+        let coordinate = |(freedom, twist): &InSeries| {
+            let same = own.next_if(|(f, t, _)| Some(*f) == *freedom && t == twist);
+            same.map_or_else(|| vec![0; POWERS], |(_, _, q)| q.clone())
+        };
+        let q = passed.iter().map(coordinate).collect();
+        own.next().is_none().then_some(q)
     }
-    let mut left = sum.to_vec();
-    left.resize(6 + n, 0);
-    span.reduce_vector(&mut left);
-    left[..6].iter().all(|&x| x == 0).then(|| left.split_off(6))
 }

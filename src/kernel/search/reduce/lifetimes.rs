@@ -31,7 +31,7 @@ impl Lifetime {
 }
 
 /// A vector, and which variable adds it.
-pub(super) type AddedBy<'a> = (usize, &'a mut Vec<Residue>);
+pub(super) type AddedBy = (usize, Vec<Residue>);
 
 /// Brings some coordinates of vectors, which come in the order of their variables, into a form in which each starts as late as can be, and
 /// tells when they are in use. `last` has the last variable that reaches each, ascending, and stays true.
@@ -40,7 +40,7 @@ pub(super) type AddedBy<'a> = (usize, &'a mut Vec<Residue>);
 /// O(n·c·s) field operations for n vectors, c coordinates, and s of them that have not started where a vector reaches them.
 pub(super) fn shorten_lifetimes(
     field: Field,
-    vectors: &mut [AddedBy<'_>],
+    vectors: &mut [AddedBy],
     coordinates: Range<usize>,
     last: &[usize],
 ) -> Vec<Lifetime> {
@@ -106,8 +106,7 @@ mod tests {
             };
             let mut vectors: Vec<(usize, Vec<Residue>)> = all.iter().map(|(t, v)| (*t, of(v))).collect();
             let last: Vec<usize> = basis.iter().map(|&i| all[i].0).collect();
-            let mut lent: Vec<_> = vectors.iter_mut().map(|(t, v)| (*t, v)).collect();
-            let lifetimes = shorten_lifetimes(f, &mut lent, 0..last.len(), &last);
+            let lifetimes = shorten_lifetimes(f, &mut vectors, 0..last.len(), &last);
             for t in 0..variable + 2 {
                 let at = all.partition_point(|(of, _)| *of < t);
                 let both = rows(&all[..at]) + rows(&all[at..]) - rows(&all);

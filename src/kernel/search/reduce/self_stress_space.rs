@@ -17,7 +17,9 @@ use crate::model::mechanism::{JointId, Mechanism, StateId};
 use crate::motion::displacement_series::shifted_multiples;
 use crate::search::question::kept::Kept;
 use crate::search::question::space::{Space, Variable};
+use crate::search::reduce::combinations::Combinations;
 use crate::search::reduce::lifetimes::{AddedBy, Lifetime, shorten_lifetimes};
+use hashbrown::HashMap;
 use std::borrow::{Borrow, Cow};
 use std::ops::Range;
 
@@ -207,39 +209,6 @@ pub(in crate::search) enum Part {
     Rate(usize),
 }
 
-/// Vectors as combinations of given ones.
-#[derive(Debug)]
-struct Basis {
-    size: usize,
-    rows: Echelon,
-}
-
-impl Basis {
-    /// Creates a basis of independent vectors.
-    fn new(field: Field, vectors: &[Vec<Residue>]) -> Basis {
-        let mut rows = Echelon::new(field);
-        for (i, v) in vectors.iter().enumerate() {
-            let mut row = v.clone();
-            row.resize(v.len() + vectors.len(), 0);
-            row[v.len() + i] = field.neg(field.one());
-            rows.insert(&row);
-        }
-        Basis {
-            size: vectors.len(),
-            rows,
-        }
-    }
-
-    /// Returns the factors of a vector of the span.
-    fn factors_of(&self, v: &[Residue]) -> Vec<Residue> {
-        let mut row = v.to_vec();
-        row.resize(v.len() + self.size, 0);
-        self.rows.reduce_vector(&mut row);
-        debug_assert!(row[..v.len()].iter().all(|&x| x == 0), "in the span");
-        row.split_off(v.len())
-    }
-}
-
 /// Reduces vectors modulo the motions of the original joints.
 struct BesidePresent {
     present: Echelon,
@@ -286,23 +255,19 @@ struct Reached {
 }
 
 impl Reached {
-    /// Returns the vectors that choices of variables add beyond `known`, in the coordinates from `first` on. Starting at the last variable,
-    /// each vector is listed with the last variable that reaches it.
-    fn last_reached(added: &[Vec<Vec<Added>>], first: usize, mut known: Echelon) -> Reached {
+    /// Returns the vectors of variables beyond `known`, in the coordinates from `first` on. Starting at the last variable, each vector is
+    /// listed with the last variable that reaches it.
+    fn last_reached(added: &[AddedBy], first: usize, mut known: Echelon) -> Reached {
         let mut out = Reached::default();
-        for (t, choices) in added.iter().enumerate().rev() {
-            for v in choices.iter().flatten() {
+        for of_variable in added.chunk_by(|a, b| a.0 == b.0).rev() {
+            for (t, v) in of_variable {
                 if known.insert(&v[first..]) {
-                    out.push(v[first..].to_vec(), t);
+                    out.vectors.push(v[first..].to_vec());
+                    out.by.push(*t);
                 }
             }
         }
         out.reverse_order()
-    }
-
-    fn push(&mut self, vector: Vec<Residue>, by: usize) {
-        self.vectors.push(vector);
-        self.by.push(by);
     }
 
     /// Reverses the order, so that the first variable's own vectors come first.
@@ -336,39 +301,47 @@ impl SelfStressSpace {
         let moves_kept = beside.present.pivots().iter().any(|&p| p >= closing);
         // Motions of the kept links, and what the choices add.
         let links = beside.left_units(field, closing..width);
-        let left = |column| beside.left_of(column);
-        let of_variable = |&v: &usize| -> Vec<Vec<Added>> {
-            let choices = 0..space.variables[v].choices.len();
-            choices
-                .map(|c| of_choice(v, c).into_iter().map(left).collect())
-                .collect()
-        };
-        let mut added: Vec<Vec<Vec<Added>>> = order.iter().map(of_variable).collect();
+        // A freedom of several choices is one vector.
+        let mut vectors: Vec<AddedBy> = Vec::new();
+        let mut choices: Vec<Vec<Vec<usize>>> = Vec::with_capacity(order.len());
+        for (t, &v) in order.iter().enumerate() {
+            let mut known: HashMap<Vec<Residue>, usize> = HashMap::new();
+            let mut number = |column: Vec<Residue>| {
+                *known.entry(column).or_insert_with_key(|column| {
+                    vectors.push((t, beside.left_of(column.clone())));
+                    vectors.len() - 1
+                })
+            };
+            let of_variable = 0..space.variables[v].choices.len();
+            let of_variable =
+                of_variable.map(|c| of_choice(v, c).into_iter().map(&mut number).collect());
+            choices.push(of_variable.collect());
+        }
         let self_stresses = beside.open.len() - links.rank();
-        let contours = Reached::last_reached(&added, 0, links.clone());
+        let contours = Reached::last_reached(&vectors, 0, links.clone());
         let count = contours.vectors.len();
-        let mut both = contours.vectors.clone();
+        let mut both = contours.vectors;
         both.extend(links.reduced_rows());
-        let basis = Basis::new(field, &both);
-        for vector in added.iter_mut().flatten().flatten() {
-            *vector = basis.factors_of(vector);
+        let basis = Combinations::new(field, &both);
+        for (_, vector) in &mut vectors {
+            *vector = basis.factors_of(vector).expect("in the span");
         }
-        let kept = Reached::last_reached(&added, count, Echelon::new(field));
-        let of_links = Basis::new(field, &kept.vectors);
-        for vector in added.iter_mut().flatten().flatten() {
+        let kept = Reached::last_reached(&vectors, count, Echelon::new(field));
+        let of_links = Combinations::new(field, &kept.vectors);
+        for (_, vector) in &mut vectors {
             let links = of_links.factors_of(&vector[count..]);
-            vector.splice(count.., links);
+            vector.splice(count.., links.expect("in the span"));
         }
-        let each = added.iter_mut().enumerate();
-        let mut vectors: Vec<AddedBy<'_>> = each
-            .flat_map(|(t, choices)| choices.iter_mut().flatten().map(move |v| (t, v)))
-            .collect();
         let all = count + kept.vectors.len();
         let contours = shorten_lifetimes(field, &mut vectors, 0..count, &contours.by);
         let kept = shorten_lifetimes(field, &mut vectors, count..all, &kept.by);
-        for choice in added.iter_mut().flatten() {
-            *choice = Echelon::from_vectors(field, &*choice).reduced_rows();
-        }
+        let independent = |of: &Vec<usize>| {
+            Echelon::from_vectors(field, of.iter().map(|&i| &vectors[i].1)).reduced_rows()
+        };
+        let added = choices
+            .iter()
+            .map(|of_variable| of_variable.iter().map(independent).collect())
+            .collect();
         SelfStressSpace {
             lasting: u32::try_from(self_stresses - count).unwrap_or(u32::MAX),
             added,

@@ -2,7 +2,6 @@
 
 use crate::model::joint_type::{Coupling, Freedom};
 use crate::statics::reactions::CouplingReaction;
-use crate::statics::reactions::drives::is_slide;
 use crate::view::prelude::*;
 
 /// A coupling of a state and what it passes.
@@ -26,7 +25,7 @@ pub(crate) fn state_couplings<'a>(
 
 /// Returns the unit of an effort along a freedom.
 pub(super) fn effort_unit(freedom: Freedom) -> &'static str {
-    if is_slide(freedom) { "N" } else { "N·m" }
+    if freedom.is_slide() { "N" } else { "N·m" }
 }
 
 impl Coupled<'_> {

@@ -1,6 +1,5 @@
 //! Joint reactions over a stroke.
 
-use crate::statics::reactions::drives::is_slide;
 use crate::statics::reactions::{Cycle, JointReaction, NEARLY_SINGULAR};
 use crate::view::prelude::*;
 use crate::view::reactions::couplings::{effort_unit, write_greatest};
@@ -59,7 +58,7 @@ impl<'a> ReactionsOverStroke<'a> {
     }
 
     fn drive_slides(&self) -> bool {
-        self.found.drives.first().is_some_and(|d| is_slide(d.1))
+        self.found.drives.first().is_some_and(|d| d.1.is_slide())
     }
 
     /// Returns the unit of positions in texts.

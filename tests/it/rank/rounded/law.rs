@@ -6,8 +6,8 @@
 
 use super::search_numeric::{plain_built_in, small_request, turned_bare};
 use crate::common::*;
-use crate::lab::said;
-use crate::lab::special::SpecialKind;
+use ozols::accuracy::said;
+use ozols::accuracy::special::SpecialKind;
 use rayon::prelude::*;
 
 /// Digits after the point.

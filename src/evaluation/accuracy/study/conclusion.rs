@@ -1,13 +1,13 @@
 //! The conclusion of a study: what its tallies show, in words.
 
 use super::{Row, Study, View, replies_of};
-use crate::lab::said::{Said, Tally};
-use crate::lab::timing::quantile;
-use ozols_kernel::format::{format_duration, group_thousands, join_and, three_digits, two_digits};
+use crate::accuracy::said::{Said, Tally};
+use crate::accuracy::timing::quantile;
+use crate::format::{format_duration, group_thousands, join_and, three_digits, two_digits};
 
 impl Study {
     /// Returns the conclusion from the data.
-    pub(crate) fn conclusion(&self) -> String {
+    pub fn conclusion(&self) -> String {
         let found = match self.texts.view {
             View::Front => self.describe_front(),
             View::Points if !self.note.is_empty() => String::new(),
@@ -150,10 +150,9 @@ fn join_sentences<const N: usize>(parts: [String; N]) -> String {
 }
 
 #[cfg(test)]
-#[allow(dead_code, unused_imports, reason = "a bench by itself runs no tests")]
 mod tests {
     use super::*;
-    use crate::lab::said::Reply;
+    use crate::accuracy::said::Reply;
 
     /// Ten cases at each of four values, of which so many are wrong and sure.
     fn study(name: &'static str, wrong: [usize; 4]) -> Study {

@@ -4,24 +4,24 @@ use super::change::Noise;
 use super::lattice::{Scene, make_ladder, make_lift, toggle_row};
 use super::special::SpecialKind;
 use super::{BuiltIn, Truth};
-use ozols::file::problem::ImportError;
-use ozols::file::text::mechanism_from_str;
-use ozols::model::mechanism::{Mechanism, StateId};
+use crate::file::problem::ImportError;
+use crate::file::text::mechanism_from_str;
+use crate::model::mechanism::{Mechanism, StateId};
 
 /// A state of a mechanism with its true figures.
 #[derive(Debug, Clone)]
-pub(crate) struct Case {
+pub struct Case {
     /// The mechanism.
-    pub(crate) mechanism: Mechanism,
+    pub mechanism: Mechanism,
     /// The state.
-    pub(crate) state: StateId,
+    pub state: StateId,
     /// The figures that the catalogue states.
-    pub(crate) truth: Truth,
+    pub truth: Truth,
 }
 
 impl Case {
     /// Returns the mechanism's name, with the state's name unless that is the free one.
-    pub(crate) fn name(&self) -> String {
+    pub fn name(&self) -> String {
         match self.state {
             StateId::FREE => self.mechanism.name.clone(),
             s => format!("{}, {}", self.mechanism.name, self.mechanism.states[s]),
@@ -33,7 +33,7 @@ impl Case {
 ///
 /// # Errors
 /// Returns an error if a built-in file is not valid.
-pub(crate) fn built_in_cases(built_in: BuiltIn<'_>) -> Result<Vec<Case>, ImportError> {
+pub fn built_in_cases(built_in: BuiltIn<'_>) -> Result<Vec<Case>, ImportError> {
     let mut cases = Vec::new();
     for (name, text) in built_in {
         let mechanism = mechanism_from_str(&format!("{name}.toml"), text)?;
@@ -60,7 +60,7 @@ pub(crate) fn built_in_cases(built_in: BuiltIn<'_>) -> Result<Vec<Case>, ImportE
 ///
 /// # Panics
 /// Never: the texts are valid.
-pub(crate) fn generated_cases(seed: u64) -> Vec<Case> {
+pub fn generated_cases(seed: u64) -> Vec<Case> {
     let mut cases = Vec::new();
     let mut add = |mut mechanism: Mechanism, name: String, truth: Truth| {
         mechanism.edit().name = name;

@@ -5,8 +5,9 @@ mod conclusion;
 
 use super::said::{Reply, Said, Tally};
 use super::timing::Clock;
-use ozols::chart::{Axis, Band, Bands, Chart, Scale, Series, Style, VerdictKind, page};
-use ozols_kernel::format::{csv, round_digits};
+use crate::chart::{Axis, Band, Bands, Chart, Scale, Series, Style, VerdictKind, page};
+use crate::format::{csv, round_digits};
+use crate::score::outcome::pareto::front;
 use rayon::prelude::*;
 use serde::Deserialize;
 use std::collections::BTreeMap;
@@ -14,22 +15,22 @@ use std::sync::LazyLock;
 
 /// How much to do.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Effort {
+pub struct Effort {
     /// Coarse steps and part of the mechanisms.
-    pub(crate) quick: bool,
+    pub quick: bool,
     /// Seed of the noise.
-    pub(crate) seed: u64,
+    pub seed: u64,
     /// What times are taken by.
-    pub(crate) clock: Clock,
+    pub clock: Clock,
 }
 
 /// Receives the current study, the number of finished steps and the number of all steps.
-pub(crate) type Progress<'a> = &'a mut dyn FnMut(&str, usize, usize);
+pub type Progress<'a> = &'a mut dyn FnMut(&str, usize, usize);
 
 /// How a study is drawn. All but the first two are timed: their cases are asked one after another.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "kebab-case")]
-pub(crate) enum View {
+pub enum View {
     /// The values for which each row is right.
     Regions,
     /// The shares of answers that are right, and of those that are wrong and sure.
@@ -45,13 +46,13 @@ pub(crate) enum View {
 }
 
 /// The name of a row, with its tally at each of its values.
-pub(crate) type Row = (String, Vec<(f64, Tally)>);
+pub type Row = (String, Vec<(f64, Tally)>);
 
 /// The texts of a study, and how it is drawn; `studies.toml` says more.
 #[derive(Debug, Clone, Deserialize)]
-pub(crate) struct Texts {
+pub struct Texts {
     /// The title.
-    pub(crate) title: String,
+    pub title: String,
     #[serde(default)]
     about: String,
     view: View,
@@ -68,7 +69,7 @@ pub(crate) struct Texts {
     #[serde(default = "said_words")]
     words: [String; 4],
     /// Advice to the user.
-    pub(crate) advice: String,
+    pub advice: String,
 }
 
 fn said_words() -> [String; 4] {
@@ -87,22 +88,22 @@ static TEXTS: LazyLock<BTreeMap<String, Texts>> =
 
 /// A study.
 #[derive(Debug, Clone)]
-pub(crate) struct Study {
+pub struct Study {
     /// The stem of its files.
-    pub(crate) name: &'static str,
+    pub name: &'static str,
     /// Its texts.
-    pub(crate) texts: Texts,
+    pub texts: Texts,
     /// The values of the quantity, ascending.
-    pub(crate) values: Vec<f64>,
+    pub values: Vec<f64>,
     /// The rows.
-    pub(crate) rows: Vec<Row>,
+    pub rows: Vec<Row>,
     /// A further sentence for the conclusion, or empty.
-    pub(crate) note: String,
+    pub note: String,
 }
 
 impl Study {
     /// Returns a study without answers, which has texts by its name.
-    pub(crate) fn new(name: &'static str, values: Vec<f64>) -> Study {
+    pub fn new(name: &'static str, values: Vec<f64>) -> Study {
         Study {
             name,
             texts: TEXTS[name].clone(),
@@ -140,7 +141,7 @@ impl Study {
     }
 
     /// Adds a tally to a row, which is new if none has its name.
-    pub(crate) fn add_tally(&mut self, row: &str, value: f64, tally: Tally) {
+    pub fn add_tally(&mut self, row: &str, value: f64, tally: Tally) {
         match self.rows.iter_mut().find(|r| r.0 == row) {
             Some(row) => row.1.push((value, tally)),
             None => self.rows.push((row.to_owned(), vec![(value, tally)])),
@@ -152,7 +153,7 @@ impl Study {
     }
 
     /// Returns the table, with a line for each row and each value that has replies.
-    pub(crate) fn to_csv(&self) -> String {
+    pub fn to_csv(&self) -> String {
         let mut heads = vec!["asked", self.texts.column.as_str(), "cases", "right"];
         heads.extend(["undecided", "wrong_not_exact", "wrong_and_sure", "wrong"]);
         heads.extend(self.is_timed().then_some("median_seconds"));
@@ -184,7 +185,7 @@ impl Study {
     }
 
     /// Returns the chart as SVG.
-    pub(crate) fn to_svg(&self) -> String {
+    pub fn to_svg(&self) -> String {
         let texts = &self.texts;
         let by_decades = |linear| if linear { Scale::Linear } else { Scale::Log };
         let x = Axis {
@@ -313,26 +314,9 @@ fn verdict_bands(values: &[f64], kinds: impl IntoIterator<Item = VerdictKind>) -
     out
 }
 
-/// Returns the indices of the points that are right more often than all faster ones, the fastest first. Points are (seconds,
-/// share).
-fn front(points: &[(f64, f64)]) -> Vec<usize> {
-    let mut order: Vec<usize> = (0..points.len()).collect();
-    order.sort_by(|&a, &b| {
-        let ((t, share), (u, other)) = (points[a], points[b]);
-        t.total_cmp(&u).then(other.total_cmp(&share))
-    });
-    let mut best = f64::NEG_INFINITY;
-    order.retain(|&i| {
-        let ahead = points[i].1 > best;
-        best = best.max(points[i].1);
-        ahead
-    });
-    order
-}
-
 /// Returns the names and texts of all files of some studies and further tables. `index.html` is the last, so that it exists only after the
 /// files that it shows. `made` says how they were made.
-pub(crate) fn page_files(
+pub fn page_files(
     title: &str,
     made: &str,
     studies: &[Study],
@@ -358,7 +342,6 @@ pub(crate) fn page_files(
 }
 
 #[cfg(test)]
-#[allow(dead_code, unused_imports, reason = "a bench by itself runs no tests")]
 mod tests {
     use super::*;
 

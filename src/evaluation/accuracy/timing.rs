@@ -1,7 +1,9 @@
-//! How long something takes: by which clock, how often, and how far the times spread.
+//! How long something takes: on which machine, by which clock, how often, and how far the times spread.
 //!
 //! The clock is the caller's, so that nothing here reads one by itself.
 
+use serde::Serialize;
+use std::fmt;
 use std::hint::black_box;
 use std::time::Duration;
 
@@ -13,24 +15,71 @@ const LONG: Duration = Duration::from_secs(2);
 const LEAST: usize = 3;
 
 /// The time since some moment, never less than before.
-pub(crate) type Clock = fn() -> Duration;
+pub type Clock = fn() -> Duration;
+
+/// What times are measured on: a figure of speed says nothing without it.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct Machine {
+    /// The processor's name, or that of its kind.
+    pub processor: String,
+    /// Threads used.
+    pub threads: usize,
+    /// Processors there are.
+    pub cores: usize,
+    /// Bytes of memory, if the system reports it.
+    #[serde(rename = "memory_bytes")]
+    pub memory: Option<u64>,
+    /// The operating system.
+    pub system: String,
+    /// The program's version.
+    pub version: &'static str,
+    /// Whether the program was compiled for speed.
+    pub optimised: bool,
+    /// What times are: "processor time", which other programs hardly change, or "time" on the wall.
+    pub clock: &'static str,
+}
+
+impl fmt::Display for Machine {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Machine {
+            processor,
+            threads,
+            cores,
+            system,
+            version,
+            ..
+        } = self;
+        write!(f, "{processor}, {threads} of {cores} cores")?;
+        if let Some(bytes) = self.memory {
+            write!(f, ", {} GB", (bytes + 500_000_000) / 1_000_000_000)?;
+        }
+        write!(f, ", {system}; ozols {version}")?;
+        if !self.optimised {
+            write!(
+                f,
+                ", a development build, which is slower than a release build"
+            )?;
+        }
+        Ok(())
+    }
+}
 
 /// Times of one thing, in seconds.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Timing {
+pub struct Timing {
     /// The middle of them.
-    pub(crate) median: f64,
+    pub median: f64,
     /// The shortest.
-    pub(crate) least: f64,
+    pub least: f64,
     /// The longest.
-    pub(crate) most: f64,
+    pub most: f64,
     /// How many there are.
-    pub(crate) repeats: usize,
+    pub repeats: usize,
 }
 
 impl Timing {
     /// Creates the timing from at least one time.
-    pub(crate) fn of(times: &[f64]) -> Timing {
+    pub fn of(times: &[f64]) -> Timing {
         let [least, median, most] = [0.0, 0.5, 1.0].map(|at| quantile(times, at));
         Timing {
             median,
@@ -43,17 +92,17 @@ impl Timing {
 
 /// How times are taken.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Stopwatch {
+pub struct Stopwatch {
     /// The clock.
-    pub(crate) clock: Clock,
+    pub clock: Clock,
     /// The largest number of repetitions. There is at least one.
-    pub(crate) repeat: usize,
+    pub repeat: usize,
 }
 
 impl Stopwatch {
     /// Does something up to `repeat` times, and returns the last result with the times. If there are several, the first one does not
     /// count.
-    pub(crate) fn time_repeatedly<T>(&self, mut f: impl FnMut() -> T) -> (T, Timing) {
+    pub fn time_repeatedly<T>(&self, mut f: impl FnMut() -> T) -> (T, Timing) {
         let begun = (self.clock)();
         let mut times = Vec::new();
         loop {
@@ -86,7 +135,6 @@ pub(crate) fn quantile(of: &[f64], share: f64) -> f64 {
 }
 
 #[cfg(test)]
-#[allow(dead_code, unused_imports, reason = "a bench by itself runs no tests")]
 mod tests {
     use super::*;
     use std::sync::atomic::{AtomicU64, Ordering};

@@ -1,15 +1,15 @@
 //! What if coordinates are a little off: exactly displaced, displaced among digits, or rounded.
 
-use crate::lab::cases::Case;
-use crate::lab::change::{Noise, displace_joint, turned_and_rounded};
-use crate::lab::said::{Reply, Said};
-use crate::lab::special::SpecialKind;
-use crate::lab::study::{Effort, Progress, Study};
-use ozols::file::text::mechanism_from_str;
-use ozols::model::mechanism::StateId;
-use ozols::rank::method::auto::decide_state;
-use ozols::rank::method::{MobilityMethod, registry};
-use ozols_kernel::format::group_thousands;
+use crate::accuracy::cases::Case;
+use crate::accuracy::change::{Noise, displace_joint, turned_and_rounded};
+use crate::accuracy::said::{Reply, Said};
+use crate::accuracy::special::SpecialKind;
+use crate::accuracy::study::{Effort, Progress, Study};
+use crate::file::text::mechanism_from_str;
+use crate::format::group_thousands;
+use crate::model::mechanism::StateId;
+use crate::rank::method::auto::decide_state;
+use crate::rank::method::{MobilityMethod, registry};
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// Returns the study of special mechanisms with one coordinate displaced exactly, by the first to the sixteenth digit. A method is right if it is

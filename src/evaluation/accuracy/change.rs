@@ -1,13 +1,13 @@
 //! Mechanisms with their geometry changed.
 
+use crate::geom::expr::Expr;
+use crate::geom::rigid::RigidMotion;
+use crate::geom::vector::to_vector;
+use crate::model::mechanism::{JointId, Mechanism, Mode};
 use chacha20::ChaCha8Rng;
 use chacha20::rand_core::{Rng, SeedableRng};
 use num_bigint::BigInt;
 use num_rational::BigRational;
-use ozols::geom::expr::Expr;
-use ozols::geom::rigid::RigidMotion;
-use ozols::geom::vector::to_vector;
-use ozols::model::mechanism::{JointId, Mechanism, Mode};
 
 /// Returns 10^e, exactly.
 pub(crate) fn power_of_ten(e: i32) -> Expr {
@@ -85,18 +85,18 @@ pub(crate) fn with_exact_decimals(mechanism: &Mechanism) -> Mechanism {
 
 /// Noise that is the same for the same seed on every machine.
 #[derive(Debug)]
-pub(crate) struct Noise(ChaCha8Rng);
+pub struct Noise(ChaCha8Rng);
 
 impl Noise {
     /// Creates the noise of a seed, for the `n`th mechanism.
-    pub(crate) fn new(seed: u64, n: usize) -> Noise {
+    pub fn new(seed: u64, n: usize) -> Noise {
         let mut random = ChaCha8Rng::seed_from_u64(seed);
         random.set_stream(n as u64);
         Noise(random)
     }
 
     /// Returns a uniform random number in [-1, 1].
-    pub(crate) fn draw_uniform(&mut self) -> f64 {
+    pub fn draw_uniform(&mut self) -> f64 {
         f64::from(self.0.next_u32()) / f64::from(u32::MAX) * 2.0 - 1.0
     }
 
@@ -108,11 +108,7 @@ impl Noise {
 
 /// Returns the mechanism turned at random, a planar one about the normal of its plane, and with every number rounded to the given
 /// decimals.
-pub(crate) fn turned_and_rounded(
-    mechanism: &Mechanism,
-    decimals: usize,
-    noise: &mut Noise,
-) -> Mechanism {
+pub fn turned_and_rounded(mechanism: &Mechanism, decimals: usize, noise: &mut Noise) -> Mechanism {
     let mut m = without_options(mechanism);
     let angle = std::f64::consts::PI * noise.draw_uniform();
     let spatial = matches!(m.mode, Mode::Spatial);
@@ -139,11 +135,10 @@ pub(crate) fn turned_and_rounded(
 }
 
 #[cfg(test)]
-#[allow(dead_code, unused_imports, reason = "a bench by itself runs no tests")]
 mod tests {
     use super::*;
+    use crate::file::text::mechanism_from_str;
     use ozols::builtin;
-    use ozols::file::text::mechanism_from_str;
 
     #[test]
     fn changes_are_as_large_as_asked() {

@@ -2,15 +2,15 @@
 
 use super::Truth;
 use super::change::{Noise, Place, with_exact_decimals};
-use ozols::file::text::mechanism_from_str;
-use ozols::geom::rigid::RigidMotion;
-use ozols::geom::vector::Vector;
-use ozols::model::mechanism::Mechanism;
+use crate::file::text::mechanism_from_str;
+use crate::geom::rigid::RigidMotion;
+use crate::geom::vector::Vector;
+use crate::model::mechanism::Mechanism;
 use std::fmt::Write as _;
 
 /// A kind of special geometry.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum SpecialKind {
+pub enum SpecialKind {
     /// A door on two hinges, one out of line.
     Door,
     /// A planar four-bar with one axis tilted.
@@ -28,7 +28,7 @@ const Z: Vector = [0.0, 0.0, 1.0];
 
 impl SpecialKind {
     /// All of them.
-    pub(crate) const ALL: [SpecialKind; 4] = [
+    pub const ALL: [SpecialKind; 4] = [
         SpecialKind::Door,
         SpecialKind::FourBar,
         SpecialKind::Spherical,
@@ -36,7 +36,7 @@ impl SpecialKind {
     ];
 
     /// Returns the name used in pictures.
-    pub(crate) fn name(self) -> &'static str {
+    pub fn name(self) -> &'static str {
         match self {
             SpecialKind::Door => "door",
             SpecialKind::FourBar => "four-bar",
@@ -46,7 +46,7 @@ impl SpecialKind {
     }
 
     /// Returns the true figures, with the offset or without it. Parallel rods of any length stay shaky.
-    pub(crate) fn true_figures(self, off: bool) -> Truth {
+    pub fn true_figures(self, off: bool) -> Truth {
         match (self, off) {
             (_, false) => Truth::new(1, 1),
             (SpecialKind::Rods, true) => Truth::new(1, 0),
@@ -107,13 +107,7 @@ impl SpecialKind {
 
     /// Returns the file of a mechanism that is off by `units` units of the last digit. With `turned`, it is rotated in
     /// space.
-    pub(crate) fn text(
-        self,
-        units: f64,
-        decimals: usize,
-        turned: bool,
-        noise: &mut Noise,
-    ) -> String {
+    pub fn text(self, units: f64, decimals: usize, turned: bool, noise: &mut Noise) -> String {
         let unit = 10f64.powi(-(decimals as i32));
         let axis = [(); 3].map(|()| noise.draw_uniform());
         let angle = std::f64::consts::PI * noise.draw_uniform();

@@ -1,61 +1,61 @@
 //! Every method on every mechanism of known mobility.
 
 use super::AnswerVerdict;
-pub(crate) use super::cases::{Case, built_in_cases, generated_cases};
+pub use super::cases::{Case, built_in_cases, generated_cases};
 use super::said::Tally;
 use super::study::Study;
 use super::timing::{Stopwatch, Timing, quantile};
-use ozols::rank::method::registry;
-use ozols::rank::method::{Answer, MobilityMethod, NoAnswer, Quantity};
-use ozols_kernel::format::csv;
+use crate::format::csv;
+use crate::rank::method::registry;
+use crate::rank::method::{Answer, MobilityMethod, NoAnswer, Quantity};
 use rayon::prelude::*;
 use std::hint::black_box;
 
 /// The answer of a method to a case.
 #[derive(Debug, Clone)]
-pub(crate) struct Reply {
+pub struct Reply {
     /// The answer, or why there is none.
-    pub(crate) answer: Result<Answer, NoAnswer>,
+    pub answer: Result<Answer, NoAnswer>,
     /// The verdict on it.
-    pub(crate) verdict: AnswerVerdict,
+    pub verdict: AnswerVerdict,
     /// Time from the parsed mechanism to the answer.
-    pub(crate) time: Timing,
+    pub time: Timing,
 }
 
 /// A method's record over all cases.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct MethodRecord {
+pub struct MethodRecord {
     /// Cases it answers.
-    pub(crate) applies: usize,
+    pub applies: usize,
     /// Cases in which it gives the finite mobility.
-    pub(crate) right: usize,
+    pub right: usize,
     /// Cases in which it gives the mobility at the pose, which is not the finite one.
-    pub(crate) pose: usize,
+    pub pose: usize,
     /// Median time of an answer over the cases it answers.
-    pub(crate) seconds: f64,
+    pub seconds: f64,
 }
 
 impl MethodRecord {
     /// Returns the number of cases with a wrong answer, for the pose too.
-    pub(crate) fn count_wrong(&self) -> usize {
+    pub fn count_wrong(&self) -> usize {
         self.applies - self.right - self.pose
     }
 }
 
 /// Every method on every case.
 #[derive(Debug)]
-pub(crate) struct Survey {
+pub struct Survey {
     /// The cases, by name.
-    pub(crate) cases: Vec<Case>,
+    pub cases: Vec<Case>,
     /// The replies of each method of [`registry::ALL`], case by case.
-    pub(crate) replies: Vec<Vec<Reply>>,
+    pub replies: Vec<Vec<Reply>>,
 }
 
 impl Survey {
     /// Asks every method about every case: all answers first, on all threads; then times one after another.
     ///
     /// `progress` gets the cases done and their number.
-    pub(crate) fn new(
+    pub fn new(
         cases: Vec<Case>,
         watch: Stopwatch,
         progress: &mut dyn FnMut(usize, usize),
@@ -86,7 +86,7 @@ impl Survey {
     }
 
     /// Returns the replies of the `m`th method with their cases.
-    pub(crate) fn of_method(&self, m: usize) -> impl Iterator<Item = (&Case, &Reply)> {
+    pub fn of_method(&self, m: usize) -> impl Iterator<Item = (&Case, &Reply)> {
         self.cases
             .iter()
             .zip(&self.replies)
@@ -94,7 +94,7 @@ impl Survey {
     }
 
     /// Returns the record of the `m`th method.
-    pub(crate) fn record_of(&self, m: usize) -> MethodRecord {
+    pub fn record_of(&self, m: usize) -> MethodRecord {
         let count = |of: &dyn Fn(&Reply) -> bool| self.of_method(m).filter(|(_, r)| of(r)).count();
         let right = count(&|r| r.verdict == AnswerVerdict::Right);
         let times: Vec<f64> = self
@@ -111,7 +111,7 @@ impl Survey {
     }
 
     /// Returns the share of right answers of each method against its median time, as the study of this name.
-    pub(crate) fn as_study(&self, name: &'static str) -> Study {
+    pub fn as_study(&self, name: &'static str) -> Study {
         let mut study = Study::new(name, Vec::new());
         for (m, method) in registry::ALL.iter().enumerate() {
             let record = self.record_of(m);
@@ -124,7 +124,7 @@ impl Survey {
     }
 
     /// Returns how often answers were timed.
-    pub(crate) fn describe_repeats(&self) -> String {
+    pub fn describe_repeats(&self) -> String {
         let repeats = self.replies.iter().flatten().map(|r| r.time.repeats);
         match repeats.max() {
             None | Some(0 | 1) => "Each answer was timed once".to_owned(),
@@ -133,7 +133,7 @@ impl Survey {
     }
 
     /// Returns a line for each case and method.
-    pub(crate) fn to_csv(&self) -> String {
+    pub fn to_csv(&self) -> String {
         let heads = "mechanism,state,method,answer,quantity,certainty,expected_instantaneous,expected_finite,verdict,error,reason,\
                      median_seconds,least_seconds,most_seconds,repeats";
         let row = |m: usize, case: &Case, reply: &Reply| {

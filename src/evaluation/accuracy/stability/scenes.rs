@@ -1,22 +1,22 @@
 //! The value of a smaller model of a scene, and whether the first idea stays first if costs and proportions change.
 
-use crate::lab::cases::Case;
-use crate::lab::change::{Noise, stretch};
-use crate::lab::lattice::{Scene, make_ladder};
-use crate::lab::said::{Reply, Said};
-use crate::lab::study::{Effort, Progress, Study};
-use crate::lab::timing::Stopwatch;
-use ozols::closure::Closure;
-use ozols::closure::contour::contour_basis;
-use ozols::model::mechanism::{Mechanism, StateId};
-use ozols::rank::exact::field::field_of;
-use ozols::rank::exact::modular;
-use ozols::rank::reduce::sufficient_rows::LeastRows;
-use ozols::score::outcome::variant::Change;
-use ozols::score::request::{Check, List, Request};
-use ozols::score::run::run;
-use ozols::search::question::cost::CostTable;
-use ozols_kernel::format::join_and;
+use crate::accuracy::cases::Case;
+use crate::accuracy::change::{Noise, stretch};
+use crate::accuracy::lattice::{Scene, make_ladder};
+use crate::accuracy::said::{Reply, Said};
+use crate::accuracy::study::{Effort, Progress, Study};
+use crate::accuracy::timing::Stopwatch;
+use crate::closure::Closure;
+use crate::closure::contour::contour_basis;
+use crate::format::join_and;
+use crate::model::mechanism::{Mechanism, StateId};
+use crate::rank::exact::field::field_of;
+use crate::rank::exact::modular;
+use crate::rank::reduce::sufficient_rows::LeastRows;
+use crate::score::outcome::variant::Change;
+use crate::score::request::{Check, List, Request};
+use crate::score::run::run;
+use crate::search::question::cost::CostTable;
 use std::collections::BTreeMap;
 use std::sync::{Mutex, PoisonError};
 

@@ -10,7 +10,7 @@ use super::cases::Case;
 use super::study::{Effort, Progress, Study};
 
 /// Runs every study in turn.
-pub(crate) fn run_studies(cases: &[Case], effort: Effort, progress: Progress<'_>) -> Vec<Study> {
+pub fn run_studies(cases: &[Case], effort: Effort, progress: Progress<'_>) -> Vec<Study> {
     let step = if effort.quick { 4 } else { 1 };
     let some: Vec<Case> = cases.iter().step_by(step).cloned().collect();
     vec![

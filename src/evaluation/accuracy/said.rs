@@ -2,13 +2,13 @@
 
 use super::timing::quantile;
 use super::{AnswerVerdict, Truth};
-use ozols::model::mechanism::{Mechanism, StateId};
-use ozols::rank::method::auto::{Decision, decide_state};
-use ozols::rank::method::{Certainty, MobilityMethod, NoAnswer};
+use crate::model::mechanism::{Mechanism, StateId};
+use crate::rank::method::auto::{Decision, decide_state};
+use crate::rank::method::{Certainty, MobilityMethod, NoAnswer};
 
 /// A judgement of an answer against the truth.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub(crate) enum Said {
+pub enum Said {
     /// The true figures.
     Right,
     /// No figures, or a range.
@@ -24,7 +24,7 @@ impl Said {
     pub(super) const ALL: [Said; 4] = [Said::Right, Said::Open, Said::Hedged, Said::Wrong];
 
     /// Judges an answer: whether it is given, whether it is called exact, and whether it is right.
-    pub(crate) fn judge(given: bool, exact: bool, right: bool) -> Said {
+    pub fn judge(given: bool, exact: bool, right: bool) -> Said {
         match (given, right, exact) {
             (false, ..) => Said::Open,
             (_, true, _) => Said::Right,
@@ -58,7 +58,7 @@ impl Said {
 
     /// Judges W at the pose and the finite mobility of a decision. The figures of a nearly special geometry are not exact, nor are
     /// those of a traced motion.
-    pub(crate) fn of_decision(found: Option<&Decision>, truth: Truth) -> [Said; 2] {
+    pub fn of_decision(found: Option<&Decision>, truth: Truth) -> [Said; 2] {
         let Some(d) = found else {
             return [Said::Open; 2];
         };
@@ -129,15 +129,15 @@ impl Reply {
 
 /// Replies counted.
 #[derive(Debug, Clone, Default, PartialEq)]
-pub(crate) struct Tally {
+pub struct Tally {
     /// How many of each of [`Said`].
-    pub(crate) of: [usize; 4],
+    pub of: [usize; 4],
     /// The cases that are wrong and sure.
-    pub(crate) wrong: Vec<String>,
+    pub wrong: Vec<String>,
     /// How long each took.
-    pub(crate) seconds: Vec<f64>,
+    pub seconds: Vec<f64>,
     /// The figure that is drawn; `None` if it follows from the counts or the times.
-    pub(crate) figure: Option<f64>,
+    pub figure: Option<f64>,
 }
 
 impl Tally {
@@ -155,7 +155,7 @@ impl Tally {
     }
 
     /// Returns a tally of right and of wrong answers that took a time together.
-    pub(crate) fn of_share(right: usize, of: usize, seconds: f64) -> Tally {
+    pub fn of_share(right: usize, of: usize, seconds: f64) -> Tally {
         Tally {
             of: [right, 0, 0, of - right],
             seconds: vec![seconds],
@@ -164,24 +164,24 @@ impl Tally {
     }
 
     /// Adds the counts of another tally.
-    pub(crate) fn add(&mut self, other: &Tally) {
+    pub fn add(&mut self, other: &Tally) {
         for (sum, of) in self.of.iter_mut().zip(other.of) {
             *sum += of;
         }
     }
 
     /// Returns the number of replies.
-    pub(crate) fn count_replies(&self) -> usize {
+    pub fn count_replies(&self) -> usize {
         self.of.iter().sum()
     }
 
     /// Returns the median time in seconds.
-    pub(crate) fn median_time(&self) -> f64 {
+    pub fn median_time(&self) -> f64 {
         quantile(&self.seconds, 0.5)
     }
 
     /// Returns the share of one of [`Said`] in per cent; 0 if there are no replies.
-    pub(crate) fn percent_of(&self, said: Said) -> f64 {
+    pub fn percent_of(&self, said: Said) -> f64 {
         100.0 * self.of[said as usize] as f64 / self.count_replies().max(1) as f64
     }
 }

@@ -1,23 +1,23 @@
 //! How far methods reach: size, unit of length, order of shakiness, and how small a prime may be.
 
-use crate::lab::Truth;
-use crate::lab::cases::Case;
-use crate::lab::change::{Noise, resize};
-use crate::lab::lattice::{Scene, make_ladder, make_lift, toggle_row};
-use crate::lab::said::{Reply, Said, Tally};
-use crate::lab::study::{Effort, Progress, Study};
-use crate::lab::timing::{Stopwatch, quantile};
-use ozols::closure::Closure;
-use ozols::file::text::mechanism_from_str;
-use ozols::geom::exact::ExactField;
-use ozols::geom::expr::Expr;
-use ozols::linalg::modp::is_prime;
-use ozols::model::joint_type::JointType;
-use ozols::model::mechanism::{JointId, Mechanism, StateId};
-use ozols::rank::exact::modular;
-use ozols::rank::method::{MobilityMethod, registry};
-use ozols::rank::numeric::Elimination;
-use ozols_kernel::format::format_duration;
+use crate::accuracy::Truth;
+use crate::accuracy::cases::Case;
+use crate::accuracy::change::{Noise, resize};
+use crate::accuracy::lattice::{Scene, make_ladder, make_lift, toggle_row};
+use crate::accuracy::said::{Reply, Said, Tally};
+use crate::accuracy::study::{Effort, Progress, Study};
+use crate::accuracy::timing::{Stopwatch, quantile};
+use crate::closure::Closure;
+use crate::file::text::mechanism_from_str;
+use crate::format::format_duration;
+use crate::geom::exact::ExactField;
+use crate::geom::expr::Expr;
+use crate::linalg::modp::is_prime;
+use crate::model::joint_type::JointType;
+use crate::model::mechanism::{JointId, Mechanism, StateId};
+use crate::rank::exact::modular;
+use crate::rank::method::{MobilityMethod, registry};
+use crate::rank::numeric::Elimination;
 use std::collections::HashSet;
 use std::sync::{Mutex, PoisonError};
 

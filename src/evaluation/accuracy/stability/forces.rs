@@ -1,12 +1,12 @@
 //! Forces near dead points.
 
-use crate::lab::change::Noise;
-use crate::lab::said::{Reply, Said};
-use crate::lab::special::Sketch;
-use crate::lab::study::{Effort, Progress, Study};
-use ozols::file::text::mechanism_from_str;
-use ozols::model::mechanism::StateId;
-use ozols::statics::reactions::solve::Reactions;
+use crate::accuracy::change::Noise;
+use crate::accuracy::said::{Reply, Said};
+use crate::accuracy::special::Sketch;
+use crate::accuracy::study::{Effort, Progress, Study};
+use crate::file::text::mechanism_from_str;
+use crate::model::mechanism::StateId;
+use crate::statics::reactions::solve::Reactions;
 
 /// The digits that are asked for.
 const DIGITS: [i32; 3] = [6, 9, 12];

@@ -1,33 +1,31 @@
 //! Accuracy and speed of every rank method on the built-in mechanisms.
 //!
-//! The [`survey`] asks every method of [`ozols::rank::method`] about mechanisms of known mobility; [`stability`] moves
-//! geometry, digits, size, unit and prime until answers turn wrong. `benches/ways` compares the ways of searching, and the
-//! integration tests run the studies.
+//! The [`survey`] asks every method of [`crate::rank::method`] about mechanisms of known mobility; [`stability`] moves
+//! geometry, digits, size, unit and prime until answers turn wrong. `benches/ways` compares the ways of searching.
 //! Verdicts are the same on every run; only times differ.
 
-mod cases;
-pub(crate) mod change;
-pub(crate) mod lattice;
-pub(crate) mod run;
-pub(crate) mod said;
-pub(crate) mod special;
-pub(crate) mod stability;
-pub(crate) mod study;
-pub(crate) mod survey;
-pub(crate) mod timing;
+pub(crate) mod cases;
+pub mod change;
+pub mod lattice;
+pub mod said;
+pub mod special;
+pub mod stability;
+pub mod study;
+pub mod survey;
+pub mod timing;
 
-use ozols::rank::method::{Answer, NoAnswer, Quantity};
+use crate::rank::method::{Answer, NoAnswer, Quantity};
 
 /// The built-in mechanisms, each its name and the text of its file; the front door has them.
-pub(crate) type BuiltIn<'a> = &'a [(&'a str, &'a str)];
+pub type BuiltIn<'a> = &'a [(&'a str, &'a str)];
 
 /// The true figures of a state of a mechanism.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) struct Truth {
+pub struct Truth {
     /// f - rank J at the pose of the file.
-    pub(crate) instantaneous: i64,
+    pub instantaneous: i64,
     /// The motion that is really there.
-    pub(crate) finite: i64,
+    pub finite: i64,
 }
 
 impl Truth {
@@ -42,7 +40,7 @@ impl Truth {
 
 /// A verdict on an answer.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum AnswerVerdict {
+pub enum AnswerVerdict {
     /// The finite mobility.
     Right,
     /// The mobility at the pose, which is all the method speaks of, but not the finite one; by how much.
@@ -57,7 +55,7 @@ pub(crate) enum AnswerVerdict {
 
 impl AnswerVerdict {
     /// Returns the verdict on an answer.
-    pub(crate) fn judge_answer(answer: &Result<Answer, NoAnswer>, truth: Truth) -> AnswerVerdict {
+    pub fn judge_answer(answer: &Result<Answer, NoAnswer>, truth: Truth) -> AnswerVerdict {
         match answer {
             Ok(a) if a.mobility == truth.finite => AnswerVerdict::Right,
             Ok(a) if a.quantity == Quantity::Instantaneous && a.mobility == truth.instantaneous => {
@@ -79,7 +77,7 @@ impl AnswerVerdict {
     }
 
     /// Returns the word used in machine-readable output.
-    pub(crate) fn word(self) -> &'static str {
+    pub fn word(self) -> &'static str {
         match self {
             AnswerVerdict::Right => "right",
             AnswerVerdict::Pose(_) => "right at the pose",

@@ -2,12 +2,12 @@
 
 use super::change::Noise;
 use super::special::Sketch;
-use ozols::file::text::mechanism_from_str;
-use ozols::model::mechanism::Mechanism;
+use crate::file::text::mechanism_from_str;
+use crate::model::mechanism::Mechanism;
 
 /// Returns the file of a row of toggles that is shaky of order 2^levels: each knee is pushed by the one before by the square of its
 /// motion. At the pose it has one freedom, and none in truth [Connelly and Servatius 1994; Calladine and Pellegrino 1991].
-pub(crate) fn toggle_row(levels: usize, noise: &mut Noise) -> String {
+pub fn toggle_row(levels: usize, noise: &mut Noise) -> String {
     let mut length = || 100 + (30.0 * noise.draw_uniform()) as i64;
     let mut file = Sketch::default();
     // The first knee lies between two bars along x, each further one between two bars across the last push.
@@ -34,7 +34,7 @@ pub(crate) fn toggle_row(levels: usize, noise: &mut Noise) -> String {
 
 /// The motions of the joints of a random ladder.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Scene {
+pub enum Scene {
     /// Hinges across one plane.
     Plane,
     /// Hinges, balls, universal and cylindrical joints across one plane: the equations split into those in the plane and those out of it.
@@ -47,11 +47,10 @@ pub(crate) enum Scene {
 
 impl Scene {
     /// All of them.
-    pub(crate) const ALL: [Scene; 4] =
-        [Scene::Plane, Scene::AboutPlane, Scene::Sphere, Scene::Space];
+    pub const ALL: [Scene; 4] = [Scene::Plane, Scene::AboutPlane, Scene::Sphere, Scene::Space];
 
     /// Returns its name in pictures.
-    pub(crate) fn name(self) -> &'static str {
+    pub fn name(self) -> &'static str {
         match self {
             Scene::Plane => "plane",
             Scene::AboutPlane => "in and out of a plane",
@@ -69,7 +68,7 @@ const OPTIONS: [&str; 4] = ["revolute", "cylindrical", "universal", "spherical"]
 ///
 /// # Panics
 /// Never: the text is valid.
-pub(crate) fn make_ladder(scene: Scene, contours: usize, noise: &mut Noise) -> Mechanism {
+pub fn make_ladder(scene: Scene, contours: usize, noise: &mut Noise) -> Mechanism {
     let mut file = Sketch::default();
     let mut pin = |a: usize, b: usize| {
         let mut three = || [(); 3].map(|()| noise.draw_integer(10));
@@ -108,7 +107,16 @@ pub(crate) fn make_ladder(scene: Scene, contours: usize, noise: &mut Noise) -> M
 ///
 /// # Panics
 /// Never: the text is valid.
-pub(crate) fn make_lift(stages: usize) -> Mechanism {
+///
+/// # Examples
+/// ```
+/// use ozols::accuracy::lattice::make_lift;
+/// // A scissor lift is planar: three redundant constraints in each of its loops.
+/// let free = &ozols::analyze(&make_lift(3))?[0];
+/// assert_eq!(free.redundant, free.mobility + 6 * free.contours - free.freedoms);
+/// # Ok::<(), ozols::Error>(())
+/// ```
+pub fn make_lift(stages: usize) -> Mechanism {
     let mut file = Sketch::with_links(["0", "slide"]);
     let slider = |file: &mut Sketch, ends: [&str; 2], y: i64| {
         file.add_joint(ends, "prismatic", &format!("[60, {y}, 0]"), "[1, 0, 0]");
