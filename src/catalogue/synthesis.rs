@@ -2,8 +2,8 @@
 //!
 //! A structure is a chain with the roles of its links, the motion of its driver, and its symmetry. A layout places its pins in the plane.
 //! It is exactly symmetric and regular, and it moves as a gripper does. A search optimises its proportions. Coordinates are whole
-//! millimetres, or thousandths of a millimetre if whole ones give a special pose by chance. Turns of whole coordinates by 120° are exact,
-//! too. This module also makes the random numbers for the search.
+//! millimetres, or thousandths in catalogues of structures that have only hinges: whole ones often give a special pose by chance. Turns of
+//! whole coordinates by 120° are exact, too. This module also makes the random numbers for the search.
 
 pub(crate) mod equations;
 pub mod figures;

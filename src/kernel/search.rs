@@ -19,8 +19,7 @@ mod reduce;
 #[doc(hidden)]
 pub mod testing;
 
-use crate::geom::exact::{ExactError, ExactField};
-use crate::model::mechanism::Mechanism;
+use crate::geom::exact::ExactError;
 use crate::search::answer::counts::{self, Counts};
 use crate::search::answer::ideas::least_freedoms::{self, Less};
 use crate::search::answer::ideas::{self, Idea, IdeaBasis};
@@ -31,52 +30,13 @@ use crate::search::build::Diagrams;
 use crate::search::build::orders::Orders;
 use crate::search::diagram::{Diagram, Progress};
 use crate::search::question::Question;
-use crate::search::question::conditions::{Conditions, SearchError};
 use crate::search::question::rounded_rank::Digits;
 use num_bigint::BigUint;
-use std::ops::Deref;
-use std::sync::Arc;
 
-/// A search: a prepared problem, its diagrams, and the results read from them.
-///
-/// # Examples
-/// ```
-/// use ozols::{rank::exact::field::exact_field, search::{Search, question::conditions::Conditions}};
-/// let gripper = ozols::built_in("gripper-10")?;
-/// let search = Search::new(exact_field(&gripper, 0)?, &gripper, Conditions::default())?;
-/// let diagrams = search.build_diagrams(&|| false, &mut |_| {});
-/// let counts = search.count_variants(&diagrams.admissible, true);
-/// assert_eq!(counts.to_string(), "25761436"); // In the drawn pose.
-/// # Ok::<(), Box<dyn std::error::Error>>(())
-/// ```
-#[derive(Debug)]
-pub struct Search {
-    question: Question,
-}
+/// A search is a prepared question: this module has the methods that build its diagrams and read them.
+pub use crate::search::question::Question as Search;
 
-/// Gives access to the problem from the search.
-impl Deref for Search {
-    type Target = Question;
-
-    fn deref(&self) -> &Question {
-        &self.question
-    }
-}
-
-impl Search {
-    /// Prepares a search. A mechanism given by reference is copied.
-    ///
-    /// # Errors
-    /// Returns an error if the geometry has no exact image, or if symmetry is required of an unsymmetric file.
-    pub fn new(
-        exact: ExactField,
-        mechanism: impl Into<Arc<Mechanism>>,
-        conditions: Conditions,
-    ) -> Result<Search, SearchError> {
-        let question = Question::new(exact, mechanism, conditions)?;
-        Ok(Search { question })
-    }
-
+impl Question {
     /// Returns the variable orders of both diagrams. A reference search over another prime may use them.
     ///
     /// # Examples
@@ -177,7 +137,7 @@ impl Search {
         seed: u64,
         cancelled: &(dyn Fn() -> bool + Sync),
     ) -> Result<AtTolerance, ExactError> {
-        at_tolerance::at_tolerance(&mut self.question, digits, list, seed, cancelled)
+        at_tolerance::at_tolerance(self, digits, list, seed, cancelled)
     }
 
     /// Returns the number of minimal admissible variants: no other variant has only a part of their freedoms. Returns

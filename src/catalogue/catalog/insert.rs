@@ -211,7 +211,7 @@ fn mobility_words(finite: &Finite) -> String {
         _ if finite.numeric => "numeric",
         _ if finite.is_proven() => "proven",
         How::Traced { .. } => "followed",
-        How::Bound { .. } => "bound",
+        How::Bound => "bound",
         _ => "undecided",
     };
     format!("{}, {word}", finite.format_figure())

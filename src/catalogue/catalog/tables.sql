@@ -121,7 +121,10 @@ CREATE TABLE ideas (
   PRIMARY KEY (structure, place)
 ) WITHOUT ROWID;
 CREATE VIEW grippers AS            -- layouts by what a designer asks of them
-SELECT s.id, s.links, s.input, s.symmetry, s.parallel, l.jaw_a_motion AS jaws, l.force_min AS least_force,
+SELECT s.id, s.links, s.input, s.symmetry, s.parallel,
+  l.jaw_a_motion || CASE WHEN l.jaw_b_motion <> l.jaw_a_motion THEN ' and ' || l.jaw_b_motion ELSE '' END
+    || CASE WHEN l.jaw_c_motion NOT IN (l.jaw_a_motion, l.jaw_b_motion) THEN ' and ' || l.jaw_c_motion ELSE '' END AS jaws,
+  l.force_min AS least_force,
   k.force_ratio, l.opening_min AS narrowest, l.opening_max AS widest, l.jaw_turn AS turn,
   k.transmission, k.pin_force, k.efficiency, l.travel, k.width, k.height, l.best_cost AS cost, l.determinate_w1 AS redesigns,
   k.reached, k.shortfall, coalesce(p.slides, s.input = 'slide') AS slides, coalesce(p.gears, 0) AS gears,

@@ -8,7 +8,6 @@ pub(crate) mod velocities;
 use crate::geom::vector::{dot, sub};
 use crate::synthesis::equations::elimination::SmallSystem;
 use crate::synthesis::equations::rows::{PoseRows, TeethSeen, Term};
-use crate::synthesis::equations::velocities::Velocity;
 use crate::synthesis::place::Point;
 use crate::synthesis::places::Places;
 use crate::synthesis::sketch::Sketch;
@@ -37,39 +36,6 @@ pub(super) fn put_row(
             system.add_entry(row, column + k, x);
         }
     }
-}
-
-/// Solves the velocities of all links for a unit speed of the driver, as drawn; `None` in a singular pose.
-///
-/// # Complexity
-/// O(n³) for n links.
-pub(super) fn solve_velocities(sketch: &Sketch<'_>, at: &Places) -> Option<Vec<Velocity>> {
-    let frame = sketch.bones.frame;
-    let links = &sketch.at_rest[..];
-    let rows = PoseRows {
-        rules: &sketch.rules,
-        at,
-        links,
-    };
-    let size = 3 * (links.len() - 1);
-    let mut system = SmallSystem::new(size, 1);
-    let mut row = 0;
-    rows.each_joint(TeethSeen::Ratio, &mut |_, terms| {
-        put_row(&mut system, row, terms, frame, |_| [0.0; 2]);
-        row += 1;
-    });
-    let (_, drive) = rows.drive_row(sketch.input, sketch.drive);
-    put_row(&mut system, row, &drive, frame, |_| [0.0; 2]);
-    system.add_entry(row, size, 1.0);
-    system.solve_all()?;
-    let velocity = |link: usize| match place_of(link, frame) {
-        None => Velocity::default(),
-        Some(k) => Velocity {
-            turning: system.get(k + 2, 0) / RADIAN,
-            shift: [system.get(k, 0), system.get(k + 1, 0)],
-        },
-    };
-    Some((0..links.len()).map(velocity).collect())
 }
 
 /// Equations of a stroke. The unknowns are the drive, and shift and turn of every moving link, with turns as millimetres at an arm of 50.

@@ -118,22 +118,21 @@ const LARGE: f64 = 25.0;
 const SMALL: f64 = 8.0;
 
 impl Sketch<'_> {
-    /// Returns the cost of places. `None` if it is more than `most`, or if motion is included and the pose is singular.
+    /// Returns the cost of places, including that of their `motion`. `None` if it is more than `most`, or if the motion has none.
     ///
     /// # Complexity
-    /// That of the new crossings, and with motion an elimination.
+    /// That of the new crossings, and of the motion.
     #[must_use]
-    pub fn place_penalty(
+    pub(in crate::synthesis) fn place_penalty(
         &self,
         at: &Places,
-        moving: bool,
         most: f64,
         seen: &mut SeenSides,
+        motion: impl FnOnce() -> Option<f64>,
     ) -> Option<f64> {
         let (points, bones) = self.drawn_points(at);
         bones.place_penalty(&points, most, seen, || {
-            let motion = moving.then(|| Some(self.motion(at)?.penalty));
-            Some(self.pitch_penalty(at) + motion.unwrap_or(Some(0.0))?)
+            Some(self.pitch_penalty(at) + motion()?)
         })
     }
 
@@ -144,22 +143,15 @@ impl Sketch<'_> {
         bones.broken_limits(&points, &self.limits, seen) + self.pitch_penalty(at)
     }
 
-    /// Returns the figures of the drawn pose; `None` if it is singular.
+    /// Returns the figures of the drawn pose with this motion.
     ///
     /// # Complexity
-    /// That of all crossings, and an elimination.
-    #[must_use]
-    pub fn drawn_figures(&self, at: &Places) -> Option<Looks> {
+    /// That of all crossings.
+    pub(super) fn drawn_figures(&self, at: &Places, motion: LayoutMotion) -> Option<Looks> {
         let (points, bones) = self.drawn_points(at);
-        let mut looks = bones.drawn_figures(&points, self.motion(at)?)?;
+        let mut looks = bones.drawn_figures(&points, motion)?;
         looks.penalty += self.pitch_penalty(at);
         Some(looks)
-    }
-
-    fn motion(&self, at: &Places) -> Option<LayoutMotion> {
-        let least_force = self.limits.task.least_force;
-        let velocities = self.link_velocities(at)?;
-        Some((self.bones).motion_cost(&at.points, &velocities, least_force))
     }
 
     /// Returns the cost of pitch circles that are too large or too small.

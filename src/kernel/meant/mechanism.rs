@@ -9,7 +9,9 @@ use crate::geom::expr::Expr;
 use crate::geom::vector::{cross, dot, length, sub, to_vector, unit};
 use crate::meant::relations::RelationKind;
 use crate::model::joint_type::JointType;
-use crate::model::mechanism::{Frame, Joint, JointId, JointOption, Mechanism, Mode};
+use crate::model::mechanism::{
+    Frame, Joint, JointId, JointOption, Mechanism, Mode, are_same,
+};
 use crate::model::rounded::{FrameUncertainty, uncertainties};
 use num_rational::BigRational;
 use num_traits::Zero;
@@ -74,7 +76,7 @@ impl Gathered {
         own: Option<(&Frame, Slots)>,
     ) -> Slots {
         let kept = |part: fn(&Frame) -> &[Expr; 3], slot: fn(Slots) -> Option<usize>| {
-            own.filter(|(own, _)| written_alike(part(f), part(own)))
+            own.filter(|(own, _)| are_same(part(f), part(own)))
                 .map(|(_, slots)| slot(slots))
         };
         // Exact references are mostly the file's default axes, which say nothing about the scene.
@@ -96,7 +98,7 @@ impl Gathered {
     fn add_joint(&mut self, joint: &Joint, half: &FrameUncertainty, j: JointId) -> Slots {
         let uses = joint
             .offered_options()
-            .filter(|o| written_alike(&o.frame.axis, &joint.frame.axis))
+            .filter(|o| are_same(&o.frame.axis, &joint.frame.axis))
             .fold(Uses::by_type(&joint.joint_type), |u, o| {
                 u.union_with(Uses::by_type(&o.joint_type))
             });
@@ -142,10 +144,6 @@ fn to_rationals(v: &[Expr; 3]) -> Rational3 {
             .or_else(|| BigRational::from_float(e.to_f64()))
             .unwrap_or_else(BigRational::zero)
     })
-}
-
-fn written_alike(a: &[Expr; 3], b: &[Expr; 3]) -> bool {
-    a.iter().zip(b).all(|(a, b)| a.is_same(b))
 }
 
 /// Recovers the mechanism intended by rounded coordinates. `None` if nothing is rounded, or if no scene is found within the

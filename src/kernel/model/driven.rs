@@ -54,12 +54,6 @@ impl Mechanism {
         LinkId::new(self.links.len() + drive)
     }
 
-    /// Returns the number of links, including the virtual links of kept drives.
-    #[must_use]
-    pub fn count_bodies(&self) -> usize {
-        self.links.len() + self.kept_drives()
-    }
-
     /// Returns the number of rates of a joint that follow its twist: one for each of its couplings, then that of its
     /// drive.
     #[must_use]

@@ -74,7 +74,8 @@ impl Frame {
     }
 }
 
-fn are_same(a: &[Expr; 3], b: &[Expr; 3]) -> bool {
+/// Returns true if two vectors are written identically; `false` decides nothing.
+pub(crate) fn are_same(a: &[Expr; 3], b: &[Expr; 3]) -> bool {
     a.iter().zip(b).all(|(a, b)| a.is_same(b))
 }
 

@@ -30,6 +30,17 @@ use num_bigint::BigUint;
 use std::sync::Arc;
 
 /// A prepared question: the space of variants, its costs, and the data of its diagrams.
+///
+/// # Examples
+/// ```
+/// use ozols::{rank::exact::field::exact_field, search::{Search, question::conditions::Conditions}};
+/// let gripper = ozols::built_in("gripper-10")?;
+/// let search = Search::new(exact_field(&gripper, 0)?, &gripper, Conditions::default())?;
+/// let diagrams = search.build_diagrams(&|| false, &mut |_| {});
+/// let counts = search.count_variants(&diagrams.admissible, true);
+/// assert_eq!(counts.to_string(), "25761436"); // In the drawn pose.
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Debug)]
 pub struct Question {
     /// The mechanism.

@@ -11,7 +11,7 @@ use ozols::synthesis::rules::Rules;
 use ozols::synthesis::sketch::Sketch;
 use ozols::synthesis::sketch::layout_quality::Looks;
 use ozols::synthesis::stroke::forces::ForceFigures;
-use ozols::synthesis::stroke::judge::StrokeFigures;
+use ozols::synthesis::stroke::judge::{Judge, StrokeFigures};
 use ozols::synthesis::structure::Form;
 use ozols::synthesis::task::AskedMotion;
 
@@ -200,7 +200,7 @@ fn looks(places: Places) -> Looks {
         .iter()
         .map(|&jaw| places[if jaw == near { 4 } else { 5 }]);
     let at: Vec<[f64; 2]> = pins.chain(tips).collect();
-    sketch
+    Judge::new(&sketch)
         .drawn_figures(&places::Places::of_hinges(at))
         .unwrap()
 }

@@ -111,6 +111,21 @@ fn jaws_have_the_force_that_is_asked() {
     }
 }
 
+#[test]
+fn the_column_of_jaws_names_the_motion_of_each_jaw() {
+    let sql =
+        "SELECT jaws, jaw_a_motion, jaw_b_motion FROM grippers JOIN layouts ON structure = id";
+    let mut mixed = 0;
+    for row in query_rows(all_of_six(), sql) {
+        let [jaws, a, b] =
+            ["jaws", "jaw_a_motion", "jaw_b_motion"].map(|key| row[key].as_str().unwrap());
+        let names = BTreeSet::from([a, b]);
+        assert_eq!(jaws.split(" and ").collect::<BTreeSet<_>>(), names, "{row}");
+        mixed += usize::from(names.len() > 1);
+    }
+    assert!(mixed > 0);
+}
+
 /// Every filter against a look at all rows.
 #[test]
 fn filters_leave_what_is_as_good() {

@@ -1,12 +1,11 @@
-//! Velocities of the links of a laid-out gripper in the plane, for a given motion of its driver.
+//! Velocities of links in the plane, and the contours of a gripper that has only hinges.
 //!
-//! Only the angular velocity of each link is unknown. The closure of each contour gives two equations, as many in total as there are links
-//! other than frame and driver. The velocities of points follow from the angular velocities, from pin to pin.
+//! Only the turn of each link is unknown. The closure of each contour gives two equations, as many in total as there are links other than
+//! frame and driver. The places of points follow from the turns, from pin to pin.
 
 use crate::chains::Input;
 use crate::closure::tree::{TreeStep, spanning_forest};
-use crate::geom::vector::{add_scaled, quarter_turn, sub};
-use crate::synthesis::equations::elimination::SmallSystem;
+use crate::geom::vector::{add_scaled, quarter_turn};
 use crate::synthesis::structure::Structure;
 
 /// Velocity of a link: its angular velocity, and the velocity of its point at the origin.
@@ -19,6 +18,14 @@ pub struct Velocity {
 }
 
 impl Velocity {
+    /// Returns the velocity for a unit of the drive, given that for another parameter and the rate of the drive over it.
+    pub(in crate::synthesis) fn divided_by(&self, rate: f64) -> Velocity {
+        Velocity {
+            turning: self.turning / rate,
+            shift: self.shift.map(|x| x / rate),
+        }
+    }
+
     /// Returns the velocity of a point of the link.
     #[must_use]
     pub fn velocity_at(&self, point: [f64; 2]) -> [f64; 2] {
@@ -37,7 +44,6 @@ pub(in crate::synthesis) struct Side {
 /// Connections of the links of a structure, as their velocities need them.
 #[derive(Debug, Clone)]
 pub struct Contours {
-    links: usize,
     pub(in crate::synthesis) driver: usize,
     pub(in crate::synthesis) input: Input,
     /// Links in the order they are reached from the frame.
@@ -96,7 +102,6 @@ impl Contours {
             })
         });
         Contours {
-            links: n,
             driver,
             input: structure.drive_input(),
             unknown: unknown.collect(),
@@ -105,57 +110,5 @@ impl Contours {
             cuts,
             tree,
         }
-    }
-
-    /// Solves the velocities of all links for a unit speed of the driver, a millimetre or a radian, with the pins at these places. `None`
-    /// in a singular pose; unbounded near one.
-    ///
-    /// # Complexity
-    /// O(n³) for n links.
-    #[must_use]
-    pub fn link_velocities(&self, at: &[[f64; 2]]) -> Option<Vec<Velocity>> {
-        let size = 2 * self.contours.len();
-        let mut system = SmallSystem::new(size, 1);
-        // The sum of ω × (leaves - comes) is the same over both paths. A slide adds its millimetre, turned back by a quarter like all
-        // terms.
-        for (k, ways) in self.contours.iter().enumerate() {
-            for (way, sign) in ways.iter().zip([1.0, -1.0]) {
-                for side in way {
-                    let arm = sub(at[side.leaves], at[side.comes]);
-                    match (self.unknown[side.link], self.input) {
-                        (Some(column), _) => {
-                            system.add_entry(2 * k, column, sign * arm[0]);
-                            system.add_entry(2 * k + 1, column, sign * arm[1]);
-                        }
-                        (None, Input::Turn) => {
-                            system.add_entry(2 * k, size, -sign * arm[0]);
-                            system.add_entry(2 * k + 1, size, -sign * arm[1]);
-                        }
-                        (None, Input::Slide) => system.add_entry(2 * k + 1, size, sign),
-                    }
-                }
-            }
-        }
-        system.solve_all()?;
-        let mut out = vec![Velocity::default(); self.links];
-        for s in &self.tree {
-            let before = out[s.from];
-            let driven = s.link == self.driver;
-            out[s.link] = match (self.unknown[s.link], self.input) {
-                (None, Input::Slide) if driven => Velocity {
-                    turning: 0.0,
-                    shift: [1.0, 0.0],
-                },
-                (column, _) => {
-                    let turning = column.map_or(1.0, |c| system.get(c, 0));
-                    let slower = before.turning - turning;
-                    Velocity {
-                        turning,
-                        shift: add_scaled(before.shift, slower, quarter_turn(at[s.joint])),
-                    }
-                }
-            };
-        }
-        Some(out)
     }
 }

@@ -129,7 +129,7 @@ struct Phase {
     warmth: [f64; 2],
 }
 
-/// Places only, which is cheap; then also the motion of the drawn pose; then the whole stroke, slightly reheated.
+/// Places only, which is cheap; then also motion and forces of the drawn pose; then the whole stroke, slightly reheated.
 const PHASES: [Phase; 3] = [
     Phase {
         look: Look::Places,
@@ -159,7 +159,7 @@ struct Thresholds {
 /// Thresholds for pausing a start. Of those whose drawing lags one in twenty becomes good, of those whose stroke lags one in twelve.
 const LAGGING: Thresholds = Thresholds {
     drawn: 1.0,
-    strokes: &[(50, 7.0), (100, 4.0), (150, 3.0), (200, 2.0)],
+    strokes: &[(25, 9.0), (50, 7.0), (100, 4.0), (150, 3.0), (200, 2.0)],
 };
 /// Thresholds for giving up a start that goes on, for hinged structures. One in twenty beyond them would fulfil the task.
 const HOPELESS: Thresholds = Thresholds {
@@ -229,7 +229,7 @@ impl<'s, 'a> Annealing<'s, 'a> {
     /// Returns the places found so far; `None` if their pose is singular.
     fn judge_places(&self, judge: &mut Judge<'a>) -> Option<FoundPlaces> {
         let (sketch, at) = (self.sketch, self.best.1.clone());
-        let looks = sketch.drawn_figures(&at)?;
+        let looks = judge.drawn_figures(&at)?;
         // A paused start is judged by some poses only, and its layers are not checked.
         let stroke = if self.paused {
             judge.coarse_figures(&at, f64::INFINITY)
@@ -272,11 +272,14 @@ impl<'s, 'a> Annealing<'s, 'a> {
             return (all <= most).then_some(all);
         }
         let moving = look != Look::Places;
-        let drawn = (self.sketch).place_penalty(&self.at, moving, most, &mut self.seen)?;
-        if look != Look::Stroke {
+        let drawn = (self.sketch).place_penalty(&self.at, most, &mut self.seen, || {
+            let motion = moving.then(|| Some(judge.drawn_motion(&self.at)?.penalty));
+            motion.unwrap_or(Some(0.0))
+        })?;
+        if !moving {
             return Some(drawn);
         }
-        let stroke = judge.coarse_figures(&self.at, most - drawn)?;
+        let stroke = judge.figures_from_drawn(&self.at, look == Look::Stroke, most - drawn)?;
         let all = drawn + self.sketch.limits.stroke_cost(&stroke);
         (all <= most).then_some(all)
     }

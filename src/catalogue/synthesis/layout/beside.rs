@@ -6,6 +6,7 @@ use crate::synthesis::layout::Layout;
 use crate::synthesis::place::{FINE, Place};
 use crate::synthesis::random_of;
 use crate::synthesis::sketch::Sketch;
+use crate::synthesis::stroke::judge::Judge;
 use crate::synthesis::structure::Structure;
 use chacha20::rand_core::Rng;
 
@@ -42,7 +43,7 @@ pub(crate) fn nearby_layout(
     for pin in 0..layout.rules.joints.len() {
         at.points[pin] = layout.rules.exact_place(&at.points, pin).real();
     }
-    let looks = sketch.drawn_figures(&at)?;
+    let looks = Judge::new(&sketch).drawn_figures(&at)?;
     let moved = Layout {
         at,
         looks,

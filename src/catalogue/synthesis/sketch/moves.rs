@@ -1,9 +1,7 @@
-//! First places of a structure, other places next to them, and the resulting motion.
+//! First places of a structure, and other places next to them.
 
 use crate::chains::PairKind;
 use crate::geom::vector::{length, sub};
-use crate::synthesis::equations::solve_velocities;
-use crate::synthesis::equations::velocities::Velocity;
 use crate::synthesis::place::Point;
 use crate::synthesis::place::direction::{self, WholeDirection};
 use crate::synthesis::places::{Places, Teeth};
@@ -225,18 +223,6 @@ impl Sketch<'_> {
         }
         self.rules.settle_joints(at);
     }
-
-    /// Returns how the links move for a unit speed of the driver; `None` if the pose is singular.
-    ///
-    /// # Complexity
-    /// O(n³) for n links.
-    #[must_use]
-    pub fn link_velocities(&self, at: &Places) -> Option<Vec<Velocity>> {
-        match &self.contours {
-            Some(contours) => contours.link_velocities(&at.points),
-            None => solve_velocities(self, at),
-        }
-    }
 }
 
 #[cfg(test)]
@@ -253,21 +239,13 @@ mod tests {
             let mut seen = SeenSides::default();
             for start in 0..20 {
                 let at = sketch.first_places(&mut random_for(name, 1, start));
-                for moving in [false, true] {
-                    let Some(cost) = sketch.place_penalty(&at, moving, f64::INFINITY, &mut seen)
-                    else {
-                        continue;
-                    };
-                    assert_eq!(
-                        sketch.place_penalty(&at, moving, cost, &mut seen),
-                        Some(cost)
-                    );
+                for motion in [0.0, 2.5] {
+                    let mut within =
+                        |most: f64| sketch.place_penalty(&at, most, &mut seen, || Some(motion));
+                    let cost = within(f64::INFINITY).unwrap();
+                    assert_eq!(within(cost), Some(cost));
                     let less = cost - 1e-6 * cost.max(1.0);
-                    assert_eq!(
-                        sketch.place_penalty(&at, moving, less, &mut seen),
-                        None,
-                        "{name}"
-                    );
+                    assert_eq!(within(less), None, "{name}");
                 }
                 geared += usize::from(sketch.pitch_penalty(&at) > 0.0);
             }

@@ -291,10 +291,11 @@ mod tests {
             for _ in 0..200 {
                 let before = at.clone();
                 sketch.change_places(&mut at, 0.5, &mut random);
-                let afresh =
-                    sketch.place_penalty(&at, false, f64::INFINITY, &mut SeenSides::default());
-                let known = sketch.place_penalty(&at, false, f64::INFINITY, &mut seen);
-                assert_eq!(known, afresh, "{name}");
+                let cost = |seen: &mut SeenSides| {
+                    sketch.place_penalty(&at, f64::INFINITY, seen, || Some(0.0))
+                };
+                let afresh = cost(&mut SeenSides::default());
+                assert_eq!(cost(&mut seen), afresh, "{name}");
                 if random_below(2, &mut random) == 0 {
                     at = before;
                 }
@@ -308,7 +309,7 @@ mod tests {
         let mut found = 0;
         each_classic(|name, sketch| {
             let mut random = random_for(name, 3, 0);
-            for _ in 0..20 {
+            for _ in 0..40 {
                 let (at, mut seen) = (sketch.first_places(&mut random), SeenSides::default());
                 let (at, bones) = sketch.drawn_points(&at);
                 seen.crossing_cost(bones, &at);

@@ -7,10 +7,13 @@ use super::planes::{Meetings, Stacking};
 use super::pose::LinkPose;
 use super::walk::{SETTLED, StrokeEnd};
 use crate::geom::vector::{dot, length, sub};
+use crate::synthesis::equations::velocities::Velocity;
 use crate::synthesis::place::Point;
 use crate::synthesis::places::Places;
 use crate::synthesis::sketch::Sketch;
-use crate::synthesis::sketch::layout_quality::{angle_degrees, transmission_sine};
+use crate::synthesis::sketch::layout_quality::{
+    LayoutMotion, Looks, angle_degrees, transmission_sine,
+};
 use crate::synthesis::task::Limits;
 
 /// Poses of a stroke during the search. They rank places as well as fifty poses do.
@@ -19,6 +22,12 @@ const COARSE: Grid = Grid {
     finest: 0.01,
     settled: 1e-3,
     forces_everywhere: false,
+};
+
+/// Only the drawn pose.
+const DRAWN: Grid = Grid {
+    steps: 0.0,
+    ..COARSE
 };
 
 /// Poses of a stroke whose figures are reported.
@@ -32,7 +41,7 @@ const FINE: Grid = Grid {
 /// Poses at which a stroke is evaluated.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Grid {
-    /// Number of steps over the task's stroke.
+    /// Number of steps over the task's stroke; 0 for the drawn pose alone.
     steps: f64,
     /// Accuracy of an end that comes before the task's end, as a fraction of the stroke.
     finest: f64,
@@ -142,6 +151,51 @@ impl<'a> Judge<'a> {
         self.motion.walk.stand_drawn()
     }
 
+    /// Moves to the drawn pose of places, and returns its motion for a unit speed of the driver. `None` if the pose is singular.
+    ///
+    /// # Complexity
+    /// O(n³) for n links.
+    pub(in crate::synthesis) fn drawn_motion(&mut self, at: &Places) -> Option<LayoutMotion> {
+        self.motion.walk.settled = COARSE.settled;
+        if !self.stand_drawn(at) {
+            return None;
+        }
+        self.motion.write_pose(at, &mut self.links);
+        let rate = self.drive_rate();
+        let velocities = self.links.iter().map(|pose| pose.velocity.divided_by(rate));
+        let velocities: Vec<Velocity> = velocities.collect();
+        let sketch = self.motion.sketch;
+        let least_force = sketch.limits.task.least_force;
+        Some(
+            sketch
+                .bones
+                .motion_cost(&at.points, &velocities, least_force),
+        )
+    }
+
+    /// Returns the figures of the drawing and of its motion; `None` if the pose is singular.
+    ///
+    /// # Complexity
+    /// That of all crossings, and of [`Judge::drawn_motion`].
+    pub fn drawn_figures(&mut self, at: &Places) -> Option<Looks> {
+        let motion = self.drawn_motion(at)?;
+        self.motion.sketch.drawn_figures(at, motion)
+    }
+
+    /// Returns the figures of a stroke from the drawn pose, at which [`Judge::drawn_motion`] stands: at the few poses of the search if it is
+    /// `whole`, or of the drawn pose alone. `None` if the cost is more than `most`.
+    ///
+    /// # Complexity
+    /// As [`Judge::coarse_figures`] for a whole stroke, otherwise that of one pose.
+    pub(in crate::synthesis) fn figures_from_drawn(
+        &mut self,
+        at: &Places,
+        whole: bool,
+        most: f64,
+    ) -> Option<StrokeFigures> {
+        self.follow_from_drawn(at, if whole { COARSE } else { DRAWN }, most)
+    }
+
     /// Returns the figures of places at the few poses of the search. `None` if the drawn pose is singular, or if the cost is more than
     /// `most`, which the first poses may show.
     ///
@@ -168,6 +222,11 @@ impl<'a> Judge<'a> {
         if !self.stand_drawn(at) {
             return None;
         }
+        self.follow_from_drawn(at, grid, most)
+    }
+
+    /// Returns the figures of places at whose drawn pose the walk stands; `None` if the cost is more than `most`.
+    fn follow_from_drawn(&mut self, at: &Places, grid: Grid, most: f64) -> Option<StrokeFigures> {
         let task = self.limits().task;
         let drawn = 2.0 * f64::from(task.half_opening());
         let finest = grid.finest * task.opening_span();
@@ -187,7 +246,8 @@ impl<'a> Judge<'a> {
             return None;
         }
         self.weigh_forces(at);
-        for (n, to) in [task.narrowest, task.widest].into_iter().enumerate() {
+        let ends = [task.narrowest, task.widest].into_iter().enumerate();
+        for (n, to) in ends.filter(|_| grid.steps > 0.0) {
             if n > 0 {
                 self.motion.walk.go_back();
             }

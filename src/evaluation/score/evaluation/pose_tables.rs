@@ -398,9 +398,7 @@ fn option_twists(
     let mut second = false;
     let mut out = Vec::new();
     // As the joint built has them: the slide of a slot comes after its pin.
-    let order = option.joint_type.freedoms_in_series();
-    let mut motions = here.motions_in_space(&Reals, &space, option.joint_type.freedoms());
-    motions.sort_by_key(|(f, _)| order.iter().position(|g| g == f));
+    let motions = here.motions_in_series(&Reals, &space, option.joint_type.freedoms());
     for (freedom, motion) in motions {
         let link = joint.links[usize::from(second)];
         second |= present.contains(&freedom);

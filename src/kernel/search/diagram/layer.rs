@@ -51,8 +51,10 @@ pub(in crate::search) struct Nodes {
     pub(in crate::search) spent: Vec<Spent>,
     /// Least cost of a way to the node.
     pub(in crate::search) least: Vec<i64>,
-    /// The subspaces of each kind, and for each node the number of its own of each kind; [`NONE`](crate::search::diagram::subspaces::NONE) where the lane does not apply.
+    /// The subspaces of each kind.
     pub(in crate::search) spaces: Vec<Subspaces>,
+    /// The numbers of each node's subspaces, one of each kind. It is [`NONE`](crate::search::diagram::subspaces::NONE) if the lane does not
+    /// apply.
     numbers: Vec<u32>,
 }
 

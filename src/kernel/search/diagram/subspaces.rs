@@ -12,7 +12,7 @@ pub(in crate::search) const NO_ROOM: u32 = u32::MAX - 1;
 /// The different subspaces of one kind that the nodes of a layer have, by number.
 #[derive(Default)]
 pub(in crate::search) struct Subspaces {
-    /// Where each ends in `data`.
+    /// The end of each in `data`.
     ends: Vec<usize>,
     /// The rows, packed.
     data: Vec<Residue>,

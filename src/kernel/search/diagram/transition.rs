@@ -1,4 +1,4 @@
-//! One transition of the diagram: what the choices at a variable make of the subspaces of a layer's nodes.
+//! One transition of the diagram: the choices at a variable extend the subspaces of a layer's nodes.
 //!
 //! Many nodes have a subspace in common, so each subspace is extended once by each choice that some node takes.
 
@@ -9,7 +9,7 @@ use crate::search::diagram::subspaces::{NONE, Subspaces, hash_words};
 use rayon::prelude::*;
 use std::cell::RefCell;
 
-/// What a choice makes of a subspace.
+/// The effect of a choice on a subspace.
 #[derive(Clone, Copy)]
 pub(in crate::search) struct Step {
     /// The number of what is left of it without the coordinates that close.
@@ -48,7 +48,7 @@ pub(in crate::search) struct Steps<'a> {
     columns: &'a Columns,
     from: &'a Subspaces,
     choices: usize,
-    /// Of each subspace and choice; the outer `None` where it is not known, the inner one where a motion goes wrong.
+    /// A step for each subspace and choice. The outer `None` means that it is not known, the inner one that a motion goes wrong.
     known: Vec<Option<Option<Step>>>,
     /// The subspaces with steps that are wanted next.
     wanted: Vec<usize>,
@@ -70,9 +70,10 @@ impl<'a> Steps<'a> {
         }
     }
 
-    /// Returns a step that was taken; `None` if a motion goes wrong.
+    /// Returns a step that was taken. `None` if a motion goes wrong, or of no subspace.
     pub(in crate::search) fn step(&self, from: u32, choice: usize) -> Option<Step> {
-        self.known[from as usize * self.choices + choice]?
+        let known = self.known.get(from as usize * self.choices + choice);
+        known.copied()??
     }
 
     /// Returns how many dimensions a subspace gains by a step that was taken, before coordinates close. `None` if a motion goes wrong.
@@ -151,7 +152,7 @@ pub(in crate::search) struct Worker {
     pub(in crate::search) arithmetic: Arithmetic,
     /// A subspace extended by each choice that makes it larger, and behind them the subspace itself.
     grown: Vec<Rows>,
-    /// Where each choice's subspace is among these.
+    /// The index of each choice's subspace in `grown`.
     places: Vec<usize>,
     /// The child of each of these, as far as it is known.
     children: Vec<Option<Option<Child>>>,

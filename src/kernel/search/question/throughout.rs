@@ -214,7 +214,7 @@ struct Motion {
     over: BTreeMap<JointId, Passed>,
 }
 
-/// The present joint along the motion.
+/// An original joint along the motion.
 struct Passed {
     displacement: DisplacementSeries,
     /// Its freedoms in the order in which they are passed, each with its twist and its coordinate.
@@ -382,8 +382,8 @@ impl Motion {
 }
 
 impl Passed {
-    /// Returns the coordinates of freedoms in series that have those of the present joint in its order: its own, and 0 for the others.
-    /// `None` if they have them not.
+    /// Returns the coordinates of freedoms in series: those of the original joint, and 0 for further ones. `None` if the original freedoms
+    /// are not among these, in the same order.
     fn known_coordinates(&self, passed: &[InSeries]) -> Option<Vec<Series>> {
         let mut own = self.freedoms.iter().peekable();
         let coordinate = |(freedom, twist): &InSeries| {

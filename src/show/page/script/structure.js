@@ -14,7 +14,7 @@ function figuresOf(c) {
   const rows = [
     ['Structure', `${c.id}: ${c.name}`],
     ...(c.classics ? [[c.jaw_c_motion ? 'With two jaws known as' : 'Known as', c.classics]] : []),
-    ['Form', `${c.links} links, ${formOf(c)}; ${c.jaws_at_frame} jaws at the frame${c.truss ? '; a truss with the part' : ''}${c.drawing && c.drawing.folded ? '; of three sides two are drawn, opposite each other' : ''}`],
+    ['Form', `${c.links} links, ${formOf(c)}; jaws at the frame: ${c.jaws_at_frame}${c.truss ? '; a truss with the part' : ''}${c.drawing && c.drawing.folded ? '; of three sides two are drawn, opposite each other' : ''}`],
     ['Jaws', `${jawsOf(c)}; they turn by at most ${short(c.jaw_turn)}°`],
     ['Opening', `${short(c.opening_min)} to ${short(c.opening_max)} mm for ${short(c.travel)} ${drive} of the drive${ends.length ? ' (' + ends.join(', ') + ')' : ''}`],
     ['Force of a jaw', `${short(c.force_min)} ${unit(c)} at least, ${short(c.force_max)} at most over the stroke, without friction`],

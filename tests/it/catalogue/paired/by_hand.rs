@@ -8,6 +8,7 @@ use ozols::synthesis::place::direction::WholeDirection;
 use ozols::synthesis::places::{Places, Teeth};
 use ozols::synthesis::rules::Rules;
 use ozols::synthesis::sketch::Sketch;
+use ozols::synthesis::stroke::judge::Judge;
 
 /// The task of `forces.json`: tips 30 mm apart when closed, each opens by 10 mm. They are drawn closed.
 fn published_task() -> Task {
@@ -79,7 +80,7 @@ impl ByHand {
         let limits = default_with(|l: &mut Limits| l.task = published_task());
         let sketch = Sketch::new(&self.paired, self.rules.clone(), limits);
         let layout = Layout {
-            looks: sketch.drawn_figures(&self.at).unwrap(),
+            looks: Judge::new(&sketch).drawn_figures(&self.at).unwrap(),
             rules: self.rules,
             at: self.at,
             limits,
