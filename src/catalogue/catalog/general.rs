@@ -7,7 +7,6 @@
 //! one prime shows whether a layout has them, because modulo a prime a rank is never higher either. A minimal diagram is the
 //! only one of its variants in an order of variables, so diagrams are compared edge by edge.
 
-use crate::catalog::row::Symmetric;
 use crate::catalog::spec::Spec;
 use crate::catalog::{RowError, built_mechanism, prepare_search, search_request};
 use crate::chains::chain::Chain;
@@ -15,9 +14,13 @@ use crate::chains::roles::Roles;
 use crate::chains::structure::PairStructure;
 use crate::chains::{Symmetry, graph6};
 use crate::model::mechanism::Mechanism;
+use crate::score::request::{List, Request};
+use crate::score::run::{RunError, run};
 use crate::search::Search;
+use crate::search::answer::counts::count_orbits;
 use crate::search::answer::ideas::{Idea, IdeaBasis};
 use crate::search::diagram::{Diagram, Stop};
+use crate::search::question::conditions;
 use crate::synthesis::mechanism::bare_file;
 use crate::synthesis::places::Places;
 use crate::synthesis::random_of;
@@ -46,6 +49,65 @@ pub struct General {
     pub counts: BTreeMap<(i64, u32), BigUint>,
     /// Those that are their own image under the symmetry of the structure.
     pub(super) symmetric: Symmetric,
+}
+
+/// Variants that a mechanism's symmetry keeps. Each is one orbit; the others are in orbits of two or three.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Symmetric {
+    /// Order of the symmetry. 1 without a symmetry; then every variant is its own image.
+    pub order: usize,
+    /// By W and number of changes.
+    pub counts: BTreeMap<(i64, u32), BigUint>,
+    /// Whether every count is exact; lower bounds otherwise.
+    pub exact: bool,
+}
+
+impl Symmetric {
+    /// Creates the result for a mechanism without a symmetry.
+    #[must_use]
+    pub fn without_symmetry() -> Symmetric {
+        Symmetric {
+            order: 1,
+            exact: true,
+            counts: BTreeMap::new(),
+        }
+    }
+
+    /// Searches only for the variants that a mechanism's symmetry keeps.
+    ///
+    /// # Errors
+    /// Returns an error if the symmetry that the file names is invalid, or if the search fails.
+    pub fn search_symmetric(
+        mechanism: &Mechanism,
+        request: &Request,
+    ) -> Result<Symmetric, RunError> {
+        let order = mechanism.search.symmetry_order();
+        if order == 1 {
+            return Ok(Symmetric::without_symmetry());
+        }
+        let request = Request {
+            symmetry: conditions::Symmetry::SymmetricOnly,
+            list: List::Nothing,
+            ..request.clone()
+        };
+        let outcome = run(mechanism.clone(), &request, &|| false, &mut |_| {})?;
+        Ok(Symmetric {
+            order,
+            exact: outcome.is_exact(),
+            counts: outcome.determinate.by_mobility_and_changes,
+        })
+    }
+
+    /// Returns how many of `variants` variants of W and number of changes are their own image, and the number of orbits.
+    #[must_use]
+    pub fn split_orbits(&self, key: &(i64, u32), variants: &BigUint) -> (BigUint, BigUint) {
+        if self.order <= 1 {
+            return (variants.clone(), variants.clone());
+        }
+        let own = self.counts.get(key).cloned().unwrap_or_default();
+        let orbits = count_orbits(variants, &own, self.order);
+        (own, orbits)
+    }
 }
 
 /// A chain of hinges and its input. Layouts of structures with the same pair have the same determinate variants in general position.

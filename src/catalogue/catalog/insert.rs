@@ -1,6 +1,7 @@
 //! Insertion of a row into the tables.
 
-use crate::catalog::row::{IdeaRow, Laid, StructureRow, Symmetric};
+use crate::catalog::general::Symmetric;
+use crate::catalog::row::{IdeaRow, Laid, StructureRow};
 use crate::chains::census::Kinds;
 use crate::chains::classics::classics_of;
 use crate::chains::graph6;

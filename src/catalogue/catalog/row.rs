@@ -1,6 +1,6 @@
 //! One structure of a catalogue: its layout, its figures, and its determinate variants.
 
-use crate::catalog::general::General;
+use crate::catalog::general::{General, Symmetric};
 use crate::catalog::spec::Spec;
 use crate::catalog::{RowError, built_mechanism, search_request};
 use crate::chains::roles::Subject;
@@ -17,12 +17,9 @@ use crate::score::evaluation::evaluate::Evaluator;
 use crate::score::evaluation::terms::Scores;
 use crate::score::outcome::Outcome;
 use crate::score::outcome::variant::{in_words, list_changes};
-use crate::score::request::{List, Request};
-use crate::score::run::{RunError, run};
+use crate::score::run::run;
 use crate::search::Search;
-use crate::search::answer::counts::count_orbits;
 use crate::search::answer::ideas::Idea;
-use crate::search::question::conditions::Symmetry;
 use crate::synthesis::figures::{LayoutFigures, layout_figures};
 use crate::synthesis::layout::beside::nearby_layout;
 use crate::synthesis::layout::{Layout, NoLayout, lay_out};
@@ -68,65 +65,6 @@ pub struct Laid {
     pub exact: bool,
     /// The best ideas with W = 1: symmetric ones first, then the cheapest, which is always among them.
     pub ideas: Vec<IdeaRow>,
-}
-
-/// Variants that a mechanism's symmetry keeps. Each is one orbit; the others are in orbits of two or three.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Symmetric {
-    /// Order of the symmetry. 1 without a symmetry; then every variant is its own image.
-    pub order: usize,
-    /// By W and number of changes.
-    pub counts: BTreeMap<(i64, u32), BigUint>,
-    /// Whether every count is exact; lower bounds otherwise.
-    pub exact: bool,
-}
-
-impl Symmetric {
-    /// Creates the result for a mechanism without a symmetry.
-    #[must_use]
-    pub fn without_symmetry() -> Symmetric {
-        Symmetric {
-            order: 1,
-            exact: true,
-            counts: BTreeMap::new(),
-        }
-    }
-
-    /// Searches only for the variants that a mechanism's symmetry keeps.
-    ///
-    /// # Errors
-    /// Returns an error if the symmetry that the file names is invalid, or if the search fails.
-    pub fn search_symmetric(
-        mechanism: &Mechanism,
-        request: &Request,
-    ) -> Result<Symmetric, RunError> {
-        let order = mechanism.search.symmetry_order();
-        if order == 1 {
-            return Ok(Symmetric::without_symmetry());
-        }
-        let request = Request {
-            symmetry: Symmetry::SymmetricOnly,
-            list: List::Nothing,
-            ..request.clone()
-        };
-        let outcome = run(mechanism.clone(), &request, &|| false, &mut |_| {})?;
-        Ok(Symmetric {
-            order,
-            exact: outcome.is_exact(),
-            counts: outcome.determinate.by_mobility_and_changes,
-        })
-    }
-
-    /// Returns how many of `variants` variants of W and number of changes are their own image, and the number of orbits.
-    #[must_use]
-    pub fn split_orbits(&self, key: &(i64, u32), variants: &BigUint) -> (BigUint, BigUint) {
-        if self.order <= 1 {
-            return (variants.clone(), variants.clone());
-        }
-        let own = self.counts.get(key).cloned().unwrap_or_default();
-        let orbits = count_orbits(variants, &own, self.order);
-        (own, orbits)
-    }
 }
 
 /// An idea of a catalogue.

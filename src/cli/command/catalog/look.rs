@@ -74,7 +74,7 @@ pub(super) fn run_query(a: &Query) -> anyhow::Result<Done> {
         let (_, counted) = store.query_rows("SELECT count(*) FROM grippers", None)?;
         output::print_note(&format!(
             "The first {LISTED} of {} grippers; a filter such as --does-task lists all that pass it.\n",
-            group_thousands(&counted[0][0])
+            crate::format::group_thousands(&counted[0][0])
         ));
     }
     Ok(Done::found_or_nothing(!answer.rows.is_empty()))
