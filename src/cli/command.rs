@@ -6,7 +6,7 @@ pub(crate) mod catalog;
 pub(crate) mod draw;
 pub(crate) mod export;
 pub(crate) mod grip;
-/// What this program knows: mechanisms, terms, the file's schema.
+/// Reference: built-in mechanisms, terms, the schema of the file.
 pub(crate) mod reference {
     pub(crate) mod check;
     pub(crate) mod explain;

@@ -145,8 +145,8 @@ impl InputPair {
     }
 }
 
-/// Returns the structure whose places stand for those of a structure, with its rules. `None` if it has other pairs than hinges, or thirds of
-/// a turn, or no rules.
+/// Returns a structure with the same places in general position, and its rules. `None` if it has pairs other than hinges, a symmetry of
+/// thirds of a turn, or no rules.
 fn places_in_general(structure: &Structure) -> Option<(Structure, Rules)> {
     if let Some(pair) = InputPair::of_structure(structure) {
         let first = pair.pair_structure(structure.form);

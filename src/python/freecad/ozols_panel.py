@@ -1,4 +1,4 @@
-"""A panel beside FreeCAD's tree: looks at the open document, lists what is held twice, takes the cheapest change of types."""
+"""A panel of FreeCAD: checks the open document, lists its redundant constraints, applies the cheapest change of joint types."""
 
 import FreeCAD as App
 import FreeCADGui as Gui

@@ -156,7 +156,8 @@ struct Thresholds {
     strokes: &'static [(usize, f64)],
 }
 
-/// Thresholds for pausing a start. Of those whose drawing lags one in twenty becomes good, of those whose stroke lags one in twelve.
+/// Thresholds for pausing a start. One in twenty starts with a cost of the drawing above its threshold becomes good, and one in twelve with a
+/// cost of the stroke above.
 const LAGGING: Thresholds = Thresholds {
     drawn: 1.0,
     strokes: &[(25, 9.0), (50, 7.0), (100, 4.0), (150, 3.0), (200, 2.0)],

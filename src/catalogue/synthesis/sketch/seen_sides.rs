@@ -10,7 +10,7 @@ use itertools::Itertools;
 /// A pin nearer than this to a foreign link lies on it, in mm.
 pub(crate) const ON: f64 = 6.0;
 
-/// A pin nearer than this to a side of its own link makes the link a splinter, in mm.
+/// Smallest distance of a pin from the opposite side of the same link, in mm. Below it the link is a splinter.
 const SPLINTER: f64 = 10.0;
 
 /// The cost of a pin within a plate that it does not belong to.

@@ -41,7 +41,7 @@ const FINE: Grid = Grid {
 /// Poses at which a stroke is evaluated.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Grid {
-    /// Number of steps over the task's stroke; 0 for the drawn pose alone.
+    /// Number of steps over the task's stroke; 0 for only the drawn pose.
     steps: f64,
     /// Accuracy of an end that comes before the task's end, as a fraction of the stroke.
     finest: f64,
@@ -182,8 +182,8 @@ impl<'a> Judge<'a> {
         self.motion.sketch.drawn_figures(at, motion)
     }
 
-    /// Returns the figures of a stroke from the drawn pose, at which [`Judge::drawn_motion`] stands: at the few poses of the search if it is
-    /// `whole`, or of the drawn pose alone. `None` if the cost is more than `most`.
+    /// Returns the figures of a stroke that begins at the drawn pose of [`Judge::drawn_motion`]: of the few poses of the search if `whole`,
+    /// otherwise of only the drawn pose. `None` if the cost is more than `most`.
     ///
     /// # Complexity
     /// As [`Judge::coarse_figures`] for a whole stroke, otherwise that of one pose.
