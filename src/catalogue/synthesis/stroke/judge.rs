@@ -176,7 +176,7 @@ impl<'a> Judge<'a> {
     /// Returns the figures of the drawing and of its motion; `None` if the pose is singular.
     ///
     /// # Complexity
-    /// That of all crossings, and of [`Judge::drawn_motion`].
+    /// That of all crossings, and of `Judge::drawn_motion`.
     pub fn drawn_figures(&mut self, at: &Places) -> Option<Looks> {
         let motion = self.drawn_motion(at)?;
         self.motion.sketch.drawn_figures(at, motion)

@@ -18,7 +18,7 @@ function figuresOf(c) {
     ['Jaws', `${jawsOf(c)}; they turn by at most ${short(c.jaw_turn)}°`],
     ['Opening', `${short(c.opening_min)} to ${short(c.opening_max)} mm for ${short(c.travel)} ${drive} of the drive${ends.length ? ' (' + ends.join(', ') + ')' : ''}`],
     ['Force of a jaw', `${short(c.force_min)} ${unit(c)} at least, ${short(c.force_max)} at most over the stroke, without friction`],
-    ['Transmission', `worst angle ${short(c.transmission)}°, links 1 : ${short(c.link_ratio)}, ${c.crossings} crossings`],
+    ['Transmission', `worst angle ${short(c.transmission)}°, links 1 : ${short(c.link_ratio)}, crossings: ${c.crossings}`],
     ...(c.pin_force ? [
       ['Task', c.shortfall || 'does all of it'],
       ['Joints', `${short(c.pin_force)} N at most for 1 N of each jaw; efficiency from ${short(c.efficiency)}`],

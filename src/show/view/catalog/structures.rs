@@ -239,7 +239,7 @@ impl StructureData {
             symmetry => format!(", {{orbits_w1}} up to {symmetry} images"),
         };
         let template = format!(
-            "Drawn: links 1 : {{link_ratio}}, {{crossings}} crossings\n\
+            "Drawn: links 1 : {{link_ratio}}, crossings: {{crossings}}\n\
              Determinate variants ({{certainty}}): {{determinate}}, of these {{determinate_w1}} with W = 1{images}\n\n"
         );
         fill_template(&template, layout)
