@@ -109,10 +109,12 @@ fn plain_spec(ideas: usize) -> Spec {
 }
 
 /// A structure a test lays out: places by joint.
+/// Places of pins in thousandths of a millimetre.
 fn places_of_pins(l: &Drawn) -> BTreeMap<(usize, usize), [i32; 2]> {
     assert!(l.at.iter().all(|p| p.thirds == 0));
-    let whole = l.at.iter().map(|p| p.whole);
-    l.pins.iter().copied().zip(whole).collect()
+    let thousandths = |p: &Place| [0, 1].map(|k| 1000 * p.whole[k] + p.fine[k]);
+    let places = l.at.iter().map(thousandths);
+    l.pins.iter().copied().zip(places).collect()
 }
 
 #[test]

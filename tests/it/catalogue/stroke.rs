@@ -76,10 +76,10 @@ fn is_as_the_twin_says(s: &Structure, l: &Drawn) {
     );
 }
 
-/// How far apart the tips come as the drive goes on, until they turn back.
+/// How far apart the tips come as the drive goes on, until they turn back. Longer steps jump to another assembly near such a place.
 fn widest(twin: &Gripper) -> f64 {
     let mut x = twin.drawn();
-    let (mut most, mut drive, mut step) = (twin.width(&x), 0.0, twin.seen(x.clone()).drive());
+    let (mut most, mut drive, mut step) = (twin.width(&x), 0.0, 0.1 * twin.seen(x.clone()).drive());
     // Where they turn back, links may lock soon after.
     while step.abs() > 1e-6 {
         let (mut y, to) = (x.clone(), drive + step);

@@ -60,19 +60,20 @@ fn the_strongest_layouts_are_stronger() {
         let file: toml::Table = row["mechanism"].word().parse().unwrap();
         let places = |list: &str| {
             let all = file[list].as_array().unwrap().iter();
-            let place = |p: &toml::Value| [0, 1].map(|k| p["point"][k].as_integer().unwrap());
-            all.map(place).collect::<Vec<[i64; 2]>>()
+            let real = |x: &toml::Value| x.as_float().or(x.as_integer().map(|n| n as f64));
+            let place = |p: &toml::Value| [0, 1].map(|k| real(&p["point"][k]).unwrap());
+            all.map(place).collect::<Vec<[f64; 2]>>()
         };
         let (pins, tips) = (places("joint"), places("point"));
         assert!(
             pins.iter()
                 .cartesian_product(&tips)
-                .all(|(p, t)| t[0] - p[0] >= 30),
+                .all(|(p, t)| t[0] - p[0] >= 30.0 - 1e-9),
             "{pins:?}"
         );
         for (a, b) in pins.iter().tuple_combinations() {
-            let apart = (a[0] - b[0]).pow(2) + (a[1] - b[1]).pow(2);
-            assert!(apart >= 400, "{pins:?}");
+            let apart = (a[0] - b[0]).powi(2) + (a[1] - b[1]).powi(2);
+            assert!(apart >= 400.0 - 1e-6, "{pins:?}");
         }
     }
 }
