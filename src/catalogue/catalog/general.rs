@@ -194,8 +194,8 @@ fn same_diagrams(a: &Diagram, b: &Diagram) -> bool {
 
 impl General {
     /// Searches the pair of a structure at two random places, each over a prime; both must agree. A structure that is symmetric or has
-    /// parallelograms is searched by itself, at places that keep its rules. Returns `None` if it has other pairs than hinges, if it has no
-    /// such places, or if the node budget ends the search.
+    /// parallelograms is searched by itself, at places that keep its rules. Returns `None` if it has no such places, or if the node budget ends
+    /// the search. Structures with pairs other than hinges give `None`, too.
     ///
     /// # Errors
     /// Returns an error if the specification is wrong, or the program fails.

@@ -197,9 +197,9 @@ pub(super) struct Expanded<'a> {
     pub(super) bytes: usize,
 }
 
-/// Returns the merged children of a layer's nodes, without those that are `out` of the question by three values: the redundancy spent, the
-/// dimension that the choices add in the open contours, and the least cost of a path to the child. `told` receives the number of children
-/// so far.
+/// Returns the merged children of a layer's nodes, without those for which `out` returns true. `out` receives the redundancy spent, the
+/// dimension that the choices add in the open contours, and the least cost of a path to the child. `told` receives the number of
+/// children so far.
 pub(super) fn next_layer(
     stage: &Stage<'_>,
     from: &Expanded<'_>,

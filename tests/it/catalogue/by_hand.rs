@@ -328,12 +328,12 @@ fn limits_come_before_costs() {
     assert!(3 * kept > found.len(), "{kept} of {}", found.len());
 }
 
-/// The strict limits can be kept by half of these structures at least.
+/// Six starts alone keep the limits in half of these.
 #[test]
 fn more_starts_are_tried_where_none_keeps_the_limits() {
     let found = laid(&strict(), 1);
     let kept = found.iter().flatten().count();
-    assert!(2 * kept > found.len(), "{kept} of {}", found.len());
+    assert!(5 * kept > 3 * found.len(), "{kept} of {}", found.len());
 }
 
 /// Parallelograms for three jaws need more links than there are.

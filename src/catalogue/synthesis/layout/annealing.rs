@@ -109,6 +109,19 @@ pub(in crate::synthesis) fn best_of_starts<'a>(
             break;
         }
     }
+    // Narrow limits of the drawing are worth as many starts again.
+    for start in first + STARTS..first + 2 * STARTS {
+        if best.as_ref().is_none_or(|b| b.within) {
+            break;
+        }
+        let mut search = Annealing::new(sketch, random_for(name, seed, start), start);
+        search.advance(judge, &NEVER);
+        let found = search.judge_places(judge);
+        best = best
+            .into_iter()
+            .chain(found)
+            .min_by(FoundPlaces::compare_places);
+    }
     best
 }
 

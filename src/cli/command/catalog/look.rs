@@ -65,16 +65,19 @@ pub(super) fn run_query(a: &Query) -> anyhow::Result<Done> {
     if answer.rows.is_empty() && a.wanted.is_any() {
         output::print_note(&a.wanted.in_the_way(&store)?);
     }
-    let mut text = answer.text(a.to.width());
-    if a.sql.is_none() && !a.wanted.is_any() && answer.rows.len() == LISTED {
+    let text = || -> anyhow::Result<String> {
+        let text = answer.text(a.to.width());
+        if a.sql.is_some() || a.wanted.is_any() || answer.rows.len() < LISTED {
+            return Ok(text);
+        }
         let (_, counted) = store.query_rows("SELECT count(*) FROM grippers", None)?;
-        text += &format!(
-            "\nThese are {LISTED} of {} grippers. A filter such as --does-task lists all that pass it.\n",
-            crate::format::group_thousands(&counted[0][0])
-        );
-    }
+        let all = crate::format::group_thousands(&counted[0][0]);
+        Ok(format!(
+            "{text}\nThese are {LISTED} of {all} grippers. A filter such as --does-task lists all that pass it.\n"
+        ))
+    };
     a.to.write_all_of(match a.format {
-        TextJsonOrCsv::Text => text,
+        TextJsonOrCsv::Text => text()?,
         TextJsonOrCsv::Json => output::json_text(&answer)?,
         TextJsonOrCsv::Csv => answer.csv(),
     })?;

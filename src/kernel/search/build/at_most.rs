@@ -135,7 +135,7 @@ impl Layered<'_> {
     fn merge_children(&self, nodes: &Weighed, choices: usize) -> (Weighed, Vec<u32>) {
         let named = |child: Option<Between>| child.map(|c| (c.identity_words(), c));
         let of_node = |(node, _): &(Between, f64)| -> Vec<Named> {
-            let children = Worker::with(self.field, |worker| match node.packed_space() {
+            let children = Worker::with_kept(self.field, |worker| match node.packed_space() {
                 Some(packed) => self.exact_children(worker, &packed, choices),
                 None => node.child_nodes(&mut worker.arithmetic, &self.passed),
             });

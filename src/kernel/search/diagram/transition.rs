@@ -99,7 +99,7 @@ impl<'a> Steps<'a> {
         let spaces: Vec<&[usize]> = wanted.chunk_by(|a, b| a / choices == b / choices).collect();
         let some = |spaces: &[&[usize]]| {
             let mut out = Children::default();
-            Worker::with(self.field, |worker| {
+            Worker::with_kept(self.field, |worker| {
                 for steps in spaces {
                     let from = u32::try_from(steps[0] / choices).unwrap_or(NONE);
                     let wanted = steps.iter().map(|step| step % choices);
@@ -167,7 +167,7 @@ thread_local! {
 
 impl Worker {
     /// Calls a function with the scratch space that the thread keeps.
-    pub(in crate::search) fn with<T>(field: Field, of: impl FnOnce(&mut Worker) -> T) -> T {
+    pub(in crate::search) fn with_kept<T>(field: Field, of: impl FnOnce(&mut Worker) -> T) -> T {
         let new = || Worker {
             arithmetic: Arithmetic::new(field),
             grown: Vec::new(),
