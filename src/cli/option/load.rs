@@ -4,6 +4,7 @@ use crate::api::{self, MAX_DESCRIPTION_BYTES};
 use crate::builtin;
 use crate::cli::option::named::{File, Named};
 use crate::cli::option::reading::import_description;
+use crate::cli::terminal::output::kept;
 use crate::closure::coupling::in_plane;
 use crate::closure::twist::{FrameValues, MotionSpace};
 use crate::file::text::{MAX_BYTES, mechanism_from_bytes};
@@ -56,6 +57,7 @@ pub(crate) fn read_named(file: &File) -> anyhow::Result<(String, Vec<u8>)> {
 /// Returns the same for a file that is not a robot description or assembly.
 pub(crate) fn read_plain(file: &Named) -> anyhow::Result<(String, Vec<u8>)> {
     if &**file == "-" {
+        kept::keep_standard_input()?;
         let mut bytes = Vec::new();
         // One byte more than allowed, so that the reader can say that there are too many.
         std::io::stdin()

@@ -29,6 +29,7 @@ pub(crate) fn write_with(
     write: impl FnOnce(&mut dyn Write) -> anyhow::Result<Done>,
 ) -> anyhow::Result<Done> {
     let Some(path) = target_file(path) else {
+        kept::apart_from_standard_output()?;
         return write_through("standard output", Standard::new(), write);
     };
     kept::ensure_apart(path)?;

@@ -7,7 +7,7 @@
 
 use std::collections::BTreeSet;
 use std::ffi::OsStr;
-use std::fs::{self, File, OpenOptions};
+use std::fs::{self, File, Metadata, OpenOptions};
 use std::io::{self, ErrorKind, Read};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};
@@ -68,27 +68,73 @@ pub fn open_regular(path: &Path) -> io::Result<File> {
     File::open(path)
 }
 
-/// The files that were read, by their paths without links.
-static READ: Mutex<BTreeSet<PathBuf>> = Mutex::new(BTreeSet::new());
+/// A file, identified independently of its name if possible.
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
+enum FileId {
+    /// Its device and inode number, which only Unix systems report.
+    Number(u64, u64),
+    /// Its whole path, without links.
+    Path(PathBuf),
+}
 
-fn files_read() -> MutexGuard<'static, BTreeSet<PathBuf>> {
+/// The files that were read since [`forget_read`].
+static READ: Mutex<BTreeSet<FileId>> = Mutex::new(BTreeSet::new());
+
+fn files_read() -> MutexGuard<'static, BTreeSet<FileId>> {
     READ.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// Forgets which files were read.
+/// Returns the identity of a file: a name may be given to another file while the first is still read.
+fn file_ids(path: &Path) -> impl Iterator<Item = FileId> {
+    let number = fs::metadata(path).ok().and_then(|m| file_number(&m));
+    let path = fs::canonicalize(path).ok().map(FileId::Path);
+    number.into_iter().chain(path)
+}
+
+#[cfg(unix)]
+fn file_number(of: &Metadata) -> Option<FileId> {
+    use std::os::unix::fs::MetadataExt;
+    of.is_file().then(|| FileId::Number(of.dev(), of.ino()))
+}
+
+#[cfg(not(unix))]
+fn file_number(_: &Metadata) -> Option<FileId> {
+    None
+}
+
+/// Forgets the files that were read.
 pub fn forget_read() {
     files_read().clear();
 }
 
-/// Records a file as read.
+/// Adds a file to those that were read.
 pub fn note_read(path: &Path) {
-    files_read().extend(fs::canonicalize(path));
+    files_read().extend(file_ids(path));
 }
 
-/// Returns true if a file was read.
+/// Adds an open file to those that were read.
+pub fn note_open(file: &Metadata) {
+    files_read().extend(file_number(file));
+}
+
+/// Returns true if a file was read, under this or another name.
 #[must_use]
 pub fn was_read(path: &Path) -> bool {
-    fs::canonicalize(path).is_ok_and(|path| files_read().contains(&path))
+    let read = files_read();
+    file_ids(path).any(|id| read.contains(&id))
+}
+
+/// Returns whether an open file was read.
+#[must_use]
+pub fn open_was_read(file: &Metadata) -> bool {
+    file_number(file).is_some_and(|id| files_read().contains(&id))
+}
+
+/// Returns whether an open file is the one that a path leads to.
+#[must_use]
+pub fn is_at(file: &Metadata, path: &Path) -> bool {
+    let id = file_number(file);
+    id.is_some() && id == fs::metadata(path).ok().and_then(|m| file_number(&m))
 }
 
 /// Removes the files of a folder that `are_ours` accepts by name and that no process has locked.

@@ -1,6 +1,6 @@
 //! Nothing is lost: outputs of one name, outputs that are read, disks and files that are full.
 
-use super::{run_shell, shell_fails};
+use super::{four_bar, run_shell, shell_fails};
 use crate::common::*;
 
 /// Names of the files in a folder, with what they hold.
@@ -57,6 +57,35 @@ fn an_output_among_the_charts_is_refused() {
     let line = "statics parallel-shears --stroke 0:360deg:12 --svg charts -o charts/index.html";
     folder.assert_fails(line, "already written by this command");
     assert!(folder.text("charts/index.html").starts_with("<!"));
+}
+
+/// The shell opens standard input and output: names say nothing of them, and what it has emptied is gone before the program begins.
+#[cfg(unix)]
+#[test]
+fn standard_input_and_output_are_files_like_others() {
+    let folder = Folder::new();
+    folder.put("f.toml", four_bar());
+    fs::hard_link(folder.path("f.toml"), folder.path("hard.toml")).unwrap();
+    let before = held(&folder);
+    for words in [
+        "ozols export - --to json -o f.toml < f.toml",
+        "ozols export - --to json -o hard.toml < f.toml",
+        "ozols export - --to json >> f.toml < f.toml",
+        "ozols check - >> hard.toml < f.toml",
+        "ozols export f.toml --to json >> f.toml",
+        "ozols analyze hard.toml >> f.toml",
+        "ozols search f.toml 1<> f.toml",
+        "ozols analyze four-bar -o f.toml >> f.toml",
+        "ozols analyze four-bar -o hard.toml >> f.toml",
+    ] {
+        shell_fails(&folder, words, "another file");
+        assert!(held(&folder) == before, "{words}");
+    }
+    // The shell empties it first.
+    shell_fails(&folder, "ozols analyze - < f.toml > f.toml", "");
+    folder.put("f.toml", four_bar());
+    let o = run_shell(&folder, "ozols export - --to json < f.toml > new.json");
+    assert_eq!(o.status.code(), Some(0), "{}", utf8_text(&o.stderr));
 }
 
 /// What a description includes is read as well.

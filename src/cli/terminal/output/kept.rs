@@ -6,7 +6,7 @@ use anyhow::ensure;
 use itertools::Itertools;
 use std::collections::BTreeSet;
 use std::ffi::OsString;
-use std::fs::{self, File};
+use std::fs::{self, File, Metadata};
 use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -33,6 +33,17 @@ pub(crate) fn keep_file(path: &Path) {
     disk::note_read(path);
 }
 
+/// Keeps standard input if it is a file.
+///
+/// # Errors
+/// Returns an error if standard output is the same file.
+pub(crate) fn keep_standard_input() -> anyhow::Result<()> {
+    if let Some(file) = standard_file(io::stdin()) {
+        disk::note_open(&file);
+    }
+    apart_from_standard_output()
+}
+
 /// Returns true if a file is protected, under any name.
 pub(crate) fn is_kept(path: &Path) -> bool {
     disk::was_read(path)
@@ -40,6 +51,17 @@ pub(crate) fn is_kept(path: &Path) -> bool {
 
 /// Refuses outputs, each with the name of its option, of which one would take the place of another.
 pub(crate) fn ensure_distinct(outputs: &[(&str, PathBuf)]) -> anyhow::Result<()> {
+    let to_standard = standard_file(io::stdout());
+    for (option, path) in outputs {
+        let shown = path.display();
+        let same = to_standard
+            .as_ref()
+            .is_some_and(|file| disk::is_at(file, path));
+        ensure!(
+            !same,
+            "--{option} {shown} is also standard output, and one would overwrite the other; name another file"
+        );
+    }
     for ((one, first), (other, second)) in outputs.iter().tuple_combinations() {
         let shown = second.display();
         ensure!(
@@ -85,6 +107,29 @@ pub(crate) fn ensure_apart(path: &Path) -> anyhow::Result<()> {
 /// Records that a file was written.
 pub(super) fn note_written(path: &Path) {
     lock_written().push(canonical_path(path));
+}
+
+/// Refuses to write to standard output where it is a file that is read.
+pub(super) fn apart_from_standard_output() -> anyhow::Result<()> {
+    let same = standard_file(io::stdout()).is_some_and(|file| disk::open_was_read(&file));
+    ensure!(
+        !same,
+        "standard output is the input file; send it to another file"
+    );
+    Ok(())
+}
+
+/// Returns the metadata of standard input or output if it is a file.
+#[cfg(unix)]
+fn standard_file(stream: impl std::os::fd::AsFd) -> Option<Metadata> {
+    let file = File::from(stream.as_fd().try_clone_to_owned().ok()?);
+    file.metadata().ok().filter(Metadata::is_file)
+}
+
+/// Returns nothing: this system does not tell which file it is.
+#[cfg(not(unix))]
+fn standard_file<T>(_: T) -> Option<Metadata> {
+    None
 }
 
 fn is_database(path: &Path) -> bool {
