@@ -41,6 +41,8 @@ fn each_axis_of_each_chart_has_two_labels_or_more() {
     for line in [
         "statics parallel-shears --stroke 0:360deg:24 --svg shears",
         "statics four-bar --stroke 0:360deg:24 --svg bar",
+        "statics parallelogram --stroke 10:80deg:12 --svg parallelogram",
+        "statics four-bar-planar --stroke 0:360deg:24 --svg planar",
         "grip lever-gripper --svg grip",
         "drive torsion-module --svg drive",
     ] {
@@ -60,6 +62,6 @@ fn each_axis_of_each_chart_has_two_labels_or_more() {
             wrong.push((path, found));
         }
     }
-    assert!(charts > 20, "{charts}");
+    assert!(charts > 25, "{charts}");
     assert!(wrong.is_empty(), "{wrong:?}");
 }

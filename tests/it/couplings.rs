@@ -229,6 +229,18 @@ fn every_method_counts_the_rows() {
             .unwrap_err();
         assert!(e.to_string().contains("not support couplings of joints"));
     }
+    // 6·4 - 25 - 1, 3·4 - 10 - 1, and 5 - 3 - 1 by contours.
+    let m = built_in("geared-five-bar");
+    for (method, w) in [("count", -2), ("count-planar", 1), ("loops", 1)] {
+        assert_eq!(
+            by_name(method)
+                .unwrap()
+                .answer(&m, StateId::FREE)
+                .unwrap()
+                .mobility,
+            w
+        );
+    }
 }
 
 /// A certificate proves the rank with the coupling of its file, and of no other.

@@ -19,6 +19,11 @@ fn verdicts_have_colour_where_a_person_looks() {
         let verdict = verdict.replace('^', "\u{1b}[");
         let forced = coloured(args, ("CLICOLOR_FORCE", "1"));
         assert!(forced.contains(&verdict), "{args:?}: {forced}");
+        let plain = coloured(args, ("NO_COLOR", "1"));
+        assert!(!plain.contains('\u{1b}'), "{args:?}");
+        let bare = forced.replace("\u{1b}[1m", "").replace("\u{1b}[0m", "");
+        let bare = bare.replace("\u{1b}[31m", "").replace("\u{1b}[32m", "");
+        assert_eq!(bare, plain, "{args:?}");
     }
     // not into a file
     let folder = tempdir().unwrap();
@@ -28,6 +33,21 @@ fn verdicts_have_colour_where_a_person_looks() {
         ("CLICOLOR_FORCE", "1"),
     );
     assert!(!fs::read_to_string(path).unwrap().contains('\u{1b}'));
+}
+
+#[test]
+fn verdicts_come_first_and_primes_last() {
+    let said = run_quiet("analyze four-bar --verbose");
+    let first = said.lines().next().unwrap();
+    has(first, "3 redundant constraints");
+    let data = run_json("analyze four-bar --format json");
+    let prime = data["states"][0]["primes"][0].word();
+    assert_eq!(prime.len(), 19);
+    let digits: Vec<&str> = said.lines().filter(|l| l.contains(prime)).collect();
+    assert_eq!(digits.len(), 1, "{digits:?}");
+    let block = said.split("\n\n").nth(1).unwrap();
+    assert_eq!(block.lines().last(), Some(digits[0]));
+    assert!(!run_quiet("search four-bar --options spherical").contains(prime));
 }
 
 /// A slide across a frame, with an output that does not move with it.

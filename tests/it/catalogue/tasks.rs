@@ -61,19 +61,21 @@ fn the_strongest_layouts_are_stronger() {
         let places = |list: &str| {
             let all = file[list].as_array().unwrap().iter();
             let real = |x: &toml::Value| x.as_float().or(x.as_integer().map(|n| n as f64));
-            let place = |p: &toml::Value| [0, 1].map(|k| real(&p["point"][k]).unwrap());
-            all.map(place).collect::<Vec<[f64; 2]>>()
+            // In thousandths of a millimetre.
+            let thousandths = |x: &toml::Value| (1000.0 * real(x).unwrap()).round() as i64;
+            let place = |p: &toml::Value| [0, 1].map(|k| thousandths(&p["point"][k]));
+            all.map(place).collect::<Vec<[i64; 2]>>()
         };
         let (pins, tips) = (places("joint"), places("point"));
         assert!(
             pins.iter()
                 .cartesian_product(&tips)
-                .all(|(p, t)| t[0] - p[0] >= 30.0 - 1e-9),
+                .all(|(p, t)| t[0] - p[0] >= 30_000),
             "{pins:?}"
         );
         for (a, b) in pins.iter().tuple_combinations() {
-            let apart = (a[0] - b[0]).powi(2) + (a[1] - b[1]).powi(2);
-            assert!(apart >= 400.0 - 1e-6, "{pins:?}");
+            let apart = (a[0] - b[0]).pow(2) + (a[1] - b[1]).pow(2);
+            assert!(apart >= 400_000_000, "{pins:?}");
         }
     }
 }
@@ -210,6 +212,8 @@ fn answers_are_sorted_by_what_is_asked() {
     has_all(
         &told,
         &[
+            "known as",
+            "These are 25 of ",
             "force [N/N]",
             "force [N/Nm]",
             "transmission [°]",

@@ -154,9 +154,19 @@ fn equalities_of_mujoco() {
             .zip([0.25, -1.0])
             .all(|(x, y)| (x.to_f64() - y).abs() < 1e-12)
     );
+    // A polynomial by its derivative at the pose.
+    let i = mjcf(r#"<joint joint1="b" joint2="a" polycoef="0 1 0.5 0 0"/>"#);
+    let told = i.report.text("x.xml");
+    has(&told, "its rate of 1 at this pose");
+    let m = read(&i.toml().unwrap());
+    assert_eq!(
+        (m.couplings[0].ratio.to_f64(), analysed(&m).mobility),
+        (1.0, 2)
+    );
     let i = mjcf(r#"<joint joint1="b" joint2="a" polycoef="0 0"/>"#);
     assert_eq!(i.report.coupling_rows, 1);
     assert!(!i.report.mapped.contains_key("coupling"));
+    has(&i.report.text("x.xml"), "times 0");
     assert_eq!(analysed(&read(&i.toml().unwrap())).mobility, 3);
     // A joint held at a constant moves no more.
     let i = mjcf(r#"<joint joint1="b"/>"#);

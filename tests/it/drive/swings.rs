@@ -63,7 +63,9 @@ proptest! {
             let t = h + (s.duration - 2.0 * h) * f64::from(i) / 60.0;
             let [(a, b), (u, v), (e, f)] = [t - h, t, t + h].map(|t| s.position_at(t));
             let jumps = (a < feed.from) != (e < feed.from);
-            prop_assert!(jumps || ((e - a) / (2.0 * h) - v).abs() < 1e-6 * twist * p);
+            // Where the push begins, the velocity has a bend, and the difference is off by at most a quarter of its change over a step.
+            let bend = if jumps { h * feed.energy / (twist - feed.from) / d.inertia / 4.0 } else { 0.0 };
+            prop_assert!(((e - a) / (2.0 * h) - v).abs() < 1e-6 * twist * p + bend);
             let push = if u >= feed.from { feed.energy / (twist - feed.from) } else { 0.0 };
             let rate = (push - d.coulomb - d.stiffness * u - d.viscous * v) / d.inertia;
             prop_assert!(jumps || ((f - b) / (2.0 * h) - rate).abs() < 1e-6 * twist * p * p, "{u} {rate}");

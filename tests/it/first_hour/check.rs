@@ -14,6 +14,25 @@ fn checked(text: &str) -> (String, String) {
 }
 
 #[test]
+fn check_says_what_a_file_describes() {
+    let said = run_quiet("check gripper-10-loaded");
+    has_all(
+        &said,
+        &[
+            "gripper-10-loaded: valid",
+            "11 links (frame 0; outputs 4, 8; object a), in space",
+            "15 joints: 12 revolute, 2 fixed, 1 cylindrical; driven at 0-1",
+            "2 states: free with 4 contours, clamped with 5 contours",
+            "12 joints with 7 options, 1 place for an unloading joint, 6 mirror pairs; 13,841,287,201 choices",
+            "workload: gravity, 10 links with mass, 4 forces, ranking by peak-moment",
+        ],
+    );
+    assert!(run_quiet("check lever-gripper").contains("`ozols grip`"));
+    assert!(run_quiet("check torsion-module").contains("`ozols drive`"));
+    assert!(run_quiet("check four-bar-planar").contains("in the plane"));
+}
+
+#[test]
 fn a_file_alone_is_checked_where_nobody_looks_on() {
     for name in ["four-bar", "gripper-10"] {
         let said = run_quiet(&[name]);

@@ -31,6 +31,7 @@ fn every_step_has_its_own_least_force() {
     assert!(file.get("motion").is_some_and(Value::is_null));
     let shown = run_quiet("show lever-gripper");
     let alone = shown.replace("any_acceleration = 5", "accelerations = [[5, 0, -2]]");
+    assert_ne!(shown, alone);
     let alone = json_on("grip", "alone.toml", &alone, "");
     let rows = alone["diameters"].list();
     let row = rows
@@ -53,6 +54,13 @@ fn every_step_has_its_own_least_force() {
 #[test]
 fn attitudes_come_with_the_motion() {
     let table = "ax,ay,az,gx,gy,gz\n0,0,0,0,-9.81,0\n0,0,0,0,0,-9.81\n";
+    let (code, said, errors) =
+        Folder::with("lift.csv", table).run("grip lever-gripper --motion lift.csv");
+    assert_eq!(code, Some(0), "{errors}");
+    has(
+        &said,
+        "Along the motion, 2 steps: can hold at every step, with",
+    );
     let value = along(table);
     let moment = |i: usize| value["motion"]["steps"][i]["drive_moment_per_lever"].real();
     // Along the part friction alone holds: harder by much.

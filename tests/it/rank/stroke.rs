@@ -56,7 +56,9 @@ fn which_link_has_which_pin_matters() {
 fn poses_do_not_depend_on_threads_and_need_a_motion() {
     let run = |threads| run_quiet(&format!("{BALANCE} --poses 3 --threads {threads}"));
     assert!(run(1) == run(2));
-    let v = Folder::new().json("search bennett-perturbed --poses 2");
+    let (_, found, said) = run_full("search bennett-perturbed --poses 2 --format json");
+    assert!(said.starts_with("warning: no other pose"), "{said}");
+    let v: Value = serde_json::from_str(&found).unwrap();
     assert_eq!(v["poses"]["reached"], 0);
     assert!(v["variants"].list().iter().all(|x| x["lucky"].is_null()));
     let v = run_json("search four-bar --format json");

@@ -45,6 +45,13 @@ fn a_part_that_lies_is_borne_from_below() {
     let joints = solved(&content, &["--state", "clamped"]);
     assert_eq!(contact(&joints, "above")["touch"], "pulls");
     near(contact(&joints, "above")["normal"].real(), -4.905, 1e-9);
+    let (code, said, _) = statics(&content, &["--state", "clamped"]);
+    assert_eq!(code, Some(0));
+    let line = said
+        .lines()
+        .find(|l| l.starts_with("NOT AS CONTACTS ACT"))
+        .unwrap();
+    has(line, "above would pull with 4.905 N");
     let faces = solved(&content, &["--state", "clamped", "--unilateral"]);
     assert_eq!(faces["choice"], "pushing");
     near(contact(&faces, "below")["normal"].real(), 9.81, 1e-5);
@@ -241,4 +248,12 @@ fn words_that_are_no_states_or_contacts_are_refused() {
     let (code, _, errors) = statics(&run_quiet("show four-bar"), &["--unilateral"]);
     assert_eq!(code, Some(2));
     has(&errors, "--unilateral is for contacts with a clamped part");
+}
+
+/// What a file says of states and contacts, its export says again.
+#[test]
+fn states_of_forces_and_contacts_are_exported() {
+    let again = run_quiet("export gripper-10-loaded --to toml");
+    assert_eq!(again.matches("[[workload.contact]]").count(), 2, "{again}");
+    assert_eq!(again.matches("state = [\"free\"]").count(), 4);
 }

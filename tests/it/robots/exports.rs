@@ -228,3 +228,15 @@ fn what_is_lost_is_named() {
         }
     }
 }
+
+#[test]
+fn the_command() {
+    for to in ["toml", "json", "urdf", "mjcf", "sdf", "dot"] {
+        assert!(
+            run_quiet(&["export", "four-bar", "--to", to, "-q"]).len() > 200,
+            "{to}"
+        );
+    }
+    let o = ozols("export nowhere --to dot").output().unwrap();
+    assert_eq!(o.status.code(), Some(2));
+}

@@ -27,6 +27,18 @@ fn what_is_redundant_at_one_pose_only_is_a_note() {
     assert_eq!(found["findings"][0]["row"], "x");
     assert_eq!(found["findings"][0]["lasts"], false);
     assert_eq!(found["cheapest"], serde_json::json!([]));
+    let (code, out, _) = run_on("lint", "m.xml", &text, "");
+    assert_eq!(code, Some(0));
+    has_all(
+        &out,
+        &[
+            "no redundant constraints over the motion; 1 redundant constraint",
+            "elsewhere in the motion 0, by 20 closed poses inside the limits",
+            "note: e, row x duplicates",
+            "at this pose only",
+        ],
+    );
+    assert!(!out.contains("ozols fix"), "{out}");
     let (code, out, told) = run_on("fix", "m.xml", &text, "");
     assert_eq!((code, out.as_str()), (Some(0), text.as_str()), "{told}");
     has(&told, "at this pose only");
@@ -109,6 +121,16 @@ fn two_connects_for_a_hinge_ask_for_one_of_their_rows() {
         assert!(at.iter().any(|a| words.starts_with(a)), "{words}");
     }
     assert_eq!(found["outside_limits"].list().len(), 2);
+    let (_, out, _) = run_on("lint", "m.xml", &text, "");
+    has_all(
+        &out,
+        &[
+            "4 redundant constraints",
+            "2 of them at this pose only",
+            "elsewhere in the motion 2, by 20 closed poses (numeric)",
+            "h1 is at 0 rad, outside its limits 0.698 to 0.873",
+        ],
+    );
 }
 
 // An arm of six hinges led by the hand: the mocap body was a part of the frame, and the arm rigid, in line with itself.

@@ -14,6 +14,22 @@ fn mimic_joints_are_couplings() {
     );
     assert_eq!(i.report.mapped["coupling"], 5);
     assert_eq!(i.report.dropped["visual"].0, 11);
+    has(&i.report.text("x.urdf"), "5 coupling");
+    has(&i.toml().unwrap(), "# mimics left_crank_joint times 1");
+}
+
+#[test]
+fn nothing_moves() {
+    let links: String = (0..4).map(|i| format!("<link name='l{i}'/>")).collect();
+    let joint = |i: usize| {
+        format!("<joint name='j{i}' type='fixed'><parent link='l0'/><child link='l{i}'/></joint>")
+    };
+    let joints: String = (1..4).map(joint).collect();
+    let e = crate::robots::message_of(
+        "mesh.urdf",
+        format!("<robot name='r'>{links}{joints}</robot>"),
+    );
+    has(&e, "nothing can move: all 4 links");
 }
 
 fn with_loops(side: Option<&str>) -> Options {

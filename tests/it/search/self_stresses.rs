@@ -44,6 +44,9 @@ fn a_plane_has_its_directions_and_moments_at_the_joints() {
         near(joint(stress, "left")["share"].real(), left, 1e-12);
         near(joint(stress, "right")["share"].real(), right, 1e-12);
     }
+    let (_, text, _) = run_on("analyze", "m.toml", &slides(), "--verbose");
+    has(&text, "right 83 %, left 17 %");
+    lacks(&text, "force along x");
 }
 
 /// The same in the plane of x and z, and off the origin: names follow the plane, shares do not change.
@@ -126,6 +129,10 @@ fn what_a_state_adds_is_counted_without_what_is_there_already() {
     let external = stresses.iter().filter(|s| s["external"] == true).count();
     assert_eq!(clamped["external"]["redundant_by_rank"], 4);
     assert_eq!((external, stresses.len()), (4, 8), "{stresses:#?}");
+    has(
+        &run_quiet("analyze gripper-10 --state clamped"),
+        "External: σ = ",
+    );
 }
 
 /// What joints bear of a self-stress: nothing along or about what they leave free, and every link is in equilibrium.

@@ -113,6 +113,9 @@ fn what_would_help_where_nothing_is_found() {
                 assert_eq!(ask(Some(n - 1)), 0, "{q} {r}");
             }
         }
+        let (_, text, _) = run_full(&format!("search gripper-10 {q}"));
+        assert!(text.starts_with("gripper-10: none of "), "{text}");
+        has(&text, "ore joint types");
     }
     assert!(seen.len() >= 4, "{seen:?}");
 }

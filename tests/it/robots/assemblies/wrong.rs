@@ -38,6 +38,10 @@ fn archives_that_are_broken_are_told() {
     ] {
         has(&message_of("x.FCStd", &bytes), words);
     }
+    has(
+        &message_of("x.FCStd", &whole[..whole.len() / 2]),
+        "save the document again",
+    );
 }
 
 // 70 MB of blanks pack into some kB.
