@@ -43,7 +43,7 @@ pub(crate) struct Findings {
     /// The names of the states, `free` first.
     pub(crate) states: Vec<String>,
     /// The parameters that an expression uses.
-    used: RefCell<BTreeSet<String>>,
+    pub(crate) used: RefCell<BTreeSet<String>>,
 }
 
 impl Findings {

@@ -287,14 +287,6 @@ pub enum ExportError {
         /// The remedy.
         remedy: &'static str,
     },
-    /// The format is written only of files that were read in it.
-    #[error(
-        "{format} cannot be written from a mechanism only; give a document in this format, whose joints get other types"
-    )]
-    Own {
-        /// The format.
-        format: &'static str,
-    },
     /// No format of this name can be written.
     #[error("unknown format \"{word}\"; known: {known}")]
     Unknown {
@@ -303,6 +295,11 @@ pub enum ExportError {
         /// The known words.
         known: String,
     },
+    /// The loads or the ranking are not those of the file that the mechanism was read from.
+    #[error(
+        "the loads or the ranking were changed in code, and only those of a file can be written; change them in the file and read it again"
+    )]
+    Changed,
     /// The TOML writer failed.
     #[error("the mechanism cannot be written as TOML: {0}; report this with the file")]
     Toml(#[from] toml::ser::Error),
