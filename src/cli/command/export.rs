@@ -6,7 +6,7 @@ use crate::cli::option::variant;
 use crate::cli::option::variant::Chosen;
 use crate::cli::prelude::*;
 use crate::robots::formats::{self, Format, FormattedFile};
-use crate::robots::Imported;
+use crate::robots::{Imported, KINEMATICS};
 use clap::builder::{PossibleValue, PossibleValuesParser};
 
 /// The formats of the mechanism file: TOML, which holds exact numbers, and the same as JSON.
@@ -52,7 +52,7 @@ pub(crate) fn run_export(_: &Global, a: &Export) -> anyhow::Result<Done> {
     let (mut m, left_behind) = match imported {
         Some(imported) => {
             load::tell_doubts(&a.file, &imported);
-            (imported.mechanism, imported.report.left_behind())
+            (imported.mechanism, Some(KINEMATICS))
         }
         None => (load::load_written(&a.file)?, None),
     };
@@ -84,8 +84,7 @@ fn import_file(a: &Export) -> anyhow::Result<Option<Imported>> {
     Ok(None)
 }
 
-/// Writes the mechanism file of a description, with comments on what was merged and approximated, and says what was mapped and
-/// dropped.
+/// Writes the mechanism file of a description, with comments on what was merged and approximated.
 fn mechanism_file(a: &Export, imported: &Imported) -> anyhow::Result<Done> {
     let width = output::error_width();
     output::print_note(&fit_lines(&imported.report.text(&a.file), width));
@@ -110,10 +109,10 @@ fn mechanism_file(a: &Export, imported: &Imported) -> anyhow::Result<Done> {
 pub(crate) fn export_text(
     m: &Mechanism,
     to: &str,
-    left_behind: Option<String>,
+    left_behind: Option<&str>,
 ) -> anyhow::Result<String> {
     let FormattedFile { text, told } = formats::export(m, to)?;
-    let told = left_behind.into_iter().chain(told);
+    let told = left_behind.map(str::to_owned).into_iter().chain(told);
     let told: String = told.map(|t| format!("  {t}\n")).collect();
     if !told.is_empty() {
         let all = format!("{} as {to}:\n{told}", m.name);

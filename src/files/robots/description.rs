@@ -252,7 +252,6 @@ impl Robot {
         id: &str,
         ends: [End; 2],
         kind: JointType,
-        word: &str,
     ) -> Read<&mut Part> {
         let links = ends.map(|end| end.0);
         if links[0] == links[1] {
@@ -260,7 +259,6 @@ impl Robot {
         }
         let mut part = Part::new(id, links, ends.map(|end| end.1), kind).said_by(e);
         part.closes = true;
-        self.report.count_mapped(word);
         let at = self.joints.len();
         self.joints.push(part);
         Ok(&mut self.joints[at])

@@ -10,6 +10,7 @@ use crate::robots::description::coupling::Usable;
 use crate::robots::description::kinematics::world_axes;
 use crate::robots::mechanism::series_of_single_joints::Names;
 use crate::robots::prelude::*;
+use crate::robots::warning::KINEMATICS;
 
 /// Longest name in a mechanism file, in characters.
 const LONGEST: usize = 64;
@@ -108,10 +109,8 @@ fn describe_source(robot: &Robot, source: &str) -> String {
         (_, 0) => " Some couplings of joints are omitted.",
         _ => " Some joints are omitted.",
     };
-    let left_behind = report.left_behind();
-    let left_behind = left_behind.map_or(String::new(), |t| format!(" {}", one_line(&t)));
     let source = one_line(source);
-    format!("Imported from {source}.{left_out}{left_behind}")
+    format!("Imported from {source}.{left_out} {KINEMATICS}")
 }
 
 /// Returns the links, the frame first, with the names of their bodies.

@@ -18,13 +18,13 @@ pub(crate) fn read_equalities(
             None => format!("{}-{}", e.name(), i + 1),
         };
         if look.attribute("active").is_some_and(|(_, v)| v == "false") {
-            robot.report.count_dropped("inactive equality", Some(&id));
+            robot.report.drop_element("inactive equality", &id);
             continue;
         }
         match e.name() {
             "connect" => {
                 let ends = read_ends(e, context, robot)?;
-                let part = robot.close_loop(e, &id, ends, JointType::Spherical, "connect")?;
+                let part = robot.close_loop(e, &id, ends, JointType::Spherical)?;
                 part.comment = Some("closes a loop: <connect>".to_owned());
             }
             "weld" => {
@@ -39,7 +39,7 @@ pub(crate) fn read_equalities(
                         ends = [(one, first.then(&second.inverse()).then(&at)), (two, at)];
                     }
                 }
-                let part = robot.close_loop(e, &id, ends, kind, "weld")?;
+                let part = robot.close_loop(e, &id, ends, kind)?;
                 part.comment = Some("closes a loop: <weld>".to_owned());
             }
             "joint" => read_coupling(e, robot)?,
@@ -141,7 +141,6 @@ fn hold_joint(e: Element<'_>, joint: &str, value: f64, robot: &mut Robot) {
     j.sides[0] = j.sides[0].then(&joint_motion(j));
     (j.joint_type, j.values, j.limits) = (JointType::Fixed, Vec::new(), None);
     j.comment = Some("held at a constant by an equality".to_owned());
-    robot.report.count_mapped("joint held at a constant");
 }
 
 /// Reads an equality of the lengths of tendons. The length of a `<fixed>` tendon is a sum of joint values, each times a

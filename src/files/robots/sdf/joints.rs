@@ -76,8 +76,6 @@ pub(crate) fn read_joint(
     let on = |link: usize, at: &RigidMotion| robot.places[link].inverse().then(at);
     let sides = [on(parent, &on_parent), on(child, &world)];
     let mut part = Part::new(&name, [parent, child], sides, joint_type).said_by(e);
-    robot.report.count_mapped(word);
-    left_out(e, &name, robot);
     match word {
         "ball" | "fixed" | "floating" => {}
         "universal" | "revolute2" => {
@@ -107,19 +105,6 @@ pub(crate) fn read_joint(
 /// frame.
 fn is_frame(name: &str, scene: &SdfScene<'_>) -> bool {
     scene.placed.get(name).is_some_and(|p| p.link.is_none())
-}
-
-/// Reports the elements of a joint that are not read.
-fn left_out(e: Element<'_>, name: &str, robot: &mut Robot) {
-    let known = "pose parent child axis axis2 screw_thread_pitch thread_pitch";
-    let within = "xyz limit mimic drake:mimic use_parent_model_frame";
-    let own = e.children().filter(|c| !c.is_one_of(known));
-    let axes = e.children();
-    let axes = axes.filter(|c| ["axis", "axis2"].contains(&c.name()));
-    let of_axes = axes.flat_map(Element::children);
-    for c in own.chain(of_axes.filter(|c| !c.is_one_of(within))) {
-        robot.report.count_dropped(c.name(), Some(name));
-    }
 }
 
 /// Reports the distance, in metres, of a joint from its parent frame.
@@ -201,7 +186,6 @@ fn two_axes(e: Element<'_>, mut part: Part, axes: [Vector; 2], robot: &mut Robot
     let between = robot.add_link(&format!("{}~1", part.id), RigidMotion::IDENTITY);
     let [parent, child] = part.links;
     // Axes that are not square: two hinges in series are the same.
-    robot.report.count_mapped("joint of two oblique axes");
     let [near, far] = part.sides;
     let mut hinge = |id: &str, links, sides, axis| {
         let mut part = Part::new(id, links, sides, JointType::Revolute).said_by(e);
@@ -229,7 +213,7 @@ pub(crate) fn read_weld(at: &Scoped<'_>, scene: &SdfScene<'_>, robot: &mut Robot
         joint_end(e, "parent")?.1,
         joint_end(e, "child")?.1
     );
-    let part = robot.close_loop(e, &id, ends, JointType::Fixed, "weld constraint")?;
+    let part = robot.close_loop(e, &id, ends, JointType::Fixed)?;
     part.comment = Some("closes a loop: <drake:weld_constraint>".to_owned());
     Ok(())
 }
@@ -264,7 +248,6 @@ pub(crate) fn read_gearbox(at: &Scoped<'_>, scene: &SdfScene<'_>, robot: &mut Ro
         gear: true,
         ..Ratio::new([&leads, &follows], -times * first * second, e)
     });
-    robot.report.count_mapped("gearbox");
     Ok(())
 }
 
