@@ -2,7 +2,6 @@
 //! written back, checked, changed with their comments kept, and made into templates.
 
 pub mod builder;
-pub mod costs;
 #[doc(hidden)]
 pub mod disk;
 mod doubted;

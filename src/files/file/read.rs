@@ -4,7 +4,7 @@ pub mod coupling;
 mod joints;
 #[doc(hidden)]
 pub mod resolve;
-pub(crate) mod search;
+pub mod search;
 pub mod value;
 pub mod workload;
 
