@@ -11,11 +11,6 @@ use crate::file::write::number::{write_component, write_coordinate, write_ratio}
 use crate::model::loads::Inertia;
 use crate::model::mechanism::{Drives, Mode, PointOfInterest};
 use serde::Deserialize;
-use serde::ser::Error;
-use toml_edit::{DocumentMut, Item};
-
-/// Columns of a comment, without its mark.
-const LONGEST_COMMENT: usize = 110;
 
 /// Returns the file of a mechanism. Options that the file had in common are listed at each joint. Workload, ranking, figures and
 /// claims are those of the file that it was read from.
@@ -24,7 +19,7 @@ const LONGEST_COMMENT: usize = 110;
 /// ```
 /// use ozols::file::write::{mechanism_file, toml};
 /// let four_bar = ozols::built_in("four-bar")?;
-/// let again = ozols::from_toml(&toml(&mechanism_file(&four_bar), &[])?)?;
+/// let again = ozols::from_toml(&toml(&mechanism_file(&four_bar))?)?;
 /// assert_eq!(again.joints.len(), four_bar.joints.len());
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
@@ -118,73 +113,12 @@ fn write_joint_types(m: &Mechanism) -> BTreeMap<String, JointTypeEntry> {
     each.collect()
 }
 
-/// A comment above a table of a file.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Comment {
-    /// The table's name, such as "joint".
-    table: &'static str,
-    /// Its index among the tables of that name.
-    index: usize,
-    /// The words.
-    text: String,
-}
-
-impl Comment {
-    /// Creates a comment above the table of a name, the `index`th if there are several.
-    #[must_use]
-    pub fn new(table: &'static str, index: usize, text: &str) -> Comment {
-        Comment {
-            table,
-            index,
-            text: text.replace(char::is_control, " "),
-        }
-    }
-
-    /// Returns the words as lines of TOML, starting with a blank one.
-    fn comment_lines(&self) -> String {
-        let (mut out, mut width) = (String::from("\n#"), 0);
-        for word in self.text.split_whitespace() {
-            if width > 0 && width + word.len() > LONGEST_COMMENT {
-                out.push_str("\n#");
-                width = 0;
-            }
-            width += usize::from(width > 0) + word.len();
-            out.push(' ');
-            out.push_str(word);
-        }
-        out + "\n"
-    }
-}
-
 /// Writes a file as TOML.
 ///
 /// # Errors
 /// No error is known for the file of a validated mechanism.
-///
-/// # Examples
-/// ```
-/// use ozols::file::write::{Comment, mechanism_file, toml};
-/// let file = mechanism_file(&ozols::built_in("four-bar")?);
-/// let text = toml(&file, &[Comment::new("joint", 1, "from crank to coupler")])?;
-/// assert!(text.contains("# from crank to coupler\n[[joint]]"));
-/// # Ok::<(), Box<dyn std::error::Error>>(())
-/// ```
-pub fn toml(file: &MechanismFile, comments: &[Comment]) -> Result<String, toml::ser::Error> {
-    let text = toml::to_string(&file.json())?;
-    if comments.is_empty() {
-        return Ok(text);
-    }
-    let mut document: DocumentMut = text.parse().map_err(toml::ser::Error::custom)?;
-    for c in comments {
-        let table = match document.get_mut(c.table) {
-            Some(Item::ArrayOfTables(tables)) => tables.get_mut(c.index),
-            other => other.and_then(Item::as_table_mut),
-        };
-        if let Some(table) = table {
-            table.decor_mut().set_prefix(c.comment_lines());
-        }
-    }
-    Ok(document.to_string())
+pub fn toml(file: &MechanismFile) -> Result<String, toml::ser::Error> {
+    toml::to_string(&file.json())
 }
 
 /// Returns the word for a role.

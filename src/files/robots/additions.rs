@@ -63,7 +63,7 @@ pub(crate) fn read_plugin(at: &Scoped<'_>, scene: &SdfScene<'_>, robot: &mut Rob
             } else {
                 format!("{model}::{child}")
             };
-            weld_links(e, &[absolute_name(scope, parent), child], scene, robot);
+            weld_links(e, &[absolute_name(scope, parent), child], scene, robot)?;
         }
         _ => leave_out(e, None, robot),
     }
@@ -71,20 +71,24 @@ pub(crate) fn read_plugin(at: &Scoped<'_>, scene: &SdfScene<'_>, robot: &mut Rob
 }
 
 /// Welds two links in their drawn places. A weld of a missing link is omitted and counted.
-fn weld_links(e: Element<'_>, names: &[String; 2], scene: &SdfScene<'_>, robot: &mut Robot) {
+fn weld_links(
+    e: Element<'_>,
+    names: &[String; 2],
+    scene: &SdfScene<'_>,
+    robot: &mut Robot,
+) -> Read<()> {
     let [Ok((a, at)), Ok((b, _))] = names.each_ref().map(|n| moves_with(scene, n)) else {
         let [a, b] = names;
         let what = format!("it welds {a} to {b}, which are not both in the file; omitted");
-        return robot.report.leave_out_joint(&label_of(e), MOST_ROWS, what);
+        robot.report.leave_out_joint(&label_of(e), MOST_ROWS, what);
+        return Ok(());
     };
     if a == b {
-        return;
+        return Ok(());
     }
     let ends = [a, b].map(|l| (l, robot.places[l].inverse().then(&at)));
     let id = format!("weld-{}-{}", names[0], names[1]);
-    if let Ok(part) = robot.close_loop(e, &id, ends, JointType::Fixed) {
-        part.comment = Some(format!("closes a loop: {}", label_of(e)));
-    }
+    robot.close_loop(e, &id, ends, JointType::Fixed).map(drop)
 }
 
 /// Omits an element of unknown meaning. It is counted if its name suggests that it closes a loop or couples joints, or if it names several

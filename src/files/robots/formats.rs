@@ -61,7 +61,7 @@ const fn format(word: &'static str, name: &'static str, about: &'static str) -> 
 /// All formats.
 static FORMATS: [Format; 8] = [
     Format {
-        write: Some(|m| Ok(write::toml(&own_file(m)?, &[])?.into())),
+        write: Some(|m| Ok(write::toml(&own_file(m)?)?.into())),
         ..format(
             "toml",
             "TOML",

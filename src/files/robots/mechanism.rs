@@ -7,7 +7,6 @@ pub(in crate::robots) mod series_of_single_joints;
 
 use crate::file::read::value::LIMITS;
 use crate::file::schema::MechanismFile;
-use crate::file::write::Comment;
 use crate::format::count_noun;
 use crate::robots::description::coupling;
 use crate::robots::description::kinematics::{Tree, link_places, spanning_tree};
@@ -197,13 +196,13 @@ fn in_loops(robot: &Robot, tree: &Tree) -> BTreeSet<usize> {
     out
 }
 
-/// Returns the entries of the mechanism file of a robot and their comments. `source` is the name of the file read, and of its format.
+/// Returns the entries of the mechanism file of a robot. `source` is the name of the file read, and of its format.
 pub(crate) fn make_entries(
     robot: &mut Robot,
     tree: &Tree,
     source: &str,
     options: &Options,
-) -> Found<(MechanismFile, Vec<Comment>, Content)> {
+) -> Found<(MechanismFile, Content)> {
     let (bodies, joints) = rigid_bodies(robot, tree)?;
     let frame = bodies[tree.roots[0]];
     let content = Content {
@@ -221,8 +220,7 @@ pub(crate) fn make_entries(
     let size = (used.len(), content.joints.len());
     within_limits(size.0, size.1)?;
     (robot.report.outputs, robot.report.size) = (outputs, size);
-    let (file, comments) = entries::make_file(robot, source, &content);
-    Ok((file, comments, content))
+    Ok((entries::make_file(robot, source, &content), content))
 }
 
 /// Merges rigidly joined links to bodies and returns them with the joints between them. Joints within a body are reported and

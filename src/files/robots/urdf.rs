@@ -228,7 +228,6 @@ fn read_joint(e: Element<'_>, robot: &mut Robot) -> Read<()> {
         let leader = m.required_attribute("joint")?;
         let ratio = m.read_numbers::<1>("multiplier")?.map_or(1.0, |[x]| x);
         m.read_numbers::<1>("offset")?;
-        part.comment = Some(format!("mimics {leader} times {ratio}"));
         robot.couplings.push(Ratio {
             said_by: m.id,
             ..Ratio::new([leader, name], ratio, e)

@@ -210,7 +210,6 @@ fn add_closure(id: &str, ends: [End; 2], kind: JointType, robot: &mut Robot) -> 
     }
     let mut part = Part::new(id, links, ends.map(|e| e.1), kind);
     part.closes = true;
-    part.comment = Some("closes a loop".to_owned());
     robot.joints.push(part);
     Ok(())
 }
@@ -253,7 +252,6 @@ fn retype_joints(of: &Value, robot: &mut Robot) -> Found<()> {
         joint.values = vec![0.0; new.freedoms().len()];
         (joint.joint_type, joint.axis, joint.second) = (new, first, second);
         (joint.limits, joint.zero) = (None, 0.0);
-        joint.comment = Some(format!("{kind} by the file of loop closures"));
     }
     Ok(())
 }

@@ -93,9 +93,7 @@ pub(crate) fn read_joint(
     if apart {
         told_apart(e, far, scene.assemble, robot);
     }
-    if let Some(leader) = read_mimic(e, &name, scope, robot)? {
-        part.comment = Some(format!("mimics {leader}"));
-    }
+    read_mimic(e, &name, scope, robot)?;
     robot.joints.push(part);
     Ok(())
 }
@@ -118,13 +116,13 @@ fn told_apart(e: Element<'_>, far: f64, assembled: bool, robot: &mut Robot) {
     robot.report.add_approximation(&e.label(), what);
 }
 
-/// Records the coupling of a joint whose axis follows that of another, and returns the name of this joint.
-fn read_mimic(e: Element<'_>, name: &str, scope: &str, robot: &mut Robot) -> Read<Option<String>> {
+/// Records the coupling of a joint whose axis follows that of another.
+fn read_mimic(e: Element<'_>, name: &str, scope: &str, robot: &mut Robot) -> Read<()> {
     // Drake's own has its numbers as attributes.
     let mimics = ["mimic", "drake:mimic"];
     let inside = e.children().flat_map(Element::children);
     let Some(m) = inside.into_iter().find(|m| mimics.contains(&m.name())) else {
-        return Ok(None);
+        return Ok(());
     };
     let leader = absolute_name(scope, m.required_attribute("joint")?);
     let ratio = m.read_numbers::<1>("multiplier")?.map_or(1.0, |[x]| x);
@@ -133,7 +131,7 @@ fn read_mimic(e: Element<'_>, name: &str, scope: &str, robot: &mut Robot) -> Rea
         said_by: m.id,
         ..Ratio::new([&leader, name], ratio, e)
     });
-    Ok(Some(leader))
+    Ok(())
 }
 
 pub(crate) fn read_limits(e: Element<'_>) -> Read<Option<(f64, f64)>> {
@@ -213,8 +211,7 @@ pub(crate) fn read_weld(at: &Scoped<'_>, scene: &SdfScene<'_>, robot: &mut Robot
         joint_end(e, "parent")?.1,
         joint_end(e, "child")?.1
     );
-    let part = robot.close_loop(e, &id, ends, JointType::Fixed)?;
-    part.comment = Some("closes a loop: <drake:weld_constraint>".to_owned());
+    robot.close_loop(e, &id, ends, JointType::Fixed)?;
     Ok(())
 }
 
@@ -243,7 +240,6 @@ pub(crate) fn read_gearbox(at: &Scoped<'_>, scene: &SdfScene<'_>, robot: &mut Ro
     };
     let id = |j: usize| robot.joints[j].id.clone();
     let [leads, follows] = [id(leader), id(follower)];
-    robot.joints[follower].comment = Some(format!("geared to {leads}"));
     robot.couplings.push(Ratio {
         gear: true,
         ..Ratio::new([&leads, &follows], -times * first * second, e)
