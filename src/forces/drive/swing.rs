@@ -144,8 +144,6 @@ pub struct Swing {
     pub end: End,
     /// `[s]`
     pub duration: f64,
-    /// Time at which the cam's push begins, if it does. `[s]`
-    pub push_begins: Option<f64>,
     /// End position. `[rad]`
     pub place: f64,
     /// Energy balance.
@@ -245,7 +243,7 @@ impl Disc {
             initial: self.stiffness * start * start / 2.0,
             ..Balance::default()
         };
-        let (mut arrived, mut push_begins) = (false, None);
+        let mut arrived = false;
         let pushed = feed.push_moment(latch.at);
         let before = pushed.map_or(latch.at, |_| feed.from);
         for (bound, moment) in [(before, 0.0), (latch.at, pushed.unwrap_or(0.0))] {
@@ -256,9 +254,6 @@ impl Disc {
             // At rest, the bar must be stronger than friction; a stopped disc stays at rest.
             if v <= 0.0 && u >= middle {
                 break;
-            }
-            if moment > 0.0 {
-                push_begins.get_or_insert(t);
             }
             let piece = self.trace_piece(t, u, v, middle, bound);
             let (end, speed) = self.state_at(&piece, piece.length);
@@ -290,7 +285,6 @@ impl Disc {
             pieces,
             end,
             duration: t,
-            push_begins,
             place: u,
             balance,
         })

@@ -2,7 +2,7 @@
 //! stable contract.
 
 use crate::drive::driving::{Design, Driving};
-use crate::drive::programme::{Endurance, Event, Ran, RunMoment};
+use crate::drive::programme::{Event, Ran, RunMoment};
 use crate::drive::swing::End;
 use crate::drive::torsion::{Sizing, log_decrement};
 use crate::file::read::workload::WorkloadFile;
@@ -87,11 +87,6 @@ fn design_json(spec: &DriveSpec, d: &Design) -> Value {
         "feed_moments": Vec::from_iter(moments),
         "cam": d.cam,
         "motions": d.motions,
-        "endurance": match d.endurance {
-            Endurance::Lasts { missing } => json!({ "lasts": true, "missing": missing }),
-            Endurance::Drifts { missing } => json!({ "lasts": null, "missing": missing }),
-            Endurance::Fails { after } => json!({ "lasts": false, "after": after }),
-        },
         "latched": d.run.latched,
         "wanted": d.run.wanted,
         "programme": d.run.steps.iter().map(step_json).collect::<Value>(),
