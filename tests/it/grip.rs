@@ -5,7 +5,6 @@ mod cases;
 mod clamped;
 mod effort;
 mod holding;
-mod motion;
 mod published;
 
 use ozols::grip::lever_arm::{Lever, LeverError};

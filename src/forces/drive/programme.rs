@@ -65,10 +65,6 @@ pub struct RunMoment {
     pub potential: f64,
     /// Energy of the swinging disc. `[J]`
     pub kinetic: f64,
-    /// Speeds of the discs. `[rad/s]`
-    pub speeds: [f64; 2],
-    /// Accelerations of the discs. `[rad/s²]`
-    pub accelerations: [f64; 2],
 }
 
 impl Run {
@@ -194,14 +190,11 @@ impl Module {
                 let t = step.duration * f64::from(i) / f64::from(count);
                 let mut angles = step.angles;
                 let mut kinetic = 0.0;
-                let (mut speeds, mut accelerations) = ([0.0; 2], [0.0; 2]);
                 if let Event::Swing { disc, swing } = &step.event {
                     let ahead = (angles[*disc] - angles[1 - disc]).signum();
                     let (u, v) = swing.position_at(t);
                     angles[*disc] = angles[1 - disc] - ahead * u;
                     kinetic = self.discs[*disc].inertia * v * v / 2.0;
-                    speeds[*disc] = -ahead * v;
-                    accelerations[*disc] = -ahead * swing.acceleration_at(t);
                 }
                 let twist = angles[0] - angles[1];
                 let potential = self.discs[0].stiffness * twist * twist / 2.0;
@@ -210,8 +203,6 @@ impl Module {
                     angles,
                     potential,
                     kinetic,
-                    speeds,
-                    accelerations,
                 });
             }
         }

@@ -405,17 +405,6 @@ impl Disc {
 }
 
 impl Swing {
-    /// Returns the acceleration at a time from the release, which is 0 at its end. `[rad/s²]`
-    #[must_use]
-    pub fn acceleration_at(&self, time: f64) -> f64 {
-        let now = self.pieces.iter().find(|p| time <= p.start + p.length);
-        now.map_or(0.0, |p| {
-            let (place, speed) = self.disc.state_at(p, (time - p.start).max(0.0));
-            let moment = -self.disc.stiffness * (place - p.middle) - self.disc.viscous * speed;
-            moment / self.disc.inertia
-        })
-    }
-
     /// Returns position and speed at a time from the release. Afterwards the disc is at rest at its end.
     #[must_use]
     pub fn position_at(&self, time: f64) -> (f64, f64) {

@@ -10,11 +10,9 @@ use crate::grip::lever_arm::Arms;
 use crate::grip::{Grip, drive_effort};
 use crate::model::grip::GripSpec;
 use crate::statics::transmission::Rates;
-use crate::view::grip::motion::GripMotion;
 use crate::view::prelude::*;
 
 pub mod clamped;
-pub mod motion;
 pub mod text;
 
 /// The holding ability of a gripper.
@@ -24,8 +22,6 @@ pub struct GripReport<'a> {
     pub file: &'a WorkloadFile<GripSpec>,
     /// Its study.
     pub found: &'a Grip,
-    /// The clamping along a motion, if one was asked for.
-    pub motion: Option<GripMotion>,
 }
 
 impl<'a> GripReport<'a> {
@@ -54,9 +50,9 @@ impl<'a> GripReport<'a> {
         )
     }
 
-    /// Returns whether every diameter is held in every case, and at every step of the motion.
+    /// Returns whether every diameter is held in every case.
     pub fn holds(&self) -> bool {
-        self.found.study.holds_all() && self.motion.as_ref().is_none_or(GripMotion::holds)
+        self.found.study.holds_all()
     }
 
     /// Returns all of it as data.
@@ -71,7 +67,6 @@ impl<'a> GripReport<'a> {
             "diameters": (0..study.rows.len()).map(|at| self.diameter_json(at)).collect::<Value>(),
             // At the hardest diameter, or the first.
             "transmission": self.rates_at(hardest.unwrap_or(0)).map(transmission_json),
-            "motion": self.motion.as_ref().map(GripMotion::json),
             "claims": claims_about(&self.file.claims, Topic::Grip),
         })
     }
@@ -229,11 +224,6 @@ pub fn grip_charts(g: &GripReport<'_>) -> Vec<(String, Chart)> {
             },
         ));
     }
-    out.extend(
-        g.motion
-            .as_ref()
-            .map(|m| ("motion".to_owned(), m.chart(&g.file.name))),
-    );
     out
 }
 

@@ -4,7 +4,6 @@ pub(crate) mod drive;
 pub(crate) mod grip;
 pub(crate) mod loads;
 pub mod motion;
-pub mod trajectory;
 
 use crate::file::prelude::*;
 use crate::file::problem::ImportError;
