@@ -1,7 +1,7 @@
 //! A stroke as requested by the user: the column that moves, the columns held, and the accuracy of following.
 
+use crate::closure::drive::driven_freedoms;
 use crate::geom::exact::ExactError;
-use crate::model::joint_type::Freedom;
 use crate::model::loads;
 use crate::model::mechanism::{JointId, Mechanism, StateId};
 use crate::motion::follow::{Follower, column_slides};
@@ -198,7 +198,7 @@ fn find_drive(
     asked: Option<&str>,
 ) -> Result<(usize, Vec<usize>), AskedError> {
     let names = column_names(m, pose);
-    let driven = |j: JointId| m.joints[j].drive;
+    let drives = driven_freedoms(m, state);
     let column = |joint: JointId, freedom: Option<&str>| {
         let mut of: Vec<_> = names
             .iter()
@@ -232,21 +232,20 @@ fn find_drive(
             column(joint, freedom)?
         }
         None => {
-            let mut driving = m.joints_in(state).filter(|&j| driven(j));
-            let joint = driving.next().ok_or_else(|| AskedError::NoDrive {
+            let (joint, freedom) = drives.first().ok_or_else(|| AskedError::NoDrive {
                 name: m.name.clone(),
                 could: describe_choices(m, pose, &names),
             })?;
-            column(joint, m.joints[joint].drive_freedom.map(Freedom::name))?
+            column(*joint, Some(freedom.name()))?
         }
     };
     let own = pose.columns[chosen].joint;
     let held = (0..pose.columns.len())
         .filter(|&c| {
             let column = &pose.columns[c];
-            column.joint != own && m.joints[column.joint].may_drive(column.freedom)
+            column.joint != own && drives.contains(&(column.joint, column.freedom))
         })
-        .filter(|_| driven(own))
+        .filter(|_| m.joints[own].drive)
         .collect();
     Ok((chosen, held))
 }
