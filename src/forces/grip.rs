@@ -11,6 +11,7 @@ pub mod contact;
 pub mod holding;
 pub mod jaw_loads;
 pub mod lever_arm;
+pub mod motion;
 
 use crate::geom::exact::ExactError;
 use crate::grip::clamping::{DiameterRow, Study, study_diameters};

@@ -64,6 +64,7 @@ pub(crate) fn grip(
         let shown = GripReport {
             file: &file,
             found: &found,
+            motion: None,
         };
         Ok((json(&shown.json())?, shown.text(None), None, None))
     })

@@ -5,6 +5,7 @@ mod cases;
 mod clamped;
 mod effort;
 mod holding;
+mod motion;
 mod published;
 
 use ozols::grip::lever_arm::{Lever, LeverError};

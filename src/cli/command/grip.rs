@@ -2,11 +2,14 @@
 
 use crate::cli::prelude::*;
 use crate::drive::driving::design_drive;
+use crate::file::read::workload::trajectory::read_trajectory;
 use crate::file::read::workload::{WorkloadFile, drive_from_bytes, grip_from_bytes};
 use crate::grip::analyse_grip;
-use crate::model::grip::{GripSpec, Toward};
+use crate::grip::motion::clamp_along;
+use crate::model::grip::{GripSpec, MotionStep, Toward};
 use crate::view;
-use crate::view::drive::{drive_charts, text};
+use crate::view::drive::{drive_charts, motion_csv, text};
+use crate::view::grip::motion::GripMotion;
 use crate::view::grip::{GripReport, grip_charts};
 
 #[derive(Debug, ClapArgs)]
@@ -19,6 +22,10 @@ pub(crate) struct Grip {
     /// Additional acceleration of the gripper in m/s², in any direction; `ozols drive` prints one.
     #[arg(long, value_name = "A")]
     any_acceleration: Option<f64>,
+    /// Motion as CSV, one step per line: columns ax, ay, az in m/s², and optionally gx, gy, gz (gravity in the gripper's axes),
+    /// time, diameter. Computes the least clamping for every step.
+    #[arg(long, value_name = "CSV", value_hint = clap::ValueHint::FilePath)]
+    motion: Option<PathBuf>,
     /// Output format.
     #[arg(long, value_enum, default_value = "text")]
     format: TextOrJson,
@@ -43,10 +50,22 @@ pub(crate) fn run_grip(a: &Grip) -> anyhow::Result<Done> {
     let (name, bytes) = load::read_named(&a.file)?;
     let mut file = grip_from_bytes(&name, &bytes)?;
     add_accelerations(&mut file, a)?;
+    let steps = match &a.motion {
+        Some(path) => Some(steps_of(path, &mut file)?),
+        None => None,
+    };
     let found = analyse_grip(&file.spec, file.mechanism.as_ref())?;
+    let motion = match steps {
+        None => None,
+        Some(steps) => Some(GripMotion {
+            steps: clamp_along(&file.spec, &found, &steps)?,
+            unit: file.length_unit,
+        }),
+    };
     let shown = GripReport {
         file: &file,
         found: &found,
+        motion,
     };
     if let Some(folder) = &a.svg {
         let charts = grip_charts(&shown).into_iter();
@@ -85,6 +104,24 @@ fn add_accelerations(file: &mut WorkloadFile<GripSpec>, a: &Grip) -> anyhow::Res
     Ok(())
 }
 
+/// Reads a motion, whose parts are studied along with the others.
+fn steps_of(path: &Path, file: &mut WorkloadFile<GripSpec>) -> anyhow::Result<Vec<MotionStep>> {
+    let bytes = disk::at_most(path, MAX_DESCRIPTION_BYTES)
+        .with_context(|| format!("cannot read {}", path.display()))?;
+    let steps = read_trajectory(&path.display().to_string(), &bytes, file.length_unit.metres)?;
+    let parts = steps
+        .iter()
+        .map(|s| s.diameter.unwrap_or(file.spec.diameter));
+    let near = |a: f64, b: f64| (a - b).abs() <= 1e-9 * a;
+    for part in parts.collect::<Vec<f64>>() {
+        if !file.spec.diameters.iter().any(|d| near(*d, part)) {
+            file.spec.diameters.push(part);
+        }
+    }
+    file.spec.diameters.sort_by(f64::total_cmp);
+    Ok(steps)
+}
+
 #[derive(Debug, ClapArgs)]
 pub(crate) struct Drive {
     #[command(flatten)]
@@ -92,7 +129,7 @@ pub(crate) struct Drive {
     /// Output format.
     #[arg(long, value_enum, default_value = "text")]
     pub(crate) format: TextOrJson,
-    /// Also write charts to this folder, each as SVG and CSV.
+    /// Also write to this folder: charts as SVG and CSV, and the payload's motion on the first disc for `ozols grip --motion`.
     #[arg(long, value_name = "DIR")]
     pub(crate) svg: Option<PathBuf>,
     #[command(flatten)]
@@ -105,8 +142,10 @@ pub(crate) fn run_drive(a: &Drive) -> anyhow::Result<Done> {
     let found = design_drive(&file.spec)?;
     let shown = view::drive::Drive::new(&file, &found);
     if let (Some(folder), true) = (&a.svg, shown.design.is_some()) {
-        let charts = drive_charts(&shown).into_iter();
-        output::write_pictures(folder, None, charts.map(output::chart_files))?;
+        let motion = motion_csv(&shown)
+            .map(|table| ("motion".to_owned(), String::new(), vec![("csv", table)]));
+        let charts = drive_charts(&shown).into_iter().map(output::chart_files);
+        output::write_pictures(folder, None, charts.chain(motion))?;
     }
     let gives = "charts of the programme: angle and energy over time";
     let charts = NextCommand::new("drive", &a.file.file, "--svg charts", gives);

@@ -1,13 +1,13 @@
 //! Design and run of a torsional drive: bar, missing angle, cam spring, programme, and the motion of its payload.
 //!
-//! While the disc swings from one groove to the next, the follower of the cam is first held lifted. From the start of the push the
-//! spring presses it on the cam, and does the work of the push.
+//! While the disc swings from one groove to the next, the electromagnet of the cam first holds the follower lifted. It is released
+//! at the start of the push. Then the spring presses the follower on the cam, and does the work of the push.
 
-use crate::drive::programme::{Module, Run};
+use crate::drive::programme::{Endurance, Event, Module, Run};
 use crate::drive::swing::{Disc, Feed, Latch, SwingError};
 use crate::drive::torsion::{Bar, CamSpring, Sizing, Wanted, friction_energy, natural_frequency};
 use crate::model::drive::{Cam, Damping, DriveSpec};
-use serde::Serialize;
+use serde::{Serialize, Serializer};
 
 /// Step of the chosen lengths of bars. `[m]`
 pub(crate) const LENGTH_STEP: f64 = 1e-3;
@@ -63,6 +63,8 @@ pub struct Design {
     pub module: Module,
     /// The programme run.
     pub run: Run,
+    /// Result of the programme in the long run.
+    pub endurance: Endurance,
 }
 
 /// Result for a drive.
@@ -191,6 +193,7 @@ fn design_with_bar(spec: &DriveSpec, bar: Bar) -> Result<Design, SwingError> {
     let needed_feed = needed_feed(&discs, latch, feed.from)?;
     let module = Module { discs, latch, feed };
     let run = module.run_programme(&spec.programme)?;
+    let endurance = module.run_endlessly(&spec.programme)?;
     let radius = spec.payload.map(|p| p.radius);
     let mut design = Design {
         bar,
@@ -207,6 +210,7 @@ fn design_with_bar(spec: &DriveSpec, bar: Bar) -> Result<Design, SwingError> {
             .map(|i| payload_motion(stiffness, i, spec.twist, radius)),
         module,
         run,
+        endurance,
     };
     design.cam = spec.cam.map(|c| design_cam(&c, &design));
     Ok(design)
@@ -215,14 +219,16 @@ fn design_with_bar(spec: &DriveSpec, bar: Bar) -> Result<Design, SwingError> {
 /// Returns the cam of a design.
 fn design_cam(cam: &Cam, design: &Design) -> CamDesign {
     let spring = |energy| CamSpring::for_friction(energy, cam.efficiency, cam.mounting, cam.stroke);
+    let fitted = spring(design.feed);
     CamDesign {
         spring: spring(design.friction_energy),
         needed: design.needed_feed.map(spring),
-        fitted: spring(design.feed),
+        fitted,
+        magnet: size_magnet(&design.run, &fitted),
     }
 }
 
-/// The cam's spring by the formulas and by the simulation.
+/// The cam's spring by the formulas and by the simulation, and its electromagnets.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct CamDesign {
     /// The spring by equation (14).
@@ -231,4 +237,67 @@ pub struct CamDesign {
     pub needed: Option<CamSpring>,
     /// The spring that gives the work fed in this run.
     pub fitted: CamSpring,
+    /// The action of the electromagnets against the fitted spring.
+    #[serde(rename = "electromagnet")]
+    pub magnet: Magnet,
+}
+
+/// An interval during which the electromagnet of a disc is on. `[s]`
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Pulse {
+    /// 0 or 1; displayed as 1 or 2.
+    #[serde(serialize_with = "from_one")]
+    pub disc: usize,
+    /// Time of the release.
+    pub on: f64,
+    /// Start of the push, or the end of the swing if that is earlier.
+    pub off: f64,
+}
+
+fn from_one<S: Serializer>(disc: &usize, serializer: S) -> Result<S::Ok, S::Error> {
+    (disc + 1).serialize(serializer)
+}
+
+/// Action of the electromagnets in a programme.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Magnet {
+    /// The pulses in order.
+    pub pulses: Vec<Pulse>,
+    /// Force against the spring when the roller leaves its groove, ψ0 c S. `[N]`
+    pub first_force: f64,
+    /// Force against the spring when lifted, (1 + ψ0) c S; held until the pulse ends. `[N]`
+    pub last_force: f64,
+    /// Work against the spring per swing, by (13). `[J]`
+    pub energy_per_swing: f64,
+    /// Work in a whole oscillation, two swings. `[J]`
+    pub energy_per_cycle: f64,
+    /// Work of all pulses over the duration of the programme. `[W]`
+    pub mean_power: f64,
+}
+
+/// Returns the action of the electromagnets in a run with this spring.
+pub(crate) fn size_magnet(run: &Run, spring: &CamSpring) -> Magnet {
+    let swings = run.steps.iter().filter_map(|s| match &s.event {
+        Event::Swing { disc, swing } => Some((s, *disc, swing)),
+        Event::Dwell => None,
+    });
+    let pulses: Vec<Pulse> = swings
+        .map(|(s, disc, swing)| Pulse {
+            disc,
+            on: s.start,
+            off: s.start + swing.push_begins.unwrap_or(swing.duration),
+        })
+        .collect();
+    let time: f64 = run.steps.iter().map(|s| s.duration).sum();
+    let force = |deformation: f64| spring.rate * spring.stroke * deformation;
+    #[allow(clippy::cast_precision_loss, reason = "at most 10,000 steps")]
+    let work = spring.stroke_energy() * pulses.len() as f64;
+    Magnet {
+        first_force: force(spring.mounting),
+        last_force: force(1.0 + spring.mounting),
+        energy_per_swing: spring.stroke_energy(),
+        energy_per_cycle: 2.0 * spring.stroke_energy(),
+        mean_power: if time > 0.0 { work / time } else { 0.0 },
+        pulses,
+    }
 }

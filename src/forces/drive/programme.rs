@@ -54,6 +54,31 @@ pub struct Run {
     pub angles: [f64; 2],
 }
 
+/// Result of repeating a programme without end.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Endurance {
+    /// The repetitions continue, each swing caught within a bounded distance of its latch. `[rad]`
+    Lasts {
+        /// Largest distance from the latch in the long run.
+        missing: f64,
+    },
+    /// A latch is missed.
+    Fails {
+        /// Number of latched swings before that.
+        after: usize,
+    },
+    /// Still drifting when the limit was reached.
+    Drifts {
+        /// Distance from the latch at that time. `[rad]`
+        missing: f64,
+    },
+}
+
+/// Number of swings after which a drift is no longer followed.
+pub const PATIENCE: usize = 10_000;
+/// Share of φ0 below which positions count as equal.
+const SAME: f64 = 1e-12;
+
 /// The state of a run at one time.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RunMoment {
@@ -65,6 +90,10 @@ pub struct RunMoment {
     pub potential: f64,
     /// Energy of the swinging disc. `[J]`
     pub kinetic: f64,
+    /// Speeds of the discs. `[rad/s]`
+    pub speeds: [f64; 2],
+    /// Accelerations of the discs. `[rad/s²]`
+    pub accelerations: [f64; 2],
 }
 
 impl Run {
@@ -83,6 +112,16 @@ impl Run {
     }
 }
 
+/// Returns the discs that a programme releases, in order.
+#[must_use]
+fn released_discs(programme: &[ProgrammeStep]) -> Vec<usize> {
+    let disc = |s: &ProgrammeStep| match s {
+        ProgrammeStep::Swing(disc) => Some(*disc),
+        ProgrammeStep::Dwell(_) => None,
+    };
+    programme.iter().filter_map(disc).collect()
+}
+
 /// Positions of the discs. A disc's grooves are 2φ0 apart on it, and those of the two discs are offset by φ0. A disc at
 /// rest is in the groove at φ0 times its index, or short of it within the capture of the latch.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -91,6 +130,15 @@ struct DiscAngles {
     places: [i32; 2],
     /// Offsets of the discs from the grooves. `[rad]`
     offsets: [f64; 2],
+}
+
+impl DiscAngles {
+    /// Returns the offsets in a frame in which the second disc is ahead. A state and its mirror image continue in the
+    /// same way.
+    fn seen_ahead(&self) -> [f64; 2] {
+        let way = f64::from(self.places[1] - self.places[0]);
+        self.offsets.map(|x| way * x)
+    }
 }
 
 impl Module {
@@ -137,8 +185,7 @@ impl Module {
     /// # Errors
     /// Returns an error if the discs do not swing.
     pub fn run_programme(&self, programme: &[ProgrammeStep]) -> Result<Run, SwingError> {
-        let releases = |s: &&ProgrammeStep| matches!(s, ProgrammeStep::Swing(_));
-        let wanted = programme.iter().filter(releases).count();
+        let wanted = released_discs(programme).len();
         let mut now = Self::START;
         let mut run = Run {
             steps: Vec::new(),
@@ -176,6 +223,49 @@ impl Module {
         Ok(run)
     }
 
+    /// Repeats a programme as written until a round leaves the discs in the state of an earlier round, or a latch is
+    /// missed.
+    ///
+    /// Rounds are compared with a marked one, and the mark moves after 1, 2, 4, ... rounds [Brent 1980]. So swings that
+    /// repeat only after several rounds are recognised, and a slow drift is not mistaken for rest.
+    ///
+    /// # Errors
+    /// Returns an error in the same cases as [`Module::run_programme`].
+    ///
+    /// # Complexity
+    /// At most [`PATIENCE`] swings, and those of one more round.
+    pub fn run_endlessly(&self, programme: &[ProgrammeStep]) -> Result<Endurance, SwingError> {
+        let discs = released_discs(programme);
+        if discs.is_empty() {
+            return Ok(Endurance::Lasts { missing: 0.0 });
+        }
+        let mut now = Self::START;
+        let mut marked = (now.seen_ahead(), 0.0f64);
+        let (mut latched, mut until, mut since) = (0, 1, 0);
+        while latched < PATIENCE {
+            for &disc in &discs {
+                let swing = self.swing_disc(&mut now, disc)?;
+                if matches!(swing.end, End::Missed { .. } | End::Stuck) {
+                    return Ok(Endurance::Fails { after: latched });
+                }
+                latched += 1;
+                marked.1 = marked.1.max(now.offsets[disc].abs());
+            }
+            let after = now.seen_ahead();
+            let still = |d: usize| (after[d] - marked.0[d]).abs() <= SAME * self.latch.at;
+            if still(0) && still(1) {
+                return Ok(Endurance::Lasts { missing: marked.1 });
+            }
+            since += 1;
+            if since == until {
+                marked = (after, 0.0);
+                (until, since) = (2 * until, 0);
+            }
+        }
+        let missing = now.offsets[0].abs().max(now.offsets[1].abs());
+        Ok(Endurance::Drifts { missing })
+    }
+
     /// Returns the run at `per_swing` times per swing, for charts.
     #[must_use]
     pub fn sample_run(&self, run: &Run, per_swing: u32) -> Vec<RunMoment> {
@@ -190,11 +280,14 @@ impl Module {
                 let t = step.duration * f64::from(i) / f64::from(count);
                 let mut angles = step.angles;
                 let mut kinetic = 0.0;
+                let (mut speeds, mut accelerations) = ([0.0; 2], [0.0; 2]);
                 if let Event::Swing { disc, swing } = &step.event {
                     let ahead = (angles[*disc] - angles[1 - disc]).signum();
                     let (u, v) = swing.position_at(t);
                     angles[*disc] = angles[1 - disc] - ahead * u;
                     kinetic = self.discs[*disc].inertia * v * v / 2.0;
+                    speeds[*disc] = -ahead * v;
+                    accelerations[*disc] = -ahead * swing.acceleration_at(t);
                 }
                 let twist = angles[0] - angles[1];
                 let potential = self.discs[0].stiffness * twist * twist / 2.0;
@@ -203,6 +296,8 @@ impl Module {
                     angles,
                     potential,
                     kinetic,
+                    speeds,
+                    accelerations,
                 });
             }
         }

@@ -144,6 +144,8 @@ pub struct Swing {
     pub end: End,
     /// `[s]`
     pub duration: f64,
+    /// Time at which the cam's push begins, if it does. `[s]`
+    pub push_begins: Option<f64>,
     /// End position. `[rad]`
     pub place: f64,
     /// Energy balance.
@@ -243,7 +245,7 @@ impl Disc {
             initial: self.stiffness * start * start / 2.0,
             ..Balance::default()
         };
-        let mut arrived = false;
+        let (mut arrived, mut push_begins) = (false, None);
         let pushed = feed.push_moment(latch.at);
         let before = pushed.map_or(latch.at, |_| feed.from);
         for (bound, moment) in [(before, 0.0), (latch.at, pushed.unwrap_or(0.0))] {
@@ -254,6 +256,9 @@ impl Disc {
             // At rest, the bar must be stronger than friction; a stopped disc stays at rest.
             if v <= 0.0 && u >= middle {
                 break;
+            }
+            if moment > 0.0 {
+                push_begins.get_or_insert(t);
             }
             let piece = self.trace_piece(t, u, v, middle, bound);
             let (end, speed) = self.state_at(&piece, piece.length);
@@ -285,6 +290,7 @@ impl Disc {
             pieces,
             end,
             duration: t,
+            push_begins,
             place: u,
             balance,
         })
@@ -405,6 +411,17 @@ impl Disc {
 }
 
 impl Swing {
+    /// Returns the acceleration at a time from the release, which is 0 at its end. `[rad/s²]`
+    #[must_use]
+    pub fn acceleration_at(&self, time: f64) -> f64 {
+        let now = self.pieces.iter().find(|p| time <= p.start + p.length);
+        now.map_or(0.0, |p| {
+            let (place, speed) = self.disc.state_at(p, (time - p.start).max(0.0));
+            let moment = -self.disc.stiffness * (place - p.middle) - self.disc.viscous * speed;
+            moment / self.disc.inertia
+        })
+    }
+
     /// Returns position and speed at a time from the release. Afterwards the disc is at rest at its end.
     #[must_use]
     pub fn position_at(&self, time: f64) -> (f64, f64) {

@@ -67,6 +67,19 @@ pub enum Toward {
     Any(f64),
 }
 
+/// A step of a motion: orientation and acceleration of the gripper.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct MotionStep {
+    /// `[s]`, if stated.
+    pub time: Option<f64>,
+    /// Diameter of the part. The default is the nominal one. `[m]`
+    pub diameter: Option<f64>,
+    /// Gravity in the gripper's axes. The default is that of the file. `[m/s²]`
+    pub gravity: Option<[f64; 3]>,
+    /// Acceleration of the gripper in its axes. `[m/s²]`
+    pub acceleration: [f64; 3],
+}
+
 /// The load that the gripper must hold.
 #[derive(Debug, Clone, PartialEq)]
 pub struct GripLoad {

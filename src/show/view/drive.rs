@@ -2,10 +2,11 @@
 //! stable contract.
 
 use crate::drive::driving::{Design, Driving};
-use crate::drive::programme::{Event, Ran, RunMoment};
+use crate::drive::programme::{Endurance, Event, Ran, RunMoment};
 use crate::drive::swing::End;
 use crate::drive::torsion::{Sizing, log_decrement};
 use crate::file::read::workload::WorkloadFile;
+use crate::format::csv;
 use crate::model::drive::DriveSpec;
 use crate::view::prelude::*;
 
@@ -86,6 +87,11 @@ fn design_json(spec: &DriveSpec, d: &Design) -> Value {
         "feed_moments": Vec::from_iter(moments),
         "cam": d.cam,
         "motions": d.motions,
+        "endurance": match d.endurance {
+            Endurance::Lasts { missing } => json!({ "lasts": true, "missing": missing }),
+            Endurance::Drifts { missing } => json!({ "lasts": null, "missing": missing }),
+            Endurance::Fails { after } => json!({ "lasts": false, "after": after }),
+        },
         "latched": d.run.latched,
         "wanted": d.run.wanted,
         "programme": d.run.steps.iter().map(step_json).collect::<Value>(),
@@ -113,6 +119,24 @@ fn step_json(s: &Ran) -> Value {
 
 /// Points drawn of a swing.
 const PER_SWING: u32 = 48;
+
+/// Returns the payload's acceleration on the first disc over the programme, in the format of `ozols grip --motion`. It is
+/// for a gripper that reaches outwards from the axis (its x), with the part along the axis (its z).
+pub fn motion_csv(d: &Drive<'_>) -> Option<String> {
+    let (found, payload) = (d.design?, d.file.spec.payload?);
+    let rows = found
+        .module
+        .sample_run(&found.run, PER_SWING)
+        .into_iter()
+        .map(|s| {
+            let inwards = -s.speeds[0] * s.speeds[0] * payload.radius;
+            let across = s.accelerations[0] * payload.radius;
+            [s.time, inwards, across, 0.0]
+                .map(|x| format!("{x:?}"))
+                .to_vec()
+        });
+    Some(csv::write_table(&["time", "ax", "ay", "az"], rows))
+}
 
 /// Returns both charts with the names of their files. Empty without a bar.
 ///

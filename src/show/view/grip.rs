@@ -10,9 +10,11 @@ use crate::grip::lever_arm::Arms;
 use crate::grip::{Grip, drive_effort};
 use crate::model::grip::GripSpec;
 use crate::statics::transmission::Rates;
+use crate::view::grip::motion::GripMotion;
 use crate::view::prelude::*;
 
 pub mod clamped;
+pub mod motion;
 pub mod text;
 
 /// The holding ability of a gripper.
@@ -22,6 +24,8 @@ pub struct GripReport<'a> {
     pub file: &'a WorkloadFile<GripSpec>,
     /// Its study.
     pub found: &'a Grip,
+    /// The clamping along a motion, if one was asked for.
+    pub motion: Option<GripMotion>,
 }
 
 impl<'a> GripReport<'a> {
@@ -50,9 +54,9 @@ impl<'a> GripReport<'a> {
         )
     }
 
-    /// Returns whether every diameter is held in every case.
+    /// Returns whether every diameter is held in every case, and at every step of the motion.
     pub fn holds(&self) -> bool {
-        self.found.study.holds_all()
+        self.found.study.holds_all() && self.motion.as_ref().is_none_or(GripMotion::holds)
     }
 
     /// Returns all of it as data.
@@ -67,6 +71,7 @@ impl<'a> GripReport<'a> {
             "diameters": (0..study.rows.len()).map(|at| self.diameter_json(at)).collect::<Value>(),
             // At the hardest diameter, or the first.
             "transmission": self.rates_at(hardest.unwrap_or(0)).map(transmission_json),
+            "motion": self.motion.as_ref().map(GripMotion::json),
             "claims": claims_about(&self.file.claims, Topic::Grip),
         })
     }
@@ -224,6 +229,11 @@ pub fn grip_charts(g: &GripReport<'_>) -> Vec<(String, Chart)> {
             },
         ));
     }
+    out.extend(
+        g.motion
+            .as_ref()
+            .map(|m| ("motion".to_owned(), m.chart(&g.file.name))),
+    );
     out
 }
 

@@ -134,6 +134,7 @@ fn no_reader_reads_without_a_bound() {
         "verify four-bar huge",
         "catalog build --spec huge -o x.db",
         "catalog query huge",
+        "grip lever-gripper --motion huge",
         "search four-bar --costs huge",
         "fix robot.urdf --loops huge",
     ] {

@@ -48,7 +48,7 @@ impl Reader {
 }
 
 /// All of them; the last two go the whole way from a mechanism to its redesigns.
-pub(crate) const READERS: [Reader; 17] = {
+pub(crate) const READERS: [Reader; 18] = {
     use certificates as proofs;
     use differential as twin;
     use expressions as terms;
@@ -71,6 +71,7 @@ pub(crate) const READERS: [Reader; 17] = {
         Reader::new("mjcf", &robots::WORDS, robots::mjcf, |b| {
             robots::look("x.xml", b)
         }),
+        Reader::new("motion", &files::WORDS, small::motion_seeds, small::motion),
         Reader::new("sdf", &robots::WORDS, robots::sdf, |b| {
             robots::look("x.sdf", b)
         }),

@@ -4,6 +4,7 @@ pub(crate) mod drive;
 pub(crate) mod grip;
 pub(crate) mod loads;
 pub mod motion;
+pub mod trajectory;
 
 use crate::file::prelude::*;
 use crate::file::problem::ImportError;

@@ -1,7 +1,8 @@
 //! A torsional drive for people: the bar, whether it runs its programme, and why.
 
+use crate::drive::driving::CamDesign;
 use crate::drive::driving::{DampingFrom, Design};
-use crate::drive::programme::{Event, Ran};
+use crate::drive::programme::{Endurance, Event, PATIENCE, Ran};
 use crate::drive::swing::{End, Swing};
 use crate::drive::torsion::{BarTrial, Remedy, log_decrement, stored_energy};
 use crate::view::drive::Drive;
@@ -172,15 +173,18 @@ fn write_losses(out: &mut Report, d: &Drive<'_>, design: &Design) {
         ));
     }
     out.add_line(needed_feed(design));
+    if d.is_complete() {
+        out.add_line(describe_endurance(&design.endurance));
+    }
     if let Some(cam) = &design.cam {
         let exact = cam.needed.as_ref().map_or_else(String::new, |s| {
             format!("; {} N/m by the simulation", four_digits(s.rate))
         });
         let [rate, energy] = [cam.spring.rate, cam.spring.stroke_energy()].map(four_digits);
-        let fitted = four_digits(cam.fitted.rate);
         out.add_line(format!(
-            "  cam spring: c = {rate} N/m (14), which gives {energy} J (13){exact}; {fitted} N/m for this run"
+            "  cam spring: c = {rate} N/m (14), which gives {energy} J (13){exact}"
         ));
+        write_electromagnet(out, d, cam);
     }
 }
 
@@ -202,6 +206,42 @@ fn needed_feed(design: &Design) -> String {
     } else {
         must
     }
+}
+
+/// Says whether the programme can be repeated for ever.
+fn describe_endurance(endurance: &Endurance) -> String {
+    match *endurance {
+        Endurance::Lasts { missing } => format!(
+            "  repeated unchanged, the programme latches every swing in the long run, at most {} short",
+            format_degrees(missing)
+        ),
+        Endurance::Drifts { missing } => format!(
+            "  repeated unchanged, the programme still drifts after {PATIENCE} swings, {} short by then",
+            format_degrees(missing)
+        ),
+        Endurance::Fails { after } => format!(
+            "  BUT NOT FOR LONG: of the programme repeated unchanged, {after} swings are latched and the next one misses; the cam must give more"
+        ),
+    }
+}
+
+/// Says when the electromagnets are on, and what that takes.
+fn write_electromagnet(out: &mut Report, d: &Drive<'_>, cam: &CamDesign) {
+    let m = &cam.magnet;
+    let times = m.pulses.iter().map(|p| p.off - p.on);
+    let least = times.clone().fold(f64::INFINITY, f64::min);
+    let most = times.fold(0.0, f64::max);
+    let on = format_span(four_digits(least), four_digits(most));
+    let [first, last] = [m.first_force, m.last_force].map(four_digits);
+    let [swing, cycle, power] =
+        [m.energy_per_swing, m.energy_per_cycle, m.mean_power].map(four_digits);
+    let (stroke, rate) = (
+        format_length(d, cam.fitted.stroke),
+        four_digits(cam.fitted.rate),
+    );
+    out.add_line(format!(
+        "  electromagnet: on at each release for {on} s, up to where the push begins; lifts the follower by {stroke} against {first} to {last} N: {swing} J a swing, {cycle} J a cycle, {power} W on average; spring c = {rate} N/m for this run"
+    ));
 }
 
 fn write_motions(out: &mut Report, d: &Drive<'_>, design: &Design) {

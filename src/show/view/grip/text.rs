@@ -4,6 +4,7 @@ use crate::grip::clamping::DiameterRow;
 use crate::grip::contact::TouchingPose;
 use crate::grip::holding::Holding;
 use crate::model::grip::{GripLoad, LeverDrive, PartMass, Pivots, Toward};
+use crate::view::grip::motion::format_or_dash;
 use crate::view::grip::{GripReport, all_reasons};
 use crate::view::prelude::*;
 
@@ -45,7 +46,9 @@ impl GripReport<'_> {
             out.add_line("\n  Contact forces in the worst case:\n");
             write_contacts(&mut out, held, pose, self.load_friction());
         }
-        out.text() + &claims_text(&self.file.claims, Topic::Grip, width)
+        let motion = self.motion.as_ref().map(|m| m.text(width));
+        let claims = claims_text(&self.file.claims, Topic::Grip, width);
+        out.text() + &motion.unwrap_or_default() + &claims
     }
 
     /// Returns a length in the file's unit, with its symbol.
@@ -235,9 +238,4 @@ fn write_contacts(out: &mut Report, held: &Holding, pose: &TouchingPose, limit: 
     });
     let heads = "contact | normal, N | along the face, N | along the part, N | friction/normal";
     out.add_table(heads, rows);
-}
-
-/// Returns a number, or "-" if there is none.
-fn format_or_dash(x: Option<f64>) -> String {
-    x.map_or_else(|| "-".to_owned(), four_digits)
 }

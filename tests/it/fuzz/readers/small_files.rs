@@ -6,6 +6,7 @@ use ozols::catalog::spec::{Spec, parse_range};
 use ozols::chains::graph6;
 use ozols::file::costs::costs_from_str;
 use ozols::file::edit::{Edit, apply_edits};
+use ozols::file::read::workload::trajectory::read_trajectory;
 use ozols::shard::Shard;
 use std::sync::LazyLock;
 
@@ -60,6 +61,27 @@ pub(crate) fn edits_seeds() -> Vec<Vec<u8>> {
         r#"[{"do": "add", "what": "link", "entry": {"id": "x"}}, {"do": "rename", "what": "link", "id": "1", "to": "y"}]"#,
         r#"[{"do": "remove", "items": [["link", "2"], ["joint", "0-1"]]}]"#,
         r#"[{"do": "text", "text": "name = \"x\""}, {"do": "add", "what": "point", "entry": {"id": "p", "link": "1", "point": [0, 1, "sqrt(2)"]}}]"#,
+    ])
+}
+
+/// A motion as CSV: all that is read of it is finite. Returns what was said.
+pub(crate) fn motion(bytes: &[u8]) -> String {
+    match read_trajectory("m.csv", bytes, 0.001) {
+        Ok(steps) => {
+            let finite = |v: &[f64; 3]| v.iter().all(|x| x.is_finite());
+            assert!(steps.iter().all(|s| finite(&s.acceleration)));
+            assert!(steps.iter().flat_map(|s| &s.gravity).all(finite));
+            assert!(!steps.is_empty());
+            "steps".to_owned()
+        }
+        Err(e) => e.to_string(),
+    }
+}
+
+pub(crate) fn motion_seeds() -> Vec<Vec<u8>> {
+    texts(&[
+        "ax,ay,az\n0,1,-9.81\n",
+        "# a comment\ntime, ax, ay, az, gx, gy, gz, diameter\n0, 1, 2, 3, 0, 0, -9.81, 40\n0.1, \"1e3\", -2, 3, 0, 0, -9.81, 41\n",
     ])
 }
 
