@@ -257,14 +257,6 @@ fn count_judged(
         .try_reduce(BTreeMap::new, merge)
 }
 
-/// Returns the properties of a variant, from its choices and its redundant constraints.
-#[must_use]
-pub fn variant_key(question: &Question, choices: &[usize], redundancy: Redundancy) -> Key {
-    let keys = question.steps.keys.iter().zip(choices);
-    let sum: u128 = keys.map(|(keys, &c)| keys[c].0).sum();
-    Key(sum + question.steps.redundancy_key(redundancy).0)
-}
-
 /// Returns the properties of a variant, and whether it is admissible except for the conditions on W and changes ([`Question::is_wanted`]).
 /// Returns `None` if it is not determinate. The searched state is examined on the mechanism of the variant.
 ///
@@ -294,5 +286,5 @@ pub fn judge_variant(
             && !beyond(found.harmful.into(), s.max_harmful)
             && loose_bodies(&question.exact, &realized, s.state, &question.grasps)?.is_empty();
     }
-    Ok(Some((variant_key(question, choices, found), good)))
+    Ok(Some((question.steps.variant_key(choices, found), good)))
 }

@@ -6,7 +6,6 @@
 //! count, every list and every sample drawn from them is equal too.
 
 use crate::search::answer::search_counts::SearchCounts;
-use crate::search::answer::variants_in_order::cheapest_variants;
 use crate::search::build::Diagrams;
 use crate::search::build::build_in;
 use crate::search::build::orders::variable_orders;
@@ -107,7 +106,11 @@ pub fn compare_primes(
         return Ok(Verdict::Agree);
     }
     let [first, second] = [0, 1].map(|i| SearchCounts::of_diagrams(questions[i], diagrams[i]));
-    let best = |i: usize| cheapest_variants(questions[i], diagrams[i], top).collect_vec();
+    let best = |i: usize| {
+        questions[i]
+            .cheapest_variants(diagrams[i], top)
+            .collect_vec()
+    };
     if best(0) != best(1) {
         return Err(make_disagreement(questions, [&first, &second]));
     }

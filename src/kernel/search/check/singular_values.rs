@@ -12,7 +12,6 @@ use crate::model::mechanism::{Mechanism, StateId};
 use crate::rank::exact::modular;
 use crate::rank::numeric::{Elimination, NumericRank};
 use crate::search::answer::k_best::Assignment;
-use crate::search::check::brute;
 use crate::search::check::other_poses::over_stroke;
 use crate::search::check::other_poses::{OverStroke, Stroke};
 use crate::search::check::variant_mechanism::lock_links;
@@ -257,7 +256,7 @@ pub fn warning_of_present(question: &Question) -> Result<Option<String>, ExactEr
         harmful: 0,
     };
     let choices = vec![0; question.space.variables.len()];
-    let key = brute::variant_key(question, &choices, redundancy);
+    let key = question.steps.variant_key(&choices, redundancy);
     let present = Assignment { choices, key };
     let m = realize_variant(question, &present.choices);
     let said =
