@@ -103,13 +103,8 @@ pub fn single_changes(mechanism: &Mechanism, state: StateId) -> Result<Suggestio
         let joint = &mechanism.joints[j];
         let present = present_option(joint);
         let own = twists(&present)?;
-        let mut span = Echelon::new(exact.field());
-        for stress in &stresses {
-            if span.rank() < closure.dim {
-                span.insert(&borne.coordinates_at(stress, j));
-            }
-        }
-        let wrenches = span.reduced_rows();
+        let borne = stresses.iter().map(|s| borne.coordinates_at(s, j));
+        let wrenches = Echelon::from_vectors(exact.field(), borne).reduced_rows();
         for (to, unloading) in possible_changes(joint, &present, state, usual) {
             let mut columns = twists(to.as_ref().unwrap_or(&present))?;
             if !is_contained(exact.field(), &[&own, &columns]) {

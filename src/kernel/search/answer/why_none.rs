@@ -95,25 +95,8 @@ pub fn find_relaxations(
         nodes: nodes.saturating_mul(MORE).max(NODES),
         cancelled,
     };
-    // Independent drives are not searched with redundant constraints left.
-    let redundant = (!question.mechanism.search.locks_drives).then_some(conditions.max_redundant);
     let state = conditions.state;
-    let bounded = [
-        easing.least_bound(redundant, Relaxation::Redundant, &|c, n| {
-            c.max_redundant = n
-        })?,
-        easing.least_bound(
-            state.and_then(|s| s.max_external),
-            Relaxation::External,
-            &|c, n| in_state(c, &|s| s.max_external = Some(n)),
-        )?,
-        easing.least_bound(
-            state.and_then(|s| s.max_harmful),
-            Relaxation::Harmful,
-            &|c, n| in_state(c, &|s| s.max_harmful = Some(n)),
-        )?,
-    ];
-    let mut out: Vec<(Relaxation, BigUint)> = bounded.into_iter().flatten().collect();
+    let mut out = easing.ease_bounds()?;
     let mut ease = |is_asked: bool, change: Change<'_>, found: &dyn Fn(Counts) -> Found| {
         if is_asked && let Some(c) = easing.count_eased(change)?.filter(|c| !c.total.is_zero()) {
             out.extend(found(c));
@@ -196,6 +179,29 @@ impl Easing<'_> {
         let more = std::iter::successors(Some(1u32), |m| m.checked_mul(2));
         let bounds = more.map(move |m| allowed.saturating_add(m));
         bounds.take_while(move |b| *b < 2 * rows)
+    }
+
+    /// Returns the least sufficient bounds of redundant constraints: within the mechanism, added by the searched state, and harmful.
+    fn ease_bounds(&self) -> Result<Vec<(Relaxation, BigUint)>, SearchError> {
+        let Question {
+            conditions,
+            mechanism,
+            ..
+        } = self.question;
+        // Independent drives are not searched with redundant constraints left.
+        let within = (!mechanism.search.locks_drives).then_some(conditions.max_redundant);
+        let external = conditions.state.and_then(|s| s.max_external);
+        let harmful = conditions.state.and_then(|s| s.max_harmful);
+        let found = [
+            self.least_bound(within, Relaxation::Redundant, &|c, n| c.max_redundant = n)?,
+            self.least_bound(external, Relaxation::External, &|c, n| {
+                in_state(c, &|s| s.max_external = Some(n));
+            })?,
+            self.least_bound(harmful, Relaxation::Harmful, &|c, n| {
+                in_state(c, &|s| s.max_harmful = Some(n));
+            })?,
+        ];
+        Ok(found.into_iter().flatten().collect())
     }
 
     /// Returns the least sufficient bound beyond the one that is allowed, with the number of variants. The bound is doubled, then the gap is

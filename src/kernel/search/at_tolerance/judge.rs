@@ -2,7 +2,6 @@
 
 use super::in_state::{Answer, judge_in_state};
 use crate::geom::exact::ExactError;
-use crate::rank::numeric::Elimination;
 use crate::search::answer::keys::Key;
 use crate::search::check::brute_float::{Approximate, RankedRows};
 use crate::search::check::variant_mechanism;
@@ -32,7 +31,7 @@ pub(super) struct Judge<'s> {
 
 impl<'s> Judge<'s> {
     pub(super) fn new(question: &'s Question, digits: Digits) -> Result<Judge<'s>, ExactError> {
-        let all = Approximate::new(question, Elimination::Svd, digits.tolerance)?;
+        let all = Approximate::new(question, &question.mechanism, true)?;
         let nothing = vec![0; question.space.variables.len()];
         let unknown = RankRange::from_values(&[], digits);
         let present = all
@@ -76,7 +75,7 @@ impl<'s> Judge<'s> {
             .all
             .rank_range(choices, RankedRows::Free, self.digits)?;
         let int = |x: usize| u32::try_from(x).unwrap_or(u32::MAX);
-        let [rows, _] = self.all.count_equations();
+        let [rows, ..] = self.all.row_counts();
         let (least, most) = (int(rows - free.most), int(rows - free.least));
         let mut found = Redundancy {
             internal: least,
@@ -134,7 +133,7 @@ impl<'s> Judge<'s> {
 
     /// Returns the range of the redundant constraints that the searched state adds; `None` if the singular values do not converge.
     fn external_range(&self, choices: &[usize], free: RankRange) -> Option<[i32; 2]> {
-        let [rows, state_rows] = self.all.count_equations();
+        let [rows, _, state_rows] = self.all.row_counts();
         let of_state = self
             .all
             .rank_range(choices, RankedRows::State, self.digits)?;

@@ -35,7 +35,8 @@ pub struct Seen {
 impl Seen {
     /// Creates the result from three ranks: of the free state's rows, of these with the kept links' motion, and of the
     /// searched state's.
-    pub(in crate::search) fn of_ranks(
+    #[must_use]
+    pub fn of_ranks(
         [free, _, state]: [usize; 3],
         [rank, with_kept]: [usize; 2],
         of_state: Option<usize>,

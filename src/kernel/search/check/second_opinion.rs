@@ -5,7 +5,7 @@
 //! law: options that only add freedoms remove no mobility. After one contradiction, no count is called exact.
 
 use crate::geom::exact::ExactError;
-use crate::rank::numeric::Elimination;
+use crate::rank::method::to_i64;
 use crate::search::answer::counts::Counts;
 use crate::search::answer::k_best::Assignment;
 use crate::search::at_tolerance::{any_choices, choices_of_number};
@@ -161,12 +161,7 @@ pub fn second_opinion(
     seed: u64,
 ) -> Result<SecondOpinion, ExactError> {
     let digits = written.digits;
-    let of_file = Approximate::of_mechanism(
-        question,
-        &written.mechanism,
-        Elimination::Svd,
-        digits.tolerance,
-    )?;
+    let of_file = Approximate::new(question, &written.mechanism, true)?;
     let exact = Matrices::new(question);
     let looked = |choices: Vec<usize>| {
         let seen = exact.look_at(&choices);
@@ -260,7 +255,7 @@ fn compare_variant(
     e: Expected,
     digits: Digits,
 ) -> Option<Said> {
-    let [rows, state_rows] = of_file.count_equations();
+    let [rows, _, state_rows] = of_file.row_counts();
     let free = of_file.rank_range(&e.choices, RankedRows::Free, digits)?;
     let rank = rows.saturating_sub(e.internal as usize);
     let mut all = vec![(free, rank)];
@@ -296,8 +291,4 @@ fn compare_variant(
         narrowest,
         against,
     })
-}
-
-fn to_i64(x: usize) -> i64 {
-    i64::try_from(x).unwrap_or(i64::MAX)
 }

@@ -91,14 +91,16 @@ pub fn compare_primes(
         return Ok(Verdict::Interrupted);
     }
     let [a, b] = diagrams;
-    let equal = same(&a.determinate, &b.determinate)
-        && same(&a.admissible, &b.admissible)
+    let equal = have_same_edges(&a.determinate, &b.determinate)
+        && have_same_edges(&a.admissible, &b.admissible)
         && match (&a.lasting, &b.lasting) {
-            (Ok(a), Ok(b)) => same(a, b),
+            (Ok(a), Ok(b)) => have_same_edges(a, b),
             (a, b) => a.is_err() && b.is_err(),
         }
         && match (&a.cheapest, &b.cheapest) {
-            (Some(a), Some(b)) => a.cost_milli == b.cost_milli && same(&a.diagram, &b.diagram),
+            (Some(a), Some(b)) => {
+                a.cost_milli == b.cost_milli && have_same_edges(&a.diagram, &b.diagram)
+            }
             (a, b) => a.is_none() && b.is_none(),
         }
         && questions[0].steps.keys == questions[1].steps.keys;
@@ -149,7 +151,8 @@ pub fn primes(questions: [&Question; 2]) -> [u64; 2] {
 }
 
 /// Returns true if two diagrams have the same nodes, edges and terminals.
-fn same(a: &Diagram, b: &Diagram) -> bool {
+#[must_use]
+pub fn have_same_edges(a: &Diagram, b: &Diagram) -> bool {
     a.terminals == b.terminals
         && a.layers.len() == b.layers.len()
         && a.layers

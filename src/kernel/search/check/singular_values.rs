@@ -9,6 +9,7 @@ use crate::geom::exact::ExactError;
 use crate::model::joint_type::CoupledFreedom;
 use crate::model::mechanism::{Mechanism, StateId};
 use crate::rank::exact::modular;
+use crate::rank::method::to_i64;
 use crate::rank::numeric::{Elimination, NumericRank};
 use crate::search::answer::k_best::Assignment;
 use crate::search::check::other_poses::over_stroke;
@@ -300,8 +301,4 @@ fn with_locks(mut closure: Closure<f64>, drives: &[CoupledFreedom]) -> Option<Cl
         closure.couplings.push(CouplingRow { entries });
     }
     Some(closure)
-}
-
-fn to_i64(x: usize) -> i64 {
-    i64::try_from(x).unwrap_or(i64::MAX)
 }
