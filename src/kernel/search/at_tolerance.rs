@@ -5,7 +5,6 @@
 //! doubtful ones. No count is exact: a rank at a tolerance is likely, not proven.
 
 mod found;
-mod in_state;
 mod judge;
 
 pub use found::{AtTolerance, Bracket, Sampled, Share};
@@ -21,8 +20,7 @@ use crate::search::question::rounded_rank::Digits;
 use chacha20::ChaCha8Rng;
 use chacha20::rand_core::SeedableRng;
 use found::Met;
-use in_state::Answer;
-use judge::{Judge, Judged};
+use judge::{Answer, Judge, Judged};
 use num_traits::ToPrimitive;
 use rayon::prelude::*;
 use std::collections::BTreeSet;
