@@ -150,7 +150,9 @@ pub fn answer_request(
     }
     let contradicted = second.as_ref().is_some_and(|s| !s.agrees());
     // A count as written is what was asked for; one as meant is not what is meant.
-    if contradicted && !request.as_written && request.symmetry != Symmetry::OnePerOrbit {
+    let is_numeric_possible =
+        request.symmetry != Symmetry::OnePerOrbit && search.conditions.state.is_none();
+    if contradicted && !request.as_written && is_numeric_possible {
         tell(Event::Note(CONTRADICTED.to_owned()));
         if let Some((search, digits)) = by_values(&search.conditions)? {
             let found = search_numerically(search, digits, measured, request, should_cancel, tell)?;
@@ -247,11 +249,8 @@ fn build_diagrams(
 
 /// Returns the numbers of determinate and admissible variants.
 fn count_found(search: &Search, diagrams: &Diagrams, request: &Request) -> SearchCounts {
-    let mut counts = if request.only_sums && request.symmetry != Symmetry::OnePerOrbit {
-        SearchCounts::sums_of(search, diagrams)
-    } else {
-        SearchCounts::of_diagrams(search, diagrams)
-    };
+    let both = !request.only_sums || request.symmetry == Symmetry::OnePerOrbit;
+    let mut counts = SearchCounts::by_kind(search, diagrams, both);
     // What is cut down elsewhere may have none of the cheapest.
     if let Some(best) = &diagrams.cheapest {
         let known = search.count_variants(&best.diagram, true);
@@ -339,7 +338,10 @@ fn search_numerically(
     tell: Tell<'_>,
 ) -> Result<Outcome, RunError> {
     if request.symmetry == Symmetry::OnePerOrbit {
-        return Err(RequestError::NumericOrbits.into());
+        return Err(RequestError::Numeric("one variant per symmetry orbit").into());
+    }
+    if search.conditions.state.is_some() {
+        return Err(RequestError::Numeric("a search of another state").into());
     }
     let left_out = [
         (

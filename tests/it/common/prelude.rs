@@ -24,7 +24,7 @@ pub(crate) use ozols::model::loads::{
     ExternalForce, ExternalMoment, Inertia, MassProperties, Stroke,
 };
 pub(crate) use ozols::model::mechanism::{Frame, JointOption};
-pub(crate) use ozols::model::ranking::{ClearanceSum, Limit, Order, Term};
+pub(crate) use ozols::model::ranking::{ClearanceSum, Limit, Term};
 pub(crate) use ozols::model::rounded::uncertainties;
 pub(crate) use ozols::motion::follow::Follower;
 pub(crate) use ozols::motion::pose::Pose;

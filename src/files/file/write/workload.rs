@@ -160,7 +160,7 @@ pub(crate) fn write_ranking(m: &Mechanism, r: &Ranking) -> RankingEntry {
         max: l.max,
     });
     RankingEntry {
-        order: Some(r.order.name().to_owned()),
+        order: None,
         terms: r.terms.iter().map(term).collect(),
         limits: limits.collect(),
         clearance: (r.clearance == ClearanceSum::Rms).then(|| "rms".to_owned()),
