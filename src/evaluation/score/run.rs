@@ -150,9 +150,7 @@ pub fn answer_request(
     }
     let contradicted = second.as_ref().is_some_and(|s| !s.agrees());
     // A count as written is what was asked for; one as meant is not what is meant.
-    let is_numeric_possible =
-        request.symmetry != Symmetry::OnePerOrbit && search.conditions.state.is_none();
-    if contradicted && !request.as_written && is_numeric_possible {
+    if contradicted && !request.as_written && request.symmetry != Symmetry::OnePerOrbit {
         tell(Event::Note(CONTRADICTED.to_owned()));
         if let Some((search, digits)) = by_values(&search.conditions)? {
             let found = search_numerically(search, digits, measured, request, should_cancel, tell)?;
@@ -338,10 +336,7 @@ fn search_numerically(
     tell: Tell<'_>,
 ) -> Result<Outcome, RunError> {
     if request.symmetry == Symmetry::OnePerOrbit {
-        return Err(RequestError::Numeric("one variant per symmetry orbit").into());
-    }
-    if search.conditions.state.is_some() {
-        return Err(RequestError::Numeric("a search of another state").into());
+        return Err(RequestError::NumericOrbits.into());
     }
     let left_out = [
         (

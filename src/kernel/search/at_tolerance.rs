@@ -5,6 +5,7 @@
 //! doubtful ones. No count is exact: a rank at a tolerance is likely, not proven.
 
 mod found;
+mod in_state;
 mod judge;
 
 pub use found::{AtTolerance, Bracket, Sampled, Share};
@@ -20,7 +21,8 @@ use crate::search::question::rounded_rank::Digits;
 use chacha20::ChaCha8Rng;
 use chacha20::rand_core::SeedableRng;
 use found::Met;
-use judge::{Answer, Judge, Judged};
+use in_state::Answer;
+use judge::{Judge, Judged};
 use num_traits::ToPrimitive;
 use rayon::prelude::*;
 use std::collections::BTreeSet;

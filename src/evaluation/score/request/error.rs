@@ -119,9 +119,11 @@ pub enum RequestError {
     /// A file of costs that cannot be used.
     #[error("{0}")]
     Costs(#[from] ImportError),
-    /// A search that singular values cannot answer.
-    #[error("{0} needs exact geometry, and these coordinates have none; {CURE}")]
-    Numeric(&'static str),
+    /// Orbits of variants that are judged by singular values.
+    #[error(
+        "one variant per symmetry orbit needs exact geometry, and these coordinates have none; {CURE}"
+    )]
+    NumericOrbits,
     /// The geometry has no image in a prime field.
     #[error(transparent)]
     Exact(#[from] ExactError),

@@ -1,6 +1,7 @@
 //! The result of a search by singular values: ranges of counts, and the certain variants.
 
-use super::judge::{Answer, Judged};
+use super::in_state::Answer;
+use super::judge::Judged;
 use crate::search::answer::counts::Counts;
 use crate::search::answer::estimate::confidence_interval;
 use crate::search::answer::k_best::Assignment;

@@ -1,38 +1,13 @@
 //! One variant judged by its singular values.
 
+use super::in_state::{Answer, judge_in_state};
 use crate::geom::exact::ExactError;
 use crate::search::answer::keys::Key;
 use crate::search::check::brute_float::{Approximate, RankedRows};
+use crate::search::check::variant_mechanism;
 use crate::search::diagram::redundancy_so_far::Redundancy;
 use crate::search::question::Question;
 use crate::search::question::rounded_rank::{Digits, RankRange};
-
-/// Whether a condition is met.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Answer {
-    No,
-    Perhaps,
-    Yes,
-}
-
-impl Answer {
-    /// Returns the answer from two facts: it is certain, and it is possible.
-    pub(super) fn of(sure: bool, may: bool) -> Answer {
-        match (sure, may) {
-            (true, _) => Answer::Yes,
-            (false, true) => Answer::Perhaps,
-            (false, false) => Answer::No,
-        }
-    }
-
-    pub(super) fn combine_with(self, other: Answer) -> Answer {
-        match (self, other) {
-            (Answer::No, _) | (_, Answer::No) => Answer::No,
-            (Answer::Yes, Answer::Yes) => Answer::Yes,
-            _ => Answer::Perhaps,
-        }
-    }
-}
 
 /// The result for a variant.
 #[derive(Debug, Clone, Copy)]
@@ -84,7 +59,7 @@ impl<'s> Judge<'s> {
     /// Judges a variant; one whose singular values do not converge may be anything.
     ///
     /// # Complexity
-    /// One decomposition where it has too many redundant constraints, two otherwise.
+    /// One decomposition where it has too many redundant constraints, two otherwise; with a state some more.
     pub(super) fn judge_variant(&self, choices: &[usize]) -> Judged {
         self.judge_ranks(choices).unwrap_or_else(|| Judged {
             determinate: Answer::Perhaps,
@@ -102,7 +77,7 @@ impl<'s> Judge<'s> {
         let int = |x: usize| u32::try_from(x).unwrap_or(u32::MAX);
         let [rows, ..] = self.all.row_counts();
         let (least, most) = (int(rows - free.most), int(rows - free.least));
-        let found = Redundancy {
+        let mut found = Redundancy {
             internal: least,
             ..Redundancy::default()
         };
@@ -122,9 +97,15 @@ impl<'s> Judge<'s> {
             let wanted = Answer::of(which.clone().all(wanted), which.any(wanted));
             admissible = admissible.combine_with(wanted);
         }
-        if conditions.state.is_some() {
-            // What a variant is in another state is not judged.
-            admissible = admissible.combine_with(Answer::Perhaps);
+        if let Some(asked) = conditions.state
+            && admissible != Answer::No
+        {
+            let realized = variant_mechanism::realize_variant(self.question, choices);
+            let external = self.external_range(choices, free)?;
+            let (question, digits) = (self.question, self.digits);
+            let (meets, harmful) = judge_in_state(question, &realized, &asked, external, digits)?;
+            admissible = admissible.combine_with(meets);
+            (found.external, found.harmful) = (external[0], harmful);
         }
         Some(Judged {
             determinate,
@@ -149,6 +130,19 @@ impl<'s> Judge<'s> {
             from <= at_most && had <= to,
         ))
     }
+
+    /// Returns the range of the redundant constraints that the searched state adds; `None` if the singular values do not converge.
+    fn external_range(&self, choices: &[usize], free: RankRange) -> Option<[i32; 2]> {
+        let [rows, _, state_rows] = self.all.row_counts();
+        let of_state = self
+            .all
+            .rank_range(choices, RankedRows::State, self.digits)?;
+        let surplus = |rank: usize| to_i32(state_rows) - to_i32(rank);
+        Some([
+            surplus(of_state.most) - to_i32(rows) + to_i32(free.least),
+            surplus(of_state.least) - to_i32(rows) + to_i32(free.most),
+        ])
+    }
 }
 
 /// Returns the smallest and largest dimension of the kept links' motion. They follow from the rank of the closure equations
@@ -158,6 +152,10 @@ fn motion_range(free: RankRange, kept: RankRange) -> [usize; 2] {
         kept.least.saturating_sub(free.most),
         kept.most.saturating_sub(free.least),
     ]
+}
+
+fn to_i32(x: usize) -> i32 {
+    i32::try_from(x).unwrap_or(i32::MAX / 4)
 }
 
 #[cfg(test)]

@@ -107,6 +107,14 @@ fn every_condition_means_the_same_by_singular_values() {
             hold: names("5"),
             ..plain.clone()
         },
+        Request {
+            max_external: Some(3),
+            ..plain.clone()
+        },
+        Request {
+            max_harmful: Some(1),
+            ..plain.clone()
+        },
     ];
     for request in asked {
         let (mut search, truth) = ready("gripper-10", &request);
@@ -119,34 +127,6 @@ fn every_condition_means_the_same_by_singular_values() {
             truth.admissible.to_string()
         );
     }
-}
-
-/// Whether a variant holds a part, and what that loads, is not judged by singular values.
-#[test]
-fn another_state_needs_exact_geometry() {
-    let mut m = turned_bare(&plain_built_in("bennett"), 6, &mut Noise::new(11, 0));
-    let mut stop = m.joints[0].clone();
-    (stop.id, stop.joint_type) = ("stop".to_owned(), JointType::SphereOnPlane);
-    stop.links = ["0", "2"].map(|l| m.link_named(l).unwrap());
-    (stop.drive, stop.states) = (false, Some(vec![StateId::new(1)]));
-    stop.options.clear();
-    let mut parts = m.edit();
-    parts.states.push("clamped".to_owned());
-    parts.joints.push(stop);
-    parts.contours.clear();
-    drop(parts);
-    let request = Request {
-        state: Some("clamped".to_owned()),
-        ..small_request()
-    };
-    assert!(
-        ozols::search(&m, &small_request())
-            .unwrap()
-            .numeric
-            .is_some()
-    );
-    let said = ozols::search(&m, &request).unwrap_err().to_string();
-    has(&said, "a search of another state needs exact geometry");
 }
 
 #[test]

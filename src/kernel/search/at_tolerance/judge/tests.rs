@@ -1,11 +1,11 @@
 //! Mechanisms that a millionth makes others: of digits that do not tell them apart nothing is sure that holds of one of them only.
 
 use super::*;
-use crate::model::drawn::{Drawn, X, Z, draw_mechanism, hinges};
+use crate::model::drawn::{Drawn, X, Y, Z, draw_mechanism, hinges};
 use crate::model::joint_type::JointType;
-use crate::model::mechanism::Mechanism;
+use crate::model::mechanism::{Mechanism, StateId};
 use crate::rank::exact::field::exact_field;
-use crate::search::question::conditions::Conditions;
+use crate::search::question::conditions::{Conditions, InState};
 
 /// Digits that do not decide whether a millionth is zero.
 const OPEN: Digits = Digits {
@@ -85,5 +85,39 @@ fn a_kept_motion_is_sure_where_its_dimension_is() {
         let said = |choices| judged(&m, Conditions::default(), digits, choices)[1].clone();
         assert_eq!(said(&[0, 0, 0]), "sure");
         assert_eq!(said(&[0, 0, 1]), wanted, "{apart} {digits:?}");
+    }
+}
+
+/// Checks a contact that stops a door: it adds no redundant constraint with hinges on one line, and one if the hinges
+/// already hold the door.
+#[test]
+fn external_constraints_are_sure_where_their_number_is() {
+    for (apart, digits, wanted) in [
+        (0.0, FINE, ["sure", "sure"]),
+        (LITTLE, FINE, ["no", "sure"]),
+        (LITTLE, OPEN, ["doubtful", "doubtful"]),
+    ] {
+        let mut joints = door(apart);
+        joints.push((JointType::SphereOnPlane, [0, 1], X, Y));
+        let mut m = draw_mechanism(&joints, &[]);
+        m.parts_mut().states.push("stopped".to_owned());
+        let stopped = StateId::new(1);
+        m.parts_mut().joints[3].states = Some(vec![stopped]);
+        let found = [0, 1].map(|most| {
+            let conditions = Conditions {
+                max_redundant: 5,
+                keep_output: false,
+                state: Some(InState {
+                    state: stopped,
+                    max_external: Some(most),
+                    max_harmful: None,
+                    hold_objects: false,
+                }),
+                ..Conditions::default()
+            };
+            let [_, admissible] = judged(&m, conditions, digits, &[0; 4]);
+            admissible
+        });
+        assert_eq!(found, wanted, "{apart} {digits:?}");
     }
 }
