@@ -5,6 +5,7 @@
 //! away, with a leader.
 
 mod kinematic;
+mod naming;
 mod place {
     pub(super) mod graph;
     pub(super) mod initial_layout;

@@ -1,6 +1,7 @@
 //! The kinematic scheme: links and the symbols of joints where the coordinates have them.
 
 use crate::draw::kinematic::body::{Arrow, Body, Marked, known_loads};
+use crate::draw::naming::draw_leaders;
 use crate::draw::place::projection::Projection;
 use crate::draw::prelude::*;
 use crate::draw::sheet::{Caption, plan_sheet};
@@ -104,14 +105,6 @@ struct Words {
     legend: Vec<(Swatch, String)>,
 }
 
-/// The text of a label and its look.
-#[derive(Clone)]
-struct LabelText {
-    class: String,
-    size: f64,
-    text: String,
-}
-
 /// One picture of a moving scheme.
 struct MovingPicture {
     /// The points of interest.
@@ -190,8 +183,8 @@ impl Kinematic<'_> {
 
     fn draw_sheet(mut self) -> Drawing {
         let rest = self.picture_in(None, &[]);
-        let (places, texts) = self.place_labels(&rest);
-        let labels = places.iter().map(|p| p.rect);
+        let names = self.place_labels(&rest);
+        let labels = names.iter().map(|(place, _)| place.rect);
         let room = labels.chain(self.arrow_room(&self.arrows));
         let area = room.fold(self.room_of(std::slice::from_ref(&rest), 0), |a, r| {
             a.with(&r)
@@ -208,12 +201,10 @@ impl Kinematic<'_> {
                 for (a, b) in self.coupling_lines() {
                     s.draw_line(subject::COUPLING, a, b);
                 }
-                for (a, b) in places.iter().filter_map(|p| p.leader) {
-                    s.draw_line("lead", a, b);
-                }
+                draw_leaders(s, &names);
                 self.draw_arrows(s);
-                for (n, (place, text)) in places.iter().zip(&texts).enumerate() {
-                    self.draw_name(s, n, place.rect.middle(), text);
+                for (place, name) in &names {
+                    name.draw_name(s, place.rect.middle());
                 }
             });
         })
@@ -251,19 +242,6 @@ impl Kinematic<'_> {
             sheet.draw_group("data-joint", id, at, |sheet| {
                 s.symbol.draw_symbol(sheet, mark);
             });
-        }
-    }
-
-    /// Draws a label. Those of joints come first and are in groups, so that a joint is found by its name.
-    fn draw_name(&self, sheet: &mut Sheet, n: usize, at: Point, label: &LabelText) {
-        let LabelText { class, size, text } = label;
-        let write = |s: &mut Sheet| s.write_text(class, *size, at, Anchor::Middle, text);
-        match self.spots.get(n) {
-            Some(s) => {
-                let id = &self.subject.mechanism.joints[s.joint].id;
-                sheet.draw_group("data-joint-name", id, [0.0; 2], write);
-            }
-            None => write(sheet),
         }
     }
 

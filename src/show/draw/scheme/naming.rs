@@ -3,12 +3,13 @@
 use crate::draw::prelude::*;
 use crate::draw::scheme::{Scheme, Share};
 use crate::draw::sheet::shapes::{HALF, grid_points, outline_sides, rounded_path};
-use crate::svg::labels::{AvoidedLine, LabelPlace, Wish, place_labels};
+use crate::draw::naming::{Name, place_names};
+use crate::svg::labels::{AvoidedLine, LabelPlace, Wish};
 use crate::svg::plane::polygon_area;
 
 impl Scheme<'_> {
     /// Returns the places and texts of the ids of joints and links and of the numbers of contours, in this order.
-    pub(super) fn place_labels(&self) -> Vec<(LabelPlace, String)> {
+    pub(super) fn place_labels(&self) -> Vec<(LabelPlace, Name)> {
         let around = |i| {
             let side = 2.0 * self.joint_radius(i);
             Rect::around(self.at.joints[i], side, side)
@@ -16,9 +17,13 @@ impl Scheme<'_> {
         let mut taken: Vec<Rect> = (0..self.parts.joints.len()).map(around).collect();
         let lines = self.link_lines();
         // ids stay off links, numbers of contours off nothing but labels
-        let links = place_labelled(self.link_wishes(), &mut taken, &[]);
-        let contours = place_labelled(self.contour_wishes(), &mut taken, &lines);
-        let joints = place_labelled(self.joint_wishes(), &mut taken, &lines);
+        let at_hub = |l: usize, _| (self.at.hubs[l], HALF, self.inside_link(l));
+        let names = self.subject.link_names(&self.parts.links, at_hub);
+        let links = place_names(names, &mut taken, &[]);
+        let contours = place_names(self.contour_numbers(), &mut taken, &lines);
+        let beside = |(i, &j)| (j, self.at.joints[i], self.joint_radius(i));
+        let spots: Vec<_> = self.parts.joints.iter().enumerate().map(beside).collect();
+        let joints = place_names(self.subject.joint_names(&spots), &mut taken, &lines);
         [joints, links, contours].concat()
     }
 
@@ -52,52 +57,24 @@ impl Scheme<'_> {
         lines
     }
 
-    /// Returns the ids of links, each placed on its link.
-    fn link_wishes(&self) -> Vec<(Wish, String)> {
-        let links = self.parts.links.iter();
-        let ids: Vec<&str> = links
-            .map(|&l| self.subject.mechanism.links[l].id.as_str())
-            .collect();
-        let one = |(l, text): (usize, String)| {
-            let wish = Wish {
-                first: self.inside_link(l),
-                ..Wish::for_text(&text, 12.0, self.at.hubs[l], HALF)
-            };
-            (wish, text)
-        };
-        let texts = shorten_names(&ids, 12.0, 150.0).into_iter();
-        texts.enumerate().map(one).collect()
-    }
-
     /// Returns the numbers of contours, each placed inside its contour.
-    fn contour_wishes(&self) -> Vec<(Wish, String)> {
+    fn contour_numbers(&self) -> Vec<Name> {
         let one = |c: usize| {
             let text = format!("{}", c + 1);
-            let middles = self.inside_contour(c);
+            let first = self.inside_contour(c);
             let wish = Wish {
                 width: text_width(&text, SMALL) + 8.0,
                 height: 16.0,
-                anchor: middles.first().map_or([0.0, 0.0], |f| f.0),
+                anchor: first.first().map_or([0.0, 0.0], |f| f.0),
                 clear: 0.0,
-                first: middles,
+                first,
             };
-            (wish, text)
+            Name {
+                wish,
+                ..Name::small("small".to_owned(), text, [0.0; 2], 0.0)
+            }
         };
         (0..self.parts.contours.len()).map(one).collect()
-    }
-
-    /// Returns the ids of joints, to be placed next to their joints.
-    fn joint_wishes(&self) -> Vec<(Wish, String)> {
-        let joints = self.parts.joints.iter();
-        let ids: Vec<&str> = joints
-            .map(|&j| self.subject.mechanism.joints[j].id.as_str())
-            .collect();
-        let one = |(i, text): (usize, String)| {
-            let wish = Wish::for_text(&text, SMALL, self.at.joints[i], self.joint_radius(i));
-            (wish, text)
-        };
-        let texts = shorten_names(&ids, SMALL, 150.0).into_iter();
-        texts.enumerate().map(one).collect()
     }
 
     /// Middles for the id within a link, the best first.
@@ -192,17 +169,6 @@ impl Scheme<'_> {
         }
         out
     }
-}
-
-/// Finds places for labels, and marks their places as taken.
-fn place_labelled(
-    labels: Vec<(Wish, String)>,
-    taken: &mut Vec<Rect>,
-    lines: &[AvoidedLine],
-) -> Vec<(LabelPlace, String)> {
-    let (wishes, texts): (Vec<Wish>, Vec<String>) = labels.into_iter().unzip();
-    let places = place_labels(&wishes, taken, lines);
-    places.into_iter().zip(texts).collect()
 }
 
 /// Half the width of the band of a contour without an area.
