@@ -1,6 +1,7 @@
 //! The kinematic scheme: links and the symbols of joints where the coordinates have them.
 
-use crate::draw::kinematic::body::{Arrow, Body, Marked, known_loads};
+use crate::draw::kinematic::body::{Arrow, Marked, known_loads};
+use crate::draw::kinematic::wire::{DrawnWire, Wire};
 use crate::draw::naming::draw_leaders;
 use crate::draw::place::projection::Projection;
 use crate::draw::prelude::*;
@@ -9,7 +10,6 @@ use crate::draw::subject;
 use crate::draw::symbol::ground::Ground;
 use crate::draw::symbol::placed::{Swap, Symbol};
 
-mod arcs;
 mod body;
 mod gears;
 mod legend;
@@ -18,6 +18,7 @@ pub(super) mod moving;
 mod naming;
 mod on_paper;
 pub(super) mod scene;
+mod wire;
 
 /// The room below for the axes and the scale.
 const STRIP: f64 = 84.0;
@@ -112,11 +113,8 @@ struct MovingPicture {
     /// The joints with their frames.
     places: Vec<JointInSpace>,
     at: Vec<Point>,
-    /// The shape of each link but the frame.
-    bodies: Vec<(usize, Body)>,
-    /// Lines on links that move.
-    lines: Vec<(&'static str, [Point; 2])>,
-    circles: Vec<Vec<Point>>,
+    /// The shapes on links.
+    wires: Vec<DrawnWire>,
     /// The arrows of a self-stress.
     arrows: Vec<Arrow>,
 }
@@ -126,10 +124,8 @@ struct Kinematic<'a> {
     subject: &'a Subject<'a>,
     spots: Vec<Spot>,
     links: Vec<(LinkId, Vec<usize>)>,
-    /// How far the bar of each link bows out.
-    bows: Vec<f64>,
-    /// The corners of each link that is a plate of a fold.
-    facets: Vec<Option<Vec<Vector>>>,
+    /// The shapes of links and gears.
+    wires: Vec<Wire>,
     grounds: Vec<Ground>,
     /// The joints in space.
     places: Vec<JointInSpace>,
@@ -246,14 +242,14 @@ impl Kinematic<'_> {
     }
 
     /// Returns the classes of a link.
-    fn link_classes(&self, link: usize, body: &Body) -> String {
+    fn link_classes(&self, link: usize, plate: bool) -> String {
         let (l, of) = &self.links[link];
         let here = of
             .iter()
             .all(|&i| self.subject.only_here(self.spots[i].joint));
         format!(
             "{}{}{}{}",
-            if body.plate { "plate" } else { "bone" },
+            if plate { "plate" } else { "bone" },
             if self.is_output(*l) { " out" } else { "" },
             self.subject.link_mark(*l).mark_class(),
             if here { " dash" } else { "" }

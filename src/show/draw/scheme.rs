@@ -1,10 +1,10 @@
 //! The structural scheme: links as polygons, joints as circles with their class, contours tinted by what is redundant.
 
 use crate::closure::contour::{Contour, contour_basis};
+use crate::draw::naming::{Name, draw_leaders};
 use crate::draw::place::graph::{Graph, joint_ring};
 use crate::draw::place::layout::{Layout, find_layout};
 use crate::draw::prelude::*;
-use crate::draw::naming::{Name, draw_leaders};
 use crate::draw::sheet::shapes::{HALF, hatch_path, outline_sides, rounded_path};
 use crate::draw::sheet::{Caption, plan_sheet};
 use crate::draw::subject::roominess;

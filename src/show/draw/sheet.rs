@@ -136,41 +136,14 @@ pub(crate) fn plan_sheet(caption: &Caption<'_>, area: Rect, strip: f64) -> Sheet
 impl Sheet {
     /// Begins a sheet.
     pub(crate) fn new(caption: &Caption<'_>, plan: &SheetPlan) -> Sheet {
-        let [w, h] = plan.size;
-        let mut xml = Xml::default();
-        xml.begin_tag("svg")
-            .set_text("xmlns", "http://www.w3.org/2000/svg")
-            .set_text("class", "ozd")
-            .set_number("width", w.ceil())
-            .set_number("height", h.ceil())
-            .set_text(
-                "viewBox",
-                &format!(
-                    "0 0 {} {}",
-                    format_number(w.ceil()),
-                    format_number(h.ceil())
-                ),
-            )
-            .set_text("role", "img")
-            .keep_open();
-        xml.begin_tag("title").write_text(caption.title);
-        xml.write_raw("\n");
-        xml.begin_tag("desc").write_text(caption.description);
-        xml.begin_tag("style").keep_open();
-        xml.write_raw("\n");
-        xml.write_raw(STYLE);
-        xml.end_element();
-        xml.begin_tag("rect")
-            .set_text("class", "bg")
-            .set_number("width", w.ceil())
-            .set_number("height", h.ceil())
-            .close_empty();
+        let texts = [caption.title, caption.description];
+        let xml = Xml::begin_picture("ozd", plan.size, texts, STYLE);
         let mut sheet = Sheet {
             xml,
             size: plan.size,
             ..Sheet::default()
         };
-        let room = w - 2.0 * PAD;
+        let room = plan.size[0] - 2.0 * PAD;
         let title = cut_text(caption.title, 18.0, room);
         sheet.write_text("title", 18.0, [PAD, PAD + 8.0], Anchor::Start, &title);
         for (i, line) in caption.subtitle.iter().enumerate() {

@@ -1,5 +1,6 @@
 //! The texts of a kinematic scheme: its legend and its description.
 
+use crate::draw::kinematic::wire::WireForm;
 use crate::draw::kinematic::{Kinematic, Spot};
 use crate::draw::place::projection;
 use crate::draw::prelude::*;
@@ -37,8 +38,7 @@ impl Kinematic<'_> {
             out.push((Swatch::line("bone out"), "output link".to_owned()));
         }
         out.extend(self.point_rows());
-        let mut couplings = m.couplings_in(self.subject.state);
-        if couplings.any(|c| !self.pitch_curves(c, &self.places).is_empty()) {
+        if self.wires.iter().any(|w| w.form == WireForm::Loop) {
             let circle = Shape::circle("fine pitch", [0.0; 2], 9.0);
             let text = "pitch circle of a gear".to_owned();
             out.push((Swatch::Shapes(vec![circle]), text));
@@ -76,7 +76,7 @@ impl Kinematic<'_> {
     fn departure_rows(&self) -> impl Iterator<Item = (Swatch, String)> {
         let moved = self.places.iter().any(|p| p.moved);
         let moved = moved.then_some("joints that meet in a point stand farther along their axes");
-        let bowed = self.bows.iter().any(|&b| b != 0.0);
+        let bowed = self.wires.iter().any(|w| w.form == WireForm::Bow);
         let bowed = bowed.then_some("a straight bar bows where it would lie on another");
         let texts = moved.into_iter().chain(bowed);
         texts.map(|text| (Swatch::Shapes(Vec::new()), text.to_owned()))

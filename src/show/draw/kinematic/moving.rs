@@ -192,7 +192,7 @@ impl<'a> Moving<'a> {
 
 /// Returns the legend row of flags, or `None` if the picture has none.
 pub(super) fn flag_row(frame: &MovingPicture) -> Option<(Swatch, String)> {
-    let there = frame.lines.iter().any(|(class, _)| *class == "flag");
+    let there = frame.wires.iter().any(|w| w.class == "flag");
     there.then(|| {
         let flag = Shape::line("flag", vec![[0.0; 2], [7.0, -7.0]]);
         let text = "flag on a link that turns in its place";
@@ -220,12 +220,9 @@ impl Kinematic<'_> {
                 };
                 area = area.with(&own);
             }
-            for (_, body) in &frame.bodies {
-                area = area.with(&bounds_of(&body.points).grown_by(4.0));
-            }
-            let ends = frame.lines.iter().flat_map(|(_, ends)| *ends);
-            for p in ends.chain(frame.circles.iter().flatten().copied()) {
-                area = area.with(&Rect::around(p, 6.0, 6.0));
+            for wire in &frame.wires {
+                let margin = if wire.link { 4.0 } else { 3.0 };
+                area = area.with(&bounds_of(&wire.points).grown_by(margin));
             }
         }
         for g in &self.grounds {

@@ -25,20 +25,22 @@ impl Kinematic<'_> {
         let links: Vec<LinkId> = self.links.iter().map(|(l, _)| *l).collect();
         let of_links = self
             .subject
-            .link_names(&links, |n, width| self.link_places(n, [width, 13.0]));
-        let names = [self.subject.joint_names(&spots), of_links, self.point_names()].concat();
+            .link_names(&links, |n, width| self.link_places(rest, n, [width, 13.0]));
+        let names = [
+            self.subject.joint_names(&spots),
+            of_links,
+            self.point_names(),
+        ]
+        .concat();
         place_names(names, &mut taken, &lines)
     }
 
     /// Returns the segments of everything that is drawn, which no label may cover.
     fn drawn_lines(&self, rest: &MovingPicture) -> Vec<(Point, Point)> {
-        let bodies = rest.bodies.iter();
-        let mut lines: Vec<_> = bodies.flat_map(|(_, body)| body.body_lines()).collect();
+        let wires = rest.wires.iter();
+        let mut lines: Vec<_> = wires.flat_map(|w| w.segments()).collect();
         lines.extend(self.grounds.iter().filter_map(Ground::stem_line));
         lines.extend(self.coupling_lines());
-        for c in &rest.circles {
-            lines.extend((0..c.len()).map(|i| (c[i], c[(i + 1) % c.len()])));
-        }
         for way in &self.traces.0 {
             lines.extend(way.windows(2).map(|w| (w[0], w[1])));
         }
@@ -59,25 +61,27 @@ impl Kinematic<'_> {
     }
 
     /// Returns the anchor of the name of a link, its distance from it, and preferred middles.
-    fn link_places(&self, link: usize, size: Point) -> (Point, f64, Vec<(Point, f64)>) {
+    fn link_places(
+        &self,
+        rest: &MovingPicture,
+        link: usize,
+        size: Point,
+    ) -> (Point, f64, Vec<(Point, f64)>) {
         let (l, of) = &self.links[link];
         if self.is_frame(*l) {
             let first = self.grounds.first();
             return (first.map_or([0.0; 2], |g| g.to), 2.0, Vec::new());
         }
-        let body = self.body_at_rest(link);
-        let middle = body.body_middle();
-        if body.plate {
-            return (middle, 2.0, vec![(middle, 0.0)]);
-        }
-        let (Some(&a), Some(&b), true) = (
-            body.points.first(),
-            body.points.last(),
-            body.points.len() > 1,
-        ) else {
+        let own = rest.wires.iter().find(|w| w.link && w.row == link);
+        let Some(own) = own.filter(|w| w.points.len() > 1) else {
             // all its joints are in one place
             return (self.spots[of[0]].at, 2.0, Vec::new());
         };
+        let middle = own.middle();
+        if own.closed {
+            return (middle, 2.0, vec![(middle, 0.0)]);
+        }
+        let [a, b] = [own.points[0], own.points[own.points.len() - 1]];
         let bow = sub(middle, scale(add(a, b), 0.5));
         let along = sub(b, a);
         let side = unit([-along[1], along[0]]);

@@ -1,9 +1,9 @@
 //! Placement of the names of joints and links and of the numbers of contours.
 
+use crate::draw::naming::{Name, place_names};
 use crate::draw::prelude::*;
 use crate::draw::scheme::{Scheme, Share};
 use crate::draw::sheet::shapes::{HALF, grid_points, outline_sides, rounded_path};
-use crate::draw::naming::{Name, place_names};
 use crate::svg::labels::{AvoidedLine, LabelPlace, Wish};
 use crate::svg::plane::polygon_area;
 
@@ -115,60 +115,68 @@ impl Scheme<'_> {
         out
     }
 
-    /// Middles for the number within a contour, the best first.
+    /// Middles for the number within a contour, the best first: on its own tint if any of that can be seen, near to what is its own.
     fn inside_contour(&self, c: usize) -> Vec<(Point, f64)> {
-        let of = &self.parts.graph.contours[c];
-        let polygon = self.contour_outline(c);
-        let covers: Vec<Vec<Point>> = (0..self.parts.contours.len())
-            .filter(|&other| other != c)
-            .map(|other| self.contour_outline(other))
-            .filter(|other| polygon_area(other) < polygon_area(&polygon))
-            .chain((0..self.rings.len()).map(|l| self.link_corners(l)))
-            .collect();
-        let mut near: Vec<(Point, f64)> = grid_points(&polygon, 15)
-            .into_iter()
-            .map(|p| {
-                let edges =
-                    (0..self.rings.len()).flat_map(|l| outline_sides(&self.link_corners(l)));
-                let d = edges
-                    .map(|(a, b)| to_segment(p, a, b))
-                    .fold(f64::INFINITY, f64::min);
-                (p, d)
-            })
-            .collect();
-        // nearest to what is the contour's own
-        let before = &self.parts.graph.contours[..c];
-        let own: Vec<Point> = of
-            .iter()
-            .filter(|j| !before.iter().any(|b| b.contains(j)))
-            .map(|&j| self.at.joints[j])
-            .collect();
-        let own = mean(
-            if own.is_empty() {
-                polygon.iter()
-            } else {
-                own.iter()
-            }
-            .copied(),
+        let (of, before) = (
+            &self.parts.graph.contours[c],
+            &self.parts.graph.contours[..c],
         );
-        near.sort_by(|a, b| b.1.total_cmp(&a.1));
-        near.retain(|(_, d)| *d > 14.0);
-        let mut out: Vec<(Point, f64)> = near
-            .iter()
-            .map(|&(p, d)| {
-                // on its own tint, if any of that can be seen
-                let hidden = covers.iter().any(|c| is_inside(p, c));
-                let hidden = if hidden { 6.0 } else { 0.0 };
-                let crowded = 0.02 * (40.0 - d).max(0.0);
-                (p, hidden + crowded + 0.012 * plane_norm(sub(p, own)))
-            })
-            .collect();
+        let polygon = self.contour_outline(c);
+        let own = of.iter().filter(|j| !before.iter().any(|b| b.contains(j)));
+        let own: Vec<Point> = own.map(|&j| self.at.joints[j]).collect();
+        let own = if own.is_empty() { &polygon } else { &own };
+        let own = mean(own.iter().copied());
+        let (mut points, _) = self.free_points(c);
+        if points.is_empty() {
+            points = grid_points(&polygon, STEPS);
+        }
+        let sides = self.all_sides();
+        let near = points.into_iter().map(|p| (p, side_distance(p, &sides)));
+        let near = near.filter(|(_, d)| *d > 14.0).map(|(p, d)| {
+            let crowded = 0.02 * (40.0 - d).max(0.0);
+            (p, crowded + 0.012 * plane_norm(sub(p, own)))
+        });
+        let mut out: Vec<(Point, f64)> = near.collect();
         out.sort_by(|a, b| a.1.total_cmp(&b.1));
         if out.is_empty() {
             out.push((mean(polygon.iter().copied()), 3.0));
         }
         out
     }
+
+    /// Returns the sides of all links.
+    fn all_sides(&self) -> Vec<(Point, Point)> {
+        let links = 0..self.rings.len();
+        let sides = links.flat_map(|l| outline_sides(&self.link_corners(l)));
+        sides.collect()
+    }
+
+    /// Returns points of a contour that lie in no smaller contour and on no link, and the area in square pixels that each stands for.
+    fn free_points(&self, c: usize) -> (Vec<Point>, f64) {
+        let polygon = self.contour_outline(c);
+        let own = polygon_area(&polygon);
+        let contours = 0..self.parts.contours.len();
+        let smaller = contours.map(|other| self.contour_outline(other));
+        let smaller = smaller.filter(|other| polygon_area(other) < own);
+        let plates = (0..self.rings.len()).filter(|&l| self.rings[l].len() > 2);
+        let covers = smaller.chain(plates.map(|l| self.link_corners(l)));
+        let (covers, sides): (Vec<Vec<Point>>, _) = (covers.collect(), self.all_sides());
+        let mut points = grid_points(&polygon, STEPS);
+        let cell = own / points.len().max(1) as f64;
+        points.retain(|&p| {
+            side_distance(p, &sides) >= HALF && !covers.iter().any(|cover| is_inside(p, cover))
+        });
+        (points, cell)
+    }
+}
+
+/// The points across a contour at which its visible part is looked for.
+const STEPS: usize = 24;
+
+/// Returns the distance of a point from the nearest side.
+fn side_distance(p: Point, sides: &[(Point, Point)]) -> f64 {
+    let each = sides.iter().map(|&(a, b)| to_segment(p, a, b));
+    each.fold(f64::INFINITY, f64::min)
 }
 
 /// Half the width of the band of a contour without an area.
@@ -208,30 +216,8 @@ impl Scheme<'_> {
     pub(super) fn is_seen(&self, c: usize) -> bool {
         /// Square pixels.
         const ENOUGH: f64 = 150.0;
-        const STEPS: usize = 24;
-        let polygon = self.contour_outline(c);
-        let own = polygon_area(&polygon);
-        let smaller: Vec<Vec<Point>> = (0..self.parts.contours.len())
-            .map(|other| self.contour_outline(other))
-            .filter(|other| polygon_area(other) < own)
-            .collect();
-        let links: Vec<Vec<Point>> = (0..self.rings.len())
-            .map(|l| self.link_corners(l))
-            .collect();
-        let all = grid_points(&polygon, STEPS);
-        let cell = own / all.len().max(1) as f64;
-        let covered = |p: Point| {
-            smaller.iter().any(|s| is_inside(p, s))
-                || links.iter().zip(&self.rings).any(|(corners, ring)| {
-                    let filled = ring.len() > 2 && is_inside(p, corners);
-                    filled
-                        || outline_sides(corners)
-                            .iter()
-                            .any(|&(a, b)| to_segment(p, a, b) < HALF)
-                })
-        };
-        let free = all.iter().filter(|p| !covered(**p)).count();
-        free as f64 * cell > ENOUGH
+        let (free, cell) = self.free_points(c);
+        free.len() as f64 * cell > ENOUGH
     }
 
     /// Returns a contour without an area as a narrow band along it.

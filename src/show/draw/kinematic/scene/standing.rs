@@ -16,8 +16,11 @@ impl Kinematic<'_> {
     /// Returns a scene with everything that is fixed to links.
     pub(super) fn build_scene(&self) -> Scene {
         let mut out = self.bare_scene();
-        self.add_links(&mut out);
-        self.add_pitch_circles(&mut out);
+        for wire in &self.wires {
+            let class = self.draw_wire(wire, |p| p).class;
+            let form = wire.form.word();
+            out.add_wire(self, wire.row, &class, form, &wire.points, None);
+        }
         self.add_points(&mut out);
         let order = self.outer_first();
         self.add_joints(&mut out, &order);
@@ -52,43 +55,6 @@ impl Kinematic<'_> {
             moves: Vec::new(),
             stresses: Vec::new(),
             swaps: Vec::new(),
-        }
-    }
-
-    /// Adds the shapes of the moving links.
-    fn add_links(&self, out: &mut Scene) {
-        for row in 0..self.links.len() {
-            if self.is_frame(self.links[row].0) {
-                continue;
-            }
-            let body = self.body_at_rest(row);
-            let class = self.link_classes(row, &body);
-            match self.arc_in_space(row).or_else(|| self.bowed_in_space(row)) {
-                Some(points) => out.add_wire(self, row, &class, "line", &points, None),
-                None => {
-                    let facet = self.facets[row].clone();
-                    let points = facet.unwrap_or_else(|| self.points_in_space(row));
-                    out.add_wire(self, row, &class, "hull", &points, None);
-                }
-            }
-        }
-    }
-
-    /// Adds the pitch circles of gears and the pitch lines of racks, each on a link that moves.
-    fn add_pitch_circles(&self, out: &mut Scene) {
-        let m = self.subject.mechanism;
-        for coupling in m.couplings_in(self.subject.state) {
-            let other = |end: usize| m.joints[coupling.ends[1 - end].joint].links;
-            for (end, curve) in self.pitch_curves_in_space(coupling, &self.places) {
-                let own = m.joints[coupling.ends[end].joint].links.into_iter();
-                let moving = own.filter(|l| !self.is_frame(*l));
-                // The carrier of both joints is the last choice.
-                let Some(link) = moving.min_by_key(|l| other(end).contains(l)) else {
-                    continue;
-                };
-                let row = self.link_row(link);
-                out.add_wire(self, row, "fine pitch", "loop", &curve, None);
-            }
         }
     }
 
