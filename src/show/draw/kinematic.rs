@@ -5,7 +5,7 @@ use crate::draw::kinematic::wire::{DrawnWire, Wire};
 use crate::draw::naming::draw_leaders;
 use crate::draw::place::projection::Projection;
 use crate::draw::prelude::*;
-use crate::draw::sheet::{Caption, plan_sheet};
+use crate::draw::sheet::{Caption, draw_sheet};
 use crate::draw::subject;
 use crate::draw::symbol::ground::Ground;
 use crate::draw::symbol::placed::{Swap, Symbol};
@@ -36,47 +36,31 @@ const STRIP: f64 = 84.0;
 /// ```
 #[must_use]
 pub fn kinematic(subject: &Subject<'_>) -> Drawing {
-    kinematic_seen(subject, &Sight::default())
+    kinematic_seen(subject, &Sight::default(), None)
 }
 
-/// Draws the kinematic scheme as seen from a side.
+/// Draws the kinematic scheme as seen from a side, with a self-stress as arrows on the links that it loads where one is given with its
+/// name, which goes under the title.
 ///
 /// # Examples
 /// ```
-/// use ozols::{draw::{Sight, Subject, kinematic, kinematic_seen}, model::mechanism::StateId};
-/// let bennett = ozols::built_in("bennett")?;
-/// let subject = Subject { mechanism: &bennett, state: StateId::FREE, analysis: None, marks: None };
-/// let along_x = Sight { toward: Some([1.0, 0.0, 0.0]), ..Sight::default() };
-/// let along_y = Sight { toward: Some([0.0, 1.0, 0.0]), ..Sight::default() };
-/// assert_ne!(kinematic_seen(&subject, &along_x).svg, kinematic_seen(&subject, &along_y).svg);
-/// # Ok::<(), ozols::Error>(())
-/// ```
-#[must_use]
-pub fn kinematic_seen(subject: &Subject<'_>, sight: &Sight) -> Drawing {
-    Kinematic::new(subject, sight).draw_sheet()
-}
-
-/// Draws the kinematic scheme with a self-stress as arrows on the links that it loads; its name goes under the title.
-///
-/// # Examples
-/// ```
-/// use ozols::{draw::{Sight, Subject, kinematic_stressed}, model::mechanism::StateId};
+/// use ozols::{draw::{Sight, Subject, kinematic_seen}, model::mechanism::StateId};
 /// let four_bar = ozols::built_in("four-bar")?;
 /// let free = &ozols::analyze(&four_bar)?[0];
 /// let subject = Subject { mechanism: &four_bar, state: StateId::FREE, analysis: Some(free), marks: None };
-/// let drawing = kinematic_stressed(&subject, &Sight::default(), &free.self_stresses[0], "the first of three");
-/// assert!(drawing.svg.contains("the first of three"));
+/// let along_x = Sight { toward: Some([1.0, 0.0, 0.0]), ..Sight::default() };
+/// let stress = Some(("the first of three", &free.self_stresses[0]));
+/// assert!(kinematic_seen(&subject, &along_x, stress).svg.contains("the first of three"));
 /// # Ok::<(), ozols::Error>(())
 /// ```
 #[must_use]
-pub fn kinematic_stressed(
+pub fn kinematic_seen(
     subject: &Subject<'_>,
     sight: &Sight,
-    stress: &SelfStress,
-    name: &str,
+    stress: Option<(&str, &SelfStress)>,
 ) -> Drawing {
     let mut drawn = Kinematic::new(subject, sight);
-    drawn.show_stress(name, stress);
+    drawn.show_stress(stress);
     drawn.draw_sheet()
 }
 
@@ -164,9 +148,11 @@ impl Kinematic<'_> {
     }
 
     /// Adds the arrows of a self-stress at the pose of the file, and its name.
-    fn show_stress(&mut self, name: &str, stress: &SelfStress) {
-        self.arrows = self.arrows_of(&known_loads(stress), None);
-        self.shows = Some(name.to_owned());
+    fn show_stress(&mut self, stress: Option<(&str, &SelfStress)>) {
+        if let Some((name, stress)) = stress {
+            self.arrows = self.arrows_of(&known_loads(stress), None);
+            self.shows = Some(name.to_owned());
+        }
     }
 
     fn is_frame(&self, link: LinkId) -> bool {
@@ -215,15 +201,13 @@ impl Kinematic<'_> {
             description: &(self.describe_drawing() + &words.more),
             legend: words.legend,
         };
-        let plan = plan_sheet(&caption, area, STRIP);
-        let mut sheet = Sheet::new(&caption, &plan);
-        draw(&mut sheet, plan.shift);
-        let below = plan.legend_top - STRIP;
-        sheet.draw_group("data-home", "scale", [0.0; 2], |s| {
-            self.draw_axes(s, below + 34.0);
-            self.draw_scale(s, below + 40.0);
-        });
-        sheet.finish_sheet(&caption, &plan)
+        draw_sheet(&caption, area, STRIP, |sheet, shift, below| {
+            draw(sheet, shift);
+            sheet.draw_group("data-home", "scale", [0.0; 2], |s| {
+                self.draw_axes(s, below + 34.0);
+                self.draw_scale(s, below + 40.0);
+            });
+        })
     }
 
     /// Draws a picture with the symbols of the file's pose, in groups that name each part.

@@ -6,7 +6,7 @@ use crate::draw::place::graph::{Graph, joint_ring};
 use crate::draw::place::layout::{Layout, find_layout};
 use crate::draw::prelude::*;
 use crate::draw::sheet::shapes::{HALF, hatch_path, outline_sides, rounded_path};
-use crate::draw::sheet::{Caption, plan_sheet};
+use crate::draw::sheet::{Caption, draw_sheet};
 use crate::draw::subject::roominess;
 use crate::geom::expr::Expr;
 use crate::svg::labels::LabelPlace;
@@ -190,9 +190,7 @@ impl<'a> Scheme<'a> {
             description: &self.describe_drawing(),
             legend: self.legend_rows(),
         };
-        let plan = plan_sheet(&caption, area, 0.0);
-        let mut sheet = Sheet::new(&caption, &plan);
-        sheet.draw_group("data-drawing", "", plan.shift, |sheet| {
+        let draw = |sheet: &mut Sheet| {
             let order = self.contours_by_size().into_iter();
             let (seen, hidden): (Vec<usize>, Vec<usize>) = order.partition(|&c| self.is_seen(c));
             for c in seen {
@@ -209,8 +207,10 @@ impl<'a> Scheme<'a> {
                 Some(self.at.joints[i])
             });
             self.draw_labels(sheet, &labels);
-        });
-        sheet.finish_sheet(&caption, &plan)
+        };
+        draw_sheet(&caption, area, 0.0, |sheet, shift, _| {
+            sheet.draw_group("data-drawing", "", shift, draw);
+        })
     }
 
     fn draw_link(&self, sheet: &mut Sheet, l: usize) {
@@ -329,19 +329,8 @@ impl<'a> Scheme<'a> {
     /// Describes the drawing in words, for readers who cannot see it.
     fn describe_drawing(&self) -> String {
         let m = self.subject.mechanism;
-        let mut out = self.subject.summary_sentence("Structural scheme");
-        for &j in &self.parts.joints {
-            let joint = &m.joints[j];
-            let [a, b] = joint.links.map(|l| &m.links[l].id);
-            let _ = write!(
-                out,
-                " Joint {} of class {} ({}) between {a} and {b}{}.",
-                joint.id,
-                joint.joint_type.class_numeral(),
-                joint.joint_type,
-                if joint.drive { ", driven" } else { "" }
-            );
-        }
+        let joints = self.parts.joints.iter().copied();
+        let mut out = self.subject.describe_joints("Structural scheme", joints);
         for (c, (contour, share)) in self.parts.contours.iter().enumerate() {
             let _ = write!(
                 out,

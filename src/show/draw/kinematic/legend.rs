@@ -6,7 +6,6 @@ use crate::draw::place::projection;
 use crate::draw::prelude::*;
 use crate::draw::sheet::PAD;
 use crate::draw::symbol::ground::Ground;
-use crate::format::decimals;
 use crate::svg::labels::{self, Wish};
 
 impl Kinematic<'_> {
@@ -25,9 +24,8 @@ impl Kinematic<'_> {
             out.push((Swatch::Shapes(arrow), "driven slide".to_owned()));
         }
         if !self.grounds.is_empty() {
-            let draw =
-                |s: &mut Sheet| Ground::under_pivot([0.0, -7.0], [0.0, -1.0]).draw_ground_lines(s);
-            out.push((Swatch::Symbol(draw), m.frame_words()));
+            let ground = Ground::under_pivot([0.0, -7.0], [0.0, -1.0]);
+            out.push((Swatch::Shapes(ground.ground_shapes()), m.frame_words()));
         }
         if self.spots.iter().any(|s| self.subject.only_here(s.joint)) {
             let ring = Shape::circle("fine dash", [0.0; 2], 9.5);
@@ -84,23 +82,8 @@ impl Kinematic<'_> {
 
     /// Describes the drawing in words, for readers who cannot see it.
     pub(super) fn describe_drawing(&self) -> String {
-        let m = self.subject.mechanism;
-        let mut out = self.subject.summary_sentence(&self.view_title());
-        for s in &self.spots {
-            let joint = &m.joints[s.joint];
-            let [a, b] = joint.links.map(|l| &m.links[l].id);
-            let p = [0, 1, 2].map(|i| joint.frame.point[i].to_f64());
-            let _ = write!(
-                out,
-                " Joint {} ({}) between {a} and {b} at {}, {}, {} {}.",
-                joint.id,
-                joint.joint_type,
-                decimals(p[0], 4),
-                decimals(p[1], 4),
-                decimals(p[2], 4),
-                m.length_unit.symbol
-            );
-        }
+        let joints = self.spots.iter().map(|s| s.joint);
+        let out = self.subject.describe_joints(&self.view_title(), joints);
         out + &self.subject.coupling_words()
     }
 }

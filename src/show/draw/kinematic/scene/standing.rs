@@ -106,7 +106,8 @@ impl Kinematic<'_> {
         };
         let frame = self.link_row(self.subject.mechanism.frame_link());
         let place = self.places[i].point;
-        let shapes = ground_below(self.spots[i].symbol.reach_of_room() + 6.0);
+        let reach = self.spots[i].symbol.reach_of_room() + 6.0;
+        let shapes = Ground::under_pivot([0.0; 2], [0.0, reach]).ground_shapes();
         let symbol = out.symbol_number(shapes.iter().map(Piece::on_paper).collect());
         let mut below = self.standing_json(place, [frame; 2], symbol);
         below["turned"] = json!(true);
@@ -185,17 +186,6 @@ fn upright_axis(view: &View) -> Vector {
         (true, true) => scale(Z, -1.0),
         _ => view.up,
     }
-}
-
-/// Returns the ground below a joint.
-pub(crate) fn ground_below(reach: f64) -> Vec<Shape> {
-    let strokes = (0..5).map(|i| {
-        let x = 10.0 - 5.0 * f64::from(i);
-        Shape::line("fine", vec![[x, reach], [x - 4.0, reach + 6.0]])
-    });
-    let stem = Shape::line("bone", vec![[0.0, 0.0], [0.0, reach]]);
-    let line = Shape::line("bone", vec![[-11.0, reach], [11.0, reach]]);
-    [stem, line].into_iter().chain(strokes).collect()
 }
 
 impl Kinematic<'_> {
