@@ -370,8 +370,8 @@ impl Tree {
             }
             out
         };
-        let mut cycle = path(x);
-        cycle.push(graph[e].edge);
+        let mut cycle = vec![graph[e].edge];
+        cycle.extend(path(x));
         cycle.extend(path(y).into_iter().rev());
         cycle
     }

@@ -43,6 +43,19 @@ pub(crate) fn symbol_pieces(joint: &JointType) -> &'static [Piece] {
     &SYMBOLS[joint.name()]
 }
 
+/// Returns the symbol of a type of joint as a scene has it.
+///
+/// # Examples
+/// ```
+/// use ozols::{draw::joint_symbol, model::joint_type::JointType};
+/// assert!(joint_symbol(&JointType::Revolute)[0]["points"].is_array());
+/// ```
+#[must_use]
+pub fn joint_symbol(joint: &JointType) -> serde_json::Value {
+    let pieces = symbol_pieces(joint).iter().map(|p| p.sized_piece("", 1.0));
+    serde_json::json!(pieces.collect::<Vec<_>>())
+}
+
 /// Returns the straight arrow of a joint that slides along one of its axes, outside the hatching of a rail.
 pub(crate) fn slide_arrow(axis: usize) -> &'static [Piece] {
     &SYMBOLS[["drive x", "drive y", "drive z"][axis]]
