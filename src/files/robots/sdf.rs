@@ -8,7 +8,7 @@ pub(super) mod write;
 use crate::robots::additions::{ball_constraint, leave_out, read_plugin};
 use crate::robots::include::expand_models;
 use crate::robots::prelude::*;
-use crate::robots::sdf::joints::{read_gearbox, read_joint, read_weld};
+use crate::robots::sdf::joints::{read_joint, read_weld};
 use crate::robots::sdf::scene::{
     Placed, SdfScene, absolute_name, insert, moves_with, named_place, read_pose, resolve_places,
 };
@@ -18,10 +18,6 @@ pub(crate) fn read_sdf(mut input: Input<'_>) -> Read<Robot> {
     let included = expand_models(&mut input)?;
     let root = input.document.element(input.root);
     let mut robot = Robot::new("robot");
-    let what = "include of a light or floor";
-    for uri in &included.scenery {
-        robot.report.count_dropped(what, Some(uri));
-    }
     robot.world = Some(robot.add_link("world", RigidMotion::IDENTITY));
     robot.floats = true;
     let mut scene = SdfScene {
@@ -125,15 +121,14 @@ fn place_links(scene: &SdfScene<'_>, robot: &mut Robot) {
 fn read_joints(mut scene: SdfScene<'_>, robot: &mut Robot) -> Read<()> {
     let far = |p: &Placed<'_>| length(p.raw.translation);
     let size = scene.placed.values().map(far).fold(1e-3, f64::max);
-    let is_gearbox = |e: &Element<'_>| e.attribute("type") == Some("gearbox");
-    let all = std::mem::take(&mut scene.joints).into_iter();
-    let (gearboxes, joints): (Vec<_>, Vec<_>) = all.partition(|(e, _)| is_gearbox(e));
-    for (e, scope) in joints {
-        read_joint(e, &scope, &scene, size, robot)?;
-    }
-    // These couple joints that are read by now.
-    for e in gearboxes {
-        read_gearbox(&e, &scene, robot)?;
+    for (e, scope) in std::mem::take(&mut scene.joints) {
+        if e.attribute("type") == Some("gearbox") {
+            let what =
+                "a gearbox is not read; its coupling (1 row) is omitted; write it as a <mimic>";
+            robot.report.leave_out_coupling(&e.label(), what);
+        } else {
+            read_joint(e, &scope, &scene, size, robot)?;
+        }
     }
     for at in std::mem::take(&mut scene.constraints) {
         match at.0.name() {
@@ -142,7 +137,7 @@ fn read_joints(mut scene: SdfScene<'_>, robot: &mut Robot) -> Read<()> {
         }
     }
     for at in std::mem::take(&mut scene.plugins) {
-        read_plugin(&at, &scene, robot)?;
+        read_plugin(&at, robot)?;
     }
     for e in std::mem::take(&mut scene.unknown) {
         leave_out(e, None, robot);
@@ -181,8 +176,7 @@ fn read_model<'a>(
                 scene.constraints.push((e, scope.to_owned()));
             }
             "plugin" => scene.plugins.push((e, scope.to_owned())),
-            "model" | "pose" | "static" => {}
-            "gripper" => robot.report.count_dropped("gripper", e.attribute("name")),
+            "model" | "pose" | "static" | "gripper" => {}
             _ => scene.unknown.push(e),
         }
     }
@@ -234,7 +228,6 @@ fn read_link<'a>(
             let why = "a link named world is not in its place";
             return Err(e.unsupported_error(why, "remove its pose, or give it another name"));
         }
-        robot.report.count_mapped("link that is the world");
         return Ok(());
     }
     let link = robot.add_link(&name, RigidMotion::IDENTITY);
@@ -242,11 +235,8 @@ fn read_link<'a>(
     let mut placed = Placed::new(e, to, raw, name.clone());
     placed.link = Some(link);
     insert(scene, name, placed)?;
-    for c in e.children().filter(|c| c.name() != "pose") {
-        if ["visual", "collision"].contains(&c.name()) {
-            robot.shown.insert(link);
-        }
-        robot.report.count_dropped(c.name(), None);
+    if e.children().any(|c| c.is_one_of("visual collision")) {
+        robot.shown.insert(link);
     }
     if is_static {
         scene.fixed.push(link);

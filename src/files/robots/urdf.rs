@@ -29,7 +29,6 @@ pub(crate) fn read_urdf(input: Input<'_>) -> Read<Robot> {
     };
     if robot.frame("world").is_none() && root.children_named("joint").any(on_world) {
         robot.add_link("world", RigidMotion::IDENTITY);
-        robot.report.count_mapped("world");
     }
     let mut unknown = Vec::new();
     for e in root.children() {
@@ -39,7 +38,6 @@ pub(crate) fn read_urdf(input: Input<'_>) -> Read<Robot> {
             "joint" | "drake:joint" => read_joint(e, &mut robot)?,
             "loop_joint" => loop_joint(e, &mut robot)?,
             "drake:ball_constraint" => ball_constraint(e, &mut robot)?,
-            "constraint" if has_ends(e) => read_constraint(e, &mut robot)?,
             "transmission" | "gazebo" | "ros2_control" => {}
             _ => unknown.push(e),
         }
@@ -73,11 +71,8 @@ fn read_link(e: Element<'_>, robot: &mut Robot) -> Read<()> {
         return Err(e.duplicate_error());
     }
     let l = robot.add_link(name, RigidMotion::IDENTITY);
-    for c in e.children() {
-        if ["visual", "collision"].contains(&c.name()) {
-            robot.shown.insert(l);
-        }
-        robot.report.count_dropped(c.name(), None);
+    if e.children().any(|c| c.is_one_of("visual collision")) {
+        robot.shown.insert(l);
     }
     Ok(())
 }
@@ -86,13 +81,9 @@ fn read_link(e: Element<'_>, robot: &mut Robot) -> Read<()> {
 fn read_transmission(e: Element<'_>, robot: &mut Robot) {
     let driven = e.children_named("joint");
     for j in driven.filter_map(|j| j.attribute("name")) {
-        match robot.joints.iter_mut().find(|p| p.id == j) {
-            Some(p) => {
-                p.drive = true;
-                let what = "data of a transmission";
-                robot.report.count_dropped(what, Some(j));
-            }
-            None => robot.report.count_dropped("transmission", Some(j)),
+        let mut joints = robot.joints.iter_mut();
+        if let Some(p) = joints.find(|p| p.id == j) {
+            p.drive = true;
         }
     }
     // If there are more joints than actuators, they are coupled, unless they follow one another.
@@ -123,40 +114,6 @@ fn read_controlled(e: Element<'_>, robot: &mut Robot) -> Read<()> {
             add_coupling(j, [leader.text(), follower], ratio, robot);
         }
     }
-    robot.report.count_dropped(e.name(), e.attribute("name"));
-    Ok(())
-}
-
-/// Returns true if an element names a parent and a child, like a joint.
-fn has_ends(e: Element<'_>) -> bool {
-    let link = |tag: &str| e.first_child(tag).and_then(|c| c.attribute("link"));
-    link("parent").is_some() && link("child").is_some()
-}
-
-/// Reads `<constraint name type>` with a link, a place and an axis on either side: `parent`, `parent_origin`, `parent_axis`, and
-/// those of the child.
-fn read_constraint(e: Element<'_>, robot: &mut Robot) -> Read<()> {
-    let links = [end_link(e, "parent", robot)?, end_link(e, "child", robot)?];
-    let word = e.attribute("type").unwrap_or("");
-    let Some(joint_type) = joint_of_word(word, CLOSING) else {
-        leave_out(e, None, robot);
-        return Ok(());
-    };
-    let mut sides = [RigidMotion::IDENTITY; 2];
-    for (side, tag) in sides.iter_mut().zip(["parent", "child"]) {
-        let axis = match e.first_child(&format!("{tag}_axis")) {
-            Some(a) => read_direction(e, a)?,
-            None => read_axis(e)?,
-        };
-        let at = e.first_child(&format!("{tag}_origin"));
-        let at = at.map_or(Ok(RigidMotion::IDENTITY), read_place)?;
-        *side = at.then(&RigidMotion::z_to(axis));
-    }
-    let [a, b] = links.map(|l| &robot.links[l]);
-    let unnamed = || format!("constraint-{a}-{b}");
-    let id = e.attribute("name").map_or_else(unnamed, str::to_owned);
-    let ends = [(links[0], sides[0]), (links[1], sides[1])];
-    robot.close_loop(e, &id, ends, joint_type, "constraint")?;
     Ok(())
 }
 
@@ -193,13 +150,11 @@ fn named_link(e: Element<'_>, c: Element<'_>, robot: &Robot) -> Read<usize> {
     })
 }
 
+/// Returns the axis of a joint; x by default.
 fn read_axis(e: Element<'_>) -> Read<Vector> {
-    e.first_child("axis")
-        .map_or(Ok(X), |a| read_direction(e, a))
-}
-
-/// Returns the direction that an element of `e` gives; x by default.
-fn read_direction(e: Element<'_>, a: Element<'_>) -> Read<Vector> {
+    let Some(a) = e.first_child("axis") else {
+        return Ok(X);
+    };
     let v = a.read_vector("xyz", X)?;
     if length(v) < 1e-9 {
         let (found, want) = (a.attribute("xyz"), "give a direction such as 0 0 1");
@@ -233,12 +188,10 @@ fn read_joint(e: Element<'_>, robot: &mut Robot) -> Read<()> {
     if let Some(l) = e.first_child("limit").filter(|_| word != "continuous") {
         part.limits = read_limits(l)?;
     }
-    robot.report.count_mapped(word);
     if let Some(m) = e.first_child("mimic") {
         let leader = m.required_attribute("joint")?;
         let ratio = m.read_numbers::<1>("multiplier")?.map_or(1.0, |[x]| x);
         m.read_numbers::<1>("offset")?;
-        part.comment = Some(format!("mimics {leader} times {ratio}"));
         robot.couplings.push(Ratio {
             said_by: m.id,
             ..Ratio::new([leader, name], ratio, e)
@@ -278,7 +231,7 @@ fn loop_joint(e: Element<'_>, robot: &mut Robot) -> Read<()> {
     let joint_type = joint_of_word(word, CLOSING);
     let joint_type = joint_type.ok_or_else(|| e.unknown_word("type", word, CLOSING))?;
     let axis = read_axis(e)?;
-    let part = robot.close_loop(e, name, ends, joint_type, "loop_joint")?;
+    let part = robot.close_loop(e, name, ends, joint_type)?;
     part.set_axis(axis);
     Ok(())
 }

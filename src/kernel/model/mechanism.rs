@@ -6,6 +6,7 @@ use crate::model::claim::Claim;
 use crate::model::joint_type::{Coupling, Freedom, JointType};
 use crate::model::loads::{Loads, MassProperties};
 use crate::model::ranking::{Ranking, TypeOverride};
+use serde_json::Value;
 use std::ops::Deref;
 use std::sync::Arc;
 
@@ -214,6 +215,8 @@ pub struct Parts {
     /// Assumptions and omissions of the reader of another format, one sentence each. The figures are those of the file
     /// as read.
     pub assumed: Vec<String>,
+    /// Workload, ranking, figures and claims as the tables of the file, which are written back. Null if it has no file.
+    pub tables: Arc<Value>,
 }
 
 /// A validated mechanism: parts that cannot be changed, with the guarantees of [`Mechanism::new`].

@@ -76,6 +76,7 @@ pub fn realize_variant(question: &Question, choices: &[usize]) -> Mechanism {
         expected: Vec::new(),
         claims: Vec::new(),
         assumed: old.assumed.clone(),
+        tables: old.tables.clone(),
     })
 }
 
