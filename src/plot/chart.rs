@@ -1,4 +1,4 @@
-//! Charts as self-contained SVG: lines on linear or log axes, bands of verdicts, and a page that gathers them.
+//! Charts as self-contained SVG: lines on linear or log axes, and a page that gathers them.
 //!
 //! The SVG is written by a helper in this crate. plotters and charts-rs fix the colours, so that one picture cannot be
 //! both light and dark. poloto has no log axis. charming runs V8. None of them keeps names at line ends apart. The
@@ -8,17 +8,14 @@
 //! for the same input. A point that cannot be shown is omitted and breaks its line. Such points are not finite, beyond 1e300 on a linear
 //! axis, or not positive on a log axis.
 
-pub use data::{Axis, Band, Bands, Chart, Scale, Series, Style, VerdictKind};
+pub use data::{Axis, Chart, Scale, Series, Style};
 use maud::{PreEscaped, html};
-pub use polygons::{Panel, PanelPair, PlanArrow, Polygons};
 
 mod axis;
-mod bands;
 mod data;
 mod drawn;
 mod frame;
 mod line;
-mod polygons;
 
 const STYLE: &str = include_str!("chart/page.css");
 

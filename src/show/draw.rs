@@ -5,6 +5,7 @@
 //! away, with a leader.
 
 mod kinematic;
+mod naming;
 mod place {
     pub(super) mod graph;
     pub(super) mod initial_layout;
@@ -29,7 +30,7 @@ pub use crate::svg::plane::Rect;
 pub(crate) use kinematic::kinematic_with;
 pub use kinematic::moving::{Moved, kinematic_along, kinematic_moving};
 pub use kinematic::scene::{Scene, Shown, kinematic_scene};
-pub use kinematic::{kinematic, kinematic_seen, kinematic_stressed};
+pub use kinematic::{kinematic, kinematic_seen};
 
 pub use place::projection::Sight;
 pub use scheme::scheme;
@@ -37,3 +38,4 @@ pub use sheet::STYLE as SHEET_STYLE;
 pub use sheet::{Drawing, Label};
 pub use subject::{Marks, Subject};
 pub use symbol::placed::Swap;
+pub use symbol::symbols::joint_symbol;

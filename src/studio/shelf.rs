@@ -3,13 +3,11 @@
 
 use super::disk::{BLANK, Opening};
 use crate::builtin;
-use crate::file::text::mechanism_from_str;
-use crate::model::joint_type::JointType;
-use crate::model::mechanism::{Mechanism, StateId};
-use crate::page::scenes::{still_picture, still_scene};
+use crate::draw::joint_symbol;
+use crate::model::joint_type::{Freedom, JointType};
+use crate::page::scenes::still_picture;
 use crate::terms::PairWords;
 use serde_json::{Value, json};
-use std::fmt::Write as _;
 use std::path::PathBuf;
 
 /// The picture of the window's tab.
@@ -75,52 +73,21 @@ pub(super) fn picture_of(name: &str) -> Option<String> {
     still_picture(&m)
 }
 
-/// Returns a mechanism with a joint of each type, side by side.
-fn sampler_mechanism() -> Option<Mechanism> {
-    let mut text = "name = \"palette\"\n[[link]]\nid = \"0\"\nrole = \"frame\"\n".to_owned();
-    for (n, word) in JointType::all_words().enumerate() {
-        let more = match word {
-            "helical" => "lead = 1\n",
-            "custom" => "freedoms = [\"rz\", \"tx\", \"ty\", \"tz\"]\n",
-            _ => "",
-        };
-        let _ = write!(
-            text,
-            "[[link]]\nid = \"{word}\"\n[[joint]]\nid = \"{word}\"\nlinks = [\"0\", \"{word}\"]\ntype = \"{word}\"\n\
-             point = [{}, 0, 0]\naxis = [0, 0, 1]\n{more}",
-            10 * n
-        );
-    }
-    mechanism_from_str("palette.toml", &text).ok()
-}
-
 /// Returns every type with its class, its freedoms, its description, and the pieces of its symbol.
 pub(super) fn joint_types() -> Value {
     let words = PairWords::builtin();
-    let Some(m) = sampler_mechanism() else {
-        return Value::Null;
-    };
-    let scene = still_scene(&m, (None, StateId::FREE), &[]);
-    let scene = serde_json::to_value(scene).unwrap_or_default();
-    let symbol = |word: &str| {
-        let all = scene["joints"].as_array().into_iter().flatten();
-        let number = all
-            .filter(|j| j["id"] == word)
-            .find_map(|j| j["symbol"].as_u64());
-        let number = number.and_then(|n| usize::try_from(n).ok());
-        number.map_or(Value::Null, |n| scene["symbols"][n].clone())
-    };
-    let types = m.joints.iter().map(|j| {
-        let word = j.joint_type.name();
-        let free: Vec<_> = j.joint_type.freedoms().iter().map(|f| f.name()).collect();
+    let custom = JointType::Custom(vec![Freedom::Rz, Freedom::Tx, Freedom::Ty, Freedom::Tz]);
+    let types = JointType::NAMED.iter().chain([&custom]).map(|of| {
+        let word = of.name();
+        let free: Vec<_> = of.freedoms().iter().map(|f| f.name()).collect();
         json!({
             "type": word,
-            "class": j.joint_type.class_numeral(),
+            "class": of.class_numeral(),
             "free": free,
-            "trade": j.joint_type.trade_names().collect::<Vec<_>>(),
+            "trade": of.trade_names().collect::<Vec<_>>(),
             "about": words.get(word).map(|w| &w.about),
             "axis": words.get(word).map(|w| &w.axis),
-            "symbol": symbol(word),
+            "symbol": joint_symbol(of),
         })
     });
     Value::Array(types.collect())

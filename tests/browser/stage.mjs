@@ -136,7 +136,7 @@ export function stageTests(test, { gripper, loaded }) {
       assert.equal(list[0], "idea,changed joints,variants,cost,W,cond.");
       assert.match(list[1], /^1,"1-2, 2-3, .*→ cylindrical",1470,11.5,1,0.0\d+$/);
       const contours = await copied(tab.locator("#mechanism table caption button").first());
-      assert.match(contours, /^contour,joints,σ in this order,in any order,/);
+      assert.match(contours, /^contour,joints,"σ, this loop order",any loop order,/);
       assert.match(contours, /\r\n0-1-2-3,"0-1, 1-2, 2-3, 3-0",2,2 to 3,2 to 3\r\n/);
     });
   });

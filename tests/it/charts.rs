@@ -28,9 +28,7 @@ fn labels(svg: &str) -> Option<[usize; 2]> {
     };
     let (x, y) = (count("xt"), count("yt"));
     match kind.split(' ').nth(1)? {
-        "oz-chart" | "oz-contours" => Some([x, y]),
-        // Rows have names there.
-        "oz-bands" => Some([x, 2]),
+        "oz-chart" => Some([x, y]),
         _ => None,
     }
 }

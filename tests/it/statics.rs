@@ -4,7 +4,6 @@ use crate::common::*;
 mod command;
 mod cycle;
 mod enumeration;
-mod force_plans;
 mod ill_posed;
 mod loads;
 mod misfit;

@@ -164,10 +164,9 @@ fn make_drawing(
     if a.shows_motion() {
         return draw_moving(a, subject, &sight, first, stress);
     }
-    Ok(match (stress, a.kind) {
-        (Some((name, s)), _) => draw::kinematic_stressed(subject, &sight, s, name),
-        (None, DrawKind::Scheme) => draw::scheme(subject),
-        (None, DrawKind::Kinematic) => draw::kinematic_seen(subject, &sight),
+    Ok(match a.kind {
+        DrawKind::Scheme if stress.is_none() => draw::scheme(subject),
+        _ => draw::kinematic_seen(subject, &sight, stress),
     })
 }
 

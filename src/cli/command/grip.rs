@@ -68,8 +68,7 @@ pub(crate) fn run_grip(a: &Grip) -> anyhow::Result<Done> {
         motion,
     };
     if let Some(folder) = &a.svg {
-        let charts = grip_charts(&shown).into_iter();
-        output::write_pictures(folder, None, charts.map(output::chart_files))?;
+        output::write_charts(folder, None, grip_charts(&shown))?;
     }
     let gives = "charts of the arms and the drive moment";
     let charts = NextCommand::new("grip", &a.file.file, "--svg charts", gives);
@@ -142,10 +141,10 @@ pub(crate) fn run_drive(a: &Drive) -> anyhow::Result<Done> {
     let found = design_drive(&file.spec)?;
     let shown = view::drive::Drive::new(&file, &found);
     if let (Some(folder), true) = (&a.svg, shown.design.is_some()) {
-        let motion = motion_csv(&shown)
-            .map(|table| ("motion".to_owned(), String::new(), vec![("csv", table)]));
-        let charts = drive_charts(&shown).into_iter().map(output::chart_files);
-        output::write_pictures(folder, None, charts.chain(motion))?;
+        output::write_charts(folder, None, drive_charts(&shown))?;
+        if let Some(motion) = motion_csv(&shown) {
+            output::write_bytes(Some(&folder.join("motion.csv")), motion)?;
+        }
     }
     let gives = "charts of the programme: angle and energy over time";
     let charts = NextCommand::new("drive", &a.file.file, "--svg charts", gives);

@@ -1,6 +1,5 @@
 //! `ozols statics`.
 
-use crate::chart::Polygons;
 use crate::cli::prelude::*;
 use crate::file::read::workload::motion::parse_stroke;
 use crate::grip::clamped::clamped_reactions;
@@ -15,9 +14,9 @@ use crate::statics::reactions::misfit::misfit;
 use crate::statics::solve::{Model, SolvedReactions, StaticsError, solve_reactions};
 use crate::view::grip::clamped::NotHeld;
 use crate::view::reactions::misfit::MisfitView;
-use crate::view::statics::force_plans::force_plans_of;
+use crate::view::statics::Structures;
+use crate::view::statics::charts::cycle_charts;
 use crate::view::statics::told::{ToldReactions, ToldStatics};
-use crate::view::statics::{Structures, charts as drawn};
 use clap::builder::PossibleValuesParser;
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -220,14 +219,7 @@ fn report_loose(
 /// Writes what was found, with the charts where they are asked for.
 fn write(m: &Mechanism, shown: &ToldStatics<'_>, a: &Statics) -> anyhow::Result<()> {
     if let (ToldReactions::Planar(s), Some(folder)) = (&shown.reactions, &a.svg) {
-        let plan = |(name, plan): (String, Polygons)| {
-            let files = vec![("svg", plan.svg()), ("csv", plan.csv())];
-            (name, plan.title, files)
-        };
-        let plans = force_plans_of(s).into_iter().map(plan);
-        let charts = drawn::cycle_charts(s).into_iter();
-        let all = charts.map(output::chart_files).chain(plans);
-        output::write_pictures(folder, Some(&m.name), all)?;
+        output::write_charts(folder, Some(&m.name), cycle_charts(s))?;
     }
     a.put_reactions(shown, &next_steps(shown, a))?;
     Ok(())
@@ -241,7 +233,7 @@ fn next_steps(shown: &ToldStatics<'_>, a: &Statics) -> Vec<NextCommand> {
             let charts = next(
                 "statics",
                 "--svg charts",
-                "charts of reactions and accelerations over the cycle, and the force plans",
+                "charts of reactions and accelerations over the cycle",
             );
             let all = next(
                 "statics",

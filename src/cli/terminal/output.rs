@@ -93,35 +93,24 @@ pub(crate) fn make_folder(folder: &Path) -> anyhow::Result<()> {
         .with_context(|| format!("cannot make the folder {}", folder.display()))
 }
 
-/// A picture or a table: the name of its files without ending, its title, and its texts by ending.
-pub(crate) type Picture = (String, String, Vec<(&'static str, String)>);
-
-/// Returns a chart as SVG and CSV. The table has no row where a line breaks.
-pub(crate) fn chart_files((name, mut chart): (String, Chart)) -> Picture {
-    let svg = chart.svg();
-    for series in &mut chart.series {
-        series.points.retain(|p| p.1.is_finite());
-    }
-    let csv = chart.csv();
-    (name, chart.title, vec![("svg", svg), ("csv", csv)])
-}
-
-/// Writes pictures to a folder, which is created if it is missing, and a page of them if a title is given.
-pub(crate) fn write_pictures(
+/// Writes charts, each with the name of its files, to a folder as SVG and CSV. The folder is created if it is missing. A table has no row
+/// where a line breaks. A page of all charts is written if a title is given.
+pub(crate) fn write_charts(
     folder: &Path,
     title: Option<&str>,
-    all: impl IntoIterator<Item = Picture>,
+    all: Vec<(String, Chart)>,
 ) -> anyhow::Result<()> {
     make_folder(folder)?;
     let write = |name: &str, text: &str| write_bytes(Some(&folder.join(name)), text);
     let mut parts = Vec::new();
-    for (name, heading, files) in all {
-        for (ending, text) in files {
-            write(&format!("{name}.{ending}"), &text)?;
-            if ending == "svg" {
-                parts.push((heading.clone(), String::new(), text));
-            }
+    for (name, mut chart) in all {
+        let svg = chart.svg();
+        write(&format!("{name}.svg"), &svg)?;
+        for series in &mut chart.series {
+            series.points.retain(|p| p.1.is_finite());
         }
+        write(&format!("{name}.csv"), &chart.csv())?;
+        parts.push((chart.title, String::new(), svg));
     }
     if let Some(title) = title {
         write("index.html", &page(title, &parts))?;

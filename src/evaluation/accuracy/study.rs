@@ -5,9 +5,8 @@ mod conclusion;
 
 use super::said::{Reply, Said, Tally};
 use super::timing::Clock;
-use crate::chart::{Axis, Band, Bands, Chart, Scale, Series, Style, VerdictKind, page};
+use crate::chart::{Axis, Chart, Scale, Series, Style, page};
 use crate::format::{csv, round_digits};
-use crate::score::outcome::pareto::front;
 use rayon::prelude::*;
 use serde::Deserialize;
 use std::collections::BTreeMap;
@@ -31,8 +30,8 @@ pub type Progress<'a> = &'a mut dyn FnMut(&str, usize, usize);
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum View {
-    /// The values for which each row is right.
-    Regions,
+    /// The shares of answers that are right.
+    Right,
     /// The shares of answers that are right, and of those that are wrong and sure.
     Shares,
     /// The time of each row.
@@ -149,7 +148,7 @@ impl Study {
     }
 
     fn is_timed(&self) -> bool {
-        !matches!(self.texts.view, View::Regions | View::Shares)
+        !matches!(self.texts.view, View::Right | View::Shares)
     }
 
     /// Returns the table, with a line for each row and each value that has replies.
@@ -192,9 +191,6 @@ impl Study {
             label: texts.across.clone(),
             scale: by_decades(texts.even),
         };
-        if texts.view == View::Regions {
-            return self.draw_regions(x).svg();
-        }
         let scale = by_decades(texts.view != View::Times);
         let mut series = self.draw_rows("", |t| self.figure_of(t));
         if texts.view == View::Shares {
@@ -267,28 +263,23 @@ impl Study {
             .collect();
         front(&points).into_iter().map(|i| rows[i]).collect()
     }
+}
 
-    fn draw_regions(&self, x: Axis) -> Bands {
-        let kind = |t: &Tally| match t.percent_of(Said::Right) {
-            _ if t.count_replies() == 0 => VerdictKind::None,
-            100.0 => VerdictKind::Good,
-            right if right + t.percent_of(Said::Open) >= 90.0 => VerdictKind::Warn,
-            _ => VerdictKind::Bad,
-        };
-        let row = |(name, tallies): &Row| {
-            (
-                name.clone(),
-                verdict_bands(&self.values, tallies.iter().map(|(_, t)| kind(t))),
-            )
-        };
-        Bands {
-            title: self.texts.title.clone(),
-            subtitle: "Right: in all cases; in doubt: right or undecided in nine of ten or more; wrong: in fewer."
-                .to_owned(),
-            x,
-            rows: self.rows.iter().map(row).collect(),
-        }
-    }
+/// Returns the indices of the points that are right more often than all faster ones, the fastest first. Points are (seconds,
+/// share).
+fn front(points: &[(f64, f64)]) -> Vec<usize> {
+    let mut order: Vec<usize> = (0..points.len()).collect();
+    order.sort_by(|&a, &b| {
+        let ((t, share), (u, other)) = (points[a], points[b]);
+        t.total_cmp(&u).then(other.total_cmp(&share))
+    });
+    let mut best = f64::NEG_INFINITY;
+    order.retain(|&i| {
+        let ahead = points[i].1 > best;
+        best = best.max(points[i].1);
+        ahead
+    });
+    order
 }
 
 /// Returns the values of a row that have replies or a figure.
@@ -296,22 +287,6 @@ fn replies_of(of: &[(f64, Tally)]) -> impl Iterator<Item = (f64, &Tally)> {
     of.iter()
         .map(|(x, t)| (*x, t))
         .filter(|(_, t)| t.count_replies() > 0 || t.figure.is_some())
-}
-
-/// Returns bands around the values of a log axis. Neighbours of the same kind are one band.
-fn verdict_bands(values: &[f64], kinds: impl IntoIterator<Item = VerdictKind>) -> Vec<Band> {
-    let between = |a: usize, b: usize| (values[a] * values[b]).sqrt();
-    let last = values.len().saturating_sub(1);
-    let mut out: Vec<Band> = Vec::new();
-    for (n, kind) in kinds.into_iter().enumerate() {
-        let from = between(n.saturating_sub(1), n);
-        let to = between(n, (n + 1).min(last));
-        match out.last_mut() {
-            Some(last) if last.2 == kind => last.1 = to,
-            _ => out.push((from, to, kind)),
-        }
-    }
-    out
 }
 
 /// Returns the names and texts of all files of some studies and further tables. `index.html` is the last, so that it exists only after the
@@ -339,22 +314,4 @@ pub fn page_files(
     ));
     files.push(("index.html".to_owned(), page(title, &parts)));
     files
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn bands_meet_half_way_and_hold_their_verdict() {
-        let kinds = [
-            VerdictKind::Good,
-            VerdictKind::Good,
-            VerdictKind::Warn,
-            VerdictKind::Bad,
-        ];
-        let b = verdict_bands(&[1e-3, 1e-2, 1e-1, 1.0], kinds);
-        assert_eq!((b.len(), b[0].0, b[2].1), (3, 1e-3, 1.0));
-        assert_eq!(b[0].1, b[1].0);
-    }
 }

@@ -8,7 +8,7 @@ pub(super) mod write;
 use crate::robots::additions::{ball_constraint, leave_out, read_plugin};
 use crate::robots::include::expand_models;
 use crate::robots::prelude::*;
-use crate::robots::sdf::joints::{read_joint, read_weld};
+use crate::robots::sdf::joints::{read_gearbox, read_joint, read_weld};
 use crate::robots::sdf::scene::{
     Placed, SdfScene, absolute_name, insert, moves_with, named_place, read_pose, resolve_places,
 };
@@ -121,14 +121,15 @@ fn place_links(scene: &SdfScene<'_>, robot: &mut Robot) {
 fn read_joints(mut scene: SdfScene<'_>, robot: &mut Robot) -> Read<()> {
     let far = |p: &Placed<'_>| length(p.raw.translation);
     let size = scene.placed.values().map(far).fold(1e-3, f64::max);
-    for (e, scope) in std::mem::take(&mut scene.joints) {
-        if e.attribute("type") == Some("gearbox") {
-            let what =
-                "a gearbox is not read; its coupling (1 row) is omitted; write it as a <mimic>";
-            robot.report.leave_out(&e.label(), 1, what);
-        } else {
-            read_joint(e, &scope, &scene, size, robot)?;
-        }
+    let is_gearbox = |e: &Element<'_>| e.attribute("type") == Some("gearbox");
+    let all = std::mem::take(&mut scene.joints).into_iter();
+    let (gearboxes, joints): (Vec<_>, Vec<_>) = all.partition(|(e, _)| is_gearbox(e));
+    for (e, scope) in joints {
+        read_joint(e, &scope, &scene, size, robot)?;
+    }
+    // These couple joints that are read by now.
+    for e in gearboxes {
+        read_gearbox(&e, &scene, robot)?;
     }
     for at in std::mem::take(&mut scene.constraints) {
         match at.0.name() {
@@ -137,7 +138,7 @@ fn read_joints(mut scene: SdfScene<'_>, robot: &mut Robot) -> Read<()> {
         }
     }
     for at in std::mem::take(&mut scene.plugins) {
-        read_plugin(&at, robot)?;
+        read_plugin(&at, &scene, robot)?;
     }
     for e in std::mem::take(&mut scene.unknown) {
         leave_out(e, None, robot);

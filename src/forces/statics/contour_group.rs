@@ -7,7 +7,6 @@
 
 pub mod delta_point;
 pub mod equilibrium;
-pub mod force_plan;
 pub mod pose;
 pub mod projective;
 pub mod solutions;

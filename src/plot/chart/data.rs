@@ -88,59 +88,6 @@ pub enum Style {
     Steps,
 }
 
-/// A verdict.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum VerdictKind {
-    /// As it should be.
-    Good,
-    /// Wrong.
-    Bad,
-    /// Doubtful.
-    Warn,
-    /// No verdict.
-    None,
-}
-
-impl VerdictKind {
-    /// Returns the class of its colours in the style sheet.
-    pub(super) fn colour_class(self) -> &'static str {
-        match self {
-            VerdictKind::Good => "good",
-            VerdictKind::Bad => "bad",
-            VerdictKind::Warn => "warn",
-            VerdictKind::None => "none",
-        }
-    }
-}
-
-/// An interval of an axis: from, to, and the verdict between them.
-pub type Band = (f64, f64, VerdictKind);
-
-/// Regions of an axis, row by row: the intervals in which each of several methods is right.
-///
-/// # Examples
-/// ```
-/// use ozols::chart::{Axis, Bands, Scale, VerdictKind};
-/// let bands = Bands {
-///     title: "Tolerances at which each method is right".into(),
-///     subtitle: String::new(),
-///     x: Axis { label: "tolerance".into(), scale: Scale::Log },
-///     rows: vec![("svd".into(), vec![(1e-12, 1e-6, VerdictKind::Good), (1e-6, 1.0, VerdictKind::Bad)])],
-/// };
-/// assert!(bands.svg().starts_with("<svg"));
-/// ```
-#[derive(Clone, Debug, PartialEq)]
-pub struct Bands {
-    /// The title.
-    pub title: String,
-    /// One sentence under the title, or empty.
-    pub subtitle: String,
-    /// The horizontal axis.
-    pub x: Axis,
-    /// The name of each row with its bands.
-    pub rows: Vec<(String, Vec<Band>)>,
-}
-
 /// The width of a chart, in pixels.
 pub(super) const WIDTH: f64 = 760.0;
 /// The space around everything.

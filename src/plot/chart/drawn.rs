@@ -143,45 +143,28 @@ pub(super) fn draw_body(xml: &mut Xml, d: &DrawnSeries) {
         }
     }
     let count = d.shown_points().count();
-    let alone = d.runs.iter().filter(|run| run.len() == 1).flatten();
-    let tip = |point: (f64, f64)| {
-        let (x, y) = (six_digits(point.0), six_digits(point.1));
-        format!("{}: {x}, {y}", d.series.name)
+    let size = match (style, count) {
+        (Style::Points, ..=200) => 4.5,
+        (Style::Points, _) => 3.0,
+        _ => 3.2,
     };
-    if d.is_marked() {
-        let size = match (style, count) {
-            (Style::Points, ..=200) => 4.5,
-            (Style::Points, _) => 3.0,
-            _ => 3.2,
-        };
-        for (at, point) in d.shown_points() {
-            draw_mark(
-                xml,
-                d,
-                at.0,
-                at.1,
-                size,
-                &if count <= 2000 {
-                    tip(point)
-                } else {
-                    String::new()
-                },
-            );
-        }
-    } else {
-        alone.for_each(|&(at, point)| draw_mark(xml, d, at.0, at.1, 3.2, &tip(point)));
-        let every = count.div_ceil(8).max(1);
-        let shift = d.number * every / 14;
-        for (n, (at, point)) in d.shown_points().enumerate() {
-            if d.many && n % every == shift {
-                draw_mark(xml, d, at.0, at.1, 3.2, &tip(point));
-            } else if n % count.div_ceil(80).max(1) == 0 {
-                let hit = xml.begin_tag("circle").set_text("class", "hit");
-                hit.set_number("cx", at.0)
-                    .set_number("cy", at.1)
-                    .set_number("r", 7.0)
-                    .close_with_tip(&tip(point));
-            }
+    // Long lines among many have a few marks each, at places of their own.
+    let every = match (d.is_marked(), d.many) {
+        (true, _) => Some(1),
+        (false, true) => Some(count.div_ceil(8).max(1)),
+        (false, false) => None,
+    };
+    let is_its_place = |n: usize| every.is_some_and(|e| n % e == d.number * e / 14 % e);
+    let points = d.runs.iter().flat_map(|run| {
+        let alone = run.len() == 1;
+        run.iter().map(move |point| (alone, point))
+    });
+    for (n, (alone, &(at, point))) in points.enumerate() {
+        if alone || is_its_place(n) {
+            let (x, y) = (six_digits(point.0), six_digits(point.1));
+            let tip = format!("{}: {x}, {y}", d.series.name);
+            let tip = if count <= 2000 { &*tip } else { "" };
+            draw_mark(xml, d, at.0, at.1, size, tip);
         }
     }
     xml.end_element();

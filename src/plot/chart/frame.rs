@@ -41,34 +41,13 @@ impl Head {
 
 /// Begins a picture. `class` is added to its root, `about` is read out after the title.
 pub(super) fn begin_picture(
-    size: (f64, f64),
+    size: [f64; 2],
     class: &str,
     title: &str,
     about: &str,
     head: &Head,
 ) -> Xml {
-    let (width, height) = (size.0.ceil(), size.1.ceil());
-    let mut xml = Xml::default();
-    let view = format!("0 0 {width} {height}");
-    let root = xml
-        .begin_tag("svg")
-        .set_text("xmlns", "http://www.w3.org/2000/svg");
-    let root = root
-        .set_text("class", class)
-        .set_text("role", "img")
-        .set_text("viewBox", &view);
-    root.set_number("width", width)
-        .set_number("height", height)
-        .keep_open();
-    xml.begin_tag("title").write_text(title);
-    xml.begin_tag("desc").write_text(about);
-    xml.begin_tag("style").keep_open();
-    xml.write_raw(STYLE);
-    xml.end_element();
-    let back = xml.begin_tag("rect").set_text("class", "bg");
-    back.set_number("width", width)
-        .set_number("height", height)
-        .close_empty();
+    let mut xml = Xml::begin_picture(class, size, [title, about], STYLE);
     head.write_head(&mut xml);
     xml
 }

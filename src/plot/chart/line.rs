@@ -25,7 +25,7 @@ impl Chart {
         let note = missing_note(&absent);
         let foot = axes.plot.bottom + 52.0;
 
-        let size = (WIDTH, foot + 16.0 * note.len() as f64);
+        let size = [WIDTH, foot + 16.0 * note.len() as f64];
         let mut xml =
             frame::begin_picture(size, "oz oz-chart", &self.title, &self.about_text(), &head);
         axes.draw_axes(&mut xml, &self.x.label, &self.y.label);

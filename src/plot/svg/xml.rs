@@ -19,6 +19,38 @@ pub struct Tag<'a> {
 }
 
 impl Xml {
+    /// Begins a self-contained picture of a width and a height in pixels with a title, a description, its style sheet and its ground.
+    pub fn begin_picture(
+        class: &str,
+        size: [f64; 2],
+        [title, description]: [&str; 2],
+        style: &'static str,
+    ) -> Xml {
+        let [width, height] = size.map(f64::ceil);
+        let mut xml = Xml::default();
+        xml.begin_tag("svg")
+            .set_text("xmlns", "http://www.w3.org/2000/svg")
+            .set_text("class", class)
+            .set_number("width", width)
+            .set_number("height", height)
+            .set_text("viewBox", &format!("0 0 {width} {height}"))
+            .set_text("role", "img")
+            .keep_open();
+        xml.begin_tag("title").write_text(title);
+        xml.write_raw("\n");
+        xml.begin_tag("desc").write_text(description);
+        xml.begin_tag("style").keep_open();
+        xml.write_raw("\n");
+        xml.write_raw(style);
+        xml.end_element();
+        xml.begin_tag("rect")
+            .set_text("class", "bg")
+            .set_number("width", width)
+            .set_number("height", height)
+            .close_empty();
+        xml
+    }
+
     /// Begins an element.
     pub fn begin_tag(&mut self, name: &'static str) -> Tag<'_> {
         self.out.push('<');

@@ -1,14 +1,15 @@
 //! The kinematic scheme: links and the symbols of joints where the coordinates have them.
 
-use crate::draw::kinematic::body::{Arrow, Body, Marked, known_loads};
+use crate::draw::kinematic::body::{Arrow, Marked, known_loads};
+use crate::draw::kinematic::wire::{DrawnWire, Wire};
+use crate::draw::naming::draw_leaders;
 use crate::draw::place::projection::Projection;
 use crate::draw::prelude::*;
-use crate::draw::sheet::{Caption, plan_sheet};
+use crate::draw::sheet::{Caption, draw_sheet};
 use crate::draw::subject;
 use crate::draw::symbol::ground::Ground;
 use crate::draw::symbol::placed::{Swap, Symbol};
 
-mod arcs;
 mod body;
 mod gears;
 mod legend;
@@ -17,6 +18,7 @@ pub(super) mod moving;
 mod naming;
 mod on_paper;
 pub(super) mod scene;
+mod wire;
 
 /// The room below for the axes and the scale.
 const STRIP: f64 = 84.0;
@@ -34,47 +36,31 @@ const STRIP: f64 = 84.0;
 /// ```
 #[must_use]
 pub fn kinematic(subject: &Subject<'_>) -> Drawing {
-    kinematic_seen(subject, &Sight::default())
+    kinematic_seen(subject, &Sight::default(), None)
 }
 
-/// Draws the kinematic scheme as seen from a side.
+/// Draws the kinematic scheme as seen from a side, with a self-stress as arrows on the links that it loads where one is given with its
+/// name, which goes under the title.
 ///
 /// # Examples
 /// ```
-/// use ozols::{draw::{Sight, Subject, kinematic, kinematic_seen}, model::mechanism::StateId};
-/// let bennett = ozols::built_in("bennett")?;
-/// let subject = Subject { mechanism: &bennett, state: StateId::FREE, analysis: None, marks: None };
-/// let along_x = Sight { toward: Some([1.0, 0.0, 0.0]), ..Sight::default() };
-/// let along_y = Sight { toward: Some([0.0, 1.0, 0.0]), ..Sight::default() };
-/// assert_ne!(kinematic_seen(&subject, &along_x).svg, kinematic_seen(&subject, &along_y).svg);
-/// # Ok::<(), ozols::Error>(())
-/// ```
-#[must_use]
-pub fn kinematic_seen(subject: &Subject<'_>, sight: &Sight) -> Drawing {
-    Kinematic::new(subject, sight).draw_sheet()
-}
-
-/// Draws the kinematic scheme with a self-stress as arrows on the links that it loads; its name goes under the title.
-///
-/// # Examples
-/// ```
-/// use ozols::{draw::{Sight, Subject, kinematic_stressed}, model::mechanism::StateId};
+/// use ozols::{draw::{Sight, Subject, kinematic_seen}, model::mechanism::StateId};
 /// let four_bar = ozols::built_in("four-bar")?;
 /// let free = &ozols::analyze(&four_bar)?[0];
 /// let subject = Subject { mechanism: &four_bar, state: StateId::FREE, analysis: Some(free), marks: None };
-/// let drawing = kinematic_stressed(&subject, &Sight::default(), &free.self_stresses[0], "the first of three");
-/// assert!(drawing.svg.contains("the first of three"));
+/// let along_x = Sight { toward: Some([1.0, 0.0, 0.0]), ..Sight::default() };
+/// let stress = Some(("the first of three", &free.self_stresses[0]));
+/// assert!(kinematic_seen(&subject, &along_x, stress).svg.contains("the first of three"));
 /// # Ok::<(), ozols::Error>(())
 /// ```
 #[must_use]
-pub fn kinematic_stressed(
+pub fn kinematic_seen(
     subject: &Subject<'_>,
     sight: &Sight,
-    stress: &SelfStress,
-    name: &str,
+    stress: Option<(&str, &SelfStress)>,
 ) -> Drawing {
     let mut drawn = Kinematic::new(subject, sight);
-    drawn.show_stress(name, stress);
+    drawn.show_stress(stress);
     drawn.draw_sheet()
 }
 
@@ -104,14 +90,6 @@ struct Words {
     legend: Vec<(Swatch, String)>,
 }
 
-/// The text of a label and its look.
-#[derive(Clone)]
-struct LabelText {
-    class: String,
-    size: f64,
-    text: String,
-}
-
 /// One picture of a moving scheme.
 struct MovingPicture {
     /// The points of interest.
@@ -119,11 +97,8 @@ struct MovingPicture {
     /// The joints with their frames.
     places: Vec<JointInSpace>,
     at: Vec<Point>,
-    /// The shape of each link but the frame.
-    bodies: Vec<(usize, Body)>,
-    /// Lines on links that move.
-    lines: Vec<(&'static str, [Point; 2])>,
-    circles: Vec<Vec<Point>>,
+    /// The shapes on links.
+    wires: Vec<DrawnWire>,
     /// The arrows of a self-stress.
     arrows: Vec<Arrow>,
 }
@@ -133,10 +108,8 @@ struct Kinematic<'a> {
     subject: &'a Subject<'a>,
     spots: Vec<Spot>,
     links: Vec<(LinkId, Vec<usize>)>,
-    /// How far the bar of each link bows out.
-    bows: Vec<f64>,
-    /// The corners of each link that is a plate of a fold.
-    facets: Vec<Option<Vec<Vector>>>,
+    /// The shapes of links and gears.
+    wires: Vec<Wire>,
     grounds: Vec<Ground>,
     /// The joints in space.
     places: Vec<JointInSpace>,
@@ -175,9 +148,11 @@ impl Kinematic<'_> {
     }
 
     /// Adds the arrows of a self-stress at the pose of the file, and its name.
-    fn show_stress(&mut self, name: &str, stress: &SelfStress) {
-        self.arrows = self.arrows_of(&known_loads(stress), None);
-        self.shows = Some(name.to_owned());
+    fn show_stress(&mut self, stress: Option<(&str, &SelfStress)>) {
+        if let Some((name, stress)) = stress {
+            self.arrows = self.arrows_of(&known_loads(stress), None);
+            self.shows = Some(name.to_owned());
+        }
     }
 
     fn is_frame(&self, link: LinkId) -> bool {
@@ -190,8 +165,8 @@ impl Kinematic<'_> {
 
     fn draw_sheet(mut self) -> Drawing {
         let rest = self.picture_in(None, &[]);
-        let (places, texts) = self.place_labels(&rest);
-        let labels = places.iter().map(|p| p.rect);
+        let names = self.place_labels(&rest);
+        let labels = names.iter().map(|(place, _)| place.rect);
         let room = labels.chain(self.arrow_room(&self.arrows));
         let area = room.fold(self.room_of(std::slice::from_ref(&rest), 0), |a, r| {
             a.with(&r)
@@ -208,12 +183,10 @@ impl Kinematic<'_> {
                 for (a, b) in self.coupling_lines() {
                     s.draw_line(subject::COUPLING, a, b);
                 }
-                for (a, b) in places.iter().filter_map(|p| p.leader) {
-                    s.draw_line("lead", a, b);
-                }
+                draw_leaders(s, &names);
                 self.draw_arrows(s);
-                for (n, (place, text)) in places.iter().zip(&texts).enumerate() {
-                    self.draw_name(s, n, place.rect.middle(), text);
+                for (place, name) in &names {
+                    name.draw_name(s, place.rect.middle());
                 }
             });
         })
@@ -228,15 +201,13 @@ impl Kinematic<'_> {
             description: &(self.describe_drawing() + &words.more),
             legend: words.legend,
         };
-        let plan = plan_sheet(&caption, area, STRIP);
-        let mut sheet = Sheet::new(&caption, &plan);
-        draw(&mut sheet, plan.shift);
-        let below = plan.legend_top - STRIP;
-        sheet.draw_group("data-home", "scale", [0.0; 2], |s| {
-            self.draw_axes(s, below + 34.0);
-            self.draw_scale(s, below + 40.0);
-        });
-        sheet.finish_sheet(&caption, &plan)
+        draw_sheet(&caption, area, STRIP, |sheet, shift, below| {
+            draw(sheet, shift);
+            sheet.draw_group("data-home", "scale", [0.0; 2], |s| {
+                self.draw_axes(s, below + 34.0);
+                self.draw_scale(s, below + 40.0);
+            });
+        })
     }
 
     /// Draws a picture with the symbols of the file's pose, in groups that name each part.
@@ -254,28 +225,15 @@ impl Kinematic<'_> {
         }
     }
 
-    /// Draws a label. Those of joints come first and are in groups, so that a joint is found by its name.
-    fn draw_name(&self, sheet: &mut Sheet, n: usize, at: Point, label: &LabelText) {
-        let LabelText { class, size, text } = label;
-        let write = |s: &mut Sheet| s.write_text(class, *size, at, Anchor::Middle, text);
-        match self.spots.get(n) {
-            Some(s) => {
-                let id = &self.subject.mechanism.joints[s.joint].id;
-                sheet.draw_group("data-joint-name", id, [0.0; 2], write);
-            }
-            None => write(sheet),
-        }
-    }
-
     /// Returns the classes of a link.
-    fn link_classes(&self, link: usize, body: &Body) -> String {
+    fn link_classes(&self, link: usize, plate: bool) -> String {
         let (l, of) = &self.links[link];
         let here = of
             .iter()
             .all(|&i| self.subject.only_here(self.spots[i].joint));
         format!(
             "{}{}{}{}",
-            if body.plate { "plate" } else { "bone" },
+            if plate { "plate" } else { "bone" },
             if self.is_output(*l) { " out" } else { "" },
             self.subject.link_mark(*l).mark_class(),
             if here { " dash" } else { "" }

@@ -1,11 +1,12 @@
 //! The structural scheme: links as polygons, joints as circles with their class, contours tinted by what is redundant.
 
 use crate::closure::contour::{Contour, contour_basis};
+use crate::draw::naming::{Name, draw_leaders};
 use crate::draw::place::graph::{Graph, joint_ring};
 use crate::draw::place::layout::{Layout, find_layout};
 use crate::draw::prelude::*;
-use crate::draw::sheet::shapes::{HALF, hatch_path, hatch_with, outline_sides, rounded_path};
-use crate::draw::sheet::{Caption, plan_sheet};
+use crate::draw::sheet::shapes::{HALF, hatch_path, outline_sides, rounded_path};
+use crate::draw::sheet::{Caption, draw_sheet};
 use crate::draw::subject::roominess;
 use crate::geom::expr::Expr;
 use crate::svg::labels::LabelPlace;
@@ -189,9 +190,7 @@ impl<'a> Scheme<'a> {
             description: &self.describe_drawing(),
             legend: self.legend_rows(),
         };
-        let plan = plan_sheet(&caption, area, 0.0);
-        let mut sheet = Sheet::new(&caption, &plan);
-        sheet.draw_group("data-drawing", "", plan.shift, |sheet| {
+        let draw = |sheet: &mut Sheet| {
             let order = self.contours_by_size().into_iter();
             let (seen, hidden): (Vec<usize>, Vec<usize>) = order.partition(|&c| self.is_seen(c));
             for c in seen {
@@ -208,8 +207,10 @@ impl<'a> Scheme<'a> {
                 Some(self.at.joints[i])
             });
             self.draw_labels(sheet, &labels);
-        });
-        sheet.finish_sheet(&caption, &plan)
+        };
+        draw_sheet(&caption, area, 0.0, |sheet, shift, _| {
+            sheet.draw_group("data-drawing", "", shift, draw);
+        })
     }
 
     fn draw_link(&self, sheet: &mut Sheet, l: usize) {
@@ -231,7 +232,7 @@ impl<'a> Scheme<'a> {
                 &format!("link {}", of.id),
             );
             if of.role == Role::Frame {
-                let d = hatch_path(&corners);
+                let d = hatch_path(&corners, HALF - 1.0, 6.5);
                 if !d.is_empty() {
                     s.draw_path("fine", &d);
                 }
@@ -239,43 +240,22 @@ impl<'a> Scheme<'a> {
         });
     }
 
-    fn draw_labels(&self, sheet: &mut Sheet, labels: &[(LabelPlace, String)]) {
+    fn draw_labels(&self, sheet: &mut Sheet, labels: &[(LabelPlace, Name)]) {
         let (joints, links) = (self.parts.joints.len(), self.parts.links.len());
-        for (place, _) in labels {
-            if let Some((a, b)) = place.leader {
-                sheet.draw_line("lead", a, b);
-            }
-        }
+        draw_leaders(sheet, labels);
         for i in 0..joints {
             self.draw_joint(sheet, i);
         }
-        for (n, (place, text)) in labels.iter().enumerate() {
-            let rect = place.rect;
-            let (class, size, mark) = if n < joints {
-                let mark = self.subject.joint_mark(self.parts.joints[n]);
-                if self.on_frame(rect.middle()) {
-                    sheet.draw_rect("link-back", &rect, 3.0);
-                }
-                ("small soft", SMALL, mark)
-            } else if n < joints + links {
-                let link = self.parts.links[n - joints];
-                if self.subject.mechanism.links[link].role == Role::Frame {
-                    sheet.draw_rect("link-back", &rect, 3.0);
-                }
-                ("name", 12.0, self.subject.link_mark(link))
-            } else {
-                sheet.draw_rect("badge", &rect, 8.0);
-                ("small", SMALL, Mark::None)
-            };
-            let class = format!("{class}{}", mark.mark_class());
-            let write =
-                |s: &mut Sheet| s.write_text(&class, size, rect.middle(), Anchor::Middle, text);
-            if n < joints {
-                let id = &self.subject.mechanism.joints[self.parts.joints[n]].id;
-                sheet.draw_group("data-joint-name", id, [0.0; 2], write);
-            } else {
-                write(sheet);
+        for (n, (place, name)) in labels.iter().enumerate() {
+            let (rect, middle) = (&place.rect, place.rect.middle());
+            let frame = self.subject.mechanism.frame_link();
+            let link = n.checked_sub(joints).and_then(|l| self.parts.links.get(l));
+            if n >= joints + links {
+                sheet.draw_rect("badge", rect, 8.0);
+            } else if link.map_or_else(|| self.on_frame(middle), |l| *l == frame) {
+                sheet.draw_rect("link-back", rect, 3.0);
             }
+            name.draw_name(sheet, middle);
         }
     }
 
@@ -285,11 +265,8 @@ impl<'a> Scheme<'a> {
         let Some(l) = self.parts.links.iter().position(|&l| l == frame) else {
             return false;
         };
-        let corners = self.link_corners(l);
-        is_inside(p, &corners)
-            || outline_sides(&corners)
-                .iter()
-                .any(|&(a, b)| to_segment(p, a, b) < HALF + 6.0)
+        let mut sides = outline_sides(&self.link_corners(l)).into_iter();
+        sides.any(|(a, b)| to_segment(p, a, b) < HALF + 6.0)
     }
 
     fn draw_joint(&self, sheet: &mut Sheet, i: usize) {
@@ -335,7 +312,7 @@ impl<'a> Scheme<'a> {
         let frame = |s: &mut Sheet| {
             let ends = [[-7.0, 0.0], [7.0, 0.0]];
             s.draw_path("link", &rounded_path(&ends, 7.0));
-            s.draw_path("fine", &hatch_with(&ends, 6.4, 4.0));
+            s.draw_path("fine", &hatch_path(&ends, 4.5, 4.0));
         };
         out.push((Swatch::Symbol(frame), m.frame_words()));
         if any(&|j| self.subject.only_here(j)) {
@@ -352,19 +329,8 @@ impl<'a> Scheme<'a> {
     /// Describes the drawing in words, for readers who cannot see it.
     fn describe_drawing(&self) -> String {
         let m = self.subject.mechanism;
-        let mut out = self.subject.summary_sentence("Structural scheme");
-        for &j in &self.parts.joints {
-            let joint = &m.joints[j];
-            let [a, b] = joint.links.map(|l| &m.links[l].id);
-            let _ = write!(
-                out,
-                " Joint {} of class {} ({}) between {a} and {b}{}.",
-                joint.id,
-                joint.joint_type.class_numeral(),
-                joint.joint_type,
-                if joint.drive { ", driven" } else { "" }
-            );
-        }
+        let joints = self.parts.joints.iter().copied();
+        let mut out = self.subject.describe_joints("Structural scheme", joints);
         for (c, (contour, share)) in self.parts.contours.iter().enumerate() {
             let _ = write!(
                 out,

@@ -72,7 +72,6 @@ impl Swatch {
 #[derive(Debug, Default)]
 pub(crate) struct Sheet {
     xml: Xml,
-    size: Point,
     /// The origin of the open groups.
     origin: Point,
     labels: Vec<Label>,
@@ -89,96 +88,69 @@ pub(crate) struct Caption<'a> {
     pub(crate) legend: Vec<(Swatch, String)>,
 }
 
-/// The room that title and legend leave: where the drawing's own rectangle is moved to.
-#[derive(Debug)]
-pub(crate) struct SheetPlan {
-    /// The offset of the drawing.
-    pub(crate) shift: Point,
-    pub(crate) size: Point,
-    columns: usize,
-    column: f64,
-    pub(crate) legend_top: f64,
-}
-
 /// The minimum width of a sheet.
 const LEAST: f64 = 580.0;
+/// The height of title and subtitle.
+const HEAD: f64 = 62.0;
 
-/// Lays the sheet out round a drawing that covers `area`, with `strip` pixels below it for other things.
-pub(crate) fn plan_sheet(caption: &Caption<'_>, area: Rect, strip: f64) -> SheetPlan {
+/// Lays a sheet out round a drawing that covers `area`, with `strip` pixels below it for other things. `draw` gets the offset of the
+/// drawing and the top of the strip.
+pub(crate) fn draw_sheet(
+    caption: &Caption<'_>,
+    area: Rect,
+    strip: f64,
+    draw: impl FnOnce(&mut Sheet, Point, f64),
+) -> Drawing {
     let rows = &caption.legend;
     let widest = rows.iter().map(|(_, t)| text_width(t, TEXT));
     let column = SWATCH + widest.fold(0.0, f64::max).min(WIDEST) + 24.0;
     // a long legend has two columns, however narrow the drawing is
     let least = if rows.len() > 8 { 2.0 } else { 1.0 };
-    let inner = (area.right - area.left)
-        .max(LEAST)
-        .max(least * column - 24.0);
+    let [left, top, right, bottom] = area.edges();
+    let inner = (right - left).max(LEAST).max(least * column - 24.0);
     let columns = (((inner + 24.0) / column) as usize).clamp(1, 4);
     let lines = rows.len().div_ceil(columns);
-    let head = PAD + 62.0;
-    let legend_top = head + (area.bottom - area.top) + 18.0 + strip;
+    let below = PAD + HEAD + (bottom - top) + 18.0;
+    let foot = if lines == 0 { PAD - 10.0 } else { PAD };
+    let size = [inner + 2.0 * PAD, below + strip + ROW * lines as f64 + foot];
+    let texts = [caption.title, caption.description];
+    let mut sheet = Sheet {
+        xml: Xml::begin_picture("ozd", size, texts, STYLE),
+        ..Sheet::default()
+    };
+    sheet.write_head(caption, inner);
     let shift = [
-        PAD + (inner - (area.right - area.left)) / 2.0 - area.left,
-        head - area.top,
+        PAD + (inner - (right - left)) / 2.0 - left,
+        PAD + HEAD - top,
     ];
-    SheetPlan {
-        shift,
-        size: [
-            inner + 2.0 * PAD,
-            legend_top + ROW * lines as f64 + PAD - if lines == 0 { 10.0 } else { 0.0 },
-        ],
-        columns,
-        column,
-        legend_top,
+    draw(&mut sheet, shift, below);
+    for (i, (swatch, text)) in rows.iter().enumerate() {
+        let x = PAD + column * (i / lines) as f64;
+        let y = below + strip + ROW * ((i % lines) as f64 + 0.5);
+        sheet.draw_swatch(swatch, [x + 15.0, y]);
+        let room = column - SWATCH - 20.0;
+        let shown = cut_text(text, TEXT, room.min(size[0] - x - SWATCH - PAD));
+        sheet.write_text("legend", TEXT, [x + SWATCH, y], Anchor::Start, &shown);
+    }
+    Drawing {
+        svg: sheet.xml.finish_document(),
+        width: size[0].ceil(),
+        height: size[1].ceil(),
+        labels: sheet.labels,
+        symbols: sheet.symbols,
     }
 }
 
 impl Sheet {
-    /// Begins a sheet.
-    pub(crate) fn new(caption: &Caption<'_>, plan: &SheetPlan) -> Sheet {
-        let [w, h] = plan.size;
-        let mut xml = Xml::default();
-        xml.begin_tag("svg")
-            .set_text("xmlns", "http://www.w3.org/2000/svg")
-            .set_text("class", "ozd")
-            .set_number("width", w.ceil())
-            .set_number("height", h.ceil())
-            .set_text(
-                "viewBox",
-                &format!(
-                    "0 0 {} {}",
-                    format_number(w.ceil()),
-                    format_number(h.ceil())
-                ),
-            )
-            .set_text("role", "img")
-            .keep_open();
-        xml.begin_tag("title").write_text(caption.title);
-        xml.write_raw("\n");
-        xml.begin_tag("desc").write_text(caption.description);
-        xml.begin_tag("style").keep_open();
-        xml.write_raw("\n");
-        xml.write_raw(STYLE);
-        xml.end_element();
-        xml.begin_tag("rect")
-            .set_text("class", "bg")
-            .set_number("width", w.ceil())
-            .set_number("height", h.ceil())
-            .close_empty();
-        let mut sheet = Sheet {
-            xml,
-            size: plan.size,
-            ..Sheet::default()
-        };
-        let room = w - 2.0 * PAD;
+    /// Writes title and subtitle.
+    fn write_head(&mut self, caption: &Caption<'_>, room: f64) {
         let title = cut_text(caption.title, 18.0, room);
-        sheet.write_text("title", 18.0, [PAD, PAD + 8.0], Anchor::Start, &title);
+        self.write_text("title", 18.0, [PAD, PAD + 8.0], Anchor::Start, &title);
         for (i, line) in caption.subtitle.iter().enumerate() {
             let y = PAD + 30.0 + 17.0 * i as f64;
             let line = cut_text(line, 13.0, room);
-            sheet.write_text("sub", 13.0, [PAD, y], Anchor::Start, &line);
+            self.write_text("sub", 13.0, [PAD, y], Anchor::Start, &line);
         }
-        sheet
     }
 
     /// Returns the elements of a piece.
@@ -221,12 +193,12 @@ impl Sheet {
         self.xml.begin_tag("style").write_text(rules);
     }
 
-    /// Writes finished pieces with ids, for use by reference.
-    pub(crate) fn write_defs<'p>(&mut self, pieces: impl Iterator<Item = (String, &'p str)>) {
+    /// Writes finished pieces for use by reference, with the ids m0, m1 and so on.
+    pub(crate) fn write_defs(&mut self, pieces: &[String]) {
         self.xml.begin_tag("defs").keep_open();
-        for (id, piece) in pieces {
+        for (n, piece) in pieces.iter().enumerate() {
             // what is used elsewhere has no ancestors there but this group
-            let group = self.xml.begin_tag("g").set_text("id", &id);
+            let group = self.xml.begin_tag("g").set_text("id", &format!("m{n}"));
             group.set_text("class", "ozd").keep_open();
             self.xml.write_piece(piece);
             self.xml.end_element();
@@ -390,27 +362,6 @@ impl Sheet {
             }
             Swatch::Shapes(shapes) => s.draw_shapes(shapes),
         });
-    }
-
-    /// Draws the legend and ends the sheet.
-    pub(crate) fn finish_sheet(mut self, caption: &Caption<'_>, plan: &SheetPlan) -> Drawing {
-        let lines = caption.legend.len().div_ceil(plan.columns).max(1);
-        for (i, (swatch, text)) in caption.legend.iter().enumerate() {
-            let x = PAD + plan.column * (i / lines) as f64;
-            let y = plan.legend_top + ROW * ((i % lines) as f64 + 0.5);
-            let middle = [x + 15.0, y];
-            self.draw_swatch(swatch, middle);
-            let room = plan.column - SWATCH - 20.0;
-            let shown = cut_text(text, TEXT, room.min(self.size[0] - x - SWATCH - PAD));
-            self.write_text("legend", TEXT, [x + SWATCH, y], Anchor::Start, &shown);
-        }
-        Drawing {
-            svg: self.xml.finish_document(),
-            width: self.size[0].ceil(),
-            height: self.size[1].ceil(),
-            labels: self.labels,
-            symbols: self.symbols,
-        }
     }
 }
 

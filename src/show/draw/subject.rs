@@ -1,6 +1,7 @@
 //! The subject of a drawing: a mechanism in one state with its couplings, and the changes of a redesign.
 
 use crate::draw::prelude::*;
+use crate::format::decimals;
 use crate::redundancy::analysis::StateAnalysis;
 use crate::search::Search;
 use crate::search::answer::k_best::Assignment;
@@ -162,14 +163,37 @@ impl Subject<'_> {
         [what, figures]
     }
 
-    /// Returns the summary as the first sentence of a text.
-    pub(crate) fn summary_sentence(&self, what: &str) -> String {
+    /// Describes a drawing in words: its figures, and a sentence for each joint.
+    pub(crate) fn describe_joints(
+        &self,
+        what: &str,
+        joints: impl Iterator<Item = JointId>,
+    ) -> String {
+        let m = self.mechanism;
         let [what, figures] = self.subtitle_lines(what);
-        if figures.is_empty() {
-            format!("{what}.")
-        } else {
-            format!("{what}: {figures}.")
+        let mut out = match &*figures {
+            "" => format!("{what}."),
+            figures => format!("{what}: {figures}."),
+        };
+        for joint in joints.map(|j| &m.joints[j]) {
+            let [a, b] = joint.links.map(|l| &m.links[l].id);
+            let at = joint
+                .frame
+                .point
+                .each_ref()
+                .map(|x| decimals(x.to_f64(), 4));
+            let _ = write!(
+                out,
+                " Joint {} of class {} ({}) between {a} and {b} at {} {}{}.",
+                joint.id,
+                joint.joint_type.class_numeral(),
+                joint.joint_type,
+                at.join(", "),
+                m.length_unit.symbol,
+                if joint.drive { ", driven" } else { "" }
+            );
         }
+        out
     }
 
     /// Returns rows of the legend for the changes of a redesign.

@@ -11,7 +11,6 @@ use crate::statics::planar::{BodyId, PairId, PlanarMechanism};
 use crate::view::prelude::*;
 
 pub mod charts;
-pub mod force_plans;
 pub mod text;
 pub mod told;
 

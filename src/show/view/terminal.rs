@@ -95,27 +95,29 @@ pub fn table_of(header: &[&str], rows: Vec<Vec<String>>, width: Option<u16>) -> 
     let Some(width) = width.map(usize::from) else {
         return render_table(header, rows, None);
     };
-    let columns: Vec<ColumnWidth> = (0..header.len())
-        .map(|c| ColumnWidth::new(header[c], rows.iter().filter_map(|r| r.get(c)), width / 2))
-        .collect();
-    let parts = fitting_parts(&columns, width);
+    let least = header.iter().enumerate().map(|(c, head)| {
+        let cells = rows.iter().filter_map(|r| r.get(c)).map(String::as_str);
+        least_width(cells.chain([*head]), width / 2)
+    });
+    let least: Vec<usize> = least.collect();
     let part = |part: &Vec<usize>| {
         let header: Vec<&str> = part.iter().map(|&c| header[c]).collect();
         let rows = rows.iter().map(|r| {
             let cells = part.iter().map(|&c| r.get(c).cloned().unwrap_or_default());
             cells.collect()
         });
-        let of_part: Vec<&ColumnWidth> = part.iter().map(|&c| &columns[c]).collect();
-        render_table(
-            &header,
-            rows.collect(),
-            Some(fitting_widths(&of_part, width)),
-        )
+        let least = part.iter().map(|&c| least[c]).collect();
+        render_table(&header, rows.collect(), Some((width, least)))
     };
-    parts.iter().map(part).join("\n\n")
+    fitting_parts(&least, width).iter().map(part).join("\n\n")
 }
 
-fn render_table(header: &[&str], rows: Vec<Vec<String>>, widths: Option<Vec<usize>>) -> String {
+/// Renders a table; one of a width has the least widths of its columns.
+fn render_table(
+    header: &[&str],
+    rows: Vec<Vec<String>>,
+    fit: Option<(usize, Vec<usize>)>,
+) -> String {
     let mut table = comfy_table::Table::new();
     table
         .load_preset(presets::NOTHING)
@@ -124,12 +126,12 @@ fn render_table(header: &[&str], rows: Vec<Vec<String>>, widths: Option<Vec<usiz
         .set_content_arrangement(ContentArrangement::Dynamic);
     table.set_header(header.to_vec());
     table.add_rows(rows);
-    if let Some(widths) = widths {
-        table.set_width(u16::try_from(taken_width(&widths)).unwrap_or(u16::MAX));
-        let cells = widths.iter().map(|w| u16::try_from(w + PADDING));
-        table.set_constraints(
-            cells.map(|w| ColumnConstraint::Absolute(Width::Fixed(w.unwrap_or(u16::MAX)))),
-        );
+    if let Some((width, least)) = fit {
+        let cells = |n: usize| u16::try_from(n).unwrap_or(u16::MAX);
+        // A margin on the left is added below.
+        table.set_width(cells(width.max(taken_width(&least)) - 1));
+        let least = least.iter().map(|w| Width::Fixed(cells(w + PADDING)));
+        table.set_constraints(least.map(ColumnConstraint::LowerBoundary));
     }
     let text = table.to_string();
     text.lines()
@@ -145,35 +147,20 @@ fn taken_width(widths: &[usize]) -> usize {
     widths.iter().map(|w| w + PADDING + 1).sum()
 }
 
-/// Width of a column, and its minimum: the longest word, up to the limit for words.
-struct ColumnWidth {
-    most: usize,
-    least: usize,
-}
-
-impl ColumnWidth {
-    fn new<'a>(
-        head: &'a str,
-        cells: impl Iterator<Item = &'a String>,
-        widest: usize,
-    ) -> ColumnWidth {
-        // No column of a table is narrower than this.
-        let mut out = ColumnWidth { most: 1, least: 1 };
-        for text in std::iter::once(head).chain(cells.map(String::as_str)) {
-            out.most = out.most.max(measure_text_width(text));
-            let words = text.split_whitespace().map(measure_text_width);
-            out.least = out.least.max(words.max().unwrap_or(0).min(widest));
-        }
-        out
-    }
+/// Returns the least width of a column: its longest word, but no more than `most`.
+fn least_width<'a>(cells: impl Iterator<Item = &'a str>, most: usize) -> usize {
+    let words = cells.flat_map(str::split_whitespace);
+    let longest = words.map(measure_text_width).max().unwrap_or(0);
+    // No column of a table is narrower than this.
+    longest.min(most).max(1)
 }
 
 /// Splits the columns into parts that fit, with the first column in each.
-fn fitting_parts(columns: &[ColumnWidth], width: usize) -> Vec<Vec<usize>> {
+fn fitting_parts(least: &[usize], width: usize) -> Vec<Vec<usize>> {
     let mut out: Vec<Vec<usize>> = vec![Vec::new()];
-    for c in 0..columns.len() {
+    for c in 0..least.len() {
         let last = out.len() - 1;
-        let with = out[last].iter().chain([&c]).map(|&c| columns[c].least);
+        let with = out[last].iter().chain([&c]).map(|&c| least[c]);
         if taken_width(&with.collect::<Vec<_>>()) > width && out[last].len() > 1 {
             out.push(vec![0, c]);
         } else {
@@ -181,20 +168,6 @@ fn fitting_parts(columns: &[ColumnWidth], width: usize) -> Vec<Vec<usize>> {
         }
     }
     out
-}
-
-/// Returns widths such that all columns fit, if they can: the widest gives way first, none below its longest word.
-fn fitting_widths(columns: &[&ColumnWidth], width: usize) -> Vec<usize> {
-    let mut widths: Vec<usize> = columns.iter().map(|c| c.most).collect();
-    while taken_width(&widths) > width {
-        let can = (0..widths.len()).filter(|&c| widths[c] > columns[c].least);
-        // Of columns alike the last, where the explanations are.
-        let Some(widest) = can.max_by_key(|&c| widths[c]) else {
-            break;
-        };
-        widths[widest] -= 1;
-    }
-    widths
 }
 
 /// Breaks lines that are too long between words, and indents the rest of them by two more.

@@ -39,7 +39,7 @@ function chooseState(n) {
 
 function contourRows(s) {
   return s.per_contour.map((c, n) => pointer(
-    element("button", { type: "button", class: "row-button" }, element("span", { class: `chip s${Math.min(c.redundant, 6)}` }, String(c.redundant)), ` ${c.contour}`, element("small", {}, ` ${c.least === c.greatest ? c.least : `${c.least} to ${c.greatest}`} in any order`)),
+    element("button", { type: "button", class: "row-button" }, element("span", { class: `chip s${Math.min(c.redundant, 6)}` }, String(c.redundant)), ` ${c.contour}`, element("small", {}, ` ${c.least === c.greatest ? c.least : `${c.least} to ${c.greatest}`} in any loop order`)),
     looked("contour", n), looked("contour", null), () => select(c.joints.map((id) => ({ what: "joint", id })))));
 }
 

@@ -84,7 +84,7 @@ fn joints_that_meet_in_a_point_stand_on_their_own_axes() {
                     toward: Some(side[0]),
                     up: None,
                 };
-                let d = kinematic_seen(&subject, &sight);
+                let d = kinematic_seen(&subject, &sight, None);
                 let all = equations(&m, state, side, &super::places::shown(&d));
                 looked += 1;
                 let off = residual(&all);

@@ -330,7 +330,7 @@ fn a_side_can_be_asked_for() {
             toward: Some(toward),
             up,
         };
-        shown(&kinematic_seen(&subject, &sight)).joints
+        shown(&kinematic_seen(&subject, &sight, None)).joints
     };
     // what is seen along z are the x and y of the file, with y upwards
     let joints: Vec<JointId> = m.joint_ids().collect();

@@ -107,7 +107,7 @@ mod with_png {
                 .map(|t| {
                     let m = single(t.name());
                     let subject = subject(&m);
-                    symbol(&kinematic_seen(&subject, &sight), 24)
+                    symbol(&kinematic_seen(&subject, &sight, None), 24)
                 })
                 .collect();
             for (i, a) in seen.iter().enumerate() {

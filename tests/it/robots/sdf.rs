@@ -65,6 +65,7 @@ fn sdf_kinds() {
         assert_eq!(numeric_figures(&i, 1e-9)[4], freedoms, "{kind}");
     }
     for (kind, more, words) in [
+        ("gearbox", axis, "gearbox_reference_body"),
         ("belt", axis, "revolute, continuous"),
         ("revolute", "", "has no <axis>"),
         ("revolute", "<axis><xyz>0 0 0</xyz></axis>", "direction"),

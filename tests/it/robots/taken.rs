@@ -75,21 +75,27 @@ fn joints_and_frames_of_a_world_are_read() {
 }
 
 #[test]
-fn gearboxes_are_left_out_and_told() {
+fn gearboxes_are_couplings() {
     let hinge = |name: &str, child: &str| {
         format!(
             "<joint name='{name}' type='revolute'><parent>a</parent><child>{child}</child><axis><xyz>0 0 1</xyz></axis></joint>"
         )
     };
-    let text = sdf(&format!(
-        "<model name='m'>{LINKS}<link name='c'/>{HELD}{}{}
-        <joint name='gears' type='gearbox'><parent>b</parent><child>c</child>
-        <gearbox_ratio>3</gearbox_ratio><gearbox_reference_body>a</gearbox_reference_body>
-        <axis><xyz>0 0 1</xyz></axis><axis2><xyz>0 0 1</xyz></axis2></joint></model>",
-        hinge("one", "b"),
-        hinge("two", "c")
-    ));
-    let (w, _, notes) = linted("m.sdf", &text, "");
+    let of = |reference: &str| {
+        sdf(&format!(
+            "<model name='m'>{LINKS}<link name='c'/>{HELD}{}{}
+            <joint name='gears' type='gearbox'><parent>b</parent><child>c</child>
+            <gearbox_ratio>3</gearbox_ratio><gearbox_reference_body>{reference}</gearbox_reference_body>
+            <axis><xyz>0 0 1</xyz></axis><axis2><xyz>0 0 1</xyz></axis2></joint></model>",
+            hinge("one", "b"),
+            hinge("two", "c")
+        ))
+    };
+    assert_eq!(linted("m.sdf", &of("a"), "").0, 1);
+    let (_, out, _) = run_on("export", "m.sdf", &of("a"), "--to toml");
+    has(&out, "ratio = -3");
+    // What has no such hinges is left out, and said.
+    let (w, _, notes) = linted("m.sdf", &of("b"), "");
     assert!(w == 2 && notes.contains("gears"), "{notes}");
 }
 

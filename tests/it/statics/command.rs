@@ -73,3 +73,30 @@ fn a_dead_point_ends_the_cycle_with_exit_code_1() {
     assert!(stopped["condition"].real() > 1e3);
     assert_eq!(stopped["pose"].list().len(), 4);
 }
+
+/// The charts of a group show the forces of the table, in thousands of newtons.
+#[test]
+fn charts_show_the_forces_of_the_table() {
+    let folder = Folder::new();
+    let line = "statics parallel-shears --stroke 0:360deg:36 --method equilibrium";
+    folder.succeed(&*format!("{line} --svg charts --format csv -o all.csv"));
+    let cells = |line: &str| line.split(',').map(str::to_owned).collect_vec();
+    let number = |text: &String| text.parse::<f64>().unwrap();
+    let chart = folder.text("charts/group-4-6-7-10.csv");
+    let drawn = chart.lines().skip(1).map(cells);
+    let drawn: Vec<f64> = drawn
+        .filter(|c| c[0] == "4-6")
+        .map(|c| number(&c[2]))
+        .collect();
+    let table = folder.text("all.csv");
+    let forces = table.lines().skip(1).map(cells).filter(|c| c[2] == "4-6");
+    let forces = forces.map(|c| number(&c[7]).hypot(number(&c[8])));
+    let forces: Vec<f64> = forces.collect();
+    assert_eq!((drawn.len(), forces.len()), (37, 37));
+    for (drawn, force) in drawn.into_iter().zip(forces) {
+        near(1e3 * drawn, force, 1e-9 * force);
+    }
+    for file in ["accelerations", "inertia-forces", "drive"] {
+        folder.bytes(&format!("charts/{file}.svg"));
+    }
+}

@@ -154,3 +154,23 @@ fn digits_near_the_failures_are_as_the_guide_says() {
         }
     }
 }
+
+/// The study is of a pose in which the knives cut, by the file from 165 to 200 degrees of the crank, and not of one in which they do not.
+#[test]
+fn the_heaviest_group_is_that_of_the_cut() {
+    use ozols::statics::kinetostatics::LoadSource;
+    use ozols::statics::solve::{Model, SolvedReactions, solve_reactions};
+    let m = built_in("parallel-shears");
+    let found = solve_reactions(&m, StateId::FREE, m.loads.stroke, Model::Planar).unwrap();
+    let SolvedReactions::Planar(found) = found else {
+        panic!("it is planar")
+    };
+    assert_eq!(found.moments.len(), 73);
+    let plan = heaviest_group(&found).unwrap();
+    let outside = plan
+        .loads
+        .iter()
+        .filter(|l| l.source == LoadSource::External);
+    let cut: f64 = outside.map(|l| l.force[0].hypot(l.force[1])).sum();
+    near(cut, 500_000.0, 1e-6);
+}

@@ -31,7 +31,7 @@ impl Study {
     /// Returns the rows that are always right, the shares of the others, and the values at which most answers are wrong and sure. If one
     /// value matters most, shares are those at it. Studies of many methods give the share of right answers alone.
     fn describe_shares(&self) -> String {
-        let brief = matches!(self.texts.view, View::Regions | View::Times);
+        let brief = matches!(self.texts.view, View::Right | View::Times);
         let (mut always, mut rest, mut worst) = (Vec::new(), Vec::new(), Vec::new());
         for (name, tallies) in &self.rows {
             let at = |x: f64| self.texts.at.is_none_or(|at| (x / at - 1.0).abs() < 1e-9);

@@ -7,7 +7,7 @@ use crate::file::read::resolve::{contains_option, read_option};
 use crate::file::read::value::{LIMITS, used_twice};
 use crate::geom::extent::box_diagonal;
 use crate::model::mechanism::{CostSpec, Drives, SearchSpec};
-use crate::model::ranking::{ClearanceSum, Limit, Order, Ranking, Term, TypeOverride};
+use crate::model::ranking::{ClearanceSum, Limit, Ranking, Term, TypeOverride};
 
 /// Returns the options of a joint, the original one first. Options of the joint's own list must contain the original motion;
 /// those of the common list that do not are skipped.
@@ -177,8 +177,9 @@ pub(crate) fn read_ranking(file: &MechanismFile, m: &Parts, out: &Findings) -> O
     let entry = file.ranking.as_ref()?;
     let at = &out.key("ranking");
     let sums = [("worst", ClearanceSum::Worst), ("rms", ClearanceSum::Rms)];
+    // Files of earlier versions name it.
+    at.read_word("order", &entry.order, &[("weighted", ())]);
     Some(Ranking {
-        order: at.read_word("order", &entry.order, &Order::ALL.map(|(o, w)| (w, o))),
         clearance: at.read_word("clearance", &entry.clearance, &sums),
         terms: read_terms(entry, &at.key("terms")),
         limits: read_limits(entry, &at.key("limits")),

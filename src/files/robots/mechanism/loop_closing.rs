@@ -11,8 +11,9 @@ pub(crate) const CLOSED: f64 = 1e-6;
 pub(crate) const ROUNDED: f64 = 5e-4;
 /// Maximum number of unknowns; with more, a pose must be given.
 const MAX_UNKNOWNS: usize = 600;
-/// Maximum number of steps from one start.
+/// Maximum number of steps from one start, and of starts.
 const STEPS: usize = 300;
+const STARTS: usize = 12;
 /// Maximum step of a joint, in radians or sizes of the robot: the loops close near by or not at all.
 const LONGEST: f64 = 0.3;
 
@@ -74,17 +75,17 @@ pub(crate) fn worst_gap(gaps: &[Gap], size: f64) -> f64 {
 /// Adjusts the joint values so that the loops close, staying near the current values. Returns the largest gap left and the number
 /// of joints outside their limits.
 ///
-/// If joints are then outside their limits, it starts again with the joints that are outside at the start in the middle of theirs, and
-/// takes the pose that breaks fewer limits. A pose that comes as near as rounded coordinates allow is next; otherwise the values stay.
+/// It tries several starts and takes the first that closes with all joints within their limits. If there is none, it takes the
+/// one that breaks the fewest limits, then the first that comes as near as rounded coordinates allow; otherwise the values stay.
 pub(crate) fn close_numerically(robot: &mut Robot, tree: &Tree) -> (f64, usize) {
     let size = robot_size(robot);
     let first = joint_values(robot);
     let mut best: Option<(usize, f64, Vec<Vec<f64>>)> = None;
     let mut near = None;
-    for within_limits in [false, true] {
+    for start in 0..STARTS {
         set_values(robot, &first);
-        if within_limits {
-            robot.joints.iter_mut().for_each(put_into_limits);
+        if start > 0 {
+            set_start(robot, start);
         }
         let left = minimise_gaps(robot, tree, size);
         if left > ROUNDED * size || (left > CLOSED * size && near.is_some()) {
@@ -142,12 +143,25 @@ fn wind_back(j: &mut Part) -> bool {
     }
 }
 
-/// Puts a joint outside its limits into their middle.
-fn put_into_limits(j: &mut Part) {
-    if let ([value], Some((low, high))) = (&mut j.values[..], j.limits)
-        && !(low..=high).contains(value)
-    {
-        *value = f64::midpoint(low, high);
+/// Sets other values to start from: limited joints within their limits, others slightly rotated, differently each time.
+fn set_start(robot: &mut Robot, start: usize) {
+    let mut state = 0x9e37_79b9_7f4a_7c15_u64.wrapping_mul(start as u64);
+    for j in &mut robot.joints {
+        state = state
+            .wrapping_mul(6_364_136_223_846_793_005)
+            .wrapping_add(1_442_695_040_888_963_407);
+        #[allow(clippy::cast_precision_loss, reason = "53 bits")]
+        let part = (state >> 11) as f64 / (1_u64 << 53) as f64;
+        let turns = matches!(j.joint_type.freedoms(), [Freedom::Rz]);
+        if let ([value], Some((low, high))) = (&mut j.values[..], j.limits) {
+            // The middle at first, then anywhere.
+            let part = if start == 1 { 0.5 } else { part };
+            if start > 1 || !(low..=high).contains(value) {
+                *value = low + part * (high - low);
+            }
+        } else if turns && start > 1 {
+            j.values[0] += part - 0.5;
+        }
     }
 }
 

@@ -5,8 +5,7 @@ use crate::robots::sdf::scene::{
     Scoped, SdfScene, absolute_name, joint_end, locate_name, of_joint,
 };
 
-pub(crate) const TYPES: &str =
-    "revolute, continuous, hinge, prismatic, screw, universal, revolute2, ball, fixed, floating";
+pub(crate) const TYPES: &str = "revolute, continuous, hinge, prismatic, screw, universal, revolute2, ball, fixed, floating, gearbox";
 /// Distance of a parent frame from the joint, as a fraction of the lengths in the file, beyond which the joint moves to it.
 pub(crate) const APART: f64 = 1e-6;
 
@@ -214,4 +213,54 @@ pub(crate) fn read_weld(at: &Scoped<'_>, scene: &SdfScene<'_>, robot: &mut Robot
     );
     robot.close_loop(e, &id, ends, JointType::Fixed)?;
     Ok(())
+}
+
+/// Couples the hinges of the parent and of the child on the reference body: the child turns the other way, faster by the gear
+/// ratio. If there are no such hinges, the gearbox is omitted and reported.
+pub(crate) fn read_gearbox(at: &Scoped<'_>, scene: &SdfScene<'_>, robot: &mut Robot) -> Read<()> {
+    let (e, scope) = (at.0, at.1.as_str());
+    let name = format!("{scope}{}", e.required_attribute("name")?);
+    let world = of_joint(scene, e, &name).unwrap_or(RigidMotion::IDENTITY);
+    let times = e.child_number("gearbox_ratio")?.unwrap_or(1.0);
+    let (_, on) = joint_end(e, "gearbox_reference_body")?;
+    let (on, _) = locate_name(e, &absolute_name(scope, on), scene)?;
+    let mut found = Vec::new();
+    for (tag, way) in [("parent", "axis"), ("child", "axis2")] {
+        let (c, link) = joint_end(e, tag)?;
+        let (link, _) = locate_name(c, &absolute_name(scope, link), scene)?;
+        let stated = e.first_child(way).is_some();
+        let way = if stated { way } else { "axis" };
+        let about = read_axis(e, way, scope, scene, &world)?;
+        found.extend(find_hinge(robot, [on, link], about));
+    }
+    let [(leader, first), (follower, second)] = found[..] else {
+        let what = "it needs a hinge of its parent and one of its child on its reference body, about its axes; its coupling (1 row) is omitted";
+        robot.report.leave_out(&e.label(), 1, what);
+        return Ok(());
+    };
+    let id = |j: usize| robot.joints[j].id.clone();
+    let [leads, follows] = [id(leader), id(follower)];
+    robot.couplings.push(Ratio {
+        gear: true,
+        ..Ratio::new([&leads, &follows], -times * first * second, e)
+    });
+    Ok(())
+}
+
+/// Returns the hinge of a link on another about a direction, and the sign of its rotation about it.
+fn find_hinge(robot: &Robot, [on, link]: [usize; 2], about: [f64; 3]) -> Option<(usize, f64)> {
+    robot.joints.iter().enumerate().find_map(|(j, p)| {
+        let sense = match p.links {
+            ends if ends == [on, link] => 1.0,
+            ends if ends == [link, on] => -1.0,
+            _ => return None,
+        };
+        let own = robot.places[p.links[0]]
+            .then(&p.sides[0])
+            .map_direction(p.axis);
+        let along = dot(own, about);
+        let parallel = length(cross(own, about)) < 1e-6 * along.abs();
+        let fits = p.joint_type == JointType::Revolute && parallel;
+        fits.then_some((j, sense * along.signum()))
+    })
 }

@@ -52,50 +52,15 @@ impl Body {
             plate,
         }
     }
-
-    /// Returns a bar that bows out to one side in its middle.
-    pub(super) fn bowed_by(self, by: f64) -> Body {
-        let (&[a, b], false) = (&self.points[..], self.plate || by == 0.0) else {
-            return self;
-        };
-        let side = left_normal(a, b);
-        let points = (0..=12).map(|i| {
-            let t = f64::from(i) / 12.0;
-            let on = add(a, scale(sub(b, a), t));
-            add(on, scale(side, by * 4.0 * t * (1.0 - t)))
-        });
-        Body {
-            points: points.collect(),
-            plate: false,
-        }
-    }
-
-    /// Returns the segments that draw the body.
-    pub(super) fn body_lines(&self) -> impl Iterator<Item = (Point, Point)> + '_ {
-        let n = self.points.len();
-        let count = if self.plate { n } else { n.saturating_sub(1) };
-        (0..count).map(move |i| (self.points[i], self.points[(i + 1) % n]))
-    }
-
-    /// Returns the middle of the body. That of a bar is halfway along.
-    pub(super) fn body_middle(&self) -> Point {
-        if self.plate || self.points.len() < 3 {
-            return mean(self.points.iter().copied());
-        }
-        self.points[self.points.len() / 2]
-    }
 }
 
 /// Returns how far each bar must bow out so that none lies on another. The longer bars stay straight.
-pub(super) fn find_bows(bodies: &[Body]) -> Vec<f64> {
-    let bar = |i: usize| match bodies[i].points[..] {
-        [a, b] if !bodies[i].plate => Some([a, b]),
-        _ => None,
-    };
-    let mut order: Vec<usize> = (0..bodies.len()).filter(|&i| bar(i).is_some()).collect();
+pub(super) fn find_bows(bars: &[Option<[Point; 2]>]) -> Vec<f64> {
+    let bar = |i: usize| bars[i];
+    let mut order: Vec<usize> = (0..bars.len()).filter(|&i| bar(i).is_some()).collect();
     let length = |i: usize| bar(i).map_or(0.0, |[a, b]| plane_norm(sub(b, a)));
     order.sort_by(|&i, &j| length(j).total_cmp(&length(i)).then(i.cmp(&j)));
-    let mut out = vec![0.0; bodies.len()];
+    let mut out = vec![0.0; bars.len()];
     let mut done: Vec<usize> = Vec::new();
     for i in order {
         let Some(own) = bar(i) else { continue };
@@ -125,12 +90,6 @@ fn on_each_other([a, b]: [Point; 2], [c, d]: [Point; 2]) -> bool {
     let at = |p: Point| dot(along, sub(p, a));
     let (low, high) = (at(c).min(at(d)).max(0.0), at(c).max(at(d)).min(at(b)));
     high - low > SHARED
-}
-
-/// Returns the unit vector to the left of a segment.
-fn left_normal(a: Point, b: Point) -> Point {
-    let along = unit(sub(b, a));
-    [-along[1], along[0]]
 }
 
 /// Returns the two points that are farthest from each other.

@@ -1,6 +1,7 @@
 //! Joints that gears couple, as their pitch circles, and a rack as its pitch line, which touches the circle of its pinion.
 
 use crate::draw::kinematic::Kinematic;
+use crate::draw::kinematic::wire::{Wire, WireForm};
 use crate::draw::place::projection::{self, cross, norm};
 use crate::draw::prelude::*;
 use crate::model::joint_type::CoupledFreedom;
@@ -12,31 +13,35 @@ const LARGEST: f64 = 6.0;
 type PitchCurve = (usize, Vec<Vector>);
 
 impl Kinematic<'_> {
-    /// Returns the pitch circles and lines of a coupling on paper with the joints at the given places, each as a closed line; empty
-    /// if gears cannot make it.
-    pub(crate) fn pitch_curves(
-        &self,
-        coupling: &Coupling,
-        places: &[JointInSpace],
-    ) -> Vec<Vec<Point>> {
-        let flat = |p: &Vector| self.projection.flat_point(*p);
-        let curves = self.pitch_curves_in_space(coupling, places);
-        let curves = curves.iter().map(|(_, curve)| curve.iter().map(flat));
-        curves.map(Iterator::collect).collect()
-    }
-
     /// Returns the pitch circles in space, or the circle of a pinion and the pitch line of its rack.
-    pub(crate) fn pitch_curves_in_space(
-        &self,
-        coupling: &Coupling,
-        places: &[JointInSpace],
-    ) -> Vec<PitchCurve> {
+    fn pitch_curves(&self, coupling: &Coupling) -> Vec<PitchCurve> {
         if !coupling.gear {
             return Vec::new();
         }
-        let gears = gear_circles(self, coupling, places);
-        let curves = gears.or_else(|| rack_and_pinion(self, coupling, places));
+        let gears = gear_circles(self, coupling);
+        let curves = gears.or_else(|| rack_and_pinion(self, coupling));
         curves.unwrap_or_default()
+    }
+
+    /// Returns the pitch circles of gears and the pitch lines of racks, each on a link that moves.
+    pub(super) fn pitch_wires(&self) -> Vec<Wire> {
+        let m = self.subject.mechanism;
+        let wires = m.couplings_in(self.subject.state).flat_map(|coupling| {
+            let links = coupling.ends.map(|e| m.joints[e.joint].links);
+            let curves = self.pitch_curves(coupling).into_iter();
+            curves.filter_map(move |(end, points)| {
+                let moving = links[end].into_iter().filter(|l| !self.is_frame(*l));
+                // The carrier of both joints is the last choice.
+                let link = moving.min_by_key(|l| links[1 - end].contains(l))?;
+                Some(Wire {
+                    row: self.link_row(link),
+                    class: "fine pitch",
+                    form: WireForm::Loop,
+                    points,
+                })
+            })
+        });
+        wires.collect()
     }
 
     /// Returns the lines between joints for couplings without circles.
@@ -44,21 +49,16 @@ impl Kinematic<'_> {
         let m = self.subject.mechanism;
         let place = |j| self.spots.iter().find(|s| s.joint == j).map(|s| s.at);
         let all = m.couplings_in(self.subject.state);
-        let plain = all.filter(|c| self.pitch_curves(c, &self.places).is_empty());
+        let plain = all.filter(|c| self.pitch_curves(c).is_empty());
         plain
             .filter_map(|c| Some((place(c.ends[0].joint)?, place(c.ends[1].joint)?)))
             .collect()
     }
 
-    fn end_place<'p>(
-        &self,
-        coupling: &Coupling,
-        end: usize,
-        places: &'p [JointInSpace],
-    ) -> Option<&'p JointInSpace> {
+    fn end_place(&self, coupling: &Coupling, end: usize) -> Option<&JointInSpace> {
         let joint = coupling.ends[end].joint;
         let spot = self.spots.iter().position(|s| s.joint == joint)?;
-        Some(&places[spot])
+        Some(&self.places[spot])
     }
 }
 
@@ -84,19 +84,12 @@ fn gear_senses(drawn: &Kinematic<'_>, coupling: &Coupling) -> Option<[f64; 2]> {
 }
 
 /// Returns the circles of two gears on one carrier, whose pitch circles roll on each other.
-fn gear_circles(
-    drawn: &Kinematic<'_>,
-    coupling: &Coupling,
-    places: &[JointInSpace],
-) -> Option<Vec<PitchCurve>> {
+fn gear_circles(drawn: &Kinematic<'_>, coupling: &Coupling) -> Option<Vec<PitchCurve>> {
     if coupling.ends.iter().any(|e| e.freedom != Freedom::Rz) {
         return None;
     }
     let [first, second] = gear_senses(drawn, coupling)?;
-    let [a, b] = [
-        drawn.end_place(coupling, 0, places)?,
-        drawn.end_place(coupling, 1, places)?,
-    ];
+    let [a, b] = [drawn.end_place(coupling, 0)?, drawn.end_place(coupling, 1)?];
     if norm(cross(a.z, b.z)) > 1e-6 {
         return None;
     }
@@ -119,11 +112,7 @@ fn gear_circles(
 
 /// Returns the circle of a pinion, and the line on which its rack rolls, from the rack's slide to beyond the point of contact. The coupling
 /// joins a turn to a slide across its axis.
-fn rack_and_pinion(
-    drawn: &Kinematic<'_>,
-    coupling: &Coupling,
-    places: &[JointInSpace],
-) -> Option<Vec<PitchCurve>> {
+fn rack_and_pinion(drawn: &Kinematic<'_>, coupling: &Coupling) -> Option<Vec<PitchCurve>> {
     let turns = |e: &CoupledFreedom| e.freedom == Freedom::Rz;
     let turn = coupling.ends.iter().position(turns)?;
     let slide = 1 - turn;
@@ -131,8 +120,8 @@ fn rack_and_pinion(
         return None;
     }
     let [pin, rack] = [
-        drawn.end_place(coupling, turn, places)?,
-        drawn.end_place(coupling, slide, places)?,
+        drawn.end_place(coupling, turn)?,
+        drawn.end_place(coupling, slide)?,
     ];
     let ratio = coupling.ratio.to_f64();
     let travel = if turn == 0 { ratio } else { 1.0 / ratio };

@@ -1,11 +1,11 @@
 //! The texts of a kinematic scheme: its legend and its description.
 
+use crate::draw::kinematic::wire::WireForm;
 use crate::draw::kinematic::{Kinematic, Spot};
 use crate::draw::place::projection;
 use crate::draw::prelude::*;
 use crate::draw::sheet::PAD;
 use crate::draw::symbol::ground::Ground;
-use crate::format::decimals;
 use crate::svg::labels::{self, Wish};
 
 impl Kinematic<'_> {
@@ -24,9 +24,8 @@ impl Kinematic<'_> {
             out.push((Swatch::Shapes(arrow), "driven slide".to_owned()));
         }
         if !self.grounds.is_empty() {
-            let draw =
-                |s: &mut Sheet| Ground::under_pivot([0.0, -7.0], [0.0, -1.0]).draw_ground_lines(s);
-            out.push((Swatch::Symbol(draw), m.frame_words()));
+            let ground = Ground::under_pivot([0.0, -7.0], [0.0, -1.0]);
+            out.push((Swatch::Shapes(ground.ground_shapes()), m.frame_words()));
         }
         if self.spots.iter().any(|s| self.subject.only_here(s.joint)) {
             let ring = Shape::circle("fine dash", [0.0; 2], 9.5);
@@ -37,8 +36,7 @@ impl Kinematic<'_> {
             out.push((Swatch::line("bone out"), "output link".to_owned()));
         }
         out.extend(self.point_rows());
-        let mut couplings = m.couplings_in(self.subject.state);
-        if couplings.any(|c| !self.pitch_curves(c, &self.places).is_empty()) {
+        if self.wires.iter().any(|w| w.form == WireForm::Loop) {
             let circle = Shape::circle("fine pitch", [0.0; 2], 9.0);
             let text = "pitch circle of a gear".to_owned();
             out.push((Swatch::Shapes(vec![circle]), text));
@@ -76,7 +74,7 @@ impl Kinematic<'_> {
     fn departure_rows(&self) -> impl Iterator<Item = (Swatch, String)> {
         let moved = self.places.iter().any(|p| p.moved);
         let moved = moved.then_some("joints that meet in a point stand farther along their axes");
-        let bowed = self.bows.iter().any(|&b| b != 0.0);
+        let bowed = self.wires.iter().any(|w| w.form == WireForm::Bow);
         let bowed = bowed.then_some("a straight bar bows where it would lie on another");
         let texts = moved.into_iter().chain(bowed);
         texts.map(|text| (Swatch::Shapes(Vec::new()), text.to_owned()))
@@ -84,23 +82,8 @@ impl Kinematic<'_> {
 
     /// Describes the drawing in words, for readers who cannot see it.
     pub(super) fn describe_drawing(&self) -> String {
-        let m = self.subject.mechanism;
-        let mut out = self.subject.summary_sentence(&self.view_title());
-        for s in &self.spots {
-            let joint = &m.joints[s.joint];
-            let [a, b] = joint.links.map(|l| &m.links[l].id);
-            let p = [0, 1, 2].map(|i| joint.frame.point[i].to_f64());
-            let _ = write!(
-                out,
-                " Joint {} ({}) between {a} and {b} at {}, {}, {} {}.",
-                joint.id,
-                joint.joint_type,
-                decimals(p[0], 4),
-                decimals(p[1], 4),
-                decimals(p[2], 4),
-                m.length_unit.symbol
-            );
-        }
+        let joints = self.spots.iter().map(|s| s.joint);
+        let out = self.subject.describe_joints(&self.view_title(), joints);
         out + &self.subject.coupling_words()
     }
 }

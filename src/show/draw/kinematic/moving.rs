@@ -6,7 +6,6 @@ use crate::draw::prelude::*;
 use crate::draw::symbol::placed::Symbol;
 use crate::motion::drive_range::Way;
 use crate::motion::pose::Pose;
-use std::collections::BTreeMap;
 
 pub(crate) mod frame;
 
@@ -42,7 +41,38 @@ pub struct Moved<'a> {
 /// ```
 #[must_use]
 pub fn kinematic_moving(subject: &Subject<'_>, sight: &Sight, moved: &Moved<'_>) -> Drawing {
-    Moving::new(Kinematic::new(subject, sight), moved).draw_sheet()
+    let mut rest = Kinematic::new(subject, sight);
+    let (poses, start) = (poses_of(moved), moved.way.start);
+    let lines = rest.moving_lines(&poses);
+    let frames = poses.iter().map(|c| rest.picture_in(Some(c), &lines));
+    let mut frames: Vec<MovingPicture> = frames.collect();
+    let arrows = moved
+        .stress
+        .map(|(_, s)| rest.arrows_along(s, &poses, start));
+    for (frame, arrows) in frames.iter_mut().zip(arrows.into_iter().flatten()) {
+        frame.arrows = arrows;
+    }
+    rest.traces = (rest.traced_ways(&poses), moved.way.closed);
+    let stress = moved.stress.map(|(name, _)| format!("; {name}"));
+    let shows = moved.words.to_owned() + &stress.unwrap_or_default();
+    let mut legend = rest.legend_rows();
+    legend.extend(flag_row(&frames[start]));
+    legend.extend(rest.arrow_rows(&frames[start].arrows));
+    let words = Words {
+        more: format!(" Moving: {shows}."),
+        shows: Some(shows),
+        legend,
+    };
+    let arrows = frames.iter().filter_map(|f| rest.arrow_room(&f.arrows));
+    let area = arrows.fold(rest.room_of(&frames, start), |all, r| all.with(&r));
+    rest.on_sheet(area, words, |sheet, by| {
+        sheet.write_style(&animation_style(frames.len(), moved.way.closed));
+        sheet.draw_group("data-drawing", "", by, |s| {
+            rest.draw_traces(s);
+            rest.draw_ground(s);
+            rest.draw_frames(s, &frames, start);
+        });
+    })
 }
 
 /// Draws the kinematic scheme at the pose of the file, with the paths of its points over a motion.
@@ -51,9 +81,7 @@ pub fn kinematic_along(subject: &Subject<'_>, sight: &Sight, moved: &Moved<'_>) 
     let mut rest = Kinematic::new(subject, sight);
     let poses = poses_of(moved);
     rest.traces = (rest.traced_ways(&poses), moved.way.closed);
-    if let Some((name, stress)) = moved.stress {
-        rest.show_stress(name, stress);
-    }
+    rest.show_stress(moved.stress);
     rest.draw_sheet()
 }
 
@@ -71,128 +99,73 @@ pub(super) fn poses_of<'m>(moved: &Moved<'m>) -> Vec<Carried<'m>> {
     poses
 }
 
-struct Moving<'a> {
-    rest: Kinematic<'a>,
-    words: String,
-    frames: Vec<MovingPicture>,
-    start: usize,
-    closed: bool,
-}
-
-impl<'a> Moving<'a> {
-    fn new(mut rest: Kinematic<'a>, moved: &Moved<'a>) -> Moving<'a> {
-        let poses = poses_of(moved);
-        let lines = rest.moving_lines(&poses);
-        let frames = poses.iter().map(|c| rest.picture_in(Some(c), &lines));
-        let mut frames: Vec<MovingPicture> = frames.collect();
-        let arrows = moved
-            .stress
-            .map(|(_, s)| rest.arrows_along(s, &poses, moved.way.start));
-        for (frame, arrows) in frames.iter_mut().zip(arrows.into_iter().flatten()) {
-            frame.arrows = arrows;
-        }
-        let shown = moved.stress.map(|(name, _)| format!("; {name}"));
-        rest.traces = (rest.traced_ways(&poses), moved.way.closed);
-        Moving {
-            frames,
-            words: moved.words.to_owned() + &shown.unwrap_or_default(),
-            start: moved.way.start,
-            closed: moved.way.closed,
-            rest,
-        }
-    }
-
-    fn draw_sheet(self) -> Drawing {
-        let rest = &self.rest;
-        let mut legend = rest.legend_rows();
-        legend.extend(flag_row(&self.frames[self.start]));
-        legend.extend(rest.arrow_rows(&self.frames[self.start].arrows));
-        let words = Words {
-            shows: Some(self.words.clone()),
-            more: format!(" Moving: {}.", self.words),
-            legend,
-        };
-        let arrows = self.frames.iter();
-        let arrows = arrows.filter_map(|f| rest.arrow_room(&f.arrows));
-        let area = rest.room_of(&self.frames, self.start);
-        let area = arrows.fold(area, |all, r| all.with(&r));
-        rest.on_sheet(area, words, |sheet, by| {
-            sheet.write_style(&self.animation_style());
-            sheet.draw_group("data-drawing", "", by, |s| {
-                rest.draw_traces(s);
-                rest.draw_ground(s);
-                self.draw_frames(s);
-            });
-        })
-    }
-
+impl Kinematic<'_> {
     /// Draws each symbol once, and the pictures that use them.
-    fn draw_frames(&self, sheet: &mut Sheet) {
-        let rest = &self.rest;
-        let m = rest.subject.mechanism;
-        let order = rest.outer_first();
-        let mut store: BTreeMap<String, usize> = BTreeMap::new();
+    fn draw_frames(&self, sheet: &mut Sheet, frames: &[MovingPicture], start: usize) {
+        let m = self.subject.mechanism;
+        let order = self.outer_first();
+        let mut store: Vec<String> = Vec::new();
         let mut used: Vec<Vec<usize>> = Vec::new();
-        for f in &self.frames {
-            let of = rest.spots.iter().zip(&f.places).enumerate();
+        for f in frames {
+            let of = self.spots.iter().zip(&f.places).enumerate();
             let of = of.map(|(i, (spot, place))| {
                 let of = &m.joints[spot.joint].joint_type;
                 let mut piece = Sheet::default();
-                let mark = rest.subject.joint_mark(spot.joint);
-                rest.symbol_of(i, of, place).draw_symbol(&mut piece, mark);
-                let next = store.len();
-                *store.entry(piece.into_text()).or_insert(next)
+                let mark = self.subject.joint_mark(spot.joint);
+                self.symbol_of(i, of, place).draw_symbol(&mut piece, mark);
+                let piece = piece.into_text();
+                store.iter().position(|s| *s == piece).unwrap_or_else(|| {
+                    store.push(piece);
+                    store.len() - 1
+                })
             });
             used.push(of.collect());
         }
-        let mut symbols: Vec<(usize, String)> = store.into_iter().map(|(s, n)| (n, s)).collect();
-        symbols.sort_unstable();
-        sheet.write_defs(symbols.iter().map(|(n, s)| (format!("m{n}"), s.as_str())));
-        for spot in &rest.spots {
+        sheet.write_defs(&store);
+        for spot in &self.spots {
             sheet.note_symbol(spot.rect);
         }
-        for (n, (f, used)) in self.frames.iter().zip(&used).enumerate() {
-            sheet.draw_frame(n, n == self.start, |s| {
-                rest.draw_picture(s, f, false);
+        for (n, (f, used)) in frames.iter().zip(&used).enumerate() {
+            sheet.draw_frame(n, n == start, |s| {
+                self.draw_picture(s, f, false);
                 for &i in &order {
-                    let id = &m.joints[rest.spots[i].joint].id;
+                    let id = &m.joints[self.spots[i].joint].id;
                     s.joint_use(id, &format!("m{}", used[i]), f.at[i]);
                 }
-                let shapes = f.arrows.iter().flat_map(|a| rest.arrow_shapes(a));
+                let shapes = f.arrows.iter().flat_map(|a| self.arrow_shapes(a));
                 s.draw_shapes(&shapes.collect::<Vec<_>>());
             });
         }
     }
+}
 
-    /// Returns the style that shows each picture in its turn. They run back and forth unless the drive makes a full turn.
-    fn animation_style(&self) -> String {
-        let n = self.frames.len();
-        let seconds = n as f64 / RATE as f64;
-        let back = if self.closed { "" } else { " alternate" };
-        let part = |k: usize| format!("{:.3}%", 100.0 * k as f64 / n as f64);
-        let mut out = String::from("\n");
-        let mut rules = String::new();
-        for k in 0..n {
-            let before = if k == 0 { "" } else { "0%{visibility:hidden}" };
-            let (from, to) = (part(k), part(k + 1));
-            // writing to a string does not fail
-            let _ = writeln!(
-                out,
-                "@keyframes ozf{k}{{{before}{from}{{visibility:visible}}{to}{{visibility:{}}}}}",
-                if k + 1 == n { "visible" } else { "hidden" }
-            );
-            let _ = writeln!(
-                rules,
-                ".ozd .f{k}{{animation:ozf{k} {seconds:.2}s step-end infinite{back}}}"
-            );
-        }
-        out + "@media screen and (prefers-reduced-motion:no-preference){\n" + &rules + "}\n"
+/// Returns the style that shows each picture in its turn. They run back and forth unless the drive makes a full turn.
+fn animation_style(n: usize, closed: bool) -> String {
+    let seconds = n as f64 / RATE as f64;
+    let back = if closed { "" } else { " alternate" };
+    let part = |k: usize| format!("{:.3}%", 100.0 * k as f64 / n as f64);
+    let mut out = String::from("\n");
+    let mut rules = String::new();
+    for k in 0..n {
+        let before = if k == 0 { "" } else { "0%{visibility:hidden}" };
+        let (from, to) = (part(k), part(k + 1));
+        // writing to a string does not fail
+        let _ = writeln!(
+            out,
+            "@keyframes ozf{k}{{{before}{from}{{visibility:visible}}{to}{{visibility:{}}}}}",
+            if k + 1 == n { "visible" } else { "hidden" }
+        );
+        let _ = writeln!(
+            rules,
+            ".ozd .f{k}{{animation:ozf{k} {seconds:.2}s step-end infinite{back}}}"
+        );
     }
+    out + "@media screen and (prefers-reduced-motion:no-preference){\n" + &rules + "}\n"
 }
 
 /// Returns the legend row of flags, or `None` if the picture has none.
 pub(super) fn flag_row(frame: &MovingPicture) -> Option<(Swatch, String)> {
-    let there = frame.lines.iter().any(|(class, _)| *class == "flag");
+    let there = frame.wires.iter().any(|w| w.class == "flag");
     there.then(|| {
         let flag = Shape::line("flag", vec![[0.0; 2], [7.0, -7.0]]);
         let text = "flag on a link that turns in its place";
@@ -220,12 +193,9 @@ impl Kinematic<'_> {
                 };
                 area = area.with(&own);
             }
-            for (_, body) in &frame.bodies {
-                area = area.with(&bounds_of(&body.points).grown_by(4.0));
-            }
-            let ends = frame.lines.iter().flat_map(|(_, ends)| *ends);
-            for p in ends.chain(frame.circles.iter().flatten().copied()) {
-                area = area.with(&Rect::around(p, 6.0, 6.0));
+            for wire in &frame.wires {
+                let margin = if wire.link { 4.0 } else { 3.0 };
+                area = area.with(&bounds_of(&wire.points).grown_by(margin));
             }
         }
         for g in &self.grounds {
@@ -240,7 +210,7 @@ impl Kinematic<'_> {
     pub(super) fn draw_ground(&self, sheet: &mut Sheet) {
         for g in &self.grounds {
             sheet.note_symbol(g.ground_room());
-            g.draw_ground_lines(sheet);
+            sheet.draw_shapes(&g.ground_shapes());
         }
     }
 

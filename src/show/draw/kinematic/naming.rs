@@ -1,27 +1,14 @@
 //! Placement of the names of joints and links.
 
-use crate::draw::kinematic::{Kinematic, LabelText, MovingPicture, Spot};
+use crate::draw::kinematic::{Kinematic, MovingPicture, Spot};
+use crate::draw::naming::{Name, place_names};
 use crate::draw::prelude::*;
 use crate::draw::symbol::ground::Ground;
-use crate::svg::labels::{self, AvoidedLine, CROSSED, Wish};
-
-/// Returns a small label at least `clear` away from its anchor.
-fn small_label(class: String, text: String, anchor: Point, clear: f64) -> (Wish, LabelText) {
-    let wish = Wish::for_text(&text, SMALL, anchor, clear);
-    let label = LabelText {
-        class,
-        size: SMALL,
-        text,
-    };
-    (wish, label)
-}
+use crate::svg::labels::{AvoidedLine, CROSSED, LabelPlace};
 
 impl Kinematic<'_> {
     /// Returns the places and texts of the ids of joints, links and points of interest, in this order.
-    pub(super) fn place_labels(
-        &self,
-        rest: &MovingPicture,
-    ) -> (Vec<labels::LabelPlace>, Vec<LabelText>) {
+    pub(super) fn place_labels(&self, rest: &MovingPicture) -> Vec<(LabelPlace, Name)> {
         let mut taken: Vec<Rect> = self.spots.iter().map(|s| s.rect).collect();
         taken.extend(self.grounds.iter().map(Ground::ground_room));
         taken.extend(self.points.iter().map(|p| Rect::around(p.at, 9.0, 9.0)));
@@ -30,20 +17,30 @@ impl Kinematic<'_> {
             weight: CROSSED,
         });
         let lines: Vec<AvoidedLine> = lines.collect();
-        let named = [self.joint_names(), self.link_names(), self.point_names()].concat();
-        let (wishes, texts): (Vec<Wish>, Vec<LabelText>) = named.into_iter().unzip();
-        (labels::place_labels(&wishes, &mut taken, &lines), texts)
+        let spot = |s: &Spot| {
+            let half = [s.rect.right - s.rect.left, s.rect.bottom - s.rect.top];
+            (s.joint, s.at, half[0].min(half[1]) / 2.0)
+        };
+        let spots: Vec<_> = self.spots.iter().map(spot).collect();
+        let links: Vec<LinkId> = self.links.iter().map(|(l, _)| *l).collect();
+        let of_links = self
+            .subject
+            .link_names(&links, |n, width| self.link_places(rest, n, [width, 13.0]));
+        let names = [
+            self.subject.joint_names(&spots),
+            of_links,
+            self.point_names(),
+        ]
+        .concat();
+        place_names(names, &mut taken, &lines)
     }
 
     /// Returns the segments of everything that is drawn, which no label may cover.
     fn drawn_lines(&self, rest: &MovingPicture) -> Vec<(Point, Point)> {
-        let bodies = rest.bodies.iter();
-        let mut lines: Vec<_> = bodies.flat_map(|(_, body)| body.body_lines()).collect();
+        let wires = rest.wires.iter();
+        let mut lines: Vec<_> = wires.flat_map(|w| w.segments()).collect();
         lines.extend(self.grounds.iter().filter_map(Ground::stem_line));
         lines.extend(self.coupling_lines());
-        for c in &rest.circles {
-            lines.extend((0..c.len()).map(|i| (c[i], c[(i + 1) % c.len()])));
-        }
         for way in &self.traces.0 {
             lines.extend(way.windows(2).map(|w| (w[0], w[1])));
         }
@@ -53,75 +50,38 @@ impl Kinematic<'_> {
         lines
     }
 
-    /// Returns the ids of joints, to be placed next to their symbols.
-    fn joint_names(&self) -> Vec<(Wish, LabelText)> {
-        let m = self.subject.mechanism;
-        let spots = self.spots.iter();
-        let ids: Vec<&str> = spots.map(|s| m.joints[s.joint].id.as_str()).collect();
-        let one = |(s, text): (&Spot, String)| {
-            let half = [s.rect.right - s.rect.left, s.rect.bottom - s.rect.top];
-            let clear = half[0].min(half[1]) / 2.0;
-            let mark = self.subject.joint_mark(s.joint).mark_class();
-            small_label(format!("small soft{mark}"), text, s.at, clear)
-        };
-        let texts = shorten_names(&ids, SMALL, 150.0);
-        self.spots.iter().zip(texts).map(one).collect()
-    }
-
-    /// Returns the ids of links, to be placed next to or on their bodies.
-    fn link_names(&self) -> Vec<(Wish, LabelText)> {
-        let m = self.subject.mechanism;
-        let links = self.links.iter();
-        let ids: Vec<&str> = links.map(|(l, _)| m.links[*l].id.as_str()).collect();
-        let one = |(n, text): (usize, String)| {
-            let size = [text_width(&text, 12.0), 13.0];
-            let (anchor, first) = self.link_places(n, size);
-            let wish = Wish {
-                first,
-                ..Wish::for_text(&text, 12.0, anchor, 2.0)
-            };
-            let mark = self.subject.link_mark(self.links[n].0).mark_class();
-            let label = LabelText {
-                class: format!("name{mark}"),
-                size: 12.0,
-                text,
-            };
-            (wish, label)
-        };
-        let texts = shorten_names(&ids, 12.0, 150.0).into_iter();
-        texts.enumerate().map(one).collect()
-    }
-
     /// Returns the ids of points of interest.
-    fn point_names(&self) -> Vec<(Wish, LabelText)> {
+    fn point_names(&self) -> Vec<Name> {
         let ids: Vec<&str> = self.points.iter().map(|p| p.id.as_str()).collect();
         let texts = shorten_names(&ids, SMALL, 150.0);
         let named = self.points.iter().zip(texts);
         named
-            .map(|(p, text)| small_label("small soft".to_owned(), text, p.at, 5.0))
+            .map(|(p, text)| Name::small("small soft".to_owned(), text, p.at, 5.0))
             .collect()
     }
 
-    /// Returns the anchor of the name of a link, and preferred middles.
-    fn link_places(&self, link: usize, size: Point) -> (Point, Vec<(Point, f64)>) {
+    /// Returns the anchor of the name of a link, its distance from it, and preferred middles.
+    fn link_places(
+        &self,
+        rest: &MovingPicture,
+        link: usize,
+        size: Point,
+    ) -> (Point, f64, Vec<(Point, f64)>) {
         let (l, of) = &self.links[link];
         if self.is_frame(*l) {
             let first = self.grounds.first();
-            return (first.map_or([0.0; 2], |g| g.to), Vec::new());
+            return (first.map_or([0.0; 2], |g| g.to), 2.0, Vec::new());
         }
-        let body = self.body_at_rest(link);
-        let middle = body.body_middle();
-        if body.plate {
-            return (middle, vec![(middle, 0.0)]);
-        }
-        let (Some(&a), Some(&b), true) = (
-            body.points.first(),
-            body.points.last(),
-            body.points.len() > 1,
-        ) else {
+        let own = rest.wires.iter().find(|w| w.link && w.row == link);
+        let Some(own) = own.filter(|w| w.points.len() > 1) else {
             // all its joints are in one place
-            return (self.spots[of[0]].at, Vec::new());
+            return (self.spots[of[0]].at, 2.0, Vec::new());
         };
+        let middle = own.middle();
+        if own.closed {
+            return (middle, 2.0, vec![(middle, 0.0)]);
+        }
+        let [a, b] = [own.points[0], own.points[own.points.len() - 1]];
         let bow = sub(middle, scale(add(a, b), 0.5));
         let along = sub(b, a);
         let side = unit([-along[1], along[0]]);
@@ -134,6 +94,6 @@ impl Kinematic<'_> {
                 first.push((add(on, scale(side, s)), 0.08 * n as f64));
             }
         }
-        (middle, first)
+        (middle, 2.0, first)
     }
 }

@@ -1,12 +1,12 @@
 //! Placement of joints, links and grounds of a kinematic scheme on paper.
 
-use crate::draw::kinematic::body::{self, Body, marked_points};
+use crate::draw::kinematic::body::marked_points;
 use crate::draw::kinematic::{Kinematic, Spot};
 use crate::draw::place::projection::places::shown_places;
 use crate::draw::place::projection::{self, Projection, ToBeSeen};
 use crate::draw::prelude::*;
 use crate::draw::subject::roominess;
-use crate::draw::symbol::ground::{Foot, place_grounds};
+use crate::draw::symbol::ground::{Foot, Ground, place_grounds};
 use crate::draw::symbol::placed::{Symbol, symbol_sizes};
 use crate::draw::symbol::symbols::{driven_slides, side_of_slide};
 
@@ -38,8 +38,7 @@ impl<'a> Kinematic<'a> {
         let mut out = Kinematic {
             subject,
             spots: place_spots(subject, &joints, &places, &projection),
-            bows: vec![0.0; links.len()],
-            facets: Vec::new(),
+            wires: Vec::new(),
             links,
             grounds: Vec::new(),
             places,
@@ -49,24 +48,19 @@ impl<'a> Kinematic<'a> {
             shows: None,
             projection,
         };
-        out.facets = out.facets_in_space();
-        out.keep_apart();
+        out.wires = [out.link_wires(), out.pitch_wires()].concat();
+        out.grounds = out.find_grounds();
         out
     }
 
-    /// Bows out the bars that would lie on others, and puts the grounds where there is room.
-    fn keep_apart(&mut self) {
+    /// Returns the grounds where there is room.
+    fn find_grounds(&self) -> Vec<Ground> {
         let moving = (0..self.links.len()).filter(|&l| !self.is_frame(self.links[l].0));
-        let moving: Vec<usize> = moving.collect();
-        let bodies: Vec<Body> = moving.iter().map(|&l| self.body_at_rest(l)).collect();
-        for (&l, bow) in moving.iter().zip(body::find_bows(&bodies)) {
-            self.bows[l] = bow;
-        }
-        let end = |&l: &usize| Some((self.links[l].1[0], self.loose_end(l)?));
-        let loose: Vec<(usize, Point)> = moving.iter().filter_map(end).collect();
+        let end = |l: usize| Some((self.links[l].1[0], self.loose_end(l)?));
+        let loose: Vec<(usize, Point)> = moving.filter_map(end).collect();
         let feet: Vec<Foot> = (0..self.spots.len()).map(|i| self.foot_of(i)).collect();
         let frame = self.subject.mechanism.frame_link();
-        self.grounds = place_grounds(&feet, &self.links, frame, &loose);
+        place_grounds(&feet, &self.links, frame, &loose)
     }
 
     /// Returns a joint as the ground needs it: a block seen from the side has a rail.

@@ -70,8 +70,8 @@ pub fn kinematic_scene(subject: &Subject<'_>, sight: &Sight, shown: Shown<'_>) -
         let lines = rest.moving_lines(poses);
         frames.extend(poses.iter().map(|c| rest.picture_in(Some(c), &lines)));
         for line in &lines {
-            let row = rest.link_row(line.link);
-            scene.add_wire(&rest, row, line.class, "line", &line.ends, Some(n));
+            let (class, form) = (line.class, line.form.word());
+            scene.add_wire(&rest, line.row, class, form, &line.points, Some(n));
         }
         scene.add_move(&rest, moved, poses);
     }

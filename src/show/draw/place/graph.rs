@@ -1,5 +1,4 @@
-//! The graph of a structural scheme: links are hyperedges over the joints. If the drawn mechanism has a mirror
-//! symmetry, so has its scheme.
+//! The graph of a structural scheme: links are hyperedges over the joints.
 
 use crate::draw::prelude::*;
 
@@ -86,86 +85,4 @@ pub(crate) fn joint_ring(of: &[usize], joints: &[Point]) -> Vec<usize> {
         });
     }
     ring
-}
-
-/// The image of each node under a reflection of y, and whether it is its own.
-#[derive(Debug, Clone)]
-pub(crate) struct Mirror(Vec<usize>);
-
-impl Mirror {
-    /// Returns the reflection of y that maps joints to joints and links to links, or `None` if there is none.
-    pub(crate) fn find_mirror(graph: &Graph, net: &Net, joints: &[Point]) -> Option<Mirror> {
-        let middle = mean(joints.iter().copied());
-        let size = joints
-            .iter()
-            .map(|&p| plane_norm(sub(p, middle)))
-            .fold(0.0, f64::max);
-        let image = |j: usize| {
-            let flipped = [joints[j][0], 2.0 * middle[1] - joints[j][1]];
-            let mut near =
-                (0..joints.len()).filter(|&k| plane_norm(sub(joints[k], flipped)) < 1e-4 * size);
-            near.next().filter(|_| near.next().is_none())
-        };
-        let of: Vec<usize> = (0..joints.len()).map(image).collect::<Option<_>>()?;
-        if of.iter().enumerate().all(|(j, &k)| j == k) {
-            return None;
-        }
-        let mut all: Vec<usize> = of.clone();
-        all.resize(net.edges.len(), 0);
-        for (l, joints) in graph.links.iter().enumerate() {
-            let mut wanted: Vec<usize> = joints.iter().map(|&j| of[j]).collect();
-            wanted.sort_unstable();
-            let twin = graph.links.iter().position(|other| {
-                let mut other = other.clone();
-                other.sort_unstable();
-                other == wanted
-            })?;
-            if let (Some(h), Some(g)) = (net.hub[l], net.hub[twin]) {
-                all[h] = g;
-            }
-        }
-        Some(Mirror(all))
-    }
-
-    /// Makes places symmetric about the axis of x.
-    pub(crate) fn make_symmetric(&self, at: &mut [Point]) {
-        let old = at.to_vec();
-        for (i, p) in at.iter_mut().enumerate() {
-            let q = old[self.0[i]];
-            *p = [(old[i][0] + q[0]) / 2.0, (old[i][1] - q[1]) / 2.0];
-        }
-    }
-
-    /// Returns the image of a joint.
-    pub(crate) fn image_of(&self, joint: usize) -> usize {
-        self.0[joint]
-    }
-}
-
-/// Numbers that look random and are the same each time.
-#[derive(Debug)]
-pub(crate) struct Dice(u64);
-
-impl Dice {
-    pub(crate) fn new(seed: u64) -> Dice {
-        Dice(seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) ^ 0x2545_f491_4f6c_dd1d)
-    }
-
-    /// Returns a uniform random number in 0..1.
-    pub(crate) fn random_unit(&mut self) -> f64 {
-        self.0 ^= self.0 << 13;
-        self.0 ^= self.0 >> 7;
-        self.0 ^= self.0 << 17;
-        (self.0 >> 11) as f64 / (1u64 << 53) as f64
-    }
-
-    /// Returns a uniform random number in -1..1.
-    pub(crate) fn random_signed(&mut self) -> f64 {
-        2.0 * self.random_unit() - 1.0
-    }
-
-    /// Returns a uniform random number in 0..n.
-    pub(crate) fn random_below(&mut self, n: usize) -> usize {
-        ((self.random_unit() * n as f64) as usize).min(n.saturating_sub(1))
-    }
 }

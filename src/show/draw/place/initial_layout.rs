@@ -1,7 +1,9 @@
 //! First places for the joints of a scheme.
 
-use crate::draw::place::graph::{Dice, Graph, Mirror, Net};
+use crate::draw::place::graph::{Graph, Net};
 use crate::draw::prelude::*;
+use itertools::Itertools;
+use std::cmp::Reverse;
 
 /// Where to begin.
 #[derive(Debug)]
@@ -10,43 +12,23 @@ pub(crate) struct Start {
     pub(crate) at: Vec<Point>,
     /// Whether it is how the mechanism is drawn in its file.
     pub(crate) drawn: bool,
-    /// Its symmetry, if it has one.
-    pub(crate) mirror: Option<Mirror>,
 }
 
 /// Returns every initial layout.
 pub(crate) fn all_starts(graph: &Graph, net: &Net, hints: &[Vec<Point>]) -> Vec<Start> {
-    let mut out = Vec::new();
-    let plain = |at| Start {
-        at,
+    let hints = hints.iter().filter(|h| h.len() == graph.joints);
+    let drawn = hints.filter_map(|hint| {
+        let at = with_hubs(graph, net, &fit_hint(graph, hint)?);
+        Some(Start { at, drawn: true })
+    });
+    let contours = graph.contours.iter().filter(|c| c.len() > 2);
+    let outer = contours.sorted_by_key(|c| Reverse(c.len())).take(6);
+    let all: Vec<usize> = (0..graph.joints).collect();
+    let on_circle = outer.chain([&all]).map(|contour| Start {
+        at: tutte_layout(net, contour),
         drawn: false,
-        mirror: None,
-    };
-    for hint in hints.iter().filter(|h| h.len() == graph.joints) {
-        if let Some(fitted) = fit_hint(graph, hint) {
-            let at = with_hubs(graph, net, &fitted);
-            let mirror = Mirror::find_mirror(graph, net, &fitted);
-            let mirrors = mirror.map(Some).into_iter().chain([None]);
-            out.extend(mirrors.map(|mirror| Start {
-                at: at.clone(),
-                drawn: true,
-                mirror,
-            }));
-        }
-    }
-    let mut outer: Vec<&Vec<usize>> = graph.contours.iter().filter(|c| c.len() > 2).collect();
-    outer.sort_by_key(|c| std::cmp::Reverse(c.len()));
-    for contour in outer.into_iter().take(6) {
-        out.push(plain(tutte_layout(net, contour)));
-    }
-    let mut dice = Dice::new(7);
-    for _ in 0..2 {
-        let reach = (net.edges.len() as f64).sqrt();
-        let scatter =
-            |_: &Vec<(usize, f64)>| [reach * dice.random_signed(), reach * dice.random_signed()];
-        out.push(plain(net.edges.iter().map(scatter).collect()));
-    }
-    out
+    });
+    drawn.chain(on_circle).collect()
 }
 
 /// Returns places scaled so that links have about the usual length. `None` if they cannot be scaled.

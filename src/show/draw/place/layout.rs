@@ -1,13 +1,13 @@
 //! Layout of the joints of a structural scheme.
 //!
 //! Links are hyperedges over the joints. A layout starts from several places: the mechanism's own coordinates, Tutte's
-//! barycentric drawing with each contour as the outer face, and scattered points. It is relaxed by stress majorization, and
+//! barycentric drawing with each contour as the outer face, and all joints on a circle. It is relaxed by stress majorization, and
 //! those with the least crossings and crowding are polished by annealing.
 //!
 //! # Sources
 //! Gansner, Koren & North, "Graph drawing by stress majorization", GD 2004. Tutte, "How to draw a graph", 1963.
 
-use crate::draw::place::graph::{Graph, Mirror, Net, build_net};
+use crate::draw::place::graph::{Graph, Net, build_net};
 use crate::draw::place::initial_layout::{self, Start};
 use crate::draw::place::layout_penalty::Crowding;
 use crate::draw::prelude::*;
@@ -27,30 +27,23 @@ struct Candidate {
     cost: f64,
     /// The factor of the cost.
     favour: f64,
-    mirror: Option<Mirror>,
     joints: Vec<Point>,
 }
 
 impl Candidate {
-    /// Creates a centred layout, or one as symmetric as its start; returns `None` if its cost is not finite.
+    /// Creates a layout; returns `None` if its cost is not finite.
     fn new(
         crowding: &Crowding,
         mut at: Vec<Point>,
         start: &Start,
         favour: f64,
     ) -> Option<Candidate> {
-        match &start.mirror {
-            Some(mirror) => mirror.make_symmetric(&mut at),
-            None => centre_layout(&mut at),
-        }
         at.truncate(crowding.graph.joints);
         let favour = favour * if start.drawn { 0.85 } else { 1.0 };
-        let favour = favour * if start.mirror.is_some() { 0.75 } else { 1.0 };
         let cost = crowding.layout_cost(&at) * favour;
-        cost.is_finite().then(|| Candidate {
+        cost.is_finite().then_some(Candidate {
             cost,
             favour,
-            mirror: start.mirror.clone(),
             joints: at,
         })
     }
@@ -60,8 +53,8 @@ impl Candidate {
         if !crowding.is_violated(&self.joints) {
             return;
         }
-        crowding.anneal_layout(&mut self.joints, self.mirror.as_ref());
-        // a symmetric or familiar drawing is worth something, not a crossing
+        crowding.anneal_layout(&mut self.joints);
+        // a familiar drawing is worth something, not a crossing
         let favour = if crowding.is_violated(&self.joints) {
             1.0
         } else {
@@ -71,15 +64,8 @@ impl Candidate {
     }
 }
 
-/// Returns the best candidates and the best symmetric ones, whatever these cost before they are polished.
-fn worth_polishing(mut candidates: Vec<Candidate>) -> Vec<Candidate> {
-    candidates.sort_by(|a, b| a.cost.total_cmp(&b.cost));
-    let symmetric = candidates.iter().filter(|c| c.mirror.is_some());
-    let symmetric: Vec<Candidate> = symmetric.take(2).cloned().collect();
-    candidates.truncate(5);
-    candidates.extend(symmetric);
-    candidates
-}
+/// The candidates that are polished.
+const POLISHED: usize = 5;
 
 /// Finds a layout of the graph. Starts also from the given places of the joints.
 pub(crate) fn find_layout(graph: &Graph, hints: &[Vec<Point>]) -> Layout {
@@ -102,23 +88,24 @@ pub(crate) fn find_layout(graph: &Graph, hints: &[Vec<Point>]) -> Layout {
             candidates.extend(take(&relaxed, 1.0 - 1e-3 * f64::from(part)));
         }
     }
-    let polished = worth_polishing(candidates).into_iter().map(|mut c| {
-        c.polish_layout(&crowding);
-        c
-    });
-    let best = polished.min_by(|a, b| a.cost.total_cmp(&b.cost));
-    let is_symmetric = best.as_ref().is_some_and(|c| c.mirror.is_some());
-    let mut joints = best.map_or_else(|| vec![[0.0; 2]; graph.joints], |c| c.joints);
-    if !is_symmetric {
-        level_layout(graph, &mut joints);
+    candidates.sort_by(|a, b| a.cost.total_cmp(&b.cost));
+    candidates.truncate(POLISHED);
+    for candidate in &mut candidates {
+        candidate.polish_layout(&crowding);
     }
+    let best = candidates
+        .into_iter()
+        .min_by(|a, b| a.cost.total_cmp(&b.cost));
+    let mut joints = best.map_or_else(|| vec![[0.0; 2]; graph.joints], |c| c.joints);
+    level_layout(graph, &mut joints);
     let hubs = place_hubs(graph, &net, &joints);
     Layout { joints, hubs }
 }
 
 /// Lays the longest direction level, with the frame below; a side of the frame where no direction is longer.
 fn level_layout(graph: &Graph, at: &mut [Point]) {
-    centre_layout(at);
+    let middle = mean(at.iter().copied());
+    at.iter_mut().for_each(|p| *p = sub(*p, middle));
     let sum = |f: &dyn Fn(&Point) -> f64| at.iter().map(f).sum::<f64>();
     let (xx, yy, xy) = (
         sum(&|p| p[0] * p[0]),
@@ -243,9 +230,4 @@ fn relax_stress(at: &mut [Point], far: &[Vec<f64>], rounds: usize) {
             }
         }
     }
-}
-
-fn centre_layout(at: &mut [Point]) {
-    let middle = mean(at.iter().copied());
-    at.iter_mut().for_each(|p| *p = sub(*p, middle));
 }

@@ -1,8 +1,10 @@
 //! How bad a layout is, and small moves that make it better.
 
-use crate::draw::place::graph::{Dice, Graph, Mirror, joint_ring, link_radius};
+use crate::draw::place::graph::{Graph, joint_ring, link_radius};
 use crate::draw::prelude::*;
 use crate::svg::plane::{are_apart, polygon_area, segments_cross};
+use chacha20::ChaCha8Rng;
+use chacha20::rand_core::{Rng, SeedableRng};
 
 /// Joints nearer than this are too near.
 const JOINTS: f64 = 0.62;
@@ -153,36 +155,29 @@ impl Crowding<'_> {
     }
 
     /// Anneals the layout by moves of single joints. The result is the same for the same graph.
-    pub(crate) fn anneal_layout(&self, at: &mut Vec<Point>, mirror: Option<&Mirror>) {
+    pub(crate) fn anneal_layout(&self, at: &mut Vec<Point>) {
         let n = at.len();
         if n < 2 {
             return;
         }
         let sides: usize = self.graph.links.iter().map(Vec::len).sum();
         let moves = (3_000_000 / (8 * (sides + n)).max(1)).clamp(200, 6000);
-        let mut dice = Dice::new(n as u64);
+        let mut random = ChaCha8Rng::seed_from_u64(n as u64);
+        let mut unit = || (random.next_u64() >> 11) as f64 / (1u64 << 53) as f64;
         let mut now = at.clone();
         let mut cost = self.layout_cost(at);
         let mut least = cost;
         for step in 0..moves {
             let cool = 1.0 - step as f64 / moves as f64;
-            let j = dice.random_below(n);
-            let twin = mirror.map_or(j, |m| m.image_of(j));
+            let j = ((unit() * n as f64) as usize).min(n - 1);
             let reach = 1.6 * cool * cool + 0.05;
-            let old = [now[j], now[twin]];
-            now[j] = add(
-                now[j],
-                [reach * dice.random_signed(), reach * dice.random_signed()],
-            );
-            if twin != j {
-                now[twin] = [now[j][0], -now[j][1]];
-            } else if mirror.is_some() {
-                now[j][1] = 0.0;
-            }
+            let old = now[j];
+            let by = [unit(), unit()].map(|x| reach * (2.0 * x - 1.0));
+            now[j] = add(now[j], by);
             let after = self.layout_cost(&now);
             let gain = cost - after;
-            if gain < 0.0 && dice.random_unit() > (gain / (1.2 * cool * cool + 1e-9)).exp() {
-                (now[j], now[twin]) = (old[0], old[1]);
+            if gain < 0.0 && unit() > (gain / (1.2 * cool * cool + 1e-9)).exp() {
+                now[j] = old;
                 continue;
             }
             cost = after;

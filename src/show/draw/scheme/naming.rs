@@ -1,14 +1,15 @@
 //! Placement of the names of joints and links and of the numbers of contours.
 
+use crate::draw::naming::{Name, place_names};
 use crate::draw::prelude::*;
 use crate::draw::scheme::{Scheme, Share};
 use crate::draw::sheet::shapes::{HALF, grid_points, outline_sides, rounded_path};
-use crate::svg::labels::{AvoidedLine, LabelPlace, Wish, place_labels};
+use crate::svg::labels::{AvoidedLine, LabelPlace, Wish};
 use crate::svg::plane::polygon_area;
 
 impl Scheme<'_> {
     /// Returns the places and texts of the ids of joints and links and of the numbers of contours, in this order.
-    pub(super) fn place_labels(&self) -> Vec<(LabelPlace, String)> {
+    pub(super) fn place_labels(&self) -> Vec<(LabelPlace, Name)> {
         let around = |i| {
             let side = 2.0 * self.joint_radius(i);
             Rect::around(self.at.joints[i], side, side)
@@ -16,9 +17,13 @@ impl Scheme<'_> {
         let mut taken: Vec<Rect> = (0..self.parts.joints.len()).map(around).collect();
         let lines = self.link_lines();
         // ids stay off links, numbers of contours off nothing but labels
-        let links = place_labelled(self.link_wishes(), &mut taken, &[]);
-        let contours = place_labelled(self.contour_wishes(), &mut taken, &lines);
-        let joints = place_labelled(self.joint_wishes(), &mut taken, &lines);
+        let at_hub = |l: usize, _| (self.at.hubs[l], HALF, self.inside_link(l));
+        let names = self.subject.link_names(&self.parts.links, at_hub);
+        let links = place_names(names, &mut taken, &[]);
+        let contours = place_names(self.contour_numbers(), &mut taken, &lines);
+        let beside = |(i, &j)| (j, self.at.joints[i], self.joint_radius(i));
+        let spots: Vec<_> = self.parts.joints.iter().enumerate().map(beside).collect();
+        let joints = place_names(self.subject.joint_names(&spots), &mut taken, &lines);
         [joints, links, contours].concat()
     }
 
@@ -52,52 +57,24 @@ impl Scheme<'_> {
         lines
     }
 
-    /// Returns the ids of links, each placed on its link.
-    fn link_wishes(&self) -> Vec<(Wish, String)> {
-        let links = self.parts.links.iter();
-        let ids: Vec<&str> = links
-            .map(|&l| self.subject.mechanism.links[l].id.as_str())
-            .collect();
-        let one = |(l, text): (usize, String)| {
-            let wish = Wish {
-                first: self.inside_link(l),
-                ..Wish::for_text(&text, 12.0, self.at.hubs[l], HALF)
-            };
-            (wish, text)
-        };
-        let texts = shorten_names(&ids, 12.0, 150.0).into_iter();
-        texts.enumerate().map(one).collect()
-    }
-
     /// Returns the numbers of contours, each placed inside its contour.
-    fn contour_wishes(&self) -> Vec<(Wish, String)> {
+    fn contour_numbers(&self) -> Vec<Name> {
         let one = |c: usize| {
             let text = format!("{}", c + 1);
-            let middles = self.inside_contour(c);
+            let first = self.inside_contour(c);
             let wish = Wish {
                 width: text_width(&text, SMALL) + 8.0,
                 height: 16.0,
-                anchor: middles.first().map_or([0.0, 0.0], |f| f.0),
+                anchor: first.first().map_or([0.0, 0.0], |f| f.0),
                 clear: 0.0,
-                first: middles,
+                first,
             };
-            (wish, text)
+            Name {
+                wish,
+                ..Name::small("small".to_owned(), text, [0.0; 2], 0.0)
+            }
         };
         (0..self.parts.contours.len()).map(one).collect()
-    }
-
-    /// Returns the ids of joints, to be placed next to their joints.
-    fn joint_wishes(&self) -> Vec<(Wish, String)> {
-        let joints = self.parts.joints.iter();
-        let ids: Vec<&str> = joints
-            .map(|&j| self.subject.mechanism.joints[j].id.as_str())
-            .collect();
-        let one = |(i, text): (usize, String)| {
-            let wish = Wish::for_text(&text, SMALL, self.at.joints[i], self.joint_radius(i));
-            (wish, text)
-        };
-        let texts = shorten_names(&ids, SMALL, 150.0).into_iter();
-        texts.enumerate().map(one).collect()
     }
 
     /// Middles for the id within a link, the best first.
@@ -138,71 +115,68 @@ impl Scheme<'_> {
         out
     }
 
-    /// Middles for the number within a contour, the best first.
+    /// Middles for the number within a contour, the best first: on its own tint if any of that can be seen, near to what is its own.
     fn inside_contour(&self, c: usize) -> Vec<(Point, f64)> {
-        let of = &self.parts.graph.contours[c];
-        let polygon = self.contour_outline(c);
-        let covers: Vec<Vec<Point>> = (0..self.parts.contours.len())
-            .filter(|&other| other != c)
-            .map(|other| self.contour_outline(other))
-            .filter(|other| polygon_area(other) < polygon_area(&polygon))
-            .chain((0..self.rings.len()).map(|l| self.link_corners(l)))
-            .collect();
-        let mut near: Vec<(Point, f64)> = grid_points(&polygon, 15)
-            .into_iter()
-            .map(|p| {
-                let edges =
-                    (0..self.rings.len()).flat_map(|l| outline_sides(&self.link_corners(l)));
-                let d = edges
-                    .map(|(a, b)| to_segment(p, a, b))
-                    .fold(f64::INFINITY, f64::min);
-                (p, d)
-            })
-            .collect();
-        // nearest to what is the contour's own
-        let before = &self.parts.graph.contours[..c];
-        let own: Vec<Point> = of
-            .iter()
-            .filter(|j| !before.iter().any(|b| b.contains(j)))
-            .map(|&j| self.at.joints[j])
-            .collect();
-        let own = mean(
-            if own.is_empty() {
-                polygon.iter()
-            } else {
-                own.iter()
-            }
-            .copied(),
+        let (of, before) = (
+            &self.parts.graph.contours[c],
+            &self.parts.graph.contours[..c],
         );
-        near.sort_by(|a, b| b.1.total_cmp(&a.1));
-        near.retain(|(_, d)| *d > 14.0);
-        let mut out: Vec<(Point, f64)> = near
-            .iter()
-            .map(|&(p, d)| {
-                // on its own tint, if any of that can be seen
-                let hidden = covers.iter().any(|c| is_inside(p, c));
-                let hidden = if hidden { 6.0 } else { 0.0 };
-                let crowded = 0.02 * (40.0 - d).max(0.0);
-                (p, hidden + crowded + 0.012 * plane_norm(sub(p, own)))
-            })
-            .collect();
+        let polygon = self.contour_outline(c);
+        let own = of.iter().filter(|j| !before.iter().any(|b| b.contains(j)));
+        let own: Vec<Point> = own.map(|&j| self.at.joints[j]).collect();
+        let own = if own.is_empty() { &polygon } else { &own };
+        let own = mean(own.iter().copied());
+        let (mut points, _) = self.free_points(c);
+        if points.is_empty() {
+            points = grid_points(&polygon, STEPS);
+        }
+        let sides = self.all_sides();
+        let near = points.into_iter().map(|p| (p, side_distance(p, &sides)));
+        let near = near.filter(|(_, d)| *d > 14.0).map(|(p, d)| {
+            let crowded = 0.02 * (40.0 - d).max(0.0);
+            (p, crowded + 0.012 * plane_norm(sub(p, own)))
+        });
+        let mut out: Vec<(Point, f64)> = near.collect();
         out.sort_by(|a, b| a.1.total_cmp(&b.1));
         if out.is_empty() {
             out.push((mean(polygon.iter().copied()), 3.0));
         }
         out
     }
+
+    /// Returns the sides of all links.
+    fn all_sides(&self) -> Vec<(Point, Point)> {
+        let links = 0..self.rings.len();
+        let sides = links.flat_map(|l| outline_sides(&self.link_corners(l)));
+        sides.collect()
+    }
+
+    /// Returns points of a contour that lie in no smaller contour and on no link, and the area in square pixels that each stands for.
+    fn free_points(&self, c: usize) -> (Vec<Point>, f64) {
+        let polygon = self.contour_outline(c);
+        let own = polygon_area(&polygon);
+        let contours = 0..self.parts.contours.len();
+        let smaller = contours.map(|other| self.contour_outline(other));
+        let smaller = smaller.filter(|other| polygon_area(other) < own);
+        let plates = (0..self.rings.len()).filter(|&l| self.rings[l].len() > 2);
+        let covers = smaller.chain(plates.map(|l| self.link_corners(l)));
+        let (covers, sides): (Vec<Vec<Point>>, _) = (covers.collect(), self.all_sides());
+        let mut points = grid_points(&polygon, STEPS);
+        let cell = own / points.len().max(1) as f64;
+        points.retain(|&p| {
+            side_distance(p, &sides) >= HALF && !covers.iter().any(|cover| is_inside(p, cover))
+        });
+        (points, cell)
+    }
 }
 
-/// Finds places for labels, and marks their places as taken.
-fn place_labelled(
-    labels: Vec<(Wish, String)>,
-    taken: &mut Vec<Rect>,
-    lines: &[AvoidedLine],
-) -> Vec<(LabelPlace, String)> {
-    let (wishes, texts): (Vec<Wish>, Vec<String>) = labels.into_iter().unzip();
-    let places = place_labels(&wishes, taken, lines);
-    places.into_iter().zip(texts).collect()
+/// The points across a contour at which its visible part is looked for.
+const STEPS: usize = 24;
+
+/// Returns the distance of a point from the nearest side.
+fn side_distance(p: Point, sides: &[(Point, Point)]) -> f64 {
+    let each = sides.iter().map(|&(a, b)| to_segment(p, a, b));
+    each.fold(f64::INFINITY, f64::min)
 }
 
 /// Half the width of the band of a contour without an area.
@@ -242,30 +216,8 @@ impl Scheme<'_> {
     pub(super) fn is_seen(&self, c: usize) -> bool {
         /// Square pixels.
         const ENOUGH: f64 = 150.0;
-        const STEPS: usize = 24;
-        let polygon = self.contour_outline(c);
-        let own = polygon_area(&polygon);
-        let smaller: Vec<Vec<Point>> = (0..self.parts.contours.len())
-            .map(|other| self.contour_outline(other))
-            .filter(|other| polygon_area(other) < own)
-            .collect();
-        let links: Vec<Vec<Point>> = (0..self.rings.len())
-            .map(|l| self.link_corners(l))
-            .collect();
-        let all = grid_points(&polygon, STEPS);
-        let cell = own / all.len().max(1) as f64;
-        let covered = |p: Point| {
-            smaller.iter().any(|s| is_inside(p, s))
-                || links.iter().zip(&self.rings).any(|(corners, ring)| {
-                    let filled = ring.len() > 2 && is_inside(p, corners);
-                    filled
-                        || outline_sides(corners)
-                            .iter()
-                            .any(|&(a, b)| to_segment(p, a, b) < HALF)
-                })
-        };
-        let free = all.iter().filter(|p| !covered(**p)).count();
-        free as f64 * cell > ENOUGH
+        let (free, cell) = self.free_points(c);
+        free.len() as f64 * cell > ENOUGH
     }
 
     /// Returns a contour without an area as a narrow band along it.

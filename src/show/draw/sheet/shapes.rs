@@ -101,82 +101,19 @@ pub(crate) fn rounded_path(corners: &[Point], r: f64) -> String {
     d
 }
 
-/// Returns the hatching within a polygon or bar.
-pub(crate) fn hatch_path(corners: &[Point]) -> String {
-    hatch_with(corners, HALF - 1.0, 6.5)
-}
-
-pub(crate) fn hatch_with(corners: &[Point], half: f64, step: f64) -> String {
-    // a polygon that stands for the outline: arcs as short lines
-    let mut area: Vec<Vec<Point>> = Vec::new();
-    for (a, b) in outline_sides(corners) {
+/// Returns the hatching along the sides of a polygon or bar: strokes across a band of width 2 `half`.
+pub(crate) fn hatch_path(corners: &[Point], half: f64, step: f64) -> String {
+    let strokes = |(a, b): (Point, Point)| {
         let along = unit(sub(b, a));
-        let start = (-along[0]).atan2(along[1]);
-        let arc = |from: f64, at: Point| {
-            (0..=12).map(move |i| {
-                let angle = from + std::f64::consts::PI * f64::from(i) / 12.0;
-                add(at, [half * angle.cos(), half * angle.sin()])
-            })
-        };
-        area.push(
-            arc(start, b)
-                .chain(arc(start + std::f64::consts::PI, a))
-                .collect(),
-        );
-    }
-    if corners.len() > 2 {
-        area.push(corners.to_vec());
-    }
-    let across = |p: Point| p[0] + p[1];
-    let all = area.iter().flatten().map(|&p| across(p));
-    let (low, high) = all.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), v| {
-        (l.min(v), h.max(v))
-    });
-    let mut d = String::new();
-    let mut level = low + step;
-    let gap = step * std::f64::consts::SQRT_2;
-    while level < high && d.len() < 40_000 {
-        for (a, b) in level_spans(&area, level) {
-            let (x1, x2) = ((level + a) / 2.0, (level + b) / 2.0);
-            let _ = write!(
-                d,
-                "M{} {}L{} {}",
-                format_number(x1),
-                format_number(level - x1),
-                format_number(x2),
-                format_number(level - x2)
-            );
-        }
-        level += gap;
-    }
-    d
-}
-
-/// Returns the intersection of the line x + y = level with a union of polygons, as ranges of x - y.
-fn level_spans(area: &[Vec<Point>], level: f64) -> Vec<(f64, f64)> {
-    let mut ranges: Vec<(f64, f64)> = Vec::new();
-    for polygon in area {
-        let mut cuts: Vec<f64> = Vec::new();
-        for (i, &a) in polygon.iter().enumerate() {
-            let b = polygon[(i + 1) % polygon.len()];
-            let (s, t) = (a[0] + a[1] - level, b[0] + b[1] - level);
-            if (s > 0.0) != (t > 0.0) {
-                let f = s / (s - t);
-                cuts.push((a[0] - a[1]) * (1.0 - f) + (b[0] - b[1]) * f);
-            }
-        }
-        cuts.sort_by(f64::total_cmp);
-        ranges.extend(cuts.chunks_exact(2).map(|c| (c[0], c[1])));
-    }
-    ranges.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let mut out: Vec<(f64, f64)> = Vec::new();
-    for r in ranges {
-        match out.last_mut() {
-            Some(last) if r.0 <= last.1 => last.1 = last.1.max(r.1),
-            _ => out.push(r),
-        }
-    }
-    out
+        let off = scale(add(along, [-along[1], along[0]]), half);
+        let room = (plane_norm(sub(b, a)) - 2.0 * half).max(0.0);
+        (0..=(room / step) as i32).map(move |i| {
+            let on = add(a, scale(along, half + step * f64::from(i)));
+            path_data(&[sub(on, off), add(on, off)], false)
+        })
+    };
+    let sides = outline_sides(corners).into_iter();
+    sides.flat_map(strokes).collect()
 }
 
 /// Returns the points of a grid within a polygon.

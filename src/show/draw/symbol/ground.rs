@@ -71,24 +71,21 @@ impl Ground {
         bounds_of(&corners)
     }
 
-    pub(crate) fn draw_ground_lines(&self, sheet: &mut Sheet) {
+    /// Returns its lines and the strokes of its hatching.
+    pub(crate) fn ground_shapes(&self) -> Vec<Shape> {
         let (side, out) = self.side_and_out();
-        if let Some((a, b)) = self.stem_line() {
-            sheet.draw_line("bone", a, b);
-        }
-        sheet.draw_line(
-            "bone",
-            add(self.to, scale(side, self.half)),
-            sub(self.to, scale(side, self.half)),
-        );
-        let mut d = String::new();
+        let stem = self.stem_line().map(|(a, b)| vec![a, b]);
+        let across = scale(side, self.half);
+        let line = vec![add(self.to, across), sub(self.to, across)];
+        let solid = stem.into_iter().chain([line]);
         let strokes = ((self.half - 1.0) / 2.5).floor() as i32 + 1;
-        for i in 0..strokes {
+        let strokes = (0..strokes).map(|i| {
             let a = add(self.to, scale(side, self.half - 1.0 - 5.0 * f64::from(i)));
-            let b = add(add(a, scale(out, 6.0)), scale(side, -4.0));
-            d += &path_data(&[a, b], false);
-        }
-        sheet.draw_path("fine", &d);
+            vec![a, add(add(a, scale(out, 6.0)), scale(side, -4.0))]
+        });
+        let solid = solid.map(|points| Shape::line("bone", points));
+        let strokes = strokes.map(|points| Shape::line("fine", points));
+        solid.chain(strokes).collect()
     }
 }
 

@@ -147,7 +147,7 @@ impl State<'_> {
         let (contours, couplings) = (&self.found.per_contour, &self.found.per_coupling);
         let shares = contours.iter().map(contour);
         Table::from_rows(
-            "contour | joints | σ in this order | in any order | in any basis",
+            "contour | joints | σ, this loop order | any loop order | any set of independent loops",
             shares.chain(couplings.iter().map(coupling)),
         )
     }

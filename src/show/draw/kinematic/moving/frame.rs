@@ -1,6 +1,7 @@
 //! One picture of a moving scheme: where a pose has carried everything.
 
-use crate::draw::kinematic::body::{Body, Marked, draw_mark};
+use crate::draw::kinematic::body::{Marked, draw_mark};
+use crate::draw::kinematic::wire::{Wire, WireForm};
 use crate::draw::kinematic::{Kinematic, MovingPicture};
 use crate::draw::place::projection::{cross, norm, scale as times};
 use crate::draw::prelude::*;
@@ -15,13 +16,6 @@ const FLAG: f64 = 26.0;
 const STILL: f64 = 2.0;
 /// What turns by less than this, in radians, is not seen to.
 const UPRIGHT: f64 = 0.05;
-
-/// A line on a link that moves: what a block slides along, or a flag that shows it turn.
-pub(crate) struct LinkLine {
-    pub(crate) class: &'static str,
-    pub(crate) link: LinkId,
-    pub(crate) ends: [Vector; 2],
-}
 
 impl Kinematic<'_> {
     /// Returns the points of a link that its shape passes through.
@@ -40,7 +34,7 @@ impl Kinematic<'_> {
     }
 
     /// Returns the lines on links that move over some poses. Rails are as long as the travel of their blocks.
-    pub(crate) fn moving_lines(&mut self, poses: &[Carried<'_>]) -> Vec<LinkLine> {
+    pub(crate) fn moving_lines(&mut self, poses: &[Carried<'_>]) -> Vec<Wire> {
         let slides = self.slide_ranges(poses);
         self.lengthen_rails(&slides);
         let mut lines = self.guide_lines(&slides);
@@ -49,21 +43,20 @@ impl Kinematic<'_> {
     }
 
     /// Returns the lines that blocks slide along, on moving links.
-    fn guide_lines(&self, slides: &[Option<[f64; 2]>]) -> Vec<LinkLine> {
+    fn guide_lines(&self, slides: &[Option<[f64; 2]>]) -> Vec<Wire> {
         let one = |(i, range): (usize, &Option<[f64; 2]>)| {
             let (range, axis) = ((*range)?, self.slide_axis(i)?);
             let (_, link) = self.carrier_links(i);
             let ends = range.map(|x| add(self.places[i].point, times(axis, x)));
-            let class = "guide";
             let there = !self.is_frame(link) && range[1] > range[0];
-            there.then_some(LinkLine { class, link, ends })
+            there.then(|| self.line_wire("guide", link, ends))
         };
         slides.iter().enumerate().filter_map(one).collect()
     }
 
     /// Returns a flag on each link that turns while none of its drawn lines move: a rod about its own axis, a gear about its
     /// axle.
-    fn flag_lines(&self, poses: &[Carried<'_>]) -> Vec<LinkLine> {
+    fn flag_lines(&self, poses: &[Carried<'_>]) -> Vec<Wire> {
         let one = |row: usize| {
             let link = self.links[row].0;
             let points = self.points_in_space(row);
@@ -91,38 +84,22 @@ impl Kinematic<'_> {
             };
             let from = self.middle_in_space(row);
             let to = add(from, times(out, FLAG / self.projection.scale));
-            let (class, ends) = ("flag", [from, to]);
-            Some(LinkLine { class, link, ends })
+            Some(self.line_wire("flag", link, [from, to]))
         };
         (0..self.links.len()).filter_map(one).collect()
     }
 
-    /// Returns the shape of a link at the pose in the file.
-    pub(crate) fn body_at_rest(&self, row: usize) -> Body {
-        self.body_in(row, |p| p)
-    }
-
-    /// Returns the shape of a link at the place where a pose has moved it.
-    fn body_in(&self, row: usize, carried: impl Fn(Vector) -> Vector) -> Body {
-        let flat = |p| self.projection.flat_point(carried(p));
-        if let Some(arc) = self.arc_in_space(row) {
-            return Body {
-                points: arc.into_iter().map(flat).collect(),
-                plate: false,
-            };
+    fn line_wire(&self, class: &'static str, link: LinkId, ends: [Vector; 2]) -> Wire {
+        Wire {
+            row: self.link_row(link),
+            class,
+            form: WireForm::Line,
+            points: ends.to_vec(),
         }
-        let facet = self.facets.get(row).cloned().flatten();
-        let corners = facet.unwrap_or_else(|| self.points_in_space(row));
-        let flat: Vec<Point> = corners.into_iter().map(flat).collect();
-        Body::new(&flat).bowed_by(self.bows[row])
     }
 
     /// Returns the picture of a pose, or of the pose of the file.
-    pub(crate) fn picture_in(
-        &self,
-        pose: Option<&Carried<'_>>,
-        lines: &[LinkLine],
-    ) -> MovingPicture {
+    pub(crate) fn picture_in(&self, pose: Option<&Carried<'_>>, lines: &[Wire]) -> MovingPicture {
         let carried = |link, p| pose.map_or(p, |c| c.carried_point(link, p));
         let flat = |link, p| self.projection.flat_point(carried(link, p));
         let place = |(i, own): (usize, &JointInSpace)| {
@@ -130,21 +107,15 @@ impl Kinematic<'_> {
             pose.map_or_else(|| own.clone(), |c| c.carried_place(rides, guides, own))
         };
         let places: Vec<JointInSpace> = self.places.iter().enumerate().map(place).collect();
-        let moving = (0..self.links.len()).filter(|&l| !self.is_frame(self.links[l].0));
-        let body = |l: usize| (l, self.body_in(l, |p| carried(self.links[l].0, p)));
-        let on_paper = |l: &LinkLine| (l.class, l.ends.map(|p| flat(l.link, p)));
-        let couplings = self.subject.mechanism.couplings_in(self.subject.state);
+        let wires = self.wires.iter().chain(lines);
+        let wires = wires.map(|w| self.draw_wire(w, |p| carried(self.links[w.row].0, p)));
         MovingPicture {
             points: self.points.iter().map(|p| flat(p.link, p.place)).collect(),
             at: places
                 .iter()
                 .map(|p| self.projection.flat_point(p.point))
                 .collect(),
-            bodies: moving.map(body).collect(),
-            lines: lines.iter().map(on_paper).collect(),
-            circles: couplings
-                .flat_map(|c| self.pitch_curves(c, &places))
-                .collect(),
+            wires: wires.collect(),
             places,
             arrows: Vec::new(),
         }
@@ -152,25 +123,16 @@ impl Kinematic<'_> {
 
     /// Draws everything but the symbols of joints; parts that are `named` stand in groups that say what each is.
     pub(crate) fn draw_picture(&self, sheet: &mut Sheet, picture: &MovingPicture, named: bool) {
-        for (l, body) in &picture.bodies {
-            let (look, d) = (
-                self.link_classes(*l, body),
-                path_data(&body.points, body.plate),
-            );
-            let id = &self.subject.mechanism.links[self.links[*l].0].id;
-            match body.points.len() {
-                0 | 1 => {}
-                _ if named => sheet.draw_group("data-link", id, [0.0; 2], |s| {
-                    s.path_with_tip(&look, &d, &format!("link {id}"));
-                }),
-                _ => sheet.draw_path(&look, &d),
+        for wire in picture.wires.iter().filter(|w| w.points.len() > 1) {
+            let d = path_data(&wire.points, wire.closed);
+            let id = &self.subject.mechanism.links[self.links[wire.row].0].id;
+            if named && wire.link {
+                sheet.draw_group("data-link", id, [0.0; 2], |s| {
+                    s.path_with_tip(&wire.class, &d, &format!("link {id}"));
+                });
+            } else {
+                sheet.draw_path(&wire.class, &d);
             }
-        }
-        for &(class, [a, b]) in &picture.lines {
-            sheet.draw_line(class, a, b);
-        }
-        for c in &picture.circles {
-            sheet.draw_path("fine pitch", &path_data(c, true));
         }
         for (marked, &p) in self.points.iter().zip(&picture.points) {
             if named {

@@ -16,8 +16,11 @@ impl Kinematic<'_> {
     /// Returns a scene with everything that is fixed to links.
     pub(super) fn build_scene(&self) -> Scene {
         let mut out = self.bare_scene();
-        self.add_links(&mut out);
-        self.add_pitch_circles(&mut out);
+        for wire in &self.wires {
+            let class = self.draw_wire(wire, |p| p).class;
+            let form = wire.form.word();
+            out.add_wire(self, wire.row, &class, form, &wire.points, None);
+        }
         self.add_points(&mut out);
         let order = self.outer_first();
         self.add_joints(&mut out, &order);
@@ -52,43 +55,6 @@ impl Kinematic<'_> {
             moves: Vec::new(),
             stresses: Vec::new(),
             swaps: Vec::new(),
-        }
-    }
-
-    /// Adds the shapes of the moving links.
-    fn add_links(&self, out: &mut Scene) {
-        for row in 0..self.links.len() {
-            if self.is_frame(self.links[row].0) {
-                continue;
-            }
-            let body = self.body_at_rest(row);
-            let class = self.link_classes(row, &body);
-            match self.arc_in_space(row).or_else(|| self.bowed_in_space(row)) {
-                Some(points) => out.add_wire(self, row, &class, "line", &points, None),
-                None => {
-                    let facet = self.facets[row].clone();
-                    let points = facet.unwrap_or_else(|| self.points_in_space(row));
-                    out.add_wire(self, row, &class, "hull", &points, None);
-                }
-            }
-        }
-    }
-
-    /// Adds the pitch circles of gears and the pitch lines of racks, each on a link that moves.
-    fn add_pitch_circles(&self, out: &mut Scene) {
-        let m = self.subject.mechanism;
-        for coupling in m.couplings_in(self.subject.state) {
-            let other = |end: usize| m.joints[coupling.ends[1 - end].joint].links;
-            for (end, curve) in self.pitch_curves_in_space(coupling, &self.places) {
-                let own = m.joints[coupling.ends[end].joint].links.into_iter();
-                let moving = own.filter(|l| !self.is_frame(*l));
-                // The carrier of both joints is the last choice.
-                let Some(link) = moving.min_by_key(|l| other(end).contains(l)) else {
-                    continue;
-                };
-                let row = self.link_row(link);
-                out.add_wire(self, row, "fine pitch", "loop", &curve, None);
-            }
         }
     }
 
@@ -140,7 +106,8 @@ impl Kinematic<'_> {
         };
         let frame = self.link_row(self.subject.mechanism.frame_link());
         let place = self.places[i].point;
-        let shapes = ground_below(self.spots[i].symbol.reach_of_room() + 6.0);
+        let reach = self.spots[i].symbol.reach_of_room() + 6.0;
+        let shapes = Ground::under_pivot([0.0; 2], [0.0, reach]).ground_shapes();
         let symbol = out.symbol_number(shapes.iter().map(Piece::on_paper).collect());
         let mut below = self.standing_json(place, [frame; 2], symbol);
         below["turned"] = json!(true);
@@ -219,17 +186,6 @@ fn upright_axis(view: &View) -> Vector {
         (true, true) => scale(Z, -1.0),
         _ => view.up,
     }
-}
-
-/// Returns the ground below a joint.
-pub(crate) fn ground_below(reach: f64) -> Vec<Shape> {
-    let strokes = (0..5).map(|i| {
-        let x = 10.0 - 5.0 * f64::from(i);
-        Shape::line("fine", vec![[x, reach], [x - 4.0, reach + 6.0]])
-    });
-    let stem = Shape::line("bone", vec![[0.0, 0.0], [0.0, reach]]);
-    let line = Shape::line("bone", vec![[-11.0, reach], [11.0, reach]]);
-    [stem, line].into_iter().chain(strokes).collect()
 }
 
 impl Kinematic<'_> {
