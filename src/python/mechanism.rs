@@ -73,7 +73,7 @@ impl Mechanism {
         &self.0.name
     }
 
-    fn export(&self, py: Python<'_>, format: &str) -> PyResult<String> {
+    pub(crate) fn export(&self, py: Python<'_>, format: &str) -> PyResult<String> {
         py.detach(|| ozols::export(&self.0, format)).map_err(failed)
     }
 
