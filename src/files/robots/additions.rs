@@ -1,4 +1,4 @@
-//! Elements in addition to links and joints: plugins that weld links or couple joints, and unknown elements. Those that could
+//! Elements in addition to links and joints: plugins that couple joints, and unknown elements. Those that could
 //! close a loop or couple joints are reported and counted; the others (friction, colours, publishers) have no effect on the
 //! kinematics.
 
@@ -6,8 +6,7 @@ use crate::robots::description::kinematics::{link_places, spanning_tree};
 use crate::robots::prelude::*;
 use crate::robots::sdf::joints::read_joint;
 use crate::robots::sdf::scene::{
-    Placed, Scoped, SdfScene, absolute_name, insert, joint_end, moves_with, named_place,
-    resolve_places,
+    Placed, Scoped, SdfScene, absolute_name, insert, joint_end, named_place, resolve_places,
 };
 
 /// Rows that an element of unknown meaning may constrain: all freedoms between two links.
@@ -40,55 +39,20 @@ pub(crate) fn add_coupling(e: Element<'_>, joints: [&str; 2], ratio: f64, robot:
     }
 }
 
-/// Reads a plugin. A plugin that makes a joint follow another couples them. One that joins links until they are detached welds them.
+/// Reads a plugin. One that makes a joint follow another couples them; any other is left out.
 ///
 /// # Errors
 /// Returns an error if a multiplier is not a number.
-pub(crate) fn read_plugin(at: &Scoped<'_>, scene: &SdfScene<'_>, robot: &mut Robot) -> Read<()> {
+pub(crate) fn read_plugin(at: &Scoped<'_>, robot: &mut Robot) -> Read<()> {
     let (e, scope) = (at.0, at.1.as_str());
     if let (Some(leader), Some(follower)) = (child_text(e, "joint"), child_text(e, "mimicJoint")) {
         let ratio = e.child_number("multiplier")?.unwrap_or(1.0);
         let joints = [leader, follower].map(|j| absolute_name(scope, j));
         add_coupling(e, joints.each_ref().map(String::as_str), ratio, robot);
-        return Ok(());
-    }
-    match (child_text(e, "parent_link"), child_text(e, "child_link")) {
-        (Some(parent), Some(child)) => {
-            let model = child_text(e, "child_model").unwrap_or("");
-            let own = scope.trim_end_matches("::");
-            let own = own.rsplit("::").next().unwrap_or("");
-            let is_own = ["", "__self__", "__model__", own, &robot.name].contains(&model);
-            let child = if is_own {
-                absolute_name(scope, child)
-            } else {
-                format!("{model}::{child}")
-            };
-            weld_links(e, &[absolute_name(scope, parent), child], scene, robot)?;
-        }
-        _ => leave_out(e, None, robot),
+    } else {
+        leave_out(e, None, robot);
     }
     Ok(())
-}
-
-/// Welds two links in their drawn places. A weld of a missing link is omitted and counted.
-fn weld_links(
-    e: Element<'_>,
-    names: &[String; 2],
-    scene: &SdfScene<'_>,
-    robot: &mut Robot,
-) -> Read<()> {
-    let [Ok((a, at)), Ok((b, _))] = names.each_ref().map(|n| moves_with(scene, n)) else {
-        let [a, b] = names;
-        let what = format!("it welds {a} to {b}, which are not both in the file; omitted");
-        robot.report.leave_out_joint(&label_of(e), MOST_ROWS, what);
-        return Ok(());
-    };
-    if a == b {
-        return Ok(());
-    }
-    let ends = [a, b].map(|l| (l, robot.places[l].inverse().then(&at)));
-    let id = format!("weld-{}-{}", names[0], names[1]);
-    robot.close_loop(e, &id, ends, JointType::Fixed).map(drop)
 }
 
 /// Omits an element of unknown meaning. It is counted if its name suggests that it closes a loop or couples joints, or if it names several
@@ -255,7 +219,7 @@ fn add_joints<'a>(
         new.for_each(|p| p.closes = closes);
     }
     for &e in plugins {
-        read_plugin(&(e, String::new()), &scene, robot)?;
+        read_plugin(&(e, String::new()), robot)?;
     }
     Ok(())
 }

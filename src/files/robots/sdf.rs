@@ -137,7 +137,7 @@ fn read_joints(mut scene: SdfScene<'_>, robot: &mut Robot) -> Read<()> {
         }
     }
     for at in std::mem::take(&mut scene.plugins) {
-        read_plugin(&at, &scene, robot)?;
+        read_plugin(&at, robot)?;
     }
     for e in std::mem::take(&mut scene.unknown) {
         leave_out(e, None, robot);

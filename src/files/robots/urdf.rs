@@ -38,7 +38,6 @@ pub(crate) fn read_urdf(input: Input<'_>) -> Read<Robot> {
             "joint" | "drake:joint" => read_joint(e, &mut robot)?,
             "loop_joint" => loop_joint(e, &mut robot)?,
             "drake:ball_constraint" => ball_constraint(e, &mut robot)?,
-            "constraint" if has_ends(e) => read_constraint(e, &mut robot)?,
             "transmission" | "gazebo" | "ros2_control" => {}
             _ => unknown.push(e),
         }
@@ -118,39 +117,6 @@ fn read_controlled(e: Element<'_>, robot: &mut Robot) -> Read<()> {
     Ok(())
 }
 
-/// Returns true if an element names a parent and a child, like a joint.
-fn has_ends(e: Element<'_>) -> bool {
-    let link = |tag: &str| e.first_child(tag).and_then(|c| c.attribute("link"));
-    link("parent").is_some() && link("child").is_some()
-}
-
-/// Reads `<constraint name type>` with a link, a place and an axis on either side: `parent`, `parent_origin`, `parent_axis`, and
-/// those of the child.
-fn read_constraint(e: Element<'_>, robot: &mut Robot) -> Read<()> {
-    let links = [end_link(e, "parent", robot)?, end_link(e, "child", robot)?];
-    let word = e.attribute("type").unwrap_or("");
-    let Some(joint_type) = joint_of_word(word, CLOSING) else {
-        leave_out(e, None, robot);
-        return Ok(());
-    };
-    let mut sides = [RigidMotion::IDENTITY; 2];
-    for (side, tag) in sides.iter_mut().zip(["parent", "child"]) {
-        let axis = match e.first_child(&format!("{tag}_axis")) {
-            Some(a) => read_direction(e, a)?,
-            None => read_axis(e)?,
-        };
-        let at = e.first_child(&format!("{tag}_origin"));
-        let at = at.map_or(Ok(RigidMotion::IDENTITY), read_place)?;
-        *side = at.then(&RigidMotion::z_to(axis));
-    }
-    let [a, b] = links.map(|l| &robot.links[l]);
-    let unnamed = || format!("constraint-{a}-{b}");
-    let id = e.attribute("name").map_or_else(unnamed, str::to_owned);
-    let ends = [(links[0], sides[0]), (links[1], sides[1])];
-    robot.close_loop(e, &id, ends, joint_type)?;
-    Ok(())
-}
-
 pub(crate) fn read_origin(e: Element<'_>) -> Read<RigidMotion> {
     let Some(o) = e.first_child("origin") else {
         return Ok(RigidMotion::IDENTITY);
@@ -184,13 +150,11 @@ fn named_link(e: Element<'_>, c: Element<'_>, robot: &Robot) -> Read<usize> {
     })
 }
 
+/// Returns the axis of a joint; x by default.
 fn read_axis(e: Element<'_>) -> Read<Vector> {
-    e.first_child("axis")
-        .map_or(Ok(X), |a| read_direction(e, a))
-}
-
-/// Returns the direction that an element of `e` gives; x by default.
-fn read_direction(e: Element<'_>, a: Element<'_>) -> Read<Vector> {
+    let Some(a) = e.first_child("axis") else {
+        return Ok(X);
+    };
     let v = a.read_vector("xyz", X)?;
     if length(v) < 1e-9 {
         let (found, want) = (a.attribute("xyz"), "give a direction such as 0 0 1");
