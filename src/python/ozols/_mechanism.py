@@ -145,8 +145,17 @@ class Mechanism:
         """
         side = None if loops is None else (os.fspath(loops), Path(loops).read_bytes())
         values = [(k, [v] if isinstance(v, (int, float)) else list(v)) for k, v in (pose or {}).items()]
-        options = (side, values, floating, assemble, open, list(models), assembly, frame, _names(outputs))
-        return cls._doubtful(_native.Mechanism.from_robot(path, *options))
+        asked = {
+            "pose": values,
+            "floating": floating,
+            "assemble": assemble,
+            "open": open,
+            "models": [os.fspath(folder) for folder in models],
+            "assembly": assembly,
+            "frame": frame,
+            "outputs": _names(outputs),
+        }
+        return cls._doubtful(_native.Mechanism.from_robot(path, json.dumps(asked, default=_entry), side))
 
     from_urdf = from_mjcf = from_sdf = from_robot
 

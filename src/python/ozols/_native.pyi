@@ -41,15 +41,8 @@ class Mechanism:
     @staticmethod
     def from_robot(
         path: _Path,
+        asked: str,
         loops: tuple[str, bytes] | None,
-        pose: Sequence[tuple[str, Sequence[float]]],
-        floating: bool,
-        assemble: bool,
-        open: bool,
-        models: Sequence[_Path],
-        assembly: str | None,
-        frame: str | None,
-        outputs: Sequence[str],
     ) -> tuple[Mechanism, str]: ...
     def export(self, format: str) -> str: ...
     def draw(self, kind: str, state: str) -> str: ...
