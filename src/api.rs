@@ -147,7 +147,7 @@ pub(crate) fn bytes(path: &Path, limit: usize) -> Result<Vec<u8>, Error> {
 /// let path = std::env::temp_dir().join("ozols-import-bennett.sdf");
 /// std::fs::write(&path, ozols::export(&ozols::built_in("bennett")?, "sdf")?)?;
 /// let read = ozols::import(&path, &ozols::robots::Options::default())?;
-/// assert_eq!((read.mechanism.joints.len(), read.report.left_out()), (4, 0));
+/// assert_eq!((read.mechanism.joints.len(), read.report.left_out), (4, 0));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub fn import(path: impl AsRef<Path>, options: &Options) -> Result<Imported, Error> {

@@ -75,7 +75,7 @@ pub(crate) fn leave_out(e: Element<'_>, own: Option<&str>, robot: &mut Robot) {
     let what = format!(
         "it is not read, though it may close a loop or couple joints{of}; omitted; write it as a joint, a <mimic> or a file of loop closures"
     );
-    robot.report.leave_out_joint(&label_of(e), MOST_ROWS, what);
+    robot.report.leave_out(&label_of(e), MOST_ROWS, what);
 }
 
 /// Returns the name of an element for messages, with the kind of its plugin.

@@ -237,7 +237,7 @@ fn add_coupling(c: &Connection, links: [usize; 2], robot: &mut Robot) {
 fn left_out(c: &Connection, why: &str, robot: &mut Robot) {
     let what = format!("{} is omitted: {why}", c.holds.word());
     let element = c.label();
-    robot.report.leave_out_joint(&element, c.holds.rows(), what);
+    robot.report.leave_out(&element, c.holds.rows(), what);
 }
 
 /// Describes a misfit, such as "0.02 mm and 1.2 degrees".

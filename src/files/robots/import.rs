@@ -91,7 +91,7 @@ fn read_root(
 /// let mjcf = ozols::export(&ozols::built_in("four-bar")?, "mjcf")?;
 /// let none = |_: &str| Err(std::io::ErrorKind::NotFound.into());
 /// let read = import("four-bar.xml", mjcf.as_bytes(), &none, &Options::default())?;
-/// assert_eq!((read.format.word, read.report.left_out()), ("mjcf", 0));
+/// assert_eq!((read.format.word, read.report.left_out), ("mjcf", 0));
 /// assert_eq!(ozols::analyze(&read.mechanism)?[0].redundant, 3);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```

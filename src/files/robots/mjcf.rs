@@ -131,7 +131,7 @@ fn read_bodies<'a>(start: Waiting<'a>, context: &mut Context<'a>, robot: &mut Ro
                 "flexcomp" | "attach" => {
                     let what = "its result when the model is compiled is omitted; save the compiled model from MuJoCo as XML to include it";
                     match e.name() {
-                        "attach" => robot.report.leave_out_joint(&e.label(), 6, what),
+                        "attach" => robot.report.leave_out(&e.label(), 6, what),
                         _ => robot.report.add_approximation(&e.label(), what),
                     }
                 }

@@ -125,7 +125,7 @@ fn read_joints(mut scene: SdfScene<'_>, robot: &mut Robot) -> Read<()> {
         if e.attribute("type") == Some("gearbox") {
             let what =
                 "a gearbox is not read; its coupling (1 row) is omitted; write it as a <mimic>";
-            robot.report.leave_out_coupling(&e.label(), what);
+            robot.report.leave_out(&e.label(), 1, what);
         } else {
             read_joint(e, &scope, &scene, size, robot)?;
         }
@@ -169,7 +169,7 @@ fn read_model<'a>(
             }
             "drake:joint" => {
                 let what = "a joint type of Drake that is not read; its constraints are omitted";
-                robot.report.leave_out_joint(&e.label(), 6, what);
+                robot.report.leave_out(&e.label(), 6, what);
             }
             "drake:weld_constraint" | "drake:ball_constraint" => {
                 e.check_room("constraints", scene.constraints.len())?;

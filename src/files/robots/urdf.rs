@@ -97,7 +97,7 @@ fn read_transmission(e: Element<'_>, robot: &mut Robot) {
         let what = format!(
             "it moves {joints} joints by {actuators}; the coupling (1 row) is omitted; write it as a <mimic>"
         );
-        robot.report.leave_out_coupling(&e.label(), what);
+        robot.report.leave_out(&e.label(), 1, what);
     }
 }
 

@@ -54,10 +54,8 @@ pub struct Report {
     pub assumed: Vec<String>,
     /// Parts, joints and documents that are switched off, loose or not read: their names by kind.
     pub dropped: BTreeMap<String, Vec<String>>,
-    /// Rows of omitted constraints between joint values.
-    pub coupling_rows: usize,
-    /// Rows of omitted constraints of joints.
-    pub constraint_rows: usize,
+    /// Rows of omitted couplings and joints, at most.
+    pub left_out: usize,
     /// Freedoms as a CAD program counts them, for an assembly: 6 a moving part, less all constraints of joints, which is W minus σ.
     pub cad_freedoms: Option<i64>,
     /// Differences from the drawn pose: joints moved, loops left open, floating bases.
@@ -81,22 +79,10 @@ impl Report {
         self.add_approximation(element, what);
     }
 
-    /// Records a coupling of joints that is omitted, one row.
-    pub(crate) fn leave_out_coupling(&mut self, element: &str, what: impl Into<String>) {
-        self.coupling_rows += 1;
+    /// Records an omitted coupling or joint, with its largest possible number of rows.
+    pub(crate) fn leave_out(&mut self, element: &str, rows: usize, what: impl Into<String>) {
+        self.left_out += rows;
         self.add_assumption(element, what);
-    }
-
-    /// Records a constraint between links that is omitted, with its largest possible number of rows.
-    pub(crate) fn leave_out_joint(&mut self, element: &str, rows: usize, what: impl Into<String>) {
-        self.constraint_rows += rows;
-        self.add_assumption(element, what);
-    }
-
-    /// Returns the number of rows omitted from the figures.
-    #[must_use]
-    pub fn left_out(&self) -> usize {
-        self.coupling_rows + self.constraint_rows
     }
 
     pub(crate) fn drop_element(&mut self, kind: &str, name: &str) {
@@ -133,18 +119,9 @@ impl Report {
     #[must_use]
     pub fn list_doubts(&self) -> String {
         let mut out = String::new();
-        if self.coupling_rows > 0 {
-            let n = self.coupling_rows;
-            let what = format!(
-                "{} between joint values: W is up to {n} too high, σ may be too low",
-                count_noun(n, "coupling row")
-            );
-            write_line(&mut out, "omitted", &what);
-        }
-        if self.constraint_rows > 0 {
-            let n = self.constraint_rows;
+        if let n @ 1.. = self.left_out {
             let rows = count_noun(n, "row");
-            let what = format!("{rows} of joints: W is up to {n} too high, σ may be too low");
+            let what = format!("{rows}: W is up to {n} too high, σ may be too low");
             write_line(&mut out, "omitted", &what);
         }
         for what in &self.approximated {

@@ -2,7 +2,7 @@
 
 use crate::redundancy::duplicate_constraints::HeldTwice;
 use crate::redundancy::release::Duplicate;
-use crate::robots::{Imported, Origin, Report};
+use crate::robots::{Imported, Origin};
 use crate::view::prelude::*;
 use crate::view::with_assumptions;
 pub use finding::{Finding, Misfit, NONE, PassedOver, TypeChange, describe_release};
@@ -108,7 +108,7 @@ impl Lint {
                 word => word,
             }),
             over_motion: found.over.map(|o| as_read(m, o.describe())),
-            left_out: report.map_or(0, Report::left_out),
+            left_out: report.map_or(0, |r| r.left_out),
             approximated: report.map_or(Vec::new(), |r| r.approximated.clone()),
             assumptions: m.assumed.clone(),
             read_with: with_assumptions(m),

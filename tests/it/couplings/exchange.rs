@@ -164,7 +164,7 @@ fn equalities_of_mujoco() {
         (1.0, 2)
     );
     let i = mjcf(r#"<joint joint1="b" joint2="a" polycoef="0 0"/>"#);
-    assert_eq!(i.report.coupling_rows, 1);
+    assert_eq!(i.report.left_out, 1);
     has(&i.report.text("x.xml"), "times 0");
     let m = read(&i.toml().unwrap());
     assert_eq!((m.couplings.len(), analysed(&m).mobility), (0, 3));

@@ -87,7 +87,7 @@ fn each_way_to_close_a_loop_is_read() {
                 (1, 3),
                 "{name}, seed {seed} case {case}"
             );
-            assert_eq!(i.report.left_out(), 0, "{name}: {:?}", i.report);
+            assert_eq!(i.report.left_out, 0, "{name}: {:?}", i.report);
         }
     }
 }

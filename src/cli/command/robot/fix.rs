@@ -110,7 +110,7 @@ fn describe_limits(imported: &Imported, after: &StateAnalysis, lasting: usize) -
             after.redundant - lasting
         );
     }
-    if let n @ 1.. = imported.report.left_out() {
+    if let n @ 1.. = imported.report.left_out {
         lines += &format!(
             "  {} of FILE omitted, which may be redundant and lower W; `ozols lint` lists them\n",
             count_noun(n, "row")

@@ -196,7 +196,7 @@ impl<'a> Assembling<'a, '_> {
             let element = format!("joint \"{id}\"");
             let Some(found) = joint_constraint(word, joint, ends, &slides, self.shapes)? else {
                 let what = format!("omitted: its type {word} is not known");
-                robot.report.leave_out_joint(&element, UNKNOWN_ROWS, what);
+                robot.report.leave_out(&element, UNKNOWN_ROWS, what);
                 continue;
             };
             let Held {
@@ -285,7 +285,7 @@ impl<'a> Assembling<'a, '_> {
                 [Err((which, Broken(why))), _] | [_, Err((which, Broken(why)))] => {
                     let what = format!("omitted, as in FreeCAD: {which} {why}");
                     let element = format!("joint \"{}\"", joint.label());
-                    robot.report.leave_out_joint(&element, UNKNOWN_ROWS, what);
+                    robot.report.leave_out(&element, UNKNOWN_ROWS, what);
                 }
             }
         }

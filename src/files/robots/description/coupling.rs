@@ -65,7 +65,7 @@ pub(crate) fn usable_couplings(robot: &mut Robot, written: &[usize]) -> Vec<Usab
             }
         };
         let what = format!("the coupling of {follower} to {leader} (1 row) is omitted: {why}");
-        robot.report.leave_out_coupling(&coupling.element, what);
+        robot.report.leave_out(&coupling.element, 1, what);
     }
     out
 }

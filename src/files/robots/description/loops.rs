@@ -56,7 +56,7 @@ pub(crate) fn report_beside(name: &str, read: Reader<'_>, robot: &mut Robot) {
             "it defines closed loops of this robot, which are omitted; give {file} as `loops` to read them"
         );
         let element = format!("{file} next to it");
-        robot.report.leave_out_joint(&element, rows, what);
+        robot.report.leave_out(&element, rows, what);
         return;
     }
 }

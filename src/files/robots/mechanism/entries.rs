@@ -96,11 +96,9 @@ fn one_line(s: &str) -> String {
 
 /// Describes the source of the mechanism, and what was omitted in the conversion.
 fn describe_source(robot: &Robot, source: &str) -> String {
-    let report = &robot.report;
-    let left_out = match (report.coupling_rows, report.constraint_rows) {
-        (0, 0) => "",
-        (_, 0) => " Some couplings of joints are omitted.",
-        _ => " Some joints are omitted.",
+    let left_out = match robot.report.left_out {
+        0 => "",
+        _ => " Some couplings or joints are omitted.",
     };
     let source = one_line(source);
     format!("Imported from {source}.{left_out} {KINEMATICS}")

@@ -49,7 +49,7 @@ pub(crate) fn read_equalities(
             "distance" => return Err(e.unsupported_error("it is not a joint", "remove it")),
             _ => {
                 let what = "an equality of an unknown kind; omitted";
-                robot.report.leave_out_joint(&e.label(), 6, what);
+                robot.report.leave_out(&e.label(), 6, what);
             }
         }
     }
@@ -127,7 +127,7 @@ fn hold_joint(e: Element<'_>, joint: &str, value: f64, robot: &mut Robot) {
     let one = |j: &&mut Part| j.id == joint && j.values.len() == 1;
     let Some(j) = robot.joints.iter_mut().find(one) else {
         let what = format!("{joint} can move; its equality is omitted");
-        return robot.report.leave_out_coupling(&e.label(), what);
+        return robot.report.leave_out(&e.label(), 1, what);
     };
     j.values = vec![value];
     j.sides[0] = j.sides[0].then(&joint_motion(j));
@@ -144,7 +144,7 @@ fn read_tendons(e: Element<'_>, root: Element<'_>, robot: &mut Robot) -> Read<()
     };
     let (Some(mut row), Some(second)) = (first, second) else {
         let what = "an equality of a tendon that is not a sum of joint values (1 row) is omitted";
-        robot.report.leave_out_coupling(&e.label(), what);
+        robot.report.leave_out(&e.label(), 1, what);
         return Ok(());
     };
     // Length of tendon 1 less its reference, as a polynomial of that of tendon 2 less its own.
@@ -161,7 +161,7 @@ fn read_tendons(e: Element<'_>, root: Element<'_>, robot: &mut Robot) -> Read<()
         }
         _ => {
             let what = "an equality of tendons that couples more than two joints, or is a polynomial (1 row), is omitted";
-            robot.report.leave_out_coupling(&e.label(), what);
+            robot.report.leave_out(&e.label(), 1, what);
         }
     }
     Ok(())

@@ -87,7 +87,7 @@ fn joints_that_cannot_be_read_are_left_out_and_told() {
     let missing = changed(&bar, "D", "value=\"Rocker.Edge1\"", "value=\"Gone.Edge1\"");
     let i = read("x.FCStd", &fcstd(&missing), &Options::default());
     assert_eq!(figures(&i), (3, 0));
-    assert_eq!(i.report.constraint_rows, 5);
+    assert_eq!(i.report.left_out, 5);
     let told = i.report.text("x.FCStd");
     has(&told, "there is no object Gone");
     has(&told, "W is up to 5 too high");
@@ -111,7 +111,7 @@ fn suppressed_joints_are_left_out_in_both_versions() {
         // An open chain of three hinges.
         assert_eq!(figures(&i), (3, 0), "{name}");
         assert_eq!(i.report.dropped["suppressed joint"], ["D"]);
-        assert_eq!(i.report.constraint_rows, 0);
+        assert_eq!(i.report.left_out, 0);
     }
 }
 
