@@ -154,7 +154,7 @@ pub(crate) fn read_tables(file: &MechanismFile, m: &mut Parts, out: &Findings) {
     m.ranking = read_ranking(file, m, out);
 }
 
-/// Returns the tables that are written back as they are, with the parameters that they use.
+/// Returns the tables that are written unchanged, with the parameters that they use.
 fn keep_tables(file: &MechanismFile, m: &Parts, used: &BTreeSet<String>) -> Value {
     let parameters = file
         .parameter

@@ -39,7 +39,7 @@ pub(crate) fn add_coupling(e: Element<'_>, joints: [&str; 2], ratio: f64, robot:
     }
 }
 
-/// Reads a plugin. One that makes a joint follow another couples them; any other is left out.
+/// Reads a plugin. One that makes a joint follow another couples them; others are omitted.
 ///
 /// # Errors
 /// Returns an error if a multiplier is not a number.

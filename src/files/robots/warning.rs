@@ -40,7 +40,7 @@ pub type Reader<'a> = &'a dyn Fn(&str) -> std::io::Result<Vec<u8>>;
 /// Names shown of each kind of dropped element.
 const SHOWN: usize = 4;
 
-/// What no mechanism has of its description.
+/// The omissions of every import.
 pub const KINEMATICS: &str =
     "Only the kinematics are read: no masses, shapes, limits or actuators.";
 
