@@ -19,7 +19,7 @@ use std::time::Duration;
 
 pub(crate) mod kept;
 
-/// What a command prints that is called within this process.
+/// The output of a command that is called within this process.
 #[derive(Default)]
 struct Caught {
     out: Vec<u8>,
