@@ -34,9 +34,6 @@ struct ListRow {
     description: String,
 }
 
-/// Minimum width of a column of descriptions.
-const NARROWEST: usize = 16;
-
 pub(crate) fn run_list(a: &List) -> anyhow::Result<Done> {
     let rows = wanted_rows(a)?;
     if rows.is_empty() {
@@ -63,56 +60,40 @@ pub(crate) fn list_all() -> anyhow::Result<Done> {
 }
 
 fn write_list(a: &List, rows: Vec<ListRow>) -> anyhow::Result<Done> {
-    let header = "mechanism | state | n | p | k | f | W | σ";
-    let (mut cells, mut notes) = (Vec::new(), Vec::new());
+    let header = "mechanism | state | n | p | k | f | W | σ | description";
+    let (mut cells, mut families) = (Vec::new(), Vec::new());
     let (mut family, mut name) = (String::new(), String::new());
     for r in rows {
         let first = name != r.name;
-        let heading = (family != r.family).then(|| r.family.clone());
-        family = r.family;
-        let numbers = [
-            r.links,
-            r.joints,
-            r.contours,
-            r.freedoms,
-            r.mobility,
-            r.redundant,
-        ];
-        let shown = if first { r.name.clone() } else { String::new() };
-        name = r.name;
-        let mut row = vec![shown, r.state];
-        row.extend(numbers.map(|n| n.to_string()));
-        cells.push(row);
-        notes.push((heading, if first { r.description } else { String::new() }));
+        families.push((family != r.family).then(|| r.family.clone()));
+        let shown = |text: &str| if first { text } else { "" }.to_owned();
+        cells.push(row_cells([
+            &shown(&r.name),
+            &r.state,
+            &r.links,
+            &r.joints,
+            &r.contours,
+            &r.freedoms,
+            &r.mobility,
+            &r.redundant,
+            &shown(&r.description),
+        ]));
+        (family, name) = (r.family, r.name);
     }
-    let table = text_table(header, cells, None);
-    let width = output::output_width(None).map(usize::from);
+    let width = output::output_width(None);
+    let room = width.map_or(usize::MAX, usize::from);
     output::write_with(None, |out| {
-        let lines: Vec<&str> = table.lines().collect();
-        let (head, body) = lines.split_at(2);
-        for line in head {
-            let room = width.unwrap_or(usize::MAX);
-            writeln!(out, "{}", console::truncate_str(line, room, ""))?;
-        }
-        let columns = lines.iter().map(|l| text_width(l)).max().unwrap_or(0) + 2;
-        for (line, (heading, description)) in body.iter().zip(&notes) {
-            if let Some(heading) = heading {
-                writeln!(out, "\n{heading}")?;
+        // The first two lines are the head.
+        let families = [None, None].into_iter().chain(families);
+        for (line, family) in text_table(header, cells, None).lines().zip(families) {
+            if let Some(family) = family {
+                writeln!(out, "\n{family}")?;
             }
-            let gap = " ".repeat(columns - text_width(line));
-            match width.map(|w| w.saturating_sub(columns)) {
-                _ if description.is_empty() => writeln!(out, "{line}")?,
-                None => writeln!(out, "{line}{gap}{description}")?,
-                Some(left) if left < NARROWEST => writeln!(out, "{line}")?,
-                Some(left) => {
-                    let short = console::truncate_str(description, left, "…");
-                    writeln!(out, "{line}{gap}{short}")?;
-                }
-            }
+            writeln!(out, "{}", console::truncate_str(line, room, "…"))?;
         }
         if a.words.is_empty() {
             let signs = "\nn links, p joints, k contours, f freedoms, W mobility, σ redundant constraints; see `ozols explain`\n";
-            write!(out, "{}", fit_lines(signs, output::output_width(None)))?;
+            write!(out, "{}", fit_lines(signs, width))?;
         }
         Ok(Done::Found)
     })
@@ -130,10 +111,6 @@ fn wanted_rows(a: &List) -> anyhow::Result<Vec<ListRow>> {
         }
     }
     Ok(out)
-}
-
-fn text_width(line: &str) -> usize {
-    console::measure_text_width(line)
 }
 
 #[derive(Debug, ClapArgs)]
