@@ -77,7 +77,16 @@ pub fn run_with(words: impl IntoIterator<Item = OsString>) -> u8 {
     terminal::output::kept::forget_files();
     let ready = terminal::output::kept::ensure_distinct(&outputs)
         .and_then(|()| apply_globals(&args.global));
-    let result = ready.and_then(|()| match &args.command {
+    let result = ready.and_then(|()| run_command(&args));
+    let told = |done| match &opened {
+        Some(file) => command::reference::check::tell_next(file).map(|_| done),
+        None => Ok(done),
+    };
+    exit_code(result.and_then(told))
+}
+
+fn run_command(args: &Args) -> anyhow::Result<Done> {
+    match &args.command {
         Command::Analyze(a) => command::analyze::run_analyze(&args.global, a),
         Command::Search(a) => command::search::run_search(&args.global, a),
         Command::Statics(a) => command::statics::run_statics(&args.global, a),
@@ -99,42 +108,21 @@ pub fn run_with(words: impl IntoIterator<Item = OsString>) -> u8 {
         Command::Schema => command::reference::check::print_schema(),
         Command::Explain(a) => command::reference::explain::run_explain(a),
         Command::Completions(a) => command::reference::check::print_completions(a, program()),
-    });
-    let told = |done| match &opened {
-        Some(file) => command::reference::check::tell_next(file).map(|_| done),
-        None => Ok(done),
-    };
-    exit_code(result.and_then(told))
+    }
 }
 
-/// Returns the JSON and the text of `ozols lint` with these words.
+/// Returns what a command with these words prints. `file` is the name and the text of the mechanism file that `-` stands for.
 ///
 /// # Errors
 /// Returns an error if a word or a file is refused.
-pub fn lint(words: &[OsString]) -> anyhow::Result<(String, String)> {
-    match parse_command("lint", words)? {
-        Command::Lint(a) => command::robot::lint::lint_both(&a),
-        _ => unreachable!("the command is lint"),
-    }
-}
-
-/// Does what `ozols fix` does with these words, and returns its summary.
-///
-/// # Errors
-/// Returns an error if a word or the file is refused, or the joints that may change do not remove everything.
-pub fn fix(words: &[OsString]) -> anyhow::Result<String> {
-    match parse_command("fix", words)? {
-        Command::Fix(a) => command::robot::fix::fix_file(&a),
-        _ => unreachable!("the command is fix"),
-    }
-}
-
-fn parse_command(name: &str, words: &[OsString]) -> anyhow::Result<Command> {
-    let start = ["ozols".into(), name.into()];
-    let args = Args::try_parse_from(start.iter().chain(words))?;
+pub fn printed(words: &[OsString], file: Option<(String, String)>) -> anyhow::Result<String> {
+    let args = Args::try_parse_from(std::iter::once(&"ozols".into()).chain(words))?;
     terminal::output::kept::forget_files();
     terminal::output::hush_notes();
-    Ok(args.command)
+    option::load::give_file(file);
+    let printed = terminal::output::catch(|| run_command(&args));
+    option::load::give_file(None);
+    printed
 }
 
 /// Returns the message of an error, with the lines of the file that it is about.

@@ -1,5 +1,4 @@
-//! Answers for Python: a view as JSON and as the text of the command, with CSV and SVG if it has them; and long work without the GIL
-//! that signals can interrupt.
+//! Errors and views as Python gets them, and long work without the GIL that signals can interrupt.
 
 use ozols::model::mechanism::{Mechanism, StateId};
 use pyo3::exceptions::PyValueError;
@@ -16,9 +15,6 @@ pyo3::create_exception!(
     PyValueError,
     "An error of the library. Its text names the keywords of the call."
 );
-
-/// JSON, text, CSV, SVG.
-pub(crate) type Answer = (String, String, Option<String>, Option<String>);
 
 /// Returns an error of the library as an exception. Options in its text become keywords.
 pub(crate) fn failed(e: impl Display) -> pyo3::PyErr {

@@ -39,33 +39,16 @@ impl Mechanism {
         ozols::from_json(text).map(Self).map_err(refused)
     }
 
+    /// Reads a robot description with the options in JSON, and the name and bytes of a file of loop closures.
     #[staticmethod]
-    #[allow(clippy::too_many_arguments, reason = "they are named in Python")]
     fn from_robot(
         py: Python<'_>,
         path: PathBuf,
+        asked: &str,
         loops: Option<(String, Vec<u8>)>,
-        pose: Vec<(String, Vec<f64>)>,
-        floating: bool,
-        assemble: bool,
-        open: bool,
-        models: Vec<PathBuf>,
-        assembly: Option<String>,
-        frame: Option<String>,
-        outputs: Vec<String>,
     ) -> PyResult<(Self, String)> {
-        let options = Options {
-            loops,
-            pose,
-            floating,
-            assemble,
-            open,
-            models,
-            assembly,
-            frame,
-            outputs,
-        };
-        robot(py, path, &options)
+        let options: Options = serde_json::from_str(asked).map_err(failed)?;
+        robot(py, path, &Options { loops, ..options })
     }
 
     #[getter]
@@ -73,7 +56,7 @@ impl Mechanism {
         &self.0.name
     }
 
-    fn export(&self, py: Python<'_>, format: &str) -> PyResult<String> {
+    pub(crate) fn export(&self, py: Python<'_>, format: &str) -> PyResult<String> {
         py.detach(|| ozols::export(&self.0, format)).map_err(failed)
     }
 

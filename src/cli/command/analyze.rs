@@ -183,8 +183,7 @@ fn write(a: &Analyze, analysis: &Analysis<'_>, next: &[NextCommand]) -> anyhow::
             let text = colour_verdicts(analysis.text(width, a.verbose), a.to.path(), verdicts);
             let stroke = analysis.stroke.as_ref();
             let stroke = stroke.map(|s| format!("\n{}", fit_lines(&s.text(width), width)));
-            let next = a.file.with_loops(next_commands::steps_text(next, width));
-            text + &stroke.unwrap_or_default() + &next
+            text + &stroke.unwrap_or_default() + &a.file.next_steps(next, width)
         }
     })?;
     // A stroke that could not be finished is no success.

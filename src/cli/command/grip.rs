@@ -75,9 +75,7 @@ pub(crate) fn run_grip(a: &Grip) -> anyhow::Result<Done> {
     let next = if a.svg.is_none() { &[charts][..] } else { &[] };
     a.to.write_all_of(match a.format {
         TextOrJson::Json => output::json_text(&shown.json())?,
-        TextOrJson::Text => {
-            shown.text(a.to.width()) + &next_commands::steps_text(next, a.to.width())
-        }
+        TextOrJson::Text => shown.text(a.to.width()) + &a.file.next_steps(next, a.to.width()),
     })?;
     Ok(Done::found_or_nothing(shown.holds()))
 }
@@ -153,9 +151,7 @@ pub(crate) fn run_drive(a: &Drive) -> anyhow::Result<Done> {
     let width = a.to.width();
     a.to.write_all_of(match a.format {
         TextOrJson::Json => output::json_text(&shown.json())?,
-        TextOrJson::Text => {
-            text::drive_text(&shown, width) + &next_commands::steps_text(next, width)
-        }
+        TextOrJson::Text => text::drive_text(&shown, width) + &a.file.next_steps(next, width),
     })?;
     Ok(Done::found_or_nothing(shown.is_complete()))
 }

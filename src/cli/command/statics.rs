@@ -85,7 +85,7 @@ impl Statics {
         self.to.write_all_of(match self.format {
             TextJsonOrCsv::Json => output::json_text(&shown.json())?,
             TextJsonOrCsv::Csv => shown.csv(),
-            TextJsonOrCsv::Text => shown.text(width) + &next_commands::steps_text(next, width),
+            TextJsonOrCsv::Text => shown.text(width) + &self.file.next_steps(next, width),
         })
     }
 }
@@ -99,8 +99,9 @@ pub(crate) fn run_statics(args: &Global, a: &Statics) -> anyhow::Result<Done> {
     match Gripping::new(&m, state) {
         // The nominal part is out of reach, so nothing is held.
         Err(JawError::Nominal(why)) => {
-            a.to.write_all_of(format!("{}: the part cannot be held: {why}\n", m.name))?;
-            return Ok(Done::Nothing);
+            let why = why.to_string();
+            let text = format!("{}: the part cannot be held: {why}\n", m.name);
+            return report_not_held(&NotHeld::because(&m, state, &why), text, a);
         }
         found => match found? {
             Some(gripping) if a.groups => return run_groups(&gripping.mechanism, state, a),
@@ -130,7 +131,9 @@ pub(crate) fn run_statics(args: &Global, a: &Statics) -> anyhow::Result<Done> {
     let found = match solve_reactions(&m, state, stroke, model) {
         // Not held is an answer, and no failure.
         Err(StaticsError::Spatial(why @ Unsolved::Loose)) => {
-            return report_loose(&m, state, &why, a);
+            let why = why.to_string();
+            let text = format!("{}, state {}: {why}\n", m.name, a.state);
+            return report_not_held(&NotHeld::because(&m, state, &why), text, a);
         }
         found => found?,
     };
@@ -200,18 +203,11 @@ fn chosen_model(m: &Mechanism, state: StateId, own: bool, a: &Statics) -> anyhow
     })
 }
 
-/// Says why nothing holds the mechanism: exit code 1.
-fn report_loose(
-    m: &Mechanism,
-    state: StateId,
-    why: &Unsolved,
-    a: &Statics,
-) -> anyhow::Result<Done> {
+/// Says why nothing is held: exit code 1.
+fn report_not_held(why: &NotHeld<'_>, text: String, a: &Statics) -> anyhow::Result<Done> {
     a.to.write_all_of(match a.format {
-        TextJsonOrCsv::Json => output::json_text(&NotHeld::because(m, state, &why.to_string()))?,
-        TextJsonOrCsv::Csv | TextJsonOrCsv::Text => {
-            format!("{}, state {}: {why}\n", m.name, a.state)
-        }
+        TextJsonOrCsv::Json => output::json_text(why)?,
+        TextJsonOrCsv::Csv | TextJsonOrCsv::Text => text,
     })?;
     Ok(Done::Nothing)
 }
@@ -316,21 +312,11 @@ fn check_options(a: &Statics) -> anyhow::Result<()> {
 pub(crate) fn run_clamped(g: &Gripping, a: &Statics) -> anyhow::Result<Done> {
     check_options(a)?;
     let Some(row) = chosen_diameter(g, a)? else {
-        return not_held(g, a);
+        return report_not_held(&NotHeld::new(g), NotHeld::new(g).text(), a);
     };
     let Some(found) = clamped_reactions(g, row, a.spatial)? else {
-        return not_held(g, a);
+        return report_not_held(&NotHeld::new(g), NotHeld::new(g).text(), a);
     };
     let shown = ToldStatics::round_a_part(g, row, &found);
     a.put_reactions(&shown, &[])
-}
-
-/// Says why there are no forces: exit code 1.
-fn not_held(g: &Gripping, a: &Statics) -> anyhow::Result<Done> {
-    let shown = NotHeld::new(g);
-    a.to.write_all_of(match a.format {
-        TextJsonOrCsv::Json => output::json_text(&shown)?,
-        TextJsonOrCsv::Csv | TextJsonOrCsv::Text => shown.text(),
-    })?;
-    Ok(Done::Nothing)
 }

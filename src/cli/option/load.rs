@@ -16,7 +16,18 @@ use crate::model::mechanism::{Mechanism, Mode, StateId};
 use crate::robots;
 use anyhow::{Context, bail, ensure};
 use itertools::Itertools;
+use std::cell::RefCell;
 use std::io::Read;
+
+thread_local! {
+    /// The name and the text of the file that `-` stands for, if it is not standard input.
+    static GIVEN: RefCell<Option<(String, String)>> = const { RefCell::new(None) };
+}
+
+/// Sets the file that `-` stands for.
+pub(crate) fn give_file(file: Option<(String, String)>) {
+    GIVEN.set(file);
+}
 
 /// Reads the mechanism that an argument names. A file wins over a built-in mechanism of the same name.
 pub(crate) fn load_mechanism(file: &File) -> anyhow::Result<Mechanism> {
@@ -57,6 +68,9 @@ pub(crate) fn read_named(file: &File) -> anyhow::Result<(String, Vec<u8>)> {
 /// Returns the same for a file that is not a robot description or assembly.
 pub(crate) fn read_plain(file: &Named) -> anyhow::Result<(String, Vec<u8>)> {
     if &**file == "-" {
+        if let Some((name, text)) = GIVEN.with_borrow(Clone::clone) {
+            return Ok((name, text.into_bytes()));
+        }
         kept::keep_standard_input()?;
         let mut bytes = Vec::new();
         // One byte more than allowed, so that the reader can say that there are too many.

@@ -3,7 +3,7 @@
 use crate::api::{self, MAX_DESCRIPTION_BYTES};
 use crate::cli::terminal::output;
 use crate::robots::Options;
-use crate::view::terminal::next_commands::shell_word;
+use crate::view::terminal::next_commands::{self, NextCommand, shell_word};
 use clap::{Args as ClapArgs, ValueHint};
 use std::ffi::OsString;
 use std::fmt;
@@ -66,6 +66,14 @@ impl File {
         let side = self.loops.path.iter();
         let side = side.map(|p| format!(" --loops {}", shell_word(&p.display().to_string())));
         shell_word(&self.file) + &side.collect::<String>()
+    }
+
+    /// Returns the next commands about the file. A caller within this process has no use for them.
+    pub(crate) fn next_steps(&self, next: &[NextCommand], width: Option<u16>) -> String {
+        if output::is_caught() {
+            return String::new();
+        }
+        self.with_loops(next_commands::steps_text(next, width))
     }
 
     /// Returns a text whose commands about the file read its loops, too.

@@ -10,6 +10,7 @@ use anstyle::AnsiColor;
 use anyhow::Context;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 pub(crate) use kept::{cut_short, remove_unfinished};
+use std::cell::RefCell;
 use std::io::{self, BufWriter, ErrorKind, IsTerminal, StdoutLock, Write};
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -17,6 +18,38 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
 pub(crate) mod kept;
+
+/// The output of a command that is called within this process.
+#[derive(Default)]
+struct Caught {
+    out: Vec<u8>,
+    /// The first error.
+    error: Option<String>,
+}
+
+thread_local! {
+    static CAUGHT: RefCell<Option<Caught>> = const { RefCell::new(None) };
+}
+
+/// Returns true if a caller within this process gets the output of this thread.
+pub(crate) fn is_caught() -> bool {
+    CAUGHT.with_borrow(Option::is_some)
+}
+
+/// Runs a command, and returns what it writes to standard output.
+///
+/// # Errors
+/// Returns the error of the command, or the first one that it prints.
+pub(crate) fn catch(run: impl FnOnce() -> anyhow::Result<Done>) -> anyhow::Result<String> {
+    CAUGHT.set(Some(Caught::default()));
+    let done = run();
+    let caught = CAUGHT.take().unwrap_or_default();
+    done?;
+    match caught.error {
+        Some(text) => Err(anyhow::Error::msg(text)),
+        None => Ok(String::from_utf8(caught.out)?),
+    }
+}
 
 /// Returns the file to write to, if it is not standard output.
 fn target_file(path: Option<&Path>) -> Option<&Path> {
@@ -29,6 +62,12 @@ pub(crate) fn write_with(
     write: impl FnOnce(&mut dyn Write) -> anyhow::Result<Done>,
 ) -> anyhow::Result<Done> {
     let Some(path) = target_file(path) else {
+        if is_caught() {
+            let mut all = Vec::new();
+            let done = write(&mut all)?;
+            CAUGHT.with_borrow_mut(|c| c.get_or_insert_default().out.append(&mut all));
+            return Ok(done);
+        }
         kept::apart_from_standard_output()?;
         return write_through("standard output", Standard::new(), write);
     };
@@ -138,8 +177,8 @@ const NARROWEST: u16 = 40;
 /// Returns the width of standard output: `OZOLS_WIDTH` if set, otherwise the width of its terminal.
 pub(crate) fn output_width(path: Option<&Path>) -> Option<u16> {
     match target_file(path) {
-        None => fitted_width(&console::Term::stdout()),
-        Some(_) => None,
+        None if !is_caught() => fitted_width(&console::Term::stdout()),
+        _ => None,
     }
 }
 
@@ -189,6 +228,12 @@ pub(crate) fn print_message(text: &str) {
 /// Prints an error, in colour if standard error is a terminal that supports it (NO_COLOR, CLICOLOR_FORCE), like the parser of the
 /// arguments.
 pub(crate) fn print_error(e: &anyhow::Error) {
+    if is_caught() {
+        return CAUGHT.with_borrow_mut(|c| {
+            let caught = c.get_or_insert_default();
+            caught.error.get_or_insert_with(|| error_text(e));
+        });
+    }
     let text = match file_problems(e) {
         Some(import) => import.render(true),
         None => {
@@ -236,7 +281,8 @@ pub(crate) fn colour_verdicts(
     path: Option<&Path>,
     verdicts: impl IntoIterator<Item = (String, Tone)>,
 ) -> String {
-    if target_file(path).is_some() || AutoStream::choice(&std::io::stdout()) == ColorChoice::Never {
+    let plain = is_caught() || target_file(path).is_some();
+    if plain || AutoStream::choice(&std::io::stdout()) == ColorChoice::Never {
         return text;
     }
     let mut rest = text.as_str();

@@ -3,14 +3,17 @@
 use crate::file::problem::{ImportError, ProblemKind};
 use crate::format::{count_noun, first_of};
 use itertools::Itertools;
+use serde::Deserialize;
 use std::collections::BTreeMap;
 use std::fmt::Write;
 use thiserror::Error;
 
 /// Options for reading a description.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone, Default, Deserialize)]
+#[serde(default, deny_unknown_fields)]
 pub struct Options {
     /// Name and bytes of a file of loop closures.
+    #[serde(skip)]
     pub loops: Option<(String, Vec<u8>)>,
     /// Values of joints, in radians and metres, one for each freedom.
     pub pose: Vec<(String, Vec<f64>)>,

@@ -16,7 +16,7 @@ def lint(*files: str | os.PathLike[str]) -> Lint:
 
     Each entry of ``files`` names the loops, what is redundant in each, and what removes it.
     """
-    return Lint(_native.lint([os.fspath(file) for file in files]))
+    return Lint(["lint", *(os.fspath(file) for file in files)])
 
 
 def fix(
@@ -35,4 +35,4 @@ def fix(
     words = [f"--output={os.fspath(output)}", *(f"--at={name}" for name in at)]
     if variant is not None:
         words.append(f"--variant={variant}")
-    return _native.fix([*words, "--", os.fspath(file)])
+    return _native.printed(["fix", *words, "--", os.fspath(file)])

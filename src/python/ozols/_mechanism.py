@@ -39,6 +39,12 @@ def _range(stroke: str | tuple[float, float, int]) -> str:
     return stroke if isinstance(stroke, str) else ":".join(map(str, stroke))
 
 
+def _words(**options: str | float | bool | None) -> list[str]:
+    """Returns the words of a command for options, without those that are ``None`` or false."""
+    given = [(f"--{k.replace('_', '-')}", v) for k, v in options.items() if v is not None and v is not False]
+    return [name if value is True else f"{name}={value}" for name, value in given]
+
+
 def _costs(path: str | os.PathLike[str]) -> dict[str, str]:
     try:
         return {"name": os.fspath(path), "text": Path(path).read_text(encoding="utf-8")}
@@ -139,8 +145,17 @@ class Mechanism:
         """
         side = None if loops is None else (os.fspath(loops), Path(loops).read_bytes())
         values = [(k, [v] if isinstance(v, (int, float)) else list(v)) for k, v in (pose or {}).items()]
-        options = (side, values, floating, assemble, open, list(models), assembly, frame, _names(outputs))
-        return cls._doubtful(_native.Mechanism.from_robot(path, *options))
+        asked = {
+            "pose": values,
+            "floating": floating,
+            "assemble": assemble,
+            "open": open,
+            "models": [os.fspath(folder) for folder in models],
+            "assembly": assembly,
+            "frame": frame,
+            "outputs": _names(outputs),
+        }
+        return cls._doubtful(_native.Mechanism.from_robot(path, json.dumps(asked, default=_entry), side))
 
     from_urdf = from_mjcf = from_sdf = from_robot
 
@@ -175,7 +190,7 @@ class Mechanism:
         >>> Mechanism.builtin("bennett").analyze().states[0].redundant
         3
         """
-        return Analysis(_native.analyze(self._native, state, method, tolerance))
+        return Analysis(["analyze", "-", *_words(state=state, method=method, tolerance=tolerance)], self)
 
     def stroke(
         self,
@@ -192,7 +207,8 @@ class Mechanism:
         >>> Mechanism.builtin("four-bar").stroke("0:90deg:3").poses[-1].mobility
         1
         """
-        return Stroke(_native.stroke(self._native, _range(range), drive, state, tolerance))
+        words = _words(stroke=_range(range), drive=drive, state=state, tolerance=tolerance)
+        return Stroke(["analyze", "-", *words], self)
 
     def statics(
         self,
@@ -207,7 +223,8 @@ class Mechanism:
         ``spatial`` gives all six components also for a planar mechanism. With ``unilateral``, contacts with an object only push.
         """
         over = None if stroke is None else _range(stroke)
-        return Statics(_native.statics(self._native, state, over, spatial, unilateral))
+        words = _words(state=state, stroke=over, spatial=spatial, unilateral=unilateral)
+        return Statics(["statics", "-", *words], self)
 
     def grip(
         self,
@@ -222,7 +239,8 @@ class Mechanism:
         >>> Mechanism.builtin("lever-gripper").grip()["holds"]
         True
         """
-        return Grip(_native.grip(self._native, [list(a) for a in accelerations], any_acceleration))
+        further = [f"--acceleration={','.join(map(str, a))}" for a in accelerations]
+        return Grip(["grip", "-", *further, *_words(any_acceleration=any_acceleration)], self)
 
     def drive(self) -> Drive:
         """Returns the design of the spring drive in ``[workload.drive]``, as ``ozols drive``.
@@ -230,7 +248,7 @@ class Mechanism:
         >>> "design" in Mechanism.builtin("torsion-module").drive()
         True
         """
-        return Drive(_native.drive(self._native))
+        return Drive(["drive", "-"], self)
 
     def draw(self, kind: str = "kinematic", *, state: str = "free") -> Drawing:
         """Returns a drawing as SVG: the ``kinematic`` scheme from the coordinates, or the structural ``scheme``."""

@@ -11,25 +11,18 @@ __all__ = [
     "Outcome",
     "Variant",
     "Variants",
-    "analyze",
     "builtin_names",
     "catalog_build",
     "catalog_merge",
     "catalog_plan",
     "command",
-    "drive",
-    "fix",
-    "grip",
-    "lint",
+    "printed",
     "search",
-    "statics",
-    "stroke",
 ]
 
 VERSION: str
 
 _Path: TypeAlias = str | os.PathLike[str]
-_Answer: TypeAlias = tuple[str, str, str | None, str | None]
 
 class Error(ValueError):
     """An error of the library. Its text names the keywords of the call."""
@@ -48,15 +41,8 @@ class Mechanism:
     @staticmethod
     def from_robot(
         path: _Path,
+        asked: str,
         loops: tuple[str, bytes] | None,
-        pose: Sequence[tuple[str, Sequence[float]]],
-        floating: bool,
-        assemble: bool,
-        open: bool,
-        models: Sequence[_Path],
-        assembly: str | None,
-        frame: str | None,
-        outputs: Sequence[str],
     ) -> tuple[Mechanism, str]: ...
     def export(self, format: str) -> str: ...
     def draw(self, kind: str, state: str) -> str: ...
@@ -82,9 +68,6 @@ class Variant:
     def draw(self, kind: str, state: str) -> str: ...
 
 def builtin_names() -> list[str]: ...
-def analyze(mechanism: Mechanism, named: str, method: str, tolerance: float | None) -> _Answer: ...
-def stroke(mechanism: Mechanism, range: str, drive: str | None, named: str, tolerance: float | None) -> _Answer: ...
-def statics(mechanism: Mechanism, named: str, stroke: str | None, spatial: bool, unilateral: bool) -> _Answer: ...
 def search(mechanism: Mechanism, asked: str, progress: Callable[[int, int, int], object] | None) -> Outcome: ...
 def catalog_plan(json: str) -> tuple[str, list[str]]: ...
 def catalog_build(
@@ -95,10 +78,5 @@ def catalog_build(
     progress: Callable[[int, int], object] | None,
 ) -> int: ...
 def catalog_merge(path: _Path, parts: Sequence[_Path]) -> int: ...
-def lint(words: Sequence[str]) -> _Answer: ...
-def fix(words: Sequence[str]) -> str: ...
-def grip(
-    mechanism: Mechanism, accelerations: Sequence[Sequence[float]], any_acceleration: float | None
-) -> _Answer: ...
-def drive(mechanism: Mechanism) -> _Answer: ...
 def command(words: Sequence[str]) -> int: ...
+def printed(words: Sequence[str], mechanism: Mechanism | None = None) -> str: ...

@@ -2,7 +2,15 @@
 
 from __future__ import annotations
 
+import tempfile
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING
+
 from ._view import Answer, View
+
+if TYPE_CHECKING:
+    from ._mechanism import Mechanism
 
 
 class Contour(View):
@@ -57,14 +65,31 @@ class Stroke(Answer):
     unit: str
     poses: list[Pose]
 
+    def __init__(self, words: Sequence[str], mechanism: Mechanism) -> None:
+        super().__init__(words, mechanism)
+        self._data = self._data["stroke"]
+
+    @property
+    def svg(self) -> str:
+        """The chart of the figures."""
+        with tempfile.TemporaryDirectory() as folder:
+            file = Path(folder, "stroke.svg")
+            self._print(f"--svg={file}")
+            return file.read_text(encoding="utf-8")
+
     def _repr_svg_(self) -> str:
-        return self.svg or ""
+        return self.svg
 
 
 class Statics(Answer):
     """The joint reactions; the table has one row per joint and position."""
 
     mechanism: str
+
+    @property
+    def csv(self) -> str | None:
+        """The reactions as CSV, if the part is held."""
+        return self._print("--format=csv") if self._data.get("held", True) else None
 
 
 class GripRow(View):

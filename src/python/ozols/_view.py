@@ -9,8 +9,12 @@ import json
 from collections.abc import Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, ClassVar, get_args, get_type_hints
 
+from . import _native
+
 if TYPE_CHECKING:
     import pandas
+
+    from ._mechanism import Mechanism
 
 #: Maximum number of rows of a table in a notebook.
 ROWS = 30
@@ -101,13 +105,32 @@ class Answer(View):
     ``print(answer)`` shows the text; a notebook shows the declared keys of :attr:`records` as a table.
     """
 
-    __slots__ = ("csv", "svg", "text")
+    __slots__ = ("_mechanism", "_words")
     #: The key of the main table.
     _rows: ClassVar[str | None] = None
 
-    def __init__(self, printed: tuple[str, str, str | None, str | None]) -> None:
-        data, self.text, self.csv, self.svg = printed
-        super().__init__(json.loads(data))
+    def __init__(self, words: Sequence[str], mechanism: Mechanism | None = None) -> None:
+        """Runs a command; the mechanism is its file ``-``."""
+        self._words, self._mechanism = words, mechanism
+        data = json.loads(self._print("--format=json"))
+        data.pop("format", None)
+        super().__init__(data)
+
+    def _print(self, *words: str) -> str:
+        """Returns what the command prints with further words."""
+        command, *others = self._words
+        about = None if self._mechanism is None else self._mechanism._native
+        return _native.printed([command, *words, *others], about)
+
+    @property
+    def text(self) -> str:
+        """The text that the command prints."""
+        return self._print()
+
+    @property
+    def csv(self) -> str | None:
+        """The main table as CSV, if the command prints one."""
+        return None
 
     def __str__(self) -> str:
         return self.text
@@ -115,8 +138,8 @@ class Answer(View):
     @property
     def records(self) -> list[dict[str, Any]]:
         """The rows of the main table (states, positions or joints), or an empty list if there is none."""
-        if self.csv is not None:
-            return list(csv.DictReader(io.StringIO(self.csv)))
+        if (printed := self.csv) is not None:
+            return list(csv.DictReader(io.StringIO(printed)))
         rows = self._data.get(self._rows, []) if self._rows else []
         return [{k: v for k, v in row.items() if _plain(v)} for row in rows]
 
@@ -124,8 +147,8 @@ class Answer(View):
         """Returns :attr:`records` as a table of pandas."""
         import pandas
 
-        if self.csv is not None:
-            return pandas.read_csv(io.StringIO(self.csv))
+        if (printed := self.csv) is not None:
+            return pandas.read_csv(io.StringIO(printed))
         return pandas.DataFrame(self.records)
 
     def _repr_html_(self) -> str:

@@ -30,12 +30,15 @@ pub(crate) struct Fix {
 
 pub(crate) fn run_fix(a: &Fix) -> anyhow::Result<Done> {
     let lines = fix_file(a)?;
+    if output::is_caught() {
+        return output::write_bytes(None, lines);
+    }
     output::print_note(&fit_lines(&lines, output::error_width()));
     Ok(Done::Found)
 }
 
 /// Writes the file without its redundant constraints, and returns a summary of the changes.
-pub(crate) fn fix_file(a: &Fix) -> anyhow::Result<String> {
+fn fix_file(a: &Fix) -> anyhow::Result<String> {
     let options = a.reading.import_options()?;
     let imported = import_description(&a.file, &options)?;
     let m = &imported.mechanism;

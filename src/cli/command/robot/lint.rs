@@ -42,21 +42,6 @@ pub(crate) fn run_lint(a: &Lint) -> anyhow::Result<Done> {
     })
 }
 
-/// Returns the JSON and the text of a lint.
-///
-/// # Errors
-/// Returns the first error of a file.
-pub(crate) fn lint_both(a: &Lint) -> anyhow::Result<(String, String)> {
-    let mut first = None;
-    let all = lint_all(a, &mut |e| {
-        first.get_or_insert_with(|| output::error_text(e));
-    })?;
-    match first {
-        Some(text) => bail!(text),
-        None => Ok((lint_json(&all).to_string(), lint_text(a, &all))),
-    }
-}
-
 /// Examines each file. `tell` is called with what is wrong with a file; the others are examined nevertheless.
 fn lint_all(
     a: &Lint,
