@@ -29,8 +29,6 @@ pub(super) struct Direction {
     pub(super) rays: usize,
     /// The ray that gives it exactly, if it is written exactly.
     pub(super) exact: Option<usize>,
-    /// Whether it is the normal of a plane of points.
-    pub(super) plane: bool,
     /// Two axes of possible turns, with the error of each `[rad]`.
     pub(super) tilts: [(Vector, f64); 2],
 }
@@ -74,7 +72,6 @@ pub(super) fn of_rays(rays: &[Written], points: &[Vector], errors: &[f64]) -> Di
                 error,
                 rays: 1,
                 exact: rays[i].is_exact().then_some(i),
-                plane: false,
                 tilts: square_to(v).map(|e| (e, error)),
             });
             let weight = if error > 0.0 { error.powi(-2) } else { 0.0 };
@@ -106,7 +103,6 @@ impl Direction {
             error,
             rays: 0,
             exact: None,
-            plane: false,
             tilts: square_to(unit).map(|e| (e, error)),
         }
     }

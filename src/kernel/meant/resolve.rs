@@ -1,9 +1,9 @@
 //! The recovered scene, and others that the digits do not exclude.
 
 use super::directions::Caution;
-use super::exact_directions::{Exact, place_direction};
+use super::exact_directions::place_direction;
 use super::projection::{Projection, Taken};
-use super::relations::{Finder, Normals, Relation, Use};
+use super::relations::{Finder, Normals, Relation};
 use super::stage::{Stage, StageMark};
 use super::written::WrittenScene;
 use super::{Images, MeantScene, of_points};
@@ -87,7 +87,7 @@ fn resolve_moderate(written: &WrittenScene) -> Option<Resolved> {
 struct Doubts {
     left_out: usize,
     by_chance: usize,
-    /// Lines and planes of points that are close to those of others.
+    /// Lines of points that are close to those of others.
     of_points: usize,
 }
 
@@ -125,8 +125,8 @@ impl Doubts {
     }
 }
 
-/// Recovers a scene and counts its doubtful relations. If it is doubtful, also returns it without lines and planes
-/// defined only by points.
+/// Recovers a scene and counts its doubtful relations. If it is doubtful, also returns it without lines defined only by
+/// points.
 fn resolve_with(
     written: &WrittenScene,
     caution: Caution,
@@ -135,7 +135,7 @@ fn resolve_with(
     let weights = stage.point_weights();
     let clipped = |p: usize, by: Vector| stage.clip_move(p, by);
     let directions = stage.scene_directions();
-    let mut fixed: Vec<Exact> = directions.iter().map(|d| d.0.clone()).collect();
+    let mut fixed = directions.clone();
     let mut finder = Finder::new(&stage.inside, &stage.errors, directions);
     let mut solved = Projection::new(stage.inside.clone(), &weights, &clipped);
     solved.bold = caution.bold;
@@ -148,22 +148,17 @@ fn resolve_with(
     let found = keep(finder.find_all());
     became.extend(solved.take_all(found, &finder.normals.real));
     let (first, plain) = (became.len(), StageMark::from_projection(&solved));
-    // Lines and planes defined only by points that no relation above determines.
+    // Lines defined only by points that no relation above determines.
     let directions_of_rays = fixed.len();
-    for further in [of_points::lines_of, of_points::planes_of] {
-        for d in further(&solved, &stage.errors) {
-            let e = place_direction(d.unit, d.error, &fixed, stage.digits);
-            let of = if d.plane { Use::Planes } else { Use::Lines };
-            let found = keep(finder.relations_along(vec![(e.clone(), of)]));
-            let found = solved.take_all(found, &finder.normals.real);
-            // Further ones may be perpendicular to it.
-            if fixed.len() < directions_of_rays + MOST
-                && found.iter().any(|(_, b)| *b == Taken::New)
-            {
-                fixed.push(e);
-            }
-            became.extend(found);
+    for d in of_points::lines_of(&solved, &stage.errors) {
+        let e = place_direction(d.unit, d.error, &fixed, stage.digits);
+        let found = keep(finder.lines_along(&e));
+        let found = solved.take_all(found, &finder.normals.real);
+        // Further ones may be perpendicular to it.
+        if fixed.len() < directions_of_rays + MOST && found.iter().any(|(_, b)| *b == Taken::New) {
+            fixed.push(e);
         }
+        became.extend(found);
     }
     let normals = finder.normals;
     if became.iter().any(|x| x.1 == Taken::Refused) {

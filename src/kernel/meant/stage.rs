@@ -6,7 +6,7 @@ use super::exact_directions::{Exact, make_exact};
 use super::frame::SceneFrame;
 use super::number::{self, Rational3, nearest_decimal, to_f64};
 use super::projection::Projection;
-use super::relations::{Normals, Relation, Use};
+use super::relations::{Normals, Relation};
 use super::solve::{PointEquation, solve_rows};
 use super::together::adjust_together;
 use super::written::{Written, WrittenScene};
@@ -104,11 +104,10 @@ impl<'a> Stage<'a> {
     }
 
     /// Returns the exact directions of the scene. They include the file's own axes if its frame is the scene's.
-    pub(super) fn scene_directions(&self) -> Vec<(Exact, Use)> {
+    pub(super) fn scene_directions(&self) -> Vec<Exact> {
         let own = number::frame_axes().into_iter().map(Exact::of_axis);
         let own = own.filter(|_| self.frame.rotation.is_none());
-        let all = self.exact.iter().cloned().chain(own);
-        all.map(|e| (e, Use::Both)).collect()
+        self.exact.iter().cloned().chain(own).collect()
     }
 
     /// Returns the relations of the stated symmetry.
