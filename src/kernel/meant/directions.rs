@@ -10,15 +10,6 @@ use crate::geom::vector::{Vector, X, Y, Z, add_scaled, cross, dot, length, scale
 /// Maximum move of a direction's components, in halves of their last digit. Such a direction is fitted, not solved for.
 pub(crate) const WITHIN: f64 = 1.1;
 
-/// Rules for accepting relations.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Caution {
-    /// Factor by which moves may be larger.
-    pub(crate) bold: f64,
-    /// Whether relations count that may exist by chance.
-    pub(crate) weak: bool,
-}
-
 /// A direction of a scene.
 #[derive(Debug, Clone)]
 pub(super) struct Direction {

@@ -30,19 +30,16 @@ pub(super) struct Relation {
     /// Number of points that share it: planes of many points come before planes of two.
     pub(super) weight: usize,
     pub(super) off: f64,
-    /// Whether such a relation is to be expected by chance among that many points and normals.
-    pub(super) weak: bool,
 }
 
 impl Relation {
-    /// Creates a relation that chance does not explain, of no particular weight.
+    /// Creates a relation of no particular weight.
     pub(super) fn new(kind: RelationKind, rows: Vec<PointEquation>, off: f64) -> Relation {
         Relation {
             kind,
             rows,
             weight: 0,
             off,
-            weak: false,
         }
     }
 }
@@ -119,16 +116,6 @@ impl<'a> Finder<'a> {
         (0..firsts.len()).filter(|&i| firsts[i] == i).collect()
     }
 
-    /// Returns the size of the point set, used to estimate chance.
-    fn scene_size(&self) -> f64 {
-        let far = |p: &Vector| length(sub(*p, self.points[0]));
-        self.points
-            .iter()
-            .map(far)
-            .fold(0.0, f64::max)
-            .max(f64::MIN_POSITIVE)
-    }
-
     fn pair_tolerance(&self, i: usize, j: usize) -> f64 {
         SPREAD * (self.errors[i] + self.errors[j])
     }
@@ -151,7 +138,7 @@ impl<'a> Finder<'a> {
         let normals: Vec<usize> = all().map(|d| self.normals.index(d.clone())).collect();
         let normals: Vec<usize> = normals.into_iter().sorted_unstable().dedup().collect();
         for &n in &normals {
-            self.find_planes(n, normals.len(), &places, &mut out);
+            self.find_planes(n, &places, &mut out);
         }
         for d in all() {
             let pair = self.normals.square_to(d);
@@ -177,36 +164,25 @@ impl<'a> Finder<'a> {
     }
 
     /// Finds points in planes perpendicular to a normal: neighbours in the order along it.
-    fn find_planes(
-        &self,
-        normal: usize,
-        normals: usize,
-        places: &[usize],
-        out: &mut Vec<Relation>,
-    ) {
+    fn find_planes(&self, normal: usize, places: &[usize], out: &mut Vec<Relation>) {
         let n = unit(self.normals.real[normal]);
         let mut at: Vec<(f64, usize)> = places
             .iter()
             .map(|&p| (dot(n, self.points[p]), p))
             .collect();
         at.sort_by(|a, b| a.0.total_cmp(&b.0));
-        let spread = self.scene_size();
         let mut start = 0;
         for k in 1..=at.len() {
             let apart = at
                 .get(k)
                 .is_none_or(|x| x.0 - at[k - 1].0 > self.pair_tolerance(x.1, at[k - 1].1));
             if apart {
-                let error = self.errors[at[start].1];
-                let chance = by_chance(places.len(), k - start, error / spread);
-                let weak = chance * as_f64(normals) > CHANCE;
                 for w in at[start..k].windows(2) {
                     out.push(Relation {
                         kind: RelationKind::InPlane,
                         rows: vec![difference_row(w[1].1, w[0].1, normal)],
                         weight: k - start,
                         off: (w[1].0 - w[0].0) / self.pair_tolerance(w[1].1, w[0].1),
-                        weak,
                     });
                 }
                 start = k;
@@ -287,22 +263,6 @@ fn difference_row(i: usize, j: usize, normal: usize) -> PointEquation {
         terms: vec![(i, 1), (j, -1)],
         normal,
     }
-}
-
-/// Number of relations expected by chance above which one is doubtful.
-const CHANCE: f64 = 0.02;
-
-fn as_f64(n: usize) -> f64 {
-    n as f64
-}
-
-/// Returns the expected number of sets of `k` of `n` values that coincide by chance, each known to a fraction of their
-/// spread.
-fn by_chance(n: usize, k: usize, error: f64) -> f64 {
-    let each = |i: usize| as_f64(n - i) / as_f64(i + 1);
-    let sets: f64 = (0..k).map(each).product();
-    // Neighbours may be up to four errors apart on either side.
-    sets * (8.0 * error).powi(i32::try_from(k).unwrap_or(i32::MAX) - 1)
 }
 
 /// Sorts the strongest first.
