@@ -10,7 +10,7 @@ use crate::score::outcome::ranked::rank_variants;
 use crate::score::outcome::ranking::RankedPool;
 use crate::score::request::prepare::LooksRounded;
 use crate::score::request::{Check, List, Method, Request, RequestError};
-use crate::score::run::opinions::{opinion_on_diagrams, other_scenes};
+use crate::score::run::opinions::opinion_on_diagrams;
 use crate::search::Search;
 use crate::search::answer::search_counts::SearchCounts;
 use crate::search::answer::search_counts::orbit_counts;
@@ -143,11 +143,7 @@ pub fn answer_request(
     }
     let stroke = in_other_poses(&search, request, should_cancel, tell)?;
     let ranking = rank_pool(&search, &diagrams, request, should_cancel, tell)?;
-    let mut second = opinion_on_diagrams(&search, &diagrams, &of_all, ranking.as_ref(), request)?;
-    if let Some(second) = &mut second {
-        let admissible = search.count_variants(&diagrams.admissible, true);
-        second.scenes = other_scenes(&search, &of_all, &admissible, should_cancel)?;
-    }
+    let second = opinion_on_diagrams(&search, &diagrams, &of_all, ranking.as_ref(), request)?;
     let contradicted = second.as_ref().is_some_and(|s| !s.agrees());
     // A count as written is what was asked for; one as meant is not what is meant.
     if contradicted && !request.as_written && request.symmetry != Symmetry::OnePerOrbit {

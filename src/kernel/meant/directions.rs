@@ -10,15 +10,6 @@ use crate::geom::vector::{Vector, X, Y, Z, add_scaled, cross, dot, length, scale
 /// Maximum move of a direction's components, in halves of their last digit. Such a direction is fitted, not solved for.
 pub(crate) const WITHIN: f64 = 1.1;
 
-/// Rules for accepting relations.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Caution {
-    /// Factor by which moves may be larger.
-    pub(crate) bold: f64,
-    /// Whether relations count that may exist by chance.
-    pub(crate) weak: bool,
-}
-
 /// A direction of a scene.
 #[derive(Debug, Clone)]
 pub(super) struct Direction {
@@ -29,8 +20,6 @@ pub(super) struct Direction {
     pub(super) rays: usize,
     /// The ray that gives it exactly, if it is written exactly.
     pub(super) exact: Option<usize>,
-    /// Whether it is the normal of a plane of points.
-    pub(super) plane: bool,
     /// Two axes of possible turns, with the error of each `[rad]`.
     pub(super) tilts: [(Vector, f64); 2],
 }
@@ -74,7 +63,6 @@ pub(super) fn of_rays(rays: &[Written], points: &[Vector], errors: &[f64]) -> Di
                 error,
                 rays: 1,
                 exact: rays[i].is_exact().then_some(i),
-                plane: false,
                 tilts: square_to(v).map(|e| (e, error)),
             });
             let weight = if error > 0.0 { error.powi(-2) } else { 0.0 };
@@ -106,7 +94,6 @@ impl Direction {
             error,
             rays: 0,
             exact: None,
-            plane: false,
             tilts: square_to(unit).map(|e| (e, error)),
         }
     }

@@ -2,7 +2,7 @@
 
 use super::MeantScene;
 use super::number::{Rational3, is_same};
-use super::resolve::{Resolved, resolve_scene};
+use super::resolve::resolve_scene;
 use super::written::{Written, WrittenScene, WrittenSymmetry};
 use crate::closure::contour::contour_basis;
 use crate::geom::expr::Expr;
@@ -25,8 +25,6 @@ pub struct Meant {
     pub mechanism: Mechanism,
     /// The frames of its joints as written.
     pub written: Vec<Frame>,
-    /// The mechanisms of other scenes that the digits do not exclude.
-    pub others: Vec<Mechanism>,
     /// The recovered scene.
     pub scene: MeantScene,
     /// The joint of each point of the scene.
@@ -184,19 +182,14 @@ pub fn recover_mechanism(mechanism: &Mechanism) -> Option<Meant> {
         return None;
     }
     all.written.symmetry = stated_symmetry(mechanism, &own, &offered);
-    let Resolved { scene, others } = resolve_scene(&all.written)?;
+    let scene = resolve_scene(&all.written)?;
     let places = Places {
         own,
         offered,
         normal,
     };
-    let others = others
-        .iter()
-        .map(|o| places.apply_scene(mechanism, o))
-        .collect();
     Some(Meant {
         mechanism: places.apply_scene(mechanism, &scene),
-        others,
         written: mechanism.joints.iter().map(|j| j.frame.clone()).collect(),
         scene,
         points: all.points,

@@ -55,8 +55,6 @@ pub(super) struct Projection<'a> {
     pub(super) rows: Vec<PointEquation>,
     /// Sum of squares of moves, in errors.
     pub(super) square: f64,
-    /// Factor by which moves may be larger than usual for relations.
-    pub(super) bold: f64,
 }
 
 impl<'a> Projection<'a> {
@@ -75,7 +73,6 @@ impl<'a> Projection<'a> {
             basis: Vec::new(),
             rows: Vec::new(),
             square: 0.0,
-            bold: 1.0,
         }
     }
 
@@ -94,18 +91,6 @@ impl<'a> Projection<'a> {
     pub(super) fn implies_moves(&self, gradients: &[(usize, Vector)]) -> bool {
         let a = self.weight_direction(gradients.iter().copied());
         sparse_norm(&self.free_of(&a)) <= 1e-6 * sparse_norm(&a)
-    }
-
-    /// Returns the move that a row currently requires, in errors. Returns `None` if the accepted rows determine it.
-    /// [`Projection::make_basis`] must have been called.
-    pub(super) fn required_move(&self, row: &PointEquation, normals: &[Vector]) -> Option<f64> {
-        let a = self.row_gradient(row, normals);
-        let before = sparse_norm(&a);
-        if sparse_norm(&self.free_of(&a)) <= DEPENDENT * before {
-            return None;
-        }
-        let left = sparse_norm(&self.across_basis(&a));
-        (left > DEPENDENT * before).then(|| (self.row_residue(row, normals) / left).abs())
     }
 
     /// Accepts the relations that hold together within the digits, retrying the refused ones at the end. Returns them
@@ -139,7 +124,7 @@ impl<'a> Projection<'a> {
         if !told.contains(&None) {
             return Taken::Implied;
         }
-        let most = (self.bold * largest_move(rows.len())).powi(2);
+        let most = largest_move(rows.len()).powi(2);
         let (points, taken, square) = (self.points.clone(), self.rows.len(), self.square);
         let mut moved = 0.0;
         for row in rows {
@@ -149,7 +134,7 @@ impl<'a> Projection<'a> {
             }
         }
         let touched = self.rows.len() > taken;
-        let by_chance = self.square <= self.bold.powi(2) * most_by_chance(self.rows.len());
+        let by_chance = self.square <= most_by_chance(self.rows.len());
         let is_taken =
             moved <= most && (!touched || (by_chance && self.relax_into_digits(normals)));
         let changed = std::mem::take(&mut self.before);
@@ -279,7 +264,7 @@ impl<'a> Projection<'a> {
     }
 
     /// Computes the directions of the rows that have none yet.
-    pub(super) fn make_basis(&mut self, normals: &[Vector]) {
+    fn make_basis(&mut self, normals: &[Vector]) {
         while let Some(row) = self.rows.get(self.basis.len()) {
             let a = self.row_gradient(row, normals);
             let mut across = self.across_basis(&a);

@@ -4,7 +4,8 @@ use super::exact_directions::Exact;
 use super::number::{Rational3, cross, frame_axes, scale_to_one, to_f64};
 use super::solve::PointEquation;
 use super::written::SPREAD;
-use crate::geom::vector::{self, Vector, add, dot, length, sub, unit};
+use crate::geom::vector::{self, Vector, dot, length, sub, unit};
+use itertools::Itertools;
 
 /// Kind of a relation.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -29,19 +30,16 @@ pub(super) struct Relation {
     /// Number of points that share it: planes of many points come before planes of two.
     pub(super) weight: usize,
     pub(super) off: f64,
-    /// Whether such a relation is to be expected by chance among that many points and normals.
-    pub(super) weak: bool,
 }
 
 impl Relation {
-    /// Creates a relation that chance does not explain, of no particular weight.
+    /// Creates a relation of no particular weight.
     pub(super) fn new(kind: RelationKind, rows: Vec<PointEquation>, off: f64) -> Relation {
         Relation {
             kind,
             rows,
             weight: 0,
             off,
-            weak: false,
         }
     }
 }
@@ -81,22 +79,11 @@ impl Normals {
     }
 }
 
-/// Kinds of relations for which a direction is used.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Use {
-    /// Lines along it and planes perpendicular to it.
-    Both,
-    /// Lines along it.
-    Lines,
-    /// Planes perpendicular to it.
-    Planes,
-}
-
 /// Finds the relations of some points, strongest first.
 pub(super) struct Finder<'a> {
     pub(super) points: &'a [Vector],
     pub(super) errors: &'a [f64],
-    pub(super) directions: Vec<(Exact, Use)>,
+    pub(super) directions: Vec<Exact>,
     pub(super) normals: Normals,
 }
 
@@ -104,7 +91,7 @@ impl<'a> Finder<'a> {
     pub(super) fn new(
         points: &'a [Vector],
         errors: &'a [f64],
-        directions: Vec<(Exact, Use)>,
+        directions: Vec<Exact>,
     ) -> Finder<'a> {
         Finder {
             points,
@@ -114,25 +101,19 @@ impl<'a> Finder<'a> {
         }
     }
 
-    /// Returns the relations along further directions only.
-    pub(super) fn relations_along(&mut self, directions: Vec<(Exact, Use)>) -> Vec<Relation> {
-        self.directions = directions;
-        let firsts = self.first_coincident();
-        let places: Vec<usize> = (0..firsts.len()).filter(|&i| firsts[i] == i).collect();
+    /// Returns the lines along a further direction.
+    pub(super) fn lines_along(&mut self, direction: &Exact) -> Vec<Relation> {
+        let normals = self.normals.square_to(&direction.exact);
         let mut out = Vec::new();
-        self.planes_and_lines(&places, &mut out);
+        self.find_lines(normals, &self.distinct_places(), &mut out);
         sort_by_strength(&mut out);
         out
     }
 
-    /// Returns the size of the point set, used to estimate chance.
-    fn scene_size(&self) -> f64 {
-        let far = |p: &Vector| length(sub(*p, self.points[0]));
-        self.points
-            .iter()
-            .map(far)
-            .fold(0.0, f64::max)
-            .max(f64::MIN_POSITIVE)
+    /// Returns the first of each set of coincident points.
+    fn distinct_places(&self) -> Vec<usize> {
+        let firsts = self.first_coincident();
+        (0..firsts.len()).filter(|&i| firsts[i] == i).collect()
     }
 
     fn pair_tolerance(&self, i: usize, j: usize) -> f64 {
@@ -151,10 +132,19 @@ impl<'a> Finder<'a> {
                 out.push(Relation::new(RelationKind::Coincident, rows, off));
             }
         }
-        let places: Vec<usize> = (0..firsts.len()).filter(|&i| firsts[i] == i).collect();
-        self.planes_and_lines(&places, &mut out);
+        let places = self.distinct_places();
+        let directions = std::mem::take(&mut self.directions);
+        let all = || directions.iter().map(|d| &d.exact);
+        let normals: Vec<usize> = all().map(|d| self.normals.index(d.clone())).collect();
+        let normals: Vec<usize> = normals.into_iter().sorted_unstable().dedup().collect();
+        for &n in &normals {
+            self.find_planes(n, &places, &mut out);
+        }
+        for d in all() {
+            let pair = self.normals.square_to(d);
+            self.find_lines(pair, &places, &mut out);
+        }
         self.equal_vectors(&places, &mut out);
-        self.find_mirrored(&places, &mut out);
         sort_by_strength(&mut out);
         out
     }
@@ -173,73 +163,26 @@ impl<'a> Finder<'a> {
         first
     }
 
-    fn planes_and_lines(&mut self, places: &[usize], out: &mut Vec<Relation>) {
-        let mut normals: Vec<usize> = Vec::new();
-        let mut lines: Vec<[usize; 2]> = Vec::new();
-        let mut spanning: Vec<&Exact> = Vec::new();
-        let directions = std::mem::take(&mut self.directions);
-        for (d, of) in &directions {
-            if *of != Use::Lines {
-                normals.push(self.normals.index(d.exact.clone()));
-            }
-            if *of == Use::Both {
-                spanning.push(d);
-            }
-            if *of != Use::Planes {
-                lines.push(self.normals.square_to(&d.exact));
-            }
-        }
-        for (i, a) in spanning.iter().enumerate() {
-            for b in &spanning[..i] {
-                if length(vector::cross(a.unit, b.unit)) > 0.02 {
-                    normals.push(self.normals.index(cross(&a.exact, &b.exact)));
-                }
-            }
-        }
-        normals.sort_unstable();
-        normals.dedup();
-        drop(spanning);
-        self.directions = directions;
-        let of = normals.len();
-        for n in normals {
-            self.find_planes(n, of, places, out);
-        }
-        for pair in lines {
-            self.find_lines(pair, places, out);
-        }
-    }
-
     /// Finds points in planes perpendicular to a normal: neighbours in the order along it.
-    fn find_planes(
-        &self,
-        normal: usize,
-        normals: usize,
-        places: &[usize],
-        out: &mut Vec<Relation>,
-    ) {
+    fn find_planes(&self, normal: usize, places: &[usize], out: &mut Vec<Relation>) {
         let n = unit(self.normals.real[normal]);
         let mut at: Vec<(f64, usize)> = places
             .iter()
             .map(|&p| (dot(n, self.points[p]), p))
             .collect();
         at.sort_by(|a, b| a.0.total_cmp(&b.0));
-        let spread = self.scene_size();
         let mut start = 0;
         for k in 1..=at.len() {
             let apart = at
                 .get(k)
                 .is_none_or(|x| x.0 - at[k - 1].0 > self.pair_tolerance(x.1, at[k - 1].1));
             if apart {
-                let error = self.errors[at[start].1];
-                let chance = by_chance(places.len(), k - start, error / spread);
-                let weak = chance * as_f64(normals) > CHANCE;
                 for w in at[start..k].windows(2) {
                     out.push(Relation {
                         kind: RelationKind::InPlane,
                         rows: vec![difference_row(w[1].1, w[0].1, normal)],
                         weight: k - start,
                         off: (w[1].0 - w[0].0) / self.pair_tolerance(w[1].1, w[0].1),
-                        weak,
                     });
                 }
                 start = k;
@@ -313,54 +256,6 @@ impl<'a> Finder<'a> {
             }
         }
     }
-
-    /// Finds pairs along a direction whose middles are in one plane perpendicular to it, with each other or with
-    /// points.
-    fn find_mirrored(&mut self, places: &[usize], out: &mut Vec<Relation>) {
-        let directions: Vec<Rational3> = self
-            .directions
-            .iter()
-            .filter(|d| d.1 != Use::Lines)
-            .map(|d| d.0.exact.clone())
-            .collect();
-        for d in directions {
-            let n = self.normals.index(d);
-            let unit = unit(self.normals.real[n]);
-            // Twice the middle along the normal, with its points.
-            let mut middles: Vec<(f64, usize, usize)> = Vec::new();
-            for (k, &i) in places.iter().enumerate() {
-                middles.push((2.0 * dot(unit, self.points[i]), i, i));
-                for &j in &places[..k] {
-                    let w = sub(self.points[i], self.points[j]);
-                    let across = sub(w, unit.map(|x| x * dot(unit, w)));
-                    if length(across) <= self.pair_tolerance(i, j)
-                        && length(w) > 10.0 * self.pair_tolerance(i, j)
-                    {
-                        middles.push((dot(unit, add(self.points[i], self.points[j])), i, j));
-                    }
-                }
-            }
-            middles.sort_by(|a, b| a.0.total_cmp(&b.0));
-            let error = 2.0 * self.errors[places[0]] / self.scene_size();
-            let chance = by_chance(middles.len(), 2, error) * as_f64(self.directions.len());
-            for w in middles.windows(2) {
-                let ((a, i, j), (b, p, q)) = (w[0], w[1]);
-                let wide = 0.8 * (self.pair_tolerance(i, j) + self.pair_tolerance(p, q));
-                // Two points in the plane are found already.
-                if (i == j && p == q) || b - a > wide {
-                    continue;
-                }
-                let row = PointEquation::sum(&[(i, 1), (j, 1), (p, -1), (q, -1)], n);
-                if row.terms.len() < 2 {
-                    continue;
-                }
-                out.push(Relation {
-                    weak: chance > CHANCE,
-                    ..Relation::new(RelationKind::Mirrored, vec![row], (b - a) / wide)
-                });
-            }
-        }
-    }
 }
 
 fn difference_row(i: usize, j: usize, normal: usize) -> PointEquation {
@@ -368,22 +263,6 @@ fn difference_row(i: usize, j: usize, normal: usize) -> PointEquation {
         terms: vec![(i, 1), (j, -1)],
         normal,
     }
-}
-
-/// Number of relations expected by chance above which one is doubtful.
-const CHANCE: f64 = 0.02;
-
-fn as_f64(n: usize) -> f64 {
-    n as f64
-}
-
-/// Returns the expected number of sets of `k` of `n` values that coincide by chance, each known to a fraction of their
-/// spread.
-fn by_chance(n: usize, k: usize, error: f64) -> f64 {
-    let each = |i: usize| as_f64(n - i) / as_f64(i + 1);
-    let sets: f64 = (0..k).map(each).product();
-    // Neighbours may be up to four errors apart on either side.
-    sets * (8.0 * error).powi(i32::try_from(k).unwrap_or(i32::MAX) - 1)
 }
 
 /// Sorts the strongest first.

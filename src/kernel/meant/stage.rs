@@ -1,12 +1,11 @@
 //! A scene between its two frames: the data before points are moved, and the resulting exact scene.
 
 use super::MeantScene;
-use super::directions::{Caution, Directions, WITHIN, of_rays};
+use super::directions::{Directions, WITHIN, of_rays};
 use super::exact_directions::{Exact, make_exact};
 use super::frame::SceneFrame;
 use super::number::{self, Rational3, nearest_decimal, to_f64};
-use super::projection::Projection;
-use super::relations::{Normals, Relation, Use};
+use super::relations::{Normals, Relation};
 use super::solve::{PointEquation, solve_rows};
 use super::together::adjust_together;
 use super::written::{Written, WrittenScene};
@@ -22,8 +21,6 @@ const NEVER_ALL: f64 = 0.95;
 /// Data of a scene before its points are moved.
 pub(super) struct Stage<'a> {
     written: &'a WrittenScene,
-    /// Maximum move within a last digit, in halves of it.
-    within: f64,
     floor: f64,
     size: f64,
     /// Decimals of a direction's components.
@@ -49,11 +46,10 @@ fn decimal_places(error: f64) -> u32 {
 }
 
 impl<'a> Stage<'a> {
-    pub(super) fn new(written: &'a WrittenScene, caution: Caution) -> Stage<'a> {
+    pub(super) fn new(written: &'a WrittenScene) -> Stage<'a> {
         let errors = written.point_errors();
         let points: Vec<Vector> = written.points.iter().map(|p| p.value).collect();
         let size = written.scene_size();
-        let within = NEVER_ALL * caution.bold;
         let least = errors.iter().fold(f64::INFINITY, |a, &e| a.min(e));
         let inexact = written
             .rays
@@ -61,7 +57,7 @@ impl<'a> Stage<'a> {
             .map(Written::angular_error)
             .filter(|e| *e > 0.0);
         let digits = decimal_places((least / size).min(inexact.fold(1.0, f64::min))).min(18);
-        let (of, symmetric) = adjusted_directions(written, &points, &errors, caution.bold);
+        let (of, symmetric) = adjusted_directions(written, &points, &errors);
         let frame = SceneFrame::from_directions(&of.all);
         let whole = |p: &usize| written.points[*p].half == [0.0; 3];
         let origin = (0..points.len()).find(whole).unwrap_or(0);
@@ -73,7 +69,7 @@ impl<'a> Stage<'a> {
                 let image =
                     Exact::exact_near(symmetry.image_exactly(&n, &exact[a].exact), &exact[b]);
                 if of.all[b].exact.is_none()
-                    && digits_allow(written, &of, caution.bold)(b, frame.file_vector(image.unit))
+                    && digits_allow(written, &of)(b, frame.file_vector(image.unit))
                 {
                     exact[b] = image;
                 }
@@ -88,7 +84,6 @@ impl<'a> Stage<'a> {
         });
         Stage {
             written,
-            within,
             floor: written.least_error(),
             size,
             digits,
@@ -104,11 +99,10 @@ impl<'a> Stage<'a> {
     }
 
     /// Returns the exact directions of the scene. They include the file's own axes if its frame is the scene's.
-    pub(super) fn scene_directions(&self) -> Vec<(Exact, Use)> {
+    pub(super) fn scene_directions(&self) -> Vec<Exact> {
         let own = number::frame_axes().into_iter().map(Exact::of_axis);
         let own = own.filter(|_| self.frame.rotation.is_none());
-        let all = self.exact.iter().cloned().chain(own);
-        all.map(|e| (e, Use::Both)).collect()
+        self.exact.iter().cloned().chain(own).collect()
     }
 
     /// Returns the relations of the stated symmetry.
@@ -141,7 +135,7 @@ impl<'a> Stage<'a> {
     /// Returns the displacement nearest to `by` that the digits of the point allow, in the scene's frame.
     pub(super) fn clip_move(&self, p: usize, by: Vector) -> Vector {
         let (out, half) = (self.frame.file_vector(by), &self.written.points[p].half);
-        let most = half.map(|h| self.within * h.max(self.floor));
+        let most = half.map(|h| NEVER_ALL * h.max(self.floor));
         if (0..3).all(|c| out[c].abs() <= most[c]) {
             return by;
         }
@@ -183,7 +177,6 @@ impl<'a> Stage<'a> {
             moved: self.largest_move(&points, &rays),
             points,
             rays,
-            inside,
             cluster: self.of.of_ray.iter().map(|r| r.0).collect(),
             relations: Vec::new(),
         })
@@ -225,12 +218,11 @@ impl<'a> Stage<'a> {
 fn digits_allow<'a>(
     written: &'a WrittenScene,
     of: &Directions,
-    bold: f64,
 ) -> impl Fn(usize, Vector) -> bool + use<'a> {
     let of_ray = of.of_ray.clone();
     move |k, v| {
         let mut of_it = written.rays.iter().zip(&of_ray).filter(|r| r.1.0 == k);
-        of_it.all(|r| r.0.move_to(v, 0.0) <= WITHIN * bold)
+        of_it.all(|r| r.0.move_to(v, 0.0) <= WITHIN)
     }
 }
 
@@ -240,7 +232,6 @@ fn adjusted_directions(
     written: &WrittenScene,
     points: &[Vector],
     errors: &[f64],
-    bold: f64,
 ) -> (Directions, Option<usize>) {
     let mut of = of_rays(&written.rays, points, errors);
     let symmetry = written.symmetry.as_ref();
@@ -249,23 +240,8 @@ fn adjusted_directions(
     if SceneFrame::is_the_files(&of.all) {
         of.add_axes();
     }
-    let fits = digits_allow(written, &of, bold);
-    adjust_together(&mut of.all, bold, fits);
+    let fits = digits_allow(written, &of);
+    adjust_together(&mut of.all, fits);
     of.all.truncate(own);
     (of, symmetric)
-}
-
-/// The points of a projection and the number of rows it has accepted: a snapshot.
-pub(super) struct StageMark {
-    pub(super) rows: usize,
-    pub(super) points: Vec<Vector>,
-}
-
-impl StageMark {
-    pub(super) fn from_projection(at: &Projection<'_>) -> StageMark {
-        StageMark {
-            rows: at.rows.len(),
-            points: at.points.clone(),
-        }
-    }
 }

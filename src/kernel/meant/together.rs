@@ -129,16 +129,11 @@ fn candidate_relations(all: &[Direction]) -> Vec<DirectionRelation> {
     out.into_iter().map(|x| x.2).collect()
 }
 
-/// Turns directions so that all compatible relations hold. `allowed` says whether the digits allow a direction, and
-/// turns may be larger by `bold` than usual.
+/// Turns directions so that all compatible relations hold. `allowed` says whether the digits allow a direction.
 ///
 /// # Complexity
 /// O(d³) relations of d directions, each compared with the accepted ones.
-pub(super) fn adjust_together(
-    all: &mut [Direction],
-    bold: f64,
-    allowed: impl Fn(usize, Vector) -> bool,
-) {
+pub(super) fn adjust_together(all: &mut [Direction], allowed: impl Fn(usize, Vector) -> bool) {
     let found = candidate_relations(all);
     let mut turns = Turns {
         all,
@@ -159,8 +154,7 @@ pub(super) fn adjust_together(
             })
             .collect();
         let units = turns.turned_units();
-        if step.is_some_and(|s| s <= bold * LIMIT) && touched.iter().all(|&d| allowed(d, units[d]))
-        {
+        if step.is_some_and(|s| s <= LIMIT) && touched.iter().all(|&d| allowed(d, units[d])) {
             taken.push(r);
         } else {
             turns.turns = before;

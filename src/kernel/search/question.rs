@@ -169,10 +169,7 @@ impl Question {
         let mut mechanism: Arc<Mechanism> = mechanism.into();
         let followed = Followed::new(&mechanism, &conditions)?;
         if let Some(written) = &mut conditions.written {
-            let others = written.others.iter_mut();
-            others
-                .chain([&mut written.mechanism])
-                .for_each(|of| followed.enter_drives(of));
+            followed.enter_drives(&mut written.mechanism);
         }
         followed.enter_drives(&mut mechanism);
         let searched = conditions.state.map(|s| s.state);
@@ -189,10 +186,7 @@ impl Question {
         if let Some(found) = found {
             found.apply_to(Arc::make_mut(&mut mechanism));
             if let Some(written) = &mut conditions.written {
-                let others = written.others.iter_mut();
-                others
-                    .chain([&mut written.mechanism])
-                    .for_each(|of| found.apply_to(Arc::make_mut(of)));
+                found.apply_to(Arc::make_mut(&mut written.mechanism));
             }
         }
         if conditions.symmetry != Symmetry::All && !mechanism.search.nearly_symmetric {

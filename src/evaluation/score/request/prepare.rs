@@ -45,11 +45,9 @@ pub(in crate::score) fn as_in_file(
         };
         present.is_none_or(wider)
     };
-    let others = settled.others.iter().map(|o| Arc::new(in_places(ready, o)));
     Written {
         only_adds: ready.joints.iter().all(adds),
         mechanism: Arc::new(in_places(ready, file)),
-        others: others.collect(),
         digits: digits_of(&settled.verdicts),
     }
 }

@@ -1,6 +1,5 @@
-//! What singular values, and other scenes that the digits do not rule out, say of a search.
+//! What singular values say of a search.
 
-use crate::redundancy::analysis::exact_field;
 use crate::score::outcome::ranking::RankedPool;
 use crate::score::request::error::RunError;
 use crate::score::request::{List, Request};
@@ -10,8 +9,6 @@ use crate::search::answer::k_best::Assignment;
 use crate::search::build::Diagrams;
 use crate::search::check::second_opinion::{self, SecondOpinion};
 use crate::search::check::singular_values::CHECKED;
-use crate::search::question::conditions::Conditions;
-use num_bigint::BigUint;
 
 /// Of so many ideas the first variants get a second opinion.
 const IDEAS: usize = 100;
@@ -54,46 +51,4 @@ pub(super) fn opinion_on_diagrams(
     let said =
         second_opinion::second_opinion(search, written, listed, drawn, determinate, request.seed)?;
     Ok(Some(said))
-}
-
-/// Returns the least and the most (determinate, admissible) over the scenes that the digits do not rule out; `None` if all are the same,
-/// also by mobility.
-pub(super) fn other_scenes(
-    search: &Search,
-    determinate: &Counts,
-    admissible: &Counts,
-    should_cancel: &(dyn Fn() -> bool + Sync),
-) -> Result<Option<[(BigUint, BigUint); 2]>, RunError> {
-    let scenes = search.conditions.written.iter().flat_map(|w| &w.others);
-    let own = (determinate.total.clone(), admissible.total.clone());
-    let (mut range, mut differ) = ([own.clone(), own], false);
-    for scene in scenes {
-        let field = exact_field(scene, 0)?;
-        let conditions = Conditions {
-            estimate: None,
-            throughout: false,
-            ..search.conditions.clone()
-        };
-        let other = Search::new(field, scene.clone(), conditions)?;
-        let built = other.build_diagrams(should_cancel, &mut |_| {});
-        let found = (
-            other.count_variants(&built.determinate, false),
-            other.count_variants(&built.admissible, true),
-        );
-        differ |= found.0.by_mobility != determinate.by_mobility
-            || found.1.by_mobility != admissible.by_mobility;
-        let [least, most] = &mut range;
-        for (total, least, most) in [
-            (found.0.total, &mut least.0, &mut most.0),
-            (found.1.total, &mut least.1, &mut most.1),
-        ] {
-            if total < *least {
-                least.clone_from(&total);
-            }
-            if total > *most {
-                *most = total;
-            }
-        }
-    }
-    Ok(differ.then_some(range))
 }

@@ -339,8 +339,6 @@ fn verdict_near(mechanism: &Mechanism, state: StateId, rank: usize, half: &Uncer
 pub struct Settled {
     /// The snapped mechanism if it is the intended one; `None` if the file is used as written.
     pub snapped: Option<Mechanism>,
-    /// The mechanisms of other scenes that the digits do not exclude.
-    pub others: Vec<Mechanism>,
     /// Description of the recovered relations, if the mechanism was snapped.
     pub understood: Option<String>,
     /// The verdicts on the states. Empty if every digit is exact, so that there is nothing to decide.
@@ -384,7 +382,6 @@ pub fn settle_states(mechanism: &Mechanism, states: &[StateId]) -> Result<Settle
         out.understood = Some(describe_relations(s));
         out.snapped = Some(s.mechanism.clone());
     }
-    out.others = scene.map(|s| s.others).unwrap_or_default();
     Ok(out)
 }
 

@@ -78,8 +78,6 @@ pub struct SecondOpinion {
     pub contradiction: Option<Contradiction>,
     /// What breaks the law.
     pub below_present: Option<BelowPresent>,
-    /// The least and the most (determinate, admissible) of scenes that the digits do not rule out, where they differ.
-    pub scenes: Option<[(BigUint, BigUint); 2]>,
 }
 
 impl SecondOpinion {
@@ -100,7 +98,7 @@ impl SecondOpinion {
     #[must_use]
     pub fn confirms(&self) -> bool {
         let decided = !self.digits.undecided && self.count_undecided() == 0;
-        self.agrees() && decided && self.scenes.is_none()
+        self.agrees() && decided
     }
 }
 
@@ -222,7 +220,6 @@ pub fn second_opinion(
         narrowest,
         contradiction,
         below_present,
-        scenes: None,
     })
 }
 

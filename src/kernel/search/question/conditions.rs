@@ -179,8 +179,6 @@ pub enum SearchError {
 pub struct Written {
     /// It, with the links, joints and options of the one that is searched.
     pub mechanism: Arc<Mechanism>,
-    /// The mechanism in other scenes that the digits do not rule out.
-    pub others: Vec<Arc<Mechanism>>,
     /// What its digits tell.
     pub digits: Digits,
     /// True if each option allows every motion of the original joint.

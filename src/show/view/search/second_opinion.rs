@@ -78,19 +78,12 @@ pub(crate) fn opinion_lines(outcome: &Outcome) -> Vec<String> {
             b.present
         ));
     }
-    if let Some([least, most]) = &said.scenes {
-        out.push(format!(
-            "Not exact: within its digits the geometry has {} determinate and {} admissible variants; give more digits or a \
-             [tolerance]",
-            format_span(group_thousands(&least.0), group_thousands(&most.0)),
-            format_span(group_thousands(&least.1), group_thousands(&most.1))
-        ));
-    }
     if out.is_empty() && !said.confirms() {
         out.push(match said.count_undecided() {
-            0 => "Not exact: the digits of the file do not decide the geometry".to_owned(),
+            0 => "Not exact: the digits of the file do not decide the geometry; give more digits or a [tolerance]".to_owned(),
             n => format!(
-                "Not exact: the digits of the file do not decide {} of the variants asked about",
+                "Not exact: the digits of the file do not decide {} of the variants asked about; give more digits or a \
+                 [tolerance]",
                 group_thousands(n)
             ),
         });
@@ -118,8 +111,7 @@ fn describe_agreement(said: &SecondOpinion) -> String {
     )
 }
 
-/// Returns the second opinion as data; `scenes` are the least and the most (determinate, admissible) of those that the digits do not
-/// rule out, where they differ.
+/// Returns the second opinion as data.
 pub(crate) fn opinion_json(outcome: &Outcome) -> Option<Value> {
     let said = outcome.second.as_ref()?;
     let contradiction = said.contradiction.as_ref().map(|c| {
@@ -134,7 +126,6 @@ pub(crate) fn opinion_json(outcome: &Outcome) -> Option<Value> {
             "largest_dropped": c.gap.1,
         })
     });
-    let scenes = said.scenes.as_ref();
     Some(json!({
         "agree": said.agrees() && said.count_undecided() == 0,
         "undecided": said.digits.undecided,
@@ -146,6 +137,5 @@ pub(crate) fn opinion_json(outcome: &Outcome) -> Option<Value> {
         "narrowest_gap": Some(said.narrowest).filter(|g| g.is_finite()),
         "contradiction": contradiction,
         "below_present": said.below_present.as_ref().map(|b| b.variants.to_string()),
-        "scenes": scenes.map(|s| s.each_ref().map(|(a, b)| [a.to_string(), b.to_string()])),
     }))
 }
