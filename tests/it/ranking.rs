@@ -8,7 +8,6 @@ mod proof;
 mod reasons;
 
 use ozols::model::ranking::Ranking;
-use ozols::score::joint_types::JointTypes;
 use ozols::score::outcome::ranking::{RankedPool, Ranker, compare_ranked};
 
 fn loaded() -> Mechanism {
