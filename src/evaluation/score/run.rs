@@ -30,8 +30,6 @@ pub use crate::score::request::error::RunError;
 
 /// Brute force looks at no more variants than this.
 const BRUTE_LIMIT: u64 = 1 << 32;
-/// How many of the best both primes must agree on where no number of them is asked for.
-const COMPARED: usize = 10;
 /// The note if counts are not split by their properties.
 const ONLY_TOTALS: &str = "note: counts by mobility, changes and the like would take more than the memory allowed; only totals are given";
 /// The note if the second opinion differs.
@@ -130,7 +128,7 @@ pub fn answer_request(
     for note in search.already_loose()? {
         tell(Event::Note(note));
     }
-    let (diagrams, check) = build_diagrams(&search, twin.as_ref(), request, should_cancel, tell)?;
+    let (diagrams, check) = build_diagrams(&search, twin.as_ref(), should_cancel, tell)?;
     tell(Event::Built);
     let mut stops = [diagrams.determinate.stop, diagrams.admissible.stop];
     let mut counts = count_found(&search, &diagrams, request);
@@ -228,7 +226,6 @@ fn by_brute_force(
 fn build_diagrams(
     search: &Search,
     twin: Option<&Search>,
-    request: &Request,
     should_cancel: ShouldCancel<'_>,
     tell: Tell<'_>,
 ) -> Result<(Diagrams, Option<PrimeCheck>), RunError> {
@@ -238,11 +235,7 @@ fn build_diagrams(
     };
     let both: [&Question; 2] = [search, twin];
     let (first, second) = second_prime::build_both(both, should_cancel, progress);
-    let compared = match request.list {
-        List::Top(k) => k,
-        List::All | List::Sample(_) | List::Nothing => COMPARED,
-    };
-    let verdict = second_prime::compare_primes(both, [&first, &second], compared)?;
+    let verdict = second_prime::compare_primes(both, [&first, &second])?;
     let primes = second_prime::primes(both);
     Ok((first, Some(PrimeCheck { primes, verdict })))
 }

@@ -33,7 +33,7 @@ fn compared([one, other]: [&str; 2]) -> Result<(Verdict, [u64; 2]), String> {
     let (a, b) = build_both(searches, &|| false, &mut |_| {});
     let counts = [(&first, &a), (&second, &b)].map(|(s, d)| SearchCounts::of_diagrams(s, d));
     let by_counts = compare_counts(searches, counts.each_ref());
-    let whole = compare_primes(searches, [&a, &b], 10);
+    let whole = compare_primes(searches, [&a, &b]);
     assert_eq!(by_counts.is_ok(), whole.is_ok());
     match whole {
         Ok(v) => Ok((v, primes(searches))),

@@ -207,7 +207,7 @@ fn over_two_primes(
     let over = |nth| Search::new(exact_field(m, nth).unwrap(), m, request.clone()).unwrap();
     let (search, twin) = (over(0), over(1));
     let (diagrams, second) = build_both([&search, &twin], &|| false, &mut |_| {});
-    let verdict = compare_primes([&search, &twin], [&diagrams, &second], 10);
+    let verdict = compare_primes([&search, &twin], [&diagrams, &second]);
     prop_assert_eq!(verdict.unwrap(), Verdict::Agree);
     let determinate = search.count_variants(&diagrams.determinate, false);
     let admissible = search.count_variants(&diagrams.admissible, true);
