@@ -110,26 +110,6 @@ impl Outcome {
         }
     }
 
-    /// Creates an outcome from a search by singular values.
-    pub(super) fn of_numeric(
-        search: Search,
-        request: Request,
-        found: AtTolerance,
-        measured: Option<LooksRounded>,
-    ) -> Outcome {
-        let counts = SearchCounts {
-            determinate: found.determinate.sure.clone(),
-            admissible: found.admissible.sure.clone(),
-            lasting: None,
-        };
-        Outcome {
-            stop: found.stop,
-            determinate_stop: found.stop,
-            numeric: Some(found),
-            ..Outcome::of_counts(search, request, counts, measured)
-        }
-    }
-
     /// Returns the counts of the listed variants: those that keep the motion throughout, or the admissible ones if these are not known.
     ///
     /// # Examples

@@ -355,12 +355,17 @@ fn search_numerically(
     };
     let found = search.at_tolerance(digits, list, request.seed, should_cancel)?;
     tell(Event::Built);
-    Ok(Outcome::of_numeric(
-        search,
-        request.clone(),
-        found,
-        measured,
-    ))
+    let counts = SearchCounts {
+        determinate: found.determinate.sure.clone(),
+        admissible: found.admissible.sure.clone(),
+        lasting: None,
+    };
+    Ok(Outcome {
+        stop: found.stop,
+        determinate_stop: found.stop,
+        numeric: Some(found),
+        ..Outcome::of_counts(search, request.clone(), counts, measured)
+    })
 }
 
 /// Computes the counts of orbits over one prime or two, which must agree. Also returns why the search ended, including that
