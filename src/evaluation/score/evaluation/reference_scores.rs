@@ -29,29 +29,6 @@ fn load_without_drive(r: &JointReaction) -> ([f64; 3], [f64; 3]) {
     (f, m)
 }
 
-/// Raises the peaks to the reactions of a realized variant, and calls `each` with each load.
-fn raise_peaks(
-    scores: &mut Scores,
-    reactions: &[JointReaction],
-    types: &[(JointId, JointType)],
-    each: &mut dyn FnMut(PoseLoad),
-) {
-    for r in reactions {
-        let (at, t) = &types[r.joint];
-        let (f, moment) = load_without_drive(r);
-        each(PoseLoad {
-            joint: *at,
-            force: length(f),
-            moment: length(moment),
-            capacity: (t.capacity_force, t.capacity_moment),
-        });
-        scores.force.raise_peak(length(f), t.capacity_force, *at);
-        if let Some(capacity) = t.capacity_moment {
-            scores.moment.raise_peak(length(moment), capacity, *at);
-        }
-    }
-}
-
 /// Returns a unit force along an axis on a point of a link as the only load.
 fn unit_force(link: LinkId, point: [f64; 3], axis: usize) -> Loads {
     let force = ExternalForce {
@@ -100,7 +77,17 @@ impl Evaluator<'_> {
             let mut now = self.unloaded_scores(variant);
             now.conditioning = 1.0 / solution.condition;
             now.minimum_norm = solution.choice == Uniqueness::MinimumNorm;
-            raise_peaks(&mut now, &solution.reactions, &types, each);
+            for r in &solution.reactions {
+                let (joint, t) = &types[r.joint];
+                let (force, moment) = load_without_drive(r);
+                let load = PoseLoad {
+                    joint: *joint,
+                    force: length(force),
+                    moment: length(moment),
+                    capacity: (t.capacity_force, t.capacity_moment),
+                };
+                load.raise_peaks(&mut now, each);
+            }
             for &(link, point) in &self.outputs {
                 let mut error = ErrorSum::new(self.clearance);
                 for axis in 0..3 {
