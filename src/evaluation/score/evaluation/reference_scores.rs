@@ -4,7 +4,7 @@ use crate::geom::expr::Expr;
 use crate::geom::vector::length;
 use crate::model::joint_type::Freedom;
 use crate::model::loads::{ExternalForce, Loads};
-use crate::model::mechanism::{JointId, LinkId, StateId};
+use crate::model::mechanism::{JointId, JointOption, LinkId, StateId};
 use crate::score::evaluation::evaluate::Evaluator;
 use crate::score::evaluation::evaluate::PoseLoad;
 use crate::score::evaluation::terms::{ErrorSum, Scores, axis_of};
@@ -120,16 +120,12 @@ impl Evaluator<'_> {
         let (mut here, mut inserted) = (Vec::new(), Vec::new());
         for (j, (option, unloading, _)) in m.joint_ids().zip(chosen) {
             let joint = &m.joints[j];
-            let bears = |o: Option<&crate::model::mechanism::JointOption>| {
-                let nothing = JointType {
-                    capacity_force: 1.0,
-                    capacity_moment: None,
-                    clearance: 0.0,
-                };
-                (j, o.map_or(nothing, |o| self.types.option_type(o)))
+            let bears = |o: Option<&JointOption>| {
+                let bears = o.map(|o| self.types.option_type(o));
+                (j, bears.unwrap_or(JointType::UNLIMITED))
             };
             here.push(bears(joint.options.get(option)));
-            if let Some(u) = unloading.and_then(|u: usize| joint.unloading.get(u)) {
+            if let Some(u) = unloading.and_then(|u| joint.unloading.get(u)) {
                 inserted.push(bears(Some(u)));
             }
         }
