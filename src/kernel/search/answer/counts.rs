@@ -159,11 +159,7 @@ fn wanted_by(
     filter: bool,
     kinds: Kinds,
 ) -> Option<Vec<(Key, BigUint)>> {
-    let limited = if filter {
-        limited_kinds(question)
-    } else {
-        Kinds::default()
-    };
+    let limited = limited_kinds(question, filter);
     let kinds = Kinds {
         freedoms: kinds.freedoms || limited.freedoms,
         changes: kinds.changes || limited.changes,
@@ -198,11 +194,11 @@ fn totals_by(question: &Question, diagram: &Diagram, kinds: Kinds) -> Option<Vec
     count(question, diagram, kinds)
 }
 
-/// Returns the properties that decide whether a variant meets the conditions on mobility and changes.
-pub(in crate::search) fn limited_kinds(question: &Question) -> Kinds {
+/// Returns the properties that decide whether a variant meets the conditions on mobility and changes; none without `filter`.
+pub(in crate::search) fn limited_kinds(question: &Question, filter: bool) -> Kinds {
     Kinds {
-        freedoms: question.conditions.max_mobility.is_some(),
-        changes: question.conditions.max_changes.is_some(),
+        freedoms: filter && question.conditions.max_mobility.is_some(),
+        changes: filter && question.conditions.max_changes.is_some(),
         cost: false,
     }
 }

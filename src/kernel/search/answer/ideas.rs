@@ -301,7 +301,7 @@ fn with_pattern(
     patterns: &Patterns,
     pattern: &Pattern,
 ) -> BigUint {
-    let steps = question.steps.keep_kinds(limited_kinds(question));
+    let steps = question.steps.keep_kinds(limited_kinds(question, true));
     let to_come = patterns.to_come(diagram);
     let mut here: BTreeMap<(usize, Pattern, Key), BigUint> = BTreeMap::new();
     here.insert((0, pattern.clone(), Key::default()), BigUint::from(1u8));
