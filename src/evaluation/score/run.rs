@@ -235,9 +235,8 @@ fn build_diagrams(
     };
     let both: [&Question; 2] = [search, twin];
     let (first, second) = second_prime::build_both(both, should_cancel, progress);
-    let verdict = second_prime::compare_primes(both, [&first, &second])?;
-    let primes = second_prime::primes(both);
-    Ok((first, Some(PrimeCheck { primes, verdict })))
+    let check = second_prime::compare_primes(both, [&first, &second])?;
+    Ok((first, Some(check)))
 }
 
 /// Returns the numbers of determinate and admissible variants.
