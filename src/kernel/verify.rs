@@ -8,11 +8,10 @@
 
 pub mod certificate;
 mod field;
-mod flaw;
 pub mod matrix;
 mod modular;
 
-pub use flaw::Flaw;
+pub use certificate::Flaw;
 
 use num_bigint::BigInt;
 use num_traits::Zero;
@@ -49,18 +48,23 @@ pub fn check_certificate(
 ) -> Result<usize, Flaw> {
     let (rows, columns, rank) = (certificate.rows, certificate.columns, certificate.rank);
     if (rows, columns) != (matrix.rows(), matrix.columns()) {
-        return Err(Flaw::Shape {
-            claimed: [rows, columns],
-            actual: [matrix.rows(), matrix.columns()],
-        });
+        return malformed(format!(
+            "it is for a {rows} x {columns} matrix, but this one is {} x {}",
+            matrix.rows(),
+            matrix.columns()
+        ));
     }
     if rank > rows.min(columns) {
-        return Err(Flaw::RankTooLarge { rank });
+        return malformed(format!("rank {rank} exceeds the size of the matrix"));
     }
     field::check_field(matrix, &certificate.field)?;
     at_least(matrix, certificate)?;
     at_most(matrix, certificate)?;
     Ok(rank)
+}
+
+fn malformed<T>(why: impl Into<String>) -> Result<T, Flaw> {
+    Err(Flaw::Malformed(why.into()))
 }
 
 /// Returns true if every index is below a bound and none is repeated.
@@ -74,15 +78,14 @@ fn are_distinct(indices: &[usize], bound: usize) -> bool {
 fn at_least(matrix: &MatrixOverRing, certificate: &Certificate) -> Result<(), Flaw> {
     let (rank, minor) = (certificate.rank, &certificate.minor);
     if minor.rows.len() != rank || minor.columns.len() != rank {
-        return Err(Flaw::PivotCount {
-            rank,
-            rows: minor.rows.len(),
-            columns: minor.columns.len(),
-        });
+        let (rows, columns) = (minor.rows.len(), minor.columns.len());
+        return malformed(format!(
+            "{rows} pivot rows and {columns} pivot columns do not show rank {rank}"
+        ));
     }
     if !are_distinct(&minor.rows, matrix.rows()) || !are_distinct(&minor.columns, matrix.columns())
     {
-        return Err(Flaw::PivotIndices);
+        return malformed("pivot rows or columns repeat or lie outside the matrix");
     }
     let images = Homomorphism::new(minor.prime, &minor.images, matrix.ring())?;
     images.satisfies_relation(matrix.ring(), matrix.ring().generators())?;
@@ -103,16 +106,18 @@ fn at_least(matrix: &MatrixOverRing, certificate: &Certificate) -> Result<(), Fl
 fn at_most(matrix: &MatrixOverRing, certificate: &Certificate) -> Result<(), Flaw> {
     let kernel = &certificate.kernel;
     if kernel.len() != matrix.columns() - certificate.rank {
-        return Err(Flaw::KernelCount {
-            wanted: matrix.columns() - certificate.rank,
-            given: kernel.len(),
-        });
+        let (given, wanted) = (kernel.len(), matrix.columns() - certificate.rank);
+        return malformed(format!(
+            "{given} kernel vectors are given, but {wanted} are needed"
+        ));
     }
     // Pivot columns and free columns together are all columns.
     let mut all: Vec<usize> = kernel.iter().map(|v| v.free).collect();
     all.extend(&certificate.minor.columns);
     if !are_distinct(&all, matrix.columns()) {
-        return Err(Flaw::FreeColumns);
+        return malformed(
+            "the free columns of the kernel are not the columns without a pivot, each once",
+        );
     }
     let mut free = vec![false; matrix.columns()];
     kernel.iter().for_each(|v| free[v.free] = true);
@@ -121,10 +126,12 @@ fn at_most(matrix: &MatrixOverRing, certificate: &Certificate) -> Result<(), Fla
     for (i, vector) in kernel.iter().enumerate() {
         let support: Vec<usize> = vector.entries.iter().map(|(c, _)| *c).collect();
         if !are_distinct(&support, matrix.columns()) {
-            return Err(Flaw::KernelIndices { vector: i });
+            return malformed(format!(
+                "kernel vector {i} has entries that repeat or lie outside the matrix"
+            ));
         }
         if !vector.entries.iter().all(|(_, x)| ring.contains(x)) {
-            return Err(Flaw::KernelNumber { vector: i });
+            return malformed(format!("kernel vector {i} has a number outside the field"));
         }
         let reduced = vector.entries.iter().all(|(c, x)| {
             !free[*c]
@@ -135,7 +142,9 @@ fn at_most(matrix: &MatrixOverRing, certificate: &Certificate) -> Result<(), Fla
                 }
         });
         if !reduced || !support.contains(&vector.free) {
-            return Err(Flaw::NotReduced { vector: i });
+            return malformed(format!(
+                "kernel vector {i} is not 1 in its own free column and 0 in the others"
+            ));
         }
         if let Some(row) = not_annihilated(matrix, &integral, vector) {
             return Err(Flaw::NotInKernel { vector: i, row });

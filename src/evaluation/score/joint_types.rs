@@ -19,6 +19,15 @@ pub struct JointType {
     pub clearance: f64,
 }
 
+impl JointType {
+    /// A joint of which nothing is known: its share is the force itself, and it has no play.
+    pub(in crate::score) const UNLIMITED: JointType = JointType {
+        capacity_force: 1.0,
+        capacity_moment: None,
+        clearance: 0.0,
+    };
+}
+
 /// Joint types by name.
 #[derive(Debug, Clone)]
 pub struct JointTypes {
@@ -74,14 +83,9 @@ impl JointTypes {
 
     /// Returns the values of an option by its own name, or by that of its type.
     pub fn option_type(&self, option: &JointOption) -> JointType {
-        let bears_nothing = JointType {
-            capacity_force: 1.0,
-            capacity_moment: None,
-            clearance: 0.0,
-        };
         self.get(&option.name)
             .or_else(|| self.get(option.joint_type.name()))
             .copied()
-            .unwrap_or(bears_nothing)
+            .unwrap_or(JointType::UNLIMITED)
     }
 }

@@ -18,18 +18,15 @@ use crate::search::answer::counts::Counts;
 use crate::search::answer::estimate::Estimate;
 use crate::search::answer::everywhere::count_everywhere;
 use crate::search::answer::search_counts::SearchCounts;
-use crate::search::answer::why_none;
-use crate::search::answer::why_none::{Hopeless, Relaxation};
 use crate::search::at_tolerance::AtTolerance;
 use crate::search::build::Diagrams;
 use crate::search::check::other_poses::Stroke;
 use crate::search::check::second_opinion::SecondOpinion;
 use crate::search::check::second_prime::PrimeCheck;
 use crate::search::diagram::Stop;
-use crate::search::question::conditions::{SearchError, Symmetry};
+use crate::search::question::conditions::Symmetry;
 use crate::search::question::throughout::PoseOnly;
 use num_bigint::BigUint;
-use num_traits::{One, Zero};
 use std::collections::BTreeMap;
 
 /// The results of a search.
@@ -107,26 +104,6 @@ impl Outcome {
             ranking: None,
             numeric: None,
             second: None,
-        }
-    }
-
-    /// Creates an outcome from a search by singular values.
-    pub(super) fn of_numeric(
-        search: Search,
-        request: Request,
-        found: AtTolerance,
-        measured: Option<LooksRounded>,
-    ) -> Outcome {
-        let counts = SearchCounts {
-            determinate: found.determinate.sure.clone(),
-            admissible: found.admissible.sure.clone(),
-            lasting: None,
-        };
-        Outcome {
-            stop: found.stop,
-            determinate_stop: found.stop,
-            numeric: Some(found),
-            ..Outcome::of_counts(search, request, counts, measured)
         }
     }
 
@@ -270,49 +247,5 @@ impl Outcome {
         let lasting = diagrams.and_then(|d| d.lasting.as_ref().ok());
         let lasting = lasting.filter(|_| self.request.symmetry != Symmetry::OnePerOrbit);
         counts::counts_by_cost(&self.search, lasting?)
-    }
-
-    /// Returns the variants that relaxing one condition would leave if nothing was found. Covers the conditions that were
-    /// reached until `cancelled` returned true. If some variants keep the motion in the drawn pose only, returns these.
-    ///
-    /// # Errors
-    /// Returns an error if the geometry has no exact image.
-    ///
-    /// # Complexity
-    /// A search for each condition and each step of relaxing it. None has more than some thousand nodes.
-    ///
-    /// # Examples
-    /// ```
-    /// let few = ozols::Request { max_changes: Some(1), ..Default::default() };
-    /// let outcome = ozols::search(&ozols::built_in("four-bar")?, &few)?;
-    /// assert_eq!(outcome.admissible.to_string(), "0");
-    /// assert!(!outcome.list_relaxations(&|| false)?.is_empty()); // More changes would do.
-    /// # Ok::<(), Box<dyn std::error::Error>>(())
-    /// ```
-    pub fn list_relaxations(
-        &self,
-        cancelled: &(dyn Fn() -> bool + Sync),
-    ) -> Result<Vec<(Relaxation, BigUint)>, SearchError> {
-        let in_pose = &self.admissible.total;
-        let found = !self.listed_counts().total.is_zero();
-        if self.numeric.is_some() || found || self.search.size().is_one() {
-            return Ok(Vec::new());
-        }
-        if !in_pose.is_zero() {
-            return Ok(vec![(Relaxation::PoseOnly, in_pose.clone())]);
-        }
-        let nodes = self.diagrams.as_ref().map_or(0, |d| d.admissible.nodes);
-        why_none::find_relaxations(&self.search, nodes, cancelled)
-    }
-
-    /// Returns the reasons that exclude every variant, if nothing was found.
-    ///
-    /// # Errors
-    /// Returns an error if the geometry has no exact image.
-    pub fn why_hopeless(&self) -> Result<Hopeless, SearchError> {
-        if self.numeric.is_some() || !self.admissible.total.is_zero() {
-            return Ok(Hopeless::default());
-        }
-        Ok(why_none::find_obstacles(&self.search)?)
     }
 }

@@ -30,8 +30,6 @@ pub use crate::score::request::error::RunError;
 
 /// Brute force looks at no more variants than this.
 const BRUTE_LIMIT: u64 = 1 << 32;
-/// How many of the best both primes must agree on where no number of them is asked for.
-const COMPARED: usize = 10;
 /// The note if counts are not split by their properties.
 const ONLY_TOTALS: &str = "note: counts by mobility, changes and the like would take more than the memory allowed; only totals are given";
 /// The note if the second opinion differs.
@@ -130,7 +128,7 @@ pub fn answer_request(
     for note in search.already_loose()? {
         tell(Event::Note(note));
     }
-    let (diagrams, check) = build_diagrams(&search, twin.as_ref(), request, should_cancel, tell)?;
+    let (diagrams, check) = build_diagrams(&search, twin.as_ref(), should_cancel, tell)?;
     tell(Event::Built);
     let mut stops = [diagrams.determinate.stop, diagrams.admissible.stop];
     let mut counts = count_found(&search, &diagrams, request);
@@ -222,7 +220,6 @@ fn by_brute_force(
 fn build_diagrams(
     search: &Search,
     twin: Option<&Search>,
-    request: &Request,
     should_cancel: ShouldCancel<'_>,
     tell: Tell<'_>,
 ) -> Result<(Diagrams, Option<PrimeCheck>), RunError> {
@@ -232,13 +229,8 @@ fn build_diagrams(
     };
     let both: [&Question; 2] = [search, twin];
     let (first, second) = second_prime::build_both(both, should_cancel, progress);
-    let compared = match request.list {
-        List::Top(k) => k,
-        List::All | List::Sample(_) | List::Nothing => COMPARED,
-    };
-    let verdict = second_prime::compare_primes(both, [&first, &second], compared)?;
-    let primes = second_prime::primes(both);
-    Ok((first, Some(PrimeCheck { primes, verdict })))
+    let check = second_prime::compare_primes(both, [&first, &second])?;
+    Ok((first, Some(check)))
 }
 
 /// Returns the numbers of determinate and admissible variants.
@@ -353,12 +345,17 @@ fn search_numerically(
     };
     let found = search.at_tolerance(digits, list, request.seed, should_cancel)?;
     tell(Event::Built);
-    Ok(Outcome::of_numeric(
-        search,
-        request.clone(),
-        found,
-        measured,
-    ))
+    let counts = SearchCounts {
+        determinate: found.determinate.sure.clone(),
+        admissible: found.admissible.sure.clone(),
+        lasting: None,
+    };
+    Ok(Outcome {
+        stop: found.stop,
+        determinate_stop: found.stop,
+        numeric: Some(found),
+        ..Outcome::of_counts(search, request.clone(), counts, measured)
+    })
 }
 
 /// Computes the counts of orbits over one prime or two, which must agree. Also returns why the search ended, including that

@@ -12,8 +12,7 @@ pub use found::{AtTolerance, Bracket, Sampled, Share};
 pub(in crate::search) use found::{any_choices, choices_of_number};
 
 use crate::geom::exact::ExactError;
-use crate::search::answer::k_best::Assignment;
-use crate::search::answer::variants_in_order::every_choice;
+use crate::search::answer::k_best::{Assignment, Cheapest, Reach, enter_all};
 use crate::search::diagram::redundancy_so_far::Redundancy;
 use crate::search::diagram::{Diagram, Layer, Stop};
 use crate::search::question::Question;
@@ -136,7 +135,13 @@ impl Looking<'_> {
         let question = self.question;
         let mut list: Vec<Assignment> = Vec::new();
         let diagram = diagram_of_all(question);
-        let mut all = every_choice(question, &diagram, most + 2 * AT_ONCE).peekable();
+        // None, if the memory does not suffice for the order.
+        let (steps, reach) = (
+            &question.steps,
+            Reach::Variants(most + 2 * AT_ONCE, u64::MAX),
+        );
+        let all = Cheapest::new(question, &diagram, steps, reach, &|_| true, enter_all());
+        let mut all = all.peekable();
         while list.len() < wanted && (met.looked as usize) < most && !(self.cancelled)() {
             let block = all.by_ref().take(AT_ONCE).map(|v| v.choices).collect();
             for (choices, judged) in self.judge_all(block) {

@@ -1,7 +1,7 @@
 //! What tests alone need of the inside of a search, and nothing else may use.
 
 use super::answer::ideas::ideas_in_steps;
-use super::answer::k_best::{Cheapest, ListLimits, Reach};
+use super::answer::k_best::{Cheapest, Reach};
 use super::answer::keys::Key;
 use super::build::Diagrams;
 use super::build::lanes::in_self_stress_space;
@@ -64,19 +64,9 @@ pub fn walked_for_variants(question: &Question, found: &Diagrams, top: usize) ->
         steps += 1;
         true
     };
-    let limits = ListLimits {
-        reach: Reach::Variants(top),
-        ceiling: u64::MAX,
-    };
-    let (diagram, steps_of) = (&found.admissible, &question.steps);
-    let listed = Cheapest::new(
-        question,
-        diagram,
-        steps_of,
-        limits,
-        &|_| true,
-        Box::new(enter),
-    );
+    let (diagram, reach) = (&found.admissible, Reach::Variants(top, u64::MAX));
+    let enter = Box::new(enter);
+    let listed = Cheapest::new(question, diagram, &question.steps, reach, &|_| true, enter);
     let listed = listed.count();
     Walked { listed, steps }
 }

@@ -74,6 +74,43 @@ impl CertificateFile {
     }
 }
 
+/// Reason why a certificate does not prove its rank.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[non_exhaustive]
+pub enum Flaw {
+    /// Its numbers are not those of a certificate of the matrix.
+    #[error("{0}")]
+    Malformed(String),
+    /// A generator is not shown to generate a field.
+    #[error("generator {generator} is not shown to give a field: {why}")]
+    NotAField {
+        /// Position of the generator.
+        generator: usize,
+        /// The missing evidence.
+        why: &'static str,
+    },
+    /// A number has no image.
+    #[error("a denominator is divisible by {prime}")]
+    Denominator {
+        /// The prime.
+        prime: u64,
+    },
+    /// The minor is zero.
+    #[error("the minor vanishes modulo {prime}")]
+    MinorVanishes {
+        /// The prime.
+        prime: u64,
+    },
+    /// A vector is not in the kernel.
+    #[error("row {row} of the matrix times kernel vector {vector} is not zero")]
+    NotInKernel {
+        /// Position of the vector.
+        vector: usize,
+        /// The row.
+        row: usize,
+    },
+}
+
 /// A proof that a matrix has a rank; see [`super`] for its meaning.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]

@@ -1,9 +1,8 @@
 //! Confirms that the ring of a matrix is a field, so that a nonzero number in the ring is actually nonzero.
 
-use super::certificate::FieldClaim;
-use super::flaw::Flaw;
+use super::certificate::{FieldClaim, Flaw};
 use super::matrix::MatrixOverRing;
-use super::modular::{Homomorphism, power_modular};
+use super::modular::{Homomorphism, field_differs, power_modular};
 use crate::linalg::number_ring::{Element, NumberRing};
 use num_bigint::BigInt;
 use num_rational::BigRational;
@@ -19,7 +18,7 @@ pub(super) fn check_field(matrix: &MatrixOverRing, claim: &FieldClaim) -> Result
         && claim.relations.len() == ring.generators()
         && (0..ring.generators()).all(|g| claim.relations[g] == ring.relation(g));
     if !same {
-        return Err(Flaw::FieldDiffers);
+        return Err(field_differs());
     }
     let mut first = 0;
     if let Some(order) = matrix.cosine_order() {

@@ -1,6 +1,6 @@
 //! Simple arithmetic modulo a prime below 2^63, in 128 bits.
 
-use super::flaw::Flaw;
+use super::certificate::Flaw;
 use crate::linalg::number_ring::{Element, NumberRing};
 use num_bigint::BigInt;
 use num_integer::Integer;
@@ -63,6 +63,17 @@ pub(super) fn is_odd_prime(p: u64) -> bool {
     })
 }
 
+/// Returns the flaw of a certificate for another number field.
+pub(super) fn field_differs() -> Flaw {
+    Flaw::Malformed("its number field is not that of the matrix".to_owned())
+}
+
+fn wrong_images(prime: u64, wanted: usize, given: usize) -> Flaw {
+    Flaw::Malformed(format!(
+        "{given} images of generators modulo {prime} do not fit the {wanted} of the field"
+    ))
+}
+
 /// Images of the generators of a ring in a prime field.
 #[derive(Debug)]
 pub(super) struct Homomorphism {
@@ -77,14 +88,11 @@ impl Homomorphism {
     /// [`Homomorphism::respects`] checks the number.
     pub(super) fn new(prime: u64, images: &[u64], ring: &NumberRing) -> Result<Homomorphism, Flaw> {
         if !is_odd_prime(prime) {
-            return Err(Flaw::NotPrime { modulus: prime });
+            let why = format!("{prime} is not a prime between 3 and 2^63");
+            return Err(Flaw::Malformed(why));
         }
         if images.len() > ring.generators() || images.iter().any(|&x| x >= prime) {
-            return Err(Flaw::Images {
-                prime,
-                wanted: ring.generators(),
-                given: images.len(),
-            });
+            return Err(wrong_images(prime, ring.generators(), images.len()));
         }
         let mut basis = vec![1];
         for (generator, &image) in images.iter().enumerate() {
@@ -105,11 +113,7 @@ impl Homomorphism {
     /// Confirms that exactly the first `count` generators have images, and that these satisfy their relations.
     pub(super) fn satisfies_relation(&self, ring: &NumberRing, count: usize) -> Result<(), Flaw> {
         if self.images.len() != count {
-            return Err(Flaw::Images {
-                prime: self.prime,
-                wanted: count,
-                given: self.images.len(),
-            });
+            return Err(wrong_images(self.prime, count, self.images.len()));
         }
         for (generator, &x) in self.images.iter().enumerate() {
             // Horner, from the leading 1 down
@@ -122,10 +126,10 @@ impl Homomorphism {
                 );
             }
             if value != 0 {
-                return Err(Flaw::Relation {
-                    prime: self.prime,
-                    generator,
-                });
+                return Err(Flaw::Malformed(format!(
+                    "the image of generator {generator} modulo {} does not satisfy its relation",
+                    self.prime
+                )));
             }
         }
         Ok(())
@@ -154,7 +158,7 @@ impl Homomorphism {
     pub(super) fn image_of(&self, element: &Element) -> Result<u64, Flaw> {
         let mut sum = 0;
         for (i, q) in element.coordinates().iter().enumerate() {
-            let monomial = *self.basis.get(i).ok_or(Flaw::FieldDiffers)?;
+            let monomial = *self.basis.get(i).ok_or_else(field_differs)?;
             let term = multiply_modular(self.of_rational(q)?, monomial, self.prime);
             sum = add_modular(sum, term, self.prime);
         }

@@ -1,9 +1,7 @@
 //! The checks of the search: a second prime, and singular values.
 
 use crate::common::*;
-use ozols::search::check::second_prime::{
-    Verdict, build_both, compare_counts, compare_primes, primes,
-};
+use ozols::search::check::second_prime::{PrimeCheck, build_both, compare_counts, compare_primes};
 
 /// The four-bar with one axis tilted out of parallel by a number that a prime near 2^61 divides.
 fn tilted() -> String {
@@ -23,7 +21,7 @@ fn shaky() -> String {
 }
 
 /// The searches of two files, as if they were one over two primes.
-fn compared([one, other]: [&str; 2]) -> Result<(Verdict, [u64; 2]), String> {
+fn compared([one, other]: [&str; 2]) -> Result<PrimeCheck, String> {
     let over = |text: &str, nth| {
         let m = read(text);
         Search::new(exact_field(&m, nth).unwrap(), &m, Conditions::default()).unwrap()
@@ -33,23 +31,21 @@ fn compared([one, other]: [&str; 2]) -> Result<(Verdict, [u64; 2]), String> {
     let (a, b) = build_both(searches, &|| false, &mut |_| {});
     let counts = [(&first, &a), (&second, &b)].map(|(s, d)| SearchCounts::of_diagrams(s, d));
     let by_counts = compare_counts(searches, counts.each_ref());
-    let whole = compare_primes(searches, [&a, &b], 10);
+    let whole = compare_primes(searches, [&a, &b]);
     assert_eq!(by_counts.is_ok(), whole.is_ok());
-    match whole {
-        Ok(v) => Ok((v, primes(searches))),
-        Err(e) => Err(e.to_string()),
-    }
+    whole.map_err(|e| e.to_string())
 }
 
-fn both(text: &str) -> Result<(Verdict, [u64; 2]), String> {
+fn both(text: &str) -> Result<PrimeCheck, String> {
     compared([text, text])
 }
 
 #[test]
 fn two_primes_agree_on_every_built_in_mechanism() {
     for name in ozols::builtin::names() {
-        let (verdict, [p, q]) = both(ozols::builtin::text(name).unwrap()).unwrap();
-        assert!(verdict == Verdict::Agree && p != q, "{name}");
+        let check = both(ozols::builtin::text(name).unwrap()).unwrap();
+        let [p, q] = check.primes;
+        assert!(check.agree && p != q, "{name}");
     }
 }
 
@@ -61,7 +57,7 @@ fn primes_that_disagree_are_told_apart() {
         &said,
         &["primes disagree", "34 determinate", "36 determinate"],
     );
-    assert_eq!(both(&tilted()).unwrap().0, Verdict::Agree);
+    assert!(both(&tilted()).unwrap().agree);
 }
 
 #[test]

@@ -5,7 +5,7 @@ use crate::common::*;
 use crate::fuzz::readers::differential::assert_as_the_twins;
 use crate::search::twin::{Twin, all_variants, look_at_variant};
 use ozols::search::answer::search_counts::orbit_counts;
-use ozols::search::check::second_prime::{Verdict, build_both, compare_primes};
+use ozols::search::check::second_prime::{build_both, compare_primes};
 
 /// Joint types with the options that contain them.
 const KINDS: [(&str, &str); 9] = [
@@ -207,8 +207,8 @@ fn over_two_primes(
     let over = |nth| Search::new(exact_field(m, nth).unwrap(), m, request.clone()).unwrap();
     let (search, twin) = (over(0), over(1));
     let (diagrams, second) = build_both([&search, &twin], &|| false, &mut |_| {});
-    let verdict = compare_primes([&search, &twin], [&diagrams, &second], 10);
-    prop_assert_eq!(verdict.unwrap(), Verdict::Agree);
+    let check = compare_primes([&search, &twin], [&diagrams, &second]);
+    prop_assert!(check.unwrap().agree);
     let determinate = search.count_variants(&diagrams.determinate, false);
     let admissible = search.count_variants(&diagrams.admissible, true);
     let list: Vec<_> = search

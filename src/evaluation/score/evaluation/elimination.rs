@@ -19,31 +19,20 @@ pub struct Scratch {
     pivot: Vec<f64>,
 }
 
-/// How an elimination ended.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Ended {
-    /// With a solution; the greatest first right side left in the equations beyond the unknowns.
-    Solved {
-        /// The largest residual.
-        left: f64,
-    },
-    /// The equations do not determine the unknowns.
-    Open,
-}
-
 impl Scratch {
     /// Solves `count` equations for `unknowns` with several right sides each, by Gaussian elimination with row pivots;
     /// rows that have a zero in the pivot's column are not touched, which is most of them. The solution goes to
-    /// `solution`, unknowns × right sides.
+    /// `solution`, unknowns × right sides. Returns the greatest first right side left in the equations beyond the unknowns, or `None` if
+    /// the equations do not determine the unknowns.
     ///
     /// # Complexity
     /// O(count · unknowns · width).
-    pub fn solve_equations(&mut self, count: usize, unknowns: usize, width: usize) -> Ended {
+    pub fn solve_equations(&mut self, count: usize, unknowns: usize, width: usize) -> Option<f64> {
         let sides = width - unknowns;
         self.order.clear();
         self.order.extend(0..count);
         if count < unknowns {
-            return Ended::Open;
+            return None;
         }
         for c in 0..unknowns {
             let mut best = (c, 0.0);
@@ -54,7 +43,7 @@ impl Scratch {
                 }
             }
             if best.1 < PIVOT {
-                return Ended::Open;
+                return None;
             }
             self.order.swap(c, best.0);
             let from = self.order[c] * width;
@@ -93,7 +82,7 @@ impl Scratch {
             let inverse = 1.0 / row[c];
             out.iter_mut().for_each(|o| *o *= inverse);
         }
-        Ended::Solved { left }
+        Some(left)
     }
 }
 
@@ -120,7 +109,7 @@ mod tests {
         for (n, m, sides, seed) in [(24, 24, 7, 1), (30, 24, 4, 2), (6, 3, 1, 3), (1, 1, 1, 4)] {
             let (a, x) = (numbers(seed, n * m), numbers(seed + 9, m * sides));
             let mut s = equations(&a, &x, m, sides);
-            let Ended::Solved { left } = s.solve_equations(n, m, m + sides) else {
+            let Some(left) = s.solve_equations(n, m, m + sides) else {
                 panic!("open")
             };
             assert!(left < 1e-10, "{left}");
@@ -133,22 +122,22 @@ mod tests {
     #[test]
     fn a_zero_pivot_is_swapped_away() {
         let mut s = equations(&[0.0, 1.0, 1.0, 0.0], &[3.0, 5.0], 2, 1);
-        assert_eq!(s.solve_equations(2, 2, 3), Ended::Solved { left: 0.0 });
+        assert_eq!(s.solve_equations(2, 2, 3), Some(0.0));
         assert_eq!(s.solution, [3.0, 5.0]);
     }
 
     #[test]
     fn too_few_or_dependent_equations_are_open() {
         let mut s = equations(&[1.0, 2.0], &[1.0, 1.0], 2, 1);
-        assert_eq!(s.solve_equations(1, 2, 3), Ended::Open);
+        assert_eq!(s.solve_equations(1, 2, 3), None);
         let mut s = equations(&[1.0, 2.0, 2.0, 4.0, -3.0, -6.0], &[1.0, 1.0], 2, 1);
-        assert_eq!(s.solve_equations(3, 2, 3), Ended::Open);
+        assert_eq!(s.solve_equations(3, 2, 3), None);
     }
 
     #[test]
     fn what_contradicts_is_left_over() {
         let mut s = equations(&[1.0, 0.0, 0.0, 1.0, 1.0, 1.0], &[1.0, 2.0], 2, 1);
         s.rows[8] += 0.25;
-        assert_eq!(s.solve_equations(3, 2, 3), Ended::Solved { left: 0.25 });
+        assert_eq!(s.solve_equations(3, 2, 3), Some(0.25));
     }
 }

@@ -7,7 +7,7 @@ use crate::model::mechanism::{JointId, LinkId, StateId};
 use crate::model::ranking::ClearanceSum;
 use crate::redundancy::motion::working_mobility;
 use crate::score::evaluation::coupled::CoupledChoice;
-use crate::score::evaluation::elimination::{Ended, Scratch};
+use crate::score::evaluation::elimination::Scratch;
 use crate::score::evaluation::load_cases::{CaseError, Cases, list_cases};
 use crate::score::evaluation::pose_tables::{PlacedJoint, PoseTable};
 use crate::score::evaluation::terms::{ErrorSum, Floor, Peak, Scores, output_points};
@@ -46,6 +46,18 @@ pub(in crate::score) struct PoseLoad {
     pub(in crate::score) moment: f64,
     /// The greatest of both that its type bears; `None` for moments where it bears none and need not.
     pub(in crate::score) capacity: (f64, Option<f64>),
+}
+
+impl PoseLoad {
+    /// Raises the peaks of some scores to the load, and calls `each` with it.
+    pub(in crate::score) fn raise_peaks(self, to: &mut Scores, each: &mut dyn FnMut(PoseLoad)) {
+        each(self);
+        let (force, moment) = self.capacity;
+        to.force.raise_peak(self.force, force, self.joint);
+        if let Some(moment) = moment {
+            to.moment.raise_peak(self.moment, moment, self.joint);
+        }
+    }
 }
 
 /// Scores the variants of one search.
@@ -188,15 +200,15 @@ impl<'s> Evaluator<'s> {
         };
         let unknowns = table.count_unknowns();
         let count = write_equations(table, choices, scratch);
-        match scratch.solve_equations(count, unknowns, unknowns + table.cases) {
-            Ended::Open => return Ok(None),
-            Ended::Solved { left } if left > NO_WORK * table.scale => {
-                return Err(Unsolved::Moves {
-                    link: String::new(),
-                    mobility: count - unknowns,
-                });
-            }
-            Ended::Solved { .. } => {}
+        let width = unknowns + table.cases;
+        let Some(left) = scratch.solve_equations(count, unknowns, width) else {
+            return Ok(None);
+        };
+        if left > NO_WORK * table.scale {
+            return Err(Unsolved::Moves {
+                link: String::new(),
+                mobility: count - unknowns,
+            });
         }
         let solved = SolvedPose {
             table,
@@ -282,17 +294,13 @@ impl SolvedPose<'_> {
             let (f, m) = self.joint_load(place, 0);
             let (f, m) = (dot(f, f).sqrt(), dot(m, m).sqrt());
             for &capacity in &self.table.cell_at(self.choices, place).bears {
-                let (force, moment) = capacity;
-                each(PoseLoad {
+                let load = PoseLoad {
                     joint: place.joint,
                     force: f,
                     moment: m,
                     capacity,
-                });
-                out.force.raise_peak(f, force, place.joint);
-                if let Some(moment) = moment {
-                    out.moment.raise_peak(m, moment, place.joint);
-                }
+                };
+                load.raise_peaks(out, each);
             }
         }
     }

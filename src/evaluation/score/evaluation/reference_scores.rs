@@ -4,7 +4,7 @@ use crate::geom::expr::Expr;
 use crate::geom::vector::length;
 use crate::model::joint_type::Freedom;
 use crate::model::loads::{ExternalForce, Loads};
-use crate::model::mechanism::{JointId, LinkId, StateId};
+use crate::model::mechanism::{JointId, JointOption, LinkId, StateId};
 use crate::score::evaluation::evaluate::Evaluator;
 use crate::score::evaluation::evaluate::PoseLoad;
 use crate::score::evaluation::terms::{ErrorSum, Scores, axis_of};
@@ -27,29 +27,6 @@ fn load_without_drive(r: &JointReaction) -> ([f64; 3], [f64; 3]) {
         None => {}
     }
     (f, m)
-}
-
-/// Raises the peaks to the reactions of a realized variant, and calls `each` with each load.
-fn raise_peaks(
-    scores: &mut Scores,
-    reactions: &[JointReaction],
-    types: &[(JointId, JointType)],
-    each: &mut dyn FnMut(PoseLoad),
-) {
-    for r in reactions {
-        let (at, t) = &types[r.joint];
-        let (f, moment) = load_without_drive(r);
-        each(PoseLoad {
-            joint: *at,
-            force: length(f),
-            moment: length(moment),
-            capacity: (t.capacity_force, t.capacity_moment),
-        });
-        scores.force.raise_peak(length(f), t.capacity_force, *at);
-        if let Some(capacity) = t.capacity_moment {
-            scores.moment.raise_peak(length(moment), capacity, *at);
-        }
-    }
 }
 
 /// Returns a unit force along an axis on a point of a link as the only load.
@@ -100,7 +77,17 @@ impl Evaluator<'_> {
             let mut now = self.unloaded_scores(variant);
             now.conditioning = 1.0 / solution.condition;
             now.minimum_norm = solution.choice == Uniqueness::MinimumNorm;
-            raise_peaks(&mut now, &solution.reactions, &types, each);
+            for r in &solution.reactions {
+                let (joint, t) = &types[r.joint];
+                let (force, moment) = load_without_drive(r);
+                let load = PoseLoad {
+                    joint: *joint,
+                    force: length(force),
+                    moment: length(moment),
+                    capacity: (t.capacity_force, t.capacity_moment),
+                };
+                load.raise_peaks(&mut now, each);
+            }
             for &(link, point) in &self.outputs {
                 let mut error = ErrorSum::new(self.clearance);
                 for axis in 0..3 {
@@ -133,16 +120,12 @@ impl Evaluator<'_> {
         let (mut here, mut inserted) = (Vec::new(), Vec::new());
         for (j, (option, unloading, _)) in m.joint_ids().zip(chosen) {
             let joint = &m.joints[j];
-            let bears = |o: Option<&crate::model::mechanism::JointOption>| {
-                let nothing = JointType {
-                    capacity_force: 1.0,
-                    capacity_moment: None,
-                    clearance: 0.0,
-                };
-                (j, o.map_or(nothing, |o| self.types.option_type(o)))
+            let bears = |o: Option<&JointOption>| {
+                let bears = o.map(|o| self.types.option_type(o));
+                (j, bears.unwrap_or(JointType::UNLIMITED))
             };
             here.push(bears(joint.options.get(option)));
-            if let Some(u) = unloading.and_then(|u: usize| joint.unloading.get(u)) {
+            if let Some(u) = unloading.and_then(|u| joint.unloading.get(u)) {
                 inserted.push(bears(Some(u)));
             }
         }

@@ -80,13 +80,6 @@ pub struct Missing {
     pub cheaper: Option<BigUint>,
 }
 
-impl Missing {
-    /// Returns the cost from which on no variant can be in the list.
-    pub fn settled_at_cost(&self) -> f64 {
-        self.settled_at as f64 / 1000.0
-    }
-}
-
 /// Compares two variants by rank. The cheaper one comes first if their sums are equal.
 pub fn compare_ranked(a: &Ranked, b: &Ranked) -> Ordering {
     let by_sum = a.total.total_cmp(&b.total);

@@ -3,11 +3,11 @@
 use crate::score::outcome::Outcome;
 use crate::score::outcome::symmetric::SymmetricBest;
 use crate::score::request::{Inserts, JointOptions, Request};
-use crate::search::answer::why_none::{Hopeless, Relaxation};
+use crate::search::answer::why_none::{Hopeless, Relaxation, find_obstacles, find_relaxations};
 use crate::search::question::conditions::SearchError;
 use crate::search::question::kept::Drives;
 use num_bigint::BigUint;
-use num_traits::Zero;
+use num_traits::{One, Zero};
 
 /// Remarks on the variants of a search.
 #[derive(Debug, Default)]
@@ -61,19 +61,45 @@ pub fn ease_request(request: &Request, how: Relaxation) -> Request {
 }
 
 impl Outcome {
-    /// Returns the remarks on the variants, as far as there was time until `cancelled` said to end.
+    /// Returns the remarks on the variants, as far as there was time until `cancelled` said to end. If some variants keep the motion in the
+    /// drawn pose only, easing gives these.
     ///
     /// # Errors
     /// Returns an error if the geometry has no exact image.
+    ///
+    /// # Complexity
+    /// If nothing was found, a search for each condition and each step of relaxing it. None has more than some thousand nodes.
+    ///
+    /// # Examples
+    /// ```
+    /// let few = ozols::Request { max_changes: Some(1), ..Default::default() };
+    /// let outcome = ozols::search(&ozols::built_in("four-bar")?, &few)?;
+    /// assert_eq!(outcome.admissible.to_string(), "0");
+    /// assert!(!outcome.make_remarks(&|| false)?.eased.is_empty()); // More changes would do.
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     pub fn make_remarks(
         &self,
         cancelled: &(dyn Fn() -> bool + Sync),
     ) -> Result<Remarks, SearchError> {
-        let none = self.admissible.total.is_zero() && !self.admissible_may_be_more();
+        let (search, in_pose) = (&self.search, &self.admissible.total);
+        let none = in_pose.is_zero() && !self.admissible_may_be_more();
+        let (mut eased, mut hopeless) = (Vec::new(), Hopeless::default());
+        if self.numeric.is_none() && self.listed_counts().total.is_zero() {
+            if !in_pose.is_zero() {
+                eased.push((Relaxation::PoseOnly, in_pose.clone()));
+            } else if !search.size().is_one() {
+                let nodes = self.diagrams.as_ref().map_or(0, |d| d.admissible.nodes);
+                eased = find_relaxations(search, nodes, cancelled)?;
+            }
+            if in_pose.is_zero() {
+                hopeless = find_obstacles(search)?;
+            }
+        }
         Ok(Remarks {
-            eased: self.list_relaxations(cancelled)?,
+            eased,
             offered: none.then(|| self.would_help()).flatten(),
-            hopeless: self.why_hopeless()?,
+            hopeless,
             symmetric: self.symmetric_best(cancelled)?,
         })
     }

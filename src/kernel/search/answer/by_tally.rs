@@ -5,7 +5,7 @@ use crate::search::answer::count::Count;
 use crate::search::answer::count_tables::Tally;
 use crate::search::answer::counts::{fits_u128, limited_kinds};
 use crate::search::answer::k_best::Assignment;
-use crate::search::answer::keys::{Key, Kinds};
+use crate::search::answer::keys::Key;
 use crate::search::diagram::Diagram;
 use crate::search::question::Question;
 use chacha20::ChaCha8Rng;
@@ -35,11 +35,7 @@ fn sample_with<'a, C: Count + 'a>(
     seed: u64,
     filter: bool,
 ) -> Box<dyn Iterator<Item = Assignment> + 'a> {
-    let kinds = if filter {
-        limited_kinds(question)
-    } else {
-        Kinds::default()
-    };
+    let kinds = limited_kinds(question, filter);
     let (all_steps, steps) = (&question.steps, question.steps.keep_kinds(kinds));
     let tally = Tally::<C>::new(diagram, &steps, None, question.conditions.memory / 4);
     let Some(tally) = tally else {

@@ -1,9 +1,9 @@
 //! How many variants there are of each kind.
 
-use crate::search::answer::count::{Count, Wide};
+use crate::search::answer::count::Count;
 use crate::search::answer::count_tables::totals_by_key;
 use crate::search::answer::keys::{Key, Kinds};
-use crate::search::diagram::{DEAD, Diagram};
+use crate::search::diagram::Diagram;
 use crate::search::question::Question;
 use num_bigint::BigUint;
 use num_traits::Zero;
@@ -159,11 +159,7 @@ fn wanted_by(
     filter: bool,
     kinds: Kinds,
 ) -> Option<Vec<(Key, BigUint)>> {
-    let limited = if filter {
-        limited_kinds(question)
-    } else {
-        Kinds::default()
-    };
+    let limited = limited_kinds(question, filter);
     let kinds = Kinds {
         freedoms: kinds.freedoms || limited.freedoms,
         changes: kinds.changes || limited.changes,
@@ -180,7 +176,6 @@ pub(in crate::search) fn fits_u128(question: &Question) -> bool {
 }
 
 /// Returns the number of variants of each kind in a diagram. `None` if this would take more than a quarter of the memory.
-/// The numbers are as wide as the number of all variants needs.
 fn totals_by(question: &Question, diagram: &Diagram, kinds: Kinds) -> Option<Vec<(Key, BigUint)>> {
     fn with<C: Count>(
         s: &Question,
@@ -191,43 +186,19 @@ fn totals_by(question: &Question, diagram: &Diagram, kinds: Kinds) -> Option<Vec
             totals_by_key::<C>(diagram, &s.steps.keep_kinds(kinds), s.conditions.memory / 4)?;
         Some(totals.iter().map(|(k, n)| (*k, n.to_big_uint())).collect())
     }
-    let count = match count_bits(question, diagram) {
-        0..=127 => with::<u128>,
-        128..=256 => with::<Wide<4>>,
-        257..=512 => with::<Wide<8>>,
-        513..=1024 => with::<Wide<16>>,
-        _ => with::<BigUint>,
+    let count = if fits_u128(question) {
+        with::<u128>
+    } else {
+        with::<BigUint>
     };
     count(question, diagram, kinds)
 }
 
-/// Returns a number of bits that is enough for the number of variants, which no partial sum exceeds.
-fn count_bits(question: &Question, diagram: &Diagram) -> u64 {
-    let all = question.space.size().bits();
-    let mut below = vec![1.0; diagram.terminals.len()];
-    for layer in diagram.layers.iter().rev().filter(|_| all > 127) {
-        let of_node = |edges: &[u32]| -> f64 {
-            let alive = edges.iter().filter(|to| **to != DEAD);
-            alive.map(|&to| below[to as usize]).sum()
-        };
-        below = layer
-            .edges
-            .chunks(layer.choices.max(1))
-            .map(of_node)
-            .collect();
-    }
-    // Sums of a million rounded terms are wrong by far less than half.
-    match below.first().map(|n| n.log2()) {
-        Some(log) if log.is_finite() && log > 0.0 => all.min(log as u64 + 2),
-        _ => all,
-    }
-}
-
-/// Returns the properties that decide whether a variant meets the conditions on mobility and changes.
-pub(in crate::search) fn limited_kinds(question: &Question) -> Kinds {
+/// Returns the properties that decide whether a variant meets the conditions on mobility and changes; none without `filter`.
+pub(in crate::search) fn limited_kinds(question: &Question, filter: bool) -> Kinds {
     Kinds {
-        freedoms: question.conditions.max_mobility.is_some(),
-        changes: question.conditions.max_changes.is_some(),
+        freedoms: filter && question.conditions.max_mobility.is_some(),
+        changes: filter && question.conditions.max_changes.is_some(),
         cost: false,
     }
 }

@@ -15,9 +15,8 @@ use crate::search::answer::counts::limited_kinds;
 use crate::search::answer::ideas::freedom_patterns::{Added, Pattern, Patterns, freedom_patterns};
 use crate::search::answer::ideas::least_freedoms::{Less, minimal_variants};
 use crate::search::answer::ideas::preferred::change_weights;
-use crate::search::answer::k_best::Assignment;
+use crate::search::answer::k_best::{Assignment, Cheapest, Reach};
 use crate::search::answer::keys::{Key, Steps};
-use crate::search::answer::variants_in_order::variants_within;
 use crate::search::build::Diagrams;
 use crate::search::diagram::{DEAD, Diagram};
 use crate::search::question::Question;
@@ -193,7 +192,8 @@ fn first_variants(
         };
         let mut seen = BTreeSet::new();
         let mut found: Vec<(CostGroup, Assignment)> = Vec::new();
-        let list = variants_within(question, diagram, steps, slack, Box::new(enter));
+        let (reach, wanted) = (Reach::Above(slack), |k| question.is_wanted(k));
+        let list = Cheapest::new(question, diagram, steps, reach, &wanted, Box::new(enter));
         let mut ended = list.is_all();
         for v in list {
             if !seen.insert(patterns.idea_pattern(&v)) {
@@ -301,7 +301,7 @@ fn with_pattern(
     patterns: &Patterns,
     pattern: &Pattern,
 ) -> BigUint {
-    let steps = question.steps.keep_kinds(limited_kinds(question));
+    let steps = question.steps.keep_kinds(limited_kinds(question, true));
     let to_come = patterns.to_come(diagram);
     let mut here: BTreeMap<(usize, Pattern, Key), BigUint> = BTreeMap::new();
     here.insert((0, pattern.clone(), Key::default()), BigUint::from(1u8));

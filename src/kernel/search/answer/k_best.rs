@@ -41,26 +41,22 @@ pub(crate) struct Cheapest<'d> {
     enter: Enter<'d>,
 }
 
-/// How far a list goes.
+/// How far a list goes, as is known before the variants are.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Reach {
-    /// Up to a number of variants.
-    Variants(usize),
+    /// Up to a number of variants, and no further than up to a cost in steps.
+    Variants(usize, u64),
     /// Up to a cost, in steps above the cheapest.
     Above(u64),
 }
 
-/// The extent of a list, given before variants are known.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct ListLimits {
-    /// How far it goes.
-    pub reach: Reach,
-    /// The cost above which no variant is wanted.
-    pub ceiling: u64,
-}
-
 /// Given layer, node, the remaining key and the choices so far; says whether to look at what follows.
 pub(crate) type Enter<'d> = Box<dyn FnMut(usize, usize, Key, &[usize]) -> bool + 'd>;
+
+/// Refuses nothing.
+pub(crate) fn enter_all<'a>() -> Enter<'a> {
+    Box::new(|_, _, _, _| true)
+}
 
 /// A node on the way down, what is left of the key there, and the choice to be tried next.
 #[derive(Debug, Clone, Copy)]
@@ -77,12 +73,12 @@ impl<'d> Cheapest<'d> {
         question: &Question,
         diagram: &'d Diagram,
         steps: &'d Steps,
-        limits: ListLimits,
+        reach: Reach,
         wanted: &dyn Fn(Key) -> bool,
         enter: Enter<'d>,
     ) -> Self {
         let bytes = question.conditions.memory / 4;
-        let (tally, mut keys, is_all) = tally_enough(diagram, steps, limits, wanted, bytes);
+        let (tally, mut keys, is_all) = tally_enough(diagram, steps, reach, wanted, bytes);
         keys.sort_by_key(|&k| question.sort_rank(k));
         Cheapest {
             diagram,
@@ -92,8 +88,8 @@ impl<'d> Cheapest<'d> {
             key: Key::default(),
             path: Vec::new(),
             choices: vec![0; steps.keys.len()],
-            left: match limits.reach {
-                Reach::Variants(top) => top,
+            left: match reach {
+                Reach::Variants(top, _) => top,
                 Reach::Above(_) => usize::MAX,
             },
             is_all,
@@ -175,7 +171,7 @@ impl Cheapest<'_> {
 fn tally_enough(
     diagram: &Diagram,
     steps: &Steps,
-    limits: ListLimits,
+    reach: Reach,
     wanted: &dyn Fn(Key) -> bool,
     bytes: usize,
 ) -> (Tally<u128>, Vec<Key>, bool) {
@@ -187,12 +183,11 @@ fn tally_enough(
     let chosen = steps.keys.iter().flatten().map(|k| k.cost()).max();
     let ends = diagram.terminals.iter();
     let end = ends.map(|&r| steps.redundancy_key(r).cost()).max();
-    let ceiling = limits.ceiling;
-    let ceiling = ceiling.min(chosen.unwrap_or(0) * steps.keys.len() as u64 + end.unwrap_or(0));
-    let (top, mut slack) = match limits.reach {
-        Reach::Variants(top) => (BigUint::from(top), 0),
-        Reach::Above(slack) => (BigUint::ZERO, slack),
+    let (top, mut slack, ceiling) = match reach {
+        Reach::Variants(top, ceiling) => (BigUint::from(top), 0, ceiling),
+        Reach::Above(slack) => (BigUint::ZERO, slack, u64::MAX),
     };
+    let ceiling = ceiling.min(chosen.unwrap_or(0) * steps.keys.len() as u64 + end.unwrap_or(0));
     loop {
         let limit = floor.saturating_add(slack).min(ceiling);
         let within = |p: &Option<u64>| p.map_or(0, |p| limit.saturating_sub(p));

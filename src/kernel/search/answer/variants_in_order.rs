@@ -1,18 +1,13 @@
 //! The admissible variants of a finished diagram: the cheapest in order, or some at random.
 
 use crate::search::answer::by_tally::sample_of;
-use crate::search::answer::k_best::{Assignment, Cheapest, Enter, ListLimits, Reach};
-use crate::search::answer::keys::{Key, Steps};
+use crate::search::answer::k_best::{Assignment, Cheapest, Reach, enter_all};
+use crate::search::answer::keys::Key;
 use crate::search::answer::proven_cheapest::UpTo;
 use crate::search::build::Diagrams;
 use crate::search::diagram::Diagram;
 use crate::search::question::Question;
 use crate::search::question::conditions::Symmetry;
-
-/// Refuses nothing.
-fn enter_all<'a>() -> Enter<'a> {
-    Box::new(|_, _, _, _| true)
-}
 
 impl Question {
     /// Returns at most `top` admissible variants, cheapest first, then by W, then by changes, then in the order of the diagram's variables.
@@ -75,14 +70,11 @@ fn in_order<'a>(
 ) -> Box<dyn Iterator<Item = Assignment> + 'a> {
     let steps = &question.steps;
     let between = move |diagram: &'a Diagram, least: i64, most: i64| {
-        let limits = ListLimits {
-            reach: Reach::Variants(top),
-            ceiling: steps.steps_above(most),
-        };
+        let reach = Reach::Variants(top, steps.steps_above(most));
         let wanted = |k: Key| {
             question.is_wanted(k) && (least..=most).contains(&steps.cost_in_milli(k.cost()))
         };
-        let all = Cheapest::new(question, diagram, steps, limits, &wanted, enter_all());
+        let all = Cheapest::new(question, diagram, steps, reach, &wanted, enter_all());
         all.filter(move |v| is_first_image(question, diagram, v))
     };
     let all = diagrams.listed_diagram();
@@ -113,36 +105,4 @@ fn is_first_image(question: &Question, diagram: &Diagram, v: &Assignment) -> boo
     });
     let mut others = images.take(question.mechanism.search.symmetry_order() - 1);
     others.all(|image| by_layer(&image) >= own)
-}
-
-/// Returns the admissible variants of a diagram that cost no more than `slack` above the cheapest, by other steps than the
-/// question's. They come in the order and with the keys of these steps, without those whose beginnings `enter` refuses.
-pub(in crate::search) fn variants_within<'a>(
-    question: &Question,
-    diagram: &'a Diagram,
-    steps: &'a Steps,
-    slack: u64,
-    enter: Enter<'a>,
-) -> Cheapest<'a> {
-    let limits = ListLimits {
-        reach: Reach::Above(slack),
-        ceiling: u64::MAX,
-    };
-    let wanted = |k| question.is_wanted(k);
-    Cheapest::new(question, diagram, steps, limits, &wanted, enter)
-}
-
-/// Returns at least `top` variants of a diagram in order of cost, without conditions on their keys. Returns none if memory does not
-/// suffice.
-pub(in crate::search) fn every_choice<'a>(
-    question: &'a Question,
-    diagram: &'a Diagram,
-    top: usize,
-) -> Cheapest<'a> {
-    let limits = ListLimits {
-        reach: Reach::Variants(top),
-        ceiling: u64::MAX,
-    };
-    let steps = &question.steps;
-    Cheapest::new(question, diagram, steps, limits, &|_| true, enter_all())
 }

@@ -225,6 +225,12 @@ impl Easing<'_> {
                 continue;
             }
             let mut enough = bound;
+            // Counts tell how many redundant constraints are left within the mechanism.
+            if let (Relaxation::Redundant(_), Some((least, n))) =
+                (how(bound), found.by_redundant.first_key_value())
+            {
+                return Ok(Some((how(*least), n.clone())));
+            }
             while enough - few > 1 {
                 let middle = few + (enough - few) / 2;
                 match with(middle)?.filter(|c| !c.total.is_zero()) {

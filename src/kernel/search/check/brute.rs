@@ -13,6 +13,7 @@ use crate::search::check::variant_mechanism::realize_variant;
 use crate::search::diagram::redundancy_so_far::Redundancy;
 use crate::search::question::Question;
 use crate::search::question::grasp::loose_bodies;
+use crate::search::question::space::Variable;
 use crate::search::question::throughout::ORDER;
 use num_bigint::BigUint;
 use rayon::prelude::*;
@@ -78,6 +79,8 @@ impl Matrices {
             });
             (j, every.collect())
         });
+        let spans = |v: &Variable| v.choices.iter().map(|c| c.spans.clone()).collect();
+        let spans: Vec<_> = variables.iter().map(spans).collect();
         let present = vec![0; variables.len()];
         let along = layout.along_motion(question, ORDER).map(|along| {
             let [rank, with_kept] = free_and_kept_ranks(f, &along, &present);
@@ -87,7 +90,7 @@ impl Matrices {
             field: f,
             along,
             whole: whole.collect(),
-            all: WrittenOut::modulo_prime(question, &layout),
+            all: WrittenOut::new(question.field(), question, &layout, &spans),
         }
     }
 

@@ -121,16 +121,6 @@ pub(crate) struct WrittenOut<N> {
     columns: Vec<Vec<Vec<Vec<N>>>>,
 }
 
-impl WrittenOut<Residue> {
-    /// Computes the columns of a search's space over its prime.
-    #[must_use]
-    pub(in crate::search) fn modulo_prime(question: &Question, layout: &RowLayout<'_>) -> Self {
-        let spans = |v: &Variable| v.choices.iter().map(|c| c.spans.clone()).collect();
-        let spans: Vec<_> = question.space.variables.iter().map(spans).collect();
-        WrittenOut::new(question.field(), question, layout, &spans)
-    }
-}
-
 impl<N: Clone + Default> WrittenOut<N> {
     /// Creates the columns of a search's space from the span of each choice of each variable.
     #[must_use]

@@ -11,34 +11,16 @@ use crate::search::build::build_in;
 use crate::search::build::orders::variable_orders;
 use crate::search::diagram::{Diagram, Progress, Stop};
 use crate::search::question::Question;
-use itertools::Itertools;
 use num_bigint::BigUint;
 use thiserror::Error;
-
-/// The result of the second prime.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Verdict {
-    /// All counts and lists are equal.
-    Agree,
-    /// The search was interrupted, and where depends on the clock: there is nothing to compare.
-    Interrupted,
-}
 
 /// A search checked by a second prime.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct PrimeCheck {
     /// Both primes.
     pub primes: [u64; 2],
-    /// The result of the second prime.
-    pub verdict: Verdict,
-}
-
-impl PrimeCheck {
-    /// Returns true if the primes agree. `None` if the search was interrupted.
-    #[must_use]
-    pub fn agree(&self) -> Option<bool> {
-        (self.verdict == Verdict::Agree).then_some(true)
-    }
+    /// Whether they agree. If not, the search was interrupted, and where depends on the clock: there is nothing to compare.
+    pub agree: bool,
 }
 
 /// Two primes that give different answers.
@@ -72,7 +54,7 @@ pub fn build_both(
     )
 }
 
-/// Compares a search with its twin over another prime. Structure comes first, then all counts and the `top` best.
+/// Compares the diagrams of a search with those of its twin over another prime.
 ///
 /// # Errors
 /// Returns an error with both counts if they differ.
@@ -82,13 +64,16 @@ pub fn build_both(
 pub fn compare_primes(
     questions: [&Question; 2],
     diagrams: [&Diagrams; 2],
-    top: usize,
-) -> Result<Verdict, Box<Disagreement>> {
+) -> Result<PrimeCheck, Box<Disagreement>> {
+    let check = |agree| PrimeCheck {
+        primes: primes(questions),
+        agree,
+    };
     if diagrams
         .iter()
         .any(|d| d.stop_reason() == Stop::Interrupted)
     {
-        return Ok(Verdict::Interrupted);
+        return Ok(check(false));
     }
     let [a, b] = diagrams;
     let equal = have_same_edges(&a.determinate, &b.determinate)
@@ -105,18 +90,10 @@ pub fn compare_primes(
         }
         && questions[0].steps.keys == questions[1].steps.keys;
     if equal {
-        return Ok(Verdict::Agree);
+        return Ok(check(true));
     }
-    let [first, second] = [0, 1].map(|i| SearchCounts::of_diagrams(questions[i], diagrams[i]));
-    let best = |i: usize| {
-        questions[i]
-            .cheapest_variants(diagrams[i], top)
-            .collect_vec()
-    };
-    if best(0) != best(1) {
-        return Err(make_disagreement(questions, [&first, &second]));
-    }
-    compare_counts(questions, [&first, &second])
+    let counts = [0, 1].map(|i| SearchCounts::of_diagrams(questions[i], diagrams[i]));
+    Err(make_disagreement(questions, counts.each_ref()))
 }
 
 /// Returns the error of two primes that differ in something.
@@ -135,18 +112,17 @@ fn make_disagreement(questions: [&Question; 2], counts: [&SearchCounts; 2]) -> B
 pub fn compare_counts(
     questions: [&Question; 2],
     counts: [&SearchCounts; 2],
-) -> Result<Verdict, Box<Disagreement>> {
+) -> Result<(), Box<Disagreement>> {
     let [a, b] = counts;
     if a == b {
-        Ok(Verdict::Agree)
+        Ok(())
     } else {
         Err(make_disagreement(questions, counts))
     }
 }
 
 /// Returns the primes of two searches.
-#[must_use]
-pub fn primes(questions: [&Question; 2]) -> [u64; 2] {
+fn primes(questions: [&Question; 2]) -> [u64; 2] {
     questions.map(|s| s.exact.field().modulus())
 }
 

@@ -1,7 +1,6 @@
 //! Head of a search for people: how many variants there are, how that was checked, and their mobilities.
 
 use crate::search::answer::estimate::{Drawn, Estimate};
-use crate::search::check::second_prime::Verdict;
 use crate::search::check::singular_values::Summary;
 use crate::search::question::throughout::PoseOnly;
 use crate::view::prelude::*;
@@ -38,9 +37,10 @@ pub(crate) fn certainty_lines(outcome: &Outcome) -> Vec<String> {
     let exact = outcome.numeric.is_none();
     // Two primes that agree on rounded digits prove nothing.
     let check = outcome.check.filter(|_| outcome.is_confirmed());
-    let check = check.map(|check| match check.verdict {
-        Verdict::Agree => "Checked: two runs with different primes agree".to_owned(),
-        Verdict::Interrupted => "Not checked by a second prime: interrupted".to_owned(),
+    let check = check.map(|check| {
+        let done = "Checked: two runs with different primes agree";
+        let open = "Not checked by a second prime: interrupted";
+        if check.agree { done } else { open }.to_owned()
     });
     let lines = numeric::numeric_lines(outcome).into_iter();
     let lines = lines

@@ -149,7 +149,7 @@ pub(crate) fn ranking_json(m: &Mechanism, p: &RankedPool) -> Value {
         "missing": p.missing.as_ref().map(|m| json!({
             "least_sum_elsewhere": m.least,
             "last_sum": m.last,
-            "settled_at_cost": m.settled_at_cost(),
+            "settled_at_cost": m.settled_at as f64 / 1000.0,
             "cheaper": m.cheaper.as_ref().map(ToString::to_string),
         })),
     });
