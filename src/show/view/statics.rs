@@ -9,6 +9,7 @@ use crate::statics::cycle::{DeadPoint, DrivenStructure, Moment, Statics};
 use crate::statics::kinetostatics::{LinkInertia, Reaction};
 use crate::statics::planar::{BodyId, PairId, PlanarMechanism};
 use crate::view::prelude::*;
+use crate::view::reactions::peaks::DriveUnit;
 
 pub mod charts;
 pub mod text;
@@ -94,31 +95,22 @@ impl<'a> StaticsData<'a> {
         links.join("-").replace(' ', "-")
     }
 
-    /// Returns a position of the first drive in the unit of texts.
-    fn shown_position(&self, drive: f64) -> f64 {
+    /// Returns the unit of positions of the first drive in texts.
+    fn drive_unit(&self) -> DriveUnit {
+        let m = self.planar_mechanism();
         if self.found.drive_slides() {
-            drive / self.planar_mechanism().metres
+            DriveUnit {
+                per: 1.0 / m.metres,
+                symbol: m.unit,
+            }
         } else {
-            drive.to_degrees()
-        }
-    }
-
-    /// Returns the unit of positions in texts: degrees, or the file's length unit.
-    fn unit(&self) -> &'static str {
-        if self.found.drive_slides() {
-            self.planar_mechanism().unit
-        } else {
-            "deg"
+            DriveUnit::DEGREES
         }
     }
 
     /// Returns a position of the first drive with its unit.
     fn format_place(&self, drive: f64) -> String {
-        format!(
-            "{} {}",
-            five_digits(self.shown_position(drive)),
-            self.unit()
-        )
+        self.drive_unit().format_place(drive)
     }
 
     /// Returns all of it as data.
