@@ -8,7 +8,6 @@ use crate::view::reactions::couplings::{Coupled, effort_unit, state_couplings};
 
 pub(crate) mod couplings;
 pub mod misfit;
-pub(crate) mod peaks;
 pub mod stroke;
 pub mod text;
 

@@ -9,7 +9,6 @@ use crate::statics::cycle::{DeadPoint, DrivenStructure, Moment, Statics};
 use crate::statics::kinetostatics::{LinkInertia, Reaction};
 use crate::statics::planar::{BodyId, PairId, PlanarMechanism};
 use crate::view::prelude::*;
-use crate::view::reactions::peaks::DriveUnit;
 
 pub mod charts;
 pub mod text;
@@ -95,22 +94,31 @@ impl<'a> StaticsData<'a> {
         links.join("-").replace(' ', "-")
     }
 
-    /// Returns the unit of positions of the first drive in texts.
-    fn drive_unit(&self) -> DriveUnit {
-        let m = self.planar_mechanism();
+    /// Returns a position of the first drive in the unit of texts.
+    fn shown_position(&self, drive: f64) -> f64 {
         if self.found.drive_slides() {
-            DriveUnit {
-                per: 1.0 / m.metres,
-                symbol: m.unit,
-            }
+            drive / self.planar_mechanism().metres
         } else {
-            DriveUnit::DEGREES
+            drive.to_degrees()
+        }
+    }
+
+    /// Returns the unit of positions in texts: degrees, or the file's length unit.
+    fn unit(&self) -> &'static str {
+        if self.found.drive_slides() {
+            self.planar_mechanism().unit
+        } else {
+            "deg"
         }
     }
 
     /// Returns a position of the first drive with its unit.
     fn format_place(&self, drive: f64) -> String {
-        self.drive_unit().format_place(drive)
+        format!(
+            "{} {}",
+            five_digits(self.shown_position(drive)),
+            self.unit()
+        )
     }
 
     /// Returns all of it as data.

@@ -3,7 +3,6 @@
 use crate::statics::reactions::{Cycle, JointReaction, NEARLY_SINGULAR};
 use crate::view::prelude::*;
 use crate::view::reactions::couplings::{effort_unit, write_greatest};
-use crate::view::reactions::peaks::{DriveUnit, Peak, greatest_of, write_effort, write_peaks};
 use crate::view::reactions::text::{ADD_LOADS, pushing_remedy};
 use crate::view::reactions::{HEADS, Reactions, is_possible, touch_word};
 
@@ -58,20 +57,31 @@ impl<'a> ReactionsOverStroke<'a> {
         write_table(&heads, rows)
     }
 
+    fn drive_slides(&self) -> bool {
+        self.found.drives.first().is_some_and(|d| d.1.is_slide())
+    }
+
     /// Returns the unit of positions in texts.
-    pub(super) fn drive_unit(&self) -> DriveUnit {
-        match self.found.drives.first() {
-            Some((_, freedom)) if freedom.is_slide() => DriveUnit {
-                per: 1.0,
-                symbol: self.of.length_unit.symbol,
-            },
-            _ => DriveUnit::DEGREES,
+    pub(super) fn unit(&self) -> &'static str {
+        if self.drive_slides() {
+            self.of.length_unit.symbol
+        } else {
+            "°"
+        }
+    }
+
+    /// Returns a position in that unit.
+    pub(super) fn shown_position(&self, x: f64) -> f64 {
+        if self.drive_slides() {
+            x
+        } else {
+            x.to_degrees()
         }
     }
 
     /// Returns a position with its unit.
     fn format_place(&self, x: f64) -> String {
-        self.drive_unit().format_place(x)
+        format!("{} {}", five_digits(self.shown_position(x)), self.unit())
     }
 
     /// Returns the report, fitted to a terminal of `width` columns if one is given.
@@ -125,21 +135,38 @@ impl<'a> ReactionsOverStroke<'a> {
 
     /// Adds the greatest reactions of each joint, and where they are.
     fn write_peaks(&self, out: &mut Report, all: &[(f64, Reactions<'_>)], first: &Reactions<'_>) {
-        let peak = |(i, r): (usize, &JointReaction)| {
-            let size_of = |size: fn(&JointReaction) -> f64| {
-                let each = all.iter().map(|(at, r)| (size(&r.found.reactions[i]), *at));
-                greatest_of(each).unwrap_or_default()
-            };
-            let sizes = [JointReaction::force_size, JointReaction::moment_size];
-            Peak {
-                joint: first.joint_and_type(r.joint),
-                sizes: sizes.map(size_of),
-            }
+        let greatest_of = |i: usize, size: fn(&JointReaction) -> f64| {
+            let each = all.iter().map(|(at, r)| (size(&r.found.reactions[i]), *at));
+            each.max_by(|a, b| a.0.total_cmp(&b.0)).unwrap_or_default()
         };
-        let peaks = first.found.reactions.iter().enumerate().map(peak);
-        if write_peaks(out, &peaks.collect_vec(), self.drive_unit()) == 0.0 {
+        let peaks = first.found.reactions.iter().enumerate().map(|(i, r)| {
+            let sizes = [JointReaction::force_size, JointReaction::moment_size];
+            (r.joint, sizes.map(|size| greatest_of(i, size)))
+        });
+        let peaks = peaks.collect_vec();
+        let greatest = peaks
+            .iter()
+            .flat_map(|(_, of)| of.map(|x| x.0))
+            .fold(0.0, f64::max);
+        let (scale, prefix) = unit_prefix(greatest);
+        if greatest == 0.0 {
             out.add_line(format!("The loads are nothing here: {ADD_LOADS}.\n"));
         }
+        let rows = peaks.iter().map(|(joint, of)| {
+            let mut row = first.joint_and_type(*joint).to_vec();
+            row.extend(
+                of.iter()
+                    .flat_map(|(x, at)| [x / scale, self.shown_position(*at)])
+                    .map(five_digits),
+            );
+            row
+        });
+        let at = self.unit();
+        out.add_table(
+            &format!("joint |  | |F|, {prefix}N | at, {at} | |M|, {prefix}N·m | at, {at}"),
+            rows,
+        );
+        out.add_line("");
     }
 
     /// Adds contacts that would have to do what faces cannot.
@@ -171,11 +198,26 @@ impl<'a> ReactionsOverStroke<'a> {
             let Some((freedom, _)) = joint.effort else {
                 continue;
             };
-            let each = all.iter();
-            let each = each.filter_map(|(at, r)| Some((r.found.reactions[i].effort?.1, *at)));
-            let (id, slides) = (first.joint_name(joint.joint), freedom.is_slide());
-            let name = format!("Drive {id} holds {}", freedom.name());
-            write_effort(out, &name, each, slides, self.drive_unit());
+            let each = all
+                .iter()
+                .filter_map(|(at, r)| Some((r.found.reactions[i].effort?.1, *at)));
+            let each = each.collect_vec();
+            let least = each.iter().min_by(|a, b| a.0.total_cmp(&b.0));
+            let most = each.iter().max_by(|a, b| a.0.total_cmp(&b.0));
+            let words = |(x, at): &(f64, f64)| {
+                format!(
+                    "{} {} at {}",
+                    five_digits(*x),
+                    effort_unit(freedom),
+                    self.format_place(*at)
+                )
+            };
+            if let (Some(least), Some(most)) = (least.map(words), most.map(words)) {
+                let (id, freedom) = (first.joint_name(joint.joint), freedom.name());
+                out.add_line(format!(
+                    "Drive {id} holds {freedom}: from {least} to {most}"
+                ));
+            }
         }
     }
 
@@ -225,7 +267,7 @@ impl ReactionsOverStroke<'_> {
         Some(Chart {
             title: format!("Forces in the joints of the outputs, state {state}"),
             subtitle: if unique { "" } else { open }.to_owned(),
-            x: Axis::linear(format!("drive, {}", self.drive_unit().symbol)),
+            x: Axis::linear(format!("drive, {}", self.unit())),
             y: Axis::linear(format!("force, N; dashed: {others}")),
             series: series.collect(),
         })
@@ -241,7 +283,7 @@ impl ReactionsOverStroke<'_> {
         let worked = |l: &LinkId| matches!(m.links[*l].role, Role::Output | Role::Object);
         let mut lines: BTreeMap<(bool, String), Vec<(f64, f64)>> = BTreeMap::new();
         for (drive, reactions) in solved {
-            let at = self.drive_unit().shown_position(*drive);
+            let at = self.shown_position(*drive);
             let mut add = |joint, name, x| lines.entry((joint, name)).or_default().push((at, x));
             for r in &reactions.found.reactions {
                 let id = &m.joints[r.joint].id;

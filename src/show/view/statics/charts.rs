@@ -36,7 +36,7 @@ fn series_over(s: &StaticsData<'_>, f: impl Fn(&Moment) -> Vec<(String, f64)>) -
     let mut series: Vec<Series> = Vec::new();
     let mut before = s.found.moments.first().map_or(0, outside_forces);
     for x in &s.found.moments {
-        let at = s.drive_unit().shown_position(x.drive);
+        let at = s.shown_position(x.drive);
         if outside_forces(x) != before {
             let each = series.iter_mut();
             each.for_each(|e| e.points.push((at, f64::NAN)));

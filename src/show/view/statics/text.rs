@@ -6,10 +6,9 @@ use crate::statics::contour_group::ContourGroup;
 use crate::statics::contour_group::pose::GroupReactions;
 use crate::statics::contour_group::solutions::{GroupMethod, GroupSolutions};
 use crate::statics::cycle::{DrivenStructure, Moment};
-use crate::statics::kinetostatics::{LinkInertia, Reaction, Worth};
-use crate::statics::planar::{Pair, PairId};
+use crate::statics::kinetostatics::{LinkInertia, Worth};
+use crate::statics::planar::PairId;
 use crate::view::prelude::*;
-use crate::view::reactions::peaks::{Peak, greatest_of, write_effort, write_peaks};
 use crate::view::reactions::text::{NO_STRAIN, no_loads};
 use crate::view::statics::{
     StaticsData, Structures, joint_names, link_names, magnitudes, vector_size,
@@ -157,10 +156,7 @@ impl StaticsData<'_> {
             shown.name(),
             self.explain_letters(letters)
         ));
-        let mut heads = format!(
-            "{} | D | F | K | M | L | guide | h, m | y, m",
-            self.drive_unit().symbol
-        );
+        let mut heads = format!("{} | D | F | K | M | L | guide | h, m | y, m", self.unit());
         if self.methods.contains(&GroupMethod::Delta) {
             heads += " | R46τ | R47τ | R34τ";
         }
@@ -205,7 +201,7 @@ impl StaticsData<'_> {
         letters: &ContourGroup,
         unit: f64,
     ) -> Vec<String> {
-        let mut row = vec![five_digits(self.drive_unit().shown_position(at.drive))];
+        let mut row = vec![five_digits(self.shown_position(at.drive))];
         row.extend(magnitudes(r, &g.pose).map(|(_, v)| five_digits(v / unit)));
         let guide = self.found.linkage.pair_position(&at.pose, letters.guide);
         row.extend([r.arm, r.guide_offset(&g.pose, guide)].map(five_digits));
@@ -223,28 +219,43 @@ impl StaticsData<'_> {
 
     /// Adds the greatest reaction of every joint.
     fn write_joints(&self, out: &mut Report) {
-        let peak = |(p, pair): (PairId, &Pair)| {
-            let of = |size: fn(&Reaction) -> f64| {
-                let each = self.found.moments.iter().filter_map(|x| {
-                    let r = x.reactions.iter().find(|r| r.pair == p)?;
-                    Some((size(r), x.drive))
-                });
-                greatest_of(each)
-            };
-            Some(Peak {
-                joint: [pair.name.clone(), pair.kind.to_string()],
-                sizes: [of(|r| vector_size(r.force))?, of(|r| r.moment.abs())?],
-            })
+        let m = self.planar_mechanism();
+        let peak = |p: PairId| {
+            let each = self.found.moments.iter().filter_map(|x| {
+                let r = x.reactions.iter().find(|r| r.pair == p)?;
+                Some((vector_size(r.force), r.moment, x.drive))
+            });
+            let all = each.collect_vec();
+            let (force, _, at) = *all.iter().max_by(|a, b| a.0.total_cmp(&b.0))?;
+            let moment = all.iter().map(|x| x.1.abs()).fold(0.0, f64::max);
+            Some((&m.pairs[p], force, at, moment))
         };
-        let pairs = self.planar_mechanism().pairs.iter().enumerate();
-        let peaks = pairs.filter_map(peak).collect_vec();
+        let peaks = (0..m.pairs.len()).filter_map(peak).collect_vec();
         if peaks.is_empty() {
             return out.add_line(
                 "The equilibrium has no solution here: the mechanism is at a dead point.",
             );
         }
+        let each = peaks.iter().map(|(_, force, _, moment)| force.max(*moment));
+        let (unit, prefix) = unit_prefix(each.fold(0.0, f64::max));
+        let some = |of: f64, x: f64| {
+            if of > 0.0 {
+                five_digits(x)
+            } else {
+                String::new()
+            }
+        };
+        let rows = peaks.iter().map(|&(pair, force, at, moment)| {
+            let links = link_names(m, &pair.bodies).join(", ");
+            let at = some(force, self.shown_position(at));
+            let [force, moment] = [five_digits(force / unit), some(moment, moment / unit)];
+            row_cells([&pair.name, &pair.kind, &links, &force, &at, &moment])
+        });
         out.add_line("Greatest reaction of each joint (equilibrium of all links)\n");
-        write_peaks(out, &peaks, self.drive_unit());
+        let (at, n) = (self.unit(), prefix);
+        let heads = format!("joint |  | links | force, {n}N | at, {at} | moment, {n}N·m");
+        out.add_table(&heads, rows);
+        out.add_line("");
     }
 
     /// Adds the greatest acceleration and inertia force of every link, if drives have speeds.
@@ -263,7 +274,7 @@ impl StaticsData<'_> {
             let name = &self.planar_mechanism().bodies[moments.first()?.links[i].body].name;
             let figures = [
                 acceleration,
-                self.drive_unit().shown_position(at),
+                self.shown_position(at),
                 turning,
                 force,
                 moment,
@@ -277,7 +288,7 @@ impl StaticsData<'_> {
             return;
         }
         out.add_line("Greatest acceleration and inertia force of each link with mass\n");
-        let at = self.drive_unit().symbol;
+        let at = self.unit();
         let heads = format!(
             "link | a of centre, m/s² | at, {at} | ε, rad/s² | inertia force, N | inertia moment, N·m"
         );
@@ -287,14 +298,24 @@ impl StaticsData<'_> {
 
     fn write_summary(&self, out: &mut Report) {
         let (found, methods) = (self.found, self.methods);
+        let what = if found.drive_slides() { "N" } else { "N·m" };
         for &p in &found.decomposition.drives {
             let efforts = found.moments.iter().filter_map(|x| {
                 let r = x.reactions.iter().find(|r| r.pair == p)?;
                 Some((r.effort?, x.drive))
             });
-            let name = format!("Drive {}", self.planar_mechanism().pairs[p].name);
-            let (slides, unit) = (found.drive_slides(), self.drive_unit());
-            write_effort(out, &name, efforts, slides, unit);
+            let ends = efforts.minmax_by(|a, b| a.0.total_cmp(&b.0)).into_option();
+            let Some((low, high)) = ends else { continue };
+            let (unit, prefix) = unit_prefix(low.0.abs().max(high.0.abs()));
+            let at = |(effort, drive): (f64, f64)| {
+                format!(
+                    "{} {prefix}{what} at {}",
+                    five_digits(effort / unit),
+                    self.format_place(drive)
+                )
+            };
+            let name = &self.planar_mechanism().pairs[p].name;
+            out.add_line(format!("Drive {name}: from {} to {}", at(low), at(high)));
         }
         let greatest = |f: &dyn Fn(&Moment) -> f64| {
             let each = found.moments.iter().map(f);
