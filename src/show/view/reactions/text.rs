@@ -32,9 +32,6 @@ pub(super) fn pushing_remedy() -> String {
     )
 }
 
-/// Maximum number of self-stresses in a text.
-const STRESSES: usize = 12;
-
 /// Returns a number of self-stresses in words.
 fn count_stresses(n: usize) -> String {
     let many = if n == 1 { "" } else { "es" };
@@ -77,7 +74,15 @@ impl Reactions<'_> {
         }
         self.write_equilibrium(&mut out);
         if !s.self_stresses.is_empty() {
-            self.write_family(&mut out);
+            let push = match s.choice {
+                Uniqueness::Pushing => " with which contacts still push",
+                _ => "",
+            };
+            out.add_line(format!(
+                "\nThe redundant constraints leave these reactions undetermined: any combination of the {} may be added{push}; {} has them",
+                count_stresses(s.self_stresses.len()),
+                typed_option("format", "json")
+            ));
         }
         self.write_elastic(&mut out);
         out.text()
@@ -260,33 +265,6 @@ impl Reactions<'_> {
             out.add_line(format!(
                 "Warning: nearly singular (condition above {NEARLY_SINGULAR:.0e}): small errors of manufacture change these reactions much"
             ));
-        }
-    }
-
-    /// Adds the self-stresses that may be added, by the joints each loads.
-    fn write_family(&self, out: &mut Report) {
-        let s = self.found;
-        let open = s.self_stresses.len();
-        let push = match s.choice {
-            Uniqueness::Pushing => " with which contacts still push",
-            _ => "",
-        };
-        out.add_line(format!(
-            "\nThe redundant constraints leave these reactions undetermined: any combination of the {} may be added{push}",
-            count_stresses(open)
-        ));
-        let both = s.self_stresses.iter().zip(&s.coupling_stresses);
-        for (i, (stress, coupled)) in both.take(STRESSES).enumerate() {
-            let loaded = stress
-                .iter()
-                .filter(|r| r.force_size() > 1e-9 || r.moment_size() > 1e-9 * s.size);
-            let coupled = state_couplings(self.of, self.state, coupled).into_iter();
-            let coupled = coupled.filter(|c| c.is_loaded(s.size)).map(|c| c.name());
-            let joints = loaded.map(|r| self.joint_name(r.joint).to_owned());
-            out.add_line(format!("  {}: {}", i + 1, joints.chain(coupled).join(", ")));
-        }
-        if open > STRESSES {
-            out.add_line(format!("  and {} more", open - STRESSES));
         }
     }
 
