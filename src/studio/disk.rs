@@ -9,6 +9,9 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+/// The first letters of the names of temporary files.
+pub(crate) const TEMPORARY: &str = ".tmp-ozols-";
+
 /// A frame and nothing else.
 pub(super) const BLANK: &str = include_str!("shelf/blank.toml");
 
@@ -179,7 +182,8 @@ impl OpenFile {
 fn write_whole(path: &Path, write: impl FnOnce(&mut File) -> io::Result<()>) -> io::Result<File> {
     let folder = path.parent().filter(|p| !p.as_os_str().is_empty());
     let made = || {
-        let mut beside = temporary_beside(folder.unwrap_or(Path::new(".")))?;
+        let folder = folder.unwrap_or(Path::new("."));
+        let mut beside = temporary_builder().tempfile_in(folder)?;
         write(beside.as_file_mut())?;
         beside.persist(path).map_err(|e| e.error)
     };
@@ -189,19 +193,16 @@ fn write_whole(path: &Path, write: impl FnOnce(&mut File) -> io::Result<()>) -> 
     })
 }
 
-/// Creates a temporary file in a folder, with the usual permissions. By default, only the owner can read temporary
-/// files.
-fn temporary_beside(folder: &Path) -> io::Result<tempfile::NamedTempFile> {
-    let mut made = tempfile::Builder::new();
-    made.prefix(".tmp-ozols-");
+/// Returns a maker of temporary files that may be read by whom the umask lets: they become results.
+pub(crate) fn temporary_builder() -> tempfile::Builder<'static, 'static> {
+    let mut builder = tempfile::Builder::new();
+    builder.prefix(TEMPORARY);
     #[cfg(unix)]
     {
         use std::os::unix::fs::PermissionsExt;
-        made.permissions(fs::Permissions::from_mode(0o666))
-            .tempfile_in(folder)
+        builder.permissions(fs::Permissions::from_mode(0o666));
     }
-    #[cfg(not(unix))]
-    made.tempfile_in(folder)
+    builder
 }
 
 fn kind_of(path: &Path) -> Kind {

@@ -161,11 +161,8 @@ fn round_below(x: f64) -> Option<f64> {
     if !(x.is_finite() && x > 1e-200) {
         return None;
     }
-    let power = 10f64.powi(x.log10().floor() as i32);
-    let step = [5.0, 2.0, 1.0].into_iter().find(|s| s * power <= x)?;
+    let exponent = x.log10().floor();
     // through text, so that 0.2 is 0.2
-    let text = format!("{:e}", step * power);
-    let (mantissa, exponent) = text.split_once('e')?;
-    let mantissa: f64 = mantissa.parse().ok()?;
-    format!("{}e{exponent}", mantissa.round()).parse().ok()
+    let round = [5, 2, 1].map(|step| format!("{step}e{exponent}").parse().ok());
+    round.into_iter().flatten().find(|round: &f64| *round <= x)
 }
