@@ -46,14 +46,14 @@ pub(super) struct OpenFile {
     pub(super) options: robots::Options,
     /// The known content of the file, or `None` if it did not exist.
     pub(super) held: Option<Arc<[u8]>>,
-    kept: AutosavedText,
+    pub(super) kept: AutosavedText,
 }
 
 /// Where unsaved work is kept: a file that is locked as long as its owner lives, so that another studio tells what was left behind
 /// from what is at work.
 #[derive(Debug, Default)]
-struct AutosavedText {
-    path: Option<PathBuf>,
+pub(super) struct AutosavedText {
+    pub(super) path: Option<PathBuf>,
     lock: Option<File>,
 }
 
@@ -151,11 +151,6 @@ impl OpenFile {
         if let Some(path) = self.kept.path.take() {
             let _ = fs::remove_file(path);
         }
-    }
-
-    /// Returns the path of unsaved work, if any.
-    pub(super) fn kept_path(&self) -> Option<PathBuf> {
-        self.kept.path.clone()
     }
 
     /// Returns unsaved work of a studio that has ended, and its path. Deletes the work if the file has the same

@@ -1,5 +1,6 @@
 //! The texts of a kinematic scheme: its legend and its description.
 
+use crate::draw::kinematic::body::arrow_head;
 use crate::draw::kinematic::wire::WireForm;
 use crate::draw::kinematic::{Kinematic, Spot};
 use crate::draw::place::projection;
@@ -109,7 +110,9 @@ impl Kinematic<'_> {
                     sheet.draw_line("line", add(origin, [-d, d]), add(origin, [d, -d]));
                 }
             } else {
-                sheet.draw_arrow("line", origin, add(origin, tip), 6.5);
+                let (end, back) = (add(origin, tip), scale(tip, -1.0 / length));
+                sheet.draw_line("line", origin, end);
+                sheet.draw_shapes(&[arrow_head(end, back, 6.5, "ink")]);
                 taken.push(Rect::around(
                     add(origin, scale(tip, 0.5)),
                     tip[0].abs() + 3.0,

@@ -142,17 +142,6 @@ pub(super) fn write_couplings(out: &mut Report, all: &[Coupled<'_>]) {
     write_teeth(out, all);
 }
 
-/// Adds what couplings, which are rigid, pass if joints are elastic.
-pub(super) fn write_elastic(out: &mut Report, all: &[Coupled<'_>]) {
-    for c in all {
-        out.add_line(format!(
-            "Coupling {}, rigid, passes {}",
-            c.name(),
-            c.describe_efforts()
-        ));
-    }
-}
-
 /// Adds the greatest that each coupling passes over some positions; `place` formats a position.
 pub(super) fn write_greatest(
     out: &mut Report,

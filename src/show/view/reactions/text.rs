@@ -3,9 +3,7 @@
 use crate::statics::reactions::contact::{ContactForce, Touch};
 use crate::statics::reactions::{JointReaction, NEARLY_SINGULAR, Uniqueness};
 use crate::view::prelude::*;
-use crate::view::reactions::couplings::{
-    effort_unit, state_couplings, write_couplings, write_elastic,
-};
+use crate::view::reactions::couplings::{effort_unit, state_couplings, write_couplings};
 use crate::view::reactions::{Reactions, is_possible, open_components, touch_word};
 
 /// The remedy for a file that states no loads.
@@ -282,7 +280,7 @@ impl Reactions<'_> {
             ));
             self.write_joints(out, list);
             let coupled = s.elastic_couplings.as_deref().unwrap_or_default();
-            write_elastic(out, &state_couplings(self.of, self.state, coupled));
+            write_couplings(out, &state_couplings(self.of, self.state, coupled));
         } else if open > 0 && s.choice != Uniqueness::Pushing {
             out.add_line(
                 "State [workload.stiffness.default] linear and angular, and [[workload.misalignment]], to compute the actual reactions.",

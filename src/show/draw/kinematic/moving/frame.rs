@@ -257,11 +257,6 @@ impl Kinematic<'_> {
         self.points.iter().filter(move |p| p.link == link)
     }
 
-    /// Returns all points of the paths.
-    pub(crate) fn traced_points(&self) -> impl Iterator<Item = Point> + '_ {
-        self.traces.0.iter().flatten().copied()
-    }
-
     pub(crate) fn draw_traces(&self, sheet: &mut Sheet) {
         let (ways, closed) = &self.traces;
         for way in ways {
