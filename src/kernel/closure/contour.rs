@@ -354,8 +354,8 @@ impl Tree {
             }
             out
         };
-        let mut cycle = vec![graph[e].joint];
-        cycle.extend(path(x));
+        let mut cycle = path(x);
+        cycle.push(graph[e].joint);
         cycle.extend(path(y).into_iter().rev());
         cycle
     }
