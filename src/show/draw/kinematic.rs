@@ -1,7 +1,6 @@
 //! The kinematic scheme: links and the symbols of joints where the coordinates have them.
 
-use crate::draw::kinematic::body::{Arrow, Marked, known_loads};
-use crate::draw::kinematic::wire::{DrawnWire, Wire};
+use crate::draw::kinematic::body::{Arrow, DrawnWire, Marked, Wire, known_loads};
 use crate::draw::naming::draw_leaders;
 use crate::draw::place::projection::Projection;
 use crate::draw::prelude::*;

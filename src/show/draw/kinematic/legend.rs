@@ -1,7 +1,6 @@
 //! The texts of a kinematic scheme: its legend and its description.
 
-use crate::draw::kinematic::body::arrow_head;
-use crate::draw::kinematic::wire::WireForm;
+use crate::draw::kinematic::body::{WireForm, arrow_head};
 use crate::draw::kinematic::{Kinematic, Spot};
 use crate::draw::place::projection;
 use crate::draw::prelude::*;

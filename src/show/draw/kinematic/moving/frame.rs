@@ -1,7 +1,6 @@
 //! One picture of a moving scheme: where a pose has carried everything.
 
-use crate::draw::kinematic::body::{Marked, draw_mark};
-use crate::draw::kinematic::wire::{Wire, WireForm};
+use crate::draw::kinematic::body::{Marked, Wire, WireForm, draw_mark};
 use crate::draw::kinematic::{Kinematic, MovingPicture};
 use crate::draw::place::projection::{cross, norm, scale as times};
 use crate::draw::prelude::*;
