@@ -17,7 +17,6 @@ mod shelf;
 mod work;
 
 pub use disk::Opening;
-pub(crate) use disk::{TEMPORARY, temporary_builder};
 
 use crate::score::request::Request;
 use door::Door;

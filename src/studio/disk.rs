@@ -9,9 +9,6 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-/// The first letters of the names of temporary files.
-pub(crate) const TEMPORARY: &str = ".tmp-ozols-";
-
 /// A frame and nothing else.
 pub(super) const BLANK: &str = include_str!("shelf/blank.toml");
 
@@ -189,9 +186,9 @@ fn write_whole(path: &Path, write: impl FnOnce(&mut File) -> io::Result<()>) -> 
 }
 
 /// Returns a maker of temporary files that may be read by whom the umask lets: they become results.
-pub(crate) fn temporary_builder() -> tempfile::Builder<'static, 'static> {
+fn temporary_builder() -> tempfile::Builder<'static, 'static> {
     let mut builder = tempfile::Builder::new();
-    builder.prefix(TEMPORARY);
+    builder.prefix(".tmp-ozols-");
     #[cfg(unix)]
     {
         use std::os::unix::fs::PermissionsExt;

@@ -2,7 +2,6 @@
 //! are either complete or unchanged.
 
 use crate::file::disk;
-use crate::studio::{TEMPORARY, temporary_builder};
 use anyhow::ensure;
 use itertools::Itertools;
 use std::collections::BTreeSet;
@@ -140,6 +139,8 @@ fn is_database(path: &Path) -> bool {
     path.is_file() && File::open(path).is_ok_and(begins)
 }
 
+/// Prefix of the names of such files.
+const PREFIX: &str = ".tmp-ozols-";
 /// Number of attempts if another process removes the file as a leftover.
 const TRIES: usize = 100;
 
@@ -170,7 +171,7 @@ pub(super) fn begin_file(folder: &Path) -> io::Result<NamedTempFile> {
     let mut beside = lock_beside();
     if beside.1.insert(folder.to_owned()) {
         disk::clean_leftovers(folder, |name| {
-            name.as_encoded_bytes().starts_with(TEMPORARY.as_bytes())
+            name.as_encoded_bytes().starts_with(PREFIX.as_bytes())
         });
     }
     let mut file = temporary_builder().tempfile_in(folder)?;
@@ -208,4 +209,16 @@ fn interrupted_name(path: &Path) -> PathBuf {
         name.push(ending);
     }
     path.with_file_name(name)
+}
+
+/// Makes files that may be read by whom the umask lets: they become results.
+fn temporary_builder() -> tempfile::Builder<'static, 'static> {
+    let mut builder = tempfile::Builder::new();
+    builder.prefix(PREFIX);
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::PermissionsExt;
+        builder.permissions(std::fs::Permissions::from_mode(0o666));
+    }
+    builder
 }
